@@ -1,0 +1,215 @@
+//! The coin: a cylinder of revolution with its centre of mass at its geometric centre.
+
+use thiserror::Error;
+
+/// Mass of a coin whose mass nobody gave. No outcome depends on it: under gravity, contact and
+/// Coulomb friction the mass cancels.
+const DEFAULT_MASS_KG: f64 = 0.01;
+
+/// A cylinder of height H, radius R and mass m, symmetric about its axis.
+///
+/// Moments of inertia are those of a uniform solid,
+/// I_a = m R²/2 about the axis and I_t = m (3R² + H²)/12 about a diameter through the centre,
+/// unless overridden for hollow or loaded coins.
+///
+/// # Example
+/// ```
+/// use coinmc_core::Coin;
+/// let coin = Coin::cylinder(2.0, 0.01)?.with_mass(0.02)?;
+/// assert_eq!(coin.ratio(), 2.0);
+/// // mass-normalised, in units of R²: (3 + 4)/12
+/// assert!((coin.transverse_gyration_m2() / 1e-4 - 7.0 / 12.0).abs() < 1e-15);
+/// # Ok::<(), coinmc_core::CoinError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coin {
+    ratio: f64,
+    radius_m: f64,
+    mass_kg: f64,
+    /// I_t/m and I_a/m where they differ from the uniform cylinder's.
+    transverse_gyration_m2: f64,
+    axial_gyration_m2: f64,
+}
+
+/// Why a coin cannot be built.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum CoinError {
+    /// H/R is not a positive finite number.
+    #[error("ratio H/R must be positive and finite, not {0}")]
+    Ratio(f64),
+    /// R is not a positive finite length.
+    #[error("radius must be positive and finite, not {0} m")]
+    Radius(f64),
+    /// m is not a positive finite mass.
+    #[error("mass must be positive and finite, not {0} kg")]
+    Mass(f64),
+    /// No body inside the cylinder has this axial moment: 0 < I_a <= m R².
+    #[error(
+        "axial moment {found:e} kg m² is impossible: a body inside the cylinder has 0 < I_a <= {most:e}"
+    )]
+    AxialMoment {
+        /// The moment asked for, kg m².
+        found: f64,
+        /// m R², kg m².
+        most: f64,
+    },
+    /// No body inside the cylinder has this transverse moment: I_a/2 <= I_t <= I_a/2 + m H²/4.
+    #[error(
+        "transverse moment {found:e} kg m² is impossible: with this axial moment a body inside the cylinder has {least:e} <= I_t <= {most:e}"
+    )]
+    TransverseMoment {
+        /// The moment asked for, kg m².
+        found: f64,
+        /// I_a/2, kg m².
+        least: f64,
+        /// I_a/2 + m H²/4, kg m².
+        most: f64,
+    },
+}
+
+impl Coin {
+    /// A uniform solid cylinder of ratio H/R and radius `radius_m`, 10 g unless
+    /// [`with_mass`](Self::with_mass) says otherwise.
+    ///
+    /// # Errors
+    /// [`CoinError::Ratio`] or [`CoinError::Radius`] unless both are positive and finite.
+    pub fn cylinder(ratio: f64, radius_m: f64) -> Result<Self, CoinError> {
+        if !(ratio > 0.0 && ratio.is_finite()) {
+            return Err(CoinError::Ratio(ratio));
+        }
+        if !(radius_m > 0.0 && radius_m.is_finite()) {
+            return Err(CoinError::Radius(radius_m));
+        }
+        let r2 = radius_m * radius_m;
+        Ok(Self {
+            ratio,
+            radius_m,
+            mass_kg: DEFAULT_MASS_KG,
+            transverse_gyration_m2: r2 * (3.0 + ratio * ratio) / 12.0,
+            axial_gyration_m2: r2 / 2.0,
+        })
+    }
+
+    /// The same shape and mass distribution with total mass `mass_kg`.
+    ///
+    /// # Errors
+    /// [`CoinError::Mass`] unless positive and finite.
+    pub fn with_mass(self, mass_kg: f64) -> Result<Self, CoinError> {
+        if mass_kg > 0.0 && mass_kg.is_finite() {
+            Ok(Self { mass_kg, ..self })
+        } else {
+            Err(CoinError::Mass(mass_kg))
+        }
+    }
+
+    /// The same coin with other principal moments about its centre, in kg m², as a hollow or
+    /// loaded coin has. `None` keeps a moment.
+    ///
+    /// For mass anywhere inside the cylinder, spread evenly around the axis,
+    /// I_a = ∫ρ² dm <= m R² and I_t = I_a/2 + ∫z² dm <= I_a/2 + m H²/4.
+    ///
+    /// # Errors
+    /// [`CoinError::AxialMoment`] or [`CoinError::TransverseMoment`] outside those bounds.
+    pub fn with_moments(
+        self,
+        axial_kg_m2: Option<f64>,
+        transverse_kg_m2: Option<f64>,
+    ) -> Result<Self, CoinError> {
+        // The bounds are met to round-off by a thin ring and a bar: allow that much.
+        const SLACK: f64 = 1.0 + 1e-12;
+        let axial = axial_kg_m2.map_or(self.axial_gyration_m2, |i| i / self.mass_kg);
+        let transverse = transverse_kg_m2.map_or(self.transverse_gyration_m2, |i| i / self.mass_kg);
+        let most_axial = self.radius_m * self.radius_m;
+        if !(axial > 0.0 && axial <= most_axial * SLACK) {
+            return Err(CoinError::AxialMoment {
+                found: axial * self.mass_kg,
+                most: most_axial * self.mass_kg,
+            });
+        }
+        let (least, most) = (axial / 2.0, axial / 2.0 + self.height_m().powi(2) / 4.0);
+        if !(transverse * SLACK >= least && transverse <= most * SLACK) {
+            return Err(CoinError::TransverseMoment {
+                found: transverse * self.mass_kg,
+                least: least * self.mass_kg,
+                most: most * self.mass_kg,
+            });
+        }
+        Ok(Self {
+            transverse_gyration_m2: transverse,
+            axial_gyration_m2: axial,
+            ..self
+        })
+    }
+
+    /// H/R, height over radius.
+    pub fn ratio(&self) -> f64 {
+        self.ratio
+    }
+
+    /// Radius R, m.
+    pub fn radius_m(&self) -> f64 {
+        self.radius_m
+    }
+
+    /// Height (thickness) H, m.
+    pub fn height_m(&self) -> f64 {
+        self.ratio * self.radius_m
+    }
+
+    /// Mass m, kg.
+    pub fn mass_kg(&self) -> f64 {
+        self.mass_kg
+    }
+
+    /// D = sqrt(R² + H²/4), the distance from the centre to the rim, m: the centre's height when
+    /// the coin balances on its rim, hence the barrier m g D between face and side.
+    pub fn rim_distance_m(&self) -> f64 {
+        let half = self.ratio / 2.0;
+        self.radius_m * (1.0 + half * half).sqrt()
+    }
+
+    /// I_t/m about a diameter through the centre, m² ((3R² + H²)/12 when uniform).
+    pub fn transverse_gyration_m2(&self) -> f64 {
+        self.transverse_gyration_m2
+    }
+
+    /// I_a/m about the coin's own axis, m² (R²/2 when uniform).
+    pub fn axial_gyration_m2(&self) -> f64 {
+        self.axial_gyration_m2
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_thin_ring_is_allowed_and_a_larger_moment_is_not() {
+        let coin = Coin::cylinder(0.1, 0.01).unwrap();
+        let ring = coin.mass_kg() * 1e-4;
+        assert!(coin.with_moments(Some(ring), Some(ring / 2.0)).is_ok());
+        assert!(matches!(
+            coin.with_moments(Some(ring * 1.001), None),
+            Err(CoinError::AxialMoment { .. })
+        ));
+    }
+
+    #[test]
+    fn a_transverse_moment_beyond_all_mass_at_the_ends_is_refused() {
+        let coin = Coin::cylinder(2.0, 1.0).unwrap().with_mass(1.0).unwrap();
+        // I_a = 1/2, H²/4 = 1: I_t lies in [1/4, 5/4]
+        assert!(coin.with_moments(None, Some(1.25)).is_ok());
+        for bad in [0.249, 1.251, f64::NAN, f64::INFINITY, -1.0] {
+            assert!(coin.with_moments(None, Some(bad)).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn bad_sizes_are_refused() {
+        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(Coin::cylinder(bad, 1.0).is_err());
+            assert!(Coin::cylinder(1.0, bad).is_err());
+            assert!(Coin::cylinder(1.0, 1.0).unwrap().with_mass(bad).is_err());
+        }
+    }
+}

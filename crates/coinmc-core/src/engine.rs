@@ -1,0 +1,126 @@
+//! What an engine is, and who may watch it.
+
+use crate::{Launch, LaunchDistribution, Outcome, Scene, Stream, Tally};
+use nalgebra::{UnitVector3, Vector3};
+use std::ops::Range;
+
+/// Turns launches into outcomes.
+///
+/// An engine is built for one scene, holds no random numbers and no history: the same launch
+/// gives the same outcome on any thread, alone or in a batch, whatever the workspace did before.
+pub trait Engine: Sync {
+    /// Scratch memory, one a worker, reused from toss to toss. Its history must not leak.
+    type Workspace: Send;
+
+    /// A fresh workspace.
+    fn workspace(&self) -> Self::Workspace;
+
+    /// Follows one toss to its end and tells the observer what happened on the way.
+    fn toss(
+        &self,
+        workspace: &mut Self::Workspace,
+        launch: &Launch,
+        observer: &mut impl Observer,
+    ) -> Outcome;
+}
+
+/// The coin's state at an instant, in the laboratory frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct State {
+    /// Time since launch, s.
+    pub time_s: f64,
+    /// Centre of mass, m.
+    pub position_m: Vector3<f64>,
+    /// Velocity of the centre, m/s.
+    pub velocity_m_s: Vector3<f64>,
+    /// u, the outward normal of the heads face.
+    pub axis: UnitVector3<f64>,
+    /// Angular velocity, rad/s.
+    pub spin_rad_s: Vector3<f64>,
+}
+
+impl State {
+    /// Mechanical energy per unit mass, J/kg, with the potential zero at the surface.
+    pub fn energy_j_kg(&self, scene: &Scene) -> f64 {
+        let axial = self.spin_rad_s.dot(&self.axis);
+        let transverse = (self.spin_rad_s - self.axis.into_inner() * axial).norm_squared();
+        0.5 * self.velocity_m_s.norm_squared()
+            + 0.5 * scene.coin.axial_gyration_m2() * axial * axial
+            + 0.5 * scene.coin.transverse_gyration_m2() * transverse
+            + scene.gravity_m_s2() * self.position_m.z
+    }
+}
+
+/// What happened.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EventKind {
+    /// The coin was let go.
+    Launched,
+    /// The coin touches the surface, just before the impact.
+    Touching,
+    /// Just after the impact.
+    Impact,
+    /// Sustained contact with a fixed contact point began.
+    Sticking,
+    /// Sustained contact with a sliding contact point began.
+    Sliding,
+    /// The contact force vanished: flight again.
+    LiftOff,
+    /// The toss ended; no further event follows.
+    Ended,
+}
+
+/// An event and the state at it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Event {
+    /// What happened.
+    pub kind: EventKind,
+    /// The coin at that instant.
+    pub state: State,
+}
+
+/// Watches a toss. `()` watches nothing and compiles away.
+///
+/// # Example
+/// ```
+/// use coinmc_core::{Event, EventKind, Observer};
+/// struct CountImpacts(u32);
+/// impl Observer for CountImpacts {
+///     fn event(&mut self, event: &Event) {
+///         self.0 += u32::from(event.kind == EventKind::Impact);
+///     }
+/// }
+/// ```
+pub trait Observer {
+    /// Whether events are wanted at all; engines build none for an observer that is not active.
+    const ACTIVE: bool = true;
+
+    /// Called at every event, in order of time.
+    fn event(&mut self, event: &Event);
+}
+
+impl Observer for () {
+    const ACTIVE: bool = false;
+
+    fn event(&mut self, _: &Event) {}
+}
+
+/// Tosses number `tosses.start .. tosses.end` of a stream, tallied: the inner loop of every run.
+///
+/// Toss k is the same toss whatever the range around it, so tallies of disjoint ranges merge to
+/// the tally of their union.
+pub fn run_tosses<E: Engine>(
+    engine: &E,
+    workspace: &mut E::Workspace,
+    scene: &Scene,
+    launches: &LaunchDistribution,
+    stream: &Stream,
+    tosses: Range<u64>,
+) -> Tally {
+    let mut tally = Tally::default();
+    for toss in tosses {
+        let launch = launches.launch(&scene.coin, &mut stream.toss(toss));
+        tally.add(&engine.toss(workspace, &launch, &mut ()));
+    }
+    tally
+}

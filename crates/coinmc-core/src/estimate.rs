@@ -1,0 +1,176 @@
+//! A probability with its interval.
+
+use crate::inverse_normal_cdf;
+use statrs::function::beta::beta_reg;
+
+/// How the interval of a proportion is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum IntervalMethod {
+    /// Wilson's score interval (1927): coverage close to nominal on average, short. The default
+    /// for a number of tosses fixed beforehand.
+    #[default]
+    Wilson,
+    /// Clopper & Pearson (1934): coverage never below nominal, longer. What sequential stopping
+    /// and rare faces need.
+    ClopperPearson,
+}
+
+impl IntervalMethod {
+    /// The name used in configs and results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Wilson => "wilson",
+            Self::ClopperPearson => "clopper-pearson",
+        }
+    }
+}
+
+/// An estimated probability: the share of tosses, and an interval that holds the true one with
+/// the stated confidence.
+///
+/// Undecided tosses are counted in `n` and may have gone either way: `lo` takes none of them and
+/// `hi` all, so the interval is honest however they would have ended.
+///
+/// # Example
+/// ```
+/// use coinmc_core::{Estimate, IntervalMethod};
+/// // Kerrich 1946: 5067 heads in 10000 tosses
+/// let heads = Estimate::new(5067, 0, 10_000, 0.95, IntervalMethod::Wilson);
+/// assert!((heads.lo - 0.4969).abs() < 1e-4 && (heads.hi - 0.5165).abs() < 1e-4);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// Share of tosses that showed the face, all tosses counted; NaN without tosses.
+    pub p: f64,
+    /// Lower end of the interval.
+    pub lo: f64,
+    /// Upper end of the interval.
+    pub hi: f64,
+    /// All tosses, undecided ones included.
+    pub n: u64,
+    /// Probability that the interval holds the true value (before the data were seen).
+    pub confidence: f64,
+    /// How the interval was computed.
+    pub method: IntervalMethod,
+}
+
+impl Estimate {
+    /// Estimates a probability from `successes` in `n` tosses of which `undecided` have no face.
+    /// `confidence` lies in (0, 1).
+    pub fn new(
+        successes: u64,
+        undecided: u64,
+        n: u64,
+        confidence: f64,
+        method: IntervalMethod,
+    ) -> Self {
+        debug_assert!(successes + undecided <= n && confidence > 0.0 && confidence < 1.0);
+        let (lo, hi) = if n == 0 {
+            (0.0, 1.0)
+        } else {
+            let tail = (1.0 - confidence) / 2.0;
+            let most = successes + undecided;
+            match method {
+                IntervalMethod::Wilson => (wilson(successes, n, tail).0, wilson(most, n, tail).1),
+                // upper(k, n) = 1 − lower(n − k, n): heads and tails swap
+                IntervalMethod::ClopperPearson => (
+                    clopper_pearson_lower(successes, n, tail),
+                    1.0 - clopper_pearson_lower(n - most, n, tail),
+                ),
+            }
+        };
+        Self {
+            p: successes as f64 / n as f64,
+            lo,
+            hi,
+            n,
+            confidence,
+            method,
+        }
+    }
+
+    /// The longer arm of the interval.
+    pub fn half_width(&self) -> f64 {
+        if self.n == 0 {
+            1.0
+        } else {
+            (self.hi - self.p).max(self.p - self.lo)
+        }
+    }
+}
+
+/// Score interval: all p with |p̂ − p| <= z sqrt(p(1 − p)/n). Wilson, JASA 22 (1927) 209.
+fn wilson(k: u64, n: u64, tail: f64) -> (f64, f64) {
+    // the upper tail's quantile by symmetry: 1 − tail would round a small tail away
+    let z = -inverse_normal_cdf(tail);
+    let (k_f, n_f) = (k as f64, n as f64);
+    let p = k_f / n_f;
+    let z2n = z * z / n_f;
+    let centre = p + z2n / 2.0;
+    let arm = z * (p * (1.0 - p) / n_f + z2n / (4.0 * n_f)).sqrt();
+    let scale = 1.0 / (1.0 + z2n);
+    let lo = if k == 0 {
+        0.0
+    } else {
+        ((centre - arm) * scale).max(0.0)
+    };
+    let hi = if k == n {
+        1.0
+    } else {
+        ((centre + arm) * scale).min(1.0)
+    };
+    (lo, hi)
+}
+
+/// The p at which k or more successes have probability `tail`: Clopper & Pearson, Biometrika 26
+/// (1934) 404. P(K >= k) = I_p(k, n − k + 1), increasing in p: solved by bisection, which always
+/// ends and is no slower than the interval's use (once a point) requires.
+fn clopper_pearson_lower(k: u64, n: u64, tail: f64) -> f64 {
+    if k == 0 {
+        return 0.0;
+    }
+    let (a, b) = (k as f64, (n - k) as f64 + 1.0);
+    // Wilson at a millionth of the tail brackets it; widen to the whole interval if it does not.
+    let (guess_lo, guess_hi) = wilson(k, n, tail * 1e-6);
+    let above = |p: f64| beta_reg(a, b, p) > tail;
+    let mut lo = if guess_lo > 0.0 && !above(guess_lo) {
+        guess_lo
+    } else {
+        0.0
+    };
+    let mut hi = if guess_hi < 1.0 && above(guess_hi) {
+        guess_hi
+    } else {
+        1.0
+    };
+    for _ in 0..200 {
+        let middle = f64::midpoint(lo, hi);
+        if middle <= lo || middle >= hi {
+            break;
+        }
+        if above(middle) {
+            hi = middle;
+        } else {
+            lo = middle;
+        }
+    }
+    lo
+}
+
+/// Exact relative standard error of an estimated probability, ΔP/P = sqrt((1 − P)/(P N)).
+///
+/// # Example
+/// ```
+/// use coinmc_core::{relative_error, rule_of_thumb_relative_error};
+/// assert_eq!(relative_error(0.5, 10_000), rule_of_thumb_relative_error(10_000));
+/// // a face that shows once in 1000 tosses needs 32 times the rule of thumb's tosses²
+/// assert!((relative_error(0.001, 10_000) / 0.01 - 31.6).abs() < 0.01);
+/// ```
+pub fn relative_error(p: f64, n: u64) -> f64 {
+    ((1.0 - p) / (p * n as f64)).sqrt()
+}
+
+/// The rule of thumb ΔP/P = 1/sqrt(N) of Gaek & Sukhov (arXiv 2401.03557), exact only at P = ½.
+pub fn rule_of_thumb_relative_error(n: u64) -> f64 {
+    1.0 / (n as f64).sqrt()
+}

@@ -1,0 +1,132 @@
+//! How a toss begins, and how beginnings are distributed.
+
+mod marginal;
+mod orientation;
+mod preset;
+mod spin;
+
+pub use marginal::{Marginal, inverse_normal_cdf};
+pub use orientation::Orientation;
+pub use preset::Preset;
+pub use spin::Spin;
+
+use crate::{Coin, UniformSource};
+use nalgebra::{UnitVector3, Vector3};
+use thiserror::Error;
+
+/// One initial state. The coin is a body of revolution, so its spin phase does not matter and
+/// the axis alone says how it is turned.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Launch {
+    /// Height of the centre above the surface, m. A coin that would begin inside the surface is
+    /// lifted until it touches.
+    pub height_m: f64,
+    /// Velocity of the centre, m/s.
+    pub velocity_m_s: Vector3<f64>,
+    /// u, the outward normal of the heads face.
+    pub axis: UnitVector3<f64>,
+    /// Angular velocity in the laboratory frame, rad/s.
+    pub spin_rad_s: Vector3<f64>,
+}
+
+/// Dimensions of the launch. Each quantity owns its own, whether or not it is random, so that
+/// two distributions that differ in one quantity share the random numbers of all others. The
+/// most used ones come first: they share one Philox block.
+pub(crate) mod dimension {
+    pub(crate) const ORIENTATION: [u32; 3] = [0, 1, 2];
+    pub(crate) const SPIN: [u32; 3] = [3, 4, 5];
+    pub(crate) const HEIGHT: u32 = 6;
+    pub(crate) const VELOCITY: [u32; 3] = [7, 8, 9];
+}
+
+/// The distribution of launches: independent marginals mapped by inverse CDF.
+///
+/// # Example
+/// ```
+/// use coinmc_core::{Coin, Domain, Preset, Stream};
+/// let coin = Coin::cylinder(1.5, 0.01)?;
+/// let launches = Preset::Robot.distribution();
+/// let launch = launches.launch(&coin, &mut Stream::new(1, Domain::Launch, 0).toss(0));
+/// assert!(launch.spin_rad_s.y >= 0.0 && launch.spin_rad_s.y <= 10.0 * std::f64::consts::PI);
+/// # Ok::<(), coinmc_core::CoinError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LaunchDistribution {
+    /// Height of the centre, m.
+    pub height_m: Marginal,
+    /// Velocity of the centre, component by component, m/s.
+    pub velocity_m_s: [Marginal; 3],
+    /// How the coin is turned.
+    pub orientation: Orientation,
+    /// How it spins.
+    pub spin: Spin,
+}
+
+/// What is wrong with a launch distribution.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum LaunchError {
+    /// A parameter is NaN or infinite.
+    #[error("{0} must be finite")]
+    NotFinite(&'static str),
+    /// A uniform marginal has `from` > `to`.
+    #[error("uniform from {from} to {to} is empty")]
+    EmptyRange {
+        /// Lower end.
+        from: f64,
+        /// Upper end.
+        to: f64,
+    },
+    /// A standard deviation is negative.
+    #[error("standard deviation must not be negative, found {0}")]
+    NegativeDeviation(f64),
+}
+
+impl LaunchDistribution {
+    /// Checks every marginal.
+    ///
+    /// # Errors
+    /// The first [`LaunchError`] in the order height, velocity, orientation, spin.
+    pub fn validate(&self) -> Result<(), LaunchError> {
+        self.height_m.validate()?;
+        self.velocity_m_s.iter().try_for_each(Marginal::validate)?;
+        self.orientation.validate()?;
+        self.spin.validate()
+    }
+
+    /// The launch of these uniforms.
+    pub fn launch(&self, coin: &Coin, uniforms: &mut impl UniformSource) -> Launch {
+        let axis = self.orientation.axis(uniforms);
+        let spin_rad_s = self.spin.angular_velocity(coin, &axis, uniforms);
+        let height_m = self.height_m.sample(dimension::HEIGHT, uniforms);
+        let velocity = sample3(&self.velocity_m_s, dimension::VELOCITY, uniforms);
+        Launch {
+            height_m,
+            velocity_m_s: velocity,
+            axis,
+            spin_rad_s,
+        }
+    }
+
+    /// Whether every launch moves in the xz plane: axis in it and spin about y, as the flat
+    /// engine requires. (A velocity along y is carried along unchanged by a smooth plane and is
+    /// excluded too.)
+    pub fn is_planar(&self) -> bool {
+        self.orientation.is_planar()
+            && self.spin.is_planar()
+            && self.velocity_m_s[1] == Marginal::Constant(0.0)
+    }
+}
+
+fn sample3(
+    marginals: &[Marginal; 3],
+    dimensions: [u32; 3],
+    uniforms: &mut impl UniformSource,
+) -> Vector3<f64> {
+    let [x, y, z] = marginals;
+    let [dx, dy, dz] = dimensions;
+    Vector3::new(
+        x.sample(dx, uniforms),
+        y.sample(dy, uniforms),
+        z.sample(dz, uniforms),
+    )
+}

@@ -1,0 +1,75 @@
+//! How the coin is turned when it is let go.
+
+use super::dimension::ORIENTATION;
+use super::{LaunchError, Marginal};
+use crate::UniformSource;
+use nalgebra::{UnitVector3, Vector3};
+use std::f64::consts::TAU;
+
+/// The distribution of the axis u.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Orientation {
+    /// Always this axis.
+    Fixed(UnitVector3<f64>),
+    /// Uniform on the sphere: c = u_z uniform in (−1, 1) (Archimedes), azimuth uniform.
+    Isotropic,
+    /// Three independent uniform Euler angles (as Unity's `Quaternion.Euler` of three uniform
+    /// numbers: turn about the coin's axis-normal x, then z, then the vertical). **Not** uniform
+    /// on the sphere: u_z = cos a · cos b.
+    EulerAngles,
+    /// In the xz plane, at this angle from the vertical, rad: u = (sin θ, 0, cos θ).
+    Tilt(Marginal),
+}
+
+impl Orientation {
+    /// Checks the parameters.
+    ///
+    /// # Errors
+    /// [`LaunchError`] if the tilt's marginal is not a distribution.
+    pub fn validate(&self) -> Result<(), LaunchError> {
+        match self {
+            Self::Tilt(marginal) => marginal.validate(),
+            Self::Fixed(_) | Self::Isotropic | Self::EulerAngles => Ok(()),
+        }
+    }
+
+    /// The axis of these uniforms.
+    #[inline]
+    pub fn axis(&self, uniforms: &mut impl UniformSource) -> UnitVector3<f64> {
+        let [a, b, c] = ORIENTATION;
+        match self {
+            Self::Fixed(axis) => *axis,
+            Self::Isotropic => {
+                let z = 2.0 * uniforms.uniform(a) - 1.0;
+                let (sin, cos) = libm::sincos(TAU * uniforms.uniform(b));
+                // (1 − z)(1 + z): 1 − z² would lose the digits near the poles
+                let s = ((1.0 - z) * (1.0 + z)).sqrt();
+                UnitVector3::new_unchecked(Vector3::new(s * cos, s * sin, z))
+            }
+            Self::EulerAngles => {
+                let (sin_a, cos_a) = libm::sincos(TAU * uniforms.uniform(a));
+                let (sin_b, cos_b) = libm::sincos(TAU * uniforms.uniform(b));
+                let (sin_c, cos_c) = libm::sincos(TAU * uniforms.uniform(c));
+                let (x, y) = (-sin_b, cos_b * sin_a);
+                UnitVector3::new_unchecked(Vector3::new(
+                    x * cos_c - y * sin_c,
+                    x * sin_c + y * cos_c,
+                    cos_b * cos_a,
+                ))
+            }
+            Self::Tilt(angle) => {
+                let (sin, cos) = libm::sincos(angle.sample(a, uniforms));
+                UnitVector3::new_unchecked(Vector3::new(sin, 0.0, cos))
+            }
+        }
+    }
+
+    /// Whether u always lies in the xz plane.
+    pub fn is_planar(&self) -> bool {
+        match self {
+            Self::Fixed(axis) => axis.y == 0.0,
+            Self::Tilt(_) => true,
+            Self::Isotropic | Self::EulerAngles => false,
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! The words every coinmc engine shares. No input, no output, no threads.
+//!
+//! A [`Coin`] is tossed onto a [`Surface`] (together with gravity: a [`Scene`]). A
+//! [`LaunchDistribution`] turns uniform random numbers into a [`Launch`]; an [`Engine`] turns a
+//! launch into an [`Outcome`]; a [`Tally`] counts outcomes; an [`Estimate`] is a probability with
+//! its interval.
+//!
+//! ```text
+//! Stream ──uniforms──▶ LaunchDistribution ──Launch──▶ Engine ──Outcome──▶ Tally ──▶ Estimate
+//! (seed, point, toss)                                    │
+//!                                                    Observer (events; `()` costs nothing)
+//! ```
+//!
+//! # Conventions
+//! * SI units and `f64` throughout; public names carry their unit (`radius_m`, `spin_rad_s`).
+//! * *ratio* always means H/R, height over **radius**.
+//! * z points up, the surface is the plane z = 0. A flat toss lives in the xz plane and turns
+//!   about y.
+//! * +u is the outward normal of the heads face, and the outcome *heads* means that heads
+//!   **shows** at rest (u points up), as in everyday speech: the coin lies on its tails face.
+//!
+//! # Example
+//! ```
+//! use coinmc_core::{Coin, IntervalMethod, Estimate, Tally, Face, Outcome};
+//!
+//! let coin = Coin::cylinder(1.5, 0.01)?;           // H/R = 1.5, R = 1 cm
+//! assert_eq!(coin.height_m(), 0.015);
+//!
+//! let mut tally = Tally::default();
+//! tally.add(&Outcome::decided(Face::Side));
+//! tally.add(&Outcome::decided(Face::Heads));
+//! let side = Estimate::new(tally.side, 0, tally.tosses(), 0.95, IntervalMethod::Wilson);
+//! assert_eq!(side.p, 0.5);
+//! assert!(side.lo > 0.09 && side.hi < 0.91);
+//! # Ok::<(), coinmc_core::CoinError>(())
+//! ```
+
+mod coin;
+mod engine;
+mod estimate;
+mod launch;
+mod outcome;
+mod random;
+mod surface;
+mod tally;
+pub mod trig;
+
+pub use coin::{Coin, CoinError};
+pub use engine::{Engine, Event, EventKind, Observer, State, run_tosses};
+pub use estimate::{Estimate, IntervalMethod, relative_error, rule_of_thumb_relative_error};
+pub use launch::{
+    Launch, LaunchDistribution, LaunchError, Marginal, Orientation, Preset, Spin,
+    inverse_normal_cdf,
+};
+pub use outcome::{Ended, Face, Outcome};
+pub use random::{Domain, Philox4x64, Stream, TossUniforms, UniformSource, unit_interval};
+pub use surface::{Landing, Scene, Surface, SurfaceError};
+pub use tally::Tally;

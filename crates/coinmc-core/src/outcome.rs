@@ -1,0 +1,76 @@
+//! How a toss ends.
+
+/// What shows when the coin rests.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Face {
+    /// The heads face shows: +u points up.
+    Heads,
+    /// The tails face shows: +u points down.
+    Tails,
+    /// The coin lies (flat toss: stands on) its side: u is horizontal.
+    Side,
+}
+
+impl Face {
+    /// All faces, in the order of every table.
+    pub const ALL: [Self; 3] = [Self::Heads, Self::Tails, Self::Side];
+
+    /// The name used in configs, tables and column names.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Heads => "heads",
+            Self::Tails => "tails",
+            Self::Side => "side",
+        }
+    }
+}
+
+/// Why the engine stopped following the toss.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Ended {
+    /// The face is certain (or decided by the stopping rule the user chose).
+    Decided(Face),
+    /// The toss was still undecided at the engine's limit of simulated time, or the coin stands
+    /// balanced on its rim for ever.
+    TimeLimit,
+    /// The toss was still undecided at the engine's limit of impacts or contact phases.
+    ImpactLimit,
+    /// The numbers went wrong (not finite). Counted, never classified.
+    Failed,
+}
+
+/// The result of one toss.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Outcome {
+    /// Why it ended, and on which face if decided.
+    pub ended: Ended,
+    /// Impacts computed.
+    pub impacts: u32,
+    /// Steps taken in sustained contact (integrator steps and closed-form phases).
+    pub contact_steps: u32,
+    /// Tangential impacts in a Painlevé configuration (contact that admits no sliding force).
+    pub jams: u32,
+    /// A stopping rule that is not certain decided, and the certain rule disagrees with it.
+    pub overruled: bool,
+}
+
+impl Outcome {
+    /// A decided toss that cost nothing: closed forms, tests.
+    pub fn decided(face: Face) -> Self {
+        Self {
+            ended: Ended::Decided(face),
+            impacts: 0,
+            contact_steps: 0,
+            jams: 0,
+            overruled: false,
+        }
+    }
+
+    /// The face, if decided.
+    pub fn face(&self) -> Option<Face> {
+        match self.ended {
+            Ended::Decided(face) => Some(face),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,10 @@
+//! Random numbers as input, not state.
+//!
+//! A counter-based generator maps (seed, domain, point, toss, draw) to a number, so any toss can
+//! be computed alone, anywhere, in any order: nothing is ever seeded, split or skipped.
+
+mod philox;
+mod stream;
+
+pub use philox::Philox4x64;
+pub use stream::{Domain, Stream, TossUniforms, UniformSource, unit_interval};

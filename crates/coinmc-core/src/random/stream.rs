@@ -1,0 +1,126 @@
+//! From the generator to the uniforms of one toss.
+
+use super::Philox4x64;
+
+/// Keeps independent uses of one seed apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Domain {
+    /// Launches of a run.
+    Launch,
+}
+
+impl Domain {
+    /// The counter word; written into every result, so it never changes meaning.
+    fn word(self) -> u64 {
+        match self {
+            Self::Launch => 0,
+        }
+    }
+}
+
+/// Uniform numbers, one a dimension of the launch.
+///
+/// Philox today; a low-discrepancy point set fits the same hole because a dimension, not a
+/// sequence position, is asked for.
+pub trait UniformSource {
+    /// The uniform of this dimension, in the open interval (0, 1).
+    fn uniform(&mut self, dimension: u32) -> f64;
+}
+
+/// All tosses of one point of a run.
+///
+/// # Example
+/// ```
+/// use coinmc_core::{Domain, Stream, UniformSource};
+/// let stream = Stream::new(1, Domain::Launch, 0);
+/// let alone = stream.toss(7).uniform(3);
+/// let mut again = stream.toss(7);
+/// again.uniform(0);
+/// assert_eq!(alone, again.uniform(3));      // no state: order does not matter
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stream {
+    philox: Philox4x64,
+    point: u64,
+    domain: u64,
+}
+
+impl Stream {
+    /// The stream of a point. Points that share `point` share their random numbers (paired
+    /// sweeps).
+    pub fn new(seed: u64, domain: Domain, point: u64) -> Self {
+        Self {
+            philox: Philox4x64::new([seed, 0]),
+            point,
+            domain: domain.word(),
+        }
+    }
+
+    /// The uniforms of toss number `toss`.
+    pub fn toss(&self, toss: u64) -> TossUniforms {
+        TossUniforms {
+            philox: self.philox,
+            counter: [0, toss, self.point, self.domain],
+            block: [0; 4],
+            cached: u32::MAX,
+        }
+    }
+}
+
+/// The uniforms of one toss, computed four at a time and only when asked for.
+#[derive(Debug, Clone)]
+pub struct TossUniforms {
+    philox: Philox4x64,
+    counter: [u64; 4],
+    block: [u64; 4],
+    /// Index of the block held; `u32::MAX` (no dimension lies there) when none is.
+    cached: u32,
+}
+
+impl UniformSource for TossUniforms {
+    #[inline]
+    fn uniform(&mut self, dimension: u32) -> f64 {
+        let index = dimension / 4;
+        if index != self.cached {
+            self.counter[0] = u64::from(index);
+            self.block = self.philox.block(self.counter);
+            self.cached = index;
+        }
+        unit_interval(self.block[(dimension % 4) as usize])
+    }
+}
+
+/// Maps a random word to (k + ½)/2⁵², k = its upper 52 bits: uniform, symmetric about ½, exact,
+/// never 0 or 1 (which an inverse CDF would send to infinity).
+#[inline]
+pub fn unit_interval(word: u64) -> f64 {
+    const STEP: f64 = 1.0 / (1_u64 << 52) as f64;
+    ((word >> 12) as f64 + 0.5) * STEP
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ends_of_the_unit_interval_are_never_reached() {
+        assert!(unit_interval(0) > 0.0);
+        assert!(unit_interval(u64::MAX) < 1.0);
+        assert_eq!(1.0 - unit_interval(u64::MAX), unit_interval(0));
+    }
+
+    #[test]
+    fn points_tosses_and_dimensions_differ() {
+        let mut seen = std::collections::HashSet::new();
+        for seed in 0..3 {
+            for point in 0..3 {
+                for toss in 0..3 {
+                    let mut u = Stream::new(seed, Domain::Launch, point).toss(toss);
+                    for dimension in 0..9 {
+                        assert!(seen.insert(u.uniform(dimension).to_bits()));
+                    }
+                }
+            }
+        }
+    }
+}
