@@ -1,0 +1,41 @@
+//! The ratio at which the odds of the side against the faces have a given value.
+
+/// Odds of the side at one ratio, and how steeply they rise there.
+pub(super) struct Odds {
+    /// P(side)/(1 − P(side)).
+    pub(super) value: f64,
+    /// d ln(odds)/d ln(ratio).
+    pub(super) log_slope: f64,
+}
+
+/// Below this guess a rule equals its leading power of `x` to round-off; going on would only meet
+/// numbers too small to hold all their digits.
+const LEADING_POWER_IS_EXACT: f64 = 1e-20;
+
+/// A step of Newton's method squares the error, so after one this short nothing is left to gain.
+const LAST_STEP: f64 = 1e-8;
+
+/// Never reached: from the asymptotic guesses four or five steps do.
+const MAX_STEPS: usize = 40;
+
+/// Solves `odds(x).value = target` for a rule whose odds rise like powers of `x`, 3 to 4.24.
+///
+/// Newton's method on logarithms. With `f` = ln odds as a function of ln x and `e` the error, one
+/// step leaves `e·(1 − f'(ξ)/f'(x))` for some ξ between. The slopes of the rules lie within a
+/// factor of two of each other (tested), so the error shrinks from any start and no bracket is
+/// needed.
+pub(super) fn solve(target: f64, guess: f64, odds: impl Fn(f64) -> Odds) -> f64 {
+    let mut ratio = guess;
+    if !(LEADING_POWER_IS_EXACT..f64::INFINITY).contains(&guess) {
+        return guess;
+    }
+    for _ in 0..MAX_STEPS {
+        let Odds { value, log_slope } = odds(ratio);
+        let step = libm::log(value / target) / log_slope;
+        ratio *= libm::exp(-step);
+        if step.abs() < LAST_STEP {
+            break;
+        }
+    }
+    ratio
+}
