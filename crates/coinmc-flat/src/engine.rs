@@ -1,0 +1,365 @@
+//! The toss: flight, impact, sustained contact, decision.
+
+use crate::contact::{Contact, Leave};
+use crate::flight::fly_to_contact;
+use crate::impact::{ChatterjeeRuina, ContactMatrix, ImpactLaw, Moreau};
+use crate::motion::{Motion, Units};
+use crate::settings::{Decision, Law, Settings, SettingsError};
+use crate::shape::Shape;
+use coinmc_core::trig::sin_cos;
+use coinmc_core::{
+    Ended, Engine, Event, EventKind, Face, Landing, Launch, Observer, Outcome, Scene,
+};
+
+/// Follows flat tosses of one scene under one law of impact.
+///
+/// # Example
+/// ```
+/// use coinmc_core::{Coin, Domain, Engine, Preset, Scene, Stream, Surface};
+/// use coinmc_flat::{FlatEngine, Moreau, Settings};
+/// let coin = Coin::cylinder(1.5, 0.01)?;
+/// let scene = Scene::new(coin, Surface::new(0.5, 0.3)?, 9.81)?;
+/// let engine = FlatEngine::new(&scene, &Settings::default(), Moreau)?;
+/// let launch = Preset::Robot
+///     .distribution()
+///     .launch(&coin, &mut Stream::new(1, Domain::Launch, 0).toss(0));
+/// let outcome = engine.toss(&mut (), &launch, &mut ());
+/// assert!(outcome.face().is_some() && outcome.impacts > 0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct FlatEngine<L> {
+    law: L,
+    settings: Settings,
+    units: Units,
+    shape: Shape,
+    restitution: f64,
+    friction: f64,
+    landing: Landing,
+    /// Half the width of the narrower edge, in D: the angle scale of everything near an edge.
+    narrow: f64,
+}
+
+/// An engine of any law, for callers that learn the law at run time: one `match`, then static
+/// dispatch.
+#[derive(Debug, Clone)]
+pub enum AnyFlatEngine {
+    /// [`Moreau`].
+    Moreau(FlatEngine<Moreau>),
+    /// [`ChatterjeeRuina`].
+    ChatterjeeRuina(FlatEngine<ChatterjeeRuina>),
+}
+
+impl AnyFlatEngine {
+    /// The engine of `settings.law`.
+    ///
+    /// # Errors
+    /// [`SettingsError`] if a setting is out of range.
+    pub fn new(scene: &Scene, settings: &Settings) -> Result<Self, SettingsError> {
+        Ok(match settings.law {
+            Law::Moreau => Self::Moreau(FlatEngine::new(scene, settings, Moreau)?),
+            Law::ChatterjeeRuina => {
+                Self::ChatterjeeRuina(FlatEngine::new(scene, settings, ChatterjeeRuina)?)
+            }
+        })
+    }
+}
+
+/// One toss on its way.
+struct Toss<'a> {
+    motion: Motion,
+    contact: Contact<'a>,
+    impacts: u32,
+}
+
+/// What follows an impact.
+enum After {
+    Flight,
+    /// Sustained contact, with this slip of the corner.
+    Contact(f64),
+    Decided(Face),
+}
+
+/// A decision by the user's stopping rule, waiting for the certain one.
+struct Early {
+    below: f64,
+    face: Option<Face>,
+}
+
+impl<L: ImpactLaw> FlatEngine<L> {
+    /// An engine for this scene. `settings.law` is not looked at: `law` is the law.
+    ///
+    /// # Errors
+    /// [`SettingsError`] if a setting is out of range.
+    pub fn new(scene: &Scene, settings: &Settings, law: L) -> Result<Self, SettingsError> {
+        settings.validate()?;
+        let shape = Shape::new(&scene.coin);
+        let (a, b) = shape.base(0, true);
+        Ok(Self {
+            law,
+            settings: *settings,
+            units: Units::new(scene),
+            shape,
+            restitution: scene.surface.restitution(),
+            friction: scene.surface.friction(),
+            landing: scene.surface.landing(),
+            narrow: a.min(b),
+        })
+    }
+
+    fn notify(&self, observer: &mut impl Observer, kind: EventKind, motion: &Motion) {
+        observer.event(&Event {
+            kind,
+            state: motion.state(&self.units, &self.shape),
+        });
+    }
+
+    /// Runs the toss to its end.
+    fn follow<O: Observer>(&self, toss: &mut Toss, early: &mut Early, observer: &mut O) -> Ended {
+        let mut departing = false;
+        loop {
+            if !fly_to_contact(&mut toss.motion, &self.shape, departing) {
+                return self.lost(&toss.motion);
+            }
+            if self.landing == Landing::Adhesive {
+                return Ended::Decided(Shape::face(toss.motion.quadrant, toss.motion.delta));
+            }
+            departing = true;
+            // contact goes on from corner to corner until the coin flies again
+            loop {
+                if toss.impacts == self.settings.max_impacts {
+                    return Ended::ImpactLimit;
+                }
+                toss.impacts += 1;
+                if O::ACTIVE {
+                    self.notify(observer, EventKind::Touching, &toss.motion);
+                }
+                let after = self.impact(toss);
+                if O::ACTIVE {
+                    self.notify(observer, EventKind::Impact, &toss.motion);
+                }
+                early.look(&toss.motion, self.shape.k);
+                let slip = match after {
+                    After::Decided(face) => return Ended::Decided(face),
+                    _ if toss.contact.is_certain(&toss.motion) => {
+                        return Ended::Decided(Shape::face(
+                            toss.motion.quadrant,
+                            toss.motion.delta,
+                        ));
+                    }
+                    After::Flight => break,
+                    After::Contact(slip) => slip,
+                };
+                let leave = self.sustain(toss, slip, observer);
+                early.look(&toss.motion, self.shape.k);
+                match leave {
+                    Leave::NextCorner => {}
+                    Leave::LiftOff => {
+                        if O::ACTIVE {
+                            self.notify(observer, EventKind::LiftOff, &toss.motion);
+                        }
+                        break;
+                    }
+                    Leave::Certain => {
+                        return Ended::Decided(Shape::face(
+                            toss.motion.quadrant,
+                            toss.motion.delta,
+                        ));
+                    }
+                    Leave::Balanced => return Ended::TimeLimit,
+                    Leave::Lost => return self.lost(&toss.motion),
+                }
+            }
+        }
+    }
+
+    fn lost(&self, motion: &Motion) -> Ended {
+        if motion.energy(self.shape.k).is_finite() {
+            Ended::ImpactLimit
+        } else {
+            Ended::Failed
+        }
+    }
+
+    fn sustain<O: Observer>(&self, toss: &mut Toss, slip: f64, observer: &mut O) -> Leave {
+        if O::ACTIVE {
+            toss.contact
+                .follow::<true>(&mut toss.motion, slip, |kind, motion| {
+                    self.notify(observer, kind, motion);
+                })
+        } else {
+            toss.contact
+                .follow::<false>(&mut toss.motion, slip, |_, _| {})
+        }
+    }
+
+    /// The impact of the lowest corner.
+    #[inline]
+    fn impact(&self, toss: &mut Toss) -> After {
+        let motion = &mut toss.motion;
+        let (sin, cos) = sin_cos(motion.delta);
+        motion.z = cos;
+        let k = self.shape.k;
+        let matrix = ContactMatrix::new(sin, cos, k);
+        let ux = motion.vx - motion.omega * cos;
+        // a corner that is swapped in may leave already, by rounding
+        let uz = (motion.vz + motion.omega * sin).min(0.0);
+        let before = motion.energy(k);
+        if let Some(slip) = self.plastic(motion, matrix, (ux, uz), (sin, cos)) {
+            motion.cap_energy(k, before);
+            return if self.is_rocking_out(motion) {
+                self.lie_flat(motion)
+            } else {
+                After::Contact(slip)
+            };
+        }
+        let p = self
+            .law
+            .impulse(matrix, ux, uz, self.restitution, self.friction);
+        motion.vx += p.x;
+        motion.vz += p.z;
+        motion.omega += (sin * p.z - cos * p.x) / k;
+        motion.cap_energy(k, before);
+        if self.is_rocking_out(motion) {
+            self.lie_flat(motion)
+        } else {
+            After::Flight
+        }
+    }
+
+    /// If the bounces that remain would all be over before the coin has turned noticeably, ends
+    /// them at once by an impact with e = 0; returns the slip after it.
+    ///
+    /// Between impacts the corner falls with a = 1 − ω²cos δ (its acceleration without contact),
+    /// so the remaining bounces take 2 e v/(a(1 − e)), v the normal speed now.
+    #[inline]
+    fn plastic(
+        &self,
+        motion: &mut Motion,
+        matrix: ContactMatrix,
+        (ux, uz): (f64, f64),
+        (sin, cos): (f64, f64),
+    ) -> Option<f64> {
+        let e = self.restitution;
+        // a <= 1 and the rate >= 1: most impacts are told apart here
+        if -uz * 2.0 * e >= self.settings.zeno * (1.0 - e) {
+            return None;
+        }
+        let k = self.shape.k;
+        let p = self.law.impulse(matrix, ux, uz, 0.0, self.friction);
+        let omega = motion.omega + (sin * p.z - cos * p.x) / k;
+        let press = 1.0 - omega * omega * cos;
+        let rate = 1.0 + omega.abs() / self.narrow;
+        if !(press > 0.0 && -uz * 2.0 * e * rate < self.settings.zeno * (1.0 - e) * press) {
+            return None;
+        }
+        let slip = if p.sticks {
+            0.0
+        } else {
+            ux + matrix.xx * p.x + matrix.xz * p.z
+        };
+        motion.set_on_corner(sin, cos, omega, slip);
+        Some(slip)
+    }
+
+    /// Whether the coin rocks on an edge so little that it may be laid flat: turning, falling and
+    /// gap all below zeno/10 of the edge, an energy below (zeno/10)² of the barrier's.
+    #[inline]
+    fn is_rocking_out(&self, motion: &Motion) -> bool {
+        // without friction a coin this still is decided by its energy
+        if self.friction == 0.0 || motion.vz.abs() > 0.1 * self.settings.zeno {
+            return false;
+        }
+        let (gap, at_end) = self.shape.gap(motion.quadrant, motion.delta);
+        let small = 0.1 * self.settings.zeno * self.shape.base(motion.quadrant, at_end).1;
+        gap < small && motion.omega.abs() < small && motion.vz.abs() < small
+    }
+
+    /// Lays the coin flat: a plastic impact of the whole edge. It then slides, and either never
+    /// tips (friction μN at the base against the lever of N: μ·height <= half width, certain), or
+    /// trips over its leading corner.
+    fn lie_flat(&self, motion: &mut Motion) -> After {
+        let (gap, at_end) = self.shape.gap(motion.quadrant, motion.delta);
+        let (height, half_width) = self.shape.base(motion.quadrant, at_end);
+        motion.delta += if at_end { gap } else { -gap };
+        let braking = (self.friction * motion.vz.abs()).min(motion.vx.abs());
+        motion.vx -= braking.copysign(motion.vx);
+        (motion.z, motion.vz, motion.omega) = (height, 0.0, 0.0);
+        if self.friction * height <= half_width || motion.vx == 0.0 {
+            return After::Decided(Shape::face(motion.quadrant, motion.delta));
+        }
+        // sliding to +x it trips forwards (ω > 0), from the start of a quadrant
+        let forwards = motion.vx > 0.0;
+        if forwards == at_end {
+            motion.cross_flat(&self.shape, forwards);
+        }
+        After::Contact(motion.vx)
+    }
+}
+
+impl Early {
+    fn new(decision: Decision, energy: f64) -> Self {
+        let below = match decision {
+            Decision::Certain => f64::NEG_INFINITY,
+            Decision::EnergyFraction(fraction) => fraction * energy,
+        };
+        Self { below, face: None }
+    }
+
+    #[inline]
+    fn look(&mut self, motion: &Motion, k: f64) {
+        if self.below > 0.0 && self.face.is_none() && motion.energy(k) <= self.below {
+            self.face = Some(Shape::face(motion.quadrant, motion.delta));
+        }
+    }
+}
+
+impl<L: ImpactLaw> Engine for FlatEngine<L> {
+    type Workspace = ();
+
+    fn workspace(&self) {}
+
+    fn toss(&self, (): &mut (), launch: &Launch, observer: &mut impl Observer) -> Outcome {
+        self.toss_observed(launch, observer)
+    }
+}
+
+impl<L: ImpactLaw> FlatEngine<L> {
+    fn toss_observed<O: Observer>(&self, launch: &Launch, observer: &mut O) -> Outcome {
+        let mut toss = Toss {
+            motion: Motion::new(launch, &self.units, &self.shape),
+            contact: Contact {
+                shape: &self.shape,
+                mu: self.friction,
+                tolerance: self.settings.tolerance,
+                max_steps: self.settings.max_impacts,
+                steps: 0,
+                jams: 0,
+            },
+            impacts: 0,
+        };
+        let energy = toss.motion.energy(self.shape.k);
+        let mut early = Early::new(self.settings.decision, energy);
+        if O::ACTIVE {
+            self.notify(observer, EventKind::Launched, &toss.motion);
+        }
+        let certain = if !energy.is_finite() {
+            Ended::Failed
+        } else if self.landing == Landing::Bouncing && toss.contact.is_certain(&toss.motion) {
+            Ended::Decided(Shape::face(toss.motion.quadrant, toss.motion.delta))
+        } else {
+            self.follow(&mut toss, &mut early, observer)
+        };
+        if O::ACTIVE {
+            self.notify(observer, EventKind::Ended, &toss.motion);
+        }
+        let ended = early.face.map_or(certain, Ended::Decided);
+        Outcome {
+            ended,
+            impacts: toss.impacts,
+            contact_steps: toss.contact.steps,
+            jams: toss.contact.jams,
+            overruled: ended != certain,
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! Impact of a corner: from the contact velocity before to the impulse.
+//!
+//! Everything is per unit mass and in the xz plane. With r = (−sin δ, −cos δ) the corner seen
+//! from the centre, an impulse p changes the contact velocity by K p,
+//!
+//! K_xx = 1 + r_z²/k,  K_zz = 1 + r_x²/k,  K_xz = −r_x r_z/k  (lengths in D, k = I/mD²).
+
+use crate::settings::Law;
+
+/// The contact's inverse mass matrix K.
+#[derive(Debug, Clone, Copy)]
+pub struct ContactMatrix {
+    /// Horizontal velocity by horizontal impulse.
+    pub xx: f64,
+    /// Horizontal velocity by normal impulse.
+    pub xz: f64,
+    /// Normal velocity by normal impulse.
+    pub zz: f64,
+}
+
+impl ContactMatrix {
+    /// K of a corner with the centre at angle δ beyond its balance, sin δ and cos δ given.
+    #[inline]
+    pub fn new(sin: f64, cos: f64, k: f64) -> Self {
+        Self {
+            xx: 1.0 + cos * cos / k,
+            xz: -sin * cos / k,
+            zz: 1.0 + sin * sin / k,
+        }
+    }
+
+    /// det K = 1 + 1/k: the corner is a distance 1 from the centre, whatever δ.
+    #[inline]
+    fn determinant(self) -> f64 {
+        self.xx * self.zz - self.xz * self.xz
+    }
+
+    /// The impulse that changes the contact velocity by (dx, dz).
+    #[inline]
+    pub(crate) fn solve(self, dx: f64, dz: f64) -> (f64, f64) {
+        let inverse = 1.0 / self.determinant();
+        (
+            (self.zz * dx - self.xz * dz) * inverse,
+            (self.xx * dz - self.xz * dx) * inverse,
+        )
+    }
+}
+
+/// An impulse per unit mass.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Impulse {
+    /// Horizontal part.
+    pub x: f64,
+    /// Normal part, not negative.
+    pub z: f64,
+    /// The contact point does not slide afterwards.
+    pub sticks: bool,
+}
+
+/// A law of impact at one corner.
+///
+/// A law is an own type with its citation and the argument why it never gains energy. To add
+/// one: implement this trait, add a variant to [`Law`] and an arm where the engine is built.
+pub trait ImpactLaw: Copy + Sync {
+    /// The impulse for contact velocity (`ux`, `uz`) before the impact (uz < 0 approaches),
+    /// restitution `e` and friction `mu`.
+    fn impulse(&self, k: ContactMatrix, ux: f64, uz: f64, e: f64, mu: f64) -> Impulse;
+
+    /// Its name in configs and results.
+    fn law(&self) -> Law;
+}
+
+/// Newton restitution u_z⁺ = −e u_z⁻ with Coulomb friction against the slip **after** the impact.
+///
+/// Moreau, "Unilateral contact and dry friction in finite freedom dynamics", CISM 302 (1988): the
+/// contact sticks if the impulse that stops it lies in the friction cone, else it slides and the
+/// friction impulse is −μ p_z against the final slip. The work of the impulse is
+/// ½p·(u⁻ + u⁺), of which the normal part −½(1 − e)|u_z⁻|p_z and the friction with u⁺ dissipate;
+/// the friction with u⁻ need not. Where the sum would be positive, or no solution exists, the
+/// impulse of [`ChatterjeeRuina`] is used.
+#[derive(Debug, Clone, Copy)]
+pub struct Moreau;
+
+impl ImpactLaw for Moreau {
+    #[inline]
+    fn impulse(&self, k: ContactMatrix, ux: f64, uz: f64, e: f64, mu: f64) -> Impulse {
+        let rebound = -(1.0 + e) * uz;
+        if mu == 0.0 {
+            return Impulse {
+                x: 0.0,
+                z: rebound / k.zz,
+                sticks: false,
+            };
+        }
+        let (x, z) = k.solve(-ux, rebound);
+        let candidate = if x.abs() <= mu * z {
+            Some(Impulse { x, z, sticks: true })
+        } else {
+            // the friction that would be needed shows which way it fails to stop the slip
+            let slip = -1.0_f64.copysign(x);
+            slide(k, ux, rebound, mu * slip).or_else(|| slide(k, ux, rebound, -mu * slip))
+        };
+        match candidate {
+            Some(p) if work(k, ux, uz, p) <= 0.0 => p,
+            _ => ChatterjeeRuina.impulse(k, ux, uz, e, mu),
+        }
+    }
+
+    fn law(&self) -> Law {
+        Law::Moreau
+    }
+}
+
+/// The impulse with friction −`friction`·p_z if the contact then slides in `friction`'s direction.
+#[inline]
+fn slide(k: ContactMatrix, ux: f64, rebound: f64, friction: f64) -> Option<Impulse> {
+    let resistance = k.zz - friction * k.xz;
+    let z = rebound / resistance;
+    let slip = ux + (k.xz - friction * k.xx) * z;
+    (resistance > 0.0 && slip * friction > 0.0).then_some(Impulse {
+        x: -friction * z,
+        z,
+        sticks: false,
+    })
+}
+
+/// Energy that an impulse adds, ½p·(u⁻ + u⁺).
+#[inline]
+fn work(k: ContactMatrix, ux: f64, uz: f64, p: Impulse) -> f64 {
+    let after_x = ux + k.xx * p.x + k.xz * p.z;
+    let after_z = uz + k.xz * p.x + k.zz * p.z;
+    0.5 * (p.x * (ux + after_x) + p.z * (uz + after_z))
+}
+
+/// Chatterjee & Ruina, "A new algebraic rigid-body collision law", J. Appl. Mech. 65 (1998) 939,
+/// with tangential restitution 0: p = (1 + e)p_I + κ(p_II − p_I).
+///
+/// p_I is the frictionless plastic impulse, p_II the one that stops the contact altogether, κ the
+/// largest value up to 1 inside the friction cone. As K p_II − K p_I has no normal component,
+/// p_I and p_II − p_I are orthogonal in the energy metric, and the energy changes by
+/// −½(1 − e²)(u_z²/K_zz) − κ(1 − κ/2)·|p_II − p_I|²_K <= 0 for e and κ in [0, 1]; u_z⁺ = −e u_z⁻.
+#[derive(Debug, Clone, Copy)]
+pub struct ChatterjeeRuina;
+
+impl ImpactLaw for ChatterjeeRuina {
+    #[inline]
+    fn impulse(&self, k: ContactMatrix, ux: f64, uz: f64, e: f64, mu: f64) -> Impulse {
+        let smooth = -uz / k.zz;
+        let (stop_x, stop_z) = k.solve(-ux, -uz);
+        let (dx, dz) = (stop_x, stop_z - smooth);
+        let base = (1.0 + e) * smooth;
+        let inside = dx.abs() <= mu * (base + dz);
+        // here |dx| > mu (base + dz) and 0 <= mu base: the denominator is positive
+        let kappa = if inside {
+            1.0
+        } else {
+            mu * base / (dx.abs() - mu * dz)
+        };
+        // with e = 0 and κ = 1 this is p_II: the contact stops
+        Impulse {
+            x: kappa * dx,
+            z: base + kappa * dz,
+            sticks: inside && e == 0.0,
+        }
+    }
+
+    fn law(&self) -> Law {
+        Law::ChatterjeeRuina
+    }
+}

@@ -1,0 +1,32 @@
+//! Event-driven toss of a coin that moves and turns in a vertical plane (the *flat* toss).
+//!
+//! The coin's section is a rectangle 2R × H with the moment of inertia of the coin about a
+//! diameter. It flies in closed form ([`flight`](self)), touches with a corner at the first root
+//! of gap(t), which is never missed, and is thrown back by an [`ImpactLaw`]. When the remaining
+//! bounces would be over in no time it goes on in sustained contact: pivoting about the corner,
+//! sliding or not, flat on an edge, rocking from corner to corner. The toss ends when its energy
+//! is below the barrier m g D, D = sqrt(R² + H²/4): from then on no balance over a corner can be
+//! crossed and the face is certain.
+//!
+//! # Range
+//! Any ratio, restitution 0 to 1, any friction. Rigid bodies: elastic compliance, air and rolling
+//! friction are not modelled. Tosses at e = 1 without friction conserve energy and end undecided,
+//! at the limit of impacts; they are counted.
+//!
+//! # Files
+//! `shape` geometry · `motion` state · `flight` first contact · `impact` laws · `pivot` and
+//! `slide` contact phases · `contact` their order · `engine` the toss · `settings` choices.
+
+mod contact;
+mod engine;
+mod flight;
+mod impact;
+mod motion;
+mod pivot;
+mod settings;
+mod shape;
+mod slide;
+
+pub use engine::{AnyFlatEngine, FlatEngine};
+pub use impact::{ChatterjeeRuina, ContactMatrix, ImpactLaw, Impulse, Moreau};
+pub use settings::{Decision, Law, Settings, SettingsError};

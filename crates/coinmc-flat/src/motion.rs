@@ -1,0 +1,160 @@
+//! The state of the toss in units of D, sqrt(D/g) and m, and its flight.
+
+use crate::shape::{Quadrant, Shape, next};
+use coinmc_core::trig::sin_cos;
+use coinmc_core::{Launch, Scene, State};
+use nalgebra::{UnitVector3, Vector3};
+use std::f64::consts::FRAC_PI_2;
+
+/// Position and velocity of the coin. Lengths in D, times in sqrt(D/g), so that g = 1.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Motion {
+    pub(crate) quadrant: Quadrant,
+    /// Angle of the centre beyond the balance over the lowest corner (see [`Shape`]).
+    pub(crate) delta: f64,
+    pub(crate) omega: f64,
+    pub(crate) x: f64,
+    pub(crate) z: f64,
+    pub(crate) vx: f64,
+    pub(crate) vz: f64,
+    pub(crate) time: f64,
+}
+
+/// Units of a scene: what one dimensionless length, time, … is in SI.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Units {
+    pub(crate) length_m: f64,
+    pub(crate) time_s: f64,
+}
+
+impl Units {
+    pub(crate) fn new(scene: &Scene) -> Self {
+        Self {
+            length_m: scene.coin.rim_distance_m(),
+            time_s: scene.time_scale_s(),
+        }
+    }
+
+    fn speed_m_s(&self) -> f64 {
+        self.length_m / self.time_s
+    }
+}
+
+impl Motion {
+    /// The launch in dimensionless form; components out of the xz plane are not looked at. A coin
+    /// that would begin inside the surface is lifted until it touches.
+    pub(crate) fn new(launch: &Launch, units: &Units, shape: &Shape) -> Self {
+        let (x, z) = (launch.axis.x, launch.axis.z);
+        // θ = q·90° + φ with φ from the two magnitudes alone: u and −u give the same φ
+        let (quadrant, along, across) = if z > 0.0 && x >= 0.0 {
+            (0, z, x)
+        } else if x > 0.0 {
+            (1, x, -z)
+        } else if z < 0.0 {
+            (2, -z, -x)
+        } else {
+            (3, -x, z)
+        };
+        let delta = libm::atan2(across, along) - shape.first_span(quadrant);
+        let speed = units.speed_m_s();
+        Self {
+            quadrant,
+            delta,
+            omega: launch.spin_rad_s.y * units.time_s,
+            x: 0.0,
+            z: (launch.height_m / units.length_m).max(sin_cos(delta).1),
+            vx: launch.velocity_m_s.x / speed,
+            vz: launch.velocity_m_s.z / speed,
+            time: 0.0,
+        }
+    }
+
+    /// Mechanical energy in units of m g D, potential zero at the surface.
+    #[inline]
+    pub(crate) fn energy(&self, k: f64) -> f64 {
+        self.energy_without_sliding(k) + 0.5 * self.vx * self.vx
+    }
+
+    /// The same without the energy of horizontal motion.
+    #[inline]
+    pub(crate) fn energy_without_sliding(&self, k: f64) -> f64 {
+        0.5 * (self.vz * self.vz + k * self.omega * self.omega) + self.z
+    }
+
+    /// Free flight for `t`, within the quadrant.
+    #[inline]
+    pub(crate) fn advance(&mut self, t: f64) {
+        self.x += self.vx * t;
+        self.z += t * (self.vz - 0.5 * t);
+        self.vz -= t;
+        self.delta += self.omega * t;
+        self.time += t;
+    }
+
+    /// Enters the neighbouring quadrant: the corner across the flat edge becomes the lowest.
+    #[inline]
+    pub(crate) fn cross_flat(&mut self, shape: &Shape, forwards: bool) {
+        self.quadrant = next(self.quadrant, forwards);
+        // it begins where the other ended, seen from its own corner
+        self.delta = if forwards {
+            -shape.first_span(self.quadrant)
+        } else {
+            shape.last_angle(self.quadrant, 1.0)
+        };
+    }
+
+    /// Above z = 1 nothing can touch: jumps to where the centre comes down to 1.
+    pub(crate) fn skip_high(&mut self, shape: &Shape) {
+        let t = self.vz + (self.vz * self.vz + 2.0 * (self.z - 1.0)).sqrt();
+        let angle = self.delta + shape.first_span(self.quadrant) + self.omega * t;
+        self.advance(t);
+        self.z = 1.0;
+        let quarters = (angle / FRAC_PI_2).floor();
+        // rem_euclid(4.0) of a whole number is 0, 1, 2 or 3
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let turned = quarters.rem_euclid(4.0) as u8;
+        self.quadrant = (self.quadrant + turned) & 3;
+        let within = (angle - quarters * FRAC_PI_2).clamp(0.0, FRAC_PI_2);
+        self.delta = within - shape.first_span(self.quadrant);
+    }
+
+    /// On the lowest corner with angular velocity `omega` while that corner slides at `slip`.
+    pub(crate) fn set_on_corner(&mut self, sin: f64, cos: f64, omega: f64, slip: f64) {
+        self.z = cos;
+        self.omega = omega;
+        self.vx = slip + omega * cos;
+        self.vz = -omega * sin;
+    }
+
+    /// Takes back what rounding and truncation added to the energy since it was `before`: no
+    /// contact ever gains energy. Velocities shrink together, so every constraint on them holds.
+    pub(crate) fn cap_energy(&mut self, k: f64, before: f64) {
+        let now = self.energy(k);
+        if now > before {
+            let scale = ((before - self.z) / (now - self.z)).max(0.0).sqrt();
+            self.vx *= scale;
+            self.vz *= scale;
+            self.omega *= scale;
+        }
+    }
+
+    /// The state in SI units and three dimensions.
+    pub(crate) fn state(&self, units: &Units, shape: &Shape) -> State {
+        let angle = self.delta + shape.first_span(self.quadrant);
+        let (sin, cos) = libm::sincos(angle);
+        let (x, z) = match self.quadrant {
+            0 => (sin, cos),
+            1 => (cos, -sin),
+            2 => (-sin, -cos),
+            _ => (-cos, sin),
+        };
+        let speed = units.speed_m_s();
+        State {
+            time_s: self.time * units.time_s,
+            position_m: Vector3::new(self.x, 0.0, self.z) * units.length_m,
+            velocity_m_s: Vector3::new(self.vx, 0.0, self.vz) * speed,
+            axis: UnitVector3::new_unchecked(Vector3::new(x, 0.0, z)),
+            spin_rad_s: Vector3::new(0.0, self.omega / units.time_s, 0.0),
+        }
+    }
+}

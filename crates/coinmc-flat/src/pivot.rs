@@ -1,0 +1,163 @@
+//! Contact phases that conserve energy: pivoting about a corner that sticks (μ > 0) or slides
+//! without friction (μ = 0). Closed form in the angle.
+//!
+//! The centre is cos δ high, so with the inertia J about the contact (1 + k when stuck, k + sin²δ
+//! when smooth) the energy E = ½Jω² + cos δ gives ω at every δ. Neither phase is entered unless
+//! E >= 1 (a coin below the barrier is decided), hence ω never changes sign.
+
+use crate::motion::Motion;
+use crate::shape::Shape;
+use coinmc_core::trig::sin_cos;
+
+/// How a pivoting phase ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum PivotEnd {
+    /// The friction needed has reached the cone.
+    Slips,
+    /// The contact force has vanished.
+    LiftsOff,
+    /// The next corner has come down: flat on an edge.
+    Flat,
+}
+
+/// Normal and friction force (in m g) of a stuck corner.
+#[inline]
+pub(crate) fn stuck_forces(sin: f64, cos: f64, omega: f64, k: f64) -> (f64, f64) {
+    let w2 = omega * omega;
+    let normal = 1.0 - sin * sin / (1.0 + k) - cos * w2;
+    let friction = sin * cos / (1.0 + k) - sin * w2;
+    (normal, friction)
+}
+
+/// Pivots about a stuck corner until it slips or the coin is flat.
+///
+/// With ω² = 2(E − c)/(1 + k), c = cos δ, s = sin δ, the distances to the two sides of the cone
+/// are, times 1 + k, q± = μ(k + 3c² − 2Ec) ∓ s(3c − 2E), whose second derivatives are at most
+/// M = (1 + μ)(6 + 2E): stepping to the root of q + q'τ − Mτ²/2 never passes a root.
+pub(crate) fn stick<const TIMED: bool>(motion: &mut Motion, shape: &Shape, mu: f64) -> PivotEnd {
+    let inertia = 1.0 + shape.k;
+    let (sin0, cos0) = sin_cos(motion.delta);
+    let energy = 0.5 * inertia * motion.omega * motion.omega + cos0;
+    let direction = 1.0_f64.copysign(motion.omega);
+    let last = shape.last_angle(motion.quadrant, motion.omega);
+    let bound = (1.0 + mu) * (6.0 + 2.0 * energy);
+    let mut delta = motion.delta;
+    let end = loop {
+        let (sin, cos) = sin_cos(delta);
+        let cone = mu * (shape.k + 3.0 * cos * cos - 2.0 * energy * cos);
+        let need = sin * (3.0 * cos - 2.0 * energy);
+        let cone_rate = direction * mu * sin * (2.0 * energy - 6.0 * cos);
+        let need_rate = direction * (3.0 * (cos * cos - sin * sin) - 2.0 * energy * cos);
+        let step = cone_step(cone - need, cone_rate - need_rate, bound).min(cone_step(
+            cone + need,
+            cone_rate + need_rate,
+            bound,
+        ));
+        if step == 0.0 {
+            break PivotEnd::Slips;
+        }
+        delta += direction * step;
+        if (last - delta) * direction <= 0.0 {
+            delta = last;
+            break PivotEnd::Flat;
+        }
+    };
+    let rate = |c: f64| (2.0 * (energy - c).max(0.0) / inertia).sqrt();
+    if TIMED {
+        motion.time += duration(&|d| 1.0 / rate(sin_cos(d).1), motion.delta, delta);
+    }
+    let (sin, cos) = sin_cos(delta);
+    motion.x += sin - sin0;
+    motion.delta = delta;
+    motion.set_on_corner(sin, cos, direction * rate(cos), 0.0);
+    end
+}
+
+/// Step to the first root of the lower bound of q; 0 when q has reached zero and falls.
+fn cone_step(q: f64, rate: f64, bound: f64) -> f64 {
+    // q is of order 1; this much outside the cone is rounding
+    const REACHED: f64 = 1e-13;
+    if q <= REACHED && rate <= 0.0 {
+        return 0.0;
+    }
+    let root = (rate * rate + 2.0 * q.max(0.0) * bound).sqrt();
+    if rate < 0.0 {
+        2.0 * q / (root - rate)
+    } else {
+        (rate + root) / bound
+    }
+}
+
+/// Pivots about a corner that slides without friction until the contact opens or the coin is
+/// flat. Horizontal velocity stays what it is.
+///
+/// The contact force is positive while c² − 2Ec + 1 + k > 0, c = cos δ: it vanishes on the way up
+/// to the balance at c* = E − sqrt(E² − 1 − k) if that exists, and never on the way down.
+pub(crate) fn glide<const TIMED: bool>(motion: &mut Motion, shape: &Shape) -> PivotEnd {
+    let (sin0, cos0) = sin_cos(motion.delta);
+    let energy = 0.5 * (shape.k + sin0 * sin0) * motion.omega * motion.omega + cos0;
+    let direction = 1.0_f64.copysign(motion.omega);
+    let opening = energy * energy - 1.0 - shape.k;
+    let open_at = energy - opening.max(0.0).sqrt();
+    let lifts = motion.delta * direction < 0.0 && opening >= 0.0 && open_at <= 1.0;
+    let (delta, end) = if lifts {
+        // c < c* <= 1 on the way up; if rounding has it past already, it opens here
+        let angle = -direction * libm::acos(open_at);
+        let reached = (angle - motion.delta) * direction > 0.0;
+        (
+            if reached { angle } else { motion.delta },
+            PivotEnd::LiftsOff,
+        )
+    } else {
+        (
+            shape.last_angle(motion.quadrant, motion.omega),
+            PivotEnd::Flat,
+        )
+    };
+    let rate = |s: f64, c: f64| (2.0 * (energy - c).max(0.0) / (shape.k + s * s)).sqrt();
+    if TIMED {
+        let slowness = |d: f64| {
+            let (s, c) = sin_cos(d);
+            1.0 / rate(s, c)
+        };
+        let time = duration(&slowness, motion.delta, delta);
+        motion.time += time;
+        motion.x += motion.vx * time;
+    }
+    let (sin, cos) = sin_cos(delta);
+    motion.delta = delta;
+    motion.z = cos;
+    motion.omega = direction * rate(sin, cos);
+    motion.vz = -motion.omega * sin;
+    end
+}
+
+/// |∫ slowness dδ| by adaptive Simpson quadrature to 1e-12: only for observers, who ask when.
+fn duration(slowness: &impl Fn(f64) -> f64, from: f64, to: f64) -> f64 {
+    fn refine(
+        f: &impl Fn(f64) -> f64,
+        (a, fa): (f64, f64),
+        (b, fb): (f64, f64),
+        middle: f64,
+        whole: f64,
+        depth: u32,
+    ) -> f64 {
+        let m = f64::midpoint(a, b);
+        let (left, right) = (f(f64::midpoint(a, m)), f(f64::midpoint(m, b)));
+        let h = (b - a) / 12.0;
+        let (first, second) = (
+            h * (fa + 4.0 * left + middle),
+            h * (middle + 4.0 * right + fb),
+        );
+        let error = first + second - whole;
+        if depth == 0 || error.abs() <= 15e-12 * (1.0 + whole.abs()) {
+            return first + second + error / 15.0;
+        }
+        refine(f, (a, fa), (m, middle), left, first, depth - 1)
+            + refine(f, (m, middle), (b, fb), right, second, depth - 1)
+    }
+    let (fa, fb) = (slowness(from), slowness(to));
+    let middle = slowness(f64::midpoint(from, to));
+    let whole = (to - from) / 6.0 * (fa + 4.0 * middle + fb);
+    refine(slowness, (from, fa), (to, fb), middle, whole, 30).abs()
+}

@@ -1,0 +1,115 @@
+//! What a user may choose about the flat engine.
+
+use thiserror::Error;
+
+/// The law of impact at a corner.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Law {
+    /// Newton restitution, Coulomb friction against the final slip (Moreau 1988), guarded by
+    /// Chatterjee–Ruina where that would gain energy.
+    #[default]
+    Moreau,
+    /// Chatterjee & Ruina (1998), tangential restitution 0.
+    ChatterjeeRuina,
+}
+
+impl Law {
+    /// All laws.
+    pub const ALL: [Self; 2] = [Self::Moreau, Self::ChatterjeeRuina];
+
+    /// The name used in configs and results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Moreau => "moreau",
+            Self::ChatterjeeRuina => "chatterjee-ruina",
+        }
+    }
+}
+
+/// When the face of a toss counts as decided.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Decision {
+    /// When energy alone makes it certain.
+    #[default]
+    Certain,
+    /// When the mechanical energy has fallen to this fraction of its initial value (0.01 in Gaek
+    /// & Sukhov, arXiv 2401.03557) or the face is certain. The toss is followed on to the certain
+    /// end, and counted as `overruled` where the two disagree.
+    EnergyFraction(f64),
+}
+
+/// Settings of the flat engine. The defaults are converged: see docs/validation.md.
+///
+/// # Example
+/// ```
+/// use coinmc_flat::Settings;
+/// assert!(Settings::default().validate().is_ok());
+/// assert!(Settings { zeno: 2.0, ..Settings::default() }.validate().is_err());
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Law of impact.
+    pub law: Law,
+    /// When the face counts as decided.
+    pub decision: Decision,
+    /// A sequence of bounces is replaced by sustained contact when all that remains of it would
+    /// turn the coin by less than about this angle, rad.
+    pub zeno: f64,
+    /// Relative error allowed per step of the integration of sliding contact.
+    pub tolerance: f64,
+    /// Impacts after which a toss is given up as undecided.
+    pub max_impacts: u32,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            law: Law::default(),
+            decision: Decision::default(),
+            zeno: 0.01,
+            tolerance: 1e-7,
+            max_impacts: 100_000,
+        }
+    }
+}
+
+/// A setting outside its range.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum SettingsError {
+    /// zeno lies outside (0, 1].
+    #[error("zeno must lie in (0, 1], not {0}")]
+    Zeno(f64),
+    /// tolerance lies outside [1e-12, 1e-2].
+    #[error("tolerance must lie in [1e-12, 1e-2], not {0}")]
+    Tolerance(f64),
+    /// No impact is allowed.
+    #[error("max_impacts must be at least 1")]
+    MaxImpacts,
+    /// The energy fraction lies outside (0, 1).
+    #[error("energy_fraction must lie in (0, 1), not {0}")]
+    EnergyFraction(f64),
+}
+
+impl Settings {
+    /// Checks every setting.
+    ///
+    /// # Errors
+    /// The first [`SettingsError`] in the order of the fields.
+    pub fn validate(&self) -> Result<(), SettingsError> {
+        if let Decision::EnergyFraction(fraction) = self.decision
+            && !(fraction > 0.0 && fraction < 1.0)
+        {
+            return Err(SettingsError::EnergyFraction(fraction));
+        }
+        if !(self.zeno > 0.0 && self.zeno <= 1.0) {
+            return Err(SettingsError::Zeno(self.zeno));
+        }
+        if !(1e-12..=1e-2).contains(&self.tolerance) {
+            return Err(SettingsError::Tolerance(self.tolerance));
+        }
+        if self.max_impacts == 0 {
+            return Err(SettingsError::MaxImpacts);
+        }
+        Ok(())
+    }
+}

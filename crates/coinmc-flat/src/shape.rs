@@ -1,0 +1,114 @@
+//! The rectangle 2R × H in units of D, and where its corners are.
+
+use coinmc_core::{Coin, Face};
+
+/// Quarter turns: 0 begins heads up, 1 heads to the right, 2 tails up, 3 heads to the left.
+pub(crate) type Quadrant = u8;
+
+/// The coin's section in units in which D = sqrt(R² + H²/4) = 1.
+///
+/// In quadrant q (θ from q·90° to (q+1)·90°, u = (sin θ, cos θ)) one corner is lowest. δ is the
+/// angle of the centre beyond the balance over that corner, so the centre is cos δ above it. The
+/// quadrant spans δ from −`span[q mod 2]` to +`span[1 − q mod 2]`, from one edge flat on the
+/// ground to the next. Only this pair (q, δ) describes how the coin is turned: heads and tails
+/// differ in q alone and are treated alike to the last bit.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Shape {
+    /// I_t/(m D²).
+    pub(crate) k: f64,
+    /// Angle from the balance to flat on a face (even) and on the side (odd).
+    span: [f64; 2],
+    /// Height of the centre when flat: H/2D on a face, R/D on the side.
+    flat_height: [f64; 2],
+}
+
+impl Shape {
+    pub(crate) fn new(coin: &Coin) -> Self {
+        let half = coin.ratio() / 2.0;
+        let hypotenuse = (1.0 + half * half).sqrt();
+        let d = coin.rim_distance_m();
+        Self {
+            k: coin.transverse_gyration_m2() / (d * d),
+            span: [libm::atan2(1.0, half), libm::atan2(half, 1.0)],
+            flat_height: [half / hypotenuse, 1.0 / hypotenuse],
+        }
+    }
+
+    /// The quadrant's last δ for a coin that turns in the direction of `omega`.
+    #[inline]
+    pub(crate) fn last_angle(&self, quadrant: Quadrant, omega: f64) -> f64 {
+        if omega > 0.0 {
+            self.span[end(quadrant)]
+        } else {
+            -self.span[start(quadrant)]
+        }
+    }
+
+    /// Height of the centre at that angle.
+    #[inline]
+    pub(crate) fn last_height(&self, quadrant: Quadrant, omega: f64) -> f64 {
+        self.flat_height[if omega > 0.0 {
+            end(quadrant)
+        } else {
+            start(quadrant)
+        }]
+    }
+
+    /// δ at the quadrant's start (most negative).
+    #[inline]
+    pub(crate) fn first_span(&self, quadrant: Quadrant) -> f64 {
+        self.span[start(quadrant)]
+    }
+
+    /// Angle left to the nearer flat position, and whether that is the quadrant's end.
+    pub(crate) fn gap(&self, quadrant: Quadrant, delta: f64) -> (f64, bool) {
+        let to_start = delta + self.span[start(quadrant)];
+        let to_end = self.span[end(quadrant)] - delta;
+        if to_end < to_start {
+            (to_end, true)
+        } else {
+            (to_start, false)
+        }
+    }
+
+    /// (height of the centre, half width of the base) when flat at the start or end.
+    pub(crate) fn base(&self, quadrant: Quadrant, at_end: bool) -> (f64, f64) {
+        let edge = if at_end {
+            end(quadrant)
+        } else {
+            start(quadrant)
+        };
+        (self.flat_height[edge], self.flat_height[1 - edge])
+    }
+
+    /// What the coin shows if it settles in the well it is in: it topples to the edge on δ's side
+    /// of the balance.
+    #[inline]
+    pub(crate) fn face(quadrant: Quadrant, delta: f64) -> Face {
+        // the flat positions in order of θ/90°: heads up, side, tails up, side
+        let flat = if delta < 0.0 {
+            quadrant
+        } else {
+            next(quadrant, true)
+        };
+        match flat {
+            0 => Face::Heads,
+            2 => Face::Tails,
+            _ => Face::Side,
+        }
+    }
+}
+
+fn start(quadrant: Quadrant) -> usize {
+    usize::from(quadrant & 1)
+}
+
+fn end(quadrant: Quadrant) -> usize {
+    1 - start(quadrant)
+}
+
+/// The neighbouring quadrant in the direction of growing θ, or the other.
+#[inline]
+pub(crate) fn next(quadrant: Quadrant, forwards: bool) -> Quadrant {
+    (if forwards { quadrant + 1 } else { quadrant + 3 }) & 3
+}
