@@ -72,6 +72,10 @@ impl Contact<'_> {
                 return Leave::Lost;
             }
             self.steps += 1;
+            let (gap, at_end) = self.shape.gap(motion.quadrant, motion.delta);
+            if gap <= 0.0 && motion.omega != 0.0 && (motion.omega > 0.0) == at_end {
+                return self.next_corner(motion);
+            }
             let before = motion.energy(self.shape.k);
             if self.mu == 0.0 || (slip == 0.0 && self.can_stick(motion)) {
                 if motion.omega == 0.0 && motion.delta == 0.0 {

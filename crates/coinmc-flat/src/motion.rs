@@ -110,9 +110,10 @@ impl Motion {
         self.advance(t);
         self.z = 1.0;
         let quarters = (angle / FRAC_PI_2).floor();
-        // rem_euclid(4.0) of a whole number is 0, 1, 2 or 3
+        // the low two bits of a two's complement number are its remainder; beyond i64 the angle
+        // has no digits left for the quarter anyway, and the cast saturates
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-        let turned = quarters.rem_euclid(4.0) as u8;
+        let turned = (quarters as i64 & 3) as u8;
         self.quadrant = (self.quadrant + turned) & 3;
         let within = (angle - quarters * FRAC_PI_2).clamp(0.0, FRAC_PI_2);
         self.delta = within - shape.first_span(self.quadrant);

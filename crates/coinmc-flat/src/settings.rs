@@ -67,7 +67,7 @@ impl Default for Settings {
             law: Law::default(),
             decision: Decision::default(),
             zeno: 0.01,
-            tolerance: 1e-7,
+            tolerance: 1e-6,
             max_impacts: 100_000,
         }
     }
