@@ -1,7 +1,7 @@
 //! A probability with its interval.
 
+use crate::beta::beta_quantile;
 use crate::inverse_normal_cdf;
-use statrs::function::beta::beta_reg;
 
 /// How the interval of a proportion is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -72,10 +72,9 @@ impl Estimate {
             let most = successes + undecided;
             match method {
                 IntervalMethod::Wilson => (wilson(successes, n, tail).0, wilson(most, n, tail).1),
-                // upper(k, n) = 1 − lower(n − k, n): heads and tails swap
                 IntervalMethod::ClopperPearson => (
-                    clopper_pearson_lower(successes, n, tail),
-                    1.0 - clopper_pearson_lower(n - most, n, tail),
+                    clopper_pearson(successes, n, tail).0,
+                    clopper_pearson(most, n, tail).1,
                 ),
             }
         };
@@ -122,39 +121,15 @@ fn wilson(k: u64, n: u64, tail: f64) -> (f64, f64) {
     (lo, hi)
 }
 
-/// The p at which k or more successes have probability `tail`: Clopper & Pearson, Biometrika 26
-/// (1934) 404. P(K >= k) = I_p(k, n − k + 1), increasing in p: solved by bisection, which always
-/// ends and is no slower than the interval's use (once a point) requires.
-fn clopper_pearson_lower(k: u64, n: u64, tail: f64) -> f64 {
-    if k == 0 {
-        return 0.0;
-    }
-    let (a, b) = (k as f64, (n - k) as f64 + 1.0);
-    // Wilson at a millionth of the tail brackets it; widen to the whole interval if it does not.
-    let (guess_lo, guess_hi) = wilson(k, n, tail * 1e-6);
-    let above = |p: f64| beta_reg(a, b, p) > tail;
-    let mut lo = if guess_lo > 0.0 && !above(guess_lo) {
-        guess_lo
-    } else {
-        0.0
-    };
-    let mut hi = if guess_hi < 1.0 && above(guess_hi) {
-        guess_hi
-    } else {
-        1.0
-    };
-    for _ in 0..200 {
-        let middle = f64::midpoint(lo, hi);
-        if middle <= lo || middle >= hi {
-            break;
-        }
-        if above(middle) {
-            hi = middle;
-        } else {
-            lo = middle;
-        }
-    }
-    lo
+/// The p at which k or more successes have probability `tail`, and the one at which k or fewer
+/// have: Clopper & Pearson, Biometrika 26 (1934) 404. P(K >= k) = I_p(k, n − k + 1); the upper
+/// limit is the lower one of the failures.
+fn clopper_pearson(k: u64, n: u64, tail: f64) -> (f64, f64) {
+    let limit = |k: u64| beta_quantile(k as f64, (n - k) as f64 + 1.0, tail);
+    (
+        if k == 0 { 0.0 } else { limit(k).0 },
+        if k == n { 1.0 } else { limit(n - k).1 },
+    )
 }
 
 /// Exact relative standard error of an estimated probability, ΔP/P = sqrt((1 − P)/(P N)).

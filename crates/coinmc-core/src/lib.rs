@@ -35,6 +35,7 @@
 //! # Ok::<(), coinmc_core::CoinError>(())
 //! ```
 
+mod beta;
 mod coin;
 mod engine;
 mod estimate;

@@ -1,0 +1,196 @@
+//! Launch distributions: what comes out has the distribution asked for.
+
+use coinmc_core::{
+    Coin, Domain, Launch, LaunchDistribution, Marginal, Orientation, Preset, Spin, Stream,
+    UniformSource,
+};
+use nalgebra::Vector3;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+const N: u64 = 100_000;
+/// Kolmogorov's limit for D·sqrt(n) at a false-alarm rate of 1e-6 a test: sqrt(ln(2e6)/2).
+const KOLMOGOROV: f64 = 2.694;
+
+fn launches(distribution: &LaunchDistribution, coin: &Coin) -> Vec<Launch> {
+    distribution.validate().unwrap();
+    let stream = Stream::new(11, Domain::Launch, 3);
+    (0..N)
+        .map(|toss| distribution.launch(coin, &mut stream.toss(toss)))
+        .collect()
+}
+
+/// Kolmogorov–Smirnov distance of the sample from a CDF, times sqrt(n).
+fn distance(mut sample: Vec<f64>, cdf: impl Fn(f64) -> f64) -> f64 {
+    sample.sort_by(f64::total_cmp);
+    let n = sample.len() as f64;
+    let worst = sample
+        .iter()
+        .enumerate()
+        .map(|(i, x)| {
+            let p = cdf(*x);
+            (p - i as f64 / n).abs().max(((i + 1) as f64 / n - p).abs())
+        })
+        .fold(0.0, f64::max);
+    worst * n.sqrt()
+}
+
+fn coin() -> Coin {
+    Coin::cylinder(1.5, 0.01).unwrap()
+}
+
+fn with(orientation: Orientation, spin: Spin) -> LaunchDistribution {
+    LaunchDistribution {
+        height_m: Marginal::Normal { mean: 1.0, sd: 0.1 },
+        velocity_m_s: [
+            Marginal::Constant(0.25),
+            Marginal::Constant(0.0),
+            Marginal::Uniform { from: 1.0, to: 2.0 },
+        ],
+        orientation,
+        spin,
+    }
+}
+
+fn at_rest() -> Spin {
+    Spin::Components([Marginal::Constant(0.0); 3])
+}
+
+#[test]
+fn marginals_follow_their_distributions() {
+    let all = launches(&with(Orientation::Isotropic, at_rest()), &coin());
+    let heights = all.iter().map(|l| l.height_m).collect();
+    let normal = |x: f64| 0.5 * libm::erfc((1.0 - x) / 0.1 / std::f64::consts::SQRT_2);
+    assert!(distance(heights, normal) < KOLMOGOROV);
+    let speeds = all.iter().map(|l| l.velocity_m_s.z).collect();
+    assert!(distance(speeds, |v| v - 1.0) < KOLMOGOROV);
+    assert!(
+        all.iter()
+            .all(|l| l.velocity_m_s.x == 0.25 && l.spin_rad_s == Vector3::zeros())
+    );
+}
+
+#[test]
+fn isotropic_axes_are_uniform_on_the_sphere() {
+    let all = launches(&with(Orientation::Isotropic, at_rest()), &coin());
+    for i in 0..3 {
+        // Archimedes: every component is uniform in (−1, 1)
+        let component = all.iter().map(|l| l.axis[i]).collect();
+        assert!(
+            distance(component, |c| f64::midpoint(c, 1.0)) < KOLMOGOROV,
+            "component {i}"
+        );
+    }
+    assert!(all.iter().all(|l| (l.axis.norm() - 1.0).abs() < 4e-16));
+}
+
+#[test]
+fn euler_angles_are_not_isotropic_but_follow_their_own_law() {
+    let all = launches(&with(Orientation::EulerAngles, at_rest()), &coin());
+    let vertical: Vec<f64> = all.iter().map(|l| l.axis.z).collect();
+    assert!(distance(vertical.clone(), |c| f64::midpoint(c, 1.0)) > 5.0 * KOLMOGOROV);
+    // u_z = cos a cos b: E u_z² = 1/4 (1/3 if isotropic), E u_z⁴ = 9/64
+    let mean = |power: i32| vertical.iter().map(|z| z.powi(power)).sum::<f64>() / N as f64;
+    // sd of z² is sqrt(9/64 − 1/16) = 0.28: 5 sd of the mean = 0.0044
+    assert!((mean(2) - 0.25).abs() < 0.0045 && mean(1).abs() < 0.008);
+    let azimuth = all
+        .iter()
+        .map(|l| libm::atan2(l.axis.y, l.axis.x))
+        .collect();
+    assert!(distance(azimuth, |a| (a + PI) / TAU) < KOLMOGOROV);
+    assert!(all.iter().all(|l| (l.axis.norm() - 1.0).abs() < 1e-15));
+}
+
+#[test]
+fn the_robot_throws_as_published() {
+    let all = launches(&Preset::Robot.distribution(), &coin());
+    let tilt = all
+        .iter()
+        .map(|l| libm::atan2(l.axis.x, l.axis.z))
+        .collect();
+    assert!(distance(tilt, |angle| angle / PI) < KOLMOGOROV);
+    let spin = all.iter().map(|l| l.spin_rad_s.y).collect();
+    assert!(distance(spin, |w| w / (5.0 * TAU)) < KOLMOGOROV);
+    assert!(
+        all.iter()
+            .all(|l| l.axis.y == 0.0 && l.spin_rad_s.x == 0.0 && l.spin_rad_s.z == 0.0)
+    );
+}
+
+/// The angular momentum makes the angle ψ with the axis, has the stated size, any azimuth.
+#[test]
+fn precession_has_the_angle_asked_for() {
+    let coin = coin();
+    let spin = Spin::Precessing {
+        rate_rad_s: Marginal::Constant(30.0),
+        psi_rad: Marginal::Uniform {
+            from: 0.3,
+            to: FRAC_PI_2,
+        },
+    };
+    let (axial, transverse) = (coin.axial_gyration_m2(), coin.transverse_gyration_m2());
+    let mut psis = Vec::new();
+    let mut azimuths = Vec::new();
+    for launch in launches(&with(Orientation::Isotropic, spin), &coin) {
+        let along = launch.spin_rad_s.dot(&launch.axis);
+        let across = launch.spin_rad_s - launch.axis.into_inner() * along;
+        let momentum = launch.axis.into_inner() * (axial * along) + across * transverse;
+        assert!((momentum.norm() / transverse - 30.0).abs() < 1e-12 * 30.0);
+        psis.push(momentum.angle(&launch.axis));
+        let horizontal = launch.axis.cross(&Vector3::z()).normalize();
+        let third = launch.axis.cross(&horizontal);
+        azimuths.push(libm::atan2(across.dot(&third), across.dot(&horizontal)));
+    }
+    assert!(distance(psis, |psi| (psi - 0.3) / (FRAC_PI_2 - 0.3)) < KOLMOGOROV);
+    assert!(distance(azimuths, |a| (a + PI) / TAU) < KOLMOGOROV);
+}
+
+/// Each quantity owns its dimensions: making one random leaves the draws of the others alone.
+#[test]
+fn distributions_that_differ_in_one_quantity_share_the_others() {
+    let fixed = Preset::CleanFlat.distribution();
+    let varied = LaunchDistribution {
+        height_m: Marginal::Uniform { from: 0.5, to: 1.5 },
+        ..fixed
+    };
+    for (a, b) in launches(&fixed, &coin())
+        .iter()
+        .zip(launches(&varied, &coin()))
+    {
+        assert_eq!((a.axis, a.spin_rad_s), (b.axis, b.spin_rad_s));
+    }
+}
+
+#[test]
+fn every_preset_is_valid_and_found_by_its_name() {
+    for preset in Preset::ALL {
+        assert_eq!(preset.name().parse(), Ok(preset));
+        preset.distribution().validate().unwrap();
+        assert!(!preset.source().is_empty());
+    }
+    assert!("robots".parse::<Preset>().is_err());
+}
+
+/// The axis may point anywhere, the poles included, and stay orthogonal to what completes it.
+#[test]
+fn precession_about_any_axis_keeps_its_rate() {
+    struct Zeros;
+    impl UniformSource for Zeros {
+        fn uniform(&mut self, _: u32) -> f64 {
+            0.25
+        }
+    }
+    let coin = coin();
+    let spin = Spin::Precessing {
+        rate_rad_s: Marginal::Constant(1.0),
+        psi_rad: Marginal::Constant(FRAC_PI_2),
+    };
+    for axis in [
+        Vector3::z_axis(),
+        -Vector3::z_axis(),
+        Vector3::x_axis(),
+        -Vector3::y_axis(),
+    ] {
+        let omega = spin.angular_velocity(&coin, &axis, &mut Zeros);
+        assert!((omega.norm() - 1.0).abs() < 1e-15 && omega.dot(&axis).abs() < 1e-15);
+    }
+}

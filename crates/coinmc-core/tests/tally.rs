@@ -1,0 +1,77 @@
+//! Tallies: exact, order-free, safe against forged counts.
+
+use coinmc_core::{Ended, Face, Outcome, Tally};
+use proptest::prelude::*;
+
+fn outcome() -> impl Strategy<Value = Outcome> {
+    let ended = prop_oneof![
+        Just(Ended::Decided(Face::Heads)),
+        Just(Ended::Decided(Face::Tails)),
+        Just(Ended::Decided(Face::Side)),
+        Just(Ended::TimeLimit),
+        Just(Ended::ImpactLimit),
+        Just(Ended::Failed),
+    ];
+    (
+        ended,
+        any::<u32>(),
+        any::<u32>(),
+        any::<u32>(),
+        any::<bool>(),
+    )
+        .prop_map(|(ended, impacts, contact_steps, jams, overruled)| Outcome {
+            ended,
+            impacts,
+            contact_steps,
+            jams,
+            overruled,
+        })
+}
+
+fn tally(outcomes: &[Outcome]) -> Tally {
+    let mut tally = Tally::default();
+    for outcome in outcomes {
+        tally.add(outcome);
+    }
+    tally
+}
+
+proptest! {
+    #[test]
+    fn merging_parts_in_any_order_counts_the_whole(
+        outcomes in prop::collection::vec(outcome(), 0..100), cut in 0..100_usize,
+    ) {
+        let (first, second) = outcomes.split_at(cut.min(outcomes.len()));
+        let whole = tally(&outcomes);
+        let (a, b) = (tally(first), tally(second));
+        prop_assert_eq!(a.checked_merge(&b), Some(whole));
+        prop_assert_eq!(b.checked_merge(&a), Some(whole));
+        prop_assert_eq!(whole.tosses(), outcomes.len() as u64);
+        prop_assert_eq!(Tally::from_array(whole.to_array()), whole);
+    }
+}
+
+#[test]
+fn an_overflow_is_told() {
+    let full = Tally {
+        heads: u64::MAX,
+        ..Tally::default()
+    };
+    let one = Tally {
+        heads: 1,
+        ..Tally::default()
+    };
+    assert_eq!(full.checked_merge(&one), None);
+}
+
+#[test]
+fn the_names_of_the_counters_match_their_order() {
+    let mut counts = [0; 10];
+    for (i, name) in Tally::COUNTERS.into_iter().enumerate() {
+        counts[i] = 7;
+        let tally = Tally::from_array(counts);
+        let named = format!("{tally:?}");
+        assert!(named.contains(&format!("{name}: 7")), "{name} {named}");
+        counts[i] = 0;
+    }
+}
