@@ -1,0 +1,199 @@
+//! Reads a config: TOML in, a [`Plan`] or every [`Problem`] at once out.
+//!
+//! ```text
+//! text ─▶ tree ─▶ walk (against the schema) ─▶ form ─▶ sweep, build ─▶ Plan
+//!           ▲                                    └────▶ resolved TOML
+//!       overrides
+//! ```
+//!
+//! * Every key is described once, in the schema; messages and [`json_schema`] come from there.
+//! * Any number of `[coin]`, `[surface]`, `[environment]`, `[launch]` and any real setting of an
+//!   engine may be a number, a list of numbers or a range `{ from, to, steps }` (both ends
+//!   included; `scale = "log"` for even ratios): an axis of the sweep. A list of one is a number.
+//!   Values of a range are rounded to 15 digits.
+//! * Axes are ordered as in the reference, not as in the file, and the first varies slowest. The
+//!   plan depends on no comment, order of keys, or file name.
+//! * A whole number may be written `1e6`; an integer will do for a real number.
+//! * With `[engine.analytic]`, `[surface]`, `[launch]` and `[stop]` may be left out. If they are
+//!   there they are checked, axes in them make points, and they change no result.
+
+mod build;
+mod diagnostics;
+mod form;
+mod launch;
+mod nearest;
+mod notes;
+mod overrides;
+mod quantity;
+mod resolved;
+mod schema;
+mod source;
+mod sweep;
+mod tree;
+mod walk;
+
+pub use diagnostics::{Diagnostics, Problem};
+pub use overrides::{Override, OverrideError};
+
+use crate::plan::Plan;
+use diagnostics::{Problems, printable};
+use form::{Form, What};
+use source::{Sources, Span};
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+use sweep::Sweep;
+
+/// Longest config, as written and as resolved, bytes.
+pub const MAX_BYTES: usize = 1 << 20;
+
+/// Reads a config file.
+///
+/// # Errors
+/// Every problem found, also if the file cannot be read.
+pub fn load(path: &Path, overrides: &[Override]) -> Result<Plan, Diagnostics> {
+    let name = path.display().to_string();
+    let bytes = read(path).map_err(|error| {
+        let (message, help) = match error.kind() {
+            std::io::ErrorKind::NotFound => ("there is no such file".to_owned(), None),
+            std::io::ErrorKind::IsADirectory => (
+                "this is a directory, not a config file".to_owned(),
+                Some("give the path of a .toml file".to_owned()),
+            ),
+            _ => (format!("the file cannot be read: {error}"), None),
+        };
+        Diagnostics::of_file(&name, message, help)
+    })?;
+    match String::from_utf8(bytes) {
+        Ok(text) => parse(&name, &text, overrides),
+        Err(error) => {
+            let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+            let (line, column) = source::end_place(&String::from_utf8_lossy(good));
+            let message = "this is no UTF-8 text".to_owned();
+            let help = Some("save the file as UTF-8".to_owned());
+            Err(Diagnostics::of_file(&name, message, help).at(line, column))
+        }
+    }
+}
+
+/// Reads one byte more than allowed, so that too long a file is seen and never held.
+fn read(path: &Path) -> std::io::Result<Vec<u8>> {
+    let file = File::open(path)?;
+    if file.metadata()?.is_dir() {
+        return Err(std::io::ErrorKind::IsADirectory.into());
+    }
+    let mut bytes = Vec::new();
+    file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// Reads a config from a text that messages call `name`.
+///
+/// # Errors
+/// Every problem found.
+///
+/// # Example
+/// ```
+/// let plan = coinmc::config::parse(
+///     "inline",
+///     "coin.ratio = { from = 0.5, to = 2.0, steps = 4 }\nengine.analytic.rule = 'arc'",
+///     &[],
+/// ).unwrap();
+/// assert_eq!(plan.axes, ["ratio"]);
+/// assert_eq!(plan.points[1].scene.coin.ratio(), 1.0);
+/// ```
+pub fn parse(name: &str, text: &str, overrides: &[Override]) -> Result<Plan, Diagnostics> {
+    if text.len() > MAX_BYTES {
+        let message = format!("a config has at most {MAX_BYTES} bytes");
+        return Err(Diagnostics::of_file(name, message, None));
+    }
+    let mut sources = Sources::default();
+    let mut problems = Problems::default();
+    let plan = plan(&mut sources, name, text, overrides, &mut problems);
+    match plan {
+        Some(plan) if problems.is_empty() => Ok(plan),
+        _ => Err(problems.finish(&sources)),
+    }
+}
+
+/// The JSON Schema (2020-12) of the config, for editors and other programs.
+pub fn json_schema() -> String {
+    schema::json_schema()
+}
+
+/// The whole way from text to plan. `None` only after a problem.
+fn plan(
+    sources: &mut Sources,
+    name: &str,
+    text: &str,
+    overrides: &[Override],
+    problems: &mut Problems,
+) -> Option<Plan> {
+    // a byte order mark is no part of the text
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let file = sources.add(&printable(name), text);
+    let mut tree = tree::document(sources, file, text, problems)?;
+    for set in overrides {
+        set.apply(sources, &mut tree, problems);
+    }
+    let end = sources.end(file);
+    let mut root = walk::document(sources, problems, &schema::root(), &tree, end);
+    spell_out(&mut root);
+    let sweep = Sweep::find(&mut root, problems)?;
+    let points = build::points(&root, &sweep, problems);
+    if !problems.is_empty() {
+        return None;
+    }
+    if sweep.axes.len() < 2 {
+        single_axis(&mut root);
+    }
+    let resolved_toml = resolved(&root, end, problems)?;
+    let (confidence, interval) = build::estimate(&root)?;
+    Some(Plan {
+        seed: build::integer(&root, "seed")?,
+        paired: build::boolean(&root, "paired")?,
+        stop: build::stop(&root)?,
+        confidence,
+        interval,
+        axes: sweep.axes.into_iter().map(|axis| axis.name).collect(),
+        notes: notes::notes(&root, &points),
+        points,
+        resolved_toml,
+    })
+}
+
+/// Replaces the launch's preset by what it stands for.
+fn spell_out(root: &mut Form) {
+    if let What::Table(entries) = &mut root.what {
+        for (_, form) in entries.iter_mut().filter(|(key, _)| *key == "launch") {
+            *form = launch::spelled_out(form);
+        }
+    }
+}
+
+/// A grid and a zip of fewer than two axes are the same sweep: write it one way.
+fn single_axis(root: &mut Form) {
+    let What::Table(entries) = &mut root.what else {
+        return;
+    };
+    for (_, sweep) in entries.iter_mut().filter(|(key, _)| *key == "sweep") {
+        if let What::Table(fields) = &mut sweep.what {
+            for (_, mode) in fields {
+                mode.what = What::Word("grid");
+            }
+        }
+    }
+}
+
+/// The canonical text, unless it is too long to be read back.
+fn resolved(root: &Form, end: Span, problems: &mut Problems) -> Option<String> {
+    let text = resolved::document(root);
+    if text.len() > MAX_BYTES {
+        let message = format!(
+            "this config, spelled out, has more than {MAX_BYTES} bytes: its lists are too long"
+        );
+        problems.add_with_help(end, message, "use ranges, or several configs");
+        return None;
+    }
+    Some(text)
+}

@@ -1,0 +1,173 @@
+//! `--set key.path=value`.
+
+use super::diagnostics::Problems;
+use super::source::{Sources, Span};
+use super::tree::{self, Node, Table, Value};
+use std::ops::Range;
+use std::str::FromStr;
+use thiserror::Error;
+use toml::de::{DeTable, DeValue};
+
+/// A value that replaces (or adds to) what the config file says.
+///
+/// The text is `key.path=value`; the value is a TOML expression, and a bare word that is no TOML
+/// is taken as text.
+///
+/// # Example
+/// ```
+/// use coinmc::config::{self, Override};
+/// let text = "coin.ratio = 1.2\nengine.analytic.rule = 'zone'";
+/// let overrides: Vec<Override> =
+///     vec!["engine.analytic.rule=arc".parse()?, "coin.ratio=[1.0, 2.0]".parse()?];
+/// let plan = config::parse("inline", text, &overrides).unwrap();
+/// assert_eq!(plan.points.len(), 2);
+/// # Ok::<(), coinmc::config::OverrideError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Override {
+    text: String,
+    keys: Vec<(String, Range<usize>)>,
+    value: Range<usize>,
+}
+
+/// Why a text is no override. Problems of the value itself are found when the config is read.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum OverrideError {
+    /// There is no `=`.
+    #[error("expected `key.path=value`, such as `surface.friction=0.2`")]
+    NoEquals,
+    /// What stands before the `=` is no path of keys.
+    #[error("`{0}` is no path of keys such as `surface.friction`")]
+    Key(String),
+    /// The text has a line break or another control character.
+    #[error("an override is one line without control characters")]
+    Control,
+}
+
+impl FromStr for Override {
+    type Err = OverrideError;
+
+    fn from_str(text: &str) -> Result<Self, OverrideError> {
+        if text.chars().any(|c| c.is_control() && c != '\t') {
+            return Err(OverrideError::Control);
+        }
+        let equals = equals_sign(text).ok_or(OverrideError::NoEquals)?;
+        let keys = key_path(&text[..equals])
+            .ok_or_else(|| OverrideError::Key(text[..equals].trim().chars().take(60).collect()))?;
+        let behind = &text[equals + 1..];
+        let start = text.len() - behind.trim_start().len();
+        let value = start..start.max(text.trim_end().len());
+        Ok(Self {
+            text: text.to_owned(),
+            keys,
+            value,
+        })
+    }
+}
+
+/// The first `=` outside quotes.
+fn equals_sign(text: &str) -> Option<usize> {
+    let mut quote = None;
+    for (index, c) in text.char_indices() {
+        match (quote, c) {
+            (None, '=') => return Some(index),
+            (None, '"' | '\'') => quote = Some(c),
+            (Some(open), _) if open == c => quote = None,
+            _ => {}
+        }
+    }
+    None
+}
+
+/// The keys of `a.b."c d"` with their places: read as the one key of a TOML document.
+fn key_path(text: &str) -> Option<Vec<(String, Range<usize>)>> {
+    // a table header would parse too
+    if text.trim_start().starts_with(['[', '#']) {
+        return None;
+    }
+    let document = format!("{text}=0");
+    let mut table = DeTable::parse(&document).ok()?.into_inner();
+    let mut keys = Vec::new();
+    loop {
+        let (key, value) = table.into_iter().next()?;
+        keys.push((key.get_ref().clone().into_owned(), key.span()));
+        match value.into_inner() {
+            DeValue::Table(inner) => table = inner,
+            _ => return Some(keys),
+        }
+    }
+}
+
+impl Override {
+    /// Puts the value into the tree, or says what is wrong with it.
+    pub(super) fn apply(&self, sources: &mut Sources, root: &mut Table, problems: &mut Problems) {
+        let source = sources.add("--set", &self.text);
+        match self.node(sources, source) {
+            Ok(node) => {
+                let path: Vec<(String, Span)> = self
+                    .keys
+                    .iter()
+                    .map(|(key, range)| (key.clone(), sources.span(source, range.clone())))
+                    .collect();
+                root.set(&path, node);
+            }
+            Err((span, message)) => problems.add_with_help(
+                span,
+                message,
+                "a number, a list [1, 2], a range {from = 0, to = 1, steps = 5}, true, or a word",
+            ),
+        }
+    }
+
+    fn node(&self, sources: &Sources, source: usize) -> Result<Node, (Span, String)> {
+        let text = &self.text[self.value.clone()];
+        tree::value(sources, source, self.value.start, text).or_else(|error| {
+            if is_word(text) {
+                let span = sources.span(source, self.value.clone());
+                Ok(Node {
+                    value: Value::Text(text.to_owned()),
+                    span,
+                })
+            } else {
+                Err(error)
+            }
+        })
+    }
+}
+
+fn is_word(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_alphabetic())
+        && text
+            .chars()
+            .all(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '_'))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_are_split_with_their_places() {
+        let set: Override = r#" a . "b=c" .d = 1"#.parse().unwrap();
+        assert_eq!(
+            set.keys,
+            [
+                ("a".into(), 1..2),
+                ("b=c".into(), 5..10),
+                ("d".into(), 12..13)
+            ]
+        );
+        assert_eq!(set.value, 16..17);
+    }
+
+    #[test]
+    fn what_is_no_override_is_refused() {
+        for bad in [
+            "", "a", "=1", "a.=1", "a b=1", "[a]=1", "#a=1", "a=1\nb=2", "a..b=1", "\"a=1",
+        ] {
+            assert!(bad.parse::<Override>().is_err(), "{bad}");
+        }
+        let deep = format!("{}a=1", "a.".repeat(100_000));
+        assert!(deep.parse::<Override>().is_err());
+    }
+}

@@ -1,0 +1,115 @@
+//! The config as understood, as TOML: every default and preset spelled out, in one fixed order.
+//! Equal plans have equal texts, so its hash names the plan.
+
+use super::form::{Form, What};
+use super::quantity::Quantity;
+use std::fmt::Write;
+
+/// Writes the document. Top-level tables get a header, all else is inline.
+pub(super) fn document(root: &Form) -> String {
+    let mut text = String::new();
+    let What::Table(entries) = &root.what else {
+        return text;
+    };
+    for (key, form) in entries.iter().filter(|(_, form)| header(form).is_none()) {
+        line(&mut text, key, form);
+    }
+    for (key, form) in entries {
+        let Some((tag, inner)) = header(form) else {
+            continue;
+        };
+        let dot = if tag.is_empty() { "" } else { "." };
+        put(&mut text, format_args!("\n[{key}{dot}{tag}]\n"));
+        if let What::Table(entries) = &inner.what {
+            for (key, form) in entries {
+                line(&mut text, key, form);
+            }
+        }
+    }
+    text
+}
+
+/// The tag (empty for a plain table) and table of what gets a header.
+fn header(form: &Form) -> Option<(&'static str, &Form)> {
+    match &form.what {
+        What::Table(_) => Some(("", form)),
+        What::Tagged(tag, inner) => Some((tag, inner)),
+        _ => None,
+    }
+}
+
+fn line(text: &mut String, key: &str, form: &Form) {
+    text.push_str(key);
+    text.push_str(" = ");
+    value(text, form);
+    text.push('\n');
+}
+
+fn value(text: &mut String, form: &Form) {
+    match &form.what {
+        What::Number(number, _) => quantity(text, number),
+        What::Real(value) => float(text, *value),
+        What::Integer(value) => put(text, format_args!("{value}")),
+        What::Boolean(value) => put(text, format_args!("{value}")),
+        What::Word(word) => put(text, format_args!("\"{word}\"")),
+        What::Vector(components) => list(text, components, value),
+        What::Tagged(tag, inner) => {
+            put(text, format_args!("{{ {tag} = "));
+            value(text, inner);
+            text.push_str(" }");
+        }
+        What::Table(entries) => {
+            text.push('{');
+            for (index, (key, form)) in entries.iter().enumerate() {
+                put(
+                    text,
+                    format_args!("{} {key} = ", if index == 0 { "" } else { "," }),
+                );
+                value(text, form);
+            }
+            text.push_str(" }");
+        }
+        // a config with problems is never written
+        What::Invalid => {}
+    }
+}
+
+fn quantity(text: &mut String, quantity: &Quantity) {
+    match quantity.canonical() {
+        Quantity::Constant(value) => float(text, value),
+        Quantity::List(values) => list(text, &values, |text, value| float(text, *value)),
+        Quantity::Range(range) => {
+            text.push_str("{ from = ");
+            float(text, range.from);
+            text.push_str(", to = ");
+            float(text, range.to);
+            put(text, format_args!(", steps = {}", range.steps));
+            text.push_str(if range.log {
+                ", scale = \"log\" }"
+            } else {
+                " }"
+            });
+        }
+    }
+}
+
+fn list<T>(text: &mut String, items: &[T], item: impl Fn(&mut String, &T)) {
+    text.push('[');
+    for (index, value) in items.iter().enumerate() {
+        if index > 0 {
+            text.push_str(", ");
+        }
+        item(text, value);
+    }
+    text.push(']');
+}
+
+/// The shortest text that reads back as the same number; always with a point or an exponent.
+fn float(text: &mut String, value: f64) {
+    put(text, format_args!("{value:?}"));
+}
+
+fn put(text: &mut String, arguments: std::fmt::Arguments<'_>) {
+    text.write_fmt(arguments)
+        .expect("writing to a string cannot fail");
+}

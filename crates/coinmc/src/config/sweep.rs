@@ -1,0 +1,178 @@
+//! The axes of a sweep and the points they span.
+
+use super::diagnostics::Problems;
+use super::form::{COMPONENTS, Form, What};
+use super::source::Span;
+use crate::plan::MAX_POINTS;
+
+/// One swept number.
+#[derive(Debug)]
+pub(super) struct Axis {
+    /// The name of its column.
+    pub(super) name: String,
+    pub(super) values: Vec<f64>,
+}
+
+/// How the axes combine.
+#[derive(Debug)]
+pub(super) struct Sweep {
+    pub(super) axes: Vec<Axis>,
+    pub(super) points: usize,
+    zip: bool,
+}
+
+impl Sweep {
+    /// Finds every swept number (in the order of the schema, so that the order of keys in the
+    /// file does not matter), numbers them, and writes their values out if they are not too many.
+    pub(super) fn find(root: &mut Form, problems: &mut Problems) -> Option<Self> {
+        let zip = root
+            .get("sweep")
+            .and_then(|sweep| sweep.get("mode"))
+            .map(Form::word)??
+            == "zip";
+        let mut found = Vec::new();
+        collect(root, &mut Vec::new(), &mut found);
+        let points = if zip {
+            zipped(&found, problems)
+        } else {
+            gridded(&found, problems)
+        }?;
+        let mut distinct = true;
+        let axes = found
+            .into_iter()
+            .map(|axis| {
+                let values = axis.quantity.values();
+                if has_duplicates(&values) {
+                    let message = format!(
+                        "the {} values of `{}` lie closer together than numbers can",
+                        values.len(),
+                        axis.name
+                    );
+                    problems.add_with_help(axis.span, message, "use fewer steps or a wider range");
+                    distinct = false;
+                }
+                Axis {
+                    name: axis.name,
+                    values,
+                }
+            })
+            .collect();
+        distinct.then_some(Self { axes, points, zip })
+    }
+
+    /// Which value of each axis point number `point` has.
+    pub(super) fn indices(&self, point: usize, indices: &mut Vec<usize>) {
+        indices.clear();
+        indices.resize(self.axes.len(), point);
+        if !self.zip {
+            let mut rest = point;
+            for (index, axis) in indices.iter_mut().zip(&self.axes).rev() {
+                *index = rest % axis.values.len();
+                rest /= axis.values.len();
+            }
+        }
+    }
+}
+
+/// A swept number before its values are written out.
+struct Found {
+    name: String,
+    quantity: super::quantity::Quantity,
+    span: Span,
+}
+
+fn collect(form: &mut Form, path: &mut Vec<&'static str>, found: &mut Vec<Found>) {
+    match &mut form.what {
+        What::Number(quantity, axis) if quantity.len() > 1 => {
+            *axis = Some(found.len());
+            let quantity = quantity.clone();
+            found.push(Found {
+                name: column(path),
+                quantity,
+                span: form.span,
+            });
+        }
+        What::Table(entries) => {
+            for (key, inner) in entries {
+                path.push(key);
+                collect(inner, path, found);
+                path.pop();
+            }
+        }
+        What::Tagged(tag, inner) => {
+            path.push(tag);
+            collect(inner, path, found);
+            path.pop();
+        }
+        What::Vector(components) => {
+            for (name, inner) in COMPONENTS.iter().zip(components) {
+                path.push(name);
+                collect(inner, path, found);
+                path.pop();
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Column names: the bare key for what describes the scene, the whole path for the rest.
+fn column(path: &[&'static str]) -> String {
+    match path {
+        ["coin" | "surface" | "environment", key] => (*key).to_owned(),
+        _ => path.join("."),
+    }
+}
+
+fn gridded(found: &[Found], problems: &mut Problems) -> Option<usize> {
+    let product = found
+        .iter()
+        .try_fold(1_u64, |n, axis| n.checked_mul(axis.quantity.len()));
+    match product {
+        Some(points) if points <= MAX_POINTS => usize::try_from(points).ok(),
+        _ => {
+            let longest = found.iter().max_by_key(|axis| axis.quantity.len())?;
+            let count = product.map_or("more than 10^19".to_owned(), |n| n.to_string());
+            let factors: Vec<String> = found
+                .iter()
+                .map(|a| format!("{} {}", a.name, a.quantity.len()))
+                .collect();
+            let message = format!(
+                "the sweep has {count} points ({}), at most {MAX_POINTS} are allowed",
+                factors.join(" × ")
+            );
+            problems.add_with_help(longest.span, message, "use fewer steps, or mode = \"zip\"");
+            None
+        }
+    }
+}
+
+fn zipped(found: &[Found], problems: &mut Problems) -> Option<usize> {
+    let Some(first) = found.first() else {
+        return Some(1);
+    };
+    let mut equal = true;
+    for axis in &found[1..] {
+        if axis.quantity.len() != first.quantity.len() {
+            let message = format!(
+                "zipped axes must be equally long: `{}` has {} values, `{}` has {}",
+                axis.name,
+                axis.quantity.len(),
+                first.name,
+                first.quantity.len()
+            );
+            problems.add(axis.span, message);
+            equal = false;
+        }
+    }
+    if equal {
+        usize::try_from(first.quantity.len()).ok()
+    } else {
+        None
+    }
+}
+
+fn has_duplicates(values: &[f64]) -> bool {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.windows(2).any(|pair| pair[0] == pair[1])
+}

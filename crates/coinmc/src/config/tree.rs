@@ -1,0 +1,217 @@
+//! The parsed text, before anything is known about coins: tables, lists and scalars with their
+//! places.
+
+use super::diagnostics::Problems;
+use super::source::{Sources, Span};
+use toml::de::{DeFloat, DeInteger, DeTable, DeValue};
+
+/// A value and where it stands.
+#[derive(Debug, Clone)]
+pub(super) struct Node {
+    pub(super) value: Value,
+    pub(super) span: Span,
+}
+
+#[derive(Debug, Clone)]
+pub(super) enum Value {
+    Text(String),
+    /// Larger than 64 bits is kept so that a range check can quote it; beyond 128 it saturates.
+    Integer(i128),
+    Float(f64),
+    Boolean(bool),
+    Datetime,
+    List(Vec<Node>),
+    Table(Table),
+}
+
+impl Value {
+    /// What messages call this type.
+    pub(super) fn type_name(&self) -> &'static str {
+        match self {
+            Self::Text(_) => "text",
+            Self::Integer(_) => "an integer",
+            Self::Float(_) => "a number",
+            Self::Boolean(_) => "a boolean",
+            Self::Datetime => "a date",
+            Self::List(_) => "a list",
+            Self::Table(_) => "a table",
+        }
+    }
+}
+
+/// Keys with their values, in no particular order.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Table {
+    pub(super) entries: Vec<Entry>,
+}
+
+#[derive(Debug, Clone)]
+pub(super) struct Entry {
+    pub(super) key: String,
+    pub(super) key_span: Span,
+    pub(super) node: Node,
+}
+
+impl Table {
+    pub(super) fn get(&self, key: &str) -> Option<&Entry> {
+        self.entries.iter().find(|entry| entry.key == key)
+    }
+
+    /// The value at a path of keys replaced or added; what stands in its way gives way.
+    pub(super) fn set(&mut self, path: &[(String, Span)], node: Node) {
+        let Some(((key, key_span), rest)) = path.split_first() else {
+            return;
+        };
+        let (key_span, found) = (*key_span, self.entries.iter().position(|e| e.key == *key));
+        if rest.is_empty() {
+            let entry = Entry {
+                key: key.clone(),
+                key_span,
+                node,
+            };
+            match found {
+                Some(index) => self.entries[index] = entry,
+                None => self.entries.push(entry),
+            }
+            return;
+        }
+        let index = found.unwrap_or_else(|| {
+            let node = Node {
+                value: Value::Table(Self::default()),
+                span: key_span,
+            };
+            self.entries.push(Entry {
+                key: key.clone(),
+                key_span,
+                node,
+            });
+            self.entries.len() - 1
+        });
+        let inner = &mut self.entries[index].node;
+        if !matches!(inner.value, Value::Table(_)) {
+            *inner = Node {
+                value: Value::Table(Self::default()),
+                span: key_span,
+            };
+        }
+        if let Value::Table(table) = &mut inner.value {
+            table.set(rest, node);
+        }
+    }
+}
+
+/// Reads the text of a source as TOML. Text that cannot be read on is one problem at its place;
+/// duplicate keys are reported and the first of each is kept.
+pub(super) fn document(
+    sources: &Sources,
+    source: usize,
+    text: &str,
+    problems: &mut Problems,
+) -> Option<Table> {
+    let (table, errors) = DeTable::parse_recoverable(text);
+    let place = |error: &toml::de::Error| {
+        let range = error.span().unwrap_or(text.len()..text.len());
+        // an error at the end of the text is shown behind its last character
+        if range.start >= text.len() {
+            sources.end(source)
+        } else {
+            sources.span(source, range)
+        }
+    };
+    // The crate's own text tells the errors that the rest of the document survives.
+    let (duplicates, mut fatal): (Vec<_>, Vec<_>) = errors
+        .iter()
+        .partition(|error| error.message() == "duplicate key");
+    fatal.sort_by_key(|error| place(error));
+    if let Some(first) = fatal.first() {
+        problems.add(
+            place(first),
+            format!("this is no TOML: {}", first.message()),
+        );
+        return None;
+    }
+    for error in duplicates {
+        let span = place(error);
+        let key = super::diagnostics::quoted(sources.text(span));
+        problems.add_with_help(span, format!("{key} is given twice"), "keep one of them");
+    }
+    Some(convert_table(sources, source, 0, table.get_ref()))
+}
+
+/// Reads one TOML value that stands at `offset` in its source.
+pub(super) fn value(
+    sources: &Sources,
+    source: usize,
+    offset: usize,
+    text: &str,
+) -> Result<Node, (Span, String)> {
+    match DeValue::parse(text) {
+        Ok(value) => {
+            let span = value.span();
+            let span = sources.span(source, span.start + offset..span.end + offset);
+            Ok(Node {
+                value: convert(sources, source, offset, value.get_ref()),
+                span,
+            })
+        }
+        Err(error) => {
+            let range = error.span().unwrap_or(0..text.len());
+            let span = sources.span(source, range.start + offset..range.end + offset);
+            Err((span, format!("this is no TOML value: {}", error.message())))
+        }
+    }
+}
+
+/// Nesting is bounded by the TOML parser (80 levels), so recursion is too.
+fn convert(sources: &Sources, source: usize, offset: usize, value: &DeValue<'_>) -> Value {
+    match value {
+        DeValue::String(text) => Value::Text(text.clone().into_owned()),
+        DeValue::Integer(integer) => Value::Integer(to_integer(integer)),
+        DeValue::Float(float) => Value::Float(to_float(float)),
+        DeValue::Boolean(boolean) => Value::Boolean(*boolean),
+        DeValue::Datetime(_) => Value::Datetime,
+        DeValue::Array(items) => Value::List(
+            items
+                .iter()
+                .map(|item| Node {
+                    value: convert(sources, source, offset, item.get_ref()),
+                    span: shifted(sources, source, offset, item.span()),
+                })
+                .collect(),
+        ),
+        DeValue::Table(table) => Value::Table(convert_table(sources, source, offset, table)),
+    }
+}
+
+fn convert_table(sources: &Sources, source: usize, offset: usize, table: &DeTable<'_>) -> Table {
+    let entries = table
+        .iter()
+        .map(|(key, value)| Entry {
+            key: key.get_ref().clone().into_owned(),
+            key_span: shifted(sources, source, offset, key.span()),
+            node: Node {
+                value: convert(sources, source, offset, value.get_ref()),
+                span: shifted(sources, source, offset, value.span()),
+            },
+        })
+        .collect();
+    Table { entries }
+}
+
+fn shifted(sources: &Sources, source: usize, offset: usize, range: std::ops::Range<usize>) -> Span {
+    sources.span(source, range.start + offset..range.end + offset)
+}
+
+fn to_integer(integer: &DeInteger<'_>) -> i128 {
+    let text = integer.as_str();
+    i128::from_str_radix(text, integer.radix()).unwrap_or(if text.starts_with('-') {
+        i128::MIN
+    } else {
+        i128::MAX
+    })
+}
+
+/// The lexer leaves only what `f64` can parse; anything else would be reported as not a number.
+fn to_float(float: &DeFloat<'_>) -> f64 {
+    float.as_str().parse().unwrap_or(f64::NAN)
+}

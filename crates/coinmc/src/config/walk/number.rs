@@ -1,0 +1,126 @@
+//! Numbers, lists and ranges.
+
+use super::Walker;
+use crate::config::diagnostics::quoted;
+use crate::config::form::{Form, What};
+use crate::config::quantity::{Quantity, Range};
+use crate::config::schema::{self, Bounds};
+use crate::config::source::Span;
+use crate::config::tree::{Node, Table, Value};
+
+impl Walker<'_> {
+    /// A number that may be swept.
+    pub(super) fn quantity(&mut self, bounds: Bounds, node: &Node, path: &str) -> Form {
+        let quantity = match &node.value {
+            Value::List(items) => self.list(bounds, items, node.span, path),
+            Value::Table(table) => self.range(bounds, table, node.span, path),
+            Value::Integer(_) | Value::Float(_) => {
+                self.real(bounds, node, path).map(Quantity::Constant)
+            }
+            _ => {
+                let expected = "a number, a list of numbers or a range {from, to, steps}";
+                return self.wrong_type(node, path, expected);
+            }
+        };
+        match quantity {
+            Some(quantity) => Form::new(node.span, What::Number(quantity, None)),
+            None => Form::invalid(node.span),
+        }
+    }
+
+    /// A single number within bounds. An integer is a number too.
+    pub(super) fn real(&mut self, bounds: Bounds, node: &Node, path: &str) -> Option<f64> {
+        let value = match node.value {
+            Value::Integer(value) => value as f64,
+            Value::Float(value) => value,
+            _ => {
+                self.wrong_type(node, path, "a number");
+                return None;
+            }
+        };
+        if bounds.contains(value) {
+            // adding zero makes a negative zero positive: two texts for one value otherwise
+            return Some(value + 0.0);
+        }
+        let found = quoted(self.sources.text(node.span));
+        let wanted = if value.is_finite() { "" } else { "finite, " };
+        let message = format!("`{path}` must be {wanted}{bounds}, found {found}");
+        self.problems.add(node.span, message);
+        None
+    }
+
+    fn list(&mut self, bounds: Bounds, items: &[Node], span: Span, path: &str) -> Option<Quantity> {
+        if items.is_empty() {
+            self.problems.add(
+                span,
+                format!("`{path}` is an empty list: give at least one number"),
+            );
+            return None;
+        }
+        let values: Vec<Option<f64>> = items
+            .iter()
+            .map(|item| self.real(bounds, item, path))
+            .collect();
+        let mut order: Vec<usize> = (0..values.len()).collect();
+        order.sort_by(|&a, &b| {
+            values[a]
+                .unwrap_or(f64::NAN)
+                .total_cmp(&values[b].unwrap_or(f64::NAN))
+                .then(a.cmp(&b))
+        });
+        let mut distinct = true;
+        for pair in order.windows(2) {
+            if values[pair[0]].is_some() && values[pair[0]] == values[pair[1]] {
+                let item = &items[pair[1]];
+                let found = quoted(self.sources.text(item.span));
+                let message = format!("`{path}` has the value {found} twice");
+                self.problems
+                    .add_with_help(item.span, message, "remove one of them");
+                distinct = false;
+            }
+        }
+        let values: Option<Vec<f64>> = values.into_iter().collect();
+        match values? {
+            values if !distinct || values.is_empty() => None,
+            values if values.len() == 1 => Some(Quantity::Constant(values[0])),
+            values => Some(Quantity::List(values)),
+        }
+    }
+
+    fn range(&mut self, bounds: Bounds, table: &Table, span: Span, path: &str) -> Option<Quantity> {
+        let form = self.table(&schema::range(bounds), table, span, path);
+        let real = |key: &str| match form.get(key)?.what {
+            What::Real(value) => Some((value, form.get(key)?.span)),
+            _ => None,
+        };
+        let (from, to) = (real("from"), real("to"));
+        let log = form.get("scale").and_then(Form::word)? == "log";
+        let mut sound = true;
+        if let (Some((from, _)), Some((to, to_span))) = (from, to)
+            && from >= to
+        {
+            let message =
+                format!("the range of `{path}` is empty: `to` must be larger than `from` ({from})");
+            self.problems.add(to_span, message);
+            sound = false;
+        }
+        if let Some((from, from_span)) = from
+            && log
+            && from <= 0.0
+        {
+            let message = format!("a logarithmic range of `{path}` must begin above 0");
+            self.problems.add(from_span, message);
+            sound = false;
+        }
+        let What::Integer(steps) = form.get("steps")?.what else {
+            return None;
+        };
+        let range = Range {
+            from: from?.0,
+            to: to?.0,
+            steps,
+            log,
+        };
+        sound.then_some(Quantity::Range(range))
+    }
+}

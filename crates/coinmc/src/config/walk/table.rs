@@ -1,0 +1,229 @@
+//! Tables: their keys, what absent keys mean, and the rules between keys.
+
+use super::Walker;
+use super::names;
+use crate::config::form::{Form, What};
+use crate::config::nearest::nearest;
+use crate::config::quantity::Quantity;
+use crate::config::schema::{Absent, Condition, Fallback, Field, Kind, Rule, TableKind};
+use crate::config::source::Span;
+use crate::config::tree::Table;
+
+/// A table while it is checked: what each field holds, in the order of the schema.
+struct Slots<'a> {
+    fields: &'a [Field],
+    forms: Vec<Option<Form>>,
+    span: Span,
+    path: &'a str,
+    /// Fields whose name was probably mistyped; the unknown key has been reported.
+    mistyped: Vec<&'static str>,
+    /// Fields reported as missing.
+    missing: Vec<&'static str>,
+}
+
+impl Walker<'_> {
+    /// Checks a table. `span` is blamed for what is absent.
+    pub(super) fn table(
+        &mut self,
+        kind: &TableKind,
+        table: &Table,
+        span: Span,
+        path: &str,
+    ) -> Form {
+        let fields = &kind.fields;
+        let forms = vec![None; fields.len()];
+        let mut slots = Slots {
+            fields,
+            forms,
+            span,
+            path,
+            mistyped: vec![],
+            missing: vec![],
+        };
+        for entry in &table.entries {
+            let Some(index) = fields.iter().position(|field| field.name == entry.key) else {
+                self.unknown_key(entry, fields, path);
+                slots
+                    .mistyped
+                    .extend(nearest(&entry.key, fields.iter().map(|f| f.name)));
+                continue;
+            };
+            let path = join(path, fields[index].name);
+            slots.forms[index] = Some(self.value(&fields[index].kind, &entry.node, &path));
+        }
+        for (index, field) in fields.iter().enumerate() {
+            if slots.forms[index].is_none() {
+                match field.absent {
+                    Absent::Required => self.missing(&mut slots, index, ""),
+                    Absent::Is(fallback) => slots.fill(index, fallback),
+                    Absent::Omitted => {}
+                }
+            }
+        }
+        for rule in &kind.rules {
+            self.rule(*rule, &mut slots);
+        }
+        let present = fields.iter().zip(slots.forms);
+        let entries = present
+            .filter_map(|(field, form)| Some((field.name, form?)))
+            .collect();
+        Form::new(span, What::Table(entries))
+    }
+
+    fn missing(&mut self, slots: &mut Slots<'_>, index: usize, unless: &str) {
+        let field = &slots.fields[index];
+        if !slots.mistyped.contains(&field.name) {
+            let place = if slots.path.is_empty() {
+                String::new()
+            } else {
+                format!(" in `{}`", slots.path)
+            };
+            let message = format!("`{}` is missing{place}{unless}", field.name);
+            let help = match &field.kind {
+                Kind::Choice(words, tags) if words.is_empty() => {
+                    format!("{} One of {}.", field.doc, names(tags))
+                }
+                Kind::Table(_) if slots.path.is_empty() => {
+                    format!("add [{}]: {}", field.name, field.doc)
+                }
+                _ => field.doc.to_owned(),
+            };
+            self.problems.add_with_help(slots.span, message, help);
+            slots.missing.push(field.name);
+        }
+        slots.forms[index] = Some(Form::invalid(slots.span));
+    }
+
+    fn rule(&mut self, rule: Rule, slots: &mut Slots<'_>) {
+        match rule {
+            Rule::ExactlyOne(keys) => self.exactly_one(keys, slots),
+            Rule::GoesWith {
+                key,
+                other,
+                fallback,
+            } => {
+                let (Some(at), Some(with)) = (slots.index(key), slots.index(other)) else {
+                    return;
+                };
+                match (&slots.forms[at], &slots.forms[with]) {
+                    (Some(form), None) => {
+                        let message = format!("`{key}` goes with `{other}` only");
+                        self.problems.add(form.span, message);
+                    }
+                    (None, Some(_)) => slots.fill(at, fallback),
+                    _ => {}
+                }
+            }
+            Rule::Unless {
+                condition,
+                keys,
+                fallback,
+            } => {
+                let holds = slots.holds(condition);
+                for index in keys
+                    .iter()
+                    .filter_map(|key| slots.index(key))
+                    .collect::<Vec<_>>()
+                {
+                    match (&slots.forms[index], holds, fallback) {
+                        (None, Some(false), _) => {
+                            let unless = format!(" (required unless {})", condition.text());
+                            self.missing(slots, index, &unless);
+                        }
+                        (None, Some(true), Some(fallback)) => slots.fill(index, fallback),
+                        // an invalid value may have meant either: no further message
+                        (None, None, _) => slots.forms[index] = Some(Form::invalid(slots.span)),
+                        _ => {}
+                    }
+                }
+            }
+        }
+    }
+
+    fn exactly_one(&mut self, keys: &[&'static str], slots: &mut Slots<'_>) {
+        let all = keys
+            .iter()
+            .map(|key| format!("`{key}`"))
+            .collect::<Vec<_>>()
+            .join(", ");
+        let given: Vec<Span> = keys
+            .iter()
+            .filter_map(|key| Some(slots.get(key)?.span))
+            .collect();
+        for span in given.iter().skip(1) {
+            let message = format!("only one of {all} is allowed in `{}`", slots.path);
+            self.problems
+                .add_with_help(*span, message, "remove the others");
+        }
+        if given.is_empty() && !keys.iter().any(|key| slots.mistyped.contains(key)) {
+            let message = format!("one of {all} is missing in `{}`", slots.path);
+            self.problems.add(slots.span, message);
+        }
+    }
+}
+
+impl Slots<'_> {
+    fn index(&self, key: &str) -> Option<usize> {
+        self.fields.iter().position(|field| field.name == key)
+    }
+
+    fn get(&self, key: &str) -> Option<&Form> {
+        self.forms[self.index(key)?].as_ref()
+    }
+
+    fn fill(&mut self, index: usize, fallback: Fallback) {
+        self.forms[index] = Some(absent(&self.fields[index].kind, fallback, self.span));
+    }
+
+    /// Whether a condition holds; `None` if an invalid value leaves it open.
+    fn holds(&self, condition: Condition) -> Option<bool> {
+        let decided = |key: &str, holds: &dyn Fn(&Form) -> bool| match self.get(key) {
+            _ if self.missing.contains(&key) => Some(false),
+            Some(Form {
+                what: What::Invalid,
+                ..
+            }) => None,
+            Some(form) => Some(holds(form)),
+            None if self.mistyped.contains(&key) => None,
+            None => Some(false),
+        };
+        match condition {
+            // whatever preset was meant, one was
+            Condition::Given(key) => Some(self.get(key).is_some() || self.mistyped.contains(&key)),
+            Condition::Word(key, word) => decided(key, &|form| form.word() == Some(word)),
+            Condition::Tag(key, tag) => decided(key, &|form| form.tag() == Some(tag)),
+        }
+    }
+}
+
+/// What an absent key stands for.
+fn absent(kind: &Kind, fallback: Fallback, span: Span) -> Form {
+    let constant = |value| What::Number(Quantity::Constant(value), None);
+    let what = match (fallback, kind) {
+        (Fallback::Number(value), Kind::Real(_)) => What::Real(value),
+        (Fallback::Number(value), _) => constant(value),
+        (Fallback::Integer(value), _) => What::Integer(value),
+        (Fallback::Boolean(value), _) => What::Boolean(value),
+        (Fallback::Word(word), _) => What::Word(word),
+        (Fallback::Table, Kind::Table(table)) => What::Table(
+            table
+                .fields
+                .iter()
+                .filter_map(|field| match field.absent {
+                    Absent::Is(fallback) => Some((field.name, absent(&field.kind, fallback, span))),
+                    Absent::Required | Absent::Omitted => None,
+                })
+                .collect(),
+        ),
+        (Fallback::Table, _) => What::Invalid,
+    };
+    Form::new(span, what)
+}
+
+fn join(path: &str, key: &str) -> String {
+    if path.is_empty() {
+        key.to_owned()
+    } else {
+        format!("{path}.{key}")
+    }
+}

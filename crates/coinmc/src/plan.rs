@@ -1,0 +1,119 @@
+//! What a run will compute: every point with its scene, launches and engine, and when to stop.
+//!
+//! A plan is derived from a config and is all that running needs. Two plans with the same
+//! [`Plan::hash`] give the same results to the byte.
+
+mod explain;
+
+pub use explain::Explanation;
+
+use coinmc_analytic::Rule;
+use coinmc_core::{IntervalMethod, LaunchDistribution, Scene};
+use coinmc_flat::Settings as FlatSettings;
+use sha2::{Digest, Sha256};
+use std::fmt::Write;
+
+/// Most points of a plan.
+pub const MAX_POINTS: u64 = 1_000_000;
+
+/// Most tosses of a point.
+pub const MAX_TOSSES: u64 = 1_000_000_000_000_000;
+
+/// Version of what a resolved config means. It changes when the same text comes to mean other
+/// results.
+const PLAN_FORMAT: u32 = 1;
+
+/// Everything a run will do.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// Key of all random numbers.
+    pub seed: u64,
+    /// All points share their random numbers, so that differences between points are sharper
+    /// than the points.
+    pub paired: bool,
+    /// When a point has enough tosses.
+    pub stop: Stop,
+    /// Confidence of every interval, in (0, 1).
+    pub confidence: f64,
+    /// How intervals are computed when the number of tosses is fixed.
+    pub interval: IntervalMethod,
+    /// Names of the swept parameters, in the order in which they were swept (first varies
+    /// slowest). Each is a key of every point's `parameters`.
+    pub axes: Vec<String>,
+    /// The points, in order; a point's index is its place here.
+    pub points: Vec<Point>,
+    /// The config as understood: every default and preset spelled out, overrides applied. TOML
+    /// that parses to this same plan.
+    pub resolved_toml: String,
+    /// Remarks on the config that are no problems: what it gives in vain, what may surprise.
+    pub notes: Vec<String>,
+}
+
+impl Plan {
+    /// A name for the plan: SHA-256, in hex, of the resolved config and the version of its
+    /// format. Plans have the same hash exactly when they are equal.
+    pub fn hash(&self) -> String {
+        let mut hasher = Sha256::new();
+        hasher.update(format!("coinmc plan {PLAN_FORMAT}\n"));
+        hasher.update(&self.resolved_toml);
+        hasher
+            .finalize()
+            .iter()
+            .fold(String::new(), |mut hex, byte| {
+                write!(hex, "{byte:02x}").expect("writing to a string cannot fail");
+                hex
+            })
+    }
+
+    /// Tosses that the run will make at most, over all points.
+    pub fn tosses_planned(&self) -> u64 {
+        let tossed = self
+            .points
+            .iter()
+            .filter(|point| matches!(point.engine, EngineChoice::Flat(_)));
+        let each = match self.stop {
+            Stop::Tosses(tosses) => tosses,
+            Stop::HalfWidth { max_tosses, .. } => max_tosses,
+        };
+        // MAX_POINTS · MAX_TOSSES lies beyond u64
+        each.saturating_mul(tossed.count() as u64)
+    }
+}
+
+/// When a point has enough tosses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stop {
+    /// After this many.
+    Tosses(u64),
+    /// When every face's interval is no wider than ± `half_width`, looked at only at toss counts
+    /// fixed beforehand (doubling), with the confidence shared out over all looks.
+    HalfWidth {
+        /// Longest arm allowed.
+        half_width: f64,
+        /// Tosses at which the point stops short of its target.
+        max_tosses: u64,
+    },
+}
+
+/// One point of a sweep.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Point {
+    /// The parameters that results show: always `ratio`, `radius_m`, `restitution`, `friction`,
+    /// and every swept one, by the name of its column.
+    pub parameters: Vec<(String, f64)>,
+    /// Coin, surface, gravity.
+    pub scene: Scene,
+    /// How the coin is let go.
+    pub launches: LaunchDistribution,
+    /// Who follows the toss.
+    pub engine: EngineChoice,
+}
+
+/// An engine with its settings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum EngineChoice {
+    /// The flat toss.
+    Flat(FlatSettings),
+    /// A closed form: no toss is made, the probability is exact under the rule's assumptions.
+    Analytic(Rule),
+}

@@ -1,0 +1,315 @@
+//! Bad configs: every problem is found in one go, at its exact place, with words that help.
+
+use coinmc::config;
+
+/// A good config; each case replaces one piece of it.
+const GOOD: &str = "\
+seed = 1
+[coin]
+ratio = 1.2
+[surface]
+restitution = 0.5
+friction = 0.3
+[launch]
+preset = 'robot'
+[engine.flat]
+law = 'moreau'
+[stop]
+tosses = 1000
+";
+
+/// Replaced piece, its replacement, and every problem: line, column, a piece of message or help.
+type Case = (
+    &'static str,
+    &'static str,
+    &'static [(usize, usize, &'static str)],
+);
+
+#[rustfmt::skip]
+const NUMBERS: &[Case] = &[
+    ("1.2", "0", &[(3, 9, "`coin.ratio` must be from 1e-12 to 1e12, found `0`")]),
+    ("1.2", "-1.5", &[(3, 9, "found `-1.5`")]),
+    ("1.2", "1e13", &[(3, 9, "to 1e12, found `1e13`")]),
+    ("1.2", "nan", &[(3, 9, "must be finite, from 1e-12 to 1e12, found `nan`")]),
+    ("1.2", "-inf", &[(3, 9, "must be finite")]),
+    ("1.2", "1e999", &[(3, 9, "must be finite, from 1e-12 to 1e12, found `1e999`")]),
+    ("1.2", "99999999999999999999999999999999999999999999", &[(3, 9, "must be from 1e-12 to 1e12")]),
+    ("1.2", "'1.2'", &[(3, 9, "remove the quotes")]),
+    ("1.2", "true", &[(3, 9, "a number, a list of numbers or a range {from, to, steps}, found a boolean: `true`")]),
+    ("1.2", "1979-05-27", &[(3, 9, "found a date")]),
+    ("1.2", "1.2\nradius_m = 0", &[(4, 12, "`coin.radius_m` must be from 1e-9 to 1e6")]),
+    ("1.2", "1.2\nmass_kg = -0.0", &[(4, 11, "`coin.mass_kg` must be from 1e-12")]),
+    ("0.5", "1.01", &[(5, 15, "`surface.restitution` must be from 0 to 1, found `1.01`")]),
+    ("0.3", "-0.1", &[(6, 12, "`surface.friction` must be from 0 to 1e6")]),
+    ("[stop]", "[environment]\ngravity_m_s2 = 0\n[stop]", &[(12, 16, "`environment.gravity_m_s2` must be from 1e-6")]),
+    ("law = 'moreau'", "zeno = 0", &[(10, 8, "`engine.flat.zeno` must be above 0 and at most 1")]),
+    ("law = 'moreau'", "tolerance = 0.5", &[(10, 13, "must be from 1e-12 to 0.01")]),
+    ("law = 'moreau'", "max_impacts = 0", &[(10, 15, "a whole number from 1 to 4294967295, found `0`")]),
+    ("law = 'moreau'", "decision = { energy_fraction = 1.0 }", &[(10, 32, "must be above 0 and below 1, found `1.0`")]),
+    ("tosses = 1000", "tosses = 0", &[(12, 10, "a whole number from 1 to 1000000000000000, found `0`")]),
+    ("tosses = 1000", "tosses = 1e16", &[(12, 10, "found `1e16`")]),
+    ("tosses = 1000", "tosses = 10.5", &[(12, 10, "must be a whole number from 1 to 1000000000000000, found a number: `10.5`")]),
+    ("tosses = 1000", "half_width = 0.5", &[(12, 14, "must be at least 1e-7 and below 0.5")]),
+    ("tosses = 1000", "tosses = 1000\n[estimate]\nconfidence = 1", &[(14, 14, "must be at least 0.5 and below 1")]),
+    ("seed = 1", "seed = -1", &[(1, 8, "`seed` must be a whole number from 0 to 9223372036854775807, found `-1`")]),
+    ("seed = 1", "seed = 9223372036854775808", &[(1, 8, "found `9223372036854775808`")]),
+    ("seed = 1", "seed = nan", &[(1, 8, "a whole number")]),
+    ("seed = 1", "seed = [1, 2]", &[(1, 8, "found a list")]),
+    ("seed = 1", "paired = 1", &[(1, 10, "`paired` must be true or false, found an integer: `1`")]),
+];
+
+#[rustfmt::skip]
+const SWEEPS: &[Case] = &[
+    ("1.2", "[]", &[(3, 9, "`coin.ratio` is an empty list")]),
+    ("1.2", "[1, 'x', -1]", &[(3, 13, "must be a number, found text"), (3, 18, "found `-1`")]),
+    ("1.2", "[1, 2, 1.0]", &[(3, 16, "`coin.ratio` has the value `1.0` twice")]),
+    ("0.3", "[0.0, -0.0]", &[(6, 18, "has the value `-0.0` twice")]),
+    ("1.2", "[[1, 2], 3]", &[(3, 10, "must be a number, found a list")]),
+    ("1.2", "{ from = 1, to = 2 }", &[(3, 9, "`steps` is missing in `coin.ratio`")]),
+    ("1.2", "{ from = 2, to = 1, steps = 3 }", &[(3, 26, "the range of `coin.ratio` is empty: `to` must be larger than `from` (2)")]),
+    ("1.2", "{ from = 1, to = 1, steps = 2 }", &[(3, 26, "is empty")]),
+    ("1.2", "{ from = 0, to = nan, steps = 1 }", &[(3, 18, "found `0`"), (3, 26, "finite"), (3, 39, "from 2 to 1000000, found `1`")]),
+    ("1.2", "{ from = 1, to = 2, steps = 1_000_000_000_000 }", &[(3, 37, "a whole number from 2 to 1000000, found `1_000_000_000_000`")]),
+    ("0.3", "{ from = 0, to = 1, steps = 3, scale = 'log' }", &[(6, 21, "must begin above 0")]),
+    ("1.2", "{ from = 1, to = 2, steps = 3, scale = 'lin' }", &[(3, 48, "must be one of \"linear\", \"log\", found `lin`")]),
+    ("1.2", "{ from = 1, too = 2, steps = 3 }", &[(3, 21, "did you mean `to`?")]),
+    ("1.2", "{ from = 1, to = 1.000000000000001, steps = 9 }", &[(3, 9, "the 9 values of `ratio` lie closer together")]),
+    ("ratio = 1.2", "ratio = { from = 1, to = 2, steps = 1000000 }\nradius_m = { from = 1, to = 2, steps = 1000000 }", &[(4, 12, "the sweep has 1000000000000 points (ratio 1000000 × radius_m 1000000), at most 1000000 are allowed")]),
+    ("0.3", "[0.1, 0.2]\nlanding = 'bouncing'\n[sweep]\nmode = 'side-by-side'", &[(9, 8, "`sweep.mode` must be one of \"grid\", \"zip\"")]),
+    ("seed = 1", "sweep.mode = 'zip'\nenvironment.gravity_m_s2 = [1, 2, 3]\ncoin.radius_m = [1, 2]", &[(2, 28, "zipped axes must be equally long: `gravity_m_s2` has 3 values, `radius_m` has 2"), (4, 2, "`coin` is given twice")]),
+    ("[launch]", "[sweep]\nmode = 'zip'\n[environment]\ngravity_m_s2 = { from = 1, to = 2, steps = 9 }\n[launch]\nheight_m = [1, 2]", &[(12, 12, "`launch.height_m` has 2 values, `gravity_m_s2` has 9")]),
+];
+
+#[rustfmt::skip]
+const LAUNCHES: &[Case] = &[
+    ("preset = 'robot'", "preset = 'robto'", &[(8, 10, "did you mean \"robot\"?")]),
+    ("preset = 'robot'", "preset = 'clean'", &[(8, 10, "this one's orientation leaves it")]),
+    ("preset = 'robot'", "preset = 'table1'", &[(8, 10, "the presets robot and clean-flat are flat")]),
+    ("preset = 'robot'", "preset = 'robot'\nspin = { precessing = { rate_rad_s = 1, psi_deg = 90 } }", &[(9, 8, "this one's spin leaves it")]),
+    ("preset = 'robot'", "preset = 'robot'\nvelocity_m_s = [0, 0.1, 0]", &[(9, 16, "this one's velocity leaves it")]),
+    ("preset = 'robot'", "preset = 'robot'\nvelocity_m_s = [0, [0, 1], 0]", &[(9, 16, "the number 0")]),
+    ("preset = 'robot'", "preset = 'robot'\nvelocity_m_s = [0, 0]", &[(9, 16, "must be a list of three, x, y and z, found 2")]),
+    ("preset = 'robot'", "preset = 'robot'\nvelocity_m_s = 3", &[(9, 16, "must be a list of three, x, y and z, found an integer")]),
+    ("preset = 'robot'", "preset = 'robot'\nvelocity_m_s = [0, 0, 'up']", &[(9, 23, "`launch.velocity_m_s.z` must be")]),
+    ("preset = 'robot'", "height_m = 1", &[(7, 1, "`orientation` is missing in `launch` (required unless `preset` is given)"), (7, 1, "`spin` is missing")]),
+    ("preset = 'robot'", "preset = 'robot'\nheight_m = -1", &[(9, 12, "`launch.height_m` must be from 0 to 1e6")]),
+    ("preset = 'robot'", "preset = 'robot'\nheight_m = { uniform = { from = 2, to = 1 } }", &[(9, 41, "a uniform distribution from 2 to 1 is empty")]),
+    ("preset = 'robot'", "preset = 'robot'\nheight_m = { uniform = { from = 1, to = [0.5, 1, 2] } }", &[(9, 41, "from 1 to 0.5 is empty")]),
+    ("preset = 'robot'", "preset = 'robot'\nheight_m = { normal = { mean = 1, sd = -1 } }", &[(9, 40, "`launch.height_m.normal.sd` must be from 0 to 1e6")]),
+    ("preset = 'robot'", "preset = 'robot'\nheight_m = { normal = { mean = 1 } }", &[(9, 23, "`sd` is missing in `launch.height_m.normal`")]),
+    ("preset = 'robot'", "preset = 'robot'\nheight_m = { normla = { mean = 1, sd = 1 } }", &[(9, 14, "did you mean `normal`?")]),
+    ("preset = 'robot'", "preset = 'robot'\nheight_m = {}", &[(9, 12, "`launch.height_m` is empty: it needs one of `uniform`, `normal`")]),
+    ("preset = 'robot'", "preset = 'robot'\nheight_m = { uniform = { from = 0, to = 1 }, normal = { mean = 0, sd = 1 } }", &[(9, 46, "is already `uniform`: exactly one of `uniform`, `normal`")]),
+    ("preset = 'robot'", "preset = 'robot'\norientation = 'isotropc'", &[(9, 15, "did you mean \"isotropic\"?")]),
+    ("preset = 'robot'", "preset = 'robot'\norientation = 90", &[(9, 15, "must be one of \"isotropic\", \"euler-angles\", {tilt_deg = …}, {axis = …}, found an integer: `90`")]),
+    ("preset = 'robot'", "preset = 'robot'\norientation = { axis = [0, 0, 0] }", &[(9, 24, "an axis of length 0 has no direction")]),
+    ("preset = 'robot'", "preset = 'robot'\nspin = { about = { axis = [0, 1, 0] } }", &[(9, 18, "`rate_rad_s` is missing in `launch.spin.about`")]),
+    ("preset = 'robot'", "preset = 'robot'\nspin = { abuot = 1 }", &[(9, 10, "did you mean `about`?")]),
+    ("preset = 'robot'", "preset = 'robot'\nspin = { about = { axis = [0, 1, 0], rate_rad_s = 1e10 } }", &[(9, 51, "from -1e9 to 1e9")]),
+];
+
+#[rustfmt::skip]
+const TABLES: &[Case] = &[
+    ("seed = 1", "sede = 1", &[(1, 1, "did you mean `seed`?")]),
+    ("seed = 1", "friction = 0.3", &[(1, 1, "`friction` belongs in [surface]")]),
+    ("seed = 1", "'a\\nb' = 1\n'' = 2", &[(1, 1, "unknown key `a\\\\nb`"), (2, 1, "unknown key ``")]),
+    ("ratio = 1.2", "ratoi = 1.2", &[(3, 1, "did you mean `ratio`?")]),
+    ("ratio = 1.2", "ratio = 1.2\nthickness = 3", &[(4, 1, "allowed: `ratio`, `radius_m`, `mass_kg`")]),
+    ("[coin]\nratio = 1.2\n", "", &[(10, 14, "`coin` is missing")]),
+    ("ratio = 1.2\n", "", &[(2, 1, "`ratio` is missing in `coin`")]),
+    ("seed = 1\n[coin]\nratio = 1.2", "coin = 3", &[(1, 8, "`coin` must be a table, found an integer: `3`")]),
+    ("[coin]", "[[coin]]", &[(2, 1, "`coin` must be a table, found a list")]),
+    ("[surface]\nrestitution = 0.5\nfriction = 0.3\n", "", &[(9, 14, "`surface` is missing (required unless the engine is analytic)")]),
+    ("restitution = 0.5\n", "", &[(4, 1, "`restitution` is missing in `surface` (required unless landing = \"adhesive\")")]),
+    ("friction = 0.3", "friction = 0.3\nlanding = 'sticky'", &[(7, 11, "must be one of \"bouncing\", \"adhesive\", found `sticky`")]),
+    ("[launch]\npreset = 'robot'\n", "", &[(10, 14, "`launch` is missing")]),
+    ("[stop]\ntosses = 1000\n", "", &[(10, 15, "`stop` is missing")]),
+    ("tosses = 1000\n", "", &[(11, 1, "one of `tosses`, `half_width` is missing in `stop`")]),
+    ("tosses = 1000", "tosses = 1000\nhalf_width = 0.01", &[(13, 14, "only one of `tosses`, `half_width` is allowed")]),
+    ("tosses = 1000", "tosses = 1000\nmax_tosses = 2000", &[(13, 14, "`max_tosses` goes with `half_width` only")]),
+    ("[engine.flat]\nlaw = 'moreau'\n", "", &[(10, 14, "One of `flat`, `analytic`.")]),
+    ("[engine.flat]\nlaw = 'moreau'", "[engine]", &[(9, 1, "`engine` is empty: it needs one of `flat`, `analytic`")]),
+    ("[engine.flat]", "[engine.falt]", &[(9, 9, "did you mean `flat`?")]),
+    ("[engine.flat]", "[engine.analytic]\nrule = 'arc'\n[engine.flat]", &[(11, 9, "`engine` is already `analytic`: exactly one of `flat`, `analytic`")]),
+    ("[engine.flat]\nlaw = 'moreau'", "[engine.analytic]\nrule = 'arcs'", &[(10, 8, "did you mean \"arc\"?")]),
+    ("[engine.flat]\nlaw = 'moreau'", "[engine.analytic]", &[(9, 1, "`rule` is missing in `engine.analytic`")]),
+    ("[engine.flat]\nlaw = 'moreau'", "[engine]\nflat = 1", &[(10, 8, "`engine.flat` must be a table")]),
+    ("'moreau'", "'moro'", &[(10, 7, "must be one of \"moreau\", \"chatterjee-ruina\", found `moro`")]),
+    ("law = 'moreau'", "decision = 'maybe'", &[(10, 12, "must be one of \"certain\", {energy_fraction = …}, found `maybe`")]),
+];
+
+#[rustfmt::skip]
+const MOMENTS: &[Case] = &[
+    ("1.2", "1.2\naxial_moment_kg_m2 = 1", &[(4, 22, "axial moment 1e0 kg m² is impossible")]),
+    ("1.2", "1.2\ntransverse_moment_kg_m2 = [3e-7, 1, 2]", &[(4, 27, "transverse moment 1e0 kg m² is impossible")]),
+    ("1.2", "[1.2, 1e-3]\naxial_moment_kg_m2 = 1e-9", &[(4, 22, "transverse moment")]),
+];
+
+#[rustfmt::skip]
+const SYNTAX: &[Case] = &[
+    ("1.2", "", &[(3, 9, "this is no TOML")]),
+    ("1.2", "one", &[(3, 9, "this is no TOML: string values must be quoted")]),
+    ("1.2", "[1, 2", &[(4, 1, "this is no TOML")]),
+    ("[coin]", "[coin", &[(2, 6, "this is no TOML")]),
+    ("seed = 1", "seed = 1\nseed = 2\npaired = 3", &[(2, 1, "`seed` is given twice"), (3, 10, "true or false")]),
+    ("seed = 1", "seed == 1\nsede = 1", &[(1, 7, "this is no TOML")]),
+    ("seed = 1", "seed = \"\u{1}\"", &[(1, 9, "this is no TOML")]),
+];
+
+fn check((from, to, expected): &Case) -> Result<(), String> {
+    assert_eq!(
+        GOOD.matches(from).count(),
+        1,
+        "a case replaces one piece: {from}"
+    );
+    let text = GOOD.replacen(from, to, 1);
+    let Err(diagnostics) = config::parse("bad.toml", &text, &[]) else {
+        return Err(format!("accepted:\n{text}"));
+    };
+    let found: Vec<_> = diagnostics
+        .problems()
+        .iter()
+        .map(|p| {
+            (
+                p.line,
+                p.column,
+                format!("{} {}", p.message, p.help.as_deref().unwrap_or("")),
+            )
+        })
+        .collect();
+    let same = found.len() == expected.len()
+        && found
+            .iter()
+            .zip(*expected)
+            .all(|((line, column, message), (l, c, fragment))| {
+                (line, column) == (l, c) && message.contains(fragment)
+            });
+    // rendering quotes the same places
+    let rendered = diagnostics.render(false);
+    let quoted = found
+        .iter()
+        .all(|(l, c, _)| rendered.contains(&format!("bad.toml:{l}:{c}\n")));
+    if same && quoted {
+        Ok(())
+    } else {
+        Err(format!(
+            "{to:?}\n  expected {expected:?}\n  found    {found:?}\n{rendered}"
+        ))
+    }
+}
+
+fn check_all(cases: &[Case]) {
+    let wrong: Vec<String> = cases.iter().filter_map(|case| check(case).err()).collect();
+    assert!(
+        wrong.is_empty(),
+        "{} of {}:\n{}",
+        wrong.len(),
+        cases.len(),
+        wrong.join("\n\n")
+    );
+}
+
+#[test]
+fn the_good_config_is_good() {
+    config::parse("good.toml", GOOD, &[]).unwrap();
+}
+
+#[test]
+fn numbers_out_of_range_or_of_the_wrong_type() {
+    check_all(NUMBERS);
+}
+
+#[test]
+fn sweeps_that_make_no_sense() {
+    check_all(SWEEPS);
+}
+
+#[test]
+fn launches_that_make_no_sense() {
+    check_all(LAUNCHES);
+}
+
+#[test]
+fn tables_and_keys_that_are_missing_unknown_or_too_many() {
+    check_all(TABLES);
+}
+
+#[test]
+fn impossible_moments_of_inertia() {
+    check_all(MOMENTS);
+}
+
+#[test]
+fn text_that_is_no_toml() {
+    check_all(SYNTAX);
+}
+
+#[test]
+fn all_problems_come_at_once_sorted_by_place() {
+    let text = "\
+sede = 1
+[coin]
+ratio = 0
+radius = 1
+[surface]
+restitution = 1.5
+[launch]
+preset = 'robt'
+[engine.flat]
+law = 'newton'
+zeno = 7
+[stop]
+tosses = 1
+half_width = 1
+";
+    let diagnostics = config::parse("bad.toml", text, &[]).unwrap_err();
+    let places: Vec<_> = diagnostics
+        .problems()
+        .iter()
+        .map(|p| (p.line, p.column))
+        .collect();
+    assert_eq!(
+        places,
+        [
+            (1, 1),
+            (3, 9),
+            (4, 1),
+            (5, 1),
+            (6, 15),
+            (8, 10),
+            (10, 7),
+            (11, 8),
+            (14, 14),
+            (14, 14)
+        ]
+    );
+}
+
+#[test]
+fn an_empty_config_names_all_that_is_needed() {
+    let diagnostics = config::parse("empty.toml", "", &[]).unwrap_err();
+    let messages: Vec<_> = diagnostics
+        .problems()
+        .iter()
+        .map(|p| p.message.as_str())
+        .collect();
+    assert_eq!(messages.len(), 5, "{messages:?}");
+    for (message, key) in messages
+        .iter()
+        .zip(["coin", "engine", "surface", "launch", "stop"])
+    {
+        assert!(
+            message.starts_with(&format!("`{key}` is missing")),
+            "{message}"
+        );
+    }
+}
+
+#[test]
+fn thousands_of_problems_are_cut_short() {
+    let list = vec!["-1"; 50_000].join(", ");
+    let text = GOOD.replace("1.2", &format!("[{list}]"));
+    let diagnostics = config::parse("bad.toml", &text, &[]).unwrap_err();
+    assert_eq!(diagnostics.problems().len(), 100);
+    assert!(diagnostics.render(false).ends_with("and 49900 more"));
+}

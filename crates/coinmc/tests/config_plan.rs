@@ -1,0 +1,334 @@
+//! Good configs: what they come to mean.
+
+use coinmc::config::{self, Override};
+use coinmc::plan::{EngineChoice, Plan, Stop};
+use coinmc_core::{IntervalMethod, Landing, Marginal, Orientation, Preset, Spin};
+use coinmc_flat::{Decision, Settings};
+use std::path::Path;
+
+const SMALL: &str = "
+[coin]
+ratio = 1.2
+[surface]
+restitution = 0.5
+friction = 0.3
+[launch]
+preset = 'robot'
+[engine.flat]
+[stop]
+tosses = 1000
+";
+
+fn parse(text: &str, sets: &[&str]) -> Plan {
+    let overrides: Vec<Override> = sets.iter().map(|set| set.parse().unwrap()).collect();
+    config::parse("test.toml", text, &overrides).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+fn column(plan: &Plan, name: &str) -> Vec<f64> {
+    let value = |(key, value): &(String, f64)| (key == name).then_some(*value);
+    plan.points
+        .iter()
+        .map(|point| point.parameters.iter().find_map(value).unwrap())
+        .collect()
+}
+
+#[test]
+fn defaults_are_those_of_the_crates() {
+    let plan = parse(SMALL, &[]);
+    assert_eq!(
+        (plan.seed, plan.paired, plan.stop),
+        (1, false, Stop::Tosses(1000))
+    );
+    assert_eq!(
+        (plan.confidence, plan.interval),
+        (0.95, IntervalMethod::Wilson)
+    );
+    let [point] = &plan.points[..] else {
+        panic!("one point")
+    };
+    assert_eq!(point.engine, EngineChoice::Flat(Settings::default()));
+    assert_eq!(point.launches, Preset::Robot.distribution());
+    assert_eq!(point.scene.gravity_m_s2(), 9.81);
+    assert_eq!(
+        point.scene.coin,
+        coinmc_core::Coin::cylinder(1.2, 0.01).unwrap()
+    );
+    assert_eq!(point.scene.surface.landing(), Landing::Bouncing);
+    let names: Vec<_> = point
+        .parameters
+        .iter()
+        .map(|(name, _)| name.as_str())
+        .collect();
+    assert_eq!(names, ["ratio", "radius_m", "restitution", "friction"]);
+    assert!(plan.axes.is_empty() && plan.notes.is_empty());
+    assert_eq!(plan.tosses_planned(), 1000);
+}
+
+#[test]
+fn the_examples_are_good_and_stay_what_they_are() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    for (name, points, tosses) in [
+        ("flat-fair", 63, 12_600_000),
+        ("closed-forms", 41, 0),
+        ("precise", 2, 40_000_000),
+        ("own-launch", 3, 150_000),
+    ] {
+        let plan = config::load(&folder.join(name).with_extension("toml"), &[])
+            .unwrap_or_else(|problems| panic!("{problems}"));
+        assert_eq!(
+            (plan.points.len(), plan.tosses_planned()),
+            (points, tosses),
+            "{name}"
+        );
+        assert!(plan.notes.is_empty(), "{name}: {:?}", plan.notes);
+        assert_eq!(parse(&plan.resolved_toml, &[]), plan, "{name}");
+    }
+}
+
+#[test]
+fn a_grid_varies_its_first_axis_slowest_and_ignores_the_order_of_keys() {
+    let plan = parse(
+        SMALL,
+        &["surface.restitution=[0.7, 0.3]", "coin.ratio=[1, 2, 3]"],
+    );
+    assert_eq!(plan.axes, ["ratio", "restitution"]);
+    assert_eq!(column(&plan, "ratio"), [1.0, 1.0, 2.0, 2.0, 3.0, 3.0]);
+    assert_eq!(column(&plan, "restitution"), [0.7, 0.3, 0.7, 0.3, 0.7, 0.3]);
+    let shuffled = "# other order, other spelling\n\
+        engine = { flat = {} }\n\
+        stop.tosses = 1e3\n\
+        launch.preset = \"robot\"\n\
+        surface.friction = 3e-1\n\
+        surface.restitution = [0.7, 0.3]\n\
+        coin.ratio = { steps = 3, to = 3, from = 1 }\n";
+    let other = parse(shuffled, &[]);
+    assert_eq!(other, plan);
+    assert_eq!(other.hash(), plan.hash());
+}
+
+#[test]
+fn a_zip_goes_side_by_side() {
+    let sets = [
+        "surface.restitution=[0.7, 0.3]",
+        "coin.ratio=[1, 2]",
+        "sweep.mode=zip",
+    ];
+    let plan = parse(SMALL, &sets);
+    assert_eq!(column(&plan, "ratio"), [1.0, 2.0]);
+    assert_eq!(column(&plan, "restitution"), [0.7, 0.3]);
+    assert_ne!(plan.hash(), parse(SMALL, &sets[..2]).hash());
+}
+
+#[test]
+fn a_zip_of_fewer_than_two_axes_is_a_grid() {
+    for set in ["coin.ratio=1.3", "coin.ratio=[1, 2]"] {
+        assert_eq!(parse(SMALL, &[set, "sweep.mode=zip"]), parse(SMALL, &[set]));
+    }
+}
+
+#[test]
+fn any_number_can_be_swept_and_has_a_column() {
+    for (set, name, values) in [
+        ("coin.radius_m=[0.01, 0.02]", "radius_m", [0.01, 0.02]),
+        ("coin.mass_kg=[0.01, 0.02]", "mass_kg", [0.01, 0.02]),
+        (
+            "coin.axial_moment_kg_m2=[5e-7, 6e-7]",
+            "axial_moment_kg_m2",
+            [5e-7, 6e-7],
+        ),
+        (
+            "environment.gravity_m_s2=[1.62, 9.81]",
+            "gravity_m_s2",
+            [1.62, 9.81],
+        ),
+        ("launch.height_m=[1, 2]", "launch.height_m", [1.0, 2.0]),
+        (
+            "launch.velocity_m_s=[0, 0, [1, 2]]",
+            "launch.velocity_m_s.z",
+            [1.0, 2.0],
+        ),
+        (
+            "launch.orientation.tilt_deg.normal={mean=[0, 90], sd=1}",
+            "launch.orientation.tilt_deg.normal.mean",
+            [0.0, 90.0],
+        ),
+        (
+            "launch.spin={about={axis=[0, 1, 0], rate_rad_s={uniform={from=0, to=[1, 2]}}}}",
+            "launch.spin.about.rate_rad_s.uniform.to",
+            [1.0, 2.0],
+        ),
+        (
+            "launch.spin.components_rad_s=[0, [5, 6], 0]",
+            "launch.spin.components_rad_s.y",
+            [5.0, 6.0],
+        ),
+        (
+            "engine.flat.zeno=[0.1, 0.01]",
+            "engine.flat.zeno",
+            [0.1, 0.01],
+        ),
+        (
+            "engine.flat.decision.energy_fraction=[0.1, 0.01]",
+            "engine.flat.decision.energy_fraction",
+            [0.1, 0.01],
+        ),
+    ] {
+        let plan = parse(SMALL, &[set]);
+        assert_eq!(plan.axes, [name], "{set}");
+        assert_eq!(column(&plan, name), values, "{set}");
+        assert_ne!(plan.points[0], plan.points[1], "{set}");
+        assert_eq!(parse(&plan.resolved_toml, &[]), plan, "{set}");
+    }
+}
+
+#[test]
+fn a_launch_can_be_spelled_out() {
+    let text = SMALL.replace(
+        "preset = 'robot'",
+        "height_m = { uniform = { from = 1, to = 2 } }
+         orientation = { axis = [3, 0, 4] }
+         spin = { about = { axis = [0, -2, 0], rate_rad_s = 10 } }",
+    );
+    let launches = parse(&text, &[]).points[0].launches;
+    assert_eq!(launches.height_m, Marginal::Uniform { from: 1.0, to: 2.0 });
+    assert_eq!(launches.velocity_m_s, [Marginal::Constant(0.0); 3]);
+    let Orientation::Fixed(axis) = launches.orientation else {
+        panic!("fixed")
+    };
+    assert!((axis.x - 0.6).abs() < 1e-15 && (axis.z - 0.8).abs() < 1e-15 && axis.y == 0.0);
+    let Spin::About { axis, rate_rad_s } = launches.spin else {
+        panic!("about")
+    };
+    assert_eq!((axis.y, rate_rad_s), (-1.0, Marginal::Constant(10.0)));
+}
+
+#[test]
+fn angles_are_degrees_in_the_config_and_radians_in_the_plan() {
+    let set = "launch.orientation={tilt_deg={normal={mean=90, sd=180}}}";
+    let launches = parse(SMALL, &[set]).points[0].launches;
+    let (mean, sd) = (std::f64::consts::FRAC_PI_2, std::f64::consts::PI);
+    assert_eq!(
+        launches.orientation,
+        Orientation::Tilt(Marginal::Normal { mean, sd })
+    );
+}
+
+#[test]
+fn a_closed_form_needs_a_coin_only() {
+    let plan = parse("coin.ratio = [1, 2]\nengine.analytic.rule = 'zone'", &[]);
+    assert_eq!(plan.stop, Stop::Tosses(0));
+    assert_eq!(plan.tosses_planned(), 0);
+    assert!(plan.notes.is_empty());
+    let same = SMALL.replace("[engine.flat]", "[engine.analytic]\nrule = 'zone'");
+    let plan = parse(&same, &["surface.friction=[0.1, 0.2]"]);
+    assert_eq!(
+        (plan.points.len(), plan.tosses_planned(), plan.stop),
+        (2, 0, Stop::Tosses(0))
+    );
+    assert_eq!(plan.notes.len(), 3, "{:?}", plan.notes);
+    assert_eq!(parse(&plan.resolved_toml, &[]), plan);
+}
+
+#[test]
+fn an_adhesive_landing_needs_no_coefficients() {
+    let text = SMALL.replace("restitution = 0.5\nfriction = 0.3", "landing = 'adhesive'");
+    let plan = parse(&text, &[]);
+    assert_eq!(plan.points[0].scene.surface.landing(), Landing::Adhesive);
+    assert!(plan.notes.is_empty());
+    let plan = parse(SMALL, &["surface.landing=adhesive"]);
+    assert_eq!(plan.notes.len(), 1);
+}
+
+#[test]
+fn stop_and_estimate_are_understood() {
+    let text = SMALL.replace("tosses = 1000", "half_width = 0.01");
+    let sets = [
+        "estimate.confidence=0.99",
+        "estimate.interval=clopper-pearson",
+    ];
+    let plan = parse(&text, &sets);
+    assert_eq!(
+        plan.stop,
+        Stop::HalfWidth {
+            half_width: 0.01,
+            max_tosses: 100_000_000
+        }
+    );
+    assert_eq!(
+        (plan.confidence, plan.interval),
+        (0.99, IntervalMethod::ClopperPearson)
+    );
+}
+
+#[test]
+fn overrides_replace_add_and_the_last_one_wins() {
+    let plan = parse(
+        SMALL,
+        &["seed=5", "seed = 6 ", "coin.radius_m=0.02", "paired=true"],
+    );
+    assert_eq!((plan.seed, plan.paired), (6, true));
+    assert_eq!(plan.points[0].scene.coin.radius_m(), 0.02);
+    let whole = parse(SMALL, &["launch={preset='clean-flat', height_m=3}"]);
+    assert_eq!(whole.points[0].launches.height_m, Marginal::Constant(3.0));
+    let engine = parse(SMALL, &["engine={analytic={rule='arc'}}"]);
+    assert!(matches!(engine.points[0].engine, EngineChoice::Analytic(_)));
+}
+
+#[test]
+fn the_energy_rule_is_a_setting() {
+    let plan = parse(SMALL, &["engine.flat.decision={energy_fraction=0.01}"]);
+    let EngineChoice::Flat(settings) = plan.points[0].engine else {
+        panic!("flat")
+    };
+    assert_eq!(settings.decision, Decision::EnergyFraction(0.01));
+}
+
+#[test]
+fn plans_that_differ_have_other_hashes() {
+    let base = parse(SMALL, &[]);
+    assert_eq!(base.hash().len(), 64);
+    for set in [
+        "seed=2",
+        "paired=true",
+        "coin.ratio=1.2000000000000002",
+        "coin.mass_kg=0.011",
+        "surface.friction=0",
+        "launch.height_m=1",
+        "engine.flat.law=chatterjee-ruina",
+        "engine.flat.max_impacts=10",
+        "stop.tosses=1001",
+        "estimate.confidence=0.9",
+    ] {
+        let other = parse(SMALL, &[set]);
+        assert!(other != base && other.hash() != base.hash(), "{set}");
+    }
+}
+
+#[test]
+fn treatments_are_explained_together() {
+    let sets = [
+        "coin.ratio=[1, 2, 3]",
+        "surface.friction=[0, 0.3]",
+        "surface.restitution=[0, 0.5]",
+    ];
+    let plan = parse(SMALL, &sets);
+    let explanations = plan.explain();
+    assert_eq!(
+        explanations.iter().map(|e| e.points).collect::<Vec<_>>(),
+        [3, 3, 3, 3]
+    );
+    let mentions = |i: usize, word: &str| {
+        explanations[i]
+            .skipped
+            .iter()
+            .any(|reason| reason.contains(word))
+    };
+    assert!(mentions(0, "restitution is 0") && mentions(0, "friction is 0"));
+    assert!(mentions(1, "restitution is 0") && !mentions(1, "friction is 0"));
+    assert!(!mentions(3, "restitution is 0") && !mentions(3, "friction is 0"));
+    let adhesive = parse(
+        SMALL,
+        &["surface.landing=adhesive", sets[0], sets[1], sets[2]],
+    );
+    assert_eq!(adhesive.explain().len(), 1);
+}

@@ -1,0 +1,130 @@
+//! What a person sees: rendered messages against expected files. `UPDATE_EXPECTED=1` writes them.
+
+use coinmc::config::{self, Override};
+use std::path::Path;
+
+fn expect(name: &str, text: &str, overrides: &[&str]) {
+    let overrides: Vec<Override> = overrides.iter().map(|o| o.parse().unwrap()).collect();
+    let rendered = config::parse("toss.toml", text, &overrides)
+        .unwrap_err()
+        .to_string()
+        + "\n";
+    let path =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/config_expected/{name}.txt"));
+    if std::env::var_os("UPDATE_EXPECTED").is_some() {
+        std::fs::write(&path, &rendered).unwrap();
+    }
+    let expected = std::fs::read_to_string(&path).unwrap_or_default();
+    assert_eq!(rendered, expected, "{name}");
+}
+
+const REST: &str = "
+[surface]
+restitution = 0.5
+friction = 0.3
+[launch]
+preset = 'robot'
+[engine.flat]
+[stop]
+tosses = 1000
+";
+
+fn with(coin: &str) -> String {
+    format!("[coin]\n{coin}{REST}")
+}
+
+#[test]
+fn a_mistyped_key() {
+    expect("mistyped_key", &with("ratoi = 1.2"), &[]);
+}
+
+#[test]
+fn a_number_out_of_range() {
+    expect(
+        "out_of_range",
+        &with("ratio = -1.2   # µ, the line has more in it"),
+        &[],
+    );
+}
+
+#[test]
+fn a_wrong_type() {
+    expect("wrong_type", &with("ratio = 'thick'"), &[]);
+}
+
+#[test]
+fn a_sweep_too_large() {
+    let coin = "ratio = { from = 1, to = 2, steps = 1_000_000 }\nradius_m = [0.01, 0.02]";
+    expect("sweep_too_large", &with(coin), &[]);
+}
+
+#[test]
+fn an_empty_document() {
+    expect("empty", "", &[]);
+}
+
+#[test]
+fn a_syntax_error() {
+    expect("syntax", &with("ratio = [1, 2"), &[]);
+}
+
+#[test]
+fn a_launch_out_of_the_plane() {
+    expect(
+        "not_planar",
+        &with("ratio = 1").replace("robot", "hand"),
+        &[],
+    );
+}
+
+#[test]
+fn an_impossible_moment() {
+    expect(
+        "moment",
+        &with("ratio = [1, 2]\naxial_moment_kg_m2 = 0.1"),
+        &[],
+    );
+}
+
+#[test]
+fn two_engines() {
+    let text = with("ratio = 1") + "[engine.analytic]\nrule = 'zoen'\n";
+    expect("two_engines", &text, &[]);
+}
+
+#[test]
+fn bad_overrides() {
+    let sets = [
+        "surface.friction=abc",
+        "coin.ratio=[1,",
+        "stop.toses=5",
+        "launch.preset=clean",
+    ];
+    expect("overrides", &with("ratio = 1"), &sets);
+}
+
+#[test]
+fn control_characters_do_not_reach_the_terminal() {
+    let text = with("ratio = 1") + "\"\\u001b[31mred\" = '\u{202e}'\n";
+    let rendered = config::parse("a\u{1b}[0m.toml", &text, &[])
+        .unwrap_err()
+        .render(false);
+    assert!(
+        !rendered.contains('\u{1b}') && !rendered.contains('\u{202e}'),
+        "{rendered:?}"
+    );
+}
+
+#[test]
+fn colour_is_only_added() {
+    let diagnostics = config::parse("toss.toml", "", &[]).unwrap_err();
+    let coloured = diagnostics.render(true);
+    assert!(coloured.contains("\u{1b}["));
+    let mut plain = String::new();
+    let mut pieces = coloured.split("\u{1b}[");
+    plain.push_str(pieces.next().unwrap());
+    for piece in pieces {
+        plain.push_str(piece.split_once('m').unwrap().1);
+    }
+    assert_eq!(plain, diagnostics.render(false));
+}
