@@ -1,0 +1,82 @@
+//! The results table as CSV (RFC 4180, but lines end in a single line feed).
+
+use super::Results;
+use super::schema::{Cell, columns_of};
+use std::fmt::Write as _;
+use std::io::{self, Write};
+
+/// Writes the table, with a line of column names first. Numbers are the shortest decimals that
+/// read back to the same bits; a missing value is an empty cell.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_csv(results: &Results, out: &mut dyn Write) -> io::Result<()> {
+    let columns = columns_of(results);
+    let mut line = String::new();
+    for column in &columns {
+        push(&mut line, Cell::Text(&column.name));
+    }
+    end(&mut line, out)?;
+    for row in &results.rows {
+        for column in &columns {
+            push(&mut line, column.cell(row));
+        }
+        end(&mut line, out)?;
+    }
+    Ok(())
+}
+
+fn push(line: &mut String, cell: Cell<'_>) {
+    match cell {
+        Cell::Count(count) => line.push_str(&count.to_string()),
+        // Debug switches to exponents where Display would write hundreds of zeros
+        Cell::Number(number) => write!(line, "{number:?}").expect("a String takes all text"),
+        Cell::Flag(flag) => line.push_str(if flag { "true" } else { "false" }),
+        Cell::Text(text) if text.contains([',', '"', '\n', '\r']) => {
+            line.push('"');
+            line.push_str(&text.replace('"', "\"\""));
+            line.push('"');
+        }
+        Cell::Text(text) => line.push_str(text),
+        Cell::Missing => {}
+    }
+    line.push(',');
+}
+
+fn end(line: &mut String, out: &mut dyn Write) -> io::Result<()> {
+    line.pop();
+    line.push('\n');
+    out.write_all(line.as_bytes())?;
+    line.clear();
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_are_quoted_where_they_must_be() {
+        let mut line = String::new();
+        let cells = [
+            Cell::Text("plain"),
+            Cell::Text("a \"b\", c"),
+            Cell::Number(1e-300),
+            Cell::Number(0.1),
+            Cell::Count(u64::MAX),
+            Cell::Flag(true),
+            Cell::Missing,
+            Cell::Count(0),
+        ];
+        for cell in cells {
+            push(&mut line, cell);
+        }
+        let mut out = Vec::new();
+        end(&mut line, &mut out).unwrap();
+        let text = String::from_utf8(out).unwrap();
+        assert_eq!(
+            text,
+            "plain,\"a \"\"b\"\", c\",1e-300,0.1,18446744073709551615,true,,0\n"
+        );
+    }
+}

@@ -1,0 +1,70 @@
+//! From counts to probabilities with intervals, for points of fixed length and for points that
+//! stop when they are good enough.
+
+use crate::plan::{EngineChoice, Plan, Stop};
+use crate::run::looks;
+use coinmc_core::{Estimate, Face, IntervalMethod, Tally};
+
+/// Name of the interval of a closed form.
+pub(super) const EXACT: &str = "exact";
+
+/// The estimates of heads, tails and side at point `index`, given its tosses so far.
+///
+/// A closed form's are exact: `lo = p = hi`, no tosses.
+///
+/// A point that stops at a half width is looked at up to K times, at toss counts fixed
+/// beforehand. If each look's interval misses the truth with probability at most α/K, then the
+/// chance that any of them does is at most α, and so is that of the one it stops at, however the
+/// decision to stop depends on the data (Bonferroni). This takes an interval that keeps its
+/// promise at every p and n, hence Clopper and Pearson's whatever the plan says.
+pub(crate) fn estimates(plan: &Plan, index: usize, tally: &Tally) -> [Estimate; 3] {
+    let point = &plan.points[index];
+    if let EngineChoice::Analytic(rule) = point.engine {
+        let p = rule.probabilities(point.scene.coin.ratio());
+        return [p.heads, p.tails, p.side].map(|p| Estimate {
+            p,
+            lo: p,
+            hi: p,
+            n: 0,
+            confidence: plan.confidence,
+            method: plan.interval,
+        });
+    }
+    let method = match plan.stop {
+        Stop::Tosses(_) => plan.interval,
+        Stop::HalfWidth { .. } => IntervalMethod::ClopperPearson,
+    };
+    Face::ALL.map(|face| {
+        let (count, undecided) = (tally.count(face), tally.undecided());
+        let at_look = Estimate::new(
+            count,
+            undecided,
+            tally.tosses(),
+            look_confidence(plan),
+            method,
+        );
+        Estimate {
+            confidence: plan.confidence,
+            ..at_look
+        }
+    })
+}
+
+/// Confidence of the interval of a single look, so that all looks together have the plan's.
+pub(crate) fn look_confidence(plan: &Plan) -> f64 {
+    match plan.stop {
+        Stop::Tosses(_) => plan.confidence,
+        Stop::HalfWidth { max_tosses, .. } => {
+            1.0 - (1.0 - plan.confidence) / looks(max_tosses).count() as f64
+        }
+    }
+}
+
+/// How the intervals of a point came about, as results name it.
+pub(crate) fn interval_name(plan: &Plan, index: usize) -> &'static str {
+    match (plan.points[index].engine, plan.stop) {
+        (EngineChoice::Analytic(_), _) => EXACT,
+        (_, Stop::Tosses(_)) => plan.interval.name(),
+        (_, Stop::HalfWidth { .. }) => "sequential-clopper-pearson",
+    }
+}

@@ -1,0 +1,126 @@
+//! What a run found out: one row a point, the same table as CSV, Parquet and JSON.
+
+mod csv;
+mod estimates;
+mod fair;
+mod json;
+mod parquet;
+mod schema;
+
+pub use csv::write_csv;
+pub(crate) use estimates::{estimates, look_confidence};
+pub use fair::{FairRatio, fair_ratios};
+pub use parquet::write_parquet;
+pub use schema::{Column, FORMAT, Kind, columns};
+
+use crate::plan::Plan;
+use crate::run::{engine_name, law};
+use coinmc_core::{Estimate, Face, Tally};
+
+/// All points of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Results {
+    /// Hash of the plan.
+    pub plan_hash: String,
+    /// Version of the program that computed them.
+    pub program_version: String,
+    /// The config as understood, TOML.
+    pub config: String,
+    /// Names of the swept parameters; the first varies slowest.
+    pub axes: Vec<String>,
+    /// Whether all points shared their random numbers: their errors then go together.
+    pub paired: bool,
+    /// The points, in order.
+    pub rows: Vec<Row>,
+}
+
+/// One point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// Index of the point.
+    pub point: usize,
+    /// Its parameters.
+    pub parameters: Vec<(String, f64)>,
+    /// Name of the engine.
+    pub engine: &'static str,
+    /// Name of the law of impact, or of the closed form.
+    pub law: &'static str,
+    /// The counts.
+    pub tally: Tally,
+    /// Probability of heads.
+    pub heads: Estimate,
+    /// Probability of tails.
+    pub tails: Estimate,
+    /// Probability of the side.
+    pub side: Estimate,
+    /// How the intervals were computed: `wilson`, `clopper-pearson`, `sequential-clopper-pearson`
+    /// where the point stopped at a half width, `exact` for a closed form.
+    pub interval: &'static str,
+    /// The point has the tosses, or the half width, asked for.
+    pub reached_target: bool,
+}
+
+impl Results {
+    /// The results of a plan.
+    pub fn new(plan: &Plan, rows: Vec<Row>) -> Self {
+        Self {
+            plan_hash: plan.hash(),
+            program_version: env!("CARGO_PKG_VERSION").to_owned(),
+            config: plan.resolved_toml.clone(),
+            axes: plan.axes.clone(),
+            paired: plan.paired,
+            rows,
+        }
+    }
+}
+
+impl Row {
+    /// The row of point `index`, given all its tosses.
+    ///
+    /// # Panics
+    /// If the plan has no such point.
+    pub fn new(plan: &Plan, index: usize, tally: Tally, reached_target: bool) -> Self {
+        let point = &plan.points[index];
+        let [heads, tails, side] = estimates(plan, index, &tally);
+        Self {
+            point: index,
+            parameters: point.parameters.clone(),
+            engine: engine_name(&point.engine),
+            law: law(&point.engine),
+            tally,
+            heads,
+            tails,
+            side,
+            interval: estimates::interval_name(plan, index),
+            reached_target,
+        }
+    }
+
+    /// The parameter of this name.
+    pub fn parameter(&self, name: &str) -> Option<f64> {
+        self.parameters
+            .iter()
+            .find(|(there, _)| there == name)
+            .map(|(_, value)| *value)
+    }
+
+    /// The estimate of a face.
+    pub fn estimate(&self, face: Face) -> &Estimate {
+        match face {
+            Face::Heads => &self.heads,
+            Face::Tails => &self.tails,
+            Face::Side => &self.side,
+        }
+    }
+
+    /// The longest arm of the three intervals: 0 for a closed form, 1 before the first toss.
+    pub fn half_width(&self) -> f64 {
+        if self.interval == estimates::EXACT {
+            return 0.0;
+        }
+        Face::ALL
+            .iter()
+            .map(|&face| self.estimate(face).half_width())
+            .fold(0.0, f64::max)
+    }
+}

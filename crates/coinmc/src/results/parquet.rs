@@ -1,0 +1,125 @@
+//! The results table as Parquet, with units and the config in its metadata.
+
+use super::schema::{Cell, Column, FORMAT, Kind, columns_of};
+use super::{Results, Row};
+use arrow_array::{ArrayRef, BooleanArray, Float64Array, RecordBatch, StringArray, UInt64Array};
+use arrow_schema::{DataType, Field, Schema};
+use parquet::arrow::ArrowWriter;
+use parquet::basic::Compression;
+use parquet::errors::ParquetError;
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::WriterProperties;
+use std::collections::HashMap;
+use std::io::{self, Write};
+use std::sync::Arc;
+
+/// Rows of a row group: what is held in memory at a time.
+const GROUP: usize = 1 << 16;
+
+/// Writes the table. The same results give the same bytes: no time, host or path is in them.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_parquet(results: &Results, out: &mut (dyn Write + Send)) -> io::Result<()> {
+    let columns = columns_of(results);
+    let schema = Arc::new(Schema::new(columns.iter().map(field).collect::<Vec<_>>()));
+    let properties = WriterProperties::builder()
+        .set_created_by(format!("coinmc {}", results.program_version))
+        .set_compression(Compression::SNAPPY)
+        .set_key_value_metadata(Some(metadata(results)))
+        .build();
+    let mut writer =
+        ArrowWriter::try_new(out, Arc::clone(&schema), Some(properties)).map_err(into_io)?;
+    for rows in results.rows.chunks(GROUP) {
+        let arrays = columns.iter().map(|column| array(column, rows)).collect();
+        let batch = RecordBatch::try_new(Arc::clone(&schema), arrays).map_err(io::Error::other)?;
+        writer
+            .write(&batch)
+            .and_then(|()| writer.flush())
+            .map_err(into_io)?;
+    }
+    writer.close().map(drop).map_err(into_io)
+}
+
+fn field(column: &Column) -> Field {
+    let kind = match column.kind {
+        Kind::Count => DataType::UInt64,
+        Kind::Number => DataType::Float64,
+        Kind::Text => DataType::Utf8,
+        Kind::Flag => DataType::Boolean,
+    };
+    // only numbers can be missing
+    let metadata = [("unit", column.unit), ("description", column.doc)];
+    let metadata = metadata.into_iter().filter(|(_, text)| !text.is_empty());
+    let metadata = metadata.map(|(key, text)| (key.to_owned(), text.to_owned()));
+    Field::new(&column.name, kind, column.kind == Kind::Number)
+        .with_metadata(metadata.collect::<HashMap<_, _>>())
+}
+
+fn metadata(results: &Results) -> Vec<KeyValue> {
+    let entry = |key: &str, value: &str| KeyValue::new(format!("coinmc.{key}"), value.to_owned());
+    vec![
+        entry("format", &FORMAT.to_string()),
+        entry("program_version", &results.program_version),
+        entry("plan_hash", &results.plan_hash),
+        entry("axes", &results.axes.join(",")),
+        entry("config", &results.config),
+    ]
+}
+
+fn array(column: &Column, rows: &[Row]) -> ArrayRef {
+    let cells = rows.iter().map(|row| column.cell(row));
+    match column.kind {
+        Kind::Count => {
+            let count = |cell| {
+                if let Cell::Count(count) = cell {
+                    Some(count)
+                } else {
+                    None
+                }
+            };
+            Arc::new(cells.map(count).collect::<UInt64Array>())
+        }
+        Kind::Number => {
+            let number = |cell| {
+                if let Cell::Number(number) = cell {
+                    Some(number)
+                } else {
+                    None
+                }
+            };
+            Arc::new(cells.map(number).collect::<Float64Array>())
+        }
+        Kind::Text => {
+            let text = |cell| {
+                if let Cell::Text(text) = cell {
+                    Some(text)
+                } else {
+                    None
+                }
+            };
+            Arc::new(cells.map(text).collect::<StringArray>())
+        }
+        Kind::Flag => {
+            let flag = |cell| {
+                if let Cell::Flag(flag) = cell {
+                    Some(flag)
+                } else {
+                    None
+                }
+            };
+            Arc::new(cells.map(flag).collect::<BooleanArray>())
+        }
+    }
+}
+
+/// Hands the system's error through, so that a full disk is still known as one.
+fn into_io(error: ParquetError) -> io::Error {
+    match error {
+        ParquetError::External(inner) => match inner.downcast::<io::Error>() {
+            Ok(error) => *error,
+            Err(other) => io::Error::other(other),
+        },
+        other => io::Error::other(other),
+    }
+}

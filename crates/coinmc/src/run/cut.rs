@@ -1,0 +1,193 @@
+//! How a run is cut into shards: a function of the plan alone, so that neither threads nor parts
+//! nor a restart change what is counted.
+
+use super::Shard;
+use super::engines::makes_tosses;
+use crate::plan::{Plan, Stop};
+use std::ops::Range;
+
+/// Fewest tosses of a shard that is not the end of a point: some 30 ms of work, which hides what
+/// a file costs.
+const LEAST: u64 = 1 << 14;
+/// A run of fixed length has at most this many shards beyond one a point.
+const MOST_SHARDS: u64 = 8192;
+/// A stage after the first is cut into at most this many shards.
+const SHARDS_A_STAGE: u64 = 16;
+
+/// Toss counts at which a point that stops at a half width is looked at: 2^14, 2^15, … below
+/// `max_tosses`, then `max_tosses`.
+pub(crate) fn looks(max_tosses: u64) -> impl Iterator<Item = u64> {
+    let doubling = std::iter::successors(Some(LEAST), |n| n.checked_mul(2));
+    doubling
+        .take_while(move |&n| n < max_tosses)
+        .chain([max_tosses])
+}
+
+/// The cut of one plan.
+///
+/// A point's tosses fall into stages, each ending where the point is looked at: one stage for a
+/// fixed number of tosses, one a look otherwise. A stage falls into shards of equal size, the
+/// last may be shorter.
+#[derive(Debug, Clone)]
+pub(super) struct Cut {
+    /// Where each stage ends.
+    ends: Vec<u64>,
+    /// Size of a shard where the number of tosses is fixed.
+    fixed: Option<u64>,
+}
+
+impl Cut {
+    pub(super) fn new(plan: &Plan) -> Self {
+        match plan.stop {
+            Stop::Tosses(tosses) => {
+                let tossed = plan
+                    .points
+                    .iter()
+                    .filter(|point| makes_tosses(&point.engine))
+                    .count();
+                let total = tosses.saturating_mul(tossed as u64);
+                let size = total.div_ceil(MOST_SHARDS).checked_next_power_of_two();
+                Self {
+                    ends: vec![tosses],
+                    fixed: Some(size.unwrap_or(1 << 63).max(LEAST)),
+                }
+            }
+            Stop::HalfWidth { max_tosses, .. } => Self {
+                ends: looks(max_tosses).collect(),
+                fixed: None,
+            },
+        }
+    }
+
+    /// Number of stages of a point.
+    pub(super) fn stages(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// Tosses of a stage.
+    pub(super) fn stage(&self, stage: usize) -> Range<u64> {
+        let start = if stage == 0 { 0 } else { self.ends[stage - 1] };
+        start..self.ends[stage]
+    }
+
+    /// The shards of a stage of a point, in order, one at a time: a long run has more of them
+    /// than memory.
+    pub(super) fn shards(&self, point: usize, stage: usize) -> impl Iterator<Item = Shard> + use<> {
+        let Range { start, end } = self.stage(stage);
+        let size = self.size(start);
+        let starts = std::iter::successors(Some(start), move |start| start.checked_add(size));
+        starts
+            .take_while(move |&start| start < end)
+            .map(move |start| Shard {
+                point,
+                tosses: start..end.min(start.saturating_add(size)),
+            })
+    }
+
+    /// The shard of this point that begins at toss `start`, if there is one.
+    pub(super) fn shard_at(&self, point: usize, start: u64) -> Option<Shard> {
+        let stage = self.ends.partition_point(|&end| end <= start);
+        (stage < self.stages()).then_some(())?;
+        let range = self.stage(stage);
+        let size = self.size(range.start);
+        (start - range.start).is_multiple_of(size).then(|| {
+            let end = range.end.min(start.saturating_add(size));
+            Shard {
+                point,
+                tosses: start..end,
+            }
+        })
+    }
+
+    /// The shard's number in the whole run, which decides the part that does it. Only a run of
+    /// fixed length has parts.
+    pub(super) fn number(&self, shard: &Shard) -> u64 {
+        let size = self.size(0);
+        let shards_a_point = self.ends[0].div_ceil(size);
+        (shard.point as u64)
+            .wrapping_mul(shards_a_point)
+            .wrapping_add(shard.tosses.start / size)
+    }
+
+    fn size(&self, stage_start: u64) -> u64 {
+        self.fixed
+            .unwrap_or_else(|| LEAST.max(stage_start / SHARDS_A_STAGE))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::HashSet;
+
+    fn plan(points: u32, stop: &str) -> Plan {
+        let text = format!(
+            "seed = 1\n[coin]\nradius_m = 0.01\nratio = {{ from = 1.0, to = 2.0, steps = {points} }}\n\
+             [surface]\nrestitution = 0.5\nfriction = 0.3\n[launch]\npreset = \"robot\"\n\
+             [engine.flat]\n[stop]\n{stop}\n"
+        );
+        crate::config::parse("test", &text, &[]).unwrap_or_else(|problems| panic!("{problems}"))
+    }
+
+    #[test]
+    fn shards_tile_a_point_and_are_found_by_their_start() {
+        for (stop, tosses) in [
+            ("tosses = 1", 1),
+            ("tosses = 16_384", 16_384),
+            ("tosses = 1_000_003", 1_000_003),
+            ("half_width = 0.01\nmax_tosses = 5", 5),
+            ("half_width = 0.01\nmax_tosses = 32_768", 32_768),
+            ("half_width = 0.01\nmax_tosses = 10_000_001", 10_000_001),
+        ] {
+            let cut = Cut::new(&plan(3, stop));
+            let shards = (0..cut.stages()).flat_map(|stage| cut.shards(1, stage));
+            let mut end = 0;
+            for shard in shards {
+                assert_eq!(shard.tosses.start, end);
+                assert!(shard.tosses.end > end);
+                end = shard.tosses.end;
+                assert_eq!(cut.shard_at(1, shard.tosses.start), Some(shard.clone()));
+                assert_eq!(
+                    cut.shard_at(1, shard.tosses.start + 1).is_some(),
+                    shard.tosses.end - shard.tosses.start == 1 && end < tosses
+                );
+            }
+            assert_eq!(end, tosses, "{stop}");
+            assert_eq!(cut.shard_at(1, tosses), None);
+            assert_eq!(cut.shard_at(1, u64::MAX), None);
+        }
+    }
+
+    #[test]
+    fn a_run_has_a_bounded_number_of_shards_each_with_a_number_of_its_own() {
+        for (points, tosses) in [
+            (2, 1_u64),
+            (7, 100_000),
+            (100, 1_000_000),
+            (3, 1_000_000_000_000),
+        ] {
+            let plan = plan(points, &format!("tosses = {tosses}"));
+            let cut = Cut::new(&plan);
+            let shards = (0..plan.points.len()).flat_map(|point| cut.shards(point, 0));
+            let numbers: Vec<u64> = shards.map(|shard| cut.number(&shard)).collect();
+            assert!(numbers.len() as u64 <= MOST_SHARDS + u64::from(points));
+            assert_eq!(numbers.iter().collect::<HashSet<_>>().len(), numbers.len());
+            assert!(cut.size(0).is_power_of_two());
+        }
+        // adaptive: bounded by the number of looks
+        let cut = Cut::new(&plan(
+            2,
+            "half_width = 1e-6\nmax_tosses = 1_000_000_000_000",
+        ));
+        let shards = (0..cut.stages()).map(|stage| cut.shards(0, stage).count());
+        assert!(shards.sum::<usize>() as u64 <= cut.stages() as u64 * SHARDS_A_STAGE);
+    }
+
+    #[test]
+    fn looks_double_and_end_at_the_largest_number() {
+        assert_eq!(looks(100).collect::<Vec<_>>(), [100]);
+        assert_eq!(looks(16_384).collect::<Vec<_>>(), [16_384]);
+        assert_eq!(looks(40_000).collect::<Vec<_>>(), [16_384, 32_768, 40_000]);
+        assert_eq!(looks(u64::MAX).last(), Some(u64::MAX));
+    }
+}

@@ -1,0 +1,264 @@
+//! The run directory: claimed by one process, begun or gone on with, never another run's.
+
+use super::cut::Cut;
+use super::manifest::{self, Manifest};
+use super::replace::{self, Replacement};
+use super::schedule::Finished;
+use super::tallies::{self, Entry, Tallies};
+use super::{Part, RunError, Watcher};
+use crate::plan::Plan;
+use crate::results::{Results, write_csv, write_parquet};
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// The config as understood.
+pub(super) const CONFIG: &str = "config.toml";
+/// Locked while a process runs here; always empty.
+const LOCK: &str = "lock";
+const CSV: &str = "results.csv";
+const PARQUET: &str = "results.parquet";
+/// What an unfinished run has so far, under a name that says so.
+const PARTIAL: &str = "results.partial.csv";
+
+/// A run directory that this process holds the lock of.
+#[derive(Debug)]
+pub(super) struct RunDirectory {
+    path: PathBuf,
+    tallies: Tallies,
+    /// Released when closed, also by a kill.
+    _lock: File,
+}
+
+impl RunDirectory {
+    /// Begins a run in a new or empty directory, or goes on with the one that is there.
+    pub(super) fn open(
+        path: &Path,
+        plan: &Plan,
+        part: Part,
+        watcher: &dyn Watcher,
+    ) -> Result<Self, RunError> {
+        Self::open_with(path, plan, Manifest::new(plan, part), watcher)
+    }
+
+    /// [`open`](Self::open) with a manifest that may name more than this machine.
+    pub(super) fn open_with(
+        path: &Path,
+        plan: &Plan,
+        mut ours: Manifest,
+        watcher: &dyn Watcher,
+    ) -> Result<Self, RunError> {
+        // looked at before anything is touched, and again when nobody else can change it
+        must_be_usable(path, &ours)?;
+        fs::create_dir_all(path).map_err(|error| RunError::io("create", path, error))?;
+        let lock = lock(path)?;
+        let theirs = must_be_usable(path, &ours)?;
+
+        for file in [manifest::FILE, CONFIG, CSV, PARQUET, PARTIAL] {
+            replace::remove_leftover(&path.join(file))?;
+        }
+        if let Some(theirs) = &theirs {
+            ours.targets.extend(theirs.targets.iter().cloned());
+        }
+        if theirs.as_ref() != Some(&ours) {
+            ours.write(path)?;
+        }
+        write_config(path, plan, watcher)?;
+        make_tally_directory(path)?;
+        replace::sync_directory(path)?;
+        let tallies = Tallies::of(path, ours.plan_hash);
+        Ok(Self {
+            path: path.to_owned(),
+            tallies,
+            _lock: lock,
+        })
+    }
+
+    pub(super) fn tallies(&self) -> &Tallies {
+        &self.tallies
+    }
+
+    /// What an earlier run finished. Its leftovers are removed, and what is not believed is set
+    /// aside.
+    pub(super) fn finished(
+        &self,
+        plan: &Plan,
+        watcher: &dyn Watcher,
+    ) -> Result<Finished, RunError> {
+        let mut finished = Finished::new();
+        self.tallies.scan(plan, &Cut::new(plan), |entry| {
+            match entry {
+                Entry::Finished(shard, tally) => {
+                    finished.insert((shard.point, shard.tosses.start), tally);
+                }
+                Entry::Leftover(path) => replace::remove(&path)?,
+                Entry::Damaged(path, damage) => {
+                    let aside = tallies::reject(&path)?;
+                    watcher.warning(&format!(
+                        "{} is not used: {damage}. Its tosses are done again; it is now {}",
+                        path.display(),
+                        aside.display()
+                    ));
+                }
+            }
+            Ok(())
+        })?;
+        Ok(finished)
+    }
+
+    /// Sets aside tallies, by point and first toss, that the finished run had no use for.
+    pub(super) fn set_aside(
+        &self,
+        unneeded: &[(usize, u64)],
+        watcher: &dyn Watcher,
+    ) -> Result<(), RunError> {
+        for &(point, start) in unneeded {
+            let path = self.tallies.place(point, start);
+            if replace::is_file(&path) {
+                let aside = tallies::reject(&path)?;
+                let (path, aside) = (path.display(), aside.display());
+                watcher.warning(&format!("{path} is no part of this run; it is now {aside}"));
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes the results of a finished run.
+    pub(super) fn write_results(
+        &self,
+        results: &Results,
+        watcher: &dyn Watcher,
+    ) -> Result<(), RunError> {
+        replace::remove(&self.path.join(PARTIAL))?;
+        self.write(PARQUET, watcher, |file| write_parquet(results, file))?;
+        self.write(CSV, watcher, |file| write_csv(results, file))?;
+        replace::sync_directory(&self.path)
+    }
+
+    /// Writes what an unfinished run has so far.
+    pub(super) fn write_partial(&self, results: &Results) -> Result<(), RunError> {
+        let mut file = Replacement::begin(&self.path.join(PARTIAL))?;
+        let written = write_csv(results, &mut file.writer());
+        written.map_err(|error| file.error(error))?;
+        file.finish()
+    }
+
+    fn write(
+        &self,
+        name: &str,
+        watcher: &dyn Watcher,
+        content: impl FnOnce(&mut (dyn io::Write + Send)) -> io::Result<()>,
+    ) -> Result<(), RunError> {
+        let path = self.path.join(name);
+        let mut file = Replacement::begin(&path)?;
+        let written = content(&mut file.writer());
+        written.map_err(|error| file.error(error))?;
+        if file.finish_if_new()? {
+            let path = path.display();
+            watcher.warning(&format!(
+                "{path} was not what the tallies give and was replaced"
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// Checks that `path` is absent, empty, just begun or the run that `ours` describes, and gives
+/// its manifest.
+fn must_be_usable(path: &Path, ours: &Manifest) -> Result<Option<Manifest>, RunError> {
+    let not_a_run = |found: String| RunError::NotARunDirectory {
+        dir: path.to_owned(),
+        found,
+    };
+    let entries = match fs::read_dir(path) {
+        Ok(entries) => entries,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+        Err(error) if error.kind() == io::ErrorKind::NotADirectory => {
+            return Err(not_a_run("a file, it is not a directory at all".to_owned()));
+        }
+        Err(error) => return Err(RunError::io("list", path, error)),
+    };
+    if let Some(theirs) = Manifest::read(path)? {
+        theirs.must_match(ours, path)?;
+        return Ok(Some(theirs));
+    }
+    for entry in entries {
+        let name = entry
+            .map_err(|error| RunError::io("list", path, error))?
+            .file_name();
+        // a run killed before it wrote its manifest leaves no more than these
+        let just_begun = name.to_str().is_some_and(|name| {
+            name == LOCK || name.strip_suffix(replace::TEMPORARY) == Some(manifest::FILE)
+        });
+        if !just_begun {
+            return Err(not_a_run(format!(
+                "{} and no {}",
+                name.display(),
+                manifest::FILE
+            )));
+        }
+    }
+    Ok(None)
+}
+
+fn lock(dir: &Path) -> Result<File, RunError> {
+    let path = dir.join(LOCK);
+    if fs::symlink_metadata(&path).is_ok_and(|metadata| !metadata.is_file()) {
+        let found = format!("a {LOCK} that is not a file");
+        return Err(RunError::NotARunDirectory {
+            dir: dir.to_owned(),
+            found,
+        });
+    }
+    let file = OpenOptions::new()
+        .write(true)
+        .create(true)
+        .truncate(false)
+        .open(&path);
+    let file = file.map_err(|error| RunError::io("create", &path, error))?;
+    match file.try_lock() {
+        Ok(()) => Ok(file),
+        Err(TryLockError::WouldBlock) => Err(RunError::Locked {
+            dir: dir.to_owned(),
+        }),
+        // Some network file systems know no locks. Two runs in one directory only do each
+        // other's work again there: files are replaced whole, by the same content.
+        Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => Ok(file),
+        Err(TryLockError::Error(error)) => Err(RunError::io("lock", &path, error)),
+    }
+}
+
+fn write_config(dir: &Path, plan: &Plan, watcher: &dyn Watcher) -> Result<(), RunError> {
+    let path = dir.join(CONFIG);
+    let ours = plan.resolved_toml.as_bytes();
+    if replace::is_file(&path) {
+        let there = replace::read_bounded(&path, ours.len());
+        if there
+            .map_err(|error| RunError::io("read", &path, error))?
+            .as_deref()
+            == Some(ours)
+        {
+            return Ok(());
+        }
+        let path = path.display();
+        watcher.warning(&format!(
+            "{path} was not the config of this run and was replaced"
+        ));
+    }
+    replace::replace(&path, ours)
+}
+
+fn make_tally_directory(dir: &Path) -> Result<(), RunError> {
+    let path = dir.join(Tallies::DIRECTORY);
+    match fs::symlink_metadata(&path) {
+        Ok(metadata) if metadata.is_dir() => Ok(()),
+        Ok(_) => Err(RunError::NotARunDirectory {
+            dir: dir.to_owned(),
+            found: format!("{} that is not a directory", Tallies::DIRECTORY),
+        }),
+        Err(_) => {
+            fs::create_dir(&path).map_err(|error| RunError::io("create", &path, error))?;
+            replace::sync_directory(dir)
+        }
+    }
+}

@@ -1,0 +1,209 @@
+//! Why a run stopped, and what to do about it.
+
+use super::{Part, Shard};
+use coinmc_flat::SettingsError;
+use std::io;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// Why a run, a shard or a merge failed. Finished shards are kept whatever the error: the same
+/// run can be started again once the cause is gone.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum RunError {
+    /// The disk, or the user's share of it, is full.
+    #[error(
+        "no space left for {}: free some and run again, finished shards are kept ({source})",
+        path.display()
+    )]
+    OutOfSpace {
+        /// What was being written.
+        path: PathBuf,
+        /// The system's words.
+        source: io::Error,
+    },
+    /// The system refused to read or write something.
+    #[error("cannot {action} {}: {source}", path.display())]
+    Io {
+        /// What was tried, as a verb.
+        action: &'static str,
+        /// On what.
+        path: PathBuf,
+        /// The system's words.
+        source: io::Error,
+    },
+    /// The directory exists and holds something else.
+    #[error(
+        "{} is not a run directory: it holds {found}. Choose a new or empty directory",
+        dir.display()
+    )]
+    NotARunDirectory {
+        /// The directory.
+        dir: PathBuf,
+        /// What was found in it.
+        found: String,
+    },
+    /// The directory holds a run of another plan.
+    #[error(
+        "{} holds the run of another plan ({theirs}; this one is {ours}). Choose another \
+         directory, or run the config.toml found there",
+        dir.display()
+    )]
+    OtherPlan {
+        /// The directory.
+        dir: PathBuf,
+        /// Hash of the plan whose run it holds.
+        theirs: String,
+        /// Hash of the plan that was to be run.
+        ours: String,
+    },
+    /// The directory was begun by another version of the program, which may toss differently.
+    #[error(
+        "{} was begun by coinmc {theirs}, this is {ours}: finish it with {theirs}, or choose \
+         another directory",
+        dir.display()
+    )]
+    OtherVersion {
+        /// The directory.
+        dir: PathBuf,
+        /// Version that began it.
+        theirs: String,
+        /// This program's version.
+        ours: String,
+    },
+    /// The directory holds another share of the same run.
+    #[error(
+        "{} holds part {theirs} of this run, not part {ours}: give each part its own directory \
+         and merge them",
+        dir.display()
+    )]
+    OtherPart {
+        /// The directory.
+        dir: PathBuf,
+        /// The part it holds.
+        theirs: Part,
+        /// The part that was to be run.
+        ours: Part,
+    },
+    /// A file is of a format that only a newer program knows.
+    #[error(
+        "{} has format {found}, this program knows up to {known}: use a newer coinmc",
+        path.display()
+    )]
+    NewerFormat {
+        /// The file.
+        path: PathBuf,
+        /// Its format.
+        found: u64,
+        /// The newest format known.
+        known: u64,
+    },
+    /// The manifest cannot be understood.
+    #[error(
+        "{} is damaged ({reason}): restore it, or move the directory away and run again",
+        path.display()
+    )]
+    BadManifest {
+        /// The manifest.
+        path: PathBuf,
+        /// What is wrong.
+        reason: String,
+    },
+    /// Another process runs in the directory.
+    #[error("another process is running in {}: wait for it, or stop it", dir.display())]
+    Locked {
+        /// The directory.
+        dir: PathBuf,
+    },
+    /// A run that stops by half width decides after each look where to go on, which parts that do
+    /// not see each other cannot.
+    #[error(
+        "a run that stops at a half width cannot be cut into parts: give a fixed number of tosses"
+    )]
+    PartsNeedFixedTosses,
+    /// The shard lies outside the plan.
+    #[error("{shard} lies outside the plan, which has {points} points")]
+    NoSuchShard {
+        /// The shard asked for.
+        shard: Shard,
+        /// Number of points.
+        points: usize,
+    },
+    /// An engine does not accept its settings.
+    #[error("point {point}: {source}")]
+    Settings {
+        /// Index of the point.
+        point: usize,
+        /// What the engine says.
+        source: SettingsError,
+    },
+    /// The system gives no thread.
+    #[error("cannot start a thread: {0}")]
+    Thread(io::Error),
+    /// A merge was given no directory.
+    #[error("nothing to merge: name the run directories of the parts")]
+    NothingToMerge,
+    /// The config that a run directory holds is not one.
+    #[error("{} does not hold a config that can be read: {reason}", path.display())]
+    BadConfig {
+        /// The config.
+        path: PathBuf,
+        /// The first problem found.
+        reason: String,
+    },
+    /// The merged directory would be one of the parts.
+    #[error("{} is both a part and the place of the merged run: choose another", dir.display())]
+    MergeIntoPart {
+        /// The directory.
+        dir: PathBuf,
+    },
+    /// Parts together do not make a whole.
+    #[error("{total} shards are in none of the parts: {}", list(missing, *total))]
+    Missing {
+        /// The first of them, neighbours joined.
+        missing: Vec<Shard>,
+        /// How many there are in all.
+        total: u64,
+    },
+    /// Two parts count the same tosses differently.
+    #[error(
+        "{} and {} disagree about {shard}: one of them is not of this program, or was altered",
+        first.display(), second.display()
+    )]
+    Conflict {
+        /// The tosses in question.
+        shard: Shard,
+        /// One run directory.
+        first: PathBuf,
+        /// The other.
+        second: PathBuf,
+    },
+}
+
+impl RunError {
+    /// Sorts a system's error: a full disk is told apart from all others.
+    pub(crate) fn io(action: &'static str, path: &Path, source: io::Error) -> Self {
+        use io::ErrorKind::{FileTooLarge, QuotaExceeded, StorageFull};
+        let path = path.to_owned();
+        match source.kind() {
+            StorageFull | QuotaExceeded | FileTooLarge => Self::OutOfSpace { path, source },
+            _ => Self::Io {
+                action,
+                path,
+                source,
+            },
+        }
+    }
+}
+
+fn list(missing: &[Shard], total: u64) -> String {
+    let mut text = missing
+        .iter()
+        .map(Shard::to_string)
+        .collect::<Vec<_>>()
+        .join("; ");
+    if missing.len() < usize::try_from(total).unwrap_or(usize::MAX) {
+        text.push_str("; …");
+    }
+    text
+}

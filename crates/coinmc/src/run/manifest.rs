@@ -1,0 +1,140 @@
+//! `manifest.json`: what a run directory is the run of.
+
+use super::{Part, RunError, engines, replace};
+use crate::plan::Plan;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+use std::io;
+use std::path::Path;
+
+/// Version of the run directory's format.
+pub(super) const FORMAT: u64 = 1;
+pub(super) const FILE: &str = "manifest.json";
+/// No manifest is longer; what is longer is not read.
+const MAX_BYTES: usize = 64 << 10;
+
+/// The manifest's fields. See docs/formats.md.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Manifest {
+    pub(super) format: u64,
+    pub(super) plan_hash: String,
+    pub(super) program_version: String,
+    /// Engines that the points name.
+    pub(super) engines: BTreeSet<String>,
+    /// Kinds of machine that counted tosses.
+    pub(super) targets: BTreeSet<String>,
+    pub(super) part: String,
+}
+
+/// The one field that every version has.
+#[derive(Deserialize)]
+struct AnyFormat {
+    format: u64,
+}
+
+impl Manifest {
+    pub(super) fn new(plan: &Plan, part: Part) -> Self {
+        let engines = plan
+            .points
+            .iter()
+            .map(|point| engines::name(&point.engine).to_owned());
+        Self {
+            format: FORMAT,
+            plan_hash: plan.hash(),
+            program_version: env!("CARGO_PKG_VERSION").to_owned(),
+            engines: engines.collect(),
+            targets: [target()].into(),
+            part: part.to_string(),
+        }
+    }
+
+    /// The manifest of a directory; `None` if it has none.
+    pub(super) fn read(dir: &Path) -> Result<Option<Self>, RunError> {
+        let path = dir.join(FILE);
+        let bad = |reason: String| RunError::BadManifest {
+            path: path.clone(),
+            reason,
+        };
+        let bytes = match replace::read_bounded(&path, MAX_BYTES) {
+            Ok(Some(bytes)) => bytes,
+            Ok(None) => return Err(bad("it is too long".to_owned())),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+            Err(error) => return Err(RunError::io("read", &path, error)),
+        };
+        let AnyFormat { format } =
+            serde_json::from_slice(&bytes).map_err(|e| bad(e.to_string()))?;
+        if format > FORMAT {
+            return Err(RunError::NewerFormat {
+                path,
+                found: format,
+                known: FORMAT,
+            });
+        }
+        serde_json::from_slice(&bytes)
+            .map(Some)
+            .map_err(|e| bad(e.to_string()))
+    }
+
+    pub(super) fn write(&self, dir: &Path) -> Result<(), RunError> {
+        let mut text = serde_json::to_string_pretty(self).expect("plain fields are always JSON");
+        text.push('\n');
+        replace::replace(&dir.join(FILE), text.as_bytes())
+    }
+
+    /// Checks that the run in `dir`, whose manifest this is, is the one that `ours` describes.
+    pub(super) fn must_match(&self, ours: &Self, dir: &Path) -> Result<(), RunError> {
+        self.must_be_same_run(ours, dir)?;
+        if self.part == ours.part {
+            return Ok(());
+        }
+        Err(RunError::OtherPart {
+            dir: dir.to_owned(),
+            theirs: self.part(dir)?,
+            ours: ours.part(dir)?,
+        })
+    }
+
+    /// Like [`must_match`](Self::must_match), but any part of the run will do.
+    pub(super) fn must_be_same_run(&self, ours: &Self, dir: &Path) -> Result<(), RunError> {
+        let dir = dir.to_owned();
+        if self.plan_hash != ours.plan_hash {
+            let (theirs, ours) = (self.plan_hash.clone(), ours.plan_hash.clone());
+            return Err(RunError::OtherPlan { dir, theirs, ours });
+        }
+        if self.program_version != ours.program_version {
+            let (theirs, ours) = (self.program_version.clone(), ours.program_version.clone());
+            return Err(RunError::OtherVersion { dir, theirs, ours });
+        }
+        Ok(())
+    }
+
+    fn part(&self, dir: &Path) -> Result<Part, RunError> {
+        let path = dir.join(FILE);
+        self.part.parse().map_err(|e| RunError::BadManifest {
+            path,
+            reason: format!("{e}"),
+        })
+    }
+}
+
+/// This machine's kind and the vector instructions this program was compiled to use.
+fn target() -> String {
+    let features = [
+        ("sse4.2", cfg!(target_feature = "sse4.2")),
+        ("avx2", cfg!(target_feature = "avx2")),
+        ("fma", cfg!(target_feature = "fma")),
+        ("avx512f", cfg!(target_feature = "avx512f")),
+        ("neon", cfg!(target_feature = "neon")),
+    ];
+    let features = features
+        .iter()
+        .filter(|(_, used)| *used)
+        .map(|(name, _)| format!("+{name}"));
+    format!(
+        "{}-{}{}",
+        std::env::consts::ARCH,
+        std::env::consts::OS,
+        features.collect::<String>()
+    )
+}

@@ -1,0 +1,186 @@
+//! Parts put together again.
+
+use super::cut::Cut;
+use super::directory::{CONFIG, RunDirectory};
+use super::manifest::{self, Manifest};
+use super::schedule::{Finished, Next, Schedule};
+use super::tallies::{Entry, Tallies};
+use super::{Part, Report, RunError, Shard, Watcher, conclude};
+use crate::config;
+use crate::plan::Plan;
+use coinmc_core::Tally;
+use std::collections::hash_map::Entry as Slot;
+use std::collections::{BTreeSet, HashMap};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A message names at most this many missing shards.
+const NAMED: usize = 20;
+
+/// Puts the parts of a run together in a run directory of their own, which is that of the whole
+/// run to the byte. The parts are only read; parts that overlap are welcome where they agree.
+///
+/// Everything is checked before anything is written.
+///
+/// # Errors
+/// [`RunError::Missing`] with the shards that no part holds, [`RunError::Conflict`] if two parts
+/// disagree, [`RunError::OtherPlan`] or [`RunError::OtherVersion`] if they are not of one run, and
+/// what [`run`](super::run) says about a directory it cannot use.
+pub fn merge(inputs: &[PathBuf], out: &Path, watcher: &dyn Watcher) -> Result<Report, RunError> {
+    let first = inputs.first().ok_or(RunError::NothingToMerge)?;
+    let plan = read_plan(first)?;
+    let mut ours = Manifest {
+        targets: BTreeSet::new(),
+        ..Manifest::new(&plan, Part::WHOLE)
+    };
+    for input in inputs {
+        must_differ(input, out)?;
+        let theirs = read_manifest(input)?;
+        theirs.must_be_same_run(&ours, input)?;
+        ours.targets.extend(theirs.targets);
+    }
+    let collected = collect(&plan, &ours.plan_hash, inputs, watcher)?;
+    must_be_whole(
+        &plan,
+        collected
+            .iter()
+            .map(|(key, found)| (*key, found.tally))
+            .collect(),
+    )?;
+    write(&plan, ours, collected, inputs, out, watcher)
+}
+
+/// A tally and the run directory it came from.
+struct Found {
+    shard: Shard,
+    tally: Tally,
+    input: usize,
+}
+
+type Collected = HashMap<(usize, u64), Found>;
+
+fn read_manifest(dir: &Path) -> Result<Manifest, RunError> {
+    Manifest::read(dir)?.ok_or_else(|| RunError::NotARunDirectory {
+        dir: dir.to_owned(),
+        found: format!("no {}", manifest::FILE),
+    })
+}
+
+fn read_plan(dir: &Path) -> Result<Plan, RunError> {
+    read_manifest(dir)?;
+    let path = dir.join(CONFIG);
+    config::load(&path, &[]).map_err(|problems| {
+        let reason = problems.to_string();
+        RunError::BadConfig { path, reason }
+    })
+}
+
+fn must_differ(input: &Path, out: &Path) -> Result<(), RunError> {
+    match (fs::canonicalize(input), fs::canonicalize(out)) {
+        (Ok(a), Ok(b)) if a == b => Err(RunError::MergeIntoPart {
+            dir: out.to_owned(),
+        }),
+        _ => Ok(()),
+    }
+}
+
+fn collect(
+    plan: &Plan,
+    plan_hash: &str,
+    inputs: &[PathBuf],
+    watcher: &dyn Watcher,
+) -> Result<Collected, RunError> {
+    let cut = Cut::new(plan);
+    let mut collected = Collected::new();
+    for (input, dir) in inputs.iter().enumerate() {
+        Tallies::of(dir, plan_hash.to_owned()).scan(plan, &cut, |entry| match entry {
+            Entry::Finished(shard, tally) => {
+                match collected.entry((shard.point, shard.tosses.start)) {
+                    Slot::Occupied(there) if there.get().tally != tally => {
+                        let first = inputs[there.get().input].clone();
+                        return Err(RunError::Conflict {
+                            shard,
+                            first,
+                            second: dir.clone(),
+                        });
+                    }
+                    Slot::Occupied(_) => {}
+                    Slot::Vacant(free) => {
+                        free.insert(Found {
+                            shard,
+                            tally,
+                            input,
+                        });
+                    }
+                }
+                Ok(())
+            }
+            Entry::Damaged(path, damage) => {
+                watcher.warning(&format!("{} is not used: {damage}", path.display()));
+                Ok(())
+            }
+            Entry::Leftover(_) => Ok(()),
+        })?;
+    }
+    Ok(collected)
+}
+
+/// Plays the run through with what was collected: a shard that would have to be done is missing.
+fn must_be_whole(plan: &Plan, finished: Finished) -> Result<(), RunError> {
+    let mut schedule = Schedule::new(plan, Part::WHOLE, finished);
+    let (mut missing, mut total) = (Vec::<Shard>::new(), 0);
+    while let Next::Shard(shard) = schedule.next() {
+        total += 1;
+        let room = missing.len() < NAMED;
+        match missing.last_mut() {
+            Some(last) if last.point == shard.point && last.tosses.end == shard.tosses.start => {
+                last.tosses.end = shard.tosses.end;
+            }
+            _ if room => missing.push(shard),
+            _ => {}
+        }
+    }
+    if total == 0 {
+        Ok(())
+    } else {
+        Err(RunError::Missing { missing, total })
+    }
+}
+
+fn write(
+    plan: &Plan,
+    manifest: Manifest,
+    collected: Collected,
+    inputs: &[PathBuf],
+    out: &Path,
+    watcher: &dyn Watcher,
+) -> Result<Report, RunError> {
+    /// Tallies stored together.
+    const BATCH: usize = 256;
+    let directory = RunDirectory::open_with(out, plan, manifest, watcher)?;
+    let there = directory.finished(plan, watcher)?;
+    let mut new = Vec::new();
+    for (key, found) in &collected {
+        match there.get(key) {
+            Some(tally) if *tally != found.tally => {
+                return Err(RunError::Conflict {
+                    shard: found.shard.clone(),
+                    first: inputs[found.input].clone(),
+                    second: out.to_owned(),
+                });
+            }
+            Some(_) => {}
+            None => new.push((found.shard.clone(), found.tally)),
+        }
+    }
+    new.chunks(BATCH)
+        .try_for_each(|batch| directory.tallies().store(batch))?;
+    let finished = collected
+        .into_iter()
+        .map(|(key, found)| (key, found.tally))
+        .collect();
+    let mut schedule = Schedule::new(plan, Part::WHOLE, finished);
+    let whole = schedule.next();
+    debug_assert_eq!(whole, Next::Done, "checked before");
+    conclude(plan, Part::WHOLE, schedule, &directory, watcher)
+}

@@ -1,0 +1,191 @@
+//! From a plan to results: shards done on all cores, each kept in the run directory as soon as it
+//! is finished.
+//!
+//! ```text
+//! Plan ──cut──▶ shards ──workers──▶ tallies/*.tally ──▶ results.csv, results.parquet
+//!                           ▲             │
+//!                           └── a later run takes them over
+//! ```
+//!
+//! What is counted depends on the plan alone: not on threads, parts, machine, order, or on how
+//! often the run was killed and started again. The files are described in docs/formats.md.
+//!
+//! # Example
+//! ```no_run
+//! use coinmc::run::{Options, Part, run};
+//! use std::{path::Path, sync::atomic::AtomicBool};
+//! # fn example(plan: &coinmc::plan::Plan) -> Result<(), coinmc::run::RunError> {
+//! let cancel = AtomicBool::new(false);
+//! let report = run(plan, &Options {
+//!     out: Path::new("runs/first"),
+//!     part: Part::WHOLE,
+//!     threads: None,
+//!     cancel: &cancel,
+//!     watcher: &(),
+//! })?;
+//! for row in &report.results.rows {
+//!     println!("{:?}: {} in [{}, {}]", row.parameters, row.side.p, row.side.lo, row.side.hi);
+//! }
+//! # Ok(())
+//! # }
+//! ```
+
+mod cut;
+mod directory;
+mod engines;
+mod error;
+mod manifest;
+mod merge;
+mod part;
+mod replace;
+mod schedule;
+mod shard;
+mod tallies;
+mod tally_file;
+mod watcher;
+mod workers;
+
+pub(crate) use cut::looks;
+pub(crate) use engines::{law, name as engine_name};
+pub use error::RunError;
+pub use merge::merge;
+pub use part::{Part, PartError};
+pub use shard::{Shard, run_shard};
+pub use watcher::{Progress, Watcher};
+
+use crate::plan::{Plan, Stop};
+use crate::results::{Results, Row};
+use directory::RunDirectory;
+use schedule::Schedule;
+use std::num::NonZeroUsize;
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+use std::thread;
+
+/// How to run a plan. None of it changes what is counted.
+#[derive(Clone, Copy)]
+pub struct Options<'a> {
+    /// The run directory: new, empty, or that of the same run.
+    pub out: &'a Path,
+    /// The share of the run to do.
+    pub part: Part,
+    /// Threads that toss; `None` for one a core.
+    pub threads: Option<NonZeroUsize>,
+    /// Set it (from another thread or a signal) to stop within about 0.1 s.
+    pub cancel: &'a AtomicBool,
+    /// Who is told how the run goes on.
+    pub watcher: &'a dyn Watcher,
+}
+
+/// What a run came to.
+#[derive(Debug, Clone)]
+pub struct Report {
+    /// All points; of an unfinished run, as far as they are counted.
+    pub results: Results,
+    /// Whether the run is finished.
+    pub status: Status,
+    /// Shards taken over from an earlier run.
+    pub reused_shards: u64,
+    /// All tosses counted, those of an earlier run included.
+    pub tosses: u64,
+}
+
+/// Whether a run is finished.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Status {
+    /// All is done, and every point meets the stop rule.
+    Complete,
+    /// It was told to stop. Running it again goes on.
+    Interrupted,
+    /// Its part is done; the parts wait to be merged.
+    Part,
+    /// All is done, and some points had not reached the half width when they came to the largest
+    /// number of tosses.
+    ShortOfTarget {
+        /// How many.
+        points: usize,
+    },
+}
+
+/// Runs a plan, or what is left of it, in a run directory.
+///
+/// Ends with `results.csv` and `results.parquet` in the directory if the whole run is finished,
+/// and with `results.partial.csv` if it was cancelled or only a part was asked for.
+///
+/// # Errors
+/// [`RunError`]; finished shards are kept and running again goes on.
+pub fn run(plan: &Plan, options: &Options<'_>) -> Result<Report, RunError> {
+    if options.part != Part::WHOLE && !matches!(plan.stop, Stop::Tosses(_)) {
+        return Err(RunError::PartsNeedFixedTosses);
+    }
+    let Options {
+        out,
+        part,
+        threads,
+        cancel,
+        watcher,
+    } = *options;
+    let directory = RunDirectory::open(out, plan, part, watcher)?;
+    let schedule = Schedule::new(plan, part, directory.finished(plan, watcher)?);
+    watcher.progress(&schedule.progress());
+    let threads = threads.or_else(|| thread::available_parallelism().ok());
+    let threads = threads.unwrap_or(NonZeroUsize::MIN);
+    let schedule = workers::work_off(
+        plan,
+        schedule,
+        directory.tallies(),
+        threads,
+        cancel,
+        watcher,
+    )?;
+    conclude(plan, part, schedule, &directory, watcher)
+}
+
+/// Writes the results of a schedule and reports them.
+fn conclude(
+    plan: &Plan,
+    part: Part,
+    mut schedule: Schedule<'_>,
+    directory: &RunDirectory,
+    watcher: &dyn Watcher,
+) -> Result<Report, RunError> {
+    let points = schedule.points().iter().enumerate();
+    let rows = points
+        .map(|(i, point)| Row::new(plan, i, point.tally, point.reached))
+        .collect();
+    let results = Results::new(plan, rows);
+    let status = status(part, &schedule);
+    match status {
+        Status::Complete | Status::ShortOfTarget { .. } => {
+            directory.set_aside(&schedule.take_unneeded(), watcher)?;
+            directory.write_results(&results, watcher)?;
+        }
+        Status::Interrupted | Status::Part => directory.write_partial(&results)?,
+    }
+    let progress = schedule.progress();
+    watcher.progress(&progress);
+    Ok(Report {
+        results,
+        status,
+        reused_shards: progress.reused_shards,
+        tosses: progress.tosses_done,
+    })
+}
+
+fn status(part: Part, schedule: &Schedule<'_>) -> Status {
+    if !schedule.is_done() {
+        return Status::Interrupted;
+    }
+    if part != Part::WHOLE {
+        return Status::Part;
+    }
+    match schedule
+        .points()
+        .iter()
+        .filter(|point| !point.reached)
+        .count()
+    {
+        0 => Status::Complete,
+        points => Status::ShortOfTarget { points },
+    }
+}

@@ -1,0 +1,213 @@
+//! Files that are there as a whole or not at all.
+
+use super::RunError;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufWriter, Read, Write};
+use std::path::{Path, PathBuf};
+
+/// Added to a file's name while it is being written.
+pub(super) const TEMPORARY: &str = ".tmp";
+
+/// A file that takes its place only when all of it is on the disk. Dropped before, it leaves
+/// nothing.
+#[derive(Debug)]
+pub(super) struct Replacement {
+    place: PathBuf,
+    temporary: PathBuf,
+    /// Gone once the file stands in its place.
+    file: Option<BufWriter<File>>,
+}
+
+impl Replacement {
+    /// Begins a file that will stand at `place`.
+    pub(super) fn begin(place: &Path) -> Result<Self, RunError> {
+        let temporary = temporary(place);
+        remove(&temporary)?;
+        // `create_new` does not follow a link that somebody may have put there
+        let file = OpenOptions::new()
+            .write(true)
+            .create_new(true)
+            .open(&temporary);
+        let file = file.map_err(|error| RunError::io("create", &temporary, error))?;
+        Ok(Self {
+            place: place.to_owned(),
+            temporary,
+            file: Some(BufWriter::new(file)),
+        })
+    }
+
+    /// Where the content goes.
+    pub(super) fn writer(&mut self) -> impl Write + Send + '_ {
+        self.file.as_mut().expect("only `finish` takes the file")
+    }
+
+    /// Sorts an error met while writing the content.
+    pub(super) fn error(&self, error: io::Error) -> RunError {
+        RunError::io("write", &self.place, error)
+    }
+
+    /// Puts the file in its place, on the disk to stay (once the directory is synced too).
+    pub(super) fn finish(mut self) -> Result<(), RunError> {
+        self.flush()?;
+        fs::rename(&self.temporary, &self.place)
+            .map_err(|error| RunError::io("put into place", &self.place, error))?;
+        self.file = None;
+        Ok(())
+    }
+
+    /// Like [`finish`](Self::finish), but leaves a file with the same content alone. Whether
+    /// another content was replaced.
+    pub(super) fn finish_if_new(mut self) -> Result<bool, RunError> {
+        self.flush()?;
+        let there = is_file(&self.place);
+        if there && same_content(&self.temporary, &self.place).map_err(|e| self.error(e))? {
+            return Ok(false);
+        }
+        self.finish()?;
+        Ok(there)
+    }
+
+    fn flush(&mut self) -> Result<(), RunError> {
+        let file = self.file.as_mut().expect("only `finish` takes the file");
+        let flushed = file.flush().and_then(|()| file.get_ref().sync_all());
+        flushed.map_err(|error| RunError::io("write", &self.place, error))
+    }
+}
+
+impl Drop for Replacement {
+    fn drop(&mut self) {
+        if self.file.take().is_some() {
+            // A leftover does no harm: the next run in this directory removes it.
+            let _ = fs::remove_file(&self.temporary);
+        }
+    }
+}
+
+/// Writes a whole file.
+pub(super) fn replace(place: &Path, content: &[u8]) -> Result<(), RunError> {
+    let mut file = Replacement::begin(place)?;
+    file.writer()
+        .write_all(content)
+        .map_err(|error| RunError::io("write", place, error))?;
+    file.finish()
+}
+
+/// Removes a file if it is there.
+pub(super) fn remove(path: &Path) -> Result<(), RunError> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => {
+            Err(RunError::io("remove", path, error))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Removes what a killed run left of its attempt to write `place`.
+pub(super) fn remove_leftover(place: &Path) -> Result<(), RunError> {
+    remove(&temporary(place))
+}
+
+/// Makes renames in a directory last through a loss of power.
+pub(super) fn sync_directory(path: &Path) -> Result<(), RunError> {
+    // Elsewhere a directory cannot be opened like a file, and renames are journalled anyway.
+    if cfg!(unix) {
+        let synced = File::open(path).and_then(|directory| directory.sync_all());
+        synced.map_err(|error| RunError::io("sync", path, error))?;
+    }
+    Ok(())
+}
+
+/// Whether a regular file, not a link to one, has this path.
+pub(super) fn is_file(path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_file())
+}
+
+/// Reads a file of at most `most` bytes; `None` if it is longer.
+pub(super) fn read_bounded(path: &Path, most: usize) -> io::Result<Option<Vec<u8>>> {
+    let mut bytes = Vec::new();
+    File::open(path)?
+        .take(most as u64 + 1)
+        .read_to_end(&mut bytes)?;
+    Ok((bytes.len() <= most).then_some(bytes))
+}
+
+fn temporary(place: &Path) -> PathBuf {
+    let mut name = place.as_os_str().to_owned();
+    name.push(TEMPORARY);
+    name.into()
+}
+
+fn same_content(a: &Path, b: &Path) -> io::Result<bool> {
+    let (a, b) = (File::open(a)?, File::open(b)?);
+    if a.metadata()?.len() != b.metadata()?.len() {
+        return Ok(false);
+    }
+    let (mut a, mut b) = (io::BufReader::new(a).bytes(), io::BufReader::new(b).bytes());
+    loop {
+        match (a.next().transpose()?, b.next().transpose()?) {
+            (None, None) => return Ok(true),
+            (x, y) if x != y => return Ok(false),
+            _ => {}
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_unfinished_file_leaves_nothing_and_a_finished_one_replaces_a_link() {
+        let dir = tempfile::tempdir().unwrap();
+        let (place, precious) = (dir.path().join("a"), dir.path().join("precious"));
+        let mut begun = Replacement::begin(&place).unwrap();
+        begun.writer().write_all(b"half").unwrap();
+        drop(begun);
+        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0);
+
+        fs::write(&precious, "kept").unwrap();
+        #[cfg(unix)]
+        for link in [place.clone(), temporary(&place)] {
+            std::os::unix::fs::symlink(&precious, link).unwrap();
+        }
+        replace(&place, b"new").unwrap();
+        assert!(is_file(&place));
+        assert_eq!(fs::read(&place).unwrap(), b"new");
+        assert_eq!(fs::read(&precious).unwrap(), b"kept");
+    }
+
+    #[test]
+    fn the_same_content_is_left_alone() {
+        let dir = tempfile::tempdir().unwrap();
+        let place = dir.path().join("a");
+        for (content, replaced) in [("one", false), ("one", false), ("two", true)] {
+            let mut file = Replacement::begin(&place).unwrap();
+            file.writer().write_all(content.as_bytes()).unwrap();
+            assert_eq!(file.finish_if_new().unwrap(), replaced);
+            assert_eq!(fs::read_to_string(&place).unwrap(), content);
+        }
+        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_full_disk_is_told_apart() {
+        let error = File::options()
+            .write(true)
+            .open("/dev/full")
+            .unwrap()
+            .write(b"x")
+            .unwrap_err();
+        let error = RunError::io("write", Path::new("tally"), error);
+        assert!(matches!(error, RunError::OutOfSpace { .. }), "{error}");
+    }
+
+    #[test]
+    fn long_files_are_not_read() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("long");
+        fs::write(&path, [0; 11]).unwrap();
+        assert_eq!(read_bounded(&path, 10).unwrap(), None);
+        assert_eq!(read_bounded(&path, 11).unwrap().unwrap().len(), 11);
+    }
+}

@@ -1,0 +1,318 @@
+//! Which shard comes next, and what the shards of a point add up to.
+
+use super::cut::Cut;
+use super::engines::makes_tosses;
+use super::{Part, Progress, Shard};
+use crate::plan::{Plan, Stop};
+use crate::results::estimates;
+use coinmc_core::{Face, IntervalMethod, Tally};
+use std::collections::HashMap;
+
+/// Tallies known beforehand, by point and first toss of their shard.
+pub(super) type Finished = HashMap<(usize, u64), Tally>;
+
+/// Hands out shards and takes their tallies back, in whatever order they arrive.
+///
+/// Points are opened in order, a stage at a time; the next stage of an open point comes before
+/// the next point. Nothing ever waits for all shards of a stage but that stage's successor. What
+/// is held is one tally a point, not one a shard.
+#[derive(Debug)]
+pub(super) struct Schedule<'a> {
+    plan: &'a Plan,
+    cut: Cut,
+    part: Part,
+    finished: Finished,
+    points: Vec<PointState>,
+    /// The first point no shard of which was handed out.
+    unopened: usize,
+    /// Open points whose next stage can be handed out.
+    ready: Vec<usize>,
+    /// The stage whose shards are being handed out.
+    current: Option<Stage>,
+    in_flight: u64,
+    progress: Progress,
+    /// The point with the longest arm so far.
+    worst: Option<usize>,
+}
+
+#[derive(Debug, Clone, Default)]
+pub(super) struct PointState {
+    /// All tosses so far.
+    pub(super) tally: Tally,
+    /// The stop rule is met.
+    pub(super) reached: bool,
+    stage: usize,
+    /// Shards of the stage that were handed out and are not back.
+    outstanding: u64,
+    /// All shards of the stage were handed out.
+    handed_out: bool,
+    half_width: f64,
+    /// Tosses that the point is thought to need.
+    forecast: u64,
+}
+
+struct Stage {
+    point: usize,
+    shards: Box<dyn Iterator<Item = Shard> + Send>,
+}
+
+impl std::fmt::Debug for Stage {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Stage")
+            .field("point", &self.point)
+            .finish_non_exhaustive()
+    }
+}
+
+/// What to do now.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) enum Next {
+    /// This shard.
+    Shard(Shard),
+    /// Wait until a shard comes back: only then is it known what is next.
+    Wait,
+    /// Nothing; all is done.
+    Done,
+}
+
+impl<'a> Schedule<'a> {
+    /// The schedule of a part of a plan, given what an earlier run finished.
+    pub(super) fn new(plan: &'a Plan, part: Part, finished: Finished) -> Self {
+        let cut = Cut::new(plan);
+        let forecast = if part == Part::WHOLE {
+            cut.stage(0).end
+        } else {
+            // what the other parts do is theirs to forecast
+            cut.stage(0).end / u64::from(part.of())
+        };
+        let tossed = plan
+            .points
+            .iter()
+            .filter(|point| makes_tosses(&point.engine))
+            .count() as u64;
+        let points = vec![
+            PointState {
+                forecast,
+                ..PointState::default()
+            };
+            plan.points.len()
+        ];
+        let reused = finished
+            .values()
+            .map(Tally::tosses)
+            .fold(0, u64::saturating_add);
+        let progress = Progress {
+            points_done: 0,
+            points: plan.points.len(),
+            tosses_done: reused,
+            tosses_planned: forecast.saturating_mul(tossed),
+            tosses_reused: reused,
+            reused_shards: finished.len() as u64,
+            worst_half_width: None,
+        };
+        Self {
+            plan,
+            cut,
+            part,
+            finished,
+            points,
+            unopened: 0,
+            ready: Vec::new(),
+            current: None,
+            in_flight: 0,
+            progress,
+            worst: None,
+        }
+    }
+
+    /// The next thing to do. Shards known beforehand are counted in passing.
+    pub(super) fn next(&mut self) -> Next {
+        loop {
+            let Some(stage) = &mut self.current else {
+                if self.open_stage() {
+                    continue;
+                }
+                return if self.in_flight == 0 {
+                    Next::Done
+                } else {
+                    Next::Wait
+                };
+            };
+            let point = stage.point;
+            let Some(shard) = stage.shards.next() else {
+                self.current = None;
+                self.points[point].handed_out = true;
+                self.close_stage_if_complete(point);
+                continue;
+            };
+            if self.part != Part::WHOLE && !self.part.owns(self.cut.number(&shard)) {
+                continue;
+            }
+            if self.take_finished(&shard) {
+                continue;
+            }
+            self.points[point].outstanding += 1;
+            self.in_flight += 1;
+            return Next::Shard(shard);
+        }
+    }
+
+    /// Takes back a shard that [`next`](Self::next) handed out.
+    pub(super) fn complete(&mut self, shard: &Shard, tally: &Tally) {
+        let point = &mut self.points[shard.point];
+        point.tally.merge(tally);
+        point.outstanding -= 1;
+        self.in_flight -= 1;
+        self.progress.tosses_done += tally.tosses();
+        self.update_worst(shard.point);
+        self.close_stage_if_complete(shard.point);
+    }
+
+    /// How far the run is.
+    pub(super) fn progress(&self) -> Progress {
+        // a forecast may lag behind
+        let tosses_planned = self.progress.tosses_planned.max(self.progress.tosses_done);
+        Progress {
+            tosses_planned,
+            ..self.progress
+        }
+    }
+
+    /// Whether all is done.
+    pub(super) fn is_done(&self) -> bool {
+        self.unopened == self.points.len()
+            && self.ready.is_empty()
+            && self.current.is_none()
+            && self.in_flight == 0
+    }
+
+    /// The points as counted so far.
+    pub(super) fn points(&self) -> &[PointState] {
+        &self.points
+    }
+
+    /// Takes out the tallies known beforehand that the run turned out not to need.
+    pub(super) fn take_unneeded(&mut self) -> Vec<(usize, u64)> {
+        let unneeded = std::mem::take(&mut self.finished);
+        for tally in unneeded.values() {
+            self.forget_reused(tally);
+        }
+        unneeded.into_keys().collect()
+    }
+
+    fn forget_reused(&mut self, tally: &Tally) {
+        self.progress.tosses_done -= tally.tosses();
+        self.progress.tosses_reused -= tally.tosses();
+        self.progress.reused_shards -= 1;
+    }
+
+    fn open_stage(&mut self) -> bool {
+        let point = match self.ready.pop() {
+            Some(point) => point,
+            None if self.unopened < self.points.len() => {
+                self.unopened += 1;
+                self.unopened - 1
+            }
+            None => return false,
+        };
+        if makes_tosses(&self.plan.points[point].engine) {
+            let shards = Box::new(self.cut.shards(point, self.points[point].stage));
+            self.current = Some(Stage { point, shards });
+        } else {
+            self.points[point].reached = true;
+            self.points[point].forecast = 0;
+            self.progress.points_done += 1;
+        }
+        true
+    }
+
+    fn take_finished(&mut self, shard: &Shard) -> bool {
+        let Some(tally) = self.finished.remove(&(shard.point, shard.tosses.start)) else {
+            return false;
+        };
+        let point = &mut self.points[shard.point];
+        let Some(sum) = point.tally.checked_merge(&tally) else {
+            // only forged counts overflow: the shard is done again
+            self.forget_reused(&tally);
+            return false;
+        };
+        point.tally = sum;
+        self.update_worst(shard.point);
+        true
+    }
+
+    fn close_stage_if_complete(&mut self, index: usize) {
+        let point = &mut self.points[index];
+        if !point.handed_out || point.outstanding > 0 {
+            return;
+        }
+        point.handed_out = false;
+        let last = point.stage + 1 == self.cut.stages();
+        point.reached = match self.plan.stop {
+            Stop::Tosses(_) => self.part == Part::WHOLE,
+            Stop::HalfWidth { half_width, .. } => {
+                let faces = estimates(self.plan, index, &point.tally);
+                faces
+                    .iter()
+                    .all(|estimate| estimate.half_width() <= half_width)
+            }
+        };
+        if point.reached || last {
+            self.progress.points_done += 1;
+            self.set_forecast(index, self.points[index].tally.tosses());
+        } else {
+            point.stage += 1;
+            self.ready.push(index);
+            self.forecast(index);
+        }
+    }
+
+    /// Arms shorten like 1/√N: which of the looks to come will be the last?
+    fn forecast(&mut self, index: usize) {
+        let Stop::HalfWidth { half_width, .. } = self.plan.stop else {
+            return;
+        };
+        let point = &self.points[index];
+        let excess = (point.half_width / half_width).powi(2).max(1.0);
+        let needed = point.tally.tosses() as f64 * excess;
+        let mut looks = (point.stage..self.cut.stages()).map(|stage| self.cut.stage(stage).end);
+        let look = looks.clone().find(|&end| end as f64 >= needed);
+        let forecast = look.or(looks.next_back()).unwrap_or(point.forecast);
+        self.set_forecast(index, forecast);
+    }
+
+    fn set_forecast(&mut self, index: usize, forecast: u64) {
+        let point = &mut self.points[index];
+        let others = self.progress.tosses_planned.saturating_sub(point.forecast);
+        self.progress.tosses_planned = others.saturating_add(forecast);
+        point.forecast = forecast;
+    }
+
+    fn update_worst(&mut self, index: usize) {
+        let half_width = quick_half_width(self.plan, &self.points[index].tally);
+        self.points[index].half_width = half_width;
+        self.worst = match self.worst {
+            Some(worst) if worst != index && self.points[worst].half_width >= half_width => {
+                Some(worst)
+            }
+            // the worst has improved: another may be worst now
+            Some(worst) if worst == index => {
+                let arm = |&i: &usize| self.points[i].half_width;
+                (0..self.points.len()).max_by(|a, b| arm(a).total_cmp(&arm(b)))
+            }
+            _ => Some(index),
+        };
+        self.progress.worst_half_width = self.worst.map(|worst| self.points[worst].half_width);
+    }
+}
+
+/// The longest arm of the three faces by Wilson's formula, good enough to show and to forecast.
+fn quick_half_width(plan: &Plan, tally: &Tally) -> f64 {
+    let confidence = crate::results::look_confidence(plan);
+    let (undecided, n) = (tally.undecided(), tally.tosses());
+    let arm = |face| {
+        let method = IntervalMethod::Wilson;
+        coinmc_core::Estimate::new(tally.count(face), undecided, n, confidence, method).half_width()
+    };
+    Face::ALL.into_iter().map(arm).fold(0.0, f64::max)
+}

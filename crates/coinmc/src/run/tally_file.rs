@@ -1,0 +1,288 @@
+//! The file of one finished shard: a few lines of text with a checksum. See docs/formats.md.
+
+use super::Shard;
+use coinmc_core::Tally;
+use std::fmt::Write;
+use thiserror::Error;
+
+/// Version of the format.
+const FORMAT: u64 = 1;
+const TITLE: &str = "coinmc tally";
+const CHECKSUM: &str = "crc32 ";
+const EXTENSION: &str = ".tally";
+/// No tally file is longer; what is longer is not read.
+pub(super) const MAX_BYTES: usize = 1024;
+
+/// Why a tally file is not believed.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub(super) enum Damage {
+    #[error("it is not a regular file")]
+    NotAFile,
+    #[error("it is longer than any tally file")]
+    TooLong,
+    #[error("its checksum does not match")]
+    Checksum,
+    #[error("it is of another version of the format")]
+    Version,
+    #[error("it belongs to another plan")]
+    OtherPlan,
+    #[error("it holds another shard than its name says")]
+    OtherShard,
+    #[error("the plan has no shard of that name")]
+    NoSuchShard,
+    #[error("its counts are impossible")]
+    Counts,
+    #[error("it is not in the form that this program writes")]
+    Form,
+}
+
+/// Name of the file of a shard.
+pub(super) fn name(shard: &Shard) -> String {
+    format!("p{:06}-t{:014}{EXTENSION}", shard.point, shard.tosses.start)
+}
+
+/// Point and first toss of the shard whose file has this name; `None` for any other name.
+pub(super) fn parse_name(file: &str) -> Option<(usize, u64)> {
+    let (point, start) = file
+        .strip_suffix(EXTENSION)?
+        .strip_prefix('p')?
+        .split_once("-t")?;
+    let (point, start) = (point.parse().ok()?, start.parse().ok()?);
+    // one spelling only, so that no two names mean the same shard
+    (name(&Shard {
+        point,
+        tosses: start..start,
+    }) == file)
+        .then_some((point, start))
+}
+
+/// The file's content.
+pub(super) fn encode(shard: &Shard, tally: &Tally, plan_hash: &str) -> String {
+    let Shard { point, tosses } = shard;
+    let mut text = format!(
+        "{TITLE} {FORMAT}\nplan {plan_hash}\npoint {point}\ntosses {} {}\n",
+        tosses.start, tosses.end
+    );
+    for (name, count) in Tally::COUNTERS.iter().zip(tally.to_array()) {
+        writeln!(text, "{name} {count}").expect("a String takes all text");
+    }
+    let checksum = crc32fast::hash(text.as_bytes());
+    writeln!(text, "{CHECKSUM}{checksum:08x}").expect("a String takes all text");
+    text
+}
+
+/// Reads the file of `shard`. Anything but the very bytes that [`encode`] would write is refused.
+pub(super) fn decode(bytes: &[u8], shard: &Shard, plan_hash: &str) -> Result<Tally, Damage> {
+    if bytes.len() > MAX_BYTES {
+        return Err(Damage::TooLong);
+    }
+    let text = std::str::from_utf8(bytes).map_err(|_| Damage::Checksum)?;
+    let (body, checksum) = text.rsplit_once(CHECKSUM).ok_or(Damage::Checksum)?;
+    if checksum != format!("{:08x}\n", crc32fast::hash(body.as_bytes())) {
+        return Err(Damage::Checksum);
+    }
+    // The checksum is right, so the file is as it was written: what follows tells a stranger.
+    let mut lines = body.lines();
+    let title = lines
+        .next()
+        .and_then(|line| line.strip_prefix(TITLE))
+        .ok_or(Damage::Form)?;
+    if title.strip_prefix(' ') != Some(FORMAT.to_string().as_str()) {
+        return Err(Damage::Version);
+    }
+    let plan = lines
+        .next()
+        .and_then(|line| line.strip_prefix("plan "))
+        .ok_or(Damage::Form)?;
+    if plan != plan_hash {
+        return Err(Damage::OtherPlan);
+    }
+    let place = [
+        format!("point {}", shard.point),
+        format!("tosses {} {}", shard.tosses.start, shard.tosses.end),
+    ];
+    if !place.iter().all(|expected| lines.next() == Some(expected)) {
+        return Err(Damage::OtherShard);
+    }
+    let mut counts = [0; Tally::COUNTERS.len()];
+    for (count, name) in counts.iter_mut().zip(Tally::COUNTERS) {
+        let value = lines
+            .next()
+            .and_then(|line| line.strip_prefix(name)?.strip_prefix(' '));
+        *count = value
+            .and_then(|value| value.parse().ok())
+            .ok_or(Damage::Form)?;
+    }
+    let tally = Tally::from_array(counts);
+    if !is_possible(&tally, shard.tosses.end - shard.tosses.start) {
+        return Err(Damage::Counts);
+    }
+    if encode(shard, &tally, plan_hash) == text {
+        Ok(tally)
+    } else {
+        Err(Damage::Form)
+    }
+}
+
+/// Whether `tosses` tosses can end in these counts.
+fn is_possible(tally: &Tally, tosses: u64) -> bool {
+    let ended = [
+        tally.heads,
+        tally.tails,
+        tally.side,
+        tally.time_limit,
+        tally.impact_limit,
+        tally.failed,
+    ];
+    let sum = ended
+        .iter()
+        .try_fold(0_u64, |sum, &count| sum.checked_add(count));
+    // a toss counts its events in 32 bits
+    let most = tosses.saturating_mul(u64::from(u32::MAX));
+    sum == Some(tosses)
+        && tally.overruled <= tosses
+        && [tally.impacts, tally.contact_steps, tally.jams]
+            .iter()
+            .all(|&count| count <= most)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const HASH: &str = "0123456789abcdef";
+
+    fn example() -> (Shard, Tally) {
+        let shard = Shard {
+            point: 3,
+            tosses: 16384..16484,
+        };
+        let tally = Tally {
+            heads: 50,
+            tails: 30,
+            side: 15,
+            failed: 5,
+            impacts: 700,
+            ..Tally::default()
+        };
+        (shard, tally)
+    }
+
+    #[test]
+    fn names_have_one_spelling() {
+        let (shard, _) = example();
+        assert_eq!(name(&shard), "p000003-t00000000016384.tally");
+        assert_eq!(parse_name(&name(&shard)), Some((3, 16384)));
+        let far = Shard {
+            point: 12_345_678,
+            tosses: u64::MAX - 1..u64::MAX,
+        };
+        assert_eq!(parse_name(&name(&far)), Some((12_345_678, u64::MAX - 1)));
+        for bad in [
+            "p3-t16384.tally",
+            "p+00003-t00000000016384.tally",
+            "p000003-t00000000016384.tally.tmp",
+            "p000003-t99999999999999999999999.tally",
+            "../p000003-t00000000016384.tally",
+            "",
+        ] {
+            assert_eq!(parse_name(bad), None, "{bad}");
+        }
+    }
+
+    #[test]
+    fn forged_counts_are_refused_without_overflow() {
+        let (shard, tally) = example();
+        for forged in [
+            Tally {
+                heads: u64::MAX,
+                ..tally
+            },
+            Tally { heads: 51, ..tally },
+            Tally {
+                overruled: 101,
+                ..tally
+            },
+            Tally {
+                impacts: u64::MAX,
+                ..tally
+            },
+        ] {
+            let text = encode(&shard, &forged, HASH);
+            assert_eq!(decode(text.as_bytes(), &shard, HASH), Err(Damage::Counts));
+        }
+    }
+
+    #[test]
+    fn strangers_with_a_right_checksum_are_told_apart() {
+        let (shard, tally) = example();
+        let text = encode(&shard, &tally, HASH);
+        let other = Shard {
+            point: 4,
+            ..shard.clone()
+        };
+        assert_eq!(decode(text.as_bytes(), &shard, HASH), Ok(tally));
+        assert_eq!(
+            decode(text.as_bytes(), &shard, "f00"),
+            Err(Damage::OtherPlan)
+        );
+        assert_eq!(
+            decode(text.as_bytes(), &other, HASH),
+            Err(Damage::OtherShard)
+        );
+        let resigned =
+            |body: String| format!("{body}{CHECKSUM}{:08x}\n", crc32fast::hash(body.as_bytes()));
+        let body = text.rsplit_once(CHECKSUM).unwrap().0;
+        for (from, to, damage) in [
+            ("tally 1", "tally 2", Damage::Version),
+            ("heads 50", "heads +50", Damage::Form),
+            ("heads 50", "heads 050", Damage::Form),
+            ("overruled 0\n", "overruled 0\nmore 1\n", Damage::Form),
+            ("coinmc", "someone", Damage::Form),
+        ] {
+            let forged = resigned(body.replace(from, to));
+            assert_eq!(decode(forged.as_bytes(), &shard, HASH), Err(damage), "{to}");
+        }
+    }
+
+    #[test]
+    fn the_longest_file_is_within_the_bound() {
+        let shard = Shard {
+            point: usize::MAX,
+            tosses: 0..u64::MAX,
+        };
+        let text = encode(&shard, &Tally::from_array([u64::MAX; 10]), &"f".repeat(128));
+        assert!(text.len() <= MAX_BYTES);
+    }
+
+    proptest! {
+        #[test]
+        fn files_read_back_and_any_damage_is_seen(
+            point in 0..10_000_usize,
+            start in 0..u64::MAX / 2,
+            faces in prop::array::uniform6(0..1_u64 << 40),
+            place in any::<prop::sample::Index>(),
+            flip in 1..=u8::MAX,
+            inserted in any::<u8>(),
+        ) {
+            let [heads, tails, side, time_limit, impact_limit, failed] = faces;
+            let tally = Tally {
+                heads, tails, side, time_limit, impact_limit, failed, ..Tally::default()
+            };
+            let shard = Shard { point, tosses: start..start + tally.tosses() };
+            let bytes = encode(&shard, &tally, HASH).into_bytes();
+            prop_assert_eq!(decode(&bytes, &shard, HASH), Ok(tally));
+            prop_assert_eq!(parse_name(&name(&shard)), Some((point, start)));
+
+            let place = place.index(bytes.len());
+            let mut flipped = bytes.clone();
+            flipped[place] ^= flip;
+            prop_assert!(decode(&flipped, &shard, HASH).is_err());
+            prop_assert!(decode(&bytes[..place], &shard, HASH).is_err());
+            let mut longer = bytes;
+            longer.insert(place, inserted);
+            prop_assert!(decode(&longer, &shard, HASH).is_err());
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! Threads that do shards, and the one that stores what they finish.
+
+use super::schedule::{Next, Schedule};
+use super::shard::run_shard_while;
+use super::tallies::Tallies;
+use super::{RunError, Shard, Watcher};
+use crate::plan::Plan;
+use coinmc_core::Tally;
+use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+/// Finished shards that may wait for the disk, and the most that are stored together.
+const BATCH: usize = 64;
+/// How long a worker without work sleeps before it looks whether it should stop.
+const NAP: Duration = Duration::from_millis(50);
+
+type Done = Result<(Shard, Tally), RunError>;
+
+/// What the threads share.
+struct Floor<'a, 'p> {
+    plan: &'p Plan,
+    schedule: Mutex<Schedule<'p>>,
+    /// A shard came back: there may be new work.
+    changed: Condvar,
+    /// The user wants to stop.
+    cancel: &'a AtomicBool,
+    /// Something went wrong: there is no use in going on.
+    broken: AtomicBool,
+}
+
+impl<'p> Floor<'_, 'p> {
+    fn go_on(&self) -> bool {
+        !self.cancel.load(Relaxed) && !self.broken.load(Relaxed)
+    }
+
+    /// Nothing panics while it holds the lock except where the whole run is lost anyway.
+    fn schedule(&self) -> MutexGuard<'_, Schedule<'p>> {
+        self.schedule.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn next_shard(&self) -> Option<Shard> {
+        let mut schedule = self.schedule();
+        while self.go_on() {
+            match schedule.next() {
+                Next::Shard(shard) => return Some(shard),
+                Next::Done => return None,
+                Next::Wait => {
+                    let woken = self.changed.wait_timeout(schedule, NAP);
+                    schedule = woken.unwrap_or_else(PoisonError::into_inner).0;
+                }
+            }
+        }
+        None
+    }
+}
+
+/// Stops everybody when its thread panics, so that the panic is heard at once.
+struct Alarm<'a>(&'a AtomicBool);
+
+impl Drop for Alarm<'_> {
+    fn drop(&mut self) {
+        if thread::panicking() {
+            self.0.store(true, Relaxed);
+        }
+    }
+}
+
+/// Does all shards of the schedule, or those that are done before `cancel` is set, and gives the
+/// schedule back. Every tally it counts is on the disk.
+pub(super) fn work_off<'p>(
+    plan: &'p Plan,
+    schedule: Schedule<'p>,
+    tallies: &Tallies,
+    threads: NonZeroUsize,
+    cancel: &AtomicBool,
+    watcher: &dyn Watcher,
+) -> Result<Schedule<'p>, RunError> {
+    let floor = Floor {
+        plan,
+        schedule: Mutex::new(schedule),
+        changed: Condvar::new(),
+        cancel,
+        broken: AtomicBool::new(false),
+    };
+    thread::scope(|scope| {
+        let _alarm = Alarm(&floor.broken);
+        let (sender, receiver) = sync_channel(BATCH);
+        let mut started = Ok(());
+        for _ in 0..threads.get() {
+            let (sender, floor) = (sender.clone(), &floor);
+            let worker = thread::Builder::new().spawn_scoped(scope, move || work(floor, &sender));
+            if let Err(error) = worker {
+                floor.broken.store(true, Relaxed);
+                started = Err(RunError::Thread(error));
+                break;
+            }
+        }
+        drop(sender);
+        let stored = store(&floor, &receiver, tallies, watcher);
+        if stored.is_err() {
+            floor.broken.store(true, Relaxed);
+        }
+        started.and(stored)
+    })?;
+    Ok(floor
+        .schedule
+        .into_inner()
+        .unwrap_or_else(PoisonError::into_inner))
+}
+
+fn work(floor: &Floor<'_, '_>, sender: &SyncSender<Done>) {
+    let _alarm = Alarm(&floor.broken);
+    while let Some(shard) = floor.next_shard() {
+        let done = match run_shard_while(floor.plan, &shard, || floor.go_on()) {
+            Ok(Some(tally)) => {
+                floor.schedule().complete(&shard, &tally);
+                floor.changed.notify_all();
+                Ok((shard, tally))
+            }
+            Ok(None) => return,
+            Err(error) => Err(error),
+        };
+        if sender.send(done).is_err() {
+            return;
+        }
+    }
+}
+
+/// Stores what arrives until all workers are gone. Its own thread, so that no worker waits for
+/// the disk.
+fn store(
+    floor: &Floor<'_, '_>,
+    receiver: &Receiver<Done>,
+    tallies: &Tallies,
+    watcher: &dyn Watcher,
+) -> Result<(), RunError> {
+    while let Ok(first) = receiver.recv() {
+        let batch = std::iter::once(first)
+            .chain(receiver.try_iter())
+            .take(BATCH);
+        let (mut stored, mut failed) = (Vec::new(), None);
+        for done in batch {
+            match done {
+                Ok(shard) => stored.push(shard),
+                Err(error) => failed = failed.or(Some(error)),
+            }
+        }
+        tallies.store(&stored)?;
+        if let Some(error) = failed {
+            return Err(error);
+        }
+        watcher.progress(&floor.schedule().progress());
+    }
+    Ok(())
+}

@@ -1,0 +1,226 @@
+//! Fair ratios of curves whose crossings are known.
+
+use coinmc::results::{FairRatio, Results, Row, fair_ratios};
+use coinmc_core::{Estimate, IntervalMethod, Tally, unit_interval};
+
+const THIRD: f64 = 1.0 / 3.0;
+
+fn row(parameters: &[(&str, f64)], side: Estimate) -> Row {
+    Row {
+        point: 0,
+        parameters: parameters
+            .iter()
+            .map(|(name, x)| ((*name).to_owned(), *x))
+            .collect(),
+        engine: "flat",
+        law: "moreau",
+        tally: Tally::default(),
+        heads: side,
+        tails: side,
+        side,
+        interval: "wilson",
+        reached_target: true,
+    }
+}
+
+fn results(axes: &[&str], paired: bool, rows: Vec<Row>) -> Results {
+    Results {
+        plan_hash: String::new(),
+        program_version: String::new(),
+        config: String::new(),
+        axes: axes.iter().map(|&axis| axis.to_owned()).collect(),
+        paired,
+        rows,
+    }
+}
+
+fn with_arm(p: f64, arm: f64) -> Estimate {
+    let method = IntervalMethod::Wilson;
+    Estimate {
+        p,
+        lo: p - arm,
+        hi: p + arm,
+        n: 1,
+        confidence: 0.95,
+        method,
+    }
+}
+
+/// Ratios from 0.5 to 2.5 in steps of `step`.
+fn grid(step: f64) -> impl Iterator<Item = f64> {
+    (0_u32..)
+        .map(move |i| 0.5 + step * f64::from(i))
+        .take_while(|&x| x < 2.5 + 1e-9)
+}
+
+fn crossings(step: f64, arm: f64, p: impl Fn(f64) -> f64) -> Vec<FairRatio> {
+    let rows = grid(step)
+        .map(|x| row(&[("ratio", x)], with_arm(p(x), arm)))
+        .collect();
+    fair_ratios(&results(&["ratio"], false, rows), THIRD)
+}
+
+/// Crosses 1/3 at 1.53 with slope 0.29, off the grids used here.
+const TRUTH: f64 = 1.53;
+fn smooth(x: f64) -> f64 {
+    x * x / (x * x + 2.0 * TRUTH * TRUTH)
+}
+
+fn holds(fair: &FairRatio, x: f64) -> bool {
+    fair.lo.is_none_or(|lo| lo <= x) && fair.hi.is_none_or(|hi| x <= hi)
+}
+
+#[test]
+fn a_smooth_curve_crosses_where_it_does() {
+    // error of the interpolation: the fourth power of the step
+    for (step, tolerance) in [(0.4, 5e-3), (0.2, 3e-4), (0.1, 2e-5)] {
+        let found = crossings(step, 0.0, smooth);
+        assert_eq!(found.len(), 1);
+        assert!(
+            (found[0].ratio - TRUTH).abs() < tolerance,
+            "{step}: {:?}",
+            found[0]
+        );
+        assert!(holds(&found[0], TRUTH) && found[0].rising);
+        let width = found[0].hi.unwrap() - found[0].lo.unwrap();
+        // what a straight line would be wrong by, both ways: h²/4 · |p''|/p' <= h²/4 · 0.6
+        assert!(width > 0.0 && width < 0.2 * step * step, "{step}: {width}");
+    }
+}
+
+#[test]
+fn arms_become_an_interval_by_the_slope() {
+    // straight, with a point at the crossing: the interval is arm/slope to either side
+    let straight = |x: f64| THIRD + 0.3 * (x - 1.5);
+    let found = crossings(0.1, 0.003, straight);
+    assert!((found[0].ratio - 1.5).abs() < 1e-12);
+    for end in [found[0].lo, found[0].hi] {
+        assert!(
+            ((end.unwrap() - 1.5).abs() - 0.01).abs() < 1e-3,
+            "{found:?}"
+        );
+    }
+    // between two points errors that are independent partly cancel: 0.003/0.3 · sqrt(2 · (9/16)² + 2 · (1/16)²)
+    let found = crossings(0.1, 0.003, |x| straight(x + 0.05));
+    let half = (found[0].hi.unwrap() - found[0].lo.unwrap()) / 2.0;
+    assert!((half - 0.0080).abs() < 3e-4, "{half}");
+}
+
+#[test]
+fn curves_that_cross_twice_or_never_or_just_once() {
+    let hump = |x: f64| 0.4 - 0.4 * (x - 1.5).powi(2);
+    let found = crossings(0.1, 0.001, hump);
+    let away = (0.4_f64 - THIRD).sqrt() / 0.4_f64.sqrt();
+    assert_eq!(found.len(), 2);
+    assert!(found[0].rising && !found[1].rising);
+    assert!(holds(&found[0], 1.5 - away) && holds(&found[1], 1.5 + away));
+    assert!(found[0].hi.unwrap() < found[1].lo.unwrap());
+
+    assert_eq!(crossings(0.1, 0.5, |_| 0.2), []);
+    assert_eq!(crossings(0.1, 0.0, |_| THIRD), []);
+    assert_eq!(fair_ratios(&results(&["ratio"], false, vec![]), THIRD), []);
+    let one = vec![row(&[("ratio", 1.0)], with_arm(THIRD, 0.1))];
+    assert_eq!(fair_ratios(&results(&["ratio"], false, one), THIRD), []);
+}
+
+#[test]
+fn two_points_only_say_between_and_an_interval_beyond_the_sweep_is_open() {
+    let two = |p: [f64; 2], arm| {
+        let rows = [1.0, 2.0].into_iter().zip(p);
+        let rows = rows
+            .map(|(x, p)| row(&[("ratio", x)], with_arm(p, arm)))
+            .collect();
+        fair_ratios(&results(&["ratio"], false, rows), THIRD)
+    };
+    let found = two([0.1, 0.6], 0.01);
+    assert!(
+        (found[0].lo.unwrap() - 1.0).abs() < 1e-12 && (found[0].hi.unwrap() - 2.0).abs() < 1e-12
+    );
+    let found = two([0.33, 0.6], 0.01);
+    assert_eq!(found[0].lo, None);
+    assert!(found[0].hi.is_some());
+    let found = two([0.6, 0.33], 0.01);
+    assert!(!found[0].rising && found[0].hi.is_none());
+}
+
+#[test]
+fn noise_that_crosses_to_and_fro_is_one_crossing() {
+    // 0.02 up and down about a slope of 0.1: several crossings of the points, one of the curve
+    let mut up = 1.0;
+    let rows = grid(0.1).map(|x| {
+        up = -up;
+        row(
+            &[("ratio", x)],
+            with_arm(THIRD + 0.1 * (x - 1.52) + 0.02 * up, 0.03),
+        )
+    });
+    let found = fair_ratios(&results(&["ratio"], false, rows.collect()), THIRD);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].rising && holds(&found[0], 1.52));
+}
+
+#[test]
+fn every_combination_of_other_axes_has_its_own() {
+    let mut rows = Vec::new();
+    for e in [0.3, 0.6] {
+        // out of order, and a point without tosses
+        for x in grid(0.2).collect::<Vec<_>>().into_iter().rev() {
+            let p = smooth(x - 0.1 * (e - 0.3));
+            rows.push(row(&[("ratio", x), ("restitution", e)], with_arm(p, 0.001)));
+        }
+        rows.push(row(
+            &[("ratio", 1.45), ("restitution", e)],
+            with_arm(f64::NAN, 0.001),
+        ));
+    }
+    let found = fair_ratios(&results(&["restitution", "ratio"], false, rows), THIRD);
+    assert_eq!(found.len(), 2);
+    for (fair, (e, x)) in found.iter().zip([(0.3, TRUTH), (0.6, TRUTH + 0.03)]) {
+        assert_eq!(fair.at, [("restitution".to_owned(), e)]);
+        assert!(holds(fair, x), "{fair:?}");
+    }
+}
+
+struct Random(u64);
+
+impl Random {
+    /// splitmix64 (Steele, Lea & Flood 2014), to (0, 1).
+    fn uniform(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        unit_interval(z ^ (z >> 31))
+    }
+}
+
+/// 1000 sweeps of 2000 tosses a point, 95 % intervals. With a true coverage of 95 % fewer than
+/// 929 hits have a probability of 0.2 %; more than 998 would say that the intervals are too long
+/// to be of use (the band is a little wider than the statistics alone ask for).
+#[test]
+fn intervals_hold_the_truth_as_often_as_they_say() {
+    const SWEEPS: u32 = 1000;
+    const TOSSES: u32 = 2000;
+    for (seed, paired) in [(1, false), (2, true)] {
+        let mut random = Random(seed);
+        let (mut hits, mut single) = (0, 0);
+        for _ in 0..SWEEPS {
+            let shared: Vec<f64> = (0..TOSSES).map(|_| random.uniform()).collect();
+            let rows = grid(0.1).map(|x| {
+                let p = smooth(x);
+                let side = if paired {
+                    shared.iter().filter(|&&u| u < p).count()
+                } else {
+                    (0..TOSSES).filter(|_| random.uniform() < p).count()
+                } as u64;
+                let n = u64::from(TOSSES);
+                let side = Estimate::new(side, 0, n, 0.95, IntervalMethod::Wilson);
+                row(&[("ratio", x)], side)
+            });
+            let found = fair_ratios(&results(&["ratio"], paired, rows.collect()), THIRD);
+            single += u32::from(found.len() == 1);
+            hits += u32::from(found.iter().any(|fair| holds(fair, TRUTH)));
+        }
+        assert!((929..=998).contains(&hits), "paired {paired}: {hits}");
+        assert!(single > SWEEPS * 19 / 20, "paired {paired}: {single}");
+    }
+}

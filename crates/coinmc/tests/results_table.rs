@@ -1,0 +1,265 @@
+//! One table in three forms, the same in each, and as documented.
+
+mod run_support;
+
+use arrow_array::cast::AsArray;
+use arrow_array::types::{Float64Type, UInt64Type};
+use arrow_array::{Array, RecordBatch};
+use coinmc::plan::Plan;
+use coinmc::results::{Kind, Results, Row, columns, write_csv, write_parquet};
+use coinmc_core::{Tally, relative_error};
+use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use run_support::{plan, plan_of, run_whole};
+use std::fs::File;
+
+/// Rows of all kinds: ordinary, without the side, with undecided tosses, without tosses.
+fn example(plan: &Plan) -> Results {
+    let tallies = [
+        Tally {
+            heads: 49,
+            tails: 30,
+            side: 21,
+            impacts: 333,
+            contact_steps: 71,
+            ..Tally::default()
+        },
+        Tally {
+            heads: 50,
+            tails: 50,
+            ..Tally::default()
+        },
+        Tally {
+            heads: 5,
+            side: 1,
+            time_limit: 2,
+            impact_limit: 3,
+            failed: 4,
+            ..Tally::default()
+        },
+        Tally::default(),
+        Tally {
+            side: 1 << 40,
+            jams: 7,
+            overruled: 8,
+            ..Tally::default()
+        },
+        Tally {
+            heads: 1,
+            tails: 1,
+            side: 1,
+            ..Tally::default()
+        },
+    ];
+    let rows = tallies
+        .iter()
+        .enumerate()
+        .map(|(i, tally)| Row::new(plan, i, *tally, i != 3));
+    Results::new(plan, rows.collect())
+}
+
+fn csv(results: &Results) -> Vec<Vec<String>> {
+    let mut bytes = Vec::new();
+    write_csv(results, &mut bytes).unwrap();
+    let text = String::from_utf8(bytes).unwrap();
+    text.lines()
+        .map(|line| line.split(',').map(str::to_owned).collect())
+        .collect()
+}
+
+fn cell(batch: &RecordBatch, column: usize, row: usize, kind: Kind) -> String {
+    let array = batch.column(column);
+    if array.is_null(row) {
+        return String::new();
+    }
+    match kind {
+        Kind::Count => array.as_primitive::<UInt64Type>().value(row).to_string(),
+        Kind::Number => format!("{:?}", array.as_primitive::<Float64Type>().value(row)),
+        Kind::Text => array.as_string::<i32>().value(row).to_owned(),
+        Kind::Flag => array.as_boolean().value(row).to_string(),
+    }
+}
+
+#[test]
+fn csv_parquet_and_json_agree_cell_by_cell() {
+    let dir = tempfile::tempdir().unwrap();
+    let plan = plan("tosses = 100");
+    let results = example(&plan);
+    let path = dir.path().join("table.parquet");
+    write_parquet(&results, &mut File::create(&path).unwrap()).unwrap();
+    let reader = ParquetRecordBatchReaderBuilder::try_new(File::open(&path).unwrap()).unwrap();
+    let batch = reader.build().unwrap().next().unwrap().unwrap();
+    let json = results.to_json();
+    let table = csv(&results);
+    let names = results.rows[0]
+        .parameters
+        .iter()
+        .map(|(name, _)| name.as_str());
+    let columns = columns(names);
+    assert_eq!((batch.num_rows(), batch.num_columns()), (6, columns.len()));
+    for (c, column) in columns.iter().enumerate() {
+        assert_eq!(table[0][c], column.name);
+        assert_eq!(*batch.schema().field(c).name(), column.name);
+        for r in 0..6 {
+            let text = &table[r + 1][c];
+            assert_eq!(
+                *text,
+                cell(&batch, c, r, column.kind),
+                "{} {r}",
+                column.name
+            );
+            let value = &json["points"][r][&column.name];
+            let value = match (value.as_str(), value.as_f64()) {
+                (Some(text), _) => text.to_owned(),
+                (None, Some(number)) if column.kind == Kind::Number => format!("{number:?}"),
+                _ if value.is_null() => String::new(),
+                _ => value.to_string(),
+            };
+            assert_eq!(*text, value, "{} {r}", column.name);
+        }
+    }
+}
+
+#[test]
+fn cells_hold_what_their_names_say() {
+    let plan = plan("tosses = 100");
+    let table = csv(&example(&plan));
+    let cell = |row: usize, name: &str| {
+        let column = table[0].iter().position(|there| there == name).unwrap();
+        table[row + 1][column].as_str()
+    };
+    assert_eq!(
+        (cell(1, "point"), cell(4, "ratio"), cell(4, "restitution")),
+        ("1", "2.0", "0.3")
+    );
+    assert_eq!(
+        (cell(0, "engine"), cell(0, "law"), cell(0, "interval")),
+        ("flat", "moreau", "wilson")
+    );
+    assert_eq!((cell(2, "tosses"), cell(2, "undecided")), ("15", "9"));
+    assert_eq!(
+        (cell(0, "p_side"), cell(0, "p_heads"), cell(0, "p_tails")),
+        ("0.21", "0.49", "0.3")
+    );
+    assert_eq!(
+        cell(0, "rel_error_side"),
+        format!("{:?}", relative_error(0.21, 100))
+    );
+    assert_eq!(
+        (cell(0, "rule_of_thumb"), cell(0, "impacts_per_toss")),
+        ("0.1", "3.33")
+    );
+    assert_eq!((cell(1, "p_side"), cell(1, "rel_error_side")), ("0.0", ""));
+    assert_eq!(
+        (
+            cell(3, "p_side"),
+            cell(3, "p_side_lo"),
+            cell(3, "p_side_hi")
+        ),
+        ("", "0.0", "1.0")
+    );
+    assert_eq!(
+        (cell(3, "rule_of_thumb"), cell(3, "reached_target")),
+        ("", "false")
+    );
+    assert_eq!(
+        (
+            cell(4, "jams"),
+            cell(4, "overruled"),
+            cell(4, "reached_target")
+        ),
+        ("7", "8", "true")
+    );
+}
+
+#[test]
+fn closed_forms_are_exact_and_make_no_tosses() {
+    let plan = coinmc::config::parse(
+        "test",
+        "[coin]\nratio = [0.5, 1.5]\n[engine.analytic]\nrule = \"cross-section\"\n",
+        &[],
+    )
+    .unwrap();
+    let dir = tempfile::tempdir().unwrap();
+    let report = run_whole(&plan, dir.path());
+    assert_eq!(report.status, coinmc::run::Status::Complete);
+    // x/(2 + x)
+    for (row, p) in report.results.rows.iter().zip([0.2, 3.0 / 7.0]) {
+        assert_eq!(
+            (row.side.p, row.side.lo, row.side.hi),
+            (row.side.p, row.side.p, row.side.p)
+        );
+        assert!((row.side.p - p).abs() < 1e-15);
+        assert_eq!(
+            (row.interval, row.engine, row.law),
+            ("exact", "analytic", "cross-section")
+        );
+        assert_eq!((row.tally, row.half_width()), (Tally::default(), 0.0));
+    }
+}
+
+#[test]
+fn parquet_carries_units_and_the_config_and_is_the_same_every_time() {
+    let dir = tempfile::tempdir().unwrap();
+    let plan =
+        plan_of("[coin]\nratio = [1.0, 2.0]\n[surface]\nrestitution = 0.5\n[stop]\ntosses = 10\n");
+    run_whole(&plan, dir.path());
+    let path = dir.path().join("results.parquet");
+    let reader = ParquetRecordBatchReaderBuilder::try_new(File::open(&path).unwrap()).unwrap();
+    let radius = reader.schema().field_with_name("radius_m").unwrap().clone();
+    assert_eq!(radius.metadata()["unit"], "m");
+    assert!(!radius.metadata()["description"].is_empty());
+    let file = reader.metadata().file_metadata();
+    assert_eq!(
+        file.created_by(),
+        Some(concat!("coinmc ", env!("CARGO_PKG_VERSION")))
+    );
+    let metadata = file.key_value_metadata().unwrap();
+    let value = |key: &str| {
+        metadata
+            .iter()
+            .find(|pair| pair.key == key)
+            .and_then(|pair| pair.value.clone())
+            .unwrap()
+    };
+    assert_eq!(value("coinmc.plan_hash"), plan.hash());
+    assert_eq!(value("coinmc.config"), plan.resolved_toml);
+    assert_eq!(value("coinmc.axes"), "ratio");
+    // hash maps differ from one table to the next, the bytes must not
+    let first = std::fs::read(&path).unwrap();
+    let results = run_whole(&plan, dir.path()).results;
+    for _ in 0..20 {
+        let mut bytes = Vec::new();
+        write_parquet(&results, &mut bytes).unwrap();
+        assert!(bytes == first);
+    }
+}
+
+#[test]
+fn every_column_is_documented_as_it_is() {
+    let document = include_str!("../../../docs/formats.md");
+    for column in columns(["ratio", "radius_m", "restitution", "friction"]) {
+        let unit = if column.unit.is_empty() {
+            "–"
+        } else {
+            column.unit
+        };
+        let line = format!(
+            "| `{}` | {} | {unit} | {} |",
+            column.name,
+            column.kind.name(),
+            column.doc
+        );
+        assert!(
+            document.lines().any(|there| there == line),
+            "docs/formats.md lacks\n{line}"
+        );
+    }
+}
+
+#[test]
+fn every_counter_is_documented() {
+    let document = include_str!("../../../docs/formats.md");
+    for name in Tally::COUNTERS {
+        assert!(document.contains(&format!("`{name}`")), "{name}");
+    }
+}

@@ -1,0 +1,181 @@
+//! Parts and their merge.
+
+mod run_support;
+
+use coinmc::run::{Part, RunError, Shard, Status, merge};
+use run_support::{Ear, FIXED, HALF_WIDTH, assert_same, contents, plan, run_whole, run_with};
+use std::fs;
+use std::path::{Path, PathBuf};
+use tempfile::tempdir;
+
+fn run_parts(dir: &Path, of: u32) -> Vec<PathBuf> {
+    let run_part = |index| {
+        let out = dir.join(format!("part{index}"));
+        let part = Part::new(index, of).unwrap();
+        let report = run_with(&plan(FIXED), &out, part, 2, &Ear::default()).unwrap();
+        assert_eq!(report.status, Status::Part);
+        assert!(!contents(&out).contains_key("results.csv"));
+        out
+    };
+    (1..=of).map(run_part).collect()
+}
+
+#[test]
+fn merged_parts_are_the_whole_run_to_the_byte() {
+    let dir = tempdir().unwrap();
+    let whole = dir.path().join("whole");
+    let report = run_whole(&plan(FIXED), &whole);
+    for of in [2, 5, 30] {
+        let dir = tempdir().unwrap();
+        let parts = run_parts(dir.path(), of);
+        let before: Vec<_> = parts.iter().map(|part| contents(part)).collect();
+        let merged = dir.path().join("merged");
+        let again = merge(&parts, &merged, &()).unwrap();
+        assert_eq!(again.status, Status::Complete);
+        assert_eq!(again.results, report.results);
+        assert_same(&whole, &merged);
+        let after: Vec<_> = parts.iter().map(|part| contents(part)).collect();
+        assert!(before == after, "a part was touched");
+        // merging again, or a whole with its parts, is no harm
+        merge(&[parts, vec![whole.clone()]].concat(), &merged, &()).unwrap();
+        assert_same(&whole, &merged);
+    }
+}
+
+#[test]
+fn missing_shards_are_named_and_nothing_is_written() {
+    let dir = tempdir().unwrap();
+    let parts = run_parts(dir.path(), 3);
+    let out = dir.path().join("merged");
+    let error = merge(&parts[..2], &out, &()).unwrap_err();
+    // three shards a point: the third of each is missing
+    let RunError::Missing { missing, total } = &error else {
+        panic!("{error}")
+    };
+    assert_eq!(*total, 6);
+    assert_eq!(
+        missing[1],
+        Shard {
+            point: 1,
+            tosses: 32_768..40_000
+        }
+    );
+    assert!(
+        error.to_string().contains("point 1, tosses 32768..40000"),
+        "{error}"
+    );
+    assert!(!out.exists());
+
+    // a damaged tally is missing too, and said to be damaged
+    let victim = fs::read_dir(parts[0].join("tallies"))
+        .unwrap()
+        .next()
+        .unwrap()
+        .unwrap()
+        .path();
+    fs::write(&victim, "x").unwrap();
+    let ear = Ear::default();
+    let error = merge(&parts, &out, &ear).unwrap_err();
+    assert!(
+        matches!(error, RunError::Missing { total: 1, .. }),
+        "{error}"
+    );
+    assert!(
+        ear.warnings()[0].contains(victim.to_str().unwrap()),
+        "{:?}",
+        ear.warnings()
+    );
+    assert_eq!(fs::read(&victim).unwrap(), b"x");
+}
+
+#[test]
+fn neighbouring_missing_shards_are_named_together() {
+    let dir = tempdir().unwrap();
+    let out = dir.path().join("run");
+    run_with(&plan(FIXED), &out, Part::WHOLE, 1, &Ear::that_cancels_at(1)).unwrap();
+    let error = merge(&[out], &dir.path().join("merged"), &()).unwrap_err();
+    let RunError::Missing { missing, .. } = &error else {
+        panic!("{error}")
+    };
+    assert_eq!(
+        missing.last(),
+        Some(&Shard {
+            point: 5,
+            tosses: 0..40_000
+        })
+    );
+}
+
+#[test]
+fn parts_that_disagree_are_refused() {
+    let dir = tempdir().unwrap();
+    let parts = run_parts(dir.path(), 2);
+    let (forged, out) = (dir.path().join("forged"), dir.path().join("merged"));
+    // a plan's own tally with other counts, rightly sealed: made by the same plan's name
+    let name = "p000000-t00000000000000.tally";
+    fs::create_dir_all(forged.join("tallies")).unwrap();
+    for file in ["manifest.json", "config.toml"] {
+        fs::copy(parts[0].join(file), forged.join(file)).unwrap();
+    }
+    let text = fs::read_to_string(parts[0].join("tallies").join(name)).unwrap();
+    let line = text
+        .lines()
+        .find(|line| line.starts_with("impacts"))
+        .unwrap();
+    let body = text.replace(line, "impacts 1");
+    let body = body.rsplit_once("crc32").unwrap().0;
+    let sealed = format!("{body}crc32 {:08x}\n", crc32fast::hash(body.as_bytes()));
+    fs::write(forged.join("tallies").join(name), sealed).unwrap();
+    let all = [parts, vec![forged]].concat();
+    let error = merge(&all, &out, &()).unwrap_err();
+    assert!(matches!(error, RunError::Conflict { .. }), "{error}");
+    assert!(!out.exists());
+}
+
+#[test]
+fn what_cannot_be_merged_is_refused() {
+    let dir = tempdir().unwrap();
+    let parts = run_parts(dir.path(), 2);
+    let out = dir.path().join("merged");
+    assert!(matches!(
+        merge(&[], &out, &()),
+        Err(RunError::NothingToMerge)
+    ));
+    assert!(matches!(
+        merge(&parts, &parts[0], &()),
+        Err(RunError::MergeIntoPart { .. })
+    ));
+    let nothing = dir.path().join("nothing");
+    let with_nothing = [parts.clone(), vec![nothing]].concat();
+    assert!(matches!(
+        merge(&with_nothing, &out, &()),
+        Err(RunError::NotARunDirectory { .. })
+    ));
+
+    let other = dir.path().join("other");
+    run_whole(&plan("tosses = 100"), &other);
+    let error = merge(&[parts.clone(), vec![other.clone()]].concat(), &out, &()).unwrap_err();
+    assert!(matches!(error, RunError::OtherPlan { .. }), "{error}");
+    let error = merge(&parts, &other, &()).unwrap_err();
+    assert!(matches!(error, RunError::OtherPlan { .. }), "{error}");
+
+    fs::write(parts[0].join("config.toml"), "seed = ").unwrap();
+    assert!(matches!(
+        merge(&parts, &out, &()),
+        Err(RunError::BadConfig { .. })
+    ));
+    assert!(!out.exists());
+}
+
+#[test]
+fn a_run_to_a_half_width_has_no_parts_but_can_be_merged_alone() {
+    let (plan, dir) = (plan(HALF_WIDTH), tempdir().unwrap());
+    let (whole, merged) = (dir.path().join("whole"), dir.path().join("merged"));
+    let half = Part::new(1, 2).unwrap();
+    let refused = run_with(&plan, &whole, half, 2, &Ear::default());
+    assert!(matches!(refused, Err(RunError::PartsNeedFixedTosses)));
+    assert!(!whole.exists());
+    run_whole(&plan, &whole);
+    merge(std::slice::from_ref(&whole), &merged, &()).unwrap();
+    assert_same(&whole, &merged);
+}

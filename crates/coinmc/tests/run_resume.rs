@@ -1,0 +1,194 @@
+//! What is counted depends on the plan alone: threads, breaks and kills leave no trace.
+
+mod run_support;
+
+use coinmc::results::Row;
+use coinmc::run::{Part, Shard, Status, run_shard};
+use coinmc_core::Tally;
+use run_support::{Ear, FIXED, HALF_WIDTH, assert_same, contents, plan, run_whole, run_with};
+use std::process::{Command, Stdio};
+use std::sync::atomic::Ordering::SeqCst;
+use std::time::{Duration, Instant};
+use tempfile::tempdir;
+
+#[test]
+fn threads_change_nothing() {
+    for stop in [FIXED, HALF_WIDTH] {
+        let (plan, dir) = (plan(stop), tempdir().unwrap());
+        for threads in [1, 2, 4] {
+            let out = dir.path().join(threads.to_string());
+            let report = run_with(&plan, &out, Part::WHOLE, threads, &Ear::default()).unwrap();
+            assert_eq!(report.status, Status::Complete);
+            assert_same(&dir.path().join("1"), &out);
+        }
+    }
+}
+
+#[test]
+fn a_run_is_its_shards_however_they_are_cut() {
+    let (plan, dir) = (plan(FIXED), tempdir().unwrap());
+    let report = run_whole(&plan, dir.path());
+    for (point, row) in report.results.rows.iter().enumerate() {
+        let mut sum = Tally::default();
+        for tosses in [0..1, 1..77, 77..16_384, 16_384..16_384, 16_384..40_000] {
+            sum.merge(&run_shard(&plan, &Shard { point, tosses }).unwrap());
+        }
+        assert_eq!(sum, row.tally);
+        assert_eq!(*row, Row::new(&plan, point, sum, true));
+    }
+}
+
+#[test]
+fn breaks_change_nothing() {
+    for stop in [FIXED, HALF_WIDTH] {
+        let (plan, dir) = (plan(stop), tempdir().unwrap());
+        let (whole, broken) = (dir.path().join("whole"), dir.path().join("broken"));
+        run_whole(&plan, &whole);
+        let mut breaks = 0;
+        loop {
+            let ear = Ear::that_cancels_at(1 + breaks % 3);
+            let report = run_with(&plan, &broken, Part::WHOLE, 2, &ear).unwrap();
+            assert!(ear.warnings().is_empty(), "{:?}", ear.warnings());
+            if report.status == Status::Complete {
+                break;
+            }
+            assert_eq!(report.status, Status::Interrupted);
+            let files = contents(&broken);
+            assert!(files.contains_key("results.partial.csv"));
+            assert!(!files.contains_key("results.csv") && !files.contains_key("results.parquet"));
+            breaks += 1;
+            assert!(breaks < 100, "each run should finish a shard at least");
+        }
+        assert!(breaks >= 2, "{breaks}");
+        assert_same(&whole, &broken);
+    }
+}
+
+#[test]
+fn a_finished_run_is_only_reported_again() {
+    let (plan, dir) = (plan(FIXED), tempdir().unwrap());
+    let first = run_whole(&plan, dir.path());
+    let before = contents(dir.path());
+    let ear = Ear::default();
+    let again = run_with(&plan, dir.path(), Part::WHOLE, 2, &ear).unwrap();
+    assert_eq!(again.reused_shards, 18);
+    assert_eq!(first.results, again.results);
+    assert_eq!(before, contents(dir.path()));
+    let heard = ear.progress.lock().unwrap();
+    let last = heard.last().unwrap();
+    assert_eq!(last.tosses_reused, 240_000);
+}
+
+#[test]
+fn results_that_somebody_edited_are_made_good_with_a_warning() {
+    let (plan, dir) = (plan(FIXED), tempdir().unwrap());
+    run_whole(&plan, dir.path());
+    let before = contents(dir.path());
+    std::fs::write(dir.path().join("results.csv"), "mine").unwrap();
+    std::fs::remove_file(dir.path().join("results.parquet")).unwrap();
+    let ear = Ear::default();
+    run_with(&plan, dir.path(), Part::WHOLE, 2, &ear).unwrap();
+    assert_eq!(before, contents(dir.path()));
+    let warnings = ear.warnings();
+    assert!(
+        warnings.len() == 1 && warnings[0].contains("results.csv"),
+        "{warnings:?}"
+    );
+}
+
+#[test]
+fn progress_only_goes_forward_and_ends_where_it_was_planned() {
+    for stop in [FIXED, HALF_WIDTH] {
+        let (plan, dir, ear) = (plan(stop), tempdir().unwrap(), Ear::default());
+        let report = run_with(&plan, dir.path(), Part::WHOLE, 2, &ear).unwrap();
+        let heard = ear.progress.lock().unwrap();
+        assert!(
+            heard
+                .windows(2)
+                .all(|w| w[0].tosses_done <= w[1].tosses_done)
+        );
+        assert!(
+            heard
+                .windows(2)
+                .all(|w| w[0].points_done <= w[1].points_done)
+        );
+        let last = heard.last().unwrap();
+        assert_eq!((heard[0].tosses_done, heard[0].worst_half_width), (0, None));
+        assert_eq!((last.points_done, last.points), (6, 6));
+        assert_eq!(
+            (last.tosses_done, last.tosses_planned),
+            (report.tosses, report.tosses)
+        );
+        // Wilson's arms are within 1 % of Clopper and Pearson's at this many tosses
+        let worst = report
+            .results
+            .rows
+            .iter()
+            .map(Row::half_width)
+            .fold(0.0, f64::max);
+        assert!((last.worst_half_width.unwrap() / worst - 1.0).abs() < 0.01);
+    }
+}
+
+/// A shard of this run would take minutes, and a list of them more memory than there is.
+#[test]
+fn the_longest_run_begins_at_once_and_stops_when_told() {
+    let (plan, dir, ear) = (
+        plan("tosses = 1_000_000_000_000"),
+        tempdir().unwrap(),
+        Ear::default(),
+    );
+    let begun = Instant::now();
+    let report = std::thread::scope(|scope| {
+        scope.spawn(|| {
+            std::thread::sleep(Duration::from_millis(100));
+            ear.cancel.store(true, SeqCst);
+        });
+        run_with(&plan, dir.path(), Part::WHOLE, 2, &ear).unwrap()
+    });
+    assert_eq!((report.status, report.tosses), (Status::Interrupted, 0));
+    // 0.1 s to wait, 0.1 ms to stop: the rest is for a busy machine
+    assert!(
+        begun.elapsed() < Duration::from_secs(3),
+        "{:?}",
+        begun.elapsed()
+    );
+}
+
+/// Name of the environment variable that tells the child where to run.
+const CHILD: &str = "COINMC_TEST_RUN_DIRECTORY";
+
+/// Not a test of its own: what the next test starts and kills.
+#[test]
+fn child_that_is_killed() {
+    if let Some(out) = std::env::var_os(CHILD) {
+        run_whole(&plan(HALF_WIDTH), out.as_ref());
+    }
+}
+
+#[test]
+fn kills_at_any_instant_change_nothing() {
+    let (plan, dir) = (plan(HALF_WIDTH), tempdir().unwrap());
+    let (whole, killed) = (dir.path().join("whole"), dir.path().join("killed"));
+    run_whole(&plan, &whole);
+    // From before the directory exists to after the results are written.
+    for round in 0..3 {
+        for millis in [1, 3, 5, 8, 13, 21, 34, 55, 89, 144] {
+            let mut child = Command::new(std::env::current_exe().unwrap())
+                .args(["child_that_is_killed", "--exact"])
+                .env(CHILD, &killed)
+                .stdout(Stdio::null())
+                .spawn()
+                .unwrap();
+            std::thread::sleep(Duration::from_micros(1000 * millis + 300 * round));
+            // it may have finished
+            let _ = child.kill();
+            child.wait().unwrap();
+        }
+        let ear = Ear::default();
+        run_with(&plan, &killed, Part::WHOLE, 2, &ear).unwrap();
+        assert!(ear.warnings().is_empty(), "{:?}", ear.warnings());
+        assert_same(&whole, &killed);
+        std::fs::remove_dir_all(&killed).unwrap();
+    }
+}

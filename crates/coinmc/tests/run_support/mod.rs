@@ -1,0 +1,120 @@
+//! What the tests of runs share.
+#![allow(dead_code, reason = "each test binary uses its own share")]
+
+use coinmc::plan::Plan;
+use coinmc::run::{Options, Part, Progress, Report, RunError, Watcher, run};
+use std::collections::BTreeMap;
+use std::num::NonZeroUsize;
+use std::path::Path;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::SeqCst};
+
+/// Two restitutions, three ratios, 40 000 tosses a point: 18 shards.
+pub(crate) const FIXED: &str = "tosses = 40_000";
+/// Up to 8 looks; the flat engine's P(side) is known to ± 0.004 after some 100 000 tosses.
+pub(crate) const HALF_WIDTH: &str = "half_width = 0.006\nmax_tosses = 1_000_000";
+
+/// A flat plan with this stop rule.
+pub(crate) fn plan(stop: &str) -> Plan {
+    plan_of(&format!(
+        "[coin]\nratio = [1.0, 1.5, 2.0]\n[surface]\nrestitution = [0.3, 0.6]\n[stop]\n{stop}\n"
+    ))
+}
+
+/// A flat plan with a coin, a surface and a stop rule of its own.
+pub(crate) fn plan_of(tables: &str) -> Plan {
+    let text = format!(
+        "seed = 7\n[launch]\npreset = \"robot\"\n[engine.flat]\nzeno = 0.05\n{}",
+        tables
+            .replace("[coin]", "[coin]\nradius_m = 0.01")
+            .replace("[surface]", "[surface]\nfriction = 0.3")
+    );
+    coinmc::config::parse("test", &text, &[]).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+/// Runs the whole plan on two threads and hears nothing.
+pub(crate) fn run_whole(plan: &Plan, out: &Path) -> Report {
+    run_with(plan, out, Part::WHOLE, 2, &Ear::default()).unwrap()
+}
+
+/// Runs a part and cancels it when the ear has heard enough.
+pub(crate) fn run_with(
+    plan: &Plan,
+    out: &Path,
+    part: Part,
+    threads: usize,
+    ear: &Ear,
+) -> Result<Report, RunError> {
+    let threads = NonZeroUsize::new(threads);
+    run(
+        plan,
+        &Options {
+            out,
+            part,
+            threads,
+            cancel: &ear.cancel,
+            watcher: ear,
+        },
+    )
+}
+
+/// Remembers what it hears, and cancels at the `cancel_at`-th word of progress.
+#[derive(Default)]
+pub(crate) struct Ear {
+    pub(crate) warnings: Mutex<Vec<String>>,
+    pub(crate) progress: Mutex<Vec<Progress>>,
+    pub(crate) cancel: AtomicBool,
+    pub(crate) cancel_at: Option<usize>,
+    heard: AtomicUsize,
+}
+
+impl Ear {
+    pub(crate) fn that_cancels_at(count: usize) -> Self {
+        Self {
+            cancel_at: Some(count),
+            ..Self::default()
+        }
+    }
+
+    pub(crate) fn warnings(&self) -> Vec<String> {
+        self.warnings.lock().unwrap().clone()
+    }
+}
+
+impl Watcher for Ear {
+    fn progress(&self, progress: &Progress) {
+        self.progress.lock().unwrap().push(*progress);
+        if self.cancel_at == Some(self.heard.fetch_add(1, SeqCst)) {
+            self.cancel.store(true, SeqCst);
+        }
+    }
+
+    fn warning(&self, message: &str) {
+        self.warnings.lock().unwrap().push(message.to_owned());
+    }
+}
+
+/// Every file of a directory by its path there.
+pub(crate) fn contents(dir: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut all = BTreeMap::new();
+    for entry in std::fs::read_dir(dir).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        if path.is_dir() {
+            let inner = contents(&path).into_iter();
+            all.extend(inner.map(|(below, bytes)| (format!("{name}/{below}"), bytes)));
+        } else {
+            all.insert(name, std::fs::read(&path).unwrap());
+        }
+    }
+    all
+}
+
+/// Whether two directories are the same to the byte; says which file is not.
+pub(crate) fn assert_same(a: &Path, b: &Path) {
+    let (a, b) = (contents(a), contents(b));
+    assert_eq!(a.keys().collect::<Vec<_>>(), b.keys().collect::<Vec<_>>());
+    for (name, bytes) in &a {
+        assert!(*bytes == b[name], "{name} differs");
+    }
+}
