@@ -1,0 +1,106 @@
+//! What can be asked for on the command line.
+
+use crate::commands::{Analytic, Check, Completions, Merge, Run, Schema};
+use crate::exit::{Failure, Outcome};
+use crate::output::Console;
+use clap::{ColorChoice, Parser, Subcommand, ValueEnum};
+use std::process::ExitCode;
+
+const EXAMPLES: &str = "\
+Examples:
+  coinmc check examples/flat-fair.toml            what would be computed, and how long it takes
+  coinmc run examples/flat-fair.toml              run it; the same command again resumes
+  coinmc run toss.toml --set surface.friction=0.2 --format json
+  coinmc analytic --fair                          fair ratios of the closed forms
+
+Exit status:
+  0    done
+  1    failure at run time (disk full, file unreadable, …)
+  2    bad input: arguments, config, or a directory that belongs to another run
+  3    stopped short of the target: max_tosses came before half_width
+  130  stopped by Ctrl-C or SIGTERM; finished work is kept
+
+With --format json, standard output holds exactly one JSON document, whatever happens: the result,
+or the problems that prevented it.";
+
+/// How likely does a tossed cylinder come to rest on heads, on tails or on its side?
+///
+/// A coin of height H and radius R ("ratio" is always H/R) is tossed onto a surface, many times, by
+/// the laws of mechanics. A config (TOML) says which coins, which surfaces and how they are tossed;
+/// any number of it may be a list or a range, and becomes an axis of a sweep.
+#[derive(Debug, Parser)]
+#[command(name = "coinmc", version, after_long_help = EXAMPLES, max_term_width = 100)]
+pub(crate) struct Arguments {
+    /// When to use colour; NO_COLOR is respected
+    #[arg(long, global = true, value_enum, default_value_t = ColorChoice::Auto, value_name = "WHEN")]
+    color: ColorChoice,
+
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// Each verb is described where its arguments are.
+#[derive(Debug, Subcommand)]
+enum Command {
+    Run(Run),
+    Check(Check),
+    Merge(Merge),
+    Analytic(Analytic),
+    Schema(Schema),
+    Completions(Completions),
+}
+
+/// How results are written to standard output.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// For people
+    Table,
+    /// One JSON document
+    Json,
+}
+
+impl Arguments {
+    /// Does what was asked and says how it went.
+    pub(crate) fn carry_out(self) -> ExitCode {
+        let format = self.command.format();
+        let console = Console::new(self.color, format);
+        match self.command.carry_out(&console) {
+            Ok(outcome) => outcome.into(),
+            Err(failure) => failure.report(&console).into(),
+        }
+    }
+}
+
+impl Command {
+    fn format(&self) -> Format {
+        match self {
+            Self::Run(run) => run.format(),
+            Self::Check(check) => check.format(),
+            Self::Merge(merge) => merge.format(),
+            Self::Analytic(analytic) => analytic.errors_as(),
+            Self::Schema(_) | Self::Completions(_) => Format::Table,
+        }
+    }
+
+    fn carry_out(&self, console: &Console) -> Result<Outcome, Failure> {
+        match self {
+            Self::Run(run) => run.carry_out(console),
+            Self::Check(check) => check.carry_out(console),
+            Self::Merge(merge) => merge.carry_out(console),
+            Self::Analytic(analytic) => analytic.carry_out(console),
+            Self::Schema(schema) => schema.carry_out(),
+            Self::Completions(completions) => completions.carry_out(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_arguments_are_consistent() {
+        Arguments::command().debug_assert();
+    }
+}

@@ -1,0 +1,241 @@
+//! `coinmc check`: what a config means, before it is run.
+
+mod calibration;
+
+use crate::arguments::Format;
+use crate::exit::{Failure, Outcome};
+use crate::output::{self, Console, FORMAT_VERSION};
+use crate::terminal::progress::with_prefix;
+use crate::terminal::{Colors, Style, compact, count, duration, grouped, in_ascii};
+use calibration::Cost;
+use clap::Args;
+use coinmc::config::{self, Override};
+use coinmc::plan::{Plan, Stop};
+use serde_json::{Value, json};
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+Examples:
+  coinmc check examples/flat-fair.toml
+  coinmc check toss.toml --set 'stop={half_width=1e-4}'      what would that accuracy cost?
+  coinmc check toss.toml --format json";
+
+/// The interval of a closed form.
+const EXACT: &str = "exact";
+/// Columns of the titles.
+const INDENT: usize = 10;
+
+/// Validate a config, show what would be computed and estimate the cost
+///
+/// Every problem of the config is reported at once. The cost comes from tossing some of the points
+/// for a moment; nothing is written.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Check {
+    /// The config (TOML; `coinmc schema` describes it)
+    config: PathBuf,
+
+    /// Replace or add a value of the config, as in `surface.friction=0.2`; repeatable
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    overrides: Vec<Override>,
+
+    /// How to write the plan
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+}
+
+impl Check {
+    pub(crate) fn format(&self) -> Format {
+        self.format
+    }
+
+    pub(crate) fn carry_out(&self, console: &Console) -> Result<Outcome, Failure> {
+        let plan = config::load(&self.config, &self.overrides)?;
+        let cost = calibration::estimate(&plan)?;
+        match self.format {
+            Format::Table => output::print(&to_text(&plan, &cost, console.stdout())),
+            Format::Json => output::print_json(&to_json(&plan, &cost)),
+        }
+        .map_err(|error| Failure::Runtime(error.into()))?;
+        Ok(Outcome::Done)
+    }
+}
+
+fn to_text(plan: &Plan, cost: &Cost, style: &Style) -> String {
+    let mut text = String::new();
+    let mut item = |title: &str, value: &str| {
+        text += &style.paint(Colors::Strong, &format!("{title:<INDENT$}"));
+        text += &wrapped(value, style.width - INDENT);
+    };
+    item(
+        "plan",
+        &format!("{}, seed {}", &plan.hash()[..8], plan.seed),
+    );
+    item("points", &points(plan));
+    item("tosses", &tosses(plan, cost));
+    item("intervals", &confidence(plan));
+    for group in plan.explain() {
+        item(
+            "computed",
+            &format!(
+                "{}: {}",
+                count(group.points as u64, "point"),
+                group.computed
+            ),
+        );
+        for skipped in &group.skipped {
+            item("skipped", skipped);
+        }
+    }
+    for note in &plan.notes {
+        item("note", note);
+    }
+    item("cost", &in_words(cost));
+    if style.unicode { text } else { in_ascii(&text) }
+}
+
+/// Words on lines of `width` characters, all but the first indented.
+fn wrapped(text: &str, width: usize) -> String {
+    let (mut lines, mut used) = (String::new(), 0);
+    for word in text.split(' ') {
+        let length = word.chars().count();
+        if used > 0 && used + 1 + length > width {
+            lines += &format!("\n{:INDENT$}", "");
+            used = 0;
+        } else if used > 0 {
+            lines.push(' ');
+            used += 1;
+        }
+        lines += word;
+        used += length;
+    }
+    lines + "\n"
+}
+
+fn points(plan: &Plan) -> String {
+    let total = grouped(plan.points.len() as u64);
+    if plan.axes.is_empty() {
+        return total;
+    }
+    let axes = plan.axes.iter().map(|axis| {
+        let mut values: Vec<f64> = plan
+            .points
+            .iter()
+            .filter_map(|point| parameter(point, axis))
+            .collect();
+        values.sort_by(f64::total_cmp);
+        values.dedup();
+        match values[..] {
+            [least, .., most] => {
+                format!(
+                    "{axis} {} to {} ({})",
+                    compact(least),
+                    compact(most),
+                    values.len()
+                )
+            }
+            [only] => format!("{axis} {}", compact(only)),
+            [] => axis.clone(),
+        }
+    });
+    format!("{total}: {}", axes.collect::<Vec<_>>().join(", "))
+}
+
+fn parameter(point: &coinmc::plan::Point, name: &str) -> Option<f64> {
+    point
+        .parameters
+        .iter()
+        .find(|(there, _)| there == name)
+        .map(|(_, value)| *value)
+}
+
+fn tosses(plan: &Plan, cost: &Cost) -> String {
+    let total = grouped(plan.tosses_planned());
+    match plan.stop {
+        _ if plan.tosses_planned() == 0 => "none".to_owned(),
+        Stop::Tosses(each) => format!("{} a point, {total} in all", grouped(each)),
+        Stop::HalfWidth { half_width, .. } => format!(
+            "until every interval is within ±{}: about {}, {total} at most",
+            compact(half_width),
+            grouped(two_digits(cost.tosses))
+        ),
+    }
+}
+
+/// The first two digits, then zeros: a forecast has no more.
+fn two_digits(n: u64) -> u64 {
+    let unit = 10_u64.pow(n.checked_ilog10().unwrap_or(0).saturating_sub(1));
+    n / unit * unit
+}
+
+fn intervals(plan: &Plan) -> &'static str {
+    match plan.stop {
+        _ if plan.tosses_planned() == 0 => EXACT,
+        Stop::Tosses(_) => plan.interval.name(),
+        Stop::HalfWidth { .. } => "sequential-clopper-pearson",
+    }
+}
+
+fn confidence(plan: &Plan) -> String {
+    match intervals(plan) {
+        EXACT => "none: closed forms are exact".to_owned(),
+        method => format!("{} %, {method}", compact(plan.confidence * 100.0)),
+    }
+}
+
+fn in_words(cost: &Cost) -> String {
+    match cost.time {
+        None => "nothing to toss".to_owned(),
+        Some(time) => format!(
+            "about {} on {} ({} tosses/s on one, as just measured)",
+            duration(time),
+            count(cost.threads as u64, "core"),
+            with_prefix(cost.tosses_per_s)
+        ),
+    }
+}
+
+/// The document of `--format json`; docs/formats.md describes it.
+fn to_json(plan: &Plan, cost: &Cost) -> Value {
+    let groups = plan.explain().into_iter().map(|group| {
+        json!({ "points": group.points, "computed": group.computed, "skipped": group.skipped })
+    });
+    json!({
+        "format_version": FORMAT_VERSION,
+        "kind": "plan",
+        "plan_hash": plan.hash(),
+        "seed": plan.seed,
+        "axes": plan.axes,
+        "points": plan.points.len(),
+        "tosses_at_most": plan.tosses_planned(),
+        "confidence": plan.confidence,
+        "interval": intervals(plan),
+        "groups": groups.collect::<Vec<_>>(),
+        "notes": plan.notes,
+        "cost": {
+            "tosses": cost.tosses,
+            "threads": cost.threads,
+            "tosses_per_s_and_thread": cost.time.map(|_| cost.tosses_per_s),
+            "time_s": cost.time.map_or(0.0, |time| time.as_secs_f64()),
+        },
+        "resolved_config": plan.resolved_toml,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{two_digits, wrapped};
+
+    #[test]
+    fn forecasts_have_two_digits() {
+        let rounded = [0, 7, 99, 14_680_064, u64::MAX].map(two_digits);
+        assert_eq!(rounded, [0, 7, 99, 14_000_000, 18_000_000_000_000_000_000]);
+    }
+
+    #[test]
+    fn long_values_are_wrapped_under_their_first_line() {
+        assert_eq!(wrapped("one two three", 20), "one two three\n");
+        assert_eq!(wrapped("one two three", 8), "one two\n          three\n");
+        assert_eq!(wrapped("unbreakable", 3), "unbreakable\n");
+    }
+}

@@ -1,0 +1,47 @@
+//! `coinmc merge`: the parts of a run become the whole.
+
+use super::run::present;
+use crate::arguments::Format;
+use crate::exit::{Failure, Outcome};
+use crate::output::Console;
+use crate::terminal::progress::Progress;
+use clap::Args;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+Example:
+  coinmc run toss.toml --shard 1/2 --out part-1        on one machine
+  coinmc run toss.toml --shard 2/2 --out part-2        on another
+  coinmc merge part-1 part-2 --out whole               the same bytes as one run";
+
+/// Join the parts of a run that was shared out with `run --shard`
+///
+/// The parts are only read. All of the run must be there, and all parts must be of the same plan
+/// and program version.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Merge {
+    /// Run directories of the parts
+    #[arg(required = true, value_name = "DIR")]
+    parts: Vec<PathBuf>,
+
+    /// Run directory of the whole: new or empty
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+
+    /// How to write the result
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+}
+
+impl Merge {
+    pub(crate) fn format(&self) -> Format {
+        self.format
+    }
+
+    pub(crate) fn carry_out(&self, console: &Console) -> Result<Outcome, Failure> {
+        let progress = Progress::new(*console.stderr(), true);
+        let report = coinmc::run::merge(&self.parts, &self.out, &progress)?;
+        present(&report, &self.out, console, false)
+    }
+}

@@ -1,0 +1,274 @@
+//! `coinmc run`: from a config to probabilities.
+
+use crate::arguments::Format;
+use crate::exit::{Failure, Outcome};
+use crate::interrupt;
+use crate::output::{self, Console, FORMAT_VERSION};
+use crate::terminal::progress::{Progress, with_prefix};
+use crate::terminal::summary::{FAIR, summary};
+use crate::terminal::{count, duration, grouped};
+use anyhow::Context;
+use clap::Args;
+use coinmc::config::{self, Override};
+use coinmc::plan::Plan;
+use coinmc::results::{FairRatio, fair_ratios};
+use coinmc::run::{Options, Part, Report, Status};
+use serde_json::{Map, Value, json};
+use std::env;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+const EXAMPLES: &str = "\
+Examples:
+  coinmc run examples/flat-fair.toml
+  coinmc run toss.toml --set stop.tosses=1e5 --set 'surface.restitution=[0.3, 0.5]'
+  coinmc run toss.toml --shard 1/4 --out part-1     one of four machines; see `coinmc merge`
+  coinmc run toss.toml --format json > toss.json
+
+The same command again goes on where the last one stopped, and reports a finished run at once.";
+
+/// Toss what a config describes and report probabilities with intervals
+///
+/// Results go to standard output and, as CSV and Parquet, into the run directory; progress goes to
+/// standard error. The counts depend on the config alone, not on threads, parts or interruptions.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Run {
+    /// The config (TOML; `coinmc schema` describes it)
+    config: PathBuf,
+
+    /// Run directory: new, empty, or that of the same run
+    /// [default: runs/NAME-HASH, after the config's name and what it means]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// Do only part I of N of the run
+    #[arg(long, value_name = "I/N", default_value_t = Part::WHOLE, hide_default_value = true)]
+    shard: Part,
+
+    /// Threads that toss [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+
+    /// Replace or add a value of the config, as in `surface.friction=0.2`; repeatable
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    overrides: Vec<Override>,
+
+    /// How to write the result
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+
+    /// No progress and no remarks; warnings and errors stay
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+impl Run {
+    pub(crate) fn format(&self) -> Format {
+        self.format
+    }
+
+    pub(crate) fn carry_out(&self, console: &Console) -> Result<Outcome, Failure> {
+        let plan = config::load(&self.config, &self.overrides)?;
+        let out = self.out.clone().unwrap_or_else(|| self.default_out(&plan));
+        let progress = Progress::new(*console.stderr(), self.quiet);
+        if !self.quiet {
+            plan.notes
+                .iter()
+                .for_each(|note| progress.note(&format!("note: {note}")));
+        }
+        let told = progress.clone();
+        let cancel = interrupt::listen(move || told.note("stopping; Ctrl-C again stops at once"))
+            .context("cannot listen for signals")
+            .map_err(Failure::Runtime)?;
+        let report = coinmc::run::run(
+            &plan,
+            &Options {
+                out: &out,
+                part: self.shard,
+                threads: self.threads.and_then(|n| NonZeroUsize::new(n.into())),
+                cancel,
+                watcher: &progress,
+            },
+        );
+        progress.finish();
+        let report = report?;
+        if !self.quiet {
+            output::note(&closing_line(&report, &progress));
+        }
+        present(&report, &out, console, self.quiet)
+    }
+
+    fn default_out(&self, plan: &Plan) -> PathBuf {
+        let stem = self
+            .config
+            .file_stem()
+            .map_or("run".into(), |stem| stem.to_string_lossy());
+        let hash = plan.hash();
+        let mut name = format!("{stem}-{}", &hash[..8]);
+        if self.shard != Part::WHOLE {
+            name += &format!("-part-{}-of-{}", self.shard.index(), self.shard.of());
+        }
+        Path::new("runs").join(name)
+    }
+}
+
+/// Result on standard output, advice on standard error unless `quiet`.
+pub(super) fn present(
+    report: &Report,
+    out: &Path,
+    console: &Console,
+    quiet: bool,
+) -> Result<Outcome, Failure> {
+    let fair = fair_ratios(&report.results, FAIR);
+    match console.format() {
+        Format::Json => output::print_json(&to_json(report, &fair, out)),
+        Format::Table => {
+            let csv = out.join(csv_name(report.status));
+            output::print(&summary(&report.results, &fair, &csv, console.stdout()))
+        }
+    }
+    .map_err(|error| Failure::Runtime(error.into()))?;
+    if let Some(advice) = advice(report, out).filter(|_| !quiet) {
+        output::note(&advice);
+    }
+    Ok(match report.status {
+        Status::Complete | Status::Part => Outcome::Done,
+        Status::Interrupted => Outcome::Interrupted,
+        Status::ShortOfTarget { .. } => Outcome::ShortOfTarget,
+    })
+}
+
+fn csv_name(status: Status) -> &'static str {
+    match status {
+        Status::Complete | Status::ShortOfTarget { .. } => "results.csv",
+        Status::Interrupted | Status::Part => "results.partial.csv",
+    }
+}
+
+/// What was done, in a line.
+fn closing_line(report: &Report, progress: &Progress) -> String {
+    let points = count(report.results.rows.len() as u64, "point");
+    let closed = report
+        .results
+        .rows
+        .iter()
+        .all(|row| row.interval == "exact");
+    if closed && report.status != Status::Interrupted {
+        return format!("coinmc: {points} by closed form, nothing to toss");
+    }
+    let (made, time) = progress.made(report.tosses);
+    let earlier = report.tosses - made;
+    if made == 0 && earlier > 0 && report.status != Status::Interrupted {
+        return format!("coinmc: finished earlier, nothing tossed again: {points}");
+    }
+    let mut line = format!(
+        "coinmc: {points}, {} tosses in {}",
+        grouped(made),
+        duration(time)
+    );
+    if made > 0 {
+        line += &format!(" ({}/s)", with_prefix(made as f64 / time.as_secs_f64()));
+    }
+    if earlier > 0 {
+        line += &format!(", {} taken over from an earlier run", grouped(earlier));
+    }
+    line
+}
+
+/// What to do next, where something is left to do.
+fn advice(report: &Report, out: &Path) -> Option<String> {
+    match report.status {
+        Status::Complete => None,
+        Status::Interrupted => {
+            let rows = &report.results.rows;
+            let done = rows.iter().filter(|row| row.reached_target).count();
+            Some(format!(
+                "coinmc: stopped with {done} of {} finished; all that was counted is kept in {}.\n\
+                 Go on with: {}",
+                count(rows.len() as u64, "point"),
+                out.display(),
+                this_command()
+            ))
+        }
+        Status::Part => Some(
+            "coinmc: this part is done; when all are, join them with \
+             `coinmc merge PART… --out WHOLE`"
+                .to_owned(),
+        ),
+        Status::ShortOfTarget { points } => Some(format!(
+            "coinmc: {} came to stop.max_tosses before stop.half_width: raise the one or the other",
+            count(points as u64, "point"),
+        )),
+    }
+}
+
+/// The command line that started this process, for a shell.
+fn this_command() -> String {
+    let words = env::args_os().map(|word| quoted(&word.to_string_lossy()));
+    words.collect::<Vec<_>>().join(" ")
+}
+
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_./=:,+@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
+}
+
+/// The document of `--format json`; docs/formats.md describes it.
+fn to_json(report: &Report, fair: &[FairRatio], out: &Path) -> Value {
+    let mut table = report.results.to_json();
+    let status = match report.status {
+        Status::Complete => "complete",
+        Status::Interrupted => "interrupted",
+        Status::Part => "part",
+        Status::ShortOfTarget { .. } => "short_of_target",
+    };
+    json!({
+        "format_version": FORMAT_VERSION,
+        "kind": "run",
+        "status": status,
+        "out": out.to_string_lossy(),
+        "plan_hash": report.results.plan_hash,
+        "program_version": report.results.program_version,
+        "axes": report.results.axes,
+        "rows": table["points"].take(),
+        "fair_ratios": fair.iter().map(fair_to_json).collect::<Vec<_>>(),
+    })
+}
+
+fn fair_to_json(fair: &FairRatio) -> Value {
+    let at: Map<_, _> = fair
+        .at
+        .iter()
+        .map(|(name, value)| (name.clone(), json!(value)))
+        .collect();
+    json!({
+        "at": at,
+        "engine": fair.engine,
+        "law": fair.law,
+        "target": FAIR,
+        "ratio": fair.ratio,
+        "lo": fair.lo,
+        "hi": fair.hi,
+        "confidence": fair.confidence,
+        "rising": fair.rising,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_quoted_only_where_a_shell_needs_it() {
+        assert_eq!(quoted("--set=coin.ratio=1.2"), "--set=coin.ratio=1.2");
+        assert_eq!(quoted("a b"), "'a b'");
+        assert_eq!(quoted("it's"), r"'it'\''s'");
+        assert_eq!(quoted(""), "''");
+        assert_eq!(quoted("[1, 2]"), "'[1, 2]'");
+    }
+}

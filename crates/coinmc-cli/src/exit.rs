@@ -1,0 +1,133 @@
+//! How the program ends: exit codes, and what is said about failures.
+
+use crate::arguments::Format;
+use crate::output::{self, Console};
+use crate::terminal::Colors;
+use coinmc::config::Diagnostics;
+use coinmc::run::RunError;
+use serde_json::{Value, json};
+use std::process::ExitCode;
+
+/// Ways to end without a failure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Outcome {
+    /// All that was asked for.
+    Done,
+    /// `max_tosses` came before `half_width` at some point.
+    ShortOfTarget,
+    /// Ctrl-C or SIGTERM.
+    Interrupted,
+}
+
+/// Why nothing was done, or not all.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// The config is wrong: every problem of it.
+    Config(Diagnostics),
+    /// An argument, or a directory it names, is wrong.
+    Input(anyhow::Error),
+    /// The input was right, the machine was not.
+    Runtime(anyhow::Error),
+}
+
+/// Exit codes; `arguments.rs` documents them for users.
+const FAILED: u8 = 1;
+const BAD_INPUT: u8 = 2;
+const SHORT_OF_TARGET: u8 = 3;
+/// 128 + SIGINT, as shells report it. Also the code of a second Ctrl-C.
+pub(crate) const INTERRUPTED: u8 = 130;
+
+impl From<Outcome> for ExitCode {
+    fn from(outcome: Outcome) -> Self {
+        match outcome {
+            Outcome::Done => Self::SUCCESS,
+            Outcome::ShortOfTarget => Self::from(SHORT_OF_TARGET),
+            Outcome::Interrupted => Self::from(INTERRUPTED),
+        }
+    }
+}
+
+impl From<Diagnostics> for Failure {
+    fn from(diagnostics: Diagnostics) -> Self {
+        Self::Config(diagnostics)
+    }
+}
+
+impl From<RunError> for Failure {
+    /// A directory that holds something else, and parts that do not fit, are input as much as the
+    /// config is.
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::NotARunDirectory { .. }
+            | RunError::OtherPlan { .. }
+            | RunError::OtherVersion { .. }
+            | RunError::OtherPart { .. }
+            | RunError::NewerFormat { .. }
+            | RunError::PartsNeedFixedTosses
+            | RunError::NothingToMerge
+            | RunError::BadConfig { .. }
+            | RunError::MergeIntoPart { .. }
+            | RunError::Missing { .. }
+            | RunError::Conflict { .. } => Self::Input(error.into()),
+            _ => Self::Runtime(error.into()),
+        }
+    }
+}
+
+impl Failure {
+    /// Tells the user: people on standard error, programs on standard output.
+    pub(crate) fn report(&self, console: &Console) -> u8 {
+        match console.format() {
+            // Standard output gone as well: the exit code still tells.
+            Format::Json => drop(output::print_json(&self.to_json())),
+            Format::Table => self.explain(console),
+        }
+        self.code()
+    }
+
+    fn code(&self) -> u8 {
+        match self {
+            Self::Config(_) | Self::Input(_) => BAD_INPUT,
+            Self::Runtime(_) => FAILED,
+        }
+    }
+
+    fn explain(&self, console: &Console) {
+        match self {
+            Self::Config(diagnostics) => {
+                output::note(&diagnostics.render(console.stderr().color));
+                let problems = diagnostics.problems().len();
+                output::note(&format!(
+                    "\n{problems} problem{} found, nothing was run",
+                    if problems == 1 { "" } else { "s" }
+                ));
+            }
+            Self::Input(error) | Self::Runtime(error) => {
+                let title = console.stderr().paint(Colors::Warning, "error:");
+                output::note(&format!("{title} {error:#}"));
+            }
+        }
+    }
+
+    fn to_json(&self) -> Value {
+        match self {
+            Self::Config(diagnostics) => json!({
+                "format_version": output::FORMAT_VERSION,
+                "kind": "problems",
+                "problems": diagnostics.problems().iter().map(|problem| json!({
+                    "file": problem.source,
+                    "line": problem.line,
+                    "column": problem.column,
+                    "message": problem.message,
+                    "help": problem.help,
+                })).collect::<Vec<_>>(),
+            }),
+            Self::Input(error) | Self::Runtime(error) => json!({
+                "format_version": output::FORMAT_VERSION,
+                "kind": "error",
+                "exit_code": self.code(),
+                "message": format!("{error:#}"),
+            }),
+        }
+    }
+}

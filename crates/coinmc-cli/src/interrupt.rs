@@ -1,0 +1,25 @@
+//! Ctrl-C and SIGTERM: the first asks the run to stop, the second stops the process.
+
+use crate::exit::INTERRUPTED;
+use std::process;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Set by the first signal.
+static CANCEL: AtomicBool = AtomicBool::new(false);
+
+/// Starts listening and returns the flag that a signal sets. `on_first` is called once, at the
+/// first signal, on a thread of its own.
+///
+/// Nothing is lost when the second signal ends the process at once: shards are renamed into place,
+/// so each is there whole or not at all.
+pub(crate) fn listen(
+    mut on_first: impl FnMut() + Send + 'static,
+) -> Result<&'static AtomicBool, ctrlc::Error> {
+    ctrlc::set_handler(move || {
+        if CANCEL.swap(true, Ordering::Relaxed) {
+            process::exit(i32::from(INTERRUPTED));
+        }
+        on_first();
+    })?;
+    Ok(&CANCEL)
+}

@@ -1,0 +1,19 @@
+//! The command `coinmc`: how likely does a tossed cylinder come to rest on heads, on tails or on
+//! its side?
+
+// Text for people: an allocation a line is nothing, and `write!` would add a result to drop.
+#![allow(clippy::format_push_string)]
+
+mod arguments;
+mod commands;
+mod exit;
+mod interrupt;
+mod output;
+mod terminal;
+
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    arguments::Arguments::parse().carry_out()
+}

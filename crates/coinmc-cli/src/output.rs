@@ -1,0 +1,64 @@
+//! Standard output holds results and nothing else; standard error the rest.
+
+use crate::arguments::Format;
+use crate::terminal::Style;
+use clap::ColorChoice;
+use serde_json::Value;
+use std::io::{self, Write};
+
+/// Version of every JSON document printed. Fields may be added without a new one; none changes its
+/// meaning or goes without it.
+pub(crate) const FORMAT_VERSION: u32 = 1;
+
+/// Both streams, and how to write to them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Console {
+    format: Format,
+    stdout: Style,
+    stderr: Style,
+}
+
+impl Console {
+    /// The process's own streams.
+    pub(crate) fn new(color: ColorChoice, format: Format) -> Self {
+        Self {
+            format,
+            stdout: Style::stdout(color),
+            stderr: Style::stderr(color),
+        }
+    }
+
+    pub(crate) fn format(&self) -> Format {
+        self.format
+    }
+
+    pub(crate) fn stdout(&self) -> &Style {
+        &self.stdout
+    }
+
+    pub(crate) fn stderr(&self) -> &Style {
+        &self.stderr
+    }
+}
+
+/// Writes to standard output. A reader that went away (`| head`) has seen enough: no error.
+pub(crate) fn print(text: &str) -> io::Result<()> {
+    let mut stdout = io::stdout().lock();
+    match stdout
+        .write_all(text.as_bytes())
+        .and_then(|()| stdout.flush())
+    {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        result => result,
+    }
+}
+
+/// Writes a document to standard output.
+pub(crate) fn print_json(document: &Value) -> io::Result<()> {
+    print(&format!("{document:#}\n"))
+}
+
+/// Writes a line to standard error; nobody is left to hear it if that fails.
+pub(crate) fn note(text: &str) {
+    let _ = writeln!(io::stderr().lock(), "{text}");
+}

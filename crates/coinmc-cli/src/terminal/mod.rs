@@ -1,0 +1,13 @@
+//! What people see: tables, plots, progress, and the text of a finished run.
+
+mod ascii;
+mod number;
+pub(crate) mod plot;
+pub(crate) mod progress;
+mod style;
+pub(crate) mod summary;
+pub(crate) mod table;
+
+pub(crate) use ascii::in_ascii;
+pub(crate) use number::{compact, count, decimals_for, duration, grouped};
+pub(crate) use style::{Colors, Style};

@@ -1,0 +1,197 @@
+//! How far a run is, on standard error.
+
+use super::{Style, compact, duration, grouped};
+use coinmc::run::{Progress as Counts, Watcher};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::{self, IsTerminal, Write};
+use std::sync::{Arc, OnceLock};
+use std::time::{Duration, Instant};
+
+/// Tosses this run found done when it began, and when that was.
+#[derive(Debug, Clone, Copy)]
+struct Start {
+    tosses: u64,
+    at: Instant,
+}
+
+/// A bar on a terminal, nothing elsewhere; warnings everywhere. Clones share the bar.
+#[derive(Debug, Clone)]
+pub(crate) struct Progress {
+    bar: ProgressBar,
+    style: Style,
+    start: Arc<OnceLock<Start>>,
+}
+
+impl Progress {
+    /// A bar for standard error, hidden if that is no terminal or `quiet`.
+    pub(crate) fn new(style: Style, quiet: bool) -> Self {
+        let visible = !quiet && io::stderr().is_terminal();
+        let target = if visible {
+            ProgressDrawTarget::stderr()
+        } else {
+            ProgressDrawTarget::hidden()
+        };
+        let bar = ProgressBar::with_draw_target(None, target);
+        let template = if style.color {
+            "{bar:12.cyan/dim} {wide_msg}"
+        } else {
+            "{bar:12} {wide_msg}"
+        };
+        let characters = if style.unicode { "━╸─" } else { "=>-" };
+        let look = ProgressStyle::with_template(template).expect("the template is valid");
+        bar.set_style(look.progress_chars(characters));
+        Self {
+            bar,
+            style,
+            start: Arc::default(),
+        }
+    }
+
+    /// A line of text above the bar, on standard error.
+    pub(crate) fn note(&self, text: &str) {
+        self.bar.suspend(|| {
+            // Nobody is left to hear it if this fails.
+            let _ = writeln!(io::stderr().lock(), "{text}");
+        });
+    }
+
+    /// Takes the bar away.
+    pub(crate) fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+
+    /// Tosses made by this process and the time they took.
+    pub(crate) fn made(&self, tosses_done: u64) -> (u64, Duration) {
+        self.start.get().map_or((0, Duration::ZERO), |start| {
+            (tosses_done.saturating_sub(start.tosses), start.at.elapsed())
+        })
+    }
+}
+
+impl Watcher for Progress {
+    fn progress(&self, counts: &Counts) {
+        let start = self.start.get_or_init(|| Start {
+            tosses: counts.tosses_done,
+            at: Instant::now(),
+        });
+        self.bar.set_length(counts.tosses_planned.max(1));
+        self.bar
+            .set_position(counts.tosses_done.min(counts.tosses_planned));
+        if !self.bar.is_hidden() {
+            let made = counts.tosses_done.saturating_sub(start.tosses);
+            self.bar
+                .set_message(message(counts, made, start.at.elapsed(), &self.style));
+        }
+    }
+
+    fn warning(&self, message: &str) {
+        let title = self.style.paint(super::Colors::Warning, "warning:");
+        self.note(&format!("{title} {message}"));
+    }
+}
+
+/// `12/76 points  1 234 567 tosses  812 k/s  worst ±0.0012  34.0 s left`
+fn message(counts: &Counts, made: u64, elapsed: Duration, style: &Style) -> String {
+    let mut parts = vec![
+        format!("{}/{} points", counts.points_done, counts.points),
+        format!("{} tosses", grouped(counts.tosses_done)),
+    ];
+    let rate = made as f64 / elapsed.as_secs_f64();
+    // The first moments say nothing about the rest.
+    let settled = made > 0 && elapsed > Duration::from_millis(200);
+    if settled {
+        parts.push(format!("{}/s", with_prefix(rate)));
+    }
+    if let Some(arm) = counts.worst_half_width {
+        parts.push(format!("worst {}{arm:.1e}", style.plus_minus()));
+    }
+    if settled {
+        let left = counts.tosses_planned.saturating_sub(counts.tosses_done) as f64 / rate;
+        let left = Duration::try_from_secs_f64(left).unwrap_or(Duration::MAX);
+        parts.push(format!("{} left", duration(left)));
+    }
+    parts.join("  ")
+}
+
+/// Three digits with k, M or G.
+pub(crate) fn with_prefix(x: f64) -> String {
+    for (least, prefix) in [(1e9, " G"), (1e6, " M"), (1e3, " k")] {
+        if x >= least {
+            return format!("{:.*}{prefix}", decimals(x / least), x / least);
+        }
+    }
+    compact(libm::round(x))
+}
+
+fn decimals(x: f64) -> usize {
+    if x < 10.0 { 2 } else { usize::from(x < 100.0) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn counts() -> Counts {
+        Counts {
+            points_done: 12,
+            points: 76,
+            tosses_done: 1_234_567,
+            tosses_planned: 2_234_567,
+            tosses_reused: 234_567,
+            reused_shards: 3,
+            worst_half_width: Some(0.001_23),
+        }
+    }
+
+    #[test]
+    fn the_message_says_points_tosses_rate_error_and_time_left() {
+        let text = message(
+            &counts(),
+            1_000_000,
+            Duration::from_secs(2),
+            &Style::plain(100),
+        );
+        assert_eq!(
+            text,
+            "12/76 points  1 234 567 tosses  500 k/s  worst ±1.2e-3  2.0 s left"
+        );
+    }
+
+    #[test]
+    fn nothing_is_extrapolated_from_nothing() {
+        let text = message(&counts(), 0, Duration::from_secs(9), &Style::ascii(100));
+        assert_eq!(text, "12/76 points  1 234 567 tosses  worst +-1.2e-3");
+        let text = message(
+            &Counts {
+                tosses_planned: u64::MAX,
+                worst_half_width: None,
+                ..counts()
+            },
+            1,
+            Duration::from_secs(1_000_000),
+            &Style::ascii(100),
+        );
+        assert!(text.ends_with(" d left"), "{text}");
+    }
+
+    #[test]
+    fn rates_have_three_digits() {
+        for (x, text) in [
+            (999.4, "999"),
+            (1_234.0, "1.23 k"),
+            (812_000.0, "812 k"),
+            (45_600_000.0, "45.6 M"),
+            (2e9, "2.00 G"),
+        ] {
+            assert_eq!(with_prefix(x), text);
+        }
+    }
+
+    #[test]
+    fn time_and_tosses_count_from_the_first_report() {
+        let progress = Progress::new(Style::plain(80), true);
+        assert_eq!(progress.made(5), (0, Duration::ZERO));
+        progress.progress(&counts());
+        assert_eq!(progress.made(1_234_667).0, 100);
+    }
+}

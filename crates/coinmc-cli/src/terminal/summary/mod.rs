@@ -1,0 +1,172 @@
+//! A finished run as text: table, plot, fair ratios, what was undecided, where the files are.
+
+mod curves;
+mod fair;
+
+use super::plot::{Curve, Level, Plot, Reference};
+use super::table::{Column, Table};
+use super::{Colors, Style, compact, decimals_for, grouped};
+use coinmc::results::{FairRatio, Results, Row};
+use coinmc_analytic::Rule;
+use coinmc_core::Estimate;
+use curves::curves;
+use std::path::Path;
+
+/// P(side) of a fair coin.
+pub(crate) const FAIR: f64 = 1.0 / 3.0;
+
+/// The parameter that plots are drawn over.
+const RATIO: &str = "ratio";
+/// A table of more points than this shows only its ends, `END` points each.
+const LONG: usize = 60;
+const END: usize = 20;
+
+/// The whole summary of the results in the file `csv`.
+pub(crate) fn summary(results: &Results, fair: &[FairRatio], csv: &Path, style: &Style) -> String {
+    let mut parts = vec![table(results, csv, style)];
+    if results.axes.iter().any(|axis| axis == RATIO) {
+        let curves = curves(results);
+        parts.extend(plot(results, &curves, style));
+        parts.extend(fair::table(results, fair, &curves, style));
+    }
+    parts.push(closing(results, csv));
+    parts.join("\n")
+}
+
+/// One row a point.
+fn table(results: &Results, csv: &Path, style: &Style) -> String {
+    let shown = shown_parameters(results);
+    let mut columns: Vec<Column> = shown.iter().map(|name| Column::right(*name)).collect();
+    columns.extend([
+        Column::right("P(heads)").droppable(2),
+        Column::right("P(tails)").droppable(3),
+        Column::right("P(side)"),
+        Column::right("tosses").droppable(4),
+        Column::right("undecided").droppable(1),
+    ]);
+    let mut table = Table::new(columns);
+    let decimals = decimals(results);
+    let rows = &results.rows;
+    let hidden = if rows.len() > LONG {
+        rows.len() - 2 * END
+    } else {
+        0
+    };
+    for (i, row) in rows.iter().enumerate() {
+        if hidden > 0 && i == END {
+            table.push_gap(hidden as u64);
+        }
+        if hidden == 0 || i < END || i >= END + hidden {
+            table.push(cells(row, &shown, decimals, style));
+        }
+    }
+    let rendered = table.render(style);
+    let mut text = rendered.text;
+    if hidden > 0 {
+        text += &format!(
+            "All {} points: {}\n",
+            grouped(rows.len() as u64),
+            csv.display()
+        );
+    }
+    if !rendered.left_out.is_empty() {
+        let note = format!("Too narrow to show: {}", rendered.left_out.join(", "));
+        text += &format!("{}\n", style.paint(Colors::Faint, &note));
+    }
+    text
+}
+
+/// Swept parameters, or the ratio where nothing is swept.
+fn shown_parameters(results: &Results) -> Vec<&str> {
+    if results.axes.is_empty() {
+        vec![RATIO]
+    } else {
+        results.axes.iter().map(String::as_str).collect()
+    }
+}
+
+fn cells(row: &Row, shown: &[&str], decimals: usize, style: &Style) -> Vec<String> {
+    let parameter = |name: &&str| row.parameter(name).map_or("-".to_owned(), compact);
+    let mut cells: Vec<String> = shown.iter().map(parameter).collect();
+    cells.extend([&row.heads, &row.tails, &row.side].map(|p| probability(p, row, decimals, style)));
+    cells.extend([grouped(row.tally.tosses()), grouped(row.tally.undecided())]);
+    cells
+}
+
+/// Two digits of the shortest interval's arm, so that no row loses any.
+fn decimals(results: &Results) -> usize {
+    let arms = results
+        .rows
+        .iter()
+        .map(Row::half_width)
+        .filter(|&arm| arm > 0.0);
+    let least = arms.fold(f64::INFINITY, f64::min);
+    if least.is_finite() {
+        decimals_for(least)
+    } else {
+        6
+    }
+}
+
+fn probability(p: &Estimate, row: &Row, decimals: usize, style: &Style) -> String {
+    if row.interval == "exact" {
+        format!("{:.decimals$} exact", p.p)
+    } else if p.n == 0 {
+        "-".to_owned()
+    } else {
+        format!(
+            "{:.decimals$} {} {:.decimals$}",
+            p.p,
+            style.plus_minus(),
+            p.half_width()
+        )
+    }
+}
+
+/// P(side) over the ratio, a curve for each combination of the other axes.
+fn plot(results: &Results, curves: &[Curve], style: &Style) -> Option<String> {
+    let flat = results.rows.iter().any(|row| row.engine == "flat");
+    let arc = |ratio| Rule::Arc.p_side(ratio);
+    let reference = Reference {
+        label: "arc rule (no bounce)",
+        y: &arc,
+    };
+    Plot {
+        x_label: "ratio H/R",
+        y_label: "P(side)",
+        curves,
+        reference: flat.then_some(reference),
+        level: Some(Level {
+            label: "1/3",
+            y: FAIR,
+        }),
+    }
+    .render(style)
+}
+
+/// What was undecided, and where the results are.
+fn closing(results: &Results, csv: &Path) -> String {
+    let sum = |count: fn(&Row) -> u64| {
+        results
+            .rows
+            .iter()
+            .fold(0_u64, |sum, row| sum.saturating_add(count(row)))
+    };
+    let (tosses, undecided) = (
+        sum(|row| row.tally.tosses()),
+        sum(|row| row.tally.undecided()),
+    );
+    let mut text = String::new();
+    if undecided > 0 {
+        text += &format!(
+            "Undecided: {} of {} tosses ({:.1e})\n",
+            grouped(undecided),
+            grouped(tosses),
+            undecided as f64 / tosses as f64
+        );
+    }
+    text + &format!("Results: {}\n", csv.display())
+}
+
+#[cfg(test)]
+mod tests;

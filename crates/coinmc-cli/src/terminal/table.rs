@@ -1,0 +1,240 @@
+//! A table that fits its terminal.
+
+use super::{Colors, Style, count};
+
+/// Blanks between two columns.
+const GAP: usize = 2;
+
+/// To which side a column's text is pushed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Align {
+    Left,
+    Right,
+}
+
+/// A column: what stands in its head and how much it matters.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Column {
+    title: String,
+    align: Align,
+    /// Columns of the lowest rank are left out first when space is short; rank 0 always stays.
+    droppable: u8,
+}
+
+impl Column {
+    /// Text.
+    pub(crate) fn left(title: impl Into<String>) -> Self {
+        Self {
+            title: title.into(),
+            align: Align::Left,
+            droppable: 0,
+        }
+    }
+
+    /// Numbers.
+    pub(crate) fn right(title: impl Into<String>) -> Self {
+        Self {
+            align: Align::Right,
+            ..Self::left(title)
+        }
+    }
+
+    /// May be left out where space is short, those with the larger `rank` first.
+    pub(crate) fn droppable(self, rank: u8) -> Self {
+        Self {
+            droppable: rank,
+            ..self
+        }
+    }
+}
+
+/// Rows of text under columns.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Table {
+    columns: Vec<Column>,
+    lines: Vec<Line>,
+}
+
+#[derive(Debug, Clone)]
+enum Line {
+    Cells(Vec<String>),
+    /// So many rows left out.
+    Gap(u64),
+}
+
+/// A table laid out, and the titles of the columns that found no place.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Rendered {
+    pub(crate) text: String,
+    pub(crate) left_out: Vec<String>,
+}
+
+impl Table {
+    /// An empty table.
+    pub(crate) fn new(columns: Vec<Column>) -> Self {
+        Self {
+            columns,
+            lines: Vec::new(),
+        }
+    }
+
+    /// Adds a row of as many cells as there are columns.
+    pub(crate) fn push(&mut self, cells: Vec<String>) {
+        debug_assert_eq!(cells.len(), self.columns.len());
+        self.lines.push(Line::Cells(cells));
+    }
+
+    /// Says here that `rows` rows are left out.
+    pub(crate) fn push_gap(&mut self, rows: u64) {
+        self.lines.push(Line::Gap(rows));
+    }
+
+    /// Lays the table out within the style's width.
+    pub(crate) fn render(&self, style: &Style) -> Rendered {
+        let (kept, left_out) = self.fit(style.width);
+        let widths: Vec<usize> = kept.iter().map(|&column| self.width(column)).collect();
+        let titles: Vec<&str> = self.columns.iter().map(|c| c.title.as_str()).collect();
+        let mut text = style.paint(Colors::Strong, &self.line(&kept, &widths, &titles));
+        text.push('\n');
+        for line in &self.lines {
+            text += &match line {
+                Line::Cells(cells) => self.line(&kept, &widths, cells),
+                Line::Gap(rows) => {
+                    let note = format!("{0} {1} {0}", style.ellipsis(), count(*rows, "more row"));
+                    style.paint(Colors::Faint, &note)
+                }
+            };
+            text.push('\n');
+        }
+        Rendered {
+            text,
+            left_out: left_out
+                .into_iter()
+                .map(|c| self.columns[c].title.clone())
+                .collect(),
+        }
+    }
+
+    /// Which columns stay, in order, and which do not.
+    fn fit(&self, width: usize) -> (Vec<usize>, Vec<usize>) {
+        let mut kept: Vec<usize> = (0..self.columns.len()).collect();
+        let mut left_out = Vec::new();
+        let needed = |kept: &[usize]| {
+            kept.iter()
+                .map(|&c| self.width(c) + GAP)
+                .sum::<usize>()
+                .saturating_sub(GAP)
+        };
+        while needed(&kept) > width {
+            let rank = |&column: &usize| self.columns[column].droppable;
+            let Some(place) = (0..kept.len())
+                .filter(|&place| rank(&kept[place]) > 0)
+                .max_by_key(|&place| (rank(&kept[place]), place))
+            else {
+                break;
+            };
+            left_out.push(kept.remove(place));
+        }
+        left_out.sort_unstable();
+        (kept, left_out)
+    }
+
+    fn width(&self, column: usize) -> usize {
+        let cells = self.lines.iter().filter_map(|line| match line {
+            Line::Cells(cells) => Some(cells[column].chars().count()),
+            Line::Gap(_) => None,
+        });
+        cells
+            .max()
+            .unwrap_or(0)
+            .max(self.columns[column].title.chars().count())
+    }
+
+    fn line(&self, kept: &[usize], widths: &[usize], cells: &[impl AsRef<str>]) -> String {
+        let mut line = String::new();
+        for (i, (&column, &width)) in kept.iter().zip(widths).enumerate() {
+            if i > 0 {
+                line.push_str(&" ".repeat(GAP));
+            }
+            let cell = cells[column].as_ref();
+            match self.columns[column].align {
+                Align::Left => line += &format!("{cell:<width$}"),
+                Align::Right => line += &format!("{cell:>width$}"),
+            }
+        }
+        line.truncate(line.trim_end().len());
+        line
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample(rows: usize) -> Table {
+        let mut table = Table::new(vec![
+            Column::right("ratio"),
+            Column::right("P(side)"),
+            Column::right("tosses").droppable(1),
+            Column::left("why").droppable(2),
+        ]);
+        for i in 0..rows {
+            table.push(vec![
+                format!("{}.5", i),
+                "0.3333 ± 0.0010".to_owned(),
+                "1 000 000".to_owned(),
+                if i == 1 {
+                    "a long reason why not".to_owned()
+                } else {
+                    String::new()
+                },
+            ]);
+        }
+        table
+    }
+
+    #[test]
+    fn columns_line_up_and_lines_do_not_end_in_blanks() {
+        let rendered = sample(3).render(&Style::plain(80));
+        assert_eq!(
+            rendered.text,
+            "\
+ratio          P(side)     tosses  why
+  0.5  0.3333 ± 0.0010  1 000 000
+  1.5  0.3333 ± 0.0010  1 000 000  a long reason why not
+  2.5  0.3333 ± 0.0010  1 000 000
+"
+        );
+        assert!(rendered.left_out.is_empty());
+    }
+
+    #[test]
+    fn the_least_important_columns_go_first() {
+        let rendered = sample(2).render(&Style::plain(40));
+        assert_eq!(rendered.left_out, ["why"]);
+        assert!(rendered.text.lines().all(|line| line.chars().count() <= 40));
+        let rendered = sample(2).render(&Style::plain(30));
+        assert_eq!(rendered.left_out, ["tosses", "why"]);
+        // rank 0 stays even where it does not fit
+        assert_eq!(
+            sample(2).render(&Style::plain(5)).left_out,
+            ["tosses", "why"]
+        );
+    }
+
+    #[test]
+    fn a_gap_says_how_much_is_missing() {
+        let mut table = sample(1);
+        table.push_gap(12_345);
+        let text = table.render(&Style::ascii(80)).text;
+        assert!(text.ends_with("\n... 12 345 more rows ...\n"), "{text}");
+    }
+
+    #[test]
+    fn no_rows_leave_the_head() {
+        assert_eq!(
+            sample(0).render(&Style::plain(80)).text,
+            "ratio  P(side)  tosses  why\n"
+        );
+    }
+}

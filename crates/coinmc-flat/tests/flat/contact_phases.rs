@@ -1,0 +1,290 @@
+//! Sustained contact against Newton and Euler's equations in world coordinates.
+//!
+//! The reference knows three degrees of freedom, the corner in contact and the contact force,
+//! which it solves from a 3 × 3 system at every evaluation: F, N and the angular acceleration
+//! α with a_x = F, a_z = N − 1, kα = r_z F − r_x N. Classical Runge–Kutta in steps of 1/2000:
+//! error (ω h)⁴/120 of what is left, below 1e-12 at ω = 2.
+
+use crate::common::{Dice, Moment, Section, Start, engine_with, record, scene};
+use coinmc_core::EventKind;
+use coinmc_flat::Settings;
+use nalgebra::{Matrix3, SVector, Vector3};
+
+/// (x, z, θ, v_x, v_z, ω)
+type World = SVector<f64, 6>;
+
+/// What the corner does.
+#[derive(Debug, Clone, Copy)]
+enum Mode {
+    Stuck,
+    /// Friction −μ n N, this being μ n.
+    Slides(f64),
+}
+
+struct Body {
+    k: f64,
+    /// The corner in the coin's own frame (across, along u).
+    corner: (f64, f64),
+}
+
+impl Body {
+    fn arm(&self, theta: f64) -> (f64, f64) {
+        let (sin, cos) = libm::sincos(theta);
+        let (across, along) = self.corner;
+        (across * cos + along * sin, -across * sin + along * cos)
+    }
+
+    /// (F, N, α)
+    fn forces(&self, y: &World, mode: Mode) -> Vector3<f64> {
+        let (rx, rz) = self.arm(y[2]);
+        let w2 = y[5] * y[5];
+        // the corner accelerates by a + α (r_z, −r_x) − ω² r
+        let (first, right) = match mode {
+            Mode::Stuck => ([1.0, 0.0, rz], w2 * rx),
+            Mode::Slides(friction) => ([1.0, friction, 0.0], 0.0),
+        };
+        let matrix = Matrix3::new(
+            first[0], first[1], first[2], 0.0, 1.0, -rx, rz, -rx, -self.k,
+        );
+        let vector = Vector3::new(right, 1.0 + w2 * rz, 0.0);
+        matrix
+            .lu()
+            .solve(&vector)
+            .expect("no Painlevé configuration here")
+    }
+
+    fn rates(&self, y: &World, mode: Mode) -> World {
+        let f = self.forces(y, mode);
+        World::from([y[3], y[4], y[5], f[0], f[1] - 1.0, f[2]])
+    }
+
+    fn follow(&self, mut y: World, mode: Mode, time: f64, mut watch: impl FnMut(&World)) -> World {
+        // a nonnegative time of a few units: a few thousand steps
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let steps = (time * 2000.0).ceil().max(1.0) as u32;
+        let h = time / f64::from(steps);
+        for _ in 0..steps {
+            watch(&y);
+            let a = self.rates(&y, mode);
+            let b = self.rates(&(y + a * (h / 2.0)), mode);
+            let c = self.rates(&(y + b * (h / 2.0)), mode);
+            let d = self.rates(&(y + c * h), mode);
+            y += (a + (b + c) * 2.0 + d) * (h / 6.0);
+        }
+        watch(&y);
+        y
+    }
+
+    fn slip(&self, y: &World) -> f64 {
+        y[3] + y[5] * self.arm(y[2]).1
+    }
+}
+
+#[derive(Default, Debug)]
+struct Seen {
+    tolerance: f64,
+    stuck: u32,
+    slid: u32,
+    smooth: u32,
+    to_flat: u32,
+    to_flight: u32,
+    to_slip: u32,
+    to_stop: u32,
+    worst: f64,
+}
+
+fn world(m: &Moment) -> World {
+    World::from([m.x, m.z, m.theta, m.vx, m.vz, m.omega])
+}
+
+/// Checks the phase between two observed moments.
+fn check_phase(section: &Section, mu: f64, from: &Moment, to: &Moment, seen: &mut Seen) {
+    let start = world(from);
+    let lowest = |theta: f64| {
+        let corners = section.corners(theta);
+        (0..4)
+            .min_by(|a, b| corners[*a].1.total_cmp(&corners[*b].1))
+            .expect("four corners")
+    };
+    // at a flat start two corners are lowest: the one that stays down decides
+    let time = to.time - from.time;
+    let which = lowest(from.theta + (from.omega * 1e-6).clamp(-1e-6, 1e-6));
+    let signs = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)][which];
+    let body = Body {
+        k: section.k,
+        corner: (signs.0 * section.radius, signs.1 * section.half_height),
+    };
+    let slip = body.slip(&start);
+    let stuck = from.kind == EventKind::Sticking;
+    let mode = if stuck {
+        assert!(slip.abs() < 1e-10, "sticks while it slips: {from:?}");
+        Mode::Stuck
+    } else {
+        // a slide that begins at rest shows its direction by where the corner gets
+        let moved = to.x + body.arm(to.theta).0 - from.x - body.arm(from.theta).0;
+        let direction = if slip.abs() > 1e-10 { slip } else { moved };
+        Mode::Slides(mu.copysign(direction))
+    };
+    let mut least = [f64::INFINITY; 2];
+    let mut at_end = [0.0; 2];
+    let end = body.follow(start, mode, time, |y| {
+        let f = body.forces(y, mode);
+        let spare = match mode {
+            Mode::Stuck => mu * f[1] - f[0].abs(),
+            Mode::Slides(friction) => body.slip(y) * 1.0_f64.copysign(friction),
+        };
+        at_end = [f[1], if mu == 0.0 { 1.0 } else { spare }];
+        least = [least[0].min(at_end[0]), least[1].min(at_end[1])];
+    });
+    let turned = (end[2] - to.theta + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU)
+        - std::f64::consts::PI;
+    let found = world(to);
+    // a slide that lasts meets its end in the engine's own time
+    for (i, difference) in [
+        (0, end[0] - found[0]),
+        (1, end[1] - found[1]),
+        (2, turned),
+        (3, end[3] - found[3]),
+        (4, end[4] - found[4]),
+        (5, end[5] - found[5]),
+    ] {
+        seen.worst = seen.worst.max(difference.abs());
+        assert!(
+            difference.abs() < seen.tolerance,
+            "component {i} is off by {difference:e}: {mode:?} {from:?} {to:?}"
+        );
+    }
+    assert!(
+        least[0] > -seen.tolerance,
+        "pulled down by {}: {from:?}",
+        least[0]
+    );
+    assert!(
+        least[1] > -seen.tolerance,
+        "left its mode by {}: {from:?}",
+        least[1]
+    );
+    match to.kind {
+        EventKind::Touching => {
+            let mut heights = section.corners(found[2]).map(|(_, z)| found[1] + z);
+            heights.sort_by(f64::total_cmp);
+            assert!(heights[1].abs() < 1e-10, "not flat: {to:?}");
+            seen.to_flat += 1;
+        }
+        EventKind::LiftOff => {
+            assert!(
+                at_end[0].abs() < seen.tolerance,
+                "pressed by {}: {to:?}",
+                at_end[0]
+            );
+            seen.to_flight += 1;
+        }
+        EventKind::Sliding if stuck => {
+            assert!(at_end[1].abs() < seen.tolerance, "inside the cone: {to:?}");
+            seen.to_slip += 1;
+        }
+        EventKind::Sticking | EventKind::Sliding => {
+            assert!(
+                at_end[1].abs() < seen.tolerance,
+                "slips by {}: {to:?}",
+                at_end[1]
+            );
+            seen.to_stop += 1;
+        }
+        _ => assert!(to.energy(section.k) < 1.0, "ends undecided: {to:?}"),
+    }
+    match mode {
+        Mode::Stuck => seen.stuck += 1,
+        Mode::Slides(_) if mu == 0.0 => seen.smooth += 1,
+        Mode::Slides(_) => seen.slid += 1,
+    }
+}
+
+/// On its corner, which slides and neither approaches nor leaves, and turning almost fast enough
+/// to fly (ω²cos δ from 0.5 to 1).
+fn touching(section: &Section, dice: &mut Dice) -> Start {
+    let theta = dice.between(0.0, std::f64::consts::TAU);
+    let corners = section.corners(theta);
+    let lowest = corners
+        .iter()
+        .min_by(|a, b| a.1.total_cmp(&b.1))
+        .expect("four corners");
+    let z = -lowest.1;
+    let omega = dice.pick(&[-1.0, 1.0]) * (dice.between(0.5, 1.0) / z).sqrt();
+    Start {
+        z,
+        vx: omega * z + dice.pick(&[0.0, 1.0]) * dice.between(-1.0, 1.0),
+        vz: omega * lowest.0,
+        theta,
+        omega,
+    }
+}
+
+/// Events are met to 1e-11 in their margins and slides integrated to 1e-12 a step, some tens of
+/// them: 1e-9 leaves room for what the motion itself amplifies.
+#[test]
+fn phases_follow_newton_and_euler() {
+    let seen = follow(1e-12, 1e-9);
+    let Seen {
+        stuck,
+        slid,
+        smooth,
+        to_flat,
+        to_flight,
+        to_slip,
+        to_stop,
+        ..
+    } = seen;
+    for count in [stuck, slid, smooth, to_flat] {
+        assert!(count >= 50, "{seen:?}");
+    }
+    for count in [to_flight, to_slip, to_stop] {
+        assert!(count >= 10, "{seen:?}");
+    }
+}
+
+/// The same at the default tolerance of 1e-7 a step.
+#[test]
+fn phases_at_the_default_tolerance_follow_too() {
+    follow(Settings::default().tolerance, 1e-5);
+}
+
+/// Checks all phases of a few thousand tosses with these settings, to `allowed`.
+fn follow(tolerance: f64, allowed: f64) -> Seen {
+    let settings = Settings {
+        tolerance,
+        ..Settings::default()
+    };
+    let mut seen = Seen {
+        tolerance: allowed,
+        ..Seen::default()
+    };
+    for (ratio, mu) in [
+        (1.0, 0.3),
+        (1.0, 0.0),
+        (0.3, 0.5),
+        (0.3, 0.0),
+        (2.0, 0.7),
+        (2.0, 0.1),
+        (4.0, 0.0),
+        (5.0, 0.3),
+    ] {
+        let scene = scene(ratio, 0.0, mu);
+        let (engine, section) = (engine_with(&scene, settings), Section::new(&scene));
+        for toss in 0..300 {
+            let start = if toss % 2 == 0 {
+                Start::lively(&mut Dice::new(60, toss))
+            } else {
+                touching(&section, &mut Dice::new(61, toss))
+            };
+            let (_, moments) = record(&engine, &scene, &start.launch(&scene));
+            for pair in moments.windows(2) {
+                if matches!(pair[0].kind, EventKind::Sticking | EventKind::Sliding) {
+                    check_phase(&section, mu, &pair[0], &pair[1], &mut seen);
+                }
+            }
+        }
+    }
+    println!("{seen:?}");
+    seen
+}

@@ -1,0 +1,157 @@
+//! Any launch at all ends in bounded time, without a panic, under the right count.
+
+use crate::common::{Dice, Start, engine, engine_with, scene};
+use coinmc_core::{Ended, Engine, Launch};
+use coinmc_flat::Settings;
+use nalgebra::{UnitVector3, Vector3};
+use std::sync::mpsc;
+use std::time::Duration;
+
+/// Runs `work` on a thread of its own and fails if it has not come back in time, so that a hang
+/// is a failure and not a stuck test. Each of these takes a few seconds at most.
+fn within_two_minutes(work: impl FnOnce() + Send + 'static) {
+    let (done, wait) = mpsc::channel();
+    let worker = std::thread::spawn(move || {
+        work();
+        // nobody listens any more only when the time is up already
+        let _ = done.send(());
+    });
+    match wait.recv_timeout(Duration::from_mins(2)) {
+        Err(mpsc::RecvTimeoutError::Timeout) => panic!("a toss hangs"),
+        _ => worker.join().expect("no panic"),
+    }
+}
+
+const VALUES: [f64; 17] = [
+    0.0,
+    -0.0,
+    1e-300,
+    -1e-9,
+    0.01,
+    -3.0,
+    30.0,
+    1e4,
+    -1e4,
+    1e9,
+    -1e9,
+    1e150,
+    1e300,
+    -1e300,
+    f64::INFINITY,
+    f64::NEG_INFINITY,
+    f64::NAN,
+];
+
+fn outrageous(dice: &mut Dice) -> Launch {
+    let tame = [0.01, 0.1, 1.0, 10.0];
+    // two of the four quantities are wild, lest everything ends at once
+    let mut numbers = [(); 4].map(|()| dice.pick(&tame));
+    for _ in 0..2 {
+        let which = dice.pick(&[0, 1, 2, 3]);
+        numbers[which] = dice.pick(&VALUES);
+    }
+    let [height_m, vx, vz, spin] = numbers;
+    let quarter = f64::from(dice.pick(&[0_u8, 1, 2, 3])) * std::f64::consts::FRAC_PI_2;
+    let tilt = quarter + dice.pick(&[0.0, 0.0, 1e-17, 0.3, std::f64::consts::FRAC_PI_4]);
+    let (sin, cos) = libm::sincos(tilt);
+    Launch {
+        height_m,
+        velocity_m_s: Vector3::new(vx, 0.0, vz),
+        axis: UnitVector3::new_unchecked(Vector3::new(sin, 0.0, cos)),
+        spin_rad_s: Vector3::new(0.0, spin, 0.0),
+    }
+}
+
+fn is_finite(launch: &Launch) -> bool {
+    launch.height_m.is_finite()
+        && launch.velocity_m_s.iter().all(|v| v.is_finite())
+        && launch.spin_rad_s.y.is_finite()
+}
+
+#[test]
+fn outrageous_launches_end_and_what_is_no_number_fails() {
+    within_two_minutes(|| {
+        let settings = Settings {
+            max_impacts: 1000,
+            ..Settings::default()
+        };
+        let mut ends = [0_u32; 4];
+        for trial in 0..60_000 {
+            let mut dice = Dice::new(120, trial);
+            let ratio = dice.pick(&[1e-6, 0.01, 1.0, 2.0, 100.0, 1e6]);
+            let restitution = dice.pick(&[0.0, 0.5, 0.99, 1.0]);
+            let friction = dice.pick(&[0.0, 0.3, 2.0, 10.0, 1e4, f64::MAX]);
+            let engine = engine_with(&scene(ratio, restitution, friction), settings);
+            let launch = outrageous(&mut dice);
+            let outcome = engine.toss(&mut (), &launch, &mut ());
+            let end = match outcome.ended {
+                Ended::Decided(_) => 0,
+                Ended::TimeLimit => 1,
+                Ended::ImpactLimit => 2,
+                Ended::Failed => 3,
+            };
+            ends[end] += 1;
+            if !is_finite(&launch) {
+                assert_eq!(outcome.ended, Ended::Failed, "{trial}: {launch:?}");
+            }
+            assert!(outcome.impacts <= settings.max_impacts, "{trial}");
+        }
+        // the trials reach every count but the balanced coin's
+        assert!(ends[0] > 1000 && ends[2] > 0 && ends[3] > 1000, "{ends:?}");
+    });
+}
+
+/// An axis that is no direction has no face.
+#[test]
+fn an_axis_that_is_no_number_fails() {
+    for (height_m, restitution) in [(0.0, 0.5), (0.005, 0.5), (1.0, 0.5), (1.0, 0.0)] {
+        let launch = Launch {
+            height_m,
+            velocity_m_s: Vector3::zeros(),
+            axis: UnitVector3::new_unchecked(Vector3::new(f64::NAN, 0.0, f64::NAN)),
+            spin_rad_s: Vector3::zeros(),
+        };
+        let outcome = engine(&scene(1.0, restitution, 0.3)).toss(&mut (), &launch, &mut ());
+        assert_eq!(outcome.ended, Ended::Failed, "from {height_m} m");
+    }
+}
+
+/// Friction without bound: the cone's edge is then ill-conditioned, not the toss.
+#[test]
+fn great_friction_ends() {
+    within_two_minutes(|| {
+        for friction in [1e2, 1e3, 1e4, 1e6, 1e10, 1e100] {
+            for (ratio, restitution) in [(0.1, 0.0), (1.0, 0.0), (1.0, 0.5), (3.0, 0.5)] {
+                let scene = scene(ratio, restitution, friction);
+                let engine = engine(&scene);
+                for toss in 0..1000 {
+                    let launch = Start::lively(&mut Dice::new(121, toss)).launch(&scene);
+                    let outcome = engine.toss(&mut (), &launch, &mut ());
+                    assert!(
+                        outcome.face().is_some(),
+                        "μ {friction:e}, ratio {ratio}, e {restitution}, toss {toss}: {outcome:?}"
+                    );
+                }
+            }
+        }
+    });
+}
+
+/// From high up, very fast, or let go inside the surface: lifted until it touches, and decided.
+#[test]
+fn high_fast_and_sunken_launches_are_decided() {
+    let scene = scene(1.0, 0.5, 0.3);
+    let engine = engine(&scene);
+    for trial in 0..2000 {
+        let mut dice = Dice::new(122, trial);
+        let mut launch = Start::lively(&mut dice).launch(&scene);
+        match trial % 4 {
+            0 => launch.height_m = 1e4,
+            1 => launch.height_m = dice.pick(&[0.0, -0.01, -1e6, 0.004]),
+            2 => launch.spin_rad_s.y = dice.scale(1e3, 1e6),
+            _ => launch.velocity_m_s.z = -dice.scale(1.0, 1e4),
+        }
+        let outcome = engine.toss(&mut (), &launch, &mut ());
+        assert!(outcome.face().is_some(), "{trial}: {outcome:?} {launch:?}");
+    }
+}

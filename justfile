@@ -1,0 +1,21 @@
+# Short names for what scripts do; `just` lists them.
+
+_default:
+    @just --list
+
+# Every test there is
+test:
+    scripts/test
+
+# Format all code
+format:
+    cargo fmt --all
+
+# Lints, as the tests run them
+lint:
+    cargo clippy --workspace --all-targets -- -D warnings
+
+# The kill-and-resume test, at length
+kill-test kills="200":
+    cargo build --release
+    COINMC_KILLS={{kills}} cargo test -p coinmc-tests --test resume

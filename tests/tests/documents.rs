@@ -1,0 +1,77 @@
+//! What README and docs show is what the program does.
+
+use coinmc_tests::{Shown, blocks, command, copy, replay, root};
+use std::fs;
+use std::path::PathBuf;
+
+/// README.md and docs/*.md.
+fn documents() -> Vec<PathBuf> {
+    let docs = fs::read_dir(root().join("docs")).into_iter().flatten();
+    let mut documents: Vec<PathBuf> = docs
+        .map(|entry| entry.expect("a directory entry").path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "md"))
+        .collect();
+    documents.push(root().join("README.md"));
+    documents.sort();
+    documents.retain(|path| path.exists());
+    documents
+}
+
+#[test]
+fn commands_print_what_is_shown() {
+    for document in documents() {
+        let dir = tempfile::tempdir().expect("a temporary directory");
+        copy(&root().join("examples"), &dir.path().join("examples"));
+        replay(&document, dir.path(), Shown::EverythingOrNothing, |block| {
+            let first = block.lines.first().map_or("", String::as_str);
+            first.starts_with("$ coinmc ") || first.starts_with("$ cargo run --release -- ")
+        });
+    }
+}
+
+#[test]
+fn configs_are_valid() {
+    let dir = tempfile::tempdir().expect("a temporary directory");
+    for document in documents() {
+        let text = fs::read_to_string(&document).expect("the document can be read");
+        let configs = blocks(&text).into_iter().filter(|block| {
+            block.info == "toml" && block.lines.iter().any(|line| line.trim_start() == "[coin]")
+        });
+        for config in configs {
+            let path = dir.path().join("config.toml");
+            fs::write(&path, config.lines.join("\n")).expect("a config");
+            let output = command(dir.path())
+                .arg("check")
+                .arg(&path)
+                .output()
+                .expect("it starts");
+            assert!(
+                output.status.success(),
+                "{}, line {}:\n{}",
+                document.display(),
+                config.first_line,
+                String::from_utf8_lossy(&output.stderr)
+            );
+        }
+    }
+}
+
+#[test]
+fn examples_are_valid() {
+    let examples = fs::read_dir(root().join("examples")).into_iter().flatten();
+    for entry in examples {
+        let path = entry.expect("a directory entry").path();
+        if path
+            .extension()
+            .is_some_and(|extension| extension == "toml")
+        {
+            let output = command(root())
+                .arg("check")
+                .arg(&path)
+                .output()
+                .expect("it starts");
+            let stderr = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success(), "{}:\n{stderr}", path.display());
+        }
+    }
+}

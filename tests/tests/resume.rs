@@ -1,0 +1,286 @@
+//! A run that is stopped, by whatever, goes on and ends in the same bytes.
+
+use coinmc_core::Philox4x64;
+use coinmc_tests::{command, snapshot};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+use std::{env, fs, thread};
+use tempfile::TempDir;
+
+/// Long enough (about a second) to be killed in the middle, with 35 shards.
+const CONFIG: &str = "\
+seed = 11
+[coin]
+ratio = { from = 0.6, to = 1.8, steps = 7 }
+[surface]
+restitution = 0.4
+friction = 0.3
+[launch]
+preset = \"robot\"
+[engine.flat]
+[stop]
+tosses = 80_000
+";
+
+struct Bench {
+    dir: TempDir,
+    config: PathBuf,
+}
+
+impl Bench {
+    fn new() -> Self {
+        let dir = tempfile::tempdir().expect("a temporary directory");
+        let config = dir.path().join("config.toml");
+        fs::write(&config, CONFIG).expect("the config can be written");
+        Self { dir, config }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.dir.path().join(name)
+    }
+
+    fn run(&self, out: &Path) -> Command {
+        let mut command = command(self.dir.path());
+        command.arg("run").arg(&self.config).arg("--out").arg(out);
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        command
+    }
+
+    fn finish(&self, out: &Path) -> Output {
+        let output = self.run(out).output().expect("coinmc starts");
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        output
+    }
+
+    /// An uninterrupted run.
+    fn reference(&self) -> PathBuf {
+        let out = self.path("reference");
+        self.finish(&out);
+        out
+    }
+}
+
+/// Shards that a run directory holds.
+fn shards(out: &Path) -> u64 {
+    let entries = fs::read_dir(out.join("tallies"))
+        .into_iter()
+        .flatten()
+        .flatten();
+    let names = entries.map(|entry| entry.file_name());
+    names
+        .filter(|name| Path::new(name).extension().is_some_and(|e| e == "tally"))
+        .count() as u64
+}
+
+/// Waits until a running process has finished so many shards, or has ended.
+fn wait_for(shards_done: u64, out: &Path, child: &mut Child) {
+    let ended = |child: &mut Child| child.try_wait().expect("the child can be asked").is_some();
+    while shards(out) < shards_done && !ended(child) {
+        thread::sleep(Duration::from_micros(500));
+    }
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// Both directories hold the same files with the same bytes.
+fn assert_same(one: &Path, other: &Path, why: &str) {
+    let (one, other) = (snapshot(one), snapshot(other));
+    assert_eq!(
+        one.keys().collect::<Vec<_>>(),
+        other.keys().collect::<Vec<_>>(),
+        "{why}"
+    );
+    for (name, bytes) in &one {
+        assert!(other[name] == *bytes, "{why}: {} differs", name.display());
+    }
+}
+
+/// A random number for each kill, the same in every test run.
+fn drawn(kill: u64, what: u64) -> u64 {
+    Philox4x64::new([2026, 0]).block([what, kill, 0, 0])[0]
+}
+
+fn send(signal: &str, id: u32) {
+    let status = Command::new("kill")
+        .args([signal, &id.to_string()])
+        .status();
+    assert!(status.expect("kill starts").success());
+}
+
+/// The instant of each kill is drawn as a number of finished shards and some milliseconds more, so
+/// that it falls into start, work or end of the run however fast the machine is.
+#[test]
+fn a_killed_run_ends_in_the_same_bytes() {
+    let kills: u64 = env::var("COINMC_KILLS").map_or(10, |n| n.parse().expect("a number"));
+    let bench = Bench::new();
+    let reference = bench.reference();
+    let all = shards(&reference);
+    let (mut n, mut run, mut hits) = (0, 0, 0);
+    while n < kills {
+        let out = bench.path(&format!("run-{run}"));
+        // Once, twice or three times in a row.
+        for _ in 0..=run % 3 {
+            let mut quiet = bench.run(&out);
+            quiet.stdout(Stdio::null()).stderr(Stdio::null());
+            let there = shards(&out);
+            let mut child = quiet.spawn().expect("coinmc starts");
+            wait_for(there + drawn(n, 0) % (all + 1 - there), &out, &mut child);
+            thread::sleep(Duration::from_micros(drawn(n, 1) % 20_000));
+            hits += u64::from(child.try_wait().expect("the child can be asked").is_none());
+            // SIGKILL
+            child.kill().expect("the child can be killed");
+            child.wait().expect("the child ends");
+            n += 1;
+        }
+        bench.finish(&out);
+        assert_same(&reference, &out, &format!("run {run}, after {n} kills"));
+        fs::remove_dir_all(&out).expect("the run can be removed");
+        run += 1;
+    }
+    println!("{hits} of {n} kills hit a running process");
+    assert!(hits * 2 > n, "only {hits} of {n} kills came in time");
+}
+
+#[test]
+fn ctrl_c_and_termination_say_how_to_go_on() {
+    let bench = Bench::new();
+    let reference = bench.reference();
+    for signal in ["-INT", "-TERM"] {
+        let out = bench.path(&format!("stopped{signal}"));
+        let mut child = bench
+            .run(&out)
+            .args(["--threads", "1"])
+            .spawn()
+            .expect("coinmc starts");
+        wait_for(3, &out, &mut child);
+        send(signal, child.id());
+        let start = Instant::now();
+        let output = child.wait_with_output().expect("coinmc ends");
+        assert!(
+            start.elapsed() < Duration::from_secs(2),
+            "it took {:?}",
+            start.elapsed()
+        );
+        let stderr = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(130), "{signal}: {stderr}");
+        assert!(stderr.contains("of 7 points finished"), "{stderr}");
+        let (_, again) = stderr
+            .split_once("Go on with: ")
+            .expect("the command to go on");
+        assert!(out.join("results.partial.csv").exists());
+        assert!(!out.join("results.csv").exists());
+        // The very command that was given, through a shell.
+        let output = Command::new("sh")
+            .args(["-c", again.trim()])
+            .current_dir(bench.dir.path())
+            .output()
+            .expect("sh starts");
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        assert_same(&reference, &out, signal);
+    }
+}
+
+#[test]
+fn a_finished_run_is_reported_again_at_once() {
+    let bench = Bench::new();
+    let out = bench.path("out");
+    let first = bench.finish(&out);
+    let before = snapshot(&out);
+    let again = bench.finish(&out);
+    assert_eq!(text(&first.stdout), text(&again.stdout));
+    assert!(
+        text(&again.stderr).contains("nothing tossed again"),
+        "{}",
+        text(&again.stderr)
+    );
+    assert!(before == snapshot(&out));
+}
+
+#[test]
+fn damaged_tallies_are_tossed_again_with_a_warning() {
+    let bench = Bench::new();
+    let reference = bench.reference();
+    let out = bench.path("out");
+    bench.finish(&out);
+    let tallies: Vec<PathBuf> = snapshot(&out)
+        .into_keys()
+        .filter(|path| path.starts_with("tallies"))
+        .collect();
+    assert!(tallies.len() > 5);
+    let truncated = out.join(&tallies[1]);
+    let bytes = fs::read(&truncated).expect("a tally");
+    fs::write(&truncated, &bytes[..bytes.len() / 2]).expect("it can be cut");
+    let flipped = out.join(&tallies[4]);
+    let mut bytes = fs::read(&flipped).expect("a tally");
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(&flipped, &bytes).expect("it can be altered");
+    let output = bench.finish(&out);
+    assert_eq!(
+        text(&output.stderr).matches("warning:").count(),
+        2,
+        "{}",
+        text(&output.stderr)
+    );
+    assert_eq!(
+        fs::read(reference.join("results.csv")).expect("results"),
+        fs::read(out.join("results.csv")).expect("results")
+    );
+}
+
+#[test]
+fn the_directory_of_another_run_is_refused_and_left_alone() {
+    let bench = Bench::new();
+    let out = bench.path("out");
+    bench.finish(&out);
+    let before = snapshot(&out);
+    for change in ["seed=12", "surface.friction=0.2", "stop.tosses=80001"] {
+        let output = bench
+            .run(&out)
+            .args(["--set", change])
+            .output()
+            .expect("coinmc starts");
+        assert_eq!(output.status.code(), Some(2), "{change}");
+        assert!(
+            text(&output.stderr).contains("another plan"),
+            "{}",
+            text(&output.stderr)
+        );
+        assert!(before == snapshot(&out), "{change}");
+    }
+    let stranger = bench.path("stranger");
+    fs::create_dir(&stranger).expect("a folder");
+    fs::write(stranger.join("thesis.tex"), "years of work").expect("a file");
+    let before = snapshot(&stranger);
+    let output = bench.run(&stranger).output().expect("coinmc starts");
+    assert_eq!(output.status.code(), Some(2), "{}", text(&output.stderr));
+    assert!(before == snapshot(&stranger));
+}
+
+/// `ulimit -f` makes writes beyond so many bytes fail; with SIGXFSZ ignored they fail as on a full
+/// disk, with an error instead of a signal.
+#[test]
+fn a_full_disk_is_a_clear_error_and_the_run_goes_on_later() {
+    let bench = Bench::new();
+    let reference = bench.reference();
+    for blocks in [0, 1, 4] {
+        let out = bench.path(&format!("full-{blocks}"));
+        let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$@\"");
+        let run = bench.run(&out);
+        let output = Command::new("sh")
+            .args(["-c", &script, "sh"])
+            .arg(run.get_program())
+            .args(run.get_args())
+            .current_dir(bench.dir.path())
+            .output()
+            .expect("sh starts");
+        let stderr = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{blocks}: {stderr}");
+        assert!(stderr.contains("no space left"), "{blocks}: {stderr}");
+        bench.finish(&out);
+        assert_same(&reference, &out, &format!("{blocks} blocks"));
+    }
+}
