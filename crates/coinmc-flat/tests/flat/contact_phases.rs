@@ -243,10 +243,11 @@ fn phases_follow_newton_and_euler() {
     }
 }
 
-/// The same at the default tolerance of 1e-7 a step.
+/// The same at the default tolerance of 1e-7 a step: some tens of steps, and slides that dwell at
+/// the balance amplify by as much again.
 #[test]
 fn phases_at_the_default_tolerance_follow_too() {
-    follow(Settings::default().tolerance, 1e-5);
+    follow(Settings::default().tolerance, 1e-4);
 }
 
 /// Checks all phases of a few thousand tosses with these settings, to `allowed`.

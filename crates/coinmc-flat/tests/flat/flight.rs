@@ -24,7 +24,7 @@ fn lowest_gap(from: &Moment, section: &Section, begin: f64, end: f64) -> f64 {
             && here <= heights[i as usize + 1];
         if dips && here < 0.05 {
             let (mut low, mut high) = (at(i - 1), at(i + 1));
-            for _ in 0..60 {
+            for _ in 0..40 {
                 let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
                 if gap(from, section, a) < gap(from, section, b) {
                     high = b;

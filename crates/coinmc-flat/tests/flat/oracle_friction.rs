@@ -224,9 +224,8 @@ fn bouncing_coins_agree() {
     }
 }
 
-/// Fast along the surface: these lie flat above the barrier and slide, or trip over an edge (tall
-/// ones standing, thin ones on their side). A flat slide takes the oracle thousands of steps, so
-/// fewer tosses.
+/// Fast along the surface: these lie flat above the barrier and slide on. A flat slide takes the
+/// oracle thousands of steps, so fewer tosses.
 #[test]
 fn skating_coins_agree() {
     for scene in [
@@ -235,7 +234,7 @@ fn skating_coins_agree() {
         (1.5, 0.5, 0.3),
         (3.0, 0.3, 1.0),
     ] {
-        let (_, difference, error) = difference(scene, STEP, 3_000, 4.0);
+        let (_, difference, error) = difference(scene, STEP, 1_000, 4.0);
         assert!(
             difference.abs() <= 3.0 * error + 0.001,
             "{scene:?}: {difference} ± {error}"
@@ -244,20 +243,27 @@ fn skating_coins_agree() {
 }
 
 /// Let go almost flat and fast along the surface, a coin whose base is too narrow for its friction
-/// (μ·height > half width) trips over the leading corner; the others slide on and stay.
+/// (μ·height > half width) trips over the leading corner; the others slide on and stay. These
+/// few motions hardly amplify: single tosses agree, all but two that come as near to a balance as
+/// the step's error (4e-3 of 200).
 #[test]
 fn coins_let_go_flat_agree() {
-    for (ratio, e, mu) in [(5.0, 0.0, 0.6), (0.3, 0.0, 0.5), (5.0, 0.0, 0.2), (3.0, 0.3, 1.0)] {
+    for (ratio, e, mu) in [
+        (5.0, 0.0, 0.6),
+        (0.3, 0.0, 0.5),
+        (5.0, 0.0, 0.2),
+        (3.0, 0.3, 1.0),
+    ] {
         let scene = scene(ratio, e, mu);
         let (engine, section) = (engine(&scene), Section::new(&scene));
         let (mut other, mut changed) = (0, 0);
-        let tosses = 500;
+        let tosses = 200;
         for number in 0..tosses {
             let mut dice = Dice::new(21, number);
             let quarter = f64::from(dice.pick(&[0_u8, 1, 2, 3]));
             let theta = quarter * std::f64::consts::FRAC_PI_2 + dice.between(-1e-5, 1e-5);
             let start = Start {
-                z: section.reach(theta) + dice.between(1e-4, 1e-3),
+                z: section.reach(theta) + dice.scale(1e-9, 1e-3),
                 vx: dice.between(-4.0, 4.0),
                 vz: 0.0,
                 theta,
@@ -269,6 +275,10 @@ fn coins_let_go_flat_agree() {
             changed += u32::from(face != section.face(theta));
         }
         println!("{ratio} {e} {mu}: {other} differ, {changed} changed of {tosses}");
+        assert!(other <= 2, "{ratio} {e} {mu}: {other}");
+        // the leading edge catches where it should: else this compares nothing
+        let trips = mu * ratio.max(4.0 / ratio) / 2.0 > 1.0;
+        assert_eq!(changed > 40, trips, "{ratio} {e} {mu}: {changed}");
     }
 }
 

@@ -1,0 +1,131 @@
+//! What can be asked for on the command line.
+
+use crate::studies::{
+    Convergence, Energy, FlatTable, MissedContacts, Sensitivity, Speed, StoppingRule, Undecided,
+};
+use crate::{memory, number};
+use anyhow::{Context, anyhow};
+use clap::{Args, Parser, Subcommand};
+use coinmc_bench::{Workload, workloads};
+use std::fs::File;
+use std::hint::black_box;
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+/// Studies of the flat engine and of the runner: accuracy, speed, robustness.
+///
+/// Tables go to standard output. All of it is deterministic except what is measured by a clock:
+/// the same seed gives the same numbers on any machine, with any number of threads. The variable
+/// RAYON_NUM_THREADS sets how many threads a study uses (all cores without it).
+#[derive(Debug, Parser)]
+#[command(name = "coinmc-bench", version, max_term_width = 100)]
+pub(crate) struct Arguments {
+    /// Also write every row of the study to this file
+    #[arg(long, global = true, value_name = "FILE")]
+    csv: Option<PathBuf>,
+
+    /// Key of all random numbers
+    #[arg(long, global = true, default_value_t = 1)]
+    seed: u64,
+
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// P(side) in the scenes of an earlier planar study, and against Chipmunk and Box2D
+    FlatTable(FlatTable),
+    /// How P(side) depends on the engine's settings, toss by toss
+    Convergence(Convergence),
+    /// Every flight against dense sampling: contacts passed over, energy gained
+    MissedContacts(MissedContacts),
+    /// Worst gain of energy in impacts and in contact phases
+    Energy(Energy),
+    /// Tosses without a face at the limit of impacts, and the slowest scenes
+    Undecided(Undecided),
+    /// How often stopping at a hundredth of the energy names another face
+    StoppingRule(StoppingRule),
+    /// How the fair ratio depends on drop height, restitution and friction
+    Sensitivity(Sensitivity),
+    /// Tosses a second, cost of the runner, two threads, peak memory
+    Speed(Speed),
+    /// Do one named piece of work, for a profiler
+    Work(Work),
+    /// Do one run and print its peak memory
+    #[command(hide = true)]
+    Memory(memory::Run),
+}
+
+impl Arguments {
+    /// Does what was asked.
+    pub(crate) fn carry_out(self) -> anyhow::Result<()> {
+        // before the study: a typing error should not cost minutes
+        let csv = self
+            .csv
+            .map(|path| match File::create(&path) {
+                Ok(file) => Ok((path, file)),
+                Err(error) => Err(anyhow!("cannot write {}: {error}", path.display())),
+            })
+            .transpose()?;
+        let seed = self.seed;
+        let report = match self.command {
+            Command::FlatTable(study) => study.carry_out(seed),
+            Command::Convergence(study) => study.carry_out(seed),
+            Command::MissedContacts(study) => study.carry_out(seed),
+            Command::Energy(study) => study.carry_out(seed),
+            Command::Undecided(study) => study.carry_out(seed),
+            Command::StoppingRule(study) => study.carry_out(seed),
+            Command::Sensitivity(study) => study.carry_out(seed)?,
+            Command::Speed(study) => study.carry_out(seed)?,
+            Command::Work(work) => return work.carry_out(),
+            Command::Memory(run) => return run.carry_out(),
+        };
+        if let Some((path, file)) = csv {
+            report
+                .write_csv(file)
+                .with_context(|| format!("cannot write {}", path.display()))?;
+        }
+        write!(io::stdout().lock(), "{report}")?;
+        Ok(())
+    }
+}
+
+/// One named piece of work.
+#[derive(Debug, Args)]
+struct Work {
+    /// Its name; without one, all names are printed
+    name: Option<String>,
+
+    /// How often to do it
+    #[arg(long, value_parser = number::count_or_zero, default_value = "10000", value_name = "N")]
+    count: u64,
+}
+
+impl Work {
+    fn carry_out(&self) -> anyhow::Result<()> {
+        let all = workloads();
+        let Some(name) = &self.name else {
+            let names: Vec<&str> = all.iter().map(|work| work.name.as_str()).collect();
+            writeln!(io::stdout(), "{}", names.join("\n"))?;
+            return Ok(());
+        };
+        let work = all.iter().find(|work: &&Workload| work.name == *name);
+        let work = work.ok_or_else(|| {
+            anyhow!("no piece of work is called `{name}`; `coinmc-bench work` lists them")
+        })?;
+        black_box(work.run(0..self.count));
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_arguments_are_consistent() {
+        Arguments::command().debug_assert();
+    }
+}

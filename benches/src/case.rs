@@ -1,0 +1,138 @@
+//! A scene and a launch distribution: all of a toss but its number and the seed.
+
+use coinmc_core::{Coin, Domain, Landing, LaunchDistribution, Preset, Scene, Stream, Surface};
+use coinmc_flat::{FlatEngine, ImpactLaw, Settings};
+use std::fmt;
+
+/// A scene and how the coin is let go.
+///
+/// All cases share their random numbers: toss k of a seed has the same uniforms in each, so
+/// (case, seed, k) names a toss, and differences between cases are paired.
+///
+/// # Example
+/// ```
+/// use coinmc_bench::Case;
+/// use coinmc_core::Preset;
+/// let case = Case::new(Preset::Robot, 0.01, 1.5, 0.5, 0.3);
+/// assert_eq!(case.to_string(), "robot R=0.01 x=1.5 e=0.5 mu=0.3");
+/// ```
+#[derive(Debug, Clone, Copy)]
+pub struct Case {
+    /// How the coin is let go.
+    pub preset: Preset,
+    /// Coin, surface, gravity.
+    pub scene: Scene,
+}
+
+impl Case {
+    /// A uniform cylinder on a bouncing surface.
+    ///
+    /// # Panics
+    /// If a parameter is out of range: cases are written into the code.
+    pub fn new(preset: Preset, radius_m: f64, ratio: f64, restitution: f64, friction: f64) -> Self {
+        let coin = Coin::cylinder(ratio, radius_m).expect("radius and ratio are positive");
+        let surface = Surface::new(restitution, friction).expect("0 <= e <= 1 and mu >= 0");
+        let scene = Scene::new(coin, surface, Scene::STANDARD_GRAVITY_M_S2);
+        Self {
+            preset,
+            scene: scene.expect("gravity is positive"),
+        }
+    }
+
+    /// Every combination, the last axis varying fastest, with R = 1 cm.
+    pub fn grid(
+        presets: &[Preset],
+        restitutions: &[f64],
+        frictions: &[f64],
+        ratios: &[f64],
+    ) -> Vec<Self> {
+        let mut cases = Vec::new();
+        for &preset in presets {
+            for &e in restitutions {
+                for &mu in frictions {
+                    cases.extend(ratios.iter().map(|&x| Self::new(preset, 0.01, x, e, mu)));
+                }
+            }
+        }
+        cases
+    }
+
+    /// The same with the first contact deciding.
+    pub fn adhesive(mut self) -> Self {
+        self.scene.surface = self.scene.surface.with_landing(Landing::Adhesive);
+        self
+    }
+
+    /// The same with the moment of inertia of a rectangular plate 2R × H instead of the
+    /// cylinder's: I_t = m (4R² + H²)/12. Planar physics engines give a rectangle that one.
+    ///
+    /// # Panics
+    /// If H/R < 0.71: no cylinder of revolution has such a moment.
+    pub fn with_rectangle_inertia(mut self) -> Self {
+        let coin = self.scene.coin;
+        let (r, h) = (coin.radius_m(), coin.height_m());
+        let moment = coin.mass_kg() * (4.0 * r * r + h * h) / 12.0;
+        self.scene.coin = coin
+            .with_moments(None, Some(moment))
+            .expect("H/R is at least 0.71");
+        self
+    }
+
+    /// The launch distribution.
+    pub fn launches(&self) -> LaunchDistribution {
+        self.preset.distribution()
+    }
+
+    /// The random numbers of a seed.
+    pub fn stream(seed: u64) -> Stream {
+        Stream::new(seed, Domain::Launch, 0)
+    }
+
+    /// The flat engine.
+    ///
+    /// # Panics
+    /// If a setting is out of range.
+    pub fn engine<L: ImpactLaw>(&self, settings: &Settings, law: L) -> FlatEngine<L> {
+        FlatEngine::new(&self.scene, settings, law).expect("settings are in range")
+    }
+}
+
+impl fmt::Display for Case {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (coin, surface) = (&self.scene.coin, &self.scene.surface);
+        write!(
+            f,
+            "{} R={} x={} e={} mu={}",
+            self.preset,
+            coin.radius_m(),
+            coin.ratio(),
+            surface.restitution(),
+            surface.friction()
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rectangle_turns_harder_than_the_cylinder_of_its_section() {
+        let case = Case::new(Preset::CleanFlat, 0.01, 1.2, 0.5, 0.0);
+        let rectangle = case.with_rectangle_inertia();
+        let gyration = |case: &Case| case.scene.coin.transverse_gyration_m2() / 1e-4;
+        // (3 + 1.44)/12 and (4 + 1.44)/12 R²
+        assert!((gyration(&case) - 4.44 / 12.0).abs() < 1e-15);
+        assert!((gyration(&rectangle) - 5.44 / 12.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_grid_holds_every_combination_once() {
+        let cases = Case::grid(&Preset::ALL, &[0.0, 0.5], &[0.0, 0.3, 1.0], &[1.0, 2.0]);
+        let mut names: Vec<String> = cases.iter().map(Case::to_string).collect();
+        assert_eq!(names[1], "robot R=0.01 x=2 e=0 mu=0");
+        names.sort();
+        names.dedup();
+        assert_eq!(names.len(), 5 * 2 * 3 * 2);
+    }
+}

@@ -1,0 +1,15 @@
+//! `coinmc-bench`: studies of accuracy, speed and robustness, one a subcommand.
+
+mod arguments;
+mod memory;
+mod number;
+mod report;
+mod run_once;
+mod studies;
+mod worst;
+
+use clap::Parser;
+
+fn main() -> anyhow::Result<()> {
+    arguments::Arguments::parse().carry_out()
+}

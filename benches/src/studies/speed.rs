@@ -1,0 +1,193 @@
+//! How fast: the engine alone, under the runner, on two threads; and in how much memory.
+//!
+//! Absolute rates depend on the machine and on what else it does. Ratios are taken between runs
+//! that follow each other at once, several times over, and their median is shown.
+
+use crate::memory;
+use crate::number;
+use crate::report::{Report, Table};
+use crate::run_once::{plan, run_once};
+use clap::Args;
+use coinmc::run::{Shard, run_shard};
+use coinmc_bench::{Case, workloads};
+use coinmc_core::{Engine, Preset, run_tosses};
+use coinmc_flat::{Moreau, Settings};
+use std::hint::black_box;
+use std::num::NonZeroUsize;
+use std::time::Instant;
+
+/// The study's arguments.
+#[derive(Debug, Args)]
+pub(crate) struct Speed {
+    /// Tosses of each timed run
+    #[arg(long, value_parser = number::count, default_value = "2_000_000", value_name = "N")]
+    tosses: u64,
+
+    /// Timed runs of each kind
+    #[arg(long, value_parser = number::count, default_value = "5", value_name = "N")]
+    repeats: u64,
+
+    /// Tosses of the larger run whose memory is measured; the smaller has a hundredth
+    #[arg(long, value_parser = number::count, default_value = "100_000_000", value_name = "N")]
+    memory_tosses: u64,
+}
+
+/// Something to time.
+type Task<'a> = Box<dyn Fn() -> anyhow::Result<()> + 'a>;
+
+impl Speed {
+    pub(crate) fn carry_out(&self, seed: u64) -> anyhow::Result<Report> {
+        let columns = ["measured", "of", "median", "lowest", "highest"];
+        let title = format!("{} repeats of {} tosses", self.repeats, self.tosses);
+        let mut record = Table::new(title, &columns);
+        self.time_engine(&mut record)?;
+        for friction in [0.0, 0.3] {
+            self.time_runner(friction, seed, &mut record)?;
+        }
+        self.measure_memory(&mut record)?;
+        let mut report = Report::new(record);
+        report.remark(
+            "Times are relative to the bare loop that came before. The second bare loop shows how \
+             far noise alone moves the median.",
+        );
+        Ok(report)
+    }
+
+    /// Rates on one core, and what share of a toss its launch takes.
+    fn time_engine(&self, record: &mut Table) -> anyhow::Result<()> {
+        let works = workloads();
+        // there are many, and they are not compared to the per cent
+        let count = self.tosses.div_ceil(4);
+        let task = |work| -> Task<'_> {
+            let work: &coinmc_bench::Workload = work;
+            Box::new(move || {
+                black_box(work.run(0..count));
+                Ok(())
+            })
+        };
+        let tasks: Vec<Task<'_>> = works.iter().map(task).collect();
+        let seconds = self.interleave(&tasks)?;
+        for (work, seconds) in works.iter().zip(&seconds) {
+            let rates: Vec<f64> = seconds.iter().map(|s| count as f64 / s).collect();
+            record.push(row("rate per second", &work.name, &rates, 0));
+        }
+        for (toss, seconds_of_toss) in works.iter().zip(&seconds) {
+            let launch = toss
+                .launch()
+                .and_then(|name| works.iter().position(|w| w.name == name));
+            if let Some(launch) = launch {
+                let shares = ratios(&seconds[launch], seconds_of_toss);
+                record.push(row("launch/toss", &toss.name, &shares, 3));
+            }
+        }
+        Ok(())
+    }
+
+    /// The runner against the bare loop, and against itself on two threads.
+    fn time_runner(&self, friction: f64, seed: u64, record: &mut Table) -> anyhow::Result<()> {
+        let tosses = self.tosses;
+        let plan = plan(&format!(
+            "seed = {seed}\ncoin.ratio = 1.2\ncoin.radius_m = 0.01\nsurface.restitution = 0.5\n\
+             surface.friction = {friction:?}\nlaunch.preset = 'clean-flat'\n\
+             engine.flat.law = 'moreau'\nstop.tosses = {tosses}\n"
+        ))?;
+        let case = Case::new(Preset::CleanFlat, 0.01, 1.2, 0.5, friction);
+        let bare = || -> Task<'_> {
+            Box::new(|| {
+                bare_loop(&case, seed, tosses);
+                Ok(())
+            })
+        };
+        let threads = |n| -> Task<'_> {
+            let plan = &plan;
+            Box::new(move || run_once(plan, NonZeroUsize::new(n)).map(|_| ()))
+        };
+        let shard: Task<'_> = Box::new(|| {
+            run_shard(
+                &plan,
+                &Shard {
+                    point: 0,
+                    tosses: 0..tosses,
+                },
+            )?;
+            Ok(())
+        });
+        let seconds = self.interleave(&[bare(), bare(), shard, threads(1), threads(2)])?;
+        let of = format!("clean-flat x=1.2 e=0.5 mu={friction}");
+        for (name, other) in [
+            ("bare loop again", 1),
+            ("one shard", 2),
+            ("run, 1 thread", 3),
+        ] {
+            let ratios = ratios(&seconds[other], &seconds[0]);
+            record.push(row(&format!("{name}/bare loop"), &of, &ratios, 3));
+        }
+        let speedup = ratios(&seconds[3], &seconds[4]);
+        record.push(row("speed-up of 2 threads", &of, &speedup, 3));
+        Ok(())
+    }
+
+    fn measure_memory(&self, record: &mut Table) -> anyhow::Result<()> {
+        for tosses in [self.memory_tosses.div_ceil(100), self.memory_tosses] {
+            let megabytes = memory::peak_kb(tosses)? / 1024.0;
+            record.push(row(
+                "peak memory in MiB",
+                &format!("{tosses} tosses"),
+                &[megabytes],
+                1,
+            ));
+        }
+        Ok(())
+    }
+
+    /// Seconds of each task in each repeat. Every other repeat goes backwards, so that a drift of
+    /// the machine's speed favours none.
+    fn interleave(&self, tasks: &[Task<'_>]) -> anyhow::Result<Vec<Vec<f64>>> {
+        let mut seconds = vec![Vec::new(); tasks.len()];
+        for repeat in 0..self.repeats {
+            for i in 0..tasks.len() {
+                let i = if repeat % 2 == 0 {
+                    i
+                } else {
+                    tasks.len() - 1 - i
+                };
+                let start = Instant::now();
+                tasks[i]()?;
+                seconds[i].push(start.elapsed().as_secs_f64());
+            }
+        }
+        Ok(seconds)
+    }
+}
+
+/// What any caller of the engine would write.
+fn bare_loop(case: &Case, seed: u64, tosses: u64) {
+    let engine = case.engine(&Settings::default(), Moreau);
+    let (launches, stream) = (case.launches(), Case::stream(seed));
+    let scene = &case.scene;
+    black_box(run_tosses(
+        &engine,
+        &mut engine.workspace(),
+        scene,
+        &launches,
+        &stream,
+        0..tosses,
+    ));
+}
+
+fn ratios(above: &[f64], below: &[f64]) -> Vec<f64> {
+    above.iter().zip(below).map(|(a, b)| a / b).collect()
+}
+
+fn row(measured: &str, of: &str, values: &[f64], decimals: usize) -> Vec<String> {
+    let lowest = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let highest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let number = |value: f64| format!("{value:.decimals$}");
+    vec![
+        measured.to_owned(),
+        of.to_owned(),
+        number(number::median(values)),
+        number(lowest),
+        number(highest),
+    ]
+}

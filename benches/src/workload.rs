@@ -1,0 +1,158 @@
+//! Pieces of work that are timed and whose instructions are counted, by name.
+
+use crate::Case;
+use coinmc_core::{Engine, Philox4x64, Preset, run_tosses};
+use coinmc_flat::{ChatterjeeRuina, Moreau, Settings};
+use std::hint::black_box;
+use std::ops::Range;
+
+const SEED: u64 = 1;
+
+/// A named piece of work that can be done any number of times.
+///
+/// # Example
+/// ```
+/// use coinmc_bench::workloads;
+/// let philox = workloads().into_iter().find(|work| work.name == "philox").unwrap();
+/// assert_eq!(philox.run(0..10), philox.run(0..4).wrapping_add(philox.run(4..10)));
+/// ```
+#[derive(Debug, Clone)]
+pub struct Workload {
+    /// What the tables call it.
+    pub name: String,
+    task: Task,
+}
+
+#[derive(Debug, Clone)]
+enum Task {
+    /// Tosses under Moreau's law.
+    Toss(Case),
+    /// Tosses under Chatterjee and Ruina's.
+    TossChatterjeeRuina(Case),
+    /// Launches, not followed.
+    Launch(Case),
+    /// Blocks of four random words.
+    Philox,
+}
+
+/// All of them: tosses first, then the parts a toss is made of.
+pub fn workloads() -> Vec<Workload> {
+    use Preset::{CleanFlat, Robot};
+    let case = |preset, ratio, e, mu| Case::new(preset, 0.01, ratio, e, mu);
+    let mut list: Vec<Workload> = [
+        case(CleanFlat, 1.2, 0.5, 0.0),
+        case(CleanFlat, 1.2, 0.5, 0.3),
+        case(Robot, 1.2, 0.5, 0.0),
+        case(Robot, 1.2, 0.5, 0.3),
+        case(CleanFlat, 1.2, 0.0, 0.0),
+        case(CleanFlat, 1.2, 0.0, 0.3),
+        case(CleanFlat, 0.1, 0.5, 0.3),
+        case(CleanFlat, 10.0, 0.5, 0.3),
+    ]
+    .into_iter()
+    .map(|case| Workload::new(format!("toss {}", short(&case)), Task::Toss(case)))
+    .collect();
+    let other_law = case(CleanFlat, 1.2, 0.5, 0.3);
+    list.push(Workload::new(
+        format!("toss {} chatterjee-ruina", short(&other_law)),
+        Task::TossChatterjeeRuina(other_law),
+    ));
+    for preset in [CleanFlat, Robot] {
+        let adhesive = case(preset, 1.2, 0.0, 0.0).adhesive();
+        list.push(Workload::new(
+            format!("first contact {preset} x=1.2"),
+            Task::Toss(adhesive),
+        ));
+    }
+    for preset in [CleanFlat, Robot] {
+        list.push(Workload::new(
+            launch_name(preset),
+            Task::Launch(case(preset, 1.2, 0.0, 0.0)),
+        ));
+    }
+    list.push(Workload::new("philox".to_owned(), Task::Philox));
+    list
+}
+
+fn launch_name(preset: Preset) -> String {
+    format!("launch {preset}")
+}
+
+/// The case without its radius, which is 1 cm in all of them.
+fn short(case: &Case) -> String {
+    case.to_string().replace(" R=0.01", "")
+}
+
+impl Workload {
+    fn new(name: String, task: Task) -> Self {
+        Self { name, task }
+    }
+
+    /// Of tosses, the name of the workload that makes their launches alone.
+    pub fn launch(&self) -> Option<String> {
+        match &self.task {
+            Task::Toss(case) | Task::TossChatterjeeRuina(case) => Some(launch_name(case.preset)),
+            Task::Launch(_) | Task::Philox => None,
+        }
+    }
+
+    /// Does numbers `range.start .. range.end` of it. Returns a sum over the results, which
+    /// depends on the numbers only, so that no compiler can leave any of the work out.
+    pub fn run(&self, range: Range<u64>) -> u64 {
+        match &self.task {
+            Task::Toss(case) => tosses(&case.engine(&Settings::default(), Moreau), case, range),
+            Task::TossChatterjeeRuina(case) => tosses(
+                &case.engine(&Settings::default(), ChatterjeeRuina),
+                case,
+                range,
+            ),
+            Task::Launch(case) => launches(case, range),
+            Task::Philox => philox(range),
+        }
+    }
+}
+
+fn tosses<E: Engine>(engine: &E, case: &Case, range: Range<u64>) -> u64 {
+    let (launches, stream) = (case.launches(), Case::stream(SEED));
+    let mut workspace = engine.workspace();
+    let tally = run_tosses(
+        engine,
+        &mut workspace,
+        &case.scene,
+        &launches,
+        &stream,
+        range,
+    );
+    tally.heads + tally.impacts
+}
+
+fn launches(case: &Case, range: Range<u64>) -> u64 {
+    let (launches, stream) = (case.launches(), Case::stream(SEED));
+    range.fold(0, |sum: u64, toss| {
+        let launch = black_box(launches.launch(&case.scene.coin, &mut stream.toss(toss)));
+        sum.wrapping_add(launch.spin_rad_s.y.to_bits())
+    })
+}
+
+fn philox(range: Range<u64>) -> u64 {
+    let generator = Philox4x64::new([SEED, 0]);
+    range.fold(0, |sum: u64, toss| {
+        let block = generator.block([0, black_box(toss), 0, 0]);
+        block.into_iter().fold(sum, u64::wrapping_add)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_unique_and_work_does_not_depend_on_how_it_is_cut() {
+        let all = workloads();
+        for (i, work) in all.iter().enumerate() {
+            assert!(all[..i].iter().all(|other| other.name != work.name));
+            let parts = work.run(0..30).wrapping_add(work.run(30..100));
+            assert_eq!(work.run(0..100), parts, "{}", work.name);
+        }
+    }
+}
