@@ -343,7 +343,9 @@ impl<L: ImpactLaw> FlatEngine<L> {
         if O::ACTIVE {
             self.notify(observer, EventKind::Launched, &toss.motion);
         }
-        let certain = if !energy.is_finite() {
+        let finite =
+            energy.is_finite() && launch.height_m.is_finite() && toss.motion.delta.is_finite();
+        let certain = if !finite {
             Ended::Failed
         } else if self.landing == Landing::Bouncing && toss.contact.is_certain(&toss.motion) {
             Ended::Decided(Shape::face(toss.motion.quadrant, toss.motion.delta))

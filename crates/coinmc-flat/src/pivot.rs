@@ -32,27 +32,28 @@ pub(crate) fn stuck_forces(sin: f64, cos: f64, omega: f64, k: f64) -> (f64, f64)
 /// Pivots about a stuck corner until it slips or the coin is flat.
 ///
 /// With ω² = 2(E − c)/(1 + k), c = cos δ, s = sin δ, the distances to the two sides of the cone
-/// are, times 1 + k, q± = μ(k + 3c² − 2Ec) ∓ s(3c − 2E), whose second derivatives are at most
-/// M = (1 + μ)(6 + 2E): stepping to the root of q + q'τ − Mτ²/2 never passes a root.
+/// are, times 1 + k, q± = μ(k + 3c² − 2Ec) ∓ s(3c − 2E). Their second derivatives are at most
+/// (1 + μ)(6 + 2E); divided by that, q + q'τ − τ²/2 is a lower bound, and stepping to its root
+/// never passes a root of q.
 pub(crate) fn stick<const TIMED: bool>(motion: &mut Motion, shape: &Shape, mu: f64) -> PivotEnd {
     let inertia = 1.0 + shape.k;
     let (sin0, cos0) = sin_cos(motion.delta);
     let energy = 0.5 * inertia * motion.omega * motion.omega + cos0;
     let direction = 1.0_f64.copysign(motion.omega);
     let last = shape.last_angle(motion.quadrant, motion.omega);
-    let bound = (1.0 + mu) * (6.0 + 2.0 * energy);
+    // weights that add up to less than one, so that no friction is too great
+    let scale = 1.0 / (6.0 + 2.0 * energy);
+    let (cone_part, need_part) = (scale * (mu / (1.0 + mu)), scale / (1.0 + mu));
     let mut delta = motion.delta;
     let end = loop {
         let (sin, cos) = sin_cos(delta);
-        let cone = mu * (shape.k + 3.0 * cos * cos - 2.0 * energy * cos);
-        let need = sin * (3.0 * cos - 2.0 * energy);
-        let cone_rate = direction * mu * sin * (2.0 * energy - 6.0 * cos);
-        let need_rate = direction * (3.0 * (cos * cos - sin * sin) - 2.0 * energy * cos);
-        let step = cone_step(cone - need, cone_rate - need_rate, bound).min(cone_step(
-            cone + need,
-            cone_rate + need_rate,
-            bound,
-        ));
+        let cone = cone_part * (shape.k + 3.0 * cos * cos - 2.0 * energy * cos);
+        let need = need_part * sin * (3.0 * cos - 2.0 * energy);
+        let cone_rate = direction * cone_part * sin * (2.0 * energy - 6.0 * cos);
+        let need_rate =
+            direction * need_part * (3.0 * (cos * cos - sin * sin) - 2.0 * energy * cos);
+        let step = cone_step(cone - need, cone_rate - need_rate)
+            .min(cone_step(cone + need, cone_rate + need_rate));
         if step == 0.0 {
             break PivotEnd::Slips;
         }
@@ -74,17 +75,17 @@ pub(crate) fn stick<const TIMED: bool>(motion: &mut Motion, shape: &Shape, mu: f
 }
 
 /// Step to the first root of the lower bound of q; 0 when q has reached zero and falls.
-fn cone_step(q: f64, rate: f64, bound: f64) -> f64 {
-    // q is of order 1; this much outside the cone is rounding
+fn cone_step(q: f64, rate: f64) -> f64 {
+    // q is at most of order 1; this much outside the cone is rounding
     const REACHED: f64 = 1e-13;
     if q <= REACHED && rate <= 0.0 {
         return 0.0;
     }
-    let root = (rate * rate + 2.0 * q.max(0.0) * bound).sqrt();
+    let root = (rate * rate + 2.0 * q.max(0.0)).sqrt();
     if rate < 0.0 {
         2.0 * q / (root - rate)
     } else {
-        (rate + root) / bound
+        (rate + root).max(REACHED)
     }
 }
 
@@ -150,7 +151,8 @@ fn duration(slowness: &impl Fn(f64) -> f64, from: f64, to: f64) -> f64 {
             h * (middle + 4.0 * right + fb),
         );
         let error = first + second - whole;
-        if depth == 0 || error.abs() <= 15e-12 * (1.0 + whole.abs()) {
+        // two coarse panels may agree by chance: at least 16 are looked at
+        if depth == 0 || depth < 27 && error.abs() <= 15e-12 * (1.0 + whole.abs()) {
             return first + second + error / 15.0;
         }
         refine(f, (a, fa), (m, middle), left, first, depth - 1)

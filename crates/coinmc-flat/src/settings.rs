@@ -57,7 +57,7 @@ pub struct Settings {
     pub zeno: f64,
     /// Relative error allowed per step of the integration of sliding contact.
     pub tolerance: f64,
-    /// Impacts after which a toss is given up as undecided.
+    /// Impacts, or steps of sustained contact, after which a toss is given up as undecided.
     pub max_impacts: u32,
 }
 

@@ -45,6 +45,20 @@ impl Margins<'_> {
         }
     }
 
+    /// Where a margin that is positive at both ends of an accepted step dips below zero between
+    /// them: the time of its lowest point, at which a shorter step should end. Judged by the
+    /// cubic through both ends.
+    pub(super) fn dip(&self, start: &Arrival, end: &Arrival, h: f64) -> Option<f64> {
+        let (before, after) = (self.at(&start.state), self.at(&end.state));
+        (0..3).find_map(|which| {
+            let slopes = [self.slope(which, start) * h, self.slope(which, end) * h];
+            let turns = slopes[0] < 0.0 && slopes[1] > 0.0 && after[which] >= 0.0;
+            let lowest =
+                turns.then(|| Cubic::new([before[which], after[which]], slopes).lowest())?;
+            (lowest.1 < 0.0).then_some(lowest.0 * h)
+        })
+    }
+
     /// The earliest event within an accepted step of length `h`, or `None`: after which time, in
     /// which state, which end.
     ///
@@ -126,6 +140,14 @@ impl Cubic {
     fn slope(&self, t: f64) -> f64 {
         let [_, c1, c2, c3] = self.0;
         c1 + t * (2.0 * c2 + t * 3.0 * c3)
+    }
+
+    /// Where it is lowest and how low, given a slope that is negative at 0 and positive at 1.
+    fn lowest(&self) -> (f64, f64) {
+        let [_, c1, c2, c3] = self.0;
+        // c1 < 0 < c1 + 2c2 + 3c3: the root of the slope at which it rises, without cancellation
+        let t = -c1 / (c2 + (c2 * c2 - 3.0 * c1 * c3).max(0.0).sqrt());
+        (t, self.value(t))
     }
 
     /// A root, given values of at least zero at 0 and below zero at 1: a few halvings and a

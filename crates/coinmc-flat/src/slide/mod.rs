@@ -53,7 +53,7 @@ pub(crate) fn slide(motion: &mut Motion, task: &SlideTask) -> (SlideEnd, f64, u3
     let mut energy = motion.energy(shape.k);
     let mut y = [motion.delta, motion.omega, task.slip, motion.x];
     // a fraction of the time in which the fastest thing here turns by one
-    let mut h = 0.1 / (1.0 + motion.omega.abs());
+    let mut h = 0.2 / (1.0 + motion.omega.abs());
     let mut steps = 0;
     let mut rejected_in_a_row = 0;
     let end = loop {
@@ -73,10 +73,15 @@ pub(crate) fn slide(motion: &mut Motion, task: &SlideTask) -> (SlideEnd, f64, u3
             rejected_in_a_row += 1;
             continue;
         };
-        // the controller's usual exponent for a pair of order 5(4), and usual bounds
-        let growth = 0.9 * libm::pow(task.tolerance / error.max(1e-30), 0.2);
         if error > task.tolerance {
-            h *= growth.max(0.1);
+            h *= growth(task.tolerance, error).max(0.1);
+            rejected_in_a_row += 1;
+            continue;
+        }
+        if let Some(shorter) = margins.dip(&start, &next, h)
+            && shorter < 0.99 * h
+        {
+            h = shorter;
             rejected_in_a_row += 1;
             continue;
         }
@@ -93,7 +98,7 @@ pub(crate) fn slide(motion: &mut Motion, task: &SlideTask) -> (SlideEnd, f64, u3
         if energy < 1.0 {
             break SlideEnd::Certain;
         }
-        h = (h * growth.clamp(0.2, 4.0)).min(0.5 / (1.0 + y[1].abs()));
+        h = (h * growth(task.tolerance, error).clamp(0.2, 4.0)).min(0.5 / (1.0 + y[1].abs()));
     };
     if end == SlideEnd::Flat {
         // exactly flat, so that the next quadrant begins where this one ended
@@ -104,6 +109,12 @@ pub(crate) fn slide(motion: &mut Motion, task: &SlideTask) -> (SlideEnd, f64, u3
     }
     let slip = if end == SlideEnd::Stops { 0.0 } else { y[2] };
     (end, slip, steps)
+}
+
+/// By how much the next step may be longer: the usual exponent for a pair of order 5(4), and the
+/// usual caution.
+fn growth(tolerance: f64, error: f64) -> f64 {
+    0.9 * libm::pow(tolerance / error.max(1e-30), 0.2)
 }
 
 /// Writes the integrated state back, taking out what truncation added to the energy; the slip
