@@ -16,6 +16,11 @@ use crate::slide::{SlideEnd, SlideTask, slide};
 use coinmc_core::EventKind;
 use coinmc_core::trig::sin_cos;
 
+/// Where the friction needed only grazes the cone, sticking sees it reached and sliding sees it
+/// not left. A coin that gets nowhere this way is stuck for this angle, rad: the friction it needs
+/// exceeds the cone by less than GRAZE² meanwhile.
+const GRAZE: f64 = 1e-6;
+
 /// How sustained contact ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Leave {
@@ -64,6 +69,7 @@ impl Contact<'_> {
         mut slip: f64,
         mut entered: impl FnMut(EventKind, &Motion),
     ) -> Leave {
+        let mut stalled = false;
         loop {
             if self.is_certain(motion) {
                 return Leave::Certain;
@@ -76,8 +82,8 @@ impl Contact<'_> {
             if gap <= 0.0 && motion.omega != 0.0 && (motion.omega > 0.0) == at_end {
                 return self.next_corner(motion);
             }
-            let before = motion.energy(self.shape.k);
-            if self.mu == 0.0 || (slip == 0.0 && self.can_stick(motion)) {
+            let (before, delta) = (motion.energy(self.shape.k), motion.delta);
+            if self.mu == 0.0 || (slip == 0.0 && (stalled || self.can_stick(motion))) {
                 if motion.omega == 0.0 && motion.delta == 0.0 {
                     return Leave::Balanced;
                 }
@@ -85,7 +91,12 @@ impl Contact<'_> {
                 let end = if self.mu == 0.0 {
                     glide::<TIMED>(motion, self.shape)
                 } else {
-                    stick::<TIMED>(motion, self.shape, self.mu)
+                    stick::<TIMED>(
+                        motion,
+                        self.shape,
+                        self.mu,
+                        if stalled { GRAZE } else { 0.0 },
+                    )
                 };
                 motion.cap_energy(self.shape.k, before);
                 match end {
@@ -104,7 +115,10 @@ impl Contact<'_> {
             let (end, slip_after) = self.slide(motion, slip);
             slip = slip_after;
             match end {
-                SlideEnd::Stops => slip = 0.0,
+                SlideEnd::Stops => {
+                    slip = 0.0;
+                    stalled = (motion.delta - delta).abs() < GRAZE;
+                }
                 SlideEnd::LiftsOff => return Leave::LiftOff,
                 SlideEnd::Flat => return self.next_corner(motion),
                 SlideEnd::Jams => slip = self.jam(motion, slip),

@@ -29,13 +29,19 @@ pub(crate) fn stuck_forces(sin: f64, cos: f64, omega: f64, k: f64) -> (f64, f64)
     (normal, friction)
 }
 
-/// Pivots about a stuck corner until it slips or the coin is flat.
+/// Pivots about a stuck corner until it slips or the coin is flat. The cone is not looked at within
+/// the first `step`, rad.
 ///
 /// With ω² = 2(E − c)/(1 + k), c = cos δ, s = sin δ, the distances to the two sides of the cone
 /// are, times 1 + k, q± = μ(k + 3c² − 2Ec) ∓ s(3c − 2E). Their second derivatives are at most
 /// (1 + μ)(6 + 2E); divided by that, q + q'τ − τ²/2 is a lower bound, and stepping to its root
 /// never passes a root of q.
-pub(crate) fn stick<const TIMED: bool>(motion: &mut Motion, shape: &Shape, mu: f64) -> PivotEnd {
+pub(crate) fn stick<const TIMED: bool>(
+    motion: &mut Motion,
+    shape: &Shape,
+    mu: f64,
+    mut step: f64,
+) -> PivotEnd {
     let inertia = 1.0 + shape.k;
     let (sin0, cos0) = sin_cos(motion.delta);
     let energy = 0.5 * inertia * motion.omega * motion.omega + cos0;
@@ -46,21 +52,21 @@ pub(crate) fn stick<const TIMED: bool>(motion: &mut Motion, shape: &Shape, mu: f
     let (cone_part, need_part) = (scale * (mu / (1.0 + mu)), scale / (1.0 + mu));
     let mut delta = motion.delta;
     let end = loop {
+        delta += direction * step;
+        if (last - delta) * direction <= 0.0 {
+            delta = last;
+            break PivotEnd::Flat;
+        }
         let (sin, cos) = sin_cos(delta);
         let cone = cone_part * (shape.k + 3.0 * cos * cos - 2.0 * energy * cos);
         let need = need_part * sin * (3.0 * cos - 2.0 * energy);
         let cone_rate = direction * cone_part * sin * (2.0 * energy - 6.0 * cos);
         let need_rate =
             direction * need_part * (3.0 * (cos * cos - sin * sin) - 2.0 * energy * cos);
-        let step = cone_step(cone - need, cone_rate - need_rate)
+        step = cone_step(cone - need, cone_rate - need_rate)
             .min(cone_step(cone + need, cone_rate + need_rate));
         if step == 0.0 {
             break PivotEnd::Slips;
-        }
-        delta += direction * step;
-        if (last - delta) * direction <= 0.0 {
-            delta = last;
-            break PivotEnd::Flat;
         }
     };
     let rate = |c: f64| (2.0 * (energy - c).max(0.0) / inertia).sqrt();

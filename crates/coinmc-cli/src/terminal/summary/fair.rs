@@ -6,6 +6,7 @@ use crate::terminal::plot::Mark;
 use crate::terminal::table::{Column, Table};
 use crate::terminal::{Colors, Style, compact, decimals_for};
 use coinmc::results::{FairRatio, Results};
+use coinmc_analytic::Rule;
 use std::collections::HashSet;
 
 /// More crossings than this are not listed; JSON has them all.
@@ -35,7 +36,12 @@ pub(super) fn table(
     let mut columns: Vec<Column> = others(results).into_iter().map(Column::right).collect();
     let percent = compact(fair[0].confidence * 100.0);
     columns.push(Column::right("fair H/R"));
-    columns.push(Column::left(format!("{percent} % interval")));
+    // Closed forms have no error but that of the interpolation.
+    columns.push(Column::left(if fair[0].engine == "analytic" {
+        "interpolated within".to_owned()
+    } else {
+        format!("{percent} % interval")
+    }));
     let mut table = Table::new(columns);
     // Two digits of the shortest interval's arm, four decimals where all are open.
     let arms = fair
@@ -68,7 +74,19 @@ pub(super) fn table(
     if !never.is_empty() {
         text += &format!("No crossing elsewhere: {never}\n");
     }
+    if fair[0].engine == "flat" {
+        text += &published();
+    }
     Some(text)
+}
+
+/// What others say of the same coin, for comparison with a flat toss.
+fn published() -> String {
+    let arc = Rule::Arc.fair_ratio(FAIR);
+    format!(
+        "For comparison: {arc:.4} without bounces (arc rule); 1.5 ± 0.05 with bounces (Gaek & \
+         Sukhov, arXiv 2401.03557, flat)\n"
+    )
 }
 
 /// `[1.4981, 1.5080]`; an end that lies outside the sweep is open.

@@ -1,0 +1,71 @@
+"""Draws docs/flat-fair.svg from the results of examples/flat-fair.toml.
+
+coinmc run examples/flat-fair.toml --out runs/flat-fair
+python docs/figures/flat_fair.py runs/flat-fair docs/flat-fair.svg
+"""
+
+import sys
+from math import atan, pi
+
+import matplotlib
+import pyarrow.parquet as pq
+
+matplotlib.use("svg")
+# The same picture, byte for byte, from the same results.
+matplotlib.rcParams["svg.hashsalt"] = "coinmc"
+import matplotlib.pyplot as plt  # noqa: E402
+
+# Okabe & Ito's colours, told apart by colour-blind eyes too.
+COLOURS = {0.3: "#0072B2", 0.5: "#009E73", 0.7: "#D55E00"}
+
+
+def draw(run: str, path: str) -> None:
+    """Plots P(side) with its interval against H/R, a curve a restitution and friction."""
+    rows = pq.read_table(f"{run}/results.parquet").to_pylist()
+    figure, axes = plt.subplots(figsize=(7.2, 4.2), layout="constrained")
+    for friction, style in [(0.0, "-"), (0.3, "--")]:
+        for restitution, colour in COLOURS.items():
+            curve = [
+                row
+                for row in rows
+                if row["restitution"] == restitution and row["friction"] == friction
+            ]
+            ratio = [row["ratio"] for row in curve]
+            axes.plot(
+                ratio,
+                [row["p_side"] for row in curve],
+                style,
+                color=colour,
+                label=f"e = {restitution}, μ = {friction}",
+            )
+            axes.fill_between(
+                ratio,
+                [row["p_side_lo"] for row in curve],
+                [row["p_side_hi"] for row in curve],
+                color=colour,
+                alpha=0.25,
+                linewidth=0,
+            )
+    ratio = sorted({row["ratio"] for row in rows})
+    axes.plot(
+        ratio,
+        [2 / pi * atan(x / 2) for x in ratio],
+        ":",
+        color="black",
+        label="arc rule, no bounce",
+    )
+    axes.axhline(1 / 3, color="grey", linewidth=0.8)
+    axes.axvspan(1.45, 1.55, color="grey", alpha=0.2, linewidth=0, label="Gaek & Sukhov 1.5 ± 0.05")
+    axes.set(
+        xlabel="H/R, height over radius",
+        ylabel="P(side), 95 % intervals",
+        xlim=(ratio[0], ratio[-1]),
+        ylim=(0, 0.75),
+        title="A coin tossed by the robot, flat toss",
+    )
+    axes.legend(fontsize="small", frameon=False)
+    figure.savefig(path, metadata={"Date": None, "Creator": None})
+
+
+if __name__ == "__main__":
+    draw(*sys.argv[1:])
