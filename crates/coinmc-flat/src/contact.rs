@@ -82,8 +82,9 @@ impl Contact<'_> {
             if gap <= 0.0 && motion.omega != 0.0 && (motion.omega > 0.0) == at_end {
                 return self.next_corner(motion);
             }
-            let (before, delta) = (motion.energy(self.shape.k), motion.delta);
-            if self.mu == 0.0 || (slip == 0.0 && (stalled || self.can_stick(motion))) {
+            let before = motion.energy(self.shape.k);
+            let (delta, at_rest) = (motion.delta, slip == 0.0);
+            if self.mu == 0.0 || (slip == 0.0 && self.can_stick(motion, stalled)) {
                 if motion.omega == 0.0 && motion.delta == 0.0 {
                     return Leave::Balanced;
                 }
@@ -117,7 +118,7 @@ impl Contact<'_> {
             match end {
                 SlideEnd::Stops => {
                     slip = 0.0;
-                    stalled = (motion.delta - delta).abs() < GRAZE;
+                    stalled = at_rest && (motion.delta - delta).abs() < GRAZE;
                 }
                 SlideEnd::LiftsOff => return Leave::LiftOff,
                 SlideEnd::Flat => return self.next_corner(motion),
@@ -136,11 +137,11 @@ impl Contact<'_> {
         }
     }
 
-    fn can_stick(&self, motion: &Motion) -> bool {
+    fn can_stick(&self, motion: &Motion, stalled: bool) -> bool {
         let (sin, cos) = sin_cos(motion.delta);
         let (normal, friction) = stuck_forces(sin, cos, motion.omega, self.shape.k);
         // the cone's edge belongs to sliding, lest both phases end at once
-        normal > 0.0 && friction.abs() < self.mu * normal
+        normal > 0.0 && (stalled || friction.abs() < self.mu * normal)
     }
 
     /// The direction in which a corner at rest that cannot stick begins to slide: against the

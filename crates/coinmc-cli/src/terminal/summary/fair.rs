@@ -84,8 +84,8 @@ pub(super) fn table(
 fn published() -> String {
     let arc = Rule::Arc.fair_ratio(FAIR);
     format!(
-        "For comparison: {arc:.4} without bounces (arc rule); 1.5 ± 0.05 with bounces (Gaek & \
-         Sukhov, arXiv 2401.03557, flat)\n"
+        "For comparison:\n    {arc:.4}      arc rule, no bounce\n    1.5 ± 0.05  Gaek & Sukhov, \
+         arXiv 2401.03557, flat\n"
     )
 }
 
