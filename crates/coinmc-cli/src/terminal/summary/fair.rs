@@ -4,7 +4,7 @@ use super::curves::{label, others};
 use super::{Curve, FAIR};
 use crate::terminal::plot::Mark;
 use crate::terminal::table::{Column, Table};
-use crate::terminal::{Colors, Style, compact, decimals_for};
+use crate::terminal::{Colors, Style, compact, decimals_for, in_ascii};
 use coinmc::results::{FairRatio, Results};
 use coinmc_analytic::Rule;
 use std::collections::HashSet;
@@ -75,18 +75,19 @@ pub(super) fn table(
         text += &format!("No crossing elsewhere: {never}\n");
     }
     if fair[0].engine == "flat" {
-        text += &published();
+        text += &published(style);
     }
     Some(text)
 }
 
 /// What others say of the same coin, for comparison with a flat toss.
-fn published() -> String {
+fn published(style: &Style) -> String {
     let arc = Rule::Arc.fair_ratio(FAIR);
-    format!(
+    let text = format!(
         "For comparison:\n    {arc:.4}      arc rule, no bounce\n    1.5 ± 0.05  Gaek & Sukhov, \
          arXiv 2401.03557, flat\n"
-    )
+    );
+    if style.unicode { text } else { in_ascii(&text) }
 }
 
 /// `[1.4981, 1.5080]`; an end that lies outside the sweep is open.
