@@ -15,4 +15,5 @@ mod impact_laws;
 mod limits;
 mod oracle_friction;
 mod oracle_smooth;
+mod regressions;
 mod symmetry;
