@@ -55,5 +55,5 @@ pub use launch::{
 };
 pub use outcome::{Ended, Face, Outcome};
 pub use random::{Domain, Philox4x64, Stream, TossUniforms, UniformSource, unit_interval};
-pub use surface::{Landing, Scene, Surface, SurfaceError};
+pub use surface::{Drag, Landing, Scene, Surface, SurfaceError};
 pub use tally::Tally;

@@ -30,9 +30,11 @@ impl Face {
 pub enum Ended {
     /// The face is certain (or decided by the stopping rule the user chose).
     Decided(Face),
-    /// The toss was still undecided at the engine's limit of simulated time, or the coin stands
-    /// balanced on its rim for ever.
+    /// The toss was still undecided at the engine's limit of simulated time.
     TimeLimit,
+    /// It is proven that the coin never settles: it stands balanced on its rim, or rolls or bounces
+    /// for ever without loss.
+    Endless,
     /// The toss was still undecided at the engine's limit of impacts or contact phases.
     ImpactLimit,
     /// The numbers went wrong (not finite). Counted, never classified.

@@ -22,6 +22,8 @@ pub struct Tally {
     pub side: u64,
     /// Undecided at the limit of simulated time.
     pub time_limit: u64,
+    /// Undecided for ever.
+    pub endless: u64,
     /// Undecided at the limit of impacts.
     pub impact_limit: u64,
     /// Numbers that went wrong.
@@ -38,11 +40,12 @@ pub struct Tally {
 
 impl Tally {
     /// Names of the counters, in the order of [`to_array`](Self::to_array).
-    pub const COUNTERS: [&'static str; 10] = [
+    pub const COUNTERS: [&'static str; 11] = [
         "heads",
         "tails",
         "side",
         "time_limit",
+        "endless",
         "impact_limit",
         "failed",
         "impacts",
@@ -58,6 +61,7 @@ impl Tally {
             Ended::Decided(Face::Tails) => self.tails += 1,
             Ended::Decided(Face::Side) => self.side += 1,
             Ended::TimeLimit => self.time_limit += 1,
+            Ended::Endless => self.endless += 1,
             Ended::ImpactLimit => self.impact_limit += 1,
             Ended::Failed => self.failed += 1,
         }
@@ -71,7 +75,7 @@ impl Tally {
     #[must_use]
     pub fn checked_merge(&self, other: &Self) -> Option<Self> {
         let (a, b) = (self.to_array(), other.to_array());
-        let mut sum = [0; 10];
+        let mut sum = [0; 11];
         for (sum, (a, b)) in sum.iter_mut().zip(a.iter().zip(b)) {
             *sum = a.checked_add(b)?;
         }
@@ -98,7 +102,7 @@ impl Tally {
 
     /// Tosses that ended without a face, for whatever reason.
     pub fn undecided(&self) -> u64 {
-        self.time_limit + self.impact_limit + self.failed
+        self.time_limit + self.endless + self.impact_limit + self.failed
     }
 
     /// All tosses, undecided ones included.
@@ -107,12 +111,13 @@ impl Tally {
     }
 
     /// The counters in the order of [`COUNTERS`](Self::COUNTERS), for writing to a file.
-    pub fn to_array(&self) -> [u64; 10] {
+    pub fn to_array(&self) -> [u64; 11] {
         [
             self.heads,
             self.tails,
             self.side,
             self.time_limit,
+            self.endless,
             self.impact_limit,
             self.failed,
             self.impacts,
@@ -123,12 +128,13 @@ impl Tally {
     }
 
     /// The reverse of [`to_array`](Self::to_array).
-    pub fn from_array(counts: [u64; 10]) -> Self {
+    pub fn from_array(counts: [u64; 11]) -> Self {
         let [
             heads,
             tails,
             side,
             time_limit,
+            endless,
             impact_limit,
             failed,
             impacts,
@@ -141,6 +147,7 @@ impl Tally {
             tails,
             side,
             time_limit,
+            endless,
             impact_limit,
             failed,
             impacts,

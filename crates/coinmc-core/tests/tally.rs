@@ -9,6 +9,7 @@ fn outcome() -> impl Strategy<Value = Outcome> {
         Just(Ended::Decided(Face::Tails)),
         Just(Ended::Decided(Face::Side)),
         Just(Ended::TimeLimit),
+        Just(Ended::Endless),
         Just(Ended::ImpactLimit),
         Just(Ended::Failed),
     ];
@@ -66,7 +67,7 @@ fn an_overflow_is_told() {
 
 #[test]
 fn the_names_of_the_counters_match_their_order() {
-    let mut counts = [0; 10];
+    let mut counts = [0; 11];
     for (i, name) in Tally::COUNTERS.into_iter().enumerate() {
         counts[i] = 7;
         let tally = Tally::from_array(counts);

@@ -166,7 +166,7 @@ impl<L: ImpactLaw> FlatEngine<L> {
                             toss.motion.delta,
                         ));
                     }
-                    Leave::Balanced => return Ended::TimeLimit,
+                    Leave::Balanced => return Ended::Endless,
                     Leave::Lost => return self.lost(&toss.motion),
                 }
             }

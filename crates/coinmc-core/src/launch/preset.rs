@@ -27,16 +27,19 @@ pub enum Preset {
     CleanFlat,
     /// A vigorous toss by hand.
     Hand,
+    /// A drop without spin.
+    Drop,
 }
 
 impl Preset {
     /// All presets.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Robot,
         Self::Table1,
         Self::Clean,
         Self::CleanFlat,
         Self::Hand,
+        Self::Drop,
     ];
 
     /// The name used in configs.
@@ -47,6 +50,7 @@ impl Preset {
             Self::Clean => "clean",
             Self::CleanFlat => "clean-flat",
             Self::Hand => "hand",
+            Self::Drop => "drop",
         }
     }
 
@@ -73,6 +77,10 @@ impl Preset {
                 "Keller, Amer. Math. Monthly 93 (1986) 191: 2.4 m/s upwards, 238.6 rad/s, heads \
                  up; the 10 % spreads, the start at 1 m and psi = 81 +- 5 degrees (mean: the \
                  0.508 of Diaconis, Holmes & Montgomery 2007) are ours."
+            }
+            Self::Drop => {
+                "Ours: from rest at 1 m, isotropic, without spin; the bounce alone sets the coin \
+                 turning."
             }
         }
     }
@@ -128,6 +136,11 @@ impl Preset {
                     }; 3],
                 ),
             ),
+            Self::Drop => from_rest(
+                1.0,
+                Orientation::Isotropic,
+                Spin::Components([Constant(0.0); 3]),
+            ),
             Self::CleanFlat => from_rest(
                 1.0,
                 Orientation::Tilt(Uniform { from: 0.0, to: TAU }),
@@ -170,7 +183,7 @@ impl fmt::Display for Preset {
 
 /// No preset has this name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("no such preset; the presets are robot, table1, clean, clean-flat, hand")]
+#[error("no such preset; the presets are robot, table1, clean, clean-flat, hand, drop")]
 pub struct UnknownPreset;
 
 impl FromStr for Preset {

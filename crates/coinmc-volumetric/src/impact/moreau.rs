@@ -1,0 +1,3 @@
+/// (Seam.)
+#[derive(Debug, Clone, Copy)]
+pub struct Moreau;

@@ -1,0 +1,120 @@
+//! The arithmetic of the kernels: one number, or several side by side.
+//!
+//! Flight, impact and contact are written once, over [`Lane`]. A lane offers only what IEEE 754
+//! fixes to the last bit (no fused operations, no library functions), and a choice made by a
+//! comparison is a [`select`](Lane::select): so the number of lanes changes the speed and nothing
+//! else. With `f64` as the lane, masks are `bool` and selects compile to moves or branches.
+
+use std::fmt::Debug;
+use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, MulAssign, Neg, Not, Sub, SubAssign};
+
+/// One or several `f64`.
+pub trait Lane:
+    Copy
+    + Debug
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+    + MulAssign
+{
+    /// The result of a comparison, lane by lane.
+    type Mask: Mask;
+
+    /// The same number in every lane.
+    fn splat(value: f64) -> Self;
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// Magnitude.
+    fn abs(self) -> Self;
+    /// The magnitude of `self` with the sign of `sign`.
+    fn copysign(self, sign: Self) -> Self;
+    /// The nearest integer, ties to even.
+    fn round(self) -> Self;
+    /// self < other; false where either is not a number.
+    fn lt(self, other: Self) -> Self::Mask;
+    /// self <= other; false where either is not a number.
+    fn le(self, other: Self) -> Self::Mask;
+    /// `yes` where the mask is set, else `no`.
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+
+    /// The smaller; `other` where `self` is not a number.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self::select(self.lt(other), self, other)
+    }
+
+    /// The larger; `other` where `self` is not a number.
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self::select(other.lt(self), self, other)
+    }
+}
+
+/// One or several truth values.
+pub trait Mask:
+    Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self>
+{
+    /// The same value in every lane.
+    fn splat(value: bool) -> Self;
+    /// Whether any lane is set.
+    fn any(self) -> bool;
+}
+
+impl Mask for bool {
+    #[inline(always)]
+    fn splat(value: bool) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn any(self) -> bool {
+        self
+    }
+}
+
+impl Lane for f64 {
+    type Mask = bool;
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f64::abs(self)
+    }
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        f64::copysign(self, sign)
+    }
+    #[inline(always)]
+    fn round(self) -> Self {
+        // Adding 3·2^51 leaves no digits after the point; exact for |self| < 2^51, and without
+        // SSE 4.1 much faster than a call of the library's round.
+        const SHIFT: f64 = 6_755_399_441_055_744.0;
+        if self.abs() < 2_251_799_813_685_248.0 {
+            (self + SHIFT) - SHIFT
+        } else {
+            self
+        }
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> bool {
+        self < other
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> bool {
+        self <= other
+    }
+    #[inline(always)]
+    fn select(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+}
