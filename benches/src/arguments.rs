@@ -1,7 +1,7 @@
 //! What can be asked for on the command line.
 
 use crate::studies::{
-    Convergence, Energy, FlatTable, MissedContacts, Sensitivity, Speed, StoppingRule, Undecided,
+    Convergence, Energy, FlatTable, MissedContacts, Oracle, Sensitivity, Speed, StoppingRule, Undecided,
 };
 use crate::{memory, number};
 use anyhow::{Context, anyhow};
@@ -40,6 +40,8 @@ enum Command {
     Convergence(Convergence),
     /// Every flight against dense sampling: contacts passed over, energy gained
     MissedContacts(MissedContacts),
+    /// The volumetric engine against fixed-step time stepping, toss by toss
+    Oracle(Oracle),
     /// Worst gain of energy in impacts and in contact phases
     Energy(Energy),
     /// Tosses without a face at the limit of impacts, and the slowest scenes
@@ -73,6 +75,7 @@ impl Arguments {
             Command::FlatTable(study) => study.carry_out(seed),
             Command::Convergence(study) => study.carry_out(seed),
             Command::MissedContacts(study) => study.carry_out(seed),
+            Command::Oracle(study) => study.carry_out(seed),
             Command::Energy(study) => study.carry_out(seed),
             Command::Undecided(study) => study.carry_out(seed),
             Command::StoppingRule(study) => study.carry_out(seed),

@@ -19,6 +19,27 @@ preset = "robot"
 tosses = 20_000
 """
 
+IN_SPACE = """
+[coin]
+ratio = [0.25, 1.0]
+radius_m = 0.5
+[surface]
+restitution = 0.3
+friction = 10.0
+contour_m = [0.0, 0.001]
+restitution_threshold_m_s = 2.0
+[environment]
+linear_drag_per_s = 1.0
+angular_drag_per_s = 0.05
+gyroscopic_torque = false
+[launch]
+preset = "table1"
+[engine.volumetric]
+law = "stronge"
+[stop]
+tosses = 2_000
+"""
+
 CLOSED = """
 [coin]
 ratio = [0.5, 1.0]
@@ -27,7 +48,10 @@ rule = "arc"
 """
 
 
-@pytest.fixture(scope="module", params=[CONFIG, CLOSED], ids=["flat", "analytic"])
+ENGINES = {"flat": CONFIG, "volumetric": IN_SPACE, "analytic": CLOSED}
+
+
+@pytest.fixture(scope="module", params=ENGINES.values(), ids=ENGINES.keys())
 def run(request, coinmc, tmp_path_factory):
     """A finished run: its directory and what was printed."""
     folder = tmp_path_factory.mktemp("run")
@@ -80,3 +104,17 @@ def test_the_intervals_hold_the_estimates(run):
             assert row["p_side"] == row["side"] / row["tosses"]
             counted = row["heads"] + row["tails"] + row["side"] + row["undecided"]
             assert counted == row["tosses"]
+
+
+def test_all_that_defines_a_toss_is_named(run):
+    folder, document = run
+    for row in pq.read_table(folder / "results.parquet").to_pylist():
+        assert row["law"]
+        assert row["engine"] in ENGINES
+        assert row["gyroscopic_torque"] == (row["engine"] != "volumetric")
+        drag = row["linear_drag_per_s"], row["angular_drag_per_s"]
+        assert drag == ((1.0, 0.05) if row["engine"] == "volumetric" else (0.0, 0.0))
+        assert row["contour_m"] >= row["pivoting_m"] == 0.0
+    published = [entry["side"] for entry in document["published"]]
+    in_space = document["rows"][0]["engine"] == "volumetric"
+    assert published == ([661, 661, 495, 495] if in_space else [])

@@ -21,6 +21,32 @@ preset = "robot"
 tosses = 1_000_000
 """
 
+IN_SPACE = """
+[coin]
+ratio = [0.25, 0.85]
+[surface]
+restitution = 0.5
+friction = 0.3
+contour_m = [1e-5, 1e-4]
+pivoting_m = 1e-4
+restitution_threshold_m_s = 0.1
+[environment]
+linear_drag_per_s = 0.1
+angular_drag_per_s = 0.1
+gyroscopic_torque = false
+[launch]
+preset = "drop"
+[engine.volumetric]
+law = "stronge"
+decision = "energy"
+zeno = { from = 0.001, to = 0.1, steps = 3, scale = "log" }
+stick = 1e-3
+fade = 1e-3
+time_limit = 1e4
+[stop]
+tosses = 1000
+"""
+
 # A path of keys and the value put there.
 BAD = [
     ("sede", 1),
@@ -40,10 +66,22 @@ BAD = [
     ("surface.restitution", [0.5, -0.1]),
     ("surface.friction", -0.1),
     ("surface.landing", "soft"),
+    ("surface.contour_m", -1e-4),
+    ("surface.pivoting_m", [1e-4, -1e-4]),
+    ("surface.restitution_threshold_m_s", "2"),
+    ("environment.linear_drag_per_s", -1.0),
+    ("environment.angular_drag_per_s", {"from": -1.0, "to": 1.0, "steps": 3}),
+    ("environment.gyroscopic_torque", 1),
     ("launch.preset", "robt"),
     ("launch.orientation", {"tilt_deg": 0.0, "axis": [0, 0, 1]}),
     ("engine.flat.law", "newton"),
     ("engine.flat.zeno", 0.0),
+    ("engine", {"volumetric": {"law": "newton"}}),
+    ("engine", {"volumetric": {"decision": "certain"}}),
+    ("engine", {"volumetric": {"stick": 0.2}}),
+    ("engine", {"volumetric": {"fade": 0.0}}),
+    ("engine", {"volumetric": {"time_limit": 0.0}}),
+    ("engine", {"volumetric": {"energy_fraction": 0.01}}),
     ("engine.rapier", {}),
     ("stop.tosses", 0),
     ("stop.half_width", 0.01),
@@ -82,7 +120,8 @@ def test_examples_are_accepted(root, validator):
 
 
 def test_what_is_valid_is_accepted(validator):
-    validator.validate(tomllib.loads(VALID))
+    for text in (VALID, IN_SPACE):
+        validator.validate(tomllib.loads(text))
 
 
 @pytest.mark.parametrize(("path", "value"), BAD, ids=lambda x: x if isinstance(x, str) else None)

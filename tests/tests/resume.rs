@@ -23,6 +23,23 @@ preset = \"robot\"
 tosses = 80_000
 ";
 
+/// The same in space, with 10 shards.
+const IN_SPACE: &str = "\
+seed = 11
+[coin]
+ratio = [0.85, 2.0]
+[surface]
+restitution = 0.5
+friction = 0.3
+contour_m = 1e-4
+pivoting_m = 1e-4
+[launch]
+preset = \"clean\"
+[engine.volumetric]
+[stop]
+tosses = 80_000
+";
+
 struct Bench {
     dir: TempDir,
     config: PathBuf,
@@ -30,9 +47,13 @@ struct Bench {
 
 impl Bench {
     fn new() -> Self {
+        Self::of(CONFIG)
+    }
+
+    fn of(text: &str) -> Self {
         let dir = tempfile::tempdir().expect("a temporary directory");
         let config = dir.path().join("config.toml");
-        fs::write(&config, CONFIG).expect("the config can be written");
+        fs::write(&config, text).expect("the config can be written");
         Self { dir, config }
     }
 
@@ -110,12 +131,21 @@ fn send(signal: &str, id: u32) {
     assert!(status.expect("kill starts").success());
 }
 
-/// The instant of each kill is drawn as a number of finished shards and some milliseconds more, so
-/// that it falls into start, work or end of the run however fast the machine is.
 #[test]
 fn a_killed_run_ends_in_the_same_bytes() {
+    killed_runs_end_in_the_same_bytes(CONFIG);
+}
+
+#[test]
+fn a_killed_run_in_space_ends_in_the_same_bytes() {
+    killed_runs_end_in_the_same_bytes(IN_SPACE);
+}
+
+/// The instant of each kill is drawn as a number of finished shards and some milliseconds more, so
+/// that it falls into start, work or end of the run however fast the machine is.
+fn killed_runs_end_in_the_same_bytes(config: &str) {
     let kills: u64 = env::var("COINMC_KILLS").map_or(10, |n| n.parse().expect("a number"));
-    let bench = Bench::new();
+    let bench = Bench::of(config);
     let reference = bench.reference();
     let all = shards(&reference);
     let (mut n, mut run, mut hits) = (0, 0, 0);

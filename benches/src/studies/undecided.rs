@@ -67,9 +67,10 @@ impl Undecided {
         let method = IntervalMethod::ClopperPearson;
         let bound = Estimate::new(undecided, 0, tosses, 0.9, method).hi;
         report.remark(format!(
-            "{undecided} of {tosses} tosses undecided (time {}, impacts {}, failed {}): below \
-             {bound:.1e} with 95 % confidence, at the limit of {} impacts; {} jams",
+            "{undecided} of {tosses} tosses undecided (time {}, endless {}, impacts {}, failed {}): \
+             below {bound:.1e} with 95 % confidence, at the limit of {} impacts; {} jams",
             total.time_limit,
+            total.endless,
             total.impact_limit,
             total.failed,
             Settings::default().max_impacts,

@@ -1,15 +1,72 @@
-//! The toss: flight, impact, sustained contact, decision. (Seam: the body is being written.)
+//! The toss: flight, impact, sustained contact, decision.
 
-use crate::impact::{ChatterjeeRuina, Moreau, Stronge};
-use crate::settings::{Law, Settings, SettingsError};
-use coinmc_core::{Ended, Engine, Launch, Observer, Outcome, Scene};
+use crate::body::{Body, Friction, Units};
+use crate::contact::{self, Contact, Leave};
+use crate::flight::{Departure, Drag, Orbit, first_contact};
+use crate::impact::{ChatterjeeRuina, ImpactLaw, Moreau, Stronge};
+use crate::settings::{Decision, Law, Settings, SettingsError};
+use crate::toss::Toss;
+use crate::verdict::{Judge, Verdict};
+use coinmc_core::{
+    Ended, Engine, Event, EventKind, Face, Landing, Launch, Observer, Outcome, Scene,
+};
 
-/// Follows tosses of one scene.
+/// Follows tosses of one scene under one law of impact.
+///
+/// # Example
+/// ```
+/// use coinmc_core::{Coin, Domain, Engine, Preset, Scene, Stream, Surface};
+/// use coinmc_volumetric::{Moreau, Settings, VolumetricEngine};
+/// let coin = Coin::cylinder(0.85, 0.01)?;
+/// let surface = Surface::new(0.5, 0.3)?.with_friction_lengths(1e-4, 1e-4)?;
+/// let scene = Scene::new(coin, surface, 9.81)?;
+/// let engine = VolumetricEngine::new(&scene, &Settings::default(), Moreau)?;
+/// let launch = Preset::Clean
+///     .distribution()
+///     .launch(&coin, &mut Stream::new(1, Domain::Launch, 0).toss(0));
+/// let outcome = engine.toss(&mut (), &launch, &mut ());
+/// assert!(outcome.face().is_some() && outcome.impacts > 0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct VolumetricEngine<L> {
+    impact: L,
     settings: Settings,
-    law: L,
+    units: Units,
+    contact: contact::Law,
+    judge: Judge,
+    restitution: f64,
+    /// Approach below which e = 0, in sqrt(g D).
+    threshold: f64,
+    landing: Landing,
+    /// Nothing is ever lost.
+    conserves: bool,
 }
+
+/// What follows an impact.
+enum After {
+    /// Flight; `true` if the contact point parts by its acceleration alone.
+    Flight(bool),
+    /// Sustained contact.
+    Contact,
+}
+
+/// What follows sustained contact.
+enum Onward {
+    Fly,
+    Strike,
+    End(Ended),
+}
+
+/// A short time against every motion of the coin, times its fastest rate: a point that parts from
+/// the surface by acceleration is followed from there.
+const PARTING: f64 = 1e-3;
+/// The same for one that was thrown back.
+const THROWN: f64 = 1e-12;
+/// Rocking that is laid flat, as a fraction of zeno: below it in angle, speed and rate.
+const ROCKING: f64 = 0.1;
+/// Impacts of one rim and the other in turn, without flight, after which the coin lies on its side.
+const ALTERNATIONS: u32 = 100;
 
 /// An engine of any law, for callers that learn the law at run time: one `match`, then static
 /// dispatch.
@@ -39,33 +96,403 @@ impl AnyVolumetricEngine {
     }
 }
 
-impl<L> VolumetricEngine<L> {
+impl<L: ImpactLaw> VolumetricEngine<L> {
     /// An engine for this scene. `settings.law` is not looked at: `law` is the law.
     ///
     /// # Errors
     /// [`SettingsError`] if a setting is out of range.
-    pub fn new(_scene: &Scene, settings: &Settings, law: L) -> Result<Self, SettingsError> {
+    pub fn new(scene: &Scene, settings: &Settings, law: L) -> Result<Self, SettingsError> {
         settings.validate()?;
+        let units = Units::new(scene);
+        let body = Body::new(&scene.coin);
+        let friction = Friction::new(scene);
+        let drag = Drag {
+            linear: scene.drag().linear_per_s() * units.time_s,
+            angular: scene.drag().angular_per_s() * units.time_s,
+        };
+        let axial_factor = if scene.has_gyroscopic_torque() {
+            body.ka / body.kt
+        } else {
+            1.0
+        };
+        let judge = Judge::new(
+            body,
+            &friction,
+            axial_factor,
+            drag.acts(),
+            settings.decision == Decision::Tilting,
+            ROCKING * settings.zeno,
+        );
+        let restitution = scene.surface.restitution();
+        let threshold = scene.surface.restitution_threshold_m_s() / units.speed_m_s();
         Ok(Self {
+            impact: law,
             settings: *settings,
-            law,
+            units,
+            contact: contact::Law {
+                body,
+                friction,
+                drag,
+                axial_factor,
+                fade: settings.fade,
+            },
+            judge,
+            restitution,
+            threshold,
+            landing: scene.surface.landing(),
+            conserves: judge.conserves(restitution) && threshold == 0.0,
         })
+    }
+
+    /// Runs the toss to its end.
+    fn follow<O: Observer>(
+        &self,
+        toss: &mut Toss,
+        contact: &mut Contact<'_>,
+        observer: &mut O,
+    ) -> Ended {
+        let mut departure = Departure::Launched;
+        let mut parting = false;
+        loop {
+            if !self.fly::<O>(toss, contact, departure, parting) {
+                return self.lost(toss);
+            }
+            if contact.time > self.settings.time_limit {
+                return Ended::TimeLimit;
+            }
+            if self.landing == Landing::Adhesive {
+                let side = self.judge.on_side(&toss.motion);
+                return decided(if side { Verdict::Side } else { Verdict::Face }, toss);
+            }
+            departure = Departure::Leaving;
+            match self.bounce(toss, contact, observer) {
+                Ok(by_acceleration) => parting = by_acceleration,
+                Err(ended) => return ended,
+            }
+        }
+    }
+
+    /// Impacts and sustained contact until the coin flies again (`Ok`) or the toss ends.
+    fn bounce<O: Observer>(
+        &self,
+        toss: &mut Toss,
+        contact: &mut Contact<'_>,
+        observer: &mut O,
+    ) -> Result<bool, Ended> {
+        let mut in_turn = 0;
+        loop {
+            if toss.impacts == self.settings.max_impacts {
+                return Err(Ended::ImpactLimit);
+            }
+            toss.impacts += 1;
+            self.notify(toss, EventKind::Touching, observer);
+            let after = self.strike(toss);
+            self.notify(toss, EventKind::Impact, observer);
+            let verdict = self.judge.verdict(&toss.motion, &toss.spin);
+            if verdict != Verdict::Open {
+                return Err(decided(verdict, toss));
+            }
+            let onward = if self.rocks_out(toss) || in_turn > ALTERNATIONS {
+                self.lie(toss, contact, observer)
+            } else if self.stands(toss) {
+                self.trip(toss, contact, observer)
+            } else if self.other_rim_approaches(toss) {
+                toss.change_rim();
+                in_turn += 1;
+                continue;
+            } else {
+                match after {
+                    After::Flight(parting) => return Ok(parting),
+                    After::Contact => self.sustain(toss, contact, observer),
+                }
+            };
+            in_turn = 0;
+            match onward {
+                Onward::Fly => return Ok(true),
+                Onward::Strike => {}
+                Onward::End(ended) => return Err(ended),
+            }
+        }
+    }
+
+    /// Flies to the next contact; `false` if the search for it was lost.
+    #[inline]
+    fn fly<O: Observer>(
+        &self,
+        toss: &mut Toss,
+        contact: &mut Contact<'_>,
+        departure: Departure,
+        parting: bool,
+    ) -> bool {
+        let law = &self.contact;
+        let mut orbit = Orbit::new(&toss.motion, law.drag);
+        let least = if parting { PARTING } else { THROWN } / orbit.fastest();
+        let found = first_contact(&mut orbit, &law.body, departure, least);
+        if found.lost {
+            return false;
+        }
+        let took = orbit.since_start(found.time);
+        if O::ACTIVE {
+            let (dx, dy) = orbit.drift(&toss.motion, took);
+            toss.place.shift(dx, dy);
+        }
+        let (motion, [nx, ny], reflected) = orbit.land(&toss.motion, &law.body, found.time);
+        toss.motion = motion;
+        toss.spin = motion.spin(law.axial_factor);
+        toss.heads_up ^= reflected;
+        contact.time += took;
+        if O::ACTIVE {
+            toss.place.align(nx, ny);
+            toss.place.time = contact.time;
+        }
+        true
+    }
+
+    /// The impact of the lowest point, or, if the bounces that remain would all be over before the
+    /// coin has turned noticeably, the end of them all at once.
+    #[inline]
+    fn strike(&self, toss: &mut Toss) -> After {
+        let law = &self.contact;
+        let (body, friction) = (&law.body, &law.friction);
+        let before = toss.motion.kinetic(body, &toss.spin) + toss.motion.z;
+        let mut touch = toss.motion.touch(body, &toss.spin);
+        // a point that is swapped in may leave already, by rounding
+        touch.approach = touch.approach.min(0.0);
+        let speed = -touch.approach;
+        let e = if speed < self.threshold {
+            0.0
+        } else {
+            self.restitution
+        };
+        // the bounces that remain take 2 e v/(a(1 − e)), a the acceleration that closes the gap
+        let rest = 2.0 * e * speed;
+        let quick = self.settings.zeno * (1.0 - e);
+        if rest < quick * (2.0 + 2.0 * law.uplift(&toss.motion, &toss.spin)) || e == 0.0 {
+            let p = self.impact.impulse(body, friction, &touch, 0.0);
+            let (mut motion, mut spin) = (toss.motion, toss.spin);
+            motion.strike(&mut spin, body, &touch, p);
+            motion.cap_energy(body, &mut spin, before);
+            let press = law.press(&motion, &spin);
+            let ends = press > 0.0 && rest * law.fastest(&motion, &spin) < quick * press;
+            if ends || e == 0.0 {
+                motion.set_spin(&spin, law.axial_factor);
+                (toss.motion, toss.spin) = (motion, spin);
+                return if ends {
+                    After::Contact
+                } else {
+                    After::Flight(true)
+                };
+            }
+        }
+        let p = self.impact.impulse(body, friction, &touch, e);
+        toss.motion.strike(&mut toss.spin, body, &touch, p);
+        toss.motion.cap_energy(body, &mut toss.spin, before);
+        toss.motion.set_spin(&toss.spin, law.axial_factor);
+        After::Flight(false)
+    }
+
+    /// Whether the coin, exactly on its side, goes on to the other rim rather than up.
+    fn other_rim_approaches(&self, toss: &Toss) -> bool {
+        let m = &toss.motion;
+        m.cos == 0.0 && m.vz - toss.spin.tilt * self.contact.body.half < 0.0
+    }
+
+    /// Whether the coin rocks on its side so little that it may be laid down: gap, speed and rate
+    /// below a tenth of zeno of the side's half width.
+    #[inline]
+    fn rocks_out(&self, toss: &Toss) -> bool {
+        let m = &toss.motion;
+        let small = ROCKING * self.settings.zeno * self.contact.body.half;
+        m.vz.abs() < small && m.cos < small && toss.spin.tilt.abs() < small
+    }
+
+    /// Lies down on the side.
+    fn lie<O: Observer>(
+        &self,
+        toss: &mut Toss,
+        contact: &mut Contact<'_>,
+        observer: &mut O,
+    ) -> Onward {
+        let Toss {
+            motion,
+            spin,
+            place,
+            ..
+        } = toss;
+        let tips = contact.lie(motion, spin, |length, motion, spin| {
+            if O::ACTIVE {
+                place.follow(length, motion, spin);
+            }
+        });
+        match tips {
+            Ok(this_rim) => {
+                if !this_rim {
+                    toss.change_rim();
+                }
+                self.sustain(toss, contact, observer)
+            }
+            Err(leave) => self.onward(toss, leave),
+        }
+    }
+
+    /// Whether the coin stands on its face but for a little rocking, and friction may tip it.
+    fn stands(&self, toss: &Toss) -> bool {
+        let m = &toss.motion;
+        let body = &self.contact.body;
+        let small = ROCKING * self.settings.zeno * body.radius;
+        m.sin < small
+            && self.contact.friction.mu * body.half > body.radius
+            && m.vz.abs() < small
+            && toss.spin.tilt.abs() < small
+            && toss.spin.turn.abs() < small
+    }
+
+    /// A coin that stands on its face and slides: friction at the leading point either tips it
+    /// (μ n_x h > R, n the slip there) or never will, as the slip only decays.
+    fn trip<O: Observer>(
+        &self,
+        toss: &mut Toss,
+        contact: &mut Contact<'_>,
+        observer: &mut O,
+    ) -> Onward {
+        /// A tilt to begin with; it raises the centre by 1e-9.
+        const BEGINNING: f64 = 1e-9;
+        let body = &self.contact.body;
+        let m = &mut toss.motion;
+        let speed = (m.vx * m.vx + m.vy * m.vy).sqrt();
+        let turning = body.radius * toss.spin.axial;
+        let slip = (speed * speed + turning * turning).sqrt();
+        if self.contact.friction.mu * speed * body.half <= body.radius * slip {
+            return Onward::End(Ended::Decided(toss.face()));
+        }
+        let (nx, ny) = (m.vx / speed, m.vy / speed);
+        m.align(nx, ny);
+        m.set_tilt(BEGINNING, 1.0);
+        (m.vz, m.z) = (0.0, m.rest_height(body));
+        (toss.spin.tilt, toss.spin.turn) = (0.0, 0.0);
+        m.set_spin(&toss.spin, self.contact.axial_factor);
+        toss.place.align(nx, ny);
+        self.sustain(toss, contact, observer)
+    }
+
+    /// Follows sustained contact on the lowest point.
+    fn sustain<O: Observer>(
+        &self,
+        toss: &mut Toss,
+        contact: &mut Contact<'_>,
+        observer: &mut O,
+    ) -> Onward {
+        let heads_up = toss.heads_up;
+        let Toss {
+            motion,
+            spin,
+            place,
+            ..
+        } = toss;
+        let leave = contact.follow(motion, spin, |mode, length, motion, spin| {
+            if O::ACTIVE {
+                place.follow(length, motion, spin);
+                if let Some(kind) = mode {
+                    observer.event(&Event {
+                        kind,
+                        state: place.state(motion, spin, heads_up, &self.units),
+                    });
+                }
+            }
+        });
+        if leave == Leave::LiftOff {
+            self.notify(toss, EventKind::LiftOff, observer);
+        }
+        self.onward(toss, leave)
+    }
+
+    fn onward(&self, toss: &mut Toss, leave: Leave) -> Onward {
+        match leave {
+            Leave::LiftOff => return Onward::Fly,
+            Leave::OtherRim => {
+                toss.change_rim();
+                return Onward::Strike;
+            }
+            Leave::Upright => {
+                toss.turn_frame();
+                return Onward::Strike;
+            }
+            _ => {}
+        }
+        Onward::End(match leave {
+            Leave::Settled(verdict) => decided(verdict, toss),
+            Leave::Endless => Ended::Endless,
+            Leave::Late => Ended::TimeLimit,
+            _ => self.lost(toss),
+        })
+    }
+
+    fn lost(&self, toss: &Toss) -> Ended {
+        let energy = toss.motion.kinetic(&self.contact.body, &toss.spin) + toss.motion.z;
+        if energy.is_finite() {
+            Ended::ImpactLimit
+        } else {
+            Ended::Failed
+        }
+    }
+
+    fn notify<O: Observer>(&self, toss: &Toss, kind: EventKind, observer: &mut O) {
+        if O::ACTIVE {
+            observer.event(&Event {
+                kind,
+                state: toss.state(&self.units),
+            });
+        }
+    }
+
+    fn run<O: Observer>(&self, launch: &Launch, observer: &mut O) -> Outcome {
+        let law = &self.contact;
+        let mut toss = Toss::new(launch, &self.units, &law.body, law.axial_factor);
+        let mut contact = Contact {
+            law,
+            judge: &self.judge,
+            settings: &self.settings,
+            steps: 0,
+            jams: 0,
+            time: 0.0,
+        };
+        self.notify(&toss, EventKind::Launched, observer);
+        let energy = toss.motion.kinetic(&law.body, &toss.spin) + toss.motion.z;
+        let verdict = self.judge.verdict(&toss.motion, &toss.spin);
+        let ended = if !(energy.is_finite() && toss.motion.sin.is_finite()) {
+            Ended::Failed
+        } else if self.landing == Landing::Bouncing && verdict != Verdict::Open {
+            decided(verdict, &toss)
+        } else if self.landing == Landing::Bouncing && self.conserves {
+            Ended::Endless
+        } else {
+            self.follow(&mut toss, &mut contact, observer)
+        };
+        self.notify(&toss, EventKind::Ended, observer);
+        Outcome {
+            ended,
+            impacts: toss.impacts,
+            contact_steps: contact.steps,
+            jams: contact.jams,
+            overruled: false,
+        }
     }
 }
 
-impl<L: Copy + Sync> Engine for VolumetricEngine<L> {
+fn decided(verdict: Verdict, toss: &Toss) -> Ended {
+    Ended::Decided(if verdict == Verdict::Side {
+        Face::Side
+    } else {
+        toss.face()
+    })
+}
+
+impl<L: ImpactLaw> Engine for VolumetricEngine<L> {
     type Workspace = ();
 
     fn workspace(&self) {}
 
-    fn toss(&self, (): &mut (), _launch: &Launch, _observer: &mut impl Observer) -> Outcome {
-        let _ = (self.settings, self.law);
-        Outcome {
-            ended: Ended::Failed,
-            impacts: 0,
-            contact_steps: 0,
-            jams: 0,
-            overruled: false,
-        }
+    fn toss(&self, (): &mut (), launch: &Launch, observer: &mut impl Observer) -> Outcome {
+        self.run(launch, observer)
     }
 }

@@ -76,7 +76,7 @@ pub struct Settings {
     pub tolerance: f64,
     /// Slip, in sqrt(g D), below which a contact point that can stick does.
     pub stick: f64,
-    /// Rates, in sqrt(g/D), below which rolling and pivoting friction fade.
+    /// Time, in sqrt(D/g), over which rolling and pivoting friction end the last of a rotation.
     pub fade: f64,
     /// Impacts, or steps of sustained contact, after which a toss is given up as undecided.
     pub max_impacts: u32,
@@ -92,7 +92,7 @@ impl Default for Settings {
             zeno: 0.02,
             tolerance: 1e-5,
             stick: 3e-3,
-            fade: 1e-3,
+            fade: 1e-2,
             max_impacts: 100_000,
             time_limit: 1e6,
         }

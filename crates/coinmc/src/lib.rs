@@ -2,5 +2,6 @@
 
 pub mod config;
 pub mod plan;
+pub mod published;
 pub mod results;
 pub mod run;

@@ -10,8 +10,10 @@ pub use explain::Explanation;
 use coinmc_analytic::Rule;
 use coinmc_core::{IntervalMethod, LaunchDistribution, Scene};
 use coinmc_flat::Settings as FlatSettings;
+use coinmc_volumetric::Settings as VolumetricSettings;
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
+use std::sync::Arc;
 
 /// Most points of a plan.
 pub const MAX_POINTS: u64 = 1_000_000;
@@ -70,7 +72,7 @@ impl Plan {
         let tossed = self
             .points
             .iter()
-            .filter(|point| matches!(point.engine, EngineChoice::Flat(_)));
+            .filter(|point| point.engine.makes_tosses());
         let each = match self.stop {
             Stop::Tosses(tosses) => tosses,
             Stop::HalfWidth { max_tosses, .. } => max_tosses,
@@ -99,9 +101,10 @@ pub enum Stop {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Point {
     /// The parameters that results show: always `ratio`, `radius_m`, `restitution`, `friction`,
-    /// and every swept one, by the name of its column.
-    pub parameters: Vec<(String, f64)>,
-    /// Coin, surface, gravity.
+    /// `contour_m`, `pivoting_m`, `restitution_threshold_m_s`, `linear_drag_per_s`,
+    /// `angular_drag_per_s`, and every swept one, by the name of its column.
+    pub parameters: Vec<(Arc<str>, f64)>,
+    /// Coin, surface, gravity, drag.
     pub scene: Scene,
     /// How the coin is let go.
     pub launches: LaunchDistribution,
@@ -114,6 +117,18 @@ pub struct Point {
 pub enum EngineChoice {
     /// The flat toss.
     Flat(FlatSettings),
+    /// The toss in space.
+    Volumetric(VolumetricSettings),
     /// A closed form: no toss is made, the probability is exact under the rule's assumptions.
     Analytic(Rule),
+}
+
+impl EngineChoice {
+    /// Whether the engine tosses at all.
+    pub fn makes_tosses(&self) -> bool {
+        match self {
+            Self::Flat(_) | Self::Volumetric(_) => true,
+            Self::Analytic(_) => false,
+        }
+    }
 }

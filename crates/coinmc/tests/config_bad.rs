@@ -18,6 +18,9 @@ law = 'moreau'
 tosses = 1000
 ";
 
+/// The engine of the good config.
+const FLAT: &str = "[engine.flat]\nlaw = 'moreau'";
+
 /// Replaced piece, its replacement, and every problem: line, column, a piece of message or help.
 type Case = (
     &'static str,
@@ -46,6 +49,11 @@ const NUMBERS: &[Case] = &[
     ("law = 'moreau'", "tolerance = 0.5", &[(10, 13, "must be from 1e-12 to 0.01")]),
     ("law = 'moreau'", "max_impacts = 0", &[(10, 15, "a whole number from 1 to 4294967295, found `0`")]),
     ("law = 'moreau'", "decision = { energy_fraction = 1.0 }", &[(10, 32, "must be above 0 and below 1, found `1.0`")]),
+    ("0.3", "0.3\ncontour_m = -1e-9", &[(7, 13, "`surface.contour_m` must be from 0 to 1e6, found `-1e-9`")]),
+    ("0.3", "0.3\npivoting_m = 'none'", &[(7, 14, "`surface.pivoting_m` must be a number")]),
+    ("0.3", "0.3\nrestitution_threshold_m_s = inf", &[(7, 29, "must be finite, from 0 to 1e6")]),
+    ("[stop]", "[environment]\nlinear_drag_per_s = -1\nangular_drag_per_s = nan\n[stop]", &[(12, 21, "`environment.linear_drag_per_s` must be from 0 to 1e6"), (13, 22, "`environment.angular_drag_per_s` must be finite")]),
+    ("[stop]", "[environment]\ngyroscopic_torque = 0\n[stop]", &[(12, 21, "`environment.gyroscopic_torque` must be true or false, found an integer: `0`")]),
     ("tosses = 1000", "tosses = 0", &[(12, 10, "a whole number from 1 to 1000000000000000, found `0`")]),
     ("tosses = 1000", "tosses = 1e16", &[(12, 10, "found `1e16`")]),
     ("tosses = 1000", "tosses = 10.5", &[(12, 10, "must be a whole number from 1 to 1000000000000000, found a number: `10.5`")]),
@@ -56,6 +64,33 @@ const NUMBERS: &[Case] = &[
     ("seed = 1", "seed = nan", &[(1, 8, "a whole number")]),
     ("seed = 1", "seed = [1, 2]", &[(1, 8, "found a list")]),
     ("seed = 1", "paired = 1", &[(1, 10, "`paired` must be true or false, found an integer: `1`")]),
+];
+
+/// Settings of the engine in space.
+#[rustfmt::skip]
+const VOLUMETRIC: &[Case] = &[
+    (FLAT, "[engine.volumetric]\nlaw = 'stronge'\nzeno = 0", &[(11, 8, "`engine.volumetric.zeno` must be above 0 and at most 1")]),
+    (FLAT, "[engine.volumetric]\nlaw = 'strong'", &[(10, 7, "did you mean \"stronge\"?")]),
+    (FLAT, "[engine.volumetric]\nlaw = 'newton'", &[(10, 7, "`engine.volumetric.law` must be one of \"moreau\", \"chatterjee-ruina\", \"stronge\"")]),
+    (FLAT, "[engine.volumetric]\ndecision = 'certain'", &[(10, 12, "must be one of \"tilting\", \"energy\", found `certain`")]),
+    (FLAT, "[engine.volumetric]\ndecision = { energy_fraction = 0.01 }", &[(10, 12, "found a table")]),
+    (FLAT, "[engine.volumetric]\ntolerance = 1e-13", &[(10, 13, "must be from 1e-12 to 0.01")]),
+    (FLAT, "[engine.volumetric]\nstick = 0.2\nfade = 0", &[(10, 9, "above 0 and at most 0.1"), (11, 8, "`engine.volumetric.fade` must be above 0")]),
+    (FLAT, "[engine.volumetric]\nmax_impacts = 0\ntime_limit = 0", &[(10, 15, "a whole number from 1"), (11, 14, "`engine.volumetric.time_limit` must be above 0")]),
+    (FLAT, "[engine.volumetric]\ntime_limit = inf", &[(10, 14, "must be finite")]),
+    (FLAT, "[engine.volumetirc]", &[(9, 9, "did you mean `volumetric`?")]),
+];
+
+/// What the flat engine does not model is refused, never ignored.
+#[rustfmt::skip]
+const NOT_FLAT: &[Case] = &[
+    ("0.3", "0.3\ncontour_m = 1e-4", &[(7, 13, "engine.flat models no rolling friction: `surface.contour_m` must be 0 remove `contour_m`, or toss in space with [engine.volumetric]")]),
+    ("0.3", "0.3\ncontour_m = [0, 1e-4]\npivoting_m = 1e-4", &[(7, 13, "rolling friction"), (8, 14, "engine.flat models no pivoting friction")]),
+    ("0.3", "0.3\npivoting_m = { from = 0, to = 1e-4, steps = 3 }", &[(7, 14, "pivoting friction")]),
+    ("0.3", "0.3\nrestitution_threshold_m_s = 2", &[(7, 29, "engine.flat models no restitution threshold")]),
+    ("[stop]", "[environment]\nlinear_drag_per_s = 1\nangular_drag_per_s = 0.05\ngyroscopic_torque = false\n[stop]", &[(12, 21, "engine.flat models no drag: `environment.linear_drag_per_s` must be 0"), (13, 22, "`environment.angular_drag_per_s` must be 0"), (14, 21, "`environment.gyroscopic_torque` must be true")]),
+    // a launch out of the plane and a value out of range are told in the same go
+    ("0.3\n[launch]\npreset = 'robot'", "-1\ncontour_m = 1e-4\n[launch]\npreset = 'clean'", &[(6, 12, "from 0 to 1e6"), (7, 13, "rolling friction"), (9, 10, "leaves it")]),
 ];
 
 #[rustfmt::skip]
@@ -127,10 +162,10 @@ const TABLES: &[Case] = &[
     ("tosses = 1000\n", "", &[(11, 1, "one of `tosses`, `half_width` is missing in `stop`")]),
     ("tosses = 1000", "tosses = 1000\nhalf_width = 0.01", &[(13, 14, "only one of `tosses`, `half_width` is allowed")]),
     ("tosses = 1000", "tosses = 1000\nmax_tosses = 2000", &[(13, 14, "`max_tosses` goes with `half_width` only")]),
-    ("[engine.flat]\nlaw = 'moreau'\n", "", &[(10, 14, "One of `flat`, `analytic`.")]),
-    ("[engine.flat]\nlaw = 'moreau'", "[engine]", &[(9, 1, "`engine` is empty: it needs one of `flat`, `analytic`")]),
+    ("[engine.flat]\nlaw = 'moreau'\n", "", &[(10, 14, "One of `flat`, `volumetric`, `analytic`.")]),
+    ("[engine.flat]\nlaw = 'moreau'", "[engine]", &[(9, 1, "`engine` is empty: it needs one of `flat`, `volumetric`, `analytic`")]),
     ("[engine.flat]", "[engine.falt]", &[(9, 9, "did you mean `flat`?")]),
-    ("[engine.flat]", "[engine.analytic]\nrule = 'arc'\n[engine.flat]", &[(11, 9, "`engine` is already `analytic`: exactly one of `flat`, `analytic`")]),
+    ("[engine.flat]", "[engine.analytic]\nrule = 'arc'\n[engine.flat]", &[(11, 9, "`engine` is already `analytic`: exactly one of `flat`, `volumetric`, `analytic`")]),
     ("[engine.flat]\nlaw = 'moreau'", "[engine.analytic]\nrule = 'arcs'", &[(10, 8, "did you mean \"arc\"?")]),
     ("[engine.flat]\nlaw = 'moreau'", "[engine.analytic]", &[(9, 1, "`rule` is missing in `engine.analytic`")]),
     ("[engine.flat]\nlaw = 'moreau'", "[engine]\nflat = 1", &[(10, 8, "`engine.flat` must be a table")]),
@@ -217,6 +252,16 @@ fn the_good_config_is_good() {
 #[test]
 fn numbers_out_of_range_or_of_the_wrong_type() {
     check_all(NUMBERS);
+}
+
+#[test]
+fn settings_of_the_engine_in_space() {
+    check_all(VOLUMETRIC);
+}
+
+#[test]
+fn what_the_flat_engine_does_not_model() {
+    check_all(NOT_FLAT);
 }
 
 #[test]

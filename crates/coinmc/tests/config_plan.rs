@@ -5,6 +5,7 @@ use coinmc::plan::{EngineChoice, Plan, Stop};
 use coinmc_core::{IntervalMethod, Landing, Marginal, Orientation, Preset, Spin};
 use coinmc_flat::{Decision, Settings};
 use std::path::Path;
+use std::sync::Arc;
 
 const SMALL: &str = "
 [coin]
@@ -25,7 +26,7 @@ fn parse(text: &str, sets: &[&str]) -> Plan {
 }
 
 fn column(plan: &Plan, name: &str) -> Vec<f64> {
-    let value = |(key, value): &(String, f64)| (key == name).then_some(*value);
+    let value = |(key, value): &(Arc<str>, f64)| (**key == *name).then_some(*value);
     plan.points
         .iter()
         .map(|point| point.parameters.iter().find_map(value).unwrap())
@@ -54,12 +55,26 @@ fn defaults_are_those_of_the_crates() {
         coinmc_core::Coin::cylinder(1.2, 0.01).unwrap()
     );
     assert_eq!(point.scene.surface.landing(), Landing::Bouncing);
-    let names: Vec<_> = point
+    let parameters: Vec<_> = point
         .parameters
         .iter()
-        .map(|(name, _)| name.as_str())
+        .map(|(name, value)| (&**name, *value))
         .collect();
-    assert_eq!(names, ["ratio", "radius_m", "restitution", "friction"]);
+    assert_eq!(
+        parameters,
+        [
+            ("ratio", 1.2),
+            ("radius_m", 0.01),
+            ("restitution", 0.5),
+            ("friction", 0.3),
+            ("contour_m", 0.0),
+            ("pivoting_m", 0.0),
+            ("restitution_threshold_m_s", 0.0),
+            ("linear_drag_per_s", 0.0),
+            ("angular_drag_per_s", 0.0),
+        ]
+    );
+    assert!(point.scene.has_gyroscopic_torque());
     assert!(plan.axes.is_empty() && plan.notes.is_empty());
     assert_eq!(plan.tosses_planned(), 1000);
 }
@@ -73,6 +88,10 @@ fn the_examples_are_good_and_stay_what_they_are() {
         ("closed-forms", 41, 0),
         ("precise", 2, 40_000_000),
         ("own-launch", 3, 150_000),
+        ("clean", 3, 90_000),
+        ("table1", 4, 80_000),
+        ("hand", 3, 60_000),
+        ("drop", 4, 80_000),
     ] {
         let plan = config::load(&folder.join(name).with_extension("toml"), &[])
             .unwrap_or_else(|problems| panic!("{problems}"));

@@ -59,25 +59,54 @@ fn stop() -> impl Strategy<Value = String> {
     ]
 }
 
+/// The engine with all that goes with it: more keys of `[surface]`, `[environment]`, `[engine.…]`.
+fn engine() -> impl Strategy<Value = (String, String, String)> {
+    let flat = number(1e-3, 1.0).prop_map(|zeno| {
+        let engine = format!("[engine.flat]\nzeno = {zeno}\n");
+        (String::new(), String::new(), engine)
+    });
+    let contact = (number(0.0, 1e-3), number(0.0, 1e-3), 0.0..2.0);
+    let air = (number(0.0, 1.0), 0.0..1.0, any::<bool>());
+    let laws = prop_oneof![Just("moreau"), Just("chatterjee-ruina"), Just("stronge")];
+    let settings = (laws, number(1e-4, 0.1), 1e-3..1e9);
+    let in_space = (contact, air, settings).prop_map(
+        |((contour, pivoting, threshold), (linear, angular, torque), (law, stick, limit))| {
+            let surface = format!(
+                "contour_m = {contour}\npivoting_m = {pivoting}\n\
+                 restitution_threshold_m_s = {threshold:?}\n"
+            );
+            let environment = format!(
+                "[environment]\nlinear_drag_per_s = {linear}\nangular_drag_per_s = {angular:?}\n\
+                 gyroscopic_torque = {torque}\n"
+            );
+            let engine = format!(
+                "[engine.volumetric]\nlaw = '{law}'\nstick = {stick}\ntime_limit = {limit:?}\n"
+            );
+            (surface, environment, engine)
+        },
+    );
+    prop_oneof![flat, in_space]
+}
+
 fn good() -> impl Strategy<Value = String> {
     let coin = (number(0.1, 10.0), number(1e-3, 1.0), number(0.001, 1.0));
     let surface = (number(0.0, 1.0), number(0.0, 2.0), any::<bool>());
     let whole = (0..=i64::MAX as u64, any::<bool>(), 0.5..0.999);
-    (coin, surface, launch(), stop(), whole, number(1e-3, 1.0)).prop_map(
+    (coin, surface, launch(), stop(), whole, engine()).prop_map(
         |(
             (ratio, radius, mass),
             (e, mu, sticky),
             launch,
             stop,
             (seed, paired, confidence),
-            zeno,
+            (contact, environment, engine),
         )| {
             let landing = if sticky { "adhesive" } else { "bouncing" };
             format!(
                 "seed = {seed}\npaired = {paired}\n[estimate]\nconfidence = {confidence:?}\n\
                  [coin]\nratio = {ratio}\nradius_m = {radius}\nmass_kg = {mass}\n\
                  [surface]\nrestitution = {e}\nfriction = {mu}\nlanding = '{landing}'\n\
-                 [engine.flat]\nzeno = {zeno}\n[launch]\n{launch}[stop]\n{stop}\n"
+                 {contact}{environment}{engine}[launch]\n{launch}[stop]\n{stop}\n"
             )
         },
     )

@@ -10,16 +10,18 @@ fn row(parameters: &[(&str, f64)], side: Estimate) -> Row {
         point: 0,
         parameters: parameters
             .iter()
-            .map(|(name, x)| ((*name).to_owned(), *x))
+            .map(|(name, x)| ((*name).into(), *x))
             .collect(),
         engine: "flat",
         law: "moreau",
+        gyroscopic_torque: true,
         tally: Tally::default(),
         heads: side,
         tails: side,
         side,
         interval: "wilson",
         reached_target: true,
+        published: None,
     }
 }
 

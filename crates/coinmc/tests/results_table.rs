@@ -32,6 +32,7 @@ fn example(plan: &Plan) -> Results {
             heads: 5,
             side: 1,
             time_limit: 2,
+            endless: 5,
             impact_limit: 3,
             failed: 4,
             ..Tally::default()
@@ -90,10 +91,7 @@ fn csv_parquet_and_json_agree_cell_by_cell() {
     let batch = reader.build().unwrap().next().unwrap().unwrap();
     let json = results.to_json();
     let table = csv(&results);
-    let names = results.rows[0]
-        .parameters
-        .iter()
-        .map(|(name, _)| name.as_str());
+    let names = results.rows[0].parameters.iter().map(|(name, _)| &**name);
     let columns = columns(names);
     assert_eq!((batch.num_rows(), batch.num_columns()), (6, columns.len()));
     for (c, column) in columns.iter().enumerate() {
@@ -135,7 +133,8 @@ fn cells_hold_what_their_names_say() {
         (cell(0, "engine"), cell(0, "law"), cell(0, "interval")),
         ("flat", "moreau", "wilson")
     );
-    assert_eq!((cell(2, "tosses"), cell(2, "undecided")), ("15", "9"));
+    assert_eq!((cell(2, "tosses"), cell(2, "undecided")), ("20", "14"));
+    assert_eq!((cell(2, "endless"), cell(2, "impact_limit")), ("5", "3"));
     assert_eq!(
         (cell(0, "p_side"), cell(0, "p_heads"), cell(0, "p_tails")),
         ("0.21", "0.49", "0.3")
@@ -169,6 +168,40 @@ fn cells_hold_what_their_names_say() {
         ),
         ("7", "8", "true")
     );
+}
+
+/// (e, μ) alone does not define a toss in space.
+#[test]
+fn every_result_names_the_law_and_all_that_defines_the_toss() {
+    let text = "[coin]\nratio = 1\n[surface]\nrestitution = 0.3\nfriction = 10\ncontour_m = 1e-4\n\
+                pivoting_m = 2e-4\nrestitution_threshold_m_s = 2\n[environment]\n\
+                linear_drag_per_s = 1\nangular_drag_per_s = 0.05\ngyroscopic_torque = false\n\
+                [launch]\npreset = \"table1\"\n[engine.volumetric]\nlaw = \"stronge\"\n\
+                [stop]\ntosses = 1\n";
+    let plan = coinmc::config::parse("test", text, &[]).unwrap();
+    let row = Row::new(&plan, 0, Tally::default(), false);
+    let results = Results::new(&plan, vec![row]);
+    let table = csv(&results);
+    let cells: Vec<(&str, &str)> = table[0]
+        .iter()
+        .zip(&table[1])
+        .map(|(name, cell)| (name.as_str(), cell.as_str()))
+        .collect();
+    let expected = [
+        ("restitution", "0.3"),
+        ("friction", "10.0"),
+        ("contour_m", "0.0001"),
+        ("pivoting_m", "0.0002"),
+        ("restitution_threshold_m_s", "2.0"),
+        ("linear_drag_per_s", "1.0"),
+        ("angular_drag_per_s", "0.05"),
+        ("engine", "volumetric"),
+        ("law", "stronge"),
+        ("gyroscopic_torque", "false"),
+    ];
+    assert_eq!(cells[3..13], expected);
+    let published = results.rows[0].published.as_ref().unwrap();
+    assert_eq!(published.differs, ["radius_m", "contour_m", "pivoting_m"]);
 }
 
 #[test]
@@ -237,7 +270,9 @@ fn parquet_carries_units_and_the_config_and_is_the_same_every_time() {
 #[test]
 fn every_column_is_documented_as_it_is() {
     let document = include_str!("../../../docs/formats.md");
-    for column in columns(["ratio", "radius_m", "restitution", "friction"]) {
+    let plan = plan("tosses = 1");
+    let always = &plan.points[0].parameters[..9];
+    for column in columns(always.iter().map(|(name, _)| &**name)) {
         let unit = if column.unit.is_empty() {
             "–"
         } else {

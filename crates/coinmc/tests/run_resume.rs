@@ -5,7 +5,9 @@ mod run_support;
 use coinmc::results::Row;
 use coinmc::run::{Part, Shard, Status, run_shard};
 use coinmc_core::Tally;
-use run_support::{Ear, FIXED, HALF_WIDTH, assert_same, contents, plan, run_whole, run_with};
+use run_support::{
+    Ear, FIXED, HALF_WIDTH, assert_same, contents, plan, plan_in_space, run_whole, run_with,
+};
 use std::process::{Command, Stdio};
 use std::sync::atomic::Ordering::SeqCst;
 use std::time::{Duration, Instant};
@@ -127,6 +129,35 @@ fn progress_only_goes_forward_and_ends_where_it_was_planned() {
             .map(Row::half_width)
             .fold(0.0, f64::max);
         assert!((last.worst_half_width.unwrap() / worst - 1.0).abs() < 0.01);
+    }
+}
+
+/// The engine in space, by each of its laws: cut, shared out and broken off, it counts the same.
+#[test]
+fn tosses_in_space_depend_on_the_plan_alone() {
+    for law in ["moreau", "chatterjee-ruina", "stronge"] {
+        let (plan, dir) = (plan_in_space(law, FIXED), tempdir().unwrap());
+        let (whole, broken) = (dir.path().join("whole"), dir.path().join("broken"));
+        let report = run_with(&plan, &whole, Part::WHOLE, 1, &Ear::default()).unwrap();
+        let row = &report.results.rows[1];
+        assert_eq!((row.engine, row.law), ("volumetric", law));
+        let mut sum = Tally::default();
+        for tosses in [0..1, 1..16_385, 16_385..40_000] {
+            sum.merge(&run_shard(&plan, &Shard { point: 1, tosses }).unwrap());
+        }
+        assert_eq!((sum, sum.tosses()), (row.tally, 40_000));
+        let mut breaks = 0;
+        while {
+            // the first time before the first toss
+            let ear = Ear::that_cancels_at(breaks % 3);
+            let report = run_with(&plan, &broken, Part::WHOLE, 2, &ear).unwrap();
+            report.status != Status::Complete
+        } {
+            breaks += 1;
+            assert!(breaks < 100, "each run should finish a shard at least");
+        }
+        assert!(breaks >= 1);
+        assert_same(&whole, &broken);
     }
 }
 

@@ -11,7 +11,8 @@ use anyhow::Context;
 use clap::Args;
 use coinmc::config::{self, Override};
 use coinmc::plan::Plan;
-use coinmc::results::{FairRatio, fair_ratios};
+use coinmc::published::TABLE1_SOURCE;
+use coinmc::results::{FairRatio, Row, fair_ratios};
 use coinmc::run::{Options, Part, Report, Status};
 use serde_json::{Map, Value, json};
 use std::env;
@@ -237,7 +238,26 @@ fn to_json(report: &Report, fair: &[FairRatio], out: &Path) -> Value {
         "axes": report.results.axes,
         "rows": table["points"].take(),
         "fair_ratios": fair.iter().map(fair_to_json).collect::<Vec<_>>(),
+        "published": report.results.rows.iter().filter_map(published_to_json).collect::<Vec<_>>(),
     })
+}
+
+/// What was published for the launch and ratio of this point.
+fn published_to_json(row: &Row) -> Option<Value> {
+    let published = row.published.as_ref()?;
+    let counts = &published.counts;
+    Some(json!({
+        "point": row.point,
+        "ratio": counts.ratio,
+        "source": TABLE1_SOURCE,
+        "heads": counts.heads,
+        "tails": counts.tails,
+        "side": counts.side,
+        "unidentified": counts.unidentified,
+        "p_side": counts.p_side(),
+        "z": counts.z_score(row.tally.side, row.tally.tosses()),
+        "differs": published.differs,
+    }))
 }
 
 fn fair_to_json(fair: &FairRatio) -> Value {
@@ -262,6 +282,25 @@ fn fair_to_json(fair: &FairRatio) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use coinmc_core::Tally;
+
+    #[test]
+    fn published_counts_are_told_to_programs() {
+        let config = "coin.ratio = [1, 2]\nsurface = { restitution = 0.3, friction = 10 }\n\
+                      launch.preset = 'table1'\nengine.volumetric = {}\nstop.tosses = 1103";
+        let plan = config::parse("test", config, &[]).unwrap();
+        let tally = Tally {
+            heads: 608,
+            side: 495,
+            ..Tally::default()
+        };
+        let json = |i| published_to_json(&Row::new(&plan, i, tally, true));
+        let at_1 = json(0).unwrap();
+        assert_eq!((&at_1["side"], &at_1["z"]), (&json!(495), &json!(0.0)));
+        assert_eq!(at_1["p_side"], json!(495.0 / 1103.0));
+        assert_eq!(at_1["differs"][0], "radius_m");
+        assert_eq!(json(1), None);
+    }
 
     #[test]
     fn words_are_quoted_only_where_a_shell_needs_it() {

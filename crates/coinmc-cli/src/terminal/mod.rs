@@ -7,7 +7,9 @@ pub(crate) mod progress;
 mod style;
 pub(crate) mod summary;
 pub(crate) mod table;
+mod wrap;
 
 pub(crate) use ascii::in_ascii;
 pub(crate) use number::{compact, count, decimals_for, duration, grouped};
 pub(crate) use style::{Colors, Style};
+pub(crate) use wrap::wrapped;

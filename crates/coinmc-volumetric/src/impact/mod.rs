@@ -10,15 +10,19 @@
 //! where ω = ω_a u + ω_θ e_θ + ω_y y, u = (s, 0, c), e_θ = (c, 0, −s).
 
 mod chatterjee_ruina;
+mod jam;
 mod moreau;
 mod stronge;
+mod twist;
 
 pub use chatterjee_ruina::ChatterjeeRuina;
+pub(crate) use jam::jam;
 pub use moreau::Moreau;
 pub use stronge::Stronge;
 
 use crate::body::{Body, Friction};
-use crate::lane::Lane;
+use crate::lane::{Lane, Mask};
+use twist::Twist;
 
 /// The inverse mass of the contact point: its velocity changes by K p.
 #[derive(Debug, Clone, Copy)]
@@ -31,6 +35,31 @@ pub struct ContactMatrix<L> {
     pub yy: L,
     /// 1 + rx²/kt.
     pub zz: L,
+}
+
+/// The contact at constant normal velocity.
+#[derive(Clone, Copy)]
+pub(crate) struct Condensed<L> {
+    /// 1/K_zz.
+    pub(crate) mass_z: L,
+    /// K_xz/K_zz: p_x takes −coupling·p_x of normal impulse along.
+    pub(crate) coupling: L,
+    /// α = K_xx − K_xz²/K_zz, the inverse mass along x.
+    pub(crate) alpha: L,
+}
+
+impl<L: Lane> ContactMatrix<L> {
+    /// K is the unit matrix and a rank-one part in the xz plane, so its determinant there is
+    /// K_xx + K_zz − 1: nothing cancels.
+    #[inline(always)]
+    pub(crate) fn condensed(&self) -> Condensed<L> {
+        let mass_z = L::splat(1.0) / self.zz;
+        Condensed {
+            mass_z,
+            coupling: self.xz * mass_z,
+            alpha: (self.xx + self.zz - L::splat(1.0)) * mass_z,
+        }
+    }
 }
 
 /// A coin that touches, just before the impact.
@@ -56,6 +85,24 @@ pub struct Touch<L> {
     pub turn: L,
 }
 
+impl<L: Lane> Touch<L> {
+    /// The inverse mass of this contact.
+    #[inline(always)]
+    pub fn matrix(&self, body: &Body) -> ContactMatrix<L> {
+        let one = L::splat(1.0);
+        let kt = L::splat(body.kt);
+        let (x, z) = (self.rx / kt, self.rz / kt);
+        ContactMatrix {
+            xx: one + self.rz * z,
+            xz: -(self.rx * z),
+            yy: L::splat(
+                1.0 + body.half * body.half / body.kt + body.radius * body.radius / body.ka,
+            ),
+            zz: one + self.rx * x,
+        }
+    }
+}
+
 /// An impulse per unit mass.
 #[derive(Debug, Clone, Copy)]
 pub struct Impulse<L> {
@@ -69,6 +116,87 @@ pub struct Impulse<L> {
     pub contour: L,
     /// J_p, pivoting friction's.
     pub pivoting: L,
+}
+
+impl<L: Lane> Impulse<L> {
+    /// `yes` where the mask is set, else `no`.
+    #[inline(always)]
+    pub(crate) fn select(mask: L::Mask, yes: Self, no: Self) -> Self {
+        Self {
+            x: L::select(mask, yes.x, no.x),
+            y: L::select(mask, yes.y, no.y),
+            z: L::select(mask, yes.z, no.z),
+            contour: L::select(mask, yes.contour, no.contour),
+            pivoting: L::select(mask, yes.pivoting, no.pivoting),
+        }
+    }
+
+    /// No impulse.
+    #[inline(always)]
+    pub(crate) fn none() -> Self {
+        let zero = L::splat(0.0);
+        Self {
+            x: zero,
+            y: zero,
+            z: zero,
+            contour: zero,
+            pivoting: zero,
+        }
+    }
+
+    /// What the impulse changes.
+    #[inline(always)]
+    pub fn kick(self, body: &Body, touch: &Touch<L>) -> Kick<L> {
+        let kt = L::splat(body.kt);
+        // J_c/s first: with J_c <= ρ_c p_z the quotient is what stays finite as s → 0
+        let rim = self.contour / touch.sin;
+        Kick {
+            vx: self.x,
+            vy: self.y,
+            vz: self.z,
+            omega_y: (touch.rz * self.x - touch.rx * self.z) / kt,
+            spin: (L::splat(body.radius) * self.y - self.contour - touch.cos * self.pivoting)
+                / L::splat(body.ka),
+            turn: (L::splat(body.half) * self.y - touch.cos * rim + touch.sin * self.pivoting) / kt,
+        }
+    }
+
+    /// The energy that the impulse adds: Σ ½ p·(rate before + rate after) over its five parts.
+    #[inline(always)]
+    pub fn work(self, body: &Body, touch: &Touch<L>) -> L {
+        let k = touch.matrix(body);
+        let two = L::splat(2.0);
+        let mut slip_y = two * touch.slip_y + k.yy * self.y;
+        let mut twist = L::splat(0.0);
+        let idle = self.contour.abs() + self.pivoting.abs();
+        if L::splat(0.0).lt(idle).any() {
+            let rates = Twist::rates(body, touch);
+            let (contour, pivoting) = (self.contour / touch.sin, self.pivoting);
+            let back = rates.slip_y(contour, pivoting);
+            slip_y -= back;
+            twist = rates.work(self.y, contour, pivoting);
+        }
+        let slip_x = two * touch.slip_x + k.xx * self.x + k.xz * self.z;
+        let normal = two * touch.approach + k.xz * self.x + k.zz * self.z;
+        L::splat(0.5) * (self.x * slip_x + self.y * slip_y + self.z * normal + twist)
+    }
+}
+
+/// The change of motion by an impulse.
+#[derive(Debug, Clone, Copy)]
+pub struct Kick<L> {
+    /// Of the centre's velocity, x.
+    pub vx: L,
+    /// Of the centre's velocity, y.
+    pub vy: L,
+    /// Of the centre's velocity, z.
+    pub vz: L,
+    /// Of the angular velocity about y.
+    pub omega_y: L,
+    /// Of the angular velocity about u.
+    pub spin: L,
+    /// Of the angular velocity about e_θ.
+    pub turn: L,
 }
 
 /// A law of impact.

@@ -1,3 +1,235 @@
-/// (Seam.)
+//! Newton restitution with Coulomb friction against the final slip.
+
+use super::twist::{Limited, Twisted};
+use super::{ChatterjeeRuina, Condensed, ContactMatrix, ImpactLaw, Impulse, Touch};
+use crate::body::{Body, Friction};
+use crate::lane::{Lane, Mask};
+
+/// Newton restitution u_z⁺ = −e u_z⁻ and friction against the slip **after** the impact.
+///
+/// Moreau, "Unilateral contact and dry friction in finite freedom dynamics", CISM 302 (1988). With
+/// σ = |slip⁺|/(μ p_z) >= 0, friction −μ p_z along slip⁺ reads p_t = −slip⁺/σ:
+///
+/// p_x(σ + K_xx) + K_xz p_z = −slip_x,  K_xz p_x + K_zz p_z = (1 + e)|u_z|,  p_y(σ + K_yy) = −slip_y,
+///
+/// and the contact sticks (σ = 0) if that impulse lies in the friction cone, else σ is the root of
+/// |p_t| = μ p_z. The friction lengths join in: J_c and J_p at their limits against the final ψ'
+/// and ω_z, or stopping them, solved exactly together with p_y for each σ (they move neither
+/// slip_x nor u_z).
+///
+/// # Energy
+/// An impulse adds ½p·(u⁻ + u⁺) = p·u⁺ − ½p·K p (J being parts of p). All friction has p·u⁺ <= 0
+/// by definition, so what it adds is at most e|u_z|p_z − ½p·K p: plastic impacts (e = 0) always
+/// dissipate. With e > 0 the sum may come out positive at high friction; there, and where no root
+/// exists, the impulse is [`ChatterjeeRuina`]'s, which dissipates.
+///
+/// # Against the other laws
+/// It is the law that time-stepping in the manner of Moreau and Jean solves. It stops the contact
+/// point where it can whatever e; [`ChatterjeeRuina`] then lets it rebound sideways, and
+/// [`Stronge`](super::Stronge) relates e to work, not velocity: u_z⁺ differs where the slip
+/// changes direction during the impact.
 #[derive(Debug, Clone, Copy)]
 pub struct Moreau;
+
+/// Newton converges quadratically on a smooth function, and φ is nearly linear: a step from below
+/// this leaves less than 1e-11.
+const LAST: f64 = 1e-6;
+
+/// With friction lengths φ has kinks where one of them takes hold. One in 1e8 final steps meets
+/// one, and is then wrong by no more than itself.
+const LAST_WITH_KINKS: f64 = 1e-8;
+
+/// Bisection alone needs 60 halvings of the bracket for full precision.
+const MAX_STEPS: u32 = 100;
+
+impl ImpactLaw for Moreau {
+    #[inline(always)]
+    fn impulse<L: Lane>(
+        &self,
+        body: &Body,
+        friction: &Friction,
+        touch: &Touch<L>,
+        e: L,
+    ) -> Impulse<L> {
+        if friction.mu == 0.0 {
+            // nothing to solve, and exactly the impulse of the other law
+            return ChatterjeeRuina.impulse(body, friction, touch, e);
+        }
+        let k = touch.matrix(body);
+        let p = if friction.twists() {
+            let limited = Limited::new(body, friction, touch, k.yy);
+            Problem::new(friction, touch, &k, e, Some(limited)).solve(touch.sin)
+        } else {
+            Problem::new(friction, touch, &k, e, None).solve(touch.sin)
+        };
+        let sound = p.work(body, touch).le(L::splat(0.0)) & L::splat(0.0).le(p.z);
+        if (!sound).any() {
+            let guard = ChatterjeeRuina.impulse(body, friction, touch, e);
+            return Impulse::select(sound, p, guard);
+        }
+        p
+    }
+}
+
+/// The scalar problem for σ.
+struct Problem<L> {
+    mu: L,
+    /// (1 + e)|u_z|/K_zz, the frictionless impulse.
+    base: L,
+    /// slip_x after the frictionless impulse.
+    slip_x: L,
+    slip_y: L,
+    /// K_xx − K_xz²/K_zz.
+    alpha: L,
+    yy: L,
+    coupling: L,
+    twist: Option<Limited<L>>,
+}
+
+/// φ(σ) = μ p_z/|p_t| − 1 and its derivative.
+struct Cone<L> {
+    phi: L,
+    slope: L,
+}
+
+impl<L: Lane> Problem<L> {
+    #[inline(always)]
+    fn new(
+        friction: &Friction,
+        touch: &Touch<L>,
+        k: &ContactMatrix<L>,
+        e: L,
+        twist: Option<Limited<L>>,
+    ) -> Self {
+        let Condensed {
+            mass_z,
+            coupling,
+            alpha,
+        } = k.condensed();
+        let base = (L::splat(1.0) + e) * (-touch.approach).max(L::splat(0.0)) * mass_z;
+        Self {
+            mu: L::splat(friction.mu),
+            base,
+            slip_x: touch.slip_x + k.xz * base,
+            slip_y: touch.slip_y,
+            alpha,
+            yy: k.yy,
+            coupling,
+            twist,
+        }
+    }
+
+    /// The sideways slip that p_y has to oppose, with the friction lengths' share.
+    #[inline(always)]
+    fn sideways(&self, sigma: L) -> Twisted<L> {
+        let zero = L::splat(0.0);
+        match &self.twist {
+            None => Twisted {
+                contour: zero,
+                pivoting: zero,
+                slip_y: self.slip_y,
+                slope: zero,
+            },
+            Some(limited) => {
+                let inverse = L::splat(1.0) / (sigma + self.alpha);
+                let lift = self.coupling * self.slip_x * inverse;
+                limited.joint(sigma, self.base + lift, -(lift * inverse))
+            }
+        }
+    }
+
+    /// φ times (σ + α)/(σ + α): numerator and denominator then stay of the size of the velocities,
+    /// and φ is linear in σ but for the ratio q = (σ + α)/(σ + K_yy), which changes little.
+    #[inline(always)]
+    fn cone(&self, sigma: L) -> Cone<L> {
+        let side = self.sideways(sigma);
+        let (y, dy) = (side.slip_y, side.slope);
+        let reach = sigma + self.alpha;
+        let inverse = L::splat(1.0) / (sigma + self.yy);
+        let q = reach * inverse;
+        let dq = (self.yy - self.alpha) * inverse * inverse;
+        let cross = y * q;
+        let size = (self.slip_x * self.slip_x + cross * cross).sqrt();
+        let limit = self.mu * (self.base * reach + self.coupling * self.slip_x);
+        let inverse = L::splat(1.0) / size;
+        let ratio = limit * inverse;
+        let growth = cross * (dy * q + y * dq) * inverse;
+        Cone {
+            phi: ratio - L::splat(1.0),
+            slope: (self.mu * self.base - ratio * growth) * inverse,
+        }
+    }
+
+    /// σ if the ratio q were 1, its limit for little friction: exact for slip along x.
+    #[inline(always)]
+    fn guess(&self) -> L {
+        let size = (self.slip_x * self.slip_x + self.slip_y * self.slip_y).sqrt();
+        let reach = (size / self.mu - self.coupling * self.slip_x) / self.base;
+        // bounded, so that a friction too small for its root to be a number stays finite
+        (reach - self.alpha).max(L::splat(0.0)).min(L::splat(1e150))
+    }
+
+    #[inline(always)]
+    fn solve(&self, sin: L) -> Impulse<L> {
+        let zero = L::splat(0.0);
+        let still = self.sideways(zero);
+        let stick = self.impulse(zero, &still, sin);
+        let (size, limit) = (stick.x * stick.x + stick.y * stick.y, self.mu * stick.z);
+        let sticks = zero.lt(stick.z) & size.le(limit * limit);
+        let active = zero.lt(self.base) & !sticks;
+        if !active.any() {
+            return Impulse::select(sticks, stick, Impulse::none());
+        }
+        let sigma = self.root(self.guess(), active);
+        let slide = self.impulse(sigma, &self.sideways(sigma), sin);
+        let slide = Impulse::select(active, slide, Impulse::none());
+        Impulse::select(sticks, stick, slide)
+    }
+
+    /// The root of φ by Newton's method inside a bracket: φ(0) < 0, φ(∞) = ∞.
+    #[inline(always)]
+    fn root(&self, guess: L, mut active: L::Mask) -> L {
+        let (zero, two) = (L::splat(0.0), L::splat(2.0));
+        let close = L::splat(if self.twist.is_some() {
+            LAST_WITH_KINKS
+        } else {
+            LAST
+        });
+        let mut sigma = guess;
+        let (mut low, mut high) = (zero, L::splat(f64::INFINITY));
+        for _ in 0..MAX_STEPS {
+            let cone = self.cone(sigma);
+            let below = cone.phi.lt(zero);
+            low = L::select(active & below, sigma, low);
+            high = L::select(active & !below, sigma, high);
+            let newton = sigma - cone.phi / cone.slope;
+            let inside = low.le(newton) & newton.le(high) & zero.lt(cone.slope);
+            // without an upper end yet the bracket grows, else it is halved
+            let open = two * (sigma + self.alpha);
+            let half = low + (high - low) / two;
+            let fallback = L::select(high.lt(L::splat(f64::INFINITY)), half, open);
+            let next = L::select(inside, newton, fallback);
+            let moved = (next - sigma).abs();
+            let converged = cone.phi.abs().le(close) & inside
+                | moved.le(L::splat(f64::EPSILON) * (sigma + self.alpha));
+            sigma = L::select(active, next, sigma);
+            active = active & !converged;
+            if !active.any() {
+                break;
+            }
+        }
+        sigma
+    }
+
+    #[inline(always)]
+    fn impulse(&self, sigma: L, side: &Twisted<L>, sin: L) -> Impulse<L> {
+        let x = -self.slip_x / (sigma + self.alpha);
+        Impulse {
+            x,
+            y: -side.slip_y / (sigma + self.yy),
+            z: self.base - self.coupling * x,
+            contour: sin * side.contour,
+            pivoting: side.pivoting,
+        }
+    }
+}

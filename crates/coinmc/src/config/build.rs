@@ -1,16 +1,17 @@
 //! From the checked config to the points of a plan.
 
 use super::diagnostics::Problems;
+use super::engines;
 use super::form::{Form, What};
 use super::launch;
 use super::source::Span;
 use super::sweep::Sweep;
-use crate::plan::{EngineChoice, Point, Stop};
+use crate::plan::{Point, Stop};
 use coinmc_core::{
-    Coin, CoinError, IntervalMethod, Landing, LaunchDistribution, Preset, Scene, Surface,
+    Coin, CoinError, Drag, IntervalMethod, Landing, LaunchDistribution, Preset, Scene, Surface,
 };
-use coinmc_flat::{Decision, Law, Settings};
 use std::collections::HashSet;
+use std::sync::Arc;
 
 /// Why something cannot be built.
 #[derive(Debug)]
@@ -66,7 +67,7 @@ impl At<'_> {
         form.get(key).map(|form| self.number(form)).transpose()
     }
 
-    fn required(&self, form: &Form, key: &str) -> Result<f64, Fault> {
+    pub(super) fn required(&self, form: &Form, key: &str) -> Result<f64, Fault> {
         self.number(get(form, key)?)
     }
 }
@@ -90,7 +91,8 @@ pub(super) fn points(root: &Form, sweep: &Sweep, problems: &mut Problems) -> Vec
     }
     let mut scenes = Part::new(root, &["coin", "surface", "environment"]);
     let mut all_launches = Part::new(root, &["launch"]);
-    let mut engines = Part::new(root, &["engine"]);
+    let mut all_engines = Part::new(root, &["engine"]);
+    let columns = Columns::new(sweep);
     for index in 0..sweep.points {
         sweep.indices(index, &mut at.indices);
         let mut report = |fault| {
@@ -106,12 +108,11 @@ pub(super) fn points(root: &Form, sweep: &Sweep, problems: &mut Problems) -> Vec
         };
         let scene = scenes.at(|| scene(root, &at), &mut report);
         let launches = all_launches.at(|| launches(root, &at), &mut report);
-        let engine = engines.at(|| engine(root, &at), &mut report);
+        let engine = all_engines.at(|| engines::choice(root, &at), &mut report);
         if let (true, Some(scene), Some(launches), Some(engine)) = (sound, scene, launches, engine)
         {
-            let parameters = parameters(&scene, sweep, &at.indices);
             points.push(Point {
-                parameters,
+                parameters: columns.parameters(&scene, sweep, &at.indices),
                 scene,
                 launches,
                 engine,
@@ -155,25 +156,56 @@ impl<T: Copy> Part<T> {
     }
 }
 
-/// The columns that tell points apart: four that are always there, then every other axis.
-fn parameters(scene: &Scene, sweep: &Sweep, indices: &[usize]) -> Vec<(String, f64)> {
-    let always = [
-        ("ratio", scene.coin.ratio()),
-        ("radius_m", scene.coin.radius_m()),
-        ("restitution", scene.surface.restitution()),
-        ("friction", scene.surface.friction()),
-    ];
-    let swept = sweep
-        .axes
-        .iter()
-        .zip(indices)
-        .filter(|(axis, _)| !always.iter().any(|(name, _)| *name == axis.name))
-        .map(|(axis, index)| (axis.name.clone(), axis.values[*index]));
-    always
-        .iter()
-        .map(|(name, value)| ((*name).to_owned(), *value))
-        .chain(swept)
-        .collect()
+/// A column that is always there, and where its value is.
+type Always = (&'static str, fn(&Scene) -> f64);
+
+/// What every result names, swept or not: the physics of a toss is not defined without it.
+const ALWAYS: [Always; 9] = [
+    ("ratio", |scene| scene.coin.ratio()),
+    ("radius_m", |scene| scene.coin.radius_m()),
+    ("restitution", |scene| scene.surface.restitution()),
+    ("friction", |scene| scene.surface.friction()),
+    ("contour_m", |scene| scene.surface.contour_m()),
+    ("pivoting_m", |scene| scene.surface.pivoting_m()),
+    ("restitution_threshold_m_s", |scene| {
+        scene.surface.restitution_threshold_m_s()
+    }),
+    ("linear_drag_per_s", |scene| scene.drag().linear_per_s()),
+    ("angular_drag_per_s", |scene| scene.drag().angular_per_s()),
+];
+
+/// The columns that tell points apart: those that are always there, then every other axis. All
+/// points share the names.
+struct Columns {
+    always: [Arc<str>; ALWAYS.len()],
+    /// The other axes: number and name.
+    swept: Vec<(usize, Arc<str>)>,
+}
+
+impl Columns {
+    fn new(sweep: &Sweep) -> Self {
+        let is_always = |name: &str| ALWAYS.iter().any(|(there, _)| *there == name);
+        let swept = sweep.axes.iter().enumerate();
+        Self {
+            always: ALWAYS.map(|(name, _)| name.into()),
+            swept: swept
+                .filter(|(_, axis)| !is_always(&axis.name))
+                .map(|(number, axis)| (number, axis.name.as_str().into()))
+                .collect(),
+        }
+    }
+
+    fn parameters(&self, scene: &Scene, sweep: &Sweep, indices: &[usize]) -> Vec<(Arc<str>, f64)> {
+        let always = self.always.iter().zip(ALWAYS);
+        let swept = self.swept.iter().map(|(number, name)| {
+            let value = sweep.axes[*number].values[indices[*number]];
+            (Arc::clone(name), value)
+        });
+        always
+            .map(|(name, (_, value))| (Arc::clone(name), value(scene)))
+            .chain(swept)
+            .collect()
+    }
 }
 
 fn scene(root: &Form, at: &At<'_>) -> Result<Scene, Fault> {
@@ -185,7 +217,15 @@ fn scene(root: &Form, at: &At<'_>) -> Result<Scene, Fault> {
         // only a closed form does without, and it assumes that the first contact decides
         None => sticky(),
     };
+    let drag = Drag::new(
+        at.required(environment, "linear_drag_per_s")?,
+        at.required(environment, "angular_drag_per_s")?,
+    )
+    .map_err(|error| Fault::problem(environment.span, error.to_string(), None))?;
+    let gyroscopic_torque = boolean(environment, "gyroscopic_torque").ok_or(Fault::Reported)?;
     Scene::new(coin, surface, at.number(gravity)?)
+        .map(|scene| scene.with_drag(drag))
+        .map(|scene| scene.with_gyroscopic_torque(gyroscopic_torque))
         .map_err(|error| Fault::problem(gravity.span, error.to_string(), None))
 }
 
@@ -231,10 +271,17 @@ fn surface(form: &Form, at: &At<'_>) -> Result<Surface, Fault> {
         Some(_) => Landing::Bouncing,
         None => return Err(Fault::Reported),
     };
+    let (contour, pivoting) = (
+        at.required(form, "contour_m")?,
+        at.required(form, "pivoting_m")?,
+    );
+    let threshold = at.required(form, "restitution_threshold_m_s")?;
     Surface::new(
         at.required(form, "restitution")?,
         at.required(form, "friction")?,
     )
+    .and_then(|surface| surface.with_friction_lengths(contour, pivoting))
+    .and_then(|surface| surface.with_restitution_threshold(threshold))
     .map(|surface| surface.with_landing(landing))
     .map_err(|error| Fault::problem(form.span, error.to_string(), None))
 }
@@ -252,45 +299,6 @@ fn launches(root: &Form, at: &At<'_>) -> Result<LaunchDistribution, Fault> {
         launch::require_planar(form, &launches)?;
     }
     Ok(launches)
-}
-
-fn engine(root: &Form, at: &At<'_>) -> Result<EngineChoice, Fault> {
-    let form = get(root, "engine")?;
-    let What::Tagged(tag, inner) = &form.what else {
-        return Err(Fault::Reported);
-    };
-    if *tag == "flat" {
-        return Ok(EngineChoice::Flat(flat(inner, at)?));
-    }
-    let rule = get(inner, "rule")?
-        .word()
-        .and_then(|name| name.parse().ok());
-    rule.map(EngineChoice::Analytic).ok_or(Fault::Reported)
-}
-
-fn flat(form: &Form, at: &At<'_>) -> Result<Settings, Fault> {
-    let law = get(form, "law")?.word();
-    let decision = match &get(form, "decision")?.what {
-        What::Word(_) => Decision::Certain,
-        What::Tagged(_, fraction) => Decision::EnergyFraction(at.number(fraction)?),
-        _ => return Err(Fault::Reported),
-    };
-    let settings = Settings {
-        law: Law::ALL
-            .into_iter()
-            .find(|l| Some(l.name()) == law)
-            .ok_or(Fault::Reported)?,
-        decision,
-        zeno: at.required(form, "zeno")?,
-        tolerance: at.required(form, "tolerance")?,
-        max_impacts: integer(form, "max_impacts")
-            .and_then(|n| n.try_into().ok())
-            .unwrap_or(1),
-    };
-    settings
-        .validate()
-        .map_err(|error| Fault::problem(form.span, error.to_string(), None))?;
-    Ok(settings)
 }
 
 /// When to stop; a closed form has nothing to stop.

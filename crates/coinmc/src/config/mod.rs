@@ -19,6 +19,7 @@
 
 mod build;
 mod diagnostics;
+mod engines;
 mod form;
 mod launch;
 mod nearest;
@@ -139,6 +140,7 @@ fn plan(
     let end = sources.end(file);
     let mut root = walk::document(sources, problems, &schema::root(), &tree, end);
     spell_out(&mut root);
+    engines::refuse_unmodelled(&root, problems);
     let sweep = Sweep::find(&mut root, problems)?;
     let points = build::points(&root, &sweep, problems);
     if !problems.is_empty() {

@@ -2,7 +2,8 @@
 
 use super::form::Form;
 use crate::plan::{EngineChoice, Point};
-use coinmc_core::Landing;
+use crate::run::engine_name;
+use coinmc_core::{Landing, Surface};
 
 /// The remarks on a config, in the order of its tables.
 pub(super) fn notes(root: &Form, points: &[Point]) -> Vec<String> {
@@ -20,25 +21,66 @@ pub(super) fn notes(root: &Form, points: &[Point]) -> Vec<String> {
         }
         return notes;
     }
-    let adhesive = |point: &Point| point.scene.surface.landing() == Landing::Adhesive;
-    let counts = |point: &Point| {
-        let surface = &point.scene.surface;
-        adhesive(point) && (surface.restitution() != 0.0 || surface.friction() != 0.0)
-    };
-    if points.iter().any(counts) {
-        notes.push(
-            "surface.restitution and surface.friction change nothing: with landing = \"adhesive\" \
-             the first contact decides"
-                .to_owned(),
-        );
-    }
+    notes.extend(in_vain(points));
     let lossless = |point: &Point| !adhesive(point) && point.scene.surface.restitution() == 1.0;
-    if points.iter().any(lossless) {
-        notes.push(
+    if let Some(point) = points.iter().find(|point| lossless(point)) {
+        notes.push(format!(
             "restitution = 1 loses no energy in a frictionless impact: tosses may stay undecided \
-             up to engine.flat.max_impacts"
+             up to engine.{}.max_impacts",
+            engine_name(&point.engine)
+        ));
+    }
+    if points.iter().any(rolls_for_ever) {
+        notes.push(
+            "surface.contour_m = 0: nothing stops a coin that rolls on its rim; tosses that energy \
+             does not decide stay undecided, endless or up to engine.volumetric.time_limit"
                 .to_owned(),
         );
     }
     notes
+}
+
+fn adhesive(point: &Point) -> bool {
+    point.scene.surface.landing() == Landing::Adhesive
+}
+
+/// A key of `[surface]`, and where its value is.
+type Property = (&'static str, fn(&Surface) -> f64);
+
+/// Properties of contacts where there are none.
+fn in_vain(points: &[Point]) -> Option<String> {
+    let properties: [Property; 5] = [
+        ("restitution", Surface::restitution),
+        ("friction", Surface::friction),
+        ("contour_m", Surface::contour_m),
+        ("pivoting_m", Surface::pivoting_m),
+        (
+            "restitution_threshold_m_s",
+            Surface::restitution_threshold_m_s,
+        ),
+    ];
+    let given = properties.iter().filter(|(_, value)| {
+        let counts = |point: &Point| adhesive(point) && value(&point.scene.surface) != 0.0;
+        points.iter().any(counts)
+    });
+    let keys: Vec<String> = given.map(|(key, _)| format!("surface.{key}")).collect();
+    let (last, others) = keys.split_last()?;
+    let (keys, change) = if others.is_empty() {
+        (last.clone(), "changes")
+    } else {
+        (format!("{} and {last}", others.join(", ")), "change")
+    };
+    Some(format!(
+        "{keys} {change} nothing: with landing = \"adhesive\" the first contact decides"
+    ))
+}
+
+/// Whether a coin can roll without any loss.
+fn rolls_for_ever(point: &Point) -> bool {
+    let (scene, surface) = (&point.scene, &point.scene.surface);
+    matches!(point.engine, EngineChoice::Volumetric(_))
+        && !adhesive(point)
+        && surface.friction() > 0.0
+        && surface.contour_m() == 0.0
+        && scene.drag().is_none()
 }

@@ -1,8 +1,12 @@
 //! What a plan computes and what it skips, in words.
 
+mod omission;
+
 use super::{EngineChoice, Plan, Point};
 use coinmc_core::Landing;
-use coinmc_flat::{Decision, Settings};
+use coinmc_flat as flat;
+use coinmc_volumetric as volumetric;
+use omission::{Omission, omissions};
 
 /// What is done for some of the points, and what is not and why.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -32,9 +36,12 @@ impl Plan {
         let mut treatments: Vec<(Treatment, Explanation)> = Vec::new();
         for point in &self.points {
             let treatment = Treatment::of(point);
-            match treatments.iter_mut().find(|(known, _)| *known == treatment) {
-                Some((_, explanation)) => explanation.points += 1,
-                None => treatments.push((treatment, explain(point))),
+            let known = treatments.iter_mut().find(|(known, _)| *known == treatment);
+            if let Some((_, explanation)) = known {
+                explanation.points += 1;
+            } else {
+                let explanation = treatment.explain(point);
+                treatments.push((treatment, explanation));
             }
         }
         treatments
@@ -48,74 +55,79 @@ impl Plan {
 #[derive(PartialEq)]
 struct Treatment {
     engine: std::mem::Discriminant<EngineChoice>,
-    adhesive: bool,
-    frictionless: bool,
-    no_bounce: bool,
+    /// Slow contacts do not bounce. Unlike the rest this is something computed.
+    threshold: bool,
+    omissions: Vec<Omission>,
 }
 
 impl Treatment {
     fn of(point: &Point) -> Self {
         let surface = &point.scene.surface;
-        let engine = std::mem::discriminant(&point.engine);
-        let adhesive = surface.landing() == Landing::Adhesive;
-        // these only matter where impacts are computed
-        let impacts = matches!(point.engine, EngineChoice::Flat(_)) && !adhesive;
+        let impacts = point.engine.makes_tosses() && surface.landing() == Landing::Bouncing;
         Self {
-            engine,
-            adhesive: adhesive && matches!(point.engine, EngineChoice::Flat(_)),
-            frictionless: impacts && surface.friction() == 0.0,
-            no_bounce: impacts && surface.restitution() == 0.0,
+            engine: std::mem::discriminant(&point.engine),
+            threshold: impacts && surface.restitution_threshold_m_s() > 0.0,
+            omissions: omissions(point),
         }
     }
-}
 
-fn explain(point: &Point) -> Explanation {
-    let (computed, skipped) = match &point.engine {
-        EngineChoice::Analytic(rule) => (
-            format!(
+    fn explain(&self, point: &Point) -> Explanation {
+        let adhesive = point.scene.surface.landing() == Landing::Adhesive;
+        let computed = match &point.engine {
+            EngineChoice::Analytic(rule) => format!(
                 "closed form {rule}: P(side) = {}, x = H/R ({})",
                 rule.formula(),
                 rule.assumption()
             ),
-            vec!["tosses: the probability is known without them".to_owned()],
-        ),
-        EngineChoice::Flat(settings) => flat(settings, &Treatment::of(point)),
-    };
-    Explanation {
-        points: 1,
-        computed,
-        skipped,
+            EngineChoice::Flat(_) | EngineChoice::Volumetric(_) if adhesive => {
+                "flight in closed form to the first contact; the coin sticks there and falls to the \
+                 side its centre hangs over"
+                    .to_owned()
+            }
+            EngineChoice::Flat(settings) => in_the_plane(settings),
+            EngineChoice::Volumetric(settings) => in_space(settings, self.threshold),
+        };
+        Explanation {
+            points: 1,
+            computed,
+            skipped: self
+                .omissions
+                .iter()
+                .map(|omission| omission.reason().to_owned())
+                .collect(),
+        }
     }
 }
 
-fn flat(settings: &Settings, treatment: &Treatment) -> (String, Vec<String>) {
-    let mut skipped =
-        vec!["motion out of the xz plane: no launch of this config leaves it".to_owned()];
-    if treatment.adhesive {
-        skipped.push("impacts, sliding and rocking: the first contact decides".to_owned());
-        return (
-            "flight in closed form to the first contact; the coin sticks there and falls to the \
-             side its centre hangs over"
-                .to_owned(),
-            skipped,
-        );
-    }
-    if treatment.frictionless {
-        skipped.push("the tangential half of impacts and contacts: friction is 0".to_owned());
-    }
-    if treatment.no_bounce {
-        skipped.push("sequences of bounces: restitution is 0".to_owned());
-    }
+fn in_the_plane(settings: &flat::Settings) -> String {
     let decided = match settings.decision {
-        Decision::Certain => "until energy alone makes the face certain",
-        Decision::EnergyFraction(_) => {
+        flat::Decision::Certain => "until energy alone makes the face certain",
+        flat::Decision::EnergyFraction(_) => {
             "until the energy has fallen to the chosen fraction, and on to the certain face to \
              count disagreements"
         }
     };
-    let computed = format!(
+    format!(
         "flight in closed form, impacts by the law {}, sustained contact, {decided}",
         settings.law.name()
-    );
-    (computed, skipped)
+    )
+}
+
+fn in_space(settings: &volumetric::Settings, threshold: bool) -> String {
+    let decided = match settings.decision {
+        volumetric::Decision::Tilting => {
+            "until the energy that can still tilt the coin is too small to carry it over its rim"
+        }
+        volumetric::Decision::Energy => "until energy alone makes the face certain",
+    };
+    let threshold = if threshold {
+        " (restitution 0 below its threshold)"
+    } else {
+        ""
+    };
+    format!(
+        "flight in closed form, impacts by the law {}{threshold}, sustained contact on the rim and \
+         on the side, {decided}",
+        settings.law.name()
+    )
 }

@@ -14,8 +14,10 @@ pub use parquet::write_parquet;
 pub use schema::{Column, FORMAT, Kind, columns};
 
 use crate::plan::Plan;
+use crate::published::Published;
 use crate::run::{engine_name, law};
 use coinmc_core::{Estimate, Face, Tally};
+use std::sync::Arc;
 
 /// All points of a run.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,11 +42,13 @@ pub struct Row {
     /// Index of the point.
     pub point: usize,
     /// Its parameters.
-    pub parameters: Vec<(String, f64)>,
+    pub parameters: Vec<(Arc<str>, f64)>,
     /// Name of the engine.
     pub engine: &'static str,
     /// Name of the law of impact, or of the closed form.
     pub law: &'static str,
+    /// Whether the gyroscopic torque acts.
+    pub gyroscopic_torque: bool,
     /// The counts.
     pub tally: Tally,
     /// Probability of heads.
@@ -58,6 +62,8 @@ pub struct Row {
     pub interval: &'static str,
     /// The point has the tosses, or the half width, asked for.
     pub reached_target: bool,
+    /// What was published for the same launch and ratio; no column of the table.
+    pub published: Option<Published>,
 }
 
 impl Results {
@@ -87,12 +93,14 @@ impl Row {
             parameters: point.parameters.clone(),
             engine: engine_name(&point.engine),
             law: law(&point.engine),
+            gyroscopic_torque: point.scene.has_gyroscopic_torque(),
             tally,
             heads,
             tails,
             side,
             interval: estimates::interval_name(plan, index),
             reached_target,
+            published: Published::of(point),
         }
     }
 
@@ -100,7 +108,7 @@ impl Row {
     pub fn parameter(&self, name: &str) -> Option<f64> {
         self.parameters
             .iter()
-            .find(|(there, _)| there == name)
+            .find(|(there, _)| **there == *name)
             .map(|(_, value)| *value)
     }
 

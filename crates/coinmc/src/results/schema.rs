@@ -79,9 +79,9 @@ impl Column {
         match self.source {
             Source::Fixed(cell) => cell(row),
             Source::Parameter(index) => match row.parameters.get(index) {
-                Some((name, value)) if *name == self.name => Cell::Number(*value),
+                Some((name, value)) if **name == *self.name => Cell::Number(*value),
                 _ => {
-                    let found = row.parameters.iter().find(|(name, _)| *name == self.name);
+                    let found = row.parameters.iter().find(|(name, _)| **name == *self.name);
                     found.map_or(Cell::Missing, |(_, value)| Cell::Number(*value))
                 }
             },
@@ -114,6 +114,13 @@ const FIXED: &[Definition] = &[
         |row| Cell::Text(row.law),
     ),
     (
+        "gyroscopic_torque",
+        Kind::Flag,
+        "",
+        "Whether the gyroscopic torque acts, as in nature.",
+        |row| Cell::Flag(row.gyroscopic_torque),
+    ),
+    (
         "tosses",
         Kind::Count,
         "1",
@@ -141,7 +148,7 @@ const FIXED: &[Definition] = &[
         "undecided",
         Kind::Count,
         "1",
-        "Tosses without a face: the sum of the next three.",
+        "Tosses without a face: the sum of the next four.",
         |row| Cell::Count(row.tally.undecided()),
     ),
     (
@@ -150,6 +157,13 @@ const FIXED: &[Definition] = &[
         "1",
         "Undecided at the limit of simulated time.",
         |row| Cell::Count(row.tally.time_limit),
+    ),
+    (
+        "endless",
+        Kind::Count,
+        "1",
+        "Undecided for ever: proven never to settle.",
+        |row| Cell::Count(row.tally.endless),
     ),
     (
         "impact_limit",
@@ -331,7 +345,7 @@ pub(crate) fn columns_of(results: &Results) -> Vec<Column> {
     for row in &results.rows {
         // nearly always the same names in the same places
         for (index, (name, _)) in row.parameters.iter().enumerate() {
-            if names.get(index) != Some(&name.as_str()) && !names.contains(&name.as_str()) {
+            if names.get(index) != Some(&&**name) && !names.contains(&&**name) {
                 names.push(name);
             }
         }
@@ -341,7 +355,8 @@ pub(crate) fn columns_of(results: &Results) -> Vec<Column> {
 
 /// The unit that a name ends in.
 fn unit_of(name: &str) -> &'static str {
-    const UNITS: [(&str, &str); 9] = [
+    const UNITS: [(&str, &str); 10] = [
+        ("_per_s", "1/s"),
         ("_kg_m2", "kg m²"),
         ("_rad_s", "rad/s"),
         ("_m_s2", "m/s²"),
@@ -376,13 +391,14 @@ mod tests {
 
     #[test]
     fn names_are_unique_and_units_follow_from_them() {
-        let columns = columns(["ratio", "radius_m", "launch_spin_rad_s", "gravity_m_s2"]);
+        let parameters = ["ratio", "radius_m", "launch_spin_rad_s", "gravity_m_s2"];
+        let columns = columns(parameters.into_iter().chain(["linear_drag_per_s"]));
         let names: std::collections::HashSet<_> = columns.iter().map(|c| &c.name).collect();
         assert_eq!(names.len(), columns.len());
-        let units: Vec<_> = columns[..5].iter().map(|column| column.unit).collect();
-        assert_eq!(units, ["1", "1", "m", "rad/s", "m/s²"]);
+        let units: Vec<_> = columns[..6].iter().map(|column| column.unit).collect();
+        assert_eq!(units, ["1", "1", "m", "rad/s", "m/s²", "1/s"]);
         // every fixed column names its unit if it is a number, and no other does
-        for column in &columns[5..] {
+        for column in &columns[6..] {
             let is_number = matches!(column.kind, Kind::Count | Kind::Number);
             assert_eq!(column.unit == "1", is_number, "{}", column.name);
         }

@@ -2,12 +2,11 @@
 //! nor a restart change what is counted.
 
 use super::Shard;
-use super::engines::makes_tosses;
 use crate::plan::{Plan, Stop};
 use std::ops::Range;
 
-/// Fewest tosses of a shard that is not the end of a point: some 30 ms of work, which hides what
-/// a file costs.
+/// Fewest tosses of a shard that is not the end of a point: some 30 ms of work in the plane, more in
+/// space, which hides what a file costs.
 const LEAST: u64 = 1 << 14;
 /// A run of fixed length has at most this many shards beyond one a point.
 const MOST_SHARDS: u64 = 8192;
@@ -43,7 +42,7 @@ impl Cut {
                 let tossed = plan
                     .points
                     .iter()
-                    .filter(|point| makes_tosses(&point.engine))
+                    .filter(|point| point.engine.makes_tosses())
                     .count();
                 let total = tosses.saturating_mul(tossed as u64);
                 let size = total.div_ceil(MOST_SHARDS).checked_next_power_of_two();

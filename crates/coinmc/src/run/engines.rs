@@ -6,17 +6,32 @@
 
 use crate::plan::{EngineChoice, Plan};
 use coinmc_core::{Domain, Engine, Stream, Tally, run_tosses};
-use coinmc_flat::{AnyFlatEngine, SettingsError};
+use coinmc_flat::AnyFlatEngine;
+use coinmc_volumetric::AnyVolumetricEngine;
 use std::ops::Range;
+use thiserror::Error;
 
-/// Tosses between two questions whether to go on: about 0.1 ms of a typical toss, so that asking
-/// costs nothing, and well under 0.1 s of the most tedious ones.
+/// An engine refuses its settings.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SettingsError {
+    /// The flat engine.
+    #[error(transparent)]
+    Flat(#[from] coinmc_flat::SettingsError),
+    /// The volumetric engine.
+    #[error(transparent)]
+    Volumetric(#[from] coinmc_volumetric::SettingsError),
+}
+
+/// Tosses between two questions whether to go on: about 0.1 ms of typical tosses in the plane and
+/// 1 ms in space, so that asking costs nothing, and well under 0.1 s of the most tedious ones.
 const BATCH: u64 = 64;
 
 /// The engine's name in results.
 pub(crate) fn name(choice: &EngineChoice) -> &'static str {
     match choice {
         EngineChoice::Flat(_) => "flat",
+        EngineChoice::Volumetric(_) => "volumetric",
         EngineChoice::Analytic(_) => "analytic",
     }
 }
@@ -25,15 +40,8 @@ pub(crate) fn name(choice: &EngineChoice) -> &'static str {
 pub(crate) fn law(choice: &EngineChoice) -> &'static str {
     match choice {
         EngineChoice::Flat(settings) => settings.law.name(),
+        EngineChoice::Volumetric(settings) => settings.law.name(),
         EngineChoice::Analytic(rule) => rule.name(),
-    }
-}
-
-/// Whether the engine tosses at all.
-pub(crate) fn makes_tosses(choice: &EngineChoice) -> bool {
-    match choice {
-        EngineChoice::Flat(_) => true,
-        EngineChoice::Analytic(_) => false,
     }
 }
 
@@ -45,17 +53,21 @@ pub(super) fn tally(
     tosses: Range<u64>,
     go_on: impl Fn() -> bool,
 ) -> Result<Option<Tally>, SettingsError> {
-    match plan.points[point].engine {
-        EngineChoice::Flat(settings) => Ok(
-            match AnyFlatEngine::new(&plan.points[point].scene, &settings)? {
-                AnyFlatEngine::Moreau(engine) => follow(&engine, plan, point, tosses, go_on),
-                AnyFlatEngine::ChatterjeeRuina(engine) => {
-                    follow(&engine, plan, point, tosses, go_on)
-                }
-            },
-        ),
-        EngineChoice::Analytic(_) => Ok(Some(Tally::default())),
-    }
+    let scene = &plan.points[point].scene;
+    Ok(match plan.points[point].engine {
+        EngineChoice::Flat(settings) => match AnyFlatEngine::new(scene, &settings)? {
+            AnyFlatEngine::Moreau(engine) => follow(&engine, plan, point, tosses, go_on),
+            AnyFlatEngine::ChatterjeeRuina(engine) => follow(&engine, plan, point, tosses, go_on),
+        },
+        EngineChoice::Volumetric(settings) => match AnyVolumetricEngine::new(scene, &settings)? {
+            AnyVolumetricEngine::Moreau(engine) => follow(&engine, plan, point, tosses, go_on),
+            AnyVolumetricEngine::ChatterjeeRuina(engine) => {
+                follow(&engine, plan, point, tosses, go_on)
+            }
+            AnyVolumetricEngine::Stronge(engine) => follow(&engine, plan, point, tosses, go_on),
+        },
+        EngineChoice::Analytic(_) => Some(Tally::default()),
+    })
 }
 
 fn follow<E: Engine>(

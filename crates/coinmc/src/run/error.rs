@@ -1,7 +1,6 @@
 //! Why a run stopped, and what to do about it.
 
-use super::{Part, Shard};
-use coinmc_flat::SettingsError;
+use super::{Part, SettingsError, Shard};
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;

@@ -46,6 +46,7 @@ mod watcher;
 mod workers;
 
 pub(crate) use cut::looks;
+pub use engines::SettingsError;
 pub(crate) use engines::{law, name as engine_name};
 pub use error::RunError;
 pub use merge::merge;

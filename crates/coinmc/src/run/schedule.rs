@@ -1,7 +1,6 @@
 //! Which shard comes next, and what the shards of a point add up to.
 
 use super::cut::Cut;
-use super::engines::makes_tosses;
 use super::{Part, Progress, Shard};
 use crate::plan::{Plan, Stop};
 use crate::results::estimates;
@@ -88,7 +87,7 @@ impl<'a> Schedule<'a> {
         let tossed = plan
             .points
             .iter()
-            .filter(|point| makes_tosses(&point.engine))
+            .filter(|point| point.engine.makes_tosses())
             .count() as u64;
         let points = vec![
             PointState {
@@ -215,7 +214,7 @@ impl<'a> Schedule<'a> {
             }
             None => return false,
         };
-        if makes_tosses(&self.plan.points[point].engine) {
+        if self.plan.points[point].engine.makes_tosses() {
             let shards = Box::new(self.cut.shards(point, self.points[point].stage));
             self.current = Some(Stage { point, shards });
         } else {

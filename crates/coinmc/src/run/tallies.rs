@@ -1,7 +1,6 @@
 //! The directory of tally files: reading what is there, adding what is finished.
 
 use super::cut::Cut;
-use super::engines::makes_tosses;
 use super::replace::{self, Replacement, TEMPORARY};
 use super::tally_file::{self, Damage};
 use super::{RunError, Shard};
@@ -60,7 +59,7 @@ impl Tallies {
                 let shard = cut.shard_at(point, start).filter(|_| {
                     plan.points
                         .get(point)
-                        .is_some_and(|point| makes_tosses(&point.engine))
+                        .is_some_and(|point| point.engine.makes_tosses())
                 });
                 let read = shard
                     .ok_or(Damage::NoSuchShard)

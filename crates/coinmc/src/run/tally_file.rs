@@ -131,6 +131,7 @@ fn is_possible(tally: &Tally, tosses: u64) -> bool {
         tally.tails,
         tally.side,
         tally.time_limit,
+        tally.endless,
         tally.impact_limit,
         tally.failed,
     ];
@@ -252,7 +253,11 @@ mod tests {
             point: usize::MAX,
             tosses: 0..u64::MAX,
         };
-        let text = encode(&shard, &Tally::from_array([u64::MAX; 10]), &"f".repeat(128));
+        let text = encode(
+            &shard,
+            &Tally::from_array([u64::MAX; Tally::COUNTERS.len()]),
+            &"f".repeat(128),
+        );
         assert!(text.len() <= MAX_BYTES);
     }
 
@@ -261,14 +266,14 @@ mod tests {
         fn files_read_back_and_any_damage_is_seen(
             point in 0..10_000_usize,
             start in 0..u64::MAX / 2,
-            faces in prop::array::uniform6(0..1_u64 << 40),
+            faces in prop::array::uniform7(0..1_u64 << 40),
             place in any::<prop::sample::Index>(),
             flip in 1..=u8::MAX,
             inserted in any::<u8>(),
         ) {
-            let [heads, tails, side, time_limit, impact_limit, failed] = faces;
+            let [heads, tails, side, time_limit, endless, impact_limit, failed] = faces;
             let tally = Tally {
-                heads, tails, side, time_limit, impact_limit, failed, ..Tally::default()
+                heads, tails, side, time_limit, endless, impact_limit, failed, ..Tally::default()
             };
             let shard = Shard { point, tosses: start..start + tally.tosses() };
             let bytes = encode(&shard, &tally, HASH).into_bytes();

@@ -32,6 +32,16 @@ pub(crate) fn plan_of(tables: &str) -> Plan {
     coinmc::config::parse("test", &text, &[]).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
+/// A plan of tosses in space: all three kinds of friction, two ratios, 40 000 tosses a point.
+pub(crate) fn plan_in_space(law: &str, stop: &str) -> Plan {
+    let text = format!(
+        "seed = 7\n[coin]\nradius_m = 0.01\nratio = [0.85, 2.0]\n[surface]\nrestitution = 0.5\n\
+         friction = 0.3\ncontour_m = 1e-4\npivoting_m = 1e-4\n[launch]\npreset = \"clean\"\n\
+         [engine.volumetric]\nlaw = \"{law}\"\n[stop]\n{stop}\n"
+    );
+    coinmc::config::parse("test", &text, &[]).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
 /// Runs the whole plan on two threads and hears nothing.
 pub(crate) fn run_whole(plan: &Plan, out: &Path) -> Report {
     run_with(plan, out, Part::WHOLE, 2, &Ear::default()).unwrap()

@@ -1,6 +1,6 @@
 //! What a plan will cost, from tossing some of its points for a moment.
 
-use coinmc::plan::{EngineChoice, Plan, Point, Stop};
+use coinmc::plan::{Plan, Stop};
 use coinmc::run::{RunError, Shard, run_shard};
 use coinmc_core::{Face, Tally, inverse_normal_cdf};
 use std::thread;
@@ -42,7 +42,7 @@ pub(super) fn estimate(plan: &Plan) -> Result<Cost, RunError> {
     let tossed = plan
         .points
         .iter()
-        .filter(|point| makes_tosses(point))
+        .filter(|point| point.engine.makes_tosses())
         .count();
     let budget = BUDGET / u32::try_from(sample.len()).unwrap_or(u32::MAX);
     let (mut tosses, mut seconds, mut made, mut spent) = (0.0, 0.0, 0.0, 0.0);
@@ -72,17 +72,13 @@ pub(super) fn estimate(plan: &Plan) -> Result<Cost, RunError> {
 fn sample(plan: &Plan) -> Vec<usize> {
     let points = plan.points.iter().enumerate();
     let tossed: Vec<usize> = points
-        .filter(|(_, point)| makes_tosses(point))
+        .filter(|(_, point)| point.engine.makes_tosses())
         .map(|(index, _)| index)
         .collect();
     let wanted = tossed.len().min(POINTS);
     (0..wanted)
         .map(|i| tossed[i * tossed.len() / wanted])
         .collect()
-}
-
-fn makes_tosses(point: &Point) -> bool {
-    !matches!(point.engine, EngineChoice::Analytic(_))
 }
 
 /// The first tosses of a point, ever more of them until the time is up.

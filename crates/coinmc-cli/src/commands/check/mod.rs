@@ -6,7 +6,7 @@ use crate::arguments::Format;
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, FORMAT_VERSION};
 use crate::terminal::progress::with_prefix;
-use crate::terminal::{Colors, Style, compact, count, duration, grouped, in_ascii};
+use crate::terminal::{Colors, Style, compact, count, duration, grouped, in_ascii, wrapped};
 use calibration::Cost;
 use clap::Args;
 use coinmc::config::{self, Override};
@@ -65,7 +65,7 @@ fn to_text(plan: &Plan, cost: &Cost, style: &Style) -> String {
     let mut text = String::new();
     let mut item = |title: &str, value: &str| {
         text += &style.paint(Colors::Strong, &format!("{title:<INDENT$}"));
-        text += &wrapped(value, style.width - INDENT);
+        text += &wrapped(value, style.width - INDENT, INDENT);
     };
     item(
         "plan",
@@ -92,24 +92,6 @@ fn to_text(plan: &Plan, cost: &Cost, style: &Style) -> String {
     }
     item("cost", &in_words(cost));
     if style.unicode { text } else { in_ascii(&text) }
-}
-
-/// Words on lines of `width` characters, all but the first indented.
-fn wrapped(text: &str, width: usize) -> String {
-    let (mut lines, mut used) = (String::new(), 0);
-    for word in text.split(' ') {
-        let length = word.chars().count();
-        if used > 0 && used + 1 + length > width {
-            lines += &format!("\n{:INDENT$}", "");
-            used = 0;
-        } else if used > 0 {
-            lines.push(' ');
-            used += 1;
-        }
-        lines += word;
-        used += length;
-    }
-    lines + "\n"
 }
 
 fn points(plan: &Plan) -> String {
@@ -145,7 +127,7 @@ fn parameter(point: &coinmc::plan::Point, name: &str) -> Option<f64> {
     point
         .parameters
         .iter()
-        .find(|(there, _)| there == name)
+        .find(|(there, _)| **there == *name)
         .map(|(_, value)| *value)
 }
 
@@ -224,18 +206,11 @@ fn to_json(plan: &Plan, cost: &Cost) -> Value {
 
 #[cfg(test)]
 mod tests {
-    use super::{two_digits, wrapped};
+    use super::two_digits;
 
     #[test]
     fn forecasts_have_two_digits() {
         let rounded = [0, 7, 99, 14_680_064, u64::MAX].map(two_digits);
         assert_eq!(rounded, [0, 7, 99, 14_000_000, 18_000_000_000_000_000_000]);
-    }
-
-    #[test]
-    fn long_values_are_wrapped_under_their_first_line() {
-        assert_eq!(wrapped("one two three", 20), "one two three\n");
-        assert_eq!(wrapped("one two three", 8), "one two\n          three\n");
-        assert_eq!(wrapped("unbreakable", 3), "unbreakable\n");
     }
 }

@@ -1,12 +1,12 @@
 //! Where the curves cross 1/3.
 
 use super::curves::{label, others};
-use super::{Curve, FAIR};
+use super::{Curve, FAIR, no_bounce};
 use crate::terminal::plot::Mark;
 use crate::terminal::table::{Column, Table};
 use crate::terminal::{Colors, Style, compact, decimals_for, in_ascii};
+use coinmc::published;
 use coinmc::results::{FairRatio, Results};
-use coinmc_analytic::Rule;
 use std::collections::HashSet;
 
 /// More crossings than this are not listed; JSON has them all.
@@ -74,19 +74,24 @@ pub(super) fn table(
     if !never.is_empty() {
         text += &format!("No crossing elsewhere: {never}\n");
     }
-    if fair[0].engine == "flat" {
-        text += &published(style);
-    }
+    text += &references(fair[0].engine, style);
     Some(text)
 }
 
-/// What others say of the same coin, for comparison with a flat toss.
-fn published(style: &Style) -> String {
-    let arc = Rule::Arc.fair_ratio(FAIR);
-    let text = format!(
-        "For comparison:\n    {arc:.4}      arc rule, no bounce\n    1.5 ± 0.05  Gaek & Sukhov, \
-         arXiv 2401.03557, flat\n"
+/// What others say of the fair coin, tossed the way this engine tosses; nothing for a closed form.
+fn references(engine: &str, style: &Style) -> String {
+    let Some(rule) = no_bounce(engine) else {
+        return String::new();
+    };
+    let mut text = format!(
+        "For comparison:\n    {:<10}  {} rule, no bounce\n",
+        format!("{:.4}", rule.fair_ratio(FAIR)),
+        rule.name()
     );
+    for published in published::fair_ratios(engine) {
+        let ratio = format!("{} ± {}", published.ratio, published.half_width);
+        text += &format!("    {ratio:<10}  {}\n", published.source);
+    }
     if style.unicode { text } else { in_ascii(&text) }
 }
 

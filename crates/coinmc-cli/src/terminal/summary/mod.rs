@@ -1,11 +1,13 @@
-//! A finished run as text: table, plot, fair ratios, what was undecided, where the files are.
+//! A finished run as text: table, plot, fair ratios, published counts, what was undecided, where the
+//! files are.
 
 mod curves;
 mod fair;
+mod published;
 
 use super::plot::{Curve, Level, Plot, Reference};
 use super::table::{Column, Table};
-use super::{Colors, Style, compact, decimals_for, grouped};
+use super::{Colors, Style, compact, decimals_for, grouped, wrapped};
 use coinmc::results::{FairRatio, Results, Row};
 use coinmc_analytic::Rule;
 use coinmc_core::Estimate;
@@ -29,7 +31,8 @@ pub(crate) fn summary(results: &Results, fair: &[FairRatio], csv: &Path, style: 
         parts.extend(plot(results, &curves, style));
         parts.extend(fair::table(results, fair, &curves, style));
     }
-    parts.push(closing(results, csv));
+    parts.extend(published::table(results, style));
+    parts.push(closing(results, csv, style));
     parts.join("\n")
 }
 
@@ -125,17 +128,18 @@ fn probability(p: &Estimate, row: &Row, decimals: usize, style: &Style) -> Strin
 
 /// P(side) over the ratio, a curve for each combination of the other axes.
 fn plot(results: &Results, curves: &[Curve], style: &Style) -> Option<String> {
-    let flat = results.rows.iter().any(|row| row.engine == "flat");
-    let arc = |ratio| Rule::Arc.p_side(ratio);
+    let rule = results.rows.iter().find_map(|row| no_bounce(row.engine));
+    let label = rule.map_or(String::new(), |rule| format!("{rule} rule (no bounce)"));
+    let p_side = |ratio| rule.map_or(f64::NAN, |rule| rule.p_side(ratio));
     let reference = Reference {
-        label: "arc rule (no bounce)",
-        y: &arc,
+        label: &label,
+        y: &p_side,
     };
     Plot {
         x_label: "ratio H/R",
         y_label: "P(side)",
         curves,
-        reference: flat.then_some(reference),
+        reference: rule.is_some().then_some(reference),
         level: Some(Level {
             label: "1/3",
             y: FAIR,
@@ -144,8 +148,17 @@ fn plot(results: &Results, curves: &[Curve], style: &Style) -> Option<String> {
     .render(style)
 }
 
+/// The closed form of a toss that does not bounce, for the kind of toss that an engine computes.
+fn no_bounce(engine: &str) -> Option<Rule> {
+    match engine {
+        "flat" => Some(Rule::Arc),
+        "volumetric" => Some(Rule::Zone),
+        _ => None,
+    }
+}
+
 /// What was undecided, and where the results are.
-fn closing(results: &Results, csv: &Path) -> String {
+fn closing(results: &Results, csv: &Path, style: &Style) -> String {
     let sum = |count: fn(&Row) -> u64| {
         results
             .rows
@@ -158,12 +171,22 @@ fn closing(results: &Results, csv: &Path) -> String {
     );
     let mut text = String::new();
     if undecided > 0 {
-        text += &format!(
-            "Undecided: {} of {} tosses ({:.1e})\n",
+        let reasons = [
+            (sum(|row| row.tally.time_limit), "at the limit of time"),
+            (sum(|row| row.tally.endless), "for ever"),
+            (sum(|row| row.tally.impact_limit), "at the limit of impacts"),
+            (sum(|row| row.tally.failed), "failed"),
+        ];
+        let reasons = reasons.iter().filter(|(count, _)| *count > 0);
+        let reasons = reasons.map(|(count, reason)| format!("{} {reason}", grouped(*count)));
+        let sentence = format!(
+            "Undecided: {} of {} tosses ({:.1e}): {}",
             grouped(undecided),
             grouped(tosses),
-            undecided as f64 / tosses as f64
+            undecided as f64 / tosses as f64,
+            reasons.collect::<Vec<_>>().join(", ")
         );
+        text += &wrapped(&sentence, style.width, 4);
     }
     text + &format!("Results: {}\n", csv.display())
 }

@@ -98,6 +98,79 @@ fn closed_forms_are_exact_and_have_no_interval() {
     assert!(!text.contains('±'), "{text}");
 }
 
+/// Tosses in space of the published Unity scene, with every hundredth on the side.
+fn unity(more: &str, ratio: &str) -> Results {
+    let config = format!(
+        "coin = {{ ratio = {ratio}, radius_m = 0.5 }}\n\
+         surface = {{ restitution = 0.3, friction = 10, restitution_threshold_m_s = 2 }}\n\
+         environment = {{ linear_drag_per_s = 1, angular_drag_per_s = 0.05, \
+         gyroscopic_torque = false }}\n\
+         launch.preset = 'table1'\nengine.volumetric = {{}}\nstop.tosses = 10000\n"
+    );
+    let sets: Vec<config::Override> = more.lines().map(|set| set.parse().unwrap()).collect();
+    let plan = config::parse("test", &config, &sets).unwrap_or_else(|p| panic!("{p}"));
+    let tally = Tally {
+        heads: 4950,
+        tails: 4950,
+        side: 100,
+        ..Tally::default()
+    };
+    let rows = (0..plan.points.len()).map(|i| Row::new(&plan, i, tally, true));
+    Results::new(&plan, rows.collect())
+}
+
+#[test]
+fn published_counts_stand_beside_ours() {
+    let results = unity("", "[0.03125, 0.5, 1]");
+    let text = text(&results, &Style::plain(80));
+    assert!(text.contains(include_str!("published.txt")), "\n{text}");
+}
+
+#[test]
+fn published_counts_are_told_by_launch_and_ratio_alone() {
+    let has = |more: &str, ratio: &str| {
+        text(&unity(more, ratio), &Style::plain(80)).contains("Published for this launch")
+    };
+    assert!(has("", "5") && has("engine.volumetric.law=stronge", "0.25"));
+    assert!(!has("", "2") && !has("launch.height_m=4", "1") && !has("launch.preset=clean", "1"));
+    let text = text(
+        &unity("surface.contour_m=1e-3\nsurface.friction=[1, 10]", "1"),
+        &Style::plain(100),
+    );
+    assert!(
+        text.contains("Not the published scene, it differs in: friction, contour_m.\n"),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_toss_in_space_is_compared_with_its_own_kind() {
+    let config = "coin.ratio = [0.5, 1.0, 1.5]\n\
+                  surface = { restitution = 0.5, friction = 0.3, contour_m = 1e-4 }\n\
+                  launch.preset = 'clean'\nengine.volumetric = {}\nstop.tosses = 10000";
+    let text = text(&results(config, 1.3), &Style::plain(80));
+    for line in [
+        "    0.7071      zone rule, no bounce\n",
+        "    0.8 ± 0.05  Gaek & Sukhov, arXiv 2401.03557, Unity\n",
+        "· zone rule (no bounce)   ┄ 1/3\n",
+    ] {
+        assert!(text.contains(line), "{line}\n{text}");
+    }
+    assert!(!text.contains("flat"), "{text}");
+}
+
+#[test]
+fn undecided_tosses_are_counted_by_why_not() {
+    let mut results = unity("", "2");
+    results.rows[0].tally.endless = 3;
+    results.rows[0].tally.impact_limit = 1000;
+    let text = text(&results, &Style::plain(100));
+    assert!(
+        text.contains("tosses (9.1e-2): 3 for ever, 1 000 at the limit of impacts\n"),
+        "{text}"
+    );
+}
+
 #[test]
 fn axes_side_by_side_make_one_curve() {
     let config = sweep("[0.5, 1.0, 1.5]", "[0.3, 0.4, 0.5]") + "\nsweep.mode = 'zip'";
@@ -111,9 +184,12 @@ fn nothing_is_wider_than_the_terminal() {
         &sweep("{ from = 0.5, to = 2.5, steps = 9 }", "[0.3, 0.5, 0.7]"),
         0.8,
     );
+    let unity = unity("surface.contour_m=1e-3", "[0.03125, 1, 5]");
     for width in [60, 72, 100, 200] {
-        for line in text(&results, &Style::plain(width)).lines() {
-            assert!(line.chars().count() <= width, "{width}: {line}");
+        for results in [&results, &unity] {
+            for line in text(results, &Style::plain(width)).lines() {
+                assert!(line.chars().count() <= width, "{width}: {line}");
+            }
         }
     }
 }

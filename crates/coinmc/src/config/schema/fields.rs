@@ -3,13 +3,12 @@
 //! The limits are far outside anything that can be tossed; they keep typing errors and arithmetic
 //! overflow out.
 
+use super::engines::engines;
 use super::launch::launch;
 use super::terms::{default, field, fields, number, table};
-use super::{Absent, Bounds, Condition, Fallback, Field, Kind, Rule, TableKind, Whole, Word};
+use super::{Absent, Bounds, Condition, Fallback, Kind, Rule, TableKind, Whole, Word};
 use crate::plan::{MAX_POINTS, MAX_TOSSES};
-use coinmc_analytic::Rule as ClosedForm;
 use coinmc_core::{IntervalMethod, Landing, Scene};
-use coinmc_flat::{Law, Settings};
 
 use Absent::{Is, Omitted, Required};
 
@@ -177,6 +176,28 @@ fn surface() -> TableKind {
                 Bounds::closed(0.0, 1e6),
                 Omitted,
             ),
+            number(
+                "contour_m",
+                "Contour (rolling) friction length, m: the power lost is normal force × this × rate \
+                 at which the contact point moves along the rim. Coins on hard surfaces: about \
+                 0.001 to 0.01 R.",
+                Bounds::closed(0.0, 1e6),
+                default(0.0),
+            ),
+            number(
+                "pivoting_m",
+                "Pivoting friction length, m: the power lost is normal force × this × rate at which \
+                 the coin turns about the vertical.",
+                Bounds::closed(0.0, 1e6),
+                default(0.0),
+            ),
+            number(
+                "restitution_threshold_m_s",
+                "Speed of approach, m/s, below which a contact point does not bounce (restitution \
+                 0), as in game engines; nature has none.",
+                Bounds::closed(0.0, 1e6),
+                default(0.0),
+            ),
             field(
                 "landing",
                 "What a contact does.",
@@ -201,101 +222,32 @@ pub(in crate::config) const fn landing_name(landing: Landing) -> &'static str {
 }
 
 fn environment() -> TableKind {
-    fields(vec![number(
-        "gravity_m_s2",
-        "Acceleration of gravity, m/s².",
-        Bounds::closed(1e-6, 1e6),
-        default(Scene::STANDARD_GRAVITY_M_S2),
-    )])
-}
-
-fn engines() -> Vec<Field> {
-    let rules = ClosedForm::ALL.map(|rule| Word {
-        name: rule.name(),
-        doc: rule.assumption(),
-    });
-    let analytic = fields(vec![field(
-        "rule",
-        "The closed form.",
-        Kind::Word(rules.to_vec()),
-        Required,
-    )]);
-    vec![
-        table(
-            "flat",
-            "The toss in a vertical plane, impact by impact.",
-            flat(),
-            Required,
-        ),
-        table(
-            "analytic",
-            "A closed form in the ratio alone: no toss is made.",
-            analytic,
-            Required,
-        ),
-    ]
-}
-
-fn flat() -> TableKind {
-    let settings = Settings::default();
-    let law = |law: Law| Word {
-        name: law.name(),
-        doc: match law {
-            Law::Moreau => "Newton restitution, Coulomb friction against the final slip",
-            Law::ChatterjeeRuina => "Chatterjee & Ruina (1998), tangential restitution 0",
-        },
-    };
-    let fraction = number(
-        "energy_fraction",
-        "Decided when the energy has fallen to this fraction of its first value, or earlier if \
-         certain.",
-        Bounds::open(0.0, 1.0),
-        Required,
-    );
+    let rate = Bounds::closed(0.0, 1e6);
     fields(vec![
-        field(
-            "law",
-            "Law of impact.",
-            Kind::Word(Law::ALL.map(law).to_vec()),
-            Is(Fallback::Word(settings.law.name())),
-        ),
-        field(
-            "decision",
-            "When the face of a toss counts as decided.",
-            Kind::Choice(
-                vec![Word {
-                    name: "certain",
-                    doc: "when energy alone makes it certain",
-                }],
-                vec![fraction],
-            ),
-            Is(Fallback::Word("certain")),
+        number(
+            "gravity_m_s2",
+            "Acceleration of gravity, m/s².",
+            Bounds::closed(1e-6, 1e6),
+            default(Scene::STANDARD_GRAVITY_M_S2),
         ),
         number(
-            "zeno",
-            "A sequence of bounces becomes sustained contact when the rest of it would turn the \
-             coin by less than about this angle, rad.",
-            Bounds {
-                low: 0.0,
-                high: 1.0,
-                open: (true, false),
-            },
-            default(settings.zeno),
+            "linear_drag_per_s",
+            "Rate at which the velocity of the centre decays, 1/s.",
+            rate,
+            default(0.0),
         ),
         number(
-            "tolerance",
-            "Relative error allowed per step of sliding contact.",
-            Bounds::closed(1e-12, 1e-2),
-            default(settings.tolerance),
+            "angular_drag_per_s",
+            "Rate at which the angular momentum decays, 1/s.",
+            rate,
+            default(0.0),
         ),
         field(
-            "max_impacts",
-            "Impacts after which a toss is given up as undecided.",
-            Kind::Integer(Whole {
-                low: 1,
-                high: u64::from(u32::MAX),
-            }),
-            Is(Fallback::Integer(u64::from(settings.max_impacts))),
+            "gyroscopic_torque",
+            "Whether the gyroscopic torque acts, as in nature. Without it a coin in flight turns \
+             about a fixed angular velocity, as in PhysX and Unity.",
+            Kind::Boolean,
+            Is(Fallback::Boolean(true)),
         ),
     ])
 }

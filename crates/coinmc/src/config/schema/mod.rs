@@ -1,11 +1,13 @@
 //! What a config may say, described once: the walker, its messages, the canonical text and the
 //! JSON Schema are all made from this description.
 
+mod engines;
 mod fields;
 mod json;
 mod launch;
 mod terms;
 
+pub(super) use engines::CERTAIN;
 pub(super) use fields::{range, root};
 pub(super) use json::json_schema;
 

@@ -1,0 +1,454 @@
+//! Sustained contact of one rim point: its two modes and what ends them.
+//!
+//! ```text
+//!             ┌── cone reached ──▶
+//!   sticking                       sliding ── no force holds it (Painlevé) ──▶ tangential impact
+//!             ◀── slip vanishes ──┘
+//!   either ── normal force vanishes ──▶ flight
+//!   either ── the other rim comes down, or the tilt vanishes ──▶ impact there
+//! ```
+
+use super::integrator::{Trial, next_length, step};
+use super::rim::{Law, Mode, OMEGA_A, OMEGA_T, OMEGA_Y, Rates, RimState, SLIP_X, SLIP_Y, TILT};
+use crate::impact::{Impulse, Touch, jam};
+use crate::motion::{Motion, Spin};
+use crate::series::sin_cos;
+use crate::settings::Settings;
+use crate::verdict::{Judge, Verdict};
+use coinmc_core::EventKind;
+use std::f64::consts::FRAC_PI_2;
+
+/// How sustained contact ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Leave {
+    /// The contact force has vanished: flight.
+    LiftOff,
+    /// The other rim has come down: the coin lies along its side, cos = 0, and still tilts.
+    OtherRim,
+    /// The tilt has vanished: the opposite point of the rim has come down.
+    Upright,
+    /// The face is settled.
+    Settled(Verdict),
+    /// The motion repeats itself without loss.
+    Endless,
+    /// Out of time.
+    Late,
+    /// Out of steps, or not a number.
+    Lost,
+}
+
+/// Angle within which the other rim has come down, rad; the rest is an energy of 1e-12 at most.
+const DOWN: f64 = 1e-12;
+/// Tilt at which the opposite point of the rim has come down, rad: a coin that does not roll round
+/// the rim before comes down on all of it.
+const FLAT: f64 = 1e-6;
+/// Least length of a step, in sqrt(D/g): below it the integrator gives up.
+const LEAST_STEP: f64 = 1e-13;
+/// A slip that brakes is followed to this fraction of itself in one step.
+const BRAKE: f64 = 0.05;
+/// Painlevé: K_zz − μ K_xz n_x below this (it is 1 + rx²/kt without friction) counts as 0.
+const YIELD: f64 = 1e-3;
+/// Turning points of the tilt after which a conserving motion is seen to repeat itself.
+const TURNING_POINTS: u32 = 3;
+
+/// Contact of one toss: the laws in force, and its counters.
+pub(crate) struct Contact<'a> {
+    pub(crate) law: &'a Law,
+    pub(crate) judge: &'a Judge,
+    pub(crate) settings: &'a Settings,
+    pub(crate) steps: u32,
+    pub(crate) jams: u32,
+    pub(crate) time: f64,
+}
+
+/// A phase on one rim point.
+struct Phase {
+    state: RimState<f64>,
+    mode: Mode,
+    now: Rates<f64>,
+    /// Length of the next step.
+    length: f64,
+    turning_points: u32,
+}
+
+/// What a step led to.
+enum Next {
+    Go,
+    /// Sticking or sliding changes; decided anew.
+    Change,
+    End(Leave),
+}
+
+impl Contact<'_> {
+    /// Follows sustained contact from `motion`, which is left where it ends. `watch` is told of
+    /// every mode and every step (`None`), with the length of the step.
+    pub(crate) fn follow(
+        &mut self,
+        motion: &mut Motion<f64>,
+        spin: &mut Spin<f64>,
+        mut watch: impl FnMut(Option<EventKind>, f64, &Motion<f64>, &Spin<f64>),
+    ) -> Leave {
+        let state = rim_state(self.law, motion, spin);
+        let mut phase = self.enter(state);
+        let rate = (1.0 + spin.tilt * spin.tilt + spin.axial * spin.axial).sqrt();
+        phase.length = 0.1 / rate;
+        watch(Some(kind(phase.mode)), 0.0, motion, spin);
+        loop {
+            let verdict = self.judge.verdict(motion, spin);
+            if verdict != Verdict::Open {
+                return Leave::Settled(verdict);
+            }
+            if self.steps >= self.settings.max_impacts {
+                return Leave::Lost;
+            }
+            if self.time > self.settings.time_limit {
+                return Leave::Late;
+            }
+            let before = motion.kinetic(&self.law.body, spin) + motion.z;
+            let (next, length) = self.advance(&mut phase);
+            self.time += length;
+            self.cap(&mut phase, motion, spin, before);
+            watch(None, length, motion, spin);
+            match next {
+                Next::Go => {}
+                Next::Change => {
+                    let length = phase.length;
+                    phase = self.enter(phase.state);
+                    phase.length = length;
+                    place(self.law, &phase.state, motion, spin);
+                    watch(Some(kind(phase.mode)), 0.0, motion, spin);
+                }
+                Next::End(leave) => return leave,
+            }
+        }
+    }
+
+    /// The motion of the phase's state, with no more energy than `before`.
+    fn cap(
+        &self,
+        phase: &mut Phase,
+        motion: &mut Motion<f64>,
+        spin: &mut Spin<f64>,
+        before: f64,
+    ) {
+        place(self.law, &phase.state, motion, spin);
+        let body = &self.law.body;
+        let kinetic = motion.kinetic(body, spin);
+        let allowed = before - motion.z;
+        if kinetic > allowed {
+            let scale = (allowed.max(0.0) / kinetic).sqrt();
+            for component in &mut phase.state[OMEGA_Y..=SLIP_Y] {
+                *component *= scale;
+            }
+            place(self.law, &phase.state, motion, spin);
+        }
+    }
+
+    /// Sticks if it can and the slip is all but gone, else slides.
+    fn enter(&mut self, state: RimState<f64>) -> Phase {
+        let slip = (state[SLIP_X] * state[SLIP_X] + state[SLIP_Y] * state[SLIP_Y]).sqrt();
+        let mu = self.law.friction.mu;
+        let phase = |state, mode| Phase {
+            state,
+            mode,
+            now: self.law.rates(&state, mode),
+            length: 0.0,
+            turning_points: 0,
+        };
+        if mu > 0.0 && slip <= self.settings.stick {
+            let held = change_slip(self.law, &state, 0.0, 0.0);
+            let stick = phase(held, Mode::Stick);
+            let [fx, fy] = stick.now.friction;
+            let needed = (fx * fx + fy * fy).sqrt();
+            if stick.now.normal > 0.0 && needed < mu * stick.now.normal {
+                return stick;
+            }
+            // it gives way against the friction that holding it would need
+            if slip <= 0.3 * self.settings.stick && needed > 0.0 {
+                let seed = -0.3 * self.settings.stick / needed;
+                return phase(change_slip(self.law, &state, seed * fx, seed * fy), Mode::Slip);
+            }
+        }
+        phase(state, Mode::Slip)
+    }
+
+    /// One step of the integration; the time it took.
+    fn advance(&mut self, phase: &mut Phase) -> (Next, f64) {
+        if phase.now.press <= 0.0 {
+            return (Next::End(Leave::LiftOff), 0.0);
+        }
+        if phase.mode == Mode::Slip && phase.now.yields < YIELD {
+            return (self.jammed(phase), 0.0);
+        }
+        let mut length = phase.length.min(self.braking_limit(phase));
+        loop {
+            self.steps += 1;
+            if length < LEAST_STEP || self.steps >= self.settings.max_impacts {
+                return (Next::End(Leave::Lost), 0.0);
+            }
+            let (trial, now) = self.attempt(phase, length);
+            if !(trial.error <= 1.0) {
+                length = if trial.error.is_finite() {
+                    next_length(length, trial.error)
+                } else {
+                    0.2 * length
+                };
+                continue;
+            }
+            let wanted = next_length(length, trial.error);
+            return self.accept(phase, &trial, &now, length, wanted);
+        }
+    }
+
+    fn attempt(&self, phase: &Phase, length: f64) -> (Trial<f64, 6>, Rates<f64>) {
+        let mut last = phase.now;
+        let trial = step(
+            &phase.state,
+            &phase.now.rates,
+            length,
+            self.settings.tolerance,
+            |state| {
+                last = self.law.rates(state, phase.mode);
+                last.rates
+            },
+        );
+        (trial, last)
+    }
+
+    /// Sees whether an accepted step passes an event; if so the phase goes to the event instead.
+    fn accept(
+        &mut self,
+        phase: &mut Phase,
+        trial: &Trial<f64, 6>,
+        now: &Rates<f64>,
+        length: f64,
+        wanted: f64,
+    ) -> (Next, f64) {
+        let tilt = trial.state[TILT];
+        if tilt > FRAC_PI_2 - DOWN && trial.state[OMEGA_Y] > 0.0 {
+            return self.reach(phase, trial, length, FRAC_PI_2, Leave::OtherRim);
+        }
+        if tilt < FLAT {
+            return self.reach(phase, trial, length, FLAT, Leave::Upright);
+        }
+        if self.holds(phase.mode, now) {
+            if phase.mode == Mode::Stick && trial.state[OMEGA_Y] * phase.state[OMEGA_Y] < 0.0 {
+                phase.turning_points += 1;
+            }
+            phase.state = trial.state;
+            phase.now = *now;
+            phase.length = wanted;
+            return (self.after_step(phase), length);
+        }
+        let (fraction, state, now) = self.locate(phase, trial);
+        phase.state = state;
+        phase.now = now;
+        phase.length = wanted;
+        let next = if now.press <= 0.0 {
+            Next::End(Leave::LiftOff)
+        } else if phase.mode == Mode::Slip && now.yields < YIELD {
+            self.jammed(phase)
+        } else {
+            Next::Change
+        };
+        (next, fraction * length)
+    }
+
+    /// Whether the mode is still consistent.
+    fn holds(&self, mode: Mode, now: &Rates<f64>) -> bool {
+        if now.press <= 0.0 {
+            return false;
+        }
+        match mode {
+            Mode::Slip => now.yields >= YIELD,
+            Mode::Stick => {
+                let [fx, fy] = now.friction;
+                let most = self.law.friction.mu * now.normal;
+                now.normal > 0.0 && fx * fx + fy * fy <= most * most
+            }
+        }
+    }
+
+    /// The first moment of the step at which the mode no longer holds, by bisection of the dense
+    /// output: its own error is that of the step, so a thousandth of the step is close enough.
+    fn locate(
+        &self,
+        phase: &Phase,
+        trial: &Trial<f64, 6>,
+    ) -> (f64, RimState<f64>, Rates<f64>) {
+        let (mut low, mut high) = (0.0, 1.0);
+        let mut found = (trial.state, self.law.rates(&trial.state, phase.mode));
+        while high - low > 1e-3 {
+            let middle = 0.5 * (low + high);
+            let state = trial.between(&phase.state, middle);
+            let now = self.law.rates(&state, phase.mode);
+            if self.holds(phase.mode, &now) {
+                low = middle;
+            } else {
+                high = middle;
+                found = (state, now);
+            }
+        }
+        (high, found.0, found.1)
+    }
+
+    /// Ends the step where the tilt reaches `goal`.
+    fn reach(
+        &mut self,
+        phase: &mut Phase,
+        trial: &Trial<f64, 6>,
+        length: f64,
+        goal: f64,
+        leave: Leave,
+    ) -> (Next, f64) {
+        let beyond = |state: &RimState<f64>| (state[TILT] - goal).abs() <= DOWN;
+        let start = phase.state[TILT] - goal;
+        let (mut low, mut high) = (0.0, length);
+        let mut at = length;
+        let mut state = trial.state;
+        for _ in 0..40 {
+            if beyond(&state) {
+                break;
+            }
+            let gap = state[TILT] - goal;
+            if gap * start > 0.0 {
+                low = at;
+            } else {
+                high = at;
+            }
+            let newton = at - gap / state[OMEGA_Y];
+            at = if newton > low && newton < high {
+                newton
+            } else {
+                0.5 * (low + high)
+            };
+            self.steps += 1;
+            state = self.attempt(phase, at).0.state;
+        }
+        state[TILT] = goal;
+        phase.state = state;
+        (Next::End(leave), at)
+    }
+
+    fn after_step(&self, phase: &Phase) -> Next {
+        let state = &phase.state;
+        match phase.mode {
+            Mode::Stick => {
+                let conserves = !self.law.friction.twists() && !self.law.drag.acts();
+                if conserves && phase.turning_points >= TURNING_POINTS {
+                    return Next::End(Leave::Endless);
+                }
+                Next::Go
+            }
+            Mode::Slip => {
+                let [.., gx, gy] = *state;
+                let slip = (gx * gx + gy * gy).sqrt();
+                let brakes = gx * phase.now.rates[SLIP_X] + gy * phase.now.rates[SLIP_Y] < 0.0;
+                if self.law.friction.mu > 0.0 && slip <= self.settings.stick && brakes {
+                    Next::Change
+                } else {
+                    Next::Go
+                }
+            }
+        }
+    }
+
+    /// A braking slip is not stepped across: its direction would flip within the step.
+    fn braking_limit(&self, phase: &Phase) -> f64 {
+        if phase.mode == Mode::Stick || self.law.friction.mu == 0.0 {
+            return f64::INFINITY;
+        }
+        let [.., gx, gy] = phase.state;
+        let braking = -(gx * phase.now.rates[SLIP_X] + gy * phase.now.rates[SLIP_Y]);
+        if braking <= 0.0 {
+            return f64::INFINITY;
+        }
+        (1.0 - BRAKE) * (gx * gx + gy * gy) / braking
+    }
+
+    /// Painlevé's configuration: an impulse at the contact, without approach, ends the slip.
+    fn jammed(&mut self, phase: &mut Phase) -> Next {
+        self.jams += 1;
+        phase.state = kicked(self.law, &phase.state, |touch| {
+            jam(&self.law.body, &self.law.friction, touch)
+        });
+        Next::Change
+    }
+}
+
+fn kind(mode: Mode) -> EventKind {
+    match mode {
+        Mode::Stick => EventKind::Sticking,
+        Mode::Slip => EventKind::Sliding,
+    }
+}
+
+/// The contact's state of a motion whose lowest point stays on the surface.
+fn rim_state(law: &Law, motion: &Motion<f64>, spin: &Spin<f64>) -> RimState<f64> {
+    let touch = motion.touch(&law.body, spin);
+    [
+        libm::atan2(motion.sin, motion.cos),
+        spin.tilt,
+        spin.axial,
+        spin.turn,
+        touch.slip_x,
+        touch.slip_y,
+    ]
+}
+
+/// The motion of a state.
+fn place(law: &Law, state: &RimState<f64>, motion: &mut Motion<f64>, spin: &mut Spin<f64>) {
+    let (s, c) = sin_cos(state[TILT]);
+    let (radius, half) = (law.body.radius, law.body.half);
+    *spin = Spin {
+        tilt: state[OMEGA_Y],
+        axial: state[OMEGA_A],
+        turn: state[OMEGA_T],
+    };
+    motion.set_tilt(s, c);
+    motion.vx = state[SLIP_X] + spin.tilt * (half * c + radius * s);
+    motion.vy = state[SLIP_Y] - radius * spin.axial - half * spin.turn;
+    motion.vz = spin.tilt * (radius * c - half * s);
+    motion.z = half * c + radius * s;
+    motion.set_spin(spin, law.axial_factor);
+}
+
+/// The state with another slip, by an impulse at the contact that leaves its normal velocity.
+fn change_slip(law: &Law, state: &RimState<f64>, gx: f64, gy: f64) -> RimState<f64> {
+    let mut after = kicked(law, state, |touch| {
+        let k = touch.matrix(&law.body);
+        // at constant normal velocity; det K = K_xx + K_zz − 1 in the xz plane
+        let x = (gx - touch.slip_x) * k.zz / (k.xx + k.zz - 1.0);
+        Impulse {
+            x,
+            y: (gy - touch.slip_y) / k.yy,
+            z: -(k.xz / k.zz) * x,
+            contour: 0.0,
+            pivoting: 0.0,
+        }
+    });
+    (after[SLIP_X], after[SLIP_Y]) = (gx, gy);
+    after
+}
+
+/// The state after an impulse at the contact.
+fn kicked(
+    law: &Law,
+    state: &RimState<f64>,
+    impulse: impl FnOnce(&Touch<f64>) -> Impulse<f64>,
+) -> RimState<f64> {
+    let mut motion = Motion::still();
+    let mut spin = Spin::still();
+    place(law, state, &mut motion, &mut spin);
+    let touch = motion.touch(&law.body, &spin);
+    motion.strike(&mut spin, &law.body, &touch, impulse(&touch));
+    let after = motion.touch(&law.body, &spin);
+    [
+        state[TILT],
+        spin.tilt,
+        spin.axial,
+        spin.turn,
+        after.slip_x,
+        after.slip_y,
+    ]
+}

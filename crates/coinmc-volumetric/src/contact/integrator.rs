@@ -1,0 +1,126 @@
+//! One step of an embedded Runge–Kutta pair: Dormand & Prince 5(4), J. Comput. Appl. Math. 6
+//! (1980) 19. The last stage of a step is the first of the next (six evaluations a step).
+
+use crate::lane::Lane;
+
+/// A trial step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Trial<L, const N: usize> {
+    pub(crate) state: [L; N],
+    /// Rates at the end.
+    pub(crate) rates: [L; N],
+    /// Square of the estimated error over the error allowed, root mean square over the
+    /// components: accept at <= 1.
+    pub(crate) error: L,
+    h: L,
+    stages: [[L; N]; 6],
+}
+
+/// Takes a step of length `h` from `state`, whose rates are `first`.
+#[inline(always)]
+pub(crate) fn step<L: Lane, const N: usize>(
+    state: &[L; N],
+    first: &[L; N],
+    h: L,
+    tolerance: f64,
+    mut rates: impl FnMut(&[L; N]) -> [L; N],
+) -> Trial<L, N> {
+    let along = |terms: &[(f64, &[L; N])]| -> [L; N] {
+        std::array::from_fn(|i| {
+            let mut sum = L::splat(0.0);
+            for (weight, k) in terms {
+                sum += L::splat(*weight) * k[i];
+            }
+            state[i] + h * sum
+        })
+    };
+    let k1 = first;
+    let k2 = &rates(&along(&[(1.0 / 5.0, k1)]));
+    let k3 = &rates(&along(&[(3.0 / 40.0, k1), (9.0 / 40.0, k2)]));
+    let k4 = &rates(&along(&[(44.0 / 45.0, k1), (-56.0 / 15.0, k2), (32.0 / 9.0, k3)]));
+    let k5 = &rates(&along(&[
+        (19_372.0 / 6_561.0, k1),
+        (-25_360.0 / 2_187.0, k2),
+        (64_448.0 / 6_561.0, k3),
+        (-212.0 / 729.0, k4),
+    ]));
+    let k6 = &rates(&along(&[
+        (9_017.0 / 3_168.0, k1),
+        (-355.0 / 33.0, k2),
+        (46_732.0 / 5_247.0, k3),
+        (49.0 / 176.0, k4),
+        (-5_103.0 / 18_656.0, k5),
+    ]));
+    let end = along(&[
+        (35.0 / 384.0, k1),
+        (500.0 / 1_113.0, k3),
+        (125.0 / 192.0, k4),
+        (-2_187.0 / 6_784.0, k5),
+        (11.0 / 84.0, k6),
+    ]);
+    let k7 = rates(&end);
+    let error = [
+        (71.0 / 57_600.0, k1),
+        (-71.0 / 16_695.0, k3),
+        (71.0 / 1_920.0, k4),
+        (-17_253.0 / 339_200.0, k5),
+        (22.0 / 525.0, k6),
+        (-1.0 / 40.0, &k7),
+    ];
+    let mut squares = L::splat(0.0);
+    for i in 0..N {
+        let sum = weighted(&error, i);
+        let scale = L::splat(tolerance) * (L::splat(1.0) + state[i].abs().max(end[i].abs()));
+        let relative = h * sum / scale;
+        squares += relative * relative;
+    }
+    Trial {
+        state: end,
+        rates: k7,
+        error: squares * L::splat(1.0 / N as f64),
+        h,
+        stages: [*k1, *k3, *k4, *k5, *k6, k7],
+    }
+}
+
+#[inline(always)]
+fn weighted<L: Lane, const N: usize>(terms: &[(f64, &[L; N])], i: usize) -> L {
+    let mut sum = L::splat(0.0);
+    for (weight, k) in terms {
+        sum += L::splat(*weight) * k[i];
+    }
+    sum
+}
+
+impl<L: Lane, const N: usize> Trial<L, N> {
+    /// The state at the fraction `x` of the step: the fourth-order dense output of Hairer, Nørsett
+    /// & Wanner, Solving Ordinary Differential Equations I, II.6.
+    pub(crate) fn between(&self, start: &[L; N], x: L) -> [L; N] {
+        let [k1, k3, k4, k5, k6, k7] = &self.stages;
+        let weights = [
+            (-12_715_105_075.0 / 11_282_082_432.0, k1),
+            (87_487_479_700.0 / 32_700_410_799.0, k3),
+            (-10_690_763_975.0 / 1_880_347_072.0, k4),
+            (701_980_252_875.0 / 199_316_789_632.0, k5),
+            (-1_453_857_185.0 / 822_651_844.0, k6),
+            (69_997_945.0 / 29_380_423.0, k7),
+        ];
+        let rest = L::splat(1.0) - x;
+        std::array::from_fn(|i| {
+            let chord = self.state[i] - start[i];
+            let bow = self.h * k1[i] - chord;
+            let sway = chord - self.h * k7[i] - bow;
+            let inner = bow + x * (sway + rest * (self.h * weighted(&weights, i)));
+            start[i] + x * (chord + rest * inner)
+        })
+    }
+}
+
+/// The length of the next step after one of length `h` with this (squared) error:
+/// h·0.9·error^(−1/4), changed at most fivefold. (The fifth root that theory asks for is not an
+/// IEEE operation; the fourth corrects a little more and keeps the order.)
+#[inline(always)]
+pub(crate) fn next_length<L: Lane>(h: L, error: L) -> L {
+    let factor = L::splat(0.9) / error.max(L::splat(1e-24)).sqrt().sqrt().sqrt();
+    h * factor.min(L::splat(5.0)).max(L::splat(0.2))
+}

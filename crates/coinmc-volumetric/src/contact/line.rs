@@ -1,0 +1,147 @@
+//! Sustained contact on the side: both rims on the surface, no tilt.
+//!
+//! With u = (1, 0, 0) the two contact points are r = (∓h, 0, −R) and slide at
+//! γ_i = (v_x, v_y + R ω_a ∓ h ω_z). In the frame that turns with ω_z,
+//!
+//! v_x' = ω_z v_y + f_x,  v_y' = −ω_z v_x + f_y,  k_a ω_a' = R f_y − ρ_c σ_c,
+//! k_t ω_z' = h (f_2y − f_1y) − ρ_p σ_p,
+//!
+//! with N_1 + N_2 = 1 (m g) and, as the coin does not tilt,
+//! h (N_1 − N_2) = k_t Ω_a ω_z + R f_x, Ω_a = ω_a I_a/I_t: where that asks for a negative force,
+//! the coin tips onto the other rim. Friction is f_i = −μ N_i γ_i/√(γ_i² + ε²): sticking is a creep
+//! slower than ε. Straight rolling and sliding is the textbook's: a slip v_y + R ω_a decays at
+//! the rate μ(1 + R²/k_a), and ω_a of a rolling coin at ρ_c/(k_a + R²).
+
+use super::follow::{Contact, Leave};
+use super::integrator::{next_length, step};
+use super::rim::Law;
+use crate::motion::{Motion, Spin};
+use crate::verdict::Verdict;
+
+/// v_x, v_y, ω_a, ω_z.
+type LineState = [f64; 4];
+
+/// Slip, in sqrt(g D), below which a conserving coin counts as rolling straight on for ever.
+const STRAIGHT: f64 = 1e-9;
+/// Least length of a step, in sqrt(D/g).
+const LEAST_STEP: f64 = 1e-13;
+
+/// Rates, and the normal force on the rim at r = (−h, 0, −R).
+struct LineRates {
+    rates: LineState,
+    first: f64,
+}
+
+fn line_rates(law: &Law, state: &LineState, creep: f64) -> LineRates {
+    let [vx, vy, wa, wz] = *state;
+    let body = &law.body;
+    let slip = [
+        vy + body.radius * wa - body.half * wz,
+        vy + body.radius * wa + body.half * wz,
+    ];
+    let slide = |y: f64| {
+        let scale = -law.friction.mu / (vx * vx + y * y + creep * creep).sqrt();
+        (scale * vx, scale * y)
+    };
+    let ((x1, y1), (x2, y2)) = (slide(slip[0]), slide(slip[1]));
+    // h (2 N₁ − 1) = k_t Ω_a ω_z + R (N₁ x₁ + (1 − N₁) x₂)
+    let gyro = body.kt * law.axial_factor * wa * wz;
+    let first =
+        (gyro + body.half + body.radius * x2) / (2.0 * body.half - body.radius * (x1 - x2));
+    let second = 1.0 - first;
+    let (fx, f1, f2) = (first * x1 + second * x2, first * y1 + second * y2, second * y2 - first * y1);
+    let (contour, pivoting) = law.twist(1.0, 0.0, wa, -wz);
+    let (linear, angular) = (law.drag.linear, law.drag.angular);
+    LineRates {
+        rates: [
+            wz * vy + fx - linear * vx,
+            -wz * vx + f1 - linear * vy,
+            (body.radius * f1 - contour) / body.ka - angular * wa,
+            (body.half * f2 + pivoting) / body.kt - angular * wz,
+        ],
+        first,
+    }
+}
+
+impl Contact<'_> {
+    /// Follows the coin on its side until its face is settled or it tips. `true`: onto the rim
+    /// that is lowest for the frame of `motion`; `false`: onto the other.
+    pub(crate) fn lie(
+        &mut self,
+        motion: &mut Motion<f64>,
+        spin: &mut Spin<f64>,
+        mut watch: impl FnMut(f64, &Motion<f64>, &Spin<f64>),
+    ) -> Result<bool, Leave> {
+        let creep = self.settings.stick;
+        // ω_z = −ω_θ where u is horizontal
+        let mut state = [motion.vx, motion.vy, spin.axial, -spin.turn];
+        let mut length = 0.01;
+        loop {
+            lay(self.law, &state, motion, spin);
+            let verdict = self.judge.verdict(motion, spin);
+            if verdict != Verdict::Open {
+                return Err(Leave::Settled(verdict));
+            }
+            let now = line_rates(self.law, &state, creep);
+            // not a number tips neither way, and is found out by the integrator
+            if now.first >= 1.0 || now.first <= 0.0 {
+                return Ok(now.first >= 1.0);
+            }
+            if self.rolls_for_ever(&state) {
+                return Err(Leave::Endless);
+            }
+            if self.time > self.settings.time_limit {
+                return Err(Leave::Late);
+            }
+            let before = motion.kinetic(&self.law.body, spin);
+            let trial = loop {
+                self.steps += 1;
+                if self.steps >= self.settings.max_impacts || !(length >= LEAST_STEP) {
+                    return Err(Leave::Lost);
+                }
+                let trial = step(&state, &now.rates, length, self.settings.tolerance, |s| {
+                    line_rates(self.law, s, creep).rates
+                });
+                if trial.error <= 1.0 {
+                    break trial;
+                }
+                length = if trial.error.is_finite() {
+                    next_length(length, trial.error)
+                } else {
+                    0.2 * length
+                };
+            };
+            state = trial.state;
+            self.time += length;
+            lay(self.law, &state, motion, spin);
+            let kinetic = motion.kinetic(&self.law.body, spin);
+            if kinetic > before {
+                let scale = (before / kinetic).sqrt();
+                state = state.map(|x| x * scale);
+            }
+            watch(length, motion, spin);
+            length = next_length(length, trial.error);
+        }
+    }
+
+    /// Straight rolling without anything that takes energy.
+    fn rolls_for_ever(&self, state: &LineState) -> bool {
+        let [vx, vy, wa, wz] = *state;
+        let body = &self.law.body;
+        let slip = (vy + body.radius * wa).abs() + (body.half * wz).abs() + vx.abs();
+        self.law.friction.contour == 0.0 && !self.law.drag.acts() && slip < STRAIGHT
+    }
+}
+
+/// The motion of a coin on its side.
+fn lay(law: &Law, state: &LineState, motion: &mut Motion<f64>, spin: &mut Spin<f64>) {
+    let [vx, vy, wa, wz] = *state;
+    *spin = Spin {
+        axial: wa,
+        turn: -wz,
+        tilt: 0.0,
+    };
+    motion.set_tilt(1.0, 0.0);
+    (motion.vx, motion.vy, motion.vz, motion.z) = (vx, vy, 0.0, law.body.radius);
+    motion.set_spin(spin, law.axial_factor);
+}

@@ -1,0 +1,9 @@
+//! Sustained contact: on one rim point, and on the side.
+
+mod follow;
+mod integrator;
+mod line;
+pub(crate) mod rim;
+
+pub(crate) use follow::{Contact, Leave};
+pub(crate) use rim::Law;

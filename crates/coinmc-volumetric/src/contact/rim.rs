@@ -1,0 +1,261 @@
+//! Sustained contact of one rim point: the equations of motion.
+//!
+//! # State
+//! The tilt θ of u, ω in the triad (u, e_θ, y), and the slip γ of the contact point. The centre
+//! follows: v = (γx − ω_y rz, γy − R ω_a − h ω_θ, ω_y rx), h = H/2, because the contact point
+//! stays on the surface.
+//!
+//! # Derivation
+//! The triad turns with W = (φ'c, ω_θ, ω_y), where φ' = −ω_θ/s is the rate of the azimuth, so
+//! dL/dt + W × L = τ gives, with G = ω_θ(Ω_a − φ'c), Ω_a = ω_a I_a/I_t,
+//!
+//! ω_y' = G + (rz fx − rx N)/kt,
+//! ω_a' = (R fy − N t_a)/ka,
+//! ω_θ' = ω_y(φ'c − Ω_a) + (h fy − N t_θ)/kt,
+//! t_a = ρ_c σ_c + ρ_p σ_p c,  t_θ = ρ_c σ_c c/s − ρ_p σ_p s,
+//!
+//! σ_c and σ_p being the signs of ψ' = ω_a + ω_θ c/s and ω_z = ω_a c − ω_θ s. With
+//! rx' = rz ω_y and rz' = −rx ω_y, the accelerations of the contact point are
+//!
+//! γ' = K_h f + K_xz N + b,  0 = Kxz fx + Kzz N + bz,
+//! bx = φ'vy + rz G − rx ω_y²,
+//! by = −φ'vx + h ω_y(φ'c − Ω_a) − N(R t_a/ka + h t_θ/kt),
+//! bz = −1 − rz ω_y² − rx G.
+//!
+//! Stick asks γ' = 0, slip f = −μ N γ/|γ|. Drag adds −k v to the centre's acceleration and −k_a ω
+//! to ω'. Without gyroscopic torque Ω_a = ω_a. (Le Saux, Leine & Glocker, J. Nonlinear Sci. 15
+//! (2005) 27; contour and pivoting friction as in Leine, Arch. Appl. Mech. 79 (2009) 1063.)
+
+use crate::body::{Body, Friction};
+use crate::flight::Drag;
+use crate::lane::Lane;
+use crate::motion::{Motion, Spin};
+use crate::series::sin_cos;
+
+/// Components of the state, in the order of the integrator's vector.
+pub(crate) const TILT: usize = 0;
+pub(crate) const OMEGA_Y: usize = 1;
+pub(crate) const OMEGA_A: usize = 2;
+pub(crate) const OMEGA_T: usize = 3;
+pub(crate) const SLIP_X: usize = 4;
+pub(crate) const SLIP_Y: usize = 5;
+
+/// (θ, ω_y, ω_a, ω_θ, γx, γy).
+pub(crate) type RimState<L> = [L; 6];
+
+/// The scene as contact sees it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Law {
+    pub(crate) body: Body,
+    pub(crate) friction: Friction,
+    pub(crate) drag: Drag,
+    /// Ω_a/ω_a: I_a/I_t with gyroscopic torque, 1 without.
+    pub(crate) axial_factor: f64,
+    /// See [`faded_sign`].
+    pub(crate) fade: f64,
+}
+
+/// Whether the contact point is held or slides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Mode {
+    Stick,
+    Slip,
+}
+
+/// Forces and rates of a state.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Rates<L> {
+    pub(crate) rates: RimState<L>,
+    /// Normal force, m g.
+    pub(crate) normal: L,
+    /// Friction force needed (stick) or acting (slip), m g.
+    pub(crate) friction: [L; 2],
+    /// Acceleration with which the free contact point would press into the surface: −bz.
+    pub(crate) press: L,
+    /// Kzz − μ Kxz nx: where it is not positive no force lets the point go on sliding (Painlevé).
+    pub(crate) yields: L,
+}
+
+/// sign(rate) of dry friction that slows `rate` down by `braking` (per normal force), fading
+/// linearly to 0 where it would stop within the time `fade`: the rate of the fading is 1/fade
+/// however light the part that turns.
+#[inline(always)]
+fn faded_sign<L: Lane>(rate: L, braking: L, fade: f64) -> L {
+    let band = (braking * L::splat(fade)).max(L::splat(f64::MIN_POSITIVE));
+    (rate / band).min(L::splat(1.0)).max(L::splat(-1.0))
+}
+
+impl Law {
+    /// Rates and forces of `state`, in stick or slip.
+    #[inline(always)]
+    pub(crate) fn rates<L: Lane>(&self, state: &RimState<L>, mode: Mode) -> Rates<L> {
+        let k = L::splat;
+        let [tilt, wy, wa, wt, gx, gy] = *state;
+        let (s, c) = sin_cos(tilt);
+        let (radius, half) = (k(self.body.radius), k(self.body.half));
+        let (ikt, ika) = (k(1.0 / self.body.kt), k(1.0 / self.body.ka));
+        let rx = radius * c - half * s;
+        let rz = -(half * c + radius * s);
+        let azimuth = -(wt / s);
+        let excess = k(self.axial_factor) * wa - azimuth * c;
+        let drag_turn = k(self.drag.angular);
+        let gyro_y = wt * excess - drag_turn * wy;
+        let vx = gx - wy * rz;
+        let vy = gy - radius * wa - half * wt;
+        let kxx = k(1.0) + rz * rz * ikt;
+        let kxz = -(rx * rz * ikt);
+        let kzz = k(1.0) + rx * rx * ikt;
+        let kyy = k(1.0) + half * half * ikt + radius * radius * ika;
+        let mut bx = azimuth * vy + rz * gyro_y - rx * wy * wy;
+        let mut bz = -(k(1.0) + rz * wy * wy + rx * gyro_y);
+        let mut by = -(azimuth * vx) - half * wy * excess;
+        if self.drag.acts() {
+            let linear = k(self.drag.linear);
+            bx -= linear * vx;
+            by -= linear * vy + drag_turn * (radius * wa + half * wt);
+            bz -= linear * wy * rx;
+        }
+        let (nx, ny) = direction(gx, gy);
+        let mu = k(self.friction.mu);
+        let (fx, normal, yields) = match mode {
+            Mode::Stick => {
+                let inverse = k(1.0) / (kxx * kzz - kxz * kxz);
+                (
+                    (kxz * bz - kzz * bx) * inverse,
+                    (kxz * bx - kxx * bz) * inverse,
+                    k(1.0),
+                )
+            }
+            Mode::Slip => {
+                let yields = kzz - mu * kxz * nx;
+                let normal = -(bz / yields);
+                (-(mu * normal * nx), normal, yields)
+            }
+        };
+        let (twist_a, twist_t) = self.twist(s, c, wa, wt);
+        by -= normal * (radius * twist_a * ika + half * twist_t * ikt);
+        let fy = match mode {
+            Mode::Stick => -(by / kyy),
+            Mode::Slip => -(mu * normal * ny),
+        };
+        let (slide_x, slide_y) = match mode {
+            Mode::Stick => (k(0.0), k(0.0)),
+            Mode::Slip => (kxx * fx + kxz * normal + bx, kyy * fy + by),
+        };
+        Rates {
+            rates: [
+                wy,
+                gyro_y + (rz * fx - rx * normal) * ikt,
+                (radius * fy - normal * twist_a) * ika - drag_turn * wa,
+                (half * fy - normal * twist_t) * ikt - wy * excess - drag_turn * wt,
+                slide_x,
+                slide_y,
+            ],
+            normal,
+            friction: [fx, fy],
+            press: -bz,
+            yields,
+        }
+    }
+
+    /// (t_a, t_θ): torques of contour and pivoting friction per normal force.
+    #[inline(always)]
+    pub(crate) fn twist<L: Lane>(&self, s: L, c: L, wa: L, wt: L) -> (L, L) {
+        if !self.friction.twists() {
+            return (L::splat(0.0), L::splat(0.0));
+        }
+        let (ikt, ika) = (L::splat(1.0 / self.body.kt), L::splat(1.0 / self.body.ka));
+        let (contour, pivoting) = (L::splat(self.friction.contour), L::splat(self.friction.pivoting));
+        let cot = c / s;
+        // ω_x = s ψ' and ω_z, and what the torques take from them
+        let (along, about) = (wa * s + wt * c, wa * c - wt * s);
+        let slows_along = contour * (s * ika + c * cot * ikt);
+        let slows_about = pivoting * (c * c * ika + s * s * ikt);
+        let contour = contour * faded_sign(along, slows_along, self.fade);
+        let pivoting = pivoting * faded_sign(about, slows_about, self.fade);
+        (contour + pivoting * c, contour * cot - pivoting * s)
+    }
+
+    /// ω_θ(Ω_a − φ'c): the gyroscopic part of ω_y', without drag.
+    #[inline(always)]
+    fn gyroscopic<L: Lane>(&self, m: &Motion<L>, spin: &Spin<L>) -> L {
+        let azimuth = -(spin.turn / m.sin);
+        spin.turn * (L::splat(self.axial_factor) * spin.axial - azimuth * m.cos)
+    }
+
+    /// The acceleration with which the contact point presses into the surface, were it free: −bz.
+    #[inline(always)]
+    pub(crate) fn press<L: Lane>(&self, m: &Motion<L>, spin: &Spin<L>) -> L {
+        let (radius, half) = (L::splat(self.body.radius), L::splat(self.body.half));
+        let rx = radius * m.cos - half * m.sin;
+        let rz = -(half * m.cos + radius * m.sin);
+        L::splat(1.0) + rz * spin.tilt * spin.tilt + rx * self.gyroscopic(m, spin)
+    }
+
+    /// How much more than 1 the press may be at most: |rx| <= 1.
+    #[inline(always)]
+    pub(crate) fn uplift<L: Lane>(&self, m: &Motion<L>, spin: &Spin<L>) -> L {
+        self.gyroscopic(m, spin).abs()
+    }
+
+    /// The fastest rate of a coin in contact: of rolling, tilting, precessing, toppling.
+    #[inline(always)]
+    pub(crate) fn fastest<L: Lane>(&self, m: &Motion<L>, spin: &Spin<L>) -> L {
+        let azimuth = spin.turn / m.sin;
+        (L::splat(1.0)
+            + spin.axial * spin.axial
+            + spin.tilt * spin.tilt
+            + azimuth * azimuth)
+            .sqrt()
+    }
+
+    /// Mechanical energy, m g D.
+    #[inline(always)]
+    pub(crate) fn energy<L: Lane>(&self, state: &RimState<L>) -> L {
+        let k = L::splat;
+        let (s, c) = sin_cos(state[TILT]);
+        k(self.body.half) * c + k(self.body.radius) * s + self.kinetic(state, s, c)
+    }
+
+    #[inline(always)]
+    pub(crate) fn kinetic<L: Lane>(&self, state: &RimState<L>, s: L, c: L) -> L {
+        let k = L::splat;
+        let [_, wy, wa, wt, gx, gy] = *state;
+        let (radius, half) = (k(self.body.radius), k(self.body.half));
+        let vx = gx + wy * (half * c + radius * s);
+        let vy = gy - radius * wa - half * wt;
+        let vz = wy * (radius * c - half * s);
+        let (kt, ka) = (k(self.body.kt), k(self.body.ka));
+        k(0.5) * (vx * vx + vy * vy + vz * vz + kt * (wy * wy + wt * wt) + ka * wa * wa)
+    }
+
+    /// Power taken by friction: μN|γ| + N(ρ_c|ψ'| + ρ_p|ω_z|), and by drag.
+    #[inline(always)]
+    pub(crate) fn power<L: Lane>(&self, state: &RimState<L>, now: &Rates<L>) -> L {
+        let k = L::splat;
+        let [tilt, wy, wa, wt, gx, gy] = *state;
+        let (s, c) = sin_cos(tilt);
+        let (twist_a, twist_t) = self.twist(s, c, wa, wt);
+        let slide = now.friction[0] * gx + now.friction[1] * gy;
+        let mut power = now.normal * (twist_a * wa + twist_t * wt) - slide;
+        if self.drag.acts() {
+            let (radius, half) = (k(self.body.radius), k(self.body.half));
+            let vx = gx + wy * (half * c + radius * s);
+            let vy = gy - radius * wa - half * wt;
+            let vz = wy * (radius * c - half * s);
+            let (kt, ka) = (k(self.body.kt), k(self.body.ka));
+            power += k(self.drag.linear) * (vx * vx + vy * vy + vz * vz)
+                + k(self.drag.angular) * (kt * (wy * wy + wt * wt) + ka * wa * wa);
+        }
+        power
+    }
+}
+
+/// The unit vector along (x, y); (1, 0) along nothing.
+#[inline(always)]
+pub(crate) fn direction<L: Lane>(x: L, y: L) -> (L, L) {
+    let length = (x * x + y * y).sqrt();
+    let none = length.le(L::splat(0.0));
+    let inverse = L::splat(1.0) / L::select(none, L::splat(1.0), length);
+    (L::select(none, L::splat(1.0), x * inverse), y * inverse)
+}

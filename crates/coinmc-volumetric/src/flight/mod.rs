@@ -1,0 +1,7 @@
+//! Free flight: closed form from contact to contact, and a first contact that is never missed.
+
+mod orbit;
+mod search;
+
+pub(crate) use orbit::{Drag, Orbit};
+pub(crate) use search::{Departure, Found, first_contact};

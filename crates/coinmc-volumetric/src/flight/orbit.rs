@@ -1,0 +1,290 @@
+//! Where the coin is in flight: closed form.
+//!
+//! u turns about the fixed vector Ω: with e = Ω/w, w = |Ω|, and the phase φ,
+//!
+//! u(φ) = a + b cos φ + d sin φ,  a = e(e·u), b = u − a, d = e × u.
+//!
+//! Without drag φ = wt and the centre follows a parabola. With linear drag k and angular drag k_a
+//! (v' = −kv − g, Ω' = −k_a Ω) the direction of Ω stays, φ = w t p(k_a t), and the centre is at
+//! z + v_z t p(kt) − g t² q(kt); p and q are those of [`decay`].
+
+use crate::body::Body;
+use crate::lane::Lane;
+use crate::motion::Motion;
+use crate::series::{decay, sin_cos};
+
+/// Rates of drag, in sqrt(g/D).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Drag {
+    pub(crate) linear: f64,
+    pub(crate) angular: f64,
+}
+
+impl Drag {
+    pub(crate) fn acts(self) -> bool {
+        self.linear != 0.0 || self.angular != 0.0
+    }
+}
+
+/// One flight from its start.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Orbit<L> {
+    a: [L; 3],
+    b: [L; 3],
+    d: [L; 3],
+    z: L,
+    vz: L,
+    /// w, the rate at which u turns.
+    rate: L,
+    /// The part of w that moves u, and the horizontal part of Ω.
+    across: L,
+    horizontal: L,
+    drag: Drag,
+    /// Time from the start of the flight to what this orbit calls t = 0.
+    elapsed: L,
+}
+
+/// The gap f = z − (height of the centre at which the lowest point touches), and what the search
+/// for its root needs.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Gap<L> {
+    pub(crate) z: L,
+    pub(crate) vz: L,
+    /// Horizontal and vertical parts of u.
+    pub(crate) sin: L,
+    pub(crate) uz: L,
+    /// Rate of change of uz.
+    pub(crate) uz_rate: L,
+    pub(crate) gap: L,
+    pub(crate) slope: L,
+    pub(crate) curvature: L,
+}
+
+/// Least horizontal part of u, so that quotients by it stay finite; it shifts the gap by less
+/// than rounding does.
+const LEAST_SIN: f64 = 1e-18;
+
+impl<L: Lane> Orbit<L> {
+    #[inline(always)]
+    pub(crate) fn new(m: &Motion<L>, drag: Drag) -> Self {
+        let zero = L::splat(0.0);
+        let square = m.ox * m.ox + m.oy * m.oy + m.oz * m.oz;
+        let rate = square.sqrt();
+        let turns = zero.lt(rate);
+        let inverse = L::select(turns, L::splat(1.0) / rate, zero);
+        let e = [m.ox * inverse, m.oy * inverse, m.oz * inverse];
+        let along = e[0] * m.sin + e[2] * m.cos;
+        let turn = m.ox * m.cos - m.oz * m.sin;
+        let a = [e[0] * along, e[1] * along, e[2] * along];
+        Self {
+            a,
+            b: [m.sin - a[0], -a[1], m.cos - a[2]],
+            d: [e[1] * m.cos, e[2] * m.sin - e[0] * m.cos, -(e[1] * m.sin)],
+            z: m.z,
+            vz: m.vz,
+            rate,
+            across: (turn * turn + m.oy * m.oy).sqrt(),
+            horizontal: (m.ox * m.ox + m.oy * m.oy).sqrt(),
+            drag,
+            elapsed: zero,
+        }
+    }
+
+    /// The same flight with time counted from `t` on: what is small then keeps its digits.
+    #[inline(always)]
+    pub(crate) fn rebase(&mut self, t: L) {
+        let (s, c, rate) = self.phase(t);
+        let (z, vz) = self.fall(t);
+        for i in 0..3 {
+            (self.b[i], self.d[i]) = (
+                self.b[i] * c + self.d[i] * s,
+                self.d[i] * c - self.b[i] * s,
+            );
+        }
+        (self.z, self.vz, self.rate) = (z, vz, rate);
+        self.elapsed += t;
+    }
+
+    /// Time from the start of the flight.
+    #[inline(always)]
+    pub(crate) fn since_start(&self, t: L) -> L {
+        self.elapsed + t
+    }
+
+    /// sin and cos of the phase, and its rate.
+    #[inline(always)]
+    fn phase(&self, t: L) -> (L, L, L) {
+        if self.drag.angular == 0.0 {
+            let (s, c) = sin_cos(self.rate * t);
+            return (s, c, self.rate);
+        }
+        let x = L::splat(self.drag.angular) * t;
+        let (p, _) = decay(x);
+        let (s, c) = sin_cos(self.rate * t * p);
+        (s, c, self.rate * (L::splat(1.0) - x * p))
+    }
+
+    /// Height and vertical velocity of the centre.
+    #[inline(always)]
+    pub(crate) fn fall(&self, t: L) -> (L, L) {
+        if self.drag.linear == 0.0 {
+            return (self.z + t * (self.vz - L::splat(0.5) * t), self.vz - t);
+        }
+        let x = L::splat(self.drag.linear) * t;
+        let (p, q) = decay(x);
+        (
+            self.z + t * (self.vz * p - t * q),
+            self.vz * (L::splat(1.0) - x * p) - t * p,
+        )
+    }
+
+    /// The centre is accelerated downwards by at most this from now on, when it rises at `vz`.
+    #[inline(always)]
+    pub(crate) fn strongest_pull(&self, vz: L) -> L {
+        L::splat(1.0) + L::splat(self.drag.linear) * vz.max(L::splat(0.0))
+    }
+
+    /// The centre is accelerated downwards by at least this from now on; negative if it falls
+    /// faster than drag lets it.
+    #[inline(always)]
+    pub(crate) fn weakest_pull(&self, vz: L) -> L {
+        if self.drag.linear == 0.0 {
+            return L::splat(1.0);
+        }
+        (L::splat(1.0) + L::splat(self.drag.linear) * vz).min(L::splat(0.0))
+    }
+
+    #[inline(always)]
+    pub(crate) fn gap(&self, body: &Body, t: L) -> Gap<L> {
+        let (s, c, rate) = self.phase(t);
+        let (z, vz) = self.fall(t);
+        let at = |i: usize| self.a[i] + (self.b[i] * c + self.d[i] * s);
+        let (ux, uy, uz) = (at(0), at(1), at(2));
+        let sin = (ux * ux + uy * uy).sqrt().max(L::splat(LEAST_SIN));
+        let uz_rate = rate * (self.d[2] * c - self.b[2] * s);
+        let mut uz_curve = -(rate * rate) * (uz - self.a[2]);
+        let mut fall_curve = L::splat(-1.0);
+        if self.drag.acts() {
+            uz_curve -= L::splat(self.drag.angular) * uz_rate;
+            fall_curve -= L::splat(self.drag.linear) * vz;
+        }
+        let (radius, half) = (L::splat(body.radius), L::splat(body.half));
+        // h = half|uz| + radius·sin, with sin' = −uz uz'/sin
+        let inverse = L::splat(1.0) / sin;
+        let lever = half.copysign(uz) - radius * uz * inverse;
+        let bend = radius * uz_rate * uz_rate * (inverse * inverse * inverse);
+        Gap {
+            z,
+            vz,
+            sin,
+            uz,
+            uz_rate,
+            gap: z - (half * uz.abs() + radius * sin),
+            slope: vz - uz_rate * lever,
+            curvature: fall_curve - uz_curve * lever + bend,
+        }
+    }
+
+    /// The motion at time `t`, in the frame of that moment, touching the surface; and whether the
+    /// frame was reflected.
+    #[inline(always)]
+    pub(crate) fn land(&self, m: &Motion<L>, body: &Body, t: L) -> (Motion<L>, [L; 2], L::Mask) {
+        let zero = L::splat(0.0);
+        let (s, c, _) = self.phase(t);
+        let (_, vz) = self.fall(t);
+        let at = |i: usize| self.a[i] + (self.b[i] * c + self.d[i] * s);
+        let (ux, uy, uz) = (at(0), at(1), at(2));
+        // exactly 1 but for rounding, which must not pile up over thousands of flights
+        let horizontal = ux * ux + uy * uy;
+        let scale = L::splat(1.5) - L::splat(0.5) * (horizontal + uz * uz);
+        let sin = horizontal.sqrt();
+        let reflected = uz.lt(zero);
+        let upright = !zero.lt(sin);
+        let inverse = L::select(upright, zero, L::splat(1.0) / sin);
+        let sign = L::splat(1.0).copysign(uz);
+        let nx = L::select(upright, L::splat(1.0), ux * inverse * sign);
+        let ny = uy * inverse * sign;
+        let mut after = *m;
+        let mut slow = L::splat(1.0);
+        let mut turn = L::splat(1.0);
+        if self.drag.acts() {
+            slow = remains(self.drag.linear, self.since_start(t));
+            turn = remains(self.drag.angular, self.since_start(t));
+        }
+        after.set_tilt(sin * scale, uz.abs() * scale);
+        after.vx = m.vx * slow;
+        after.vy = m.vy * slow;
+        after.vz = vz;
+        after.ox = m.ox * turn;
+        after.oy = m.oy * turn;
+        after.oz = m.oz * turn;
+        after.align(nx, ny);
+        after.z = after.rest_height(body);
+        (after, [nx, ny], reflected)
+    }
+
+    /// A rate above all of the flight's: of turning, and of toppling.
+    #[inline(always)]
+    pub(crate) fn fastest(&self) -> L {
+        L::splat(1.0) + self.rate
+    }
+
+    /// How far the centre goes sideways.
+    pub(crate) fn drift(&self, m: &Motion<L>, t: L) -> (L, L) {
+        let (p, _) = decay(L::splat(self.drag.linear) * t);
+        (m.vx * t * p, m.vy * t * p)
+    }
+
+    /// Bounds that hold for the whole flight.
+    #[inline(always)]
+    pub(crate) fn bounds(&self, body: &Body) -> Bounds<L> {
+        let amplitude = (self.b[2] * self.b[2] + self.d[2] * self.d[2]).sqrt();
+        let middle = self.a[2].abs();
+        let faster = self.rate + L::splat(self.drag.angular);
+        let swing = self.rate * faster * amplitude;
+        Bounds {
+            swing,
+            spread: swing * (middle + amplitude),
+            wander: self.across,
+            climb: self.horizontal * faster,
+            clear: highest(body, middle, amplitude),
+        }
+    }
+}
+
+/// The largest height h(uz) at which the lowest point can touch while uz stays within
+/// `amplitude` of ±`middle`. h grows up to |uz| = half (where it is 1) and falls beyond.
+#[inline(always)]
+fn highest<L: Lane>(body: &Body, middle: L, amplitude: L) -> L {
+    let (one, half) = (L::splat(1.0), L::splat(body.half));
+    let low = (middle - amplitude).max(L::splat(0.0));
+    let high = (middle + amplitude).min(one);
+    let nearest = half.max(low).min(high);
+    let sin = ((one - nearest) * (one + nearest)).max(L::splat(0.0)).sqrt();
+    // one rounding of each term may be lost: stay above
+    (half * nearest + L::splat(body.radius) * sin) * L::splat(1.0 + 1e-15)
+}
+
+/// e^(−kt).
+#[inline(always)]
+fn remains<L: Lane>(k: f64, t: L) -> L {
+    let x = L::splat(k) * t;
+    let (p, _) = decay(x);
+    // p is exact to rounding for any x, the difference from 1 is not: no energy is gained by it
+    (L::splat(1.0) - x * p).max(L::splat(0.0))
+}
+
+/// See [`Orbit::bounds`].
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Bounds<L> {
+    /// |uz''| is nowhere larger.
+    pub(crate) swing: L,
+    /// Half of (sin²)'' is nowhere larger.
+    pub(crate) spread: L,
+    /// u moves sideways no faster.
+    pub(crate) wander: L,
+    /// No point of the coin is accelerated upwards by the rotation more than this.
+    pub(crate) climb: L,
+    /// No contact while the centre is above this.
+    pub(crate) clear: L,
+}

@@ -1,0 +1,252 @@
+//! First contact of a flight: the first root of the gap f(t), never missed.
+//!
+//! # Below: where no root can be
+//! f is the smaller of the two rims' gaps f_b = z − b h uz − R sin, b = ±1 (h = H/2). From any
+//! moment on, with what [`Bounds`](super::orbit::Bounds) says of uz and sin:
+//!
+//! * sin = √(sin²) is concave in sin², so sin(τ) <= sin + sin'τ + ½(sin²)''_max τ²/(2 sin), and
+//!   f_b(τ) >= f_b + f_b'τ − ½M τ²,  M = 1 + h·swing + R·spread/sin;
+//! * where sin is small: sin(τ) <= sin + wander·τ, so
+//!   f_b(τ) >= f_b + (f_b' + R sin' − R wander) τ − ½(1 + h·swing) τ².
+//!
+//! The search steps to the first root of the better bound of the worse rim: no root is passed.
+//!
+//! # Above: where one must be
+//! A point of the coin that turns with Ω is accelerated downwards by at most
+//! climb = |Ω_h| w D, and no point is ever below the lowest: f(τ) <= f + f'τ + ½Gτ²,
+//! G = climb − 1, and f' − Gτ never grows. So once f' < 0 and f'² >= 2fG, f falls all the way to
+//! the root 2f/(√(f'² − 2fG) − f') of that parabola, with exactly one root of f before it. From
+//! there, Newton's method with the second-order term closes in, bisecting where it leaves the
+//! bracket.
+
+use super::orbit::{Bounds, Gap, Orbit};
+use crate::body::Body;
+use crate::lane::{Lane, Mask};
+
+/// Gap that counts as touching, in D: above the rounding of f (about 1e-15), below anything that
+/// matters (an energy of 1e-14 m g D).
+const TOUCH: f64 = 1e-14;
+/// Evaluations after which a flight is given up. The worst of the stress test need a tenth.
+const MAX_EVALUATIONS: u32 = 20_000;
+
+/// How the flight begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Departure {
+    /// Clear of the surface, or anywhere.
+    Launched,
+    /// The lowest point was just thrown back or lifted off: it does not approach, but for rounding.
+    Leaving,
+}
+
+/// Where the search ended.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Found<L: Lane> {
+    /// Time of first contact.
+    pub(crate) time: L,
+    /// Out of evaluations, or not a number.
+    pub(crate) lost: L::Mask,
+    /// Evaluations of the gap, over all lanes.
+    pub(crate) evaluations: u32,
+}
+
+/// The search, lane by lane.
+struct Search<L: Lane> {
+    time: L,
+    /// Once bracketed, the only root lies between these.
+    low: L,
+    high: L,
+    bracketed: L::Mask,
+    active: L::Mask,
+    /// Progress enforced while a leaving point is within rounding of the surface; it doubles.
+    least: L,
+    /// The search begins where the flight does.
+    departs: L::Mask,
+}
+
+/// Time of the first contact of a flight, counted as the orbit counts it on return: from where the
+/// coin was last too high for any contact. `least` is a time short against every motion of the coin.
+#[inline(always)]
+pub(crate) fn first_contact<L: Lane>(
+    orbit: &mut Orbit<L>,
+    body: &Body,
+    departure: Departure,
+    least: L,
+) -> Found<L> {
+    let bounds = orbit.bounds(body);
+    let zero = L::splat(0.0);
+    let (z, vz) = orbit.fall(zero);
+    let skip = high_step(orbit, &bounds, z, vz);
+    let departs = skip.le(zero);
+    if zero.lt(skip).any() {
+        orbit.rebase(skip);
+    }
+    let mut search = Search {
+        time: zero,
+        departs,
+        low: zero,
+        high: zero,
+        bracketed: L::Mask::splat(false),
+        active: L::Mask::splat(true),
+        least,
+    };
+    let mut evaluations = 0;
+    while search.active.any() && evaluations < MAX_EVALUATIONS {
+        evaluations += 1;
+        let gap = orbit.gap(body, search.time);
+        search.step(orbit, body, &bounds, &gap, departure);
+    }
+    Found {
+        time: search.time,
+        lost: search.active,
+        evaluations,
+    }
+}
+
+impl<L: Lane> Search<L> {
+    #[inline(always)]
+    fn step(
+        &mut self,
+        orbit: &Orbit<L>,
+        body: &Body,
+        bounds: &Bounds<L>,
+        now: &Gap<L>,
+        departure: Departure,
+    ) {
+        let (zero, touch) = (L::splat(0.0), L::splat(TOUCH));
+        let falls = now.slope.lt(zero);
+        let near = now.gap.le(touch) & !self.bracketed;
+        // a point that was just thrown back falls by rounding at most
+        let leaves = match departure {
+            Departure::Launched => near & !falls,
+            Departure::Leaving => near & (!falls | (self.departs & self.time.le(zero))),
+        };
+        let touches = (near & !leaves) | (self.bracketed & now.gap.abs().le(touch));
+        self.active = self.active & !touches;
+        self.bracket(orbit, bounds, now, falls & !leaves & self.active);
+        let newton = self.bracketed & self.active;
+        if newton.any() {
+            self.close_in(now, newton);
+        }
+        let free = self.active & !self.bracketed;
+        if free.any() {
+            let mut step = lower_bound_step(orbit, body, bounds, now)
+                .max(high_step(orbit, bounds, now.z, now.vz));
+            let lingers = leaves & free;
+            if lingers.any() {
+                step = L::select(lingers, step.max(self.least), step);
+                self.least = L::select(lingers, self.least + self.least, self.least);
+            }
+            self.advance(step, free);
+        }
+    }
+
+    /// Sets the lanes whose root is certain and unique from here on.
+    #[inline(always)]
+    fn bracket(&mut self, orbit: &Orbit<L>, bounds: &Bounds<L>, now: &Gap<L>, falls: L::Mask) {
+        let two = L::splat(2.0);
+        let climb = bounds.climb - orbit.weakest_pull(now.vz);
+        let square = now.slope * now.slope;
+        let discriminant = square - two * now.gap * climb;
+        let newly = falls & !self.bracketed & L::splat(0.0).le(discriminant);
+        if newly.any() {
+            let last = two * now.gap / (discriminant.max(L::splat(0.0)).sqrt() - now.slope);
+            self.low = L::select(newly, self.time, self.low);
+            // the parabola's root, a rounding later
+            let high = self.time + last * L::splat(1.0 + 1e-12) + L::splat(1e-300);
+            self.high = L::select(newly, high, self.high);
+            self.bracketed = self.bracketed | newly;
+        }
+    }
+
+    /// One step of Newton's method with the second-order term, kept within the bracket.
+    #[inline(always)]
+    fn close_in(&mut self, now: &Gap<L>, lanes: L::Mask) {
+        let above = L::splat(0.0).lt(now.gap);
+        self.low = L::select(lanes & above, self.time, self.low);
+        self.high = L::select(lanes & !above, self.time, self.high);
+        let step = first_root(now.gap, now.slope, -now.curvature);
+        let next = self.time + step;
+        let inside = self.low.le(next) & next.le(self.high);
+        let middle = L::splat(0.5) * (self.low + self.high);
+        let next = L::select(inside, next, middle);
+        // the resolution of time is reached: nothing lies between, or nothing changes
+        let closed = middle.le(self.low) | self.high.le(middle);
+        let done = lanes & (closed | (next.le(self.time) & self.time.le(next)));
+        self.active = self.active & !done;
+        self.time = L::select(lanes, L::select(closed, self.low, next), self.time);
+    }
+
+    #[inline(always)]
+    fn advance(&mut self, step: L, lanes: L::Mask) {
+        let next = self.time + step;
+        // a step below the resolution of time cannot come nearer to the root
+        let stuck = lanes & next.le(self.time);
+        self.active = self.active & !stuck;
+        self.time = L::select(lanes, next, self.time);
+    }
+}
+
+/// Time for which the centre certainly stays above all contact; 0 if it is not above.
+#[inline(always)]
+fn high_step<L: Lane>(orbit: &Orbit<L>, bounds: &Bounds<L>, z: L, vz: L) -> L {
+    let zero = L::splat(0.0);
+    let excess = z - bounds.clear;
+    let high = zero.lt(excess);
+    if !high.any() {
+        return zero;
+    }
+    L::select(high, first_root(excess, vz, orbit.strongest_pull(vz)), zero)
+}
+
+/// Time for which the gap certainly stays positive.
+#[inline(always)]
+fn lower_bound_step<L: Lane>(
+    orbit: &Orbit<L>,
+    body: &Body,
+    bounds: &Bounds<L>,
+    now: &Gap<L>,
+) -> L {
+    const SMALL: f64 = 0.05;
+    let (radius, half) = (L::splat(body.radius), L::splat(body.half));
+    let inverse = L::splat(1.0) / now.sin;
+    // below 0 by rounding at most
+    let gap = now.gap.max(L::splat(0.0));
+    let across = half * bounds.swing + orbit.strongest_pull(now.vz);
+    let bend = across + radius * bounds.spread * inverse;
+    // the other rim is higher by the coin's height along the vertical
+    let (rise, climb) = (
+        L::splat(2.0) * half * now.uz.abs(),
+        L::splat(2.0) * half * now.uz_rate * L::splat(1.0).copysign(now.uz),
+    );
+    let step = first_root(gap, now.slope, bend)
+        .min(first_root(gap + rise, now.slope + climb, bend));
+    let flat = now.sin.lt(L::splat(SMALL));
+    if !flat.any() {
+        return step;
+    }
+    // sin' = −uz uz'/sin, replaced by its bound
+    let worst = -(now.uz * now.uz_rate * inverse) - bounds.wander;
+    let slope = now.slope + radius * worst;
+    let coarse = first_root(gap, slope, across)
+        .min(first_root(gap + rise, slope + climb, across));
+    L::select(flat, step.max(coarse), step)
+}
+
+/// The first root t of gap + slope·t − ½ bend t² where it crosses downwards; very late if there is
+/// none. (With gap < 0 < −slope the crossing has been, and t < 0.)
+///
+/// Either form of the root loses no digits where it is used: (√… + slope)/bend for slope >= 0,
+/// 2 gap/(√… − slope) for slope < 0.
+#[inline(always)]
+fn first_root<L: Lane>(gap: L, slope: L, bend: L) -> L {
+    const NEVER: f64 = 1e30;
+    let zero = L::splat(0.0);
+    let discriminant = slope * slope + L::splat(2.0) * gap * bend;
+    let real = zero.le(discriminant);
+    let root = discriminant.max(zero).sqrt();
+    let rises = zero.le(slope);
+    let numerator = L::select(rises, slope + root, L::splat(2.0) * gap);
+    let denominator = L::select(rises, bend, root - slope);
+    let exists = real & zero.lt(denominator);
+    L::select(exists, numerator / denominator, L::splat(NEVER))
+}

@@ -1,0 +1,132 @@
+//! Tangential impact: the contact jams although it does not approach.
+
+use super::{Condensed, Impulse, Touch, twist::Limited};
+use crate::body::{Body, Friction};
+use crate::lane::Lane;
+
+/// The impulse of a contact that slides with unit slip n, does not approach (its normal velocity
+/// is taken as 0 and stays what it is) and jams: K_zz − μ K_xz n_x <= 0, Painlevé's configurations,
+/// where sliding pushes the coin into the surface faster than any normal force can hold it off.
+///
+/// Moreau's conditions with nothing on the right of the normal one,
+/// p_x(σ + K_xx) + K_xz p_z = −slip_x, K_xz p_x + K_zz p_z = 0, p_y(σ + K_yy) = −slip_y,
+/// |p_t| <= μ p_z, have beside p = 0 the solution p_x = −slip_x/(σ + α), p_z = −p_x K_xz/K_zz with
+/// α = K_xx − K_xz²/K_zz, where σ = 0 (the slip stops) or the cone is reached:
+///
+/// μ (K_xz/K_zz) slip_x = sqrt(slip_x² + q² slip_y²),   q = (σ + α)/(σ + K_yy).
+///
+/// In a jam the left side is at least |slip|, so q >= 1 holds where the equation does. If
+/// α <= K_yy then q < 1 for every σ: the contact sticks. Else q falls from α/K_yy to 1 as σ grows,
+/// and either q needs to be at least α/K_yy, then it sticks, or σ follows from q. So a solution
+/// exists; p of σ = 0 also serves a touch that rounding put just outside.
+///
+/// # Energy
+/// p·u⁻ + ½p·K p = p·u⁺ − ½p·K p with p·u⁺ = p_t·slip⁺ = −σ p_t² <= 0 as u_z⁺ = u_z⁻ = 0: it
+/// dissipates. The friction lengths follow so as to leave the least energy within |J| <= ρ p_z.
+#[inline(always)]
+pub(crate) fn jam<L: Lane>(body: &Body, friction: &Friction, touch: &Touch<L>) -> Impulse<L> {
+    let k = touch.matrix(body);
+    let zero = L::splat(0.0);
+    let Condensed {
+        coupling, alpha, ..
+    } = k.condensed();
+    let mu = L::splat(friction.mu);
+
+    let pull = mu * coupling * touch.slip_x;
+    let square = (pull * pull - touch.slip_x * touch.slip_x).max(zero);
+    let q = square.sqrt() / touch.slip_y.abs();
+    // q is infinite or not a number without slip_y: then the contact sticks
+    let slides = L::splat(1.0).lt(q) & (q * k.yy).lt(alpha);
+    let sigma = (alpha - q * k.yy) / (q - L::splat(1.0));
+    let sigma = L::select(slides, sigma, zero);
+
+    let x = -touch.slip_x / (sigma + alpha);
+    let mut p = Impulse {
+        x,
+        y: -touch.slip_y / (sigma + k.yy),
+        z: (-coupling * x).max(zero),
+        ..Impulse::none()
+    };
+    if friction.twists() {
+        let (contour, pivoting) = Limited::new(body, friction, touch, k.yy).held(p.y, p.z);
+        p.contour = touch.sin * contour;
+        p.pivoting = pivoting;
+    }
+    p
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_core::{Coin, Domain, Stream, UniformSource};
+
+    /// Random jams: the coin leans over its contact, μ is high, the slip drives it in.
+    fn each(mut check: impl FnMut(&Body, &Friction, &Touch<f64>, &Impulse<f64>)) -> u32 {
+        let mut jams = 0;
+        for trial in 0..200_000 {
+            let mut uniforms = Stream::new(71, Domain::Launch, 0).toss(trial);
+            let mut at = |i: u32, from: f64, to: f64| from + (to - from) * uniforms.uniform(i);
+            let coin = Coin::cylinder(libm::exp(at(0, -4.0, 4.0)), 0.01).expect("a good coin");
+            let body = Body::new(&coin);
+            let sin = at(1, 1e-6, 1.0);
+            let cos = (1.0 - sin * sin).sqrt();
+            let touch = Touch {
+                sin,
+                cos,
+                rx: cos * body.radius - sin * body.half,
+                rz: -cos * body.half - sin * body.radius,
+                slip_x: at(2, -1.0, 1.0),
+                slip_y: if trial % 7 == 0 {
+                    0.0
+                } else {
+                    at(3, -1.0, 1.0)
+                },
+                approach: 0.0,
+                spin: at(4, -1.0, 1.0),
+                turn: at(5, -1.0, 1.0),
+            };
+            let friction = Friction {
+                mu: at(6, 1.0, 10.0),
+                contour: at(7, -0.1, 0.1).max(0.0),
+                pivoting: at(8, -0.1, 0.1).max(0.0),
+            };
+            let k = touch.matrix(&body);
+            let n = touch.slip_x / libm::hypot(touch.slip_x, touch.slip_y);
+            if k.zz > friction.mu * k.xz * n {
+                continue;
+            }
+            jams += 1;
+            check(&body, &friction, &touch, &jam(&body, &friction, &touch));
+        }
+        jams
+    }
+
+    #[test]
+    fn a_jam_stops_or_slows_the_slip_inside_the_cone() {
+        let (mut stuck, mut slid) = (0, 0);
+        let jams = each(|body, friction, touch, p| {
+            let k = touch.matrix(body);
+            assert!(
+                p.z > 0.0 && (k.xz * p.x + k.zz * p.z).abs() <= 1e-14,
+                "{p:?}"
+            );
+            let tangential = libm::hypot(p.x, p.y);
+            assert!(tangential <= friction.mu * p.z * (1.0 + 1e-10), "{p:?}");
+            let after = (
+                touch.slip_x + k.xx * p.x + k.xz * p.z,
+                touch.slip_y + k.yy * p.y,
+            );
+            let speed = libm::hypot(after.0, after.1);
+            if speed <= 1e-12 {
+                stuck += 1;
+            } else {
+                slid += 1;
+                let along = p.x * after.0 + p.y * after.1;
+                assert!((along + speed * tangential).abs() <= 1e-9 * speed * tangential);
+                assert!((tangential - friction.mu * p.z).abs() <= 1e-9 * tangential);
+            }
+            assert!(p.work(body, touch) < 0.0, "{p:?}");
+        });
+        assert!(jams > 2_000 && stuck > 0, "{jams} {stuck} {slid}");
+    }
+}

@@ -1,3 +1,0 @@
-/// (Seam.)
-#[derive(Debug, Clone, Copy)]
-pub struct Stronge;

@@ -1,0 +1,244 @@
+//! The friction lengths in an impact: contour and pivoting friction against the final rates.
+//!
+//! Contour friction acts on ψ' = ω_a + ω_θ c/s, the rate at which the contact runs along the rim,
+//! and |J_c| <= ρ_c p_z. With s small ψ' and its inverse mass are huge, so the kernel uses the
+//! horizontal angular velocity ω_x = s ψ' = s ω_a + c ω_θ and C = J_c/s, |C| <= (ρ_c/s) p_z. With
+//! pivoting friction's ω_z = c ω_a − s ω_θ and P = J_p this is the rotation of (ω_a, ω_θ) to the
+//! horizontal and the vertical, and the rates obey
+//!
+//! slip_y⁺ = slip_y + K_yy p_y − a C − b P      a = sR/ka + ch/kt    b = cR/ka − sh/kt
+//! ω_x⁺ = ω_x + a p_y − A C − F P               A = s²/ka + c²/kt    F = sc(1/ka − 1/kt)
+//! ω_z⁺ = ω_z + b p_y − F C − G P               G = c²/ka + s²/kt
+//!
+//! Neither C nor P acts on ω_y, hence not on the normal velocity nor on slip_x.
+//!
+//! # The box
+//! The set-valued laws (C at its limit with the sign of ω_x⁺, or inside with ω_x⁺ = 0; P and ω_z⁺
+//! alike) are the conditions for the least of a strictly convex quadratic function, the kinetic
+//! energy after, over the box |C| <= C_m, |P| <= P_m. In two dimensions three clamps solve it
+//! exactly. Let P* belong to the least without any limit. For the least over P alone in its limit
+//! and C free, P = clamp(P*): where P* > P_m, the C that makes ω_x⁺ = 0 with P = P_m leaves the
+//! unlimited P above P_m by the factor 1 − F²/(AG) > 0, so P = P_m is right. As the least along P
+//! makes ω_x⁺ monotone in C, C then only wants clamping, and P follows from C. The box contains 0,
+//! so the energy never grows.
+
+use super::Touch;
+use crate::body::{Body, Friction};
+use crate::lane::Lane;
+
+/// Rates that the friction lengths work against, and their inverse masses.
+#[derive(Clone, Copy)]
+pub(super) struct Twist<L> {
+    /// ω_x = s ψ'.
+    pub(super) roll: L,
+    /// ω_z.
+    pub(super) pivot: L,
+    /// a, b, A, F, G of the module's text.
+    pub(super) roll_y: L,
+    pub(super) pivot_y: L,
+    pub(super) roll_roll: L,
+    pub(super) roll_pivot: L,
+    pub(super) pivot_pivot: L,
+}
+
+/// The limits of friction, per unit normal impulse, and what the free solution needs.
+#[derive(Clone, Copy)]
+pub(super) struct Limited<L> {
+    rates: Twist<L>,
+    /// ρ_c/s.
+    contour: L,
+    /// ρ_p.
+    pivoting: L,
+    /// The angular momentum about z through the centre.
+    momentum: L,
+    rx: L,
+    slip_y: L,
+    /// The centre's velocity, y.
+    centre: L,
+    yy: L,
+}
+
+/// C = J_c/s, P = J_p and what belongs to them.
+#[derive(Clone, Copy)]
+pub(super) struct Twisted<L> {
+    pub(super) contour: L,
+    pub(super) pivoting: L,
+    /// slip_y without p_y but with C and P: p_y = −slip_y/(σ + K_yy).
+    pub(super) slip_y: L,
+    /// Its derivative by σ.
+    pub(super) slope: L,
+}
+
+/// A 2 × 2 problem: rates before and inverse masses, with p_y eliminated or held, and the least of
+/// its quadratic function over P if nothing had a limit.
+pub(super) struct Reduced<L> {
+    pub(super) roll: L,
+    pub(super) pivot: L,
+    pub(super) roll_pivot: L,
+    /// 1/A and 1/G, p_y eliminated or not.
+    pub(super) roll_mass: L,
+    pub(super) pivot_mass: L,
+    pub(super) free: L,
+}
+
+/// An interval; of length 0 where a part of friction is given.
+#[derive(Clone, Copy)]
+pub(super) struct Limits<L> {
+    pub(super) low: L,
+    pub(super) high: L,
+}
+
+impl<L: Lane> Limits<L> {
+    #[inline(always)]
+    pub(super) fn within(limit: L) -> Self {
+        Self {
+            low: -limit,
+            high: limit,
+        }
+    }
+
+    #[inline(always)]
+    fn clamp(self, value: L) -> L {
+        value.max(self.low).min(self.high)
+    }
+}
+
+impl<L: Lane> Reduced<L> {
+    /// The least of the quadratic function over a box: see the module's text.
+    #[inline(always)]
+    pub(super) fn least(&self, contour: Limits<L>, pivoting: Limits<L>) -> (L, L) {
+        let p = pivoting.clamp(self.free);
+        let c = contour.clamp((self.roll - self.roll_pivot * p) * self.roll_mass);
+        let p = pivoting.clamp((self.pivot - self.roll_pivot * c) * self.pivot_mass);
+        (c, p)
+    }
+}
+
+impl<L: Lane> Twist<L> {
+    #[inline(always)]
+    pub(super) fn rates(body: &Body, touch: &Touch<L>) -> Self {
+        let (s, c) = (touch.sin, touch.cos);
+        let (axial, across) = (L::splat(1.0 / body.ka), L::splat(1.0 / body.kt));
+        let (radius, half) = (
+            L::splat(body.radius / body.ka),
+            L::splat(body.half / body.kt),
+        );
+        Self {
+            roll: s * touch.spin + c * touch.turn,
+            pivot: c * touch.spin - s * touch.turn,
+            roll_y: s * radius + c * half,
+            pivot_y: c * radius - s * half,
+            roll_roll: s * s * axial + c * c * across,
+            roll_pivot: s * c * (axial - across),
+            pivot_pivot: c * c * axial + s * s * across,
+        }
+    }
+
+    /// What C and P take off slip_y.
+    #[inline(always)]
+    pub(super) fn slip_y(&self, contour: L, pivoting: L) -> L {
+        self.roll_y * contour + self.pivot_y * pivoting
+    }
+
+    /// Twice the energy that C and P add beside p_y.
+    #[inline(always)]
+    pub(super) fn work(&self, y: L, contour: L, pivoting: L) -> L {
+        let two = L::splat(2.0);
+        let roll = two * self.roll + self.roll_y * y
+            - self.roll_roll * contour
+            - self.roll_pivot * pivoting;
+        let pivot = two * self.pivot + self.pivot_y * y
+            - self.roll_pivot * contour
+            - self.pivot_pivot * pivoting;
+        -(contour * roll + pivoting * pivot)
+    }
+}
+
+impl<L: Lane> Limited<L> {
+    #[inline(always)]
+    pub(super) fn new(body: &Body, friction: &Friction, touch: &Touch<L>, yy: L) -> Self {
+        let (axial, across) = (
+            L::splat(body.ka) * touch.spin,
+            L::splat(body.kt) * touch.turn,
+        );
+        Self {
+            rates: Twist::rates(body, touch),
+            contour: L::splat(friction.contour) / touch.sin,
+            pivoting: L::splat(friction.pivoting),
+            momentum: touch.cos * axial - touch.sin * across,
+            rx: touch.rx,
+            slip_y: touch.slip_y,
+            centre: touch.slip_y
+                - L::splat(body.radius) * touch.spin
+                - L::splat(body.half) * touch.turn,
+            yy,
+        }
+    }
+
+    /// C and P beside a given p_y: the least energy over their box.
+    #[inline(always)]
+    pub(super) fn held(&self, y: L, z: L) -> (L, L) {
+        let r = &self.rates;
+        let one = L::splat(1.0);
+        let reduced = Reduced {
+            roll: r.roll + r.roll_y * y,
+            pivot: r.pivot + r.pivot_y * y,
+            roll_pivot: r.roll_pivot,
+            roll_mass: one / r.roll_roll,
+            pivot_mass: one / r.pivot_pivot,
+            // without limits both rates end at 0 and so does the angular momentum about z
+            free: self.momentum + self.rx * y,
+        };
+        self.least(&reduced, z.max(L::splat(0.0)))
+    }
+
+    /// C and P jointly with p_y = −slip_y⁺/σ, and the derivative by σ; `dz` is that of z.
+    #[inline(always)]
+    pub(super) fn joint(&self, sigma: L, z: L, dz: L) -> Twisted<L> {
+        let r = &self.rates;
+        let one = L::splat(1.0);
+        let inverse = one / (sigma + self.yy);
+        let (roll_y, pivot_y) = (r.roll_y * inverse, r.pivot_y * inverse);
+        // without limits the coin stops turning and the centre moves on with −σ p_y
+        let rigid = one / (one + sigma);
+        let drift = self.centre * rigid;
+        let reduced = Reduced {
+            roll: r.roll - roll_y * self.slip_y,
+            pivot: r.pivot - pivot_y * self.slip_y,
+            roll_pivot: r.roll_pivot - roll_y * r.pivot_y,
+            roll_mass: one / (r.roll_roll - roll_y * r.roll_y),
+            pivot_mass: one / (r.pivot_pivot - pivot_y * r.pivot_y),
+            free: self.momentum - self.rx * drift,
+        };
+        let positive = z.max(L::splat(0.0));
+        let (contour, pivoting) = self.least(&reduced, positive);
+        let slip_y = self.slip_y - r.slip_y(contour, pivoting);
+
+        // the same three steps, differentiated: a part at its limit follows z
+        let (limit_c, limit_p) = (self.contour * positive, self.pivoting * positive);
+        let (free_c, free_p) = (contour.abs().lt(limit_c), pivoting.abs().lt(limit_p));
+        let dz = L::select(L::splat(0.0).lt(z), dz, L::splat(0.0));
+        let side = |of: L| L::splat(1.0).copysign(of) * dz;
+        let (at_c, at_p) = (self.contour * side(contour), self.pivoting * side(pivoting));
+        let y = -slip_y * inverse;
+        let dp = L::select(free_p, self.rx * drift * rigid, at_p);
+        let dc = -(roll_y * y) - reduced.roll_pivot * dp;
+        let dc = L::select(free_c, dc * reduced.roll_mass, at_c);
+        let dp = -(pivot_y * y) - reduced.roll_pivot * dc;
+        let dp = L::select(free_p, dp * reduced.pivot_mass, at_p);
+        Twisted {
+            contour,
+            pivoting,
+            slip_y,
+            slope: -r.slip_y(dc, dp),
+        }
+    }
+
+    #[inline(always)]
+    fn least(&self, reduced: &Reduced<L>, z: L) -> (L, L) {
+        reduced.least(
+            Limits::within(self.contour * z),
+            Limits::within(self.pivoting * z),
+        )
+    }
+}

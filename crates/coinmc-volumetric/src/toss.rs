@@ -1,0 +1,161 @@
+//! One toss on its way: its state, its counters, and where it is for whoever watches.
+
+use crate::body::{Body, Units};
+use crate::motion::{Motion, Spin};
+use crate::series::sin_cos;
+use coinmc_core::{Face, Launch, State};
+use nalgebra::{UnitVector3, Vector3};
+
+/// Where the folded frame lies in the laboratory. Kept up only for an observer.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Place {
+    /// The frame's x axis.
+    heading: [f64; 2],
+    position: [f64; 2],
+    /// v_x, v_y and φ' at the last contact step.
+    rates: [f64; 3],
+    pub(crate) time: f64,
+}
+
+impl Place {
+    /// The frame turned so that its x axis is (`nx`, `ny`) of the old one.
+    pub(crate) fn align(&mut self, nx: f64, ny: f64) {
+        let [x, y] = self.heading;
+        self.heading = [nx * x - ny * y, nx * y + ny * x];
+    }
+
+    /// Displaced by (`dx`, `dy`) in the frame.
+    pub(crate) fn shift(&mut self, dx: f64, dy: f64) {
+        let [x, y] = self.heading;
+        self.position[0] += dx * x - dy * y;
+        self.position[1] += dx * y + dy * x;
+    }
+
+    /// Follows a contact step of length `h` that ended in this state: the frame turns with the
+    /// azimuth, φ' = −ω_θ/s. Second order: the rates of the step's ends are averaged.
+    pub(crate) fn follow(&mut self, h: f64, motion: &Motion<f64>, spin: &Spin<f64>) {
+        let rates = [motion.vx, motion.vy, -spin.turn / motion.sin];
+        let [vx, vy, turn] = std::array::from_fn(|i| 0.5 * h * (self.rates[i] + rates[i]));
+        let (s, c) = sin_cos(0.5 * turn);
+        self.align(c, s);
+        self.shift(vx, vy);
+        self.align(c, s);
+        self.rates = rates;
+        self.time += h;
+    }
+
+    /// The state in SI units in the laboratory.
+    pub(crate) fn state(
+        &self,
+        m: &Motion<f64>,
+        spin: &Spin<f64>,
+        heads_up: bool,
+        units: &Units,
+    ) -> State {
+        let [x, y] = self.heading;
+        let lab = |a: f64, b: f64, c: f64| Vector3::new(a * x - b * y, a * y + b * x, c);
+        let up = lab(m.sin, 0.0, m.cos);
+        let across = lab(m.cos, 0.0, -m.sin);
+        let spin = up * spin.axial + across * spin.turn + lab(0.0, spin.tilt, 0.0);
+        let axis = if heads_up { up } else { -up };
+        let [px, py] = self.position;
+        State {
+            time_s: self.time * units.time_s,
+            position_m: Vector3::new(px, py, m.z) * units.length_m,
+            velocity_m_s: lab(m.vx, m.vy, m.vz) * units.speed_m_s(),
+            axis: UnitVector3::new_unchecked(axis),
+            spin_rad_s: spin / units.time_s,
+        }
+    }
+}
+
+/// State and counters.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Toss {
+    pub(crate) motion: Motion<f64>,
+    pub(crate) spin: Spin<f64>,
+    /// Whether u is up in the folded frame, −u otherwise.
+    pub(crate) heads_up: bool,
+    pub(crate) impacts: u32,
+    pub(crate) place: Place,
+}
+
+impl Toss {
+    /// The launch in the folded frame. A coin that would begin inside the surface is lifted until
+    /// it touches.
+    pub(crate) fn new(launch: &Launch, units: &Units, body: &Body, axial_factor: f64) -> Self {
+        let axis = launch.axis.into_inner();
+        let heads_up = axis.z.is_sign_positive();
+        // u and −u give the same vector, hence the same toss
+        let up = if heads_up { axis } else { -axis };
+        let across = (up.x * up.x + up.y * up.y).sqrt();
+        let (nx, ny) = if across > 0.0 {
+            (up.x / across, up.y / across)
+        } else {
+            (1.0, 0.0)
+        };
+        let along = |v: &Vector3<f64>, scale: f64| {
+            (
+                (v.x * nx + v.y * ny) / scale,
+                (v.y * nx - v.x * ny) / scale,
+                v.z / scale,
+            )
+        };
+        let mut motion = Motion::still();
+        motion.set_tilt(across, up.z);
+        (motion.vx, motion.vy, motion.vz) = along(&launch.velocity_m_s, units.speed_m_s());
+        let (wx, wy, wz) = along(&launch.spin_rad_s, 1.0 / units.time_s);
+        let spin = Spin {
+            axial: wx * motion.sin + wz * motion.cos,
+            turn: wx * motion.cos - wz * motion.sin,
+            tilt: wy,
+        };
+        motion.set_spin(&spin, axial_factor);
+        motion.z = (launch.height_m / units.length_m).max(motion.rest_height(body));
+        Self {
+            motion,
+            spin,
+            heads_up,
+            impacts: 0,
+            place: Place {
+                heading: [nx, ny],
+                position: [0.0; 2],
+                rates: [0.0; 3],
+                time: 0.0,
+            },
+        }
+    }
+
+    /// The face that is up.
+    pub(crate) fn face(&self) -> Face {
+        if self.heads_up {
+            Face::Heads
+        } else {
+            Face::Tails
+        }
+    }
+
+    /// Half a turn of the frame: the opposite point of the lower rim becomes the lowest.
+    pub(crate) fn turn_frame(&mut self) {
+        self.motion.turn_frame();
+        self.spin.tilt = -self.spin.tilt;
+        self.spin.turn = -self.spin.turn;
+        self.place.align(-1.0, 0.0);
+    }
+
+    /// The frame seen from the other face, for a coin on its side: the other rim becomes the
+    /// lowest. There e_θ points down whichever way the frame looks.
+    pub(crate) fn change_rim(&mut self) {
+        self.motion.turn_frame();
+        self.spin.tilt = -self.spin.tilt;
+        self.spin.axial = -self.spin.axial;
+        self.heads_up = !self.heads_up;
+        self.place.align(-1.0, 0.0);
+    }
+
+    /// The state in SI units in the laboratory.
+    pub(crate) fn state(&self, units: &Units) -> State {
+        self.place
+            .state(&self.motion, &self.spin, self.heads_up, units)
+    }
+}

@@ -1,0 +1,125 @@
+//! When the face of a toss is settled.
+//!
+//! # Energy
+//! To pass from lying on a face to lying on the side, or back, the centre must rise to D at least
+//! once: in contact the coin stands on its rim then, in flight it is higher still. So a coin whose
+//! mechanical energy is below m g D stays in the well it is in: a face if its lowest point is
+//! beyond the centre (c > h, tilt below the balance), else the side.
+//!
+//! # Tilting
+//! Energy that cannot become tilt is left out:
+//!
+//! * *on the side*, the energy of straight rolling. A tangential impulse p at the contact changes
+//!   v_y by p and ω_a by Rp/I_a, so Λ = v_y − (k_a/R) ω_a stays, and v_y and ω_a keep at least the
+//!   energy Λ²/(2(1 + k_a/R²)) as long as the axis keeps its direction. It does not keep it
+//!   exactly: a coin that turns while it rolls can trade the one for the other, hence "nearly";
+//! * *flat on a face*, within `flat` of it, the energy of sliding and of spinning about u, if
+//!   friction at the base cannot tip the coin (μ h <= R: its lever about the leading point is
+//!   shorter than that of the weight).
+//!
+//! # Without friction
+//! With μ = 0 and no friction lengths the normal force has no moment about u or the vertical:
+//! ω_a, L_z and the horizontal velocity never change. At the balance over a rim, u_z = c* = ±h,
+//! the energy of turning about the vertical is then k_t(Ω_z − Ω_a c*)²/(2s*²), and the balance
+//! cannot be passed with less than 1 plus that. This is exact for any e, in flight and in contact.
+
+use crate::body::{Body, Friction};
+use crate::motion::{Motion, Spin};
+
+/// What is known of a toss.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Verdict {
+    Open,
+    /// The face that is up now.
+    Face,
+    Side,
+}
+
+/// The rules in force.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Judge {
+    body: Body,
+    axial_factor: f64,
+    tilting: bool,
+    /// Nothing but normal forces act.
+    smooth: bool,
+    /// ½/(1 + k_a/R²) and k_a/R of straight rolling.
+    rolling: f64,
+    lever: f64,
+    /// sin of the tilt below which a coin counts as flat; 0 where friction could tip it.
+    flat: f64,
+}
+
+impl Judge {
+    pub(crate) fn new(
+        body: Body,
+        friction: &Friction,
+        axial_factor: f64,
+        drags: bool,
+        tilting: bool,
+        flat: f64,
+    ) -> Self {
+        let r2 = body.radius * body.radius;
+        Self {
+            body,
+            axial_factor,
+            tilting,
+            smooth: friction.mu == 0.0 && !friction.twists() && !drags,
+            rolling: 0.5 / (1.0 + body.ka / r2),
+            lever: body.ka / body.radius,
+            flat: if friction.mu * body.half <= body.radius {
+                flat
+            } else {
+                0.0
+            },
+        }
+    }
+
+    /// Whether the coin leans towards its side.
+    #[inline]
+    pub(crate) fn on_side(&self, m: &Motion<f64>) -> bool {
+        m.cos < self.body.half
+    }
+
+    #[inline]
+    pub(crate) fn verdict(&self, m: &Motion<f64>, spin: &Spin<f64>) -> Verdict {
+        let energy = m.kinetic(&self.body, spin) + m.z;
+        let side = self.on_side(m);
+        let settled = if side { Verdict::Side } else { Verdict::Face };
+        if energy < 1.0 {
+            return settled;
+        }
+        let idle = if side {
+            let invariant = m.vy - self.lever * spin.axial;
+            self.rolling * invariant * invariant
+        } else if m.sin < self.flat {
+            0.5 * (m.vx * m.vx + m.vy * m.vy + self.body.ka * spin.axial * spin.axial)
+        } else {
+            0.0
+        };
+        if self.tilting && energy - idle < 1.0 {
+            return settled;
+        }
+        if self.smooth && self.is_trapped(m, spin, energy, side) {
+            return settled;
+        }
+        Verdict::Open
+    }
+
+    /// See the module's text, *Without friction*.
+    fn is_trapped(&self, m: &Motion<f64>, spin: &Spin<f64>, energy: f64, side: bool) -> bool {
+        let Body { radius, half, kt, ka } = self.body;
+        let free = energy - 0.5 * (m.vx * m.vx + m.vy * m.vy + ka * spin.axial * spin.axial);
+        let axial = self.axial_factor * spin.axial;
+        let barrier = |height: f64| {
+            let turn = (m.oz - axial * height) / radius;
+            1.0 + 0.5 * kt * turn * turn
+        };
+        free < barrier(half) && (!side || free < barrier(-half))
+    }
+
+    /// Whether nothing is ever lost: such a toss is settled at its launch or never.
+    pub(crate) fn conserves(&self, restitution: f64) -> bool {
+        self.smooth && restitution == 1.0
+    }
+}

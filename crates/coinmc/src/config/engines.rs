@@ -1,0 +1,135 @@
+//! The engine of a point, and what an engine refuses because it does not model it.
+
+use super::build::{At, Fault, get, integer};
+use super::diagnostics::Problems;
+use super::form::{Form, What};
+use super::quantity::Quantity;
+use super::schema::CERTAIN;
+use crate::plan::EngineChoice;
+use coinmc_flat as flat;
+use coinmc_volumetric as volumetric;
+
+/// The engine with its settings at one point.
+pub(super) fn choice(root: &Form, at: &At<'_>) -> Result<EngineChoice, Fault> {
+    let form = get(root, "engine")?;
+    let What::Tagged(tag, inner) = &form.what else {
+        return Err(Fault::Reported);
+    };
+    match *tag {
+        "flat" => Ok(EngineChoice::Flat(in_the_plane(inner, at)?)),
+        "volumetric" => Ok(EngineChoice::Volumetric(in_space(inner, at)?)),
+        _ => {
+            let rule = get(inner, "rule")?
+                .word()
+                .and_then(|name| name.parse().ok());
+            rule.map(EngineChoice::Analytic).ok_or(Fault::Reported)
+        }
+    }
+}
+
+fn in_the_plane(form: &Form, at: &At<'_>) -> Result<flat::Settings, Fault> {
+    let decision = match &get(form, "decision")?.what {
+        What::Word(CERTAIN) => flat::Decision::Certain,
+        What::Tagged(_, fraction) => flat::Decision::EnergyFraction(at.number(fraction)?),
+        _ => return Err(Fault::Reported),
+    };
+    let settings = flat::Settings {
+        law: named(form, "law", flat::Law::ALL, flat::Law::name)?,
+        decision,
+        zeno: at.required(form, "zeno")?,
+        tolerance: at.required(form, "tolerance")?,
+        max_impacts: max_impacts(form)?,
+    };
+    settings
+        .validate()
+        .map_err(|error| Fault::problem(form.span, error.to_string(), None))?;
+    Ok(settings)
+}
+
+fn in_space(form: &Form, at: &At<'_>) -> Result<volumetric::Settings, Fault> {
+    use volumetric::{Decision, Law};
+    let settings = volumetric::Settings {
+        law: named(form, "law", Law::ALL, Law::name)?,
+        decision: named(form, "decision", Decision::ALL, Decision::name)?,
+        zeno: at.required(form, "zeno")?,
+        tolerance: at.required(form, "tolerance")?,
+        stick: at.required(form, "stick")?,
+        fade: at.required(form, "fade")?,
+        max_impacts: max_impacts(form)?,
+        time_limit: at.required(form, "time_limit")?,
+    };
+    settings
+        .validate()
+        .map_err(|error| Fault::problem(form.span, error.to_string(), None))?;
+    Ok(settings)
+}
+
+/// The one of `all` whose name stands under a key.
+fn named<T: Copy>(
+    form: &Form,
+    key: &str,
+    all: impl IntoIterator<Item = T>,
+    name: fn(T) -> &'static str,
+) -> Result<T, Fault> {
+    let word = get(form, key)?.word().ok_or(Fault::Reported)?;
+    all.into_iter()
+        .find(|&one| name(one) == word)
+        .ok_or(Fault::Reported)
+}
+
+fn max_impacts(form: &Form) -> Result<u32, Fault> {
+    integer(form, "max_impacts")
+        .and_then(|n| n.try_into().ok())
+        .ok_or(Fault::Reported)
+}
+
+/// What the flat engine does not model: the table, the key, and what it would be.
+const NOT_IN_THE_PLANE: [(&str, &str, &str); 5] = [
+    ("surface", "contour_m", "rolling friction"),
+    ("surface", "pivoting_m", "pivoting friction"),
+    (
+        "surface",
+        "restitution_threshold_m_s",
+        "restitution threshold",
+    ),
+    ("environment", "linear_drag_per_s", "drag"),
+    ("environment", "angular_drag_per_s", "drag"),
+];
+
+/// Refuses everything that the config asks for and its engine does not model. It would be ignored
+/// otherwise, and the results would claim what was never computed.
+pub(super) fn refuse_unmodelled(root: &Form, problems: &mut Problems) {
+    if root.get("engine").and_then(Form::tag) != Some("flat") {
+        return;
+    }
+    let value = |table: &str, key: &str| root.get(table).and_then(|form| form.get(key));
+    for (table, key, what) in NOT_IN_THE_PLANE {
+        if let Some(form) = value(table, key).filter(|form| is_somewhere_not_zero(form)) {
+            problems.add_with_help(
+                form.span,
+                format!("engine.flat models no {what}: `{table}.{key}` must be 0"),
+                format!("remove `{key}`, or toss in space with [engine.volumetric]"),
+            );
+        }
+    }
+    if let Some(form) = value("environment", "gyroscopic_torque")
+        && matches!(form.what, What::Boolean(false))
+    {
+        problems.add_with_help(
+            form.span,
+            "engine.flat has no gyroscopic torque to switch off: \
+             `environment.gyroscopic_torque` must be true",
+            "remove `gyroscopic_torque` (spin stays in the plane, where that torque is 0), or toss \
+             in space with [engine.volumetric]",
+        );
+    }
+}
+
+/// A list or range has at least two different values.
+fn is_somewhere_not_zero(form: &Form) -> bool {
+    match &form.what {
+        What::Number(Quantity::Constant(value), _) => *value != 0.0,
+        What::Number(..) => true,
+        _ => false,
+    }
+}

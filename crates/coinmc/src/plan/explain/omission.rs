@@ -1,0 +1,72 @@
+//! What the tosses of a point do without, and why nothing is lost by it.
+
+use crate::plan::{EngineChoice, Point};
+use coinmc_core::Landing;
+
+/// Something that is not computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Omission {
+    Tosses,
+    OutOfPlane,
+    Drag,
+    GyroscopicTorque,
+    Contact { rolling: bool },
+    Tangential,
+    Bounces,
+    Contour,
+    Pivoting,
+}
+
+impl Omission {
+    /// What is left out, and the reason.
+    pub(super) fn reason(self) -> &'static str {
+        match self {
+            Self::Tosses => "tosses: the probability is known without them",
+            Self::OutOfPlane => "motion out of the xz plane: no launch of this config leaves it",
+            Self::Drag => "drag: both of its rates are 0",
+            Self::GyroscopicTorque => {
+                "gyroscopic torque: switched off, the coin flies with a fixed angular velocity"
+            }
+            Self::Contact { rolling: false } => {
+                "impacts, sliding and rocking: the first contact decides"
+            }
+            Self::Contact { rolling: true } => {
+                "impacts, sliding, rolling and rocking: the first contact decides"
+            }
+            Self::Tangential => "the tangential half of impacts and contacts: friction is 0",
+            Self::Bounces => "sequences of bounces: restitution is 0",
+            Self::Contour => {
+                "contour (rolling) friction: contour_m is 0, pure rolling loses nothing"
+            }
+            Self::Pivoting => "pivoting friction: pivoting_m is 0, pure pivoting loses nothing",
+        }
+    }
+}
+
+/// All that the tosses of a point do without.
+pub(super) fn omissions(point: &Point) -> Vec<Omission> {
+    let (scene, surface) = (&point.scene, &point.scene.surface);
+    let mut omissions = Vec::new();
+    let mut omit = |omission, holds: bool| {
+        if holds {
+            omissions.push(omission);
+        }
+    };
+    let in_space = match point.engine {
+        EngineChoice::Analytic(_) => return vec![Omission::Tosses],
+        EngineChoice::Flat(_) => false,
+        EngineChoice::Volumetric(_) => true,
+    };
+    omit(Omission::OutOfPlane, !in_space);
+    omit(Omission::Drag, in_space && scene.drag().is_none());
+    omit(Omission::GyroscopicTorque, !scene.has_gyroscopic_torque());
+    if surface.landing() == Landing::Adhesive {
+        omit(Omission::Contact { rolling: in_space }, true);
+        return omissions;
+    }
+    omit(Omission::Tangential, surface.friction() == 0.0);
+    omit(Omission::Bounces, surface.restitution() == 0.0);
+    omit(Omission::Contour, in_space && surface.contour_m() == 0.0);
+    omit(Omission::Pivoting, in_space && surface.pivoting_m() == 0.0);
+    omissions
+}

@@ -1,0 +1,201 @@
+//! Configs of the toss in space: what they come to mean.
+
+use coinmc::config::{self, Override};
+use coinmc::plan::{EngineChoice, Plan};
+use coinmc_core::Preset;
+use coinmc_volumetric as volumetric;
+use std::collections::HashSet;
+use std::sync::Arc;
+
+/// A toss in space.
+const IN_SPACE: &str = "
+[coin]
+ratio = 0.85
+[surface]
+restitution = 0.5
+friction = 0.3
+contour_m = 1e-4
+pivoting_m = 2e-4
+[launch]
+preset = 'clean'
+[engine.volumetric]
+[stop]
+tosses = 1000
+";
+
+fn parse(text: &str, sets: &[&str]) -> Plan {
+    let overrides: Vec<Override> = sets.iter().map(|set| set.parse().unwrap()).collect();
+    config::parse("test.toml", text, &overrides).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+fn column(plan: &Plan, name: &str) -> Vec<f64> {
+    let value = |(key, value): &(Arc<str>, f64)| (**key == *name).then_some(*value);
+    plan.points
+        .iter()
+        .map(|point| point.parameters.iter().find_map(value).unwrap())
+        .collect()
+}
+
+#[test]
+fn the_toss_in_space_has_the_defaults_of_its_crate() {
+    let plan = parse(IN_SPACE, &[]);
+    let [point] = &plan.points[..] else {
+        panic!("one point")
+    };
+    assert_eq!(
+        point.engine,
+        EngineChoice::Volumetric(volumetric::Settings::default())
+    );
+    assert_eq!(point.launches, Preset::Clean.distribution());
+    let surface = point.scene.surface;
+    assert_eq!((surface.contour_m(), surface.pivoting_m()), (1e-4, 2e-4));
+    assert_eq!(surface.restitution_threshold_m_s(), 0.0);
+    assert!(point.scene.drag().is_none() && point.scene.has_gyroscopic_torque());
+    assert_eq!(plan.tosses_planned(), 1000);
+    assert!(plan.notes.is_empty(), "{:?}", plan.notes);
+    assert_eq!(parse(&plan.resolved_toml, &[]), plan);
+}
+
+#[test]
+fn all_of_the_toss_in_space_can_be_chosen() {
+    let sets = [
+        "surface.restitution_threshold_m_s=2",
+        "environment.linear_drag_per_s=1",
+        "environment.angular_drag_per_s=0.05",
+        "environment.gyroscopic_torque=false",
+        "engine.volumetric={law='stronge', decision='energy', zeno=0.01, tolerance=1e-6, \
+         stick=1e-3, fade=1e-4, max_impacts=7, time_limit=100}",
+    ];
+    let plan = parse(IN_SPACE, &sets);
+    let point = &plan.points[0];
+    assert_eq!(point.scene.surface.restitution_threshold_m_s(), 2.0);
+    let drag = point.scene.drag();
+    assert_eq!((drag.linear_per_s(), drag.angular_per_s()), (1.0, 0.05));
+    assert!(!point.scene.has_gyroscopic_torque());
+    let chosen = volumetric::Settings {
+        law: volumetric::Law::Stronge,
+        decision: volumetric::Decision::Energy,
+        zeno: 0.01,
+        tolerance: 1e-6,
+        stick: 1e-3,
+        fade: 1e-4,
+        max_impacts: 7,
+        time_limit: 100.0,
+    };
+    assert_eq!(point.engine, EngineChoice::Volumetric(chosen));
+    assert_eq!(parse(&plan.resolved_toml, &[]), plan);
+}
+
+#[test]
+fn any_number_of_the_toss_in_space_can_be_swept() {
+    for (key, name) in [
+        ("surface.contour_m", "contour_m"),
+        ("surface.pivoting_m", "pivoting_m"),
+        (
+            "surface.restitution_threshold_m_s",
+            "restitution_threshold_m_s",
+        ),
+        ("environment.linear_drag_per_s", "linear_drag_per_s"),
+        ("environment.angular_drag_per_s", "angular_drag_per_s"),
+        ("engine.volumetric.zeno", "engine.volumetric.zeno"),
+        ("engine.volumetric.tolerance", "engine.volumetric.tolerance"),
+        ("engine.volumetric.stick", "engine.volumetric.stick"),
+        ("engine.volumetric.fade", "engine.volumetric.fade"),
+        (
+            "engine.volumetric.time_limit",
+            "engine.volumetric.time_limit",
+        ),
+    ] {
+        let plan = parse(IN_SPACE, &[&format!("{key}=[1e-3, 5e-4]")]);
+        assert_eq!(plan.axes, [name]);
+        assert_eq!(column(&plan, name), [1e-3, 5e-4]);
+        assert_ne!(plan.points[0], plan.points[1], "{key}");
+        let names: HashSet<_> = plan.points[0].parameters.iter().map(|(n, _)| n).collect();
+        assert_eq!(names.len(), plan.points[0].parameters.len(), "{key}");
+        assert_eq!(parse(&plan.resolved_toml, &[]), plan, "{key}");
+    }
+}
+
+#[test]
+fn all_physics_and_settings_of_the_toss_in_space_are_in_the_hash() {
+    let base = parse(IN_SPACE, &[]);
+    let mut hashes = HashSet::from([base.hash()]);
+    for set in [
+        "surface.contour_m=1.1e-4",
+        "surface.pivoting_m=0",
+        "surface.restitution_threshold_m_s=0.01",
+        "environment.linear_drag_per_s=0.1",
+        "environment.angular_drag_per_s=0.1",
+        "environment.gyroscopic_torque=false",
+        "engine.volumetric.law=chatterjee-ruina",
+        "engine.volumetric.law=stronge",
+        "engine.volumetric.decision=energy",
+        "engine.volumetric.zeno=0.03",
+        "engine.volumetric.tolerance=1e-6",
+        "engine.volumetric.stick=1e-3",
+        "engine.volumetric.fade=1e-4",
+        "engine.volumetric.max_impacts=10",
+        "engine.volumetric.time_limit=10",
+        "launch.preset=drop",
+    ] {
+        let other = parse(IN_SPACE, &[set]);
+        assert!(other != base && hashes.insert(other.hash()), "{set}");
+    }
+}
+
+#[test]
+fn what_the_toss_in_space_skips_is_explained() {
+    let explained = |sets: &[&str]| {
+        let [all] = &parse(IN_SPACE, sets).explain()[..] else {
+            panic!("one treatment: {sets:?}")
+        };
+        (all.computed.clone(), all.skipped.join("; "))
+    };
+    let (computed, skipped) = explained(&[]);
+    assert!(
+        computed.contains("the law moreau, sustained contact on the rim and on the side, until"),
+        "{computed}"
+    );
+    assert_eq!(skipped, "drag: both of its rates are 0");
+    for (sets, word) in [
+        (&["surface.contour_m=0"][..], "contour_m is 0"),
+        (&["surface.pivoting_m=0"], "pivoting_m is 0"),
+        (&["surface.friction=0"], "friction is 0"),
+        (&["surface.restitution=0"], "restitution is 0"),
+        (&["environment.gyroscopic_torque=false"], "switched off"),
+        (&["surface.landing=adhesive"], "rolling and rocking"),
+    ] {
+        let (_, skipped) = explained(sets);
+        assert_eq!(skipped.split("; ").count(), 2, "{skipped}");
+        assert!(skipped.contains(word), "{skipped}");
+    }
+    assert_eq!(explained(&["environment.linear_drag_per_s=1"]).1, "");
+    let (computed, _) = explained(&["surface.restitution_threshold_m_s=2"]);
+    assert!(computed.contains("(restitution 0 below its threshold)"));
+    let (computed, _) = explained(&["engine.volumetric.decision=energy"]);
+    assert!(computed.ends_with("until energy alone makes the face certain"));
+    let (computed, _) = explained(&["surface.landing=adhesive"]);
+    assert!(computed.contains("to the first contact"));
+    let sets = ["surface.contour_m=[0, 1e-4]", "coin.ratio=[1, 2]"];
+    let points: Vec<_> = parse(IN_SPACE, &sets)
+        .explain()
+        .iter()
+        .map(|e| e.points)
+        .collect();
+    assert_eq!(points, [2, 2]);
+}
+
+#[test]
+fn what_may_surprise_in_space_is_noted() {
+    let notes = |sets: &[&str]| parse(IN_SPACE, sets).notes.join("; ");
+    assert!(notes(&["surface.contour_m=0"]).contains("engine.volumetric.time_limit"));
+    // something else ends it: no roll without friction, and drag
+    let frictionless = ["surface.contour_m=0", "surface.friction=0"];
+    let dragged = ["surface.contour_m=0", "environment.angular_drag_per_s=1"];
+    assert_eq!((notes(&frictionless), notes(&dragged)), Default::default());
+    assert!(notes(&["surface.restitution=1"]).contains("engine.volumetric.max_impacts"));
+    assert!(notes(&["surface.landing=adhesive"]).starts_with(
+        "surface.restitution, surface.friction, surface.contour_m and surface.pivoting_m change \
+         nothing"
+    ));
+}

@@ -1,0 +1,236 @@
+//! Impulses of several contacts at once, by projected Gauss–Seidel.
+//!
+//! Every contact has five rows: the normal, two tangents, the wandering of the contact point along
+//! the rim and the pivoting about the vertical. A row is a direction in the space of (v, ω); the
+//! impulses p change the rows' velocities by W p. Asked for are impulses with
+//!
+//! y = W p + b,   0 <= p_n ⊥ y_n >= 0,   |p_t| <= μ p_n against y_t,
+//! |p_c| <= (ρ_c/s) p_n against y_c,   |p_p| <= ρ_p p_n against y_p.
+//!
+//! The row of contour friction is the turning about the horizontal projection x of u, ω·x = sψ',
+//! with the arm ρ_c/s: the same power, and no large numbers nearly flat, where it matters most (it
+//! keeps the coin from whirling round its rim). The offset b says which velocities are meant:
+//! those after the impulses, their mean with those before, or Newton's v⁺ + e v⁻.
+
+use crate::points::{POINTS, Point};
+use crate::{Model, Motion};
+use nalgebra::Vector3;
+
+/// Rows of a contact.
+pub(crate) const ROWS: usize = 5;
+/// Index of the normal row.
+pub(crate) const NORMAL: usize = 0;
+/// Index of the first tangent's row.
+pub(crate) const TANGENT: usize = 1;
+/// Index of the row of contour friction.
+pub(crate) const CONTOUR: usize = 3;
+/// Index of the row of pivoting friction.
+pub(crate) const PIVOT: usize = 4;
+
+const SIZE: usize = ROWS * POINTS;
+/// Largest change in a sweep that counts as none, of the largest impulse.
+const CONVERGED: f64 = 1e-12;
+/// Far more than ever needed where the law has one solution.
+const MOST_SWEEPS: usize = 2_000;
+
+/// Contacts, their rows and the impulses.
+#[derive(Debug)]
+pub(crate) struct Contacts {
+    count: usize,
+    linear: [Vector3<f64>; SIZE],
+    angular: [Vector3<f64>; SIZE],
+    /// I⁻¹ applied to `angular`.
+    response: [Vector3<f64>; SIZE],
+    w: [[f64; SIZE]; SIZE],
+    /// 1/largest eigenvalue of a contact's tangential block.
+    relaxation: [f64; POINTS],
+    /// ρ_c/s of a contact.
+    pub(crate) contour: [f64; POINTS],
+    /// Velocities of the rows before any impulse.
+    pub(crate) before: [f64; SIZE],
+    /// The offset b.
+    pub(crate) offset: [f64; SIZE],
+    /// The impulses.
+    pub(crate) impulse: [f64; SIZE],
+}
+
+impl Contacts {
+    pub(crate) fn new() -> Self {
+        Self {
+            count: 0,
+            linear: [Vector3::zeros(); SIZE],
+            angular: [Vector3::zeros(); SIZE],
+            response: [Vector3::zeros(); SIZE],
+            w: [[0.0; SIZE]; SIZE],
+            relaxation: [0.0; POINTS],
+            contour: [0.0; POINTS],
+            before: [0.0; SIZE],
+            offset: [0.0; SIZE],
+            impulse: [0.0; SIZE],
+        }
+    }
+
+    /// Contacts at these points of a coin that moves like this; impulses 0.
+    pub(crate) fn gather<'a>(
+        &mut self,
+        model: &Model,
+        motion: &Motion,
+        points: impl Iterator<Item = &'a Point>,
+    ) {
+        self.count = 0;
+        for point in points {
+            let at = self.count * ROWS;
+            for (row, along) in [Vector3::z(), Vector3::x(), Vector3::y()]
+                .into_iter()
+                .enumerate()
+            {
+                self.linear[at + row] = along;
+                self.angular[at + row] = point.arm.cross(&along);
+            }
+            let steepness = point.wander.norm();
+            let projection = point.wander / steepness.max(f64::MIN_POSITIVE);
+            self.contour[self.count] = model.contour * steepness;
+            for (row, about) in [(CONTOUR, projection), (PIVOT, Vector3::z())] {
+                self.linear[at + row] = Vector3::zeros();
+                self.angular[at + row] = about;
+            }
+            self.count += 1;
+        }
+        let inverse = model.inverse_inertia(&motion.axis);
+        let rows = self.rows();
+        for i in 0..rows {
+            self.response[i] = inverse * self.angular[i];
+            self.before[i] =
+                self.linear[i].dot(&motion.velocity) + self.angular[i].dot(&motion.spin);
+            self.impulse[i] = 0.0;
+        }
+        for i in 0..rows {
+            for j in 0..=i {
+                let w =
+                    self.linear[i].dot(&self.linear[j]) + self.response[i].dot(&self.angular[j]);
+                self.w[i][j] = w;
+                self.w[j][i] = w;
+            }
+        }
+        for contact in 0..self.count {
+            let (xx, xy, yy) = self.tangential(contact);
+            let spread = ((xx - yy) * (xx - yy) + 4.0 * xy * xy).sqrt();
+            self.relaxation[contact] = 2.0 / (xx + yy + spread);
+        }
+    }
+
+    /// Number of contacts.
+    pub(crate) fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Number of rows in use.
+    pub(crate) fn rows(&self) -> usize {
+        self.count * ROWS
+    }
+
+    /// How a row answers to another's impulse.
+    pub(crate) fn response(&self, row: usize, to: usize) -> f64 {
+        self.w[row][to]
+    }
+
+    /// y of a row.
+    pub(crate) fn velocity(&self, row: usize) -> f64 {
+        let rows = self.rows();
+        let pushed: f64 = self.w[row][..rows]
+            .iter()
+            .zip(&self.impulse[..rows])
+            .map(|(w, p)| w * p)
+            .sum();
+        self.offset[row] + pushed
+    }
+
+    /// Lets the impulses act.
+    pub(crate) fn apply(&self, motion: &mut Motion) {
+        for row in 0..self.rows() {
+            motion.velocity += self.linear[row] * self.impulse[row];
+            motion.spin += self.response[row] * self.impulse[row];
+        }
+    }
+
+    /// Work of the impulses: p·(mean of the velocities before and after), with nothing else acting.
+    pub(crate) fn work(&self) -> f64 {
+        (0..self.rows())
+            .map(|row| {
+                let pushed = self.velocity(row) - self.offset[row];
+                self.impulse[row] * (self.before[row] + 0.5 * pushed)
+            })
+            .sum()
+    }
+
+    /// Finds the impulses, starting from those held. Returns whether it converged.
+    pub(crate) fn solve(&mut self, model: &Model) -> bool {
+        for _ in 0..MOST_SWEEPS {
+            let mut change: f64 = 0.0;
+            for contact in 0..self.count {
+                change = change.max(self.relax(model, contact));
+            }
+            let largest = self.impulse[..self.rows()]
+                .iter()
+                .fold(0.0, |largest: f64, p| largest.max(p.abs()));
+            if change <= CONVERGED * largest {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// One contact, row after row, with everything else as it is. Returns the largest change.
+    fn relax(&mut self, model: &Model, contact: usize) -> f64 {
+        let at = contact * ROWS;
+        let old = self.impulse;
+        let normal = at + NORMAL;
+        let p = old[normal] - self.velocity(normal) / self.w[normal][normal];
+        let p = p.max(0.0);
+        self.impulse[normal] = p;
+        self.relax_tangents(contact, model.friction * p);
+        for (row, length) in [(CONTOUR, self.contour[contact]), (PIVOT, model.pivoting)] {
+            let (row, most) = (at + row, length * p);
+            let w = self.w[row][row];
+            if most > 0.0 && w > 0.0 {
+                let p = self.impulse[row] - self.velocity(row) / w;
+                self.impulse[row] = p.clamp(-most, most);
+            } else {
+                self.impulse[row] = 0.0;
+            }
+        }
+        (at..at + ROWS)
+            .map(|row| (self.impulse[row] - old[row]).abs())
+            .fold(0.0, f64::max)
+    }
+
+    /// Stick if the disc |p_t| <= most allows it; else a step against the slip, back to the disc.
+    /// Its fixed point is friction against the slip whatever the length of the step.
+    fn relax_tangents(&mut self, contact: usize, most: f64) {
+        let x = contact * ROWS + TANGENT;
+        let y = x + 1;
+        let (vx, vy) = (self.velocity(x), self.velocity(y));
+        let (xx, xy, yy) = self.tangential(contact);
+        let determinant = xx * yy - xy * xy;
+        let (px, py) = (self.impulse[x], self.impulse[y]);
+        let stick = (
+            px - (yy * vx - xy * vy) / determinant,
+            py - (xx * vy - xy * vx) / determinant,
+        );
+        let size = |(x, y): (f64, f64)| (x * x + y * y).sqrt();
+        let (px, py) = if size(stick) <= most {
+            stick
+        } else {
+            let r = self.relaxation[contact];
+            let step = (px - r * vx, py - r * vy);
+            let back = (most / size(step)).min(1.0);
+            (step.0 * back, step.1 * back)
+        };
+        (self.impulse[x], self.impulse[y]) = (px, py);
+    }
+
+    fn tangential(&self, contact: usize) -> (f64, f64, f64) {
+        let x = contact * ROWS + TANGENT;
+        (self.w[x][x], self.w[x][x + 1], self.w[x + 1][x + 1])
+    }
+}

@@ -1,0 +1,70 @@
+//! The scene in units of D, sqrt(D/g) and m.
+
+use coinmc_core::Scene;
+use nalgebra::{Matrix3, Vector3};
+
+/// Coin, surface and air, without units: g = 1, D = 1, m = 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Model {
+    /// R/D.
+    pub radius: f64,
+    /// H/(2D).
+    pub half: f64,
+    /// I_t/(m D²), about a diameter through the centre.
+    pub transverse: f64,
+    /// I_a/(m D²), about the axis.
+    pub axial: f64,
+    /// Newton's restitution e.
+    pub restitution: f64,
+    /// Approach speed in sqrt(gD) below which e is 0.
+    pub threshold: f64,
+    /// Coulomb friction μ.
+    pub friction: f64,
+    /// ρ_c/D.
+    pub contour: f64,
+    /// ρ_p/D.
+    pub pivoting: f64,
+    /// Decay of the velocity, in sqrt(g/D).
+    pub linear_drag: f64,
+    /// Decay of the angular momentum, in sqrt(g/D).
+    pub angular_drag: f64,
+    /// Whether ω × Iω acts.
+    pub gyroscopic: bool,
+}
+
+impl Model {
+    /// The model of a scene. The way of landing is not looked at: the model bounces.
+    pub fn new(scene: &Scene) -> Self {
+        let (coin, surface, drag) = (&scene.coin, &scene.surface, scene.drag());
+        let (d, time) = (coin.rim_distance_m(), scene.time_scale_s());
+        Self {
+            radius: coin.radius_m() / d,
+            half: coin.height_m() / (2.0 * d),
+            transverse: coin.transverse_gyration_m2() / (d * d),
+            axial: coin.axial_gyration_m2() / (d * d),
+            restitution: surface.restitution(),
+            threshold: surface.restitution_threshold_m_s() * time / d,
+            friction: surface.friction(),
+            contour: surface.contour_m() / d,
+            pivoting: surface.pivoting_m() / d,
+            linear_drag: drag.linear_per_s() * time,
+            angular_drag: drag.angular_per_s() * time,
+            gyroscopic: scene.has_gyroscopic_torque(),
+        }
+    }
+
+    /// The inertia tensor of a coin whose axis is `axis`.
+    pub fn inertia(&self, axis: &Vector3<f64>) -> Matrix3<f64> {
+        tensor(self.transverse, self.axial, axis)
+    }
+
+    /// The inverse of [`inertia`](Self::inertia).
+    pub fn inverse_inertia(&self, axis: &Vector3<f64>) -> Matrix3<f64> {
+        tensor(1.0 / self.transverse, 1.0 / self.axial, axis)
+    }
+}
+
+/// transverse·1 + (axial − transverse) u uᵀ.
+fn tensor(transverse: f64, axial: f64, axis: &Vector3<f64>) -> Matrix3<f64> {
+    Matrix3::from_diagonal_element(transverse) + axis * axis.transpose() * (axial - transverse)
+}

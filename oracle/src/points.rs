@@ -1,0 +1,76 @@
+//! The points of the rims that may touch.
+
+use crate::{Model, Motion};
+use nalgebra::Vector3;
+
+/// Candidates: the lowest point of either rim, and of the lower rim the point opposite and the two
+/// between. Of a tilted coin only the first two can touch; flat on a face all of the lower rim
+/// does, and four points of it carry the coin as the whole ring would.
+pub(crate) const POINTS: usize = 5;
+
+/// Sine of a tilt that has no direction.
+const NO_TILT: f64 = 1e-150;
+
+/// A point of the rim.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Point {
+    /// From the centre.
+    pub(crate) arm: Vector3<f64>,
+    /// x/s, x the unit horizontal projection of u: ψ' = wander·ω is the rate at which the lowest
+    /// point moves along the rim. 0 for the other points, which have none of their own.
+    pub(crate) wander: Vector3<f64>,
+}
+
+impl Point {
+    /// Height above the surface.
+    pub(crate) fn gap(&self, motion: &Motion) -> f64 {
+        motion.position.z + self.arm.z
+    }
+
+    /// Velocity of the material point that is there.
+    pub(crate) fn velocity(&self, motion: &Motion) -> Vector3<f64> {
+        motion.velocity + motion.spin.cross(&self.arm)
+    }
+}
+
+/// The candidates of a motion: lowest of the heads rim, of the tails rim, and of the lower rim
+/// opposite, left and right.
+pub(crate) fn points(model: &Model, motion: &Motion) -> [Point; POINTS] {
+    let (u, sine) = (motion.axis, motion.sine());
+    let wander = wander(&u, sine);
+    let down = down(&u, sine);
+    let lower = if u.z > 0.0 { -1.0 } else { 1.0 };
+    let across = u.cross(&down);
+    let still = Vector3::zeros();
+    let place = |end: f64, along: Vector3<f64>, wander| Point {
+        arm: u * (end * model.half) + along * model.radius,
+        wander,
+    };
+    [
+        place(1.0, down, wander),
+        place(-1.0, down, wander),
+        place(lower, -down, still),
+        place(lower, across, still),
+        place(lower, -across, still),
+    ]
+}
+
+/// The unit vector of the coin's plane that points down most steeply.
+fn down(u: &Vector3<f64>, sine: f64) -> Vector3<f64> {
+    if sine > NO_TILT {
+        (u * u.z - Vector3::z()) / sine
+    } else {
+        Vector3::x()
+    }
+}
+
+/// The lowest point turns with the vertical plane through u, whose horizontal normal stays
+/// horizontal: it turns against the coin about u at the rate ψ' that takes from ω its component
+/// along the projection x of u, (ω − ψ'u)·x = 0. Hence ψ' = ω·x/(u·x), and u·x = s.
+fn wander(u: &Vector3<f64>, sine: f64) -> Vector3<f64> {
+    if sine > NO_TILT {
+        Vector3::new(u.x, u.y, 0.0) / (sine * sine)
+    } else {
+        Vector3::zeros()
+    }
+}

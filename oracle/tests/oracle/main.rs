@@ -1,0 +1,7 @@
+//! The oracles against closed forms and against each other.
+
+mod common;
+mod contact;
+mod equations;
+mod flight;
+mod tosses;
