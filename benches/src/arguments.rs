@@ -1,7 +1,8 @@
 //! What can be asked for on the command line.
 
 use crate::studies::{
-    Convergence, Energy, FlatTable, MissedContacts, Oracle, Sensitivity, Speed, StoppingRule, Undecided,
+    Convergence, Energy, FlatTable, MissedContacts, Oracle, Sensitivity, Speed, StoppingRule,
+    Undecided,
 };
 use crate::{memory, number};
 use anyhow::{Context, anyhow};

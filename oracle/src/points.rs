@@ -8,6 +8,9 @@ use nalgebra::Vector3;
 /// does, and four points of it carry the coin as the whole ring would.
 pub(crate) const POINTS: usize = 5;
 
+/// Index of the point opposite to the lowest.
+pub(crate) const OPPOSITE: usize = 2;
+
 /// Sine of a tilt that has no direction.
 const NO_TILT: f64 = 1e-150;
 

@@ -19,7 +19,7 @@
 use crate::coulomb::{CONTOUR, Contacts, NORMAL, PIVOT, ROWS, TANGENT};
 use crate::decision::decided;
 use crate::impact::collide;
-use crate::points::{POINTS, Point, points};
+use crate::points::{OPPOSITE, POINTS, Point, points};
 use crate::{Model, Motion};
 use coinmc_core::{Face, Launch, Scene, State};
 
@@ -155,7 +155,7 @@ impl TimeStepper {
         let touching: [bool; POINTS] = std::array::from_fn(|index| {
             let point = &points[index];
             let stays = toss.resting[index].is_some() || point.velocity(motion).z < -APPROACH;
-            stays && point.gap(motion) <= TOUCH
+            stays && touches(points, motion, index)
         });
         let of_touching = |(point, touches): (_, bool)| touches.then_some(point);
         contacts.gather(
@@ -272,6 +272,14 @@ struct Resting {
     stuck: [bool; 3],
 }
 
+/// Whether a point is near enough to touch. The two between the lowest and the one opposite come
+/// second to both: while the coin goes flat they are nearer than the one opposite, and would turn
+/// it over if they stopped it first.
+fn touches(points: &[Point; POINTS], motion: &Motion, index: usize) -> bool {
+    let near = |index: usize| points[index].gap(motion) <= TOUCH;
+    near(index) && (index <= OPPOSITE || near(OPPOSITE))
+}
+
 /// A toss on its way.
 #[derive(Debug)]
 struct Toss {
@@ -304,13 +312,13 @@ impl Toss {
     /// Whether a point touches that approaches: any that did not rest, or one that did and is
     /// pushed in faster than a step's own error.
     fn arrives(&self, points: &[Point; POINTS], step: f64) -> bool {
-        points.iter().zip(&self.resting).any(|(point, resting)| {
-            let least = if resting.is_some() {
+        (0..POINTS).any(|index| {
+            let least = if self.resting[index].is_some() {
                 0.5 * step
             } else {
                 APPROACH
             };
-            point.gap(&self.motion) <= TOUCH && point.velocity(&self.motion).z < -least
+            touches(points, &self.motion, index) && points[index].velocity(&self.motion).z < -least
         })
     }
 

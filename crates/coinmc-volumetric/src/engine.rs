@@ -335,13 +335,12 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         }
     }
 
-    /// Whether the coin stands on its face but for a little rocking, and friction may tip it.
+    /// Whether the coin stands on its face but for a little rocking.
     fn stands(&self, toss: &Toss) -> bool {
         let m = &toss.motion;
         let body = &self.contact.body;
         let small = ROCKING * self.settings.zeno * body.radius;
         m.sin < small
-            && self.contact.friction.mu * body.half > body.radius
             && m.vz.abs() < small
             && toss.spin.tilt.abs() < small
             && toss.spin.turn.abs() < small

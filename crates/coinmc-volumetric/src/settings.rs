@@ -94,7 +94,7 @@ impl Default for Settings {
             stick: 3e-3,
             fade: 1e-2,
             max_impacts: 100_000,
-            time_limit: 1e6,
+            time_limit: 1e12,
         }
     }
 }

@@ -21,8 +21,6 @@ use crate::verdict::Verdict;
 /// v_x, v_y, ω_a, ω_z.
 type LineState = [f64; 4];
 
-/// Slip, in sqrt(g D), below which a conserving coin counts as rolling straight on for ever.
-const STRAIGHT: f64 = 1e-9;
 /// Least length of a step, in sqrt(D/g).
 const LEAST_STEP: f64 = 1e-13;
 
@@ -87,8 +85,8 @@ impl Contact<'_> {
             if now.first >= 1.0 || now.first <= 0.0 {
                 return Ok(now.first >= 1.0);
             }
-            if self.rolls_for_ever(&state) {
-                return Err(Leave::Endless);
+            if self.rolls_straight(&state) {
+                return Err(self.roll_out(&mut state, motion, spin));
             }
             if self.time > self.settings.time_limit {
                 return Err(Leave::Late);
@@ -124,12 +122,48 @@ impl Contact<'_> {
         }
     }
 
-    /// Straight rolling without anything that takes energy.
-    fn rolls_for_ever(&self, state: &LineState) -> bool {
+    /// Whether nothing is left but straight rolling and a creep.
+    fn rolls_straight(&self, state: &LineState) -> bool {
         let [vx, vy, wa, wz] = *state;
         let body = &self.law.body;
         let slip = (vy + body.radius * wa).abs() + (body.half * wz).abs() + vx.abs();
-        self.law.friction.contour == 0.0 && !self.law.drag.acts() && slip < STRAIGHT
+        self.law.friction.mu > 0.0 && slip < self.settings.stick
+    }
+
+    /// The rest of straight rolling, in closed form: v' = −a sgn v − bv with
+    /// a = ρ_c R/(k_a + R²) and b = (kR² + k_a k_ω)/(k_a + R²), k and k_ω the rates of drag.
+    fn roll_out(
+        &mut self,
+        state: &mut LineState,
+        motion: &mut Motion<f64>,
+        spin: &mut Spin<f64>,
+    ) -> Leave {
+        let Law {
+            body,
+            friction,
+            drag,
+            ..
+        } = self.law;
+        let r2 = body.radius * body.radius;
+        let a = friction.contour * body.radius / (body.ka + r2);
+        let b = (drag.linear * r2 + drag.angular * body.ka) / (body.ka + r2);
+        let speed = state[1].abs();
+        if a == 0.0 {
+            // drag alone never quite stops it; without either it goes on for ever
+            return if b > 0.0 {
+                Leave::Settled(Verdict::Side)
+            } else {
+                Leave::Endless
+            };
+        }
+        self.time += if b * speed < 1e-12 * a {
+            speed / a
+        } else {
+            libm::log1p(b * speed / a) / b
+        };
+        *state = [0.0; 4];
+        lay(self.law, state, motion, spin);
+        Leave::Settled(Verdict::Side)
     }
 }
 
