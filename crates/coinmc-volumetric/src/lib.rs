@@ -1,4 +1,40 @@
-//! Event-driven toss of a coin in space.
+//! Event-driven toss of a coin in space: a rigid cylinder on a plane.
+//!
+//! The coin flies in closed form to the first root of its gap, which is never missed, and is thrown
+//! back by an [`ImpactLaw`]. When the remaining bounces would be over before it has turned
+//! noticeably it goes on in sustained contact: on one point of a rim, sticking or sliding, with
+//! friction against rolling and pivoting, or along its side. The toss ends when the energy that
+//! can still tilt the coin is too small to carry it over its rim. Derivations: `docs/theory-space.md`.
+//!
+//! # Example
+//! Five hundred tosses of a coin as thick as it is wide, over a surface that brakes rolling:
+//! ```
+//! use coinmc_core::{Coin, Domain, Engine, Face, Preset, Scene, Stream, Surface, run_tosses};
+//! use coinmc_volumetric::{Moreau, Settings, VolumetricEngine};
+//! let coin = Coin::cylinder(2.0, 0.01)?;
+//! let surface = Surface::new(0.5, 0.3)?.with_friction_lengths(1e-4, 1e-4)?;
+//! let scene = Scene::new(coin, surface, Scene::STANDARD_GRAVITY_M_S2)?;
+//! let engine = VolumetricEngine::new(&scene, &Settings::default(), Moreau)?;
+//! let launches = Preset::Clean.distribution();
+//! let stream = Stream::new(1, Domain::Launch, 0);
+//! let tally = run_tosses(&engine, &mut engine.workspace(), &scene, &launches, &stream, 0..500);
+//! assert_eq!(tally.undecided(), 0);
+//! assert!(tally.count(Face::Side) > tally.count(Face::Heads) + tally.count(Face::Tails));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Range
+//! Any ratio and moments of inertia, restitution 0 to 1, any friction and friction lengths, linear
+//! drag, with or without gyroscopic torque. Rigid bodies: elastic compliance and the flow of air
+//! are not modelled. What is never lost is never settled: a coin that goes on for ever (e = 1
+//! without friction, rolling without friction lengths) ends as [`coinmc_core::Ended::Endless`]
+//! where that can be told, else at a limit; both are counted.
+//!
+//! # Files
+//! `body` shape, friction, units · `motion` state and frame · `flight` orbit and first contact ·
+//! `impact` laws, friction lengths, tangential impact · `contact` on a rim point and on the side ·
+//! `verdict` when the face is settled · `toss` one toss and its place in the laboratory · `engine`
+//! their order · `settings` choices · `lane` and `series` arithmetic of the kernels.
 
 mod body;
 mod contact;

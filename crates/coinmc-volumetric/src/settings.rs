@@ -78,8 +78,10 @@ pub struct Settings {
     pub stick: f64,
     /// Time, in sqrt(D/g), over which rolling and pivoting friction end the last of a rotation.
     pub fade: f64,
-    /// Impacts, or steps of sustained contact, after which a toss is given up as undecided.
+    /// Impacts after which a toss is given up as undecided.
     pub max_impacts: u32,
+    /// Steps of sustained contact after which a toss is given up as undecided.
+    pub max_steps: u32,
     /// Simulated time, in sqrt(D/g), after which a toss is given up as undecided.
     pub time_limit: f64,
 }
@@ -94,6 +96,7 @@ impl Default for Settings {
             stick: 3e-3,
             fade: 1e-2,
             max_impacts: 100_000,
+            max_steps: 1_000_000,
             time_limit: 1e12,
         }
     }
@@ -117,6 +120,9 @@ pub enum SettingsError {
     /// No impact is allowed.
     #[error("max_impacts must be at least 1")]
     MaxImpacts,
+    /// No step is allowed.
+    #[error("max_steps must be at least 1")]
+    MaxSteps,
     /// The time limit is not positive.
     #[error("time_limit must be positive, not {0}")]
     TimeLimit(f64),
@@ -143,7 +149,10 @@ impl Settings {
         if self.max_impacts == 0 {
             return Err(SettingsError::MaxImpacts);
         }
-        if !(self.time_limit > 0.0) {
+        if self.max_steps == 0 {
+            return Err(SettingsError::MaxSteps);
+        }
+        if self.time_limit.is_nan() || self.time_limit <= 0.0 {
             return Err(SettingsError::TimeLimit(self.time_limit));
         }
         Ok(())

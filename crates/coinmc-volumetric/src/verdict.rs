@@ -18,7 +18,10 @@
 //!   shorter than that of the weight).
 //!
 //! # Without friction
-//! With μ = 0 and no friction lengths the normal force has no moment about u or the vertical:
+//! With μ = 0 the horizontal velocity never changes, and neither do the rules when its energy is
+//! left out; nor can rolling tilt the coin, so on the side the energy of ω_a is left out instead.
+//!
+//! With no friction lengths the normal force has no moment about u or the vertical:
 //! ω_a, L_z and the horizontal velocity never change. At the balance over a rim, u_z = c* = ±h,
 //! the energy of turning about the vertical is then k_t(Ω_z − Ω_a c*)²/(2s*²), and the balance
 //! cannot be passed with less than 1 plus that. This is exact for any e, in flight and in contact.
@@ -41,6 +44,8 @@ pub(crate) struct Judge {
     body: Body,
     axial_factor: f64,
     tilting: bool,
+    /// μ = 0.
+    slides: bool,
     /// Nothing but normal forces act.
     smooth: bool,
     /// ½/(1 + k_a/R²) and k_a/R of straight rolling.
@@ -64,6 +69,7 @@ impl Judge {
             body,
             axial_factor,
             tilting,
+            slides: friction.mu == 0.0,
             smooth: friction.mu == 0.0 && !friction.twists() && !drags,
             rolling: 0.5 / (1.0 + body.ka / r2),
             lever: body.ka / body.radius,
@@ -83,33 +89,41 @@ impl Judge {
 
     #[inline]
     pub(crate) fn verdict(&self, m: &Motion<f64>, spin: &Spin<f64>) -> Verdict {
-        let energy = m.kinetic(&self.body, spin) + m.z;
+        let mut energy = m.kinetic(&self.body, spin) + m.z;
+        let sliding = 0.5 * (m.vx * m.vx + m.vy * m.vy);
+        if self.slides {
+            energy -= sliding;
+        }
         let side = self.on_side(m);
         let settled = if side { Verdict::Side } else { Verdict::Face };
         if energy < 1.0 {
             return settled;
         }
-        let idle = if side {
+        let spinning = 0.5 * self.body.ka * spin.axial * spin.axial;
+        let idle = if side && self.slides {
+            spinning
+        } else if side {
             let invariant = m.vy - self.lever * spin.axial;
             self.rolling * invariant * invariant
         } else if m.sin < self.flat {
-            0.5 * (m.vx * m.vx + m.vy * m.vy + self.body.ka * spin.axial * spin.axial)
+            spinning + if self.slides { 0.0 } else { sliding }
         } else {
             0.0
         };
         if self.tilting && energy - idle < 1.0 {
             return settled;
         }
-        if self.smooth && self.is_trapped(m, spin, energy, side) {
+        if self.smooth && self.is_trapped(m, spin, energy - spinning, side) {
             return settled;
         }
         Verdict::Open
     }
 
     /// See the module's text, *Without friction*.
-    fn is_trapped(&self, m: &Motion<f64>, spin: &Spin<f64>, energy: f64, side: bool) -> bool {
-        let Body { radius, half, kt, ka } = self.body;
-        let free = energy - 0.5 * (m.vx * m.vx + m.vy * m.vy + ka * spin.axial * spin.axial);
+    fn is_trapped(&self, m: &Motion<f64>, spin: &Spin<f64>, free: f64, side: bool) -> bool {
+        let Body {
+            radius, half, kt, ..
+        } = self.body;
         let axial = self.axial_factor * spin.axial;
         let barrier = |height: f64| {
             let turn = (m.oz - axial * height) / radius;

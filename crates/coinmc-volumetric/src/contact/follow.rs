@@ -98,7 +98,7 @@ impl Contact<'_> {
             if verdict != Verdict::Open {
                 return Leave::Settled(verdict);
             }
-            if self.steps >= self.settings.max_impacts {
+            if self.steps >= self.settings.max_steps {
                 return Leave::Lost;
             }
             if self.time > self.settings.time_limit {
@@ -183,7 +183,7 @@ impl Contact<'_> {
         let mut length = phase.length.min(self.braking_limit(phase));
         loop {
             self.steps += 1;
-            if length < LEAST_STEP || self.steps >= self.settings.max_impacts {
+            if length < LEAST_STEP || self.steps >= self.settings.max_steps {
                 return (Next::End(Leave::Lost), 0.0);
             }
             let (trial, now) = self.attempt(phase, length);
@@ -232,7 +232,7 @@ impl Contact<'_> {
             return self.reach(phase, trial, length, FLAT, Leave::Upright);
         }
         if self.holds(phase.mode, now) {
-            if phase.mode == Mode::Stick && trial.state[OMEGA_Y] * phase.state[OMEGA_Y] < 0.0 {
+            if trial.state[OMEGA_Y] * phase.state[OMEGA_Y] < 0.0 {
                 phase.turning_points += 1;
             }
             phase.state = trial.state;
@@ -332,14 +332,13 @@ impl Contact<'_> {
 
     fn after_step(&self, phase: &Phase) -> Next {
         let state = &phase.state;
+        let smooth = phase.mode == Mode::Stick || self.law.friction.mu == 0.0;
+        let conserves = smooth && !self.law.friction.twists() && !self.law.drag.acts();
+        if conserves && phase.turning_points >= TURNING_POINTS {
+            return Next::End(Leave::Endless);
+        }
         match phase.mode {
-            Mode::Stick => {
-                let conserves = !self.law.friction.twists() && !self.law.drag.acts();
-                if conserves && phase.turning_points >= TURNING_POINTS {
-                    return Next::End(Leave::Endless);
-                }
-                Next::Go
-            }
+            Mode::Stick => Next::Go,
             Mode::Slip => {
                 let [.., gx, gy] = *state;
                 let slip = (gx * gx + gy * gy).sqrt();

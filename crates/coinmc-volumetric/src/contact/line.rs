@@ -94,7 +94,7 @@ impl Contact<'_> {
             let before = motion.kinetic(&self.law.body, spin);
             let trial = loop {
                 self.steps += 1;
-                if self.steps >= self.settings.max_impacts || !(length >= LEAST_STEP) {
+                if self.steps >= self.settings.max_steps || !(length >= LEAST_STEP) {
                     return Err(Leave::Lost);
                 }
                 let trial = step(&state, &now.rates, length, self.settings.tolerance, |s| {

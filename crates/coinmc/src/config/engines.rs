@@ -38,7 +38,7 @@ fn in_the_plane(form: &Form, at: &At<'_>) -> Result<flat::Settings, Fault> {
         decision,
         zeno: at.required(form, "zeno")?,
         tolerance: at.required(form, "tolerance")?,
-        max_impacts: max_impacts(form)?,
+        max_impacts: whole(form, "max_impacts")?,
     };
     settings
         .validate()
@@ -55,7 +55,8 @@ fn in_space(form: &Form, at: &At<'_>) -> Result<volumetric::Settings, Fault> {
         tolerance: at.required(form, "tolerance")?,
         stick: at.required(form, "stick")?,
         fade: at.required(form, "fade")?,
-        max_impacts: max_impacts(form)?,
+        max_impacts: whole(form, "max_impacts")?,
+        max_steps: whole(form, "max_steps")?,
         time_limit: at.required(form, "time_limit")?,
     };
     settings
@@ -77,8 +78,8 @@ fn named<T: Copy>(
         .ok_or(Fault::Reported)
 }
 
-fn max_impacts(form: &Form) -> Result<u32, Fault> {
-    integer(form, "max_impacts")
+fn whole(form: &Form, key: &str) -> Result<u32, Fault> {
+    integer(form, key)
         .and_then(|n| n.try_into().ok())
         .ok_or(Fault::Reported)
 }

@@ -84,7 +84,8 @@ fn in_the_plane() -> TableKind {
             Bounds::closed(1e-12, 1e-2),
             default(settings.tolerance),
         ),
-        max_impacts(
+        count(
+            "max_impacts",
             "Impacts after which a toss is given up as undecided.",
             settings.max_impacts,
         ),
@@ -138,13 +139,19 @@ fn in_space() -> TableKind {
         ),
         number(
             "fade",
-            "Rates, in sqrt(g/D), below which rolling and pivoting friction fade.",
+            "Time, in sqrt(D/g), over which rolling and pivoting friction end the last of a rotation.",
             SMALL,
             default(settings.fade),
         ),
-        max_impacts(
-            "Impacts, or steps of sustained contact, after which a toss is given up as undecided.",
+        count(
+            "max_impacts",
+            "Impacts after which a toss is given up as undecided.",
             settings.max_impacts,
+        ),
+        count(
+            "max_steps",
+            "Steps of sustained contact after which a toss is given up as undecided.",
+            settings.max_steps,
         ),
         number(
             "time_limit",
@@ -178,9 +185,9 @@ fn zeno(fallback: f64) -> Field {
     )
 }
 
-fn max_impacts(doc: &'static str, fallback: u32) -> Field {
+fn count(key: &'static str, doc: &'static str, fallback: u32) -> Field {
     field(
-        "max_impacts",
+        key,
         doc,
         Kind::Integer(Whole {
             low: 1,

@@ -1,0 +1,53 @@
+//! The grid of scenes that the studies of the toss in space share.
+
+use super::FRICTION;
+use clap::Args;
+use coinmc_bench::Case;
+use coinmc_core::Preset;
+
+/// H/R × restitution × friction lengths, with μ = 0.3 and the preset clean.
+#[derive(Debug, Clone, Args)]
+pub(super) struct Grid {
+    /// H/R of the scenes
+    #[arg(long, value_delimiter = ',', value_parser = positive, value_name = "X,…",
+          default_values_t = [0.25, 0.85, 2.0])]
+    ratios: Vec<f64>,
+
+    /// Coefficients of restitution of the scenes
+    #[arg(long, value_delimiter = ',', value_parser = share, value_name = "E,…",
+          default_values_t = [0.0, 0.3, 0.5, 0.8])]
+    restitutions: Vec<f64>,
+
+    /// Contour and pivoting friction lengths of the scenes, in radii
+    #[arg(long, value_delimiter = ',', value_parser = share, value_name = "RHO,…",
+          default_values_t = [0.0, 0.003, 0.01, 0.03])]
+    rhos: Vec<f64>,
+}
+
+impl Grid {
+    /// Every combination, the friction length varying fastest.
+    pub(super) fn cases(&self) -> Vec<Case> {
+        let mut cases = Vec::new();
+        for &ratio in &self.ratios {
+            for &e in &self.restitutions {
+                let case = Case::new(Preset::Clean, 0.01, ratio, e, FRICTION);
+                cases.extend(self.rhos.iter().map(|&rho| case.rolling(rho)));
+            }
+        }
+        cases
+    }
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(value) if value > 0.0 && f64::is_finite(value) => Ok(value),
+        _ => Err("not a positive number".to_owned()),
+    }
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(value) if (0.0..=1.0).contains(&value) => Ok(value),
+        _ => Err("not a number from 0 to 1".to_owned()),
+    }
+}

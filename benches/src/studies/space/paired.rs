@@ -1,0 +1,161 @@
+//! The same tosses made in two ways.
+
+use super::{engine, toss};
+use coinmc_bench::Case;
+use coinmc_core::{Estimate, Face, IntervalMethod, Outcome, Tally};
+use coinmc_volumetric::Settings;
+use std::ops::Range;
+
+/// 97.5 % quantile of the standard normal distribution.
+const SIGMAS: f64 = 1.96;
+
+/// How tosses differ between two settings.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Paired {
+    pub(super) first: Tally,
+    pub(super) second: Tally,
+    /// On the side the first way only, and the second way only.
+    pub(super) gained: u64,
+    pub(super) lost: u64,
+    /// With another outcome, heads and tails told apart.
+    pub(super) changed: u64,
+}
+
+impl Paired {
+    /// Makes tosses of a case under two settings.
+    pub(super) fn of(case: &Case, settings: [&Settings; 2], seed: u64, tosses: Range<u64>) -> Self {
+        let [first, second] = settings.map(|settings| engine(case, settings));
+        let (launches, stream) = (case.launches(), Case::stream(seed));
+        let mut paired = Self::default();
+        for number in tosses {
+            let launch = launches.launch(&case.scene.coin, &mut stream.toss(number));
+            paired.add(
+                &toss(&first, &launch, &mut ()),
+                &toss(&second, &launch, &mut ()),
+            );
+        }
+        paired
+    }
+
+    fn add(&mut self, first: &Outcome, second: &Outcome) {
+        let (now, other) = (
+            first.face() == Some(Face::Side),
+            second.face() == Some(Face::Side),
+        );
+        self.first.add(first);
+        self.second.add(second);
+        self.gained += u64::from(now && !other);
+        self.lost += u64::from(other && !now);
+        self.changed += u64::from(first.face() != second.face());
+    }
+
+    pub(super) fn merge(&mut self, other: &Self) {
+        self.first.merge(&other.first);
+        self.second.merge(&other.second);
+        self.gained += other.gained;
+        self.lost += other.lost;
+        self.changed += other.changed;
+    }
+
+    /// P(side) the first way minus the second way.
+    pub(super) fn bias(&self) -> f64 {
+        (self.gained as f64 - self.lost as f64) / self.first.tosses() as f64
+    }
+
+    /// Tosses that are on the side in one way only.
+    pub(super) fn discordant(&self) -> u64 {
+        self.gained + self.lost
+    }
+
+    /// Standard error of the mean of differences that are −1, 0 or 1.
+    pub(super) fn std_error(&self) -> f64 {
+        let n = self.first.tosses() as f64;
+        let mean_square = self.discordant() as f64 / n;
+        ((mean_square - self.bias().powi(2)).max(0.0) / n).sqrt()
+    }
+
+    /// |bias| in standard errors; 0 where no toss differs.
+    pub(super) fn z(&self) -> f64 {
+        if self.discordant() == 0 {
+            0.0
+        } else {
+            self.bias().abs() / self.std_error().max(f64::MIN_POSITIVE)
+        }
+    }
+
+    /// The largest |bias| that these tosses leave possible, with 95 % confidence; without a
+    /// discordant toss by the rule of three.
+    pub(super) fn numerical_error(&self) -> f64 {
+        let rule_of_three = 3.0 / self.first.tosses() as f64;
+        self.bias().abs() + (SIGMAS * self.std_error()).max(rule_of_three)
+    }
+
+    /// P(side) of the first way, with its 95 % interval.
+    pub(super) fn side(&self) -> Estimate {
+        side(&self.first)
+    }
+}
+
+/// P(side) with its 95 % interval.
+pub(super) fn side(tally: &Tally) -> Estimate {
+    let (n, method) = (tally.tosses(), IntervalMethod::Wilson);
+    Estimate::new(tally.side, tally.undecided(), n, 0.95, method)
+}
+
+/// "12 (time 3, endless 9)"; "0" where every toss has a face.
+pub(super) fn undecided(tally: &Tally) -> String {
+    let kinds = [
+        ("time", tally.time_limit),
+        ("endless", tally.endless),
+        ("impacts", tally.impact_limit),
+        ("failed", tally.failed),
+    ];
+    let kinds: Vec<String> = kinds
+        .iter()
+        .filter(|(_, count)| *count > 0)
+        .map(|(name, count)| format!("{name} {count}"))
+        .collect();
+    if kinds.is_empty() {
+        "0".to_owned()
+    } else {
+        format!("{} ({})", tally.undecided(), kinds.join(" "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_error_of_a_paired_difference_is_that_of_the_tosses_that_differ() {
+        let (side, heads) = (Outcome::decided(Face::Side), Outcome::decided(Face::Heads));
+        let mut paired = Paired::default();
+        for _ in 0..91 {
+            paired.add(&side, &side);
+        }
+        for _ in 0..8 {
+            paired.add(&side, &heads);
+        }
+        paired.add(&heads, &side);
+        let mut twice = paired;
+        twice.merge(&paired);
+        assert_eq!((paired.changed, paired.discordant()), (9, 9));
+        assert!((paired.bias() - 0.07).abs() < 1e-15 && (twice.bias() - 0.07).abs() < 1e-15);
+        // mean square 0.09, mean 0.07, n = 100
+        let expected = ((0.09 - 0.0049) / 100.0_f64).sqrt();
+        assert!((paired.std_error() - expected).abs() < 1e-15);
+        assert!((paired.numerical_error() - 0.07 - SIGMAS * expected).abs() < 1e-15);
+    }
+
+    #[test]
+    fn tosses_without_a_difference_bound_it_by_the_rule_of_three() {
+        let mut paired = Paired::default();
+        for _ in 0..300 {
+            paired.add(
+                &Outcome::decided(Face::Side),
+                &Outcome::decided(Face::Side),
+            );
+        }
+        assert_eq!((paired.z(), paired.numerical_error()), (0.0, 0.01));
+    }
+}

@@ -1,0 +1,219 @@
+//! Any launch at all ends in bounded time, without a panic, under the right count.
+
+use crate::common::{Dice, Tosser, scene};
+use coinmc_core::{Coin, Ended, Launch, Scene, Surface};
+use coinmc_volumetric::{Law, Settings};
+use nalgebra::{UnitVector3, Vector3};
+use std::sync::mpsc;
+use std::time::Duration;
+
+/// Runs `work` on a thread of its own and fails if it has not come back in time, so that a hang
+/// is a failure and not a stuck test. Each of these takes some ten seconds at most.
+fn within_two_minutes(work: impl FnOnce() + Send + 'static) {
+    let (done, wait) = mpsc::channel();
+    let worker = std::thread::spawn(move || {
+        work();
+        // nobody listens any more only when the time is up already
+        let _ = done.send(());
+    });
+    match wait.recv_timeout(Duration::from_mins(2)) {
+        Err(mpsc::RecvTimeoutError::Timeout) => panic!("a toss hangs"),
+        _ => worker.join().expect("no panic"),
+    }
+}
+
+/// One toss anywhere in the box: ratio 1e-4 to 1e4, radius 1e-6 to 1e3 m, spin to 1e5 rad/s, from
+/// heights to 1e3 R; e, μ and ρ at and between their ends. Where nothing takes energy from a
+/// rolling or from a bouncing coin is left out: there some tosses have no end.
+fn stress(trial: u64) -> (Scene, Launch, Law) {
+    let mut dice = Dice::new(130, trial);
+    let radius = dice.scale(1e-6, 1e3);
+    let ratio = match dice.pick(&[0, 1, 2, 3]) {
+        0 => dice.pick(&[1e-4, 1e4]),
+        1 => dice.scale(0.1, 4.0),
+        _ => dice.scale(1e-4, 1e4),
+    };
+    let e = match dice.pick(&[0, 1, 2, 3]) {
+        0 => 0.0,
+        1 => dice.between(0.9, 0.999),
+        _ => dice.between(0.0, 0.95),
+    };
+    let mu = match dice.pick(&[0, 1, 2, 3]) {
+        0 => dice.pick(&[0.0, 10.0]),
+        1 => dice.scale(1e-6, 10.0),
+        2 => dice.between(1.0, 10.0),
+        _ => dice.between(0.0, 1.0),
+    };
+    let mut length = || radius * dice.pick(&[0.1, 1e-4, 1e-2]) * dice.between(0.1, 1.0);
+    let (contour, pivoting) = (length(), length());
+    let coin = Coin::cylinder(ratio, radius).expect("a good coin");
+    let surface = Surface::new(e, mu)
+        .and_then(|surface| surface.with_friction_lengths(contour, pivoting))
+        .expect("a good surface");
+    let scene = Scene::new(coin, surface, Scene::STANDARD_GRAVITY_M_S2).expect("good gravity");
+    let height = match dice.pick(&[0, 1, 2]) {
+        0 => 0.0,
+        1 => 1e3 * radius * dice.between(0.0, 1.0),
+        _ => radius * dice.scale(1e-3, 1e3),
+    };
+    let spin = match dice.pick(&[0, 1, 2, 3]) {
+        0 => Vector3::zeros(),
+        1 => dice.vector(1e5),
+        2 => dice.direction() * dice.scale(1e-6, 1e5),
+        _ => dice.vector(10.0) / scene.time_scale_s(),
+    };
+    let axis = match dice.pick(&[0, 1, 2, 3]) {
+        0 => dice.pick(&[
+            Vector3::z(),
+            -Vector3::z(),
+            Vector3::x(),
+            Vector3::new(0.6, 0.0, 0.8),
+        ]),
+        _ => dice.direction(),
+    };
+    let velocity = match dice.pick(&[0, 1]) {
+        0 => Vector3::zeros(),
+        _ => dice.vector(3.0) * (scene.coin.rim_distance_m() / scene.time_scale_s()),
+    };
+    let launch = Launch {
+        height_m: height,
+        velocity_m_s: velocity,
+        axis: UnitVector3::new_unchecked(axis),
+        spin_rad_s: spin,
+    };
+    (scene, launch, Law::ALL[(trial % 3) as usize])
+}
+
+#[test]
+fn the_whole_box_is_decided() {
+    within_two_minutes(|| {
+        let mut undecided = Vec::new();
+        let (mut impacts, mut steps, mut jams) = (0_u64, 0_u64, 0_u64);
+        let t00 = std::time::Instant::now();
+        for trial in 0..20_000 {
+            if t00.elapsed().as_secs() > 60 { println!("stopped at {trial}"); break; }
+            let (scene, launch, law) = stress(trial);
+            let t0 = std::time::Instant::now();
+            let outcome = Tosser::of(&scene, law).toss(&launch);
+            let dt = t0.elapsed().as_secs_f64();
+            if dt > 0.03 || outcome.face().is_none() { 
+              let s = scene.time_scale_s(); let l = scene.coin.rim_distance_m();
+              println!("SLOW {trial} {law:?} {dt:.3}s x {:.4e} e {:.4} mu {:.4e} rho {:.2e} {:.2e} | z {:.3e} v {:?} u {:?} w {:?} {outcome:?}", scene.coin.ratio(), scene.surface.restitution(), scene.surface.friction(), scene.surface.contour_m()/scene.coin.radius_m(), scene.surface.pivoting_m()/scene.coin.radius_m(), launch.height_m/l, (launch.velocity_m_s*(s/l)).as_slice(), launch.axis.as_slice(), (launch.spin_rad_s*s).as_slice()); }
+            impacts += u64::from(outcome.impacts);
+            steps += u64::from(outcome.contact_steps);
+            jams += u64::from(outcome.jams);
+            if outcome.face().is_none() {
+                undecided.push((trial, law, outcome));
+            }
+        }
+        println!("{impacts} impacts, {steps} steps, {jams} jams");
+        assert!(undecided.is_empty(), "{undecided:#?}");
+        assert!(jams > 0, "no Painlevé configuration in the sample");
+    });
+}
+
+const VALUES: [f64; 17] = [
+    0.0,
+    -0.0,
+    1e-300,
+    -1e-9,
+    0.01,
+    -3.0,
+    30.0,
+    1e4,
+    -1e4,
+    1e9,
+    -1e9,
+    1e150,
+    1e300,
+    -1e300,
+    f64::INFINITY,
+    f64::NEG_INFINITY,
+    f64::NAN,
+];
+
+fn outrageous(dice: &mut Dice) -> Launch {
+    let tame = [0.01, 0.1, 1.0, 10.0];
+    // two of the quantities are wild, lest everything ends at once
+    let mut numbers = [(); 7].map(|()| dice.pick(&tame));
+    for _ in 0..2 {
+        let which = dice.pick(&[0, 1, 2, 3, 4, 5, 6]);
+        numbers[which] = dice.pick(&VALUES);
+    }
+    let [height_m, vx, vy, vz, wx, wy, wz] = numbers;
+    let axis = match dice.pick(&[0, 1, 2, 3]) {
+        0 => Vector3::z(),
+        1 => Vector3::x(),
+        2 => Vector3::new(1e-17, 0.0, -1.0),
+        _ => dice.direction(),
+    };
+    Launch {
+        height_m,
+        velocity_m_s: Vector3::new(vx, vy, vz),
+        axis: UnitVector3::new_unchecked(axis),
+        spin_rad_s: Vector3::new(wx, wy, wz),
+    }
+}
+
+fn is_finite(launch: &Launch) -> bool {
+    launch.height_m.is_finite()
+        && launch.velocity_m_s.iter().all(|v| v.is_finite())
+        && launch.spin_rad_s.iter().all(|v| v.is_finite())
+}
+
+#[test]
+fn outrageous_launches_end_and_what_is_no_number_fails() {
+    within_two_minutes(|| {
+        let mut ends = [0_u32; 5];
+        for trial in 0..20_000 {
+            let mut dice = Dice::new(131, trial);
+            let ratio = dice.pick(&[1e-6, 0.01, 1.0, 2.0, 100.0, 1e6]);
+            let restitution = dice.pick(&[0.0, 0.5, 0.99, 1.0]);
+            let friction = dice.pick(&[0.0, 0.3, 2.0, 10.0, 1e4]);
+            let rho = dice.pick(&[0.0, 0.01, 0.1]);
+            let settings = Settings {
+                law: Law::ALL[(trial % 3) as usize],
+                max_impacts: 1000,
+                ..Settings::default()
+            };
+            let engine = Tosser::with(&scene(ratio, restitution, friction, rho), &settings);
+            let launch = outrageous(&mut dice);
+            let outcome = engine.toss(&launch);
+            let end = match outcome.ended {
+                Ended::Decided(_) => 0,
+                Ended::TimeLimit => 1,
+                Ended::ImpactLimit => 2,
+                Ended::Failed => 3,
+                Ended::Endless => 4,
+            };
+            ends[end] += 1;
+            if !is_finite(&launch) {
+                assert_eq!(outcome.ended, Ended::Failed, "{trial}: {launch:?}");
+            }
+            assert!(outcome.impacts <= settings.max_impacts, "{trial}");
+        }
+        println!("{ends:?}");
+        assert!(ends[0] > 1000 && ends[2] > 0 && ends[3] > 1000, "{ends:?}");
+    });
+}
+
+/// An axis that is no direction has no face.
+#[test]
+fn an_axis_that_is_no_number_fails() {
+    for (height_m, restitution) in [(0.0, 0.5), (0.005, 0.5), (1.0, 0.5), (1.0, 0.0)] {
+        for axis in [
+            Vector3::new(f64::NAN, 0.0, f64::NAN),
+            Vector3::new(0.0, 0.0, f64::NAN),
+            Vector3::new(f64::NAN, 0.0, 1.0),
+        ] {
+            let launch = Launch {
+                height_m,
+                velocity_m_s: Vector3::zeros(),
+                axis: UnitVector3::new_unchecked(axis),
+                spin_rad_s: Vector3::zeros(),
+            };
+            let outcome = Tosser::new(&scene(1.0, restitution, 0.3, 0.01)).toss(&launch);
+            assert_eq!(outcome.ended, Ended::Failed, "{axis:?} from {height_m} m");
+        }
+    }
+}
