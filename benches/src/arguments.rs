@@ -2,18 +2,19 @@
 
 use crate::studies::{
     Convergence, Energy, FlatTable, MissedContacts, Oracle, Sensitivity, Speed, StoppingRule,
-    Undecided,
+    SpaceConvergence, SpaceDecision, SpaceEnergy, SpaceLaws, SpaceMissed, SpacePeers,
+    SpaceReferences, SpaceSpeed, SpaceStress, Undecided,
 };
 use crate::{memory, number};
 use anyhow::{Context, anyhow};
 use clap::{Args, Parser, Subcommand};
-use coinmc_bench::{Workload, workloads};
+use coinmc_bench::{Workload, space_workloads, workloads};
 use std::fs::File;
 use std::hint::black_box;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-/// Studies of the flat engine and of the runner: accuracy, speed, robustness.
+/// Studies of the engines and of the runner: accuracy, speed, robustness.
 ///
 /// Tables go to standard output. All of it is deterministic except what is measured by a clock:
 /// the same seed gives the same numbers on any machine, with any number of threads. The variable
@@ -53,6 +54,24 @@ enum Command {
     Sensitivity(Sensitivity),
     /// Tosses a second, cost of the runner, two threads, peak memory
     Speed(Speed),
+    /// In space: how P(side) depends on the engine's settings, toss by toss
+    SpaceConvergence(SpaceConvergence),
+    /// In space: P(side) with its total error, by law of impact
+    SpaceLaws(SpaceLaws),
+    /// In space: the reference values of an earlier study, under its law of impact and ours
+    SpaceReferences(SpaceReferences),
+    /// In space: every flight against dense sampling
+    SpaceMissed(SpaceMissed),
+    /// In space: gains of energy, and the balance of contact phases
+    SpaceEnergy(SpaceEnergy),
+    /// In space: random tosses from a huge box of scenes
+    SpaceStress(SpaceStress),
+    /// In space: tosses a second, and the numerical bias at that speed
+    SpaceSpeed(SpaceSpeed),
+    /// In space: P(side) beside what other engines give
+    SpacePeers(SpacePeers),
+    /// In space: the decision by tilting energy against the rigorous one
+    SpaceDecision(SpaceDecision),
     /// Do one named piece of work, for a profiler
     Work(Work),
     /// Do one run and print its peak memory
@@ -82,6 +101,15 @@ impl Arguments {
             Command::StoppingRule(study) => study.carry_out(seed),
             Command::Sensitivity(study) => study.carry_out(seed)?,
             Command::Speed(study) => study.carry_out(seed)?,
+            Command::SpaceConvergence(study) => study.carry_out(seed),
+            Command::SpaceLaws(study) => study.carry_out(seed),
+            Command::SpaceReferences(study) => study.carry_out(seed),
+            Command::SpaceMissed(study) => study.carry_out(seed),
+            Command::SpaceEnergy(study) => study.carry_out(seed),
+            Command::SpaceStress(study) => study.carry_out(seed)?,
+            Command::SpaceSpeed(study) => study.carry_out(seed)?,
+            Command::SpacePeers(study) => study.carry_out(seed)?,
+            Command::SpaceDecision(study) => study.carry_out(seed)?,
             Command::Work(work) => return work.carry_out(),
             Command::Memory(run) => return run.carry_out(),
         };
@@ -108,7 +136,7 @@ struct Work {
 
 impl Work {
     fn carry_out(&self) -> anyhow::Result<()> {
-        let all = workloads();
+        let all = [workloads(), space_workloads()].concat();
         let Some(name) = &self.name else {
             let names: Vec<&str> = all.iter().map(|work| work.name.as_str()).collect();
             writeln!(io::stdout(), "{}", names.join("\n"))?;

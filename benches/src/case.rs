@@ -1,6 +1,6 @@
 //! A scene and a launch distribution: all of a toss but its number and the seed.
 
-use coinmc_core::{Coin, Domain, Landing, LaunchDistribution, Preset, Scene, Stream, Surface};
+use coinmc_core::{Coin, Domain, Drag, Landing, LaunchDistribution, Preset, Scene, Stream, Surface};
 use coinmc_flat::{FlatEngine, ImpactLaw, Settings};
 use std::fmt;
 
@@ -63,6 +63,37 @@ impl Case {
         self
     }
 
+    /// The same with contour and pivoting friction lengths of `rho` radii each.
+    ///
+    /// # Panics
+    /// If `rho` is negative or not finite.
+    pub fn rolling(mut self, rho: f64) -> Self {
+        let length = rho * self.scene.coin.radius_m();
+        let surface = self.scene.surface.with_friction_lengths(length, length);
+        self.scene.surface = surface.expect("rho >= 0");
+        self
+    }
+
+    /// The contour friction length in radii, to nine decimals: what was asked for.
+    pub fn rho_over_r(&self) -> f64 {
+        let ratio = self.scene.surface.contour_m() / self.scene.coin.radius_m();
+        (1e9 * ratio).round() / 1e9
+    }
+
+    /// The Unity (PhysX) scene of Gaek & Sukhov, arXiv 2401.03557, table 1, as `examples/table1.toml`
+    /// has it.
+    ///
+    /// # Panics
+    /// If `ratio` is not positive.
+    pub fn table1(ratio: f64) -> Self {
+        let mut case = Self::new(Preset::Table1, 0.5, ratio, 0.3, 10.0);
+        let threshold = case.scene.surface.with_restitution_threshold(2.0);
+        case.scene.surface = threshold.expect("2 m/s is positive");
+        let drag = Drag::new(1.0, 0.05).expect("rates are positive");
+        case.scene = case.scene.with_drag(drag).with_gyroscopic_torque(false);
+        case
+    }
+
     /// The same with the moment of inertia of a rectangular plate 2R × H instead of the
     /// cylinder's: I_t = m (4R² + H²)/12. Planar physics engines give a rectangle that one.
     ///
@@ -108,7 +139,11 @@ impl fmt::Display for Case {
             coin.ratio(),
             surface.restitution(),
             surface.friction()
-        )
+        )?;
+        if surface.contour_m() > 0.0 {
+            write!(f, " rho={}", self.rho_over_r())?;
+        }
+        Ok(())
     }
 }
 
@@ -124,6 +159,13 @@ mod tests {
         // (3 + 1.44)/12 and (4 + 1.44)/12 R²
         assert!((gyration(&case) - 4.44 / 12.0).abs() < 1e-15);
         assert!((gyration(&rectangle) - 5.44 / 12.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn friction_lengths_are_named_where_there_are_any() {
+        let case = Case::new(Preset::Clean, 0.01, 0.85, 0.5, 0.3).rolling(0.003);
+        assert_eq!(case.to_string(), "clean R=0.01 x=0.85 e=0.5 mu=0.3 rho=0.003");
+        assert_eq!(case.rho_over_r(), 0.003);
     }
 
     #[test]

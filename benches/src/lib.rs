@@ -4,4 +4,4 @@ mod case;
 mod workload;
 
 pub use case::Case;
-pub use workload::{Workload, workloads};
+pub use workload::{Workload, space_workloads, workloads};

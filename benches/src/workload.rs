@@ -3,6 +3,7 @@
 use crate::Case;
 use coinmc_core::{Engine, Philox4x64, Preset, run_tosses};
 use coinmc_flat::{ChatterjeeRuina, Moreau, Settings};
+use coinmc_volumetric::VolumetricEngine;
 use std::hint::black_box;
 use std::ops::Range;
 
@@ -29,13 +30,15 @@ enum Task {
     Toss(Case),
     /// Tosses under Chatterjee and Ruina's.
     TossChatterjeeRuina(Case),
+    /// Tosses in space under Moreau's law.
+    TossInSpace(Case),
     /// Launches, not followed.
     Launch(Case),
     /// Blocks of four random words.
     Philox,
 }
 
-/// All of them: tosses first, then the parts a toss is made of.
+/// Flat ones: tosses first, then the parts a toss is made of.
 pub fn workloads() -> Vec<Workload> {
     use Preset::{CleanFlat, Robot};
     let case = |preset, ratio, e, mu| Case::new(preset, 0.01, ratio, e, mu);
@@ -74,6 +77,22 @@ pub fn workloads() -> Vec<Workload> {
     list
 }
 
+/// Tosses in space: those with asked rates first.
+pub fn space_workloads() -> Vec<Workload> {
+    let clean = |ratio, e, rho| Case::new(Preset::Clean, 0.01, ratio, e, 0.3).rolling(rho);
+    let cases = [
+        clean(0.85, 0.5, 0.01),
+        clean(0.85, 0.5, 0.003),
+        clean(0.85, 0.0, 0.01),
+        clean(2.0, 0.0, 0.003),
+        clean(0.25, 0.5, 0.01),
+        Case::new(Preset::Clean, 0.01, 0.85, 0.5, 0.0),
+        Case::table1(1.0).rolling(0.01),
+    ];
+    let toss = |case: Case| Workload::new(format!("toss {}", short(&case)), Task::TossInSpace(case));
+    cases.into_iter().map(toss).collect()
+}
+
 fn launch_name(preset: Preset) -> String {
     format!("launch {preset}")
 }
@@ -88,11 +107,19 @@ impl Workload {
         Self { name, task }
     }
 
-    /// Of tosses, the name of the workload that makes their launches alone.
+    /// The case, of tosses in space.
+    pub fn case_in_space(&self) -> Option<Case> {
+        match self.task {
+            Task::TossInSpace(case) => Some(case),
+            _ => None,
+        }
+    }
+
+    /// Of flat tosses, the name of the workload that makes their launches alone.
     pub fn launch(&self) -> Option<String> {
         match &self.task {
             Task::Toss(case) | Task::TossChatterjeeRuina(case) => Some(launch_name(case.preset)),
-            Task::Launch(_) | Task::Philox => None,
+            Task::TossInSpace(_) | Task::Launch(_) | Task::Philox => None,
         }
     }
 
@@ -106,10 +133,17 @@ impl Workload {
                 case,
                 range,
             ),
+            Task::TossInSpace(case) => toss_in_space(case, range),
             Task::Launch(case) => launches(case, range),
             Task::Philox => philox(range),
         }
     }
+}
+
+fn toss_in_space(case: &Case, range: Range<u64>) -> u64 {
+    let settings = coinmc_volumetric::Settings::default();
+    let engine = VolumetricEngine::new(&case.scene, &settings, coinmc_volumetric::Moreau);
+    tosses(&engine.expect("the defaults are in range"), case, range)
 }
 
 fn tosses<E: Engine>(engine: &E, case: &Case, range: Range<u64>) -> u64 {
@@ -148,7 +182,7 @@ mod tests {
 
     #[test]
     fn names_are_unique_and_work_does_not_depend_on_how_it_is_cut() {
-        let all = workloads();
+        let all = [workloads(), space_workloads()].concat();
         for (i, work) in all.iter().enumerate() {
             assert!(all[..i].iter().all(|other| other.name != work.name));
             let parts = work.run(0..30).wrapping_add(work.run(30..100));

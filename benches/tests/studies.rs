@@ -139,6 +139,103 @@ fn a_study_is_the_same_every_time_and_another_with_another_seed() {
     assert_ne!(of("1"), of("2"));
 }
 
+/// The column of this name as numbers; a cell like "3 (endless 3)" counts as its first word.
+fn numbers(lines: &[String], name: &str) -> Vec<f64> {
+    let number = |cell: &str| cell.split(' ').next().unwrap().parse().unwrap();
+    column(lines, name).into_iter().map(number).collect()
+}
+
+#[test]
+fn in_space_the_defaults_are_converged_and_the_grid_can_be_chosen() {
+    let size = ["--tosses", "400", "--rhos", "0.01,0.03", "--ratios", "0.85"];
+    let lines = study(&[&["space-convergence"], &size[..]].concat());
+    assert_eq!(lines.len(), 1 + 4 * 2);
+    let (bias, error) = (numbers(&lines, "bias"), numbers(&lines, "std_error"));
+    for ((bias, error), line) in bias.iter().zip(error).zip(&lines[1..]) {
+        // five standard errors, three tosses where next to none differs
+        assert!(bias.abs() <= 5.0 * error + 0.0075, "{line}");
+    }
+    assert!(numbers(&lines, "undecided").iter().all(|n| *n == 0.0));
+}
+
+#[test]
+fn in_space_the_laws_are_told_apart_by_name() {
+    let size = ["--tosses", "300", "--paired", "100", "--ratios", "0.85"];
+    let grid = ["--rhos", "0.01", "--restitutions", "0,0.5"];
+    let lines = study(&[&["space-laws"], &size[..], &grid[..]].concat());
+    let laws = column(&lines, "law");
+    assert_eq!(laws[..3], ["moreau", "chatterjee-ruina", "stronge"]);
+    assert_eq!(laws.len(), 6);
+    assert!(numbers(&lines, "total_error").iter().all(|error| *error < 0.3));
+}
+
+#[test]
+fn in_space_the_older_law_is_near_its_published_values() {
+    let lines = study(&["space-references", "--tosses", "1500"]);
+    assert_eq!(lines.len(), 1 + 4 * 8);
+    let (laws, z) = (column(&lines, "law"), numbers(&lines, "z"));
+    for ((law, z), line) in laws.iter().zip(z).zip(&lines[1..]) {
+        // 4.5 standard errors, eight comparisons: one false alarm in 18,000 seeds
+        let near = ["sequential 5", "sequential 6"].contains(law);
+        assert!(!near || z.abs() < 4.5, "{line}");
+    }
+}
+
+#[test]
+fn in_space_no_flight_passes_over_a_contact_and_nothing_gains_energy() {
+    let lines = study(&["space-missed", "--flights", "4000"]);
+    assert!(column(&lines, "missed").iter().all(|missed| *missed == "0"));
+    for name in ["energy", "momentum"] {
+        let worst = numbers(&lines, name);
+        assert!(worst.iter().all(|change| *change < 1e-11), "{name}: {worst:?}");
+    }
+    let lines = study(&["space-energy", "--events", "12000", "--phases", "24"]);
+    for (gain, line) in numbers(&lines, "worst_gain").iter().zip(&lines[1..]) {
+        assert!(*gain <= 1e-12, "{line}");
+    }
+}
+
+#[test]
+fn in_space_no_random_toss_panics_or_fails() {
+    let size = ["--tosses", "300", "--max-impacts", "5000", "--max-elastic", "200"];
+    let lines = study(&[&["space-stress"], &size[..]].concat());
+    assert_eq!(lines.len(), 1 + 4);
+    // a panic is a toss that no group counts
+    assert_eq!(numbers(&lines, "tosses").iter().sum::<f64>(), 300.0);
+    assert!(column(&lines, "undecided").iter().all(|kinds| !kinds.contains("failed")));
+    let output = coinmc_bench(&["space-stress", "--only", "7"]);
+    assert!(String::from_utf8_lossy(&output.stdout).contains("ended"));
+}
+
+#[test]
+fn in_space_speed_has_a_rate_for_every_scene() {
+    let size = ["--tosses", "100", "--repeats", "1", "--paired", "100"];
+    let lines = study(&[&["space-speed"], &size[..]].concat());
+    assert_eq!(lines.len(), 1 + 1 + 7);
+    assert!(numbers(&lines, "tosses_a_second").iter().all(|rate| *rate > 0.0));
+}
+
+#[test]
+fn in_space_peers_stand_beside_ours() {
+    let lines = study(&["space-peers", "--tosses", "50"]);
+    let engines = column(&lines, "engine");
+    let ours = engines.iter().filter(|engine| **engine == "coinmc").count();
+    assert_eq!((ours, engines.len() - ours), (10, 16));
+}
+
+#[test]
+fn in_space_the_quick_decision_is_the_rigorous_one_but_for_rolling() {
+    let size = ["--tosses", "300", "--time-limit", "300", "--rhos", "0,0.01"];
+    let grid = ["--ratios", "0.85", "--restitutions", "0,0.5"];
+    let lines = study(&[&["space-decision"], &size[..], &grid[..]].concat());
+    let (rho, bias) = (numbers(&lines, "rho_over_r"), numbers(&lines, "bias"));
+    for ((rho, bias), line) in rho.iter().zip(bias).zip(&lines[1..]) {
+        // two tosses of 300; measured: below 0.0003
+        assert!(*rho == 0.0 || bias.abs() < 0.007, "{line}");
+    }
+    assert!(numbers(&lines, "undecided_energy")[0] > 0.0);
+}
+
 #[test]
 fn work_is_listed_and_unknown_work_refused() {
     let output = coinmc_bench(&["work"]);

@@ -6,6 +6,7 @@ mod flat_table;
 mod missed_contacts;
 mod oracle;
 mod sensitivity;
+mod space;
 mod speed;
 mod stopping_rule;
 mod undecided;
@@ -16,6 +17,10 @@ pub(crate) use flat_table::FlatTable;
 pub(crate) use missed_contacts::MissedContacts;
 pub(crate) use oracle::Oracle;
 pub(crate) use sensitivity::Sensitivity;
+pub(crate) use space::{
+    SpaceConvergence, SpaceDecision, SpaceEnergy, SpaceLaws, SpaceMissed, SpacePeers,
+    SpaceReferences, SpaceSpeed, SpaceStress,
+};
 pub(crate) use speed::Speed;
 pub(crate) use stopping_rule::StoppingRule;
 pub(crate) use undecided::Undecided;

@@ -93,14 +93,8 @@ impl<L: Lane> Motion<L> {
     /// The horizontal axes turned so that x points along the unit vector (`nx`, `ny`).
     #[inline(always)]
     pub(crate) fn align(&mut self, nx: L, ny: L) {
-        (self.vx, self.vy) = (
-            self.vx * nx + self.vy * ny,
-            self.vy * nx - self.vx * ny,
-        );
-        (self.ox, self.oy) = (
-            self.ox * nx + self.oy * ny,
-            self.oy * nx - self.ox * ny,
-        );
+        (self.vx, self.vy) = (self.vx * nx + self.vy * ny, self.vy * nx - self.vx * ny);
+        (self.ox, self.oy) = (self.ox * nx + self.oy * ny, self.oy * nx - self.ox * ny);
     }
 
     /// Height of the centre when the lowest point touches.
@@ -148,7 +142,13 @@ impl<L: Lane> Motion<L> {
 
     /// Takes up an impulse at the lowest point.
     #[inline(always)]
-    pub(crate) fn strike(&mut self, spin: &mut Spin<L>, body: &Body, touch: &Touch<L>, p: Impulse<L>) {
+    pub(crate) fn strike(
+        &mut self,
+        spin: &mut Spin<L>,
+        body: &Body,
+        touch: &Touch<L>,
+        p: Impulse<L>,
+    ) {
         let kick = p.kick(body, touch);
         self.vx += kick.vx;
         self.vy += kick.vy;

@@ -54,8 +54,8 @@ fn near_zero<L: Lane>(y: L) -> (L, L) {
     let w = z * z;
     let sine_tail =
         k(S[0]) + z * (k(S[1]) + z * k(S[2])) + z * w * (k(S[3]) + z * (k(S[4]) + z * k(S[5])));
-    let cosine_tail =
-        z * (k(C[0]) + z * (k(C[1]) + z * k(C[2]))) + w * w * (k(C[3]) + z * (k(C[4]) + z * k(C[5])));
+    let cosine_tail = z * (k(C[0]) + z * (k(C[1]) + z * k(C[2])))
+        + w * w * (k(C[3]) + z * (k(C[4]) + z * k(C[5])));
     let half = k(0.5) * z;
     let head = k(1.0) - half;
     // (1 − head) − half is the rounding error of head, put back
@@ -84,10 +84,7 @@ pub(crate) fn decay<L: Lane>(x: L) -> (L, L) {
     }
     let safe = x.max(L::splat(0.5));
     let (p, q) = (-m / safe, (safe + m) / (safe * safe));
-    (
-        L::select(small, p_small, p),
-        L::select(small, q_small, q),
-    )
+    (L::select(small, p_small, p), L::select(small, q_small, q))
 }
 
 /// Σ (−x)ⁿ/(n + 2)! = q(x), to the last bit for 0 <= x <= 1.
@@ -111,12 +108,16 @@ mod tests {
         for i in 0..2_000_000 {
             let x = (f64::from(i) - 1e6) * 0.731_234_567e-3 * 1.37;
             let (s, c) = sin_cos(x);
-            worst = worst.max((s - libm::sin(x)).abs()).max((c - libm::cos(x)).abs());
+            worst = worst
+                .max((s - libm::sin(x)).abs())
+                .max((c - libm::cos(x)).abs());
         }
         for i in 0..100_000 {
             let x = f64::from(i) * 9.876_543_21;
             let (s, c) = sin_cos(x);
-            worst = worst.max((s - libm::sin(x)).abs()).max((c - libm::cos(x)).abs());
+            worst = worst
+                .max((s - libm::sin(x)).abs())
+                .max((c - libm::cos(x)).abs());
         }
         assert!(worst <= 4e-16, "{worst:e}");
     }
@@ -131,7 +132,10 @@ mod tests {
             assert!((p + m / x).abs() <= 4e-16 * p, "{x} {p}");
             // x + expm1(−x) cancels: below 1 only the identity x q + p = 1 is a fair test
             if x > 1.0 {
-                assert!((q - (x + m) / (x * x)).abs() <= 1e-15 * q.max(1e-3), "{x} {q}");
+                assert!(
+                    (q - (x + m) / (x * x)).abs() <= 1e-15 * q.max(1e-3),
+                    "{x} {q}"
+                );
             } else {
                 assert!((1.0 - p - x * q).abs() <= 2.3e-16, "{x} {q}");
             }

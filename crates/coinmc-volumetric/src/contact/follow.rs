@@ -48,6 +48,10 @@ const LEAST_STEP: f64 = 1e-13;
 const BRAKE: f64 = 0.05;
 /// Painlevé: K_zz − μ K_xz n_x below this (it is 1 + rx²/kt without friction) counts as 0.
 const YIELD: f64 = 1e-3;
+/// A contact that gives way starts to slide at this fraction of `stick`: its direction then
+/// settles within a time of that order. One that slows down to `RESEED` of that starts anew.
+const SEED: f64 = 1.0;
+const RESEED: f64 = 0.1;
 /// Turning points of the tilt after which a conserving motion is seen to repeat itself.
 const TURNING_POINTS: u32 = 3;
 
@@ -124,13 +128,7 @@ impl Contact<'_> {
     }
 
     /// The motion of the phase's state, with no more energy than `before`.
-    fn cap(
-        &self,
-        phase: &mut Phase,
-        motion: &mut Motion<f64>,
-        spin: &mut Spin<f64>,
-        before: f64,
-    ) {
+    fn cap(&self, phase: &mut Phase, motion: &mut Motion<f64>, spin: &mut Spin<f64>, before: f64) {
         place(self.law, &phase.state, motion, spin);
         let body = &self.law.body;
         let kinetic = motion.kinetic(body, spin);
@@ -146,8 +144,8 @@ impl Contact<'_> {
 
     /// Sticks if it can and the slip is all but gone, else slides.
     fn enter(&mut self, state: RimState<f64>) -> Phase {
-        let slip = (state[SLIP_X] * state[SLIP_X] + state[SLIP_Y] * state[SLIP_Y]).sqrt();
         let mu = self.law.friction.mu;
+        let slip = slip_speed(&state);
         let phase = |state, mode| Phase {
             state,
             mode,
@@ -155,21 +153,46 @@ impl Contact<'_> {
             length: 0.0,
             turning_points: 0,
         };
-        if mu > 0.0 && slip <= self.settings.stick {
-            let held = change_slip(self.law, &state, 0.0, 0.0);
-            let stick = phase(held, Mode::Stick);
-            let [fx, fy] = stick.now.friction;
-            let needed = (fx * fx + fy * fy).sqrt();
-            if stick.now.normal > 0.0 && needed < mu * stick.now.normal {
-                return stick;
-            }
-            // it gives way against the friction that holding it would need
-            if slip <= 0.3 * self.settings.stick && needed > 0.0 {
-                let seed = -0.3 * self.settings.stick / needed;
-                return phase(change_slip(self.law, &state, seed * fx, seed * fy), Mode::Slip);
-            }
+        if mu == 0.0 || slip > self.settings.stick {
+            return phase(state, Mode::Slip);
+        }
+        let stick = phase(change_slip(self.law, &state, 0.0, 0.0), Mode::Stick);
+        if self.can_stick(&stick.now) {
+            return stick;
+        }
+        // it gives way against the friction that holding it would need
+        let [fx, fy] = stick.now.friction;
+        let needed = (fx * fx + fy * fy).sqrt();
+        let least = SEED * self.settings.stick;
+        if slip < RESEED * least && needed > 0.0 {
+            let seed = -least / needed;
+            return phase(
+                change_slip(self.law, &state, seed * fx, seed * fy),
+                Mode::Slip,
+            );
         }
         phase(state, Mode::Slip)
+    }
+
+    /// Whether the forces of a held contact point are within the friction cone.
+    fn can_stick(&self, held: &Rates<f64>) -> bool {
+        let [fx, fy] = held.friction;
+        let most = self.law.friction.mu * held.normal;
+        held.normal > 0.0 && fx * fx + fy * fy < most * most
+    }
+
+    /// Whether a sliding phase has come to where it sticks, or its direction is lost.
+    fn is_stopping(&self, phase: &Phase) -> bool {
+        let state = &phase.state;
+        let slip = slip_speed(state);
+        let [.., gx, gy] = *state;
+        let [.., ax, ay] = phase.now.rates;
+        if self.law.friction.mu == 0.0 || slip > self.settings.stick || gx * ax + gy * ay >= 0.0 {
+            return false;
+        }
+        let held = change_slip(self.law, state, 0.0, 0.0);
+        slip < RESEED * SEED * self.settings.stick
+            || self.can_stick(&self.law.rates(&held, Mode::Stick))
     }
 
     /// One step of the integration; the time it took.
@@ -180,7 +203,11 @@ impl Contact<'_> {
         if phase.mode == Mode::Slip && phase.now.yields < YIELD {
             return (self.jammed(phase), 0.0);
         }
-        let mut length = phase.length.min(self.braking_limit(phase));
+        let mut length = phase
+            .length
+            .min(self.braking_limit(phase))
+            .min(flattening_limit(&phase.state));
+        let mut rejected = false;
         loop {
             self.steps += 1;
             if length < LEAST_STEP || self.steps >= self.settings.max_steps {
@@ -188,6 +215,7 @@ impl Contact<'_> {
             }
             let (trial, now) = self.attempt(phase, length);
             if !(trial.error <= 1.0) {
+                rejected = true;
                 length = if trial.error.is_finite() {
                     next_length(length, trial.error)
                 } else {
@@ -195,7 +223,12 @@ impl Contact<'_> {
                 };
                 continue;
             }
-            let wanted = next_length(length, trial.error);
+            // what made it too long is likely still ahead
+            let wanted = if rejected {
+                length.min(next_length(length, trial.error))
+            } else {
+                next_length(length, trial.error)
+            };
             return self.accept(phase, &trial, &now, length, wanted);
         }
     }
@@ -261,21 +294,13 @@ impl Contact<'_> {
         }
         match mode {
             Mode::Slip => now.yields >= YIELD,
-            Mode::Stick => {
-                let [fx, fy] = now.friction;
-                let most = self.law.friction.mu * now.normal;
-                now.normal > 0.0 && fx * fx + fy * fy <= most * most
-            }
+            Mode::Stick => self.can_stick(now),
         }
     }
 
     /// The first moment of the step at which the mode no longer holds, by bisection of the dense
     /// output: its own error is that of the step, so a thousandth of the step is close enough.
-    fn locate(
-        &self,
-        phase: &Phase,
-        trial: &Trial<f64, 6>,
-    ) -> (f64, RimState<f64>, Rates<f64>) {
+    fn locate(&self, phase: &Phase, trial: &Trial<f64, 6>) -> (f64, RimState<f64>, Rates<f64>) {
         let (mut low, mut high) = (0.0, 1.0);
         let mut found = (trial.state, self.law.rates(&trial.state, phase.mode));
         while high - low > 1e-3 {
@@ -331,24 +356,15 @@ impl Contact<'_> {
     }
 
     fn after_step(&self, phase: &Phase) -> Next {
-        let state = &phase.state;
         let smooth = phase.mode == Mode::Stick || self.law.friction.mu == 0.0;
         let conserves = smooth && !self.law.friction.twists() && !self.law.drag.acts();
         if conserves && phase.turning_points >= TURNING_POINTS {
             return Next::End(Leave::Endless);
         }
-        match phase.mode {
-            Mode::Stick => Next::Go,
-            Mode::Slip => {
-                let [.., gx, gy] = *state;
-                let slip = (gx * gx + gy * gy).sqrt();
-                let brakes = gx * phase.now.rates[SLIP_X] + gy * phase.now.rates[SLIP_Y] < 0.0;
-                if self.law.friction.mu > 0.0 && slip <= self.settings.stick && brakes {
-                    Next::Change
-                } else {
-                    Next::Go
-                }
-            }
+        if phase.mode == Mode::Slip && self.is_stopping(phase) {
+            Next::Change
+        } else {
+            Next::Go
         }
     }
 
@@ -373,6 +389,20 @@ impl Contact<'_> {
         });
         Next::Change
     }
+}
+
+/// A falling coin is not stepped to where it would be flat: the rates grow like 1/θ there.
+fn flattening_limit(state: &RimState<f64>) -> f64 {
+    if state[OMEGA_Y] < 0.0 {
+        -0.5 * state[TILT].max(2.0 * FLAT) / state[OMEGA_Y]
+    } else {
+        f64::INFINITY
+    }
+}
+
+fn slip_speed(state: &RimState<f64>) -> f64 {
+    let [.., gx, gy] = *state;
+    (gx * gx + gy * gy).sqrt()
 }
 
 fn kind(mode: Mode) -> EventKind {

@@ -25,39 +25,46 @@ pub(crate) fn step<L: Lane, const N: usize>(
     tolerance: f64,
     mut rates: impl FnMut(&[L; N]) -> [L; N],
 ) -> Trial<L, N> {
-    let along = |terms: &[(f64, &[L; N])]| -> [L; N] {
-        std::array::from_fn(|i| {
-            let mut sum = L::splat(0.0);
-            for (weight, k) in terms {
-                sum += L::splat(*weight) * k[i];
-            }
-            state[i] + h * sum
-        })
-    };
     let k1 = first;
-    let k2 = &rates(&along(&[(1.0 / 5.0, k1)]));
-    let k3 = &rates(&along(&[(3.0 / 40.0, k1), (9.0 / 40.0, k2)]));
-    let k4 = &rates(&along(&[(44.0 / 45.0, k1), (-56.0 / 15.0, k2), (32.0 / 9.0, k3)]));
-    let k5 = &rates(&along(&[
-        (19_372.0 / 6_561.0, k1),
-        (-25_360.0 / 2_187.0, k2),
-        (64_448.0 / 6_561.0, k3),
-        (-212.0 / 729.0, k4),
-    ]));
-    let k6 = &rates(&along(&[
-        (9_017.0 / 3_168.0, k1),
-        (-355.0 / 33.0, k2),
-        (46_732.0 / 5_247.0, k3),
-        (49.0 / 176.0, k4),
-        (-5_103.0 / 18_656.0, k5),
-    ]));
-    let end = along(&[
-        (35.0 / 384.0, k1),
-        (500.0 / 1_113.0, k3),
-        (125.0 / 192.0, k4),
-        (-2_187.0 / 6_784.0, k5),
-        (11.0 / 84.0, k6),
-    ]);
+    let k2 = &rates(&along(state, h, &[(1.0 / 5.0, k1)]));
+    let k3 = &rates(&along(state, h, &[(3.0 / 40.0, k1), (9.0 / 40.0, k2)]));
+    let k4 = &rates(&along(
+        state,
+        h,
+        &[(44.0 / 45.0, k1), (-56.0 / 15.0, k2), (32.0 / 9.0, k3)],
+    ));
+    let k5 = &rates(&along(
+        state,
+        h,
+        &[
+            (19_372.0 / 6_561.0, k1),
+            (-25_360.0 / 2_187.0, k2),
+            (64_448.0 / 6_561.0, k3),
+            (-212.0 / 729.0, k4),
+        ],
+    ));
+    let k6 = &rates(&along(
+        state,
+        h,
+        &[
+            (9_017.0 / 3_168.0, k1),
+            (-355.0 / 33.0, k2),
+            (46_732.0 / 5_247.0, k3),
+            (49.0 / 176.0, k4),
+            (-5_103.0 / 18_656.0, k5),
+        ],
+    ));
+    let end = along(
+        state,
+        h,
+        &[
+            (35.0 / 384.0, k1),
+            (500.0 / 1_113.0, k3),
+            (125.0 / 192.0, k4),
+            (-2_187.0 / 6_784.0, k5),
+            (11.0 / 84.0, k6),
+        ],
+    );
     let k7 = rates(&end);
     let error = [
         (71.0 / 57_600.0, k1),
@@ -83,10 +90,24 @@ pub(crate) fn step<L: Lane, const N: usize>(
     }
 }
 
+/// state + h Σ weight·rates.
 #[inline(always)]
-fn weighted<L: Lane, const N: usize>(terms: &[(f64, &[L; N])], i: usize) -> L {
-    let mut sum = L::splat(0.0);
-    for (weight, k) in terms {
+fn along<L: Lane, const N: usize, const M: usize>(
+    state: &[L; N],
+    h: L,
+    terms: &[(f64, &[L; N]); M],
+) -> [L; N] {
+    let mut sum = *state;
+    for i in 0..N {
+        sum[i] += h * weighted(terms, i);
+    }
+    sum
+}
+
+#[inline(always)]
+fn weighted<L: Lane, const N: usize, const M: usize>(terms: &[(f64, &[L; N]); M], i: usize) -> L {
+    let mut sum = L::splat(terms[0].0) * terms[0].1[i];
+    for (weight, k) in &terms[1..] {
         sum += L::splat(*weight) * k[i];
     }
     sum

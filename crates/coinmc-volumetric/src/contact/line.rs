@@ -44,11 +44,14 @@ fn line_rates(law: &Law, state: &LineState, creep: f64) -> LineRates {
     let ((x1, y1), (x2, y2)) = (slide(slip[0]), slide(slip[1]));
     // h (2 N₁ − 1) = k_t Ω_a ω_z + R (N₁ x₁ + (1 − N₁) x₂)
     let gyro = body.kt * law.axial_factor * wa * wz;
-    let first =
-        (gyro + body.half + body.radius * x2) / (2.0 * body.half - body.radius * (x1 - x2));
+    let first = (gyro + body.half + body.radius * x2) / (2.0 * body.half - body.radius * (x1 - x2));
     let second = 1.0 - first;
-    let (fx, f1, f2) = (first * x1 + second * x2, first * y1 + second * y2, second * y2 - first * y1);
-    let (contour, pivoting) = law.twist(1.0, 0.0, wa, -wz);
+    let (fx, f1, f2) = (
+        first * x1 + second * x2,
+        first * y1 + second * y2,
+        second * y2 - first * y1,
+    );
+    let (contour, pivoting) = law.twist(1.0, 0.0, 0.0, wa, -wz);
     let (linear, angular) = (law.drag.linear, law.drag.angular);
     LineRates {
         rates: [

@@ -53,6 +53,10 @@ pub(crate) struct Law {
     pub(crate) axial_factor: f64,
     /// See [`faded_sign`].
     pub(crate) fade: f64,
+    /// 1/k_t, 1/k_a, and K_yy, which no tilt changes.
+    inverse_kt: f64,
+    inverse_ka: f64,
+    kyy: f64,
 }
 
 /// Whether the contact point is held or slides.
@@ -86,6 +90,26 @@ fn faded_sign<L: Lane>(rate: L, braking: L, fade: f64) -> L {
 }
 
 impl Law {
+    pub(crate) fn new(
+        body: Body,
+        friction: Friction,
+        drag: Drag,
+        axial_factor: f64,
+        fade: f64,
+    ) -> Self {
+        let (inverse_kt, inverse_ka) = (1.0 / body.kt, 1.0 / body.ka);
+        Self {
+            body,
+            friction,
+            drag,
+            axial_factor,
+            fade,
+            inverse_kt,
+            inverse_ka,
+            kyy: 1.0 + body.half * body.half * inverse_kt + body.radius * body.radius * inverse_ka,
+        }
+    }
+
     /// Rates and forces of `state`, in stick or slip.
     #[inline(always)]
     pub(crate) fn rates<L: Lane>(&self, state: &RimState<L>, mode: Mode) -> Rates<L> {
@@ -93,10 +117,11 @@ impl Law {
         let [tilt, wy, wa, wt, gx, gy] = *state;
         let (s, c) = sin_cos(tilt);
         let (radius, half) = (k(self.body.radius), k(self.body.half));
-        let (ikt, ika) = (k(1.0 / self.body.kt), k(1.0 / self.body.ka));
+        let (ikt, ika) = (k(self.inverse_kt), k(self.inverse_ka));
         let rx = radius * c - half * s;
         let rz = -(half * c + radius * s);
-        let azimuth = -(wt / s);
+        let inverse_s = k(1.0) / s;
+        let azimuth = -(wt * inverse_s);
         let excess = k(self.axial_factor) * wa - azimuth * c;
         let drag_turn = k(self.drag.angular);
         let gyro_y = wt * excess - drag_turn * wy;
@@ -105,7 +130,7 @@ impl Law {
         let kxx = k(1.0) + rz * rz * ikt;
         let kxz = -(rx * rz * ikt);
         let kzz = k(1.0) + rx * rx * ikt;
-        let kyy = k(1.0) + half * half * ikt + radius * radius * ika;
+        let kyy = k(self.kyy);
         let mut bx = azimuth * vy + rz * gyro_y - rx * wy * wy;
         let mut bz = -(k(1.0) + rz * wy * wy + rx * gyro_y);
         let mut by = -(azimuth * vx) - half * wy * excess;
@@ -115,8 +140,11 @@ impl Law {
             by -= linear * vy + drag_turn * (radius * wa + half * wt);
             bz -= linear * wy * rx;
         }
-        let (nx, ny) = direction(gx, gy);
         let mu = k(self.friction.mu);
+        let (nx, ny) = match mode {
+            Mode::Stick => (k(0.0), k(0.0)),
+            Mode::Slip => direction(gx, gy),
+        };
         let (fx, normal, yields) = match mode {
             Mode::Stick => {
                 let inverse = k(1.0) / (kxx * kzz - kxz * kxz);
@@ -132,7 +160,7 @@ impl Law {
                 (-(mu * normal * nx), normal, yields)
             }
         };
-        let (twist_a, twist_t) = self.twist(s, c, wa, wt);
+        let (twist_a, twist_t) = self.twist(s, c, c * inverse_s, wa, wt);
         by -= normal * (radius * twist_a * ika + half * twist_t * ikt);
         let fy = match mode {
             Mode::Stick => -(by / kyy),
@@ -160,13 +188,15 @@ impl Law {
 
     /// (t_a, t_θ): torques of contour and pivoting friction per normal force.
     #[inline(always)]
-    pub(crate) fn twist<L: Lane>(&self, s: L, c: L, wa: L, wt: L) -> (L, L) {
+    pub(crate) fn twist<L: Lane>(&self, s: L, c: L, cot: L, wa: L, wt: L) -> (L, L) {
         if !self.friction.twists() {
             return (L::splat(0.0), L::splat(0.0));
         }
-        let (ikt, ika) = (L::splat(1.0 / self.body.kt), L::splat(1.0 / self.body.ka));
-        let (contour, pivoting) = (L::splat(self.friction.contour), L::splat(self.friction.pivoting));
-        let cot = c / s;
+        let (ikt, ika) = (L::splat(self.inverse_kt), L::splat(self.inverse_ka));
+        let (contour, pivoting) = (
+            L::splat(self.friction.contour),
+            L::splat(self.friction.pivoting),
+        );
         // ω_x = s ψ' and ω_z, and what the torques take from them
         let (along, about) = (wa * s + wt * c, wa * c - wt * s);
         let slows_along = contour * (s * ika + c * cot * ikt);
@@ -202,11 +232,7 @@ impl Law {
     #[inline(always)]
     pub(crate) fn fastest<L: Lane>(&self, m: &Motion<L>, spin: &Spin<L>) -> L {
         let azimuth = spin.turn / m.sin;
-        (L::splat(1.0)
-            + spin.axial * spin.axial
-            + spin.tilt * spin.tilt
-            + azimuth * azimuth)
-            .sqrt()
+        (L::splat(1.0) + spin.axial * spin.axial + spin.tilt * spin.tilt + azimuth * azimuth).sqrt()
     }
 
     /// Mechanical energy, m g D.
@@ -235,7 +261,7 @@ impl Law {
         let k = L::splat;
         let [tilt, wy, wa, wt, gx, gy] = *state;
         let (s, c) = sin_cos(tilt);
-        let (twist_a, twist_t) = self.twist(s, c, wa, wt);
+        let (twist_a, twist_t) = self.twist(s, c, c / s, wa, wt);
         let slide = now.friction[0] * gx + now.friction[1] * gy;
         let mut power = now.normal * (twist_a * wa + twist_t * wt) - slide;
         if self.drag.acts() {

@@ -96,10 +96,7 @@ impl<L: Lane> Orbit<L> {
         let (s, c, rate) = self.phase(t);
         let (z, vz) = self.fall(t);
         for i in 0..3 {
-            (self.b[i], self.d[i]) = (
-                self.b[i] * c + self.d[i] * s,
-                self.d[i] * c - self.b[i] * s,
-            );
+            (self.b[i], self.d[i]) = (self.b[i] * c + self.d[i] * s, self.d[i] * c - self.b[i] * s);
         }
         (self.z, self.vz, self.rate) = (z, vz, rate);
         self.elapsed += t;
@@ -260,7 +257,9 @@ fn highest<L: Lane>(body: &Body, middle: L, amplitude: L) -> L {
     let low = (middle - amplitude).max(L::splat(0.0));
     let high = (middle + amplitude).min(one);
     let nearest = half.max(low).min(high);
-    let sin = ((one - nearest) * (one + nearest)).max(L::splat(0.0)).sqrt();
+    let sin = ((one - nearest) * (one + nearest))
+        .max(L::splat(0.0))
+        .sqrt();
     // one rounding of each term may be lost: stay above
     (half * nearest + L::splat(body.radius) * sin) * L::splat(1.0 + 1e-15)
 }

@@ -200,12 +200,7 @@ fn high_step<L: Lane>(orbit: &Orbit<L>, bounds: &Bounds<L>, z: L, vz: L) -> L {
 
 /// Time for which the gap certainly stays positive.
 #[inline(always)]
-fn lower_bound_step<L: Lane>(
-    orbit: &Orbit<L>,
-    body: &Body,
-    bounds: &Bounds<L>,
-    now: &Gap<L>,
-) -> L {
+fn lower_bound_step<L: Lane>(orbit: &Orbit<L>, body: &Body, bounds: &Bounds<L>, now: &Gap<L>) -> L {
     const SMALL: f64 = 0.05;
     let (radius, half) = (L::splat(body.radius), L::splat(body.half));
     let inverse = L::splat(1.0) / now.sin;
@@ -218,8 +213,8 @@ fn lower_bound_step<L: Lane>(
         L::splat(2.0) * half * now.uz.abs(),
         L::splat(2.0) * half * now.uz_rate * L::splat(1.0).copysign(now.uz),
     );
-    let step = first_root(gap, now.slope, bend)
-        .min(first_root(gap + rise, now.slope + climb, bend));
+    let step =
+        first_root(gap, now.slope, bend).min(first_root(gap + rise, now.slope + climb, bend));
     let flat = now.sin.lt(L::splat(SMALL));
     if !flat.any() {
         return step;
@@ -227,8 +222,7 @@ fn lower_bound_step<L: Lane>(
     // sin' = −uz uz'/sin, replaced by its bound
     let worst = -(now.uz * now.uz_rate * inverse) - bounds.wander;
     let slope = now.slope + radius * worst;
-    let coarse = first_root(gap, slope, across)
-        .min(first_root(gap + rise, slope + climb, across));
+    let coarse = first_root(gap, slope, across).min(first_root(gap + rise, slope + climb, across));
     L::select(flat, step.max(coarse), step)
 }
 

@@ -89,16 +89,9 @@ fn the_whole_box_is_decided() {
     within_two_minutes(|| {
         let mut undecided = Vec::new();
         let (mut impacts, mut steps, mut jams) = (0_u64, 0_u64, 0_u64);
-        let t00 = std::time::Instant::now();
         for trial in 0..20_000 {
-            if t00.elapsed().as_secs() > 60 { println!("stopped at {trial}"); break; }
             let (scene, launch, law) = stress(trial);
-            let t0 = std::time::Instant::now();
             let outcome = Tosser::of(&scene, law).toss(&launch);
-            let dt = t0.elapsed().as_secs_f64();
-            if dt > 0.03 || outcome.face().is_none() { 
-              let s = scene.time_scale_s(); let l = scene.coin.rim_distance_m();
-              println!("SLOW {trial} {law:?} {dt:.3}s x {:.4e} e {:.4} mu {:.4e} rho {:.2e} {:.2e} | z {:.3e} v {:?} u {:?} w {:?} {outcome:?}", scene.coin.ratio(), scene.surface.restitution(), scene.surface.friction(), scene.surface.contour_m()/scene.coin.radius_m(), scene.surface.pivoting_m()/scene.coin.radius_m(), launch.height_m/l, (launch.velocity_m_s*(s/l)).as_slice(), launch.axis.as_slice(), (launch.spin_rad_s*s).as_slice()); }
             impacts += u64::from(outcome.impacts);
             steps += u64::from(outcome.contact_steps);
             jams += u64::from(outcome.jams);

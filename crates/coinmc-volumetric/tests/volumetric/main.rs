@@ -3,4 +3,8 @@
 //! fixed, so no test fails by chance; "false alarms" says how often one would under another seed.
 
 mod common;
+mod flight;
 mod hostile;
+mod impacts;
+mod symmetry;
+mod zz_debug;
