@@ -1,6 +1,8 @@
 //! A scene and a launch distribution: all of a toss but its number and the seed.
 
-use coinmc_core::{Coin, Domain, Drag, Landing, LaunchDistribution, Preset, Scene, Stream, Surface};
+use coinmc_core::{
+    Coin, Domain, Drag, Landing, LaunchDistribution, Preset, Scene, Stream, Surface,
+};
 use coinmc_flat::{FlatEngine, ImpactLaw, Settings};
 use std::fmt;
 
@@ -164,7 +166,10 @@ mod tests {
     #[test]
     fn friction_lengths_are_named_where_there_are_any() {
         let case = Case::new(Preset::Clean, 0.01, 0.85, 0.5, 0.3).rolling(0.003);
-        assert_eq!(case.to_string(), "clean R=0.01 x=0.85 e=0.5 mu=0.3 rho=0.003");
+        assert_eq!(
+            case.to_string(),
+            "clean R=0.01 x=0.85 e=0.5 mu=0.3 rho=0.003"
+        );
         assert_eq!(case.rho_over_r(), 0.003);
     }
 
@@ -175,6 +180,6 @@ mod tests {
         assert_eq!(names[1], "robot R=0.01 x=2 e=0 mu=0");
         names.sort();
         names.dedup();
-        assert_eq!(names.len(), 5 * 2 * 3 * 2);
+        assert_eq!(names.len(), Preset::ALL.len() * 2 * 3 * 2);
     }
 }

@@ -89,7 +89,8 @@ pub fn space_workloads() -> Vec<Workload> {
         Case::new(Preset::Clean, 0.01, 0.85, 0.5, 0.0),
         Case::table1(1.0).rolling(0.01),
     ];
-    let toss = |case: Case| Workload::new(format!("toss {}", short(&case)), Task::TossInSpace(case));
+    let toss =
+        |case: Case| Workload::new(format!("toss {}", short(&case)), Task::TossInSpace(case));
     cases.into_iter().map(toss).collect()
 }
 

@@ -166,7 +166,11 @@ fn in_space_the_laws_are_told_apart_by_name() {
     let laws = column(&lines, "law");
     assert_eq!(laws[..3], ["moreau", "chatterjee-ruina", "stronge"]);
     assert_eq!(laws.len(), 6);
-    assert!(numbers(&lines, "total_error").iter().all(|error| *error < 0.3));
+    assert!(
+        numbers(&lines, "total_error")
+            .iter()
+            .all(|error| *error < 0.3)
+    );
 }
 
 #[test]
@@ -187,7 +191,10 @@ fn in_space_no_flight_passes_over_a_contact_and_nothing_gains_energy() {
     assert!(column(&lines, "missed").iter().all(|missed| *missed == "0"));
     for name in ["energy", "momentum"] {
         let worst = numbers(&lines, name);
-        assert!(worst.iter().all(|change| *change < 1e-11), "{name}: {worst:?}");
+        assert!(
+            worst.iter().all(|change| *change < 1e-11),
+            "{name}: {worst:?}"
+        );
     }
     let lines = study(&["space-energy", "--events", "12000", "--phases", "24"]);
     for (gain, line) in numbers(&lines, "worst_gain").iter().zip(&lines[1..]) {
@@ -197,12 +204,25 @@ fn in_space_no_flight_passes_over_a_contact_and_nothing_gains_energy() {
 
 #[test]
 fn in_space_no_random_toss_panics_or_fails() {
-    let size = ["--tosses", "300", "--max-impacts", "5000", "--max-elastic", "200"];
+    let size = [
+        "--tosses",
+        "300",
+        "--max-impacts",
+        "5000",
+        "--max-elastic",
+        "200",
+        "--max-steps",
+        "5000",
+    ];
     let lines = study(&[&["space-stress"], &size[..]].concat());
     assert_eq!(lines.len(), 1 + 4);
     // a panic is a toss that no group counts
     assert_eq!(numbers(&lines, "tosses").iter().sum::<f64>(), 300.0);
-    assert!(column(&lines, "undecided").iter().all(|kinds| !kinds.contains("failed")));
+    assert!(
+        column(&lines, "undecided")
+            .iter()
+            .all(|kinds| !kinds.contains("failed"))
+    );
     let output = coinmc_bench(&["space-stress", "--only", "7"]);
     assert!(String::from_utf8_lossy(&output.stdout).contains("ended"));
 }
@@ -212,7 +232,11 @@ fn in_space_speed_has_a_rate_for_every_scene() {
     let size = ["--tosses", "100", "--repeats", "1", "--paired", "100"];
     let lines = study(&[&["space-speed"], &size[..]].concat());
     assert_eq!(lines.len(), 1 + 1 + 7);
-    assert!(numbers(&lines, "tosses_a_second").iter().all(|rate| *rate > 0.0));
+    assert!(
+        numbers(&lines, "tosses_a_second")
+            .iter()
+            .all(|rate| *rate > 0.0)
+    );
 }
 
 #[test]

@@ -244,8 +244,8 @@ impl Scene {
     }
 
     /// The same scene with or without the gyroscopic torque ω × Iω. Without it a coin turns about
-    /// a fixed ω instead of a fixed L and gains or loses energy in flight: unphysical, and what
-    /// PhysX (hence Unity) does unless told otherwise.
+    /// a fixed ω instead of a fixed L, which it does not keep: unphysical, and what PhysX (hence
+    /// Unity) does unless told otherwise.
     pub fn with_gyroscopic_torque(self, gyroscopic_torque: bool) -> Self {
         Self {
             gyroscopic_torque,

@@ -220,7 +220,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
     ) -> bool {
         let law = &self.contact;
         let mut orbit = Orbit::new(&toss.motion, law.drag);
-        let least = if parting { PARTING } else { THROWN } / orbit.fastest();
+        let least = if parting { PARTING } else { THROWN } / orbit.fastest(&toss.motion);
         let found = first_contact(&mut orbit, &law.body, departure, least);
         if found.lost {
             return false;
@@ -403,6 +403,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         match leave {
             Leave::LiftOff => return Onward::Fly,
             Leave::OtherRim => {
+                toss.motion.lay_down();
                 toss.change_rim();
                 return Onward::Strike;
             }

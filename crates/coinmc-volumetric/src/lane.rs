@@ -118,3 +118,6 @@ impl Lane for f64 {
         if mask { yes } else { no }
     }
 }
+
+#[cfg(test)]
+pub(crate) mod four;

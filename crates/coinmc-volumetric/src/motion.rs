@@ -82,6 +82,12 @@ impl<L: Lane> Motion<L> {
         self.cos = cos.max(L::splat(0.0));
     }
 
+    /// The tilt of a coin exactly on its side.
+    pub(crate) fn lay_down(&mut self) {
+        self.sin = L::splat(1.0);
+        self.cos = L::splat(0.0);
+    }
+
     /// Half a turn of the frame about the vertical.
     pub(crate) fn turn_frame(&mut self) {
         self.ox = -self.ox;

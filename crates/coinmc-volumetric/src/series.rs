@@ -68,15 +68,14 @@ fn near_zero<L: Lane>(y: L) -> (L, L) {
 #[inline(always)]
 pub(crate) fn decay<L: Lane>(x: L) -> (L, L) {
     let one = L::splat(1.0);
-    // beyond 64, e^(−x) is below the last bit of everything it is added to
-    let x = x.min(L::splat(64.0));
     let small = x.lt(one);
-    let q_small = series(x);
+    let q_small = series(x.min(one));
     let p_small = one - x * q_small;
     if !(!small).any() {
         return (p_small, q_small);
     }
-    let y = -x * L::splat(1.0 / 64.0);
+    // beyond 64, e^(−x) is below the last bit of everything it is added to
+    let y = -x.min(L::splat(64.0)) * L::splat(1.0 / 64.0);
     let mut m = y * (one + y * series(-y));
     // e^(2y) − 1 = (e^y − 1)(e^y + 1), six times; the relative error does not grow for y < 0
     for _ in 0..6 {

@@ -132,7 +132,9 @@ impl SpaceEnergy {
         });
         let mut table = Table::new(
             "Energy at the end of contact phases against an independent integration, m g D",
-            &columns(&["settings", "phases", "median", "99_%", "worst", "toss", "left_out"]),
+            &columns(&[
+                "settings", "phases", "median", "99_%", "worst", "toss", "left_out",
+            ]),
         );
         for ((case, name, _), found) in jobs.iter().zip(&found) {
             let mut row = cells(case);
@@ -149,8 +151,12 @@ fn scenes() -> Vec<Scene> {
     let (restitutions, frictions) = ([0.0, 0.3, 0.5, 0.8, 1.0], [0.0, 0.3, 1.0, 10.0]);
     let ratios = [0.01, 0.25, 0.85, 2.0, 10.0];
     let cases = Case::grid(&[Preset::Clean], &restitutions, &frictions, &ratios);
-    let rolling = cases.into_iter().flat_map(|case| [0.003, 0.03].map(|rho| case.rolling(rho)));
-    rolling.flat_map(|case| Law::ALL.map(|law| (case, law))).collect()
+    let rolling = cases
+        .into_iter()
+        .flat_map(|case| [0.003, 0.03].map(|rho| case.rolling(rho)));
+    rolling
+        .flat_map(|case| Law::ALL.map(|law| (case, law)))
+        .collect()
 }
 
 fn summary(scenes: &[Scene], ledgers: &[Ledger<'_>]) -> Table {

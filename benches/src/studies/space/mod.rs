@@ -118,13 +118,7 @@ fn survey_tosses<T: Sync, R: Send + Clone>(
 }
 
 /// Tosses of a case, from number 0, until `quota` things are examined, or that many are made.
-fn examine(
-    case: &Case,
-    settings: &Settings,
-    seed: u64,
-    quota: u64,
-    examiner: &mut impl Examiner,
-) {
+fn examine(case: &Case, settings: &Settings, seed: u64, quota: u64, examiner: &mut impl Examiner) {
     let settings = Settings {
         max_impacts: EXAMINED_IMPACTS,
         ..*settings

@@ -151,10 +151,7 @@ mod tests {
     fn tosses_without_a_difference_bound_it_by_the_rule_of_three() {
         let mut paired = Paired::default();
         for _ in 0..300 {
-            paired.add(
-                &Outcome::decided(Face::Side),
-                &Outcome::decided(Face::Side),
-            );
+            paired.add(&Outcome::decided(Face::Side), &Outcome::decided(Face::Side));
         }
         assert_eq!((paired.z(), paired.numerical_error()), (0.0, 0.01));
     }

@@ -55,7 +55,15 @@ impl SpacePeers {
             |one, tosses| Paired::of(&one.case, [&default, &tight], seed, tosses),
             Paired::merge,
         );
-        let columns = ["scene", "engine", "variant", "p_side", "error", "bias", "undecided"];
+        let columns = [
+            "scene",
+            "engine",
+            "variant",
+            "p_side",
+            "error",
+            "bias",
+            "undecided",
+        ];
         let title = format!(
             "P(side) at H/R = {RATIO}: ours from {} tosses (95 %, statistical and numerical error \
              together), and others' as measured",
@@ -63,7 +71,11 @@ impl SpacePeers {
         );
         let mut record = Table::new(title, &columns);
         for scene in ["clean", "table1"] {
-            for (one, found) in ours.iter().zip(&found).filter(|(one, _)| one.scene == scene) {
+            for (one, found) in ours
+                .iter()
+                .zip(&found)
+                .filter(|(one, _)| one.scene == scene)
+            {
                 let error = found.side().half_width() + found.numerical_error();
                 record.push(vec![
                     scene.to_owned(),
@@ -116,7 +128,7 @@ fn ours() -> Vec<Ours> {
     gyroscopic.scene = gyroscopic.scene.with_gyroscopic_torque(true);
     all.push(Ours {
         scene: "table1",
-        variant: "rho/R = 0, gyroscopic torque".to_owned(),
+        variant: "rho/R = 0 with gyroscopic torque".to_owned(),
         case: gyroscopic,
     });
     let surface = table1.scene.surface.with_restitution_threshold(0.0);
@@ -124,7 +136,7 @@ fn ours() -> Vec<Ours> {
     bouncing.scene.surface = surface.expect("0 is allowed");
     all.push(Ours {
         scene: "table1",
-        variant: "rho/R = 0, no bounce threshold".to_owned(),
+        variant: "rho/R = 0 without bounce threshold".to_owned(),
         case: bouncing,
     });
     all
@@ -134,7 +146,10 @@ fn ours() -> Vec<Ours> {
 fn peers(text: &str) -> anyhow::Result<Vec<Peer<'_>>> {
     let mut lines = text.lines();
     let titles = "engine,version,scene,step_s,p_side,half_width,tosses_per_cpu_s";
-    anyhow::ensure!(lines.next() == Some(titles), "other columns than `{titles}`");
+    anyhow::ensure!(
+        lines.next() == Some(titles),
+        "other columns than `{titles}`"
+    );
     lines
         .map(|line| {
             let cells: Vec<&str> = line.split(',').collect();

@@ -120,7 +120,7 @@ impl SpaceReferences {
             ]);
         }
         let mut report = Report::new(record);
-        report.remark(self.summary(&tallies));
+        report.remark(Self::summary(&tallies));
         report.remark(
             "joint: the engine's law, all conditions of an impact solved together. sequential n: \
              friction without the lengths, then n sweeps over contour, pivoting and, where the \
@@ -131,10 +131,12 @@ impl SpaceReferences {
     }
 
     /// Each law over the four scenes.
-    fn summary(&self, tallies: &[Tally]) -> String {
+    fn summary(tallies: &[Tally]) -> String {
         let chi2 = |law: usize| -> f64 {
             let scenes = REFERENCES.iter().zip(tallies.chunks(LAWS.len()));
-            scenes.map(|(scene, laws)| scene.z(&laws[law]).powi(2)).sum()
+            scenes
+                .map(|(scene, laws)| scene.z(&laws[law]).powi(2))
+                .sum()
         };
         let laws: Vec<String> = (0..LAWS.len())
             .map(|law| {

@@ -155,7 +155,7 @@ mod tests {
     fn many_sweeps_of_a_sticking_contact_are_the_joint_law() {
         let coin = Coin::cylinder(0.85, 0.01).unwrap();
         let surface = Surface::new(0.5, 3.0).unwrap();
-        let surface = surface.with_friction_lengths(1e-4, 1e-4).unwrap();
+        let surface = surface.with_friction_lengths(5e-3, 5e-3).unwrap();
         let scene = Scene::new(coin, surface, 9.81).unwrap();
         let (body, friction) = (Body::new(&coin), Friction::new(&scene));
         let touch = touch(&body);
@@ -165,7 +165,7 @@ mod tests {
             (p.y - joint.y).abs() + (p.contour - joint.contour).abs()
         };
         assert!(error(1) > 1e-6, "{}", error(1));
-        assert!(error(200) < 1e-12, "{}", error(200));
+        assert!(error(3000) < 1e-9, "{}", error(3000));
     }
 
     #[test]
@@ -181,6 +181,9 @@ mod tests {
             p.work(&body, &touch)
         });
         let works: Vec<f64> = works.collect();
-        assert!(works[0] < 0.0 && works.is_sorted_by(|a, b| *b <= *a + 1e-15), "{works:?}");
+        assert!(
+            works[0] < 0.0 && works.is_sorted_by(|a, b| *b <= *a + 1e-15),
+            "{works:?}"
+        );
     }
 }

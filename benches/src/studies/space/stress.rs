@@ -6,7 +6,6 @@ use super::paired::undecided;
 use super::stress_box::Sample;
 use crate::number;
 use crate::report::{Report, Table};
-use anyhow::anyhow;
 use clap::Args;
 use coinmc_core::{Ended, Estimate, IntervalMethod, Outcome, Tally};
 use coinmc_volumetric::{Law, Settings};
@@ -18,10 +17,10 @@ use std::time::Instant;
 const NAMED: usize = 8;
 /// Titles of the groups, by whether the coin rolls freely and whether it bounces without loss.
 const GROUPS: [&str; 4] = [
-    "e < 1, both rho > 0",
-    "e = 1, both rho > 0",
-    "e < 1, a rho = 0",
-    "e = 1, a rho = 0",
+    "e < 1: both rho > 0",
+    "e = 1: both rho > 0",
+    "e < 1: a rho = 0",
+    "e = 1: a rho = 0",
 ];
 
 /// The study's arguments.
@@ -31,13 +30,17 @@ pub(crate) struct SpaceStress {
     #[arg(long, value_parser = number::count, default_value = "1_000_000", value_name = "N")]
     tosses: u64,
 
-    /// Impacts or contact steps after which a toss is given up
+    /// Impacts after which a toss is given up
     #[arg(long, value_parser = number::count, default_value = "100_000", value_name = "N")]
     max_impacts: u64,
 
     /// The same where e = 1: such a coin may bounce for ever
     #[arg(long, value_parser = number::count, default_value = "1000", value_name = "N")]
     max_elastic: u64,
+
+    /// Steps of sustained contact after which a toss is given up
+    #[arg(long, value_parser = number::count, default_value = "100_000", value_name = "N")]
+    max_steps: u64,
 
     /// Law of impact: moreau, chatterjee-ruina or stronge
     #[arg(long, value_parser = law, default_value = "moreau", value_name = "LAW")]
@@ -68,25 +71,26 @@ struct Found {
     milliseconds: Vec<Named>,
 }
 
+/// A limit of a toss; the engine's counters end there.
+fn limit(most: u64) -> u32 {
+    u32::try_from(most).unwrap_or(u32::MAX)
+}
+
 fn law(name: &str) -> Result<Law, String> {
     let law = Law::ALL.into_iter().find(|law| law.name() == name);
     law.ok_or_else(|| "the laws are moreau, chatterjee-ruina, stronge".to_owned())
 }
 
 impl SpaceStress {
-    pub(crate) fn carry_out(&self, seed: u64) -> anyhow::Result<Report> {
-        let settings = |most: u64| {
-            u32::try_from(most)
-                .map(|max_impacts| Settings {
-                    law: self.law,
-                    max_impacts,
-                    ..Settings::default()
-                })
-                .map_err(|_| anyhow!("a limit of impacts must be below {}", u32::MAX))
-        };
-        let settings = [settings(self.max_impacts)?, settings(self.max_elastic)?];
+    pub(crate) fn carry_out(&self, seed: u64) -> Report {
+        let settings = [self.max_impacts, self.max_elastic].map(|most| Settings {
+            law: self.law,
+            max_impacts: limit(most),
+            max_steps: limit(self.max_steps),
+            ..Settings::default()
+        });
         if let Some(number) = self.only {
-            return Ok(alone(seed, number, &settings));
+            return alone(seed, number, &settings);
         }
         let starts = (0..self.tosses.div_ceil(PART)).map(|part| part * PART);
         let parts: Vec<Range<u64>> = starts
@@ -101,16 +105,17 @@ impl SpaceStress {
         for found in found {
             total.merge(found);
         }
-        Ok(self.report(seed, &total))
+        self.report(seed, &total)
     }
 
     fn report(&self, seed: u64, found: &Found) -> Report {
         let columns = ["group", "tosses", "undecided", "share", "below", "jams"];
         let title = format!(
-            "Random tosses under {}, given up after {} impacts ({} where e = 1)",
+            "Random tosses under {}, given up after {} impacts ({} where e = 1) or {} contact steps",
             self.law.name(),
             self.max_impacts,
-            self.max_elastic
+            self.max_elastic,
+            self.max_steps
         );
         let mut record = Table::new(title.clone(), &columns);
         for (name, tally) in GROUPS.iter().zip(&found.groups) {

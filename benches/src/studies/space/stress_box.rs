@@ -68,7 +68,11 @@ impl Sample {
     /// Follows the toss.
     pub(super) fn toss(&self, settings: &Settings) -> Outcome {
         let engine = AnyVolumetricEngine::new(&self.scene, settings);
-        toss(&engine.expect("settings are in range"), &self.launch, &mut ())
+        toss(
+            &engine.expect("settings are in range"),
+            &self.launch,
+            &mut (),
+        )
     }
 
     /// A friction length is missing: the coin may roll or spin for ever.

@@ -119,7 +119,7 @@ impl Contact<'_> {
                     let length = phase.length;
                     phase = self.enter(phase.state);
                     phase.length = length;
-                    place(self.law, &phase.state, motion, spin);
+                    self.cap(&mut phase, motion, spin, before);
                     watch(Some(kind(phase.mode)), 0.0, motion, spin);
                 }
                 Next::End(leave) => return leave,
@@ -197,11 +197,17 @@ impl Contact<'_> {
 
     /// One step of the integration; the time it took.
     fn advance(&mut self, phase: &mut Phase) -> (Next, f64) {
+        if phase.state[TILT] <= FLAT && phase.state[OMEGA_Y] < 0.0 {
+            return (Next::End(Leave::Upright), 0.0);
+        }
         if phase.now.press <= 0.0 {
             return (Next::End(Leave::LiftOff), 0.0);
         }
         if phase.mode == Mode::Slip && phase.now.yields < YIELD {
             return (self.jammed(phase), 0.0);
+        }
+        if phase.state[TILT] <= FLAT && phase.state[OMEGA_Y] < 0.0 {
+            return (Next::End(Leave::Upright), 0.0);
         }
         let mut length = phase
             .length
@@ -258,10 +264,12 @@ impl Contact<'_> {
         wanted: f64,
     ) -> (Next, f64) {
         let tilt = trial.state[TILT];
-        if tilt > FRAC_PI_2 - DOWN && trial.state[OMEGA_Y] > 0.0 {
+        let falls_on = tilt > FRAC_PI_2 - DOWN && trial.state[OMEGA_Y] > 0.0;
+        // beyond, it has come down within the step, even if it has turned round since
+        if falls_on || tilt > FRAC_PI_2 + DOWN {
             return self.reach(phase, trial, length, FRAC_PI_2, Leave::OtherRim);
         }
-        if tilt < FLAT {
+        if tilt < FLAT && phase.state[TILT] > FLAT {
             return self.reach(phase, trial, length, FLAT, Leave::Upright);
         }
         if self.holds(phase.mode, now) {
@@ -326,17 +334,18 @@ impl Contact<'_> {
         goal: f64,
         leave: Leave,
     ) -> (Next, f64) {
-        let beyond = |state: &RimState<f64>| (state[TILT] - goal).abs() <= DOWN;
-        let start = phase.state[TILT] - goal;
+        let arrived = |state: &RimState<f64>| (state[TILT] - goal).abs() <= DOWN;
+        // the side the phase is on: it may start at the goal itself, going away and coming back
+        let before = if leave == Leave::OtherRim { -1.0 } else { 1.0 };
         let (mut low, mut high) = (0.0, length);
         let mut at = length;
         let mut state = trial.state;
         for _ in 0..40 {
-            if beyond(&state) {
+            if arrived(&state) {
                 break;
             }
             let gap = state[TILT] - goal;
-            if gap * start > 0.0 {
+            if gap * before > 0.0 {
                 low = at;
             } else {
                 high = at;

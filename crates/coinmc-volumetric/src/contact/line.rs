@@ -178,7 +178,7 @@ fn lay(law: &Law, state: &LineState, motion: &mut Motion<f64>, spin: &mut Spin<f
         turn: -wz,
         tilt: 0.0,
     };
-    motion.set_tilt(1.0, 0.0);
+    motion.lay_down();
     (motion.vx, motion.vy, motion.vz, motion.z) = (vx, vy, 0.0, law.body.radius);
     motion.set_spin(spin, law.axial_factor);
 }

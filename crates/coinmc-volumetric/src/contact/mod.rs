@@ -7,3 +7,6 @@ pub(crate) mod rim;
 
 pub(crate) use follow::{Contact, Leave};
 pub(crate) use rim::Law;
+
+#[cfg(test)]
+mod tests;

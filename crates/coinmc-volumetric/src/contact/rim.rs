@@ -222,7 +222,7 @@ impl Law {
         L::splat(1.0) + rz * spin.tilt * spin.tilt + rx * self.gyroscopic(m, spin)
     }
 
-    /// How much more than 1 the press may be at most: |rx| <= 1.
+    /// How much more than 1 the press may be, as far as the motion before the impact tells.
     #[inline(always)]
     pub(crate) fn uplift<L: Lane>(&self, m: &Motion<L>, spin: &Spin<L>) -> L {
         self.gyroscopic(m, spin).abs()
@@ -233,47 +233,6 @@ impl Law {
     pub(crate) fn fastest<L: Lane>(&self, m: &Motion<L>, spin: &Spin<L>) -> L {
         let azimuth = spin.turn / m.sin;
         (L::splat(1.0) + spin.axial * spin.axial + spin.tilt * spin.tilt + azimuth * azimuth).sqrt()
-    }
-
-    /// Mechanical energy, m g D.
-    #[inline(always)]
-    pub(crate) fn energy<L: Lane>(&self, state: &RimState<L>) -> L {
-        let k = L::splat;
-        let (s, c) = sin_cos(state[TILT]);
-        k(self.body.half) * c + k(self.body.radius) * s + self.kinetic(state, s, c)
-    }
-
-    #[inline(always)]
-    pub(crate) fn kinetic<L: Lane>(&self, state: &RimState<L>, s: L, c: L) -> L {
-        let k = L::splat;
-        let [_, wy, wa, wt, gx, gy] = *state;
-        let (radius, half) = (k(self.body.radius), k(self.body.half));
-        let vx = gx + wy * (half * c + radius * s);
-        let vy = gy - radius * wa - half * wt;
-        let vz = wy * (radius * c - half * s);
-        let (kt, ka) = (k(self.body.kt), k(self.body.ka));
-        k(0.5) * (vx * vx + vy * vy + vz * vz + kt * (wy * wy + wt * wt) + ka * wa * wa)
-    }
-
-    /// Power taken by friction: μN|γ| + N(ρ_c|ψ'| + ρ_p|ω_z|), and by drag.
-    #[inline(always)]
-    pub(crate) fn power<L: Lane>(&self, state: &RimState<L>, now: &Rates<L>) -> L {
-        let k = L::splat;
-        let [tilt, wy, wa, wt, gx, gy] = *state;
-        let (s, c) = sin_cos(tilt);
-        let (twist_a, twist_t) = self.twist(s, c, c / s, wa, wt);
-        let slide = now.friction[0] * gx + now.friction[1] * gy;
-        let mut power = now.normal * (twist_a * wa + twist_t * wt) - slide;
-        if self.drag.acts() {
-            let (radius, half) = (k(self.body.radius), k(self.body.half));
-            let vx = gx + wy * (half * c + radius * s);
-            let vy = gy - radius * wa - half * wt;
-            let vz = wy * (radius * c - half * s);
-            let (kt, ka) = (k(self.body.kt), k(self.body.ka));
-            power += k(self.drag.linear) * (vx * vx + vy * vy + vz * vz)
-                + k(self.drag.angular) * (kt * (wy * wy + wt * wt) + ka * wa * wa);
-        }
-        power
     }
 }
 

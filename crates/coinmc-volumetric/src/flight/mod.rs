@@ -4,4 +4,7 @@ mod orbit;
 mod search;
 
 pub(crate) use orbit::{Drag, Orbit};
-pub(crate) use search::{Departure, Found, first_contact};
+pub(crate) use search::{Departure, first_contact};
+
+#[cfg(test)]
+mod tests;

@@ -55,6 +55,9 @@ pub(crate) struct Gap<L> {
     pub(crate) uz: L,
     /// Rate of change of uz.
     pub(crate) uz_rate: L,
+    /// Horizontal part of u, and its rate of change.
+    pub(crate) across: [L; 2],
+    pub(crate) across_rate: [L; 2],
     pub(crate) gap: L,
     pub(crate) slope: L,
     pub(crate) curvature: L,
@@ -176,6 +179,8 @@ impl<L: Lane> Orbit<L> {
             sin,
             uz,
             uz_rate,
+            across: [ux, uy],
+            across_rate: [0, 1].map(|i| rate * (self.d[i] * c - self.b[i] * s)),
             gap: z - (half * uz.abs() + radius * sin),
             slope: vz - uz_rate * lever,
             curvature: fall_curve - uz_curve * lever + bend,
@@ -198,7 +203,7 @@ impl<L: Lane> Orbit<L> {
         let reflected = uz.lt(zero);
         let upright = !zero.lt(sin);
         let inverse = L::select(upright, zero, L::splat(1.0) / sin);
-        let sign = L::splat(1.0).copysign(uz);
+        let sign = L::select(reflected, L::splat(-1.0), L::splat(1.0));
         let nx = L::select(upright, L::splat(1.0), ux * inverse * sign);
         let ny = uy * inverse * sign;
         let mut after = *m;
@@ -220,10 +225,14 @@ impl<L: Lane> Orbit<L> {
         (after, [nx, ny], reflected)
     }
 
-    /// A rate above all of the flight's: of turning, and of toppling.
+    /// A rate above all of the flight's first moments: of turning, of toppling, and of another
+    /// point becoming the lowest (the opposite one of the rim as the tilt vanishes, the other rim's
+    /// as u becomes horizontal).
     #[inline(always)]
-    pub(crate) fn fastest(&self) -> L {
-        L::splat(1.0) + self.rate
+    pub(crate) fn fastest(&self, m: &Motion<L>) -> L {
+        let least = L::splat(LEAST_SIN);
+        let swap = self.across / (m.sin * m.cos.max(least)).max(least);
+        L::splat(1.0) + self.rate + swap
     }
 
     /// How far the centre goes sideways.
@@ -243,6 +252,7 @@ impl<L: Lane> Orbit<L> {
             swing,
             spread: swing * (middle + amplitude),
             wander: self.across,
+            bend: faster * self.across,
             climb: self.horizontal * faster,
             clear: highest(body, middle, amplitude),
         }
@@ -282,6 +292,8 @@ pub(crate) struct Bounds<L> {
     pub(crate) spread: L,
     /// u moves sideways no faster.
     pub(crate) wander: L,
+    /// u is accelerated sideways no more.
+    pub(crate) bend: L,
     /// No point of the coin is accelerated upwards by the rotation more than this.
     pub(crate) climb: L,
     /// No contact while the centre is above this.

@@ -7,12 +7,16 @@
 //! * sin = √(sin²) is concave in sin², so sin(τ) <= sin + sin'τ + ½(sin²)''_max τ²/(2 sin), and
 //!   f_b(τ) >= f_b + f_b'τ − ½M τ²,  M = 1 + h·swing + R·spread/sin;
 //! * where sin is small: sin(τ) <= sin + wander·τ, so
-//!   f_b(τ) >= f_b + (f_b' + R sin' − R wander) τ − ½(1 + h·swing) τ².
+//!   f_b(τ) >= f_b + (f_b' + R sin' − R wander) τ − ½(1 + h·swing) τ²;
+//! * there too: the horizontal part a of u moves almost straight, sin(τ) <= |a + a'τ| + ½bend τ²,
+//!   and as |a + a'τ| is convex it lies below its chord over [0, T]: with the chord's slope σ,
+//!   f_b(τ) >= f_b + (f_b' + R sin' − Rσ) τ − ½(1 + h·swing + R·bend) τ² for τ <= T.
+//!   This is the one for a coin that claps down flat: its u comes in along a radius, σ = sin'.
 //!
-//! The search steps to the first root of the better bound of the worse rim: no root is passed.
+//! The search steps to the first root of the best bound of the worse rim: no root is passed.
 //!
 //! # Above: where one must be
-//! A point of the coin that turns with Ω is accelerated downwards by at most
+//! A point of the coin that turns with Ω is accelerated upwards by at most
 //! climb = |Ω_h| w D, and no point is ever below the lowest: f(τ) <= f + f'τ + ½Gτ²,
 //! G = climb − 1, and f' − Gτ never grows. So once f' < 0 and f'² >= 2fG, f falls all the way to
 //! the root 2f/(√(f'² − 2fG) − f') of that parabola, with exactly one root of f before it. From
@@ -26,6 +30,8 @@ use crate::lane::{Lane, Mask};
 /// Gap that counts as touching, in D: above the rounding of f (about 1e-15), below anything that
 /// matters (an energy of 1e-14 m g D).
 const TOUCH: f64 = 1e-14;
+/// Rounding of the gap's rate of change, relative to the speeds it is the difference of.
+const ROUNDING: f64 = 1e-13;
 /// Evaluations after which a flight is given up. The worst of the stress test need a tenth.
 const MAX_EVALUATIONS: u32 = 20_000;
 
@@ -45,8 +51,6 @@ pub(crate) struct Found<L: Lane> {
     pub(crate) time: L,
     /// Out of evaluations, or not a number.
     pub(crate) lost: L::Mask,
-    /// Evaluations of the gap, over all lanes.
-    pub(crate) evaluations: u32,
 }
 
 /// The search, lane by lane.
@@ -98,7 +102,6 @@ pub(crate) fn first_contact<L: Lane>(
     Found {
         time: search.time,
         lost: search.active,
-        evaluations,
     }
 }
 
@@ -114,11 +117,14 @@ impl<L: Lane> Search<L> {
     ) {
         let (zero, touch) = (L::splat(0.0), L::splat(TOUCH));
         let falls = now.slope.lt(zero);
+        let sinks = now
+            .slope
+            .lt(-(L::splat(ROUNDING) * (now.vz.abs() + bounds.wander)));
         let near = now.gap.le(touch) & !self.bracketed;
         // a point that was just thrown back falls by rounding at most
         let leaves = match departure {
             Departure::Launched => near & !falls,
-            Departure::Leaving => near & (!falls | (self.departs & self.time.le(zero))),
+            Departure::Leaving => near & (!sinks | (self.departs & self.time.le(zero))),
         };
         let touches = (near & !leaves) | (self.bracketed & now.gap.abs().le(touch));
         self.active = self.active & !touches;
@@ -166,7 +172,8 @@ impl<L: Lane> Search<L> {
         self.high = L::select(lanes & !above, self.time, self.high);
         let step = first_root(now.gap, now.slope, -now.curvature);
         let next = self.time + step;
-        let inside = self.low.le(next) & next.le(self.high);
+        // strictly: from one end to the other and back would never end
+        let inside = self.low.lt(next) & next.lt(self.high);
         let middle = L::splat(0.5) * (self.low + self.high);
         let next = L::select(inside, next, middle);
         // the resolution of time is reached: nothing lies between, or nothing changes
@@ -219,11 +226,30 @@ fn lower_bound_step<L: Lane>(orbit: &Orbit<L>, body: &Body, bounds: &Bounds<L>, 
     if !flat.any() {
         return step;
     }
-    // sin' = −uz uz'/sin, replaced by its bound
-    let worst = -(now.uz * now.uz_rate * inverse) - bounds.wander;
-    let slope = now.slope + radius * worst;
+    // without sin' = −uz uz'/sin, which the bounds replace
+    let bare = now.slope - radius * (now.uz * now.uz_rate * inverse);
+    let slope = bare - radius * bounds.wander;
     let coarse = first_root(gap, slope, across).min(first_root(gap + rise, slope + climb, across));
-    L::select(flat, step.max(coarse), step)
+    let (chord, until) = chord(now);
+    let slope = bare - radius * chord;
+    let bend = across + radius * bounds.bend;
+    let straight = first_root(gap, slope, bend)
+        .min(first_root(gap + rise, slope + climb, bend))
+        .min(until);
+    L::select(flat, step.max(coarse).max(straight), step)
+}
+
+/// Slope of the chord of |a + a'τ| over the first half of the way to the vertical, and its time.
+#[inline(always)]
+fn chord<L: Lane>(now: &Gap<L>) -> (L, L) {
+    let ([x, y], [vx, vy]) = (now.across, now.across_rate);
+    let speed = (vx * vx + vy * vy).sqrt().max(L::splat(1e-30));
+    let until = L::splat(0.5) * now.sin / speed;
+    let (dx, dy) = (x + vx * until, y + vy * until);
+    // a rounding up, as the difference loses digits
+    let rounding = L::splat(1e-15) * now.sin;
+    let end = (dx * dx + dy * dy).sqrt();
+    ((end - now.sin + rounding) / until, until)
 }
 
 /// The first root t of gap + slope·t − ½ bend t² where it crosses downwards; very late if there is

@@ -161,6 +161,8 @@ struct Recorder(Vec<Event>);
 
 impl Observer for Recorder {
     fn event(&mut self, event: &Event) {
+        // more than a toss of any test has: one that never ends must not fill the memory
+        assert!(self.0.len() < 1_000_000, "no end: {event:?}");
         self.0.push(*event);
     }
 }

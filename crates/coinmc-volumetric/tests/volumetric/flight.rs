@@ -1,6 +1,6 @@
 //! Flight: closed form, without loss, and no contact missed.
 
-use crate::common::{Dice, Moment, Start, Tosser, flights, scene};
+use crate::common::{Dice, Moment, Start, Tosser, flights};
 use coinmc_core::{Coin, Drag, EventKind, Scene, Surface};
 use coinmc_oracle::{Model, Motion};
 use coinmc_volumetric::Settings;
@@ -80,7 +80,8 @@ fn scan(model: &Model, from: &Moment, to: &Moment, seen: &mut Seen, what: &dyn F
 }
 
 /// Without torque and drag nothing but height changes the energy, and the angular momentum and
-/// the horizontal velocity stay.
+/// the horizontal velocity stay. The axial spin is L·u/I_a: rounding of u, 1e-16, counts I_t/I_a
+/// times a flight, which matters for rods.
 fn conserves(model: &Model, from: &Motion, to: &Motion, seen: &mut Seen) {
     let (before, after) = (from.energy(model), to.energy(model));
     let energy = (after / before - 1.0).abs();
@@ -89,8 +90,9 @@ fn conserves(model: &Model, from: &Motion, to: &Motion, seen: &mut Seen) {
     let turned = (after - before).norm() / before.norm().max(1e-300);
     seen.energy = seen.energy.max(energy);
     seen.momentum = seen.momentum.max(turned);
-    assert!(energy <= 1e-12, "energy {energy:e}: {from:?} {to:?}");
-    assert!(turned <= 1e-12, "momentum {turned:e}: {from:?} {to:?}");
+    let bound = 1e-12 + 1e-15 * model.transverse / model.axial;
+    assert!(energy <= bound, "energy {energy:e}: {from:?} {to:?}");
+    assert!(turned <= bound, "momentum {turned:e}: {from:?} {to:?}");
     let pushed = (from.velocity - to.velocity).xy().norm();
     assert!(pushed <= 1e-12 * (1.0 + from.velocity.norm()), "{pushed:e}");
 }
@@ -225,15 +227,16 @@ fn flight_obeys_its_equations() {
         }
         flights += 1;
         let arrived = integrated(&model, &from.motion, to.time);
+        let momentum = |m: &Motion| model.inertia(&m.axis) * m.spin / model.transverse;
         for (a, b) in [
             (arrived.position, to.motion.position),
             (arrived.velocity, to.motion.velocity),
             (arrived.axis, to.motion.axis),
-            (arrived.spin, to.motion.spin),
+            (momentum(&arrived), momentum(&to.motion)),
         ] {
             worst = worst.max((a - b).norm() / (1.0 + b.norm()));
         }
     }
     println!("{flights} flights, worst {worst:e}");
-    assert!(flights > 350 && worst < 1e-8, "{flights} {worst:e}");
+    assert!(flights > 350 && worst < 1e-9, "{flights} {worst:e}");
 }

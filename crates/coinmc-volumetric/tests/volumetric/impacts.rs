@@ -23,8 +23,8 @@ fn impacts(moments: &[Moment]) -> impl Iterator<Item = (&Moment, &Moment, &Momen
     })
 }
 
-/// The normal velocity is thrown back by e, or it is taken out and contact follows: no flight to
-/// another contact may. Rounding: 1e-12 of the velocities, magnified where the lowest point of a
+/// The normal velocity is thrown back by e (under Stronge's law too where nothing rubs), or it is
+/// taken out and contact follows: no flight to another contact may. Rounding: 1e-12 of the velocities, magnified where the lowest point of a
 /// flat coin is ill-defined (left out below a sine of 1e-4).
 #[test]
 fn the_approach_is_thrown_back_by_e() {
@@ -37,6 +37,7 @@ fn the_approach_is_thrown_back_by_e() {
             (1.2, 0.95, 0.1, 0.0),
             (0.5, 0.0, 0.3, 0.01),
         ] {
+            let mu = if law == Law::Stronge { 0.0 } else { mu };
             let scene = scene(ratio, e, mu, rho);
             let model = Model::new(&scene);
             let engine = Tosser::of(&scene, law);
@@ -131,6 +132,7 @@ fn no_event_gains_energy() {
             max_impacts: 200,
             ..Default::default()
         };
+        println!("TRIAL {trial} {law:?} {scene:?} {start:?}");
         let (_, moments) = Tosser::with(&scene, &settings).record(&scene, &start.launch(&scene));
         for pair in moments.windows(2) {
             let [from, to] = pair else { continue };
@@ -143,8 +145,10 @@ fn no_event_gains_energy() {
             };
             worst[which] = worst[which].max(gain);
             events += 1;
+            // in flight, the rounding of u counts I_t/I_a times (rods)
+            let flight = if which == 2 { 1e-15 * model.transverse / model.axial } else { 0.0 };
             assert!(
-                gain <= 1e-12,
+                gain <= 1e-12 + flight,
                 "trial {trial} {law:?}: {gain:e} {from:?} {to:?} {scene:?}"
             );
         }

@@ -3,8 +3,12 @@
 //! fixed, so no test fails by chance; "false alarms" says how often one would under another seed.
 
 mod common;
+mod decision;
 mod flight;
 mod hostile;
 mod impacts;
+mod limits;
+mod planar;
 mod symmetry;
+mod textbook;
 mod zz_debug;

@@ -1,0 +1,329 @@
+//! The equations of contact against vectors of the laboratory and against textbook motions, and
+//! their lanes.
+
+use super::integrator::{next_length, step};
+use super::rim::{Law, Mode, OMEGA_A, OMEGA_T, OMEGA_Y, RimState, SLIP_X, SLIP_Y, TILT};
+use crate::body::{Body, Friction};
+use crate::flight::Drag;
+use crate::lane::four::{Four, gather, lane};
+use coinmc_core::{Coin, Domain, Stream, TossUniforms, UniformSource};
+use coinmc_oracle::newton_euler::{self, Contact, Twist};
+use coinmc_oracle::{Model, Motion, textbook, triad};
+use nalgebra::{Vector2, Vector3};
+use std::f64::consts::FRAC_PI_2;
+
+/// Random numbers of one trial, taken one after the other.
+struct Dice {
+    uniforms: TossUniforms,
+    next: u32,
+}
+
+impl Dice {
+    fn new(seed: u64, trial: u64) -> Self {
+        Self {
+            uniforms: Stream::new(seed, Domain::Launch, 0).toss(trial),
+            next: 0,
+        }
+    }
+
+    fn between(&mut self, from: f64, to: f64) -> f64 {
+        self.next += 1;
+        from + (to - from) * self.uniforms.uniform(self.next - 1)
+    }
+
+    fn chance(&mut self) -> bool {
+        self.between(0.0, 1.0) < 0.5
+    }
+}
+
+const FADE: f64 = 1e-9;
+
+fn law(ratio: f64, friction: Friction, drag: Drag, gyroscopic: bool) -> Law {
+    let body = Body::new(&Coin::cylinder(ratio, 0.01).expect("a good coin"));
+    let factor = if gyroscopic { body.ka / body.kt } else { 1.0 };
+    Law::new(body, friction, drag, factor, FADE)
+}
+
+const STILL: Drag = Drag {
+    linear: 0.0,
+    angular: 0.0,
+};
+
+fn model(law: &Law, gyroscopic: bool) -> Model {
+    Model {
+        radius: law.body.radius,
+        half: law.body.half,
+        transverse: law.body.kt,
+        axial: law.body.ka,
+        restitution: 0.0,
+        threshold: 0.0,
+        friction: law.friction.mu,
+        contour: law.friction.contour,
+        pivoting: law.friction.pivoting,
+        linear_drag: law.drag.linear,
+        angular_drag: law.drag.angular,
+        gyroscopic,
+    }
+}
+
+/// The state as vectors: u in the xz plane, the velocity such that the lowest point has the slip
+/// and no normal velocity.
+fn motion(law: &Law, state: &RimState<f64>) -> Motion {
+    let [tilt, wy, wa, wt, gx, gy] = *state;
+    let (s, c) = libm::sincos(tilt);
+    let (u, theta) = (Vector3::new(s, 0.0, c), Vector3::new(c, 0.0, -s));
+    let spin = u * wa + theta * wt + Vector3::y() * wy;
+    let arm = theta * law.body.radius - u * law.body.half;
+    Motion {
+        position: Vector3::new(0.0, 0.0, law.body.half * c + law.body.radius * s),
+        velocity: Vector3::new(gx, gy, 0.0) - spin.cross(&arm),
+        axis: u,
+        spin,
+    }
+}
+
+struct Case {
+    law: Law,
+    gyroscopic: bool,
+    state: RimState<f64>,
+    mode: Mode,
+}
+
+fn case(seed: u64, trial: u64) -> Case {
+    let mut dice = Dice::new(seed, trial);
+    let ratio = libm::exp(dice.between(-3.0, 3.0));
+    let friction = Friction {
+        // below the least μ of any Painlevé configuration
+        mu: dice.between(0.0, 1.0),
+        contour: dice.between(-0.05, 0.1).max(0.0),
+        pivoting: dice.between(-0.05, 0.1).max(0.0),
+    };
+    let drag = if dice.chance() {
+        STILL
+    } else {
+        Drag {
+            linear: dice.between(0.0, 1.0),
+            angular: dice.between(0.0, 1.0),
+        }
+    };
+    let gyroscopic = dice.chance();
+    let mode = if dice.chance() { Mode::Stick } else { Mode::Slip };
+    let mut part = |size: f64| dice.between(-size, size);
+    let (wy, wa, wt) = (part(2.0), part(2.0), part(2.0));
+    let (gx, gy) = match mode {
+        Mode::Stick => (0.0, 0.0),
+        Mode::Slip => (part(1.0), part(1.0)),
+    };
+    Case {
+        law: law(ratio, friction, drag, gyroscopic),
+        gyroscopic,
+        state: [dice.between(0.2, FRAC_PI_2 - 0.01), wy, wa, wt, gx, gy],
+        mode,
+    }
+}
+
+/// Six equations of motion and three of contact, solved as one system, turned into the triad.
+#[test]
+fn rates_are_newton_and_eulers() {
+    let mut worst: f64 = 0.0;
+    for trial in 0..20_000 {
+        let case = case(300, trial);
+        let (law, state) = (&case.law, &case.state);
+        let model = model(law, case.gyroscopic);
+        let motion = motion(law, state);
+        let contact = match case.mode {
+            Mode::Stick => Contact::Stick,
+            Mode::Slip => {
+                Contact::Slip(Vector2::new(state[SLIP_X], state[SLIP_Y]).normalize())
+            }
+        };
+        // beyond the fading of 1e-9 the signs are full
+        let (along, about) = newton_euler::twist_rates(&motion);
+        assert!(along.abs() > 1e-6 && about.abs() > 1e-6);
+        let twist = Twist {
+            contour: along.signum(),
+            pivoting: about.signum(),
+        };
+        let expected = newton_euler::rates(&model, &motion, contact, twist);
+        let (_, derivatives) = triad(&model, &motion, &expected);
+        let now = law.rates(state, case.mode);
+        let pairs = [
+            (now.rates[TILT], derivatives.tilt),
+            (now.rates[OMEGA_Y], derivatives.rocking),
+            (now.rates[OMEGA_A], derivatives.spin),
+            (now.rates[OMEGA_T], derivatives.turn),
+            (now.rates[SLIP_X], derivatives.slip_x),
+            (now.rates[SLIP_Y], derivatives.slip_y),
+            (now.normal, expected.force.z),
+            (now.friction[0], expected.force.x),
+            (now.friction[1], expected.force.y),
+        ];
+        // forces up to some 1000, from products of rates over kt or ka that are as large
+        let size = pairs.iter().map(|p| p.1.abs()).fold(1.0, f64::max)
+            * (1.0 + 0.01 / law.body.kt + 0.01 / law.body.ka);
+        for (i, (found, expected)) in pairs.into_iter().enumerate() {
+            let off = (found - expected).abs() / size;
+            worst = worst.max(off);
+            assert!(
+                off <= 1e-12,
+                "trial {trial}, {i}: {found} {expected} {state:?} {:?} {law:?}",
+                case.mode
+            );
+        }
+    }
+    println!("worst {worst:e}");
+}
+
+/// Integrates until `done`, with the tolerance given; the time it took.
+fn follow(
+    law: &Law,
+    mode: Mode,
+    state: &mut RimState<f64>,
+    tolerance: f64,
+    mut done: impl FnMut(&RimState<f64>, f64) -> bool,
+) -> f64 {
+    let (mut time, mut length) = (0.0, 1e-3);
+    while !done(state, time) {
+        let first = law.rates(state, mode).rates;
+        let trial = step(state, &first, length, tolerance, |s| law.rates(s, mode).rates);
+        if trial.error <= 1.0 {
+            *state = trial.state;
+            time += length;
+        }
+        length = next_length(length, trial.error);
+    }
+    time
+}
+
+fn rough(mu: f64, contour: f64, pivoting: f64) -> Friction {
+    Friction {
+        mu,
+        contour,
+        pivoting,
+    }
+}
+
+/// The rates of steady precession are zero, and ten units of time later (several turns) it goes on
+/// as it was: integrated to 1e-11, an unstable one grows by e^10 at the most.
+#[test]
+fn steady_precession_is_steady() {
+    let mut checked = 0;
+    for trial in 0..2000 {
+        let mut dice = Dice::new(301, trial);
+        let law = law(libm::exp(dice.between(-3.0, 1.0)), rough(0.3, 0.0, 0.0), STILL, true);
+        let model = model(&law, true);
+        let (tilt, circle) = (dice.between(0.1, 1.5), dice.between(-3.0, 3.0));
+        let Some(start) = textbook::precessing(&model, tilt, circle) else {
+            continue;
+        };
+        let (s, c) = libm::sincos(tilt);
+        let theta = Vector3::new(c, 0.0, -s);
+        let before = [
+            tilt,
+            0.0,
+            start.spin.dot(&start.axis),
+            start.spin.dot(&theta),
+            0.0,
+            0.0,
+        ];
+        let size = 1.0 + before[OMEGA_A].powi(2) + before[OMEGA_T].powi(2) / s;
+        for rate in law.rates(&before, Mode::Stick).rates {
+            let scale = size * (1.0 + 1.0 / law.body.kt + 1.0 / law.body.ka);
+            assert!(rate.abs() <= 1e-14 * scale, "{trial}: {rate:e} {before:?}");
+        }
+        checked += 1;
+        if checked % 10 == 0 && size < 50.0 {
+            let mut state = before;
+            follow(&law, Mode::Stick, &mut state, 1e-11, |_, time| time > 10.0);
+            for (a, b) in before.into_iter().zip(state) {
+                assert!((a - b).abs() < 1e-5, "{trial}: {before:?} {state:?}");
+            }
+        }
+    }
+    assert!(checked > 500, "{checked}");
+}
+
+/// Euler's disk: its contact goes round at the rate of the closed form, and with contour friction
+/// it comes down in the finite time of the closed form. Both hold for small tilts and thin coins:
+/// corrections are of first order in the tilt (0.05) and the ratio (1e-4).
+#[test]
+fn eulers_disk_comes_down_in_finite_time() {
+    let law = law(1e-4, rough(0.3, 1e-3, 0.0), STILL, true);
+    let model = model(&law, true);
+    let tilt = 0.05;
+    let start = textbook::precessing(&model, tilt, 0.0).expect("a disk");
+    let (s, c) = libm::sincos(tilt);
+    let turn = start.spin.dot(&Vector3::new(c, 0.0, -s));
+    let rate = textbook::euler_disk_rate(&model, tilt);
+    assert!((-turn / s / rate - 1.0).abs() < 0.01, "{} {rate}", -turn / s);
+    let mut state = [tilt, 0.0, start.spin.dot(&start.axis), turn, 0.0, 0.0];
+    let end = 1e-3;
+    let time = follow(&law, Mode::Stick, &mut state, 1e-9, |s, _| s[TILT] < end);
+    let expected =
+        textbook::euler_disk_stop(&model, tilt) - textbook::euler_disk_stop(&model, end);
+    assert!((time / expected - 1.0).abs() < 0.03, "{time} {expected}");
+}
+
+/// A coin spun upright on its rim and a wheel that rolls upright (u level) slow down at the
+/// textbook's rates. Thin: both rims at the same place.
+#[test]
+fn spun_coins_and_wheels_slow_down() {
+    let law = law(1e-6, rough(0.5, 0.01, 0.02), STILL, true);
+    let model = model(&law, true);
+    let spun = [FRAC_PI_2, 0.0, 0.0, -7.0, 0.0, 0.0];
+    let slows = law.rates(&spun, Mode::Stick).rates[OMEGA_T];
+    let expected = textbook::spun_coin_deceleration(&model);
+    assert!((slows / expected - 1.0).abs() < 1e-5, "{slows} {expected}");
+    let wheel = [FRAC_PI_2, 0.0, 7.0, 0.0, 0.0, 0.0];
+    let slows = law.rates(&wheel, Mode::Stick).rates[OMEGA_A];
+    let expected = -textbook::wheel_deceleration(&model);
+    assert!((slows / expected - 1.0).abs() < 1e-5, "{slows} {expected}");
+}
+
+/// Rates and a step of the integrator, four at a time.
+#[test]
+fn lanes_of_contact_do_not_see_each_other() {
+    for trial in 0..5000 {
+        let cases: [Case; 4] = std::array::from_fn(|i| case(302, 4 * trial + i as u64));
+        let (law, mode) = (&cases[0].law, cases[0].mode);
+        let states = [0, 1, 2, 3].map(|i| cases[i].state);
+        let lengths = [0, 1, 2, 3].map(|i: usize| 0.01 * (i + 1) as f64);
+        let together: RimState<Four> = gather(&states);
+        let now = law.rates(&together, mode);
+        let trial_together = step(&together, &now.rates, Four(lengths), 1e-6, |s| {
+            law.rates(s, mode).rates
+        });
+        let next = next_length(Four(lengths), trial_together.error);
+        let middle = trial_together.between(&together, Four([0.3; 4]));
+        for i in 0..4 {
+            let alone = law.rates(&states[i], mode);
+            let trial_alone = step(&states[i], &alone.rates, lengths[i], 1e-6, |s| {
+                law.rates(s, mode).rates
+            });
+            assert_eq!(lane(&now.rates, i), alone.rates.map(f64::to_bits));
+            assert_eq!(
+                lane(&[now.normal, now.friction[0], now.friction[1], now.press, now.yields], i),
+                [
+                    alone.normal,
+                    alone.friction[0],
+                    alone.friction[1],
+                    alone.press,
+                    alone.yields
+                ]
+                .map(f64::to_bits)
+            );
+            assert_eq!(
+                lane(&trial_together.state, i),
+                trial_alone.state.map(f64::to_bits)
+            );
+            assert_eq!(
+                lane(&[next], i),
+                [next_length(lengths[i], trial_alone.error).to_bits()]
+            );
+            assert_eq!(
+                lane(&middle, i),
+                trial_alone.between(&states[i], 0.3).map(f64::to_bits)
+            );
+        }
+    }
+}

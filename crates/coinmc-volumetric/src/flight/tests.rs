@@ -1,0 +1,111 @@
+//! Flights of four coins at once: each lane is to the bit what it is alone.
+
+use super::{Departure, Drag, Orbit, first_contact};
+use crate::body::Body;
+use crate::lane::four::Four;
+use crate::motion::Motion;
+use coinmc_core::{Coin, Domain, Stream, UniformSource};
+use std::array::from_fn;
+
+/// In the air, or just thrown back from the surface.
+fn motion(body: &Body, trial: u64, leaving: bool) -> Motion<f64> {
+    let uniforms = Stream::new(310, Domain::Launch, 0).toss(trial);
+    let mut uniforms = uniforms;
+    let mut at = |i: u32, from: f64, to: f64| from + (to - from) * uniforms.uniform(i);
+    let mut motion = Motion::still();
+    let cos = at(0, 0.0, 1.0);
+    motion.set_tilt((1.0 - cos * cos).sqrt(), cos);
+    let spin = libm::exp(at(1, -3.0, 5.0));
+    (motion.ox, motion.oy, motion.oz) = (
+        at(2, -spin, spin),
+        at(3, -spin, spin),
+        at(4, -spin, spin),
+    );
+    (motion.vx, motion.vy, motion.vz) = (at(5, -1.0, 1.0), at(6, -1.0, 1.0), at(7, -3.0, 3.0));
+    let rest = motion.rest_height(body);
+    if leaving {
+        let turning = motion.spin(body.ka / body.kt);
+        let touch = motion.touch(body, &turning);
+        // the contact point rises
+        motion.vz += at(8, 0.0, 1.0) - touch.approach;
+        motion.z = rest;
+    } else {
+        motion.z = rest + at(8, 0.0, 10.0);
+    }
+    motion
+}
+
+fn gathered(of: &[Motion<f64>; 4]) -> Motion<Four> {
+    let part = |f: fn(&Motion<f64>) -> f64| Four(from_fn(|i| f(&of[i])));
+    Motion {
+        sin: part(|m| m.sin),
+        cos: part(|m| m.cos),
+        ox: part(|m| m.ox),
+        oy: part(|m| m.oy),
+        oz: part(|m| m.oz),
+        vx: part(|m| m.vx),
+        vy: part(|m| m.vy),
+        vz: part(|m| m.vz),
+        z: part(|m| m.z),
+    }
+}
+
+fn bits(m: &Motion<f64>) -> [u64; 9] {
+    [m.sin, m.cos, m.ox, m.oy, m.oz, m.vx, m.vy, m.vz, m.z].map(f64::to_bits)
+}
+
+fn alone(of: &Motion<Four>, i: usize) -> Motion<f64> {
+    Motion {
+        sin: of.sin.0[i],
+        cos: of.cos.0[i],
+        ox: of.ox.0[i],
+        oy: of.oy.0[i],
+        oz: of.oz.0[i],
+        vx: of.vx.0[i],
+        vy: of.vy.0[i],
+        vz: of.vz.0[i],
+        z: of.z.0[i],
+    }
+}
+
+#[test]
+fn lanes_of_flight_do_not_see_each_other() {
+    for trial in 0..5000 {
+        let ratio = [0.01, 0.3, 1.0, 5.0][(trial % 4) as usize];
+        let body = Body::new(&Coin::cylinder(ratio, 0.01).expect("a good coin"));
+        let drag = match trial % 3 {
+            0 => Drag {
+                linear: 0.3,
+                angular: 0.1,
+            },
+            _ => Drag {
+                linear: 0.0,
+                angular: 0.0,
+            },
+        };
+        let leaving = trial % 2 == 0;
+        let departure = if leaving {
+            Departure::Leaving
+        } else {
+            Departure::Launched
+        };
+        let each = from_fn(|i| motion(&body, 4 * trial + i as u64, leaving));
+        let four = gathered(&each);
+        let mut orbit = Orbit::new(&four, drag);
+        let found = first_contact(&mut orbit, &body, departure, Four([1e-9; 4]));
+        let (landed, heading, reflected) = orbit.land(&four, &body, found.time);
+        for (i, one) in each.iter().enumerate() {
+            let mut orbit = Orbit::new(one, drag);
+            let single = first_contact(&mut orbit, &body, departure, 1e-9);
+            let (motion, [nx, ny], flips) = orbit.land(one, &body, single.time);
+            assert_eq!(found.lost.0[i], single.lost, "{trial} {i}");
+            assert_eq!(found.time.0[i].to_bits(), single.time.to_bits(), "{trial} {i}");
+            assert_eq!(bits(&alone(&landed, i)), bits(&motion), "{trial} {i}");
+            assert_eq!(
+                heading.map(|x| x.0[i].to_bits()),
+                [nx.to_bits(), ny.to_bits()]
+            );
+            assert_eq!(reflected.0[i], flips, "{trial} {i}");
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! Four lanes side by side, for tests: each must be to the bit what it is alone.
+
+use super::{Lane, Mask};
+use std::array::from_fn;
+use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, MulAssign, Neg, Not, Sub, SubAssign};
+
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Four(pub(crate) [f64; 4]);
+
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Bits(pub(crate) [bool; 4]);
+
+macro_rules! arithmetic {
+    ($($trait:ident $method:ident $op:tt;)*) => {$(
+        impl $trait for Four {
+            type Output = Self;
+            fn $method(self, other: Self) -> Self {
+                Self(from_fn(|i| self.0[i] $op other.0[i]))
+            }
+        }
+    )*};
+}
+arithmetic! {
+    Add add +;
+    Sub sub -;
+    Mul mul *;
+    Div div /;
+}
+
+impl AddAssign for Four {
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+impl SubAssign for Four {
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+impl MulAssign for Four {
+    fn mul_assign(&mut self, other: Self) {
+        *self = *self * other;
+    }
+}
+impl Neg for Four {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self(self.0.map(|x| -x))
+    }
+}
+
+impl BitAnd for Bits {
+    type Output = Self;
+    fn bitand(self, other: Self) -> Self {
+        Self(from_fn(|i| self.0[i] & other.0[i]))
+    }
+}
+impl BitOr for Bits {
+    type Output = Self;
+    fn bitor(self, other: Self) -> Self {
+        Self(from_fn(|i| self.0[i] | other.0[i]))
+    }
+}
+impl Not for Bits {
+    type Output = Self;
+    fn not(self) -> Self {
+        Self(self.0.map(|x| !x))
+    }
+}
+impl Mask for Bits {
+    fn splat(value: bool) -> Self {
+        Self([value; 4])
+    }
+    fn any(self) -> bool {
+        self.0.iter().any(|x| *x)
+    }
+}
+
+impl Lane for Four {
+    type Mask = Bits;
+
+    fn splat(value: f64) -> Self {
+        Self([value; 4])
+    }
+    fn sqrt(self) -> Self {
+        Self(self.0.map(f64::sqrt))
+    }
+    fn abs(self) -> Self {
+        Self(self.0.map(f64::abs))
+    }
+    fn copysign(self, sign: Self) -> Self {
+        Self(from_fn(|i| self.0[i].copysign(sign.0[i])))
+    }
+    fn round(self) -> Self {
+        Self(self.0.map(<f64 as Lane>::round))
+    }
+    fn lt(self, other: Self) -> Bits {
+        Bits(from_fn(|i| self.0[i] < other.0[i]))
+    }
+    fn le(self, other: Self) -> Bits {
+        Bits(from_fn(|i| self.0[i] <= other.0[i]))
+    }
+    fn select(mask: Bits, yes: Self, no: Self) -> Self {
+        Self(from_fn(|i| if mask.0[i] { yes.0[i] } else { no.0[i] }))
+    }
+}
+
+/// Four motions as one, and one of four.
+pub(crate) fn gather<const N: usize>(of: &[[f64; N]; 4]) -> [Four; N] {
+    from_fn(|component| Four(from_fn(|lane| of[lane][component])))
+}
+
+pub(crate) fn lane<const N: usize>(of: &[Four; N], lane: usize) -> [u64; N] {
+    of.map(|component| component.0[lane].to_bits())
+}
