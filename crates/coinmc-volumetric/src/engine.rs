@@ -318,6 +318,8 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
                 place.follow(length, motion, spin);
             }
         });
+        // the last of rolling is not followed step by step
+        place.time = contact.time;
         match tips {
             Ok(this_rim) => {
                 if !this_rim {
@@ -453,7 +455,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         self.notify(&toss, EventKind::Launched, observer);
         let energy = toss.motion.kinetic(&law.body, &toss.spin) + toss.motion.z;
         let verdict = self.judge.verdict(&toss.motion, &toss.spin);
-        let ended = if !(energy.is_finite() && toss.motion.sin.is_finite()) {
+        let ended = if !(energy.is_finite() && is_finite(launch)) {
             Ended::Failed
         } else if self.landing == Landing::Bouncing && verdict != Verdict::Open {
             decided(verdict, &toss)
@@ -471,6 +473,16 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
             overruled: false,
         }
     }
+}
+
+/// Comparisons drop what is not a number: the launch itself is asked.
+fn is_finite(launch: &Launch) -> bool {
+    let vectors = [
+        launch.velocity_m_s,
+        launch.axis.into_inner(),
+        launch.spin_rad_s,
+    ];
+    launch.height_m.is_finite() && vectors.iter().flatten().all(|x| x.is_finite())
 }
 
 fn decided(verdict: Verdict, toss: &Toss) -> Ended {

@@ -174,6 +174,12 @@ impl Contact<'_> {
         phase(state, Mode::Slip)
     }
 
+    /// Whether a coin in contact in this state presses, and tilts away from its side.
+    pub(super) fn leans(&mut self, state: RimState<f64>) -> bool {
+        let now = self.enter(state).now;
+        now.press > 0.0 && now.rates[OMEGA_Y] < 0.0
+    }
+
     /// Whether the forces of a held contact point are within the friction cone.
     fn can_stick(&self, held: &Rates<f64>) -> bool {
         let [fx, fy] = held.friction;

@@ -17,6 +17,7 @@ use super::integrator::{next_length, step};
 use super::rim::Law;
 use crate::motion::{Motion, Spin};
 use crate::verdict::Verdict;
+use std::f64::consts::FRAC_PI_2;
 
 /// v_x, v_y, ω_a, ω_z.
 type LineState = [f64; 4];
@@ -24,10 +25,11 @@ type LineState = [f64; 4];
 /// Least length of a step, in sqrt(D/g).
 const LEAST_STEP: f64 = 1e-13;
 
-/// Rates, and the normal force on the rim at r = (−h, 0, −R).
+/// Rates, and the share of the weight that the rim at r = (−h, 0, −R) would bear if the coin could
+/// not tip.
 struct LineRates {
     rates: LineState,
-    first: f64,
+    share: f64,
 }
 
 fn line_rates(law: &Law, state: &LineState, creep: f64) -> LineRates {
@@ -44,7 +46,8 @@ fn line_rates(law: &Law, state: &LineState, creep: f64) -> LineRates {
     let ((x1, y1), (x2, y2)) = (slide(slip[0]), slide(slip[1]));
     // h (2 N₁ − 1) = k_t Ω_a ω_z + R (N₁ x₁ + (1 − N₁) x₂)
     let gyro = body.kt * law.axial_factor * wa * wz;
-    let first = (gyro + body.half + body.radius * x2) / (2.0 * body.half - body.radius * (x1 - x2));
+    let share = (gyro + body.half + body.radius * x2) / (2.0 * body.half - body.radius * (x1 - x2));
+    let first = share.clamp(0.0, 1.0);
     let second = 1.0 - first;
     let (fx, f1, f2) = (
         first * x1 + second * x2,
@@ -60,7 +63,7 @@ fn line_rates(law: &Law, state: &LineState, creep: f64) -> LineRates {
             (body.radius * f1 - contour) / body.ka - angular * wa,
             (body.half * f2 + pivoting) / body.kt - angular * wz,
         ],
-        first,
+        share,
     }
 }
 
@@ -77,6 +80,8 @@ impl Contact<'_> {
         // ω_z = −ω_θ where u is horizontal
         let mut state = [motion.vx, motion.vy, spin.axial, -spin.turn];
         let mut length = 0.01;
+        lay(self.law, &state, motion, spin);
+        watch(0.0, motion, spin);
         loop {
             lay(self.law, &state, motion, spin);
             let verdict = self.judge.verdict(motion, spin);
@@ -85,8 +90,9 @@ impl Contact<'_> {
             }
             let now = line_rates(self.law, &state, creep);
             // not a number tips neither way, and is found out by the integrator
-            if now.first >= 1.0 || now.first <= 0.0 {
-                return Ok(now.first >= 1.0);
+            let this_rim = now.share >= 1.0;
+            if (this_rim || now.share <= 0.0) && self.tips(&state, this_rim) {
+                return Ok(this_rim);
             }
             if self.rolls_straight(&state) {
                 return Err(self.roll_out(&mut state, motion, spin));
@@ -123,6 +129,17 @@ impl Contact<'_> {
             watch(length, motion, spin);
             length = next_length(length, trial.error);
         }
+    }
+
+    /// Whether contact of one rim alone, the lowest of the frame or the other, agrees that the coin
+    /// tips onto it. (Friction that holds a rim may differ from that of its creep.)
+    fn tips(&mut self, state: &LineState, this_rim: bool) -> bool {
+        let [vx, vy, wa, wz] = *state;
+        let side = if this_rim { 1.0 } else { -1.0 };
+        let body = &self.law.body;
+        let slip = side * (vy + body.radius * wa) - body.half * wz;
+        let rim = [FRAC_PI_2, 0.0, side * wa, -wz, side * vx, slip];
+        self.leans(rim)
     }
 
     /// Whether nothing is left but straight rolling and a creep.

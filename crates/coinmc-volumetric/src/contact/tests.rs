@@ -107,7 +107,11 @@ fn case(seed: u64, trial: u64) -> Case {
         }
     };
     let gyroscopic = dice.chance();
-    let mode = if dice.chance() { Mode::Stick } else { Mode::Slip };
+    let mode = if dice.chance() {
+        Mode::Stick
+    } else {
+        Mode::Slip
+    };
     let mut part = |size: f64| dice.between(-size, size);
     let (wy, wa, wt) = (part(2.0), part(2.0), part(2.0));
     let (gx, gy) = match mode {
@@ -133,9 +137,7 @@ fn rates_are_newton_and_eulers() {
         let motion = motion(law, state);
         let contact = match case.mode {
             Mode::Stick => Contact::Stick,
-            Mode::Slip => {
-                Contact::Slip(Vector2::new(state[SLIP_X], state[SLIP_Y]).normalize())
-            }
+            Mode::Slip => Contact::Slip(Vector2::new(state[SLIP_X], state[SLIP_Y]).normalize()),
         };
         // beyond the fading of 1e-9 the signs are full
         let (along, about) = newton_euler::twist_rates(&motion);
@@ -185,7 +187,9 @@ fn follow(
     let (mut time, mut length) = (0.0, 1e-3);
     while !done(state, time) {
         let first = law.rates(state, mode).rates;
-        let trial = step(state, &first, length, tolerance, |s| law.rates(s, mode).rates);
+        let trial = step(state, &first, length, tolerance, |s| {
+            law.rates(s, mode).rates
+        });
         if trial.error <= 1.0 {
             *state = trial.state;
             time += length;
@@ -210,7 +214,12 @@ fn steady_precession_is_steady() {
     let mut checked = 0;
     for trial in 0..2000 {
         let mut dice = Dice::new(301, trial);
-        let law = law(libm::exp(dice.between(-3.0, 1.0)), rough(0.3, 0.0, 0.0), STILL, true);
+        let law = law(
+            libm::exp(dice.between(-3.0, 1.0)),
+            rough(0.3, 0.0, 0.0),
+            STILL,
+            true,
+        );
         let model = model(&law, true);
         let (tilt, circle) = (dice.between(0.1, 1.5), dice.between(-3.0, 3.0));
         let Some(start) = textbook::precessing(&model, tilt, circle) else {
@@ -255,12 +264,15 @@ fn eulers_disk_comes_down_in_finite_time() {
     let (s, c) = libm::sincos(tilt);
     let turn = start.spin.dot(&Vector3::new(c, 0.0, -s));
     let rate = textbook::euler_disk_rate(&model, tilt);
-    assert!((-turn / s / rate - 1.0).abs() < 0.01, "{} {rate}", -turn / s);
+    assert!(
+        (-turn / s / rate - 1.0).abs() < 0.01,
+        "{} {rate}",
+        -turn / s
+    );
     let mut state = [tilt, 0.0, start.spin.dot(&start.axis), turn, 0.0, 0.0];
     let end = 1e-3;
     let time = follow(&law, Mode::Stick, &mut state, 1e-9, |s, _| s[TILT] < end);
-    let expected =
-        textbook::euler_disk_stop(&model, tilt) - textbook::euler_disk_stop(&model, end);
+    let expected = textbook::euler_disk_stop(&model, tilt) - textbook::euler_disk_stop(&model, end);
     assert!((time / expected - 1.0).abs() < 0.03, "{time} {expected}");
 }
 
@@ -302,7 +314,16 @@ fn lanes_of_contact_do_not_see_each_other() {
             });
             assert_eq!(lane(&now.rates, i), alone.rates.map(f64::to_bits));
             assert_eq!(
-                lane(&[now.normal, now.friction[0], now.friction[1], now.press, now.yields], i),
+                lane(
+                    &[
+                        now.normal,
+                        now.friction[0],
+                        now.friction[1],
+                        now.press,
+                        now.yields
+                    ],
+                    i
+                ),
                 [
                     alone.normal,
                     alone.friction[0],

@@ -16,11 +16,8 @@ fn motion(body: &Body, trial: u64, leaving: bool) -> Motion<f64> {
     let cos = at(0, 0.0, 1.0);
     motion.set_tilt((1.0 - cos * cos).sqrt(), cos);
     let spin = libm::exp(at(1, -3.0, 5.0));
-    (motion.ox, motion.oy, motion.oz) = (
-        at(2, -spin, spin),
-        at(3, -spin, spin),
-        at(4, -spin, spin),
-    );
+    (motion.ox, motion.oy, motion.oz) =
+        (at(2, -spin, spin), at(3, -spin, spin), at(4, -spin, spin));
     (motion.vx, motion.vy, motion.vz) = (at(5, -1.0, 1.0), at(6, -1.0, 1.0), at(7, -3.0, 3.0));
     let rest = motion.rest_height(body);
     if leaving {
@@ -99,7 +96,11 @@ fn lanes_of_flight_do_not_see_each_other() {
             let single = first_contact(&mut orbit, &body, departure, 1e-9);
             let (motion, [nx, ny], flips) = orbit.land(one, &body, single.time);
             assert_eq!(found.lost.0[i], single.lost, "{trial} {i}");
-            assert_eq!(found.time.0[i].to_bits(), single.time.to_bits(), "{trial} {i}");
+            assert_eq!(
+                found.time.0[i].to_bits(),
+                single.time.to_bits(),
+                "{trial} {i}"
+            );
             assert_eq!(bits(&alone(&landed, i)), bits(&motion), "{trial} {i}");
             assert_eq!(
                 heading.map(|x| x.0[i].to_bits()),

@@ -129,6 +129,7 @@ fn fly(seed: u64, tosses: u64, spin: f64, dragged: bool, gyroscopic: bool) -> Se
     let mut seen = Seen::default();
     let settings = Settings {
         max_impacts: 40,
+        max_steps: 2000,
         ..Settings::default()
     };
     for trial in 0..tosses {

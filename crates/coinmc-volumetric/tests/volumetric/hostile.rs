@@ -167,6 +167,7 @@ fn outrageous_launches_end_and_what_is_no_number_fails() {
             let settings = Settings {
                 law: Law::ALL[(trial % 3) as usize],
                 max_impacts: 1000,
+                max_steps: 10_000,
                 ..Settings::default()
             };
             let engine = Tosser::with(&scene(ratio, restitution, friction, rho), &settings);

@@ -11,4 +11,3 @@ mod limits;
 mod planar;
 mod symmetry;
 mod textbook;
-mod zz_debug;

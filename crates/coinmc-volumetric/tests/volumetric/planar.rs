@@ -72,7 +72,9 @@ fn it_is_the_flat_engine() {
                 let launch = planar(&mut Dice::new(240, toss)).launch(&scene);
                 let [(a, seen_a), (b, seen_b)] = both.toss(&launch);
                 for ((ta, va), (tb, vb)) in seen_a.0.iter().zip(&seen_b.0).take(3) {
-                    let off = ((ta - tb) / time).abs().max((va - vb).abs() * time / length);
+                    let off = ((ta - tb) / time)
+                        .abs()
+                        .max((va - vb).abs() * time / length);
                     if e == 0.0 && compared > 0 && off > 1e-9 {
                         // contact lies between: followed with an error of its own
                         break;
@@ -85,9 +87,14 @@ fn it_is_the_flat_engine() {
                 differences.push(side(&a) - side(&b));
             }
             let (mean, error) = paired(&differences);
-            println!("e {e} ratio {ratio}: {differ} differ, {undecided} undecided, {mean} ± {error}");
+            println!(
+                "e {e} ratio {ratio}: {differ} differ, {undecided} undecided, {mean} ± {error}"
+            );
             assert_eq!(undecided, 0, "{e} {ratio}");
-            assert!(mean.abs() < 5.0 * error + 0.003, "{e} {ratio}: {mean} {error}");
+            assert!(
+                mean.abs() < 5.0 * error + 0.003,
+                "{e} {ratio}: {mean} {error}"
+            );
         }
     }
 }

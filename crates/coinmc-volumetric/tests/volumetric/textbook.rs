@@ -58,7 +58,10 @@ fn steady_precession_stays_steady() {
             "{ratio} {tilt} {circle}: {ended:?} {moments:?}"
         );
         let off = (last.motion.axis.z - motion.axis.z).abs();
-        println!("{ratio} {tilt} {circle}: {ended:?} at {} off {off:e}", last.time);
+        println!(
+            "{ratio} {tilt} {circle}: {ended:?} at {} off {off:e}",
+            last.time
+        );
         assert!(off < 1e-6, "{ratio} {tilt} {circle}: {off:e}");
         checked += 1;
     }
@@ -93,7 +96,10 @@ fn a_sliding_cylinder_comes_to_roll() {
         assert!(late > -1e-5 && late < 1e-3, "{} {time}", last.time);
         // μ/2 of the square of the time short of a start at full speed
         let way = 5.0 * time - 0.5 * mu * time * time + speed * (last.time - time);
-        assert!((last.motion.position.y - way).abs() < 1e-3, "{last:?} {way}");
+        assert!(
+            (last.motion.position.y - way).abs() < 1e-3,
+            "{last:?} {way}"
+        );
     }
 }
 
