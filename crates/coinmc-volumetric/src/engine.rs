@@ -60,7 +60,7 @@ enum Onward {
 
 /// A short time against every motion of the coin, times its fastest rate: a point that parts from
 /// the surface by acceleration is followed from there.
-const PARTING: f64 = 1e-3;
+const PARTING: f64 = 1e-4;
 /// The same for one that was thrown back.
 const THROWN: f64 = 1e-12;
 /// Rocking that is laid flat, as a fraction of zeno: below it in angle, speed and rate.
@@ -194,6 +194,9 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
                 toss.change_rim();
                 in_turn += 1;
                 continue;
+            } else if self.opposite_point_approaches(toss) {
+                toss.turn_frame();
+                continue;
             } else {
                 match after {
                     After::Flight(parting) => return Ok(parting),
@@ -232,7 +235,11 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         }
         let (motion, [nx, ny], reflected) = orbit.land(&toss.motion, &law.body, found.time);
         toss.motion = motion;
+        // ω_a is the integral of motion that rounding of u would blur: it is I_t/I_a times Ω_a
+        let axial = toss.spin.axial * orbit.spin_left(found.time);
         toss.spin = motion.spin(law.axial_factor);
+        toss.spin.axial = if reflected { -axial } else { axial };
+        toss.motion.set_spin(&toss.spin, law.axial_factor);
         toss.heads_up ^= reflected;
         contact.time += took;
         if O::ACTIVE {
@@ -267,7 +274,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
             motion.strike(&mut spin, body, &touch, p);
             motion.cap_energy(body, &mut spin, before);
             let press = law.press(&motion, &spin);
-            let ends = press > 0.0 && rest * law.fastest(&motion, &spin) < quick * press;
+            let ends = press > 0.0 && rest * contact::fastest(&motion, &spin) < quick * press;
             if ends || e == 0.0 {
                 motion.set_spin(&spin, law.axial_factor);
                 (toss.motion, toss.spin) = (motion, spin);
@@ -289,6 +296,14 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
     fn other_rim_approaches(&self, toss: &Toss) -> bool {
         let m = &toss.motion;
         m.cos == 0.0 && m.vz - toss.spin.tilt * self.contact.body.half < 0.0
+    }
+
+    /// Whether the coin is all but flat, and the opposite point of the rim comes down on the surface
+    /// next.
+    fn opposite_point_approaches(&self, toss: &Toss) -> bool {
+        let m = &toss.motion;
+        // there rx is −R
+        m.sin <= contact::FLAT && m.vz + toss.spin.tilt * self.contact.body.radius < 0.0
     }
 
     /// Whether the coin rocks on its side so little that it may be laid down: gap, speed and rate

@@ -8,7 +8,7 @@
 //!   either ── the other rim comes down, or the tilt vanishes ──▶ impact there
 //! ```
 
-use super::integrator::{Trial, next_length, step};
+use super::integrator::{Trial, is_accepted, next_length, shorter, step};
 use super::rim::{Law, Mode, OMEGA_A, OMEGA_T, OMEGA_Y, Rates, RimState, SLIP_X, SLIP_Y, TILT};
 use crate::impact::{Impulse, Touch, jam};
 use crate::motion::{Motion, Spin};
@@ -41,7 +41,7 @@ pub(crate) enum Leave {
 const DOWN: f64 = 1e-12;
 /// Tilt at which the opposite point of the rim has come down, rad: a coin that does not roll round
 /// the rim before comes down on all of it.
-const FLAT: f64 = 1e-6;
+pub(crate) const FLAT: f64 = 1e-9;
 /// Least length of a step, in sqrt(D/g): below it the integrator gives up.
 const LEAST_STEP: f64 = 1e-13;
 /// A slip that brakes is followed to this fraction of itself in one step.
@@ -97,6 +97,9 @@ impl Contact<'_> {
         let rate = (1.0 + spin.tilt * spin.tilt + spin.axial * spin.axial).sqrt();
         phase.length = 0.1 / rate;
         watch(Some(kind(phase.mode)), 0.0, motion, spin);
+        // of the mode's beginning: within the mode, truncation may err either way
+        let mut ceiling = self.energy(motion, spin);
+        self.cap(&mut phase, motion, spin, ceiling);
         loop {
             let verdict = self.judge.verdict(motion, spin);
             if verdict != Verdict::Open {
@@ -108,10 +111,9 @@ impl Contact<'_> {
             if self.time > self.settings.time_limit {
                 return Leave::Late;
             }
-            let before = motion.kinetic(&self.law.body, spin) + motion.z;
             let (next, length) = self.advance(&mut phase);
             self.time += length;
-            self.cap(&mut phase, motion, spin, before);
+            self.cap(&mut phase, motion, spin, ceiling);
             watch(None, length, motion, spin);
             match next {
                 Next::Go => {}
@@ -119,7 +121,8 @@ impl Contact<'_> {
                     let length = phase.length;
                     phase = self.enter(phase.state);
                     phase.length = length;
-                    self.cap(&mut phase, motion, spin, before);
+                    ceiling = self.energy(motion, spin);
+                    self.cap(&mut phase, motion, spin, ceiling);
                     watch(Some(kind(phase.mode)), 0.0, motion, spin);
                 }
                 Next::End(leave) => return leave,
@@ -127,12 +130,16 @@ impl Contact<'_> {
         }
     }
 
-    /// The motion of the phase's state, with no more energy than `before`.
-    fn cap(&self, phase: &mut Phase, motion: &mut Motion<f64>, spin: &mut Spin<f64>, before: f64) {
+    fn energy(&self, motion: &Motion<f64>, spin: &Spin<f64>) -> f64 {
+        motion.kinetic(&self.law.body, spin) + motion.z
+    }
+
+    /// The motion of the phase's state, with no more energy than `ceiling`.
+    fn cap(&self, phase: &mut Phase, motion: &mut Motion<f64>, spin: &mut Spin<f64>, ceiling: f64) {
         place(self.law, &phase.state, motion, spin);
         let body = &self.law.body;
         let kinetic = motion.kinetic(body, spin);
-        let allowed = before - motion.z;
+        let allowed = ceiling - motion.z;
         if kinetic > allowed {
             let scale = (allowed.max(0.0) / kinetic).sqrt();
             for component in &mut phase.state[OMEGA_Y..=SLIP_Y] {
@@ -166,10 +173,14 @@ impl Contact<'_> {
         let least = SEED * self.settings.stick;
         if slip < RESEED * least && needed > 0.0 {
             let seed = -least / needed;
-            return phase(
-                change_slip(self.law, &state, seed * fx, seed * fy),
-                Mode::Slip,
-            );
+            let gives = |gx, gy| phase(change_slip(self.law, &state, gx, gy), Mode::Slip);
+            let slips = gives(seed * fx, seed * fy);
+            // at high friction sliding one way may jam where sliding the other way does not
+            return if slips.now.yields < YIELD {
+                gives(-seed * fx, seed * fy)
+            } else {
+                slips
+            };
         }
         phase(state, Mode::Slip)
     }
@@ -177,7 +188,7 @@ impl Contact<'_> {
     /// Whether a coin in contact in this state presses, and tilts away from its side.
     pub(super) fn leans(&mut self, state: RimState<f64>) -> bool {
         let now = self.enter(state).now;
-        now.press > 0.0 && now.rates[OMEGA_Y] < 0.0
+        now.press > 0.0 && now.state[OMEGA_Y] < 0.0
     }
 
     /// Whether the forces of a held contact point are within the friction cone.
@@ -192,7 +203,7 @@ impl Contact<'_> {
         let state = &phase.state;
         let slip = slip_speed(state);
         let [.., gx, gy] = *state;
-        let [.., ax, ay] = phase.now.rates;
+        let [.., ax, ay] = phase.now.state;
         if self.law.friction.mu == 0.0 || slip > self.settings.stick || gx * ax + gy * ay >= 0.0 {
             return false;
         }
@@ -212,9 +223,6 @@ impl Contact<'_> {
         if phase.mode == Mode::Slip && phase.now.yields < YIELD {
             return (self.jammed(phase), 0.0);
         }
-        if phase.state[TILT] <= FLAT && phase.state[OMEGA_Y] < 0.0 {
-            return (Next::End(Leave::Upright), 0.0);
-        }
         let mut length = phase
             .length
             .min(self.braking_limit(phase))
@@ -226,13 +234,9 @@ impl Contact<'_> {
                 return (Next::End(Leave::Lost), 0.0);
             }
             let (trial, now) = self.attempt(phase, length);
-            if !(trial.error <= 1.0) {
+            if !is_accepted(trial.error) {
                 rejected = true;
-                length = if trial.error.is_finite() {
-                    next_length(length, trial.error)
-                } else {
-                    0.2 * length
-                };
+                length = shorter(length, trial.error);
                 continue;
             }
             // what made it too long is likely still ahead
@@ -249,12 +253,12 @@ impl Contact<'_> {
         let mut last = phase.now;
         let trial = step(
             &phase.state,
-            &phase.now.rates,
+            &phase.now.state,
             length,
             self.settings.tolerance,
             |state| {
                 last = self.law.rates(state, phase.mode);
-                last.rates
+                last.state
             },
         );
         (trial, last)
@@ -389,7 +393,7 @@ impl Contact<'_> {
             return f64::INFINITY;
         }
         let [.., gx, gy] = phase.state;
-        let braking = -(gx * phase.now.rates[SLIP_X] + gy * phase.now.rates[SLIP_Y]);
+        let braking = -(gx * phase.now.state[SLIP_X] + gy * phase.now.state[SLIP_Y]);
         if braking <= 0.0 {
             return f64::INFINITY;
         }
@@ -399,6 +403,7 @@ impl Contact<'_> {
     /// Painlevé's configuration: an impulse at the contact, without approach, ends the slip.
     fn jammed(&mut self, phase: &mut Phase) -> Next {
         self.jams += 1;
+        self.steps += 1;
         phase.state = kicked(self.law, &phase.state, |touch| {
             jam(&self.law.body, &self.law.friction, touch)
         });

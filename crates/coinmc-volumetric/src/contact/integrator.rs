@@ -7,8 +7,6 @@ use crate::lane::Lane;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Trial<L, const N: usize> {
     pub(crate) state: [L; N],
-    /// Rates at the end.
-    pub(crate) rates: [L; N],
     /// Square of the estimated error over the error allowed, root mean square over the
     /// components: accept at <= 1.
     pub(crate) error: L,
@@ -83,7 +81,6 @@ pub(crate) fn step<L: Lane, const N: usize>(
     }
     Trial {
         state: end,
-        rates: k7,
         error: squares * L::splat(1.0 / N as f64),
         h,
         stages: [*k1, *k3, *k4, *k5, *k6, k7],
@@ -98,8 +95,8 @@ fn along<L: Lane, const N: usize, const M: usize>(
     terms: &[(f64, &[L; N]); M],
 ) -> [L; N] {
     let mut sum = *state;
-    for i in 0..N {
-        sum[i] += h * weighted(terms, i);
+    for (i, component) in sum.iter_mut().enumerate() {
+        *component += h * weighted(terms, i);
     }
     sum
 }
@@ -134,6 +131,20 @@ impl<L: Lane, const N: usize> Trial<L, N> {
             let inner = bow + x * (sway + rest * (self.h * weighted(&weights, i)));
             start[i] + x * (chord + rest * inner)
         })
+    }
+}
+
+/// Whether a trial of this (squared) error may stand; not a number may not.
+pub(crate) fn is_accepted(error: f64) -> bool {
+    error <= 1.0
+}
+
+/// The length of the next try after one of length `h` that failed.
+pub(crate) fn shorter(h: f64, error: f64) -> f64 {
+    if error.is_finite() {
+        next_length(h, error)
+    } else {
+        0.2 * h
     }
 }
 

@@ -13,7 +13,7 @@
 //! the rate μ(1 + R²/k_a), and ω_a of a rolling coin at ρ_c/(k_a + R²).
 
 use super::follow::{Contact, Leave};
-use super::integrator::{next_length, step};
+use super::integrator::{is_accepted, next_length, shorter, step};
 use super::rim::Law;
 use crate::motion::{Motion, Spin};
 use crate::verdict::Verdict;
@@ -103,20 +103,16 @@ impl Contact<'_> {
             let before = motion.kinetic(&self.law.body, spin);
             let trial = loop {
                 self.steps += 1;
-                if self.steps >= self.settings.max_steps || !(length >= LEAST_STEP) {
+                if self.steps >= self.settings.max_steps || length < LEAST_STEP {
                     return Err(Leave::Lost);
                 }
                 let trial = step(&state, &now.rates, length, self.settings.tolerance, |s| {
                     line_rates(self.law, s, creep).rates
                 });
-                if trial.error <= 1.0 {
+                if is_accepted(trial.error) {
                     break trial;
                 }
-                length = if trial.error.is_finite() {
-                    next_length(length, trial.error)
-                } else {
-                    0.2 * length
-                };
+                length = shorter(length, trial.error);
             };
             state = trial.state;
             self.time += length;

@@ -5,8 +5,8 @@ mod integrator;
 mod line;
 pub(crate) mod rim;
 
-pub(crate) use follow::{Contact, Leave};
-pub(crate) use rim::Law;
+pub(crate) use follow::{Contact, FLAT, Leave};
+pub(crate) use rim::{Law, fastest};
 
 #[cfg(test)]
 mod tests;

@@ -69,7 +69,8 @@ pub(crate) enum Mode {
 /// Forces and rates of a state.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Rates<L> {
-    pub(crate) rates: RimState<L>,
+    /// d/dt of the state.
+    pub(crate) state: RimState<L>,
     /// Normal force, m g.
     pub(crate) normal: L,
     /// Friction force needed (stick) or acting (slip), m g.
@@ -171,7 +172,7 @@ impl Law {
             Mode::Slip => (kxx * fx + kxz * normal + bx, kyy * fy + by),
         };
         Rates {
-            rates: [
+            state: [
                 wy,
                 gyro_y + (rz * fx - rx * normal) * ikt,
                 (radius * fy - normal * twist_a) * ika - drag_turn * wa,
@@ -227,13 +228,6 @@ impl Law {
     pub(crate) fn uplift<L: Lane>(&self, m: &Motion<L>, spin: &Spin<L>) -> L {
         self.gyroscopic(m, spin).abs()
     }
-
-    /// The fastest rate of a coin in contact: of rolling, tilting, precessing, toppling.
-    #[inline(always)]
-    pub(crate) fn fastest<L: Lane>(&self, m: &Motion<L>, spin: &Spin<L>) -> L {
-        let azimuth = spin.turn / m.sin;
-        (L::splat(1.0) + spin.axial * spin.axial + spin.tilt * spin.tilt + azimuth * azimuth).sqrt()
-    }
 }
 
 /// The unit vector along (x, y); (1, 0) along nothing.
@@ -243,4 +237,11 @@ pub(crate) fn direction<L: Lane>(x: L, y: L) -> (L, L) {
     let none = length.le(L::splat(0.0));
     let inverse = L::splat(1.0) / L::select(none, L::splat(1.0), length);
     (L::select(none, L::splat(1.0), x * inverse), y * inverse)
+}
+
+/// The fastest rate of a coin in contact: of rolling, tilting, precessing, toppling.
+#[inline(always)]
+pub(crate) fn fastest<L: Lane>(m: &Motion<L>, spin: &Spin<L>) -> L {
+    let azimuth = spin.turn / m.sin;
+    (L::splat(1.0) + spin.axial * spin.axial + spin.tilt * spin.tilt + azimuth * azimuth).sqrt()
 }

@@ -150,12 +150,12 @@ fn rates_are_newton_and_eulers() {
         let (_, derivatives) = triad(&model, &motion, &expected);
         let now = law.rates(state, case.mode);
         let pairs = [
-            (now.rates[TILT], derivatives.tilt),
-            (now.rates[OMEGA_Y], derivatives.rocking),
-            (now.rates[OMEGA_A], derivatives.spin),
-            (now.rates[OMEGA_T], derivatives.turn),
-            (now.rates[SLIP_X], derivatives.slip_x),
-            (now.rates[SLIP_Y], derivatives.slip_y),
+            (now.state[TILT], derivatives.tilt),
+            (now.state[OMEGA_Y], derivatives.rocking),
+            (now.state[OMEGA_A], derivatives.spin),
+            (now.state[OMEGA_T], derivatives.turn),
+            (now.state[SLIP_X], derivatives.slip_x),
+            (now.state[SLIP_Y], derivatives.slip_y),
             (now.normal, expected.force.z),
             (now.friction[0], expected.force.x),
             (now.friction[1], expected.force.y),
@@ -186,9 +186,9 @@ fn follow(
 ) -> f64 {
     let (mut time, mut length) = (0.0, 1e-3);
     while !done(state, time) {
-        let first = law.rates(state, mode).rates;
+        let first = law.rates(state, mode).state;
         let trial = step(state, &first, length, tolerance, |s| {
-            law.rates(s, mode).rates
+            law.rates(s, mode).state
         });
         if trial.error <= 1.0 {
             *state = trial.state;
@@ -236,7 +236,7 @@ fn steady_precession_is_steady() {
             0.0,
         ];
         let size = 1.0 + before[OMEGA_A].powi(2) + before[OMEGA_T].powi(2) / s;
-        for rate in law.rates(&before, Mode::Stick).rates {
+        for rate in law.rates(&before, Mode::Stick).state {
             let scale = size * (1.0 + 1.0 / law.body.kt + 1.0 / law.body.ka);
             assert!(rate.abs() <= 1e-14 * scale, "{trial}: {rate:e} {before:?}");
         }
@@ -283,11 +283,11 @@ fn spun_coins_and_wheels_slow_down() {
     let law = law(1e-6, rough(0.5, 0.01, 0.02), STILL, true);
     let model = model(&law, true);
     let spun = [FRAC_PI_2, 0.0, 0.0, -7.0, 0.0, 0.0];
-    let slows = law.rates(&spun, Mode::Stick).rates[OMEGA_T];
+    let slows = law.rates(&spun, Mode::Stick).state[OMEGA_T];
     let expected = textbook::spun_coin_deceleration(&model);
     assert!((slows / expected - 1.0).abs() < 1e-5, "{slows} {expected}");
     let wheel = [FRAC_PI_2, 0.0, 7.0, 0.0, 0.0, 0.0];
-    let slows = law.rates(&wheel, Mode::Stick).rates[OMEGA_A];
+    let slows = law.rates(&wheel, Mode::Stick).state[OMEGA_A];
     let expected = -textbook::wheel_deceleration(&model);
     assert!((slows / expected - 1.0).abs() < 1e-5, "{slows} {expected}");
 }
@@ -302,17 +302,17 @@ fn lanes_of_contact_do_not_see_each_other() {
         let lengths = [0, 1, 2, 3].map(|i: usize| 0.01 * (i + 1) as f64);
         let together: RimState<Four> = gather(&states);
         let now = law.rates(&together, mode);
-        let trial_together = step(&together, &now.rates, Four(lengths), 1e-6, |s| {
-            law.rates(s, mode).rates
+        let trial_together = step(&together, &now.state, Four(lengths), 1e-6, |s| {
+            law.rates(s, mode).state
         });
         let next = next_length(Four(lengths), trial_together.error);
         let middle = trial_together.between(&together, Four([0.3; 4]));
         for i in 0..4 {
             let alone = law.rates(&states[i], mode);
-            let trial_alone = step(&states[i], &alone.rates, lengths[i], 1e-6, |s| {
-                law.rates(s, mode).rates
+            let trial_alone = step(&states[i], &alone.state, lengths[i], 1e-6, |s| {
+                law.rates(s, mode).state
             });
-            assert_eq!(lane(&now.rates, i), alone.rates.map(f64::to_bits));
+            assert_eq!(lane(&now.state, i), alone.state.map(f64::to_bits));
             assert_eq!(
                 lane(
                     &[

@@ -58,7 +58,8 @@ pub(crate) struct Gap<L> {
     /// Horizontal part of u, and its rate of change.
     pub(crate) across: [L; 2],
     pub(crate) across_rate: [L; 2],
-    pub(crate) gap: L,
+    /// f.
+    pub(crate) height: L,
     pub(crate) slope: L,
     pub(crate) curvature: L,
 }
@@ -181,7 +182,7 @@ impl<L: Lane> Orbit<L> {
             uz_rate,
             across: [ux, uy],
             across_rate: [0, 1].map(|i| rate * (self.d[i] * c - self.b[i] * s)),
-            gap: z - (half * uz.abs() + radius * sin),
+            height: z - (half * uz.abs() + radius * sin),
             slope: vz - uz_rate * lever,
             curvature: fall_curve - uz_curve * lever + bend,
         }
@@ -211,7 +212,7 @@ impl<L: Lane> Orbit<L> {
         let mut turn = L::splat(1.0);
         if self.drag.acts() {
             slow = remains(self.drag.linear, self.since_start(t));
-            turn = remains(self.drag.angular, self.since_start(t));
+            turn = self.spin_left(t);
         }
         after.set_tilt(sin * scale, uz.abs() * scale);
         after.vx = m.vx * slow;
@@ -233,6 +234,15 @@ impl<L: Lane> Orbit<L> {
         let least = L::splat(LEAST_SIN);
         let swap = self.across / (m.sin * m.cos.max(least)).max(least);
         L::splat(1.0) + self.rate + swap
+    }
+
+    /// What drag leaves of the angular momentum at time `t`.
+    #[inline(always)]
+    pub(crate) fn spin_left(&self, t: L) -> L {
+        if self.drag.angular == 0.0 {
+            return L::splat(1.0);
+        }
+        remains(self.drag.angular, self.since_start(t))
     }
 
     /// How far the centre goes sideways.

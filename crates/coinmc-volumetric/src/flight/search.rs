@@ -120,13 +120,13 @@ impl<L: Lane> Search<L> {
         let sinks = now
             .slope
             .lt(-(L::splat(ROUNDING) * (now.vz.abs() + bounds.wander)));
-        let near = now.gap.le(touch) & !self.bracketed;
+        let near = now.height.le(touch) & !self.bracketed;
         // a point that was just thrown back falls by rounding at most
         let leaves = match departure {
             Departure::Launched => near & !falls,
             Departure::Leaving => near & (!sinks | (self.departs & self.time.le(zero))),
         };
-        let touches = (near & !leaves) | (self.bracketed & now.gap.abs().le(touch));
+        let touches = (near & !leaves) | (self.bracketed & now.height.abs().le(touch));
         self.active = self.active & !touches;
         self.bracket(orbit, bounds, now, falls & !leaves & self.active);
         let newton = self.bracketed & self.active;
@@ -135,13 +135,15 @@ impl<L: Lane> Search<L> {
         }
         let free = self.active & !self.bracketed;
         if free.any() {
-            let mut step = lower_bound_step(orbit, body, bounds, now)
-                .max(high_step(orbit, bounds, now.z, now.vz));
+            let (mut own, other) = lower_bound_steps(orbit, body, bounds, now);
             let lingers = leaves & free;
             if lingers.any() {
-                step = L::select(lingers, step.max(self.least), step);
+                // not beyond where the opposite point of the rim may come down instead
+                let (_, until) = chord(now);
+                own = L::select(lingers, own.max(self.least.min(until)), own);
                 self.least = L::select(lingers, self.least + self.least, self.least);
             }
+            let step = own.min(other).max(high_step(orbit, bounds, now.z, now.vz));
             self.advance(step, free);
         }
     }
@@ -152,10 +154,10 @@ impl<L: Lane> Search<L> {
         let two = L::splat(2.0);
         let climb = bounds.climb - orbit.weakest_pull(now.vz);
         let square = now.slope * now.slope;
-        let discriminant = square - two * now.gap * climb;
+        let discriminant = square - two * now.height * climb;
         let newly = falls & !self.bracketed & L::splat(0.0).le(discriminant);
         if newly.any() {
-            let last = two * now.gap / (discriminant.max(L::splat(0.0)).sqrt() - now.slope);
+            let last = two * now.height / (discriminant.max(L::splat(0.0)).sqrt() - now.slope);
             self.low = L::select(newly, self.time, self.low);
             // the parabola's root, a rounding later
             let high = self.time + last * L::splat(1.0 + 1e-12) + L::splat(1e-300);
@@ -167,10 +169,10 @@ impl<L: Lane> Search<L> {
     /// One step of Newton's method with the second-order term, kept within the bracket.
     #[inline(always)]
     fn close_in(&mut self, now: &Gap<L>, lanes: L::Mask) {
-        let above = L::splat(0.0).lt(now.gap);
+        let above = L::splat(0.0).lt(now.height);
         self.low = L::select(lanes & above, self.time, self.low);
         self.high = L::select(lanes & !above, self.time, self.high);
-        let step = first_root(now.gap, now.slope, -now.curvature);
+        let step = first_root(now.height, now.slope, -now.curvature);
         let next = self.time + step;
         // strictly: from one end to the other and back would never end
         let inside = self.low.lt(next) & next.lt(self.high);
@@ -205,14 +207,19 @@ fn high_step<L: Lane>(orbit: &Orbit<L>, bounds: &Bounds<L>, z: L, vz: L) -> L {
     L::select(high, first_root(excess, vz, orbit.strongest_pull(vz)), zero)
 }
 
-/// Time for which the gap certainly stays positive.
+/// Times for which the gaps of the lowest rim and of the other certainly stay positive.
 #[inline(always)]
-fn lower_bound_step<L: Lane>(orbit: &Orbit<L>, body: &Body, bounds: &Bounds<L>, now: &Gap<L>) -> L {
+fn lower_bound_steps<L: Lane>(
+    orbit: &Orbit<L>,
+    body: &Body,
+    bounds: &Bounds<L>,
+    now: &Gap<L>,
+) -> (L, L) {
     const SMALL: f64 = 0.05;
     let (radius, half) = (L::splat(body.radius), L::splat(body.half));
     let inverse = L::splat(1.0) / now.sin;
     // below 0 by rounding at most
-    let gap = now.gap.max(L::splat(0.0));
+    let gap = now.height.max(L::splat(0.0));
     let across = half * bounds.swing + orbit.strongest_pull(now.vz);
     let bend = across + radius * bounds.spread * inverse;
     // the other rim is higher by the coin's height along the vertical
@@ -220,23 +227,27 @@ fn lower_bound_step<L: Lane>(orbit: &Orbit<L>, body: &Body, bounds: &Bounds<L>, 
         L::splat(2.0) * half * now.uz.abs(),
         L::splat(2.0) * half * now.uz_rate * L::splat(1.0).copysign(now.uz),
     );
-    let step =
-        first_root(gap, now.slope, bend).min(first_root(gap + rise, now.slope + climb, bend));
+    let step = |slope: L, bend: L| {
+        (
+            first_root(gap, slope, bend),
+            first_root(gap + rise, slope + climb, bend),
+        )
+    };
+    let (own, other) = step(now.slope, bend);
     let flat = now.sin.lt(L::splat(SMALL));
     if !flat.any() {
-        return step;
+        return (own, other);
     }
     // without sin' = −uz uz'/sin, which the bounds replace
     let bare = now.slope - radius * (now.uz * now.uz_rate * inverse);
-    let slope = bare - radius * bounds.wander;
-    let coarse = first_root(gap, slope, across).min(first_root(gap + rise, slope + climb, across));
+    let coarse = step(bare - radius * bounds.wander, across);
     let (chord, until) = chord(now);
-    let slope = bare - radius * chord;
-    let bend = across + radius * bounds.bend;
-    let straight = first_root(gap, slope, bend)
-        .min(first_root(gap + rise, slope + climb, bend))
-        .min(until);
-    L::select(flat, step.max(coarse).max(straight), step)
+    let straight = step(bare - radius * chord, across + radius * bounds.bend);
+    let best = |one: L, two: L, three: L| L::select(flat, one.max(two).max(three.min(until)), one);
+    (
+        best(own, coarse.0, straight.0),
+        best(other, coarse.1, straight.1),
+    )
 }
 
 /// Slope of the chord of |a + a'τ| over the first half of the way to the vertical, and its time.

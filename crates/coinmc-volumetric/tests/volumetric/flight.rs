@@ -30,7 +30,8 @@ fn looks(model: &Model, from: &Moment, time: f64) -> Vec<f64> {
     let fine = (20.0 * turning(model, &from.motion) * time / 400.0).min(2000.0) as u32;
     let lows: Vec<f64> = all.into_iter().filter(|t| low(*t)).collect();
     if fine > 1 && !lows.is_empty() {
-        let each = (fine * 400 / lows.len() as u32).clamp(2, fine.max(2));
+        let lows_count = u32::try_from(lows.len()).expect("at most 400");
+        let each = (fine * 400 / lows_count).clamp(2, fine.max(2));
         for t in lows {
             looks.extend(evenly(t, t + time / 400.0, each.min(50)));
         }
