@@ -39,6 +39,14 @@ impl Body {
     }
 }
 
+impl Body {
+    /// sqrt(2 × depth) of the shallower of the coin's wells, on its side and on a face: the speed,
+    /// in sqrt(g D), that just carries it over its rim. Thin coins have a shallow side.
+    pub(crate) fn escape_speed(&self) -> f64 {
+        (2.0 * (1.0 - self.radius.max(self.half))).sqrt()
+    }
+}
+
 /// Friction of the contact, in the kernel's units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Friction {

@@ -35,6 +35,8 @@ pub struct VolumetricEngine<L> {
     units: Units,
     contact: contact::Law,
     judge: Judge,
+    /// See [`Settings::tolerance`], in sqrt(g D).
+    tolerance: f64,
     restitution: f64,
     /// Approach below which e = 0, in sqrt(g D).
     threshold: f64,
@@ -63,6 +65,8 @@ enum Onward {
 const PARTING: f64 = 1e-4;
 /// The same for one that was thrown back.
 const THROWN: f64 = 1e-12;
+/// The integrator's rounding: no step can be asked to err less.
+const LEAST_TOLERANCE: f64 = 1e-13;
 /// Rocking that is laid flat, as a fraction of zeno: below it in angle, speed and rate.
 const ROCKING: f64 = 0.1;
 /// Impacts of one rim and the other in turn, without flight, after which the coin lies on its side.
@@ -131,6 +135,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
             units,
             contact: contact::Law::new(body, friction, drag, axial_factor, settings.fade),
             judge,
+            tolerance: (settings.tolerance * body.escape_speed().min(1.0)).max(LEAST_TOLERANCE),
             restitution,
             threshold,
             landing: scene.surface.landing(),
@@ -463,6 +468,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
             law,
             judge: &self.judge,
             settings: &self.settings,
+            tolerance: self.tolerance,
             steps: 0,
             jams: 0,
             time: 0.0,

@@ -72,7 +72,8 @@ pub struct Settings {
     /// A sequence of bounces is replaced by sustained contact when all that remains of it would
     /// turn the coin by less than about this angle, rad.
     pub zeno: f64,
-    /// Relative error allowed per step of the integration of sustained contact.
+    /// Error allowed per step of the integration of sustained contact, relative to the speed that
+    /// would just carry the coin out of its shallower well.
     pub tolerance: f64,
     /// Slip, in sqrt(g D), below which a contact point that can stick does.
     pub stick: f64,
@@ -92,7 +93,7 @@ impl Default for Settings {
             law: Law::default(),
             decision: Decision::default(),
             zeno: 0.02,
-            tolerance: 1e-4,
+            tolerance: 2e-4,
             stick: 1e-2,
             fade: 1e-2,
             max_impacts: 100_000,

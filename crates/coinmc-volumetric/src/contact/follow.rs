@@ -60,6 +60,8 @@ pub(crate) struct Contact<'a> {
     pub(crate) law: &'a Law,
     pub(crate) judge: &'a Judge,
     pub(crate) settings: &'a Settings,
+    /// Error allowed per step, absolute and relative.
+    pub(crate) tolerance: f64,
     pub(crate) steps: u32,
     pub(crate) jams: u32,
     pub(crate) time: f64,
@@ -255,7 +257,7 @@ impl Contact<'_> {
             &phase.state,
             &phase.now.state,
             length,
-            self.settings.tolerance,
+            self.tolerance,
             |state| {
                 last = self.law.rates(state, phase.mode);
                 last.state

@@ -106,7 +106,7 @@ impl Contact<'_> {
                 if self.steps >= self.settings.max_steps || length < LEAST_STEP {
                     return Err(Leave::Lost);
                 }
-                let trial = step(&state, &now.rates, length, self.settings.tolerance, |s| {
+                let trial = step(&state, &now.rates, length, self.tolerance, |s| {
                     line_rates(self.law, s, creep).rates
                 });
                 if is_accepted(trial.error) {

@@ -155,10 +155,21 @@ impl<L: Lane> Orbit<L> {
         (L::splat(1.0) + L::splat(self.drag.linear) * vz).min(L::splat(0.0))
     }
 
+    /// The gap at time `t`.
     #[inline(always)]
     pub(crate) fn gap(&self, body: &Body, t: L) -> Gap<L> {
-        let (s, c, rate) = self.phase(t);
-        let (z, vz) = self.fall(t);
+        self.gap_at(body, self.phase(t), self.fall(t))
+    }
+
+    /// The gap at t = 0, where no phase need be computed.
+    #[inline(always)]
+    pub(crate) fn first_gap(&self, body: &Body) -> Gap<L> {
+        let phase = (L::splat(0.0), L::splat(1.0), self.rate);
+        self.gap_at(body, phase, (self.z, self.vz))
+    }
+
+    #[inline(always)]
+    fn gap_at(&self, body: &Body, (s, c, rate): (L, L, L), (z, vz): (L, L)) -> Gap<L> {
         let at = |i: usize| self.a[i] + (self.b[i] * c + self.d[i] * s);
         let (ux, uy, uz) = (at(0), at(1), at(2));
         let sin = (ux * ux + uy * uy).sqrt().max(L::splat(LEAST_SIN));
@@ -243,6 +254,15 @@ impl<L: Lane> Orbit<L> {
             return L::splat(1.0);
         }
         remains(self.drag.angular, self.since_start(t))
+    }
+
+    /// Whether Newton's step of length `step`, with the second-order term, has its error of third
+    /// order below all rounding: f''' is of the order of the cube of the rates.
+    #[inline(always)]
+    pub(crate) fn resolves(&self, step: L, sin: L) -> L::Mask {
+        const THIRD_ORDER: f64 = 2e-6;
+        let fastest = L::splat(1.0) + self.rate + self.across / sin;
+        (step.abs() * fastest).lt(L::splat(THIRD_ORDER))
     }
 
     /// How far the centre goes sideways.

@@ -93,11 +93,13 @@ pub(crate) fn first_contact<L: Lane>(
         active: L::Mask::splat(true),
         least,
     };
-    let mut evaluations = 0;
-    while search.active.any() && evaluations < MAX_EVALUATIONS {
-        evaluations += 1;
-        let gap = orbit.gap(body, search.time);
+    let mut gap = orbit.first_gap(body);
+    for _ in 0..MAX_EVALUATIONS {
         search.step(orbit, body, &bounds, &gap, departure);
+        if !search.active.any() {
+            break;
+        }
+        gap = orbit.gap(body, search.time);
     }
     Found {
         time: search.time,
@@ -131,7 +133,7 @@ impl<L: Lane> Search<L> {
         self.bracket(orbit, bounds, now, falls & !leaves & self.active);
         let newton = self.bracketed & self.active;
         if newton.any() {
-            self.close_in(now, newton);
+            self.close_in(orbit, now, newton);
         }
         let free = self.active & !self.bracketed;
         if free.any() {
@@ -168,7 +170,7 @@ impl<L: Lane> Search<L> {
 
     /// One step of Newton's method with the second-order term, kept within the bracket.
     #[inline(always)]
-    fn close_in(&mut self, now: &Gap<L>, lanes: L::Mask) {
+    fn close_in(&mut self, orbit: &Orbit<L>, now: &Gap<L>, lanes: L::Mask) {
         let above = L::splat(0.0).lt(now.height);
         self.low = L::select(lanes & above, self.time, self.low);
         self.high = L::select(lanes & !above, self.time, self.high);
@@ -180,7 +182,9 @@ impl<L: Lane> Search<L> {
         let next = L::select(inside, next, middle);
         // the resolution of time is reached: nothing lies between, or nothing changes
         let closed = middle.le(self.low) | self.high.le(middle);
-        let done = lanes & (closed | (next.le(self.time) & self.time.le(next)));
+        let same = next.le(self.time) & self.time.le(next);
+        let resolved = inside & orbit.resolves(step, now.sin);
+        let done = lanes & (closed | same | resolved);
         self.active = self.active & !done;
         self.time = L::select(lanes, L::select(closed, self.low, next), self.time);
     }
