@@ -2,7 +2,7 @@
 //! linear drag needs. Additions and multiplications only.
 
 use crate::lane::{Lane, Mask};
-use std::f64::consts::FRAC_2_PI;
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4};
 
 /// (sin x, cos x) for any x, rad; within 4e-16 for |x| < 1e6, beyond that the phase itself has
 /// fewer digits than this loses.
@@ -28,6 +28,17 @@ pub(crate) fn sin_cos<L: Lane>(x: L) -> (L, L) {
         L::select(back | (odd & quarter.lt(-half)), -sine, sine),
         L::select(back | (odd & half.lt(quarter)), -cosine, cosine),
     )
+}
+
+/// (sin x, cos x) for a tilt, 0 <= x <= π/2 rad, within 4e-16; smooth and close a little beyond.
+#[inline(always)]
+pub(crate) fn sin_cos_tilt<L: Lane>(x: L) -> (L, L) {
+    /// π/2 − FRAC_PI_2.
+    const TAIL: f64 = 6.123_233_995_736_766e-17;
+    let fold = L::splat(FRAC_PI_4).lt(x);
+    let y = L::select(fold, (L::splat(FRAC_PI_2) - x) + L::splat(TAIL), x);
+    let (s, c) = near_zero(y);
+    (L::select(fold, c, s), L::select(fold, s, c))
 }
 
 /// (sin y, cos y) for |y| <= π/4.
@@ -119,6 +130,19 @@ mod tests {
                 .max((c - libm::cos(x)).abs());
         }
         assert!(worst <= 4e-16, "{worst:e}");
+    }
+
+    #[test]
+    fn a_tilt_has_the_same_sine_and_cosine() {
+        assert_eq!(sin_cos_tilt(0.0), (0.0, 1.0));
+        for i in 0..=100_000 {
+            let x = FRAC_PI_2 * f64::from(i) * 1e-5;
+            let ((s, c), (sine, cosine)) = (sin_cos_tilt(x), (libm::sin(x), libm::cos(x)));
+            assert!(
+                (s - sine).abs() <= 4e-16 && (c - cosine).abs() <= 4e-16,
+                "{x}"
+            );
+        }
     }
 
     #[test]

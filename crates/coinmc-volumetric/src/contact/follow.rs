@@ -12,7 +12,7 @@ use super::integrator::{Trial, is_accepted, next_length, shorter, step};
 use super::rim::{Law, Mode, OMEGA_A, OMEGA_T, OMEGA_Y, Rates, RimState, SLIP_X, SLIP_Y, TILT};
 use crate::impact::{Impulse, Touch, jam};
 use crate::motion::{Motion, Spin};
-use crate::series::sin_cos;
+use crate::series::sin_cos_tilt;
 use crate::settings::Settings;
 use crate::verdict::{Judge, Verdict};
 use coinmc_core::EventKind;
@@ -449,7 +449,7 @@ fn rim_state(law: &Law, motion: &Motion<f64>, spin: &Spin<f64>) -> RimState<f64>
 
 /// The motion of a state.
 fn place(law: &Law, state: &RimState<f64>, motion: &mut Motion<f64>, spin: &mut Spin<f64>) {
-    let (s, c) = sin_cos(state[TILT]);
+    let (s, c) = sin_cos_tilt(state[TILT]);
     let (radius, half) = (law.body.radius, law.body.half);
     *spin = Spin {
         tilt: state[OMEGA_Y],

@@ -30,7 +30,7 @@ use crate::body::{Body, Friction};
 use crate::flight::Drag;
 use crate::lane::Lane;
 use crate::motion::{Motion, Spin};
-use crate::series::sin_cos;
+use crate::series::sin_cos_tilt;
 
 /// Components of the state, in the order of the integrator's vector.
 pub(crate) const TILT: usize = 0;
@@ -116,7 +116,7 @@ impl Law {
     pub(crate) fn rates<L: Lane>(&self, state: &RimState<L>, mode: Mode) -> Rates<L> {
         let k = L::splat;
         let [tilt, wy, wa, wt, gx, gy] = *state;
-        let (s, c) = sin_cos(tilt);
+        let (s, c) = sin_cos_tilt(tilt);
         let (radius, half) = (k(self.body.radius), k(self.body.half));
         let (ikt, ika) = (k(self.inverse_kt), k(self.inverse_ka));
         let rx = radius * c - half * s;
