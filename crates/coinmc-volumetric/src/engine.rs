@@ -184,6 +184,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
                 return Err(Ended::ImpactLimit);
             }
             toss.impacts += 1;
+            toss.level(self.contact.axial_factor);
             self.notify(toss, EventKind::Touching, observer);
             let after = self.strike(toss);
             self.notify(toss, EventKind::Impact, observer);
@@ -199,8 +200,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
                 toss.change_rim();
                 in_turn += 1;
                 continue;
-            } else if self.opposite_point_approaches(toss) {
-                toss.turn_frame();
+            } else if self.comes_down_level(toss) {
                 continue;
             } else {
                 match after {
@@ -303,12 +303,11 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         m.cos == 0.0 && m.vz - toss.spin.tilt * self.contact.body.half < 0.0
     }
 
-    /// Whether the coin is all but flat, and the opposite point of the rim comes down on the surface
-    /// next.
-    fn opposite_point_approaches(&self, toss: &Toss) -> bool {
-        let m = &toss.motion;
-        // there rx is −R
-        m.sin <= contact::FLAT && m.vz + toss.spin.tilt * self.contact.body.radius < 0.0
+    /// Whether another point of the rim of a level coin comes down next.
+    fn comes_down_level(&self, toss: &mut Toss) -> bool {
+        // there rx is R
+        toss.level(self.contact.axial_factor)
+            && toss.motion.vz - toss.spin.tilt * self.contact.body.radius < 0.0
     }
 
     /// Whether the coin rocks on its side so little that it may be laid down: gap, speed and rate
@@ -429,10 +428,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
                 toss.change_rim();
                 return Onward::Strike;
             }
-            Leave::Upright => {
-                toss.turn_frame();
-                return Onward::Strike;
-            }
+            Leave::Upright => return Onward::Strike,
             _ => {}
         }
         Onward::End(match leave {

@@ -1,6 +1,7 @@
 //! One toss on its way: its state, its counters, and where it is for whoever watches.
 
 use crate::body::{Body, Units};
+use crate::contact::FLAT;
 use crate::motion::{Motion, Spin};
 use crate::series::sin_cos;
 use coinmc_core::{Face, Launch, State};
@@ -135,12 +136,22 @@ impl Toss {
         }
     }
 
-    /// Half a turn of the frame: the opposite point of the lower rim becomes the lowest.
-    pub(crate) fn turn_frame(&mut self) {
-        self.motion.turn_frame();
-        self.spin.tilt = -self.spin.tilt;
-        self.spin.turn = -self.spin.turn;
-        self.place.align(-1.0, 0.0);
+    /// For a coin that is all but level, every point of the lower rim is at the surface. Turns the
+    /// frame to the one that is coming down: where u tilts to, u' = (ω_y, −ω_θ). Whether the coin
+    /// is that level.
+    pub(crate) fn level(&mut self, axial_factor: f64) -> bool {
+        if self.motion.sin > FLAT {
+            return false;
+        }
+        let (x, y) = (self.spin.tilt, -self.spin.turn);
+        let rate = (x * x + y * y).sqrt();
+        if rate > 0.0 {
+            self.motion.align(x / rate, y / rate);
+            self.place.align(x / rate, y / rate);
+            (self.spin.tilt, self.spin.turn) = (rate, 0.0);
+            self.motion.set_spin(&self.spin, axial_factor);
+        }
+        true
     }
 
     /// The frame seen from the other face, for a coin on its side: the other rim becomes the

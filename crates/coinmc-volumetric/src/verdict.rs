@@ -12,7 +12,9 @@
 //! * *on the side*, the energy of straight rolling. A tangential impulse p at the contact changes
 //!   v_y by p and ω_a by Rp/I_a, so Λ = v_y − (k_a/R) ω_a stays, and v_y and ω_a keep at least the
 //!   energy Λ²/(2(1 + k_a/R²)) as long as the axis keeps its direction. It does not keep it
-//!   exactly: a coin that turns while it rolls can trade the one for the other, hence "nearly";
+//!   exactly: a coin that turns while it rolls can trade the one for the other, hence "nearly".
+//!   A coin that lies on both rims is settled, too, once the weight's moment is twice what could
+//!   lift a rim (see `contact::line`);
 //! * *flat on a face*, within `flat` of it, the energy of sliding and of spinning about u, if
 //!   friction at the base cannot tip the coin (μ h <= R: its lever about the leading point is
 //!   shorter than that of the weight).
@@ -79,6 +81,11 @@ impl Judge {
                 0.0
             },
         }
+    }
+
+    /// Whether energy that cannot tilt the coin is left out.
+    pub(crate) fn tilts_only(&self) -> bool {
+        self.tilting
     }
 
     /// Whether the coin leans towards its side.

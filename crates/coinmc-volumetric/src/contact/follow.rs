@@ -98,10 +98,9 @@ impl Contact<'_> {
         let mut phase = self.enter(state);
         let rate = (1.0 + spin.tilt * spin.tilt + spin.axial * spin.axial).sqrt();
         phase.length = 0.1 / rate;
+        // the energy at the mode's beginning: within it, truncation may err either way
+        let mut ceiling = self.begin(&mut phase, motion, spin);
         watch(Some(kind(phase.mode)), 0.0, motion, spin);
-        // of the mode's beginning: within the mode, truncation may err either way
-        let mut ceiling = self.energy(motion, spin);
-        self.cap(&mut phase, motion, spin, ceiling);
         loop {
             let verdict = self.judge.verdict(motion, spin);
             if verdict != Verdict::Open {
@@ -123,8 +122,7 @@ impl Contact<'_> {
                     let length = phase.length;
                     phase = self.enter(phase.state);
                     phase.length = length;
-                    ceiling = self.energy(motion, spin);
-                    self.cap(&mut phase, motion, spin, ceiling);
+                    ceiling = self.begin(&mut phase, motion, spin);
                     watch(Some(kind(phase.mode)), 0.0, motion, spin);
                 }
                 Next::End(leave) => return leave,
@@ -132,8 +130,12 @@ impl Contact<'_> {
         }
     }
 
-    fn energy(&self, motion: &Motion<f64>, spin: &Spin<f64>) -> f64 {
-        motion.kinetic(&self.law.body, spin) + motion.z
+    /// Puts the motion where a mode begins, with no more energy than it had; the energy it has.
+    fn begin(&self, phase: &mut Phase, motion: &mut Motion<f64>, spin: &mut Spin<f64>) -> f64 {
+        let energy = |m: &Motion<f64>, spin: &Spin<f64>| m.kinetic(&self.law.body, spin) + m.z;
+        let before = energy(motion, spin);
+        self.cap(phase, motion, spin, before);
+        energy(motion, spin).min(before)
     }
 
     /// The motion of the phase's state, with no more energy than `ceiling`.

@@ -94,6 +94,9 @@ impl Contact<'_> {
             if (this_rim || now.share <= 0.0) && self.tips(&state, this_rim) {
                 return Ok(this_rim);
             }
+            if self.judge.tilts_only() && self.lies_for_good(&state) {
+                return Err(Leave::Settled(Verdict::Side));
+            }
             if self.rolls_straight(&state) {
                 return Err(self.roll_out(&mut state, motion, spin));
             }
@@ -136,6 +139,17 @@ impl Contact<'_> {
         let slip = side * (vy + body.radius * wa) - body.half * wz;
         let rim = [FRAC_PI_2, 0.0, side * wa, -wz, side * vx, slip];
         self.leans(rim)
+    }
+
+    /// Whether the weight holds the coin down on both rims with twice the moment that friction and
+    /// gyroscopic torque can raise: μR + k_t|Ω_a ω_z| <= h/2, with ω_a as it is or as it would be
+    /// in rolling. Friction then only slows the coin down.
+    fn lies_for_good(&self, state: &LineState) -> bool {
+        let [vx, vy, wa, wz] = *state;
+        let Law { body, friction, .. } = self.law;
+        let fastest = wa.abs().max((vx.abs() + vy.abs()) / body.radius);
+        let gyroscopic = body.kt * self.law.axial_factor * fastest * wz.abs();
+        2.0 * (friction.mu * body.radius + gyroscopic) <= body.half
     }
 
     /// Whether nothing is left but straight rolling and a creep.

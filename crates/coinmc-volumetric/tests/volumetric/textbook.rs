@@ -47,8 +47,9 @@ fn steady_precession_stays_steady() {
         if motion.energy(&model) < 1.05 {
             continue;
         }
+        // some of these motions are unstable: rounding grows to 1e-6 within some 30 units of time
         let settings = Settings {
-            time_limit: 50.0,
+            time_limit: 10.0,
             ..tight()
         };
         let (ended, moments) = begin(&scene, &motion, &settings);
