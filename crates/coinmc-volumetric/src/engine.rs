@@ -300,14 +300,16 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
     /// Whether the coin, exactly on its side, goes on to the other rim rather than up.
     fn other_rim_approaches(&self, toss: &Toss) -> bool {
         let m = &toss.motion;
-        m.cos == 0.0 && m.vz - toss.spin.tilt * self.contact.body.half < 0.0
+        m.cos == 0.0 && approaches(m.vz, toss.spin.tilt * self.contact.body.half)
     }
 
     /// Whether another point of the rim of a level coin comes down next.
     fn comes_down_level(&self, toss: &mut Toss) -> bool {
-        // there rx is R
-        toss.level(self.contact.axial_factor)
-            && toss.motion.vz - toss.spin.tilt * self.contact.body.radius < 0.0
+        let law = &self.contact;
+        toss.level(law.axial_factor) && {
+            let (vz, tilt) = (toss.motion.vz, toss.spin.tilt);
+            approaches(vz, vz - toss.motion.touch(&law.body, &toss.spin).approach) && tilt > 0.0
+        }
     }
 
     /// Whether the coin rocks on its side so little that it may be laid down: gap, speed and rate
@@ -500,6 +502,12 @@ fn is_finite(launch: &Launch) -> bool {
         launch.spin_rad_s,
     ];
     launch.height_m.is_finite() && vectors.iter().flatten().all(|x| x.is_finite())
+}
+
+/// Whether a point that sinks at `down` relative to a centre that rises at `up` comes down, by more
+/// than rounding.
+fn approaches(up: f64, down: f64) -> bool {
+    up - down < -1e-13 * (up.abs() + down.abs())
 }
 
 fn decided(verdict: Verdict, toss: &Toss) -> Ended {

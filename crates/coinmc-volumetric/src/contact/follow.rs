@@ -440,7 +440,8 @@ fn kind(mode: Mode) -> EventKind {
 fn rim_state(law: &Law, motion: &Motion<f64>, spin: &Spin<f64>) -> RimState<f64> {
     let touch = motion.touch(&law.body, spin);
     [
-        libm::atan2(motion.sin, motion.cos),
+        // a level coin begins where the azimuth is a number
+        libm::atan2(motion.sin, motion.cos).max(FLAT),
         spin.tilt,
         spin.axial,
         spin.turn,

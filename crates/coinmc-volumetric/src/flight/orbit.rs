@@ -58,6 +58,8 @@ pub(crate) struct Gap<L> {
     /// Horizontal part of u, and its rate of change.
     pub(crate) across: [L; 2],
     pub(crate) across_rate: [L; 2],
+    /// Rate of change of its length.
+    pub(crate) sin_rate: L,
     /// f.
     pub(crate) height: L,
     pub(crate) slope: L,
@@ -181,8 +183,11 @@ impl<L: Lane> Orbit<L> {
             fall_curve -= L::splat(self.drag.linear) * vz;
         }
         let (radius, half) = (L::splat(body.radius), L::splat(body.half));
-        // h = half|uz| + radius·sin, with sin' = −uz uz'/sin
+        // h = half|uz| + radius·sin; near flat sin' keeps its digits in this form alone
         let inverse = L::splat(1.0) / sin;
+        let across_rate = [0, 1].map(|i| rate * (self.d[i] * c - self.b[i] * s));
+        let sin_rate = (ux * across_rate[0] + uy * across_rate[1]) * inverse;
+        // and sin'' = −(uz uz'' + uz'²/sin²)/sin
         let lever = half.copysign(uz) - radius * uz * inverse;
         let bend = radius * uz_rate * uz_rate * (inverse * inverse * inverse);
         Gap {
@@ -192,9 +197,10 @@ impl<L: Lane> Orbit<L> {
             uz,
             uz_rate,
             across: [ux, uy],
-            across_rate: [0, 1].map(|i| rate * (self.d[i] * c - self.b[i] * s)),
+            across_rate,
+            sin_rate,
             height: z - (half * uz.abs() + radius * sin),
-            slope: vz - uz_rate * lever,
+            slope: vz - (half.copysign(uz) * uz_rate + radius * sin_rate),
             curvature: fall_curve - uz_curve * lever + bend,
         }
     }

@@ -242,8 +242,8 @@ fn lower_bound_steps<L: Lane>(
     if !flat.any() {
         return (own, other);
     }
-    // without sin' = −uz uz'/sin, which the bounds replace
-    let bare = now.slope - radius * (now.uz * now.uz_rate * inverse);
+    // without sin', which the bounds replace
+    let bare = now.slope + radius * now.sin_rate;
     let coarse = step(bare - radius * bounds.wander, across);
     let (chord, until) = chord(now);
     let straight = step(bare - radius * chord, across + radius * bounds.bend);
