@@ -4,7 +4,8 @@
 
 use coinmc_core::{Coin, Scene};
 
-/// The coin's shape and inertia.
+/// The coin's shape and inertia, per its mass m and in units of D = sqrt(R² + H²/4), the distance
+/// of the rim from the centre: radius² + half² = 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Body {
     /// R/D.
@@ -47,7 +48,7 @@ impl Body {
     }
 }
 
-/// Friction of the contact, in the kernel's units.
+/// Friction of the contact; lengths in D = sqrt(R² + H²/4), as in [`Body`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Friction {
     /// Coulomb coefficient μ.

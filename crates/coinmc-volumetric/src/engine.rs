@@ -4,6 +4,7 @@ use crate::body::{Body, Friction, Units};
 use crate::contact::{self, Contact, Leave};
 use crate::flight::{Departure, Drag, Orbit, first_contact};
 use crate::impact::{ChatterjeeRuina, ImpactLaw, Moreau, Stronge};
+use crate::rest;
 use crate::settings::{Decision, Law, Settings, SettingsError};
 use crate::toss::Toss;
 use crate::verdict::{Judge, Verdict};
@@ -31,11 +32,11 @@ use coinmc_core::{
 #[derive(Debug, Clone)]
 pub struct VolumetricEngine<L> {
     impact: L,
-    settings: Settings,
+    pub(crate) settings: Settings,
     units: Units,
-    contact: contact::Law,
+    pub(crate) contact: contact::Law,
     judge: Judge,
-    /// See [`Settings::tolerance`], in sqrt(g D).
+    /// [`Settings::tolerance`], in sqrt(g D).
     tolerance: f64,
     restitution: f64,
     /// Approach below which e = 0, in sqrt(g D).
@@ -54,7 +55,7 @@ enum After {
 }
 
 /// What follows sustained contact.
-enum Onward {
+pub(crate) enum Onward {
     Fly,
     Strike,
     End(Ended),
@@ -67,8 +68,6 @@ const PARTING: f64 = 1e-4;
 const THROWN: f64 = 1e-12;
 /// The integrator's rounding: no step can be asked to err less.
 const LEAST_TOLERANCE: f64 = 1e-13;
-/// Rocking that is laid flat, as a fraction of zeno: below it in angle, speed and rate.
-const ROCKING: f64 = 0.1;
 /// Impacts of one rim and the other in turn, without flight, after which the coin lies on its side.
 const ALTERNATIONS: u32 = 100;
 
@@ -125,7 +124,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
             axial_factor,
             drag.acts(),
             settings.decision == Decision::Tilting,
-            ROCKING * settings.zeno,
+            rest::ROCKING * settings.zeno,
         );
         let restitution = scene.surface.restitution();
         let threshold = scene.surface.restitution_threshold_m_s() / units.speed_m_s();
@@ -135,7 +134,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
             units,
             contact: contact::Law::new(body, friction, drag, axial_factor, settings.fade),
             judge,
-            tolerance: (settings.tolerance * body.escape_speed().min(1.0)).max(LEAST_TOLERANCE),
+            tolerance: (settings.tolerance * body.escape_speed()).max(LEAST_TOLERANCE),
             restitution,
             threshold,
             landing: scene.surface.landing(),
@@ -312,87 +311,8 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         }
     }
 
-    /// Whether the coin rocks on its side so little that it may be laid down: gap, speed and rate
-    /// below a tenth of zeno of the side's half width.
-    #[inline]
-    fn rocks_out(&self, toss: &Toss) -> bool {
-        let m = &toss.motion;
-        let small = ROCKING * self.settings.zeno * self.contact.body.half;
-        m.vz.abs() < small && m.cos < small && toss.spin.tilt.abs() < small
-    }
-
-    /// Lies down on the side.
-    fn lie<O: Observer>(
-        &self,
-        toss: &mut Toss,
-        contact: &mut Contact<'_>,
-        observer: &mut O,
-    ) -> Onward {
-        let Toss {
-            motion,
-            spin,
-            place,
-            ..
-        } = toss;
-        let tips = contact.lie(motion, spin, |length, motion, spin| {
-            if O::ACTIVE {
-                place.follow(length, motion, spin);
-            }
-        });
-        // the last of rolling is not followed step by step
-        place.time = contact.time;
-        match tips {
-            Ok(this_rim) => {
-                if !this_rim {
-                    toss.change_rim();
-                }
-                self.sustain(toss, contact, observer)
-            }
-            Err(leave) => self.onward(toss, leave),
-        }
-    }
-
-    /// Whether the coin stands on its face but for a little rocking.
-    fn stands(&self, toss: &Toss) -> bool {
-        let m = &toss.motion;
-        let body = &self.contact.body;
-        let small = ROCKING * self.settings.zeno * body.radius;
-        m.sin < small
-            && m.vz.abs() < small
-            && toss.spin.tilt.abs() < small
-            && toss.spin.turn.abs() < small
-    }
-
-    /// A coin that stands on its face and slides: friction at the leading point either tips it
-    /// (μ n_x h > R, n the slip there) or never will, as the slip only decays.
-    fn trip<O: Observer>(
-        &self,
-        toss: &mut Toss,
-        contact: &mut Contact<'_>,
-        observer: &mut O,
-    ) -> Onward {
-        /// A tilt to begin with; it raises the centre by 1e-9.
-        const BEGINNING: f64 = 1e-9;
-        let body = &self.contact.body;
-        let m = &mut toss.motion;
-        let speed = (m.vx * m.vx + m.vy * m.vy).sqrt();
-        let turning = body.radius * toss.spin.axial;
-        let slip = (speed * speed + turning * turning).sqrt();
-        if self.contact.friction.mu * speed * body.half <= body.radius * slip {
-            return Onward::End(Ended::Decided(toss.face()));
-        }
-        let (nx, ny) = (m.vx / speed, m.vy / speed);
-        m.align(nx, ny);
-        m.set_tilt(BEGINNING, 1.0);
-        (m.vz, m.z) = (0.0, m.rest_height(body));
-        (toss.spin.tilt, toss.spin.turn) = (0.0, 0.0);
-        m.set_spin(&toss.spin, self.contact.axial_factor);
-        toss.place.align(nx, ny);
-        self.sustain(toss, contact, observer)
-    }
-
     /// Follows sustained contact on the lowest point.
-    fn sustain<O: Observer>(
+    pub(crate) fn sustain<O: Observer>(
         &self,
         toss: &mut Toss,
         contact: &mut Contact<'_>,
@@ -422,7 +342,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         self.onward(toss, leave)
     }
 
-    fn onward(&self, toss: &mut Toss, leave: Leave) -> Onward {
+    pub(crate) fn onward(&self, toss: &mut Toss, leave: Leave) -> Onward {
         match leave {
             Leave::LiftOff => return Onward::Fly,
             Leave::OtherRim => {
@@ -441,6 +361,8 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         })
     }
 
+    /// A toss that is given up: out of work, which counts as the limit of impacts whatever kind of
+    /// work it was, or no longer a number.
     fn lost(&self, toss: &Toss) -> Ended {
         let energy = toss.motion.kinetic(&self.contact.body, &toss.spin) + toss.motion.z;
         if energy.is_finite() {

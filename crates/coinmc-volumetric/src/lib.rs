@@ -33,7 +33,7 @@
 //! # Files
 //! `body` shape, friction, units · `motion` state and frame · `flight` orbit and first contact ·
 //! `impact` laws, friction lengths, tangential impact · `contact` on a rim point and on the side ·
-//! `verdict` when the face is settled · `toss` one toss and its place in the laboratory · `engine`
+//! `rest` lying, standing, tripping · `verdict` when the face is settled · `toss` one toss and its place in the laboratory · `engine`
 //! their order · `settings` choices · `lane` and `series` arithmetic of the kernels.
 
 mod body;
@@ -43,6 +43,7 @@ mod flight;
 mod impact;
 mod lane;
 mod motion;
+mod rest;
 mod series;
 mod settings;
 mod toss;

@@ -32,13 +32,15 @@ impl Law {
 /// When the face of a toss counts as decided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Decision {
-    /// When the energy that can still tilt the coin is too small to carry it over its rim: on its
-    /// side the energy of straight rolling is left out, flat on a face that of sliding and
-    /// spinning. Not quite rigorous; its bias is measured in docs/validation.md.
+    /// When the energy that can still tilt the coin is too small to carry it over its rim: leaning
+    /// to its side the energy of straight rolling is left out, flat on a face that of sliding and
+    /// spinning; and when it lies on both rims and its weight has twice the moment that could lift
+    /// one. Not quite rigorous; its bias is measured in docs/validation.md.
     #[default]
     Tilting,
-    /// When the whole mechanical energy is below m g D: rigorous, and a coin that rolls away on
-    /// its side without friction is never decided.
+    /// When the whole mechanical energy (without friction: all but that of motion which nothing
+    /// can turn into tilt) is below m g D, D the distance of the rim from the centre: rigorous, and
+    /// a coin that rolls along its side without loss is never decided.
     Energy,
 }
 
@@ -57,6 +59,9 @@ impl Decision {
 
 /// Settings of the volumetric engine. The defaults are converged: see docs/validation.md.
 ///
+/// Speeds and times are in sqrt(g D) and sqrt(D/g), D = sqrt(R² + H²/4) being the distance of the
+/// rim from the centre: the same settings serve a coin of any size.
+///
 /// # Example
 /// ```
 /// use coinmc_volumetric::Settings;
@@ -72,10 +77,11 @@ pub struct Settings {
     /// A sequence of bounces is replaced by sustained contact when all that remains of it would
     /// turn the coin by less than about this angle, rad.
     pub zeno: f64,
-    /// Error allowed per step of the integration of sustained contact, relative to the speed that
-    /// would just carry the coin out of its shallower well.
+    /// Error allowed per step of the integration of sustained contact, absolute and relative, in
+    /// units of the speed that would just carry the coin out of its shallower well.
     pub tolerance: f64,
-    /// Slip, in sqrt(g D), below which a contact point that can stick does.
+    /// Slip, in sqrt(g D), below which a contact point that can stick does; also the creep below
+    /// which friction holds a coin that lies on both rims.
     pub stick: f64,
     /// Time, in sqrt(D/g), over which rolling and pivoting friction end the last of a rotation.
     pub fade: f64,

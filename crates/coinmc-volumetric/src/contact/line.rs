@@ -8,9 +8,14 @@
 //!
 //! with N_1 + N_2 = 1 (m g) and, as the coin does not tilt,
 //! h (N_1 − N_2) = k_t Ω_a ω_z + R f_x, Ω_a = ω_a I_a/I_t: where that asks for a negative force,
-//! the coin tips onto the other rim. Friction is f_i = −μ N_i γ_i/√(γ_i² + ε²): sticking is a creep
-//! slower than ε. Straight rolling and sliding is the textbook's: a slip v_y + R ω_a decays at
-//! the rate μ(1 + R²/k_a), and ω_a of a rolling coin at ρ_c/(k_a + R²).
+//! the coin tips onto the other rim, if contact of that rim alone agrees. Friction is
+//! f_i = −μ N_i γ_i/√(γ_i² + ε²), ε = `stick`: sticking is a creep slower than ε. Straight rolling
+//! and sliding is the textbook's: a slip v_y + R ω_a decays at the rate μ(1 + R²/k_a), and ω_a of a
+//! rolling coin at ρ_c/(k_a + R²).
+//!
+//! It ends by the verdict of energy, by weight that holds both rims down for good (under the
+//! tilting decision), by tipping, or, once no more than a creep is left besides straight rolling,
+//! by the rest of that in closed form.
 
 use super::follow::{Contact, Leave};
 use super::integrator::{is_accepted, next_length, shorter, step};

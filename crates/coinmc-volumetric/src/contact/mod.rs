@@ -4,6 +4,7 @@ mod follow;
 mod integrator;
 mod line;
 pub(crate) mod rim;
+mod state;
 
 pub(crate) use follow::{Contact, FLAT, Leave};
 pub(crate) use rim::{Law, fastest};

@@ -22,7 +22,7 @@
 //! by = −φ'vx + h ω_y(φ'c − Ω_a) − N(R t_a/ka + h t_θ/kt),
 //! bz = −1 − rz ω_y² − rx G.
 //!
-//! Stick asks γ' = 0, slip f = −μ N γ/|γ|. Drag adds −k v to the centre's acceleration and −k_a ω
+//! Stick asks γ' = 0, slip f = −μ N γ/|γ|. Drag adds −k v to the centre's acceleration and −k_ω ω
 //! to ω'. Without gyroscopic torque Ω_a = ω_a. (Le Saux, Leine & Glocker, J. Nonlinear Sci. 15
 //! (2005) 27; contour and pivoting friction as in Leine, Arch. Appl. Mech. 79 (2009) 1063.)
 

@@ -5,7 +5,8 @@
 //! moment on, with what [`Bounds`](super::orbit::Bounds) says of uz and sin:
 //!
 //! * sin = √(sin²) is concave in sin², so sin(τ) <= sin + sin'τ + ½(sin²)''_max τ²/(2 sin), and
-//!   f_b(τ) >= f_b + f_b'τ − ½M τ²,  M = 1 + h·swing + R·spread/sin;
+//!   f_b(τ) >= f_b + f_b'τ − ½M τ²,  M = 1 + h·swing + R·spread/sin (with drag, the strongest
+//!   pull from now on takes the place of 1, here and below);
 //! * where sin is small: sin(τ) <= sin + wander·τ, so
 //!   f_b(τ) >= f_b + (f_b' + R sin' − R wander) τ − ½(1 + h·swing) τ²;
 //! * there too: the horizontal part a of u moves almost straight, sin(τ) <= |a + a'τ| + ½bend τ²,
@@ -18,10 +19,10 @@
 //! # Above: where one must be
 //! A point of the coin that turns with Ω is accelerated upwards by at most
 //! climb = |Ω_h| w D, and no point is ever below the lowest: f(τ) <= f + f'τ + ½Gτ²,
-//! G = climb − 1, and f' − Gτ never grows. So once f' < 0 and f'² >= 2fG, f falls all the way to
-//! the root 2f/(√(f'² − 2fG) − f') of that parabola, with exactly one root of f before it. From
-//! there, Newton's method with the second-order term closes in, bisecting where it leaves the
-//! bracket.
+//! G = climb − 1 (with drag, less the weakest pull instead), and f' − Gτ never grows. So once
+//! f' < 0 and f'² >= 2fG, f falls all the way to the root 2f/(√(f'² − 2fG) − f') of that parabola,
+//! with exactly one root of f before it. From there, Newton's method with the second-order term
+//! closes in, bisecting where it leaves the bracket.
 
 use super::orbit::{Bounds, Gap, Orbit};
 use crate::body::Body;

@@ -22,7 +22,7 @@ use crate::lane::Lane;
 /// # Against the other laws
 /// Friction opposes the slip of the middle of the impact, −d_t, not that of its end: after a
 /// sliding impact the slip need not be antiparallel to the friction, and with e > 0 an impact that
-/// could stick leaves the contact point with a slip of −e times what a plastic impact's p_I causes
+/// could stick leaves the contact point with a slip of e times what a plastic impact's p_I causes
 /// ([`Moreau`](super::Moreau) stops it). Friction and the friction lengths do not share in the
 /// sideways slip: J comes after p_y, not jointly with it.
 #[derive(Debug, Clone, Copy)]

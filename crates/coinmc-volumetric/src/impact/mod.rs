@@ -62,7 +62,8 @@ impl<L: Lane> ContactMatrix<L> {
     }
 }
 
-/// A coin that touches, just before the impact.
+/// A coin that touches, just before the impact: lengths in D = sqrt(R² + H²/4), times in
+/// sqrt(D/g), in the frame whose z points up and whose x along the horizontal part of the axis u.
 #[derive(Debug, Clone, Copy)]
 pub struct Touch<L> {
     /// s = sin of the tilt of u from the vertical, > 0.
@@ -103,7 +104,7 @@ impl<L: Lane> Touch<L> {
     }
 }
 
-/// An impulse per unit mass.
+/// An impulse per unit mass, in sqrt(g D); contour and pivoting are moments, in D sqrt(g D).
 #[derive(Debug, Clone, Copy)]
 pub struct Impulse<L> {
     /// x part.
@@ -182,7 +183,7 @@ impl<L: Lane> Impulse<L> {
     }
 }
 
-/// The change of motion by an impulse.
+/// The change of motion by an impulse: velocities in sqrt(g D), rates in sqrt(g/D).
 #[derive(Debug, Clone, Copy)]
 pub struct Kick<L> {
     /// Of the centre's velocity, x.
@@ -204,7 +205,9 @@ pub struct Kick<L> {
 /// A law is an own type with its citation and the argument why it never gains energy. To add one:
 /// implement this trait, add a variant to [`Law`](crate::Law) and an arm where the engine is built.
 pub trait ImpactLaw: Copy + Sync {
-    /// The impulse of an impact with coefficient of restitution `e`.
+    /// The impulse of an impact with coefficient of restitution `e`, 0 to 1, of a contact that does
+    /// not leave (`touch.approach` <= 0). It adds no energy: [`Impulse::work`] <= 0 but for
+    /// rounding.
     fn impulse<L: Lane>(
         &self,
         body: &Body,

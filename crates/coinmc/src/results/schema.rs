@@ -169,7 +169,7 @@ const FIXED: &[Definition] = &[
         "impact_limit",
         Kind::Count,
         "1",
-        "Undecided at the limit of impacts.",
+        "Undecided at the limit of impacts or of steps in contact.",
         |row| Cell::Count(row.tally.impact_limit),
     ),
     (

@@ -126,7 +126,8 @@ fn in_space() -> TableKind {
         zeno(settings.zeno),
         number(
             "tolerance",
-            "Relative error allowed per step of sustained contact.",
+            "Error allowed per step of sustained contact, relative to the speed that carries the coin out of \
+             its shallower well.",
             Bounds::closed(1e-12, 1e-2),
             default(settings.tolerance),
         ),
