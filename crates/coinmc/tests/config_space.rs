@@ -64,7 +64,7 @@ fn all_of_the_toss_in_space_can_be_chosen() {
         "environment.angular_drag_per_s=0.05",
         "environment.gyroscopic_torque=false",
         "engine.volumetric={law='stronge', decision='energy', zeno=0.01, tolerance=1e-6, \
-         stick=1e-3, fade=1e-4, max_impacts=7, time_limit=100}",
+         stick=1e-3, fade=1e-4, max_impacts=7, max_steps=9, time_limit=100}",
     ];
     let plan = parse(IN_SPACE, &sets);
     let point = &plan.points[0];
@@ -80,6 +80,7 @@ fn all_of_the_toss_in_space_can_be_chosen() {
         stick: 1e-3,
         fade: 1e-4,
         max_impacts: 7,
+        max_steps: 9,
         time_limit: 100.0,
     };
     assert_eq!(point.engine, EngineChoice::Volumetric(chosen));
@@ -128,6 +129,7 @@ fn all_physics_and_settings_of_the_toss_in_space_are_in_the_hash() {
         "environment.angular_drag_per_s=0.1",
         "environment.gyroscopic_torque=false",
         "engine.volumetric.law=chatterjee-ruina",
+        "engine.volumetric.max_steps=10000",
         "engine.volumetric.law=stronge",
         "engine.volumetric.decision=energy",
         "engine.volumetric.zeno=0.03",
