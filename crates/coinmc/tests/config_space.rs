@@ -190,7 +190,7 @@ fn what_the_toss_in_space_skips_is_explained() {
 #[test]
 fn what_may_surprise_in_space_is_noted() {
     let notes = |sets: &[&str]| parse(IN_SPACE, sets).notes.join("; ");
-    assert!(notes(&["surface.contour_m=0"]).contains("engine.volumetric.time_limit"));
+    assert!(notes(&["surface.contour_m=0"]).contains("engine.volumetric.max_steps"));
     // something else ends it: no roll without friction, and drag
     let frictionless = ["surface.contour_m=0", "surface.friction=0"];
     let dragged = ["surface.contour_m=0", "environment.angular_drag_per_s=1"];
