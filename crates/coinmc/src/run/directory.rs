@@ -14,6 +14,9 @@ use std::path::{Path, PathBuf};
 
 /// The config as understood.
 pub(super) const CONFIG: &str = "config.toml";
+/// How often, and how far apart, a held lock is tried again: a third of a second in all.
+const LOCK_ATTEMPTS: u32 = 16;
+const LOCK_PAUSE: std::time::Duration = std::time::Duration::from_millis(20);
 /// Locked while a process runs here; always empty.
 const LOCK: &str = "lock";
 const CSV: &str = "results.csv";
@@ -216,7 +219,16 @@ fn lock(dir: &Path) -> Result<File, RunError> {
         .truncate(false)
         .open(&path);
     let file = file.map_err(|error| RunError::io("create", &path, error))?;
-    match file.try_lock() {
+    // A process that this one is just starting holds a copy of every open file until it runs its
+    // own program; a lock let go meanwhile is still held by that copy, for a moment.
+    let mut attempts = LOCK_ATTEMPTS;
+    let mut locked = file.try_lock();
+    while attempts > 0 && matches!(locked, Err(TryLockError::WouldBlock)) {
+        attempts -= 1;
+        std::thread::sleep(LOCK_PAUSE);
+        locked = file.try_lock();
+    }
+    match locked {
         Ok(()) => Ok(file),
         Err(TryLockError::WouldBlock) => Err(RunError::Locked {
             dir: dir.to_owned(),
