@@ -1,6 +1,7 @@
 //! `coinmc-bench`: studies of accuracy, speed and robustness, one a subcommand.
 
 mod arguments;
+mod legs;
 mod memory;
 mod number;
 mod report;

@@ -1,12 +1,13 @@
 //! Every flight between two events, sampled densely.
 
 use super::{Examiner, case_cells, examine, stress_box, survey, with_case_columns, worst_text};
+use crate::legs::Legs;
 use crate::number;
 use crate::report::{Report, Table};
 use crate::worst::Worst;
 use clap::Args;
 use coinmc_bench::Case;
-use coinmc_core::{Event, EventKind, Observer, Preset, State};
+use coinmc_core::{Event, Observer, Preset, State};
 use std::f64::consts::PI;
 
 /// Even samples of a flight.
@@ -31,7 +32,7 @@ struct FlightScan<'a> {
     case: &'a Case,
     toss: u64,
     /// Where the flight under way began.
-    start: Option<State>,
+    legs: Legs,
     flights: u64,
     missed: u64,
     penetration: Worst,
@@ -104,7 +105,7 @@ impl<'a> FlightScan<'a> {
         Self {
             case,
             toss: 0,
-            start: None,
+            legs: Legs::default(),
             flights: 0,
             missed: 0,
             penetration: none,
@@ -193,23 +194,15 @@ fn tilt(state: &State) -> f64 {
 
 impl Observer for FlightScan<'_> {
     fn event(&mut self, event: &Event) {
-        match event.kind {
-            EventKind::Launched | EventKind::Impact | EventKind::LiftOff => {
-                self.start = Some(event.state);
-            }
-            EventKind::Touching => {
-                if let Some(start) = self.start.take() {
-                    self.scan(&start, &event.state);
-                }
-            }
-            EventKind::Sticking | EventKind::Sliding | EventKind::Ended => self.start = None,
+        if let Some((start, end)) = self.legs.see(event) {
+            self.scan(&start, &end);
         }
     }
 }
 
 impl Examiner for FlightScan<'_> {
     fn begin(&mut self, toss: u64) {
-        (self.toss, self.start) = (toss, None);
+        (self.toss, self.legs) = (toss, Legs::default());
     }
 
     fn examined(&self) -> u64 {

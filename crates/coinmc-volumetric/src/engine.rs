@@ -259,7 +259,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
     fn strike(&self, toss: &mut Toss) -> After {
         let law = &self.contact;
         let (body, friction) = (&law.body, &law.friction);
-        let before = toss.motion.kinetic(body, &toss.spin) + toss.motion.z;
+        let before = toss.motion.energy(body, &toss.spin);
         let mut touch = toss.motion.touch(body, &toss.spin);
         // a point that is swapped in may leave already, by rounding
         touch.approach = touch.approach.min(0.0);
@@ -364,7 +364,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
     /// A toss that is given up: out of work, which counts as the limit of impacts whatever kind of
     /// work it was, or no longer a number.
     fn lost(&self, toss: &Toss) -> Ended {
-        let energy = toss.motion.kinetic(&self.contact.body, &toss.spin) + toss.motion.z;
+        let energy = toss.motion.energy(&self.contact.body, &toss.spin);
         if energy.is_finite() {
             Ended::ImpactLimit
         } else {
@@ -394,7 +394,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
             time: 0.0,
         };
         self.notify(&toss, EventKind::Launched, observer);
-        let energy = toss.motion.kinetic(&law.body, &toss.spin) + toss.motion.z;
+        let energy = toss.motion.energy(&law.body, &toss.spin);
         let verdict = self.judge.verdict(&toss.motion, &toss.spin);
         let ended = if !(energy.is_finite() && is_finite(launch)) {
             Ended::Failed

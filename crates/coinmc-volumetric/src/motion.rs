@@ -47,7 +47,7 @@ pub(crate) struct Spin<L> {
 }
 
 /// Least sine of the tilt: the frame needs a direction to lean to, and quotients by s stay finite.
-const LEAST_SIN: f64 = 1e-18;
+pub(crate) const LEAST_SIN: f64 = 1e-18;
 
 impl<L: Lane> Spin<L> {
     pub(crate) fn still() -> Self {
@@ -175,6 +175,12 @@ impl<L: Lane> Motion<L> {
                 + self.vz * self.vz
                 + kt * across
                 + ka * (spin.axial * spin.axial))
+    }
+
+    /// Mechanical energy per m g D, potential zero at the surface.
+    #[inline(always)]
+    pub(crate) fn energy(&self, body: &Body, spin: &Spin<L>) -> L {
+        self.kinetic(body, spin) + self.z
     }
 
     /// Takes back what rounding and truncation added to the energy since it was `before`: no

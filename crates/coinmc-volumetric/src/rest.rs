@@ -1,7 +1,7 @@
 //! Coming to rest: a coin that rocks so little that it may be laid on its side, or that stands on
 //! its face and slides.
 
-use crate::contact::Contact;
+use crate::contact::{Contact, FLAT};
 use crate::engine::{Onward, VolumetricEngine};
 use crate::impact::ImpactLaw;
 use crate::toss::Toss;
@@ -71,8 +71,6 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         contact: &mut Contact<'_>,
         observer: &mut O,
     ) -> Onward {
-        /// A tilt to begin with, rad; it raises the centre by 1e-9 at the most.
-        const BEGINNING: f64 = 1e-9;
         let body = &self.contact.body;
         let m = &mut toss.motion;
         let speed = (m.vx * m.vx + m.vy * m.vy).sqrt();
@@ -81,10 +79,11 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         if self.contact.friction.mu * speed * body.half <= body.radius * slip {
             return Onward::End(Ended::Decided(toss.face()));
         }
-        let before = m.kinetic(body, &toss.spin) + m.z;
+        let before = m.energy(body, &toss.spin);
         let (nx, ny) = (m.vx / speed, m.vy / speed);
         m.align(nx, ny);
-        m.set_tilt(BEGINNING, 1.0);
+        // a tilt to begin with: it raises the centre by no more than itself
+        m.set_tilt(FLAT, 1.0);
         (m.vz, m.z) = (0.0, m.rest_height(body));
         (toss.spin.tilt, toss.spin.turn) = (0.0, 0.0);
         m.cap_energy(body, &mut toss.spin, before);

@@ -96,7 +96,7 @@ impl Judge {
 
     #[inline]
     pub(crate) fn verdict(&self, m: &Motion<f64>, spin: &Spin<f64>) -> Verdict {
-        let mut energy = m.kinetic(&self.body, spin) + m.z;
+        let mut energy = m.energy(&self.body, spin);
         let sliding = 0.5 * (m.vx * m.vx + m.vy * m.vy);
         if self.slides {
             energy -= sliding;

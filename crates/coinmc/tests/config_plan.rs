@@ -1,11 +1,13 @@
 //! Good configs: what they come to mean.
 
-use coinmc::config::{self, Override};
-use coinmc::plan::{EngineChoice, Plan, Stop};
+mod config_support;
+
+use coinmc::config;
+use coinmc::plan::{EngineChoice, Stop};
 use coinmc_core::{IntervalMethod, Landing, Marginal, Orientation, Preset, Spin};
 use coinmc_flat::{Decision, Settings};
+use config_support::{column, parse};
 use std::path::Path;
-use std::sync::Arc;
 
 const SMALL: &str = "
 [coin]
@@ -19,19 +21,6 @@ preset = 'robot'
 [stop]
 tosses = 1000
 ";
-
-fn parse(text: &str, sets: &[&str]) -> Plan {
-    let overrides: Vec<Override> = sets.iter().map(|set| set.parse().unwrap()).collect();
-    config::parse("test.toml", text, &overrides).unwrap_or_else(|problems| panic!("{problems}"))
-}
-
-fn column(plan: &Plan, name: &str) -> Vec<f64> {
-    let value = |(key, value): &(Arc<str>, f64)| (**key == *name).then_some(*value);
-    plan.points
-        .iter()
-        .map(|point| point.parameters.iter().find_map(value).unwrap())
-        .collect()
-}
 
 #[test]
 fn defaults_are_those_of_the_crates() {

@@ -1,11 +1,12 @@
 //! Configs of the toss in space: what they come to mean.
 
-use coinmc::config::{self, Override};
-use coinmc::plan::{EngineChoice, Plan};
+mod config_support;
+
+use coinmc::plan::EngineChoice;
 use coinmc_core::Preset;
 use coinmc_volumetric as volumetric;
+use config_support::{column, parse};
 use std::collections::HashSet;
-use std::sync::Arc;
 
 /// A toss in space.
 const IN_SPACE: &str = "
@@ -22,19 +23,6 @@ preset = 'clean'
 [stop]
 tosses = 1000
 ";
-
-fn parse(text: &str, sets: &[&str]) -> Plan {
-    let overrides: Vec<Override> = sets.iter().map(|set| set.parse().unwrap()).collect();
-    config::parse("test.toml", text, &overrides).unwrap_or_else(|problems| panic!("{problems}"))
-}
-
-fn column(plan: &Plan, name: &str) -> Vec<f64> {
-    let value = |(key, value): &(Arc<str>, f64)| (**key == *name).then_some(*value);
-    plan.points
-        .iter()
-        .map(|point| point.parameters.iter().find_map(value).unwrap())
-        .collect()
-}
 
 #[test]
 fn the_toss_in_space_has_the_defaults_of_its_crate() {

@@ -3,12 +3,13 @@
 use super::super::{Examiner, survey, worst_text};
 use super::flight::Flight;
 use super::{angular_momentum, cells, columns, examine};
+use crate::legs::Legs;
 use crate::number;
 use crate::report::{Report, Table};
 use crate::worst::Worst;
 use clap::Args;
 use coinmc_bench::Case;
-use coinmc_core::{Event, EventKind, Observer, Preset, State};
+use coinmc_core::{Event, Observer, Preset, State};
 use coinmc_volumetric::Settings;
 
 /// Even samples of a flight.
@@ -33,7 +34,7 @@ struct Scan<'a> {
     case: &'a Case,
     toss: u64,
     /// Where the flight under way began.
-    start: Option<State>,
+    legs: Legs,
     flights: u64,
     missed: u64,
     penetration: Worst,
@@ -123,7 +124,7 @@ impl<'a> Scan<'a> {
         Self {
             case,
             toss: 0,
-            start: None,
+            legs: Legs::default(),
             flights: 0,
             missed: 0,
             penetration: none,
@@ -195,25 +196,17 @@ impl<'a> Scan<'a> {
 
 impl Observer for Scan<'_> {
     fn event(&mut self, event: &Event) {
-        match event.kind {
-            EventKind::Launched | EventKind::Impact | EventKind::LiftOff => {
-                self.start = Some(event.state);
-            }
-            EventKind::Touching => {
-                // one rim and the other in turn: an impact follows the other at once
-                let flown = |start: &State| start.time_s < event.state.time_s;
-                if let Some(start) = self.start.take().filter(flown) {
-                    self.scan(&start, &event.state);
-                }
-            }
-            EventKind::Sticking | EventKind::Sliding | EventKind::Ended => self.start = None,
+        // one rim and the other in turn: an impact follows the other at once
+        let flown = |(start, end): &(State, State)| start.time_s < end.time_s;
+        if let Some((start, end)) = self.legs.see(event).filter(flown) {
+            self.scan(&start, &end);
         }
     }
 }
 
 impl Examiner for Scan<'_> {
     fn begin(&mut self, toss: u64) {
-        (self.toss, self.start) = (toss, None);
+        (self.toss, self.legs) = (toss, Legs::default());
     }
 
     fn examined(&self) -> u64 {

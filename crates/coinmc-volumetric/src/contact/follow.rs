@@ -8,7 +8,7 @@
 //!   either ── the other rim comes down, or the tilt vanishes ──▶ impact there
 //! ```
 
-use super::integrator::{Trial, is_accepted, next_length, shorter, step};
+use super::integrator::{LEAST_STEP, Trial, is_accepted, next_length, shorter, step};
 use super::rim::{Law, Mode, OMEGA_Y, Rates, RimState, SLIP_X, SLIP_Y, TILT};
 use super::state::{change_slip, kicked, place, rim_state};
 use crate::impact::jam;
@@ -42,8 +42,6 @@ const DOWN: f64 = 1e-12;
 /// Tilt at which the opposite point of the rim has come down, rad: a coin that does not roll round
 /// the rim before comes down on all of it.
 pub(crate) const FLAT: f64 = 1e-9;
-/// Least length of a step, in sqrt(D/g): below it the integrator gives up.
-const LEAST_STEP: f64 = 1e-13;
 /// A slip that brakes is followed to this fraction of itself in one step.
 const BRAKE: f64 = 0.05;
 /// Painlevé: K_zz − μ K_xz n_x below this (it is 1 + rx²/kt without friction) counts as 0.
@@ -132,10 +130,9 @@ impl Contact<'_> {
 
     /// Puts the motion where a mode begins, with no more energy than it had; the energy it has.
     fn begin(&self, phase: &mut Phase, motion: &mut Motion<f64>, spin: &mut Spin<f64>) -> f64 {
-        let energy = |m: &Motion<f64>, spin: &Spin<f64>| m.kinetic(&self.law.body, spin) + m.z;
-        let before = energy(motion, spin);
+        let before = motion.energy(&self.law.body, spin);
         self.cap(phase, motion, spin, before);
-        energy(motion, spin).min(before)
+        motion.energy(&self.law.body, spin).min(before)
     }
 
     /// The motion of the phase's state, with no more energy than `ceiling`.
@@ -154,7 +151,7 @@ impl Contact<'_> {
     }
 
     /// Sticks if it can and the slip is all but gone, else slides.
-    fn enter(&mut self, state: RimState<f64>) -> Phase {
+    fn enter(&self, state: RimState<f64>) -> Phase {
         let mu = self.law.friction.mu;
         let slip = slip_speed(&state);
         let phase = |state, mode| Phase {
@@ -190,7 +187,7 @@ impl Contact<'_> {
     }
 
     /// Whether a coin in contact in this state presses, and tilts away from its side.
-    pub(super) fn leans(&mut self, state: RimState<f64>) -> bool {
+    pub(super) fn leans(&self, state: RimState<f64>) -> bool {
         let now = self.enter(state).now;
         now.press > 0.0 && now.state[OMEGA_Y] < 0.0
     }

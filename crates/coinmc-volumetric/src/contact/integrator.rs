@@ -3,6 +3,9 @@
 
 use crate::lane::Lane;
 
+/// Least length of a step, in sqrt(D/g): below it the integrator gives up.
+pub(crate) const LEAST_STEP: f64 = 1e-13;
+
 /// A trial step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Trial<L, const N: usize> {

@@ -18,7 +18,7 @@
 //! by the rest of that in closed form.
 
 use super::follow::{Contact, Leave};
-use super::integrator::{is_accepted, next_length, shorter, step};
+use super::integrator::{LEAST_STEP, is_accepted, next_length, shorter, step};
 use super::rim::Law;
 use crate::motion::{Motion, Spin};
 use crate::verdict::Verdict;
@@ -26,9 +26,6 @@ use std::f64::consts::FRAC_PI_2;
 
 /// v_x, v_y, ω_a, ω_z.
 type LineState = [f64; 4];
-
-/// Least length of a step, in sqrt(D/g).
-const LEAST_STEP: f64 = 1e-13;
 
 /// Rates, and the share of the weight that the rim at r = (−h, 0, −R) would bear if the coin could
 /// not tip.
@@ -137,7 +134,7 @@ impl Contact<'_> {
 
     /// Whether contact of one rim alone, the lowest of the frame or the other, agrees that the coin
     /// tips onto it. (Friction that holds a rim may differ from that of its creep.)
-    fn tips(&mut self, state: &LineState, this_rim: bool) -> bool {
+    fn tips(&self, state: &LineState, this_rim: bool) -> bool {
         let [vx, vy, wa, wz] = *state;
         let side = if this_rim { 1.0 } else { -1.0 };
         let body = &self.law.body;

@@ -5,7 +5,7 @@ use super::integrator::{is_accepted, next_length, shorter, step};
 use super::rim::{Law, Mode, OMEGA_A, OMEGA_T, OMEGA_Y, RimState, SLIP_X, SLIP_Y, TILT};
 use crate::body::{Body, Friction};
 use crate::flight::Drag;
-use crate::lane::four::{Four, gather, lane};
+use crate::lane::four::Four;
 use coinmc_core::{Coin, Domain, Stream, TossUniforms, UniformSource};
 use coinmc_oracle::newton_euler::{self, Contact, Twist};
 use coinmc_oracle::{Model, Motion, textbook, triad};
@@ -347,6 +347,15 @@ fn lanes_of_contact_do_not_see_each_other() {
             );
         }
     }
+}
+
+/// Four states as one, and one of four.
+fn gather<const N: usize>(of: &[[f64; N]; 4]) -> [Four; N] {
+    std::array::from_fn(|component| Four(std::array::from_fn(|lane| of[lane][component])))
+}
+
+fn lane<const N: usize>(of: &[Four; N], lane: usize) -> [u64; N] {
+    of.map(|component| component.0[lane].to_bits())
 }
 
 /// Power taken from the coin: friction against the slip, contour and pivoting friction against the

@@ -10,7 +10,7 @@
 
 use crate::body::Body;
 use crate::lane::Lane;
-use crate::motion::Motion;
+use crate::motion::{LEAST_SIN, Motion};
 use crate::series::{decay, sin_cos};
 
 /// Rates of drag, in sqrt(g/D).
@@ -65,10 +65,6 @@ pub(crate) struct Gap<L> {
     pub(crate) slope: L,
     pub(crate) curvature: L,
 }
-
-/// Least horizontal part of u, so that quotients by it stay finite; it shifts the gap by less
-/// than rounding does.
-const LEAST_SIN: f64 = 1e-18;
 
 impl<L: Lane> Orbit<L> {
     #[inline(always)]

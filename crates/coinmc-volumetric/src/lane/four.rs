@@ -104,12 +104,3 @@ impl Lane for Four {
         Self(from_fn(|i| if mask.0[i] { yes.0[i] } else { no.0[i] }))
     }
 }
-
-/// Four motions as one, and one of four.
-pub(crate) fn gather<const N: usize>(of: &[[f64; N]; 4]) -> [Four; N] {
-    from_fn(|component| Four(from_fn(|lane| of[lane][component])))
-}
-
-pub(crate) fn lane<const N: usize>(of: &[Four; N], lane: usize) -> [u64; N] {
-    of.map(|component| component.0[lane].to_bits())
-}
