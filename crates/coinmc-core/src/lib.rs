@@ -53,7 +53,7 @@ pub use launch::{
     Launch, LaunchDistribution, LaunchError, Marginal, Orientation, Preset, Spin,
     inverse_normal_cdf,
 };
-pub use outcome::{Ended, Face, Outcome};
+pub use outcome::{Breaks, Ended, Face, Outcome};
 pub use random::{Domain, Philox4x64, Stream, TossUniforms, UniformSource, unit_interval};
 pub use surface::{Drag, Landing, Scene, Surface, SurfaceError};
 pub use tally::Tally;

@@ -54,6 +54,24 @@ pub struct Outcome {
     pub jams: u32,
     /// A stopping rule that is not certain decided, and the certain rule disagrees with it.
     pub overruled: bool,
+    /// Impacts at which the law of impact broke and its fallback stood in.
+    pub breaks: Breaks,
+}
+
+/// Impacts, by kind, at which a law of impact broke down and its stated fallback stood in. All
+/// are zero for laws that hold everywhere.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Breaks {
+    /// The law's energy balance asked for a negative height of rebound.
+    pub negative_heights: u32,
+    /// The law would have gained energy.
+    pub energy_gains: u32,
+    /// The law's lever turned the coin the wrong way.
+    pub wrong_levers: u32,
+    /// After the law's impact the corner would have gone on into the surface.
+    pub sinkings: u32,
+    /// The integration of the contact was given up.
+    pub unresolved: u32,
 }
 
 impl Outcome {
@@ -65,6 +83,7 @@ impl Outcome {
             contact_steps: 0,
             jams: 0,
             overruled: false,
+            breaks: Breaks::default(),
         }
     }
 

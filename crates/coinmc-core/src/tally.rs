@@ -36,11 +36,24 @@ pub struct Tally {
     pub jams: u64,
     /// Tosses that a stopping rule decided and the certain rule decides otherwise.
     pub overruled: u64,
+    /// Impacts at which the law asked for a negative height of rebound, summed over tosses.
+    pub negative_heights: u64,
+    /// Impacts at which the law would have gained energy, summed over tosses.
+    pub energy_gains: u64,
+    /// Impacts at which the law's lever turned the coin the wrong way, summed over tosses.
+    pub wrong_levers: u64,
+    /// Impacts after which the corner would have gone on into the surface, summed over tosses.
+    pub sinkings: u64,
+    /// Impacts whose integration was given up, summed over tosses.
+    pub unresolved: u64,
 }
+
+/// Number of counters.
+const COUNT: usize = 16;
 
 impl Tally {
     /// Names of the counters, in the order of [`to_array`](Self::to_array).
-    pub const COUNTERS: [&'static str; 11] = [
+    pub const COUNTERS: [&'static str; COUNT] = [
         "heads",
         "tails",
         "side",
@@ -52,7 +65,16 @@ impl Tally {
         "contact_steps",
         "jams",
         "overruled",
+        "negative_heights",
+        "energy_gains",
+        "wrong_levers",
+        "sinkings",
+        "unresolved",
     ];
+
+    /// Counters that laws of impact without breakdowns never move: the last ones of
+    /// [`COUNTERS`](Self::COUNTERS), from this place on.
+    pub const FIRST_BREAK: usize = 11;
 
     /// Counts one toss.
     pub fn add(&mut self, outcome: &Outcome) {
@@ -69,13 +91,19 @@ impl Tally {
         self.contact_steps += u64::from(outcome.contact_steps);
         self.jams += u64::from(outcome.jams);
         self.overruled += u64::from(outcome.overruled);
+        let breaks = &outcome.breaks;
+        self.negative_heights += u64::from(breaks.negative_heights);
+        self.energy_gains += u64::from(breaks.energy_gains);
+        self.wrong_levers += u64::from(breaks.wrong_levers);
+        self.sinkings += u64::from(breaks.sinkings);
+        self.unresolved += u64::from(breaks.unresolved);
     }
 
     /// Adds another tally's counts; `None` if a counter would overflow (only forged input can).
     #[must_use]
     pub fn checked_merge(&self, other: &Self) -> Option<Self> {
         let (a, b) = (self.to_array(), other.to_array());
-        let mut sum = [0; 11];
+        let mut sum = [0; COUNT];
         for (sum, (a, b)) in sum.iter_mut().zip(a.iter().zip(b)) {
             *sum = a.checked_add(b)?;
         }
@@ -111,7 +139,7 @@ impl Tally {
     }
 
     /// The counters in the order of [`COUNTERS`](Self::COUNTERS), for writing to a file.
-    pub fn to_array(&self) -> [u64; 11] {
+    pub fn to_array(&self) -> [u64; COUNT] {
         [
             self.heads,
             self.tails,
@@ -124,11 +152,16 @@ impl Tally {
             self.contact_steps,
             self.jams,
             self.overruled,
+            self.negative_heights,
+            self.energy_gains,
+            self.wrong_levers,
+            self.sinkings,
+            self.unresolved,
         ]
     }
 
     /// The reverse of [`to_array`](Self::to_array).
-    pub fn from_array(counts: [u64; 11]) -> Self {
+    pub fn from_array(counts: [u64; COUNT]) -> Self {
         let [
             heads,
             tails,
@@ -141,6 +174,11 @@ impl Tally {
             contact_steps,
             jams,
             overruled,
+            negative_heights,
+            energy_gains,
+            wrong_levers,
+            sinkings,
+            unresolved,
         ] = counts;
         Self {
             heads,
@@ -154,6 +192,11 @@ impl Tally {
             contact_steps,
             jams,
             overruled,
+            negative_heights,
+            energy_gains,
+            wrong_levers,
+            sinkings,
+            unresolved,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Tallies: exact, order-free, safe against forged counts.
 
-use coinmc_core::{Ended, Face, Outcome, Tally};
+use coinmc_core::{Breaks, Ended, Face, Outcome, Tally};
 use proptest::prelude::*;
 
 fn outcome() -> impl Strategy<Value = Outcome> {
@@ -26,6 +26,11 @@ fn outcome() -> impl Strategy<Value = Outcome> {
             contact_steps,
             jams,
             overruled,
+            breaks: Breaks {
+                sinkings: impacts / 2,
+                unresolved: jams,
+                ..Breaks::default()
+            },
         })
 }
 
@@ -67,7 +72,7 @@ fn an_overflow_is_told() {
 
 #[test]
 fn the_names_of_the_counters_match_their_order() {
-    let mut counts = [0; 11];
+    let mut counts = [0; Tally::COUNTERS.len()];
     for (i, name) in Tally::COUNTERS.into_iter().enumerate() {
         counts[i] = 7;
         let tally = Tally::from_array(counts);

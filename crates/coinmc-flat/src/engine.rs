@@ -2,13 +2,13 @@
 
 use crate::contact::{Contact, Leave};
 use crate::flight::fly_to_contact;
-use crate::impact::{ChatterjeeRuina, ContactMatrix, ImpactLaw, Moreau};
+use crate::impact::{Carried, ContactMatrix, ImpactLaw, Record, Strike};
 use crate::motion::{Motion, Units};
-use crate::settings::{Decision, Law, Settings, SettingsError};
+use crate::settings::{Decision, Settings, SettingsError};
 use crate::shape::Shape;
 use coinmc_core::trig::sin_cos;
 use coinmc_core::{
-    Ended, Engine, Event, EventKind, Face, Landing, Launch, Observer, Outcome, Scene,
+    Breaks, Ended, Engine, Event, EventKind, Face, Landing, Launch, Observer, Outcome, Scene,
 };
 
 /// Follows flat tosses of one scene under one law of impact.
@@ -33,6 +33,7 @@ pub struct FlatEngine<L> {
     settings: Settings,
     units: Units,
     shape: Shape,
+    mass_kg: f64,
     restitution: f64,
     friction: f64,
     landing: Landing,
@@ -40,36 +41,12 @@ pub struct FlatEngine<L> {
     narrow: f64,
 }
 
-/// An engine of any law, for callers that learn the law at run time: one `match`, then static
-/// dispatch.
-#[derive(Debug, Clone)]
-pub enum AnyFlatEngine {
-    /// [`Moreau`].
-    Moreau(FlatEngine<Moreau>),
-    /// [`ChatterjeeRuina`].
-    ChatterjeeRuina(FlatEngine<ChatterjeeRuina>),
-}
-
-impl AnyFlatEngine {
-    /// The engine of `settings.law`.
-    ///
-    /// # Errors
-    /// [`SettingsError`] if a setting is out of range.
-    pub fn new(scene: &Scene, settings: &Settings) -> Result<Self, SettingsError> {
-        Ok(match settings.law {
-            Law::Moreau => Self::Moreau(FlatEngine::new(scene, settings, Moreau)?),
-            Law::ChatterjeeRuina => {
-                Self::ChatterjeeRuina(FlatEngine::new(scene, settings, ChatterjeeRuina)?)
-            }
-        })
-    }
-}
-
 /// One toss on its way.
 struct Toss<'a> {
     motion: Motion,
     contact: Contact<'a>,
     impacts: u32,
+    breaks: Breaks,
 }
 
 /// What follows an impact.
@@ -100,11 +77,24 @@ impl<L: ImpactLaw> FlatEngine<L> {
             settings: *settings,
             units: Units::new(scene),
             shape,
+            mass_kg: scene.coin.mass_kg(),
             restitution: scene.surface.restitution(),
             friction: scene.surface.friction(),
             landing: scene.surface.landing(),
             narrow: a.min(b),
         })
+    }
+
+    pub(crate) fn units(&self) -> &Units {
+        &self.units
+    }
+
+    pub(crate) fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    pub(crate) fn mass_kg(&self) -> f64 {
+        self.mass_kg
     }
 
     fn notify(&self, observer: &mut impl Observer, kind: EventKind, motion: &Motion) {
@@ -213,17 +203,82 @@ impl<L: ImpactLaw> FlatEngine<L> {
                 After::Contact(slip)
             };
         }
-        let p = self
-            .law
-            .impulse(matrix, ux, uz, self.restitution, self.friction);
-        motion.vx += p.x;
-        motion.vz += p.z;
-        motion.omega += (sin * p.z - cos * p.x) / k;
+        let (carried, _) = self.strike(motion, &mut toss.breaks);
+        if carried == Carried::Presses {
+            return self.settle(motion, before);
+        }
         motion.cap_energy(k, before);
         if self.is_rocking_out(motion) {
             self.lie_flat(motion)
         } else {
             After::Flight
+        }
+    }
+
+    /// The law's impact of the lowest corner.
+    #[inline]
+    pub(crate) fn strike(&self, motion: &mut Motion, breaks: &mut Breaks) -> (Carried, Record) {
+        let mut strike = Strike {
+            motion,
+            shape: &self.shape,
+            restitution: self.restitution,
+            friction: self.friction,
+            tolerance: self.settings.tolerance,
+            breaks,
+            record: Record::default(),
+        };
+        let carried = self.law.carry(&mut strike);
+        let record = strike.record;
+        if carried == Carried::ByImpulse {
+            let (sin, cos) = sin_cos(motion.delta);
+            let k = self.shape.k;
+            let ux = motion.vx - motion.omega * cos;
+            // a corner that is swapped in may leave already, by rounding
+            let uz = (motion.vz + motion.omega * sin).min(0.0);
+            let matrix = ContactMatrix::new(sin, cos, k);
+            let p = self
+                .law
+                .impulse(matrix, ux, uz, self.restitution, self.friction);
+            motion.vx += p.x;
+            motion.vz += p.z;
+            motion.omega += (sin * p.z - cos * p.x) / k;
+        }
+        (carried, record)
+    }
+
+    /// Sustained contact of a corner whose law has carried it to where it stays on the surface.
+    fn settle(&self, motion: &mut Motion, before: f64) -> After {
+        let slip = self.press(motion, before);
+        if self.is_rocking_out(motion) {
+            self.lie_flat(motion)
+        } else {
+            After::Contact(slip)
+        }
+    }
+
+    /// Puts a corner that stays on the surface to rest along the normal, by an impact with e = 0;
+    /// returns its slip.
+    pub(crate) fn press(&self, motion: &mut Motion, before: f64) -> f64 {
+        let (sin, cos) = sin_cos(motion.delta);
+        let k = self.shape.k;
+        let ux = motion.vx - motion.omega * cos;
+        let uz = (motion.vz + motion.omega * sin).min(0.0);
+        let p = self
+            .law
+            .impulse(ContactMatrix::new(sin, cos, k), ux, uz, 0.0, self.friction);
+        let omega = motion.omega + (sin * p.z - cos * p.x) / k;
+        let slip = if p.sticks {
+            0.0
+        } else {
+            ux + (1.0 + cos * cos / k) * p.x - sin * cos / k * p.z
+        };
+        motion.set_on_corner(sin, cos, omega, slip);
+        motion.cap_energy(k, before);
+        // the cap may have slowed it down
+        if slip == 0.0 {
+            0.0
+        } else {
+            motion.vx - motion.omega * cos
         }
     }
 
@@ -240,7 +295,7 @@ impl<L: ImpactLaw> FlatEngine<L> {
         (ux, uz): (f64, f64),
         (sin, cos): (f64, f64),
     ) -> Option<f64> {
-        let e = self.restitution;
+        let e = self.law.rebound(self.restitution);
         // a <= 1 and the rate >= 1: most impacts are told apart here
         if -uz * 2.0 * e >= self.settings.zeno * (1.0 - e) {
             return None;
@@ -337,6 +392,7 @@ impl<L: ImpactLaw> FlatEngine<L> {
                 jams: 0,
             },
             impacts: 0,
+            breaks: Breaks::default(),
         };
         let energy = toss.motion.energy(self.shape.k);
         let mut early = Early::new(self.settings.decision, energy);
@@ -362,6 +418,7 @@ impl<L: ImpactLaw> FlatEngine<L> {
             contact_steps: toss.contact.steps,
             jams: toss.contact.jams,
             overruled: ended != certain,
+            breaks: toss.breaks,
         }
     }
 }

@@ -5,7 +5,10 @@
 //!
 //! K_xx = 1 + r_z²/k,  K_zz = 1 + r_x²/k,  K_xz = −r_x r_z/k  (lengths in D, k = I/mD²).
 
+use crate::motion::Motion;
 use crate::settings::Law;
+use crate::shape::Shape;
+use coinmc_core::Breaks;
 
 /// The contact's inverse mass matrix K.
 #[derive(Debug, Clone, Copy)]
@@ -68,6 +71,52 @@ pub trait ImpactLaw: Copy + Sync {
 
     /// Its name in configs and results.
     fn law(&self) -> Law;
+
+    /// Carries the coin through an impact that is more than an impulse at one instant. The default
+    /// leaves it to [`impulse`](Self::impulse).
+    #[inline]
+    fn carry(&self, _: &mut Strike<'_>) -> Carried {
+        Carried::ByImpulse
+    }
+
+    /// The restitution by which the time of the bounces that remain is judged.
+    #[inline]
+    fn rebound(&self, e: f64) -> f64 {
+        e
+    }
+}
+
+/// An impact about to happen: the coin with its lowest corner on the surface, and what holds
+/// there. Made and read by this crate's laws only.
+pub struct Strike<'a> {
+    pub(crate) motion: &'a mut Motion,
+    pub(crate) shape: &'a Shape,
+    pub(crate) restitution: f64,
+    pub(crate) friction: f64,
+    pub(crate) tolerance: f64,
+    pub(crate) breaks: &'a mut Breaks,
+    /// Force and steps of the impact, for whoever looks at it alone.
+    pub(crate) record: Record,
+}
+
+/// What an impact resolved in time was like, in units of m, D and sqrt(D/g).
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Record {
+    pub(crate) peak_force: f64,
+    pub(crate) steps: u32,
+    /// Energy before, less energy after, less what damping and friction took.
+    pub(crate) imbalance: f64,
+}
+
+/// What a law made of an impact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Carried {
+    /// Nothing: its impulse describes the impact.
+    ByImpulse,
+    /// Carried to the end; the coin leaves the surface.
+    Departs,
+    /// Carried on until the corner stays on the surface.
+    Presses,
 }
 
 /// Newton restitution u_z⁺ = −e u_z⁻ with Coulomb friction against the slip **after** the impact.

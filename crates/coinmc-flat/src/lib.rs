@@ -9,24 +9,37 @@
 //! crossed and the face is certain.
 //!
 //! # Range
-//! Any ratio, restitution 0 to 1, any friction. Rigid bodies: elastic compliance, air and rolling
-//! friction are not modelled. Tosses at e = 1 without friction conserve energy and end undecided,
+//! Any ratio, restitution 0 to 1, any friction. Coins are rigid but for [`Law::LineContact`] in its
+//! impacts; air and rolling friction are not modelled. Tosses at e = 1 without friction conserve energy and end undecided,
 //! at the limit of impacts; they are counted.
 //!
 //! # Files
-//! `shape` geometry · `motion` state · `flight` first contact · `impact` laws · `pivot` and
-//! `slide` contact phases · `contact` their order · `engine` the toss · `settings` choices.
+//! `shape` geometry · `motion` state · `flight` first contact · `impact` laws that are an impulse ·
+//! `paper`, `half_sine` and `line` laws that are more · `dormand_prince` steps in time · `pivot` and
+//! `slide` contact phases · `contact` their order · `engine` the toss · `any` its law chosen at run
+//! time · `single` one impact alone · `settings` choices.
 
+mod any;
 mod contact;
+mod dormand_prince;
 mod engine;
 mod flight;
+mod half_sine;
 mod impact;
+mod line;
 mod motion;
+mod paper;
 mod pivot;
 mod settings;
 mod shape;
+mod single;
 mod slide;
 
-pub use engine::{AnyFlatEngine, FlatEngine};
-pub use impact::{ChatterjeeRuina, ContactMatrix, ImpactLaw, Impulse, Moreau};
+pub use any::AnyFlatEngine;
+pub use engine::FlatEngine;
+pub use half_sine::{HalfSine, HalfSineImpact, PulseTime};
+pub use impact::{Carried, ChatterjeeRuina, ContactMatrix, ImpactLaw, Impulse, Moreau, Strike};
+pub use line::{LineContact, LineImpact, Materials};
+pub use paper::{Lever, Paper, PaperImpact};
 pub use settings::{Decision, Law, Settings, SettingsError};
+pub use single::SingleImpact;

@@ -103,12 +103,21 @@ impl Motion {
         };
     }
 
-    /// Above z = 1 nothing can touch: jumps to where the centre comes down to 1.
-    pub(crate) fn skip_high(&mut self, shape: &Shape) {
-        let t = self.vz + (self.vz * self.vz + 2.0 * (self.z - 1.0)).sqrt();
-        let angle = self.delta + shape.first_span(self.quadrant) + self.omega * t;
-        self.advance(t);
-        self.z = 1.0;
+    /// Turns by any angle at once, into whatever quadrant that leads.
+    pub(crate) fn turn(&mut self, shape: &Shape, by: f64) {
+        let angle = self.delta + shape.first_span(self.quadrant) + by;
+        if (0.0..=FRAC_PI_2).contains(&angle) {
+            self.delta = (self.delta + by).clamp(
+                -shape.first_span(self.quadrant),
+                shape.last_angle(self.quadrant, 1.0),
+            );
+        } else {
+            self.enter(shape, angle);
+        }
+    }
+
+    /// The quadrant and δ of an angle from flat at the start of the present quadrant.
+    fn enter(&mut self, shape: &Shape, angle: f64) {
         let quarters = (angle / FRAC_PI_2).floor();
         // the low two bits of a two's complement number are its remainder; beyond i64 the angle
         // has no digits left for the quarter anyway, and the cast saturates
@@ -117,6 +126,15 @@ impl Motion {
         self.quadrant = (self.quadrant + turned) & 3;
         let within = (angle - quarters * FRAC_PI_2).clamp(0.0, FRAC_PI_2);
         self.delta = within - shape.first_span(self.quadrant);
+    }
+
+    /// Above z = 1 nothing can touch: jumps to where the centre comes down to 1.
+    pub(crate) fn skip_high(&mut self, shape: &Shape) {
+        let t = self.vz + (self.vz * self.vz + 2.0 * (self.z - 1.0)).sqrt();
+        let angle = self.delta + shape.first_span(self.quadrant) + self.omega * t;
+        self.advance(t);
+        self.z = 1.0;
+        self.enter(shape, angle);
     }
 
     /// On the lowest corner with angular velocity `omega` while that corner slides at `slip`.

@@ -1,9 +1,12 @@
 //! What a user may choose about the flat engine.
 
+use crate::half_sine::HalfSine;
+use crate::line::LineContact;
+use crate::paper::Paper;
 use thiserror::Error;
 
 /// The law of impact at a corner.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Law {
     /// Newton restitution, Coulomb friction against the final slip (Moreau 1988), guarded by
     /// Chatterjee–Ruina where that would gain energy.
@@ -11,17 +14,35 @@ pub enum Law {
     Moreau,
     /// Chatterjee & Ruina (1998), tangential restitution 0.
     ChatterjeeRuina,
+    /// Gaek & Sukhov's law as published.
+    Paper(Paper),
+    /// A force that is half a sine in time.
+    HalfSine(HalfSine),
+    /// Elastic line contact with damping and friction, resolved in time.
+    LineContact(LineContact),
 }
 
 impl Law {
-    /// All laws.
-    pub const ALL: [Self; 2] = [Self::Moreau, Self::ChatterjeeRuina];
+    /// The laws that are told by their names alone.
+    pub const RIGID: [Self; 2] = [Self::Moreau, Self::ChatterjeeRuina];
 
     /// The name used in configs and results.
     pub fn name(self) -> &'static str {
         match self {
             Self::Moreau => "moreau",
             Self::ChatterjeeRuina => "chatterjee-ruina",
+            Self::Paper(_) => "paper",
+            Self::HalfSine(_) => "half-sine",
+            Self::LineContact(_) => "line-contact",
+        }
+    }
+
+    fn validate(self) -> Result<(), SettingsError> {
+        match self {
+            Self::Moreau | Self::ChatterjeeRuina => Ok(()),
+            Self::Paper(paper) => paper.validate(),
+            Self::HalfSine(pulse) => pulse.validate(),
+            Self::LineContact(line) => line.validate(),
         }
     }
 }
@@ -55,7 +76,8 @@ pub struct Settings {
     /// A sequence of bounces is replaced by sustained contact when all that remains of it would
     /// turn the coin by less than about this angle, rad.
     pub zeno: f64,
-    /// Relative error allowed per step of the integration of sliding contact.
+    /// Relative error allowed per step of the integration of sliding contact, and of impacts that
+    /// are resolved in time.
     pub tolerance: f64,
     /// Impacts, or steps of sustained contact, after which a toss is given up as undecided.
     pub max_impacts: u32,
@@ -88,6 +110,19 @@ pub enum SettingsError {
     /// The energy fraction lies outside (0, 1).
     #[error("energy_fraction must lie in (0, 1), not {0}")]
     EnergyFraction(f64),
+    /// A quantity of the law of impact is out of its range.
+    #[error("{name} must be {range}, not {found}")]
+    Quantity {
+        /// Its name, with its unit.
+        name: &'static str,
+        /// Where it must lie.
+        range: &'static str,
+        /// What was given.
+        found: f64,
+    },
+    /// The paper's law has no friction.
+    #[error("the paper's law knows no friction: friction must be 0, not {0}")]
+    Friction(f64),
 }
 
 impl Settings {
@@ -96,6 +131,7 @@ impl Settings {
     /// # Errors
     /// The first [`SettingsError`] in the order of the fields.
     pub fn validate(&self) -> Result<(), SettingsError> {
+        self.law.validate()?;
         if let Decision::EnergyFraction(fraction) = self.decision
             && !(fraction > 0.0 && fraction < 1.0)
         {
@@ -111,5 +147,18 @@ impl Settings {
             return Err(SettingsError::MaxImpacts);
         }
         Ok(())
+    }
+}
+
+/// A positive, finite quantity of a law.
+pub(crate) fn positive(name: &'static str, found: f64) -> Result<(), SettingsError> {
+    if found > 0.0 && found.is_finite() {
+        Ok(())
+    } else {
+        Err(SettingsError::Quantity {
+            name,
+            range: "positive and finite",
+            found,
+        })
     }
 }

@@ -81,6 +81,16 @@ impl Shape {
         (self.flat_height[edge], self.flat_height[1 - edge])
     }
 
+    /// The direction (of growing θ: +1) in which a coin in this quadrant turns to lie on a face, and
+    /// the angle left until it does.
+    pub(crate) fn face_tilt(&self, quadrant: Quadrant, delta: f64) -> (f64, f64) {
+        if quadrant & 1 == 0 {
+            (-1.0, delta + self.span[0])
+        } else {
+            (1.0, self.span[0] - delta)
+        }
+    }
+
     /// What the coin shows if it settles in the well it is in: it topples to the edge on δ's side
     /// of the balance.
     #[inline]

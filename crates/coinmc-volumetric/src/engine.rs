@@ -9,7 +9,7 @@ use crate::settings::{Decision, Law, Settings, SettingsError};
 use crate::toss::Toss;
 use crate::verdict::{Judge, Verdict};
 use coinmc_core::{
-    Ended, Engine, Event, EventKind, Face, Landing, Launch, Observer, Outcome, Scene,
+    Breaks, Ended, Engine, Event, EventKind, Face, Landing, Launch, Observer, Outcome, Scene,
 };
 
 /// Follows tosses of one scene under one law of impact.
@@ -412,6 +412,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
             contact_steps: contact.steps,
             jams: contact.jams,
             overruled: false,
+            breaks: Breaks::default(),
         }
     }
 }

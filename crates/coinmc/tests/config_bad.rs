@@ -84,6 +84,12 @@ const VOLUMETRIC: &[Case] = &[
 /// What the flat engine does not model is refused, never ignored.
 #[rustfmt::skip]
 const NOT_FLAT: &[Case] = &[
+    ("'moreau'", "{ paper = { eta_n_s = 1e-3 } }", &[(6, 12, "the paper's law knows no friction: `surface.friction` must be 0 set `friction = 0`")]),
+    ("'moreau'", "{ paper = {} }", &[(6, 12, "no friction"), (10, 17, "`eta_n_s` is missing")]),
+    ("'moreau'", "{ half-sine = { peak_n = 10 } }", &[(10, 21, "one of `time_s`, `contact` is missing")]),
+    ("'moreau'", "{ half-sine = { time_s = 0 } }", &[(10, 32, "must be from 1e-12 to 1")]),
+    ("'moreau'", "{ line-contact = { coin_young_pa = 1e9, surface_young_pa = 1e9, length_m = 0 } }", &[(10, 82, "`engine.flat.law.line-contact.length_m` must be from 1e-9")]),
+    ("'moreau'", "'paper'", &[(10, 7, "{paper = …}")]),
     ("0.3", "0.3\ncontour_m = 1e-4", &[(7, 13, "engine.flat models no rolling friction: `surface.contour_m` must be 0 remove `contour_m`, or toss in space with [engine.volumetric]")]),
     ("0.3", "0.3\ncontour_m = [0, 1e-4]\npivoting_m = 1e-4", &[(7, 13, "rolling friction"), (8, 14, "engine.flat models no pivoting friction")]),
     ("0.3", "0.3\npivoting_m = { from = 0, to = 1e-4, steps = 3 }", &[(7, 14, "pivoting friction")]),
@@ -169,7 +175,7 @@ const TABLES: &[Case] = &[
     ("[engine.flat]\nlaw = 'moreau'", "[engine.analytic]\nrule = 'arcs'", &[(10, 8, "did you mean \"arc\"?")]),
     ("[engine.flat]\nlaw = 'moreau'", "[engine.analytic]", &[(9, 1, "`rule` is missing in `engine.analytic`")]),
     ("[engine.flat]\nlaw = 'moreau'", "[engine]\nflat = 1", &[(10, 8, "`engine.flat` must be a table")]),
-    ("'moreau'", "'moro'", &[(10, 7, "must be one of \"moreau\", \"chatterjee-ruina\", found `moro`")]),
+    ("'moreau'", "'moro'", &[(10, 7, "must be one of \"moreau\", \"chatterjee-ruina\", {paper = …}, {half-sine = …}, {line-contact = …}, found `moro`")]),
     ("law = 'moreau'", "decision = 'maybe'", &[(10, 12, "must be one of \"certain\", {energy_fraction = …}, found `maybe`")]),
 ];
 

@@ -341,3 +341,51 @@ fn treatments_are_explained_together() {
     );
     assert_eq!(adhesive.explain().len(), 1);
 }
+
+/// Laws that are tables reach the engine with their defaults, sweep like any number, and the
+/// resolved config means the same.
+#[test]
+fn laws_of_impact_with_quantities_reach_the_engine() {
+    use coinmc_flat::{HalfSine, Law, Lever, LineContact, Paper, PulseTime};
+    let law = |text: &str| {
+        let law = format!("engine.flat.law={text}");
+        let plan = parse(SMALL, &[&law, "surface.friction=0"]);
+        let again = config::parse("again", &plan.resolved_toml, &[]).unwrap();
+        assert_eq!(plan.points, again.points);
+        let laws = plan.points.iter().map(|point| match point.engine {
+            EngineChoice::Flat(settings) => settings.law,
+            _ => panic!("another engine"),
+        });
+        laws.collect::<Vec<_>>()
+    };
+    let lever = Lever::Height;
+    assert_eq!(
+        law("{ paper = { eta_n_s = [1e-3, 2e-3] } }")[..2],
+        [1e-3, 2e-3].map(|eta_n_s| Law::Paper(Paper { eta_n_s, lever }))
+    );
+    let Law::LineContact(LineContact {
+        materials,
+        tangential,
+    }) =
+        law("{ line-contact = { coin_young_pa = 3e9, surface_young_pa = 1e10, length_m = 0.02 } }")
+            [0]
+    else {
+        panic!("another law")
+    };
+    assert_eq!(
+        (materials.coin_poisson, tangential),
+        (0.3, LineContact::mindlin(0.3))
+    );
+    let contact = law(
+        "{ half-sine = { peak_n = 9, contact = { coin_young_pa = 3e9, \
+                       surface_young_pa = 1e10, length_m = 0.02 } } }",
+    )[0];
+    let time = PulseTime::Contact(materials);
+    assert_eq!(
+        contact,
+        Law::HalfSine(HalfSine {
+            time,
+            peak_n: Some(9.0)
+        })
+    );
+}

@@ -63,7 +63,7 @@ impl At<'_> {
     }
 
     /// The number under a key; `None` if the key is absent and may be.
-    fn optional(&self, form: &Form, key: &str) -> Result<Option<f64>, Fault> {
+    pub(super) fn optional(&self, form: &Form, key: &str) -> Result<Option<f64>, Fault> {
         form.get(key).map(|form| self.number(form)).transpose()
     }
 

@@ -1,5 +1,7 @@
 //! The engine of a point, and what an engine refuses because it does not model it.
 
+mod impact_laws;
+
 use super::build::{At, Fault, get, integer};
 use super::diagnostics::Problems;
 use super::form::{Form, What};
@@ -34,7 +36,7 @@ fn in_the_plane(form: &Form, at: &At<'_>) -> Result<flat::Settings, Fault> {
         _ => return Err(Fault::Reported),
     };
     let settings = flat::Settings {
-        law: named(form, "law", flat::Law::ALL, flat::Law::name)?,
+        law: impact_laws::law(form, at)?,
         decision,
         zeno: at.required(form, "zeno")?,
         tolerance: at.required(form, "tolerance")?,
@@ -103,6 +105,7 @@ pub(super) fn refuse_unmodelled(root: &Form, problems: &mut Problems) {
     if root.get("engine").and_then(Form::tag) != Some("flat") {
         return;
     }
+    impact_laws::refuse_friction(root, problems);
     let value = |table: &str, key: &str| root.get(table).and_then(|form| form.get(key));
     for (table, key, what) in NOT_IN_THE_PLANE {
         if let Some(form) = value(table, key).filter(|form| is_somewhere_not_zero(form)) {

@@ -305,6 +305,41 @@ const FIXED: &[Definition] = &[
         "The point has the tosses, or the half width, asked for.",
         |row| Cell::Flag(row.reached_target),
     ),
+    (
+        "negative_heights",
+        Kind::Count,
+        "1",
+        "Impacts at which the law of impact asked for a negative height of rebound, in all tosses.",
+        |row| Cell::Count(row.tally.negative_heights),
+    ),
+    (
+        "energy_gains",
+        Kind::Count,
+        "1",
+        "Impacts at which the law of impact would have gained energy, in all tosses.",
+        |row| Cell::Count(row.tally.energy_gains),
+    ),
+    (
+        "wrong_levers",
+        Kind::Count,
+        "1",
+        "Impacts at which the law's lever turned the coin the wrong way, in all tosses.",
+        |row| Cell::Count(row.tally.wrong_levers),
+    ),
+    (
+        "sinkings",
+        Kind::Count,
+        "1",
+        "Impacts after which the corner would have gone on into the surface, in all tosses.",
+        |row| Cell::Count(row.tally.sinkings),
+    ),
+    (
+        "unresolved",
+        Kind::Count,
+        "1",
+        "Impacts whose integration in time was given up, in all tosses.",
+        |row| Cell::Count(row.tally.unresolved),
+    ),
 ];
 
 /// The columns of a table with these parameters, in order.

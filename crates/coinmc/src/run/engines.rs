@@ -58,6 +58,9 @@ pub(super) fn tally(
         EngineChoice::Flat(settings) => match AnyFlatEngine::new(scene, &settings)? {
             AnyFlatEngine::Moreau(engine) => follow(&engine, plan, point, tosses, go_on),
             AnyFlatEngine::ChatterjeeRuina(engine) => follow(&engine, plan, point, tosses, go_on),
+            AnyFlatEngine::Paper(engine) => follow(&engine, plan, point, tosses, go_on),
+            AnyFlatEngine::HalfSine(engine) => follow(&engine, plan, point, tosses, go_on),
+            AnyFlatEngine::LineContact(engine) => follow(&engine, plan, point, tosses, go_on),
         },
         EngineChoice::Volumetric(settings) => match AnyVolumetricEngine::new(scene, &settings)? {
             AnyVolumetricEngine::Moreau(engine) => follow(&engine, plan, point, tosses, go_on),

@@ -56,6 +56,12 @@ pub(super) fn parse_name(file: &str) -> Option<(usize, u64)> {
         .then_some((point, start))
 }
 
+/// Whether the counter has a line even if it is 0. The others came later; left out when 0, they
+/// leave older files as they were.
+fn is_always_written(index: usize) -> bool {
+    index < Tally::FIRST_BREAK
+}
+
 /// The file's content.
 pub(super) fn encode(shard: &Shard, tally: &Tally, plan_hash: &str) -> String {
     let Shard { point, tosses } = shard;
@@ -63,8 +69,10 @@ pub(super) fn encode(shard: &Shard, tally: &Tally, plan_hash: &str) -> String {
         "{TITLE} {FORMAT}\nplan {plan_hash}\npoint {point}\ntosses {} {}\n",
         tosses.start, tosses.end
     );
-    for (name, count) in Tally::COUNTERS.iter().zip(tally.to_array()) {
-        writeln!(text, "{name} {count}").expect("a String takes all text");
+    for (index, (name, count)) in Tally::COUNTERS.iter().zip(tally.to_array()).enumerate() {
+        if is_always_written(index) || count > 0 {
+            writeln!(text, "{name} {count}").expect("a String takes all text");
+        }
     }
     let checksum = crc32fast::hash(text.as_bytes());
     writeln!(text, "{CHECKSUM}{checksum:08x}").expect("a String takes all text");
@@ -105,13 +113,16 @@ pub(super) fn decode(bytes: &[u8], shard: &Shard, plan_hash: &str) -> Result<Tal
         return Err(Damage::OtherShard);
     }
     let mut counts = [0; Tally::COUNTERS.len()];
-    for (count, name) in counts.iter_mut().zip(Tally::COUNTERS) {
-        let value = lines
-            .next()
-            .and_then(|line| line.strip_prefix(name)?.strip_prefix(' '));
+    let mut line = lines.next();
+    for (index, (count, name)) in counts.iter_mut().zip(Tally::COUNTERS).enumerate() {
+        let value = line.and_then(|line| line.strip_prefix(name)?.strip_prefix(' '));
+        if value.is_none() && !is_always_written(index) {
+            continue;
+        }
         *count = value
             .and_then(|value| value.parse().ok())
             .ok_or(Damage::Form)?;
+        line = lines.next();
     }
     let tally = Tally::from_array(counts);
     if !is_possible(&tally, shard.tosses.end - shard.tosses.start) {
@@ -145,6 +156,10 @@ fn is_possible(tally: &Tally, tosses: u64) -> bool {
         && [tally.impacts, tally.contact_steps, tally.jams]
             .iter()
             .all(|&count| count <= most)
+        // at most once of each kind an impact
+        && tally.to_array()[Tally::FIRST_BREAK..]
+            .iter()
+            .all(|&count| count <= tally.impacts)
 }
 
 #[cfg(test)]
@@ -165,6 +180,7 @@ mod tests {
             side: 15,
             failed: 5,
             impacts: 700,
+            sinkings: 9,
             ..Tally::default()
         };
         (shard, tally)
@@ -240,6 +256,9 @@ mod tests {
             ("heads 50", "heads +50", Damage::Form),
             ("heads 50", "heads 050", Damage::Form),
             ("overruled 0\n", "overruled 0\nmore 1\n", Damage::Form),
+            ("sinkings 9\n", "sinkings 9\nunresolved 0\n", Damage::Form),
+            ("sinkings 9\n", "unresolved 1\nsinkings 9\n", Damage::Form),
+            ("sinkings 9\n", "sinkings 701\n", Damage::Counts),
             ("coinmc", "someone", Damage::Form),
         ] {
             let forged = resigned(body.replace(from, to));

@@ -1,11 +1,14 @@
 //! The engines and their settings.
 
+mod impact_laws;
+
 use super::Absent::{Is, Required};
 use super::terms::{default, field, fields, number, table};
 use super::{Bounds, Fallback, Field, Kind, TableKind, Whole, Word};
 use coinmc_analytic::Rule as ClosedForm;
 use coinmc_flat as flat;
 use coinmc_volumetric as volumetric;
+use impact_laws::impact_laws;
 
 /// The name of the decision that needs no number.
 pub(in crate::config) const CERTAIN: &str = "certain";
@@ -49,13 +52,6 @@ pub(super) fn engines() -> Vec<Field> {
 
 fn in_the_plane() -> TableKind {
     let settings = flat::Settings::default();
-    let law = |law: flat::Law| Word {
-        name: law.name(),
-        doc: match law {
-            flat::Law::Moreau => MOREAU,
-            flat::Law::ChatterjeeRuina => CHATTERJEE_RUINA,
-        },
-    };
     let fraction = number(
         "energy_fraction",
         "Decided when the energy has fallen to this fraction of its first value, or earlier if \
@@ -64,7 +60,7 @@ fn in_the_plane() -> TableKind {
         Required,
     );
     fields(vec![
-        law_field(flat::Law::ALL.map(law).to_vec(), settings.law.name()),
+        impact_laws(settings.law.name()),
         field(
             "decision",
             DECISION,
@@ -80,7 +76,7 @@ fn in_the_plane() -> TableKind {
         zeno(settings.zeno),
         number(
             "tolerance",
-            "Relative error allowed per step of sliding contact.",
+            "Relative error allowed per step of sliding contact and of impacts resolved in time.",
             Bounds::closed(1e-12, 1e-2),
             default(settings.tolerance),
         ),

@@ -130,7 +130,8 @@ fn coin() -> TableKind {
         ),
         number(
             "mass_kg",
-            "Mass, kg. It cancels everywhere; only given moments of inertia refer to it.",
+            "Mass, kg. It cancels everywhere but in given moments of inertia and in laws of impact \
+             that name forces or stiffness.",
             Bounds::closed(1e-12, 1e12),
             default(0.01),
         ),

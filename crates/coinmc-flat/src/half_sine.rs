@@ -1,0 +1,247 @@
+//! An impact by a force that is half a sine in time, N(t) = N_max sin(πt/τ).
+//!
+//! The pulse has the impulse η = 2 N_max τ/π. Without a given N_max it is the one that
+//! [`Moreau`]'s law asks for, so that the corner would leave at e times its speed of approach if
+//! nothing moved meanwhile; friction keeps the ratio to N that it has in that impulse. The coin
+//! moves, turns and falls while the force acts, at the place where its corner then is: as τ → 0 the
+//! law becomes Moreau's, with an error of order τ.
+//!
+//! τ is given, or that of a lossless impact on a line contact at this speed (so that it falls slowly
+//! as the impact gets harder, as u^(-1/19)).
+//!
+//! # Where it breaks
+//! * **N_max given**: nothing ties η to the speed of approach. *Fallback*: an impulse above Newton's
+//!   is cut down to it (counted as a gain of energy where it exceeds that of e = 1); one too small
+//!   to stop the corner is raised to the one that does (counted as a sinking).
+//! * The force knows nothing of the surface: with e < 1 the corner ends u τ(1 − e)/2 below it. The
+//!   coin is set back onto the surface. Where that, or turning meanwhile, gains energy, it is counted
+//!   and taken from all velocities alike.
+
+use crate::dormand_prince::{Step, System, growth};
+use crate::impact::{Carried, ContactMatrix, ImpactLaw, Impulse, Moreau, Strike};
+use crate::line::{Materials, duration, stiffness};
+use crate::settings::{Law, SettingsError, positive};
+use coinmc_core::Scene;
+use coinmc_core::trig::sin_cos;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Steps after which a pulse is given up; the worst of the stress test needs some hundred.
+const MAX_STEPS: u32 = 20_000;
+/// Most that a coin may turn in a pulse, rad: one that is still down then is not in an impact.
+const MOST_TURNED: f64 = 1.0;
+
+/// A force that is half a sine in time.
+///
+/// # Example
+/// ```
+/// use coinmc_flat::{HalfSine, Law, PulseTime, Settings};
+/// let law = Law::HalfSine(HalfSine { time: PulseTime::Given(1e-3), peak_n: None });
+/// assert!(Settings { law, ..Settings::default() }.validate().is_ok());
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HalfSine {
+    /// How long it acts.
+    pub time: PulseTime,
+    /// N_max, N; what restitution asks for, if absent.
+    pub peak_n: Option<f64>,
+}
+
+/// How long a pulse lasts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PulseTime {
+    /// This long, s.
+    Given(f64),
+    /// As long as an impact on a line contact of these materials, without losses.
+    Contact(Materials),
+}
+
+impl HalfSine {
+    pub(crate) fn validate(&self) -> Result<(), SettingsError> {
+        match self.time {
+            PulseTime::Given(time) => positive("time_s", time)?,
+            PulseTime::Contact(materials) => materials.validate()?,
+        }
+        self.peak_n.map_or(Ok(()), |peak| positive("peak_n", peak))
+    }
+}
+
+/// [`HalfSine`] for one scene, without units.
+#[derive(Debug, Clone, Copy)]
+pub struct HalfSineImpact {
+    pulse: HalfSine,
+    time: Time,
+    /// N_max in m g.
+    peak: Option<f64>,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Time {
+    Given(f64),
+    OfStiffness(f64),
+}
+
+impl HalfSineImpact {
+    /// The law in this scene.
+    ///
+    /// # Errors
+    /// [`SettingsError`] if a quantity is out of range.
+    pub fn new(scene: &Scene, pulse: HalfSine) -> Result<Self, SettingsError> {
+        pulse.validate()?;
+        let weight = scene.coin.mass_kg() * scene.gravity_m_s2();
+        let time = match pulse.time {
+            PulseTime::Given(time) => Time::Given(time / scene.time_scale_s()),
+            PulseTime::Contact(materials) => Time::OfStiffness(stiffness(scene, &materials)),
+        };
+        Ok(Self {
+            pulse,
+            time,
+            peak: pulse.peak_n.map(|peak| peak / weight),
+        })
+    }
+
+    /// The impulse of the pulse.
+    fn pushed(
+        &self,
+        matrix: ContactMatrix,
+        (ux, uz): (f64, f64),
+        strike: &mut Strike<'_>,
+        time: f64,
+    ) -> Impulse {
+        let (e, mu) = (strike.restitution, strike.friction);
+        let wanted = Moreau.impulse(matrix, ux, uz, e, mu);
+        let Some(peak) = self.peak else {
+            return wanted;
+        };
+        let given = 2.0 * peak * time / PI;
+        if given >= wanted.z {
+            let most = Moreau.impulse(matrix, ux, uz, 1.0, mu);
+            strike.breaks.energy_gains += u32::from(given > most.z);
+            return wanted;
+        }
+        let least = Moreau.impulse(matrix, ux, uz, 0.0, mu);
+        if given < least.z {
+            strike.breaks.sinkings += 1;
+            return least;
+        }
+        Impulse {
+            x: wanted.x * (given / wanted.z),
+            z: given,
+            sticks: false,
+        }
+    }
+}
+
+/// The coin under the pulse: angle turned, angular velocity, time. The centre needs no integration:
+/// its acceleration is known in time.
+struct Pulse {
+    delta: f64,
+    inertia: f64,
+    impulse: Impulse,
+    time: f64,
+}
+
+impl Pulse {
+    /// Share of the impulse per unit time.
+    fn density(&self, t: f64) -> f64 {
+        let angle = (PI * t / self.time).clamp(0.0, PI);
+        let (sin, _) = sin_cos(if angle > FRAC_PI_2 { PI - angle } else { angle });
+        FRAC_PI_2 / self.time * sin
+    }
+}
+
+impl System<3> for Pulse {
+    fn rates(&self, y: &[f64; 3]) -> [f64; 3] {
+        let (sin, cos) = libm::sincos(self.delta + y[0]);
+        let density = self.density(y[2]);
+        let torque = density * (sin * self.impulse.z - cos * self.impulse.x);
+        [y[1], torque / self.inertia, 1.0]
+    }
+}
+
+/// Angle turned and angular velocity after the pulse, and the steps taken; `None` if given up.
+fn integrate(pulse: &Pulse, omega: f64, tolerance: f64) -> Option<([f64; 3], u32)> {
+    let mut y = [0.0, omega, 0.0];
+    let mut rates = pulse.rates(&y);
+    let speed = pulse.impulse.z + omega.abs();
+    let allowed = [
+        tolerance * speed * pulse.time,
+        tolerance * speed,
+        f64::INFINITY,
+    ];
+    let mut h = 0.1 * pulse.time;
+    for steps in 1..=MAX_STEPS {
+        h = h.min(pulse.time - y[2]);
+        let step = Step::take(pulse, &y, &rates, h);
+        let shares = step.error.iter().zip(allowed);
+        let error = shares
+            .map(|(error, allowed)| error.abs() / allowed)
+            .fold(0.0, f64::max);
+        if !step.end.iter().all(|y| y.is_finite()) || step.end[0].abs() > MOST_TURNED {
+            return None;
+        }
+        if error <= 1.0 {
+            (y, rates) = (step.end, step.rates);
+            if y[2] >= pulse.time * (1.0 - 1e-14) {
+                return Some((y, steps));
+            }
+        }
+        h *= growth(error);
+    }
+    None
+}
+
+impl ImpactLaw for HalfSineImpact {
+    fn impulse(&self, k: ContactMatrix, ux: f64, uz: f64, e: f64, mu: f64) -> Impulse {
+        Moreau.impulse(k, ux, uz, e, mu)
+    }
+
+    fn law(&self) -> Law {
+        Law::HalfSine(self.pulse)
+    }
+
+    fn carry(&self, strike: &mut Strike<'_>) -> Carried {
+        let (delta, omega, inertia) = (strike.motion.delta, strike.motion.omega, strike.shape.k);
+        let (sin, cos) = sin_cos(delta);
+        let matrix = ContactMatrix::new(sin, cos, inertia);
+        let ux = strike.motion.vx - omega * cos;
+        let uz = strike.motion.vz + omega * sin;
+        if uz >= 0.0 {
+            return Carried::ByImpulse;
+        }
+        let time = match self.time {
+            Time::Given(time) => time,
+            Time::OfStiffness(stiffness) => duration(stiffness, 1.0 / matrix.zz, -uz),
+        };
+        let impulse = self.pushed(matrix, (ux, uz), strike, time);
+        let pulse = Pulse {
+            delta,
+            inertia,
+            impulse,
+            time,
+        };
+        let Some(([turned, omega, _], steps)) = integrate(&pulse, omega, strike.tolerance) else {
+            strike.breaks.unresolved += 1;
+            return Carried::ByImpulse;
+        };
+        strike.record.steps = steps;
+        strike.record.peak_force = FRAC_PI_2 * impulse.z / time;
+        let motion = &mut *strike.motion;
+        let before = motion.energy(inertia);
+        // a half sine has given half its impulse, on average, over its length
+        motion.x += (motion.vx + 0.5 * impulse.x) * time;
+        motion.vx += impulse.x;
+        motion.vz += impulse.z - time;
+        motion.omega = omega;
+        motion.time += time;
+        motion.turn(strike.shape, turned);
+        let (sin, cos) = sin_cos(motion.delta);
+        motion.z = cos;
+        let gained = motion.energy(inertia) > before * (1.0 + strike.tolerance);
+        strike.breaks.energy_gains += u32::from(gained);
+        if motion.vz + motion.omega * sin > 0.0 {
+            return Carried::Departs;
+        }
+        // gravity and turning have eaten the rebound
+        Carried::Presses
+    }
+}

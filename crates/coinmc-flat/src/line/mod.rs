@@ -1,0 +1,182 @@
+//! Line contact resolved in time: an elastic, damped, dry contact from touch to release.
+//!
+//! The coin flies rigidly; where a corner meets the surface both yield as a line contact does
+//! ([`palmgren`]), with the damping that gives the wanted restitution ([`damping`]) and friction
+//! behind a spring ([`equations`]). Any number of corners may touch at once. Gravity acts all the
+//! time, the coin turns and moves while it is down, and nothing is idealised but the law of force.
+//!
+//! An impact ends when no corner touches, or when what touches cannot leave any more: the engine goes
+//! on with sustained contact of a rigid corner, as it does when the bounces that remain would be over
+//! in no time. An impact that is given up (counted as `unresolved`) is done by [`Moreau`]'s law.
+
+mod damping;
+mod equations;
+mod palmgren;
+mod passage;
+
+pub use palmgren::Materials;
+
+use crate::impact::{Carried, ContactMatrix, ImpactLaw, Impulse, Moreau, Strike};
+use crate::motion::Motion;
+use crate::settings::{Law, SettingsError, positive};
+use crate::shape::Shape;
+use coinmc_core::Scene;
+use coinmc_core::trig::sin_cos;
+use damping::{LEAST_RESTITUTION, strength};
+use equations::{Body, CORNERS, Corner, Grip};
+pub(crate) use palmgren::duration;
+use passage::{Passage, Release};
+
+/// A corner this near to the surface touches it, in D.
+const TOUCH: f64 = 1e-15;
+
+/// Elastic line contact.
+///
+/// # Example
+/// ```
+/// use coinmc_flat::{Law, LineContact, Materials, Settings};
+/// let materials = Materials {
+///     coin_young_pa: 3e9, coin_poisson: 0.36, surface_young_pa: 1e10, surface_poisson: 0.3,
+///     length_m: 0.02,
+/// };
+/// let line = LineContact { materials, tangential: LineContact::mindlin(0.36) };
+/// let settings = Settings { law: Law::LineContact(line), ..Settings::default() };
+/// assert!(settings.validate().is_ok());
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LineContact {
+    /// What touches.
+    pub materials: Materials,
+    /// Stiffness along the surface over the secant stiffness of the normal at full depth.
+    pub tangential: f64,
+}
+
+impl LineContact {
+    /// 2(1 − ν)/(2 − ν), the ratio of tangential to normal stiffness of like elastic bodies (Mindlin,
+    /// J. Appl. Mech. 16 (1949) 259).
+    pub fn mindlin(poisson: f64) -> f64 {
+        2.0 * (1.0 - poisson) / (2.0 - poisson)
+    }
+
+    pub(crate) fn validate(&self) -> Result<(), SettingsError> {
+        self.materials.validate()?;
+        positive("tangential", self.tangential)
+    }
+}
+
+/// [`LineContact`] for one scene, without units.
+#[derive(Debug, Clone, Copy)]
+pub struct LineImpact {
+    line: LineContact,
+    stiffness: f64,
+    /// d of the damping, for the scene's restitution.
+    strength: f64,
+}
+
+/// K in units of m g/D^(10/9).
+pub(crate) fn stiffness(scene: &Scene, materials: &Materials) -> f64 {
+    let weight = scene.coin.mass_kg() * scene.gravity_m_s2();
+    materials.stiffness() * libm::pow(scene.coin.rim_distance_m(), palmgren::EXPONENT) / weight
+}
+
+impl LineImpact {
+    /// The law in this scene.
+    ///
+    /// # Errors
+    /// [`SettingsError`] if a quantity is out of range.
+    pub fn new(scene: &Scene, line: LineContact) -> Result<Self, SettingsError> {
+        line.validate()?;
+        let stiffness = stiffness(scene, &line.materials);
+        positive("stiffness of the contact over the coin's weight", stiffness)?;
+        Ok(Self {
+            line,
+            stiffness,
+            strength: strength(scene.surface.restitution()),
+        })
+    }
+
+    fn body(&self, motion: &Motion, shape: &Shape, mu: f64) -> Body {
+        Body {
+            inertia: shape.k,
+            stiffness: self.stiffness,
+            mu,
+            // follows from the speed of the impact
+            tangential: 0.0,
+            corners: corners(motion, shape),
+        }
+    }
+}
+
+/// The corners at the touch, the lowest first.
+fn corners(motion: &Motion, shape: &Shape) -> [Corner; CORNERS] {
+    let (sin, cos) = sin_cos(motion.delta);
+    let (height, half_width) = shape.base(motion.quadrant, false);
+    // how far the coin is turned from flat at the quadrant's start
+    let (sine, cosine) = sin_cos(motion.delta + shape.first_span(motion.quadrant));
+    let corner = |x: f64, z: f64, gap: f64| Corner {
+        x,
+        z,
+        gap,
+        grip: Grip::Apart,
+        damping: 0.0,
+    };
+    let next = (2.0 * height * sine, 2.0 * height * cosine);
+    let last = (-2.0 * half_width * cosine, 2.0 * half_width * sine);
+    let [next_gap, last_gap] = [next.1, last.1].map(|gap| if gap > TOUCH { gap } else { 0.0 });
+    [
+        corner(-sin, -cos, 0.0),
+        corner(next.0 - sin, next.1 - cos, next_gap),
+        corner(last.0 - sin, last.1 - cos, last_gap),
+        corner(sin, cos, 2.0 * cos),
+    ]
+}
+
+impl ImpactLaw for LineImpact {
+    fn impulse(&self, k: ContactMatrix, ux: f64, uz: f64, e: f64, mu: f64) -> Impulse {
+        Moreau.impulse(k, ux, uz, e, mu)
+    }
+
+    fn law(&self) -> Law {
+        Law::LineContact(self.line)
+    }
+
+    fn carry(&self, strike: &mut Strike<'_>) -> Carried {
+        if strike.restitution < LEAST_RESTITUTION {
+            return Carried::ByImpulse;
+        }
+        let (shape, motion) = (strike.shape, &mut *strike.motion);
+        let touched = *motion;
+        let (sin, cos) = sin_cos(motion.delta);
+        let matrix = ContactMatrix::new(sin, cos, shape.k);
+        let approach = (-(motion.vz + motion.omega * sin)).max(0.0);
+        let mut passage = Passage::new(
+            self.body(motion, shape, strike.friction),
+            [motion.vx, motion.vz, motion.omega],
+            (approach, 1.0 / matrix.zz),
+            (self.strength, self.line.tangential),
+            strike.tolerance,
+        );
+        let release = passage.follow();
+        strike.record = passage.record;
+        if release == Release::GivenUp {
+            strike.breaks.unresolved += 1;
+            return Carried::ByImpulse;
+        }
+        let [x, z, turned, vx, vz, omega, ..] = passage.y;
+        motion.time += passage.time;
+        motion.x += x;
+        motion.z += z;
+        motion.turn(shape, turned);
+        (motion.vx, motion.vz, motion.omega) = (vx, vz, omega);
+        // what touches is on the surface, be it to rounding or to the depth of a bound corner
+        motion.z = motion.z.max(sin_cos(motion.delta).1);
+        if release == Release::Apart {
+            return Carried::Departs;
+        }
+        // the coin has sunk in and cannot pay for coming up where it is now: it stays where it touched
+        if motion.z > touched.energy(shape.k) {
+            *motion = touched;
+        }
+        Carried::Presses
+    }
+}

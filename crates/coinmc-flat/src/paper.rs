@@ -1,0 +1,167 @@
+//! The law of impact of Gaek & Sukhov, arXiv 2401.03557, as published.
+//!
+//! With h₁ the height from which the coin fell, ω₁ its angular velocity, and h₃ and ω₂ the same
+//! after the impact,
+//!
+//! k m g h₁ + I ω₁²/2 = m g h₃ + I ω₂²/2,  Δω = ω₂ − ω₁ = η H cos θ/I,  η = 2 N_max τ/π,
+//!
+//! θ the tilt of the face, η the impulse of half a sine of height N_max and length τ: a constant,
+//! whatever the speed. k is the share of the energy of fall that a bounce leaves; a coin that lands
+//! without turning rebounds with restitution e = √k, so k here is the square of the surface's
+//! restitution. Horizontal motion stays what it is.
+//!
+//! The heights are those of the energy of vertical motion, h = v_z²/2g, which is what they are for
+//! a coin that is dropped, and the only reading that works at every impact.
+//!
+//! # Where it breaks
+//! The energy that turning takes and the impulse η come from two different places, so nothing
+//! keeps them together:
+//! * **h₃ < 0** where |ω₂| > sqrt(ω₁² + 2 k m g h₁/I). Counted (`negative_heights`), and as a gain of
+//!   energy too where rotation alone would have more than the coin had before (`energy_gains`).
+//! * **The corner** would go on into the surface, v_z⁺ below what ω₂ takes it down. Counted
+//!   (`sinkings`).
+//! * **The lever** H cos θ never changes sign; the corner's own one, R cos θ − (H/2) sin θ, does
+//!   where the centre passes over the corner. Counted (`wrong_levers`); it is the law, and stands.
+//!
+//! *Fallback* of the first two: the frictionless impact of the corner with e = √k, which loses
+//! energy. Setting h₃ = 0 and keeping the energy balance instead would leave coins that rock from
+//! corner to corner for ever, since the law takes nothing from rotation.
+
+use crate::impact::{Carried, ContactMatrix, ImpactLaw, Impulse, Moreau, Strike};
+use crate::settings::{Law, SettingsError, positive};
+use crate::shape::{Quadrant, Shape};
+use coinmc_core::Scene;
+use coinmc_core::trig::sin_cos;
+
+/// Restitution assumed when the time of the remaining bounces is judged, if √k is less: the turning
+/// that the law adds makes even k = 0 rebound.
+const LEAST_REBOUND: f64 = 0.5;
+
+/// The paper's law: its one number beside k, and how its lever is read.
+///
+/// # Example
+/// ```
+/// use coinmc_flat::{Law, Lever, Paper, Settings};
+/// let law = Law::Paper(Paper { eta_n_s: 0.01, lever: Lever::Height });
+/// assert!(Settings { law, ..Settings::default() }.validate().is_ok());
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Paper {
+    /// η = 2 N_max τ/π, N s.
+    pub eta_n_s: f64,
+    /// The lever of the impulse η.
+    pub lever: Lever,
+}
+
+/// Lever of the impulse about the centre, θ the tilt of the face from the surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Lever {
+    /// H cos θ, towards the face, as in the paper's formula.
+    #[default]
+    Height,
+    /// L cos θ with L = 2R, towards the face: the letter that stands for H in one place.
+    Diameter,
+    /// R cos θ − (H/2) sin θ, that of the corner that touches.
+    Corner,
+}
+
+impl Lever {
+    /// All levers.
+    pub const ALL: [Self; 3] = [Self::Height, Self::Diameter, Self::Corner];
+
+    /// The name used in configs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Height => "height",
+            Self::Diameter => "diameter",
+            Self::Corner => "corner",
+        }
+    }
+}
+
+impl Paper {
+    pub(crate) fn validate(self) -> Result<(), SettingsError> {
+        if self.eta_n_s == 0.0 {
+            return Ok(());
+        }
+        positive("eta_n_s", self.eta_n_s)
+    }
+}
+
+/// [`Paper`] for one scene, without units.
+#[derive(Debug, Clone, Copy)]
+pub struct PaperImpact {
+    paper: Paper,
+    /// η in units of m sqrt(g D).
+    eta: f64,
+}
+
+impl PaperImpact {
+    /// The law in this scene.
+    ///
+    /// # Errors
+    /// [`SettingsError`] if η is out of range or the surface has friction.
+    pub fn new(scene: &Scene, paper: Paper) -> Result<Self, SettingsError> {
+        paper.validate()?;
+        let friction = scene.surface.friction();
+        if friction != 0.0 {
+            return Err(SettingsError::Friction(friction));
+        }
+        let speed = scene.coin.rim_distance_m() / scene.time_scale_s();
+        Ok(Self {
+            paper,
+            eta: paper.eta_n_s / (scene.coin.mass_kg() * speed),
+        })
+    }
+
+    /// Lever in D, positive where it turns the coin towards growing θ.
+    fn lever(&self, shape: &Shape, quadrant: Quadrant, delta: f64) -> f64 {
+        let (side, tilt) = shape.face_tilt(quadrant, delta);
+        let (half_height, radius) = shape.base(0, false);
+        match self.paper.lever {
+            Lever::Height => side * 2.0 * half_height * sin_cos(tilt).1,
+            Lever::Diameter => side * 2.0 * radius * sin_cos(tilt).1,
+            Lever::Corner => sin_cos(delta).0,
+        }
+    }
+}
+
+impl ImpactLaw for PaperImpact {
+    fn impulse(&self, k: ContactMatrix, ux: f64, uz: f64, e: f64, mu: f64) -> Impulse {
+        Moreau.impulse(k, ux, uz, e, mu)
+    }
+
+    fn law(&self) -> Law {
+        Law::Paper(self.paper)
+    }
+
+    fn rebound(&self, e: f64) -> f64 {
+        e.max(LEAST_REBOUND)
+    }
+
+    fn carry(&self, strike: &mut Strike<'_>) -> Carried {
+        let (shape, breaks) = (strike.shape, &mut *strike.breaks);
+        let motion = &mut *strike.motion;
+        let inertia = shape.k;
+        let sin = sin_cos(motion.delta).0;
+        let lever = self.lever(shape, motion.quadrant, motion.delta);
+        breaks.wrong_levers += u32::from(lever * sin < 0.0);
+        let fall = 0.5 * motion.vz * motion.vz;
+        let left = strike.restitution * strike.restitution * fall;
+        let omega = motion.omega + self.eta * lever / inertia;
+        let turned = 0.5 * inertia * (motion.omega * motion.omega - omega * omega);
+        let rise = left + turned;
+        if rise < 0.0 {
+            breaks.negative_heights += 1;
+            breaks.energy_gains += u32::from(fall + turned < 0.0);
+            return Carried::ByImpulse;
+        }
+        let speed = (2.0 * rise).sqrt();
+        if speed + omega * sin < 0.0 {
+            breaks.sinkings += 1;
+            return Carried::ByImpulse;
+        }
+        (motion.vz, motion.omega) = (speed, omega);
+        Carried::Departs
+    }
+}

@@ -1,0 +1,91 @@
+//! One impact by itself: to look at a law, to compare it with film, to measure it.
+
+use crate::any::AnyFlatEngine;
+use crate::engine::FlatEngine;
+use crate::impact::{Carried, ImpactLaw};
+use crate::motion::Motion;
+use coinmc_core::{Breaks, Launch, State};
+
+/// One impact: the coin just before and just after, and what happened between.
+#[derive(Debug, Clone, Copy)]
+pub struct SingleImpact {
+    /// The coin with its lowest corner on the surface, just before.
+    pub before: State,
+    /// Just after; its time is that of the release, counted from the touch.
+    pub after: State,
+    /// The corner stays on the surface.
+    pub stays: bool,
+    /// Largest normal force, N: of all steps; 0 for laws without duration.
+    pub peak_force_n: f64,
+    /// Steps of the integration; 0 for laws without duration.
+    pub steps: u32,
+    /// Energy that the integration lost track of, J: before, less after, less what is stored, less
+    /// what damping and friction took.
+    pub imbalance_j: f64,
+    /// Energy beyond that before, J, taken out of the velocities after; 0 where there was none.
+    pub gain_j: f64,
+    /// What broke.
+    pub breaks: Breaks,
+}
+
+impl AnyFlatEngine {
+    /// [`FlatEngine::impact_once`] of the law it has.
+    ///
+    /// # Example
+    /// ```
+    /// use coinmc_core::{Coin, Launch, Scene, Surface};
+    /// use coinmc_flat::{AnyFlatEngine, Law, Lever, Paper, Settings};
+    /// use nalgebra::{Unit, Vector3};
+    /// let scene = Scene::new(Coin::cylinder(1.0, 0.01)?, Surface::new(0.5, 0.0)?, 9.81)?;
+    /// let paper = Paper { eta_n_s: 1e-3, lever: Lever::Height };
+    /// let settings = Settings { law: Law::Paper(paper), ..Settings::default() };
+    /// let launch = Launch {
+    ///     height_m: 0.0, // the coin is put onto the surface
+    ///     velocity_m_s: Vector3::new(0.0, 0.0, -2.0),
+    ///     axis: Unit::new_normalize(Vector3::new(0.5, 0.0, 1.0)),
+    ///     spin_rad_s: Vector3::zeros(),
+    /// };
+    /// let impact = AnyFlatEngine::new(&scene, &settings)?.impact_once(&launch);
+    /// assert!(impact.after.spin_rad_s.y != 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn impact_once(&self, launch: &Launch) -> SingleImpact {
+        match self {
+            Self::Moreau(engine) => engine.impact_once(launch),
+            Self::ChatterjeeRuina(engine) => engine.impact_once(launch),
+            Self::Paper(engine) => engine.impact_once(launch),
+            Self::HalfSine(engine) => engine.impact_once(launch),
+            Self::LineContact(engine) => engine.impact_once(launch),
+        }
+    }
+}
+
+impl<L: ImpactLaw> FlatEngine<L> {
+    /// The impact of a coin with this velocity, spin and tilt whose lowest corner has just touched;
+    /// the launch's height is not looked at. No bounces are summed up: this is the law alone.
+    pub fn impact_once(&self, launch: &Launch) -> SingleImpact {
+        let (units, shape) = (self.units(), self.shape());
+        let mut motion = Motion::new(launch, units, shape);
+        motion.z = coinmc_core::trig::sin_cos(motion.delta).1;
+        let before = motion;
+        let mut breaks = Breaks::default();
+        let energy = before.energy(shape.k);
+        let (carried, record) = self.strike(&mut motion, &mut breaks);
+        let gain = (motion.energy(shape.k) - energy).max(0.0);
+        if carried == Carried::Presses {
+            self.press(&mut motion, energy);
+        }
+        motion.cap_energy(shape.k, energy);
+        let force = self.mass_kg() * units.length_m / (units.time_s * units.time_s);
+        SingleImpact {
+            before: before.state(units, shape),
+            after: motion.state(units, shape),
+            stays: carried == Carried::Presses,
+            peak_force_n: record.peak_force * force,
+            steps: record.steps,
+            imbalance_j: record.imbalance * force * units.length_m,
+            gain_j: gain * force * units.length_m,
+            breaks,
+        }
+    }
+}
