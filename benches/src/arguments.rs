@@ -1,9 +1,10 @@
 //! What can be asked for on the command line.
 
 use crate::studies::{
-    Convergence, Energy, FlatTable, MissedContacts, Oracle, Sensitivity, SpaceConvergence,
-    SpaceDecision, SpaceEnergy, SpaceLaws, SpaceMissed, SpacePeers, SpaceReferences, SpaceSpeed,
-    SpaceStress, Speed, StoppingRule, Undecided,
+    Convergence, Energy, FlatTable, ImpactAccuracy, ImpactBalance, ImpactCurves, ImpactLimit,
+    MissedContacts, Oracle, Sensitivity, SpaceConvergence, SpaceDecision, SpaceEnergy, SpaceLaws,
+    SpaceMissed, SpacePeers, SpaceReferences, SpaceSpeed, SpaceStress, Speed, StoppingRule,
+    Undecided,
 };
 use crate::{memory, number};
 use anyhow::{Context, anyhow};
@@ -54,6 +55,14 @@ enum Command {
     Sensitivity(Sensitivity),
     /// Tosses a second, cost of the runner, two threads, peak memory
     Speed(Speed),
+    /// Laws of impact: P(side) and the fair ratio under each
+    ImpactCurves(ImpactCurves),
+    /// Laws of impact: what line contact and half sine become in the stiff limit
+    ImpactLimit(ImpactLimit),
+    /// Laws of impact: error against run time
+    ImpactAccuracy(ImpactAccuracy),
+    /// Laws of impact: stress of the line contact, and its balance of energy
+    ImpactBalance(ImpactBalance),
     /// In space: how P(side) depends on the engine's settings, toss by toss
     SpaceConvergence(SpaceConvergence),
     /// In space: P(side) with its total error, by law of impact
@@ -101,6 +110,10 @@ impl Arguments {
             Command::StoppingRule(study) => study.carry_out(seed),
             Command::Sensitivity(study) => study.carry_out(seed)?,
             Command::Speed(study) => study.carry_out(seed)?,
+            Command::ImpactCurves(study) => study.carry_out(seed)?,
+            Command::ImpactLimit(study) => study.carry_out(seed),
+            Command::ImpactAccuracy(study) => study.carry_out(seed),
+            Command::ImpactBalance(study) => study.carry_out(seed),
             Command::SpaceConvergence(study) => study.carry_out(seed),
             Command::SpaceLaws(study) => study.carry_out(seed),
             Command::SpaceReferences(study) => study.carry_out(seed),

@@ -261,6 +261,33 @@ fn in_space_the_quick_decision_is_the_rigorous_one_but_for_rolling() {
 }
 
 #[test]
+fn laws_of_impact_have_the_order_and_the_balance_they_claim() {
+    let lines = study(&["impact-limit", "--impacts", "10"]);
+    assert_eq!(lines.len(), 1 + 6 * 6);
+    for (order, line) in column(&lines, "order").iter().zip(&lines[1..]) {
+        // the softest have a term of the next order in the time of contact
+        let order: f64 = order.parse().unwrap_or(1.0);
+        assert!((order - 1.0).abs() < 0.15, "{line}");
+    }
+    let lines = study(&["impact-balance", "--impacts", "100"]);
+    assert!(numbers(&lines, "not_finite").iter().all(|n| *n == 0.0));
+    assert!(
+        numbers(&lines, "gain_kept")
+            .iter()
+            .all(|gain| *gain < 1e-13)
+    );
+    let lines = study(&["impact-accuracy", "--impacts", "10", "--tosses", "5"]);
+    assert_eq!(lines.len(), 1 + 5 * 10);
+    let found = numbers(&lines, "tolerance").into_iter();
+    for ((tolerance, worst), line) in found.zip(numbers(&lines, "worst_error")).zip(&lines[1..]) {
+        assert!(worst < 1000.0 * tolerance, "{line}");
+    }
+    let lines = study(&["impact-curves", "--tosses", "20", "--line-tosses", "5"]);
+    assert_eq!(lines.len(), 1 + 3 * (12 + 8) * 11);
+    assert!(numbers(&lines, "undecided").iter().all(|n| *n == 0.0));
+}
+
+#[test]
 fn work_is_listed_and_unknown_work_refused() {
     let output = coinmc_bench(&["work"]);
     let names = String::from_utf8(output.stdout).unwrap();

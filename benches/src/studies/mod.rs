@@ -3,6 +3,7 @@
 mod convergence;
 mod energy;
 mod flat_table;
+mod impacts;
 mod missed_contacts;
 mod oracle;
 mod sensitivity;
@@ -14,6 +15,7 @@ mod undecided;
 pub(crate) use convergence::Convergence;
 pub(crate) use energy::Energy;
 pub(crate) use flat_table::FlatTable;
+pub(crate) use impacts::{ImpactAccuracy, ImpactBalance, ImpactCurves, ImpactLimit};
 pub(crate) use missed_contacts::MissedContacts;
 pub(crate) use oracle::Oracle;
 pub(crate) use sensitivity::Sensitivity;

@@ -103,12 +103,8 @@ fn every_toss_ends_whatever_eta() {
             let engine = engine(&scene, paper(eta, lever));
             for toss in 0..200 {
                 let mut dice = Dice::new(201, toss);
-                let mut launch = touch(
-                    dice.between(0.0, 6.0,
-                    0.1,
-                    -1.0,
-                    dice.between(-30.0, 30.0),
-                );
+                let mut launch =
+                    touch(dice.between(0.0, 6.0), 0.1, -1.0, dice.between(-30.0, 30.0));
                 launch.height_m = 0.3;
                 let outcome = engine.toss(&mut (), &launch, &mut ());
                 assert!(outcome.face().is_some(), "{eta} {e} {toss}: {outcome:?}");
