@@ -15,7 +15,8 @@
 //!
 //! # Files
 //! `shape` geometry · `motion` state · `flight` first contact · `impact` laws · `pivot` and
-//! `slide` contact phases · `contact` their order · `engine` the toss · `settings` choices.
+//! `slide` contact phases · `contact` their order · `engine` the toss · `watch` what an observer is
+//! shown · `settings` choices.
 
 mod contact;
 mod engine;
@@ -26,6 +27,7 @@ mod pivot;
 mod settings;
 mod shape;
 mod slide;
+mod watch;
 
 pub use engine::{AnyFlatEngine, FlatEngine};
 pub use impact::{ChatterjeeRuina, ContactMatrix, ImpactLaw, Impulse, Moreau};

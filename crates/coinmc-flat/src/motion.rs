@@ -106,9 +106,15 @@ impl Motion {
     /// Above z = 1 nothing can touch: jumps to where the centre comes down to 1.
     pub(crate) fn skip_high(&mut self, shape: &Shape) {
         let t = self.vz + (self.vz * self.vz + 2.0 * (self.z - 1.0)).sqrt();
+        self.fly(shape, t);
+        self.z = 1.0;
+    }
+
+    /// Free flight for `t`, through any number of quadrants.
+    #[inline]
+    pub(crate) fn fly(&mut self, shape: &Shape, t: f64) {
         let angle = self.delta + shape.first_span(self.quadrant) + self.omega * t;
         self.advance(t);
-        self.z = 1.0;
         let quarters = (angle / FRAC_PI_2).floor();
         // the low two bits of a two's complement number are its remainder; beyond i64 the angle
         // has no digits left for the quarter anyway, and the cast saturates
@@ -120,6 +126,7 @@ impl Motion {
     }
 
     /// On the lowest corner with angular velocity `omega` while that corner slides at `slip`.
+    #[inline]
     pub(crate) fn set_on_corner(&mut self, sin: f64, cos: f64, omega: f64, slip: f64) {
         self.z = cos;
         self.omega = omega;
@@ -129,6 +136,7 @@ impl Motion {
 
     /// Takes back what rounding and truncation added to the energy since it was `before`: no
     /// contact ever gains energy. Velocities shrink together, so every constraint on them holds.
+    #[inline]
     pub(crate) fn cap_energy(&mut self, k: f64, before: f64) {
         let now = self.energy(k);
         if now > before {
