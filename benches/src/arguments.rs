@@ -1,8 +1,9 @@
 //! What can be asked for on the command line.
 
 use crate::studies::{
-    Convergence, Energy, FlatTable, ImpactAccuracy, ImpactBalance, ImpactCurves, ImpactLimit,
-    MissedContacts, Oracle, Sensitivity, SpaceConvergence, SpaceDecision, SpaceEnergy, SpaceLaws,
+    Convergence, Energy, Film, FlatTable, ImpactAccuracy, ImpactBalance, ImpactCurves, ImpactLimit,
+    LinkFuzz, MissedContacts, Oracle, RapierEnergy, RapierRestitution, RapierSpeed, RapierStep,
+    RapierStress, RobotSoak, Sensitivity, SpaceConvergence, SpaceDecision, SpaceEnergy, SpaceLaws,
     SpaceMissed, SpacePeers, SpaceReferences, SpaceSpeed, SpaceStress, Speed, StoppingRule,
     Undecided,
 };
@@ -39,6 +40,8 @@ pub(crate) struct Arguments {
 enum Command {
     /// P(side) in the scenes of an earlier planar study, and against Chipmunk and Box2D
     FlatTable(FlatTable),
+    /// Fits to synthetic film: how often the intervals hold the truth
+    Film(Film),
     /// How P(side) depends on the engine's settings, toss by toss
     Convergence(Convergence),
     /// Every flight against dense sampling: contacts passed over, energy gained
@@ -81,6 +84,20 @@ enum Command {
     SpacePeers(SpacePeers),
     /// In space: the decision by tilting energy against the rigorous one
     SpaceDecision(SpaceDecision),
+    /// Any bytes on the robot's link: does either end ever break a rule or panic
+    LinkFuzz(LinkFuzz),
+    /// On Rapier: P(side) against the step, beside the event-driven engine
+    RapierStep(RapierStep),
+    /// On Rapier: tosses a second with all skips, against the naive loop
+    RapierSpeed(RapierSpeed),
+    /// On Rapier: how far the energy rises above its value at launch
+    RapierEnergy(RapierEnergy),
+    /// On Rapier: random tosses from a huge box of scenes
+    RapierStress(RapierStress),
+    /// On Rapier: landings and rolling that are known exactly, against the step
+    RapierRestitution(RapierRestitution),
+    /// A simulated robot through noise, resets, unpluggings and kills: nothing lost or doubled
+    RobotSoak(RobotSoak),
     /// Do one named piece of work, for a profiler
     Work(Work),
     /// Do one run and print its peak memory
@@ -102,6 +119,7 @@ impl Arguments {
         let seed = self.seed;
         let report = match self.command {
             Command::FlatTable(study) => study.carry_out(seed),
+            Command::Film(study) => study.carry_out(seed),
             Command::Convergence(study) => study.carry_out(seed),
             Command::MissedContacts(study) => study.carry_out(seed),
             Command::Oracle(study) => study.carry_out(seed),
@@ -123,6 +141,13 @@ impl Arguments {
             Command::SpaceSpeed(study) => study.carry_out(seed)?,
             Command::SpacePeers(study) => study.carry_out(seed)?,
             Command::SpaceDecision(study) => study.carry_out(seed)?,
+            Command::LinkFuzz(study) => study.carry_out(seed)?,
+            Command::RapierStep(study) => study.carry_out(seed)?,
+            Command::RapierSpeed(study) => study.carry_out(seed)?,
+            Command::RapierEnergy(study) => study.carry_out(seed)?,
+            Command::RapierStress(study) => study.carry_out(seed),
+            Command::RapierRestitution(study) => study.carry_out()?,
+            Command::RobotSoak(study) => study.carry_out(seed)?,
             Command::Work(work) => return work.carry_out(),
             Command::Memory(run) => return run.carry_out(),
         };

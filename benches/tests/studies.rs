@@ -304,3 +304,53 @@ fn work_is_listed_and_unknown_work_refused() {
     let message = String::from_utf8(output.stderr).unwrap();
     assert!(!output.status.success() && message.contains("no piece of work is called `nothing`"));
 }
+
+#[test]
+fn steps_are_compared_with_events_toss_by_toss() {
+    let lines = study(&["rapier-step", "--tosses", "20", "--shortest", "5e-3"]);
+    assert_eq!(lines.len(), 1 + 2 * 4 * 3);
+    for tosses in column(&lines, "tosses") {
+        assert_eq!(tosses, "20");
+    }
+    for name in ["p_side", "event_driven", "changed"] {
+        for share in column(&lines, name) {
+            assert!((0.0..=1.0).contains(&share.parse::<f64>().unwrap()));
+        }
+    }
+}
+
+#[test]
+fn no_toss_in_steps_panics_or_is_lost_count_of() {
+    let lines = study(&["rapier-stress", "--tosses", "60", "--max-steps", "200"]);
+    assert_eq!(column(&lines, "tosses"), ["60"; 3]);
+    assert_eq!(column(&lines, "panics"), ["0"; 3]);
+    assert_eq!(column(&lines, "exploded"), ["0"; 3]);
+}
+
+#[test]
+fn rapier_bounces_a_point_as_asked_and_a_face_not() {
+    let lines = study(&["rapier-restitution", "--shortest", "5e-4"]);
+    assert_eq!(lines.len(), 1 + 6);
+    let last = |name| column(&lines, name)[5].parse::<f64>().unwrap();
+    assert!((last("point_e") - 0.5).abs() < 0.05, "{}", last("point_e"));
+    // at every step, however small
+    assert!(last("flat_spin") > 0.1, "{}", last("flat_spin"));
+}
+
+#[test]
+fn skipping_saves_steps_and_gains_no_energy() {
+    let lines = study(&["rapier-speed", "--tosses", "3", "--clean-step", "4e-3"]);
+    let saved: f64 = column(&lines, "ratio_of_steps")
+        .iter()
+        .map(|ratio| ratio.parse::<f64>().unwrap())
+        .fold(0.0, f64::max);
+    assert!(saved > 5.0, "{saved}");
+    let lines = study(&["rapier-energy", "--tosses", "4"]);
+    let flights = column(&lines, "flight");
+    let by = column(&lines, "gyroscopic");
+    for (i, above) in column(&lines, "above").iter().enumerate() {
+        if flights[i] == "contact" && by[i] == "exact" {
+            assert_eq!(above.parse::<f64>().unwrap(), 0.0, "{}", lines[i + 1]);
+        }
+    }
+}

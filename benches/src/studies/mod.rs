@@ -2,10 +2,14 @@
 
 mod convergence;
 mod energy;
+mod film;
 mod flat_table;
 mod impacts;
+mod link_fuzz;
 mod missed_contacts;
 mod oracle;
+mod rapier;
+mod robot_soak;
 mod sensitivity;
 mod space;
 mod speed;
@@ -14,10 +18,14 @@ mod undecided;
 
 pub(crate) use convergence::Convergence;
 pub(crate) use energy::Energy;
+pub(crate) use film::Film;
 pub(crate) use flat_table::FlatTable;
 pub(crate) use impacts::{ImpactAccuracy, ImpactBalance, ImpactCurves, ImpactLimit};
+pub(crate) use link_fuzz::LinkFuzz;
 pub(crate) use missed_contacts::MissedContacts;
 pub(crate) use oracle::Oracle;
+pub(crate) use rapier::{RapierEnergy, RapierRestitution, RapierSpeed, RapierStep, RapierStress};
+pub(crate) use robot_soak::RobotSoak;
 pub(crate) use sensitivity::Sensitivity;
 pub(crate) use space::{
     SpaceConvergence, SpaceDecision, SpaceEnergy, SpaceLaws, SpaceMissed, SpacePeers,

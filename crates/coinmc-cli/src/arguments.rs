@@ -1,6 +1,6 @@
 //! What can be asked for on the command line.
 
-use crate::commands::{Analytic, Check, Completions, Merge, Run, Schema};
+use crate::commands::{Analytic, Check, Completions, Film, Merge, Robot, Run, Schema, Trace};
 use crate::exit::{Failure, Outcome};
 use crate::output::Console;
 use clap::{ColorChoice, Parser, Subcommand, ValueEnum};
@@ -12,12 +12,14 @@ Examples:
   coinmc run examples/flat-fair.toml              run it; the same command again resumes
   coinmc run toss.toml --set surface.friction=0.2 --format json
   coinmc analytic --fair                          fair ratios of the closed forms
+  coinmc film fit examples/drop-film.txt --ratio 1 --radius-m 0.01    a law, from film
+  coinmc trace toss.toml --toss 42 --show          what happened in a toss
 
 Exit status:
   0    done
   1    failure at run time (disk full, file unreadable, …)
   2    bad input: arguments, config, or a directory that belongs to another run
-  3    stopped short of the target: max_tosses came before half_width
+  3    stopped short of the target: max_tosses came before half_width, a search found too few
   130  stopped by Ctrl-C or SIGTERM; finished work is kept
 
 With --format json, standard output holds exactly one JSON document, whatever happens: the result,
@@ -45,7 +47,10 @@ enum Command {
     Run(Run),
     Check(Check),
     Merge(Merge),
+    Trace(Box<Trace>),
+    Film(Film),
     Analytic(Analytic),
+    Robot(Robot),
     Schema(Schema),
     Completions(Completions),
 }
@@ -77,7 +82,10 @@ impl Command {
             Self::Run(run) => run.format(),
             Self::Check(check) => check.format(),
             Self::Merge(merge) => merge.format(),
+            Self::Trace(trace) => trace.format(),
+            Self::Film(film) => film.format(),
             Self::Analytic(analytic) => analytic.errors_as(),
+            Self::Robot(robot) => robot.format(),
             Self::Schema(_) | Self::Completions(_) => Format::Table,
         }
     }
@@ -87,7 +95,10 @@ impl Command {
             Self::Run(run) => run.carry_out(console),
             Self::Check(check) => check.carry_out(console),
             Self::Merge(merge) => merge.carry_out(console),
+            Self::Trace(trace) => trace.carry_out(console),
+            Self::Film(film) => film.carry_out(console),
             Self::Analytic(analytic) => analytic.carry_out(console),
+            Self::Robot(robot) => robot.carry_out(console),
             Self::Schema(schema) => schema.carry_out(),
             Self::Completions(completions) => completions.carry_out(),
         }

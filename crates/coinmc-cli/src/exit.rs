@@ -5,6 +5,9 @@ use crate::output::{self, Console};
 use crate::terminal::Colors;
 use coinmc::config::Diagnostics;
 use coinmc::run::RunError;
+use coinmc::trace::TraceError;
+use coinmc_film::text as film;
+use coinmc_recording::Error as RecordingError;
 use serde_json::{Value, json};
 use std::process::ExitCode;
 
@@ -24,6 +27,8 @@ pub(crate) enum Outcome {
 pub(crate) enum Failure {
     /// The config is wrong: every problem of it.
     Config(Diagnostics),
+    /// Filmed drops are wrong: every problem of their files.
+    Film(film::Diagnostics),
     /// An argument, or a directory it names, is wrong.
     Input(anyhow::Error),
     /// The input was right, the machine was not.
@@ -74,6 +79,36 @@ impl From<RunError> for Failure {
     }
 }
 
+impl From<TraceError> for Failure {
+    /// Which tosses there are, and which can be traced, follows from what was asked for.
+    fn from(error: TraceError) -> Self {
+        Self::Input(error.into())
+    }
+}
+
+impl From<RecordingError> for Failure {
+    fn from(error: RecordingError) -> Self {
+        match error {
+            RecordingError::Exists { .. }
+            | RecordingError::NotMcap { .. }
+            | RecordingError::Io { action: "open", .. } => Self::Input(error.into()),
+            _ => Self::Runtime(error.into()),
+        }
+    }
+}
+
+/// An error and its causes, each said once: many errors quote their cause themselves.
+fn words(error: &anyhow::Error) -> String {
+    let mut words = error.to_string();
+    for cause in error.chain().skip(1) {
+        let cause = cause.to_string();
+        if !words.contains(&cause) {
+            words += &format!(": {cause}");
+        }
+    }
+    words
+}
+
 impl Failure {
     /// Tells the user: people on standard error, programs on standard output.
     pub(crate) fn report(&self, console: &Console) -> u8 {
@@ -87,7 +122,7 @@ impl Failure {
 
     fn code(&self) -> u8 {
         match self {
-            Self::Config(_) | Self::Input(_) => BAD_INPUT,
+            Self::Config(_) | Self::Film(_) | Self::Input(_) => BAD_INPUT,
             Self::Runtime(_) => FAILED,
         }
     }
@@ -102,9 +137,17 @@ impl Failure {
                     if problems == 1 { "" } else { "s" }
                 ));
             }
+            Self::Film(diagnostics) => {
+                output::note(&diagnostics.render(console.stderr().color));
+                let problems = diagnostics.problems().len();
+                output::note(&format!(
+                    "\n{problems} problem{} found, nothing was fitted",
+                    if problems == 1 { "" } else { "s" }
+                ));
+            }
             Self::Input(error) | Self::Runtime(error) => {
                 let title = console.stderr().paint(Colors::Warning, "error:");
-                output::note(&format!("{title} {error:#}"));
+                output::note(&format!("{title} {}", words(error)));
             }
         }
     }
@@ -122,11 +165,22 @@ impl Failure {
                     "help": problem.help,
                 })).collect::<Vec<_>>(),
             }),
+            Self::Film(diagnostics) => json!({
+                "format_version": output::FORMAT_VERSION,
+                "kind": "problems",
+                "problems": diagnostics.problems().iter().map(|problem| json!({
+                    "file": problem.file,
+                    "line": problem.line,
+                    "column": problem.column,
+                    "message": problem.message,
+                    "help": problem.help,
+                })).collect::<Vec<_>>(),
+            }),
             Self::Input(error) | Self::Runtime(error) => json!({
                 "format_version": output::FORMAT_VERSION,
                 "kind": "error",
                 "exit_code": self.code(),
-                "message": format!("{error:#}"),
+                "message": words(error),
             }),
         }
     }

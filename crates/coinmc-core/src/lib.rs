@@ -47,7 +47,7 @@ mod tally;
 pub mod trig;
 
 pub use coin::{Coin, CoinError};
-pub use engine::{Engine, Event, EventKind, Observer, State, run_tosses};
+pub use engine::{Engine, Event, EventKind, Observer, State, run_tosses, sample_between};
 pub use estimate::{Estimate, IntervalMethod, relative_error, rule_of_thumb_relative_error};
 pub use launch::{
     Launch, LaunchDistribution, LaunchError, Marginal, Orientation, Preset, Spin,

@@ -13,8 +13,9 @@ use crate::motion::Motion;
 use crate::pivot::{PivotEnd, glide, stick, stuck_forces};
 use crate::shape::Shape;
 use crate::slide::{SlideEnd, SlideTask, slide};
-use coinmc_core::EventKind;
+use crate::watch::Watch;
 use coinmc_core::trig::sin_cos;
+use coinmc_core::{EventKind, Observer};
 
 /// Where the friction needed only grazes the cone, sticking sees it reached and sliding sees it
 /// not left. A coin that gets nowhere this way is stuck for this angle, rad: the friction it needs
@@ -61,13 +62,13 @@ impl Contact<'_> {
     }
 
     /// Follows sustained contact at the lowest corner, which slides at `slip` (0: at rest, may
-    /// stick). `TIMED` fills in the time of closed-form phases, which only an observer needs;
-    /// `entered` is told of every mode.
-    pub(crate) fn follow<const TIMED: bool>(
+    /// stick). The time of closed-form phases is filled in for an observer alone, who is told of
+    /// every mode.
+    pub(crate) fn follow<O: Observer>(
         &mut self,
         motion: &mut Motion,
         mut slip: f64,
-        mut entered: impl FnMut(EventKind, &Motion),
+        watch: &mut Watch<'_, O>,
     ) -> Leave {
         let mut stalled = false;
         loop {
@@ -88,16 +89,12 @@ impl Contact<'_> {
                 if motion.omega == 0.0 && motion.delta == 0.0 {
                     return Leave::Balanced;
                 }
-                entered(self.conserving_mode(), motion);
+                watch.event(self.conserving_mode(), motion);
                 let end = if self.mu == 0.0 {
-                    glide::<TIMED>(motion, self.shape)
+                    glide(motion, self.shape, watch)
                 } else {
-                    stick::<TIMED>(
-                        motion,
-                        self.shape,
-                        self.mu,
-                        if stalled { GRAZE } else { 0.0 },
-                    )
+                    let blind = if stalled { GRAZE } else { 0.0 };
+                    stick(motion, self.shape, self.mu, blind, watch)
                 };
                 motion.cap_energy(self.shape.k, before);
                 match end {
@@ -112,8 +109,8 @@ impl Contact<'_> {
                     None => return Leave::LiftOff,
                 }
             }
-            entered(EventKind::Sliding, motion);
-            let (end, slip_after) = self.slide(motion, slip);
+            watch.event(EventKind::Sliding, motion);
+            let (end, slip_after) = self.slide(motion, slip, watch);
             slip = slip_after;
             match end {
                 SlideEnd::Stops => {
@@ -159,7 +156,12 @@ impl Contact<'_> {
         Some(-1.0_f64.copysign(friction))
     }
 
-    fn slide(&mut self, motion: &mut Motion, slip: f64) -> (SlideEnd, f64) {
+    fn slide<O: Observer>(
+        &mut self,
+        motion: &mut Motion,
+        slip: f64,
+        watch: &mut Watch<'_, O>,
+    ) -> (SlideEnd, f64) {
         let task = SlideTask {
             shape: self.shape,
             mu: self.mu,
@@ -167,7 +169,7 @@ impl Contact<'_> {
             tolerance: self.tolerance,
             max_steps: self.max_steps - self.steps,
         };
-        let (end, slip, steps) = slide(motion, &task);
+        let (end, slip, steps) = slide(motion, &task, watch);
         self.steps += steps;
         (end, slip)
     }

@@ -6,9 +6,10 @@ use crate::impact::{Carried, ContactMatrix, ImpactLaw, Record, Strike};
 use crate::motion::{Motion, Units};
 use crate::settings::{Decision, Settings, SettingsError};
 use crate::shape::Shape;
+use crate::watch::Watch;
 use coinmc_core::trig::sin_cos;
 use coinmc_core::{
-    Breaks, Ended, Engine, Event, EventKind, Face, Landing, Launch, Observer, Outcome, Scene,
+    Breaks, Ended, Engine, EventKind, Face, Landing, Launch, Observer, Outcome, Scene,
 };
 
 /// Follows flat tosses of one scene under one law of impact.
@@ -97,18 +98,16 @@ impl<L: ImpactLaw> FlatEngine<L> {
         self.mass_kg
     }
 
-    fn notify(&self, observer: &mut impl Observer, kind: EventKind, motion: &Motion) {
-        observer.event(&Event {
-            kind,
-            state: motion.state(&self.units, &self.shape),
-        });
-    }
-
     /// Runs the toss to its end.
-    fn follow<O: Observer>(&self, toss: &mut Toss, early: &mut Early, observer: &mut O) -> Ended {
+    fn follow<O: Observer>(
+        &self,
+        toss: &mut Toss,
+        early: &mut Early,
+        watch: &mut Watch<'_, O>,
+    ) -> Ended {
         let mut departing = false;
         loop {
-            if !fly_to_contact(&mut toss.motion, &self.shape, departing) {
+            if !self.fly(&mut toss.motion, departing, watch) {
                 return self.lost(&toss.motion);
             }
             if self.landing == Landing::Adhesive {
@@ -121,13 +120,13 @@ impl<L: ImpactLaw> FlatEngine<L> {
                     return Ended::ImpactLimit;
                 }
                 toss.impacts += 1;
-                if O::ACTIVE {
-                    self.notify(observer, EventKind::Touching, &toss.motion);
-                }
+                watch.event(EventKind::Touching, &toss.motion);
+                let touching = toss.motion;
                 let after = self.impact(toss);
-                if O::ACTIVE {
-                    self.notify(observer, EventKind::Impact, &toss.motion);
-                }
+                watch.passed(touching.time, toss.motion.time, |t| {
+                    touching.towards(&toss.motion, t)
+                });
+                watch.event(EventKind::Impact, &toss.motion);
                 early.look(&toss.motion, self.shape.k);
                 let slip = match after {
                     After::Decided(face) => return Ended::Decided(face),
@@ -140,14 +139,12 @@ impl<L: ImpactLaw> FlatEngine<L> {
                     After::Flight => break,
                     After::Contact(slip) => slip,
                 };
-                let leave = self.sustain(toss, slip, observer);
+                let leave = toss.contact.follow(&mut toss.motion, slip, watch);
                 early.look(&toss.motion, self.shape.k);
                 match leave {
                     Leave::NextCorner => {}
                     Leave::LiftOff => {
-                        if O::ACTIVE {
-                            self.notify(observer, EventKind::LiftOff, &toss.motion);
-                        }
+                        watch.event(EventKind::LiftOff, &toss.motion);
                         break;
                     }
                     Leave::Certain => {
@@ -171,16 +168,22 @@ impl<L: ImpactLaw> FlatEngine<L> {
         }
     }
 
-    fn sustain<O: Observer>(&self, toss: &mut Toss, slip: f64, observer: &mut O) -> Leave {
-        if O::ACTIVE {
-            toss.contact
-                .follow::<true>(&mut toss.motion, slip, |kind, motion| {
-                    self.notify(observer, kind, motion);
-                })
-        } else {
-            toss.contact
-                .follow::<false>(&mut toss.motion, slip, |_, _| {})
-        }
+    /// Flies to the first contact; `false` if the search for it was lost.
+    #[inline]
+    fn fly<O: Observer>(
+        &self,
+        motion: &mut Motion,
+        departing: bool,
+        watch: &mut Watch<'_, O>,
+    ) -> bool {
+        let start = *motion;
+        let found = fly_to_contact(motion, &self.shape, departing);
+        watch.passed(start.time, motion.time, |t| {
+            let mut motion = start;
+            motion.fly(&self.shape, t);
+            motion
+        });
+        found
     }
 
     /// The impact of the lowest corner.
@@ -396,9 +399,12 @@ impl<L: ImpactLaw> FlatEngine<L> {
         };
         let energy = toss.motion.energy(self.shape.k);
         let mut early = Early::new(self.settings.decision, energy);
-        if O::ACTIVE {
-            self.notify(observer, EventKind::Launched, &toss.motion);
-        }
+        let mut watch = Watch {
+            observer,
+            units: &self.units,
+            shape: &self.shape,
+        };
+        watch.event(EventKind::Launched, &toss.motion);
         let finite =
             energy.is_finite() && launch.height_m.is_finite() && toss.motion.delta.is_finite();
         let certain = if !finite {
@@ -406,11 +412,9 @@ impl<L: ImpactLaw> FlatEngine<L> {
         } else if self.landing == Landing::Bouncing && toss.contact.is_certain(&toss.motion) {
             Ended::Decided(Shape::face(toss.motion.quadrant, toss.motion.delta))
         } else {
-            self.follow(&mut toss, &mut early, observer)
+            self.follow(&mut toss, &mut early, &mut watch)
         };
-        if O::ACTIVE {
-            self.notify(observer, EventKind::Ended, &toss.motion);
-        }
+        watch.event(EventKind::Ended, &toss.motion);
         let ended = early.face.map_or(certain, Ended::Decided);
         Outcome {
             ended,

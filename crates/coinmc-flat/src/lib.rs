@@ -17,7 +17,7 @@
 //! `shape` geometry · `motion` state · `flight` first contact · `impact` laws that are an impulse ·
 //! `paper`, `half_sine` and `line` laws that are more · `dormand_prince` steps in time · `pivot` and
 //! `slide` contact phases · `contact` their order · `engine` the toss · `any` its law chosen at run
-//! time · `single` one impact alone · `settings` choices.
+//! time · `single` one impact alone · `watch` what an observer is shown · `settings` choices.
 
 mod any;
 mod contact;
@@ -34,6 +34,7 @@ mod settings;
 mod shape;
 mod single;
 mod slide;
+mod watch;
 
 pub use any::AnyFlatEngine;
 pub use engine::FlatEngine;

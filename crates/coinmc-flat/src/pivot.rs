@@ -7,6 +7,8 @@
 
 use crate::motion::Motion;
 use crate::shape::Shape;
+use crate::watch::Watch;
+use coinmc_core::Observer;
 use coinmc_core::trig::sin_cos;
 
 /// How a pivoting phase ends.
@@ -36,11 +38,12 @@ pub(crate) fn stuck_forces(sin: f64, cos: f64, omega: f64, k: f64) -> (f64, f64)
 /// are, times 1 + k, q± = μ(k + 3c² − 2Ec) ∓ s(3c − 2E). Their second derivatives are at most
 /// (1 + μ)(6 + 2E); divided by that, q + q'τ − τ²/2 is a lower bound, and stepping to its root
 /// never passes a root of q.
-pub(crate) fn stick<const TIMED: bool>(
+pub(crate) fn stick<O: Observer>(
     motion: &mut Motion,
     shape: &Shape,
     mu: f64,
     mut step: f64,
+    watch: &mut Watch<'_, O>,
 ) -> PivotEnd {
     let inertia = 1.0 + shape.k;
     let (sin0, cos0) = sin_cos(motion.delta);
@@ -70,13 +73,25 @@ pub(crate) fn stick<const TIMED: bool>(
         }
     };
     let rate = |c: f64| (2.0 * (energy - c).max(0.0) / inertia).sqrt();
-    if TIMED {
-        motion.time += duration(&|d| 1.0 / rate(sin_cos(d).1), motion.delta, delta);
+    let place = |motion: &mut Motion, delta: f64| {
+        let (sin, cos) = sin_cos(delta);
+        motion.x += sin - sin0;
+        motion.delta = delta;
+        motion.set_on_corner(sin, cos, direction * rate(cos), 0.0);
+    };
+    if O::ACTIVE {
+        let slowness = |d: f64| 1.0 / rate(sin_cos(d).1);
+        let before = *motion;
+        let took = duration(&slowness, before.delta, delta);
+        motion.time += took;
+        watch.passed(before.time, motion.time, |t| {
+            let mut motion = before;
+            let turned = turned(&slowness, (before.delta, delta), t, took);
+            place(&mut motion, turned);
+            motion
+        });
     }
-    let (sin, cos) = sin_cos(delta);
-    motion.x += sin - sin0;
-    motion.delta = delta;
-    motion.set_on_corner(sin, cos, direction * rate(cos), 0.0);
+    place(motion, delta);
     end
 }
 
@@ -100,7 +115,11 @@ fn cone_step(q: f64, rate: f64) -> f64 {
 ///
 /// The contact force is positive while c² − 2Ec + 1 + k > 0, c = cos δ: it vanishes on the way up
 /// to the balance at c* = E − sqrt(E² − 1 − k) if that exists, and never on the way down.
-pub(crate) fn glide<const TIMED: bool>(motion: &mut Motion, shape: &Shape) -> PivotEnd {
+pub(crate) fn glide<O: Observer>(
+    motion: &mut Motion,
+    shape: &Shape,
+    watch: &mut Watch<'_, O>,
+) -> PivotEnd {
     let (sin0, cos0) = sin_cos(motion.delta);
     let energy = 0.5 * (shape.k + sin0 * sin0) * motion.omega * motion.omega + cos0;
     let direction = 1.0_f64.copysign(motion.omega);
@@ -122,21 +141,64 @@ pub(crate) fn glide<const TIMED: bool>(motion: &mut Motion, shape: &Shape) -> Pi
         )
     };
     let rate = |s: f64, c: f64| (2.0 * (energy - c).max(0.0) / (shape.k + s * s)).sqrt();
-    if TIMED {
+    let place = |motion: &mut Motion, delta: f64| {
+        let (sin, cos) = sin_cos(delta);
+        motion.delta = delta;
+        motion.z = cos;
+        motion.omega = direction * rate(sin, cos);
+        motion.vz = -motion.omega * sin;
+    };
+    if O::ACTIVE {
         let slowness = |d: f64| {
             let (s, c) = sin_cos(d);
             1.0 / rate(s, c)
         };
-        let time = duration(&slowness, motion.delta, delta);
-        motion.time += time;
-        motion.x += motion.vx * time;
+        let before = *motion;
+        let took = duration(&slowness, before.delta, delta);
+        motion.time += took;
+        motion.x += motion.vx * took;
+        watch.passed(before.time, motion.time, |t| {
+            let mut motion = before;
+            motion.x += motion.vx * t;
+            place(
+                &mut motion,
+                turned(&slowness, (before.delta, delta), t, took),
+            );
+            motion
+        });
     }
-    let (sin, cos) = sin_cos(delta);
-    motion.delta = delta;
-    motion.z = cos;
-    motion.omega = direction * rate(sin, cos);
-    motion.vz = -motion.omega * sin;
+    place(motion, delta);
     end
+}
+
+/// The angle after time `t` of a phase that turns from one angle to the other in time `took`.
+///
+/// The inverse of [`duration`]: Newton's method, whose slope is the slowness itself, kept within
+/// the bracket by bisection, until the time is met to a rounding or the bracket closes.
+fn turned(slowness: &impl Fn(f64) -> f64, (from, to): (f64, f64), t: f64, took: f64) -> f64 {
+    const MET: f64 = 1e-13;
+    let direction = 1.0_f64.copysign(to - from);
+    let (mut low, mut high) = (from, to);
+    let mut delta = from + (to - from) * (t / took).clamp(0.0, 1.0);
+    for _ in 0..100 {
+        let late = duration(slowness, from, delta) - t;
+        if late.abs() <= MET * (1.0 + took) {
+            break;
+        }
+        *(if late > 0.0 { &mut high } else { &mut low }) = delta;
+        let newton = delta - direction * late / slowness(delta);
+        let inside = (newton - low) * (high - newton) > 0.0;
+        let next = if inside {
+            newton
+        } else {
+            f64::midpoint(low, high)
+        };
+        if next == delta {
+            break;
+        }
+        delta = next;
+    }
+    delta
 }
 
 /// |∫ slowness dδ| by adaptive Simpson quadrature to 1e-12: only for observers, who ask when.

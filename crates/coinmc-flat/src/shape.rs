@@ -61,6 +61,7 @@ impl Shape {
     }
 
     /// Angle left to the nearer flat position, and whether that is the quadrant's end.
+    #[inline]
     pub(crate) fn gap(&self, quadrant: Quadrant, delta: f64) -> (f64, bool) {
         let to_start = delta + self.span[start(quadrant)];
         let to_end = self.span[end(quadrant)] - delta;

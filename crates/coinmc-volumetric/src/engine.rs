@@ -2,12 +2,13 @@
 
 use crate::body::{Body, Friction, Units};
 use crate::contact::{self, Contact, Leave};
-use crate::flight::{Departure, Drag, Orbit, first_contact};
+use crate::flight::{Departure, Drag};
 use crate::impact::{ChatterjeeRuina, ImpactLaw, Moreau, Stronge};
 use crate::rest;
 use crate::settings::{Decision, Law, Settings, SettingsError};
 use crate::toss::Toss;
 use crate::verdict::{Judge, Verdict};
+use crate::watch::Watch;
 use coinmc_core::{
     Breaks, Ended, Engine, Event, EventKind, Face, Landing, Launch, Observer, Outcome, Scene,
 };
@@ -33,7 +34,7 @@ use coinmc_core::{
 pub struct VolumetricEngine<L> {
     impact: L,
     pub(crate) settings: Settings,
-    units: Units,
+    pub(crate) units: Units,
     pub(crate) contact: contact::Law,
     judge: Judge,
     /// [`Settings::tolerance`], in sqrt(g D).
@@ -61,11 +62,6 @@ pub(crate) enum Onward {
     End(Ended),
 }
 
-/// A short time against every motion of the coin, times its fastest rate: a point that parts from
-/// the surface by acceleration is followed from there.
-const PARTING: f64 = 1e-4;
-/// The same for one that was thrown back.
-const THROWN: f64 = 1e-12;
 /// The integrator's rounding: no step can be asked to err less.
 const LEAST_TOLERANCE: f64 = 1e-13;
 /// Impacts of one rim and the other in turn, without flight, after which the coin lies on its side.
@@ -152,7 +148,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         let mut departure = Departure::Launched;
         let mut parting = false;
         loop {
-            if !self.fly::<O>(toss, contact, departure, parting) {
+            if !self.fly(toss, contact, departure, parting, observer) {
                 return self.lost(toss);
             }
             if contact.time > self.settings.time_limit {
@@ -214,43 +210,6 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
                 Onward::End(ended) => return Err(ended),
             }
         }
-    }
-
-    /// Flies to the next contact; `false` if the search for it was lost.
-    #[inline]
-    fn fly<O: Observer>(
-        &self,
-        toss: &mut Toss,
-        contact: &mut Contact<'_>,
-        departure: Departure,
-        parting: bool,
-    ) -> bool {
-        let law = &self.contact;
-        let mut orbit = Orbit::new(&toss.motion, law.drag);
-        let least = if parting { PARTING } else { THROWN } / orbit.fastest(&toss.motion);
-        let found = first_contact(&mut orbit, &law.body, departure, least);
-        if found.lost {
-            return false;
-        }
-        let took = orbit.since_start(found.time);
-        if O::ACTIVE {
-            let (dx, dy) = orbit.drift(&toss.motion, took);
-            toss.place.shift(dx, dy);
-        }
-        let (motion, [nx, ny], reflected) = orbit.land(&toss.motion, &law.body, found.time);
-        toss.motion = motion;
-        // ω_a is the integral of motion that rounding of u would blur: it is I_t/I_a times Ω_a
-        let axial = toss.spin.axial * orbit.spin_left(found.time);
-        toss.spin = motion.spin(law.axial_factor);
-        toss.spin.axial = if reflected { -axial } else { axial };
-        toss.motion.set_spin(&toss.spin, law.axial_factor);
-        toss.heads_up ^= reflected;
-        contact.time += took;
-        if O::ACTIVE {
-            toss.place.align(nx, ny);
-            toss.place.time = contact.time;
-        }
-        true
     }
 
     /// The impact of the lowest point, or, if the bounces that remain would all be over before the
@@ -325,17 +284,13 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
             place,
             ..
         } = toss;
-        let leave = contact.follow(motion, spin, |mode, length, motion, spin| {
-            if O::ACTIVE {
-                place.follow(length, motion, spin);
-                if let Some(kind) = mode {
-                    observer.event(&Event {
-                        kind,
-                        state: place.state(motion, spin, heads_up, &self.units),
-                    });
-                }
-            }
-        });
+        let mut watch = Watch {
+            observer,
+            place,
+            heads_up,
+            units: &self.units,
+        };
+        let leave = contact.follow(motion, spin, &mut watch);
         if leave == Leave::LiftOff {
             self.notify(toss, EventKind::LiftOff, observer);
         }

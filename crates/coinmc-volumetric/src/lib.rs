@@ -32,10 +32,13 @@
 //!
 //! # Files
 //! `body` shape, friction, units · `motion` state and frame · `flight` orbit and first contact ·
-//! `impact` laws, friction lengths, tangential impact · `contact` on a rim point and on the side ·
-//! `rest` lying, standing, tripping · `verdict` when the face is settled · `toss` one toss and its place in the laboratory · `engine`
-//! their order · `settings` choices · `lane` and `series` arithmetic of the kernels.
+//! `aloft` the toss in flight · `impact` laws, friction lengths, tangential impact · `contact` on a
+//! rim point and on the side · `rest` lying, standing, tripping · `verdict` when the face is
+//! settled · `toss` one toss and its place in the laboratory · `engine` their order · `watch` what
+//! an observer is shown of contact · `settings` choices · `lane` and `series` arithmetic of the
+//! kernels.
 
+mod aloft;
 mod body;
 mod contact;
 mod engine;
@@ -48,6 +51,7 @@ mod series;
 mod settings;
 mod toss;
 mod verdict;
+mod watch;
 
 pub use body::{Body, Friction};
 pub use engine::{AnyVolumetricEngine, VolumetricEngine};

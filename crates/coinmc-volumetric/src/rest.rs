@@ -5,6 +5,7 @@ use crate::contact::{Contact, FLAT};
 use crate::engine::{Onward, VolumetricEngine};
 use crate::impact::ImpactLaw;
 use crate::toss::Toss;
+use crate::watch::Watch;
 use coinmc_core::{Ended, Observer};
 
 /// Rocking that is laid flat, as a fraction of zeno: below it in angle, speed and rate.
@@ -27,19 +28,20 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         contact: &mut Contact<'_>,
         observer: &mut O,
     ) -> Onward {
+        let heads_up = toss.heads_up;
         let Toss {
             motion,
             spin,
             place,
             ..
         } = toss;
-        let tips = contact.lie(motion, spin, |length, motion, spin| {
-            if O::ACTIVE {
-                place.follow(length, motion, spin);
-            }
-        });
-        // the last of rolling is not followed step by step
-        place.time = contact.time;
+        let mut watch = Watch {
+            observer,
+            place,
+            heads_up,
+            units: &self.units,
+        };
+        let tips = contact.lie(motion, spin, &mut watch);
         match tips {
             Ok(this_rim) => {
                 if !this_rim {

@@ -13,8 +13,6 @@ pub(crate) struct Place {
     /// The frame's x axis.
     heading: [f64; 2],
     position: [f64; 2],
-    /// v_x, v_y and φ' at the last contact step.
-    rates: [f64; 3],
     pub(crate) time: f64,
 }
 
@@ -32,16 +30,22 @@ impl Place {
         self.position[1] += dx * y + dy * x;
     }
 
-    /// Follows a contact step of length `h` that ended in this state: the frame turns with the
-    /// azimuth, φ' = −ω_θ/s. Second order: the rates of the step's ends are averaged.
-    pub(crate) fn follow(&mut self, h: f64, motion: &Motion<f64>, spin: &Spin<f64>) {
-        let rates = [motion.vx, motion.vy, -spin.turn / motion.sin];
-        let [vx, vy, turn] = std::array::from_fn(|i| 0.5 * h * (self.rates[i] + rates[i]));
-        let (s, c) = sin_cos(0.5 * turn);
-        self.align(c, s);
-        self.shift(vx, vy);
-        self.align(c, s);
-        self.rates = rates;
+    /// Follows contact for a time `h`, within one step of its integrator: the frame turns with the
+    /// azimuth, φ' = −ω_θ/s. Simpson's rule over the motions that `at` gives: of fourth order.
+    pub(crate) fn follow(&mut self, h: f64, at: impl Fn(f64) -> (Motion<f64>, Spin<f64>)) {
+        let rates = |t: f64| {
+            let (motion, spin) = at(t);
+            ([motion.vx, motion.vy], -spin.turn / motion.sin)
+        };
+        let ((v0, w0), (v1, w1), (v2, w2)) = (rates(0.0), rates(0.5 * h), rates(h));
+        // the parabola through the three rates, integrated to the middle and to the end
+        let middle = sin_cos(h / 24.0 * (5.0 * w0 + 8.0 * w1 - w2));
+        let end = sin_cos(h / 6.0 * (w0 + 4.0 * w1 + w2));
+        let turned = |[x, y]: [f64; 2], (s, c): (f64, f64)| [x * c - y * s, x * s + y * c];
+        let (v1, v2) = (turned(v1, middle), turned(v2, end));
+        let [dx, dy] = std::array::from_fn(|i| h / 6.0 * (v0[i] + 4.0 * v1[i] + v2[i]));
+        self.shift(dx, dy);
+        self.align(end.1, end.0);
         self.time += h;
     }
 
@@ -121,7 +125,6 @@ impl Toss {
             place: Place {
                 heading: [nx, ny],
                 position: [0.0; 2],
-                rates: [0.0; 3],
                 time: 0.0,
             },
         }

@@ -5,3 +5,4 @@ pub mod plan;
 pub mod published;
 pub mod results;
 pub mod run;
+pub mod trace;

@@ -10,6 +10,7 @@ pub use explain::Explanation;
 use coinmc_analytic::Rule;
 use coinmc_core::{IntervalMethod, LaunchDistribution, Scene};
 use coinmc_flat::Settings as FlatSettings;
+use coinmc_rapier::Settings as RapierSettings;
 use coinmc_volumetric::Settings as VolumetricSettings;
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
@@ -119,6 +120,8 @@ pub enum EngineChoice {
     Flat(FlatSettings),
     /// The toss in space.
     Volumetric(VolumetricSettings),
+    /// The toss in space in time steps, on Rapier.
+    Rapier(RapierSettings),
     /// A closed form: no toss is made, the probability is exact under the rule's assumptions.
     Analytic(Rule),
 }
@@ -127,7 +130,7 @@ impl EngineChoice {
     /// Whether the engine tosses at all.
     pub fn makes_tosses(&self) -> bool {
         match self {
-            Self::Flat(_) | Self::Volumetric(_) => true,
+            Self::Flat(_) | Self::Volumetric(_) | Self::Rapier(_) => true,
             Self::Analytic(_) => false,
         }
     }

@@ -271,9 +271,11 @@ impl Observer for Balance {
         if let Some((start, sticks)) = self.start.take() {
             self.compare(&start, sticks, &event.state);
         }
+        // along its side the coin touches with both rims, which the reference does not know
+        let on_one_rim = event.state.axis.z.abs() > 0.0;
         self.start = match event.kind {
-            EventKind::Sticking => Some((event.state, true)),
-            EventKind::Sliding => Some((event.state, false)),
+            EventKind::Sticking if on_one_rim => Some((event.state, true)),
+            EventKind::Sliding if on_one_rim => Some((event.state, false)),
             _ => None,
         };
     }

@@ -25,6 +25,7 @@ pub(crate) use peers::SpacePeers;
 pub(crate) use references::SpaceReferences;
 pub(crate) use speed::SpaceSpeed;
 pub(crate) use stress::SpaceStress;
+pub(super) use stress_box::Sample;
 
 use super::{EXAMINED_IMPACTS, Examiner, survey};
 use coinmc_bench::Case;

@@ -22,9 +22,9 @@ const HEIGHT: u32 = 25;
 const AT_AN_END: f64 = 0.1;
 
 /// A toss in a scene of its own.
-pub(super) struct Sample {
-    pub(super) scene: Scene,
-    pub(super) launch: Launch,
+pub(in crate::studies) struct Sample {
+    pub(in crate::studies) scene: Scene,
+    pub(in crate::studies) launch: Launch,
 }
 
 impl Sample {
@@ -33,7 +33,7 @@ impl Sample {
     /// H/R 1e-4 … 1e4 and R 1e-6 … 1e3 m; e 0 … 1; μ 1e-3 … 10 or 0; friction lengths 1e-5 … 0.1 R
     /// or 0; spin 1e-2 … 1e5 rad/s or 0; height 1e-3 … 1e3 R or 0. Log-uniform but for e, which is
     /// uniform. A tenth of the tosses has each end of e and μ, and 0 of the others.
-    pub(super) fn new(seed: u64, toss: u64) -> Self {
+    pub(in crate::studies) fn new(seed: u64, toss: u64) -> Self {
         let mut uniforms = Case::stream(seed).toss(toss);
         let mut at = |dimension| uniforms.uniform(dimension);
         let radius = logarithmic(at(RADIUS), 1e-6, 1e3);

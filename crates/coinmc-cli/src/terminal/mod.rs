@@ -1,6 +1,7 @@
 //! What people see: tables, plots, progress, and the text of a finished run.
 
 mod ascii;
+pub(crate) mod events;
 mod number;
 pub(crate) mod plot;
 pub(crate) mod progress;

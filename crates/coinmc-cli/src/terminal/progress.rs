@@ -55,6 +55,25 @@ impl Progress {
         });
     }
 
+    /// So many tosses of at most `limit` have been looked at.
+    pub(crate) fn searched(&self, tosses: u64, limit: u64) {
+        let start = self.start.get_or_init(|| Start {
+            tosses: 0,
+            at: Instant::now(),
+        });
+        self.bar.set_length(limit.max(1));
+        self.bar.set_position(tosses.min(limit));
+        if !self.bar.is_hidden() {
+            let rate = tosses as f64 / start.at.elapsed().as_secs_f64();
+            let message = format!(
+                "searched {} tosses  {}/s",
+                grouped(tosses),
+                with_prefix(rate)
+            );
+            self.bar.set_message(message);
+        }
+    }
+
     /// Takes the bar away.
     pub(crate) fn finish(&self) {
         self.bar.finish_and_clear();

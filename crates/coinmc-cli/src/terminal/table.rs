@@ -58,8 +58,8 @@ pub(crate) struct Table {
 #[derive(Debug, Clone)]
 enum Line {
     Cells(Vec<String>),
-    /// So many rows left out.
-    Gap(u64),
+    /// What stands for rows that are left out.
+    Note(String),
 }
 
 /// A table laid out, and the titles of the columns that found no place.
@@ -86,7 +86,12 @@ impl Table {
 
     /// Says here that `rows` rows are left out.
     pub(crate) fn push_gap(&mut self, rows: u64) {
-        self.lines.push(Line::Gap(rows));
+        self.push_note(&count(rows, "more row"));
+    }
+
+    /// Says here what stands for rows that are left out.
+    pub(crate) fn push_note(&mut self, what: &str) {
+        self.lines.push(Line::Note(what.to_owned()));
     }
 
     /// Lays the table out within the style's width.
@@ -99,8 +104,8 @@ impl Table {
         for line in &self.lines {
             text += &match line {
                 Line::Cells(cells) => self.line(&kept, &widths, cells),
-                Line::Gap(rows) => {
-                    let note = format!("{0} {1} {0}", style.ellipsis(), count(*rows, "more row"));
+                Line::Note(what) => {
+                    let note = format!("{0} {what} {0}", style.ellipsis());
                     style.paint(Colors::Faint, &note)
                 }
             };
@@ -142,7 +147,7 @@ impl Table {
     fn width(&self, column: usize) -> usize {
         let cells = self.lines.iter().filter_map(|line| match line {
             Line::Cells(cells) => Some(cells[column].chars().count()),
-            Line::Gap(_) => None,
+            Line::Note(_) => None,
         });
         cells
             .max()

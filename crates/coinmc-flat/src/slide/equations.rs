@@ -34,6 +34,7 @@ pub(super) struct Sliding {
 
 impl Sliding {
     /// A/k.
+    #[inline]
     pub(super) fn openness(&self, delta: f64) -> f64 {
         let (sin, cos) = sin_cos(delta);
         1.0 + (sin + self.friction * cos) * sin / self.k
@@ -65,6 +66,7 @@ impl Sliding {
 
     /// One step of length `h`: the state of order 5, and the error estimate but for the share of
     /// the seventh stage.
+    #[inline]
     pub(super) fn step(&self, start: &Arrival, h: f64) -> Option<(Slide, Slide)> {
         let (y, k1) = (&start.state, &start.rates);
         let k2 = self.rates(&combine(y, h, [(0.2, k1)]))?;
@@ -105,6 +107,7 @@ impl Sliding {
     }
 
     /// A step with the rates at its end and its relative error.
+    #[inline]
     pub(super) fn step_with_error(&self, start: &Arrival, h: f64) -> Option<(Arrival, f64)> {
         let (state, partial) = self.step(start, h)?;
         let rates = self.rates(&state)?;

@@ -22,6 +22,7 @@ pub(super) struct Margins<'a> {
 }
 
 impl Margins<'_> {
+    #[inline]
     fn at(&self, y: &Slide) -> [f64; 3] {
         let [delta, omega, slip, _] = *y;
         [
@@ -32,6 +33,7 @@ impl Margins<'_> {
     }
 
     /// d/dt of margin number `which`.
+    #[inline]
     fn slope(&self, which: usize, at: &Arrival) -> f64 {
         let [delta, omega, ..] = at.state;
         match which {
@@ -48,6 +50,7 @@ impl Margins<'_> {
     /// Where a margin that is positive at both ends of an accepted step dips below zero between
     /// them: the time of its lowest point, at which a shorter step should end. Judged by the
     /// cubic through both ends.
+    #[inline]
     pub(super) fn dip(&self, start: &Arrival, end: &Arrival, h: f64) -> Option<f64> {
         let (before, after) = (self.at(&start.state), self.at(&end.state));
         (0..3).find_map(|which| {
@@ -65,6 +68,7 @@ impl Margins<'_> {
     /// The broken margin is interpolated by a cubic in the length of the step; its root is the
     /// first trial, Newton with the cubic's slope gives the next ones, a bisection where that
     /// leaves the bracket. Each trial is a true step from `start`, as accurate as the step itself.
+    #[inline]
     pub(super) fn first_event(
         &self,
         sliding: &Sliding,

@@ -5,6 +5,8 @@ mod events;
 
 use crate::motion::Motion;
 use crate::shape::Shape;
+use crate::watch::Watch;
+use coinmc_core::Observer;
 use coinmc_core::trig::sin_cos;
 use equations::{Arrival, JAM, Slide, Sliding};
 use events::Margins;
@@ -38,7 +40,11 @@ pub(crate) struct SlideTask<'a> {
 
 /// Slides until the phase ends. The motion is left on its corner; returns why, the slip and the
 /// steps taken.
-pub(crate) fn slide(motion: &mut Motion, task: &SlideTask) -> (SlideEnd, f64, u32) {
+pub(crate) fn slide<O: Observer>(
+    motion: &mut Motion,
+    task: &SlideTask,
+    watch: &mut Watch<'_, O>,
+) -> (SlideEnd, f64, u32) {
     let shape = task.shape;
     let direction = 1.0_f64.copysign(task.slip);
     let sliding = Sliding {
@@ -88,8 +94,17 @@ pub(crate) fn slide(motion: &mut Motion, task: &SlideTask) -> (SlideEnd, f64, u3
         rejected_in_a_row = 0;
         let event = margins.first_event(&sliding, &start, &next, h);
         let (taken, state) = event.map_or((h, next.state), |(taken, state, _)| (taken, state));
+        let before = *motion;
         y = state;
         motion.time += taken;
+        watch.passed(before.time, motion.time, |t| {
+            let mut motion = before;
+            // a part of a step that was accepted is a step that can be made
+            if let Some((mut y, _)) = sliding.step(&start, t) {
+                place(&mut motion, &mut y, energy, shape.k);
+            }
+            motion
+        });
         place(motion, &mut y, energy, shape.k);
         energy = energy.min(motion.energy(shape.k));
         if let Some((.., end)) = event {
@@ -113,12 +128,14 @@ pub(crate) fn slide(motion: &mut Motion, task: &SlideTask) -> (SlideEnd, f64, u3
 
 /// By how much the next step may be longer: the usual exponent for a pair of order 5(4), and the
 /// usual caution.
+#[inline]
 fn growth(tolerance: f64, error: f64) -> f64 {
     0.9 * libm::pow(tolerance / error.max(1e-30), 0.2)
 }
 
 /// Writes the integrated state back, taking out what truncation added to the energy; the slip
 /// shrinks with the other velocities.
+#[inline]
 fn place(motion: &mut Motion, y: &mut Slide, energy_before: f64, k: f64) {
     let (sin, cos) = sin_cos(y[0]);
     motion.delta = y[0];

@@ -140,7 +140,49 @@ pub(crate) fn record<L: ImpactLaw>(
     (outcome, moments)
 }
 
-fn moment(scene: &Scene, kind: EventKind, state: &State) -> Moment {
+/// Keeps all events of a toss, and the coin at the multiples of a time.
+pub(crate) struct Sampler {
+    /// Instants a second.
+    pub(crate) rate_hz: f64,
+    pub(crate) taken: u32,
+    pub(crate) events: Vec<Event>,
+    /// Under the kind of the event before each.
+    pub(crate) samples: Vec<Event>,
+}
+
+impl Sampler {
+    pub(crate) fn new(rate_hz: f64) -> Self {
+        Self {
+            rate_hz,
+            taken: 0,
+            events: Vec::new(),
+            samples: Vec::new(),
+        }
+    }
+}
+
+impl Observer for Sampler {
+    fn event(&mut self, event: &Event) {
+        self.events.push(*event);
+    }
+
+    fn wants_at_s(&self) -> f64 {
+        f64::from(self.taken) / self.rate_hz
+    }
+
+    fn sample(&mut self, state: &State) {
+        assert_eq!(state.time_s, self.wants_at_s());
+        self.taken += 1;
+        let before = self.events.last().expect("a launch");
+        assert!(before.state.time_s <= state.time_s);
+        self.samples.push(Event {
+            kind: before.kind,
+            state: *state,
+        });
+    }
+}
+
+pub(crate) fn moment(scene: &Scene, kind: EventKind, state: &State) -> Moment {
     let (length, time) = (scene.coin.rim_distance_m(), scene.time_scale_s());
     Moment {
         kind,

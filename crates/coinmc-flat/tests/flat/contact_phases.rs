@@ -11,17 +11,17 @@ use coinmc_flat::Settings;
 use nalgebra::{Matrix3, SVector, Vector3};
 
 /// (x, z, θ, v_x, v_z, ω)
-type World = SVector<f64, 6>;
+pub(crate) type World = SVector<f64, 6>;
 
 /// What the corner does.
 #[derive(Debug, Clone, Copy)]
-enum Mode {
+pub(crate) enum Mode {
     Stuck,
     /// Friction −μ n N, this being μ n.
     Slides(f64),
 }
 
-struct Body {
+pub(crate) struct Body {
     k: f64,
     /// The corner in the coin's own frame (across, along u).
     corner: (f64, f64),
@@ -58,7 +58,13 @@ impl Body {
         World::from([y[3], y[4], y[5], f[0], f[1] - 1.0, f[2]])
     }
 
-    fn follow(&self, mut y: World, mode: Mode, time: f64, mut watch: impl FnMut(&World)) -> World {
+    pub(crate) fn follow(
+        &self,
+        mut y: World,
+        mode: Mode,
+        time: f64,
+        mut watch: impl FnMut(&World),
+    ) -> World {
         // a nonnegative time of a few units: a few thousand steps
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let steps = (time * 2000.0).ceil().max(1.0) as u32;
@@ -93,12 +99,12 @@ struct Seen {
     worst: f64,
 }
 
-fn world(m: &Moment) -> World {
+pub(crate) fn world(m: &Moment) -> World {
     World::from([m.x, m.z, m.theta, m.vx, m.vz, m.omega])
 }
 
-/// Checks the phase between two observed moments.
-fn check_phase(section: &Section, mu: f64, from: &Moment, to: &Moment, seen: &mut Seen) {
+/// The corner of the phase between two observed moments, and what it does.
+pub(crate) fn phase(section: &Section, mu: f64, from: &Moment, to: &Moment) -> (Body, Mode) {
     let start = world(from);
     let lowest = |theta: f64| {
         let corners = section.corners(theta);
@@ -107,7 +113,6 @@ fn check_phase(section: &Section, mu: f64, from: &Moment, to: &Moment, seen: &mu
             .expect("four corners")
     };
     // at a flat start two corners are lowest: the one that stays down decides
-    let time = to.time - from.time;
     let which = lowest(from.theta + (from.omega * 1e-6).clamp(-1e-6, 1e-6));
     let signs = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)][which];
     let body = Body {
@@ -115,8 +120,7 @@ fn check_phase(section: &Section, mu: f64, from: &Moment, to: &Moment, seen: &mu
         corner: (signs.0 * section.radius, signs.1 * section.half_height),
     };
     let slip = body.slip(&start);
-    let stuck = from.kind == EventKind::Sticking;
-    let mode = if stuck {
+    let mode = if from.kind == EventKind::Sticking {
         assert!(slip.abs() < 1e-10, "sticks while it slips: {from:?}");
         Mode::Stuck
     } else {
@@ -125,6 +129,15 @@ fn check_phase(section: &Section, mu: f64, from: &Moment, to: &Moment, seen: &mu
         let direction = if slip.abs() > 1e-10 { slip } else { moved };
         Mode::Slides(mu.copysign(direction))
     };
+    (body, mode)
+}
+
+/// Checks the phase between two observed moments.
+fn check_phase(section: &Section, mu: f64, from: &Moment, to: &Moment, seen: &mut Seen) {
+    let start = world(from);
+    let time = to.time - from.time;
+    let (body, mode) = phase(section, mu, from, to);
+    let stuck = from.kind == EventKind::Sticking;
     let mut least = [f64::INFINITY; 2];
     let mut at_end = [0.0; 2];
     let end = body.follow(start, mode, time, |y| {

@@ -16,4 +16,5 @@ mod limits;
 mod oracle_friction;
 mod oracle_smooth;
 mod regressions;
+mod sampling;
 mod symmetry;

@@ -15,7 +15,8 @@ use crate::impact::jam;
 use crate::motion::{Motion, Spin};
 use crate::settings::Settings;
 use crate::verdict::{Judge, Verdict};
-use coinmc_core::EventKind;
+use crate::watch::Watch;
+use coinmc_core::{EventKind, Observer};
 use std::f64::consts::FRAC_PI_2;
 
 /// How sustained contact ends.
@@ -75,6 +76,23 @@ struct Phase {
     turning_points: u32,
 }
 
+/// Where a step begins.
+struct Start {
+    state: RimState<f64>,
+    rates: RimState<f64>,
+    mode: Mode,
+}
+
+impl Phase {
+    fn start(&self) -> Start {
+        Start {
+            state: self.state,
+            rates: self.now.state,
+            mode: self.mode,
+        }
+    }
+}
+
 /// What a step led to.
 enum Next {
     Go,
@@ -85,12 +103,12 @@ enum Next {
 
 impl Contact<'_> {
     /// Follows sustained contact from `motion`, which is left where it ends. `watch` is told of
-    /// every mode and every step (`None`), with the length of the step.
-    pub(crate) fn follow(
+    /// every mode and every step.
+    pub(crate) fn follow<O: Observer>(
         &mut self,
         motion: &mut Motion<f64>,
         spin: &mut Spin<f64>,
-        mut watch: impl FnMut(Option<EventKind>, f64, &Motion<f64>, &Spin<f64>),
+        watch: &mut Watch<'_, O>,
     ) -> Leave {
         let state = rim_state(self.law, motion, spin);
         let mut phase = self.enter(state);
@@ -98,7 +116,7 @@ impl Contact<'_> {
         phase.length = 0.1 / rate;
         // the energy at the mode's beginning: within it, truncation may err either way
         let mut ceiling = self.begin(&mut phase, motion, spin);
-        watch(Some(kind(phase.mode)), 0.0, motion, spin);
+        watch.event(kind(phase.mode), motion, spin);
         loop {
             let verdict = self.judge.verdict(motion, spin);
             if verdict != Verdict::Open {
@@ -110,10 +128,13 @@ impl Contact<'_> {
             if self.time > self.settings.time_limit {
                 return Leave::Late;
             }
+            let before = O::ACTIVE.then(|| phase.start());
             let (next, length) = self.advance(&mut phase);
             self.time += length;
-            self.cap(&mut phase, motion, spin, ceiling);
-            watch(None, length, motion, spin);
+            self.cap(&mut phase.state, motion, spin, ceiling);
+            if let Some(start) = before {
+                watch.passed(length, |t| self.within(&start, t, ceiling));
+            }
             match next {
                 Next::Go => {}
                 Next::Change => {
@@ -121,7 +142,7 @@ impl Contact<'_> {
                     phase = self.enter(phase.state);
                     phase.length = length;
                     ceiling = self.begin(&mut phase, motion, spin);
-                    watch(Some(kind(phase.mode)), 0.0, motion, spin);
+                    watch.event(kind(phase.mode), motion, spin);
                 }
                 Next::End(leave) => return leave,
             }
@@ -131,23 +152,43 @@ impl Contact<'_> {
     /// Puts the motion where a mode begins, with no more energy than it had; the energy it has.
     fn begin(&self, phase: &mut Phase, motion: &mut Motion<f64>, spin: &mut Spin<f64>) -> f64 {
         let before = motion.energy(&self.law.body, spin);
-        self.cap(phase, motion, spin, before);
+        self.cap(&mut phase.state, motion, spin, before);
         motion.energy(&self.law.body, spin).min(before)
     }
 
-    /// The motion of the phase's state, with no more energy than `ceiling`.
-    fn cap(&self, phase: &mut Phase, motion: &mut Motion<f64>, spin: &mut Spin<f64>, ceiling: f64) {
-        place(self.law, &phase.state, motion, spin);
+    /// The motion of a phase's state, with no more energy than `ceiling`.
+    #[inline]
+    fn cap(
+        &self,
+        state: &mut RimState<f64>,
+        motion: &mut Motion<f64>,
+        spin: &mut Spin<f64>,
+        ceiling: f64,
+    ) {
+        place(self.law, state, motion, spin);
         let body = &self.law.body;
         let kinetic = motion.kinetic(body, spin);
         let allowed = ceiling - motion.z;
         if kinetic > allowed {
             let scale = (allowed.max(0.0) / kinetic).sqrt();
-            for component in &mut phase.state[OMEGA_Y..=SLIP_Y] {
+            for component in &mut state[OMEGA_Y..=SLIP_Y] {
                 *component *= scale;
             }
-            place(self.law, &phase.state, motion, spin);
+            place(self.law, state, motion, spin);
         }
+    }
+
+    /// The motion a time `t` into a step: by a shorter step from where it began.
+    fn within(&self, start: &Start, t: f64, ceiling: f64) -> (Motion<f64>, Spin<f64>) {
+        let mut state = step(&start.state, &start.rates, t, self.tolerance, |state| {
+            self.law.rates(state, start.mode).state
+        })
+        .state;
+        // a long step may go a little beyond the side and come back
+        state[TILT] = state[TILT].clamp(0.0, FRAC_PI_2);
+        let (mut motion, mut spin) = (Motion::still(), Spin::still());
+        self.cap(&mut state, &mut motion, &mut spin, ceiling);
+        (motion, spin)
     }
 
     /// Sticks if it can and the slip is all but gone, else slides.

@@ -22,6 +22,8 @@ use super::integrator::{LEAST_STEP, is_accepted, next_length, shorter, step};
 use super::rim::Law;
 use crate::motion::{Motion, Spin};
 use crate::verdict::Verdict;
+use crate::watch::Watch;
+use coinmc_core::{EventKind, Observer};
 use std::f64::consts::FRAC_PI_2;
 
 /// v_x, v_y, ω_a, ω_z.
@@ -71,19 +73,22 @@ fn line_rates(law: &Law, state: &LineState, creep: f64) -> LineRates {
 
 impl Contact<'_> {
     /// Follows the coin on its side until its face is settled or it tips. `true`: onto the rim
-    /// that is lowest for the frame of `motion`; `false`: onto the other.
-    pub(crate) fn lie(
+    /// that is lowest for the frame of `motion`; `false`: onto the other. Rolling straight counts
+    /// as sticking.
+    pub(crate) fn lie<O: Observer>(
         &mut self,
         motion: &mut Motion<f64>,
         spin: &mut Spin<f64>,
-        mut watch: impl FnMut(f64, &Motion<f64>, &Spin<f64>),
+        watch: &mut Watch<'_, O>,
     ) -> Result<bool, Leave> {
         let creep = self.settings.stick;
         // ω_z = −ω_θ where u is horizontal
         let mut state = [motion.vx, motion.vy, spin.axial, -spin.turn];
         let mut length = 0.01;
         lay(self.law, &state, motion, spin);
-        watch(0.0, motion, spin);
+        if O::ACTIVE && !self.rolls_straight(&state) {
+            watch.event(EventKind::Sliding, motion, spin);
+        }
         loop {
             lay(self.law, &state, motion, spin);
             let verdict = self.judge.verdict(motion, spin);
@@ -100,7 +105,7 @@ impl Contact<'_> {
                 return Err(Leave::Settled(Verdict::Side));
             }
             if self.rolls_straight(&state) {
-                return Err(self.roll_out(&mut state, motion, spin));
+                return Err(self.roll_out(&state, motion, spin, watch));
             }
             if self.time > self.settings.time_limit {
                 return Err(Leave::Late);
@@ -119,15 +124,14 @@ impl Contact<'_> {
                 }
                 length = shorter(length, trial.error);
             };
-            state = trial.state;
+            let start = state;
+            state = self.capped(trial.state, before);
             self.time += length;
-            lay(self.law, &state, motion, spin);
-            let kinetic = motion.kinetic(&self.law.body, spin);
-            if kinetic > before {
-                let scale = (before / kinetic).sqrt();
-                state = state.map(|x| x * scale);
-            }
-            watch(length, motion, spin);
+            watch.passed(length, |t| {
+                let rates = |s: &LineState| line_rates(self.law, s, creep).rates;
+                let trial = step(&start, &now.rates, t, self.tolerance, rates);
+                laid(self.law, &self.capped(trial.state, before))
+            });
             length = next_length(length, trial.error);
         }
     }
@@ -162,13 +166,27 @@ impl Contact<'_> {
         self.law.friction.mu > 0.0 && slip < self.settings.stick
     }
 
+    /// The state with no more kinetic energy than `most`.
+    fn capped(&self, state: LineState, most: f64) -> LineState {
+        let (motion, spin) = laid(self.law, &state);
+        let kinetic = motion.kinetic(&self.law.body, &spin);
+        if kinetic > most {
+            let scale = (most / kinetic).sqrt();
+            state.map(|x| x * scale)
+        } else {
+            state
+        }
+    }
+
     /// The rest of straight rolling, in closed form: v' = −a sgn v − bv with
-    /// a = ρ_c R/(k_a + R²) and b = (kR² + k_a k_ω)/(k_a + R²), k and k_ω the rates of drag.
-    fn roll_out(
+    /// a = ρ_c R/(k_a + R²) and b = (kR² + k_a k_ω)/(k_a + R²), k and k_ω the rates of drag. With
+    /// x = b|v₀|/a, v = v₀ [1 + (1 + 1/x)(e^(−bt) − 1)]; the creep dies away with it.
+    fn roll_out<O: Observer>(
         &mut self,
-        state: &mut LineState,
+        state: &LineState,
         motion: &mut Motion<f64>,
         spin: &mut Spin<f64>,
+        watch: &mut Watch<'_, O>,
     ) -> Leave {
         let Law {
             body,
@@ -180,6 +198,7 @@ impl Contact<'_> {
         let a = friction.contour * body.radius / (body.ka + r2);
         let b = (drag.linear * r2 + drag.angular * body.ka) / (body.ka + r2);
         let speed = state[1].abs();
+        watch.event(EventKind::Sticking, motion, spin);
         if a == 0.0 {
             // drag alone never quite stops it; without either it goes on for ever
             return if b > 0.0 {
@@ -188,15 +207,41 @@ impl Contact<'_> {
                 Leave::Endless
             };
         }
-        self.time += if b * speed < 1e-12 * a {
-            speed / a
-        } else {
+        let dragged = b * speed >= 1e-12 * a;
+        let time = if dragged {
             libm::log1p(b * speed / a) / b
+        } else {
+            speed / a
         };
-        *state = [0.0; 4];
-        lay(self.law, state, motion, spin);
+        let left = |t: f64| {
+            let lost = if dragged {
+                -(1.0 + a / (b * speed)) * libm::expm1(-b * t)
+            } else {
+                t / time
+            };
+            (1.0 - lost).max(0.0)
+        };
+        // pieces over which an observer's place is a matter of Simpson's rule: exact without drag
+        let pieces = (10.0 * b * time).ceil().max(1.0);
+        let piece = time / pieces;
+        let mut begun = 0.0;
+        while begun < pieces {
+            let start = begun * piece;
+            watch.passed(piece, |t| {
+                laid(self.law, &state.map(|rate| rate * left(start + t)))
+            });
+            self.time += piece;
+            begun += 1.0;
+        }
+        lay(self.law, &[0.0; 4], motion, spin);
         Leave::Settled(Verdict::Side)
     }
+}
+
+fn laid(law: &Law, state: &LineState) -> (Motion<f64>, Spin<f64>) {
+    let (mut motion, mut spin) = (Motion::still(), Spin::still());
+    lay(law, state, &mut motion, &mut spin);
+    (motion, spin)
 }
 
 /// The motion of a coin on its side.

@@ -21,6 +21,7 @@ pub(super) fn rim_state(law: &Law, motion: &Motion<f64>, spin: &Spin<f64>) -> Ri
 }
 
 /// The motion of a state.
+#[inline]
 pub(super) fn place(
     law: &Law,
     state: &RimState<f64>,

@@ -201,13 +201,21 @@ impl<L: Lane> Orbit<L> {
         }
     }
 
-    /// The motion at time `t`, in the frame of that moment, touching the surface; and whether the
-    /// frame was reflected.
+    /// The motion at time `t`, in the frame of that moment, touching the surface; the frame's x
+    /// axis, and whether it was reflected.
     #[inline(always)]
     pub(crate) fn land(&self, m: &Motion<L>, body: &Body, t: L) -> (Motion<L>, [L; 2], L::Mask) {
+        let (mut after, x_axis, reflected) = self.at(m, t);
+        after.z = after.rest_height(body);
+        (after, x_axis, reflected)
+    }
+
+    /// The motion at time `t`, as [`land`](Self::land) gives it, at the height it has.
+    #[inline(always)]
+    pub(crate) fn at(&self, m: &Motion<L>, t: L) -> (Motion<L>, [L; 2], L::Mask) {
         let zero = L::splat(0.0);
         let (s, c, _) = self.phase(t);
-        let (_, vz) = self.fall(t);
+        let (z, vz) = self.fall(t);
         let at = |i: usize| self.a[i] + (self.b[i] * c + self.d[i] * s);
         let (ux, uy, uz) = (at(0), at(1), at(2));
         // exactly 1 but for rounding, which must not pile up over thousands of flights
@@ -235,7 +243,7 @@ impl<L: Lane> Orbit<L> {
         after.oy = m.oy * turn;
         after.oz = m.oz * turn;
         after.align(nx, ny);
-        after.z = after.rest_height(body);
+        after.z = z;
         (after, [nx, ny], reflected)
     }
 

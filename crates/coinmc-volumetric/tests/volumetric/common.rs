@@ -1,8 +1,8 @@
 //! Scenes, random numbers, launches and the recorder that the tests share.
 
 use coinmc_core::{
-    Coin, Domain, Engine, Event, EventKind, Face, Launch, Observer, Outcome, Preset, Scene, Stream,
-    Surface, TossUniforms, UniformSource,
+    Coin, Domain, Engine, Event, EventKind, Face, Launch, Observer, Outcome, Preset, Scene, State,
+    Stream, Surface, TossUniforms, UniformSource,
 };
 use coinmc_oracle::{Model, Motion};
 use coinmc_volumetric::{AnyVolumetricEngine, Law, Settings};
@@ -157,7 +157,7 @@ pub(crate) struct Moment {
 
 /// Keeps all events of a toss.
 #[derive(Default)]
-struct Recorder(Vec<Event>);
+pub(crate) struct Recorder(pub(crate) Vec<Event>);
 
 impl Observer for Recorder {
     fn event(&mut self, event: &Event) {
@@ -167,7 +167,55 @@ impl Observer for Recorder {
     }
 }
 
-fn moment(scene: &Scene, event: &Event) -> Moment {
+/// Keeps all events of a toss, and the coin at the multiples of a time.
+pub(crate) struct Sampler {
+    /// Instants a second.
+    pub(crate) rate_hz: f64,
+    pub(crate) taken: u32,
+    pub(crate) events: Vec<Event>,
+    /// Under the kind of the event before each.
+    pub(crate) samples: Vec<Event>,
+}
+
+impl Sampler {
+    pub(crate) fn new(rate_hz: f64) -> Self {
+        Self {
+            rate_hz,
+            taken: 0,
+            events: Vec::new(),
+            samples: Vec::new(),
+        }
+    }
+}
+
+impl Observer for Sampler {
+    fn event(&mut self, event: &Event) {
+        assert!(self.events.len() < 1_000_000, "no end: {event:?}");
+        self.events.push(*event);
+    }
+
+    fn wants_at_s(&self) -> f64 {
+        // one that never ends must not fill the memory
+        if self.taken < 1_000_000 {
+            f64::from(self.taken) / self.rate_hz
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    fn sample(&mut self, state: &State) {
+        assert_eq!(state.time_s, self.wants_at_s());
+        self.taken += 1;
+        let before = self.events.last().expect("a launch");
+        assert!(before.state.time_s <= state.time_s);
+        self.samples.push(Event {
+            kind: before.kind,
+            state: *state,
+        });
+    }
+}
+
+pub(crate) fn moment(scene: &Scene, event: &Event) -> Moment {
     let (length, time) = (scene.coin.rim_distance_m(), scene.time_scale_s());
     let state = &event.state;
     Moment {

@@ -9,5 +9,6 @@ mod hostile;
 mod impacts;
 mod limits;
 mod planar;
+mod sampling;
 mod symmetry;
 mod textbook;

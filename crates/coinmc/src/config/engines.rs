@@ -2,13 +2,14 @@
 
 mod impact_laws;
 
-use super::build::{At, Fault, get, integer};
+use super::build::{At, Fault, boolean, get, integer};
 use super::diagnostics::Problems;
 use super::form::{Form, What};
 use super::quantity::Quantity;
 use super::schema::CERTAIN;
 use crate::plan::EngineChoice;
 use coinmc_flat as flat;
+use coinmc_rapier as rapier;
 use coinmc_volumetric as volumetric;
 
 /// The engine with its settings at one point.
@@ -20,6 +21,7 @@ pub(super) fn choice(root: &Form, at: &At<'_>) -> Result<EngineChoice, Fault> {
     match *tag {
         "flat" => Ok(EngineChoice::Flat(in_the_plane(inner, at)?)),
         "volumetric" => Ok(EngineChoice::Volumetric(in_space(inner, at)?)),
+        "rapier" => Ok(EngineChoice::Rapier(in_steps(inner, at)?)),
         _ => {
             let rule = get(inner, "rule")?
                 .word()
@@ -65,6 +67,38 @@ fn in_space(form: &Form, at: &At<'_>) -> Result<volumetric::Settings, Fault> {
         .validate()
         .map_err(|error| Fault::problem(form.span, error.to_string(), None))?;
     Ok(settings)
+}
+
+fn in_steps(form: &Form, at: &At<'_>) -> Result<rapier::Settings, Fault> {
+    use rapier::{Decision, Flight, FrictionModel, Gyroscopic, Precision};
+    let settings = rapier::Settings {
+        step_s: at.required(form, "step_s")?,
+        substeps: whole(form, "substeps")?,
+        friction_model: named(
+            form,
+            "friction_model",
+            FrictionModel::ALL,
+            FrictionModel::name,
+        )?,
+        prediction: at.required(form, "prediction")?,
+        ccd: flag(form, "ccd")?,
+        gyroscopic: named(form, "gyroscopic", Gyroscopic::ALL, Gyroscopic::name)?,
+        flight: named(form, "flight", Flight::ALL, Flight::name)?,
+        skip_standing: flag(form, "skip_standing")?,
+        decision: named(form, "decision", Decision::ALL, Decision::name)?,
+        precision: named(form, "precision", Precision::ALL, Precision::name)?,
+        max_gain: at.required(form, "max_gain")?,
+        max_steps: whole(form, "max_steps")?,
+        time_limit: at.required(form, "time_limit")?,
+    };
+    settings
+        .validate()
+        .map_err(|error| Fault::problem(form.span, error.to_string(), None))?;
+    Ok(settings)
+}
+
+fn flag(form: &Form, key: &str) -> Result<bool, Fault> {
+    boolean(form, key).ok_or(Fault::Reported)
 }
 
 /// The one of `all` whose name stands under a key.

@@ -26,14 +26,26 @@ pub(super) fn notes(root: &Form, points: &[Point]) -> Vec<String> {
     if let Some(point) = points.iter().find(|point| lossless(point)) {
         notes.push(format!(
             "restitution = 1 loses no energy in a frictionless impact: tosses may stay undecided \
-             up to engine.{}.max_impacts",
-            engine_name(&point.engine)
+             up to engine.{}.{}",
+            engine_name(&point.engine),
+            match point.engine {
+                EngineChoice::Rapier(_) => "max_steps",
+                _ => "max_impacts",
+            }
         ));
     }
     if points.iter().any(rolls_for_ever) {
         notes.push(
             "surface.contour_m = 0: nothing stops a coin that rolls on its rim; tosses that energy \
              does not decide stay undecided, endless or up to engine.volumetric.max_steps"
+                .to_owned(),
+        );
+    }
+    let steps = |point: &Point| matches!(point.engine, EngineChoice::Rapier(_)) && !adhesive(point);
+    if points.iter().any(steps) {
+        notes.push(
+            "engine.rapier: the intervals hold the chance of the tosses, not the error of the time \
+             steps and of Rapier's impacts; docs/rapier.md has measured it"
                 .to_owned(),
         );
     }

@@ -5,6 +5,7 @@ mod omission;
 use super::{EngineChoice, Plan, Point};
 use coinmc_core::Landing;
 use coinmc_flat as flat;
+use coinmc_rapier as rapier;
 use coinmc_volumetric as volumetric;
 use omission::{Omission, omissions};
 
@@ -79,13 +80,16 @@ impl Treatment {
                 rule.formula(),
                 rule.assumption()
             ),
-            EngineChoice::Flat(_) | EngineChoice::Volumetric(_) if adhesive => {
+            EngineChoice::Flat(_) | EngineChoice::Volumetric(_) | EngineChoice::Rapier(_)
+                if adhesive =>
+            {
                 "flight in closed form to the first contact; the coin sticks there and falls to the \
                  side its centre hangs over"
                     .to_owned()
             }
             EngineChoice::Flat(settings) => in_the_plane(settings),
             EngineChoice::Volumetric(settings) => in_space(settings, self.threshold),
+            EngineChoice::Rapier(settings) => in_steps(settings, self.threshold),
         };
         Explanation {
             points: 1,
@@ -129,5 +133,32 @@ fn in_space(settings: &volumetric::Settings, threshold: bool) -> String {
         "flight in closed form, impacts by the law {}{threshold}, sustained contact on the rim and \
          on the side, {decided}",
         settings.law.name()
+    )
+}
+
+fn in_steps(settings: &rapier::Settings, threshold: bool) -> String {
+    let flight = match settings.flight {
+        rapier::Flight::Contact => {
+            "flight in closed form to every contact that ends more than a step of it, "
+        }
+        rapier::Flight::Steps => "flight in closed form by whole steps, ",
+        rapier::Flight::Off => "",
+    };
+    let decided = match settings.decision {
+        rapier::Decision::Tilting => {
+            "until the energy that can still tilt the coin is too small to carry it over its rim"
+        }
+        rapier::Decision::Energy => "until energy alone makes the face certain",
+        rapier::Decision::Rest => "until the coin has come to rest",
+    };
+    let threshold = if threshold {
+        " (restitution 0 below its threshold)"
+    } else {
+        ""
+    };
+    format!(
+        "{flight}steps of Rapier, {} substeps each, friction {}{threshold}, {decided}",
+        settings.substeps,
+        settings.friction_model.name()
     )
 }

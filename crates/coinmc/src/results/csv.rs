@@ -26,7 +26,7 @@ pub fn write_csv(results: &Results, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-fn push(line: &mut String, cell: Cell<'_>) {
+pub(crate) fn push(line: &mut String, cell: Cell<'_>) {
     match cell {
         Cell::Count(count) => line.push_str(&count.to_string()),
         // Debug switches to exponents where Display would write hundreds of zeros
@@ -43,7 +43,7 @@ fn push(line: &mut String, cell: Cell<'_>) {
     line.push(',');
 }
 
-fn end(line: &mut String, out: &mut dyn Write) -> io::Result<()> {
+pub(crate) fn end(line: &mut String, out: &mut dyn Write) -> io::Result<()> {
     line.pop();
     line.push('\n');
     out.write_all(line.as_bytes())?;

@@ -1,16 +1,17 @@
 //! What a run found out: one row a point, the same table as CSV, Parquet and JSON.
 
-mod csv;
+pub(crate) mod csv;
 mod estimates;
 mod fair;
 mod json;
-mod parquet;
+pub(crate) mod parquet;
 mod schema;
 
 pub use csv::write_csv;
 pub(crate) use estimates::{estimates, look_confidence};
 pub use fair::{FairRatio, fair_ratios};
 pub use parquet::write_parquet;
+pub(crate) use schema::Cell;
 pub use schema::{Column, FORMAT, Kind, columns};
 
 use crate::plan::Plan;

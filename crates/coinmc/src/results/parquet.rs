@@ -42,17 +42,22 @@ pub fn write_parquet(results: &Results, out: &mut (dyn Write + Send)) -> io::Res
 }
 
 fn field(column: &Column) -> Field {
-    let kind = match column.kind {
+    described(&column.name, column.kind, column.unit, column.doc)
+}
+
+/// A field with its unit and meaning.
+pub(crate) fn described(name: &str, kind: Kind, unit: &str, doc: &str) -> Field {
+    let data_type = match kind {
         Kind::Count => DataType::UInt64,
         Kind::Number => DataType::Float64,
         Kind::Text => DataType::Utf8,
         Kind::Flag => DataType::Boolean,
     };
     // only numbers can be missing
-    let metadata = [("unit", column.unit), ("description", column.doc)];
+    let metadata = [("unit", unit), ("description", doc)];
     let metadata = metadata.into_iter().filter(|(_, text)| !text.is_empty());
     let metadata = metadata.map(|(key, text)| (key.to_owned(), text.to_owned()));
-    Field::new(&column.name, kind, column.kind == Kind::Number)
+    Field::new(name, data_type, kind == Kind::Number)
         .with_metadata(metadata.collect::<HashMap<_, _>>())
 }
 
@@ -68,8 +73,12 @@ fn metadata(results: &Results) -> Vec<KeyValue> {
 }
 
 fn array(column: &Column, rows: &[Row]) -> ArrayRef {
-    let cells = rows.iter().map(|row| column.cell(row));
-    match column.kind {
+    array_of(column.kind, rows.iter().map(|row| column.cell(row)))
+}
+
+/// The cells of a column; what is not of its kind is missing.
+pub(crate) fn array_of<'a>(kind: Kind, cells: impl Iterator<Item = Cell<'a>>) -> ArrayRef {
+    match kind {
         Kind::Count => {
             let count = |cell| {
                 if let Cell::Count(count) = cell {
@@ -114,7 +123,7 @@ fn array(column: &Column, rows: &[Row]) -> ArrayRef {
 }
 
 /// Hands the system's error through, so that a full disk is still known as one.
-fn into_io(error: ParquetError) -> io::Error {
+pub(crate) fn into_io(error: ParquetError) -> io::Error {
     match error {
         ParquetError::External(inner) => match inner.downcast::<io::Error>() {
             Ok(error) => *error,

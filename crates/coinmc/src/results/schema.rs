@@ -44,7 +44,7 @@ pub(crate) enum Cell<'a> {
 
 impl Cell<'_> {
     /// A number, or nothing if it is not one.
-    fn finite(value: f64) -> Self {
+    pub(crate) fn finite(value: f64) -> Self {
         if value.is_finite() {
             Self::Number(value)
         } else {

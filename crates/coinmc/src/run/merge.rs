@@ -1,12 +1,12 @@
 //! Parts put together again.
 
 use super::cut::Cut;
-use super::directory::{CONFIG, RunDirectory};
-use super::manifest::{self, Manifest};
+use super::directory::RunDirectory;
+use super::manifest::Manifest;
 use super::schedule::{Finished, Next, Schedule};
+use super::stored::{read_manifest, read_plan};
 use super::tallies::{Entry, Tallies};
 use super::{Part, Report, RunError, Shard, Watcher, conclude};
-use crate::config;
 use crate::plan::Plan;
 use coinmc_core::Tally;
 use std::collections::hash_map::Entry as Slot;
@@ -58,22 +58,6 @@ struct Found {
 }
 
 type Collected = HashMap<(usize, u64), Found>;
-
-fn read_manifest(dir: &Path) -> Result<Manifest, RunError> {
-    Manifest::read(dir)?.ok_or_else(|| RunError::NotARunDirectory {
-        dir: dir.to_owned(),
-        found: format!("no {}", manifest::FILE),
-    })
-}
-
-fn read_plan(dir: &Path) -> Result<Plan, RunError> {
-    read_manifest(dir)?;
-    let path = dir.join(CONFIG);
-    config::load(&path, &[]).map_err(|problems| {
-        let reason = problems.to_string();
-        RunError::BadConfig { path, reason }
-    })
-}
 
 fn must_differ(input: &Path, out: &Path) -> Result<(), RunError> {
     match (fs::canonicalize(input), fs::canonicalize(out)) {

@@ -40,18 +40,20 @@ mod part;
 mod replace;
 mod schedule;
 mod shard;
+mod stored;
 mod tallies;
 mod tally_file;
 mod watcher;
 mod workers;
 
 pub(crate) use cut::looks;
-pub use engines::SettingsError;
-pub(crate) use engines::{law, name as engine_name};
+pub use engines::{SettingsError, toss};
+pub(crate) use engines::{Task, law, name as engine_name, stream, with_engine};
 pub use error::RunError;
 pub use merge::merge;
 pub use part::{Part, PartError};
 pub use shard::{Shard, run_shard};
+pub use stored::stored_plan;
 pub use watcher::{Progress, Watcher};
 
 use crate::plan::{Plan, Stop};

@@ -11,6 +11,7 @@ pub(crate) fn parse(text: &str, sets: &[&str]) -> Plan {
 }
 
 /// A parameter's value at every point.
+#[allow(dead_code, reason = "not every test binary looks at columns")]
 pub(crate) fn column(plan: &Plan, name: &str) -> Vec<f64> {
     let value = |(key, value): &(Arc<str>, f64)| (**key == *name).then_some(*value);
     plan.points

@@ -152,7 +152,7 @@ fn plot(results: &Results, curves: &[Curve], style: &Style) -> Option<String> {
 fn no_bounce(engine: &str) -> Option<Rule> {
     match engine {
         "flat" => Some(Rule::Arc),
-        "volumetric" => Some(Rule::Zone),
+        "volumetric" | "rapier" => Some(Rule::Zone),
         _ => None,
     }
 }

@@ -3,6 +3,7 @@
 mod impact_laws;
 
 use super::Absent::{Is, Required};
+use super::rapier;
 use super::terms::{default, field, fields, number, table};
 use super::{Bounds, Fallback, Field, Kind, TableKind, Whole, Word};
 use coinmc_analytic::Rule as ClosedForm;
@@ -39,6 +40,12 @@ pub(super) fn engines() -> Vec<Field> {
             "volumetric",
             "The toss in space, impact by impact.",
             in_space(),
+            Required,
+        ),
+        table(
+            "rapier",
+            "The toss in space in time steps, on the physics engine Rapier.",
+            rapier::settings(),
             Required,
         ),
         table(
@@ -159,7 +166,7 @@ fn in_space() -> TableKind {
     ])
 }
 
-const DECISION: &str = "When the face of a toss counts as decided.";
+pub(super) const DECISION: &str = "When the face of a toss counts as decided.";
 const MOREAU: &str = "Newton restitution, Coulomb friction against the final slip";
 const CHATTERJEE_RUINA: &str = "Chatterjee & Ruina (1998), tangential restitution 0";
 
@@ -182,7 +189,7 @@ fn zeno(fallback: f64) -> Field {
     )
 }
 
-fn count(key: &'static str, doc: &'static str, fallback: u32) -> Field {
+pub(super) fn count(key: &'static str, doc: &'static str, fallback: u32) -> Field {
     field(
         key,
         doc,
@@ -194,7 +201,7 @@ fn count(key: &'static str, doc: &'static str, fallback: u32) -> Field {
     )
 }
 
-const fn above_zero(high: f64) -> Bounds {
+pub(super) const fn above_zero(high: f64) -> Bounds {
     Bounds {
         low: 0.0,
         high,

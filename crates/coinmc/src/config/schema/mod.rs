@@ -5,6 +5,7 @@ mod engines;
 mod fields;
 mod json;
 mod launch;
+mod rapier;
 mod terms;
 
 pub(super) use engines::CERTAIN;

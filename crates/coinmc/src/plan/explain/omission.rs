@@ -55,7 +55,7 @@ pub(super) fn omissions(point: &Point) -> Vec<Omission> {
     let in_space = match point.engine {
         EngineChoice::Analytic(_) => return vec![Omission::Tosses],
         EngineChoice::Flat(_) => false,
-        EngineChoice::Volumetric(_) => true,
+        EngineChoice::Volumetric(_) | EngineChoice::Rapier(_) => true,
     };
     omit(Omission::OutOfPlane, !in_space);
     omit(Omission::Drag, in_space && scene.drag().is_none());

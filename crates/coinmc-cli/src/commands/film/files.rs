@@ -1,0 +1,184 @@
+//! Files in and out: what their columns mean, bounded reading, new files only.
+
+use crate::exit::Failure;
+use anyhow::anyhow;
+use clap::{Args, ValueEnum};
+use coinmc_film::text::{self, AngleOf, Choice, Diagnostics, Footage, MAX_BYTES};
+use std::fs::{File, OpenOptions};
+use std::io::{self, ErrorKind, Read, Write};
+use std::path::{Path, PathBuf};
+
+/// Which columns mean what.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Columns")]
+pub(super) struct Columns {
+    /// Column of x, as COLUMN or TRACK.COLUMN [default: x]
+    #[arg(long, value_name = "NAME")]
+    x: Option<String>,
+
+    /// Column of the height [default: y]
+    #[arg(long, value_name = "NAME")]
+    y: Option<String>,
+
+    /// Column of the angle [default: θ, theta, angle, rotation or phi]
+    #[arg(long, value_name = "NAME")]
+    angle: Option<String>,
+
+    /// Two tracks instead, points of the coin equally far from its centre on either side: FIRST,SECOND
+    #[arg(long, value_name = "TRACK,TRACK", value_parser = two_tracks)]
+    #[arg(conflicts_with_all = ["x", "y", "angle"])]
+    ends: Option<(String, String)>,
+
+    /// What the angle is the direction of
+    #[arg(long, value_enum, default_value_t = Direction::Face)]
+    angle_of: Direction,
+
+    /// Unit of lengths [default: as in the file's header, else m]
+    #[arg(long, value_enum, value_name = "UNIT")]
+    length_unit: Option<LengthUnit>,
+
+    /// Unit of angles [default: as in the file's header, else deg]
+    #[arg(long, value_enum, value_name = "UNIT")]
+    angle_unit: Option<AngleUnit>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Direction {
+    /// Of a line along the heads face, anticlockwise from the right: 0 lies heads up
+    Face,
+    /// Of the axis out of the heads face, anticlockwise from the right
+    Axis,
+    /// Of that axis, clockwise from the vertical, as coinmc has θ
+    Tilt,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum LengthUnit {
+    M,
+    Cm,
+    Mm,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum AngleUnit {
+    Deg,
+    Rad,
+}
+
+impl From<Direction> for AngleOf {
+    fn from(direction: Direction) -> Self {
+        match direction {
+            Direction::Face => Self::Face,
+            Direction::Axis => Self::Axis,
+            Direction::Tilt => Self::Tilt,
+        }
+    }
+}
+
+impl Columns {
+    fn choice(&self) -> Choice {
+        Choice {
+            x: self.x.clone(),
+            y: self.y.clone(),
+            angle: self.angle.clone(),
+            ends: self.ends.clone(),
+            length_m: self.length_unit.map(|unit| match unit {
+                LengthUnit::M => 1.0,
+                LengthUnit::Cm => 1e-2,
+                LengthUnit::Mm => 1e-3,
+            }),
+            angle_rad: self.angle_unit.map(|unit| match unit {
+                AngleUnit::Deg => 1.0_f64.to_radians(),
+                AngleUnit::Rad => 1.0,
+            }),
+            angle_of: self.angle_of.into(),
+        }
+    }
+
+    /// Reads every file, or says what is wrong with all of them.
+    pub(super) fn read(&self, paths: &[PathBuf]) -> Result<Vec<Footage>, Failure> {
+        let choice = self.choice();
+        let mut footage = Vec::new();
+        let mut problems: Option<Diagnostics> = None;
+        for path in paths {
+            match read(path, &choice) {
+                Ok(read) => footage.push(read),
+                Err(found) => match &mut problems {
+                    Some(problems) => problems.append(found),
+                    None => problems = Some(found),
+                },
+            }
+        }
+        match problems {
+            Some(problems) => Err(Failure::Film(problems)),
+            None => Ok(footage),
+        }
+    }
+}
+
+fn read(path: &Path, choice: &Choice) -> Result<Footage, Diagnostics> {
+    let name = path.display().to_string();
+    let bytes = bytes(path).map_err(|error| {
+        let message = match error.kind() {
+            ErrorKind::NotFound => "there is no such file".to_owned(),
+            ErrorKind::IsADirectory => "this is a directory, not a file".to_owned(),
+            _ => format!("the file cannot be read: {error}"),
+        };
+        Diagnostics::of_file(&name, message, None)
+    })?;
+    text::read(&name, &bytes, choice)
+}
+
+/// One byte more than allowed at most, so that too long a file is seen and never held.
+fn bytes(path: &Path) -> io::Result<Vec<u8>> {
+    let file = File::open(path)?;
+    if file.metadata()?.is_dir() {
+        return Err(ErrorKind::IsADirectory.into());
+    }
+    let mut bytes = Vec::new();
+    file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// Writes a file that is not there yet.
+pub(super) fn write_new(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let failed = |error: io::Error| {
+        let path = path.display();
+        match error.kind() {
+            ErrorKind::AlreadyExists => Failure::Input(anyhow!(
+                "{path} is there already and is not overwritten: remove it or choose another name"
+            )),
+            _ => Failure::Runtime(anyhow!("cannot write {path}: {error}")),
+        }
+    };
+    let mut file = OpenOptions::new()
+        .write(true)
+        .create_new(true)
+        .open(path)
+        .map_err(failed)?;
+    file.write_all(bytes).map_err(failed)
+}
+
+/// Refuses before the work what could not be written after it.
+pub(super) fn must_be_new<'a>(paths: impl IntoIterator<Item = &'a PathBuf>) -> Result<(), Failure> {
+    let mut seen: Vec<&PathBuf> = Vec::new();
+    for path in paths {
+        if path.exists() || seen.contains(&path) {
+            return Err(Failure::Input(anyhow!(
+                "{} is there already and is not overwritten: remove it or choose another name",
+                path.display()
+            )));
+        }
+        seen.push(path);
+    }
+    Ok(())
+}
+
+fn two_tracks(text: &str) -> Result<(String, String), String> {
+    match text.split_once(',') {
+        Some((first, second)) if !first.trim().is_empty() && !second.trim().is_empty() => {
+            Ok((first.trim().to_owned(), second.trim().to_owned()))
+        }
+        _ => Err("give two tracks with a comma between: A,B".to_owned()),
+    }
+}

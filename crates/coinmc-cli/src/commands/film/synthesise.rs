@@ -1,0 +1,158 @@
+//! `coinmc film synthesise`: a drop filmed in the computer, in Tracker's text.
+
+use super::files::{Direction, must_be_new, write_new};
+use super::scene::{SceneArguments, law};
+use crate::arguments::Format;
+use crate::exit::{Failure, Outcome};
+use crate::output::{self, Console, FORMAT_VERSION};
+use anyhow::anyhow;
+use clap::{Args, ValueEnum};
+use coinmc_film::text::{Delimiter, Dialect, write};
+use coinmc_film::{Law, Synthetic};
+use serde_json::json;
+use std::path::PathBuf;
+
+/// Write the film of a simulated drop, as Tracker would export it
+///
+/// To try reading and fitting with, and to plan an experiment: how well would such a film fix the
+/// parameters? The truth is what the arguments say.
+#[derive(Debug, Args)]
+pub(super) struct Synthesise {
+    /// New file to write
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+
+    #[command(flatten)]
+    scene: SceneArguments,
+
+    /// The law of impact
+    #[arg(long, value_name = "NAME", default_value = "moreau", value_parser = law)]
+    law: Law,
+
+    /// First state: x, x', z, z', θ, θ' in m, m/s, m, m/s, degrees, degrees/s
+    #[arg(long, value_name = "NUMBERS", num_args = 6, value_delimiter = ',')]
+    #[arg(default_values_t = [0.0, 0.1, 0.2, 0.0, 23.0, 170.0], allow_negative_numbers = true)]
+    start: Vec<f64>,
+
+    /// Frames a second
+    #[arg(long, value_name = "HZ", default_value_t = 240.0)]
+    rate: f64,
+
+    /// Length of the film, s
+    #[arg(long, value_name = "S", default_value_t = 0.6)]
+    duration: f64,
+
+    /// Standard deviation of marked positions, mm
+    #[arg(long, value_name = "MM", default_value_t = 0.5)]
+    noise_mm: f64,
+
+    /// Standard deviation of marked angles, degrees
+    #[arg(long, value_name = "DEG", default_value_t = 0.5)]
+    noise_deg: f64,
+
+    /// Share of points that are not marked
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
+    missing: f64,
+
+    /// Key of the noise
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+
+    /// What the angle is the direction of
+    #[arg(long, value_enum, default_value_t = Direction::Face)]
+    angle_of: Direction,
+
+    /// Between cells
+    #[arg(long, value_enum, default_value_t = Between::Tab)]
+    delimiter: Between,
+
+    /// Write decimals behind a comma
+    #[arg(long)]
+    decimal_comma: bool,
+
+    /// How to write the result
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Between {
+    Tab,
+    Semicolon,
+    Comma,
+}
+
+impl Synthesise {
+    pub(super) fn format(&self) -> Format {
+        self.format
+    }
+
+    pub(super) fn carry_out(&self, _: &Console) -> Result<Outcome, Failure> {
+        must_be_new([&self.file])?;
+        self.check()?;
+        let (model, shared) = self.scene.model(self.law)?;
+        let mut start = [0.0; 6];
+        start.copy_from_slice(&self.start);
+        (start[4], start[5]) = (start[4].to_radians(), start[5].to_radians());
+        let film = Synthetic {
+            seed: self.seed,
+            shared,
+            start,
+            rate_hz: self.rate,
+            duration_s: self.duration,
+            position_noise_m: 1e-3 * self.noise_mm,
+            angle_noise_rad: self.noise_deg.to_radians(),
+            missing: self.missing,
+        };
+        let drop = film.film(&model).ok_or_else(|| {
+            Failure::Input(anyhow!("such a drop cannot be followed: check --start"))
+        })?;
+        let dialect = Dialect {
+            delimiter: match self.delimiter {
+                Between::Tab => Delimiter::Tab,
+                Between::Semicolon => Delimiter::Semicolon,
+                Between::Comma => Delimiter::Comma,
+            },
+            decimal_comma: self.decimal_comma,
+            ..Dialect::default()
+        };
+        let bytes = write(&drop, "coin", self.angle_of.into(), &dialect, Some(5));
+        write_new(&self.file, &bytes)?;
+        let printed = match self.format {
+            Format::Json => output::print_json(&json!({
+                "format_version": FORMAT_VERSION,
+                "kind": "film_synthetic",
+                "file": self.file.display().to_string(),
+                "frames": drop.frames.len(),
+            })),
+            Format::Table => output::print(&format!(
+                "{}: {} frames\n",
+                self.file.display(),
+                drop.frames.len()
+            )),
+        };
+        printed.map_err(|error| Failure::Runtime(error.into()))?;
+        Ok(Outcome::Done)
+    }
+
+    fn check(&self) -> Result<(), Failure> {
+        let refuse = |message: &str| Err(Failure::Input(anyhow!("{message}")));
+        let not_negative = |value: f64| value >= 0.0 && value.is_finite();
+        if !(self.rate > 0.0 && self.rate.is_finite() && not_negative(self.duration)) {
+            return refuse("--rate must be positive and --duration not negative");
+        }
+        if self.rate * self.duration > 99_999.0 {
+            return refuse("a film has at most 100 000 frames: lower --rate or --duration");
+        }
+        if !(not_negative(self.noise_mm) && not_negative(self.noise_deg)) {
+            return refuse("--noise-mm and --noise-deg must not be negative");
+        }
+        if !(0.0..1.0).contains(&self.missing) {
+            return refuse("--missing must lie from 0 to below 1");
+        }
+        if self.delimiter == Between::Comma && self.decimal_comma {
+            return refuse("commas between cells and decimal commas cannot be told apart");
+        }
+        Ok(())
+    }
+}

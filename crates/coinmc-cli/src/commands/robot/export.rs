@@ -1,0 +1,96 @@
+//! `coinmc robot export`: tables from the journal.
+
+use super::failure;
+use crate::exit::{Failure, Outcome};
+use crate::output;
+use anyhow::{Context, anyhow};
+use clap::Args;
+use coinmc::results::{write_csv, write_parquet};
+use coinmc_robot::export::{results, rows, write_throws_csv, write_throws_parquet};
+use coinmc_robot::journal::{History, Journal, JournalError};
+use coinmc_robot::{Directory, Experiment};
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+/// Write the throws and the results of an experiment as CSV and Parquet
+///
+/// throws.csv and throws.parquet have a row a throw; results.csv and results.parquet are the table
+/// that `coinmc run` writes, so that experiment and simulation go into one plot. The journal is only
+/// read: the experiment may go on meanwhile.
+#[derive(Debug, Args)]
+pub(super) struct Export {
+    /// Directory of the experiment
+    #[arg(value_name = "DIR")]
+    directory: PathBuf,
+
+    /// Where the tables go [default: DIR/export, whose tables are written anew]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+impl Export {
+    pub(super) fn carry_out(&self) -> Result<Outcome, Failure> {
+        let (experiment, history) = read(&self.directory)?;
+        let out = self
+            .out
+            .clone()
+            .unwrap_or_else(|| self.directory.join("export"));
+        if self.out.is_some() && out.exists() {
+            return Err(Failure::Input(anyhow!(
+                "{} exists: give a new directory, or none to write the tables of {} anew",
+                out.display(),
+                self.directory.display()
+            )));
+        }
+        let rows = rows(&experiment, &history).map_err(|error| Failure::Input(error.into()))?;
+        let results = results(&experiment, &history);
+        let written = fs::create_dir_all(&out)
+            .and_then(|()| write(&out, "throws.csv", |to| write_throws_csv(&rows, to)))
+            .and_then(|()| {
+                write(&out, "throws.parquet", |to| {
+                    write_throws_parquet(&rows, &experiment, to)
+                })
+            })
+            .and_then(|()| write(&out, "results.csv", |to| write_csv(&results, to)))
+            .and_then(|()| write(&out, "results.parquet", |to| write_parquet(&results, to)));
+        written
+            .with_context(|| format!("cannot write the tables in {}", out.display()))
+            .map_err(Failure::Runtime)?;
+        output::note(&format!(
+            "coinmc: {} throws in {}",
+            rows.len(),
+            out.display()
+        ));
+        Ok(Outcome::Done)
+    }
+}
+
+/// The experiment in a directory, and its journal; a run may be going on.
+pub(super) fn read(path: &Path) -> Result<(Experiment, History), Failure> {
+    let directory = Directory::at(path);
+    let experiment = directory.experiment().map_err(failure)?;
+    let (theirs, history) = Journal::read(&directory.journal())
+        .map_err(|error| failure(coinmc_robot::DirectoryError::Journal(error)))?;
+    let ours = Directory::header(&experiment);
+    if theirs != ours {
+        let path = directory.journal();
+        let error = JournalError::OtherExperiment { path, theirs, ours };
+        return Err(failure(coinmc_robot::DirectoryError::Journal(error)));
+    }
+    Ok((experiment, history))
+}
+
+/// Writes a table that is there as a whole or not at all.
+fn write(
+    folder: &Path,
+    name: &str,
+    content: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
+) -> io::Result<()> {
+    let next = folder.join(format!("{name}.tmp"));
+    let mut file = BufWriter::new(File::create(&next)?);
+    content(&mut file)?;
+    file.flush()?;
+    file.get_ref().sync_all()?;
+    fs::rename(&next, folder.join(name))
+}

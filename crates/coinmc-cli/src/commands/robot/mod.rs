@@ -1,0 +1,157 @@
+//! `coinmc robot …`: the coin-tossing robot, real or simulated.
+
+mod ask;
+mod camera_sim;
+mod export;
+mod fairness;
+mod live;
+mod ports;
+mod run;
+mod sim;
+mod throw;
+
+use crate::arguments::Format;
+use crate::exit::{Failure, Outcome};
+use crate::output::Console;
+use anyhow::anyhow;
+use clap::{Args, Subcommand};
+use coinmc_robot::port::ConnectionError;
+use coinmc_robot::{DirectoryError, SessionError};
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+Examples:
+  coinmc robot ports                              which serial ports there are
+  coinmc robot throw --spin 3.2 --angle 90        one throw, outside any experiment
+  coinmc robot run examples/robot.toml --out day --camera 'my-camera --usb 0'
+  coinmc robot resume day                         go on after whatever happened
+  coinmc robot export day                         throws and results as CSV and Parquet
+  coinmc robot fairness day                       is the robot fair, and how sure is that
+
+A simulated robot to try it with: see `coinmc robot sim --help`, and docs/robot.md.";
+
+/// Throw real coins: run the coin-tossing robot, or a simulated one
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Robot {
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// Each is described where its arguments are.
+#[derive(Debug, Subcommand)]
+enum Command {
+    Ports(ports::Ports),
+    Info(ask::Info),
+    Status(ask::Status),
+    Home(ask::Home),
+    Throw(throw::Throw),
+    Run(run::Run),
+    Resume(run::Resume),
+    Export(export::Export),
+    Fairness(fairness::Fairness),
+    Sim(sim::Sim),
+    CameraSim(camera_sim::CameraSim),
+}
+
+impl Robot {
+    pub(crate) fn format(&self) -> Format {
+        match &self.command {
+            Command::Ports(ports) => ports.format,
+            Command::Info(info) => info.at.format,
+            Command::Status(status) => status.at.format,
+            Command::Run(run) => run.session.format,
+            Command::Resume(resume) => resume.session.format,
+            Command::Fairness(fairness) => fairness.format,
+            Command::Export(_)
+            | Command::Home(_)
+            | Command::Throw(_)
+            | Command::Sim(_)
+            | Command::CameraSim(_) => Format::Table,
+        }
+    }
+
+    pub(crate) fn carry_out(&self, console: &Console) -> Result<Outcome, Failure> {
+        match &self.command {
+            Command::Ports(_) => ports::Ports::carry_out(console),
+            Command::Info(info) => info.carry_out(console),
+            Command::Status(status) => status.carry_out(console),
+            Command::Home(home) => home.carry_out(),
+            Command::Throw(throw) => throw.carry_out(),
+            Command::Run(run) => run.carry_out(console),
+            Command::Resume(resume) => resume.carry_out(console),
+            Command::Export(export) => export.carry_out(),
+            Command::Fairness(fairness) => fairness.carry_out(console),
+            Command::Sim(sim) => sim.carry_out(),
+            Command::CameraSim(camera) => camera.carry_out(),
+        }
+    }
+}
+
+/// Which robot.
+#[derive(Debug, Args)]
+struct PortArgument {
+    /// The robot's serial port [default: the only one with a stable name]
+    #[arg(long, value_name = "PATH")]
+    port: Option<PathBuf>,
+}
+
+impl PortArgument {
+    /// The port that was named, or the only one that can be meant.
+    fn port(&self) -> Result<PathBuf, Failure> {
+        if let Some(port) = &self.port {
+            return Ok(port.clone());
+        }
+        let found = coinmc_robot::port::ports().map_err(|error| Failure::Runtime(error.into()))?;
+        let mut stable = found.into_iter().filter(|entry| entry.stable);
+        match (stable.next(), stable.next()) {
+            (Some(only), None) => Ok(only.path),
+            (None, _) => Err(Failure::Input(anyhow!(
+                "no robot is plugged in: no serial port has a stable name. Give one with --port \
+                 (`coinmc robot ports` lists all), or start `coinmc robot sim`"
+            ))),
+            _ => Err(Failure::Input(anyhow!(
+                "several serial ports are there: say which one with --port (`coinmc robot ports` \
+                 lists them)"
+            ))),
+        }
+    }
+}
+
+/// What a person gave wrongly is input; what a machine did is not.
+fn failure(error: impl Into<anyhow::Error>) -> Failure {
+    use coinmc_robot::cycle::Halt;
+    use coinmc_robot::journal::JournalError as Journal;
+    let error = error.into();
+    let journal = |journal: &Journal| {
+        matches!(
+            journal,
+            Journal::Damaged { .. } | Journal::OtherExperiment { .. } | Journal::TooLong { .. }
+        )
+    };
+    let connection = |error: &ConnectionError| {
+        matches!(
+            error,
+            ConnectionError::Port(_)
+                | ConnectionError::OtherVersion(_)
+                | ConnectionError::Request(_)
+        )
+    };
+    let session = error.downcast_ref().is_some_and(|error| match error {
+        SessionError::Journal(error) => journal(error),
+        SessionError::Connection(error) => connection(error),
+        SessionError::Halt(halt) => matches!(halt, Halt::Ahead { .. } | Halt::OutOfRange { .. }),
+        _ => false,
+    });
+    let directory = error.downcast_ref().is_some_and(|error| match error {
+        DirectoryError::Journal(error) => journal(error),
+        DirectoryError::Io { .. } => false,
+        _ => true,
+    });
+    let connection = error.downcast_ref().is_some_and(connection);
+    if session || directory || connection {
+        Failure::Input(error)
+    } else {
+        Failure::Runtime(error)
+    }
+}

@@ -1,0 +1,276 @@
+//! `coinmc robot run` and `resume`: an experiment.
+
+use super::live::LiveLine;
+use super::{PortArgument, failure, sim};
+use crate::arguments::Format;
+use crate::exit::{Failure, Outcome};
+use crate::interrupt;
+use crate::output::{self, Console, FORMAT_VERSION};
+use crate::terminal::grouped;
+use anyhow::{Context, anyhow};
+use clap::Args;
+use coinmc::config::{self, Override};
+use coinmc_core::Face;
+use coinmc_robot::camera::CameraOptions;
+use coinmc_robot::cycle::Rules;
+use coinmc_robot::{
+    Directory, DirectoryError, Experiment, SessionOptions, SessionReport, Setup, run_session,
+};
+use serde_json::json;
+use std::path::{self, Path, PathBuf};
+use std::time::Duration;
+
+const EXAMPLES: &str = "\
+Examples:
+  coinmc robot run examples/robot.toml --out day --camera './my-camera'
+  coinmc robot resume day
+
+The same command again, or `resume`, goes on where the last one stopped, whatever stopped it. Ctrl-C
+finishes the open throw first; a second one stops at once, and loses nothing either.";
+
+/// Throw what a config describes, photograph, and keep a journal
+///
+/// The config is that of `coinmc run`: the coin, the surface, the distribution of spin and start
+/// angle, the engine that the outcome is compared with, and stop.tosses. docs/robot.md describes
+/// the journal and the camera's side.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Run {
+    /// The config (TOML)
+    config: PathBuf,
+
+    /// Directory of the experiment: new, empty, or that of the same experiment
+    /// [default: robot-runs/NAME-HASH]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// Replace or add a value of the config; repeatable
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    overrides: Vec<Override>,
+
+    #[command(flatten)]
+    pub(super) session: Session,
+}
+
+/// Go on with an experiment
+///
+/// Port and camera are those of the last time unless others are given.
+#[derive(Debug, Args)]
+pub(super) struct Resume {
+    /// Directory of the experiment
+    #[arg(value_name = "DIR")]
+    directory: PathBuf,
+
+    #[command(flatten)]
+    pub(super) session: Session,
+}
+
+/// What both have in common.
+#[derive(Debug, Args)]
+pub(super) struct Session {
+    #[command(flatten)]
+    port: PortArgument,
+
+    /// The camera: a command of the shell that speaks JSON lines (docs/robot.md)
+    #[arg(long, value_name = "COMMAND")]
+    camera: Option<String>,
+
+    /// How long the camera may take for a photo, seconds
+    #[arg(long, value_name = "S", default_value_t = 8,
+          value_parser = clap::value_parser!(u64).range(1..=3600))]
+    camera_timeout: u64,
+
+    /// Photos of one throw before it is void
+    #[arg(long, value_name = "N", default_value_t = 3,
+          value_parser = clap::value_parser!(u32).range(1..=100))]
+    photos: u32,
+
+    /// Void throws in a row before the experiment stops for a person
+    #[arg(long, value_name = "N", default_value_t = 10,
+          value_parser = clap::value_parser!(u32).range(1..))]
+    most_voids: u32,
+
+    /// Go on behind the robot's counter where it is ahead of the journal
+    #[arg(long)]
+    adopt: bool,
+
+    /// How much faster than life a simulated robot is
+    #[arg(long, value_name = "FACTOR", value_parser = sim::speed)]
+    speed: Option<f64>,
+
+    /// Do not record the session (MCAP)
+    #[arg(long)]
+    no_recording: bool,
+
+    /// How to write the result
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    pub(super) format: Format,
+
+    /// No status line and no remarks; warnings and errors stay
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+impl Run {
+    pub(super) fn carry_out(&self, console: &Console) -> Result<Outcome, Failure> {
+        let plan = config::load(&self.config, &self.overrides)?;
+        let out = self.out.clone().unwrap_or_else(|| {
+            let stem = self.config.file_stem();
+            let stem = stem.map_or("experiment".into(), |stem| stem.to_string_lossy());
+            Path::new("robot-runs").join(format!("{stem}-{}", &plan.hash()[..8]))
+        });
+        let experiment = Experiment::new(plan).map_err(|e| Failure::Input(e.into()))?;
+        self.session
+            .carry_out(&experiment, &Directory::at(&out), console)
+    }
+}
+
+impl Resume {
+    pub(super) fn carry_out(&self, console: &Console) -> Result<Outcome, Failure> {
+        let directory = Directory::at(&self.directory);
+        let experiment = directory.experiment().map_err(failure)?;
+        if !directory.journal().exists() {
+            return Err(failure(DirectoryError::Missing(self.directory.clone())));
+        }
+        self.session.carry_out(&experiment, &directory, console)
+    }
+}
+
+impl Session {
+    fn carry_out(
+        &self,
+        experiment: &Experiment,
+        directory: &Directory,
+        console: &Console,
+    ) -> Result<Outcome, Failure> {
+        let setup = self.setup(directory.setup())?;
+        let line = LiveLine::new(*console.stderr(), self.quiet);
+        let (journal, torn) = directory.open(experiment, &setup).map_err(failure)?;
+        if torn > 0 {
+            line.say(&format!(
+                "the last line of {} was cut off in the middle ({torn} bytes) and is taken away",
+                directory.journal().display()
+            ));
+        }
+        let cancel = interrupt::listen(|| {
+            output::note("finishing the open throw; Ctrl-C again stops at once");
+        })
+        .context("cannot listen for signals")
+        .map_err(Failure::Runtime)?;
+        let absolute = |path: PathBuf| path::absolute(&path).unwrap_or(path);
+        let report = run_session(
+            experiment,
+            directory,
+            journal,
+            &SessionOptions {
+                port: &setup.port,
+                camera: CameraOptions {
+                    command: setup.camera.clone(),
+                    folder: absolute(directory.photos()),
+                    log: Some(directory.camera_log()),
+                    timeout: Duration::from_secs(self.camera_timeout),
+                },
+                rules: Rules {
+                    throws: experiment.throws(),
+                    most_photos: self.photos,
+                    most_voids: self.most_voids,
+                    adopt: self.adopt,
+                },
+                speed: setup.speed,
+                record: !self.no_recording,
+                cancel,
+                watcher: &line,
+            },
+        );
+        line.finish();
+        let report = report.map_err(failure)?;
+        self.present(&report, directory, console)
+            .map_err(|error| Failure::Runtime(error.into()))?;
+        Ok(if report.complete {
+            Outcome::Done
+        } else {
+            Outcome::Interrupted
+        })
+    }
+
+    /// Port and camera: as given, else as the last time.
+    fn setup(&self, last: Option<Setup>) -> Result<Setup, Failure> {
+        let camera = self
+            .camera
+            .clone()
+            .or_else(|| last.as_ref().map(|s| s.camera.clone()));
+        let camera = camera.ok_or_else(|| {
+            Failure::Input(anyhow!(
+                "no camera: give the command that takes and reads photos with --camera \
+                 (docs/robot.md says what it must speak)"
+            ))
+        })?;
+        let port = match (&self.port.port, &last) {
+            (None, Some(last)) => last.port.clone(),
+            _ => self.port.port()?,
+        };
+        let speed = self.speed.or(last.map(|last| last.speed)).unwrap_or(1.0);
+        Ok(Setup {
+            port,
+            camera,
+            speed,
+        })
+    }
+
+    fn present(
+        &self,
+        report: &SessionReport,
+        directory: &Directory,
+        console: &Console,
+    ) -> std::io::Result<()> {
+        let (live, trips) = (&report.live, &report.round_trips);
+        let mean_ms = trips.sum.as_secs_f64() * 1e3 / (trips.count.max(1) as f64);
+        let longest_ms = trips.longest.as_secs_f64() * 1e3;
+        let faces = Face::ALL.iter().zip(live.faces);
+        if console.format() == Format::Json {
+            return output::print_json(&json!({
+                "format_version": FORMAT_VERSION,
+                "kind": "robot-run",
+                "complete": report.complete,
+                "out": directory.path().to_string_lossy(),
+                "planned": live.planned,
+                "heads": live.faces[0],
+                "tails": live.faces[1],
+                "side": live.faces[2],
+                "void": live.voids,
+                "losses_of_the_line": live.losses,
+                "round_trip_ms": { "mean": mean_ms, "longest": longest_ms, "count": trips.count },
+                "frames": {
+                    "sent": report.counters.sent,
+                    "repeated": report.counters.repeated,
+                    "rejected": report.counters.rejected,
+                    "ignored": report.counters.ignored,
+                },
+            }));
+        }
+        let counts: Vec<String> = faces
+            .map(|(face, count)| format!("{} {}", grouped(u64::from(count)), face.name()))
+            .collect();
+        output::print(&format!(
+            "{} of {} throws: {}, {} void\n",
+            grouped(u64::from(live.resolved())),
+            grouped(u64::from(live.planned)),
+            counts.join(", "),
+            grouped(u64::from(live.voids)),
+        ))?;
+        if !self.quiet {
+            output::note(&format!(
+                "coinmc: {} here; answers took {mean_ms:.1} ms on average, {longest_ms:.0} ms at \
+                 most",
+                grouped(u64::from(live.here))
+            ));
+            let dir = directory.path().display();
+            output::note(&if report.complete {
+                format!("Next: coinmc robot export {dir}; coinmc robot fairness {dir}")
+            } else {
+                format!("Go on with: coinmc robot resume {dir}")
+            });
+        }
+        Ok(())
+    }
+}

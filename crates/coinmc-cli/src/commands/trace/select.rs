@@ -1,0 +1,121 @@
+//! Which tosses: named, or searched for.
+
+use super::Trace;
+use crate::exit::Failure;
+use crate::terminal::progress::Progress;
+use coinmc::plan::Plan;
+use coinmc::trace::{MAX_RATE_HZ, Query, TraceError, launch, search};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+/// Between two looks of the user.
+const PAUSE: Duration = Duration::from_millis(50);
+/// Most tosses of a command.
+const MOST: usize = 1000;
+
+/// The tosses to trace, by point and number.
+#[derive(Debug)]
+pub(super) struct Selected {
+    pub(super) tosses: Vec<(usize, u64)>,
+    /// Tosses looked at; `None` where none were searched for.
+    pub(super) searched: Option<u64>,
+    pub(super) status: Status,
+}
+
+/// Whether all was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Status {
+    Complete,
+    /// Fewer were found than wanted. `limit`: there were more tosses to look at.
+    Short {
+        limit: bool,
+    },
+    Interrupted,
+}
+
+/// The points asked for.
+pub(super) fn points(trace: &Trace, plan: &Plan) -> Vec<usize> {
+    if !trace.points.is_empty() {
+        trace.points.clone()
+    } else if trace.tosses.is_empty() {
+        (0..plan.points.len()).collect()
+    } else {
+        vec![0]
+    }
+}
+
+/// Refuses tosses that are not there before anything is begun.
+pub(super) fn check(trace: &Trace, plan: &Plan) -> Result<(), Failure> {
+    if !trace.tosses.is_empty() && trace.tosses.len() * points(trace, plan).len() > MOST {
+        return Err(Failure::Input(anyhow::anyhow!(
+            "at most {MOST} tosses are traced at a time"
+        )));
+    }
+    if let Some(rate) = trace
+        .rate
+        .filter(|rate| !(0.0..=MAX_RATE_HZ).contains(rate))
+    {
+        return Err(TraceError::Rate(rate).into());
+    }
+    // a search comes to its last point late
+    let firsts = points(trace, plan).into_iter().map(|point| (point, 0));
+    for (point, toss) in firsts.chain(named(trace, plan)) {
+        launch(plan, point, toss)?;
+    }
+    Ok(())
+}
+
+/// Every toss named, of every point named.
+fn named(trace: &Trace, plan: &Plan) -> Vec<(usize, u64)> {
+    let points = points(trace, plan).into_iter();
+    points
+        .flat_map(|point| trace.tosses.iter().map(move |&toss| (point, toss)))
+        .collect()
+}
+
+pub(super) fn select(
+    trace: &Trace,
+    plan: &Plan,
+    cancel: &AtomicBool,
+    progress: &Progress,
+) -> Result<Selected, Failure> {
+    if !trace.tosses.is_empty() {
+        return Ok(Selected {
+            tosses: named(trace, plan),
+            searched: None,
+            status: Status::Complete,
+        });
+    }
+    let points = points(trace, plan);
+    let query = Query {
+        points: &points,
+        conditions: &trace.conditions,
+        longest: trace.longest.map(Into::into),
+        count: usize::from(trace.count),
+        limit: trace.limit,
+    };
+    progress.searched(0, trace.limit);
+    let mut shown = Instant::now();
+    let findings = search(plan, &query, |searched| {
+        // a toss may take a microsecond, and a second
+        if shown.elapsed() >= PAUSE {
+            progress.searched(searched, trace.limit);
+            shown = Instant::now();
+        }
+        !cancel.load(Ordering::Relaxed)
+    })?;
+    let status = if cancel.load(Ordering::Relaxed) {
+        Status::Interrupted
+    } else if findings.found.len() < query.count {
+        Status::Short {
+            limit: findings.is_cut,
+        }
+    } else {
+        Status::Complete
+    };
+    Ok(Selected {
+        tosses: findings.found.iter().map(|f| (f.point, f.toss)).collect(),
+        searched: Some(findings.searched),
+        status,
+    })
+}

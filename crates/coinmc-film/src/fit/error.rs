@@ -1,0 +1,54 @@
+//! Why drops cannot be fitted.
+
+use thiserror::Error;
+
+/// Why drops cannot be fitted.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum FitError {
+    /// No drop, or too many.
+    #[error("a fit takes 1 to 64 drops, not {0}")]
+    Drops(usize),
+    /// The confidence lies outside (0, 1).
+    #[error("the confidence must lie between 0 and 1, not {0}")]
+    Confidence(f64),
+    /// A value to start from lies outside its range.
+    #[error("restitution must lie from 0 to 1 and friction from 0 to 10")]
+    OutOfRange,
+    /// A drop has too many frames.
+    #[error("{name}: {frames} frames are too many, {most} is the most: export fewer")]
+    TooLong {
+        /// The drop.
+        name: String,
+        /// Its frames.
+        frames: usize,
+        /// Allowed.
+        most: usize,
+    },
+    /// All drops together are too much for memory.
+    #[error("{frames} frames are too many for one fit: fit fewer drops, or fewer frames of each")]
+    TooLarge {
+        /// Frames of all drops.
+        frames: usize,
+    },
+    /// The film does not begin with a flight.
+    #[error(
+        "{name}: the film must begin with at least {least} frames of free flight in which y and θ \
+         are marked"
+    )]
+    NoFlight {
+        /// The drop.
+        name: String,
+        /// Frames needed.
+        least: usize,
+    },
+    /// No start led to a minimum.
+    #[error("no motion under the law {law} resembles the film: are coin, units and angle right?")]
+    NothingFound {
+        /// The law.
+        law: &'static str,
+    },
+    /// The numbers went wrong at the minimum.
+    #[error("the fit was lost: are coin, units and angle right?")]
+    Lost,
+}

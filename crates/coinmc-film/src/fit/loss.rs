@@ -1,0 +1,123 @@
+//! How residuals count: squares, or Huber's loss where points may be wrong.
+
+/// What a residual costs.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Loss {
+    /// Normal noise: r²/2.
+    #[default]
+    Square,
+    /// Huber (1964): r²/2 up to 1.345 standard deviations, straight beyond. The negative logarithm
+    /// of a density that is normal in the middle and has exponential tails; 95 % as efficient as
+    /// squares where the noise is normal.
+    Huber,
+}
+
+/// Where Huber's loss turns straight.
+const KNEE: f64 = 1.345;
+
+impl Loss {
+    /// ρ(r).
+    pub(crate) fn rho(self, r: f64) -> f64 {
+        match self {
+            Self::Huber if r.abs() > KNEE => KNEE * (r.abs() - 0.5 * KNEE),
+            _ => 0.5 * r * r,
+        }
+    }
+
+    /// ψ = ρ'.
+    pub(crate) fn psi(self, r: f64) -> f64 {
+        match self {
+            Self::Huber => r.clamp(-KNEE, KNEE),
+            Self::Square => r,
+        }
+    }
+
+    /// Whether r lies where ψ' = 1.
+    pub(crate) fn is_inner(self, r: f64) -> bool {
+        self == Self::Square || r.abs() <= KNEE
+    }
+
+    /// The residual whose half square is ρ(r), and its derivative by r: what least squares needs.
+    pub(crate) fn folded(self, r: f64) -> (f64, f64) {
+        if self.is_inner(r) {
+            return (r, 1.0);
+        }
+        let folded = (2.0 * self.rho(r)).sqrt().copysign(r);
+        (folded, self.psi(r) / folded)
+    }
+
+    /// ln of the integral of exp(−ρ): what makes it a density.
+    pub(crate) fn log_normaliser(self) -> f64 {
+        use std::f64::consts::{SQRT_2, TAU};
+        let integral = match self {
+            Self::Square => TAU.sqrt(),
+            Self::Huber => {
+                TAU.sqrt() * libm::erf(KNEE / SQRT_2) + 2.0 / KNEE * libm::exp(-0.5 * KNEE * KNEE)
+            }
+        };
+        libm::log(integral)
+    }
+
+    /// The scale σ at which Σ ψ(r/σ)·r/σ is `degrees`: for squares sqrt(Σr²/degrees). 0 if no
+    /// residual differs from 0.
+    ///
+    /// The left side falls as σ grows, so bisection finds it.
+    pub(crate) fn scale(self, residuals: &[f64], degrees: f64) -> f64 {
+        let squares = residuals.iter().map(|r| r * r).sum::<f64>();
+        let least_squares = (squares / degrees).sqrt();
+        if self == Self::Square || squares == 0.0 {
+            return least_squares;
+        }
+        let excess = |sigma: f64| {
+            let sum = |r: &f64| self.psi(r / sigma) * (r / sigma);
+            residuals.iter().map(sum).sum::<f64>() - degrees
+        };
+        let (mut low, mut high) = (1e-6 * least_squares, least_squares);
+        for _ in 0..60 {
+            let middle = f64::midpoint(low, high);
+            *(if excess(middle) > 0.0 {
+                &mut low
+            } else {
+                &mut high
+            }) = middle;
+        }
+        f64::midpoint(low, high)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_folded_residual_squares_to_the_loss_and_has_its_slope() {
+        for loss in [Loss::Square, Loss::Huber] {
+            for r in [-7.0, -1.3, 0.0, 0.4, 1.4, 30.0] {
+                let (folded, slope) = loss.folded(r);
+                assert!((0.5 * folded * folded - loss.rho(r)).abs() < 1e-12);
+                assert!((folded * slope - loss.psi(r)).abs() < 1e-12);
+            }
+        }
+    }
+
+    /// A composite trapezium over ±60 with tails below e^-80.
+    #[test]
+    fn the_normaliser_is_the_integral() {
+        for loss in [Loss::Square, Loss::Huber] {
+            let step = 1e-3;
+            let sum: f64 = (-60_000..=60_000)
+                .map(|i| libm::exp(-loss.rho(f64::from(i) * step)) * step)
+                .sum();
+            assert!((libm::log(sum) - loss.log_normaliser()).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn a_few_wild_points_hardly_move_hubers_scale() {
+        let mut residuals: Vec<f64> = (0..200).map(|i| f64::from(i % 21 - 10) / 10.0).collect();
+        let clean = Loss::Huber.scale(&residuals, 200.0);
+        residuals.extend([50.0, -80.0]);
+        let wild = Loss::Huber.scale(&residuals, 202.0);
+        assert!(wild / clean < 1.1 && Loss::Square.scale(&residuals, 202.0) > 5.0 * clean);
+    }
+}

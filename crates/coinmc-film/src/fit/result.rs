@@ -1,0 +1,312 @@
+//! What a fit found.
+
+use super::covariance::{Spread, of};
+use super::problem::{Miss, Problem, Unknown};
+use super::student::quantile;
+use super::{Loss, Options, Remark};
+use crate::drop::Coordinate;
+use crate::law::{Model, Parameter, Shared};
+
+/// A shared parameter as fitted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimated {
+    /// Which.
+    pub parameter: Parameter,
+    /// The best value. Where an end of the interval is open, any value beyond the other end is as
+    /// good.
+    pub value: f64,
+    /// Standard error by linear theory, if there is one.
+    pub std_error: Option<f64>,
+    /// Lower end of the interval by the profile of the likelihood; `None`: open.
+    pub lo: Option<f64>,
+    /// Upper end.
+    pub hi: Option<f64>,
+}
+
+impl Estimated {
+    /// Whether the film fixes it from both sides.
+    pub fn is_determined(&self) -> bool {
+        self.lo.is_some() && self.hi.is_some()
+    }
+}
+
+/// A drop as fitted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FittedDrop {
+    /// Its name.
+    pub name: String,
+    /// x, x', z above the surface, z', θ, θ' at the first frame: m, m/s, rad, rad/s.
+    pub start: [f64; 6],
+    /// Half the width of the interval of each, by linear theory; `None` where the film says
+    /// nothing.
+    pub half_width: [Option<f64>; 6],
+    /// Frames that count.
+    pub frames: usize,
+    /// Frames there are.
+    pub of_frames: usize,
+    /// Times of the impacts among them since the first frame, s.
+    pub impacts_s: Vec<f64>,
+}
+
+/// Scatter of one coordinate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Noise {
+    /// Which.
+    pub coordinate: Coordinate,
+    /// Points of it.
+    pub n: usize,
+    /// Standard deviation, m or rad.
+    pub sigma: f64,
+    /// Correlation of the residuals of successive frames.
+    pub correlation: f64,
+}
+
+/// One residual.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Residual {
+    /// Index of the drop.
+    pub drop: usize,
+    /// Index of the frame.
+    pub frame: usize,
+    /// Time as in the film, s.
+    pub time_s: f64,
+    /// Which coordinate.
+    pub coordinate: Coordinate,
+    /// As marked, m or rad.
+    pub seen: f64,
+    /// Seen less predicted, m or rad (an angle without whole turns).
+    pub residual: f64,
+    /// The same in standard deviations.
+    pub standardised: f64,
+}
+
+/// A law fitted to drops.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// Law, coin and gravity.
+    pub model: Model,
+    /// The fitted parameters.
+    pub parameters: Vec<Estimated>,
+    /// All parameters, fitted and given.
+    pub shared: Shared,
+    /// The drops.
+    pub drops: Vec<FittedDrop>,
+    /// The scatter of each coordinate that was marked.
+    pub noise: Vec<Noise>,
+    /// Points that count.
+    pub n: usize,
+    /// Fitted numbers: parameters, first states, scatters.
+    pub fitted: usize,
+    /// Logarithm of the greatest likelihood.
+    pub log_likelihood: f64,
+    /// Confidence of the intervals.
+    pub confidence: f64,
+    /// What a reader ought to know.
+    pub remarks: Vec<Remark>,
+    /// Every residual.
+    pub residuals: Vec<Residual>,
+}
+
+impl Fit {
+    /// The estimate of a parameter, if it was fitted.
+    pub fn estimate(&self, parameter: Parameter) -> Option<&Estimated> {
+        self.parameters.iter().find(|e| e.parameter == parameter)
+    }
+
+    /// Akaike's criterion 2k − 2 ln L.
+    pub fn aic(&self) -> f64 {
+        2.0 * (self.fitted as f64 - self.log_likelihood)
+    }
+
+    /// Schwarz's criterion k ln n − 2 ln L.
+    pub fn bic(&self) -> f64 {
+        self.fitted as f64 * libm::log(self.n as f64) - 2.0 * self.log_likelihood
+    }
+}
+
+/// Puts the report together; `None` if the numbers went wrong.
+pub(super) fn report(
+    problem: &Problem,
+    spread: &Spread,
+    ends: &[(Option<f64>, Option<f64>)],
+    options: &Options,
+) -> Option<Fit> {
+    let misses = problem.misses()?;
+    let noise = noise(problem, &misses);
+    let mut fit = Fit {
+        model: problem.task.model,
+        parameters: estimates(problem, spread, ends),
+        shared: problem.point.shared,
+        drops: drops(problem, spread, options)?,
+        log_likelihood: log_likelihood(problem.task.loss, &misses),
+        n: misses.len(),
+        fitted: problem.unknowns.len() + noise.len(),
+        noise,
+        confidence: options.confidence,
+        remarks: Vec::new(),
+        residuals: residuals(problem, &misses),
+    };
+    fit.remarks = remarks(&fit, problem.task.loss);
+    Some(fit)
+}
+
+fn estimates(
+    problem: &Problem,
+    spread: &Spread,
+    ends: &[(Option<f64>, Option<f64>)],
+) -> Vec<Estimated> {
+    let unknowns = problem.unknowns.iter().zip(&spread.errors);
+    let shared = unknowns.filter_map(|(unknown, error)| match unknown {
+        Unknown::Shared(parameter) => Some((*parameter, *error)),
+        Unknown::Start(..) => None,
+    });
+    shared
+        .enumerate()
+        .map(|(i, (parameter, std_error))| {
+            let (lo, hi) = ends.get(i).copied().unwrap_or((None, None));
+            Estimated {
+                parameter,
+                value: problem.point.shared.get(parameter),
+                std_error,
+                lo,
+                hi,
+            }
+        })
+        .collect()
+}
+
+fn drops(problem: &Problem, spread: &Spread, options: &Options) -> Option<Vec<FittedDrop>> {
+    let task = problem.task;
+    let t = quantile(options.confidence, spread.degrees());
+    let mut drops = Vec::new();
+    for (d, filmed) in task.drops.iter().enumerate() {
+        let frames = problem.weighing.frames[d];
+        let last = task.times[d].get(frames.saturating_sub(1)).copied()?;
+        let mut impacts_s = task.path(d, &problem.point, frames)?.impacts_s;
+        impacts_s.retain(|impact| *impact <= last);
+        let mut half_width = [None; 6];
+        for (unknown, error) in problem.unknowns.iter().zip(&spread.errors) {
+            if let Unknown::Start(of, place) = unknown
+                && *of == d
+            {
+                half_width[*place] = error.map(|error| t * error);
+            }
+        }
+        drops.push(FittedDrop {
+            name: filmed.name.clone(),
+            start: problem.point.starts[d],
+            half_width,
+            frames,
+            of_frames: filmed.frames.len(),
+            impacts_s,
+        });
+    }
+    Some(drops)
+}
+
+/// ln of the density of the residuals at the scatter that makes it greatest.
+fn log_likelihood(loss: Loss, misses: &[Miss]) -> f64 {
+    let mut sum = 0.0;
+    for coordinate in Coordinate::ALL {
+        let residuals = of(misses, coordinate);
+        let n = residuals.len() as f64;
+        if residuals.is_empty() {
+            continue;
+        }
+        let sigma = loss.scale(&residuals, n).max(f64::MIN_POSITIVE);
+        let cost: f64 = residuals.iter().map(|r| loss.rho(r / sigma)).sum();
+        sum -= n * (libm::log(sigma) + loss.log_normaliser()) + cost;
+    }
+    sum
+}
+
+fn noise(problem: &Problem, misses: &[Miss]) -> Vec<Noise> {
+    Coordinate::ALL
+        .into_iter()
+        .filter_map(|coordinate| {
+            let n = of(misses, coordinate).len();
+            (n > 0).then(|| Noise {
+                coordinate,
+                n,
+                sigma: problem.weighing.sigma[coordinate.index()],
+                correlation: correlation(misses, coordinate),
+            })
+        })
+        .collect()
+}
+
+/// Correlation of the residuals of a coordinate in successive frames.
+fn correlation(misses: &[Miss], coordinate: Coordinate) -> f64 {
+    let of_it: Vec<&Miss> = misses
+        .iter()
+        .filter(|m| m.coordinate == coordinate)
+        .collect();
+    let squares: f64 = of_it.iter().map(|m| m.by * m.by).sum();
+    let products: f64 = of_it
+        .windows(2)
+        .filter(|pair| pair[0].drop == pair[1].drop && pair[0].frame + 1 == pair[1].frame)
+        .map(|pair| pair[0].by * pair[1].by)
+        .sum();
+    if squares > 0.0 {
+        products / squares
+    } else {
+        0.0
+    }
+}
+
+fn residuals(problem: &Problem, misses: &[Miss]) -> Vec<Residual> {
+    misses
+        .iter()
+        .filter_map(|miss| {
+            let frame = &problem.task.drops[miss.drop].frames[miss.frame];
+            Some(Residual {
+                drop: miss.drop,
+                frame: miss.frame,
+                time_s: frame.time_s,
+                coordinate: miss.coordinate,
+                seen: frame.seen[miss.coordinate.index()]?,
+                residual: miss.by,
+                standardised: problem.weighed(miss),
+            })
+        })
+        .collect()
+}
+
+fn remarks(fit: &Fit, loss: Loss) -> Vec<Remark> {
+    /// False alarms of normal, independent noise: one in 15,000 a coordinate.
+    const CORRELATED: f64 = 4.0;
+    /// False alarms: six in ten million residuals.
+    const OUTLYING: f64 = 5.0;
+    let mut remarks = Vec::new();
+    for drop in &fit.drops {
+        if drop.impacts_s.is_empty() {
+            let drop = drop.name.clone();
+            remarks.push(Remark::NoImpact { drop });
+        }
+    }
+    for estimate in &fit.parameters {
+        let (low, high) = estimate.parameter.range();
+        if !estimate.is_determined() {
+            remarks.push(Remark::Undetermined(estimate.parameter));
+        } else if estimate.value <= low || estimate.value >= high {
+            remarks.push(Remark::AtTheEnd(estimate.parameter));
+        }
+    }
+    for noise in &fit.noise {
+        if noise.correlation > CORRELATED / (noise.n as f64).sqrt() {
+            remarks.push(Remark::Correlated {
+                coordinate: noise.coordinate,
+                correlation: noise.correlation,
+            });
+        }
+    }
+    let count = fit
+        .residuals
+        .iter()
+        .filter(|residual| residual.standardised.abs() > OUTLYING)
+        .count();
+    if count > 0 && loss == Loss::Square {
+        remarks.push(Remark::Outliers { count });
+    }
+    remarks
+}

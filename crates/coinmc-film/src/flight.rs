@@ -1,0 +1,170 @@
+//! The flight before the first impact: where a fit begins, from the film alone.
+
+use crate::drop::{Coordinate, FilmedDrop, median, wrapped};
+use crate::path::Start;
+
+/// Frames before the first impact that a fit needs.
+pub const LEAST_FLIGHT: usize = 5;
+
+/// Noise taken for granted, m and rad: what is written with fewer digits than this has more.
+const LEAST_NOISE: [f64; 3] = [1e-6, 1e-6, 1e-5];
+
+/// A frame further than this from the parabola is beyond the impact, in standard deviations.
+const FAR: f64 = 6.0;
+
+/// The flight before the first impact.
+#[derive(Debug, Clone)]
+pub(crate) struct Flight {
+    /// Number of frames.
+    pub(crate) frames: usize,
+    /// The state at the first of them.
+    pub(crate) start: Start,
+}
+
+/// Standard deviation of each coordinate, by its third differences.
+///
+/// In flight those of x, z and θ vanish, and a few impacts do not move a median: for white noise
+/// the difference y₀ − 3y₁ + 3y₂ − y₃ has the variance 20σ², and the median of |·| is 0.6745 of its
+/// standard deviation.
+pub(crate) fn noise(drops: &[FilmedDrop]) -> [f64; 3] {
+    let mut noise = LEAST_NOISE;
+    for coordinate in Coordinate::ALL {
+        let c = coordinate.index();
+        let mut third: Vec<f64> = drops
+            .iter()
+            .flat_map(|drop| drop.frames.windows(4))
+            .filter_map(|four| {
+                let [y0, y1, y2, y3] = [0, 1, 2, 3].map(|i: usize| four[i].seen[c]);
+                let (a, b, d) = (y1? - y0?, y2? - y1?, y3? - y2?);
+                let steps = match coordinate {
+                    Coordinate::Theta => [wrapped(a), wrapped(b), wrapped(d)],
+                    Coordinate::X | Coordinate::Z => [a, b, d],
+                };
+                Some((steps[2] - 2.0 * steps[1] + steps[0]).abs())
+            })
+            .collect();
+        if let Some(middle) = median(&mut third) {
+            noise[c] = noise[c].max(middle / 0.6745 / 20.0_f64.sqrt());
+        }
+    }
+    noise
+}
+
+/// Finds the flight: the frames up to where z leaves its parabola. `None` if it is too short.
+pub(crate) fn flight(drop: &FilmedDrop, gravity: f64, noise: &[f64; 3]) -> Option<Flight> {
+    let origin = drop.frames.first()?.time_s;
+    let marked: Vec<(usize, f64, f64)> = drop
+        .frames
+        .iter()
+        .enumerate()
+        .filter_map(|(i, frame)| {
+            let t = frame.time_s - origin;
+            // free fall taken out: what is left is a straight line
+            Some((i, t, frame.seen[1]? + 0.5 * gravity * t * t))
+        })
+        .collect();
+    let mut line = Line::default();
+    let mut last = None;
+    for (k, &(i, t, z)) in marked.iter().enumerate() {
+        let far = |t: f64, z: f64| {
+            (z - line.at(t)).abs() > FAR * noise[1] * (1.0 + line.leverage(t)).sqrt()
+        };
+        let next_too = marked.get(k + 1).is_none_or(|&(_, t, z)| far(t, z));
+        if k >= LEAST_FLIGHT && far(t, z) && next_too {
+            break;
+        }
+        line.add(t, z);
+        last = Some((k, i));
+    }
+    let (k, frame) = last?;
+    if k + 1 < LEAST_FLIGHT {
+        return None;
+    }
+    let frames = frame + 1;
+    let (z, vz) = line.coefficients();
+    let (x, vx) = straight(drop, frames, Coordinate::X).unwrap_or((0.0, 0.0));
+    let (theta, omega) = straight(drop, frames, Coordinate::Theta)?;
+    Some(Flight {
+        frames,
+        start: [x, vx, z, vz, theta, omega],
+    })
+}
+
+/// Value at the first frame, and rate, of a coordinate that moves evenly.
+fn straight(drop: &FilmedDrop, frames: usize, coordinate: Coordinate) -> Option<(f64, f64)> {
+    let origin = drop.frames.first()?.time_s;
+    let points: Vec<(f64, f64)> = drop.frames[..frames]
+        .iter()
+        .filter_map(|frame| Some((frame.time_s - origin, frame.seen[coordinate.index()]?)))
+        .collect();
+    let mut rates: Vec<f64> = points
+        .windows(2)
+        .map(|pair| wrapped(pair[1].1 - pair[0].1) / (pair[1].0 - pair[0].0))
+        .collect();
+    let rate = median(&mut rates)?;
+    let first = points.first()?;
+    let mut line = Line::default();
+    let mut turned = first.1;
+    let mut before = *first;
+    for &(t, y) in &points {
+        turned = match coordinate {
+            Coordinate::X | Coordinate::Z => y,
+            // whole turns are told apart by the rate
+            Coordinate::Theta => {
+                let expected = turned + rate * (t - before.0);
+                expected + wrapped(y - expected)
+            }
+        };
+        line.add(t, turned);
+        before = (t, y);
+    }
+    Some(line.coefficients())
+}
+
+/// Least-squares line through points, added one by one.
+#[derive(Debug, Default)]
+struct Line {
+    n: f64,
+    t: f64,
+    y: f64,
+    tt: f64,
+    ty: f64,
+}
+
+impl Line {
+    /// Welford's updates: sums about the mean.
+    fn add(&mut self, t: f64, y: f64) {
+        self.n += 1.0;
+        let (dt, dy) = (t - self.t, y - self.y);
+        self.t += dt / self.n;
+        self.y += dy / self.n;
+        self.tt += dt * (t - self.t);
+        self.ty += dt * (y - self.y);
+    }
+
+    fn slope(&self) -> f64 {
+        if self.tt > 0.0 {
+            self.ty / self.tt
+        } else {
+            0.0
+        }
+    }
+
+    fn at(&self, t: f64) -> f64 {
+        self.y + self.slope() * (t - self.t)
+    }
+
+    /// Variance of [`at`](Self::at) for unit noise.
+    fn leverage(&self, t: f64) -> f64 {
+        let spread = if self.tt > 0.0 {
+            (t - self.t) * (t - self.t) / self.tt
+        } else {
+            0.0
+        };
+        1.0 / self.n + spread
+    }
+
+    fn coefficients(&self) -> (f64, f64) {
+        (self.at(0.0), self.slope())
+    }
+}

@@ -1,0 +1,110 @@
+//! What a law predicts for the frames of a drop.
+
+use crate::drop::wrapped;
+use crate::law::{Model, Shared};
+use coinmc_core::{Coin, Event, EventKind, Launch, Observer, State};
+use nalgebra::{UnitVector3, Vector3};
+
+/// The state at the first frame: x, x', z above the surface, z', θ, θ' (m, m/s, rad, rad/s).
+pub(crate) type Start = [f64; 6];
+
+/// How far each number of a [`Start`] moves when "one" is added to it in the search.
+pub(crate) fn start_scales(model: &Model) -> Start {
+    let d = model.coin.rim_distance_m();
+    let rate = (model.gravity_m_s2 / d).sqrt();
+    [d, d * rate, d, d * rate, 1.0, rate]
+}
+
+/// The predicted frames and what happened between them.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Path {
+    /// x, z, θ at every frame, in the film's coordinates.
+    pub(crate) seen: Vec<[f64; 3]>,
+    /// Time of every impact since the first frame, s.
+    pub(crate) impacts_s: Vec<f64>,
+    /// Frames for which the prediction is mechanics: beyond, the toss is decided and the flight
+    /// after its last impact is over.
+    pub(crate) valid: usize,
+}
+
+/// Follows a drop and looks at it `at` these times since its first frame.
+pub(crate) fn path(model: &Model, shared: &Shared, start: &Start, at: &[f64]) -> Option<Path> {
+    let shared = shared.clamped();
+    let (sin, cos) = libm::sincos(start[4]);
+    let launch = Launch {
+        height_m: start[2],
+        velocity_m_s: Vector3::new(start[1], 0.0, start[3]),
+        axis: UnitVector3::new_unchecked(Vector3::new(sin, 0.0, cos)),
+        spin_rad_s: Vector3::new(0.0, start[5], 0.0),
+    };
+    let mut watcher = Watcher {
+        at,
+        path: Path::default(),
+        last: None,
+    };
+    model.follow(&shared, &launch, &mut watcher)?;
+    let Watcher { mut path, last, .. } = watcher;
+    path.valid = path.seen.len();
+    fly_on(&mut path, &last?, model, at);
+    for [x, z, _] in &mut path.seen {
+        *x += start[0];
+        *z += shared.floor_m;
+    }
+    Some(path)
+}
+
+/// The engine stops when the face is certain; the flight after that goes on in closed form, and is
+/// what happens until the coin touches again.
+fn fly_on(path: &mut Path, last: &State, model: &Model, at: &[f64]) {
+    let [x, z, theta] = seen(last);
+    let mut aloft = true;
+    for time in &at[path.seen.len()..] {
+        let t = time - last.time_s;
+        let velocity = last.velocity_m_s;
+        let now = [
+            x + velocity.x * t,
+            z + t * (velocity.z - 0.5 * model.gravity_m_s2 * t),
+            theta + last.spin_rad_s.y * t,
+        ];
+        aloft &= clearance(&model.coin, now[1], now[2]) > 0.0;
+        path.valid += usize::from(aloft);
+        path.seen.push(now);
+    }
+}
+
+/// Height of the lowest corner.
+fn clearance(coin: &Coin, z: f64, theta: f64) -> f64 {
+    let (sin, cos) = libm::sincos(theta);
+    z - coin.radius_m() * sin.abs() - 0.5 * coin.height_m() * cos.abs()
+}
+
+fn seen(state: &State) -> [f64; 3] {
+    let (position, axis) = (state.position_m, state.axis);
+    [position.x, position.z, wrapped(libm::atan2(axis.x, axis.z))]
+}
+
+struct Watcher<'a> {
+    at: &'a [f64],
+    path: Path,
+    last: Option<State>,
+}
+
+impl Observer for Watcher<'_> {
+    fn event(&mut self, event: &Event) {
+        if event.kind == EventKind::Impact {
+            self.path.impacts_s.push(event.state.time_s);
+        }
+        self.last = Some(event.state);
+    }
+
+    fn wants_at_s(&self) -> f64 {
+        self.at
+            .get(self.path.seen.len())
+            .copied()
+            .unwrap_or(f64::INFINITY)
+    }
+
+    fn sample(&mut self, state: &State) {
+        self.path.seen.push(seen(state));
+    }
+}

@@ -1,0 +1,154 @@
+//! Residuals as a picture: SVG written as text.
+
+use crate::drop::Coordinate;
+use crate::fit::{Fit, Residual};
+use std::fmt::Write as _;
+
+const WIDTH: f64 = 720.0;
+const ROW: f64 = 130.0;
+const LEFT: f64 = 64.0;
+const RIGHT: f64 = 16.0;
+const TOP: f64 = 28.0;
+const BOTTOM: f64 = 40.0;
+/// Of the axis, in standard deviations; what lies beyond stands at its edge.
+const REACH: f64 = 5.0;
+/// One colour a drop, told apart also by the colour-blind (Okabe & Ito).
+const COLORS: [&str; 7] = [
+    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000",
+];
+
+/// The standardised residuals of a fit against time: a row a coordinate, a colour a drop, with the
+/// times of the impacts and the band of two standard deviations.
+pub fn residuals_svg(fit: &Fit) -> String {
+    let rows: Vec<Coordinate> = fit.noise.iter().map(|noise| noise.coordinate).collect();
+    let height = TOP + ROW * rows.len() as f64 + BOTTOM;
+    let starts = starts(fit);
+    let (first, last) = (0.0, span(fit, &starts));
+    let x = |t: f64| LEFT + (t - first) / (last - first) * (WIDTH - LEFT - RIGHT);
+    let mut svg = String::new();
+    let _ = writeln!(
+        svg,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 \
+         {WIDTH} {height}\" font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" \
+         height=\"100%\" fill=\"#ffffff\"/>\n<text x=\"{LEFT}\" y=\"18\">Residuals of {} in standard \
+         deviations</text>",
+        fit.model.law.name()
+    );
+    for (row, coordinate) in rows.iter().enumerate() {
+        let middle = TOP + ROW * (row as f64 + 0.5);
+        let y = |r: f64| middle - r.clamp(-REACH, REACH) / REACH * (0.5 * ROW - 8.0);
+        frame(&mut svg, *coordinate, middle, &y);
+        impacts(&mut svg, fit, middle, &x);
+        for residual in fit.residuals.iter().filter(|r| r.coordinate == *coordinate) {
+            let since = residual.time_s - starts[residual.drop];
+            point(&mut svg, fit, residual, x(since), y(residual.standardised));
+        }
+    }
+    axis(&mut svg, (first, last), height, &x);
+    svg + "</svg>\n"
+}
+
+/// Time of each drop's first residual, s.
+fn starts(fit: &Fit) -> Vec<f64> {
+    let mut starts = vec![f64::INFINITY; fit.drops.len()];
+    for residual in &fit.residuals {
+        let start = &mut starts[residual.drop];
+        *start = start.min(residual.time_s);
+    }
+    starts
+}
+
+/// The longest drop, s.
+fn span(fit: &Fit, starts: &[f64]) -> f64 {
+    let lengths = fit.residuals.iter().map(|r| r.time_s - starts[r.drop]);
+    let longest = lengths.fold(0.0, f64::max);
+    if longest > 0.0 { longest } else { 1.0 }
+}
+
+fn frame(svg: &mut String, coordinate: Coordinate, middle: f64, y: &impl Fn(f64) -> f64) {
+    let right = WIDTH - RIGHT;
+    let (high, low) = (y(2.0), y(-2.0));
+    let _ = writeln!(
+        svg,
+        "<rect x=\"{LEFT}\" y=\"{high:.1}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"#eeeeee\"/>\n<line \
+         x1=\"{LEFT}\" x2=\"{right}\" y1=\"{middle}\" y2=\"{middle}\" stroke=\"#888888\"/>\n<text x=\"8\" \
+         y=\"{:.1}\">{}</text>",
+        right - LEFT,
+        low - high,
+        middle + 4.0,
+        match coordinate {
+            Coordinate::X => "x",
+            Coordinate::Z => "z",
+            Coordinate::Theta => "θ",
+        }
+    );
+    for tick in [-4, -2, 2, 4] {
+        let _ = writeln!(
+            svg,
+            "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\" fill=\"#555555\">{tick}</text>",
+            LEFT - 6.0,
+            y(f64::from(tick)) + 4.0
+        );
+    }
+}
+
+fn impacts(svg: &mut String, fit: &Fit, middle: f64, x: &impl Fn(f64) -> f64) {
+    for (drop, fitted) in fit.drops.iter().enumerate() {
+        for impact in &fitted.impacts_s {
+            let at = x(*impact);
+            let _ = writeln!(
+                svg,
+                "<line x1=\"{at:.1}\" x2=\"{at:.1}\" y1=\"{:.1}\" y2=\"{:.1}\" stroke=\"{}\" \
+                 stroke-dasharray=\"3 3\"/>",
+                middle - 0.5 * ROW + 4.0,
+                middle + 0.5 * ROW - 4.0,
+                COLORS[drop % COLORS.len()]
+            );
+        }
+    }
+}
+
+fn point(svg: &mut String, fit: &Fit, residual: &Residual, x: f64, y: f64) {
+    let beyond = if residual.standardised.abs() > REACH {
+        format!(
+            "<title>{} frame {}: {:.1}</title>",
+            escaped(&fit.drops[residual.drop].name),
+            residual.frame,
+            residual.standardised
+        )
+    } else {
+        String::new()
+    };
+    let _ = writeln!(
+        svg,
+        "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2\" fill=\"{}\">{beyond}</circle>",
+        COLORS[residual.drop % COLORS.len()]
+    );
+}
+
+fn axis(svg: &mut String, (first, last): (f64, f64), height: f64, x: &impl Fn(f64) -> f64) {
+    let bottom = height - BOTTOM;
+    for fifth in 0..=5 {
+        let t = first + (last - first) * f64::from(fifth) / 5.0;
+        let _ = writeln!(
+            svg,
+            "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\" fill=\"#555555\">{t:.2}</text>",
+            x(t),
+            bottom + 16.0
+        );
+    }
+    let _ = writeln!(
+        svg,
+        "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">time since the first frame, s</text>",
+        0.5 * (LEFT + WIDTH - RIGHT),
+        bottom + 34.0
+    );
+}
+
+/// Text that XML takes.
+fn escaped(text: &str) -> String {
+    let kept: String = text.chars().filter(|c| !c.is_control()).collect();
+    kept.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+}

@@ -1,0 +1,121 @@
+//! The ways in which the same table is written.
+
+use super::Encoding;
+
+/// What stands between two cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Delimiter {
+    /// A tab: Tracker's default.
+    #[default]
+    Tab,
+    /// A semicolon.
+    Semicolon,
+    /// A comma.
+    Comma,
+    /// One blank or more; cells cannot be empty then.
+    Blank,
+}
+
+impl Delimiter {
+    /// The name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Tab => "tab",
+            Self::Semicolon => "semicolon",
+            Self::Comma => "comma",
+            Self::Blank => "blank",
+        }
+    }
+
+    /// The character.
+    pub(super) fn character(self) -> char {
+        match self {
+            Self::Tab => '\t',
+            Self::Semicolon => ';',
+            Self::Comma => ',',
+            Self::Blank => ' ',
+        }
+    }
+
+    /// The delimiter of a table, by the line with the names of its columns: the first of tab,
+    /// semicolon, comma, blank that occurs.
+    pub(super) fn of(header: &str) -> Option<Self> {
+        let all = [Self::Tab, Self::Semicolon, Self::Comma, Self::Blank];
+        let header = header.trim();
+        all.into_iter().find(|d| header.contains(d.character()))
+    }
+
+    /// The cells of a line with their places in bytes, blanks around them left out.
+    pub(super) fn cells(self, line: &str) -> Vec<(usize, &str)> {
+        let mut cells = Vec::new();
+        let mut start = 0;
+        for piece in line.split(self.character()) {
+            let text = piece.trim();
+            let lead = piece.len() - piece.trim_start().len();
+            if self != Self::Blank || !text.is_empty() {
+                cells.push((start + if text.is_empty() { 0 } else { lead }, text));
+            }
+            start += piece.len() + 1;
+        }
+        cells
+    }
+}
+
+/// How a table is written. Read files have one, written files get one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Dialect {
+    /// Between cells.
+    pub delimiter: Delimiter,
+    /// `,` where decimals stand behind a comma, else `.`.
+    pub decimal_comma: bool,
+    /// Lines end with carriage return and line feed.
+    pub crlf: bool,
+    /// Characters.
+    pub encoding: Encoding,
+}
+
+/// What a cell holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Cell {
+    /// Nothing was marked.
+    Empty,
+    /// A number, and whether a degree sign stood behind it.
+    Number(f64, bool),
+    /// No number.
+    Wrong,
+    /// A number with the other decimal mark.
+    OtherMark,
+}
+
+/// Reads a cell. Java writes 1.25E-3, and NaN or the replacement character where there is no value.
+pub(super) fn cell(text: &str, decimal_comma: bool) -> Cell {
+    let text = text.trim_matches('"').trim();
+    if text.is_empty() || text.eq_ignore_ascii_case("nan") || text == "\u{FFFD}" {
+        return Cell::Empty;
+    }
+    let (digits, degrees) = match text.strip_suffix('°') {
+        Some(digits) => (digits.trim_end(), true),
+        None => (text, false),
+    };
+    let allowed = |c: char| c.is_ascii_digit() || "+-eE.,".contains(c);
+    if !digits.chars().all(allowed) {
+        return Cell::Wrong;
+    }
+    let (mark, other) = if decimal_comma {
+        (',', '.')
+    } else {
+        ('.', ',')
+    };
+    if digits.contains(other) {
+        let once = digits.matches(other).count() == 1 && !digits.contains(mark);
+        let plain = digits.replace(other, ".");
+        return match plain.parse::<f64>() {
+            Ok(value) if once && value.is_finite() => Cell::OtherMark,
+            _ => Cell::Wrong,
+        };
+    }
+    match digits.replace(mark, ".").parse::<f64>() {
+        Ok(value) if value.is_finite() => Cell::Number(value, degrees),
+        _ => Cell::Wrong,
+    }
+}

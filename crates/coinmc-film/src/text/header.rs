@@ -1,0 +1,132 @@
+//! The lines above the numbers: tracks, columns, units.
+
+use super::dialect::Delimiter;
+
+/// A column: its track, its name, its unit.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Column {
+    /// The track (Tracker: point mass, protractor, …) it belongs to; empty where none is named.
+    pub track: String,
+    /// The name without the unit.
+    pub name: String,
+    /// What stands in brackets behind the name.
+    pub unit: Option<String>,
+}
+
+impl Column {
+    /// `track.name`, or the name alone where there is no track.
+    pub fn full_name(&self) -> String {
+        if self.track.is_empty() {
+            self.name.clone()
+        } else {
+            format!("{}.{}", self.track, self.name)
+        }
+    }
+
+    pub(super) fn is_time(&self) -> bool {
+        ["t", "time", "zeit", "tiempo", "temps", "tempo"]
+            .contains(&self.name.to_lowercase().as_str())
+    }
+
+    /// Whether the name is that of a turned body's angle. θ_{r} is not: Tracker's name for the
+    /// direction of the position.
+    pub(super) fn is_angle(&self) -> bool {
+        [
+            "θ", "theta", "\\theta", "angle", "rotation", "φ", "phi", "winkel",
+        ]
+        .contains(&self.name.to_lowercase().as_str())
+    }
+
+    pub(super) fn is_named(&self, name: &str) -> bool {
+        self.name.eq_ignore_ascii_case(name)
+    }
+}
+
+/// The header of a table.
+#[derive(Debug, Clone)]
+pub(super) struct Header {
+    pub(super) delimiter: Delimiter,
+    /// Index of the line with the names of the columns.
+    pub(super) line: usize,
+    /// Columns with the places of their names in that line.
+    pub(super) columns: Vec<(Column, std::ops::Range<usize>)>,
+    /// Index of the time.
+    pub(super) time: usize,
+}
+
+/// A line that says nothing: blank, or a remark. Tracker's `#multi:` begins like one.
+pub(super) fn is_idle(line: &str) -> bool {
+    let line = line.trim();
+    line.is_empty() || line.starts_with('#')
+}
+
+/// Finds the header: the first line that has a column of time. Lines before it name tracks.
+pub(super) fn header(lines: &[&str]) -> Option<Header> {
+    /// Header lines beyond this are none.
+    const SEARCHED: usize = 50;
+    let mut before: Option<&str> = None;
+    for (number, line) in lines.iter().enumerate().take(SEARCHED) {
+        if is_idle(line) {
+            continue;
+        }
+        if let Some(delimiter) = Delimiter::of(line) {
+            let columns: Vec<_> = delimiter
+                .cells(line)
+                .into_iter()
+                .map(|(start, text)| (column(text), start..start + text.len()))
+                .collect();
+            if let Some(time) = columns.iter().position(|(column, _)| column.is_time()) {
+                let mut header = Header {
+                    delimiter,
+                    line: number,
+                    columns,
+                    time,
+                };
+                header.name_tracks(before.unwrap_or(""));
+                return Some(header);
+            }
+        }
+        before = Some(line);
+    }
+    None
+}
+
+impl Header {
+    /// A single name belongs to all columns; several stand above the first column of each track.
+    fn name_tracks(&mut self, line: &str) {
+        let names = self.delimiter.cells(line);
+        let given = names.iter().filter(|(_, name)| !name.is_empty()).count();
+        let mut track = String::new();
+        for (i, (column, _)) in self.columns.iter_mut().enumerate() {
+            if given == 1 && self.delimiter.cells(line).len() <= 2 {
+                line.trim()
+                    .trim_matches(self.delimiter.character())
+                    .clone_into(&mut track);
+            } else if let Some((_, name)) = names.get(i).filter(|(_, name)| !name.is_empty()) {
+                (*name).clone_into(&mut track);
+            }
+            if !column.is_time() {
+                column.track.clone_from(&track);
+            }
+        }
+    }
+}
+
+/// `y (cm)`, `y [cm]`, `y`; quotes of spreadsheets are left out.
+fn column(text: &str) -> Column {
+    let text = text.trim_matches('"').trim();
+    let bracket = |open: char, close: char| {
+        let inner = text.strip_suffix(close)?;
+        let at = inner.rfind(open)?;
+        (at > 0).then(|| (inner[..at].trim(), inner[at + open.len_utf8()..].trim()))
+    };
+    let (name, unit) = match bracket('(', ')').or_else(|| bracket('[', ']')) {
+        Some((name, unit)) => (name, Some(unit.to_owned())),
+        None => (text, None),
+    };
+    Column {
+        track: String::new(),
+        name: name.to_owned(),
+        unit,
+    }
+}

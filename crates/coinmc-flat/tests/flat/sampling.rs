@@ -1,0 +1,320 @@
+//! The coin between events: where the laws of motion put it, and without a trace in the toss.
+
+use crate::common::{
+    Dice, Moment, Recorder, Sampler, Section, Start, engine, engine_with, moment, preset, scene,
+};
+use crate::contact_phases::{phase, world};
+use coinmc_core::{Engine, Event, EventKind, Launch, Observer, Outcome, Preset, Scene, State};
+use coinmc_flat::{FlatEngine, Moreau, Settings};
+
+/// Every kind of motion: rocking, sliding, pivoting, frictionless, bouncing, thin, thick.
+const SCENES: [(f64, f64, f64); 6] = [
+    (1.0, 0.0, 0.3),
+    (0.2, 0.0, 1.0),
+    (1.0, 0.0, 0.0),
+    (1.2, 0.5, 0.3),
+    (2.0, 0.7, 0.0),
+    (20.0, 0.5, 0.3),
+];
+
+fn sampled(engine: &FlatEngine<Moreau>, launch: &Launch, rate: f64) -> (Outcome, Sampler) {
+    let mut sampler = Sampler::new(rate);
+    let outcome = engine.toss(&mut (), launch, &mut sampler);
+    (outcome, sampler)
+}
+
+#[test]
+fn sampling_changes_nothing() {
+    let mut samples = 0;
+    for (ratio, restitution, friction) in SCENES {
+        let scene = scene(ratio, restitution, friction);
+        let engine = engine(&scene);
+        for toss in 0..500 {
+            let launch = preset(Preset::CleanFlat, &scene, 92, toss);
+            let alone = engine.toss(&mut (), &launch, &mut ());
+            let mut recorder = Recorder::default();
+            engine.toss(&mut (), &launch, &mut recorder);
+            for rate in [7.0, 100.0, 1000.0] {
+                let (outcome, sampler) = sampled(&engine, &launch, rate);
+                assert_eq!(outcome, alone);
+                assert_eq!(sampler.events, recorder.0);
+                samples += sampler.samples.len();
+            }
+        }
+    }
+    assert!(samples > 1_000_000, "{samples}");
+}
+
+/// i/100 and 10i/1000 are the same number: the samples must be the same to the last bit.
+#[test]
+fn a_sample_does_not_depend_on_the_others() {
+    for (ratio, restitution, friction) in SCENES {
+        let scene = scene(ratio, restitution, friction);
+        let engine = engine(&scene);
+        for toss in 0..200 {
+            let launch = preset(Preset::CleanFlat, &scene, 93, toss);
+            let (_, slow) = sampled(&engine, &launch, 100.0);
+            let (_, fast) = sampled(&engine, &launch, 1000.0);
+            let tenth: Vec<Event> = fast.samples.iter().step_by(10).copied().collect();
+            assert_eq!(tenth, slow.samples);
+            // up to the end, and not beyond
+            let end = slow.events.last().expect("an end").state.time_s;
+            assert!(f64::from(fast.taken - 1) < end * fast.rate_hz);
+            assert!(f64::from(fast.taken) >= end * fast.rate_hz);
+        }
+    }
+}
+
+/// The pieces of a toss: from an event, through samples, to the next event.
+fn pieces(scene: &Scene, sampler: &Sampler) -> Vec<(Moment, Vec<Moment>, Moment)> {
+    let moments = |events: &[Event]| -> Vec<Moment> {
+        events
+            .iter()
+            .map(|event| moment(scene, event.kind, &event.state))
+            .collect()
+    };
+    let (events, samples) = (moments(&sampler.events), moments(&sampler.samples));
+    let mut rest = samples.into_iter().peekable();
+    events
+        .windows(2)
+        .map(|pair| {
+            let mut within = Vec::new();
+            while let Some(sample) = rest.next_if(|sample| sample.time < pair[1].time) {
+                within.push(sample);
+            }
+            (pair[0], within, pair[1])
+        })
+        .collect()
+}
+
+fn off(a: f64, b: f64) -> f64 {
+    let turn = std::f64::consts::TAU;
+    (a - b + turn / 2.0).rem_euclid(turn) - turn / 2.0
+}
+
+/// Flights are parabolas with an even turn. A toss lasts some 20 sqrt(D/g), in which angle and
+/// height are known to some 1e-14: 1e-12 is a hundred times that.
+#[test]
+fn flights_are_parabolas() {
+    let (mut seen, mut worst, mut worst_energy) = (0, 0.0_f64, 0.0_f64);
+    for (ratio, restitution, friction) in SCENES {
+        let scene = scene(ratio, restitution, friction);
+        let (engine, section) = (engine(&scene), Section::new(&scene));
+        for toss in 0..300 {
+            let launches = [Preset::Robot, Preset::CleanFlat][(toss % 2) as usize];
+            let launch = preset(launches, &scene, 94, toss);
+            let (_, sampler) = sampled(&engine, &launch, 500.0);
+            for (from, within, _) in pieces(&scene, &sampler) {
+                if matches!(from.kind, EventKind::Sticking | EventKind::Sliding) {
+                    continue;
+                }
+                for m in within {
+                    let t = m.time - from.time;
+                    seen += 1;
+                    for error in [
+                        m.x - (from.x + from.vx * t),
+                        m.z - (from.z + t * (from.vz - 0.5 * t)),
+                        m.vz - (from.vz - t),
+                        m.vx - from.vx,
+                        off(m.theta, from.theta + from.omega * t),
+                        m.omega - from.omega,
+                    ] {
+                        worst = worst
+                            .max(error.abs() / (1.0 + t * (from.omega.abs() + from.vz.abs() + t)));
+                    }
+                    worst_energy = worst_energy
+                        .max((m.energy(section.k) / from.energy(section.k) - 1.0).abs());
+                    let gap = m.z - section.reach(m.theta);
+                    assert!(gap > -1e-9, "{gap:e} {from:?} {m:?}");
+                }
+            }
+        }
+    }
+    println!("{seen} samples: {worst:e}, energy {worst_energy:e}");
+    assert!(seen > 100_000, "{seen}");
+    assert!(worst < 1e-13, "{worst:e}");
+    assert!(worst_energy < 1e-12, "{worst_energy:e}");
+}
+
+#[derive(Debug, Default)]
+struct Contacts {
+    stuck: u32,
+    slid: u32,
+    smooth: u32,
+    worst: f64,
+    rise: f64,
+    rim_m: f64,
+}
+
+/// Samples of contact phases against Newton and Euler's equations in world coordinates.
+fn contacts(tolerance: f64) -> Contacts {
+    let settings = Settings {
+        tolerance,
+        ..Settings::default()
+    };
+    let mut seen = Contacts::default();
+    for (ratio, mu) in [
+        (1.0, 0.3),
+        (1.0, 0.0),
+        (0.3, 0.5),
+        (0.3, 0.0),
+        (2.0, 0.7),
+        (2.0, 0.1),
+    ] {
+        let scene = scene(ratio, 0.0, mu);
+        let (engine, section) = (engine_with(&scene, settings), Section::new(&scene));
+        for toss in 0..150 {
+            let start = Start::lively(&mut Dice::new(95, toss));
+            let (_, sampler) = sampled(&engine, &start.launch(&scene), 400.0);
+            for (from, within, to) in pieces(&scene, &sampler) {
+                if matches!(from.kind, EventKind::Sticking | EventKind::Sliding)
+                    && !within.is_empty()
+                {
+                    contact(&section, mu, &from, &within, &to, &mut seen);
+                }
+            }
+        }
+    }
+    println!("{tolerance:e}: {seen:?}");
+    assert!(
+        seen.stuck > 500 && seen.slid > 500 && seen.smooth > 500,
+        "{seen:?}"
+    );
+    // heights are sums of doubles of the size of the coin
+    assert!(seen.rim_m < 1e-16, "{seen:?}");
+    // a part of a step and the whole of it err by themselves: within the tolerance, if it is coarse
+    assert!(seen.rise < 1e-11, "{seen:?}");
+    seen
+}
+
+fn contact(
+    section: &Section,
+    mu: f64,
+    from: &Moment,
+    within: &[Moment],
+    to: &Moment,
+    seen: &mut Contacts,
+) {
+    let (body, mode) = phase(section, mu, from, to);
+    let (mut y, mut time, mut energy) = (world(from), from.time, from.energy(section.k));
+    for m in within {
+        y = body.follow(y, mode, m.time - time, |_| {});
+        time = m.time;
+        let found = world(m);
+        for i in 0..6 {
+            let error = if i == 2 {
+                off(y[2], found[2])
+            } else {
+                y[i] - found[i]
+            };
+            seen.worst = seen.worst.max(error.abs());
+        }
+        seen.rise = seen.rise.max(m.energy(section.k) / energy - 1.0);
+        energy = m.energy(section.k);
+        seen.rim_m = seen.rim_m.max((m.z - section.reach(m.theta)).abs() * 0.01);
+        match from.kind {
+            EventKind::Sticking => seen.stuck += 1,
+            _ if mu == 0.0 => seen.smooth += 1,
+            _ => seen.slid += 1,
+        }
+    }
+}
+
+/// The reference is good to 1e-12, an angle's time is inverted to 1e-10, and slides are integrated
+/// to 1e-12 a step: 1e-9 leaves room for what the motion amplifies.
+#[test]
+fn contact_follows_newton_and_euler() {
+    let seen = contacts(1e-12);
+    assert!(seen.worst < 1e-9, "{seen:?}");
+}
+
+/// As in the test of the phases' ends.
+#[test]
+fn contact_at_the_default_tolerance_follows_too() {
+    let seen = contacts(Settings::default().tolerance);
+    assert!(seen.worst < 1e-4, "{seen:?}");
+}
+
+/// Wants the instants it was told.
+struct Instants {
+    wanted: std::vec::IntoIter<f64>,
+    next: f64,
+    seen: Vec<State>,
+}
+
+impl Observer for Instants {
+    fn event(&mut self, _: &Event) {}
+
+    fn wants_at_s(&self) -> f64 {
+        self.next
+    }
+
+    fn sample(&mut self, state: &State) {
+        self.seen.push(*state);
+        self.next = self.wanted.next().unwrap_or(f64::INFINITY);
+    }
+}
+
+/// A nanosecond from an event the coin is where the event has it, but for its motion in that time
+/// and the error of the step that led there: 1e-10 of a unit.
+#[test]
+fn samples_join_the_events() {
+    const NEAR: f64 = 1e-9;
+    let settings = Settings {
+        tolerance: 1e-12,
+        ..Settings::default()
+    };
+    let mut joints = 0;
+    for (ratio, restitution, friction) in SCENES {
+        let scene = scene(ratio, restitution, friction);
+        let engine = engine_with(&scene, settings);
+        for toss in 0..200 {
+            let launch = preset(Preset::CleanFlat, &scene, 96, toss);
+            let mut recorder = Recorder::default();
+            engine.toss(&mut (), &launch, &mut recorder);
+            let pairs: Vec<(State, State)> = recorder
+                .0
+                .windows(2)
+                .map(|pair| (pair[0].state, pair[1].state))
+                .filter(|(from, to)| to.time_s - from.time_s > 10.0 * NEAR)
+                .collect();
+            let mut wanted = pairs
+                .iter()
+                .flat_map(|(from, to)| [from.time_s + NEAR, to.time_s - NEAR])
+                .collect::<Vec<_>>()
+                .into_iter();
+            let next = wanted.next().unwrap_or(f64::INFINITY);
+            let mut instants = Instants {
+                wanted,
+                next,
+                seen: Vec::new(),
+            };
+            engine.toss(&mut (), &launch, &mut instants);
+            assert_eq!(instants.seen.len(), 2 * pairs.len());
+            let events = pairs.iter().flat_map(|(from, to)| [from, to]);
+            for (event, sample) in events.zip(&instants.seen) {
+                let (a, b) = (
+                    moment(&scene, EventKind::Ended, event),
+                    moment(&scene, EventKind::Ended, sample),
+                );
+                let passed = (b.time - a.time).abs();
+                let speed = 1.0 + a.vx.abs() + a.vz.abs() + a.omega.abs();
+                for (difference, rate) in [
+                    (a.x - b.x, speed),
+                    (a.z - b.z, speed),
+                    (off(a.theta, b.theta), speed),
+                    // contact accelerates by some (1 + ω²)(1 + μ)/k
+                    (a.vx - b.vx, 100.0 * speed * speed),
+                    (a.omega - b.omega, 100.0 * speed * speed),
+                ] {
+                    assert!(
+                        difference.abs() <= 1e-10 + passed * rate,
+                        "{difference:e} {a:?} {b:?}"
+                    );
+                }
+                joints += 1;
+            }
+        }
+    }
+    assert!(joints > 15_000, "{joints}");
+}

@@ -1,0 +1,334 @@
+//! The cycle of a throw: phases, their limits, the journal, and the silence of the host.
+
+use super::hardware::{Hardware, Motion, Record, Sensors};
+use crate::message::{Nak, Request, State, Status};
+
+/// How long the robot waits at the coin for Collect before it goes to Fault, ms.
+pub const AT_COIN_LIMIT_MS: u32 = 60_000;
+/// Without a valid frame for this long no motor has current, ms.
+pub const SILENCE_LIMIT_MS: u32 = 5_000;
+
+/// Codes of faults.
+pub mod fault {
+    /// Stop came in the middle of a throw.
+    pub const STOPPED: u16 = 1;
+    /// The host fell silent while something moved in a throw.
+    pub const SILENCE: u16 = 2;
+    /// The journal cannot be written.
+    pub const JOURNAL: u16 = 3;
+    /// Plus the number of the phase: the robot was reset in it.
+    pub const RESET: u16 = 100;
+    /// Plus the number of the phase: it took longer than its limit.
+    pub const LIMIT: u16 = 200;
+    /// Plus the firmware's own number: something is broken.
+    pub const HARDWARE: u16 = 300;
+}
+
+/// Where the robot is, and since when.
+#[derive(Debug)]
+pub(super) struct Cycle {
+    pub(super) state: State,
+    pub(super) throw_id: u32,
+    pub(super) boot: u16,
+    fault: u16,
+    since_ms: u32,
+    heard_ms: u32,
+    /// The host has been silent for too long, or was never heard.
+    silent: bool,
+    release: Option<Release>,
+    /// The coin may have been released: true from release, and after a reset from the journal.
+    released: bool,
+}
+
+/// What was measured at release.
+#[derive(Debug)]
+struct Release {
+    at_ms: u32,
+    spin_mrev_s: u16,
+    angle_cdeg: u16,
+}
+
+impl Cycle {
+    pub(super) fn boot(hardware: &mut impl Hardware, now_ms: u32) -> Self {
+        hardware.motors_off();
+        let last = hardware.load().unwrap_or(Record {
+            throw_id: 0,
+            boot: 0,
+            phase: State::Idle,
+        });
+        let mut cycle = Self {
+            state: State::Boot,
+            throw_id: last.throw_id,
+            boot: last.boot.wrapping_add(1),
+            fault: 0,
+            since_ms: now_ms,
+            heard_ms: now_ms,
+            silent: true,
+            release: None,
+            released: last.phase.in_cycle() && last.phase != State::Aiming,
+        };
+        // The phase stays in the journal: a second reset finds the same.
+        let stored = cycle.journal(hardware, last.phase);
+        if last.phase.in_cycle() {
+            let phase = u16::from(last.phase.number());
+            cycle.fail(hardware, fault::RESET.saturating_add(phase));
+        } else if !stored {
+            cycle.fail(hardware, fault::JOURNAL);
+        }
+        cycle
+    }
+
+    /// A valid frame arrived.
+    pub(super) fn heard(&mut self, now_ms: u32) {
+        self.heard_ms = now_ms;
+        self.silent = false;
+    }
+
+    pub(super) fn carry_out(
+        &mut self,
+        hardware: &mut impl Hardware,
+        request: Request,
+        now_ms: u32,
+    ) -> Result<(), Nak> {
+        match request {
+            Request::Stop => self.stop(hardware),
+            Request::Home { axes } => {
+                self.only_idle()?;
+                hardware.start(Motion::Home { axes });
+            }
+            Request::MoveCarriage { x_um, y_um } => {
+                self.only_idle()?;
+                hardware.start(Motion::MoveCarriage { x_um, y_um });
+            }
+            Request::Throw {
+                throw_id,
+                spin_mrev_s,
+                angle_cdeg,
+            } => {
+                let aim = Motion::Aim {
+                    spin_mrev_s,
+                    angle_cdeg,
+                };
+                self.throw(hardware, throw_id, aim, now_ms)?;
+            }
+            Request::Collect { throw_id } => self.collect(hardware, throw_id, now_ms)?,
+            Request::ClearFault { code } => self.clear(hardware, code)?,
+            Request::SetCounter { throw_id } => {
+                self.only_idle()?;
+                self.throw_id = throw_id;
+                self.forget_release();
+                self.journal_or_fail(hardware, State::Idle);
+            }
+            _ => return Err(Nak::BadMessage),
+        }
+        Ok(())
+    }
+
+    /// Advances as far as the sensors allow, and no longer than the limits allow.
+    pub(super) fn tick(&mut self, hardware: &mut impl Hardware, now_ms: u32) {
+        self.mind_silence(hardware, now_ms);
+        let sensors = hardware.sense();
+        if self.state == State::Fault {
+            // nothing but ClearFault leads out
+        } else if sensors.failure != 0 {
+            let code = fault::HARDWARE.saturating_add(u16::from(sensors.failure));
+            self.fail(hardware, code);
+        } else if sensors.settled && self.go_on(hardware, &sensors, now_ms) {
+            // one phase a tick
+        } else if let Some(limit_ms) = limit_ms(self.state)
+            && now_ms.wrapping_sub(self.since_ms) >= limit_ms
+        {
+            let phase = u16::from(self.state.number());
+            self.fail(hardware, fault::LIMIT.saturating_add(phase));
+        }
+    }
+
+    pub(super) fn status(
+        &self,
+        sensors: &Sensors,
+        started_ms: u32,
+        t_ms: u32,
+        rx_bad: u16,
+    ) -> Status {
+        let release = self.release.as_ref();
+        Status {
+            state: self.state,
+            throw_id: self.throw_id,
+            released: self.released,
+            meas_spin_mrev_s: release.map_or(sensors.spin_mrev_s, |at| at.spin_mrev_s),
+            meas_angle_cdeg: release.map_or(sensors.angle_cdeg, |at| at.angle_cdeg),
+            x_um: sensors.x_um,
+            y_um: sensors.y_um,
+            t_ms,
+            t_release_ms: release.map_or(0, |at| at.at_ms.wrapping_sub(started_ms)),
+            fault: self.fault,
+            rx_bad,
+        }
+    }
+
+    fn only_idle(&self) -> Result<(), Nak> {
+        match self.state {
+            State::Idle => Ok(()),
+            State::Boot => Err(Nak::Busy),
+            _ => Err(Nak::WrongState),
+        }
+    }
+
+    fn throw(
+        &mut self,
+        hardware: &mut impl Hardware,
+        throw_id: u32,
+        aim: Motion,
+        now_ms: u32,
+    ) -> Result<(), Nak> {
+        if throw_id == self.throw_id {
+            return Ok(());
+        }
+        if throw_id < self.throw_id {
+            return Err(Nak::WrongId);
+        }
+        self.only_idle()?;
+        if !hardware.sense().settled {
+            return Err(Nak::Busy);
+        }
+        self.throw_id = throw_id;
+        self.forget_release();
+        self.enter(hardware, State::Aiming, Some(aim), now_ms);
+        Ok(())
+    }
+
+    fn collect(
+        &mut self,
+        hardware: &mut impl Hardware,
+        throw_id: u32,
+        now_ms: u32,
+    ) -> Result<(), Nak> {
+        if throw_id != self.throw_id {
+            return Err(Nak::WrongId);
+        }
+        match self.state {
+            State::AtCoin => {
+                self.enter(hardware, State::Returning, Some(Motion::Return), now_ms);
+                Ok(())
+            }
+            // asked again, because the first answer was lost with its session
+            State::Returning | State::Idle => Ok(()),
+            _ => Err(Nak::WrongState),
+        }
+    }
+
+    fn clear(&mut self, hardware: &mut impl Hardware, code: u16) -> Result<(), Nak> {
+        if self.state != State::Fault || self.fault != code {
+            return Err(Nak::WrongState);
+        }
+        hardware.motors_off();
+        if self.journal(hardware, State::Idle) {
+            self.state = State::Idle;
+            self.fault = 0;
+        } else {
+            self.fault = fault::JOURNAL;
+        }
+        Ok(())
+    }
+
+    fn stop(&mut self, hardware: &mut impl Hardware) {
+        if self.state.in_cycle() {
+            self.fail(hardware, fault::STOPPED);
+        } else {
+            hardware.motors_off();
+        }
+    }
+
+    fn mind_silence(&mut self, hardware: &mut impl Hardware, now_ms: u32) {
+        if !self.silent && now_ms.wrapping_sub(self.heard_ms) >= SILENCE_LIMIT_MS {
+            self.silent = true;
+            // At the coin nothing moves: the host may come back and photograph.
+            if self.state.in_cycle() && self.state != State::AtCoin {
+                self.fail(hardware, fault::SILENCE);
+            }
+        }
+        if self.silent || self.state == State::Fault {
+            hardware.motors_off();
+        }
+    }
+
+    /// The next phase, where the present one ends by itself; whether it does.
+    fn go_on(&mut self, hardware: &mut impl Hardware, sensors: &Sensors, now_ms: u32) -> bool {
+        match self.state {
+            State::Boot => self.state = State::Idle,
+            State::Aiming => {
+                self.enter(hardware, State::Flying, Some(Motion::Release), now_ms);
+                if self.state == State::Flying {
+                    self.released = true;
+                    self.release = Some(Release {
+                        at_ms: now_ms,
+                        spin_mrev_s: sensors.spin_mrev_s,
+                        angle_cdeg: sensors.angle_cdeg,
+                    });
+                }
+            }
+            State::Flying => {
+                self.enter(hardware, State::Driving, Some(Motion::DriveToCoin), now_ms);
+            }
+            State::Driving => self.enter(hardware, State::AtCoin, None, now_ms),
+            State::Returning => self.enter(hardware, State::Idle, None, now_ms),
+            State::Idle | State::AtCoin | State::Fault => return false,
+        }
+        true
+    }
+
+    /// Journal first, then the motion.
+    fn enter(
+        &mut self,
+        hardware: &mut impl Hardware,
+        state: State,
+        motion: Option<Motion>,
+        now_ms: u32,
+    ) {
+        self.state = state;
+        self.since_ms = now_ms;
+        if self.journal_or_fail(hardware, state)
+            && let Some(motion) = motion
+        {
+            hardware.start(motion);
+        }
+    }
+
+    fn journal_or_fail(&mut self, hardware: &mut impl Hardware, phase: State) -> bool {
+        let stored = self.journal(hardware, phase);
+        if !stored {
+            self.fail(hardware, fault::JOURNAL);
+        }
+        stored
+    }
+
+    fn journal(&self, hardware: &mut impl Hardware, phase: State) -> bool {
+        hardware.store(&Record {
+            throw_id: self.throw_id,
+            boot: self.boot,
+            phase,
+        })
+    }
+
+    fn fail(&mut self, hardware: &mut impl Hardware, code: u16) {
+        hardware.motors_off();
+        self.state = State::Fault;
+        self.fault = code;
+    }
+
+    fn forget_release(&mut self) {
+        self.release = None;
+        self.released = false;
+    }
+}
+
+/// How long a phase may last, ms.
+fn limit_ms(state: State) -> Option<u32> {
+    match state {
+        State::Aiming | State::Flying => Some(3_000),
+        State::Driving => Some(4_000),
+        State::AtCoin => Some(AT_COIN_LIMIT_MS),
+        State::Returning => Some(5_000),
+        State::Boot | State::Idle | State::Fault => None,
+    }
+}

@@ -1,0 +1,212 @@
+//! The firmware in a simulated microcontroller: an experiment over its pseudo-terminal, with spoiled
+//! bytes, resets and hosts that are killed. `scripts/firmware test` builds the firmware and runs
+//! this with:
+//!
+//! * `COINMC_SIMULATOR`: the command that starts the simulator. It prints the terminal's name
+//!   (`/dev/pts/…`) and obeys the line `system_reset` on its standard input.
+//! * `COINMC_THROWS`, `COINMC_RESETS`, `COINMC_KILLS`: how many of each.
+#![cfg(target_os = "linux")]
+
+mod support;
+
+use coinmc_link::{Action, Host, Reply, Request};
+use std::fs::{File, OpenOptions};
+use std::io::{BufRead, BufReader, Read, Write};
+use std::process::{Child, Command, Stdio};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::time::{Duration, Instant};
+use support::Random;
+use support::campaign::{Campaign, End, Noise};
+
+#[test]
+fn an_experiment_on_a_simulated_microcontroller() {
+    let Ok(command) = std::env::var("COINMC_SIMULATOR") else {
+        eprintln!("SKIPPED: no simulator (scripts/firmware test starts this test with one)");
+        return;
+    };
+    let number = |name: &str, default| {
+        std::env::var(name).map_or(default, |text| text.parse().expect("a number"))
+    };
+    let throws = number("COINMC_THROWS", 50);
+    let (resets, kills) = (number("COINMC_RESETS", 4), number("COINMC_KILLS", 4));
+    let mut bench = Bench::new(&command);
+    bench.run(throws, resets, kills);
+    let (done, void) = (
+        bench.campaign.count(End::Done),
+        bench.campaign.count(End::Void),
+    );
+    assert_eq!(done + void, throws);
+    // a reset costs one throw at the most, and nothing else costs any
+    assert!(void <= resets, "{void} voids after {resets} resets");
+    bench.round_trips.sort();
+    let of = |share: usize| bench.round_trips[bench.round_trips.len() * share / 100];
+    println!(
+        "{throws} throws in {:.1} s: {done} done, {void} void; {resets} resets, {kills} hosts \
+         killed, {} bytes spoiled; round trip {:.1} ms (median), {:.1} ms (95 %)",
+        bench.begun.elapsed().as_secs_f64(),
+        bench.noise.spoiled,
+        of(50).as_secs_f64() * 1e3,
+        of(95).as_secs_f64() * 1e3,
+    );
+}
+
+struct Bench {
+    simulator: Simulator,
+    line: File,
+    arriving: Receiver<Vec<u8>>,
+    noise: Noise,
+    campaign: Campaign,
+    begun: Instant,
+    round_trips: Vec<Duration>,
+}
+
+impl Bench {
+    fn new(command: &str) -> Self {
+        let (simulator, name) = Simulator::start(command);
+        let raw = ["-F", &name, "raw", "-echo"];
+        let status = Command::new("stty").args(raw).status();
+        assert!(status.expect("stty runs").success());
+        let line = OpenOptions::new().read(true).write(true).open(&name);
+        let line = line.expect("the terminal opens");
+        let mut reader = line.try_clone().expect("a second handle");
+        let (sender, arriving) = channel();
+        std::thread::spawn(move || {
+            let mut buffer = [0; 256];
+            while let Ok(length @ 1..) = reader.read(&mut buffer) {
+                if sender.send(buffer[..length].to_vec()).is_err() {
+                    break;
+                }
+            }
+        });
+        Self {
+            simulator,
+            line,
+            arriving,
+            noise: Noise {
+                random: Random(1),
+                per_mille: 10,
+                spoiled: 0,
+            },
+            campaign: Campaign::default(),
+            begun: Instant::now(),
+            round_trips: Vec::new(),
+        }
+    }
+
+    fn now_ms(&self) -> u64 {
+        u64::try_from(self.begun.elapsed().as_millis()).expect("not so long")
+    }
+
+    /// Resets and kills are spread over the throws.
+    fn run(&mut self, throws: usize, resets: usize, kills: usize) {
+        let mut host = self.open(Host::new());
+        let (mut reset, mut killed) = (0, 0);
+        while self.campaign.resolved.len() < throws {
+            let resolved = self.campaign.resolved.len();
+            if reset < resets && resolved * (resets + 1) >= throws * (reset + 1) {
+                reset += 1;
+                self.wait_within_a_throw(&mut host);
+                self.simulator.reset();
+            }
+            if killed < kills && (2 * resolved + 1) * (kills + 1) >= 2 * throws * (killed + 1) {
+                killed += 1;
+                self.wait_within_a_throw(&mut host);
+                host = self.open(Host::new());
+            }
+            self.step(&mut host);
+        }
+    }
+
+    fn wait_within_a_throw(&mut self, host: &mut Host) {
+        let until = Instant::now() + Duration::from_millis(u64::from(self.noise.random.below(300)));
+        while Instant::now() < until {
+            self.step(host);
+        }
+    }
+
+    fn open(&mut self, mut host: Host) -> Host {
+        let session = u16::try_from(self.noise.random.below(65_536)).unwrap();
+        host.open(session, self.now_ms());
+        host
+    }
+
+    /// A request and its answer, or the beginning of a session.
+    fn step(&mut self, host: &mut Host) {
+        if host.is_ready() {
+            host.request(&Request::Status, self.now_ms()).unwrap();
+        }
+        let asked = Instant::now();
+        loop {
+            let now_ms = self.now_ms();
+            match host.poll(now_ms) {
+                Action::Transmit(bytes) => {
+                    let bytes = self.noise.pass(bytes);
+                    self.line.write_all(&bytes).expect("the line is open");
+                }
+                Action::Wait { until_ms } => {
+                    let wait_ms = until_ms.map_or(10, |until| until.saturating_sub(now_ms).max(1));
+                    match self.arriving.recv_timeout(Duration::from_millis(wait_ms)) {
+                        Ok(bytes) => host.receive(&self.noise.pass(&bytes), self.now_ms()),
+                        Err(RecvTimeoutError::Timeout) => {}
+                        Err(error) => panic!("the simulator has ended: {error}"),
+                    }
+                }
+                Action::Reply(Reply::Status(status)) => {
+                    self.round_trips.push(asked.elapsed());
+                    if let Some(request) = self.campaign.next(&status) {
+                        host.request(&request, now_ms).unwrap();
+                    }
+                    return;
+                }
+                Action::Reply(_) | Action::Connected { .. } => return,
+                Action::Lost => *host = self.open(std::mem::take(host)),
+                Action::Refused { version } => panic!("{version:?}"),
+            }
+            assert!(self.begun.elapsed() < Duration::from_secs(580), "too slow");
+        }
+    }
+}
+
+struct Simulator(Child);
+
+impl Simulator {
+    /// The simulator and the name of its terminal.
+    fn start(command: &str) -> (Self, String) {
+        let mut words = command.split_whitespace();
+        let mut child = Command::new(words.next().expect("a command"))
+            .args(words)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("the simulator starts");
+        let mut lines = BufReader::new(child.stdout.take().expect("its output")).lines();
+        let name = lines.find_map(|line| {
+            let line = line.expect("text");
+            let name = line.split_whitespace().find(|w| w.starts_with("/dev/"));
+            name.map(str::to_owned)
+        });
+        // what it says later must not fill its pipe
+        std::thread::spawn(move || lines.map_while(Result::ok).for_each(drop));
+        (Self(child), name.expect("the name of a terminal"))
+    }
+
+    fn reset(&mut self) {
+        let input = self.0.stdin.as_mut().expect("its input");
+        writeln!(input, "system_reset").expect("the simulator obeys");
+    }
+}
+
+impl Drop for Simulator {
+    fn drop(&mut self) {
+        // the end of its input ends the one, the other needs more
+        drop(self.0.stdin.take());
+        for _ in 0..20 {
+            if self.0.try_wait().is_ok_and(|ended| ended.is_some()) {
+                return;
+            }
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}

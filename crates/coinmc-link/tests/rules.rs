@@ -1,0 +1,475 @@
+//! The six rules of the device (see `device/mod.rs`), one by one and all together.
+
+mod support;
+
+use coinmc_link::{
+    AT_COIN_LIMIT_MS, Decoder, Device, Greeting, Header, Motion, Nak, PROTOCOL, Record, Reply,
+    Request, SILENCE_LIMIT_MS, State, Status, Version, fault,
+};
+use support::{Bench, Random};
+
+/// A device with its clock, and a host that never loses anything.
+struct Desk {
+    device: Device<Bench>,
+    now_ms: u32,
+    header: Header,
+}
+
+impl Desk {
+    fn new(bench: Bench) -> Self {
+        let mut desk = Self {
+            device: Device::boot(bench, 0),
+            now_ms: 0,
+            header: Header { session: 7, seq: 0 },
+        };
+        desk.pass(20);
+        desk
+    }
+
+    /// A device that is idle and has greeted.
+    fn ready() -> Self {
+        let mut desk = Self::new(Bench::default());
+        desk.hello(7);
+        desk
+    }
+
+    fn pass(&mut self, ms: u32) {
+        for _ in 0..ms.div_ceil(10) {
+            self.now_ms += 10;
+            self.device.hardware_mut().now_ms = self.now_ms;
+            self.device.tick(self.now_ms);
+        }
+    }
+
+    /// Time passes, and the host keeps asking.
+    fn pass_asking(&mut self, ms: u32) {
+        for _ in 0..ms.div_ceil(100) {
+            self.status();
+            self.pass(100);
+        }
+    }
+
+    fn reset(&mut self) {
+        let mut bench = self.device.hardware().clone();
+        bench.stuck = None;
+        self.device = Device::boot(bench, self.now_ms);
+        self.pass(20);
+    }
+
+    fn send(&mut self, bytes: &[u8]) -> Option<Reply> {
+        let mut reply = None;
+        for byte in bytes {
+            if let Some(bytes) = self.device.receive(*byte, self.now_ms) {
+                assert!(reply.is_none(), "two replies to one request");
+                reply = Some(read(bytes, self.header));
+            }
+        }
+        reply
+    }
+
+    /// The same frame as before, if `seq` is not advanced.
+    fn ask_again(&mut self, request: &Request) -> Option<Reply> {
+        let wire = request.to_wire(self.header).unwrap();
+        self.send(wire.as_bytes())
+    }
+
+    fn ask(&mut self, request: &Request) -> Reply {
+        self.header.seq = self.header.seq.wrapping_add(1);
+        self.ask_again(request).expect("a reply")
+    }
+
+    fn hello(&mut self, session: u16) -> Greeting {
+        self.header.session = session;
+        let version = PROTOCOL;
+        match self.ask(&Request::Hello { version, session }) {
+            Reply::Hello(greeting) => greeting,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    fn status(&mut self) -> Status {
+        match self.ask(&Request::Status) {
+            Reply::Status(status) => status,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    fn throw(&mut self, throw_id: u32) -> Reply {
+        self.ask(&throw(throw_id))
+    }
+
+    /// From Idle to the state, by throw 1.
+    fn bring_to(&mut self, state: State) {
+        assert_eq!(self.throw(1), ok(1, State::Aiming));
+        if state == State::Returning {
+            self.bring_on(State::AtCoin);
+            self.ask(&Request::Collect { throw_id: 1 });
+        } else {
+            self.bring_on(state);
+        }
+    }
+
+    fn bring_on(&mut self, state: State) {
+        for _ in 0..100 {
+            if self.device.state() == state {
+                return;
+            }
+            self.pass(10);
+        }
+        panic!("never {state:?}");
+    }
+
+    fn releases(&self) -> &[u32] {
+        &self.device.hardware().releases
+    }
+}
+
+fn read(bytes: &[u8], header: Header) -> Reply {
+    let mut decoder = Decoder::new();
+    for byte in bytes {
+        if let Some(frame) = decoder.push(*byte) {
+            let frame = frame.expect("a whole frame");
+            assert_eq!(frame.header, header);
+            return Reply::decode(frame.body).expect("a reply");
+        }
+    }
+    panic!("no frame in {bytes:?}");
+}
+
+fn throw(throw_id: u32) -> Request {
+    Request::Throw {
+        throw_id,
+        spin_mrev_s: 3200,
+        angle_cdeg: 9000,
+    }
+}
+
+fn ok(throw_id: u32, state: State) -> Reply {
+    Reply::Ok { throw_id, state }
+}
+
+const CYCLE: [State; 5] = [
+    State::Aiming,
+    State::Flying,
+    State::Driving,
+    State::AtCoin,
+    State::Returning,
+];
+
+#[test]
+fn a_throw_goes_its_way() {
+    let mut desk = Desk::ready();
+    desk.bring_to(State::AtCoin);
+    let status = desk.status();
+    assert!(status.released && status.t_release_ms > 0);
+    assert_eq!(
+        (status.meas_spin_mrev_s, status.meas_angle_cdeg),
+        (3200, 9000)
+    );
+    assert_eq!(
+        desk.ask(&Request::Collect { throw_id: 1 }),
+        ok(1, State::Returning)
+    );
+    desk.bring_on(State::Idle);
+    assert_eq!(desk.releases(), [1]);
+    assert_eq!(desk.throw(2), ok(2, State::Aiming));
+}
+
+#[test]
+fn rule_1_a_repetition_is_answered_and_not_done() {
+    let mut desk = Desk::ready();
+    let reply = desk.throw(1);
+    desk.bring_on(State::Flying);
+    // still "Aiming": it is the old answer
+    assert_eq!(desk.ask_again(&throw(1)), Some(reply));
+    assert_eq!(desk.releases(), [1]);
+}
+
+#[test]
+fn rule_1_a_new_host_gets_no_stale_answer() {
+    let mut desk = Desk::ready();
+    desk.throw(1);
+    let seq = desk.header.seq;
+    // the new host's first number after Hello is by chance the old host's last, in any session
+    for session in [8, 7] {
+        desk.header.seq = seq.wrapping_sub(2);
+        desk.hello(session);
+        assert!(matches!(desk.ask(&Request::Status), Reply::Status(_)));
+    }
+}
+
+#[test]
+fn rule_2_an_id_is_thrown_once() {
+    let mut desk = Desk::ready();
+    assert_eq!(desk.throw(5000), ok(5000, State::Aiming));
+    desk.bring_on(State::AtCoin);
+    desk.ask(&Request::Collect { throw_id: 5000 });
+    desk.bring_on(State::Idle);
+    assert_eq!(desk.throw(5000), ok(5000, State::Idle));
+    assert_eq!(desk.throw(4999), Reply::Nak(Nak::WrongId));
+    assert_eq!(desk.releases(), [5000]);
+}
+
+#[test]
+fn rule_3_a_reset_in_mid_cycle_ends_in_fault() {
+    for phase in CYCLE {
+        let mut desk = Desk::ready();
+        desk.bring_to(phase);
+        let released = desk.releases().len();
+        let code = fault::RESET + u16::from(phase.number());
+        // twice: the second start must find the same
+        for boot in [2, 3] {
+            desk.reset();
+            let greeting = desk.hello(9);
+            assert_eq!((greeting.boot, greeting.throw_id), (boot, 1));
+            assert_eq!(greeting.state, State::Fault);
+            let status = desk.status();
+            assert_eq!(
+                (status.fault, status.released),
+                (code, phase != State::Aiming)
+            );
+        }
+        assert_eq!(desk.throw(1), ok(1, State::Fault));
+        assert_eq!(desk.throw(2), Reply::Nak(Nak::WrongState));
+        let wrong = Request::ClearFault { code: code + 1 };
+        assert_eq!(desk.ask(&wrong), Reply::Nak(Nak::WrongState));
+        assert_eq!(desk.ask(&Request::ClearFault { code }), ok(1, State::Idle));
+        assert_eq!(desk.releases().len(), released);
+        desk.reset();
+        assert_eq!(desk.hello(9).state, State::Idle);
+    }
+}
+
+#[test]
+fn rule_3_nothing_is_released_without_a_journal() {
+    let mut desk = Desk::ready();
+    desk.throw(1);
+    desk.device.hardware_mut().store_works = false;
+    desk.pass(1_000);
+    let status = desk.status();
+    assert_eq!((status.state, status.fault), (State::Fault, fault::JOURNAL));
+    assert!(desk.releases().is_empty() && !desk.device.hardware().motors_on);
+    // clearing needs the journal, too
+    let code = fault::JOURNAL;
+    assert_eq!(desk.ask(&Request::ClearFault { code }), ok(1, State::Fault));
+}
+
+#[test]
+fn rule_4_without_a_session_nothing_is_done() {
+    let mut desk = Desk::new(Bench::default());
+    desk.header.session = 0;
+    assert_eq!(desk.throw(1), Reply::Nak(Nak::NoSession));
+    desk.header.session = 7;
+    assert_eq!(desk.throw(1), Reply::Nak(Nak::NoSession));
+    desk.hello(7);
+    desk.header.session = 8;
+    assert_eq!(desk.throw(1), Reply::Nak(Nak::NoSession));
+    desk.header.session = 7;
+    desk.reset();
+    assert_eq!(desk.throw(1), Reply::Nak(Nak::NoSession));
+    assert_eq!(desk.device.hardware().stored.unwrap().throw_id, 0);
+}
+
+#[test]
+fn rule_4_another_major_version_gets_no_session() {
+    let mut desk = Desk::ready();
+    let version = Version { major: 2, minor: 0 };
+    desk.header.session = 9;
+    let session = 9;
+    let reply = desk.ask(&Request::Hello { version, session });
+    assert!(matches!(reply, Reply::Hello(Greeting { version, .. }) if version == PROTOCOL));
+    assert_eq!(desk.throw(1), Reply::Nak(Nak::NoSession));
+    // and the session that was open stays so
+    desk.header.session = 7;
+    assert_eq!(desk.throw(1), ok(1, State::Aiming));
+}
+
+#[test]
+fn rule_5_what_is_broken_gets_no_answer() {
+    let mut desk = Desk::ready();
+    let mut bytes = throw(1).to_wire(desk.header).unwrap().as_bytes().to_vec();
+    bytes[4] ^= 0x40;
+    assert_eq!(desk.send(&bytes), None);
+    assert_eq!(desk.status().rx_bad, 1);
+}
+
+#[test]
+fn rule_6_every_phase_has_a_limit() {
+    let aim = Motion::Aim {
+        spin_mrev_s: 3200,
+        angle_cdeg: 9000,
+    };
+    let phases = [
+        (State::Aiming, Some(aim), 3_000),
+        (State::Flying, Some(Motion::Release), 3_000),
+        (State::Driving, Some(Motion::DriveToCoin), 4_000),
+        (State::AtCoin, None, AT_COIN_LIMIT_MS),
+        (State::Returning, Some(Motion::Return), 5_000),
+    ];
+    for (phase, stuck, limit_ms) in phases {
+        let mut desk = Desk::ready();
+        desk.device.hardware_mut().stuck = stuck;
+        desk.bring_to(phase);
+        desk.pass_asking(limit_ms - 200);
+        assert_eq!(desk.device.state(), phase);
+        desk.pass_asking(300);
+        let status = desk.status();
+        assert_eq!(status.fault, fault::LIMIT + u16::from(phase.number()));
+        assert!(!desk.device.hardware().motors_on);
+    }
+}
+
+#[test]
+fn rule_6_without_a_host_the_motors_go_off() {
+    for phase in CYCLE {
+        let mut desk = Desk::ready();
+        desk.bring_to(phase);
+        // whatever had current: a holding brake at the coin, too
+        desk.device.hardware_mut().motors_on = true;
+        desk.pass(SILENCE_LIMIT_MS + 100);
+        assert!(!desk.device.hardware().motors_on, "{phase:?}");
+    }
+    let mut desk = Desk::ready();
+    desk.ask(&Request::Home { axes: 15 });
+    desk.pass(SILENCE_LIMIT_MS - 100);
+    assert!(desk.device.hardware().motors_on);
+    desk.pass(200);
+    assert!(!desk.device.hardware().motors_on);
+    assert_eq!(desk.device.state(), State::Idle);
+}
+
+#[test]
+fn at_the_coin_the_robot_waits_for_a_host_that_was_away() {
+    let mut desk = Desk::ready();
+    desk.bring_to(State::AtCoin);
+    desk.pass(AT_COIN_LIMIT_MS - 1_000);
+    assert_eq!(desk.hello(8).state, State::AtCoin);
+    assert_eq!(
+        desk.ask(&Request::Collect { throw_id: 1 }),
+        ok(1, State::Returning)
+    );
+    desk.bring_on(State::Idle);
+}
+
+#[test]
+fn requests_out_of_place_are_refused() {
+    let mut desk = Desk::ready();
+    let collect = Request::Collect { throw_id: 1 };
+    assert_eq!(desk.ask(&collect), Reply::Nak(Nak::WrongId));
+    let too_fast = Request::Throw {
+        throw_id: 1,
+        spin_mrev_s: 4501,
+        angle_cdeg: 0,
+    };
+    assert_eq!(desk.ask(&too_fast), Reply::Nak(Nak::BadRange));
+    let too_far = Request::MoveCarriage {
+        x_um: 0,
+        y_um: -300_001,
+    };
+    assert_eq!(desk.ask(&too_far), Reply::Nak(Nak::BadRange));
+    assert_eq!(desk.ask(&Request::Home { axes: 1 }), ok(0, State::Idle));
+    assert_eq!(desk.throw(1), Reply::Nak(Nak::Busy));
+    desk.pass(300);
+    desk.bring_to(State::Flying);
+    assert_eq!(
+        desk.ask(&Request::Home { axes: 1 }),
+        Reply::Nak(Nak::WrongState)
+    );
+    assert_eq!(desk.ask(&collect), Reply::Nak(Nak::WrongState));
+    let counter = Request::SetCounter { throw_id: 0 };
+    assert_eq!(desk.ask(&counter), Reply::Nak(Nak::WrongState));
+    assert_eq!(desk.ask(&Request::Stop), ok(1, State::Fault));
+    assert_eq!(desk.status().fault, fault::STOPPED);
+}
+
+/// Any course of requests, repetitions, breaks and resets.
+#[test]
+fn no_course_of_events_breaks_a_rule() {
+    for seed in 0..400 {
+        let mut random = Random(seed);
+        let mut desk = Desk::ready();
+        let (mut id, mut heard_ms) = (0, 0);
+        for _ in 0..400 {
+            let before = desk.device.hardware().clone();
+            let state = desk.device.state();
+            match random.below(20) {
+                0 => {
+                    desk.reset();
+                    let phase = before
+                        .stored
+                        .map_or(State::Idle, |record: Record| record.phase);
+                    let caught = phase.in_cycle();
+                    assert!(
+                        caught || !state.in_cycle(),
+                        "{state:?} is not in the journal"
+                    );
+                    let expected = if caught { State::Fault } else { State::Idle };
+                    assert_eq!(desk.hello(7).state, expected);
+                    heard_ms = desk.now_ms;
+                }
+                1 => desk.pass(random.below(8_000)),
+                2..8 => desk.pass(random.below(250)),
+                _ => {
+                    let request = any_request(&mut random, &mut id, &mut desk);
+                    let reply = desk.ask(&request);
+                    let after = desk.device.hardware().releases.clone();
+                    if !matches!(request, Request::Hello { .. }) {
+                        assert_eq!(desk.ask_again(&request), Some(reply));
+                        assert_eq!(desk.releases(), after);
+                    }
+                    if reply != Reply::Nak(Nak::NoSession) {
+                        heard_ms = desk.now_ms;
+                    }
+                }
+            }
+            let bench = desk.device.hardware();
+            assert!(
+                bench.releases.is_sorted_by(|a, b| a < b),
+                "{:?}",
+                bench.releases
+            );
+            if desk.now_ms - heard_ms > SILENCE_LIMIT_MS + 10 {
+                assert!(!bench.motors_on);
+            }
+            if bench.releases.len() > before.releases.len() && desk.device.state() == State::Flying
+            {
+                assert_eq!(bench.stored.map(|record| record.phase), Some(State::Flying));
+            }
+        }
+    }
+}
+
+fn any_request(random: &mut Random, id: &mut u32, desk: &mut Desk) -> Request {
+    match random.below(12) {
+        0 => {
+            desk.header.session = 7;
+            Request::Hello {
+                version: PROTOCOL,
+                session: 7,
+            }
+        }
+        1 => Request::Stop,
+        2 => Request::Home { axes: 3 },
+        3 | 4 => {
+            *id += random.below(2);
+            throw(1 + *id)
+        }
+        5 => throw(1 + id.saturating_sub(1)),
+        6 | 7 => Request::Collect { throw_id: 1 + *id },
+        8 | 9 => {
+            let code = desk.status_or_none().map_or(0, |status| status.fault);
+            Request::ClearFault { code }
+        }
+        10 => Request::Light { permille: 500 },
+        _ => Request::Status,
+    }
+}
+
+impl Desk {
+    fn status_or_none(&mut self) -> Option<Status> {
+        match self.ask(&Request::Status) {
+            Reply::Status(status) => Some(status),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! Tosses in time steps on a general physics engine, Rapier: the counterpart of the event-driven
+//! engine, as published work on thick coins used Unity.
+//!
+//! Rapier makes the steps at the surface. This crate gives it a half-space and one cylinder in a
+//! frame in which every coin has the same size, computes free flight in closed form, ends a toss when
+//! energy has settled its face, and counts what goes wrong. What Rapier gets wrong for a coin, and at
+//! which step that stops to matter, was measured: `docs/rapier.md`.
+//!
+//! # Example
+//! Forty tosses of a coin as thick as it is wide:
+//! ```
+//! use coinmc_core::{Coin, Domain, Engine, Face, Preset, Scene, Stream, Surface, run_tosses};
+//! use coinmc_rapier::{RapierEngine, Settings};
+//! let coin = Coin::cylinder(2.0, 0.01)?;
+//! let scene = Scene::new(coin, Surface::new(0.5, 0.3)?, Scene::STANDARD_GRAVITY_M_S2)?;
+//! let engine = RapierEngine::new(&scene, &Settings::default())?;
+//! let (launches, stream) = (Preset::Clean.distribution(), Stream::new(1, Domain::Launch, 0));
+//! let tally = run_tosses(&engine, &mut engine.workspace(), &scene, &launches, &stream, 0..40);
+//! assert!(tally.count(Face::Side) > 20);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Range
+//! Any ratio and moments of inertia, restitution, friction, restitution threshold, drag, with or
+//! without gyroscopic torque; friction against rolling and pivoting as torques between Rapier's
+//! steps. A coin that tunnels through the plane, is sunk in it when its face is settled, gains energy
+//! or is no longer a number ends as [`coinmc_core::Ended::Failed`], with the [`Flaw`] in its
+//! [`Account`]. Rapier in double precision is the feature `f64` (on by default), in single precision
+//! `f32`.
+//!
+//! # Files
+//! `settings` choices · `body` shape and frame · `motion` state · `flight` closed form, and how far it
+//! is proven free of contact · `world` Rapier · `resist` friction against rolling and pivoting ·
+//! `standing` steps in which nothing happens · `verdict` when the face is settled · `toss` one toss and
+//! its observer · `engine` their order · `account` what a toss came to.
+
+// The settings alone are of use, too: to read a config that this build cannot run.
+#![cfg_attr(not(any(feature = "f64", feature = "f32")), allow(dead_code))]
+// One source for both precisions.
+#![allow(clippy::duplicate_mod)]
+
+mod account;
+mod body;
+mod engine;
+mod flight;
+mod motion;
+mod resist;
+mod settings;
+mod standing;
+mod toss;
+mod verdict;
+mod world;
+
+pub use account::{Account, Flaw};
+pub use engine::{RapierEngine, Workspace};
+pub use settings::{
+    Decision, Flight, FrictionModel, Gyroscopic, Precision, Settings, SettingsError,
+};

@@ -1,0 +1,154 @@
+//! What is skipped does not change the statistics. Single tosses it may change: they are chaotic.
+//!
+//! Paired: the same launches with and without. 5 standard errors of the paired difference, false
+//! alarms 6e-7 each.
+
+use crate::common::{Tosser, is_side, launch, paired, quick, scene, table1};
+use coinmc_core::{Face, Preset, Scene};
+use coinmc_rapier::{Decision, Flight, Gyroscopic, Settings};
+
+struct Difference {
+    mean: f64,
+    error: f64,
+    /// Share of tosses with another face.
+    changed: f64,
+    /// Steps without, over steps with the skip.
+    saved: f64,
+}
+
+fn compare(
+    scene: &Scene,
+    preset: Preset,
+    with: &Settings,
+    without: &Settings,
+    tosses: u64,
+) -> Difference {
+    let mut tossers = [Tosser::new(scene, with), Tosser::new(scene, without)];
+    let (mut differences, mut changed, mut steps) = (Vec::new(), 0, [0_u64; 2]);
+    for toss in 0..tosses {
+        let launch = launch(preset, scene, 70, toss);
+        let [one, other] = [0, 1].map(|i| {
+            let account = tossers[i].examine(&launch);
+            steps[i] += u64::from(account.steps);
+            account.outcome
+        });
+        differences.push(is_side(&one) - is_side(&other));
+        changed += u64::from(one.face() != other.face());
+    }
+    let (mean, error) = paired(&differences);
+    Difference {
+        mean,
+        error,
+        changed: changed as f64 / tosses as f64,
+        saved: steps[1] as f64 / steps[0] as f64,
+    }
+}
+
+/// Whole steps of flight, in a scene where Rapier's own flight has no error but that of its order:
+/// a torque that it need not add.
+#[test]
+fn jumping_whole_steps_of_flight_changes_no_statistics() {
+    let scene = scene(1.0, 0.5, 0.3).with_gyroscopic_torque(false);
+    let steps = Settings {
+        step_s: 1e-3,
+        flight: Flight::Steps,
+        ..quick()
+    };
+    let off = Settings {
+        flight: Flight::Off,
+        ..steps
+    };
+    let found = compare(&scene, Preset::Clean, &steps, &off, 250);
+    println!("changed {}, steps saved {}", found.changed, found.saved);
+    assert!(
+        found.mean.abs() <= 5.0 * found.error,
+        "{} ± {}",
+        found.mean,
+        found.error
+    );
+    assert!(found.saved > 1.2, "{}", found.saved);
+}
+
+/// The gyroscopic torque that this engine adds between Rapier's steps is a free top's: with it, too.
+#[test]
+fn jumping_flight_changes_no_statistics_of_a_coin_with_gyroscopic_torque() {
+    let scene = scene(2.0, 0.5, 0.3);
+    let steps = Settings {
+        step_s: 5e-4,
+        flight: Flight::Steps,
+        ..quick()
+    };
+    assert_eq!(steps.gyroscopic, Gyroscopic::Exact);
+    let off = Settings {
+        flight: Flight::Off,
+        ..steps
+    };
+    let found = compare(&scene, Preset::Clean, &steps, &off, 150);
+    println!("changed {}, steps saved {}", found.changed, found.saved);
+    assert!(
+        found.mean.abs() <= 5.0 * found.error,
+        "{} ± {}",
+        found.mean,
+        found.error
+    );
+    assert!(found.saved > 5.0, "{}", found.saved);
+}
+
+/// Energy decides before rest does, and the same: rigorous as long as no energy is gained.
+#[test]
+fn deciding_by_energy_changes_no_toss() {
+    for (scene, preset, step_s) in [
+        (scene(0.5, 0.3, 0.3), Preset::Clean, 2e-3),
+        (table1(0.25), Preset::Table1, 0.02),
+    ] {
+        let energy = Settings {
+            step_s,
+            decision: Decision::Energy,
+            skip_standing: false,
+            ..quick()
+        };
+        let rest = Settings {
+            decision: Decision::Rest,
+            time_limit: 400.0,
+            ..energy
+        };
+        let mut tossers = [energy, rest].map(|settings| Tosser::new(&scene, &settings));
+        let (mut both, mut saved) = (0, 0);
+        for toss in 0..60 {
+            let launch = launch(preset, &scene, 71, toss);
+            let [one, other] = [0, 1].map(|i| tossers[i].examine(&launch));
+            if let (Some(one), Some(other)) = (one.outcome.face(), other.outcome.face()) {
+                both += 1;
+                assert_eq!(one, other, "{toss}");
+            }
+            saved += i64::from(other.steps) - i64::from(one.steps);
+        }
+        println!("{both} of 60 come to rest, {saved} steps saved");
+        assert!(both > 15 && saved > 0, "{both} {saved}");
+    }
+}
+
+/// The energy of straight rolling is left out: nearly rigorous.
+#[test]
+fn deciding_by_tilting_energy_changes_no_statistics() {
+    let scene = scene(1.0, 0.5, 0.3);
+    let tilting = quick();
+    let energy = Settings {
+        decision: Decision::Energy,
+        ..tilting
+    };
+    let mut tossers = [tilting, energy].map(|settings| Tosser::new(&scene, &settings));
+    let (mut both, mut other_face, mut rolls) = (0, 0, 0);
+    for toss in 0..150 {
+        let launch = launch(Preset::Clean, &scene, 72, toss);
+        let [one, other] = [0, 1].map(|i| tossers[i].toss(&launch));
+        // what is still rolling at the limit of time is on its side
+        rolls += u32::from(one.face() == Some(Face::Side) && other.face().is_none());
+        if let (Some(one), Some(other)) = (one.face(), other.face()) {
+            both += 1;
+            other_face += u32::from(one != other);
+        }
+    }
+    println!("{other_face} of {both} changed, {rolls} roll on");
+    assert!(other_face <= 2 && both > 50, "{other_face} {both}");
+}

@@ -1,0 +1,175 @@
+//! Messages on their way into a chunk.
+
+use crate::compression::Compression;
+use crate::wire::{Put, op, record};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A message as the format has it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RawMessage<'a> {
+    pub(crate) channel: u16,
+    pub(crate) sequence: u32,
+    pub(crate) log_time: u64,
+    pub(crate) publish_time: u64,
+    pub(crate) data: &'a [u8],
+}
+
+/// What a schema is.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(crate) struct RawSchema {
+    pub(crate) name: String,
+    pub(crate) encoding: String,
+    pub(crate) data: Vec<u8>,
+}
+
+/// What a channel is.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(crate) struct RawChannel {
+    /// 0 for none.
+    pub(crate) schema: u16,
+    pub(crate) topic: String,
+    pub(crate) encoding: String,
+    pub(crate) metadata: BTreeMap<String, String>,
+}
+
+impl RawSchema {
+    pub(crate) fn put(&self, id: u16, bytes: &mut Vec<u8>) {
+        record(bytes, op::SCHEMA, |bytes| {
+            bytes.put_u16(id);
+            bytes.put_str(&self.name);
+            bytes.put_str(&self.encoding);
+            bytes.put_bytes(&self.data);
+        });
+    }
+}
+
+impl RawChannel {
+    pub(crate) fn put(&self, id: u16, bytes: &mut Vec<u8>) {
+        record(bytes, op::CHANNEL, |bytes| {
+            bytes.put_u16(id);
+            bytes.put_u16(self.schema);
+            bytes.put_str(&self.topic);
+            bytes.put_str(&self.encoding);
+            bytes.put_map(&self.metadata);
+        });
+    }
+}
+
+/// A chunk being filled.
+#[derive(Debug, Default)]
+pub(crate) struct Chunk {
+    records: Vec<u8>,
+    /// By channel: time and place of every message.
+    index: BTreeMap<u16, Vec<(u64, u64)>>,
+    schemas: BTreeSet<u16>,
+    start: u64,
+    end: u64,
+}
+
+/// Where a finished chunk's parts lie, counted from its first byte.
+#[derive(Debug)]
+pub(crate) struct Layout {
+    pub(crate) start: u64,
+    pub(crate) end: u64,
+    pub(crate) length: u64,
+    pub(crate) index_offsets: Vec<(u16, u64)>,
+    pub(crate) index_length: u64,
+    pub(crate) compressed: u64,
+    pub(crate) uncompressed: u64,
+}
+
+impl Chunk {
+    pub(crate) fn is_empty(&self) -> bool {
+        self.records.is_empty()
+    }
+
+    /// Bytes so far, uncompressed.
+    pub(crate) fn len(&self) -> usize {
+        self.records.len()
+    }
+
+    /// Whether the channel has been defined in this chunk.
+    pub(crate) fn knows(&self, channel: u16) -> bool {
+        self.index.contains_key(&channel)
+    }
+
+    /// Defines a channel here, so that the chunk can be read even if all others are lost.
+    pub(crate) fn define(&mut self, id: u16, channel: &RawChannel, schema: Option<&RawSchema>) {
+        if let Some(schema) = schema
+            && self.schemas.insert(channel.schema)
+        {
+            schema.put(channel.schema, &mut self.records);
+        }
+        channel.put(id, &mut self.records);
+        self.index.insert(id, Vec::new());
+    }
+
+    /// Adds a message of a channel that is defined here.
+    pub(crate) fn push(&mut self, message: RawMessage<'_>) {
+        let place = self.records.len() as u64;
+        let first = self.index.values().all(Vec::is_empty);
+        self.start = if first {
+            message.log_time
+        } else {
+            self.start.min(message.log_time)
+        };
+        self.end = self.end.max(message.log_time);
+        self.index
+            .entry(message.channel)
+            .or_default()
+            .push((message.log_time, place));
+        record(&mut self.records, op::MESSAGE, |bytes| {
+            bytes.put_u16(message.channel);
+            bytes.put_u32(message.sequence);
+            bytes.put_u64(message.log_time);
+            bytes.put_u64(message.publish_time);
+            bytes.extend_from_slice(message.data);
+        });
+    }
+
+    /// Appends the chunk and its message indexes to `bytes`, and is empty again.
+    pub(crate) fn finish(&mut self, compression: Compression, bytes: &mut Vec<u8>) -> Layout {
+        let base = bytes.len();
+        let mut compressed = 0;
+        record(bytes, op::CHUNK, |bytes| {
+            bytes.put_u64(self.start);
+            bytes.put_u64(self.end);
+            bytes.put_u64(self.records.len() as u64);
+            bytes.put_u32(crc32fast::hash(&self.records));
+            bytes.put_str(compression.in_file());
+            let place = bytes.len();
+            bytes.put_u64(0);
+            compression.compress(&self.records, bytes);
+            compressed = (bytes.len() - place - 8) as u64;
+            bytes[place..place + 8].copy_from_slice(&compressed.to_le_bytes());
+        });
+        let length = bytes.len() - base;
+        let mut index_offsets = Vec::with_capacity(self.index.len());
+        for (&channel, entries) in &self.index {
+            index_offsets.push((channel, (bytes.len() - base) as u64));
+            record(bytes, op::MESSAGE_INDEX, |bytes| {
+                bytes.put_u16(channel);
+                bytes.put_u32(crate::wire::length(16 * entries.len()));
+                for &(time, place) in entries {
+                    bytes.put_u64(time);
+                    bytes.put_u64(place);
+                }
+            });
+        }
+        let layout = Layout {
+            start: self.start,
+            end: self.end,
+            length: length as u64,
+            index_offsets,
+            index_length: (bytes.len() - base - length) as u64,
+            compressed,
+            uncompressed: self.records.len() as u64,
+        };
+        // the buffer is kept
+        self.records.clear();
+        self.index.clear();
+        self.schemas.clear();
+        (self.start, self.end) = (0, 0);
+        layout
+    }
+}

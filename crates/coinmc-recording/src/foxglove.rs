@@ -1,0 +1,368 @@
+//! Messages that MCAP viewers draw, by Foxglove's schemas (beside the sources, in `schemas/`).
+//!
+//! Lengths are in metres, angles in radians, colours from 0 to 1.
+
+use serde::Serialize;
+
+/// A point in time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize)]
+pub struct Time {
+    /// Whole seconds.
+    pub sec: u64,
+    /// Nanoseconds beyond them.
+    pub nsec: u32,
+}
+
+impl Time {
+    /// So many nanoseconds from the beginning of time.
+    ///
+    /// # Example
+    /// ```
+    /// use coinmc_recording::foxglove::Time;
+    /// assert_eq!(Time::from_ns(1_500_000_000), Time { sec: 1, nsec: 500_000_000 });
+    /// ```
+    pub fn from_ns(ns: u64) -> Self {
+        // the remainder is below 2^30
+        #[allow(clippy::cast_possible_truncation)]
+        let nsec = (ns % 1_000_000_000) as u32;
+        Self {
+            sec: ns / 1_000_000_000,
+            nsec,
+        }
+    }
+}
+
+/// A vector, or a point.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[allow(missing_docs)] // components
+pub struct Vector3 {
+    pub x: f64,
+    pub y: f64,
+    pub z: f64,
+}
+
+impl Vector3 {
+    /// Of its components.
+    pub fn new(x: f64, y: f64, z: f64) -> Self {
+        Self { x, y, z }
+    }
+}
+
+/// A rotation.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[allow(missing_docs)] // components
+pub struct Quaternion {
+    pub x: f64,
+    pub y: f64,
+    pub z: f64,
+    pub w: f64,
+}
+
+impl Quaternion {
+    /// No rotation.
+    pub const IDENTITY: Self = Self {
+        x: 0.0,
+        y: 0.0,
+        z: 0.0,
+        w: 1.0,
+    };
+}
+
+/// A place and a rotation.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Pose {
+    /// Where.
+    pub position: Vector3,
+    /// How turned.
+    pub orientation: Quaternion,
+}
+
+impl Pose {
+    /// There, not turned.
+    pub fn at(position: Vector3) -> Self {
+        Self {
+            position,
+            orientation: Quaternion::IDENTITY,
+        }
+    }
+}
+
+/// A colour.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[allow(missing_docs)] // red, green, blue, opacity
+pub struct Color {
+    pub r: f64,
+    pub g: f64,
+    pub b: f64,
+    pub a: f64,
+}
+
+impl Color {
+    /// Of red, green, blue and opacity, each from 0 to 1.
+    pub fn new([r, g, b, a]: [f64; 4]) -> Self {
+        Self { r, g, b, a }
+    }
+}
+
+/// Where a frame of reference lies in another.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FrameTransform {
+    /// When.
+    pub timestamp: Time,
+    /// The outer frame.
+    pub parent_frame_id: String,
+    /// The frame that lies in it.
+    pub child_frame_id: String,
+    /// Its origin.
+    pub translation: Vector3,
+    /// How it is turned.
+    pub rotation: Quaternion,
+}
+
+/// Things to be drawn, or drawn no more.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct SceneUpdate {
+    /// Things to remove.
+    pub deletions: Vec<SceneEntityDeletion>,
+    /// Things to add or replace.
+    pub entities: Vec<SceneEntity>,
+}
+
+/// Which things to remove.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SceneEntityDeletion {
+    /// When; only what is older goes.
+    pub timestamp: Time,
+    /// 0: the thing of this id; 1: all.
+    pub r#type: u8,
+    /// Id of the thing.
+    pub id: String,
+}
+
+/// A thing made of shapes in one frame.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SceneEntity {
+    /// Since when.
+    pub timestamp: Time,
+    /// Its frame of reference.
+    pub frame_id: String,
+    /// Its name: a thing of the same name is replaced.
+    pub id: String,
+    /// How long it stays; zero for ever.
+    pub lifetime: Time,
+    /// Whether it moves with its frame.
+    pub frame_locked: bool,
+    /// Remarks.
+    pub metadata: Vec<KeyValuePair>,
+    /// Cuboids.
+    pub cubes: Vec<CubePrimitive>,
+    /// Ellipsoids.
+    pub spheres: Vec<SpherePrimitive>,
+    /// Cylinders and cones.
+    pub cylinders: Vec<CylinderPrimitive>,
+    /// Texts.
+    pub texts: Vec<TextPrimitive>,
+    arrows: [(); 0],
+    lines: [(); 0],
+    triangles: [(); 0],
+    models: [(); 0],
+}
+
+impl SceneEntity {
+    /// A thing without shapes yet.
+    pub fn new(timestamp: Time, frame_id: &str, id: impl Into<String>) -> Self {
+        Self {
+            timestamp,
+            frame_id: frame_id.to_owned(),
+            id: id.into(),
+            lifetime: Time::default(),
+            frame_locked: true,
+            metadata: Vec::new(),
+            cubes: Vec::new(),
+            spheres: Vec::new(),
+            cylinders: Vec::new(),
+            texts: Vec::new(),
+            arrows: [],
+            lines: [],
+            triangles: [],
+            models: [],
+        }
+    }
+}
+
+/// A remark.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct KeyValuePair {
+    /// About what.
+    pub key: String,
+    /// The remark.
+    pub value: String,
+}
+
+/// A cuboid.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CubePrimitive {
+    /// Its centre.
+    pub pose: Pose,
+    /// Its edges.
+    pub size: Vector3,
+    /// Its colour.
+    pub color: Color,
+}
+
+/// An ellipsoid.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SpherePrimitive {
+    /// Its centre.
+    pub pose: Pose,
+    /// Its diameters.
+    pub size: Vector3,
+    /// Its colour.
+    pub color: Color,
+}
+
+/// A cylinder about its z axis.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CylinderPrimitive {
+    /// Its centre.
+    pub pose: Pose,
+    /// Diameters along x and y, height along z.
+    pub size: Vector3,
+    /// Diameter of the lower face over that given, 0 to 1.
+    pub bottom_scale: f64,
+    /// The same of the upper face.
+    pub top_scale: f64,
+    /// Its colour.
+    pub color: Color,
+}
+
+/// A text.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TextPrimitive {
+    /// Its centre; +x is along the text.
+    pub pose: Pose,
+    /// Whether it always faces the viewer.
+    pub billboard: bool,
+    /// Height of its letters, m.
+    pub font_size: f64,
+    /// Whether the height is one on the screen.
+    pub scale_invariant: bool,
+    /// Its colour.
+    pub color: Color,
+    /// What it says.
+    pub text: String,
+}
+
+/// How much a [`Log`] message matters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs)] // levels as every log has them
+pub enum LogLevel {
+    Debug,
+    Info,
+    Warning,
+    Error,
+    Fatal,
+}
+
+impl Serialize for LogLevel {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_u8(match self {
+            Self::Debug => 1,
+            Self::Info => 2,
+            Self::Warning => 3,
+            Self::Error => 4,
+            Self::Fatal => 5,
+        })
+    }
+}
+
+/// A line of a log.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Log {
+    /// When.
+    pub timestamp: Time,
+    /// How much it matters.
+    pub level: LogLevel,
+    /// What it says.
+    pub message: String,
+    /// Who says it.
+    pub name: String,
+    /// Source file; may be empty.
+    pub file: String,
+    /// Its line; may be 0.
+    pub line: u32,
+}
+
+/// A picture in a file's format.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CompressedImage {
+    /// When it was taken.
+    pub timestamp: Time,
+    /// The camera's frame of reference.
+    pub frame_id: String,
+    /// The file's bytes.
+    pub data: Vec<u8>,
+    /// `jpeg`, `png`, `webp` or `avif`.
+    pub format: String,
+}
+
+impl Serialize for CompressedImage {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct;
+        let mut fields = serializer.serialize_struct("CompressedImage", 4)?;
+        fields.serialize_field("timestamp", &self.timestamp)?;
+        fields.serialize_field("frame_id", &self.frame_id)?;
+        fields.serialize_field("data", &base64(&self.data))?;
+        fields.serialize_field("format", &self.format)?;
+        fields.end()
+    }
+}
+
+/// Base64 (RFC 4648, with padding), as the schemas want bytes.
+fn base64(bytes: &[u8]) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for three in bytes.chunks(3) {
+        let mut word = [0; 4];
+        word[1..=three.len()].copy_from_slice(three);
+        let word = u32::from_be_bytes(word);
+        for place in 0..4 {
+            text.push(if place <= three.len() {
+                char::from(DIGITS[(word >> (18 - 6 * place)) as usize & 63])
+            } else {
+                '='
+            });
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn base64_is_that_of_the_rfc() {
+        for (plain, coded) in [
+            ("", ""),
+            ("f", "Zg=="),
+            ("fo", "Zm8="),
+            ("foo", "Zm9v"),
+            ("foob", "Zm9vYg=="),
+            ("fooba", "Zm9vYmE="),
+            ("foobar", "Zm9vYmFy"),
+        ] {
+            assert_eq!(base64(plain.as_bytes()), coded);
+        }
+        assert_eq!(base64(&[0xff, 0xfe, 0xfb]), "//77");
+    }
+
+    #[test]
+    fn an_entity_has_every_list_the_schema_requires() {
+        let entity = SceneEntity::new(Time::default(), "world", "a");
+        let json = serde_json::to_value(&entity).unwrap();
+        for list in ["arrows", "lines", "triangles", "models", "cubes"] {
+            assert_eq!(json[list], serde_json::json!([]), "{list}");
+        }
+    }
+}

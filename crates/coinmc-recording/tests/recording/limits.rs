@@ -1,0 +1,140 @@
+//! Lengths that lie, disks that are full, files that are there.
+
+use crate::common::{options, recording, salvaged, transform};
+use coinmc_recording::foxglove::FrameTransform;
+use coinmc_recording::{Compression, Error, Options, Passing, Recorder, Schema, recover};
+use serde_json::Value;
+use std::fs;
+
+/// A record with any length.
+fn record(kind: u8, length: u64, content: &[u8]) -> Vec<u8> {
+    [&[kind][..], &length.to_le_bytes(), content].concat()
+}
+
+#[test]
+fn lengths_that_lie_cost_neither_memory_nor_the_rest() {
+    let recording = recording(Compression::None);
+    let (place, _) = recording.flushes[1];
+    for kind in 0..=255 {
+        for length in [0, 1, 1 << 20, 1 << 40, u64::MAX - 8, u64::MAX] {
+            let lie = record(kind, length, b"");
+            let mut bytes = recording.bytes.clone();
+            bytes.splice(place..place, lie);
+            let (recovered, _) = salvaged(&bytes).unwrap();
+            // a record's end is the file's from here on, as far as anybody can tell
+            let believed = matches!(kind, 0x02 | 0x0f);
+            let found = usize::try_from(recovered.messages).unwrap();
+            assert!(
+                found == recording.messages.len() || believed,
+                "kind {kind:#x}, length {length}: {found}"
+            );
+        }
+    }
+}
+
+/// A chunk that claims to unpack to an exabyte.
+#[test]
+fn a_chunk_unpacks_to_no_more_than_is_allowed() {
+    let mut packed = lz4_frame_of_zeros();
+    let mut content = [0_u64, 0, u64::MAX >> 4]
+        .iter()
+        .flat_map(|x| x.to_le_bytes())
+        .collect::<Vec<_>>();
+    content.extend_from_slice(&1_u32.to_le_bytes());
+    content.extend_from_slice(&3_u32.to_le_bytes());
+    content.extend_from_slice(b"lz4");
+    content.extend_from_slice(&(packed.len() as u64).to_le_bytes());
+    content.append(&mut packed);
+    let mut bytes = b"\x89MCAP0\r\n".to_vec();
+    bytes.extend(record(6, content.len() as u64, &content));
+    let (recovered, _) = salvaged(&bytes).unwrap();
+    assert_eq!((recovered.messages, recovered.lost_chunks), (0, 1));
+}
+
+/// A frame of one stored block, then the end mark (LZ4 frame format 1.6).
+fn lz4_frame_of_zeros() -> Vec<u8> {
+    let recording = recording(Compression::Lz4);
+    let start = recording
+        .bytes
+        .windows(4)
+        .position(|four| four == [0x04, 0x22, 0x4d, 0x18])
+        .expect("an LZ4 frame");
+    recording.bytes[start..start + 200].to_vec()
+}
+
+#[test]
+fn nothing_is_overwritten() {
+    let dir = tempfile::tempdir().unwrap();
+    let (first, second) = (dir.path().join("a.mcap"), dir.path().join("b.mcap"));
+    fs::write(&first, recording(Compression::None).bytes).unwrap();
+    fs::write(&second, "precious").unwrap();
+    for path in [&first, &second] {
+        assert!(matches!(
+            Recorder::create(path, &Options::default()),
+            Err(Error::Exists { .. })
+        ));
+        assert!(matches!(recover(&first, path), Err(Error::Exists { .. })));
+    }
+    assert_eq!(fs::read_to_string(&second).unwrap(), "precious");
+    let third = dir.path().join("c.mcap");
+    assert!(recover(&first, &third).unwrap().was_whole());
+    assert!(matches!(
+        recover(&second, &dir.path().join("d.mcap")),
+        Err(Error::NotMcap { .. })
+    ));
+    assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 3);
+}
+
+/// A disk that fills up on the way.
+struct Small(usize);
+
+impl std::io::Write for Small {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        let left = self.0.checked_sub(bytes.len());
+        self.0 = left.ok_or(std::io::ErrorKind::StorageFull)?;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_told_and_the_recorder_writes_no_more() {
+    let full = fs::File::options().write(true).open("/dev/full").unwrap();
+    assert!(Recorder::new(full, &Options::default()).is_err());
+    let mut recorder = Recorder::new(Passing(Small(1000)), &options(Compression::None)).unwrap();
+    let channel = recorder
+        .channel::<FrameTransform>("/tf", &Schema::FRAME_TRANSFORM)
+        .unwrap();
+    recorder.write(&channel, 0, &transform(0)).unwrap();
+    assert!(matches!(recorder.flush(), Err(Error::Stream(_))));
+    assert!(matches!(
+        recorder.write(&channel, 1, &transform(1)),
+        Err(Error::Broken)
+    ));
+    assert!(recorder.finish().is_err());
+}
+
+#[test]
+fn what_is_too_long_or_too_many_is_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("a.mcap");
+    let mut recorder = Recorder::create(&path, &Options::default()).unwrap();
+    let schema = Schema::new("any", "{}");
+    let channel = recorder.channel::<Value>("/long", &schema).unwrap();
+    let long = Value::String("x".repeat(65 << 20));
+    assert!(matches!(
+        recorder.write(&channel, 0, &long),
+        Err(Error::TooLong { .. })
+    ));
+    // and the recording goes on
+    recorder.write(&channel, 0, &Value::Null).unwrap();
+    let full =
+        (0..=u16::MAX).find_map(|i| recorder.channel::<Value>(&format!("/{i}"), &schema).err());
+    assert!(matches!(full, Some(Error::TooMany { .. })));
+    recorder.finish().unwrap();
+    assert_eq!(crate::common::read(&fs::read(&path).unwrap()).len(), 1);
+}

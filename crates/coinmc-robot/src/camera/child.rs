@@ -1,0 +1,137 @@
+//! One camera process: started, asked, ended.
+
+use super::protocol::{Answer, LONGEST_LINE, Request};
+use rustix::process::{Pid, Signal, kill_process_group};
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read, Write};
+use std::os::unix::process::CommandExt;
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
+use thiserror::Error;
+
+/// Why a photo failed.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum CameraError {
+    /// It cannot be started.
+    #[error("the camera cannot be started: {0}")]
+    Start(io::Error),
+    /// It does not answer.
+    #[error("the camera has not answered within {} s", .0.as_secs_f64())]
+    Silent(Duration),
+    /// It ended.
+    #[error("the camera program ended")]
+    Ended,
+    /// Its line has no end.
+    #[error("the camera sent a line of more than {LONGEST_LINE} bytes")]
+    TooLong,
+    /// It says something else.
+    #[error("the camera sent {0}")]
+    Answer(String),
+    /// It shows no face.
+    #[error("no face can be read in the photo")]
+    NoFace,
+    /// The photo is not there, or not a file, or cannot be brought to the disk.
+    #[error("the photo {name}: {error}")]
+    Photo {
+        /// Its name.
+        name: String,
+        /// What the system said.
+        error: io::Error,
+    },
+}
+
+/// A running camera.
+#[derive(Debug)]
+pub(super) struct CameraChild {
+    child: Child,
+    input: ChildStdin,
+    lines: Receiver<Result<Vec<u8>, CameraError>>,
+}
+
+impl CameraChild {
+    /// Starts a command of the shell. What it says on standard error goes to `log`.
+    pub(super) fn start(command: &str, log: Option<File>) -> Result<Self, CameraError> {
+        let mut child = Command::new("sh")
+            .args(["-c", command])
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(log.map_or_else(Stdio::null, Stdio::from))
+            // Ctrl-C is for the host, which ends the camera when the throw is finished
+            .process_group(0)
+            .spawn()
+            .map_err(CameraError::Start)?;
+        let (Some(input), Some(output)) = (child.stdin.take(), child.stdout.take()) else {
+            return Err(CameraError::Ended);
+        };
+        let (sender, lines) = mpsc::sync_channel(1);
+        thread::spawn(move || read_lines(output, |line| sender.send(line).is_ok()));
+        Ok(Self {
+            child,
+            input,
+            lines,
+        })
+    }
+
+    /// Asks and waits for the answer.
+    pub(super) fn ask(
+        &mut self,
+        request: &Request,
+        timeout: Duration,
+    ) -> Result<Answer, CameraError> {
+        // A line sent unasked would be taken for the answer, and every later one be one too late.
+        if let Ok(line) = self.lines.try_recv() {
+            line?;
+            return Err(CameraError::Answer(
+                "a line that nobody asked for".to_owned(),
+            ));
+        }
+        let mut line = serde_json::to_vec(request)
+            .map_err(|error| CameraError::Answer(format!("nothing: {error}")))?;
+        line.push(b'\n');
+        self.input
+            .write_all(&line)
+            .and_then(|()| self.input.flush())
+            .map_err(|_| CameraError::Ended)?;
+        match self.lines.recv_timeout(timeout) {
+            Ok(line) => Answer::read(&line?).map_err(CameraError::Answer),
+            Err(RecvTimeoutError::Timeout) => Err(CameraError::Silent(timeout)),
+            Err(RecvTimeoutError::Disconnected) => Err(CameraError::Ended),
+        }
+    }
+}
+
+impl Drop for CameraChild {
+    /// The whole group: a shell's child would live on otherwise, with the camera in its hands.
+    fn drop(&mut self) {
+        let group = i32::try_from(self.child.id()).ok().and_then(Pid::from_raw);
+        if let Some(group) = group {
+            // gone already: all the better
+            let _ = kill_process_group(group, Signal::KILL);
+        }
+        let _ = self.child.wait();
+    }
+}
+
+/// Hands on line after line, until the output ends or nobody listens.
+fn read_lines(output: ChildStdout, mut hand_on: impl FnMut(Result<Vec<u8>, CameraError>) -> bool) {
+    let mut output = BufReader::new(output);
+    loop {
+        let mut line = Vec::new();
+        let read = output
+            .by_ref()
+            .take(LONGEST_LINE as u64)
+            .read_until(b'\n', &mut line);
+        let line = match read {
+            Ok(0) | Err(_) => return,
+            Ok(_) if line.ends_with(b"\n") => Ok(line),
+            Ok(LONGEST_LINE) => Err(CameraError::TooLong),
+            Ok(_) => return,
+        };
+        if !hand_on(line) {
+            return;
+        }
+    }
+}

@@ -1,0 +1,25 @@
+//! Photos, from any program that speaks a few lines of JSON.
+//!
+//! The camera is a child process. It reads one request a line on its standard input and answers
+//! each with one line on its standard output:
+//!
+//! ```text
+//! {"take": {"throw": 12, "attempt": 1, "folder": "/data/photos", "name": "000012-1"}}
+//! {"image": "000012-1.png"}
+//! {"classify": "/data/photos/000012-1.png"}
+//! {"face": "heads"}
+//! ```
+//!
+//! docs/robot.md has the rules. A child that hangs, dies, or answers anything else is ended and
+//! started again, and the photo counts as failed.
+
+mod child;
+mod picture;
+mod protocol;
+mod simulated;
+mod worker;
+
+pub use child::CameraError;
+pub use protocol::{LONGEST_LINE, Request, Take};
+pub use simulated::{CameraFaults, simulate_camera};
+pub use worker::{Camera, CameraOptions, Taken};

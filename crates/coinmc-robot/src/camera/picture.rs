@@ -1,0 +1,100 @@
+//! The simulated camera's pictures: one for every face, as small PNG files (ISO/IEC 15948).
+
+use crate::Face;
+
+/// Pixels a side.
+const SIDE: u8 = 48;
+
+/// The picture of a coin that shows `face`; `None` for one that cannot be made out.
+pub(super) fn picture(face: Option<Face>) -> Vec<u8> {
+    let mut rows = Vec::new();
+    for y in 0..SIDE {
+        rows.push(0); // filter: none
+        rows.extend((0..SIDE).map(|x| grey(face, x, y)));
+    }
+    png(SIDE.into(), SIDE.into(), &rows)
+}
+
+/// What a picture of [`picture`] shows; `None` for any other.
+pub(super) fn shown(bytes: &[u8]) -> Option<Face> {
+    Face::ALL
+        .into_iter()
+        .find(|face| bytes == picture(Some(*face)))
+}
+
+/// From black to white on a dark table: a bright disc for heads, one with a hole for tails, a bar
+/// for the side.
+fn grey(face: Option<Face>, x: u8, y: u8) -> u8 {
+    const TABLE: u8 = 40;
+    let centre = i32::from(SIDE) / 2;
+    let (x, y) = (i32::from(x) - centre, i32::from(y) - centre);
+    let distance2 = x * x + y * y;
+    let coin = match face {
+        Some(Face::Heads) => distance2 < 20 * 20,
+        Some(Face::Tails) => distance2 < 20 * 20 && distance2 > 8 * 8,
+        Some(Face::Side) => x.abs() < 20 && y.abs() < 6,
+        None => false,
+    };
+    if coin { 220 } else { TABLE }
+}
+
+/// A greyscale PNG whose data are stored, not compressed.
+fn png(width: u32, height: u32, rows: &[u8]) -> Vec<u8> {
+    let mut file = b"\x89PNG\r\n\x1a\n".to_vec();
+    let mut header = [width.to_be_bytes(), height.to_be_bytes()].concat();
+    header.extend([8, 0, 0, 0, 0]); // 8 bits, grey, deflate, no filter method, no interlace
+    chunk(&mut file, *b"IHDR", &header);
+    chunk(&mut file, *b"IDAT", &zlib(rows));
+    chunk(&mut file, *b"IEND", &[]);
+    file
+}
+
+fn chunk(file: &mut Vec<u8>, kind: [u8; 4], data: &[u8]) {
+    let length = u32::try_from(data.len()).unwrap_or(u32::MAX);
+    file.extend(length.to_be_bytes());
+    let start = file.len();
+    file.extend(kind);
+    file.extend(data);
+    let crc = crc32fast::hash(&file[start..]);
+    file.extend(crc.to_be_bytes());
+}
+
+/// A zlib stream (RFC 1950) of one stored block (RFC 1951): at most 65 535 bytes.
+fn zlib(data: &[u8]) -> Vec<u8> {
+    let length = u16::try_from(data.len()).expect("the pictures are small");
+    let mut stream = vec![0x78, 0x01, 1];
+    stream.extend(length.to_le_bytes());
+    stream.extend((!length).to_le_bytes());
+    stream.extend(data);
+    stream.extend(adler32(data).to_be_bytes());
+    stream
+}
+
+fn adler32(data: &[u8]) -> u32 {
+    let (a, b) = data.iter().fold((1, 0), |(a, b), byte| {
+        let a = (a + u32::from(*byte)) % 65_521;
+        (a, (b + a) % 65_521)
+    });
+    b << 16 | a
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_face_is_read_back_and_nothing_else_is_a_face() {
+        for face in Face::ALL {
+            assert_eq!(shown(&picture(Some(face))), Some(face));
+        }
+        assert_eq!(shown(&picture(None)), None);
+        assert_eq!(shown(b""), None);
+    }
+
+    #[test]
+    fn checksums_are_those_of_the_standards() {
+        assert_eq!(adler32(b"Wikipedia"), 0x11E6_0398);
+        // the end chunk of every PNG file
+        assert!(picture(None).ends_with(b"\0\0\0\0IEND\xae\x42\x60\x82"));
+    }
+}

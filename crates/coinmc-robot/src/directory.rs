@@ -1,0 +1,232 @@
+//! The directory of an experiment.
+//!
+//! ```text
+//! DIR/
+//!   experiment.toml     the config as understood
+//!   setup.json          port and camera, for `resume`
+//!   journal.txt         the truth; see `journal`
+//!   photos/             one file a photo
+//!   sessions/           recordings (MCAP), one or more a session
+//!   camera.log          what the camera said on standard error
+//! ```
+
+use crate::Experiment;
+use crate::journal::{Header, Journal, JournalError};
+use coinmc::config;
+use serde::{Deserialize, Serialize};
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+const CONFIG: &str = "experiment.toml";
+const SETUP: &str = "setup.json";
+const JOURNAL: &str = "journal.txt";
+const PHOTOS: &str = "photos";
+const SESSIONS: &str = "sessions";
+const CAMERA_LOG: &str = "camera.log";
+
+/// Longest setup read, bytes.
+const SETUP_BYTES: u64 = 1 << 16;
+
+/// Robot and camera of an experiment: what `resume` needs to know beyond the plan.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Setup {
+    /// The serial port, by a name that stays.
+    pub port: PathBuf,
+    /// The camera: a command of the shell.
+    pub camera: String,
+    /// How much faster than life a simulated robot is; 1 for a real one.
+    pub speed: f64,
+}
+
+/// An experiment's directory.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Directory {
+    path: PathBuf,
+}
+
+/// Why a directory cannot be used.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum DirectoryError {
+    /// It holds something else.
+    #[error("{} holds {found} and no {JOURNAL}: it is no experiment. Give a new directory", path.display())]
+    NotAnExperiment {
+        /// The directory.
+        path: PathBuf,
+        /// The first strange entry.
+        found: String,
+    },
+    /// There is no experiment.
+    #[error("{} holds no experiment: `coinmc robot run CONFIG --out DIR` begins one", .0.display())]
+    Missing(PathBuf),
+    /// Its own config does not read back.
+    #[error("{} is damaged: {problem}. Give the config again: `coinmc robot run CONFIG --out DIR`", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// The journal.
+    #[error(transparent)]
+    Journal(#[from] JournalError),
+    /// The system refuses.
+    #[error("cannot {action} {}: {error}", path.display())]
+    Io {
+        /// What was tried.
+        action: &'static str,
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        error: io::Error,
+    },
+}
+
+impl Directory {
+    /// The directory at a path; nothing is looked at yet.
+    pub fn at(path: &Path) -> Self {
+        Self {
+            path: path.to_owned(),
+        }
+    }
+
+    /// Its path.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Where photos go.
+    pub fn photos(&self) -> PathBuf {
+        self.path.join(PHOTOS)
+    }
+
+    /// Where recordings go.
+    pub fn sessions(&self) -> PathBuf {
+        self.path.join(SESSIONS)
+    }
+
+    /// Where the camera's standard error goes.
+    pub fn camera_log(&self) -> PathBuf {
+        self.path.join(CAMERA_LOG)
+    }
+
+    /// Where the journal is.
+    pub fn journal(&self) -> PathBuf {
+        self.path.join(JOURNAL)
+    }
+
+    /// The first line of an experiment's journal.
+    pub fn header(experiment: &Experiment) -> Header {
+        Header {
+            plan_hash: experiment.plan().hash(),
+            throws: experiment.throws(),
+        }
+    }
+
+    /// Begins an experiment here, or goes on with it, and keeps port and camera for the next time.
+    /// Says how many bytes of a torn last line were cut off the journal.
+    ///
+    /// # Errors
+    /// [`DirectoryError`] if it belongs to something else, or is in use.
+    pub fn open(
+        &self,
+        experiment: &Experiment,
+        setup: &Setup,
+    ) -> Result<(Journal, usize), DirectoryError> {
+        let header = Self::header(experiment);
+        let journal = self.journal();
+        if journal.exists() {
+            let opened = Journal::open(&journal, &header)?;
+            self.keep(setup)?;
+            return Ok(opened);
+        }
+        self.must_be_free()?;
+        for folder in [self.path.clone(), self.photos(), self.sessions()] {
+            fs::create_dir_all(&folder).map_err(|e| io_error("create", &folder, e))?;
+        }
+        self.write(CONFIG, experiment.plan().resolved_toml.as_bytes())?;
+        // before the journal, so that whatever has one can be resumed
+        self.keep(setup)?;
+        Ok((Journal::create(&journal, &header)?, 0))
+    }
+
+    /// The experiment that was begun here.
+    ///
+    /// # Errors
+    /// [`DirectoryError`] if there is none, or its config does not read back.
+    pub fn experiment(&self) -> Result<Experiment, DirectoryError> {
+        let path = self.path.join(CONFIG);
+        if !path.exists() {
+            return Err(DirectoryError::Missing(self.path.clone()));
+        }
+        let damaged = |problem: String| DirectoryError::Damaged {
+            path: path.clone(),
+            problem,
+        };
+        let plan = config::load(&path, &[]).map_err(|problems| damaged(problems.to_string()))?;
+        Experiment::new(plan).map_err(|problems| damaged(problems.to_string()))
+    }
+
+    /// Port and camera that the experiment was last run with, if they read back.
+    pub fn setup(&self) -> Option<Setup> {
+        let mut text = String::new();
+        let file = File::open(self.path.join(SETUP)).ok()?;
+        file.take(SETUP_BYTES).read_to_string(&mut text).ok()?;
+        serde_json::from_str(&text).ok()
+    }
+
+    /// Keeps port and camera.
+    fn keep(&self, setup: &Setup) -> Result<(), DirectoryError> {
+        let mut text = serde_json::to_string_pretty(setup)
+            .map_err(|e| io_error("write", &self.path.join(SETUP), e.into()))?;
+        text.push('\n');
+        self.write(SETUP, text.as_bytes())
+    }
+
+    /// Absent, empty, or as a crash at the very beginning leaves it.
+    fn must_be_free(&self) -> Result<(), DirectoryError> {
+        let entries = match fs::read_dir(&self.path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+            entries => entries.map_err(|e| io_error("list", &self.path, e))?,
+        };
+        for entry in entries {
+            let name = entry
+                .map_err(|e| io_error("list", &self.path, e))?
+                .file_name();
+            let ours = [CONFIG, SETUP, PHOTOS, SESSIONS];
+            let begun = |name: &str| ours.contains(&name.strip_suffix(".tmp").unwrap_or(name));
+            if !name.to_str().is_some_and(begun) {
+                return Err(DirectoryError::NotAnExperiment {
+                    path: self.path.clone(),
+                    found: name.display().to_string(),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes a file that is there as a whole or not at all.
+    fn write(&self, name: &str, content: &[u8]) -> Result<(), DirectoryError> {
+        let (place, next) = (self.path.join(name), self.path.join(format!("{name}.tmp")));
+        let mut options = OpenOptions::new();
+        options.write(true).create(true).truncate(true);
+        let written = options.open(&next).and_then(|mut file| {
+            file.write_all(content)?;
+            file.sync_all()
+        });
+        written
+            .and_then(|()| fs::rename(&next, &place))
+            .map_err(|e| io_error("write", &place, e))
+    }
+}
+
+fn io_error(action: &'static str, path: &Path, error: io::Error) -> DirectoryError {
+    DirectoryError::Io {
+        action,
+        path: path.to_owned(),
+        error,
+    }
+}

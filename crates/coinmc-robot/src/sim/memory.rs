@@ -1,0 +1,90 @@
+//! The robot's EEPROM: in memory, or in a file that outlives the simulation.
+
+use coinmc_link::{Record, State};
+use std::fs;
+use std::io;
+use std::path::PathBuf;
+
+/// Keeps the newest record.
+#[derive(Debug)]
+pub(super) struct Memory {
+    file: Option<PathBuf>,
+    record: Option<Record>,
+}
+
+impl Memory {
+    /// Memory that is a file, or one that ends with the process.
+    pub(super) fn new(file: Option<PathBuf>) -> io::Result<Self> {
+        let mut record = None;
+        if let Some(path) = &file {
+            match fs::read_to_string(path) {
+                Ok(text) => record = Some(read(&text).ok_or(io::ErrorKind::InvalidData)?),
+                Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(Self { file, record })
+    }
+
+    pub(super) fn load(&self) -> Option<Record> {
+        self.record
+    }
+
+    /// The last record stored.
+    pub(super) fn store(&mut self, record: Record) -> bool {
+        if let Some(path) = &self.file {
+            let Record {
+                throw_id,
+                boot,
+                phase,
+            } = record;
+            let text = format!("{throw_id} {boot} {}\n", phase.number());
+            let next = path.with_extension("next");
+            if fs::write(&next, text)
+                .and_then(|()| fs::rename(&next, path))
+                .is_err()
+            {
+                return false;
+            }
+        }
+        self.record = Some(record);
+        true
+    }
+}
+
+fn read(text: &str) -> Option<Record> {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let [throw_id, boot, phase] = words[..] else {
+        return None;
+    };
+    Some(Record {
+        throw_id: throw_id.parse().ok()?,
+        boot: boot.parse().ok()?,
+        phase: State::from_number(phase.parse().ok()?)?,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_outlives_the_simulation() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("eeprom");
+        let mut memory = Memory::new(Some(path.clone())).unwrap();
+        assert_eq!(memory.load(), None);
+        let record = Record {
+            throw_id: 7,
+            boot: 65_535,
+            phase: State::Driving,
+        };
+        assert!(memory.store(record));
+        assert_eq!(
+            Memory::new(Some(path.clone())).unwrap().load(),
+            Some(record)
+        );
+        fs::write(&path, "7 8").unwrap();
+        assert!(Memory::new(Some(path)).is_err());
+    }
+}

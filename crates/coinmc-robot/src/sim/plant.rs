@@ -1,0 +1,209 @@
+//! Motors, sensors and the coin.
+
+use super::Dice;
+use super::memory::Memory;
+use super::truth::{Truth, TruthFile};
+use crate::{Experiment, Setting};
+use coinmc_link::{Hardware, Info, Limits, Motion, Record, Sensors, capability};
+use std::time::{Duration, Instant};
+
+/// What is in the simulated robot's name plate.
+const INFO: Info = Info {
+    uid: *b"coin-sim",
+    firmware: [1, 0, 0],
+    capabilities: capability::LIGHT | capability::CARRIAGE,
+    limits: Limits {
+        spin_mrev_s: crate::MAX_SPIN_MREV_S,
+        angle_cdeg: crate::MAX_ANGLE_CDEG,
+        x_um: 500_000,
+        y_um: 500_000,
+    },
+};
+
+/// How far the coin rolls at most, µm.
+const ROLLS_UM: f64 = 200_000.0;
+
+/// Everything of the robot that is not its program.
+#[derive(Debug)]
+pub(super) struct Plant {
+    experiment: Experiment,
+    memory: Memory,
+    truth: TruthFile,
+    dice: Dice,
+    speed: f64,
+    /// Share of motions that never end.
+    stuck: f64,
+    /// The next motion never ends.
+    stick_next: bool,
+    /// When the motion under way ends; `None`: nothing moves.
+    busy: Option<Until>,
+    /// What the spindle was told last.
+    aim: Setting,
+    sensors: Sensors,
+    /// Why the truth could not be written: the simulation is worth nothing then.
+    failed: Option<std::io::Error>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Until {
+    Then(Instant),
+    /// Stuck.
+    Never,
+}
+
+impl Plant {
+    pub(super) fn new(
+        experiment: Experiment,
+        memory: Memory,
+        truth: TruthFile,
+        speed: f64,
+        stuck: f64,
+        seed: u64,
+    ) -> Self {
+        let mut plant = Self {
+            experiment,
+            memory,
+            truth,
+            dice: Dice::new(seed, 0),
+            speed,
+            stuck,
+            stick_next: false,
+            busy: None,
+            aim: Setting::default(),
+            sensors: Sensors::default(),
+            failed: None,
+        };
+        plant.power_on();
+        plant
+    }
+
+    /// The time of starting; whatever moved stands still.
+    pub(super) fn power_on(&mut self) {
+        self.busy = Some(Until::Then(Instant::now() + self.duration(1.0)));
+    }
+
+    /// The next motion will not end.
+    pub(super) fn stick(&mut self) {
+        self.stick_next = true;
+    }
+
+    /// When something will happen by itself, if it will.
+    pub(super) fn next_event(&self) -> Option<Instant> {
+        match self.busy {
+            Some(Until::Then(at)) => Some(at),
+            _ => None,
+        }
+    }
+
+    /// What went wrong with the side file, once.
+    pub(super) fn take_failure(&mut self) -> Option<std::io::Error> {
+        self.failed.take()
+    }
+
+    /// About so many seconds of the robot's time, in the wall's.
+    fn duration(&mut self, seconds: f64) -> Duration {
+        let varied = seconds * (0.85 + 0.3 * self.dice.uniform());
+        Duration::from_secs_f64(varied / self.speed)
+    }
+
+    /// The coin falls. What the link calls a throw is what the memory was last told.
+    fn release(&mut self) {
+        let throw_id = self.memory.load().map_or(0, |record| record.throw_id);
+        let throw = throw_id.saturating_sub(1);
+        // settings were checked when the simulation began, and no throw fails for others
+        let face = self.experiment.model_face(throw, self.aim).ok().flatten();
+        let truth = Truth {
+            throw_id,
+            spin_mrev_s: self.aim.spin_mrev_s(),
+            angle_cdeg: self.aim.angle_cdeg(),
+            face: face.map(|face| face.name().to_owned()),
+        };
+        if let Err(error) = self.truth.add(&truth) {
+            self.failed = Some(error);
+        }
+    }
+
+    /// A measurement: the truth and a little more or less.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    fn measured(&mut self, value: u16, spread: f64) -> u16 {
+        let error = libm::round((self.dice.uniform() - 0.5) * 2.0 * spread);
+        // the cast saturates at 0
+        (f64::from(value) + error) as u16
+    }
+
+    #[allow(clippy::cast_possible_truncation)]
+    fn somewhere(&mut self) -> i32 {
+        ((self.dice.uniform() - 0.5) * 2.0 * ROLLS_UM) as i32
+    }
+}
+
+impl Hardware for Plant {
+    fn info(&self) -> Info {
+        INFO
+    }
+
+    fn load(&mut self) -> Option<Record> {
+        self.memory.load()
+    }
+
+    fn store(&mut self, record: &Record) -> bool {
+        self.memory.store(*record)
+    }
+
+    fn start(&mut self, motion: Motion) {
+        let seconds = match motion {
+            Motion::Aim { .. } => 1.5,
+            Motion::Release => 1.3,
+            Motion::DriveToCoin => 2.0,
+            Motion::Return | Motion::Home { .. } => 3.2,
+            Motion::MoveCarriage { .. } => 1.0,
+        };
+        let stuck = std::mem::take(&mut self.stick_next) || self.dice.chance(self.stuck);
+        let until = Instant::now() + self.duration(seconds);
+        self.busy = Some(if stuck {
+            Until::Never
+        } else {
+            Until::Then(until)
+        });
+        match motion {
+            Motion::Aim {
+                spin_mrev_s,
+                angle_cdeg,
+            } => {
+                // the link lets nothing else through
+                self.aim = Setting::new(spin_mrev_s, angle_cdeg).unwrap_or_default();
+                self.sensors.spin_mrev_s = self.measured(spin_mrev_s, 3.0);
+                self.sensors.angle_cdeg = self.measured(angle_cdeg, 5.0);
+            }
+            // Stuck or not, the clamp is open: a coin let go falls.
+            Motion::Release => self.release(),
+            Motion::DriveToCoin => {
+                (self.sensors.x_um, self.sensors.y_um) = (self.somewhere(), self.somewhere());
+            }
+            Motion::Return | Motion::Home { .. } => {
+                (self.sensors.x_um, self.sensors.y_um) = (0, 0);
+            }
+            Motion::MoveCarriage { x_um, y_um } => {
+                (self.sensors.x_um, self.sensors.y_um) = (x_um, y_um);
+            }
+        }
+    }
+
+    fn motors_off(&mut self) {
+        self.busy = None;
+    }
+
+    fn light(&mut self, _: u16) {}
+
+    fn sense(&mut self) -> Sensors {
+        if let Some(Until::Then(at)) = self.busy
+            && Instant::now() >= at
+        {
+            self.busy = None;
+        }
+        Sensors {
+            settled: self.busy.is_none(),
+            ..self.sensors
+        }
+    }
+}

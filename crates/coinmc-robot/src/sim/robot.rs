@@ -1,0 +1,324 @@
+//! The simulated robot's life.
+
+use super::dice::Dice;
+use super::line::Noise;
+use super::memory::Memory;
+use super::plant::Plant;
+use super::pty::{Pty, StableName};
+use super::truth::TruthFile;
+use crate::Experiment;
+use coinmc_link::Device;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+use std::sync::mpsc::{Receiver, TryRecvError};
+use std::thread;
+use std::time::{Duration, Instant};
+use thiserror::Error;
+
+/// Longest time between two ticks of the device.
+const TICK: Duration = Duration::from_millis(5);
+
+/// Chance that a robot loses its power with the cable.
+const POWERED_BY_CABLE: f64 = 0.5;
+
+/// A simulated robot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SimOptions {
+    /// A name that stays through unpluggings; a link that is made and removed.
+    pub name: Option<PathBuf>,
+    /// The side file of truth; see [`Truth`](super::Truth).
+    pub truth: Option<PathBuf>,
+    /// The robot's memory of its counter; without one it begins blank.
+    pub memory: Option<PathBuf>,
+    /// How much faster than life everything moves.
+    pub speed: f64,
+    /// What goes wrong.
+    pub faults: Faults,
+    /// Key of all chance.
+    pub seed: u64,
+}
+
+/// What goes wrong by chance.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Faults {
+    /// Share of bytes that are flipped, dropped or followed by another.
+    pub noise: f64,
+    /// Mean time between resets, s of the robot's time; `None`: never.
+    pub reset_every_s: Option<f64>,
+    /// Mean time between unpluggings, likewise.
+    pub unplug_every_s: Option<f64>,
+    /// Share of motions that never end.
+    pub stuck: f64,
+}
+
+/// What goes wrong on demand.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Command {
+    /// The robot is reset.
+    Reset,
+    /// The cable is pulled for so long, s of the robot's time.
+    Unplug(f64),
+    /// The next motion never ends.
+    Stick,
+    /// The simulation ends.
+    Quit,
+}
+
+/// Not a command.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[error("commands are: reset, unplug [SECONDS], stick, quit")]
+pub struct UnknownCommand;
+
+impl FromStr for Command {
+    type Err = UnknownCommand;
+
+    fn from_str(text: &str) -> Result<Self, UnknownCommand> {
+        let words: Vec<&str> = text.split_whitespace().collect();
+        Ok(match words[..] {
+            ["reset"] => Self::Reset,
+            ["unplug"] => Self::Unplug(UNPLUGGED_S),
+            ["unplug", seconds] => match seconds.parse() {
+                Ok(seconds) if (0.0..=3600.0).contains(&seconds) => Self::Unplug(seconds),
+                _ => return Err(UnknownCommand),
+            },
+            ["stick"] => Self::Stick,
+            ["quit"] => Self::Quit,
+            _ => return Err(UnknownCommand),
+        })
+    }
+}
+
+/// How long a cable is out, s.
+const UNPLUGGED_S: f64 = 2.0;
+
+/// Why a simulation ends.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SimError {
+    /// Something other than a link has the name.
+    #[error("{} exists and is no link of a simulated robot: choose another name", .0.display())]
+    NameTaken(PathBuf),
+    /// The system refuses.
+    #[error("cannot {action}: {error}")]
+    Io {
+        /// What was tried.
+        action: String,
+        /// What the system said.
+        error: io::Error,
+    },
+}
+
+fn doing(action: impl Into<String>) -> impl FnOnce(io::Error) -> SimError {
+    let action = action.into();
+    move |error| SimError::Io { action, error }
+}
+
+/// Lives a robot's life until it is told to quit or `ended` says so. `ready` is called once, with
+/// the path that a host opens.
+///
+/// # Errors
+/// [`SimError`]
+pub fn simulate(
+    experiment: Experiment,
+    options: &SimOptions,
+    commands: &Receiver<Command>,
+    ready: impl FnOnce(&Path),
+    ended: &dyn Fn() -> bool,
+) -> Result<(), SimError> {
+    let mut robot = Robot::new(experiment, options)?;
+    ready(options.name.as_deref().unwrap_or(robot.pty.path()));
+    while !ended() {
+        match commands.try_recv() {
+            Ok(Command::Quit) => break,
+            Ok(command) => robot.obey(command)?,
+            Err(TryRecvError::Empty | TryRecvError::Disconnected) => {}
+        }
+        robot.suffer()?;
+        robot.live()?;
+    }
+    Ok(())
+}
+
+struct Robot {
+    device: Option<Device<Plant>>,
+    pty: Pty,
+    name: Option<StableName>,
+    into: Noise,
+    out: Noise,
+    dice: Dice,
+    origin: Instant,
+    speed: f64,
+    resets: Schedule,
+    unplugs: Schedule,
+}
+
+/// Events that come by chance.
+struct Schedule {
+    mean: Option<Duration>,
+    next: Option<Instant>,
+}
+
+impl Schedule {
+    fn new(mean_s: Option<f64>, speed: f64, dice: &mut Dice) -> Self {
+        let mean = mean_s.map(|s| Duration::from_secs_f64(s / speed));
+        let mut schedule = Self { mean, next: None };
+        schedule.draw(dice);
+        schedule
+    }
+
+    fn draw(&mut self, dice: &mut Dice) {
+        self.next = self.mean.map(|mean| {
+            let wait = dice.wait(mean.as_secs_f64());
+            Instant::now() + Duration::from_secs_f64(wait)
+        });
+    }
+
+    /// Whether one is due; the next is drawn then.
+    fn is_due(&mut self, dice: &mut Dice) -> bool {
+        let due = self.next.is_some_and(|next| Instant::now() >= next);
+        if due {
+            self.draw(dice);
+        }
+        due
+    }
+}
+
+impl Robot {
+    fn new(experiment: Experiment, options: &SimOptions) -> Result<Self, SimError> {
+        let SimOptions {
+            faults,
+            speed,
+            seed,
+            ..
+        } = *options;
+        let memory = Memory::new(options.memory.clone()).map_err(doing("read the memory"))?;
+        let truth =
+            TruthFile::open(options.truth.as_deref()).map_err(doing("open the side file"))?;
+        let plant = Plant::new(experiment, memory, truth, speed, faults.stuck, seed);
+        let pty = Pty::open().map_err(doing("open a pseudo-terminal"))?;
+        let claimed = options
+            .name
+            .as_deref()
+            .map(|path| StableName::claim(path).map_err(|_| SimError::NameTaken(path.to_owned())));
+        let name = claimed.transpose()?;
+        let mut dice = Dice::new(seed, 1);
+        let robot = Self {
+            device: Some(Device::boot(plant, 0)),
+            pty,
+            name,
+            into: Noise::new(faults.noise, seed, 2),
+            out: Noise::new(faults.noise, seed, 3),
+            origin: Instant::now(),
+            speed,
+            resets: Schedule::new(faults.reset_every_s, speed, &mut dice),
+            unplugs: Schedule::new(faults.unplug_every_s, speed, &mut dice),
+            dice,
+        };
+        robot.point()?;
+        Ok(robot)
+    }
+
+    fn point(&self) -> Result<(), SimError> {
+        match &self.name {
+            Some(name) => name
+                .point_to(self.pty.path())
+                .map_err(doing("make the link to the pseudo-terminal")),
+            None => Ok(()),
+        }
+    }
+
+    /// Wraps after 49 days, as a microcontroller's does.
+    #[allow(clippy::cast_possible_truncation)]
+    fn now_ms(&self) -> u32 {
+        self.origin.elapsed().as_millis() as u32
+    }
+
+    fn device(&mut self) -> &mut Device<Plant> {
+        self.device.as_mut().expect("only a reset takes the device")
+    }
+
+    fn obey(&mut self, command: Command) -> Result<(), SimError> {
+        match command {
+            Command::Reset => self.reset(),
+            Command::Unplug(seconds) => self.unplug(seconds)?,
+            Command::Stick => self.device().hardware_mut().stick(),
+            Command::Quit => {}
+        }
+        Ok(())
+    }
+
+    /// What chance has in store.
+    fn suffer(&mut self) -> Result<(), SimError> {
+        if self.resets.is_due(&mut self.dice) {
+            self.reset();
+        }
+        if self.unplugs.is_due(&mut self.dice) {
+            self.unplug(UNPLUGGED_S)?;
+        }
+        Ok(())
+    }
+
+    fn reset(&mut self) {
+        let now = self.now_ms();
+        if let Some(device) = self.device.take() {
+            let mut plant = device.into_hardware();
+            plant.power_on();
+            self.device = Some(Device::boot(plant, now));
+        }
+    }
+
+    fn unplug(&mut self, seconds: f64) -> Result<(), SimError> {
+        if let Some(name) = &self.name {
+            name.remove();
+        }
+        // the host's end hangs up when the last descriptor of this one closes
+        let next = Pty::open().map_err(doing("open a pseudo-terminal"))?;
+        drop(std::mem::replace(&mut self.pty, next));
+        let powered = !self.dice.chance(POWERED_BY_CABLE);
+        let back = Instant::now() + Duration::from_secs_f64(seconds / self.speed);
+        while Instant::now() < back {
+            thread::sleep(TICK.min(back - Instant::now()));
+            if powered {
+                let now = self.now_ms();
+                self.device().tick(now);
+            }
+        }
+        if !powered {
+            self.reset();
+        }
+        self.point()
+    }
+
+    /// One turn: listen, answer, move.
+    fn live(&mut self) -> Result<(), SimError> {
+        let next = self.device().hardware().next_event();
+        let wait = next.map_or(TICK, |at| at.saturating_duration_since(Instant::now()));
+        let mut bytes = [0; 512];
+        let count = self
+            .pty
+            .read(&mut bytes, wait.min(TICK))
+            .map_err(doing("read from the pseudo-terminal"))?;
+        let mut arrived = Vec::new();
+        self.into.pass(&bytes[..count], &mut arrived);
+        let now = self.now_ms();
+        self.device().tick(now);
+        let mut answers = Vec::new();
+        for byte in arrived {
+            if let Some(answer) = self.device().receive(byte, now) {
+                answers.extend_from_slice(answer);
+            }
+        }
+        let mut sent = Vec::new();
+        self.out.pass(&answers, &mut sent);
+        if !sent.is_empty() {
+            self.pty
+                .write(&sent)
+                .map_err(doing("write to the pseudo-terminal"))?;
+        }
+        match self.device().hardware_mut().take_failure() {
+            Some(error) => Err(doing("write the side file")(error)),
+            None => Ok(()),
+        }
+    }
+}

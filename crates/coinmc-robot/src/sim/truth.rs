@@ -1,0 +1,82 @@
+//! What really happened: a side file of the simulated robot that no host ever sees. The simulated
+//! camera looks at it in place of a coin, and tests compare it with the journal.
+
+use crate::Face;
+use serde::{Deserialize, Serialize};
+use std::fs::{File, OpenOptions};
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
+use std::path::Path;
+
+/// One release of the coin: every line of the file.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Truth {
+    /// The throw it was released for.
+    pub throw_id: u32,
+    /// Spin, thousandths of a turn a second.
+    pub spin_mrev_s: u16,
+    /// Start angle, hundredths of a degree.
+    pub angle_cdeg: u16,
+    /// How it came to lie; `None` if the engine did not decide.
+    pub face: Option<String>,
+}
+
+/// Longest line read.
+const LONGEST: u64 = 512;
+
+impl Truth {
+    /// The face, if it is one.
+    pub fn face(&self) -> Option<Face> {
+        let name = self.face.as_deref()?;
+        Face::ALL.into_iter().find(|face| face.name() == name)
+    }
+}
+
+/// Appends to the file.
+#[derive(Debug)]
+pub(super) struct TruthFile(Option<File>);
+
+impl TruthFile {
+    pub(super) fn open(path: Option<&Path>) -> io::Result<Self> {
+        let open = |path| OpenOptions::new().create(true).append(true).open(path);
+        path.map(open).transpose().map(Self)
+    }
+
+    pub(super) fn add(&mut self, truth: &Truth) -> io::Result<()> {
+        let Some(file) = &mut self.0 else {
+            return Ok(());
+        };
+        let mut line = serde_json::to_string(truth)?;
+        line.push('\n');
+        file.write_all(line.as_bytes())
+    }
+}
+
+/// The last release in the file; `None` before the first.
+///
+/// # Errors
+/// Those of the system, and a last line that is none of ours.
+pub fn last_truth(path: &Path) -> io::Result<Option<Truth>> {
+    let mut file = match File::open(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+        file => file?,
+    };
+    let length = file.seek(SeekFrom::End(0))?;
+    file.seek(SeekFrom::Start(length.saturating_sub(LONGEST)))?;
+    let mut text = String::new();
+    file.take(LONGEST).read_to_string(&mut text)?;
+    // what has no end yet is still being written
+    let whole = text.rfind('\n').map_or("", |end| &text[..end]);
+    let last = whole.lines().next_back();
+    Ok(last.map(serde_json::from_str).transpose()?)
+}
+
+/// All releases in the file.
+///
+/// # Errors
+/// Those of the system, and any line that is none of ours.
+pub fn read_truths(path: &Path) -> io::Result<Vec<Truth>> {
+    let lines = BufReader::new(File::open(path)?).lines();
+    lines
+        .map(|line| Ok(serde_json::from_str(&line?)?))
+        .collect()
+}

@@ -1,0 +1,248 @@
+//! The journal's file: torn, damaged, another's, in use, on a full disk.
+
+use coinmc_robot::journal::{
+    Damage, Entry, Header, History, Journal, JournalError, Measured, Reading, Resolution, Seal,
+    VoidReason, parse,
+};
+use coinmc_robot::{Face, Setting};
+use proptest::prelude::*;
+use std::fs;
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+fn header() -> Header {
+    Header {
+        plan_hash: "5d41402abc4b2a76b9719d911017c592".to_owned(),
+        throws: 100,
+    }
+}
+
+fn announced(id: u32) -> Entry {
+    let setting = Setting::new(3200, 9000).unwrap();
+    let at_ms = 1_795_281_733_123;
+    Entry::Announced { id, setting, at_ms }
+}
+
+fn read(id: u32) -> Entry {
+    Entry::Read {
+        id,
+        reading: Reading {
+            face: Face::Side,
+            measured: Measured {
+                spin_mrev_s: 3198,
+                angle_cdeg: 18_003,
+            },
+            boot: 4,
+            image: "000001-1.png".parse().unwrap(),
+        },
+        at_ms: 1_795_281_741_008,
+    }
+}
+
+/// A journal of two throws: one done, one void.
+fn entries() -> [Entry; 5] {
+    let reason = VoidReason::Fault(103);
+    [
+        announced(1),
+        read(1),
+        Entry::Done { id: 1 },
+        announced(2),
+        Entry::Void { id: 2, reason },
+    ]
+}
+
+fn written(dir: &TempDir) -> PathBuf {
+    let path = dir.path().join("journal.txt");
+    let mut journal = Journal::create(&path, &header()).unwrap();
+    for entry in entries() {
+        journal.append(&entry).unwrap();
+    }
+    path
+}
+
+fn damage(path: &Path) -> Damage {
+    match Journal::open(path, &header()) {
+        Err(JournalError::Damaged { damage, .. }) => damage,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn what_is_written_is_read_and_looks_as_documented() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = written(&dir);
+    let text = fs::read_to_string(&path).unwrap();
+    let bodies: Vec<&str> = text
+        .lines()
+        .map(|line| line.rsplit_once(' ').unwrap().0)
+        .collect();
+    assert_eq!(
+        bodies,
+        [
+            "coinmc-robot-journal 1 5d41402abc4b2a76b9719d911017c592 100",
+            "I 1 3200 9000 1795281733123",
+            "R 1 side 3198 18003 4 000001-1.png 1795281741008",
+            "D 1",
+            "I 2 3200 9000 1795281733123",
+            "V 2 fault-103",
+        ]
+    );
+    // the seal is the CRC-32 of all bodies so far, one behind the other
+    let seal = format!("{:08x}", crc32fast::hash(bodies[..2].concat().as_bytes()));
+    assert!(text.lines().nth(1).unwrap().ends_with(&seal));
+    let (journal, torn) = Journal::open(&path, &header()).unwrap();
+    assert_eq!(torn, 0);
+    let throws = journal.history().throws();
+    assert_eq!(throws[0].resolution, Some(Resolution::Done));
+    assert_eq!(
+        throws[1].resolution,
+        Some(Resolution::Void(VoidReason::Fault(103)))
+    );
+}
+
+#[test]
+fn a_torn_last_line_is_cut_off_wherever_it_tears() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = written(&dir);
+    let whole = fs::read(&path).unwrap();
+    let last = whole[..whole.len() - 1]
+        .iter()
+        .rposition(|b| *b == b'\n')
+        .unwrap()
+        + 1;
+    for length in last..whole.len() {
+        fs::write(&path, &whole[..length]).unwrap();
+        let (mut journal, torn) = Journal::open(&path, &header()).unwrap();
+        assert_eq!(torn, length - last);
+        let reason = VoidReason::Fault(103);
+        journal.append(&Entry::Void { id: 2, reason }).unwrap();
+        drop(journal);
+        assert_eq!(fs::read(&path).unwrap(), whole, "torn at {length}");
+    }
+    // what a file system makes of a lost block
+    fs::write(&path, [&whole[..last], &[0; 4096]].concat()).unwrap();
+    assert_eq!(Journal::open(&path, &header()).unwrap().1, 4096);
+    // not even a first line: nothing was thrown
+    fs::write(&path, &whole[..30]).unwrap();
+    assert_eq!(
+        Journal::open(&path, &header()).unwrap().0.history(),
+        &History::default()
+    );
+}
+
+#[test]
+fn damage_before_the_last_line_is_refused_with_its_line_and_a_remedy() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = written(&dir);
+    let text = fs::read_to_string(&path).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    let write = |lines: &[&str]| fs::write(&path, lines.join("\n") + "\n").unwrap();
+
+    let flipped = lines[2].replace("side", "tide");
+    write(&[lines[0], lines[1], &flipped, lines[3], lines[4], lines[5]]);
+    assert_eq!(damage(&path), Damage::Line(3));
+    let message = Journal::open(&path, &header()).unwrap_err().to_string();
+    assert!(
+        message.contains("line 3") && message.contains("head -n 2"),
+        "{message}"
+    );
+    // a line that is missing, or stands twice, or was swapped
+    write(&[lines[0], lines[1], lines[3], lines[4]]);
+    assert_eq!(damage(&path), Damage::Line(3));
+    write(&[lines[0], lines[1], lines[1], lines[2]]);
+    assert_eq!(damage(&path), Damage::Line(3));
+    fs::write(&path, "something else\n").unwrap();
+    assert_eq!(damage(&path), Damage::NotAJournal);
+    fs::write(&path, "coinmc-robot-journal 2 x 1 00000000\n").unwrap();
+    assert_eq!(damage(&path), Damage::Newer(2));
+    let nothing_was_changed = fs::read_to_string(&path).unwrap();
+    assert!(nothing_was_changed.starts_with("coinmc-robot-journal 2"));
+}
+
+#[test]
+fn whole_lines_that_cannot_be_true_are_refused() {
+    let (mut text, mut seal) = Seal::header(&header());
+    for body in ["I 1 0 0 5", "D 1"] {
+        let (line, next) = seal.line(body);
+        text.push_str(&line);
+        seal = next;
+    }
+    let error = parse(text.as_bytes()).unwrap_err();
+    assert!(matches!(error, Damage::Order { line: 3, .. }), "{error}");
+}
+
+#[test]
+fn another_experiments_journal_and_one_in_use_are_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = written(&dir);
+    let other = Header {
+        throws: 7,
+        ..header()
+    };
+    let error = Journal::open(&path, &other).unwrap_err();
+    assert!(matches!(error, JournalError::OtherExperiment { .. }));
+    assert!(error.to_string().contains("--out"), "{error}");
+    let held = Journal::open(&path, &header()).unwrap();
+    let error = Journal::open(&path, &header()).unwrap_err();
+    assert!(matches!(error, JournalError::Locked { .. }), "{error}");
+    // reading needs no lock
+    assert_eq!(Journal::read(&path).unwrap().1.throws().len(), 2);
+    drop(held);
+    assert!(matches!(
+        Journal::create(&path, &header()),
+        Err(JournalError::Io { .. })
+    ));
+}
+
+#[test]
+fn entries_out_of_order_change_nothing() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = written(&dir);
+    let before = fs::read(&path).unwrap();
+    let (mut journal, _) = Journal::open(&path, &header()).unwrap();
+    for wrong in [announced(2), announced(4), read(2), Entry::Done { id: 2 }] {
+        assert!(
+            matches!(journal.append(&wrong), Err(JournalError::Order { .. })),
+            "{wrong}"
+        );
+    }
+    assert!(journal.append(&Entry::Adopted { counter: 2 }).is_err());
+    assert_eq!(fs::read(&path).unwrap(), before);
+    journal.append(&Entry::Adopted { counter: 40 }).unwrap();
+    journal.append(&announced(41)).unwrap();
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, ..ProptestConfig::default() })]
+
+    /// Any damage is refused, or cuts off no more than the last line.
+    #[test]
+    fn no_damage_changes_what_is_believed(
+        place in any::<prop::sample::Index>(),
+        flip in 1..=u8::MAX,
+        cut in any::<bool>(),
+    ) {
+        let (mut text, mut seal) = Seal::header(&header());
+        let mut histories = vec![History::default()];
+        for entry in entries() {
+            let (line, next) = seal.line(&entry.to_string());
+            text.push_str(&line);
+            seal = next;
+            let mut history = histories[histories.len() - 1].clone();
+            history.add(&entry).unwrap();
+            histories.push(history);
+        }
+        let mut bytes = text.into_bytes();
+        let place = place.index(bytes.len());
+        if cut { bytes.truncate(place) } else { bytes[place] ^= flip }
+        if let Ok(parsed) = parse(&bytes) {
+            prop_assert!(histories.contains(&parsed.history));
+            prop_assert!(cut || parsed.history == histories[entries().len() - 1]);
+        }
+    }
+
+    #[test]
+    fn foreign_bytes_never_panic(bytes in prop::collection::vec(any::<u8>(), 0..600)) {
+        let _ = parse(&bytes);
+    }
+}

@@ -1,0 +1,382 @@
+//! The coin between events: where the laws of motion put it, and without a trace in the toss.
+
+use crate::common::{Dice, Moment, Recorder, Sampler, Start, Tosser, moment, preset, scene};
+use coinmc_core::{Drag, Event, EventKind, Launch, Observer, Outcome, Preset, Scene, State};
+use coinmc_oracle::newton_euler::{Contact, Twist, runge_kutta, slip};
+use coinmc_oracle::{Model, Motion};
+use coinmc_volumetric::{Decision, Settings};
+use nalgebra::Vector3;
+
+/// Every kind of motion: bouncing, rocking, sliding, rolling on the rim and along the side, thin,
+/// thick, through air, without friction and without gyroscopic torque.
+fn scenes() -> Vec<Scene> {
+    let air = |scene: Scene| scene.with_drag(Drag::new(0.5, 2.0).expect("good rates"));
+    vec![
+        scene(0.85, 0.5, 0.3, 0.01),
+        scene(0.85, 0.0, 0.3, 0.01),
+        scene(0.1, 0.3, 0.5, 0.003),
+        scene(3.0, 0.0, 0.3, 0.01),
+        scene(1.5, 0.6, 0.0, 0.01),
+        air(scene(1.0, 0.3, 0.3, 0.01)),
+        scene(1.2, 0.4, 0.3, 0.01).with_gyroscopic_torque(false),
+    ]
+}
+
+fn sampled(tosser: &Tosser, launch: &Launch, rate: f64) -> (Outcome, Sampler) {
+    let mut sampler = Sampler::new(rate);
+    let outcome = tosser.watch(launch, &mut sampler);
+    (outcome, sampler)
+}
+
+#[test]
+fn sampling_changes_nothing() {
+    let mut samples = 0;
+    for scene in scenes() {
+        let tosser = Tosser::new(&scene);
+        for toss in 0..120 {
+            let launch = preset(Preset::Clean, &scene, 400, toss);
+            let alone = tosser.toss(&launch);
+            let mut recorder = Recorder::default();
+            tosser.watch(&launch, &mut recorder);
+            for rate in [7.0, 100.0, 1000.0] {
+                let (outcome, sampler) = sampled(&tosser, &launch, rate);
+                assert_eq!(outcome, alone);
+                assert_eq!(sampler.events, recorder.0);
+                samples += sampler.samples.len();
+            }
+        }
+    }
+    assert!(samples > 300_000, "{samples}");
+}
+
+/// i/100 and 10i/1000 are the same number: the samples must be the same to the last bit.
+#[test]
+fn a_sample_does_not_depend_on_the_others() {
+    for scene in scenes() {
+        let tosser = Tosser::new(&scene);
+        for toss in 0..100 {
+            let launch = preset(Preset::Clean, &scene, 401, toss);
+            let (_, slow) = sampled(&tosser, &launch, 100.0);
+            let (_, fast) = sampled(&tosser, &launch, 1000.0);
+            let tenth: Vec<Event> = fast.samples.iter().step_by(10).copied().collect();
+            assert_eq!(tenth, slow.samples);
+            // up to the end, and not beyond
+            let end = slow.events.last().expect("an end").state.time_s;
+            assert!(f64::from(fast.taken - 1) < end * fast.rate_hz);
+            assert!(f64::from(fast.taken) >= end * fast.rate_hz);
+        }
+    }
+}
+
+/// The pieces of a toss: from an event, through samples, to the next event.
+fn pieces(scene: &Scene, sampler: &Sampler) -> Vec<(Moment, Vec<Moment>, Moment)> {
+    let moments = |events: &[Event]| -> Vec<Moment> {
+        events.iter().map(|event| moment(scene, event)).collect()
+    };
+    let (events, samples) = (moments(&sampler.events), moments(&sampler.samples));
+    let mut rest = samples.into_iter().peekable();
+    events
+        .windows(2)
+        .map(|pair| {
+            let mut within = Vec::new();
+            while let Some(sample) = rest.next_if(|sample| sample.time < pair[1].time) {
+                within.push(sample);
+            }
+            (pair[0], within, pair[1])
+        })
+        .collect()
+}
+
+fn is_contact(from: &Moment) -> bool {
+    matches!(from.kind, EventKind::Sticking | EventKind::Sliding)
+}
+
+/// The largest difference of two motions.
+fn apart(a: &Motion, b: &Motion) -> f64 {
+    [
+        a.position - b.position,
+        a.velocity - b.velocity,
+        a.axis - b.axis,
+        a.spin - b.spin,
+    ]
+    .iter()
+    .map(nalgebra::Matrix::amax)
+    .fold(0.0, f64::max)
+}
+
+/// Flights against the oracle's closed form, in vectors of the laboratory. Times are known to an
+/// ulp of the toss and rates reach some tens: a few 1e-13.
+#[test]
+fn flights_are_those_of_a_free_top() {
+    let (mut seen, mut worst, mut worst_energy) = (0, 0.0_f64, 0.0_f64);
+    for scene in scenes() {
+        let (tosser, model) = (Tosser::new(&scene), Model::new(&scene));
+        let conserves = scene.has_gyroscopic_torque() && scene.drag() == Drag::default();
+        for toss in 0..200 {
+            let launch = preset(Preset::Clean, &scene, 402, toss);
+            let (_, sampler) = sampled(&tosser, &launch, 500.0);
+            for (from, within, _) in pieces(&scene, &sampler) {
+                if is_contact(&from) {
+                    continue;
+                }
+                for sample in within {
+                    let mut motion = from.motion;
+                    motion.fly(&model, sample.time - from.time);
+                    seen += 1;
+                    worst = worst.max(apart(&motion, &sample.motion));
+                    let gap = sample.motion.gap(&model);
+                    assert!(gap > -1e-9, "{gap:e} {from:?} {sample:?}");
+                    if conserves {
+                        let gain = sample.motion.energy(&model) / from.motion.energy(&model) - 1.0;
+                        worst_energy = worst_energy.max(gain.abs());
+                    }
+                }
+            }
+        }
+    }
+    println!("{seen} samples: {worst:e}, energy {worst_energy:e}");
+    assert!(seen > 100_000, "{seen}");
+    assert!(worst < 1e-11, "{worst:e}");
+    assert!(worst_energy < 1e-12, "{worst_energy:e}");
+}
+
+#[derive(Debug, Default)]
+struct Contacts {
+    stuck: u32,
+    slid: u32,
+    worst: f64,
+    rise: f64,
+    rim_m: f64,
+}
+
+/// Follows contact closely, for as long as some turns take.
+fn tight() -> Settings {
+    Settings {
+        decision: Decision::Energy,
+        tolerance: 1e-10,
+        stick: 1e-6,
+        fade: 1e-6,
+        time_limit: 10.0,
+        ..Settings::default()
+    }
+}
+
+/// Samples of one phase against the oracle's nine equations, by the classical Runge–Kutta method
+/// in steps of 1/1000 of the fastest rate, from sample to sample. Left out is what those steps do
+/// not resolve (a slip so slow that its direction may turn faster, a coin all but flat), and what
+/// comes after 3 units of time: some of these motions are unstable.
+fn contact(model: &Model, from: &Moment, within: &[Moment], seen: &mut Contacts) {
+    let sticks = from.kind == EventKind::Sticking;
+    let mode = |motion: &Motion| {
+        let contact = if sticks {
+            Contact::Stick
+        } else {
+            Contact::Slip(slip(model, motion).normalize())
+        };
+        (contact, Twist::default())
+    };
+    let (mut motion, mut time) = (from.motion, from.time);
+    let mut energy = from.motion.energy(model);
+    for sample in within {
+        let gone = sample.time - time;
+        let is_blurred =
+            |motion: &Motion| motion.sine() < 0.1 || !sticks && slip(model, motion).norm() < 0.3;
+        if is_blurred(&motion) || is_blurred(&sample.motion) || sample.time - from.time > 3.0 {
+            return;
+        }
+        let fastest = 1.0 + motion.spin.norm() / motion.sine();
+        // a nonnegative number of steps, some hundreds
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let steps = (1000.0 * fastest * gone).ceil().max(1.0) as u32;
+        for _ in 0..steps {
+            motion = runge_kutta(model, &motion, gone / f64::from(steps), mode);
+        }
+        time = sample.time;
+        let found = &sample.motion;
+        seen.worst = seen
+            .worst
+            .max(apart(&motion, found) / (1.0 + motion.spin.norm()));
+        seen.rise = seen.rise.max(found.energy(model) / energy - 1.0);
+        energy = found.energy(model);
+        seen.rim_m = seen.rim_m.max(found.gap(model).abs() * 0.01);
+        *(if sticks {
+            &mut seen.stuck
+        } else {
+            &mut seen.slid
+        }) += 1;
+    }
+}
+
+fn contacts(settings: &Settings) -> Contacts {
+    let mut seen = Contacts::default();
+    for (ratio, mu) in [(0.85, 0.3), (0.3, 0.5), (2.0, 0.7), (0.1, 0.2)] {
+        let scene = scene(ratio, 0.0, mu, 0.0);
+        let (tosser, model) = (Tosser::with(&scene, settings), Model::new(&scene));
+        for toss in 0..40 {
+            let mut start = Start::lively(&mut Dice::new(403, toss));
+            start.z = start.z.min(2.0);
+            let (_, sampler) = sampled(&tosser, &start.launch(&scene), 400.0);
+            for (from, within, _) in pieces(&scene, &sampler) {
+                // on its side it touches with both rims
+                if is_contact(&from) && from.motion.axis.z.abs() > 1e-9 {
+                    contact(&model, &from, &within, &mut seen);
+                }
+            }
+        }
+    }
+    println!("{settings:?}: {seen:?}");
+    assert!(seen.stuck > 2000 && seen.slid > 1000, "{seen:?}");
+    assert!(seen.rim_m < 1e-15, "{seen:?}");
+    seen
+}
+
+#[test]
+fn contact_follows_newton_and_euler() {
+    let seen = contacts(&tight());
+    assert!(seen.worst < 1e-6, "{seen:?}");
+    assert!(seen.rise < 1e-10, "{seen:?}");
+}
+
+#[test]
+fn contact_at_the_default_tolerance_follows_too() {
+    let seen = contacts(&Settings {
+        time_limit: 10.0,
+        ..Settings::default()
+    });
+    assert!(seen.worst < 0.02, "{seen:?}");
+    // 2e-4 of tolerance, in some of tens of steps
+    assert!(seen.rise < 1e-2, "{seen:?}");
+}
+
+/// The last of rolling along the side is in closed form: v' = −a − bv, here by quadrature.
+#[test]
+fn a_coin_that_rolls_out_is_shown_to_the_end() {
+    for drag in [0.0, 0.5] {
+        let scene =
+            scene(1.0, 0.0, 0.3, 0.01).with_drag(Drag::new(drag, 0.0).expect("a good rate"));
+        let model = Model::new(&scene);
+        let (radius, r2) = (model.radius, model.radius * model.radius);
+        let inertia = model.axial + r2;
+        let (a, b) = (
+            model.contour * radius / inertia,
+            model.linear_drag * r2 / inertia,
+        );
+        let start = Start {
+            z: radius,
+            velocity: Vector3::new(0.0, 3.0, 0.0),
+            axis: Vector3::x(),
+            spin: Vector3::new(-3.0 / radius, 0.0, 0.0),
+        };
+        let (_, sampler) = sampled(&Tosser::with(&scene, &tight()), &start.launch(&scene), 50.0);
+        let rolling = pieces(&scene, &sampler)
+            .into_iter()
+            .find(|(from, ..)| from.kind == EventKind::Sticking);
+        let (from, within, to) = rolling.expect("it rolls");
+        assert!(within.len() > 100, "{}", within.len());
+        let (mut y, mut v, mut time) = (from.motion.position.y, from.motion.velocity.y, from.time);
+        for sample in within.iter().chain([&to]) {
+            let gone = sample.time - time;
+            // the trapezoid's rule over 100 pieces: error 1e-4 of h³v''/12
+            for _ in 0..100 {
+                let h = gone / 100.0;
+                let after = (v * (1.0 - 0.5 * b * h) - a * h) / (1.0 + 0.5 * b * h);
+                y += 0.5 * h * (v + after);
+                v = after;
+            }
+            time = sample.time;
+            assert!(
+                (sample.motion.velocity.y - v).abs() < 1e-6,
+                "{v} {sample:?}"
+            );
+            assert!(
+                (sample.motion.position.y - y).abs() < 1e-5,
+                "{y} {sample:?}"
+            );
+            assert!(
+                (sample.motion.spin.x * radius + v).abs() < 1e-5,
+                "{v} {sample:?}"
+            );
+            assert!(sample.motion.gap(&model).abs() < 1e-12);
+        }
+        assert_eq!(to.motion.velocity, Vector3::zeros());
+    }
+}
+
+/// Wants the instants it was told.
+struct Instants {
+    wanted: std::vec::IntoIter<f64>,
+    next: f64,
+    seen: Vec<State>,
+}
+
+impl Observer for Instants {
+    fn event(&mut self, _: &Event) {}
+
+    fn wants_at_s(&self) -> f64 {
+        self.next
+    }
+
+    fn sample(&mut self, state: &State) {
+        self.seen.push(*state);
+        self.next = self.wanted.next().unwrap_or(f64::INFINITY);
+    }
+}
+
+/// A nanosecond from an event the coin is where the event has it, but for its motion in that time
+/// and the error of the step that led there.
+#[test]
+fn samples_join_the_events() {
+    const NEAR: f64 = 1e-9;
+    let mut joints = 0;
+    for scene in scenes() {
+        let settings = Settings {
+            tolerance: 1e-10,
+            ..Settings::default()
+        };
+        let tosser = Tosser::with(&scene, &settings);
+        for toss in 0..40 {
+            let launch = preset(Preset::Clean, &scene, 404, toss);
+            let mut recorder = Recorder::default();
+            tosser.watch(&launch, &mut recorder);
+            let pairs: Vec<(Event, Event)> = recorder
+                .0
+                .windows(2)
+                .map(|pair| (pair[0], pair[1]))
+                .filter(|(from, to)| to.state.time_s - from.state.time_s > 10.0 * NEAR)
+                .collect();
+            let mut wanted = pairs
+                .iter()
+                .flat_map(|(from, to)| [from.state.time_s + NEAR, to.state.time_s - NEAR])
+                .collect::<Vec<_>>()
+                .into_iter();
+            let mut instants = Instants {
+                next: wanted.next().unwrap_or(f64::INFINITY),
+                wanted,
+                seen: Vec::new(),
+            };
+            tosser.watch(&launch, &mut instants);
+            assert_eq!(instants.seen.len(), 2 * pairs.len());
+            let events = pairs.iter().flat_map(|(from, to)| [from, to]);
+            for (event, sample) in events.zip(&instants.seen) {
+                let a = moment(&scene, event);
+                let b = moment(
+                    &scene,
+                    &Event {
+                        state: *sample,
+                        ..*event
+                    },
+                );
+                let passed = (b.time - a.time).abs();
+                let speed = 1.0 + a.motion.velocity.norm() + a.motion.spin.norm();
+                let moved = (a.motion.position - b.motion.position).norm();
+                let turned = (a.motion.axis - b.motion.axis).norm();
+                assert!(
+                    moved.max(turned) <= 1e-7 + 2.0 * passed * speed,
+                    "{moved:e} {turned:e} in {passed:e}: {a:?} {b:?}"
+                );
+                joints += 1;
+            }
+        }
+    }
+    assert!(joints > 3_000, "{joints}");
+}

@@ -1,0 +1,226 @@
+//! Traces as MCAP, for viewers and for programs of any language.
+//!
+//! Several tosses follow one another in one file, each a second after the end of the one before,
+//! so that a viewer plays them in turn on the same topics.
+
+use super::scene::{self, COIN, WORLD, contact_m, vector};
+use super::{FORMAT, Mode, Record, RecordKind, Trace, table, tell};
+use crate::plan::Plan;
+use coinmc_core::{EventKind, Scene, State};
+use coinmc_recording::foxglove::{FrameTransform, Quaternion, SceneUpdate, Time};
+use coinmc_recording::{Channel, Compression, Error, Options, Passing, Recorder, Schema};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::io::Write;
+
+/// When the first toss begins, and how long after one the next does, ns.
+const PAUSE_NS: u64 = 1_000_000_000;
+
+/// The channels of a file.
+struct Channels {
+    transforms: Channel<FrameTransform>,
+    scene: Channel<SceneUpdate>,
+    tosses: Channel<Value>,
+    states: Channel<Value>,
+    energies: Channel<Value>,
+    modes: Channel<Value>,
+    events: Channel<Value>,
+}
+
+/// Writes traces. The same traces give the same bytes.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_mcap(
+    plan: &Plan,
+    traces: &[Trace],
+    compression: Compression,
+    out: impl Write,
+) -> Result<(), Error> {
+    let options = Options {
+        profile: String::new(),
+        library: format!("coinmc {}", env!("CARGO_PKG_VERSION")),
+        compression,
+    };
+    let mut recorder = Recorder::new(Passing(out), &options)?;
+    recorder.metadata("coinmc", &about(plan))?;
+    let channels = Channels::open(&mut recorder)?;
+    let mut start = PAUSE_NS;
+    for trace in traces {
+        let end = write_toss(&mut recorder, &channels, plan, trace, start)?;
+        start = end.saturating_add(PAUSE_NS);
+    }
+    for trace in traces {
+        let name = format!("toss {}/{}", trace.point, trace.toss);
+        recorder.metadata(&name, &values(&trace.to_json(plan)))?;
+    }
+    recorder.finish().map(drop)
+}
+
+impl Channels {
+    fn open<W: Write>(recorder: &mut Recorder<Passing<W>>) -> Result<Self, Error> {
+        let own = |name, text| Schema::new(name, text);
+        Ok(Self {
+            tosses: recorder.channel(
+                "/toss",
+                &own("coinmc.Toss", include_str!("schemas/Toss.json")),
+            )?,
+            transforms: recorder.channel("/tf", &Schema::FRAME_TRANSFORM)?,
+            scene: recorder.channel("/scene", &Schema::SCENE_UPDATE)?,
+            states: recorder.channel(
+                "/state",
+                &own("coinmc.State", include_str!("schemas/State.json")),
+            )?,
+            energies: recorder.channel(
+                "/energy",
+                &own("coinmc.Energy", include_str!("schemas/Energy.json")),
+            )?,
+            modes: recorder.channel(
+                "/mode",
+                &own("coinmc.Mode", include_str!("schemas/Mode.json")),
+            )?,
+            events: recorder.channel(
+                "/events",
+                &own("coinmc.Event", include_str!("schemas/Event.json")),
+            )?,
+        })
+    }
+}
+
+/// Writes a toss that begins at `start`, ns; when it ends.
+fn write_toss<W: Write>(
+    recorder: &mut Recorder<Passing<W>>,
+    channels: &Channels,
+    plan: &Plan,
+    trace: &Trace,
+    start: u64,
+) -> Result<u64, Error> {
+    let mut toss = trace.to_json(plan);
+    toss["begins_ns"] = json!(start);
+    recorder.write(&channels.tosses, start, &toss)?;
+    let setting = scene::setting(trace, Time::from_ns(start));
+    recorder.write(&channels.scene, start, &setting)?;
+    let (mut impacts, mut mode, mut now) = (0, None, start);
+    for row in table::rows(std::slice::from_ref(trace)) {
+        let record = row.record;
+        // times of a toss never run backwards, whatever rounding does
+        now = now.max(start.saturating_add(nanoseconds(record.state.time_s)));
+        if is_finite(record) {
+            recorder.write(&channels.transforms, now, &transform(record, now))?;
+        }
+        recorder.write(&channels.states, now, &tell::record(&row).into())?;
+        recorder.write(&channels.energies, now, &energy(trace, record))?;
+        if mode.replace(record.mode) != Some(record.mode) {
+            recorder.write(&channels.modes, now, &mode_message(trace, record))?;
+        }
+        if let RecordKind::Event(kind) = record.kind {
+            if scene::is_impact(record) {
+                impacts += 1;
+                let mark = scene::mark(trace, record, impacts, Time::from_ns(now));
+                recorder.write(&channels.scene, now, &mark)?;
+            }
+            recorder.write(&channels.events, now, &event(trace, record, kind, impacts))?;
+        }
+    }
+    Ok(now)
+}
+
+/// A viewer has no use for what is no place; a toss that failed may end so.
+fn is_finite(record: &Record) -> bool {
+    let place = record.state.position_m.iter();
+    place
+        .chain(record.orientation.coords.iter())
+        .all(|x| x.is_finite())
+}
+
+fn transform(record: &Record, now: u64) -> FrameTransform {
+    let q = record.orientation;
+    FrameTransform {
+        timestamp: Time::from_ns(now),
+        parent_frame_id: WORLD.to_owned(),
+        child_frame_id: COIN.to_owned(),
+        translation: vector(&record.state.position_m),
+        rotation: Quaternion {
+            x: q.i,
+            y: q.j,
+            z: q.k,
+            w: q.w,
+        },
+    }
+}
+
+fn energy(trace: &Trace, record: &Record) -> Value {
+    let (scene, state) = (&trace.scene, &record.state);
+    json!({
+        "point": trace.point,
+        "toss": trace.toss,
+        "time_s": state.time_s,
+        "total_j_kg": record.energy_j_kg,
+        "potential_j_kg": scene.gravity_m_s2() * state.position_m.z,
+        "translation_j_kg": 0.5 * state.velocity_m_s.norm_squared(),
+        "rotation_j_kg": rotation_j_kg(scene, state),
+    })
+}
+
+fn rotation_j_kg(scene: &Scene, state: &State) -> f64 {
+    let axial = state.spin_rad_s.dot(&state.axis);
+    let across = (state.spin_rad_s - state.axis.into_inner() * axial).norm_squared();
+    let coin = &scene.coin;
+    0.5 * (coin.axial_gyration_m2() * axial * axial + coin.transverse_gyration_m2() * across)
+}
+
+fn mode_message(trace: &Trace, record: &Record) -> Value {
+    json!({
+        "point": trace.point,
+        "toss": trace.toss,
+        "time_s": record.state.time_s,
+        "mode": record.mode.name(),
+        "code": Mode::ALL.iter().position(|mode| *mode == record.mode),
+    })
+}
+
+fn event(trace: &Trace, record: &Record, kind: EventKind, impacts: u64) -> Value {
+    let state = &record.state;
+    json!({
+        "point": trace.point,
+        "toss": trace.toss,
+        "time_s": state.time_s,
+        "kind": RecordKind::Event(kind).name(),
+        "impact": impacts,
+        "position_m": tell::vector(&state.position_m),
+        "contact_m": tell::vector(&contact_m(&trace.scene.coin, state)),
+        "velocity_m_s": tell::vector(&state.velocity_m_s),
+        "spin_rad_s": tell::vector(&state.spin_rad_s),
+        "energy_j_kg": record.energy_j_kg,
+    })
+}
+
+/// What the file is.
+fn about(plan: &Plan) -> BTreeMap<String, String> {
+    let pairs = [
+        ("trace_format", FORMAT.to_string()),
+        ("program_version", env!("CARGO_PKG_VERSION").to_owned()),
+        ("plan_hash", plan.hash()),
+        ("config", plan.resolved_toml.clone()),
+    ];
+    pairs.map(|(key, value)| (key.to_owned(), value)).into()
+}
+
+/// The entries of an object as texts: metadata holds nothing else.
+fn values(object: &Value) -> BTreeMap<String, String> {
+    let entries = object.as_object().into_iter().flatten();
+    entries
+        .map(|(key, value)| match value {
+            Value::String(text) => (key.clone(), text.clone()),
+            other => (key.clone(), other.to_string()),
+        })
+        .collect()
+}
+
+/// Nearest whole nanosecond; what is no time is none.
+fn nanoseconds(time_s: f64) -> u64 {
+    // the cast saturates
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let ns = libm::round(time_s * 1e9) as u64;
+    ns
+}

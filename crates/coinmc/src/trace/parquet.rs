@@ -1,0 +1,61 @@
+//! Traces as Parquet, with units and the config in its metadata.
+
+use super::table::{self, Row};
+use super::{FORMAT, Trace};
+use crate::plan::Plan;
+use crate::results::parquet::{array_of, described, into_io};
+use arrow_array::RecordBatch;
+use arrow_schema::Schema;
+use parquet::arrow::ArrowWriter;
+use parquet::basic::Compression;
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::WriterProperties;
+use serde_json::Value;
+use std::io::{self, Write};
+use std::sync::Arc;
+
+/// Writes the table of records, a row group a toss. The same traces give the same bytes.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_parquet(
+    plan: &Plan,
+    traces: &[Trace],
+    out: &mut (dyn Write + Send),
+) -> io::Result<()> {
+    let fields = table::columns()
+        .iter()
+        .map(|c| described(c.name, c.kind, c.unit, c.doc));
+    let schema = Arc::new(Schema::new(fields.collect::<Vec<_>>()));
+    let properties = WriterProperties::builder()
+        .set_created_by(format!("coinmc {}", env!("CARGO_PKG_VERSION")))
+        .set_compression(Compression::SNAPPY)
+        .set_key_value_metadata(Some(metadata(plan, traces)))
+        .build();
+    let mut writer =
+        ArrowWriter::try_new(out, Arc::clone(&schema), Some(properties)).map_err(into_io)?;
+    for trace in traces {
+        let rows: Vec<Row<'_>> = table::rows(std::slice::from_ref(trace)).collect();
+        let columns = table::columns().iter();
+        let arrays =
+            columns.map(|column| array_of(column.kind, rows.iter().map(|r| column.cell(r))));
+        let batch = RecordBatch::try_new(Arc::clone(&schema), arrays.collect());
+        writer
+            .write(&batch.map_err(io::Error::other)?)
+            .and_then(|()| writer.flush())
+            .map_err(into_io)?;
+    }
+    writer.close().map(drop).map_err(into_io)
+}
+
+fn metadata(plan: &Plan, traces: &[Trace]) -> Vec<KeyValue> {
+    let entry = |key: &str, value: &str| KeyValue::new(format!("coinmc.{key}"), value.to_owned());
+    let tosses: Vec<Value> = traces.iter().map(|trace| trace.to_json(plan)).collect();
+    vec![
+        entry("trace_format", &FORMAT.to_string()),
+        entry("program_version", env!("CARGO_PKG_VERSION")),
+        entry("plan_hash", &plan.hash()),
+        entry("config", &plan.resolved_toml),
+        entry("tosses", &Value::Array(tosses).to_string()),
+    ]
+}

@@ -1,0 +1,158 @@
+//! Tosses seen again.
+
+use super::recorder::{MAX_RECORDS, Recorder};
+use super::{Trace, TraceError};
+use crate::plan::{MAX_TOSSES, Plan, Point, Stop};
+use crate::run::{Task, engine_name, stream, with_engine};
+use coinmc_core::{Engine, Launch, Outcome, Scene};
+
+/// Largest rate of samples, 1/s.
+pub const MAX_RATE_HZ: f64 = 1e9;
+
+/// Replays a toss of a plan with `rate_hz` samples a second (0 for events alone), at most
+/// [`MAX_RECORDS`] records in all.
+///
+/// # Errors
+/// [`TraceError`] if the plan has no such toss, its engine makes none, or the rate is no rate.
+///
+/// # Example
+/// ```
+/// let plan = coinmc::config::parse(
+///     "inline",
+///     "coin.ratio = 1\nsurface = { restitution = 0.5, friction = 0.3 }\n\
+///      launch.preset = 'robot'\nengine.flat = {}\nstop.tosses = 100",
+///     &[],
+/// ).unwrap();
+/// let trace = coinmc::trace::replay(&plan, 0, 42, 100.0)?;
+/// assert_eq!(trace.outcome, coinmc::trace::outcome(&plan, 0, 42)?);
+/// # Ok::<(), coinmc::trace::TraceError>(())
+/// ```
+pub fn replay(plan: &Plan, point: usize, toss: u64, rate_hz: f64) -> Result<Trace, TraceError> {
+    replay_within(plan, point, toss, rate_hz, MAX_RECORDS)
+}
+
+/// [`replay()`] with at most so many records: for many traces at once.
+///
+/// # Errors
+/// Those of [`replay()`].
+pub fn replay_within(
+    plan: &Plan,
+    point: usize,
+    toss: u64,
+    rate_hz: f64,
+    max_records: usize,
+) -> Result<Trace, TraceError> {
+    if !(0.0..=MAX_RATE_HZ).contains(&rate_hz) {
+        return Err(TraceError::Rate(rate_hz));
+    }
+    let launch = launch(plan, point, toss)?;
+    let scene = plan.points[point].scene;
+    let recorder = Recorder::new(&scene, rate_hz, max_records);
+    let (outcome, recorder) = follow(plan, point, Watch { launch, recorder })?;
+    Ok(Trace {
+        point,
+        toss,
+        engine: engine_name(&plan.points[point].engine),
+        scene,
+        launch,
+        rate_hz,
+        outcome,
+        samples_until_s: recorder.samples_until_s(),
+        events_until_s: recorder.events_until_s(),
+        records: recorder.into_records(),
+    })
+}
+
+/// How a toss of a plan ends, unwatched: as it did in the run.
+///
+/// # Errors
+/// Those of [`replay()`].
+pub fn outcome(plan: &Plan, point: usize, toss: u64) -> Result<Outcome, TraceError> {
+    let launch = launch(plan, point, toss)?;
+    follow(plan, point, Alone(launch))
+}
+
+/// How a toss of a plan begins.
+///
+/// # Errors
+/// [`TraceError::NoSuchPoint`], [`TraceError::NoTraces`], [`TraceError::NoSuchToss`].
+pub fn launch(plan: &Plan, point: usize, toss: u64) -> Result<Launch, TraceError> {
+    let found = point_of(plan, point)?;
+    if !found.engine.makes_tosses() {
+        let engine = engine_name(&found.engine);
+        return Err(TraceError::NoTraces { point, engine });
+    }
+    let tosses = tosses_at_most(plan);
+    if toss >= tosses {
+        return Err(TraceError::NoSuchToss { toss, tosses });
+    }
+    let uniforms = &mut stream(plan, point).toss(toss);
+    Ok(found.launches.launch(&found.scene.coin, uniforms))
+}
+
+/// Samples a second that show a toss well: 24 a turn of the coin at launch, and 20 in the time
+/// sqrt(D/g) in which it topples, rounded up to 1, 2 or 5 times a power of ten.
+pub fn default_rate_hz(scene: &Scene, launch: &Launch) -> f64 {
+    let turns = launch.spin_rad_s.norm() / std::f64::consts::TAU;
+    let wanted = (24.0 * turns).max(20.0 / scene.time_scale_s());
+    if !(wanted > 1e-6 && wanted < MAX_RATE_HZ) {
+        return wanted.clamp(1e-6, MAX_RATE_HZ);
+    }
+    let exponent = libm::floor(libm::log10(wanted));
+    let ten: f64 = format!("1e{exponent}").parse().unwrap_or(wanted);
+    let steps = [1.0, 2.0, 5.0, 10.0];
+    let step = steps.into_iter().find(|step| step * ten >= wanted);
+    step.map_or(wanted, |step| step * ten)
+}
+
+/// Tosses that a point of the plan has at most.
+pub(super) fn tosses_at_most(plan: &Plan) -> u64 {
+    let tosses = match plan.stop {
+        Stop::Tosses(tosses) => tosses,
+        Stop::HalfWidth { max_tosses, .. } => max_tosses,
+    };
+    tosses.min(MAX_TOSSES)
+}
+
+pub(super) fn point_of(plan: &Plan, point: usize) -> Result<&Point, TraceError> {
+    let points = plan.points.len();
+    let found = plan.points.get(point);
+    found.ok_or(TraceError::NoSuchPoint { point, points })
+}
+
+/// Does a task with the engine of a point.
+pub(super) fn follow<T: Task>(plan: &Plan, point: usize, task: T) -> Result<T::Output, TraceError> {
+    let found = point_of(plan, point)?;
+    let done = with_engine(found, task).map_err(|source| TraceError::Settings { point, source })?;
+    done.ok_or_else(|| TraceError::NoTraces {
+        point,
+        engine: engine_name(&found.engine),
+    })
+}
+
+/// A launch and who watches it.
+struct Watch {
+    launch: Launch,
+    recorder: Recorder,
+}
+
+impl Task for Watch {
+    type Output = (Outcome, Recorder);
+
+    fn with<E: Engine>(mut self, engine: &E) -> Self::Output {
+        let mut workspace = engine.workspace();
+        let outcome = engine.toss(&mut workspace, &self.launch, &mut self.recorder);
+        (outcome, self.recorder)
+    }
+}
+
+/// A launch that nobody watches.
+struct Alone(Launch);
+
+impl Task for Alone {
+    type Output = Outcome;
+
+    fn with<E: Engine>(self, engine: &E) -> Outcome {
+        engine.toss(&mut engine.workspace(), &self.0, &mut ())
+    }
+}

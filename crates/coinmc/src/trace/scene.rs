@@ -1,0 +1,128 @@
+//! What viewers draw: the coin, the ground, a mark at each impact.
+
+use super::{Record, RecordKind, Trace};
+use coinmc_core::{Coin, EventKind, State};
+use coinmc_recording::foxglove::{
+    Color, CubePrimitive, CylinderPrimitive, Pose, SceneEntity, SceneEntityDeletion, SceneUpdate,
+    SpherePrimitive, Time, Vector3,
+};
+use nalgebra::Vector3 as Vector;
+
+/// Frames of reference.
+pub(super) const WORLD: &str = "world";
+pub(super) const COIN: &str = "coin";
+
+const BODY: [f64; 4] = [0.55, 0.53, 0.5, 1.0];
+/// As in pictures: two colours that the colour-blind can tell apart.
+const HEADS: [f64; 4] = [0.0, 0.447, 0.698, 1.0];
+const TAILS: [f64; 4] = [0.835, 0.369, 0.0, 1.0];
+const GROUND: [f64; 4] = [0.8, 0.8, 0.8, 0.6];
+const MARK: [f64; 4] = [0.84, 0.15, 0.16, 0.9];
+
+/// Thickness of what is painted on the coin, against its height.
+const PAINT: f64 = 0.02;
+
+/// The coin's lowest point, m; where a whole face or line is lowest, its middle.
+pub(super) fn contact_m(coin: &Coin, state: &State) -> Vector<f64> {
+    let u = state.axis.into_inner();
+    let up = if u.z > 0.0 {
+        u
+    } else if u.z < 0.0 {
+        -u
+    } else {
+        Vector::zeros()
+    };
+    // down along the face: the part of −z that is across u
+    let down = u * u.z - Vector::z();
+    let across = (u.x * u.x + u.y * u.y).sqrt();
+    let along = if across > 0.0 {
+        down / across
+    } else {
+        Vector::zeros()
+    };
+    state.position_m - up * (0.5 * coin.height_m()) + along * coin.radius_m()
+}
+
+/// The scene of a toss that begins at `start`; what an earlier one left goes.
+pub(super) fn setting(trace: &Trace, start: Time) -> SceneUpdate {
+    SceneUpdate {
+        deletions: vec![SceneEntityDeletion {
+            timestamp: start,
+            r#type: 1,
+            id: String::new(),
+        }],
+        entities: vec![coin(&trace.scene.coin, start), ground(trace, start)],
+    }
+}
+
+/// A mark where the coin struck.
+pub(super) fn mark(trace: &Trace, record: &Record, number: u64, at: Time) -> SceneUpdate {
+    let size = 0.12 * trace.scene.coin.rim_distance_m();
+    let place = contact_m(&trace.scene.coin, &record.state);
+    let mut entity = SceneEntity::new(at, WORLD, format!("impact-{number}"));
+    entity.spheres.push(SpherePrimitive {
+        pose: Pose::at(vector(&place)),
+        size: Vector3::new(size, size, size),
+        color: Color::new(MARK),
+    });
+    SceneUpdate {
+        deletions: Vec::new(),
+        entities: vec![entity],
+    }
+}
+
+/// A cylinder, painted on both faces, with a dash on heads that shows how it turns.
+fn coin(coin: &Coin, at: Time) -> SceneEntity {
+    let (radius, height) = (coin.radius_m(), coin.height_m());
+    let cylinder = |z: f64, radius: f64, height: f64, color| CylinderPrimitive {
+        pose: Pose::at(Vector3::new(0.0, 0.0, z)),
+        size: Vector3::new(2.0 * radius, 2.0 * radius, height),
+        bottom_scale: 1.0,
+        top_scale: 1.0,
+        color: Color::new(color),
+    };
+    let mut entity = SceneEntity::new(at, COIN, "coin");
+    let paint = PAINT * height;
+    entity.cylinders = vec![
+        cylinder(0.0, radius, height, BODY),
+        cylinder(0.5 * height, 0.9 * radius, paint, HEADS),
+        cylinder(-0.5 * height, 0.9 * radius, paint, TAILS),
+    ];
+    entity.cubes.push(CubePrimitive {
+        pose: Pose::at(Vector3::new(0.6 * radius, 0.0, 0.5 * height)),
+        size: Vector3::new(0.5 * radius, 0.08 * radius, 2.0 * paint),
+        color: Color::new(BODY),
+    });
+    entity
+}
+
+/// A slab below all the toss, its upper face the surface.
+fn ground(trace: &Trace, at: Time) -> SceneEntity {
+    let rim = trace.scene.coin.rim_distance_m();
+    let places = || trace.records.iter().map(|record| record.state.position_m);
+    let reach = |axis: usize| {
+        let (mut from, mut to) = (0.0_f64, 0.0_f64);
+        for place in places().filter(|place| place[axis].is_finite()) {
+            (from, to) = (from.min(place[axis]), to.max(place[axis]));
+        }
+        (0.5 * (from + to), to - from + 8.0 * rim)
+    };
+    let ((x, width), (y, depth)) = (reach(0), reach(1));
+    let thickness = 0.1 * rim;
+    let mut entity = SceneEntity::new(at, WORLD, "ground");
+    entity.cubes.push(CubePrimitive {
+        pose: Pose::at(Vector3::new(x, y, -0.5 * thickness)),
+        size: Vector3::new(width, depth, thickness),
+        color: Color::new(GROUND),
+    });
+    entity
+}
+
+pub(super) fn vector(v: &Vector<f64>) -> Vector3 {
+    Vector3::new(v.x, v.y, v.z)
+}
+
+/// Whether a mark is due.
+pub(super) fn is_impact(record: &Record) -> bool {
+    record.kind == RecordKind::Event(EventKind::Impact)
+}

@@ -1,0 +1,312 @@
+//! Tosses found by how they went.
+
+use super::TraceError;
+use super::replay::{follow, point_of, tosses_at_most};
+use crate::plan::Plan;
+use crate::run::{Task, stream};
+use coinmc_core::{
+    Ended, Engine, Event, EventKind, Face, LaunchDistribution, Observer, Outcome, Scene, Stream,
+};
+use std::fmt;
+use std::str::FromStr;
+use thiserror::Error;
+
+/// What a toss must have been like.
+///
+/// # Example
+/// ```
+/// use coinmc::trace::Condition;
+/// use coinmc_core::Face;
+/// assert_eq!("face=side".parse(), Ok(Condition::Face(Face::Side)));
+/// assert!("face=edge".parse::<Condition>().is_err());
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Condition {
+    /// This face shows.
+    Face(Face),
+    /// It ended so; any face will do for [`EndKind::Decided`].
+    Ended(EndKind),
+}
+
+/// How a toss ended, whatever shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EndKind {
+    /// With a face.
+    Decided,
+    /// Undecided at the limit of simulated time.
+    TimeLimit,
+    /// Proven never to settle.
+    Endless,
+    /// Undecided at the limit of impacts or of steps in contact.
+    ImpactLimit,
+    /// The numbers went wrong.
+    Failed,
+}
+
+impl EndKind {
+    /// All of them.
+    pub const ALL: [Self; 5] = [
+        Self::Decided,
+        Self::TimeLimit,
+        Self::Endless,
+        Self::ImpactLimit,
+        Self::Failed,
+    ];
+
+    /// That of an end.
+    pub fn of(ended: Ended) -> Self {
+        match ended {
+            Ended::Decided(_) => Self::Decided,
+            Ended::TimeLimit => Self::TimeLimit,
+            Ended::Endless => Self::Endless,
+            Ended::ImpactLimit => Self::ImpactLimit,
+            Ended::Failed => Self::Failed,
+        }
+    }
+
+    /// The name used in files and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Decided => "decided",
+            Self::TimeLimit => "time_limit",
+            Self::Endless => "endless",
+            Self::ImpactLimit => "impact_limit",
+            Self::Failed => "failed",
+        }
+    }
+}
+
+/// What is no condition.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error(
+    "a condition is `face=heads`, `face=tails`, `face=side`, `ended=decided`, \
+     `ended=time_limit`, `ended=endless`, `ended=impact_limit` or `ended=failed`"
+)]
+pub struct ConditionError;
+
+impl FromStr for Condition {
+    type Err = ConditionError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let found = match text.split_once('=') {
+            Some(("face", name)) => {
+                let face = Face::ALL.into_iter().find(|face| face.name() == name);
+                face.map(Self::Face)
+            }
+            Some(("ended", name)) => {
+                let end = EndKind::ALL.into_iter().find(|end| end.name() == name);
+                end.map(Self::Ended)
+            }
+            _ => None,
+        };
+        found.ok_or(ConditionError)
+    }
+}
+
+impl fmt::Display for Condition {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Face(face) => write!(f, "face={}", face.name()),
+            Self::Ended(end) => write!(f, "ended={}", end.name()),
+        }
+    }
+}
+
+impl Condition {
+    /// Whether a toss that ended so meets it.
+    pub fn holds(&self, outcome: &Outcome) -> bool {
+        match self {
+            Self::Face(face) => outcome.face() == Some(*face),
+            Self::Ended(end) => EndKind::of(outcome.ended) == *end,
+        }
+    }
+}
+
+/// What makes a toss long.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Length {
+    /// Simulated time until its end.
+    Time,
+    /// Impacts.
+    Impacts,
+}
+
+/// What is looked for, and where.
+#[derive(Debug, Clone)]
+pub struct Query<'a> {
+    /// Points, in the order in which they are searched.
+    pub points: &'a [usize],
+    /// All of these must hold.
+    pub conditions: &'a [Condition],
+    /// The longest of all; `None` for the first.
+    pub longest: Option<Length>,
+    /// How many tosses are wanted.
+    pub count: usize,
+    /// Tosses looked at, at most.
+    pub limit: u64,
+}
+
+/// A toss found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Found {
+    /// Its point.
+    pub point: usize,
+    /// Its number.
+    pub toss: u64,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// When, s; known if the longest in time were looked for.
+    pub time_s: f64,
+}
+
+/// What a search came to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Findings {
+    /// The tosses: the first in order, or the longest, the longest first.
+    pub found: Vec<Found>,
+    /// Tosses looked at.
+    pub searched: u64,
+    /// Whether it was ended before all that was asked for was found, and tosses are left.
+    pub is_cut: bool,
+}
+
+/// Searches a plan's tosses, point by point and in order: the same query finds the same tosses.
+/// `go_on` is told before each how many tosses have been looked at, and says whether to go on.
+///
+/// # Errors
+/// [`TraceError`] if a point is not there or makes no tosses.
+pub fn search(
+    plan: &Plan,
+    query: &Query<'_>,
+    mut go_on: impl FnMut(u64) -> bool,
+) -> Result<Findings, TraceError> {
+    let mut best = Best {
+        query,
+        found: Vec::new(),
+    };
+    let (mut searched, mut is_cut) = (0, false);
+    for &point in query.points {
+        let found = point_of(plan, point)?;
+        let tosses = tosses_at_most(plan).min(query.limit - searched);
+        is_cut |= tosses < tosses_at_most(plan);
+        let look = Look {
+            scene: &found.scene,
+            launches: &found.launches,
+            stream: stream(plan, point),
+            point,
+            tosses,
+            searched: &mut searched,
+            best: &mut best,
+            go_on: &mut go_on,
+        };
+        if !follow(plan, point, look)? {
+            is_cut = true;
+            break;
+        }
+        if best.is_full() {
+            break;
+        }
+    }
+    let is_cut = is_cut && !best.is_full();
+    Ok(Findings {
+        found: best.found,
+        searched,
+        is_cut,
+    })
+}
+
+/// What has been found so far.
+struct Best<'q> {
+    query: &'q Query<'q>,
+    found: Vec<Found>,
+}
+
+impl Best<'_> {
+    /// No toss to come can change it.
+    fn is_full(&self) -> bool {
+        self.query.longest.is_none() && self.found.len() >= self.query.count
+    }
+
+    fn add(&mut self, toss: Found) {
+        let holds = |condition: &Condition| condition.holds(&toss.outcome);
+        if !self.query.conditions.iter().all(holds) {
+            return;
+        }
+        let place = match self.query.longest {
+            None => self.found.len(),
+            // behind those that are as long, so that the first stays first
+            Some(length) => {
+                let long = |found: &Found| key(found, length) >= key(&toss, length);
+                self.found.partition_point(long)
+            }
+        };
+        if place < self.query.count {
+            self.found.insert(place, toss);
+            self.found.truncate(self.query.count);
+        }
+    }
+}
+
+fn key(found: &Found, length: Length) -> f64 {
+    match length {
+        Length::Time => found.time_s,
+        Length::Impacts => f64::from(found.outcome.impacts),
+    }
+}
+
+/// Looks at the tosses of a point; whether it may go on with the next.
+struct Look<'a, 'q, F> {
+    scene: &'a Scene,
+    launches: &'a LaunchDistribution,
+    stream: Stream,
+    point: usize,
+    tosses: u64,
+    searched: &'a mut u64,
+    best: &'a mut Best<'q>,
+    go_on: &'a mut F,
+}
+
+impl<F: FnMut(u64) -> bool> Task for Look<'_, '_, F> {
+    type Output = bool;
+
+    fn with<E: Engine>(self, engine: &E) -> bool {
+        let mut workspace = engine.workspace();
+        let by_time = self.best.query.longest == Some(Length::Time);
+        for toss in 0..self.tosses {
+            if !(self.go_on)(*self.searched) {
+                return false;
+            }
+            let uniforms = &mut self.stream.toss(toss);
+            let launch = self.launches.launch(&self.scene.coin, uniforms);
+            let mut clock = Clock(f64::NAN);
+            // a watched toss takes longer
+            let outcome = if by_time {
+                engine.toss(&mut workspace, &launch, &mut clock)
+            } else {
+                engine.toss(&mut workspace, &launch, &mut ())
+            };
+            *self.searched += 1;
+            self.best.add(Found {
+                point: self.point,
+                toss,
+                outcome,
+                time_s: clock.0,
+            });
+            if self.best.is_full() {
+                return true;
+            }
+        }
+        true
+    }
+}
+
+/// Looks at the end alone.
+struct Clock(f64);
+
+impl Observer for Clock {
+    fn event(&mut self, event: &Event) {
+        if event.kind == EventKind::Ended {
+            self.0 = event.state.time_s;
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! What is said above and below the picture.
+
+use super::canvas::{Anchor, Canvas, FAINT, HEADS, LINE, SLIDING, STICKING, TAILS, TEXT};
+use super::units::{digits, length, time};
+use super::view::Shot;
+use crate::trace::{Mode, Trace};
+use coinmc_core::{Ended, Face, Landing};
+
+/// Outcome, and what was tossed.
+pub(super) fn head(canvas: &mut Canvas, trace: &Trace, left: f64) {
+    canvas.label([left, 38.0], 22.0, Anchor::Start, TEXT, &outcome(trace));
+    canvas.label([left, 60.0], 13.0, Anchor::Start, FAINT, &scene(trace));
+}
+
+/// "Heads, certain after 0.412 s and 7 impacts"
+fn outcome(trace: &Trace) -> String {
+    let adhesive = trace.scene.surface.landing() == Landing::Adhesive;
+    let what = match trace.outcome.ended {
+        Ended::Decided(face) => {
+            let face = match face {
+                Face::Heads => "Heads",
+                Face::Tails => "Tails",
+                Face::Side => "On its side",
+            };
+            let how = if adhesive {
+                "by the first contact"
+            } else {
+                "certain"
+            };
+            format!("{face}, {how}")
+        }
+        Ended::Endless => "Never settles, as is certain".to_owned(),
+        Ended::TimeLimit => "Undecided: given up at the limit of time".to_owned(),
+        Ended::ImpactLimit => "Undecided: given up at the limit of impacts".to_owned(),
+        Ended::Failed => "Failed: its numbers left the range of numbers".to_owned(),
+    };
+    let end = trace.records.last().map(|record| record.state.time_s);
+    let when = end
+        .filter(|end| end.is_finite())
+        .map_or(String::new(), |end| format!(" after {}", time(end)));
+    let impacts = match trace.outcome.impacts {
+        0 => String::new(),
+        1 => " and 1 impact".to_owned(),
+        n => format!(" and {n} impacts"),
+    };
+    format!("{what}{when}{impacts}")
+}
+
+fn scene(trace: &Trace) -> String {
+    let (coin, surface) = (&trace.scene.coin, &trace.scene.surface);
+    let mut parts = vec![
+        format!("H/R {}", digits(coin.ratio())),
+        format!("R {}", length(coin.radius_m())),
+    ];
+    if surface.landing() == Landing::Bouncing {
+        parts.push(format!("e {}", digits(surface.restitution())));
+        parts.push(format!("μ {}", digits(surface.friction())));
+    }
+    let launch = &trace.launch;
+    parts.push(format!("from {}", length(launch.height_m)));
+    let turns = launch.spin_rad_s.norm() / std::f64::consts::TAU;
+    parts.push(format!("{} turns a second", digits(turns)));
+    parts.push(format!("{} engine", trace.engine));
+    parts.push(format!("point {}, toss {}", trace.point, trace.toss));
+    if trace.samples_until_s.is_some() || trace.events_until_s.is_some() {
+        parts.push("not recorded to its end".to_owned());
+    }
+    parts.join("  ·  ")
+}
+
+/// What the colours and marks mean; of the modes of contact only those that occur.
+pub(super) fn legend(canvas: &mut Canvas, shots: &[Shot], left: f64, y: f64) {
+    let mut x = left;
+    let mut say = |canvas: &mut Canvas, text: &str, width: f64| {
+        canvas.label([x + 20.0, y], 12.0, Anchor::Start, TEXT, text);
+        let at = x;
+        x += 20.0 + width;
+        at
+    };
+    for (colour, name) in [(HEADS, "heads"), (TAILS, "tails")] {
+        let at = say(canvas, name, 52.0);
+        canvas.rectangle([at, y - 10.0], [13.0, 11.0], &format!("fill=\"{colour}\""));
+    }
+    let at = say(canvas, "way of the centre", 126.0);
+    let style = format!("stroke=\"{LINE}\" stroke-width=\"1.2\"");
+    canvas.line([at, y - 4.0], [at + 14.0, y - 4.0], &style);
+    for (mode, colour, name, room) in [
+        (Mode::Sticking, STICKING, "sticks or rolls", 104.0),
+        (Mode::Sliding, SLIDING, "slides", 60.0),
+    ] {
+        if shots.iter().any(|shot| shot.mode == mode) {
+            let at = say(canvas, name, room);
+            canvas.rectangle([at, y - 8.0], [14.0, 7.0], &format!("fill=\"{colour}\""));
+        }
+    }
+    if shots.iter().any(Shot::is_impact) {
+        let at = say(canvas, "impacts in order, larger if harder", 0.0);
+        let style = format!("fill=\"{TEXT}\"");
+        canvas.triangle([at + 7.0, y - 9.0], 9.0, &style);
+    }
+}

@@ -1,0 +1,115 @@
+//! Configs of the engine in time steps: what they come to mean, and that they run.
+
+mod config_support;
+
+use coinmc::plan::EngineChoice;
+use coinmc::run::{Shard, run_shard};
+use coinmc_rapier::{Decision, Flight, FrictionModel, Gyroscopic, Precision, Settings};
+use config_support::parse;
+use std::collections::HashSet;
+
+const IN_STEPS: &str = "
+[coin]
+ratio = 2.0
+[surface]
+restitution = 0.5
+friction = 0.3
+[launch]
+preset = 'clean'
+[engine.rapier]
+[stop]
+tosses = 20
+";
+
+#[test]
+fn the_engine_has_the_defaults_of_its_crate() {
+    let plan = parse(IN_STEPS, &[]);
+    let [point] = &plan.points[..] else {
+        panic!("one point")
+    };
+    assert_eq!(point.engine, EngineChoice::Rapier(Settings::default()));
+    assert_eq!(plan.tosses_planned(), 20);
+    // its error is not in the intervals
+    assert!(matches!(&plan.notes[..], [note] if note.contains("docs/rapier.md")));
+    assert_eq!(parse(&plan.resolved_toml, &[]), plan);
+    let [explanation] = &plan.explain()[..] else {
+        panic!("one treatment")
+    };
+    assert!(explanation.computed.contains("steps of Rapier, 4 substeps"));
+    assert!(explanation.skipped.iter().any(|s| s.starts_with("drag")));
+}
+
+#[test]
+fn all_of_the_engine_can_be_chosen() {
+    let sets = [
+        "engine.rapier={step_s=5e-4, substeps=2, friction_model='simplified', \
+                 prediction=0.01, ccd=true, gyroscopic='rapier', flight='steps', \
+                 skip_standing=false, decision='energy', precision='f64', max_gain=0.1, \
+                 max_steps=9, time_limit=50}",
+    ];
+    let chosen = Settings {
+        step_s: 5e-4,
+        substeps: 2,
+        friction_model: FrictionModel::Simplified,
+        prediction: 0.01,
+        ccd: true,
+        gyroscopic: Gyroscopic::Rapier,
+        flight: Flight::Steps,
+        skip_standing: false,
+        decision: Decision::Energy,
+        precision: Precision::F64,
+        max_gain: 0.1,
+        max_steps: 9,
+        time_limit: 50.0,
+    };
+    let plan = parse(IN_STEPS, &sets);
+    assert_eq!(plan.points[0].engine, EngineChoice::Rapier(chosen));
+    assert_eq!(parse(&plan.resolved_toml, &[]), plan);
+}
+
+/// A step is an axis like any other.
+#[test]
+fn a_step_can_be_swept() {
+    let plan = parse(IN_STEPS, &["engine.rapier.step_s=[2e-3, 1e-3]"]);
+    assert_eq!(plan.axes, ["engine.rapier.step_s"]);
+    let steps: HashSet<u64> = plan
+        .points
+        .iter()
+        .map(|point| match point.engine {
+            EngineChoice::Rapier(settings) => settings.step_s.to_bits(),
+            _ => panic!("another engine"),
+        })
+        .collect();
+    assert_eq!(steps.len(), 2);
+}
+
+#[test]
+fn what_this_build_does_not_have_is_refused() {
+    let problems = coinmc::config::parse(
+        "test",
+        IN_STEPS,
+        &["engine.rapier.precision='f32'".parse().unwrap()],
+    );
+    if Precision::F32.is_built() {
+        assert!(problems.is_ok());
+    } else {
+        let text = problems.unwrap_err().to_string();
+        assert!(
+            text.contains("no Rapier in f32") && text.contains("rapier-f32"),
+            "{text}"
+        );
+    }
+}
+
+/// Shards of any cut come to the same tally.
+#[test]
+fn shards_add_up() {
+    let plan = parse(IN_STEPS, &["engine.rapier.step_s=2e-3"]);
+    let shard = |tosses| run_shard(&plan, &Shard { point: 0, tosses }).unwrap();
+    let whole = shard(0..20);
+    let mut parts = shard(13..20);
+    parts.merge(&shard(0..13));
+    assert_eq!(whole, parts);
+    assert_eq!(whole.tosses(), 20);
+    assert!(whole.side > 10);
+}

@@ -1,0 +1,112 @@
+//! A toss replayed is the toss of the run.
+
+use crate::plans::{all, flat, space};
+use coinmc::run::{Shard, run_shard};
+use coinmc::trace::{RecordKind, outcome, replay, replay_within};
+use coinmc_core::{EventKind, Tally};
+
+#[test]
+fn replayed_outcomes_are_those_of_the_run_toss_by_toss() {
+    for plan in all(12) {
+        for point in 0..plan.points.len() {
+            for toss in 0..12 {
+                let shard = Shard {
+                    point,
+                    tosses: toss..toss + 1,
+                };
+                let run = run_shard(&plan, &shard).unwrap();
+                for rate_hz in [0.0, 317.0] {
+                    let trace = replay(&plan, point, toss, rate_hz).unwrap();
+                    let mut tally = Tally::default();
+                    tally.add(&trace.outcome);
+                    assert_eq!(tally, run, "{} {shard}", trace.engine);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn who_watches_changes_nothing() {
+    for plan in all(3) {
+        for toss in 0..3 {
+            let alone = outcome(&plan, 1, toss).unwrap();
+            let events = replay(&plan, 1, toss, 0.0).unwrap();
+            let watched = replay(&plan, 1, toss, 997.0).unwrap();
+            assert_eq!(alone, events.outcome);
+            assert_eq!(alone, watched.outcome);
+            let kept = |record: &&coinmc::trace::Record| record.kind != RecordKind::Sample;
+            let states = |trace: &coinmc::trace::Trace| {
+                let kept = trace.records.iter().filter(kept);
+                kept.map(|record| (record.kind, record.mode, record.state))
+                    .collect::<Vec<_>>()
+            };
+            assert_eq!(states(&events), states(&watched), "{}", events.engine);
+        }
+    }
+}
+
+#[test]
+fn a_trace_begins_with_the_launch_and_ends_with_the_end() {
+    for plan in all(3) {
+        for toss in 0..3 {
+            let trace = replay(&plan, 0, toss, 500.0).unwrap();
+            let [first, .., last] = &trace.records[..] else {
+                panic!("a toss has a beginning and an end")
+            };
+            assert_eq!(first.kind, RecordKind::Event(EventKind::Launched));
+            assert_eq!(last.kind, RecordKind::Event(EventKind::Ended));
+            assert_eq!(first.state.time_s, 0.0);
+            // engines keep the launch in units of their own
+            let off = first.state.velocity_m_s - trace.launch.velocity_m_s;
+            assert!(off.norm() < 1e-12, "{off}");
+            let ends = |kind| trace.records.iter().filter(|r| r.kind == kind).count();
+            assert_eq!(ends(RecordKind::Event(EventKind::Ended)), 1);
+            let impacts = ends(RecordKind::Event(EventKind::Impact));
+            assert_eq!(impacts, trace.outcome.impacts as usize, "{}", trace.engine);
+        }
+    }
+}
+
+#[test]
+fn points_that_share_their_random_numbers_share_their_launches() {
+    let paired = coinmc::config::parse(
+        "test",
+        &format!(
+            "paired = true\n{}",
+            flat("moreau", 5)
+                .resolved_toml
+                .replace("paired = false\n", "")
+        ),
+        &[],
+    )
+    .unwrap();
+    let of = |point| replay(&paired, point, 3, 0.0).unwrap().launch;
+    assert_eq!(of(0).spin_rad_s, of(1).spin_rad_s);
+    let apart = flat("moreau", 5);
+    let of = |point| replay(&apart, point, 3, 0.0).unwrap().launch;
+    assert_ne!(of(0).spin_rad_s, of(1).spin_rad_s);
+}
+
+#[test]
+fn memory_is_bounded_and_the_trace_says_so() {
+    let plan = space("moreau", 5);
+    let whole = replay(&plan, 0, 2, 50_000.0).unwrap();
+    assert_eq!(whole.samples_until_s, None);
+    let cut = replay_within(&plan, 0, 2, 50_000.0, 1000).unwrap();
+    assert!(cut.records.len() <= 1001 && cut.samples_until_s.is_some());
+    assert_eq!(cut.outcome, whole.outcome);
+    assert_eq!(
+        cut.records.last(),
+        whole
+            .records
+            .last()
+            .map(|last| {
+                // fewer samples leave the turn about the coin's own axis less exact
+                let mut last = *last;
+                last.orientation = cut.records.last().unwrap().orientation;
+                last
+            })
+            .as_ref()
+    );
+}

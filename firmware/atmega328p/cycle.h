@@ -1,0 +1,36 @@
+/* The cycle of a throw: phases, their limits, the journal, and the silence of the host. */
+#ifndef CYCLE_H
+#define CYCLE_H
+
+#include "hardware.h"
+
+typedef struct {
+    uint8_t state;
+    uint32_t throw_id;
+    uint16_t boot, fault;
+    uint32_t since_ms, heard_ms;
+    bool silent;   /* the host has been silent for too long, or was never heard */
+    bool released; /* the coin may have been released */
+    bool measured; /* it was since the start, and this is how: */
+    uint32_t release_ms;
+    uint16_t release_spin, release_angle;
+} cycle_of_throw;
+
+extern cycle_of_throw cycle;
+
+#define CYCLE_DONE 0xFF /* no Nak */
+
+void cycle_boot(uint32_t now_ms);
+void cycle_tick(uint32_t now_ms);
+/* A valid frame arrived. */
+void cycle_heard(uint32_t now_ms);
+
+/* Requests: CYCLE_DONE or a coinmc_nak. */
+uint8_t cycle_move(const coinmc_request *request, uint8_t kind);
+uint8_t cycle_throw(const coinmc_request *request, uint32_t now_ms);
+uint8_t cycle_collect(const coinmc_request *request, uint32_t now_ms);
+uint8_t cycle_clear_fault(const coinmc_request *request);
+uint8_t cycle_set_counter(const coinmc_request *request);
+uint8_t cycle_stop(void);
+
+#endif

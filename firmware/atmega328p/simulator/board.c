@@ -1,0 +1,201 @@
+/* A simulated ATmega328P board whose serial line is a pseudo-terminal: a test tool.
+ *
+ * It links libsimavr, which is under the GNU GPL 3: so is the program that comes out of compiling
+ * this file. It is built for tests on the machine at hand and never distributed.
+ *
+ *   board FIRMWARE.elf SPEED
+ *
+ * Prints "pty NAME", then obeys its standard input: `system_reset` resets the board (as it does in
+ * QEMU's monitor), the end of input ends the program.
+ * SPEED is simulated time over real time. At the end it says how long the firmware
+ * took for a byte at the most, by the pins that it sets meanwhile. */
+#define _GNU_SOURCE
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <termios.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <simavr/avr_ioport.h>
+#include <simavr/avr_uart.h>
+#include <simavr/sim_avr.h>
+#include <simavr/sim_elf.h>
+
+#define HERTZ 16000000
+
+static avr_t *avr;
+static int pty;
+static avr_irq_t *uart_input;
+static bool ready; /* the UART takes another byte */
+
+/* Cycles for which a pin was high. */
+typedef struct {
+    avr_cycle_count_t since, longest, total;
+    bool high;
+} pin;
+
+static pin handling, storing;
+static avr_cycle_count_t stored_before, longest_without_journal;
+
+static void on_pin(struct avr_irq_t *irq, uint32_t value, void *parameter)
+{
+    (void)irq;
+    pin *p = parameter;
+    bool high = value != 0;
+    if (high == p->high)
+        return;
+    p->high = high;
+    if (high) {
+        p->since = avr->cycle;
+        if (p == &handling)
+            stored_before = storing.total;
+        return;
+    }
+    avr_cycle_count_t took = avr->cycle - p->since;
+    p->total += took;
+    if (took > p->longest)
+        p->longest = took;
+    if (p == &handling && took - (storing.total - stored_before) > longest_without_journal)
+        longest_without_journal = took - (storing.total - stored_before);
+}
+
+static void on_output(struct avr_irq_t *irq, uint32_t value, void *parameter)
+{
+    (void)irq;
+    (void)parameter;
+    uint8_t byte = (uint8_t)value;
+    /* nobody at the other end: like a cable that is not plugged in */
+    if (write(pty, &byte, 1) < 0 && errno != EAGAIN && errno != EIO)
+        perror("pty");
+}
+
+static void on_xon(struct avr_irq_t *irq, uint32_t value, void *parameter)
+{
+    (void)irq;
+    (void)value;
+    (void)parameter;
+    ready = true;
+}
+
+static void on_xoff(struct avr_irq_t *irq, uint32_t value, void *parameter)
+{
+    (void)irq;
+    (void)value;
+    (void)parameter;
+    ready = false;
+}
+
+static void open_pty(void)
+{
+    pty = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
+    struct termios raw;
+    if (pty < 0 || grantpt(pty) != 0 || unlockpt(pty) != 0 || tcgetattr(pty, &raw) != 0) {
+        perror("pty");
+        exit(1);
+    }
+    cfmakeraw(&raw);
+    tcsetattr(pty, TCSANOW, &raw);
+    /* held open here, so that it outlives its users */
+    if (open(ptsname(pty), O_RDWR | O_NOCTTY) < 0)
+        perror("pty");
+    printf("pty %s\n", ptsname(pty));
+    fflush(stdout);
+}
+
+static void begin(const char *path)
+{
+    elf_firmware_t firmware;
+    memset(&firmware, 0, sizeof firmware);
+    if (elf_read_firmware(path, &firmware) != 0)
+        exit(1);
+    firmware.frequency = HERTZ;
+    avr = avr_make_mcu_by_name("atmega328p");
+    if (avr == NULL)
+        exit(1);
+    avr_init(avr);
+    avr_load_firmware(avr, &firmware);
+    /* no printing of what the UART sends, no sleeping of its own: both are done here */
+    uint32_t flags = 0;
+    avr_ioctl(avr, AVR_IOCTL_UART_SET_FLAGS('0'), &flags);
+    uart_input = avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_INPUT);
+    avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_OUTPUT),
+                            on_output, NULL);
+    avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_OUT_XON),
+                            on_xon, NULL);
+    avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_OUT_XOFF),
+                            on_xoff, NULL);
+    avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('B'), 5), on_pin, &handling);
+    avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('B'), 4), on_pin, &storing);
+}
+
+static void no_sleep(avr_t *this_avr, avr_cycle_count_t cycles)
+{
+    (void)this_avr;
+    (void)cycles;
+}
+
+/* Whether to go on. */
+static bool obey(void)
+{
+    struct pollfd input = {STDIN_FILENO, POLLIN, 0};
+    char line[64];
+    if (poll(&input, 1, 0) <= 0)
+        return true;
+    ssize_t length = read(STDIN_FILENO, line, sizeof line);
+    if (length > 0 && memchr(line, 'r', (size_t)length) != NULL) {
+        avr_reset(avr);
+        ready = true;
+        handling.high = storing.high = false;
+    }
+    return length > 0;
+}
+
+/* Simulated milliseconds begin at these real times. */
+static void keep_pace(double *due, double speed)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    double seconds = (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
+    *due += 0.001 / speed;
+    if (*due < seconds - 0.1)
+        *due = seconds; /* too slow for this speed: no catching up */
+    if (*due > seconds)
+        usleep((useconds_t)((*due - seconds) * 1e6));
+}
+
+int main(int count, char **arguments)
+{
+    double speed = count == 3 ? atof(arguments[2]) : 0, due = 0;
+    if (speed <= 0) {
+        fprintf(stderr, "usage: board FIRMWARE.elf SPEED\n");
+        return 2;
+    }
+    begin(arguments[1]);
+    avr->sleep = no_sleep;
+    open_pty();
+    ready = true;
+    while (obey()) {
+        avr_cycle_count_t until = avr->cycle + HERTZ / 1000;
+        while (avr->cycle < until) {
+            uint8_t byte;
+            if (ready && read(pty, &byte, 1) == 1)
+                avr_raise_irq(uart_input, byte);
+            avr_cycle_count_t a_byte = avr->cycle + HERTZ / 11520;
+            while (avr->cycle < a_byte && avr->cycle < until) {
+                int state = avr_run(avr);
+                if (state == cpu_Done || state == cpu_Crashed)
+                    return 1;
+            }
+        }
+        keep_pace(&due, speed);
+    }
+    fprintf(stderr, "longest: %llu cycles on a byte, %llu without the journal, %llu for a record\n",
+            (unsigned long long)handling.longest, (unsigned long long)longest_without_journal,
+            (unsigned long long)storing.longest);
+    _exit(0);
+}

@@ -1,0 +1,414 @@
+//! A simulated robot and its host as processes: noise, resets, unpluggings and kills, and every bad
+//! input that a person can give.
+#![cfg(unix)]
+
+use coinmc_core::Face;
+use coinmc_robot::journal::{Journal, Resolution};
+use coinmc_robot::sim::{Truth, last_truth, read_truths};
+use coinmc_robot::{Directory, Experiment};
+use coinmc_tests::{coinmc, command, root};
+use std::fs;
+use std::io::{BufRead, BufReader, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdin, Command, Output, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+/// How long anything may take before the test gives up.
+const PATIENCE: Duration = Duration::from_mins(1);
+
+/// A simulated robot; it ends with this.
+struct Robot {
+    child: Child,
+    input: ChildStdin,
+}
+
+impl Robot {
+    fn tell(&mut self, command: &str) {
+        writeln!(self.input, "{command}").expect("the robot listens");
+    }
+}
+
+impl Drop for Robot {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+struct Bench {
+    dir: TempDir,
+    throws: u32,
+}
+
+impl Bench {
+    fn new(throws: u32) -> Self {
+        let dir = tempfile::tempdir().expect("a temporary directory");
+        fs::copy(
+            root().join("examples/robot.toml"),
+            dir.path().join("robot.toml"),
+        )
+        .expect("the example is there");
+        Self { dir, throws }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.dir.path().join(name)
+    }
+
+    fn stop(&self) -> String {
+        format!("stop.tosses={}", self.throws)
+    }
+
+    fn robot(&self, more: &[&str]) -> Robot {
+        let mut command = command(self.dir.path());
+        command
+            .args(["robot", "sim", "robot.toml", "--set", &self.stop()])
+            .args([
+                "--name",
+                "port",
+                "--truth",
+                "truth.jsonl",
+                "--memory",
+                "memory",
+            ])
+            .args(["--speed", "200"])
+            .args(more);
+        let mut child = command
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("it starts");
+        let mut line = String::new();
+        BufReader::new(child.stdout.take().expect("a pipe"))
+            .read_line(&mut line)
+            .expect("it speaks");
+        assert_eq!(line, "port\n");
+        let input = child.stdin.take().expect("a pipe");
+        Robot { child, input }
+    }
+
+    fn camera(more: &str) -> String {
+        let program = coinmc().display();
+        format!("exec '{program}' robot camera-sim --truth truth.jsonl {more}")
+    }
+
+    fn run(&self, out: &str, more: &[&str]) -> Command {
+        let mut command = command(self.dir.path());
+        command
+            .args([
+                "robot",
+                "run",
+                "robot.toml",
+                "--set",
+                &self.stop(),
+                "--out",
+                out,
+            ])
+            .args([
+                "--port",
+                "port",
+                "--speed",
+                "200",
+                "--camera",
+                &Self::camera(""),
+            ])
+            .args(more)
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        command
+    }
+
+    fn resume(&self, out: &str, more: &[&str]) -> Command {
+        let mut command = command(self.dir.path());
+        command
+            .args(["robot", "resume", out])
+            .args(more)
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        command
+    }
+
+    /// Waits until the coin of this throw has been released.
+    fn wait_for(&self, throw: u32, host: &mut Child) {
+        let begun = Instant::now();
+        let truth = self.path("truth.jsonl");
+        while last_truth(&truth)
+            .expect("readable")
+            .is_none_or(|t| t.throw_id < throw)
+        {
+            assert!(
+                host.try_wait().expect("a child").is_none(),
+                "the host ended before {throw}"
+            );
+            assert!(begun.elapsed() < PATIENCE, "throw {throw} never comes");
+            sleep(Duration::from_millis(2));
+        }
+    }
+
+    /// The journal against what happened; how many are done, and how many void.
+    fn audit(&self, out: &str) -> (u32, u32) {
+        let directory = Directory::at(&self.path(out));
+        let experiment: Experiment = directory.experiment().expect("a config");
+        let (_, history) = Journal::read(&directory.journal()).expect("a journal");
+        let truths = read_truths(&self.path("truth.jsonl")).expect("the side file");
+        assert_eq!(history.throws().len(), self.throws as usize);
+        let (mut done, mut void) = (0, 0);
+        for (number, throw) in (0..).zip(history.throws()) {
+            assert_eq!(
+                (throw.id, throw.setting),
+                (number + 1, experiment.setting(number))
+            );
+            let releases: Vec<&Truth> = truths
+                .iter()
+                .filter(|truth| truth.throw_id == throw.id)
+                .collect();
+            assert!(releases.len() <= 1, "throw {} was released twice", throw.id);
+            match throw.resolution {
+                Some(Resolution::Done) => {
+                    let face: Face = throw.reading.as_ref().expect("done").0.face;
+                    assert_eq!(releases[0].face(), Some(face), "throw {}", throw.id);
+                    let model = experiment.model_face(number, throw.setting);
+                    assert_eq!(model, Ok(Some(face)), "throw {}", throw.id);
+                    done += 1;
+                }
+                Some(Resolution::Void(_)) => void += 1,
+                None => panic!("throw {} is unresolved", throw.id),
+            }
+        }
+        (done, void)
+    }
+}
+
+/// Output of a process that ends by itself.
+fn finish(mut command: Command) -> Output {
+    let mut child = command.spawn().expect("it starts");
+    let begun = Instant::now();
+    while child.try_wait().expect("a child").is_none() {
+        if begun.elapsed() > PATIENCE {
+            let _ = child.kill();
+            panic!("it does not end: {:?}", child.wait_with_output());
+        }
+        sleep(Duration::from_millis(5));
+    }
+    child.wait_with_output().expect("its output")
+}
+
+fn text(output: &Output) -> String {
+    let both = [&output.stdout[..], &output.stderr].concat();
+    String::from_utf8_lossy(&both).into_owned()
+}
+
+fn refused(command: Command, words: &[&str]) {
+    let output = finish(command);
+    let text = text(&output);
+    assert_eq!(output.status.code(), Some(2), "{text}");
+    for word in words {
+        assert!(text.contains(word), "`{word}` is not in:\n{text}");
+    }
+}
+
+#[test]
+fn nothing_is_lost_or_doubled_through_noise_resets_unpluggings_and_kills() {
+    let bench = Bench::new(40);
+    let mut robot = bench.robot(&["--noise", "0.01", "--seed", "3"]);
+    let quiet = ["--quiet", "--most-voids", "40"];
+    let mut host = bench.run("day", &quiet).spawn().expect("it starts");
+    for (throw, mishap) in [
+        (3, "reset"),
+        (5, "kill"),
+        (9, "unplug"),
+        (13, "kill"),
+        (13, "reset"),
+        (17, "unplug"),
+        (21, "kill"),
+        (25, "reset"),
+        (25, "unplug"),
+        (29, "kill"),
+    ] {
+        bench.wait_for(throw, &mut host);
+        if mishap == "kill" {
+            host.kill().expect("it can be killed");
+            host.wait().expect("a child");
+            host = bench.resume("day", &quiet).spawn().expect("it starts");
+        } else {
+            robot.tell(mishap);
+        }
+    }
+    let output = host.wait_with_output().expect("its output");
+    assert!(output.status.success(), "{}", text(&output));
+    let (done, void) = bench.audit("day");
+    // at most one throw for each of the ten mishaps
+    assert!(done >= 30 && done + void == 40, "{done} done, {void} void");
+    // again: nothing is left to do
+    let output = finish(bench.resume("day", &[]));
+    assert!(
+        text(&output).starts_with("40 of 40 throws"),
+        "{}",
+        text(&output)
+    );
+
+    // tables come from the journal: the same as for simulated runs, and a row a throw
+    let mut export = command(bench.dir.path());
+    export.args(["robot", "export", "day"]);
+    assert!(export.output().expect("it starts").status.success());
+    let table =
+        |name: &str| fs::read_to_string(bench.path("day/export").join(name)).expect("a table");
+    let results = table("results.csv");
+    let row: Vec<&str> = results.lines().nth(1).expect("a row").split(',').collect();
+    let names: Vec<&str> = results.lines().next().expect("names").split(',').collect();
+    let cell = |name| row[names.iter().position(|n| *n == name).expect("a column")];
+    assert_eq!((cell("engine"), cell("tosses")), ("robot", "40"));
+    assert_eq!(cell("undecided"), void.to_string());
+    assert_eq!(table("throws.csv").lines().count(), 41);
+    for parquet in ["results.parquet", "throws.parquet"] {
+        let bytes = fs::read(bench.path("day/export").join(parquet)).expect("a table");
+        assert!(bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1"));
+    }
+}
+
+#[test]
+fn a_camera_that_hangs_dies_and_sees_nothing_holds_nothing_up() {
+    let bench = Bench::new(12);
+    let _robot = bench.robot(&[]);
+    let camera = Bench::camera("--hang 0.1 --die 0.15 --unread 0.2");
+    let more = ["--camera-timeout", "1", "--photos", "4"];
+    let mut run = bench.run("day", &more);
+    run.args(["--most-voids", "12"]);
+    // the last --camera counts
+    let mut words: Vec<_> = run.get_args().map(ToOwned::to_owned).collect();
+    let place = words
+        .iter()
+        .position(|word| word == "--camera")
+        .expect("a camera")
+        + 1;
+    words[place] = camera.into();
+    let mut run = command(bench.dir.path());
+    run.args(words)
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    let output = finish(run);
+    assert!(output.status.success(), "{}", text(&output));
+    let (done, void) = bench.audit("day");
+    assert_eq!(done + void, 12);
+}
+
+#[test]
+fn strangers_are_refused_with_what_to_do() {
+    let bench = Bench::new(4);
+    refused(bench.run("day", &[]), &["no port", "coinmc robot ports"]);
+    let mut robot = bench.robot(&[]);
+
+    // out of range
+    let mut throw = command(bench.dir.path());
+    throw.args([
+        "robot", "throw", "--port", "port", "--spin", "5.1", "--angle", "90",
+    ]);
+    throw.stdout(Stdio::piped()).stderr(Stdio::piped());
+    refused(throw, &["5.1 rev/s", "0 to 5"]);
+    let spin = "launch.spin={about={axis=[0,1,0], rate_rad_s={uniform={from=0, to=40}}}}";
+    refused(
+        bench.run("wide", &["--set", spin]),
+        &["launch.spin", "5 rev/s"],
+    );
+
+    // a robot that was used for something else
+    let mut throw = command(bench.dir.path());
+    throw.args([
+        "robot", "throw", "--port", "port", "--spin", "1", "--angle", "90",
+    ]);
+    assert!(throw.output().expect("it starts").status.success());
+    refused(
+        bench.run("day", &[]),
+        &["counted 1 throws, this journal 0", "--adopt"],
+    );
+    let output = finish(bench.resume("day", &["--adopt"]));
+    assert!(output.status.success(), "{}", text(&output));
+
+    // another experiment's journal
+    refused(
+        bench.run("day", &["--set", "seed=9"]),
+        &["another experiment", "--out"],
+    );
+
+    // damage that is not at the end
+    let journal = bench.path("day/journal.txt");
+    let whole = fs::read_to_string(&journal).expect("a journal");
+    fs::write(&journal, whole.replacen("I 2 ", "I 3 ", 1)).expect("writable");
+    refused(
+        bench.resume("day", &[]),
+        &["line 3 is damaged", "head -n 2"],
+    );
+    // and one that is
+    fs::write(&journal, &whole[..whole.len() - 5]).expect("writable");
+    let output = finish(bench.resume("day", &[]));
+    assert!(
+        output.status.success() && text(&output).contains("cut off"),
+        "{}",
+        text(&output)
+    );
+    assert_eq!(fs::read_to_string(&journal).expect("a journal"), whole);
+
+    // two hosts at one port
+    let longer = ["--set", "stop.tosses=1000", "--adopt"];
+    let mut host = bench.run("long", &longer).spawn().expect("it starts");
+    bench.wait_for(8, &mut host);
+    refused(
+        bench.run("other", &["--adopt"]),
+        &["in use by another program"],
+    );
+    let _ = host.kill();
+    let _ = host.wait();
+    robot.tell("quit");
+}
+
+#[test]
+fn a_full_disk_stops_the_host_before_the_throw_and_it_goes_on_later() {
+    let bench = Bench::new(12);
+    let _robot = bench.robot(&[]);
+    let script = "trap '' XFSZ; ulimit -f 1; exec \"$0\" \"$@\"";
+    let limited = |of: &Command| {
+        let mut command = Command::new("sh");
+        command
+            .current_dir(bench.dir.path())
+            .args(["-c", script])
+            .arg(of.get_program())
+            .args(of.get_args())
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        command
+    };
+    // a unit of 512 or 1024 bytes: room for the config and a few lines of the journal
+    let run = bench.run("day", &["--no-recording"]);
+    let output = finish(limited(&run));
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output));
+    let output = finish(bench.run("day", &[]));
+    assert!(output.status.success(), "{}", text(&output));
+    let (done, void) = bench.audit("day");
+    assert_eq!(done + void, 12);
+}
+
+/// Whether a file is there that ends as the format says.
+fn is_whole_recording(path: &Path) -> bool {
+    fs::read(path)
+        .is_ok_and(|bytes| bytes.starts_with(b"\x89MCAP0\r\n") && bytes.ends_with(b"\x89MCAP0\r\n"))
+}
+
+#[test]
+fn sessions_are_recorded_one_file_each() {
+    let bench = Bench::new(3);
+    let _robot = bench.robot(&[]);
+    assert!(finish(bench.run("day", &[])).status.success());
+    assert!(finish(bench.resume("day", &[])).status.success());
+    for name in ["session-0001-01.mcap", "session-0002-01.mcap"] {
+        assert!(
+            is_whole_recording(&bench.path("day/sessions").join(name)),
+            "{name}"
+        );
+    }
+}
