@@ -153,7 +153,7 @@ pub fn run_session(
         cycle: Cycle::new(options.rules),
         connection,
         camera: Camera::start(options.camera.clone())?,
-        photo_under_way: false,
+        photos_under_way: 0,
         notes: Notes {
             watcher: options.watcher,
             recorder,
@@ -181,7 +181,9 @@ struct Session<'a> {
     cycle: Cycle,
     connection: Connection,
     camera: Camera,
-    photo_under_way: bool,
+    /// Photos asked for and not yet back. The last may be of a throw that is void by then, and the
+    /// next one's photo comes behind it.
+    photos_under_way: u32,
     notes: Notes<'a>,
     cancelled_at: Cell<Option<Instant>>,
 }
@@ -210,7 +212,7 @@ impl Session<'_> {
                 Step::Photograph { id, attempt } => {
                     self.camera.take(id, attempt);
                     self.cycle.photographing(id, attempt);
-                    self.photo_under_way = true;
+                    self.photos_under_way += 1;
                 }
                 Step::Finished => {
                     let announced = self.journal.history().announced();
@@ -255,7 +257,7 @@ impl Session<'_> {
     /// The polling interval, or less if a photo comes back before.
     fn wait(&mut self) {
         let interval = POLL.div_f64(self.options.speed).max(SHORTEST_POLL);
-        if self.photo_under_way {
+        if self.photos_under_way > 0 {
             if let Some(taken) = self.camera.taken(interval) {
                 self.photographed(taken);
             }
@@ -266,7 +268,7 @@ impl Session<'_> {
     }
 
     fn photographed(&mut self, taken: Taken) {
-        self.photo_under_way = false;
+        self.photos_under_way = self.photos_under_way.saturating_sub(1);
         let Taken {
             id,
             attempt,

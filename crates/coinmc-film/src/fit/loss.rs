@@ -112,12 +112,14 @@ mod tests {
         }
     }
 
+    /// Σψ·r/σ = n with two points of 50 and 80 among 200 of variance .37: 202 σ² = 73 + 1.345·130 σ,
+    /// σ = 1.17, twice what it is without them; by squares it is eleven times.
     #[test]
-    fn a_few_wild_points_hardly_move_hubers_scale() {
+    fn a_few_wild_points_move_hubers_scale_far_less_than_that_of_squares() {
         let mut residuals: Vec<f64> = (0..200).map(|i| f64::from(i % 21 - 10) / 10.0).collect();
         let clean = Loss::Huber.scale(&residuals, 200.0);
         residuals.extend([50.0, -80.0]);
         let wild = Loss::Huber.scale(&residuals, 202.0);
-        assert!(wild / clean < 1.1 && Loss::Square.scale(&residuals, 202.0) > 5.0 * clean);
+        assert!(wild / clean < 2.1 && Loss::Square.scale(&residuals, 202.0) > 10.0 * clean);
     }
 }

@@ -87,12 +87,12 @@ fn the_quaternions_z_axis_is_u() {
         for record in &trace.records {
             let off = record.orientation * Vector3::z() - record.state.axis.into_inner();
             assert!(
-                off.norm() < 1e-14,
+                off.norm() < 1e-13,
                 "{} {}",
                 off.norm(),
                 record.state.axis.norm() - 1.0
             );
-            assert!((record.orientation.coords.norm() - 1.0).abs() < 1e-14);
+            assert!((record.orientation.coords.norm() - 1.0).abs() < 1e-13);
         }
     }
 }

@@ -130,7 +130,7 @@ mod tests {
         let line = message(&live, Duration::from_secs(1000));
         assert_eq!(
             line,
-            "throw 1 234 at the coin  612 heads 598 tails 20 side 4 void  2.1 h left"
+            "throw 1 234 at the coin  612 heads 598 tails 20 side 4 void  2 h 07 min left"
         );
         live.status = None;
         assert!(message(&live, Duration::ZERO).starts_with("robot out of reach"));

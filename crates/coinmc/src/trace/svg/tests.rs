@@ -3,9 +3,14 @@ use crate::trace::{Trace, replay};
 use coinmc_core::Ended;
 
 fn trace(launch: &str, engine: &str, toss: u64, rate_hz: f64) -> Trace {
+    // the flat engine has no friction lengths
+    let lengths = match engine {
+        "flat" => "",
+        _ => ", contour_m = 1e-4, pivoting_m = 1e-4",
+    };
     let config = format!(
         "coin = {{ ratio = 0.85, radius_m = 0.01 }}\n\
-         surface = {{ restitution = 0.3, friction = 0.3, contour_m = 1e-4, pivoting_m = 1e-4 }}\n\
+         surface = {{ restitution = 0.3, friction = 0.3{lengths} }}\n\
          {launch}\nengine.{engine} = {{}}\nstop.tosses = 100"
     );
     let plan = crate::config::parse("inline", &config, &[])
