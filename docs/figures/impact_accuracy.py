@@ -16,7 +16,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 COLOURS = {
     "half-sine": "#009E73",
-    "line-contact, no friction": "#0072B2",
+    "line-contact (no friction)": "#0072B2",
     "line-contact": "#D55E00",
 }
 

@@ -54,7 +54,7 @@ const SUBJECTS: [Subject; 5] = [
         friction: 0.3,
     },
     Subject {
-        name: "line-contact, no friction",
+        name: "line-contact (no friction)",
         law: || line(materials(1.0), LineContact::mindlin(super::POISSON)),
         friction: 0.0,
     },

@@ -55,7 +55,7 @@ const KINDS: [Kind; 6] = [
         sample: |seed, trial| any(seed, trial, 0.5, 1.0),
     },
     Kind {
-        name: "grip changes, hard to shear",
+        name: "grip changes (hard to shear)",
         law: "line-contact",
         with: |stiffer| line(materials(stiffer), 300.0),
         sample: |seed, trial| any(seed, trial, 0.5, 1.0),
