@@ -22,26 +22,38 @@ pub(crate) struct Progress {
     start: Arc<OnceLock<Start>>,
 }
 
+/// A bar on standard error, hidden if that is no terminal or `quiet`.
+pub(crate) fn bar(style: Style, quiet: bool) -> ProgressBar {
+    let target = if !quiet && io::stderr().is_terminal() {
+        ProgressDrawTarget::stderr()
+    } else {
+        ProgressDrawTarget::hidden()
+    };
+    let bar = ProgressBar::with_draw_target(None, target);
+    let template = if style.color {
+        "{bar:12.cyan/dim} {wide_msg}"
+    } else {
+        "{bar:12} {wide_msg}"
+    };
+    let characters = if style.unicode { "━╸─" } else { "=>-" };
+    let look = ProgressStyle::with_template(template).expect("the template is valid");
+    bar.set_style(look.progress_chars(characters));
+    bar
+}
+
+/// A line of text above a bar, on standard error.
+pub(crate) fn note_above(bar: &ProgressBar, text: &str) {
+    bar.suspend(|| {
+        // Nobody is left to hear it if this fails.
+        let _ = writeln!(io::stderr().lock(), "{text}");
+    });
+}
+
 impl Progress {
     /// A bar for standard error, hidden if that is no terminal or `quiet`.
     pub(crate) fn new(style: Style, quiet: bool) -> Self {
-        let visible = !quiet && io::stderr().is_terminal();
-        let target = if visible {
-            ProgressDrawTarget::stderr()
-        } else {
-            ProgressDrawTarget::hidden()
-        };
-        let bar = ProgressBar::with_draw_target(None, target);
-        let template = if style.color {
-            "{bar:12.cyan/dim} {wide_msg}"
-        } else {
-            "{bar:12} {wide_msg}"
-        };
-        let characters = if style.unicode { "━╸─" } else { "=>-" };
-        let look = ProgressStyle::with_template(template).expect("the template is valid");
-        bar.set_style(look.progress_chars(characters));
         Self {
-            bar,
+            bar: bar(style, quiet),
             style,
             start: Arc::default(),
         }
@@ -49,10 +61,7 @@ impl Progress {
 
     /// A line of text above the bar, on standard error.
     pub(crate) fn note(&self, text: &str) {
-        self.bar.suspend(|| {
-            // Nobody is left to hear it if this fails.
-            let _ = writeln!(io::stderr().lock(), "{text}");
-        });
+        note_above(&self.bar, text);
     }
 
     /// So many tosses of at most `limit` have been looked at.

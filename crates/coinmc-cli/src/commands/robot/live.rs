@@ -1,11 +1,11 @@
 //! How a session goes, on standard error.
 
+use crate::terminal::progress::{bar, note_above};
 use crate::terminal::{Colors, Style, duration, grouped};
 use coinmc_link::State;
 use coinmc_robot::{Live, Watcher, fault, name};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 use std::cell::Cell;
-use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
 /// A line that changes on a terminal, nothing elsewhere; notes and warnings everywhere.
@@ -22,22 +22,8 @@ const REDRAW: Duration = Duration::from_millis(50);
 
 impl LiveLine {
     pub(super) fn new(style: Style, quiet: bool) -> Self {
-        let target = if !quiet && io::stderr().is_terminal() {
-            ProgressDrawTarget::stderr()
-        } else {
-            ProgressDrawTarget::hidden()
-        };
-        let bar = ProgressBar::with_draw_target(None, target);
-        let template = if style.color {
-            "{bar:12.cyan/dim} {wide_msg}"
-        } else {
-            "{bar:12} {wide_msg}"
-        };
-        let characters = if style.unicode { "━╸─" } else { "=>-" };
-        let look = ProgressStyle::with_template(template).expect("the template is valid");
-        bar.set_style(look.progress_chars(characters));
         Self {
-            bar,
+            bar: bar(style, quiet),
             style,
             quiet,
             begun: Instant::now(),
@@ -46,10 +32,7 @@ impl LiveLine {
     }
 
     pub(super) fn say(&self, text: &str) {
-        self.bar.suspend(|| {
-            // nobody is left to hear it if this fails
-            let _ = writeln!(io::stderr().lock(), "{text}");
-        });
+        note_above(&self.bar, text);
     }
 
     pub(super) fn finish(&self) {
