@@ -168,6 +168,20 @@ impl Coin {
         self.radius_m * (1.0 + half * half).sqrt()
     }
 
+    /// (R/D, H/2D) with D the [rim distance](Self::rim_distance_m): the coin's shape in units in which
+    /// its rim is 1 from the centre. From the ratio alone, so that the same coin at another scale has
+    /// the same to the last bit, and no ratio overflows.
+    pub fn shape_by_rim_distance(&self) -> (f64, f64) {
+        let half = self.ratio / 2.0;
+        if half <= 1.0 {
+            let hypotenuse = (1.0 + half * half).sqrt();
+            (1.0 / hypotenuse, half / hypotenuse)
+        } else {
+            let hypotenuse = (1.0 + 1.0 / (half * half)).sqrt();
+            (1.0 / half / hypotenuse, 1.0 / hypotenuse)
+        }
+    }
+
     /// I_t/m about a diameter through the centre, m² ((3R² + H²)/12 when uniform).
     pub fn transverse_gyration_m2(&self) -> f64 {
         self.transverse_gyration_m2

@@ -23,15 +23,7 @@ pub(crate) struct Body {
 impl Body {
     fn new(scene: &Scene) -> Self {
         let coin = &scene.coin;
-        // from the ratio alone, so that the same coin at another scale is the same body
-        let half = coin.ratio() / 2.0;
-        let (radius, half) = if half <= 1.0 {
-            let hypotenuse = (1.0 + half * half).sqrt();
-            (1.0 / hypotenuse, half / hypotenuse)
-        } else {
-            let hypotenuse = (1.0 + 1.0 / (half * half)).sqrt();
-            (1.0 / half / hypotenuse, 1.0 / hypotenuse)
-        };
+        let (radius, half) = coin.shape_by_rim_distance();
         let r2 = coin.radius_m() * coin.radius_m();
         Self {
             radius,
