@@ -8,7 +8,6 @@ use crate::rest;
 use crate::settings::{Decision, Law, Settings, SettingsError};
 use crate::toss::Toss;
 use crate::verdict::{Judge, Verdict};
-use crate::watch::Watch;
 use coinmc_core::{
     Breaks, Ended, Engine, Event, EventKind, Face, Landing, Launch, Observer, Outcome, Scene,
 };
@@ -277,19 +276,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         contact: &mut Contact<'_>,
         observer: &mut O,
     ) -> Onward {
-        let heads_up = toss.heads_up;
-        let Toss {
-            motion,
-            spin,
-            place,
-            ..
-        } = toss;
-        let mut watch = Watch {
-            observer,
-            place,
-            heads_up,
-            units: &self.units,
-        };
+        let (motion, spin, mut watch) = toss.watched(&self.units, observer);
         let leave = contact.follow(motion, spin, &mut watch);
         if leave == Leave::LiftOff {
             self.notify(toss, EventKind::LiftOff, observer);

@@ -5,7 +5,6 @@ use crate::contact::{Contact, FLAT};
 use crate::engine::{Onward, VolumetricEngine};
 use crate::impact::ImpactLaw;
 use crate::toss::Toss;
-use crate::watch::Watch;
 use coinmc_core::{Ended, Observer};
 
 /// Rocking that is laid flat, as a fraction of zeno: below it in angle, speed and rate.
@@ -28,19 +27,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         contact: &mut Contact<'_>,
         observer: &mut O,
     ) -> Onward {
-        let heads_up = toss.heads_up;
-        let Toss {
-            motion,
-            spin,
-            place,
-            ..
-        } = toss;
-        let mut watch = Watch {
-            observer,
-            place,
-            heads_up,
-            units: &self.units,
-        };
+        let (motion, spin, mut watch) = toss.watched(&self.units, observer);
         let tips = contact.lie(motion, spin, &mut watch);
         match tips {
             Ok(this_rim) => {

@@ -4,7 +4,8 @@ use crate::body::{Body, Units};
 use crate::contact::FLAT;
 use crate::motion::{Motion, Spin};
 use crate::series::sin_cos;
-use coinmc_core::{Face, Launch, State};
+use crate::watch::Watch;
+use coinmc_core::{Face, Launch, Observer, State};
 use nalgebra::{UnitVector3, Vector3};
 
 /// Where the folded frame lies in the laboratory. Kept up only for an observer.
@@ -86,6 +87,22 @@ pub(crate) struct Toss {
 }
 
 impl Toss {
+    /// The motion of a coin in contact, and what shows it to an observer.
+    #[inline]
+    pub(crate) fn watched<'a, O: Observer>(
+        &'a mut self,
+        units: &'a Units,
+        observer: &'a mut O,
+    ) -> (&'a mut Motion<f64>, &'a mut Spin<f64>, Watch<'a, O>) {
+        let watch = Watch {
+            observer,
+            place: &mut self.place,
+            heads_up: self.heads_up,
+            units,
+        };
+        (&mut self.motion, &mut self.spin, watch)
+    }
+
     /// The launch in the folded frame. A coin that would begin inside the surface is lifted until
     /// it touches.
     pub(crate) fn new(launch: &Launch, units: &Units, body: &Body, axial_factor: f64) -> Self {
