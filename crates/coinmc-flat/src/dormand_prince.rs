@@ -1,6 +1,6 @@
 //! One step of Dormand & Prince's embedded pair of order 5(4), J. Comput. Appl. Math. 6 (1980) 19,
 //! with its continuous extension of order 4 (Hairer, Nørsett & Wanner, *Solving Ordinary
-//! Differential Equations I*, II.6), for impacts that are resolved in time.
+//! Differential Equations I*, II.6).
 
 /// y' = f(y).
 pub(crate) trait System<const N: usize> {
@@ -24,48 +24,18 @@ impl<const N: usize> Step<N> {
     /// A step of length `h` from `y`, where f is `k1`.
     #[inline]
     pub(crate) fn take(system: &impl System<N>, y: &[f64; N], k1: &[f64; N], h: f64) -> Self {
-        let k2 = system.rates(&combine(y, h, [(0.2, k1)]));
-        let k3 = system.rates(&combine(y, h, [(3.0 / 40.0, k1), (9.0 / 40.0, &k2)]));
-        let a4 = [(44.0 / 45.0, k1), (-56.0 / 15.0, &k2), (32.0 / 9.0, &k3)];
-        let k4 = system.rates(&combine(y, h, a4));
-        let a5 = [
-            (19372.0 / 6561.0, k1),
-            (-25360.0 / 2187.0, &k2),
-            (64448.0 / 6561.0, &k3),
-            (-212.0 / 729.0, &k4),
-        ];
-        let k5 = system.rates(&combine(y, h, a5));
-        let a6 = [
-            (9017.0 / 3168.0, k1),
-            (-355.0 / 33.0, &k2),
-            (46732.0 / 5247.0, &k3),
-            (49.0 / 176.0, &k4),
-            (-5103.0 / 18656.0, &k5),
-        ];
-        let k6 = system.rates(&combine(y, h, a6));
-        let order5 = [
-            (35.0 / 384.0, k1),
-            (500.0 / 1113.0, &k3),
-            (125.0 / 192.0, &k4),
-            (-2187.0 / 6784.0, &k5),
-            (11.0 / 84.0, &k6),
-        ];
-        let end = combine(y, h, order5);
+        let stages = stages(|y| Some(system.rates(y)), y, k1, h).expect("f is defined everywhere");
+        let [k3, k4, k5, k6] = &stages.inner;
+        let end = stages.end;
         let k7 = system.rates(&end);
-        let difference = [
-            (71.0 / 57600.0, k1),
-            (-71.0 / 16695.0, &k3),
-            (71.0 / 1920.0, &k4),
-            (-17253.0 / 339_200.0, &k5),
-            (22.0 / 525.0, &k6),
-            (-1.0 / 40.0, &k7),
-        ];
+        let [first, e3, e4, e5, e6] = stages.difference(k1);
+        let difference = [first, e3, e4, e5, e6, (LAST_DIFFERENCE, &k7)];
         let dense = [
             (-12_715_105_075.0 / 11_282_082_432.0, k1),
-            (87_487_479_700.0 / 32_700_410_799.0, &k3),
-            (-10_690_763_975.0 / 1_880_347_072.0, &k4),
-            (701_980_252_875.0 / 199_316_789_632.0, &k5),
-            (-1_453_857_185.0 / 822_651_844.0, &k6),
+            (87_487_479_700.0 / 32_700_410_799.0, k3),
+            (-10_690_763_975.0 / 1_880_347_072.0, k4),
+            (701_980_252_875.0 / 199_316_789_632.0, k5),
+            (-1_453_857_185.0 / 822_651_844.0, k6),
             (69_997_945.0 / 29_380_423.0, &k7),
         ];
         let zero = [0.0; N];
@@ -91,6 +61,72 @@ impl<const N: usize> Step<N> {
     }
 }
 
+/// The stages of a step that later ones or its end are made of, and its end.
+pub(crate) struct Stages<const N: usize> {
+    /// The third to the sixth; the second serves the others only.
+    inner: [[f64; N]; 4],
+    /// The state of order 5.
+    pub(crate) end: [f64; N],
+}
+
+/// The stages of a step of length `h` from `y`, where f is `k1`; `None` if f is, at any of them.
+#[inline]
+pub(crate) fn stages<const N: usize>(
+    rates: impl Fn(&[f64; N]) -> Option<[f64; N]>,
+    y: &[f64; N],
+    k1: &[f64; N],
+    h: f64,
+) -> Option<Stages<N>> {
+    let k2 = rates(&combine(y, h, [(0.2, k1)]))?;
+    let k3 = rates(&combine(y, h, [(3.0 / 40.0, k1), (9.0 / 40.0, &k2)]))?;
+    let a4 = [(44.0 / 45.0, k1), (-56.0 / 15.0, &k2), (32.0 / 9.0, &k3)];
+    let k4 = rates(&combine(y, h, a4))?;
+    let a5 = [
+        (19372.0 / 6561.0, k1),
+        (-25360.0 / 2187.0, &k2),
+        (64448.0 / 6561.0, &k3),
+        (-212.0 / 729.0, &k4),
+    ];
+    let k5 = rates(&combine(y, h, a5))?;
+    let a6 = [
+        (9017.0 / 3168.0, k1),
+        (-355.0 / 33.0, &k2),
+        (46732.0 / 5247.0, &k3),
+        (49.0 / 176.0, &k4),
+        (-5103.0 / 18656.0, &k5),
+    ];
+    let k6 = rates(&combine(y, h, a6))?;
+    let order5 = [
+        (35.0 / 384.0, k1),
+        (500.0 / 1113.0, &k3),
+        (125.0 / 192.0, &k4),
+        (-2187.0 / 6784.0, &k5),
+        (11.0 / 84.0, &k6),
+    ];
+    Some(Stages {
+        end: combine(y, h, order5),
+        inner: [k3, k4, k5, k6],
+    })
+}
+
+/// Weight in the difference of the two orders of f at the step's end, the seventh stage.
+pub(crate) const LAST_DIFFERENCE: f64 = -1.0 / 40.0;
+
+impl<const N: usize> Stages<N> {
+    /// The difference of the two orders but for the share of the seventh stage.
+    #[inline]
+    pub(crate) fn difference<'a>(&'a self, k1: &'a [f64; N]) -> [(f64, &'a [f64; N]); 5] {
+        let [k3, k4, k5, k6] = &self.inner;
+        [
+            (71.0 / 57600.0, k1),
+            (-71.0 / 16695.0, k3),
+            (71.0 / 1920.0, k4),
+            (-17253.0 / 339_200.0, k5),
+            (22.0 / 525.0, k6),
+        ]
+    }
+}
+
 /// By how much the next step may be longer, `error` in units of what is allowed.
 pub(crate) fn growth(error: f64) -> f64 {
     (0.9 * libm::pow(error.max(1e-30), -0.2)).clamp(0.1, 5.0)
@@ -98,7 +134,7 @@ pub(crate) fn growth(error: f64) -> f64 {
 
 /// y + h Σ weight·rates
 #[inline]
-fn combine<const N: usize, const M: usize>(
+pub(crate) fn combine<const N: usize, const M: usize>(
     y: &[f64; N],
     h: f64,
     terms: [(f64, &[f64; N]); M],

@@ -9,6 +9,7 @@
 //! Integrated by Dormand & Prince's embedded pair of order 5(4), J. Comput. Appl. Math. 6 (1980)
 //! 19. Where A → 0 the force that sliding needs grows without bound (Painlevé 1895).
 
+use crate::dormand_prince::{LAST_DIFFERENCE, combine, stages};
 use coinmc_core::trig::sin_cos;
 use std::f64::consts::FRAC_PI_2;
 
@@ -68,42 +69,9 @@ impl Sliding {
     /// the seventh stage.
     #[inline]
     pub(super) fn step(&self, start: &Arrival, h: f64) -> Option<(Slide, Slide)> {
-        let (y, k1) = (&start.state, &start.rates);
-        let k2 = self.rates(&combine(y, h, [(0.2, k1)]))?;
-        let k3 = self.rates(&combine(y, h, [(3.0 / 40.0, k1), (9.0 / 40.0, &k2)]))?;
-        let a4 = [(44.0 / 45.0, k1), (-56.0 / 15.0, &k2), (32.0 / 9.0, &k3)];
-        let k4 = self.rates(&combine(y, h, a4))?;
-        let a5 = [
-            (19372.0 / 6561.0, k1),
-            (-25360.0 / 2187.0, &k2),
-            (64448.0 / 6561.0, &k3),
-            (-212.0 / 729.0, &k4),
-        ];
-        let k5 = self.rates(&combine(y, h, a5))?;
-        let a6 = [
-            (9017.0 / 3168.0, k1),
-            (-355.0 / 33.0, &k2),
-            (46732.0 / 5247.0, &k3),
-            (49.0 / 176.0, &k4),
-            (-5103.0 / 18656.0, &k5),
-        ];
-        let k6 = self.rates(&combine(y, h, a6))?;
-        let order5 = [
-            (35.0 / 384.0, k1),
-            (500.0 / 1113.0, &k3),
-            (125.0 / 192.0, &k4),
-            (-2187.0 / 6784.0, &k5),
-            (11.0 / 84.0, &k6),
-        ];
-        // minus the weights of order 4
-        let difference = [
-            (71.0 / 57600.0, k1),
-            (-71.0 / 16695.0, &k3),
-            (71.0 / 1920.0, &k4),
-            (-17253.0 / 339_200.0, &k5),
-            (22.0 / 525.0, &k6),
-        ];
-        Some((combine(y, h, order5), combine(&[0.0; 4], h, difference)))
+        let stages = stages(|y| self.rates(y), &start.state, &start.rates, h)?;
+        let difference = stages.difference(&start.rates);
+        Some((stages.end, combine(&[0.0; 4], h, difference)))
     }
 
     /// A step with the rates at its end and its relative error.
@@ -111,25 +79,13 @@ impl Sliding {
     pub(super) fn step_with_error(&self, start: &Arrival, h: f64) -> Option<(Arrival, f64)> {
         let (state, partial) = self.step(start, h)?;
         let rates = self.rates(&state)?;
-        let error = combine(&partial, h, [(-1.0 / 40.0, &rates)]);
+        let error = combine(&partial, h, [(LAST_DIFFERENCE, &rates)]);
         let relative = |i: usize| error[i].abs() / (1.0 + state[i].abs());
         Some((
             Arrival { state, rates },
             relative(0).max(relative(1)).max(relative(2)),
         ))
     }
-}
-
-/// y + h Σ weight·rates
-#[inline]
-fn combine<const N: usize>(y: &Slide, h: f64, terms: [(f64, &Slide); N]) -> Slide {
-    std::array::from_fn(|i| {
-        let mut sum = 0.0;
-        for (weight, rates) in terms {
-            sum += weight * rates[i];
-        }
-        y[i] + h * sum
-    })
 }
 
 #[cfg(test)]
