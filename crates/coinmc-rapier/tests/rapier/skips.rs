@@ -44,6 +44,19 @@ fn compare(
     }
 }
 
+impl Difference {
+    /// The mean difference is within five of its standard errors.
+    fn assert_no_bias(&self) {
+        println!("changed {}, steps saved {}", self.changed, self.saved);
+        assert!(
+            self.mean.abs() <= 5.0 * self.error,
+            "{} ± {}",
+            self.mean,
+            self.error
+        );
+    }
+}
+
 /// Whole steps of flight, in a scene where Rapier's own flight has no error but that of its order:
 /// a torque that it need not add.
 #[test]
@@ -59,13 +72,7 @@ fn jumping_whole_steps_of_flight_changes_no_statistics() {
         ..steps
     };
     let found = compare(&scene, Preset::Clean, &steps, &off, 250);
-    println!("changed {}, steps saved {}", found.changed, found.saved);
-    assert!(
-        found.mean.abs() <= 5.0 * found.error,
-        "{} ± {}",
-        found.mean,
-        found.error
-    );
+    found.assert_no_bias();
     assert!(found.saved > 1.2, "{}", found.saved);
 }
 
@@ -84,13 +91,7 @@ fn jumping_flight_changes_no_statistics_of_a_coin_with_gyroscopic_torque() {
         ..steps
     };
     let found = compare(&scene, Preset::Clean, &steps, &off, 150);
-    println!("changed {}, steps saved {}", found.changed, found.saved);
-    assert!(
-        found.mean.abs() <= 5.0 * found.error,
-        "{} ± {}",
-        found.mean,
-        found.error
-    );
+    found.assert_no_bias();
     assert!(found.saved > 5.0, "{}", found.saved);
 }
 
