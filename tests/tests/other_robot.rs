@@ -1,0 +1,64 @@
+//! A robot that speaks another version of the protocol is refused, with what to do about it.
+#![cfg(unix)]
+
+use coinmc_link::{Decoder, Greeting, Reply, Request, State, Version};
+use coinmc_tests::command;
+use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
+use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
+use std::fs::{File, OpenOptions};
+use std::io::{Read, Write};
+use std::thread;
+
+/// Answers every Hello as a robot of protocol 9.1 does, until nobody holds the line.
+fn answer(mut line: File) {
+    let mut decoder = Decoder::new();
+    let mut bytes = [0; 64];
+    while let Ok(count) = line.read(&mut bytes) {
+        for byte in &bytes[..count] {
+            let Some(Ok(frame)) = decoder.push(*byte) else {
+                continue;
+            };
+            assert!(matches!(
+                Request::decode(frame.body),
+                Ok(Request::Hello { .. })
+            ));
+            let greeting = Reply::Hello(Greeting {
+                version: Version { major: 9, minor: 1 },
+                boot: 1,
+                throw_id: 0,
+                state: State::Idle,
+            });
+            let wire = greeting.to_wire(frame.header).expect("a reply fits");
+            line.write_all(wire.as_bytes()).expect("the host listens");
+        }
+    }
+}
+
+#[test]
+fn a_robot_of_another_protocol_version_is_refused() {
+    let line = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).expect("a pseudo-terminal");
+    grantpt(&line).expect("it is ours");
+    unlockpt(&line).expect("it is ours");
+    let name = ptsname(&line, Vec::new()).expect("it has a name");
+    let name = name.into_string().expect("in ASCII");
+    // held, so that the line is there before the host and until it has gone
+    let port = OpenOptions::new().read(true).write(true).open(&name);
+    let port = port.expect("it opens");
+    let mut settings = tcgetattr(&port).expect("a terminal");
+    settings.make_raw();
+    tcsetattr(&port, OptionalActions::Now, &settings).expect("a terminal");
+    let robot = thread::spawn(move || answer(line.into()));
+
+    let dir = tempfile::tempdir().expect("a temporary directory");
+    let output = command(dir.path())
+        .args(["robot", "status", "--port", &name])
+        .output()
+        .expect("it starts");
+    drop(port);
+    robot.join().expect("the host says Hello and no more");
+    let text = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{text}");
+    for word in ["9.1", "1.0", "firmware"] {
+        assert!(text.contains(word), "`{word}` is not in:\n{text}");
+    }
+}
