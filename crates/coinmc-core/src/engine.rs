@@ -2,7 +2,7 @@
 
 use crate::{Launch, LaunchDistribution, Outcome, Scene, Stream, Tally};
 use nalgebra::{UnitVector3, Vector3};
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 
 /// Turns launches into outcomes.
 ///
@@ -22,6 +22,23 @@ pub trait Engine: Sync {
         launch: &Launch,
         observer: &mut impl Observer,
     ) -> Outcome;
+
+    /// Follows many tosses and hands on the outcome of each, in any order, until `each` breaks off.
+    ///
+    /// One after the other, unless the engine is faster with several at a time. Every outcome is
+    /// that of [`Engine::toss`].
+    fn toss_all(
+        &self,
+        workspace: &mut Self::Workspace,
+        launches: impl Iterator<Item = Launch>,
+        mut each: impl FnMut(&Outcome) -> ControlFlow<()>,
+    ) {
+        for launch in launches {
+            if each(&self.toss(workspace, &launch, &mut ())).is_break() {
+                return;
+            }
+        }
+    }
 }
 
 /// The coin's state at an instant, in the laboratory frame.
@@ -170,6 +187,22 @@ impl Observer for () {
     fn event(&mut self, _: &Event) {}
 }
 
+impl<O: Observer> Observer for &mut O {
+    const ACTIVE: bool = O::ACTIVE;
+
+    fn event(&mut self, event: &Event) {
+        (**self).event(event);
+    }
+
+    fn wants_at_s(&self) -> f64 {
+        (**self).wants_at_s()
+    }
+
+    fn sample(&mut self, state: &State) {
+        (**self).sample(state);
+    }
+}
+
 /// Tosses number `tosses.start .. tosses.end` of a stream, tallied: the inner loop of every run.
 ///
 /// Toss k is the same toss whatever the range around it, so tallies of disjoint ranges merge to
@@ -183,9 +216,10 @@ pub fn run_tosses<E: Engine>(
     tosses: Range<u64>,
 ) -> Tally {
     let mut tally = Tally::default();
-    for toss in tosses {
-        let launch = launches.launch(&scene.coin, &mut stream.toss(toss));
-        tally.add(&engine.toss(workspace, &launch, &mut ()));
-    }
+    let launches = tosses.map(|toss| launches.launch(&scene.coin, &mut stream.toss(toss)));
+    engine.toss_all(workspace, launches, |outcome| {
+        tally.add(outcome);
+        ControlFlow::Continue(())
+    });
     tally
 }

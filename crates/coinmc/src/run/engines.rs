@@ -5,11 +5,11 @@
 //! for it.
 
 use crate::plan::{EngineChoice, Plan, Point};
-use coinmc_core::{Domain, Ended, Engine, Face, Launch, Outcome, Stream, Tally, run_tosses};
+use coinmc_core::{Domain, Ended, Engine, Face, Launch, Outcome, Stream, Tally};
 use coinmc_flat::AnyFlatEngine;
 use coinmc_rapier::RapierEngine;
 use coinmc_volumetric::AnyVolumetricEngine;
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 use thiserror::Error;
 
 /// An engine refuses its settings.
@@ -108,8 +108,8 @@ pub fn toss(point: &Point, launch: &Launch) -> Result<Outcome, SettingsError> {
     }))
 }
 
-/// The random numbers of a point's launches.
-pub(crate) fn stream(plan: &Plan, point: usize) -> Stream {
+/// The random numbers of the launches of point `point`.
+pub fn stream(plan: &Plan, point: usize) -> Stream {
     let point = if plan.paired { 0 } else { point as u64 };
     Stream::new(plan.seed, Domain::Launch, point)
 }
@@ -143,28 +143,27 @@ impl<F: Fn() -> bool> Task for Count<'_, F> {
     type Output = Option<Tally>;
 
     fn with<E: Engine>(self, engine: &E) -> Option<Tally> {
-        let mut workspace = engine.workspace();
-        let mut tally = Tally::default();
-        let mut start = self.tosses.start;
+        let Point {
+            scene, launches, ..
+        } = self.point;
+        let wanted = self.tosses.end.saturating_sub(self.tosses.start);
         let batch = match self.point.engine {
             EngineChoice::Rapier(_) => STEPPED_BATCH,
             _ => BATCH,
         };
-        while start < self.tosses.end {
-            if !(self.go_on)() {
-                return None;
-            }
-            let end = self.tosses.end.min(start.saturating_add(batch));
-            tally.merge(&run_tosses(
-                engine,
-                &mut workspace,
-                &self.point.scene,
-                &self.point.launches,
-                &self.stream,
-                start..end,
-            ));
-            start = end;
+        let launch = |toss| launches.launch(&scene.coin, &mut self.stream.toss(toss));
+        let mut tally = Tally::default();
+        if (self.go_on)() {
+            let tosses = self.tosses.map(launch);
+            engine.toss_all(&mut engine.workspace(), tosses, |outcome| {
+                tally.add(outcome);
+                if tally.tosses() % batch == 0 && !(self.go_on)() {
+                    ControlFlow::Break(())
+                } else {
+                    ControlFlow::Continue(())
+                }
+            });
         }
-        Some(tally)
+        (tally.tosses() == wanted).then_some(tally)
     }
 }
