@@ -1,17 +1,48 @@
 //! The toss in flight: to the next contact, and at the instants before it that an observer wants.
 
-use crate::contact::Contact;
+use crate::contact::{Contact, Law};
 use crate::engine::VolumetricEngine;
-use crate::flight::{Departure, Orbit, first_contact};
+use crate::flight::{Departure, Orbit, first_contact, least_time};
 use crate::impact::ImpactLaw;
+use crate::lane::Lane;
+use crate::motion::{Motion, Spin};
 use crate::toss::Toss;
 use coinmc_core::{Observer, sample_between};
 
-/// A short time against every motion of the coin, times its fastest rate: a point that parts from
-/// the surface by acceleration is followed from there.
-const PARTING: f64 = 1e-4;
-/// The same for one that was thrown back.
-const THROWN: f64 = 1e-12;
+/// The coin where a flight has ended.
+pub(crate) struct Landed<L: Lane> {
+    pub(crate) motion: Motion<L>,
+    pub(crate) spin: Spin<L>,
+    /// The new frame's x axis in that of the flight.
+    heading: [L; 2],
+    /// The other face is up.
+    pub(crate) reflected: L::Mask,
+}
+
+/// The end, at `time` of the orbit, of a flight that began with `motion` and the axial spin
+/// `axial`.
+#[inline(always)]
+pub(crate) fn land<L: Lane>(
+    law: &Law,
+    orbit: &Orbit<L>,
+    motion: &Motion<L>,
+    axial: L,
+    time: L,
+) -> Landed<L> {
+    let (mut motion, heading, reflected) = orbit.land(motion, &law.body, time);
+    // ω_a is the integral of motion that rounding of u would blur: it is I_t/I_a times Ω_a
+    let axial = axial * orbit.spin_left(time);
+    let mut spin = motion.spin(law.axial_factor);
+    spin.axial = L::select(reflected, -axial, axial);
+    motion.set_spin(&spin, law.axial_factor);
+    Landed {
+        motion,
+        spin,
+        heading,
+        reflected,
+    }
+}
+
 impl<L: ImpactLaw> VolumetricEngine<L> {
     /// Flies to the next contact; `false` if the search for it was lost.
     #[inline]
@@ -25,7 +56,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
     ) -> bool {
         let law = &self.contact;
         let mut orbit = Orbit::new(&toss.motion, law.drag);
-        let least = if parting { PARTING } else { THROWN } / orbit.fastest(&toss.motion);
+        let least = least_time(&orbit, &toss.motion, parting);
         let whole = orbit;
         let found = first_contact(&mut orbit, &law.body, departure, least);
         if found.lost {
@@ -39,18 +70,14 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
             let (dx, dy) = orbit.drift(&toss.motion, took);
             toss.place.shift(dx, dy);
         }
-        let (motion, [nx, ny], reflected) = orbit.land(&toss.motion, &law.body, found.time);
-        toss.motion = motion;
-        // ω_a is the integral of motion that rounding of u would blur: it is I_t/I_a times Ω_a
-        let axial = toss.spin.axial * orbit.spin_left(found.time);
-        toss.spin = motion.spin(law.axial_factor);
-        toss.spin.axial = if reflected { -axial } else { axial };
-        toss.motion.set_spin(&toss.spin, law.axial_factor);
-        toss.heads_up ^= reflected;
-        contact.time += took;
+        let landed = land(law, &orbit, &toss.motion, toss.spin.axial, found.time);
+        (toss.motion, toss.spin) = (landed.motion, landed.spin);
+        toss.heads_up ^= landed.reflected;
+        contact.spent.time += took;
         if O::ACTIVE {
+            let [nx, ny] = landed.heading;
             toss.place.align(nx, ny);
-            toss.place.time = contact.time;
+            toss.place.time = contact.spent.time;
         }
         true
     }

@@ -1,9 +1,11 @@
 //! The toss: flight, impact, sustained contact, decision.
 
+use crate::batch;
 use crate::body::{Body, Friction, Units};
-use crate::contact::{self, Contact, Leave};
+use crate::contact::{self, Contact, Leave, Spent};
 use crate::flight::{Departure, Drag};
 use crate::impact::{ChatterjeeRuina, ImpactLaw, Moreau, Stronge};
+use crate::lane::{Lanes, NoSuchLanes};
 use crate::rest;
 use crate::settings::{Decision, Law, Settings, SettingsError};
 use crate::toss::Toss;
@@ -11,6 +13,7 @@ use crate::verdict::{Judge, Verdict};
 use coinmc_core::{
     Breaks, Ended, Engine, Event, EventKind, Face, Landing, Launch, Observer, Outcome, Scene,
 };
+use std::ops::ControlFlow;
 
 /// Follows tosses of one scene under one law of impact.
 ///
@@ -31,33 +34,31 @@ use coinmc_core::{
 /// ```
 #[derive(Debug, Clone)]
 pub struct VolumetricEngine<L> {
-    impact: L,
+    pub(crate) impact: L,
     pub(crate) settings: Settings,
     pub(crate) units: Units,
     pub(crate) contact: contact::Law,
-    judge: Judge,
+    pub(crate) judge: Judge,
     /// [`Settings::tolerance`], in sqrt(g D).
-    tolerance: f64,
-    restitution: f64,
+    pub(crate) tolerance: f64,
+    pub(crate) restitution: f64,
     /// Approach below which e = 0, in sqrt(g D).
-    threshold: f64,
-    landing: Landing,
+    pub(crate) threshold: f64,
+    pub(crate) landing: Landing,
+    pub(crate) lanes: Lanes,
     /// Nothing is ever lost.
     conserves: bool,
 }
 
-/// What follows an impact.
-enum After {
-    /// Flight; `true` if the contact point parts by its acceleration alone.
-    Flight(bool),
-    /// Sustained contact.
-    Contact,
-}
-
-/// What follows sustained contact.
+/// What follows an impact or sustained contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Onward {
-    Fly,
+    /// Flight; `true` if the contact point parts by its acceleration alone.
+    Fly(bool),
+    /// Impact of the lowest point.
     Strike,
+    /// Sustained contact of the lowest point.
+    Sustain,
     End(Ended),
 }
 
@@ -133,8 +134,36 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
             restitution,
             threshold,
             landing: scene.surface.landing(),
+            lanes: Lanes::best(),
             conserves: judge.conserves(restitution) && threshold == 0.0,
         })
+    }
+
+    /// The same with these lanes instead of [`Lanes::best`], for [`Engine::toss_all`].
+    ///
+    /// # Errors
+    /// [`NoSuchLanes`] if this processor has no such instructions.
+    ///
+    /// # Example
+    /// ```
+    /// use coinmc_core::{Coin, Scene, Surface};
+    /// use coinmc_volumetric::{Lanes, Moreau, Settings, VolumetricEngine};
+    /// let scene = Scene::new(Coin::cylinder(0.85, 0.01)?, Surface::new(0.5, 0.3)?, 9.81)?;
+    /// let engine = VolumetricEngine::new(&scene, &Settings::default(), Moreau)?;
+    /// assert_eq!(engine.with_lanes(Lanes::Portable)?.lanes(), Lanes::Portable);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn with_lanes(mut self, lanes: Lanes) -> Result<Self, NoSuchLanes> {
+        if !lanes.is_available() {
+            return Err(NoSuchLanes(lanes));
+        }
+        self.lanes = lanes;
+        Ok(self)
+    }
+
+    /// The lanes of [`Engine::toss_all`].
+    pub fn lanes(&self) -> Lanes {
+        self.lanes
     }
 
     /// Runs the toss to its end.
@@ -150,12 +179,11 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
             if !self.fly(toss, contact, departure, parting, observer) {
                 return self.lost(toss);
             }
-            if contact.time > self.settings.time_limit {
+            if contact.spent.time > self.settings.time_limit {
                 return Ended::TimeLimit;
             }
             if self.landing == Landing::Adhesive {
-                let side = self.judge.on_side(&toss.motion);
-                return decided(if side { Verdict::Side } else { Verdict::Face }, toss);
+                return self.stuck(toss);
             }
             departure = Departure::Leaving;
             match self.bounce(toss, contact, observer) {
@@ -165,6 +193,12 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         }
     }
 
+    /// Where a surface lets go of nothing.
+    pub(crate) fn stuck(&self, toss: &Toss) -> Ended {
+        let side = self.judge.on_side(&toss.motion);
+        decided(if side { Verdict::Side } else { Verdict::Face }, toss)
+    }
+
     /// Impacts and sustained contact until the coin flies again (`Ok`) or the toss ends.
     fn bounce<O: Observer>(
         &self,
@@ -172,86 +206,77 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         contact: &mut Contact<'_>,
         observer: &mut O,
     ) -> Result<bool, Ended> {
-        let mut in_turn = 0;
+        toss.in_turn = 0;
         loop {
-            if toss.impacts == self.settings.max_impacts {
-                return Err(Ended::ImpactLimit);
+            let mut onward = self.impact(toss, contact, observer);
+            if onward == Onward::Sustain {
+                onward = self.sustain(toss, contact, observer);
             }
-            toss.impacts += 1;
-            toss.level(self.contact.axial_factor);
-            self.notify(toss, EventKind::Touching, observer);
-            let after = self.strike(toss);
-            self.notify(toss, EventKind::Impact, observer);
-            let verdict = self.judge.verdict(&toss.motion, &toss.spin);
-            if verdict != Verdict::Open {
-                return Err(decided(verdict, toss));
-            }
-            let onward = if self.rocks_out(toss) || in_turn > ALTERNATIONS {
-                self.lie(toss, contact, observer)
-            } else if self.stands(toss) {
-                self.trip(toss, contact, observer)
-            } else if self.other_rim_approaches(toss) {
-                toss.change_rim();
-                in_turn += 1;
-                continue;
-            } else if self.comes_down_level(toss) {
-                continue;
-            } else {
-                match after {
-                    After::Flight(parting) => return Ok(parting),
-                    After::Contact => self.sustain(toss, contact, observer),
-                }
-            };
-            in_turn = 0;
             match onward {
-                Onward::Fly => return Ok(true),
-                Onward::Strike => {}
+                Onward::Fly(parting) => return Ok(parting),
+                Onward::Strike | Onward::Sustain => {}
                 Onward::End(ended) => return Err(ended),
             }
         }
     }
 
-    /// The impact of the lowest point, or, if the bounces that remain would all be over before the
-    /// coin has turned noticeably, the end of them all at once.
-    #[inline]
-    fn strike(&self, toss: &mut Toss) -> After {
-        let law = &self.contact;
-        let (body, friction) = (&law.body, &law.friction);
-        let before = toss.motion.energy(body, &toss.spin);
-        let mut touch = toss.motion.touch(body, &toss.spin);
-        // a point that is swapped in may leave already, by rounding
-        touch.approach = touch.approach.min(0.0);
-        let speed = -touch.approach;
-        let e = if speed < self.threshold {
-            0.0
-        } else {
-            self.restitution
-        };
-        // the bounces that remain take 2 e v/(a(1 − e)), a the acceleration that closes the gap
-        let rest = 2.0 * e * speed;
-        let quick = self.settings.zeno * (1.0 - e);
-        if rest < quick * (2.0 + 2.0 * law.uplift(&toss.motion, &toss.spin)) || e == 0.0 {
-            let p = self.impact.impulse(body, friction, &touch, 0.0);
-            let (mut motion, mut spin) = (toss.motion, toss.spin);
-            motion.strike(&mut spin, body, &touch, p);
-            motion.cap_energy(body, &mut spin, before);
-            let press = law.press(&motion, &spin);
-            let ends = press > 0.0 && rest * contact::fastest(&motion, &spin) < quick * press;
-            if ends || e == 0.0 {
-                motion.set_spin(&spin, law.axial_factor);
-                (toss.motion, toss.spin) = (motion, spin);
-                return if ends {
-                    After::Contact
-                } else {
-                    After::Flight(true)
-                };
-            }
+    /// One impact of the lowest point.
+    pub(crate) fn impact<O: Observer>(
+        &self,
+        toss: &mut Toss,
+        contact: &mut Contact<'_>,
+        observer: &mut O,
+    ) -> Onward {
+        if toss.impacts == self.settings.max_impacts {
+            return Onward::End(Ended::ImpactLimit);
         }
-        let p = self.impact.impulse(body, friction, &touch, e);
-        toss.motion.strike(&mut toss.spin, body, &touch, p);
-        toss.motion.cap_energy(body, &mut toss.spin, before);
-        toss.motion.set_spin(&toss.spin, law.axial_factor);
-        After::Flight(false)
+        toss.impacts += 1;
+        toss.level(self.contact.axial_factor);
+        self.notify(toss, EventKind::Touching, observer);
+        let mut struck = self.strike(&toss.motion, &toss.spin, true);
+        if struck.again {
+            struck = self.strike(&toss.motion, &toss.spin, false);
+        }
+        (toss.motion, toss.spin) = (struck.motion, struck.spin);
+        self.notify(toss, EventKind::Impact, observer);
+        let verdict = self.judge.verdict(&toss.motion, &toss.spin);
+        if verdict != Verdict::Open {
+            return Onward::End(decided(verdict, toss));
+        }
+        let after = if struck.sustains {
+            Onward::Sustain
+        } else {
+            Onward::Fly(struck.parts)
+        };
+        self.after_impact(toss, after, contact, observer)
+    }
+
+    /// What follows an impact that leaves the face open: `after`, unless the coin comes to lie, to
+    /// stand, or comes down elsewhere at once.
+    #[inline]
+    pub(crate) fn after_impact<O: Observer>(
+        &self,
+        toss: &mut Toss,
+        after: Onward,
+        contact: &mut Contact<'_>,
+        observer: &mut O,
+    ) -> Onward {
+        if self.rocks_out(toss) || toss.in_turn > ALTERNATIONS {
+            toss.in_turn = 0;
+            self.lie(toss, contact, observer)
+        } else if self.stands(toss) {
+            toss.in_turn = 0;
+            self.trip(toss)
+        } else if self.other_rim_approaches(toss) {
+            toss.change_rim();
+            toss.in_turn += 1;
+            Onward::Strike
+        } else if self.comes_down_level(toss) {
+            Onward::Strike
+        } else {
+            toss.in_turn = 0;
+            after
+        }
     }
 
     /// Whether the coin, exactly on its side, goes on to the other rim rather than up.
@@ -286,7 +311,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
 
     pub(crate) fn onward(&self, toss: &mut Toss, leave: Leave) -> Onward {
         match leave {
-            Leave::LiftOff => return Onward::Fly,
+            Leave::LiftOff => return Onward::Fly(true),
             Leave::OtherRim => {
                 toss.motion.lay_down();
                 toss.change_rim();
@@ -305,7 +330,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
 
     /// A toss that is given up: out of work, which counts as the limit of impacts whatever kind of
     /// work it was, or no longer a number.
-    fn lost(&self, toss: &Toss) -> Ended {
+    pub(crate) fn lost(&self, toss: &Toss) -> Ended {
         let energy = toss.motion.energy(&self.contact.body, &toss.spin);
         if energy.is_finite() {
             Ended::ImpactLimit
@@ -323,39 +348,72 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         }
     }
 
-    fn run<O: Observer>(&self, launch: &Launch, observer: &mut O) -> Outcome {
+    pub(crate) fn run<O: Observer>(&self, launch: &Launch, observer: &mut O) -> Finished {
+        let mut toss = self.launched(launch);
+        let mut contact = self.contact_of(Spent::default());
+        self.notify(&toss, EventKind::Launched, observer);
+        let ended = match self.ends_at_launch(&toss, launch) {
+            Some(ended) => ended,
+            None => self.follow(&mut toss, &mut contact, observer),
+        };
+        self.notify(&toss, EventKind::Ended, observer);
+        Finished::new(ended, &toss, &contact.spent)
+    }
+
+    /// The toss at its launch.
+    pub(crate) fn launched(&self, launch: &Launch) -> Toss {
         let law = &self.contact;
-        let mut toss = Toss::new(launch, &self.units, &law.body, law.axial_factor);
-        let mut contact = Contact {
-            law,
+        Toss::new(launch, &self.units, &law.body, law.axial_factor)
+    }
+
+    /// How a toss ends that is not followed at all.
+    pub(crate) fn ends_at_launch(&self, toss: &Toss, launch: &Launch) -> Option<Ended> {
+        let energy = toss.motion.energy(&self.contact.body, &toss.spin);
+        let verdict = self.judge.verdict(&toss.motion, &toss.spin);
+        if !(energy.is_finite() && is_finite(launch)) {
+            Some(Ended::Failed)
+        } else if self.landing == Landing::Adhesive {
+            None
+        } else if verdict != Verdict::Open {
+            Some(decided(verdict, toss))
+        } else {
+            self.conserves.then_some(Ended::Endless)
+        }
+    }
+
+    /// Contact of a toss on which so much is spent.
+    #[inline]
+    pub(crate) fn contact_of(&self, spent: Spent) -> Contact<'_> {
+        Contact {
+            law: &self.contact,
             judge: &self.judge,
             settings: &self.settings,
             tolerance: self.tolerance,
-            steps: 0,
-            jams: 0,
-            time: 0.0,
-        };
-        self.notify(&toss, EventKind::Launched, observer);
-        let energy = toss.motion.energy(&law.body, &toss.spin);
-        let verdict = self.judge.verdict(&toss.motion, &toss.spin);
-        let ended = if !(energy.is_finite() && is_finite(launch)) {
-            Ended::Failed
-        } else if self.landing == Landing::Bouncing && verdict != Verdict::Open {
-            decided(verdict, &toss)
-        } else if self.landing == Landing::Bouncing && self.conserves {
-            Ended::Endless
-        } else {
-            self.follow(&mut toss, &mut contact, observer)
-        };
-        self.notify(&toss, EventKind::Ended, observer);
-        Outcome {
+            spent,
+        }
+    }
+}
+
+/// A toss that has ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Finished {
+    pub(crate) outcome: Outcome,
+    /// Time since launch.
+    pub(crate) time: f64,
+}
+
+impl Finished {
+    pub(crate) fn new(ended: Ended, toss: &Toss, spent: &Spent) -> Self {
+        let outcome = Outcome {
             ended,
             impacts: toss.impacts,
-            contact_steps: contact.steps,
-            jams: contact.jams,
+            contact_steps: spent.steps,
+            jams: spent.jams,
             overruled: false,
             breaks: Breaks::default(),
-        }
+        };
+        let time = spent.time;
+        Self { outcome, time }
     }
 }
 
@@ -375,7 +433,7 @@ fn approaches(up: f64, down: f64) -> bool {
     up - down < -1e-13 * (up.abs() + down.abs())
 }
 
-fn decided(verdict: Verdict, toss: &Toss) -> Ended {
+pub(crate) fn decided(verdict: Verdict, toss: &Toss) -> Ended {
     Ended::Decided(if verdict == Verdict::Side {
         Face::Side
     } else {
@@ -389,6 +447,15 @@ impl<L: ImpactLaw> Engine for VolumetricEngine<L> {
     fn workspace(&self) {}
 
     fn toss(&self, (): &mut (), launch: &Launch, observer: &mut impl Observer) -> Outcome {
-        self.run(launch, observer)
+        self.run(launch, observer).outcome
+    }
+
+    fn toss_all(
+        &self,
+        (): &mut (),
+        mut launches: impl Iterator<Item = Launch>,
+        mut each: impl FnMut(&Outcome) -> ControlFlow<()>,
+    ) {
+        batch::toss_all(self, &mut launches, &mut |_, toss| each(&toss.outcome));
     }
 }

@@ -3,7 +3,8 @@
 //! Flight, impact and contact are written once, over [`Lane`]. A lane offers only what IEEE 754
 //! fixes to the last bit (no fused operations, no library functions), and a choice made by a
 //! comparison is a [`select`](Lane::select): so the number of lanes changes the speed and nothing
-//! else. With `f64` as the lane, masks are `bool` and selects compile to moves or branches.
+//! else. With `f64` as the lane, masks are `bool` and selects compile to moves or branches; with
+//! one of the [`wide`] kinds, eight tosses go side by side.
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, MulAssign, Neg, Not, Sub, SubAssign};
@@ -32,14 +33,23 @@ pub trait Lane:
     fn abs(self) -> Self;
     /// The magnitude of `self` with the sign of `sign`.
     fn copysign(self, sign: Self) -> Self;
-    /// The nearest integer, ties to even.
-    fn round(self) -> Self;
     /// self < other; false where either is not a number.
     fn lt(self, other: Self) -> Self::Mask;
     /// self <= other; false where either is not a number.
     fn le(self, other: Self) -> Self::Mask;
     /// `yes` where the mask is set, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+
+    /// The nearest integer, ties to even.
+    #[inline(always)]
+    fn round(self) -> Self {
+        // Adding 3·2^51 leaves no digits after the point; exact for |self| < 2^51, and without
+        // SSE 4.1 much faster than a call of the library's round.
+        const SHIFT: f64 = 6_755_399_441_055_744.0;
+        let shift = Self::splat(SHIFT);
+        let near = self.abs().lt(Self::splat(2_251_799_813_685_248.0));
+        Self::select(near, (self + shift) - shift, self)
+    }
 
     /// The smaller; `other` where `self` is not a number.
     #[inline(always)]
@@ -95,17 +105,6 @@ impl Lane for f64 {
         f64::copysign(self, sign)
     }
     #[inline(always)]
-    fn round(self) -> Self {
-        // Adding 3·2^51 leaves no digits after the point; exact for |self| < 2^51, and without
-        // SSE 4.1 much faster than a call of the library's round.
-        const SHIFT: f64 = 6_755_399_441_055_744.0;
-        if self.abs() < 2_251_799_813_685_248.0 {
-            (self + SHIFT) - SHIFT
-        } else {
-            self
-        }
-    }
-    #[inline(always)]
     fn lt(self, other: Self) -> bool {
         self < other
     }
@@ -119,5 +118,15 @@ impl Lane for f64 {
     }
 }
 
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
 #[cfg(test)]
 pub(crate) mod four;
+mod lanes;
+mod operators;
+mod portable;
+pub(crate) mod wide;
+
+pub use lanes::{Lanes, NoSuchLanes};

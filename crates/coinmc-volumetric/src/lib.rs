@@ -34,11 +34,12 @@
 //! `body` shape, friction, units · `motion` state and frame · `flight` orbit and first contact ·
 //! `aloft` the toss in flight · `impact` laws, friction lengths, tangential impact · `contact` on a
 //! rim point and on the side · `rest` lying, standing, tripping · `verdict` when the face is
-//! settled · `toss` one toss and its place in the laboratory · `engine` their order · `watch` what
-//! an observer is shown of contact · `settings` choices · `lane` and `series` arithmetic of the
-//! kernels.
+//! settled · `toss` one toss and its place in the laboratory · `strike` one impact · `engine` their
+//! order · `batch` many tosses side by side · `watch` what an observer is shown of contact ·
+//! `settings` choices · `lane` and `series` arithmetic of the kernels.
 
 mod aloft;
+mod batch;
 mod body;
 mod contact;
 mod engine;
@@ -49,6 +50,7 @@ mod motion;
 mod rest;
 mod series;
 mod settings;
+mod strike;
 mod toss;
 mod verdict;
 mod watch;
@@ -58,5 +60,5 @@ pub use engine::{AnyVolumetricEngine, VolumetricEngine};
 pub use impact::{
     ChatterjeeRuina, ContactMatrix, ImpactLaw, Impulse, Kick, Moreau, Stronge, Touch,
 };
-pub use lane::{Lane, Mask};
+pub use lane::{Lane, Lanes, Mask, NoSuchLanes};
 pub use settings::{Decision, Law, Settings, SettingsError};

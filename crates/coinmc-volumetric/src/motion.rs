@@ -49,7 +49,64 @@ pub(crate) struct Spin<L> {
 /// Least sine of the tilt: the frame needs a direction to lean to, and quotients by s stay finite.
 pub(crate) const LEAST_SIN: f64 = 1e-18;
 
+impl<T: Copy> Motion<T> {
+    /// All numbers, for memory.
+    #[inline(always)]
+    pub(crate) fn numbers(&self) -> [T; 9] {
+        [
+            self.sin, self.cos, self.ox, self.oy, self.oz, self.vx, self.vy, self.vz, self.z,
+        ]
+    }
+
+    /// The motion of [`numbers`](Self::numbers).
+    #[inline(always)]
+    pub(crate) fn of(numbers: &[T; 9]) -> Self {
+        let [sin, cos, ox, oy, oz, vx, vy, vz, z] = *numbers;
+        Self {
+            sin,
+            cos,
+            ox,
+            oy,
+            oz,
+            vx,
+            vy,
+            vz,
+            z,
+        }
+    }
+}
+
+impl<T: Copy> Spin<T> {
+    /// All numbers, for memory.
+    #[inline(always)]
+    pub(crate) fn numbers(&self) -> [T; 3] {
+        [self.axial, self.turn, self.tilt]
+    }
+
+    /// The angular velocity of [`numbers`](Self::numbers).
+    #[inline(always)]
+    pub(crate) fn of(&[axial, turn, tilt]: &[T; 3]) -> Self {
+        Self { axial, turn, tilt }
+    }
+}
+
+/// [`Lane::select`] of several.
+#[inline(always)]
+fn select_all<L: Lane, const N: usize>(mask: L::Mask, yes: &[L; N], no: &[L; N]) -> [L; N] {
+    let mut chosen = *no;
+    for (chosen, yes) in chosen.iter_mut().zip(yes) {
+        *chosen = L::select(mask, *yes, *chosen);
+    }
+    chosen
+}
+
 impl<L: Lane> Spin<L> {
+    /// `yes` where the mask is set, else `no`.
+    #[inline(always)]
+    pub(crate) fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self {
+        Self::of(&select_all(mask, &yes.numbers(), &no.numbers()))
+    }
+
     pub(crate) fn still() -> Self {
         let zero = L::splat(0.0);
         Self {
@@ -61,6 +118,12 @@ impl<L: Lane> Spin<L> {
 }
 
 impl<L: Lane> Motion<L> {
+    /// `yes` where the mask is set, else `no`.
+    #[inline(always)]
+    pub(crate) fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self {
+        Self::of(&select_all(mask, &yes.numbers(), &no.numbers()))
+    }
+
     pub(crate) fn still() -> Self {
         let zero = L::splat(0.0);
         Self {

@@ -34,7 +34,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
                 if !this_rim {
                     toss.change_rim();
                 }
-                self.sustain(toss, contact, observer)
+                Onward::Sustain
             }
             Err(leave) => self.onward(toss, leave),
         }
@@ -54,12 +54,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
     /// A coin that stands on its face and slides: friction at the leading point tips it where
     /// μ n_x h > R, n the slip there. Elsewhere the face counts as decided: for certain with
     /// μh <= R, nearly so beyond, as n_x may grow where sliding and spinning die away together.
-    pub(crate) fn trip<O: Observer>(
-        &self,
-        toss: &mut Toss,
-        contact: &mut Contact<'_>,
-        observer: &mut O,
-    ) -> Onward {
+    pub(crate) fn trip(&self, toss: &mut Toss) -> Onward {
         let body = &self.contact.body;
         let m = &mut toss.motion;
         let speed = (m.vx * m.vx + m.vy * m.vy).sqrt();
@@ -78,6 +73,6 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         m.cap_energy(body, &mut toss.spin, before);
         m.set_spin(&toss.spin, self.contact.axial_factor);
         toss.place.align(nx, ny);
-        self.sustain(toss, contact, observer)
+        Onward::Sustain
     }
 }

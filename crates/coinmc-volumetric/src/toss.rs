@@ -83,6 +83,8 @@ pub(crate) struct Toss {
     /// Whether u is up in the folded frame, −u otherwise.
     pub(crate) heads_up: bool,
     pub(crate) impacts: u32,
+    /// Impacts of one rim and the other, in turn, since the last flight.
+    pub(crate) in_turn: u32,
     pub(crate) place: Place,
 }
 
@@ -101,6 +103,22 @@ impl Toss {
             units,
         };
         (&mut self.motion, &mut self.spin, watch)
+    }
+
+    /// No toss yet.
+    pub(crate) fn still() -> Self {
+        Self {
+            motion: Motion::still(),
+            spin: Spin::still(),
+            heads_up: true,
+            impacts: 0,
+            in_turn: 0,
+            place: Place {
+                heading: [1.0, 0.0],
+                position: [0.0; 2],
+                time: 0.0,
+            },
+        }
     }
 
     /// The launch in the folded frame. A coin that would begin inside the surface is lifted until
@@ -139,6 +157,7 @@ impl Toss {
             spin,
             heads_up,
             impacts: 0,
+            in_turn: 0,
             place: Place {
                 heading: [nx, ny],
                 position: [0.0; 2],
@@ -156,11 +175,16 @@ impl Toss {
         }
     }
 
+    /// Whether the coin is all but level.
+    pub(crate) fn is_level(&self) -> bool {
+        self.motion.sin <= FLAT
+    }
+
     /// For a coin that is all but level, every point of the lower rim is at the surface. Turns the
     /// frame to the one that is coming down: where u tilts to, u' = (ω_y, −ω_θ). Whether the coin
     /// is that level.
     pub(crate) fn level(&mut self, axial_factor: f64) -> bool {
-        if self.motion.sin > FLAT {
+        if !self.is_level() {
             return false;
         }
         let (x, y) = (self.spin.tilt, -self.spin.turn);

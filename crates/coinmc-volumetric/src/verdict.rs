@@ -29,6 +29,7 @@
 //! cannot be passed with less than 1 plus that. This is exact for any e, in flight and in contact.
 
 use crate::body::{Body, Friction};
+use crate::lane::{Lane, Mask};
 use crate::motion::{Motion, Spin};
 
 /// What is known of a toss.
@@ -89,54 +90,76 @@ impl Judge {
     }
 
     /// Whether the coin leans towards its side.
-    #[inline]
-    pub(crate) fn on_side(&self, m: &Motion<f64>) -> bool {
-        m.cos < self.body.half
+    #[inline(always)]
+    pub(crate) fn on_side<L: Lane>(&self, m: &Motion<L>) -> L::Mask {
+        m.cos.lt(L::splat(self.body.half))
     }
 
     #[inline]
     pub(crate) fn verdict(&self, m: &Motion<f64>, spin: &Spin<f64>) -> Verdict {
+        if !self.settles(m, spin) {
+            Verdict::Open
+        } else if self.on_side(m) {
+            Verdict::Side
+        } else {
+            Verdict::Face
+        }
+    }
+
+    /// Whether the face is settled.
+    #[inline(always)]
+    pub(crate) fn settles<L: Lane>(&self, m: &Motion<L>, spin: &Spin<L>) -> L::Mask {
+        let (one, half) = (L::splat(1.0), L::splat(0.5));
         let mut energy = m.energy(&self.body, spin);
-        let sliding = 0.5 * (m.vx * m.vx + m.vy * m.vy);
+        let sliding = half * (m.vx * m.vx + m.vy * m.vy);
         if self.slides {
             energy -= sliding;
         }
+        let mut settled = energy.lt(one);
+        if !(!settled).any() {
+            return settled;
+        }
         let side = self.on_side(m);
-        let settled = if side { Verdict::Side } else { Verdict::Face };
-        if energy < 1.0 {
-            return settled;
+        let spinning = L::splat(0.5 * self.body.ka) * spin.axial * spin.axial;
+        if self.tilting {
+            let rolling = if self.slides {
+                spinning
+            } else {
+                let invariant = m.vy - L::splat(self.lever) * spin.axial;
+                L::splat(self.rolling) * invariant * invariant
+            };
+            let flat = if self.slides {
+                spinning
+            } else {
+                spinning + sliding
+            };
+            let lies = m.sin.lt(L::splat(self.flat));
+            let idle = L::select(side, rolling, L::select(lies, flat, L::splat(0.0)));
+            settled = settled | (energy - idle).lt(one);
         }
-        let spinning = 0.5 * self.body.ka * spin.axial * spin.axial;
-        let idle = if side && self.slides {
-            spinning
-        } else if side {
-            let invariant = m.vy - self.lever * spin.axial;
-            self.rolling * invariant * invariant
-        } else if m.sin < self.flat {
-            spinning + if self.slides { 0.0 } else { sliding }
-        } else {
-            0.0
-        };
-        if self.tilting && energy - idle < 1.0 {
-            return settled;
+        if self.smooth {
+            settled = settled | self.is_trapped(m, spin, energy - spinning, side);
         }
-        if self.smooth && self.is_trapped(m, spin, energy - spinning, side) {
-            return settled;
-        }
-        Verdict::Open
+        settled
     }
 
     /// See the module's text, *Without friction*.
-    fn is_trapped(&self, m: &Motion<f64>, spin: &Spin<f64>, free: f64, side: bool) -> bool {
+    #[inline(always)]
+    fn is_trapped<L: Lane>(
+        &self,
+        m: &Motion<L>,
+        spin: &Spin<L>,
+        free: L,
+        side: L::Mask,
+    ) -> L::Mask {
         let Body {
             radius, half, kt, ..
         } = self.body;
-        let axial = self.axial_factor * spin.axial;
-        let barrier = |height: f64| {
-            let turn = (m.oz - axial * height) / radius;
-            1.0 + 0.5 * kt * turn * turn
-        };
-        free < barrier(half) && (!side || free < barrier(-half))
+        let axial = L::splat(self.axial_factor) * spin.axial;
+        let near = (m.oz - axial * L::splat(half)) / L::splat(radius);
+        let far = (m.oz + axial * L::splat(half)) / L::splat(radius);
+        let most = |turn: L| L::splat(1.0) + L::splat(0.5 * kt) * turn * turn;
+        free.lt(most(near)) & (!side | free.lt(most(far)))
     }
 
     /// Whether nothing is ever lost: such a toss is settled at its launch or never.

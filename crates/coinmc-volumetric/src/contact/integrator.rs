@@ -13,8 +13,21 @@ pub(crate) struct Trial<L, const N: usize> {
     /// Square of the estimated error over the error allowed, root mean square over the
     /// components: accept at <= 1.
     pub(crate) error: L,
-    h: L,
-    stages: [[L; N]; 6],
+    pub(crate) h: L,
+    pub(crate) stages: [[L; N]; 6],
+}
+
+/// Rates of change of a state.
+pub(crate) trait Flow<L, const N: usize> {
+    /// The rates of `state`.
+    fn rates(&mut self, state: &[L; N]) -> [L; N];
+}
+
+impl<L, const N: usize, F: FnMut(&[L; N]) -> [L; N]> Flow<L, N> for F {
+    #[inline(always)]
+    fn rates(&mut self, state: &[L; N]) -> [L; N] {
+        self(state)
+    }
 }
 
 /// Takes a step of length `h` from `state`, whose rates are `first`.
@@ -24,17 +37,17 @@ pub(crate) fn step<L: Lane, const N: usize>(
     first: &[L; N],
     h: L,
     tolerance: f64,
-    mut rates: impl FnMut(&[L; N]) -> [L; N],
+    mut flow: impl Flow<L, N>,
 ) -> Trial<L, N> {
     let k1 = first;
-    let k2 = &rates(&along(state, h, &[(1.0 / 5.0, k1)]));
-    let k3 = &rates(&along(state, h, &[(3.0 / 40.0, k1), (9.0 / 40.0, k2)]));
-    let k4 = &rates(&along(
+    let k2 = &flow.rates(&along(state, h, &[(1.0 / 5.0, k1)]));
+    let k3 = &flow.rates(&along(state, h, &[(3.0 / 40.0, k1), (9.0 / 40.0, k2)]));
+    let k4 = &flow.rates(&along(
         state,
         h,
         &[(44.0 / 45.0, k1), (-56.0 / 15.0, k2), (32.0 / 9.0, k3)],
     ));
-    let k5 = &rates(&along(
+    let k5 = &flow.rates(&along(
         state,
         h,
         &[
@@ -44,7 +57,7 @@ pub(crate) fn step<L: Lane, const N: usize>(
             (-212.0 / 729.0, k4),
         ],
     ));
-    let k6 = &rates(&along(
+    let k6 = &flow.rates(&along(
         state,
         h,
         &[
@@ -66,7 +79,7 @@ pub(crate) fn step<L: Lane, const N: usize>(
             (11.0 / 84.0, k6),
         ],
     );
-    let k7 = rates(&end);
+    let k7 = flow.rates(&end);
     let error = [
         (71.0 / 57_600.0, k1),
         (-71.0 / 16_695.0, k3),
@@ -138,17 +151,16 @@ impl<L: Lane, const N: usize> Trial<L, N> {
 }
 
 /// Whether a trial of this (squared) error may stand; not a number may not.
-pub(crate) fn is_accepted(error: f64) -> bool {
-    error <= 1.0
+#[inline(always)]
+pub(crate) fn is_accepted<L: Lane>(error: L) -> L::Mask {
+    error.le(L::splat(1.0))
 }
 
 /// The length of the next try after one of length `h` that failed.
-pub(crate) fn shorter(h: f64, error: f64) -> f64 {
-    if error.is_finite() {
-        next_length(h, error)
-    } else {
-        0.2 * h
-    }
+#[inline(always)]
+pub(crate) fn shorter<L: Lane>(h: L, error: L) -> L {
+    let finite = error.lt(L::splat(f64::INFINITY));
+    L::select(finite, next_length(h, error), L::splat(0.2) * h)
 }
 
 /// The length of the next step after one of length `h` with this (squared) error:

@@ -107,16 +107,16 @@ impl Contact<'_> {
             if self.rolls_straight(&state) {
                 return Err(self.roll_out(&state, motion, spin, watch));
             }
-            if self.time > self.settings.time_limit {
+            if self.spent.time > self.settings.time_limit {
                 return Err(Leave::Late);
             }
             let before = motion.kinetic(&self.law.body, spin);
             let trial = loop {
-                self.steps += 1;
-                if self.steps >= self.settings.max_steps || length < LEAST_STEP {
+                self.spent.steps += 1;
+                if self.spent.steps >= self.settings.max_steps || length < LEAST_STEP {
                     return Err(Leave::Lost);
                 }
-                let trial = step(&state, &now.rates, length, self.tolerance, |s| {
+                let trial = step(&state, &now.rates, length, self.tolerance, |s: &_| {
                     line_rates(self.law, s, creep).rates
                 });
                 if is_accepted(trial.error) {
@@ -126,7 +126,7 @@ impl Contact<'_> {
             };
             let start = state;
             state = self.capped(trial.state, before);
-            self.time += length;
+            self.spent.time += length;
             watch.passed(length, |t| {
                 let rates = |s: &LineState| line_rates(self.law, s, creep).rates;
                 let trial = step(&start, &now.rates, t, self.tolerance, rates);
@@ -230,7 +230,7 @@ impl Contact<'_> {
             watch.passed(piece, |t| {
                 laid(self.law, &state.map(|rate| rate * left(start + t)))
             });
-            self.time += piece;
+            self.spent.time += piece;
             begun += 1.0;
         }
         lay(self.law, &[0.0; 4], motion, spin);

@@ -26,6 +26,7 @@
 //! to ω'. Without gyroscopic torque Ω_a = ω_a. (Le Saux, Leine & Glocker, J. Nonlinear Sci. 15
 //! (2005) 27; contour and pivoting friction as in Leine, Arch. Appl. Mech. 79 (2009) 1063.)
 
+use super::integrator::Flow;
 use crate::body::{Body, Friction};
 use crate::flight::Drag;
 use crate::lane::Lane;
@@ -81,6 +82,35 @@ pub(crate) struct Rates<L> {
     pub(crate) yields: L,
 }
 
+/// The flow of a mode, which keeps the rates it gave last.
+pub(super) struct RimFlow<'a, L> {
+    pub(super) law: &'a Law,
+    pub(super) mode: Mode,
+    pub(super) last: &'a mut Rates<L>,
+}
+
+// not a closure: one that is called six times is not inlined
+impl<L: Lane> Flow<L, 6> for RimFlow<'_, L> {
+    #[inline(always)]
+    fn rates(&mut self, state: &RimState<L>) -> RimState<L> {
+        *self.last = self.law.rates(state, self.mode);
+        self.last.state
+    }
+}
+
+impl<L: Lane> Rates<L> {
+    pub(super) fn none() -> Self {
+        let zero = L::splat(0.0);
+        Self {
+            state: [zero; 6],
+            normal: zero,
+            friction: [zero; 2],
+            press: zero,
+            yields: zero,
+        }
+    }
+}
+
 /// sign(rate) of dry friction that slows `rate` down by `braking` (per normal force), fading
 /// linearly to 0 where it would stop within the time `fade`: the rate of the fading is 1/fade
 /// however light the part that turns.
@@ -109,6 +139,12 @@ impl Law {
             inverse_ka,
             kyy: 1.0 + body.half * body.half * inverse_kt + body.radius * body.radius * inverse_ka,
         }
+    }
+
+    /// Whether contact in this mode loses nothing.
+    pub(super) fn conserves(&self, mode: Mode) -> bool {
+        let smooth = mode == Mode::Stick || self.friction.mu == 0.0;
+        smooth && !self.friction.twists() && !self.drag.acts()
     }
 
     /// Rates and forces of `state`, in stick or slip.

@@ -3,6 +3,7 @@
 use super::follow::FLAT;
 use super::rim::{Law, OMEGA_A, OMEGA_T, OMEGA_Y, RimState, SLIP_X, SLIP_Y, TILT};
 use crate::impact::{Impulse, Touch};
+use crate::lane::{Lane, Mask};
 use crate::motion::{Motion, Spin};
 use crate::series::sin_cos_tilt;
 
@@ -21,15 +22,15 @@ pub(super) fn rim_state(law: &Law, motion: &Motion<f64>, spin: &Spin<f64>) -> Ri
 }
 
 /// The motion of a state.
-#[inline]
-pub(super) fn place(
+#[inline(always)]
+pub(crate) fn place<L: Lane>(
     law: &Law,
-    state: &RimState<f64>,
-    motion: &mut Motion<f64>,
-    spin: &mut Spin<f64>,
+    state: &RimState<L>,
+    motion: &mut Motion<L>,
+    spin: &mut Spin<L>,
 ) {
     let (s, c) = sin_cos_tilt(state[TILT]);
-    let (radius, half) = (law.body.radius, law.body.half);
+    let (radius, half) = (L::splat(law.body.radius), L::splat(law.body.half));
     *spin = Spin {
         tilt: state[OMEGA_Y],
         axial: state[OMEGA_A],
@@ -41,6 +42,29 @@ pub(super) fn place(
     motion.vz = spin.tilt * (radius * c - half * s);
     motion.z = half * c + radius * s;
     motion.set_spin(spin, law.axial_factor);
+}
+
+/// The motion of a state, with no more energy than `ceiling`: the velocities shrink together.
+#[inline(always)]
+pub(super) fn place_below<L: Lane>(
+    law: &Law,
+    state: &mut RimState<L>,
+    motion: &mut Motion<L>,
+    spin: &mut Spin<L>,
+    ceiling: L,
+) {
+    place(law, state, motion, spin);
+    let kinetic = motion.kinetic(&law.body, spin);
+    let allowed = ceiling - motion.z;
+    let over = allowed.lt(kinetic);
+    if over.any() {
+        let scale = (allowed.max(L::splat(0.0)) / kinetic).sqrt();
+        let scale = L::select(over, scale, L::splat(1.0));
+        for component in &mut state[OMEGA_Y..=SLIP_Y] {
+            *component *= scale;
+        }
+        place(law, state, motion, spin);
+    }
 }
 
 /// The state with another slip, by an impulse at the contact that leaves its normal velocity.

@@ -187,7 +187,7 @@ fn follow(
     let (mut time, mut length) = (0.0, 1e-3);
     while !done(state, time) {
         let first = law.rates(state, mode).state;
-        let trial = step(state, &first, length, tolerance, |s| {
+        let trial = step(state, &first, length, tolerance, |s: &_| {
             law.rates(s, mode).state
         });
         if trial.error <= 1.0 {
@@ -302,14 +302,14 @@ fn lanes_of_contact_do_not_see_each_other() {
         let lengths = [0, 1, 2, 3].map(|i: usize| 0.01 * (i + 1) as f64);
         let together: RimState<Four> = gather(&states);
         let now = law.rates(&together, mode);
-        let trial_together = step(&together, &now.state, Four(lengths), 1e-6, |s| {
+        let trial_together = step(&together, &now.state, Four(lengths), 1e-6, |s: &_| {
             law.rates(s, mode).state
         });
         let next = next_length(Four(lengths), trial_together.error);
         let middle = trial_together.between(&together, Four([0.3; 4]));
         for i in 0..4 {
             let alone = law.rates(&states[i], mode);
-            let trial_alone = step(&states[i], &alone.state, lengths[i], 1e-6, |s| {
+            let trial_alone = step(&states[i], &alone.state, lengths[i], 1e-6, |s: &_| {
                 law.rates(s, mode).state
             });
             assert_eq!(lane(&now.state, i), alone.state.map(f64::to_bits));

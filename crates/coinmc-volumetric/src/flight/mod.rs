@@ -2,9 +2,11 @@
 
 mod orbit;
 mod search;
+mod station;
 
 pub(crate) use orbit::{Drag, Orbit};
-pub(crate) use search::{Departure, first_contact};
+pub(crate) use search::{Departure, first_contact, least_time};
+pub(crate) use station::{Departing, Group, Leavers, MOTION, load, store};
 
 #[cfg(test)]
 mod tests;

@@ -66,6 +66,68 @@ pub(crate) struct Gap<L> {
     pub(crate) curvature: L,
 }
 
+impl<T: Copy> Orbit<T> {
+    /// Numbers of a flight beside its drag.
+    pub(crate) const NUMBERS: usize = 15;
+
+    /// All of them, for memory.
+    #[inline(always)]
+    pub(crate) fn numbers(&self) -> [T; 15] {
+        let ([ax, ay, az], [bx, by, bz], [dx, dy, dz]) = (self.a, self.b, self.d);
+        [
+            ax,
+            ay,
+            az,
+            bx,
+            by,
+            bz,
+            dx,
+            dy,
+            dz,
+            self.z,
+            self.vz,
+            self.rate,
+            self.across,
+            self.horizontal,
+            self.elapsed,
+        ]
+    }
+
+    /// The flight of [`numbers`](Self::numbers).
+    #[inline(always)]
+    pub(crate) fn of(numbers: &[T; 15], drag: Drag) -> Self {
+        let [
+            ax,
+            ay,
+            az,
+            bx,
+            by,
+            bz,
+            dx,
+            dy,
+            dz,
+            z,
+            vz,
+            rate,
+            across,
+            horizontal,
+            elapsed,
+        ] = *numbers;
+        Self {
+            a: [ax, ay, az],
+            b: [bx, by, bz],
+            d: [dx, dy, dz],
+            z,
+            vz,
+            rate,
+            across,
+            horizontal,
+            drag,
+            elapsed,
+        }
+    }
+}
+
 impl<L: Lane> Orbit<L> {
     #[inline(always)]
     pub(crate) fn new(m: &Motion<L>, drag: Drag) -> Self {
@@ -92,16 +154,23 @@ impl<L: Lane> Orbit<L> {
         }
     }
 
-    /// The same flight with time counted from `t` on: what is small then keeps its digits.
+    /// The same flight with time counted from `t` on, in the lanes of `on`: what is small then
+    /// keeps its digits.
     #[inline(always)]
-    pub(crate) fn rebase(&mut self, t: L) {
+    pub(crate) fn rebase(&mut self, t: L, on: L::Mask) {
         let (s, c, rate) = self.phase(t);
         let (z, vz) = self.fall(t);
+        let set = |of: &mut L, to: L| *of = L::select(on, to, *of);
         for i in 0..3 {
-            (self.b[i], self.d[i]) = (self.b[i] * c + self.d[i] * s, self.d[i] * c - self.b[i] * s);
+            let (b, d) = (self.b[i], self.d[i]);
+            set(&mut self.b[i], b * c + d * s);
+            set(&mut self.d[i], d * c - b * s);
         }
-        (self.z, self.vz, self.rate) = (z, vz, rate);
-        self.elapsed += t;
+        set(&mut self.z, z);
+        set(&mut self.vz, vz);
+        set(&mut self.rate, rate);
+        let elapsed = self.elapsed + t;
+        set(&mut self.elapsed, elapsed);
     }
 
     /// Time from the start of the flight.
@@ -181,7 +250,10 @@ impl<L: Lane> Orbit<L> {
         let (radius, half) = (L::splat(body.radius), L::splat(body.half));
         // h = half|uz| + radius·sin; near flat sin' keeps its digits in this form alone
         let inverse = L::splat(1.0) / sin;
-        let across_rate = [0, 1].map(|i| rate * (self.d[i] * c - self.b[i] * s));
+        let across_rate = [
+            rate * (self.d[0] * c - self.b[0] * s),
+            rate * (self.d[1] * c - self.b[1] * s),
+        ];
         let sin_rate = (ux * across_rate[0] + uy * across_rate[1]) * inverse;
         // and sin'' = −(uz uz'' + uz'²/sin²)/sin
         let lever = half.copysign(uz) - radius * uz * inverse;
@@ -338,4 +410,33 @@ pub(crate) struct Bounds<L> {
     pub(crate) climb: L,
     /// No contact while the centre is above this.
     pub(crate) clear: L,
+}
+
+impl<T: Copy> Bounds<T> {
+    /// All of them, for memory.
+    #[inline(always)]
+    pub(crate) fn numbers(&self) -> [T; 6] {
+        [
+            self.swing,
+            self.spread,
+            self.wander,
+            self.bend,
+            self.climb,
+            self.clear,
+        ]
+    }
+
+    /// The bounds of [`numbers`](Self::numbers).
+    #[inline(always)]
+    pub(crate) fn of(numbers: &[T; 6]) -> Self {
+        let [swing, spread, wander, bend, climb, clear] = *numbers;
+        Self {
+            swing,
+            spread,
+            wander,
+            bend,
+            climb,
+            clear,
+        }
+    }
 }

@@ -27,6 +27,7 @@
 use super::orbit::{Bounds, Gap, Orbit};
 use crate::body::Body;
 use crate::lane::{Lane, Mask};
+use crate::motion::Motion;
 
 /// Gap that counts as touching, in D: above the rounding of f (about 1e-15), below anything that
 /// matters (an energy of 1e-14 m g D).
@@ -34,7 +35,13 @@ const TOUCH: f64 = 1e-14;
 /// Rounding of the gap's rate of change, relative to the speeds it is the difference of.
 const ROUNDING: f64 = 1e-13;
 /// Evaluations after which a flight is given up. The worst of the stress test need a tenth.
-const MAX_EVALUATIONS: u32 = 20_000;
+pub(super) const MAX_EVALUATIONS: u32 = 20_000;
+
+/// A short time against every motion of the coin, times its fastest rate: a point that parts from
+/// the surface by acceleration is followed from there.
+const PARTING: f64 = 1e-4;
+/// The same for one that was thrown back.
+const THROWN: f64 = 1e-12;
 
 /// How the flight begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,17 +62,27 @@ pub(crate) struct Found<L: Lane> {
 }
 
 /// The search, lane by lane.
-struct Search<L: Lane> {
-    time: L,
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Search<L: Lane> {
+    pub(super) time: L,
     /// Once bracketed, the only root lies between these.
-    low: L,
-    high: L,
-    bracketed: L::Mask,
-    active: L::Mask,
+    pub(super) low: L,
+    pub(super) high: L,
+    pub(super) bracketed: L::Mask,
+    pub(super) active: L::Mask,
     /// Progress enforced while a leaving point is within rounding of the surface; it doubles.
-    least: L,
+    pub(super) least: L,
     /// The search begins where the flight does.
-    departs: L::Mask,
+    pub(super) departs: L::Mask,
+    /// [`Departure::Launched`].
+    pub(super) launched: L::Mask,
+}
+
+/// Progress that the search makes where a leaving point is within rounding of the surface.
+#[inline(always)]
+pub(crate) fn least_time<L: Lane>(orbit: &Orbit<L>, motion: &Motion<L>, parting: L::Mask) -> L {
+    let share = L::select(parting, L::splat(PARTING), L::splat(THROWN));
+    share / orbit.fastest(motion)
 }
 
 /// Time of the first contact of a flight, counted as the orbit counts it on return: from where the
@@ -78,25 +95,11 @@ pub(crate) fn first_contact<L: Lane>(
     least: L,
 ) -> Found<L> {
     let bounds = orbit.bounds(body);
-    let zero = L::splat(0.0);
-    let (z, vz) = orbit.fall(zero);
-    let skip = high_step(orbit, &bounds, z, vz);
-    let departs = skip.le(zero);
-    if zero.lt(skip).any() {
-        orbit.rebase(skip);
-    }
-    let mut search = Search {
-        time: zero,
-        departs,
-        low: zero,
-        high: zero,
-        bracketed: L::Mask::splat(false),
-        active: L::Mask::splat(true),
-        least,
-    };
+    let launched = L::Mask::splat(departure == Departure::Launched);
+    let mut search = Search::new(orbit, &bounds, launched, least);
     let mut gap = orbit.first_gap(body);
     for _ in 0..MAX_EVALUATIONS {
-        search.step(orbit, body, &bounds, &gap, departure);
+        search.step(orbit, body, &bounds, &gap);
         if !search.active.any() {
             break;
         }
@@ -109,34 +112,72 @@ pub(crate) fn first_contact<L: Lane>(
 }
 
 impl<L: Lane> Search<L> {
+    /// The search at its beginning: the orbit counts its time from where contact is possible.
     #[inline(always)]
-    fn step(
+    pub(super) fn new(
+        orbit: &mut Orbit<L>,
+        bounds: &Bounds<L>,
+        launched: L::Mask,
+        least: L,
+    ) -> Self {
+        let zero = L::splat(0.0);
+        let (z, vz) = orbit.fall(zero);
+        let skip = high_step(orbit, bounds, z, vz);
+        let departs = skip.le(zero);
+        let skips = zero.lt(skip);
+        if skips.any() {
+            orbit.rebase(skip, skips);
+        }
+        Self {
+            time: zero,
+            departs,
+            low: zero,
+            high: zero,
+            bracketed: L::Mask::splat(false),
+            active: L::Mask::splat(true),
+            least,
+            launched,
+        }
+    }
+
+    #[inline(always)]
+    fn step(&mut self, orbit: &Orbit<L>, body: &Body, bounds: &Bounds<L>, now: &Gap<L>) {
+        self.touch(now);
+        if (self.active & !self.bracketed).any() {
+            self.approach(orbit, body, bounds, now);
+        }
+        self.close_in(orbit, now);
+    }
+
+    /// Whether the root in a bracket is reached.
+    #[inline(always)]
+    pub(super) fn touch(&mut self, now: &Gap<L>) {
+        let touches = self.bracketed & now.height.abs().le(L::splat(TOUCH));
+        self.active = self.active & !touches;
+    }
+
+    /// Without a bracket: a contact, a bracket, or a step that no root is passed by.
+    #[inline(always)]
+    pub(super) fn approach(
         &mut self,
         orbit: &Orbit<L>,
         body: &Body,
         bounds: &Bounds<L>,
         now: &Gap<L>,
-        departure: Departure,
     ) {
         let (zero, touch) = (L::splat(0.0), L::splat(TOUCH));
+        let open = self.active & !self.bracketed;
         let falls = now.slope.lt(zero);
         let sinks = now
             .slope
             .lt(-(L::splat(ROUNDING) * (now.vz.abs() + bounds.wander)));
-        let near = now.height.le(touch) & !self.bracketed;
+        let near = open & now.height.le(touch);
         // a point that was just thrown back falls by rounding at most
-        let leaves = match departure {
-            Departure::Launched => near & !falls,
-            Departure::Leaving => near & (!sinks | (self.departs & self.time.le(zero))),
-        };
-        let touches = (near & !leaves) | (self.bracketed & now.height.abs().le(touch));
-        self.active = self.active & !touches;
-        self.bracket(orbit, bounds, now, falls & !leaves & self.active);
-        let newton = self.bracketed & self.active;
-        if newton.any() {
-            self.close_in(orbit, now, newton);
-        }
-        let free = self.active & !self.bracketed;
+        let thrown_back = !sinks | (self.departs & self.time.le(zero));
+        let leaves = near & ((self.launched & !falls) | (!self.launched & thrown_back));
+        self.active = self.active & !(near & !leaves);
+        self.bracket(orbit, bounds, now, open & falls & !leaves & self.active);
+        let free = open & self.active & !self.bracketed;
         if free.any() {
             let (mut own, other) = lower_bound_steps(orbit, body, bounds, now);
             let lingers = leaves & free;
@@ -169,9 +210,13 @@ impl<L: Lane> Search<L> {
         }
     }
 
-    /// One step of Newton's method with the second-order term, kept within the bracket.
+    /// In a bracket: one step of Newton's method with the second-order term, kept within it.
     #[inline(always)]
-    fn close_in(&mut self, orbit: &Orbit<L>, now: &Gap<L>, lanes: L::Mask) {
+    pub(super) fn close_in(&mut self, orbit: &Orbit<L>, now: &Gap<L>) {
+        let lanes = self.bracketed & self.active;
+        if !lanes.any() {
+            return;
+        }
         let above = L::splat(0.0).lt(now.height);
         self.low = L::select(lanes & above, self.time, self.low);
         self.high = L::select(lanes & !above, self.time, self.high);
@@ -227,32 +272,44 @@ fn lower_bound_steps<L: Lane>(
     let gap = now.height.max(L::splat(0.0));
     let across = half * bounds.swing + orbit.strongest_pull(now.vz);
     let bend = across + radius * bounds.spread * inverse;
-    // the other rim is higher by the coin's height along the vertical
-    let (rise, climb) = (
-        L::splat(2.0) * half * now.uz.abs(),
-        L::splat(2.0) * half * now.uz_rate * L::splat(1.0).copysign(now.uz),
-    );
-    let step = |slope: L, bend: L| {
-        (
-            first_root(gap, slope, bend),
-            first_root(gap + rise, slope + climb, bend),
-        )
+    let rims = Rims {
+        gap,
+        // the other rim is higher by the coin's height along the vertical
+        rise: L::splat(2.0) * half * now.uz.abs(),
+        climb: L::splat(2.0) * half * now.uz_rate * L::splat(1.0).copysign(now.uz),
     };
-    let (own, other) = step(now.slope, bend);
+    let (own, other) = rims.steps(now.slope, bend);
     let flat = now.sin.lt(L::splat(SMALL));
     if !flat.any() {
         return (own, other);
     }
     // without sin', which the bounds replace
     let bare = now.slope + radius * now.sin_rate;
-    let coarse = step(bare - radius * bounds.wander, across);
+    let coarse = rims.steps(bare - radius * bounds.wander, across);
     let (chord, until) = chord(now);
-    let straight = step(bare - radius * chord, across + radius * bounds.bend);
-    let best = |one: L, two: L, three: L| L::select(flat, one.max(two).max(three.min(until)), one);
+    let straight = rims.steps(bare - radius * chord, across + radius * bounds.bend);
     (
-        best(own, coarse.0, straight.0),
-        best(other, coarse.1, straight.1),
+        L::select(flat, own.max(coarse.0).max(straight.0.min(until)), own),
+        L::select(flat, other.max(coarse.1).max(straight.1.min(until)), other),
     )
+}
+
+/// The gap of the lowest rim, and by how much and how fast the other is higher.
+struct Rims<L> {
+    gap: L,
+    rise: L,
+    climb: L,
+}
+
+impl<L: Lane> Rims<L> {
+    /// For both, the time until a gap of this rate of change and bend has closed.
+    #[inline(always)]
+    fn steps(&self, slope: L, bend: L) -> (L, L) {
+        (
+            first_root(self.gap, slope, bend),
+            first_root(self.gap + self.rise, slope + self.climb, bend),
+        )
+    }
 }
 
 /// Slope of the chord of |a + a'τ| over the first half of the way to the vertical, and its time.

@@ -91,9 +91,6 @@ impl Lane for Four {
     fn copysign(self, sign: Self) -> Self {
         Self(from_fn(|i| self.0[i].copysign(sign.0[i])))
     }
-    fn round(self) -> Self {
-        Self(self.0.map(<f64 as Lane>::round))
-    }
     fn lt(self, other: Self) -> Bits {
         Bits(from_fn(|i| self.0[i] < other.0[i]))
     }

@@ -48,6 +48,8 @@ pub struct Stronge;
 const MAX_PIECES: u32 = 2000;
 
 impl ImpactLaw for Stronge {
+    const SIDE_BY_SIDE: bool = false;
+
     #[inline]
     fn impulse<L: Lane>(
         &self,

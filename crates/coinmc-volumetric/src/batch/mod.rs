@@ -1,0 +1,338 @@
+//! Many tosses side by side: the same toss as [`engine`](crate::engine)'s, eight at a time.
+//!
+//! ```text
+//! launches ─▶ departing ─▶ on search ─▶ landed ─▶ struck ─▶ on search
+//!                                                   │
+//!                         once more, for what was not the last bounce: struck
+//!                         sticking, slipping: departing, struck, ended
+//! ```
+//!
+//! A pool of tosses is in flight. Each is at one stage, and a stage is done for eight of them at
+//! once as soon as eight are there: lanes are full whatever the tosses have before them. On search
+//! and in contact a toss keeps its lane from step to step, and a lane that is done is given to the
+//! next toss. What is rare (a coin that lies, stands, jams, changes its mode of contact) is
+//! done alone by the code of the single toss, and so is all of it where lanes are
+//! [`Scalar`](Lanes::Scalar).
+//!
+//! No lane sees another and every operation is IEEE 754's, so a toss has the same outcome to the
+//! last bit beside whatever others, and with any instruction set.
+
+mod contact;
+mod pool;
+mod struck;
+
+#[cfg(test)]
+mod tests;
+
+use crate::contact::rim::Mode;
+use crate::engine::{Finished, Onward, VolumetricEngine};
+use crate::flight::Group;
+use crate::impact::ImpactLaw;
+use crate::lane::Lanes;
+use crate::lane::wide::{Bits, WIDTH, first, lanes_of};
+use coinmc_core::{Ended, Landing, Launch};
+use pool::{Origin, Pool, Slot};
+use std::ops::ControlFlow;
+
+/// What is told of every toss: its number among the launches, and how it ended.
+pub(crate) type Each<'a> = &'a mut dyn FnMut(u64, &Finished) -> ControlFlow<()>;
+
+/// Follows the tosses of all launches until `each` breaks off.
+pub(crate) fn toss_all<L: ImpactLaw>(
+    engine: &VolumetricEngine<L>,
+    launches: &mut dyn Iterator<Item = Launch>,
+    each: Each<'_>,
+) {
+    if engine.lanes == Lanes::Scalar {
+        for (number, launch) in (0..).zip(launches) {
+            if each(number, &engine.run(&launch, &mut ())).is_break() {
+                return;
+            }
+        }
+        return;
+    }
+    let mut batch = Batch {
+        engine,
+        pool: Pool::new(),
+        launched: 0,
+        each,
+        broken_off: false,
+    };
+    batch.run(launches);
+}
+
+struct Batch<'a, L> {
+    engine: &'a VolumetricEngine<L>,
+    pool: Pool,
+    launched: u64,
+    each: Each<'a>,
+    broken_off: bool,
+}
+
+impl<L: ImpactLaw> Batch<'_, L> {
+    fn run(&mut self, launches: &mut dyn Iterator<Item = Launch>) {
+        loop {
+            self.admit(launches);
+            if self.broken_off || !self.advance() {
+                return;
+            }
+        }
+    }
+
+    /// One piece of work: of eight tosses if eight are at any one stage, else of as many as there
+    /// are. `false` if nothing is left to do.
+    fn advance(&mut self) -> bool {
+        let pool = &self.pool;
+        if pool.landed.len() >= WIDTH {
+            self.bounce();
+        } else if pool.departing.len() >= WIDTH && pool.vacant.len() >= WIDTH {
+            self.depart();
+        } else if pool.again.len() >= WIDTH && pool.vacant.len() >= WIDTH {
+            self.strike_again();
+        } else if pool.slips.with(&pool.slipping) >= WIDTH {
+            self.attempt(Mode::Slip);
+        } else if pool.sticks.with(&pool.sticking) >= WIDTH {
+            self.attempt(Mode::Stick);
+        } else if pool.on_search() > 0 {
+            self.sweep();
+        } else if !pool.landed.is_empty() {
+            self.bounce();
+        } else if !pool.again.is_empty() {
+            self.strike_again();
+        } else if !pool.departing.is_empty() {
+            self.depart();
+        } else if pool.slips.with(&pool.slipping) > 0 {
+            self.attempt(Mode::Slip);
+        } else if pool.sticks.with(&pool.sticking) > 0 {
+            self.attempt(Mode::Stick);
+        } else {
+            return false;
+        }
+        true
+    }
+
+    /// Launches tosses into all free slots.
+    fn admit(&mut self, launches: &mut dyn Iterator<Item = Launch>) {
+        while let Some(&slot) = self.pool.free.last() {
+            let Some(launch) = launches.next() else {
+                return;
+            };
+            self.pool.free.pop();
+            let toss = self.engine.launched(&launch);
+            self.pool.slots[slot] = Slot::new(self.launched, toss);
+            self.launched += 1;
+            match self.engine.ends_at_launch(&toss, &launch) {
+                Some(ended) => self.end(slot, ended),
+                None => self.pool.departing.push(slot),
+            }
+            if self.broken_off {
+                return;
+            }
+        }
+    }
+
+    fn end(&mut self, slot: usize, ended: Ended) {
+        let of = &self.pool.slots[slot];
+        let finished = Finished::new(ended, &of.toss, &of.spent);
+        // others of the same eight may end with the one that was the last
+        if !self.broken_off {
+            self.broken_off = (self.each)(of.number, &finished).is_break();
+        }
+        self.pool.free.push(slot);
+    }
+
+    /// Puts flights on search.
+    fn depart(&mut self) {
+        let count = self.pool.departing.len().min(WIDTH);
+        let from = self.pool.departing.len() - count;
+        let mut owners = [0; WIDTH];
+        owners[..count].copy_from_slice(&self.pool.departing[from..]);
+        self.pool.departing.truncate(from);
+        let begin = &mut self.pool.begin;
+        (begin.launched, begin.parting) = (0, 0);
+        for lane in 0..WIDTH {
+            // beyond the last, lanes do the same as the first, for nothing
+            let slot = &self.pool.slots[owners[if lane < count { lane } else { 0 }]];
+            let [motion @ .., axial] = &mut begin.motion;
+            for (block, number) in motion.iter_mut().zip(slot.toss.motion.numbers()) {
+                block[lane] = number;
+            }
+            axial[lane] = slot.toss.spin.axial;
+            begin.launched |= Bits::from(slot.launched) << lane;
+            begin.parting |= Bits::from(slot.parting) << lane;
+        }
+        let (lanes, law) = (self.engine.lanes, &self.engine.contact);
+        self.pool
+            .put_on_search(lanes, law, Origin::Elsewhere, &owners, first(count));
+    }
+
+    /// One step of every flight on search.
+    fn sweep(&mut self) {
+        let (law, pool) = (&self.engine.contact, &mut self.pool);
+        Group::sweep(&mut pool.groups, self.engine.lanes, &law.body, law.drag);
+        for (i, group) in pool.groups.iter().enumerate() {
+            pool.landed
+                .extend(lanes_of(group.left).map(|lane| (i, lane)));
+        }
+    }
+
+    /// Lands flights and throws the coins back.
+    fn bounce(&mut self) {
+        let engine = self.engine;
+        let struck = &mut self.pool.struck;
+        let count = self.pool.landed.len().min(WIDTH);
+        let from = self.pool.landed.len() - count;
+        for at in 0..WIDTH {
+            let (group, lane) = self.pool.landed[from + if at < count { at } else { 0 }];
+            let group = &self.pool.groups[group];
+            group.hand_over(lane, &mut struck.leavers, at);
+            struck.owner[at] = group.owner[lane];
+        }
+        self.pool.vacant.extend(self.pool.landed.drain(from..));
+        struck.land(engine.lanes, &engine.contact);
+        let mut open = 0;
+        for lane in 0..count {
+            match self.without_impact(lane) {
+                Some(onward) => self.go(self.pool.struck.owner[lane], onward),
+                None => open |= 1 << lane,
+            }
+        }
+        if !L::SIDE_BY_SIDE || open == 0 {
+            return;
+        }
+        self.strike(open, true);
+    }
+
+    /// Throws back coins whose last bounce this was not.
+    fn strike_again(&mut self) {
+        let pool = &mut self.pool;
+        let count = pool.again.len().min(WIDTH);
+        let from = pool.again.len() - count;
+        for at in 0..WIDTH {
+            let owner = pool.again[from + if at < count { at } else { 0 }];
+            pool.struck.gather(at, owner, &pool.slots[owner].toss);
+        }
+        pool.again.truncate(from);
+        self.strike(first(count), false);
+    }
+
+    /// Throws coins back, those of `open`.
+    fn strike(&mut self, open: Bits, may_end: bool) {
+        let engine = self.engine;
+        self.pool.struck.strike(engine, may_end);
+        let owners = self.pool.struck.owner;
+        let again = open & self.pool.struck.again();
+        for lane in lanes_of(again) {
+            let (pool, owner) = (&mut self.pool, owners[lane]);
+            pool.struck.scatter(lane, &mut pool.slots[owner].toss);
+            pool.again.push(owner);
+        }
+        let mut flies = 0;
+        for lane in lanes_of(open & !again) {
+            let (pool, owner) = (&mut self.pool, owners[lane]);
+            pool.slots[owner].toss.impacts += 1;
+            match pool.struck.rebound(engine, lane, &mut pool.slots[owner]) {
+                Onward::Fly(false) => flies |= 1 << lane,
+                onward => self.go(owner, onward),
+            }
+        }
+        self.pool.put_on_search(
+            engine.lanes,
+            &engine.contact,
+            Origin::Struck,
+            &owners,
+            flies,
+        );
+    }
+
+    /// What a landed coin does instead of an impact of its own lane.
+    fn without_impact(&mut self, lane: usize) -> Option<Onward> {
+        let (engine, struck) = (self.engine, &self.pool.struck);
+        let slot = &mut self.pool.slots[struck.owner[lane]];
+        if struck.is_lost(lane) {
+            struck.restore(lane, &mut slot.toss, engine.contact.axial_factor);
+            return Some(Onward::End(engine.lost(&slot.toss)));
+        }
+        struck.bring_down(lane, slot);
+        if engine.landing == Landing::Adhesive {
+            struck.scatter(lane, &mut slot.toss);
+        }
+        let alone = if slot.spent.time > engine.settings.time_limit {
+            Onward::End(Ended::TimeLimit)
+        } else if engine.landing == Landing::Adhesive {
+            Onward::End(engine.stuck(&slot.toss))
+        } else if !L::SIDE_BY_SIDE
+            || struck.is_level(lane)
+            || slot.toss.impacts == engine.settings.max_impacts
+        {
+            Onward::Strike
+        } else {
+            return None;
+        };
+        struck.scatter(lane, &mut slot.toss);
+        Some(alone)
+    }
+
+    /// One attempt at a step of sustained contact.
+    fn attempt(&mut self, mode: Mode) {
+        let engine = self.engine;
+        let pool = &mut self.pool;
+        let (station, waiting) = match mode {
+            Mode::Slip => (&mut pool.slips, &mut pool.slipping),
+            Mode::Stick => (&mut pool.sticks, &mut pool.sticking),
+        };
+        for lane in lanes_of(!station.occupied) {
+            let Some(owner) = waiting.pop() else {
+                break;
+            };
+            station.put(lane, owner, &pool.slots[owner]);
+        }
+        station.make(engine, mode);
+        let attention = station.attention;
+        for lane in lanes_of(attention) {
+            let pool = &mut self.pool;
+            let station = match mode {
+                Mode::Slip => &mut pool.slips,
+                Mode::Stick => &mut pool.sticks,
+            };
+            let owner = station.owner[lane];
+            match station.conclude(engine, lane, &mut pool.slots[owner]) {
+                None => pool.in_contact(owner),
+                Some(onward) => self.go(owner, onward),
+            }
+        }
+    }
+
+    /// Brings a toss to its next stage.
+    fn go(&mut self, slot: usize, mut onward: Onward) {
+        loop {
+            let of = &mut self.pool.slots[slot];
+            let mut contact = self.engine.contact_of(of.spent);
+            onward = match onward {
+                Onward::Fly(parting) => {
+                    (of.parting, of.launched) = (parting, false);
+                    self.pool.departing.push(slot);
+                    return;
+                }
+                Onward::End(ended) => {
+                    self.end(slot, ended);
+                    return;
+                }
+                Onward::Strike => self.engine.impact(&mut of.toss, &mut contact, &mut ()),
+                Onward::Sustain => {
+                    let (motion, spin) = (&mut of.toss.motion, &mut of.toss.spin);
+                    of.phase = contact.start(motion, spin);
+                    match contact.poise(&mut of.phase, motion, spin) {
+                        None => {
+                            of.spent = contact.spent;
+                            self.pool.in_contact(slot);
+                            return;
+                        }
+                        Some(leave) => self.engine.onward(&mut of.toss, leave),
+                    }
+                }
+            };
+            of.spent = contact.spent;
+        }
+    }
+}

@@ -1,0 +1,216 @@
+//! Eight coins that have come down: the end of their flights and their impacts.
+
+use super::pool::Slot;
+use crate::aloft::land;
+use crate::contact::{FLAT, Law};
+use crate::engine::{Onward, VolumetricEngine, decided};
+use crate::flight::{Departing, Leavers, MOTION};
+use crate::impact::ImpactLaw;
+use crate::lane::Lanes;
+use crate::lane::wide::{Bits, Block, WIDTH, Wide, Work};
+use crate::motion::{Motion, Spin};
+use crate::rest;
+use crate::toss::Toss;
+use crate::verdict::Verdict;
+
+#[derive(Debug, Clone, Default)]
+pub(super) struct StruckTosses {
+    pub(super) leavers: Leavers,
+    pub(super) owner: [usize; WIDTH],
+    /// Motions and axial spins, as flights begin with them; of a landing and then of an impact.
+    pub(super) after: Departing,
+    turn: Block,
+    tilt: Block,
+    /// Duration of the flight.
+    took: Block,
+    reflected: Bits,
+    lost: Bits,
+    /// Whose impact may be the last; who has to be struck anew because it was not.
+    may_end: Bits,
+    again: Bits,
+    sustains: Bits,
+    parts: Bits,
+    settled: Bits,
+    on_side: Bits,
+    /// All but on its side or a face: what follows is decided alone.
+    extreme: Bits,
+}
+
+fn has(bits: Bits, lane: usize) -> bool {
+    bits & (1 << lane) != 0
+}
+
+impl StruckTosses {
+    /// Ends the flights.
+    pub(super) fn land(&mut self, lanes: Lanes, law: &Law) {
+        lanes.enter(Land { tosses: self, law });
+    }
+
+    /// Ends the flight of a toss, but for its motion.
+    #[inline]
+    pub(super) fn bring_down(&self, lane: usize, slot: &mut Slot) {
+        slot.toss.in_turn = 0;
+        slot.spent.time += self.took[lane];
+        slot.toss.heads_up ^= has(self.reflected, lane);
+    }
+
+    /// Takes over a landed coin.
+    #[inline]
+    pub(super) fn gather(&mut self, lane: usize, owner: usize, toss: &Toss) {
+        self.owner[lane] = owner;
+        let [motion @ .., axial] = &mut self.after.motion;
+        for (block, number) in motion.iter_mut().zip(toss.motion.numbers()) {
+            block[lane] = number;
+        }
+        axial[lane] = toss.spin.axial;
+        (self.turn[lane], self.tilt[lane]) = (toss.spin.turn, toss.spin.tilt);
+    }
+
+    /// Coins whose impact was not the last, and so has not been.
+    pub(super) fn again(&self) -> Bits {
+        self.again
+    }
+
+    /// Whether a coin is all but level.
+    pub(super) fn is_level(&self, lane: usize) -> bool {
+        self.after.motion[0][lane] <= FLAT
+    }
+
+    /// Hands a motion to its toss.
+    #[inline]
+    pub(super) fn scatter(&self, lane: usize, toss: &mut Toss) {
+        let [motion @ .., axial] = &self.after.motion;
+        toss.motion = Motion::of(&motion.map(|block| block[lane]));
+        toss.spin = Spin::of(&[axial[lane], self.turn[lane], self.tilt[lane]]);
+    }
+
+    /// Hands a toss the motion with which its flight began.
+    pub(super) fn restore(&self, lane: usize, toss: &mut Toss, axial_factor: f64) {
+        toss.motion = self.leavers.start(lane);
+        toss.spin = toss.motion.spin(axial_factor);
+    }
+
+    pub(super) fn is_lost(&self, lane: usize) -> bool {
+        has(self.lost, lane)
+    }
+
+    /// Throws the coins back.
+    pub(super) fn strike<L: ImpactLaw>(&mut self, engine: &VolumetricEngine<L>, may_end: bool) {
+        self.may_end = if may_end { Bits::MAX } else { 0 };
+        engine.lanes.enter(Strike {
+            tosses: self,
+            engine,
+        });
+    }
+
+    /// What follows an impact; unless that is a flight like most, the toss has its motion.
+    #[inline]
+    pub(super) fn rebound<L: ImpactLaw>(
+        &self,
+        engine: &VolumetricEngine<L>,
+        lane: usize,
+        slot: &mut Slot,
+    ) -> Onward {
+        let toss = &mut slot.toss;
+        if has(self.settled, lane) {
+            let verdict = if has(self.on_side, lane) {
+                Verdict::Side
+            } else {
+                Verdict::Face
+            };
+            return Onward::End(decided(verdict, toss));
+        }
+        let after = if has(self.sustains, lane) {
+            Onward::Sustain
+        } else {
+            Onward::Fly(has(self.parts, lane))
+        };
+        if after == Onward::Fly(false) && !has(self.extreme, lane) {
+            return after;
+        }
+        self.scatter(lane, toss);
+        if !has(self.extreme, lane) {
+            return after;
+        }
+        let mut contact = engine.contact_of(slot.spent);
+        let onward = engine.after_impact(toss, after, &mut contact, &mut ());
+        slot.spent = contact.spent;
+        onward
+    }
+}
+
+impl StruckTosses {
+    #[inline(always)]
+    fn set<L: Wide>(&mut self, motion: &Motion<L>, spin: &Spin<L>) {
+        let blocks = &mut self.after.motion;
+        for (block, lanes) in blocks.iter_mut().zip(motion.numbers()) {
+            *block = lanes.store();
+        }
+        blocks[MOTION - 1] = spin.axial.store();
+        self.turn = spin.turn.store();
+        self.tilt = spin.tilt.store();
+    }
+
+    #[inline(always)]
+    fn now<L: Wide>(&self) -> (Motion<L>, Spin<L>) {
+        let (motion, axial) = self.after.load::<L>();
+        let spin = Spin {
+            axial,
+            turn: L::load(&self.turn),
+            tilt: L::load(&self.tilt),
+        };
+        (motion, spin)
+    }
+}
+
+struct Land<'a> {
+    tosses: &'a mut StruckTosses,
+    law: &'a Law,
+}
+
+impl Work for Land<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Wide>(self) {
+        let (tosses, law) = (self.tosses, self.law);
+        let orbit = tosses.leavers.orbit::<L>(law.drag);
+        let (time, lost) = tosses.leavers.close_in(&orbit, &law.body);
+        let (motion, axial) = tosses.leavers.motion::<L>();
+        let landed = land(law, &orbit, &motion, axial, time);
+        tosses.set(&landed.motion, &landed.spin);
+        tosses.took = orbit.since_start(time).store();
+        tosses.reflected = L::bits(landed.reflected);
+        tosses.lost = L::bits(lost);
+    }
+}
+
+struct Strike<'a, I> {
+    tosses: &'a mut StruckTosses,
+    engine: &'a VolumetricEngine<I>,
+}
+
+impl<I: ImpactLaw> Work for Strike<'_, I> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Wide>(self) {
+        let (tosses, engine) = (self.tosses, self.engine);
+        let (landed, falling) = tosses.now::<L>();
+        let struck = engine.strike(&landed, &falling, L::mask(tosses.may_end));
+        tosses.again = L::bits(struck.again);
+        let motion = &struck.motion;
+        // a coin to be struck anew keeps the motion it came down with
+        let kept = Motion::select(struck.again, &landed, motion);
+        tosses.set(&kept, &Spin::select(struck.again, &falling, &struck.spin));
+        tosses.sustains = L::bits(struck.sustains);
+        tosses.parts = L::bits(struck.parts);
+        tosses.settled = L::bits(engine.judge.settles(motion, &struck.spin));
+        tosses.on_side = L::bits(engine.judge.on_side(motion));
+        let small = rest::ROCKING * engine.settings.zeno;
+        let body = &engine.contact.body;
+        let lies = motion.cos.lt(L::splat(small * body.half));
+        let stands = motion.sin.le(L::splat((small * body.radius).max(FLAT)));
+        tosses.extreme = L::bits(lies | stands);
+    }
+}

@@ -1,0 +1,169 @@
+//! Tosses side by side end to the bit as they do alone.
+
+use super::toss_all;
+use crate::engine::{Finished, VolumetricEngine};
+use crate::impact::{ChatterjeeRuina, ImpactLaw, Moreau, Stronge};
+use crate::lane::Lanes;
+use crate::settings::{Decision, Settings};
+use coinmc_core::{Coin, Domain, Drag, Ended, Landing, Launch, Preset, Scene, Stream, Surface};
+use std::ops::ControlFlow;
+
+fn surface(e: f64, mu: f64, rho: f64) -> Surface {
+    let surface = Surface::new(e, mu).expect("a good surface");
+    surface
+        .with_friction_lengths(rho * 0.01, rho * 0.01)
+        .expect("a good surface")
+}
+
+fn scene(ratio: f64, surface: Surface) -> Scene {
+    let coin = Coin::cylinder(ratio, 0.01).expect("a good coin");
+    Scene::new(coin, surface, 9.81).expect("a good scene")
+}
+
+fn launches(scene: &Scene, preset: Preset, count: u64) -> Vec<Launch> {
+    let (stream, distribution) = (Stream::new(600, Domain::Launch, 0), preset.distribution());
+    let launch = |toss| distribution.launch(&scene.coin, &mut stream.toss(toss));
+    (0..count).map(launch).collect()
+}
+
+/// Every toss by its number.
+fn ends<L: ImpactLaw>(engine: &VolumetricEngine<L>, launches: &[Launch]) -> Vec<Finished> {
+    let mut ends = vec![None; launches.len()];
+    toss_all(engine, &mut launches.iter().copied(), &mut |number, end| {
+        let index = usize::try_from(number).expect("a small number");
+        assert!(ends[index].replace(*end).is_none(), "toss {number} twice");
+        ControlFlow::Continue(())
+    });
+    let ends: Option<Vec<Finished>> = ends.into_iter().collect();
+    ends.expect("every toss ends")
+}
+
+fn same(end: &Finished, alone: &Finished) -> bool {
+    end.outcome == alone.outcome && end.time.to_bits() == alone.time.to_bits()
+}
+
+/// Compares every set of lanes with the single toss.
+fn agree<L: ImpactLaw>(scene: &Scene, settings: &Settings, law: L, launches: &[Launch]) {
+    let engine = VolumetricEngine::new(scene, settings, law).expect("good settings");
+    let alone: Vec<Finished> = launches.iter().map(|l| engine.run(l, &mut ())).collect();
+    for lanes in Lanes::ALL {
+        let Ok(engine) = engine.clone().with_lanes(lanes) else {
+            println!("SKIPPED: this processor has no {lanes}");
+            continue;
+        };
+        for (i, (end, alone)) in ends(&engine, launches).iter().zip(&alone).enumerate() {
+            assert!(
+                same(end, alone),
+                "{lanes} toss {i} of {scene:?}: {end:?} instead of {alone:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn every_shape_surface_and_law() {
+    let mut turn = 0;
+    for ratio in [0.1, 0.25, 0.85, 2.0, 10.0] {
+        for e in [0.0, 0.5, 0.8] {
+            for (mu, rho) in [(0.0, 0.0), (0.0, 0.01), (0.3, 0.01), (0.3, 0.003)] {
+                let scene = scene(ratio, surface(e, mu, rho));
+                let launches = launches(&scene, Preset::Clean, 40);
+                let settings = Settings::default();
+                match turn % 4 {
+                    0 => agree(&scene, &settings, ChatterjeeRuina, &launches),
+                    1 => agree(&scene, &settings, Stronge, &launches[..12]),
+                    _ => agree(&scene, &settings, Moreau, &launches),
+                }
+                turn += 1;
+            }
+        }
+        turn += 1;
+    }
+}
+
+#[test]
+fn drag_thresholds_glue_high_friction_and_no_gyroscopic_torque() {
+    let drag = Drag::new(0.5, 0.3).expect("rates are positive");
+    let threshold = surface(0.5, 0.3, 0.01).with_restitution_threshold(0.3);
+    let scenes = [
+        scene(0.85, surface(0.5, 0.3, 0.01)).with_drag(drag),
+        scene(0.25, surface(0.8, 0.0, 0.0)).with_drag(drag),
+        scene(2.0, threshold.expect("a good surface")),
+        scene(1.0, surface(0.5, 0.3, 0.0).with_landing(Landing::Adhesive)),
+        scene(0.85, surface(0.3, 5.0, 0.01)),
+        scene(3.0, surface(0.0, 2.0, 0.003)),
+        scene(0.85, surface(0.5, 0.3, 0.01)).with_gyroscopic_torque(false),
+        scene(0.5, surface(1.0, 0.0, 0.0)),
+    ];
+    for scene in &scenes {
+        for preset in [Preset::Clean, Preset::Table1] {
+            let launches = launches(scene, preset, 60);
+            agree(scene, &Settings::default(), Moreau, &launches);
+        }
+    }
+}
+
+#[test]
+fn limits_are_met_in_the_same_place() {
+    let scene = scene(0.85, surface(0.5, 0.3, 0.003));
+    let launches = launches(&scene, Preset::Clean, 100);
+    let limited = |change: fn(&mut Settings)| {
+        let mut settings = Settings::default();
+        change(&mut settings);
+        agree(&scene, &settings, Moreau, &launches);
+    };
+    limited(|settings| settings.max_impacts = 5);
+    limited(|settings| settings.max_steps = 7);
+    limited(|settings| settings.time_limit = 12.0);
+    limited(|settings| settings.decision = Decision::Energy);
+    limited(|settings| settings.zeno = 1e-8);
+    limited(|settings| settings.tolerance = 1e-9);
+}
+
+#[test]
+fn launches_that_are_no_launches() {
+    let scene = scene(0.85, surface(0.5, 0.3, 0.01));
+    let mut launches = launches(&scene, Preset::Clean, 30);
+    launches[3].velocity_m_s.x = f64::NAN;
+    launches[4].height_m = f64::INFINITY;
+    launches[11].spin_rad_s *= 1e200;
+    launches[17].velocity_m_s *= 1e6;
+    launches[18].spin_rad_s *= 1e6;
+    launches[19].height_m = -1.0;
+    let engine = VolumetricEngine::new(&scene, &Settings::default(), Moreau).expect("good");
+    assert_eq!(ends(&engine, &launches)[3].outcome.ended, Ended::Failed);
+    agree(&scene, &Settings::default(), Moreau, &launches);
+}
+
+#[test]
+fn neither_the_number_of_tosses_nor_a_cut_matters() {
+    let scene = scene(0.85, surface(0.5, 0.3, 0.003));
+    let launches = launches(&scene, Preset::Clean, 700);
+    let engine = VolumetricEngine::new(&scene, &Settings::default(), Moreau).expect("good");
+    let whole = ends(&engine, &launches);
+    for cut in [0, 1, 7, 8, 9, 63, 128, 300, 699] {
+        let (head, tail) = launches.split_at(cut);
+        let parts = [ends(&engine, head), ends(&engine, tail)].concat();
+        assert!(parts.iter().zip(&whole).all(|(a, b)| same(a, b)), "{cut}");
+    }
+}
+
+#[test]
+fn breaking_off_ends_it_at_once() {
+    let scene = scene(0.85, surface(0.5, 0.3, 0.01));
+    let launches = launches(&scene, Preset::Clean, 1000);
+    let engine = VolumetricEngine::new(&scene, &Settings::default(), Moreau).expect("good");
+    for lanes in Lanes::ALL.into_iter().filter(|lanes| lanes.is_available()) {
+        let engine = engine.clone().with_lanes(lanes).expect("they are there");
+        let mut told = 0;
+        toss_all(&engine, &mut launches.iter().copied(), &mut |_, _| {
+            told += 1;
+            if told == 300 {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        assert_eq!(told, 300, "{lanes}");
+    }
+}

@@ -1,0 +1,198 @@
+//! Eight lanes in two registers of AVX2: while one waits for a root or a quotient, the other works.
+//!
+//! # Safety
+//! As in `avx512`: values are made only inside [`enter`], which asks the processor first.
+#![allow(unsafe_code)]
+
+use super::operators::operators;
+use super::wide::{Bits, Block, Wide, Work};
+use super::{Lane, Mask};
+use std::arch::x86_64::{
+    __m256d, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_add_pd, _mm256_and_pd, _mm256_and_si256,
+    _mm256_andnot_pd, _mm256_blendv_pd, _mm256_castsi256_pd, _mm256_cmp_pd, _mm256_cmpeq_epi64,
+    _mm256_div_pd, _mm256_loadu_pd, _mm256_max_pd, _mm256_min_pd, _mm256_movemask_pd,
+    _mm256_mul_pd, _mm256_or_pd, _mm256_set_epi64x, _mm256_set1_epi64x, _mm256_set1_pd,
+    _mm256_sqrt_pd, _mm256_storeu_pd, _mm256_sub_pd, _mm256_xor_pd,
+};
+
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Eight(__m256d, __m256d);
+
+/// All bits of a lane set, or none.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct EightBits(__m256d, __m256d);
+
+pub(super) fn is_available() -> bool {
+    is_x86_feature_detected!("avx2")
+}
+
+/// Does the work with these lanes; `Err` gives it back where the processor lacks them.
+#[inline]
+pub(super) fn enter<W: Work>(work: W) -> Result<W::Output, W> {
+    #[target_feature(enable = "avx2")]
+    fn inside<W: Work>(work: W) -> W::Output {
+        work.run::<Eight>()
+    }
+    if !is_available() {
+        return Err(work);
+    }
+    // SAFETY: the processor has AVX2.
+    Ok(unsafe { inside(work) })
+}
+
+/// Methods of one instruction a half.
+macro_rules! instructions {
+    ($($method:ident($($other:ident),*) $instruction:ident;)*) => {$(
+        #[inline(always)]
+        fn $method(self $(, $other: Self)*) -> Self {
+            // SAFETY: the module's text.
+            unsafe { Self($instruction(self.0 $(, $other.0)*), $instruction(self.1 $(, $other.1)*)) }
+        }
+    )*};
+}
+
+impl Eight {
+    instructions! {
+        add(other) _mm256_add_pd;
+        sub(other) _mm256_sub_pd;
+        mul(other) _mm256_mul_pd;
+        div(other) _mm256_div_pd;
+        bits_and(other) _mm256_and_pd;
+        bits_or(other) _mm256_or_pd;
+        bits_xor(other) _mm256_xor_pd;
+        // the bits of the second that the first has not
+        bits_not_in(other) _mm256_andnot_pd;
+    }
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        self.bits_xor(<Self as Lane>::splat(-0.0))
+    }
+}
+
+impl EightBits {
+    instructions! {
+        bitand(other) _mm256_and_pd;
+        bitor(other) _mm256_or_pd;
+        bits_xor(other) _mm256_xor_pd;
+    }
+
+    #[inline(always)]
+    fn not(self) -> Self {
+        self.bits_xor(<Self as Mask>::splat(true))
+    }
+}
+
+operators!(Eight, EightBits);
+
+impl Mask for EightBits {
+    #[inline(always)]
+    fn splat(value: bool) -> Self {
+        // SAFETY: the module's text.
+        let half = unsafe { _mm256_castsi256_pd(_mm256_set1_epi64x(-i64::from(value))) };
+        Self(half, half)
+    }
+    #[inline(always)]
+    fn any(self) -> bool {
+        // SAFETY: the module's text.
+        unsafe { _mm256_movemask_pd(_mm256_or_pd(self.0, self.1)) != 0 }
+    }
+}
+
+impl Lane for Eight {
+    type Mask = EightBits;
+
+    instructions! {
+        sqrt() _mm256_sqrt_pd;
+        // of equal numbers, and where one is not a number, the second: as the selects are
+        min(other) _mm256_min_pd;
+        max(other) _mm256_max_pd;
+    }
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        // SAFETY: the module's text.
+        let half = unsafe { _mm256_set1_pd(value) };
+        Self(half, half)
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self::splat(-0.0).bits_not_in(self)
+    }
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        self.abs().bits_or(Self::splat(-0.0).bits_and(sign))
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> EightBits {
+        // SAFETY: the module's text.
+        unsafe {
+            EightBits(
+                _mm256_cmp_pd::<_CMP_LT_OQ>(self.0, other.0),
+                _mm256_cmp_pd::<_CMP_LT_OQ>(self.1, other.1),
+            )
+        }
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> EightBits {
+        // SAFETY: the module's text.
+        unsafe {
+            EightBits(
+                _mm256_cmp_pd::<_CMP_LE_OQ>(self.0, other.0),
+                _mm256_cmp_pd::<_CMP_LE_OQ>(self.1, other.1),
+            )
+        }
+    }
+    #[inline(always)]
+    fn select(mask: EightBits, yes: Self, no: Self) -> Self {
+        // SAFETY: the module's text.
+        unsafe {
+            Self(
+                _mm256_blendv_pd(no.0, yes.0, mask.0),
+                _mm256_blendv_pd(no.1, yes.1, mask.1),
+            )
+        }
+    }
+}
+
+impl Wide for Eight {
+    #[inline(always)]
+    fn load(block: &Block) -> Self {
+        let (low, high) = block.split_at(4);
+        // SAFETY: the module's text; each half is four numbers, at any address.
+        unsafe {
+            Self(
+                _mm256_loadu_pd(low.as_ptr()),
+                _mm256_loadu_pd(high.as_ptr()),
+            )
+        }
+    }
+    #[inline(always)]
+    fn store(self) -> Block {
+        let mut block = [0.0; 8];
+        let (low, high) = block.split_at_mut(4);
+        // SAFETY: as in `load`.
+        unsafe {
+            _mm256_storeu_pd(low.as_mut_ptr(), self.0);
+            _mm256_storeu_pd(high.as_mut_ptr(), self.1);
+        }
+        block
+    }
+    #[inline(always)]
+    fn bits(mask: EightBits) -> Bits {
+        // SAFETY: the module's text.
+        let (low, high) = unsafe { (_mm256_movemask_pd(mask.0), _mm256_movemask_pd(mask.1)) };
+        // four bits each
+        (low | high << 4).to_le_bytes()[0]
+    }
+    #[inline(always)]
+    fn mask(bits: Bits) -> EightBits {
+        // SAFETY: the module's text.
+        let half = |bits: i64| unsafe {
+            let places = _mm256_set_epi64x(8, 4, 2, 1);
+            let set = _mm256_and_si256(_mm256_set1_epi64x(bits), places);
+            _mm256_castsi256_pd(_mm256_cmpeq_epi64(set, places))
+        };
+        EightBits(half(i64::from(bits)), half(i64::from(bits >> 4)))
+    }
+}

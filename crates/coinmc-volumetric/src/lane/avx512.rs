@@ -1,0 +1,165 @@
+//! Eight lanes in one register of AVX-512F.
+//!
+//! # Safety
+//! Every method calls instructions that the processor must have. The type is private to the crate,
+//! and values of it are made only inside [`enter`], which asks first.
+#![allow(unsafe_code)]
+
+use super::operators::operators;
+use super::wide::{Bits, Block, Wide, Work};
+use super::{Lane, Mask};
+use std::arch::x86_64::{
+    __m512d, __mmask8, _CMP_LE_OQ, _CMP_LT_OQ, _mm512_abs_pd, _mm512_add_pd, _mm512_and_si512,
+    _mm512_andnot_si512, _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_cmp_pd_mask,
+    _mm512_div_pd, _mm512_loadu_pd, _mm512_mask_blend_pd, _mm512_max_pd, _mm512_min_pd,
+    _mm512_mul_pd, _mm512_or_si512, _mm512_set1_pd, _mm512_sqrt_pd, _mm512_storeu_pd,
+    _mm512_sub_pd, _mm512_xor_si512,
+};
+
+#[derive(Debug, Clone, Copy)]
+#[repr(transparent)]
+pub(crate) struct Eight(__m512d);
+
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct EightBits(__mmask8);
+
+pub(super) fn is_available() -> bool {
+    is_x86_feature_detected!("avx512f")
+}
+
+/// Does the work with these lanes; `Err` gives it back where the processor lacks them.
+#[inline]
+pub(super) fn enter<W: Work>(work: W) -> Result<W::Output, W> {
+    #[target_feature(enable = "avx512f")]
+    fn inside<W: Work>(work: W) -> W::Output {
+        work.run::<Eight>()
+    }
+    if !is_available() {
+        return Err(work);
+    }
+    // SAFETY: the processor has AVX-512F.
+    Ok(unsafe { inside(work) })
+}
+
+/// Methods of one instruction each.
+macro_rules! instructions {
+    ($($method:ident($($other:ident),*) $instruction:ident;)*) => {$(
+        #[inline(always)]
+        fn $method(self $(, $other: Self)*) -> Self {
+            // SAFETY: the module's text.
+            Self(unsafe { $instruction(self.0 $(, $other.0)*) })
+        }
+    )*};
+}
+
+impl Eight {
+    instructions! {
+        add(other) _mm512_add_pd;
+        sub(other) _mm512_sub_pd;
+        mul(other) _mm512_mul_pd;
+        div(other) _mm512_div_pd;
+    }
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        // SAFETY: the module's text.
+        Self(unsafe {
+            let sign = _mm512_castpd_si512(_mm512_set1_pd(-0.0));
+            _mm512_castsi512_pd(_mm512_xor_si512(_mm512_castpd_si512(self.0), sign))
+        })
+    }
+}
+
+impl EightBits {
+    #[inline(always)]
+    fn bitand(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+    #[inline(always)]
+    fn bitor(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+    #[inline(always)]
+    fn not(self) -> Self {
+        Self(!self.0)
+    }
+}
+
+operators!(Eight, EightBits);
+
+impl Mask for EightBits {
+    #[inline(always)]
+    fn splat(value: bool) -> Self {
+        Self(if value { __mmask8::MAX } else { 0 })
+    }
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.0 != 0
+    }
+}
+
+impl Lane for Eight {
+    type Mask = EightBits;
+
+    instructions! {
+        sqrt() _mm512_sqrt_pd;
+        abs() _mm512_abs_pd;
+        // of equal numbers, and where one is not a number, the second: as the selects are
+        min(other) _mm512_min_pd;
+        max(other) _mm512_max_pd;
+    }
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        // SAFETY: the module's text.
+        Self(unsafe { _mm512_set1_pd(value) })
+    }
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        // SAFETY: the module's text.
+        Self(unsafe {
+            let bit = _mm512_castpd_si512(_mm512_set1_pd(-0.0));
+            let size = _mm512_andnot_si512(bit, _mm512_castpd_si512(self.0));
+            let sign = _mm512_and_si512(bit, _mm512_castpd_si512(sign.0));
+            _mm512_castsi512_pd(_mm512_or_si512(size, sign))
+        })
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> EightBits {
+        // SAFETY: the module's text.
+        EightBits(unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> EightBits {
+        // SAFETY: the module's text.
+        EightBits(unsafe { _mm512_cmp_pd_mask::<_CMP_LE_OQ>(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn select(mask: EightBits, yes: Self, no: Self) -> Self {
+        // SAFETY: the module's text.
+        Self(unsafe { _mm512_mask_blend_pd(mask.0, no.0, yes.0) })
+    }
+}
+
+impl Wide for Eight {
+    #[inline(always)]
+    fn load(block: &Block) -> Self {
+        // SAFETY: the module's text; a block is eight numbers, at any address.
+        Self(unsafe { _mm512_loadu_pd(block.as_ptr()) })
+    }
+    #[inline(always)]
+    fn store(self) -> Block {
+        let mut block = [0.0; 8];
+        // SAFETY: as in `load`.
+        unsafe { _mm512_storeu_pd(block.as_mut_ptr(), self.0) };
+        block
+    }
+    #[inline(always)]
+    fn bits(mask: EightBits) -> Bits {
+        mask.0
+    }
+    #[inline(always)]
+    fn mask(bits: Bits) -> EightBits {
+        EightBits(bits)
+    }
+}

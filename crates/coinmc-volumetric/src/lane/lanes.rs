@@ -1,0 +1,90 @@
+//! Which lanes there are, and which are used.
+
+use super::portable;
+use super::wide::Work;
+#[cfg(target_arch = "x86_64")]
+use super::{avx2, avx512};
+use std::fmt;
+use thiserror::Error;
+
+/// How many tosses are followed side by side, and with which instructions. The outcome of every
+/// toss is the same to the last bit with any of them.
+///
+/// # Example
+/// ```
+/// use coinmc_volumetric::Lanes;
+/// assert!(Lanes::best().is_available() && Lanes::Scalar.is_available());
+/// println!("{} of {:?}", Lanes::best(), Lanes::ALL);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Lanes {
+    /// One toss after the other.
+    Scalar,
+    /// Eight side by side, with the vector instructions that every processor of the architecture
+    /// has.
+    Portable,
+    /// Eight side by side, in pairs of registers of AVX2.
+    Avx2,
+    /// Eight side by side, in registers of AVX-512.
+    Avx512,
+}
+
+/// The processor lacks the instructions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[error("this processor has no {0}; Lanes::best() names what it has")]
+pub struct NoSuchLanes(pub Lanes);
+
+impl Lanes {
+    /// All of them, whether this processor has them or not.
+    pub const ALL: [Self; 4] = [Self::Scalar, Self::Portable, Self::Avx2, Self::Avx512];
+
+    /// The fastest on this processor.
+    pub fn best() -> Self {
+        let vectors = [Self::Avx512, Self::Avx2];
+        let best = vectors.into_iter().find(|lanes| lanes.is_available());
+        best.unwrap_or(Self::Portable)
+    }
+
+    /// Whether this processor has them.
+    pub fn is_available(self) -> bool {
+        match self {
+            Self::Scalar | Self::Portable => true,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 => avx2::is_available(),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => avx512::is_available(),
+            #[cfg(not(target_arch = "x86_64"))]
+            Self::Avx2 | Self::Avx512 => false,
+        }
+    }
+
+    /// Their name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Scalar => "scalar",
+            Self::Portable => "portable",
+            Self::Avx2 => "avx2",
+            Self::Avx512 => "avx512",
+        }
+    }
+
+    /// Does the work with these lanes, or with the portable ones where they are not to be had.
+    #[inline]
+    pub(crate) fn enter<W: Work>(self, work: W) -> W::Output {
+        #[cfg(target_arch = "x86_64")]
+        let entered = match self {
+            Self::Avx512 => avx512::enter(work),
+            Self::Avx2 => avx2::enter(work),
+            Self::Portable | Self::Scalar => Err(work),
+        };
+        #[cfg(not(target_arch = "x86_64"))]
+        let entered: Result<W::Output, W> = Err(work);
+        entered.unwrap_or_else(W::run::<portable::Eight>)
+    }
+}
+
+impl fmt::Display for Lanes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
