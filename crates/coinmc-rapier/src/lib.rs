@@ -31,8 +31,9 @@
 //! # Files
 //! `settings` choices · `body` shape and frame · `motion` state · `flight` closed form, and how far it
 //! is proven free of contact · `world` Rapier · `resist` friction against rolling and pivoting ·
-//! `standing` steps in which nothing happens · `verdict` when the face is settled · `toss` one toss and
-//! its observer · `engine` their order · `account` what a toss came to.
+//! `standing` a coin that stands and spins · `verdict` when the face is settled · `toss` one toss and
+//! its observer · `rules` what is done before and after a step · `batch` one toss, and several in one
+//! world · `engine` what others see of it · `account` what a toss came to.
 
 // The settings alone are of use, too: to read a config that this build cannot run.
 #![cfg_attr(not(any(feature = "f64", feature = "f32")), allow(dead_code))]
@@ -40,11 +41,13 @@
 #![allow(clippy::duplicate_mod)]
 
 mod account;
+mod batch;
 mod body;
 mod engine;
 mod flight;
 mod motion;
 mod resist;
+mod rules;
 mod settings;
 mod standing;
 mod toss;
@@ -54,5 +57,5 @@ mod world;
 pub use account::{Account, Flaw};
 pub use engine::{RapierEngine, Workspace};
 pub use settings::{
-    Decision, Flight, FrictionModel, Gyroscopic, Precision, Settings, SettingsError,
+    Decision, Flight, FrictionModel, Gyroscopic, Precision, Settings, SettingsError, Standing,
 };

@@ -17,6 +17,17 @@ pub(crate) struct Motion {
 }
 
 impl Motion {
+    /// That of no coin: no number.
+    pub(crate) const NONE: Self = {
+        let none = Vector3::new(f64::NAN, f64::NAN, f64::NAN);
+        Self {
+            position: none,
+            velocity: none,
+            axis: none,
+            spin: none,
+        }
+    };
+
     /// The launch, and whether `axis` is u (−u otherwise). A coin that would begin inside the
     /// surface is lifted until it touches.
     pub(crate) fn launched(launch: &Launch, scaled: &Scaled) -> (Self, bool) {

@@ -63,7 +63,7 @@ impl Place {
 /// State and counters.
 pub(crate) struct Toss<'a, O> {
     scaled: &'a Scaled,
-    observer: &'a mut O,
+    observer: O,
     pub(crate) motion: Motion,
     place: Place,
     pub(crate) time: f64,
@@ -83,7 +83,7 @@ pub(crate) struct Toss<'a, O> {
 }
 
 impl<'a, O: Observer> Toss<'a, O> {
-    pub(crate) fn new(launch: &Launch, scaled: &'a Scaled, observer: &'a mut O) -> Self {
+    pub(crate) fn new(launch: &Launch, scaled: &'a Scaled, observer: O) -> Self {
         let (motion, heads_up) = Motion::launched(launch, scaled);
         let energy = motion.energy(&scaled.body);
         let toss = Self {
@@ -137,7 +137,7 @@ impl<'a, O: Observer> Toss<'a, O> {
                 self.tell(EventKind::LiftOff);
             }
             let (from, to) = (begin * units.time_s, until * units.time_s);
-            sample_between(self.observer, from, to, at);
+            sample_between(&mut self.observer, from, to, at);
         }
         self.phase = Phase::Flying;
         self.motion = flight.at(duration);
@@ -168,7 +168,7 @@ impl<'a, O: Observer> Toss<'a, O> {
                 place.motion(&now).state(units, time_s, heads_up)
             };
             let (from, to) = (begin * units.time_s, until * units.time_s);
-            sample_between(self.observer, from, to, at);
+            sample_between(&mut self.observer, from, to, at);
         }
         self.place.turn(turned(pause.duration), &motion);
         self.motion.spin.z *= pause.left;
@@ -208,7 +208,7 @@ impl<'a, O: Observer> Toss<'a, O> {
             place.motion(nearer).state(units, time_s, heads_up)
         };
         let (from, to) = (begin * units.time_s, (begin + step) * units.time_s);
-        sample_between(self.observer, from, to, at);
+        sample_between(&mut self.observer, from, to, at);
     }
 
     fn change_phase(&mut self, impulse: f64, begins: bool) {

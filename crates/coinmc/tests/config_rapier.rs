@@ -4,7 +4,7 @@ mod config_support;
 
 use coinmc::plan::EngineChoice;
 use coinmc::run::{Shard, run_shard};
-use coinmc_rapier::{Decision, Flight, FrictionModel, Gyroscopic, Precision, Settings};
+use coinmc_rapier::{Decision, Flight, FrictionModel, Gyroscopic, Precision, Settings, Standing};
 use config_support::parse;
 use std::collections::HashSet;
 
@@ -44,7 +44,7 @@ fn all_of_the_engine_can_be_chosen() {
     let sets = [
         "engine.rapier={step_s=5e-4, substeps=2, friction_model='simplified', \
                  prediction=0.01, ccd=true, gyroscopic='rapier', flight='steps', \
-                 skip_standing=false, decision='energy', precision='f64', max_gain=0.1, \
+                 standing='rapier', tosses_at_once=8, decision='energy', precision='f64', max_gain=0.1, \
                  max_steps=9, time_limit=50}",
     ];
     let chosen = Settings {
@@ -55,7 +55,8 @@ fn all_of_the_engine_can_be_chosen() {
         ccd: true,
         gyroscopic: Gyroscopic::Rapier,
         flight: Flight::Steps,
-        skip_standing: false,
+        standing: Standing::Rapier,
+        tosses_at_once: 8,
         decision: Decision::Energy,
         precision: Precision::F64,
         max_gain: 0.1,

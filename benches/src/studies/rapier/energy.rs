@@ -86,15 +86,18 @@ impl RapierEnergy {
     }
 
     fn gains(&self, case: &Case, settings: &Settings, seed: u64) -> anyhow::Result<Vec<f64>> {
-        let mut tosser = Tosser::new(case, settings)?;
-        let tosses = (0..self.tosses).map(|toss| {
-            let launch = tosser.launch(seed, toss);
-            tosser.examine(&launch)
-        });
-        // a toss that is decided before its first step has none
-        Ok(tosses
-            .filter(|account| account.steps > 0)
-            .map(|account| account.energy_gain)
-            .collect())
+        let mut gains = Vec::new();
+        Tosser::new(case, settings)?.examine_all(
+            seed,
+            0..self.tosses,
+            || true,
+            |_, account| {
+                // a toss that is decided before its first step has none
+                if account.steps > 0 {
+                    gains.push(account.energy_gain);
+                }
+            },
+        );
+        Ok(gains)
     }
 }

@@ -5,6 +5,7 @@ mod restitution;
 mod speed;
 mod step;
 mod stress;
+mod trend;
 
 pub(crate) use energy::RapierEnergy;
 pub(crate) use restitution::RapierRestitution;
@@ -12,9 +13,11 @@ pub(crate) use speed::RapierSpeed;
 pub(crate) use step::RapierStep;
 pub(crate) use stress::RapierStress;
 
+use clap::builder::PossibleValuesParser;
 use coinmc_bench::Case;
 use coinmc_core::{Engine, Launch, Preset, Tally};
-use coinmc_rapier::{Account, Flaw, RapierEngine, Settings, Workspace};
+use coinmc_rapier::{Account, Flaw, Precision, RapierEngine, Settings, Workspace};
+use std::ops::{ControlFlow, Range};
 
 /// H/R of the scenes.
 const RATIOS: [f64; 4] = [0.25, 0.5, 1.0, 2.0];
@@ -50,14 +53,51 @@ impl Tosser {
     }
 
     fn launch(&self, seed: u64, toss: u64) -> Launch {
-        let mut uniforms = Case::stream(seed).toss(toss);
-        let launches = self.case.launches();
-        launches.launch(&self.case.scene.coin, &mut uniforms)
+        launch(&self.case, seed, toss)
+    }
+
+    /// Several at a time, in one world; as many of the tosses as `go_on` lets begin.
+    fn examine_all(
+        &mut self,
+        seed: u64,
+        tosses: Range<u64>,
+        go_on: impl Fn() -> bool,
+        mut each: impl FnMut(&Launch, &Account),
+    ) {
+        let case = self.case;
+        let start = tosses.start;
+        let launches = tosses
+            .take_while(|_| go_on())
+            .map(|toss| launch(&case, seed, toss));
+        self.engine
+            .examine_all(&mut self.workspace, launches, |number, account| {
+                each(&launch(&case, seed, start + number as u64), account);
+                ControlFlow::Continue(())
+            });
     }
 
     fn examine(&mut self, launch: &Launch) -> Account {
         self.engine.examine(&mut self.workspace, launch, &mut ())
     }
+}
+
+/// The launch of a toss: the same in all engines.
+fn launch(case: &Case, seed: u64, toss: u64) -> Launch {
+    let mut uniforms = Case::stream(seed).toss(toss);
+    case.launches().launch(&case.scene.coin, &mut uniforms)
+}
+
+/// The precisions, for the command line.
+fn precisions() -> PossibleValuesParser {
+    PossibleValuesParser::new(Precision::ALL.map(Precision::name))
+}
+
+/// The precision of this name.
+fn precision(name: &str) -> Precision {
+    let named = Precision::ALL
+        .into_iter()
+        .find(|precision| precision.name() == name);
+    named.unwrap_or_default()
 }
 
 /// How many tosses went wrong in which way, and how many had no end.

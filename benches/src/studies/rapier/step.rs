@@ -1,25 +1,40 @@
 //! P(side) against the step, beside the event-driven engine's of the same launches.
+//!
+//! The two engines agree on many a toss that is decided early and on few others, so that the
+//! difference of the same tosses, x − y, can vary more than x alone. What the event-driven engine
+//! makes of them is used for what it is worth instead, as a control variate: x̄ − β(ȳ − P), with P its
+//! share of the side among many other tosses and β the regression of x on y. The variance is
+//! s_x²(1 − ρ²)/n + (1 − β)² P(1 − P)/N, never above that of x alone, nor of x − y.
 
 use super::super::survey;
-use super::{Flaws, RATIOS, STEPS, Tosser, cases};
+use super::trend::{self, Cell};
+use super::{Flaws, RATIOS, STEPS, Tosser, launch, precision, precisions};
 use crate::number;
+use crate::processor_time::Stopwatch;
 use crate::report::{Report, Table};
 use clap::Args;
 use coinmc_bench::Case;
 use coinmc_core::{Engine, Face, Tally};
-use coinmc_rapier::Settings;
+use coinmc_rapier::{Account, Settings};
 use coinmc_volumetric::{Moreau, VolumetricEngine};
-use std::time::Instant;
 
-/// Bias that is asked for.
-const ASKED: f64 = 0.005;
+/// The number of the first toss of the event-driven engine's own sample, beyond all others.
+const OTHERS: u64 = 1 << 40;
 
 /// The study's arguments.
 #[derive(Debug, Args)]
 pub(crate) struct RapierStep {
-    /// Tosses of a scene with steps of 1 ms and more; fewer in proportion to shorter steps
-    #[arg(long, value_parser = number::count, default_value = "120", value_name = "N")]
+    /// Most tosses of a scene at one step
+    #[arg(long, value_parser = number::count, default_value = "100000", value_name = "N")]
     tosses: u64,
+
+    /// Processor time, s, after which no further toss of a scene at one step begins
+    #[arg(long, default_value_t = 2.0, value_name = "S")]
+    seconds: f64,
+
+    /// Tosses of the event-driven engine by which its P(side) is known
+    #[arg(long, value_parser = number::count, default_value = "20000", value_name = "N")]
+    reference: u64,
 
     /// Shortest step, s
     #[arg(long, default_value_t = 5e-4, value_name = "S")]
@@ -28,6 +43,10 @@ pub(crate) struct RapierStep {
     /// Substeps of a step
     #[arg(long, default_value_t = 4, value_name = "N")]
     substeps: u32,
+
+    /// Arithmetic of the steps
+    #[arg(long, default_value = "f64", value_parser = precisions())]
+    precision: String,
 }
 
 /// What a scene came to at one step.
@@ -35,8 +54,8 @@ pub(crate) struct RapierStep {
 struct Found {
     tally: Tally,
     flaws: Flaws,
-    events: Tally,
-    /// On the side in this engine only, and in the event-driven one only.
+    /// On the side: in both engines, in this one only, in the event-driven one only.
+    both: u64,
     gained: u64,
     lost: u64,
     changed: u64,
@@ -46,14 +65,17 @@ struct Found {
 
 impl RapierStep {
     pub(crate) fn carry_out(&self, seed: u64) -> anyhow::Result<Report> {
+        let cases: Vec<Case> = (0..2)
+            .flat_map(|scene| RATIOS.map(|ratio| super::cases(ratio)[scene]))
+            .collect();
+        let truths = survey(&cases, |case| self.truth(case, seed));
         let mut jobs = Vec::new();
-        for scene in 0..2 {
-            for ratio in RATIOS {
-                let steps = STEPS.into_iter().filter(|step| *step >= self.shortest);
-                jobs.extend(steps.map(|step| (cases(ratio)[scene], step)));
-            }
+        for (case, truth) in cases.iter().zip(truths) {
+            let truth = truth?;
+            let steps = STEPS.into_iter().filter(|step| *step >= self.shortest);
+            jobs.extend(steps.map(|step| (*case, step, truth)));
         }
-        let found = survey(&jobs, |(case, step)| self.compare(case, *step, seed));
+        let found = survey(&jobs, |(case, step, _)| self.toss(case, *step, seed));
         let mut columns = vec![
             "scene",
             "ratio",
@@ -63,91 +85,128 @@ impl RapierStep {
             "event_driven",
             "bias",
             "std_error",
+            "bound",
             "changed",
             "steps_a_toss",
             "tosses_a_second",
         ];
         columns.extend(Flaws::COLUMNS);
         let title = format!(
-            "Against the step: the first tosses of every scene, paired with the event-driven engine; \
-             {} substeps",
-            self.substeps
+            "Against the step, beside the event-driven engine; {} substeps, {}",
+            self.substeps, self.precision
         );
         let mut record = Table::new(title, &columns);
-        let mut best = Vec::new();
-        for ((case, step), found) in jobs.iter().zip(found) {
+        let mut cells = Vec::new();
+        for ((case, step, truth), found) in jobs.iter().zip(found) {
             let found = found?;
-            best.push((*case, *step, found.bias(), found.std_error()));
-            record.push(found.row(case, *step));
+            let cell = found.cell(*step, *truth, self.reference);
+            record.push(found.row(case, &cell, *truth));
+            cells.push((*case, cell));
         }
         let mut report = Report::new(record);
-        report.remark(largest(&best));
+        for scene in cells.chunk_by(|a, b| a.0.to_string() == b.0.to_string()) {
+            let of_scene: Vec<Cell> = scene.iter().map(|(_, cell)| *cell).collect();
+            report.remark(format!("{}: {}", scene[0].0, trend::summary(&of_scene)));
+        }
         report.remark(
             "bias: P(side) minus the event-driven engine's, failed and undecided tosses counted as \
-             not on the side; std_error from the tosses that are on the side in one of the two only. \
-             changed: share of tosses with another face or none. sunk, tunnelled and exploded tosses \
-             are counted as failed.",
+             not on the side, the event-driven outcomes of the same launches as a control variate. \
+             bound: |bias| + 1.96 std_error. changed: share of tosses with another face or none.",
         );
         Ok(report)
     }
 
-    fn compare(&self, case: &Case, step: f64, seed: u64) -> anyhow::Result<Found> {
-        // truncation is meant: a share of a count
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-        let tosses = ((self.tosses as f64 * (step / 1e-3).min(1.0)) as u64).max(20);
+    /// The event-driven engine's P(side), from tosses of its own.
+    fn truth(&self, case: &Case, seed: u64) -> anyhow::Result<f64> {
+        let engine = events(case)?;
+        let tosses = OTHERS..OTHERS + self.reference;
+        let on_side = tosses.filter(|toss| {
+            let launch = launch(case, seed, *toss);
+            engine.toss(&mut (), &launch, &mut ()).face() == Some(Face::Side)
+        });
+        Ok(on_side.count() as f64 / self.reference as f64)
+    }
+
+    fn toss(&self, case: &Case, step: f64, seed: u64) -> anyhow::Result<Found> {
         let settings = Settings {
             step_s: step,
             substeps: self.substeps,
+            precision: precision(&self.precision),
             ..Settings::default()
         };
         let mut tosser = Tosser::new(case, &settings)?;
-        let events =
-            VolumetricEngine::new(&case.scene, &coinmc_volumetric::Settings::default(), Moreau)?;
+        let events = events(case)?;
         let mut found = Found::default();
-        for toss in 0..tosses {
-            let launch = tosser.launch(seed, toss);
-            let start = Instant::now();
-            let account = tosser.examine(&launch);
-            found.seconds += start.elapsed().as_secs_f64();
-            let other = events.toss(&mut (), &launch, &mut ());
-            let (one, two) = (account.outcome.face(), other.face());
-            found.tally.add(&account.outcome);
-            found.events.add(&other);
-            found.flaws.add(account.flaw);
-            found.steps += u64::from(account.steps);
-            let side = |face| face == Some(Face::Side);
-            found.gained += u64::from(side(one) && !side(two));
-            found.lost += u64::from(side(two) && !side(one));
-            found.changed += u64::from(one != two);
+        let mut accounts: Vec<(Account, Option<Face>)> = Vec::new();
+        let clock = Stopwatch::start();
+        let go_on = || clock.seconds() < self.seconds;
+        tosser.examine_all(seed, 0..self.tosses, go_on, |launch, account| {
+            // the event-driven toss takes a hundredth of the time
+            let other = events.toss(&mut (), launch, &mut ());
+            accounts.push((*account, other.face()));
+        });
+        found.seconds = clock.seconds();
+        for (account, other) in &accounts {
+            found.add(account, *other);
         }
         Ok(found)
     }
 }
 
+fn events(case: &Case) -> anyhow::Result<VolumetricEngine<Moreau>> {
+    let settings = coinmc_volumetric::Settings::default();
+    Ok(VolumetricEngine::new(&case.scene, &settings, Moreau)?)
+}
+
 impl Found {
+    fn add(&mut self, account: &Account, other: Option<Face>) {
+        let face = account.outcome.face();
+        self.tally.add(&account.outcome);
+        self.flaws.add(account.flaw);
+        self.steps += u64::from(account.steps);
+        self.changed += u64::from(face != other);
+        match (face == Some(Face::Side), other == Some(Face::Side)) {
+            (true, true) => self.both += 1,
+            (true, false) => self.gained += 1,
+            (false, true) => self.lost += 1,
+            (false, false) => {}
+        }
+    }
+
     fn share(&self, count: u64) -> f64 {
-        count as f64 / self.tally.tosses() as f64
+        count as f64 / self.tally.tosses().max(1) as f64
     }
 
-    fn bias(&self) -> f64 {
-        self.share(self.gained) - self.share(self.lost)
+    /// Bias and its standard error, see above.
+    fn cell(&self, step: f64, truth: f64, reference: u64) -> Cell {
+        let (x, y) = (
+            self.share(self.both + self.gained),
+            self.share(self.both + self.lost),
+        );
+        let (var_x, var_y) = (x * (1.0 - x), y * (1.0 - y));
+        let shared = self.share(self.both) - x * y;
+        let beta = if var_y > 0.0 { shared / var_y } else { 0.0 };
+        let n = self.tally.tosses().max(1) as f64;
+        let rest = (var_x - beta * shared).max(0.0) / n;
+        let of_truth = (1.0 - beta).powi(2) * truth * (1.0 - truth) / reference as f64;
+        Cell {
+            step,
+            bias: x - beta * (y - truth) - truth,
+            error: (rest + of_truth).sqrt(),
+        }
     }
 
-    fn std_error(&self) -> f64 {
-        let square = self.share(self.gained + self.lost);
-        ((square - self.bias().powi(2)).max(0.0) / self.tally.tosses() as f64).sqrt()
-    }
-
-    fn row(&self, case: &Case, step: f64) -> Vec<String> {
+    fn row(&self, case: &Case, cell: &Cell, truth: f64) -> Vec<String> {
         let mut row = vec![
             case.preset.to_string(),
             case.scene.coin.ratio().to_string(),
-            format!("{step:.0e}"),
+            format!("{:.0e}", cell.step),
             self.tally.tosses().to_string(),
             number::probability(self.share(self.tally.side)),
-            number::probability(self.share(self.events.side)),
-            number::difference(self.bias()),
-            number::probability(self.std_error()),
+            number::probability(truth),
+            number::difference(cell.bias),
+            number::probability(cell.error),
+            number::probability(cell.bound()),
             number::probability(self.share(self.changed)),
             format!("{:.0}", self.share(self.steps)),
             format!("{:.0}", self.tally.tosses() as f64 / self.seconds),
@@ -155,23 +214,4 @@ impl Found {
         row.extend(self.flaws.cells(&self.tally));
         row
     }
-}
-
-/// The largest step of every scene from which on, down to the shortest, the bias is below what is
-/// asked for within two standard errors.
-fn largest(found: &[(Case, f64, f64, f64)]) -> String {
-    let mut lines = Vec::new();
-    for scene in found.chunk_by(|a, b| a.0.to_string() == b.0.to_string()) {
-        let within = scene.iter().rev();
-        let within = within.take_while(|(_, _, bias, error)| bias.abs() < ASKED + 2.0 * error);
-        lines.push(match within.last() {
-            Some((case, step, ..)) => format!("{case}: {step:.0e} s"),
-            None => format!("{}: none", scene[0].0),
-        });
-    }
-    format!(
-        "Largest step from which on |bias| is compatible with less than {ASKED} (2 standard \
-         errors): {}",
-        lines.join("; ")
-    )
 }

@@ -3,6 +3,8 @@
 //! The two precisions are two crates with the same names in them, so one source serves both: `stage`
 //! is compiled once for each.
 
+#[cfg(not(all(feature = "f64", feature = "f32")))]
+mod absent;
 #[cfg(feature = "f64")]
 mod double;
 #[cfg(feature = "f32")]
@@ -12,22 +14,30 @@ use crate::body::Scaled;
 use crate::motion::Motion;
 use crate::settings::{Precision, Settings};
 
-/// What an engine asks of a world that a worker keeps. Lengths in D, times in sqrt(D/g).
+/// What an engine asks of a world that a worker keeps: coins in numbered seats that do not touch one
+/// another. Lengths in D, times in sqrt(D/g).
 pub(crate) trait World {
-    /// Puts the coin there. What earlier contacts left behind is gone.
-    fn place(&mut self, motion: &Motion);
+    /// Puts the coin of a seat there, a new one if the seat is empty. What earlier contacts left
+    /// behind is gone.
+    fn place(&mut self, seat: usize, motion: &Motion);
 
-    /// Makes one step. Contacts that begin in it bounce with this restitution.
-    fn step(&mut self, restitution: f64);
+    /// Empties a seat.
+    fn leave(&mut self, seat: usize);
 
-    /// The velocities, and nothing else, become these.
-    fn set_velocities(&mut self, motion: &Motion);
+    /// Contacts of this coin that begin in the next step bounce with this restitution.
+    fn set_restitution(&mut self, seat: usize, restitution: f64);
 
-    /// The coin now.
-    fn motion(&self) -> Motion;
+    /// The velocities of a coin, and nothing else, become these.
+    fn set_velocities(&mut self, seat: usize, motion: &Motion);
 
-    /// Sum of the normal impulses of the last step, in m sqrt(g D).
-    fn impulse(&self) -> f64;
+    /// Makes one step of all coins.
+    fn step(&mut self);
+
+    /// A coin now; none of an empty seat.
+    fn motion(&self, seat: usize) -> Motion;
+
+    /// Sum of the normal impulses of the last step on a coin, in m sqrt(g D).
+    fn impulse(&self, seat: usize) -> f64;
 }
 
 /// A world of one of the precisions that were built.
@@ -38,7 +48,7 @@ pub(crate) enum AnyWorld {
     Single(Box<single::Stage>),
     /// That of an engine that cannot be had: no engine of a precision that was not built exists.
     #[cfg(not(all(feature = "f64", feature = "f32")))]
-    Absent,
+    Absent(absent::Nowhere),
 }
 
 impl AnyWorld {
@@ -56,7 +66,7 @@ impl AnyWorld {
             #[cfg(feature = "f32")]
             Precision::F32 => Self::Single(Box::new(single::Stage::new(scaled, settings, step))),
             #[cfg(not(all(feature = "f64", feature = "f32")))]
-            _ => Self::Absent,
+            _ => Self::Absent(absent::Nowhere),
         }
     }
 }

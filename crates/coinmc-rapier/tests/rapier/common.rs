@@ -4,6 +4,7 @@ use coinmc_core::{
     Coin, Domain, Drag, Engine, Face, Launch, Outcome, Preset, Scene, Stream, Surface,
 };
 use coinmc_rapier::{Account, RapierEngine, Settings, Workspace};
+use std::ops::ControlFlow;
 
 /// R = 1 cm, g = 9.81 m/s².
 pub(crate) fn scene(ratio: f64, restitution: f64, friction: f64) -> Scene {
@@ -45,6 +46,21 @@ impl Tosser {
 
     pub(crate) fn examine(&mut self, launch: &Launch) -> Account {
         self.engine.examine(&mut self.workspace, launch, &mut ())
+    }
+
+    /// Several at a time, in one world; in the order of the launches.
+    pub(crate) fn examine_all(&mut self, launches: &[Launch]) -> Vec<Account> {
+        let mut accounts = vec![None; launches.len()];
+        let each = |number: usize, account: &Account| {
+            assert_eq!(accounts[number].replace(*account), None, "{number} twice");
+            ControlFlow::Continue(())
+        };
+        let launches = launches.iter().copied();
+        self.engine.examine_all(&mut self.workspace, launches, each);
+        accounts
+            .into_iter()
+            .map(|account| account.expect("each toss ends"))
+            .collect()
     }
 
     pub(crate) fn toss(&mut self, launch: &Launch) -> Outcome {

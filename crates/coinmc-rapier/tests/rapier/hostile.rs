@@ -165,6 +165,16 @@ fn settings_out_of_range_are_refused() {
             .is_err()
         );
     }
+    for bad in [0, 1001] {
+        assert!(
+            Settings {
+                tosses_at_once: bad,
+                ..good
+            }
+            .validate()
+            .is_err()
+        );
+    }
     for bad in [0.0, 1.1, f64::NAN] {
         assert!(
             Settings {

@@ -6,6 +6,8 @@ mod determinism;
 mod hostile;
 mod limits;
 mod physics;
+#[cfg(feature = "f32")]
+mod single;
 mod skips;
 mod symmetry;
 mod watching;

@@ -4,7 +4,7 @@ use super::Absent::Is;
 use super::engines::{DECISION, above_zero, count};
 use super::terms::{default, field, fields, number};
 use super::{Fallback, Field, Kind, TableKind, Whole, Word};
-use coinmc_rapier::{Decision, Flight, FrictionModel, Gyroscopic, Precision, Settings};
+use coinmc_rapier::{Decision, Flight, FrictionModel, Gyroscopic, Precision, Settings, Standing};
 
 /// The table `[engine.rapier]`.
 pub(super) fn settings() -> TableKind {
@@ -52,11 +52,18 @@ pub(super) fn settings() -> TableKind {
             Flight::ALL.map(|part| (part.name(), flight(part))),
             settings.flight.name(),
         ),
-        flag(
-            "skip_standing",
-            "Leave out the steps of a coin that stands on its rim and spins, slowed by drag alone, \
-             without gyroscopic torque.",
-            settings.skip_standing,
+        choice(
+            "standing",
+            "Who slows a coin that stands on its rim and spins, where drag alone does, without \
+             gyroscopic torque.",
+            Standing::ALL.map(|by| (by.name(), standing(by))),
+            settings.standing.name(),
+        ),
+        field(
+            "tosses_at_once",
+            "Tosses that share one world; 1 where ccd is on.",
+            Kind::Integer(Whole { low: 1, high: 1000 }),
+            Is(Fallback::Integer(u64::from(settings.tosses_at_once))),
         ),
         choice(
             "decision",
@@ -131,6 +138,13 @@ fn flight(part: Flight) -> &'static str {
         Flight::Contact => "all of it, to the moment of contact",
         Flight::Steps => "whole steps, up to the last one that ends clear of the surface",
         Flight::Off => "none",
+    }
+}
+
+fn standing(by: Standing) -> &'static str {
+    match by {
+        Standing::Drag => "this engine, by a third at a time, without the steps between",
+        Standing::Rapier => "Rapier, step by step",
     }
 }
 
