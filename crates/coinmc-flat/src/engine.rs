@@ -124,7 +124,7 @@ impl<L: ImpactLaw> FlatEngine<L> {
                 let touching = toss.motion;
                 let after = self.impact(toss);
                 watch.passed(touching.time, toss.motion.time, |t| {
-                    touching.towards(&toss.motion, t)
+                    self.look_into(touching, t)
                 });
                 watch.event(EventKind::Impact, &toss.motion);
                 early.look(&toss.motion, self.shape.k);
@@ -221,15 +221,7 @@ impl<L: ImpactLaw> FlatEngine<L> {
     /// The law's impact of the lowest corner.
     #[inline]
     pub(crate) fn strike(&self, motion: &mut Motion, breaks: &mut Breaks) -> (Carried, Record) {
-        let mut strike = Strike {
-            motion,
-            shape: &self.shape,
-            restitution: self.restitution,
-            friction: self.friction,
-            tolerance: self.settings.tolerance,
-            breaks,
-            record: Record::default(),
-        };
+        let mut strike = self.at_touch(motion, breaks);
         let carried = self.law.carry(&mut strike);
         let record = strike.record;
         if carried == Carried::ByImpulse {
@@ -247,6 +239,30 @@ impl<L: ImpactLaw> FlatEngine<L> {
             motion.omega += (sin * p.z - cos * p.x) / k;
         }
         (carried, record)
+    }
+
+    #[inline(always)]
+    fn at_touch<'a>(&'a self, motion: &'a mut Motion, breaks: &'a mut Breaks) -> Strike<'a> {
+        Strike {
+            motion,
+            shape: &self.shape,
+            restitution: self.restitution,
+            friction: self.friction,
+            tolerance: self.settings.tolerance,
+            breaks,
+            record: Record::default(),
+        }
+    }
+
+    /// The coin a time `t` into an impact that lasts longer, for observers: the law is followed
+    /// again, so that tosses nobody looks at keep nothing of it.
+    fn look_into(&self, touching: Motion, t: f64) -> Motion {
+        let mut motion = touching;
+        motion.z = sin_cos(motion.delta).1;
+        let mut unseen = Breaks::default();
+        self.law
+            .look_into(&mut self.at_touch(&mut motion, &mut unseen), t);
+        motion
     }
 
     /// Sustained contact of a corner whose law has carried it to where it stays on the surface.

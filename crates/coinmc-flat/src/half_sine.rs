@@ -20,7 +20,9 @@
 use crate::dormand_prince::{Step, System, growth};
 use crate::impact::{Carried, ContactMatrix, ImpactLaw, Impulse, Moreau, Strike};
 use crate::line::{Materials, duration, stiffness};
+use crate::motion::Motion;
 use crate::settings::{Law, SettingsError, positive};
+use crate::shape::Shape;
 use coinmc_core::Scene;
 use coinmc_core::trig::sin_cos;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -99,6 +101,28 @@ impl HalfSineImpact {
         })
     }
 
+    /// The pulse; `None` if the corner does not approach.
+    fn pulse(&self, strike: &mut Strike<'_>) -> Option<Pulse> {
+        let (delta, omega, inertia) = (strike.motion.delta, strike.motion.omega, strike.shape.k);
+        let (sin, cos) = sin_cos(delta);
+        let matrix = ContactMatrix::new(sin, cos, inertia);
+        let ux = strike.motion.vx - omega * cos;
+        let uz = strike.motion.vz + omega * sin;
+        if uz >= 0.0 {
+            return None;
+        }
+        let time = match self.time {
+            Time::Given(time) => time,
+            Time::OfStiffness(stiffness) => duration(stiffness, 1.0 / matrix.zz, -uz),
+        };
+        Some(Pulse {
+            delta,
+            inertia,
+            impulse: self.pushed(matrix, (ux, uz), strike, time),
+            time,
+        })
+    }
+
     /// The impulse of the pulse.
     fn pushed(
         &self,
@@ -141,6 +165,21 @@ struct Pulse {
 }
 
 impl Pulse {
+    /// The coin a time `t` after the touch, turned and turning so much. The centre is where half a
+    /// sine has pushed it: it has given the share (1 − cos φ)/2 of its impulse, φ = πt/τ, whose
+    /// integral is t/2 − τ sin φ/2π.
+    fn move_on(&self, motion: &mut Motion, shape: &Shape, [turned, omega, _]: [f64; 3], t: f64) {
+        let (sin, cos) = libm::sincos(PI * t / self.time);
+        let (given, so_far) = (0.5 * (1.0 - cos), 0.5 * t - 0.5 * self.time * sin / PI);
+        motion.x += motion.vx * t + self.impulse.x * so_far;
+        motion.z += (motion.vz - 0.5 * t) * t + self.impulse.z * so_far;
+        motion.vx += self.impulse.x * given;
+        motion.vz += self.impulse.z * given - t;
+        motion.omega = omega;
+        motion.time += t;
+        motion.turn(shape, turned);
+    }
+
     /// Share of the impulse per unit time.
     fn density(&self, t: f64) -> f64 {
         let angle = (PI * t / self.time).clamp(0.0, PI);
@@ -158,8 +197,9 @@ impl System<3> for Pulse {
     }
 }
 
-/// Angle turned and angular velocity after the pulse, and the steps taken; `None` if given up.
-fn integrate(pulse: &Pulse, omega: f64, tolerance: f64) -> Option<([f64; 3], u32)> {
+/// Angle turned and angular velocity at `until`, no later than the pulse's end, and the steps taken;
+/// `None` if given up.
+fn integrate(pulse: &Pulse, omega: f64, tolerance: f64, until: f64) -> Option<([f64; 3], u32)> {
     let mut y = [0.0, omega, 0.0];
     let mut rates = pulse.rates(&y);
     let speed = pulse.impulse.z + omega.abs();
@@ -180,6 +220,9 @@ fn integrate(pulse: &Pulse, omega: f64, tolerance: f64) -> Option<([f64; 3], u32
             return None;
         }
         if error <= 1.0 {
+            if step.end[2] > until {
+                return Some((step.at((until - y[2]) / h), steps));
+            }
             (y, rates) = (step.end, step.rates);
             if y[2] >= pulse.time * (1.0 - 1e-14) {
                 return Some((y, steps));
@@ -200,40 +243,19 @@ impl ImpactLaw for HalfSineImpact {
     }
 
     fn carry(&self, strike: &mut Strike<'_>) -> Carried {
-        let (delta, omega, inertia) = (strike.motion.delta, strike.motion.omega, strike.shape.k);
-        let (sin, cos) = sin_cos(delta);
-        let matrix = ContactMatrix::new(sin, cos, inertia);
-        let ux = strike.motion.vx - omega * cos;
-        let uz = strike.motion.vz + omega * sin;
-        if uz >= 0.0 {
+        let Some(pulse) = self.pulse(strike) else {
             return Carried::ByImpulse;
-        }
-        let time = match self.time {
-            Time::Given(time) => time,
-            Time::OfStiffness(stiffness) => duration(stiffness, 1.0 / matrix.zz, -uz),
         };
-        let impulse = self.pushed(matrix, (ux, uz), strike, time);
-        let pulse = Pulse {
-            delta,
-            inertia,
-            impulse,
-            time,
-        };
-        let Some(([turned, omega, _], steps)) = integrate(&pulse, omega, strike.tolerance) else {
+        let found = integrate(&pulse, strike.motion.omega, strike.tolerance, pulse.time);
+        let Some((turned, steps)) = found else {
             strike.breaks.unresolved += 1;
             return Carried::ByImpulse;
         };
         strike.record.steps = steps;
-        strike.record.peak_force = FRAC_PI_2 * impulse.z / time;
-        let motion = &mut *strike.motion;
+        strike.record.peak_force = FRAC_PI_2 * pulse.impulse.z / pulse.time;
+        let (motion, inertia) = (&mut *strike.motion, strike.shape.k);
         let before = motion.energy(inertia);
-        // a half sine has given half its impulse, on average, over its length
-        motion.x += (motion.vx + 0.5 * impulse.x) * time;
-        motion.vx += impulse.x;
-        motion.vz += impulse.z - time;
-        motion.omega = omega;
-        motion.time += time;
-        motion.turn(strike.shape, turned);
+        pulse.move_on(motion, strike.shape, turned, pulse.time);
         let (sin, cos) = sin_cos(motion.delta);
         motion.z = cos;
         let gained = motion.energy(inertia) > before * (1.0 + strike.tolerance);
@@ -243,5 +265,15 @@ impl ImpactLaw for HalfSineImpact {
         }
         // gravity and turning have eaten the rebound
         Carried::Presses
+    }
+
+    fn look_into(&self, strike: &mut Strike<'_>, time: f64) {
+        let Some(pulse) = self.pulse(strike) else {
+            return;
+        };
+        let found = integrate(&pulse, strike.motion.omega, strike.tolerance, time);
+        if let Some((turned, _)) = found {
+            pulse.move_on(strike.motion, strike.shape, turned, time);
+        }
     }
 }

@@ -79,6 +79,10 @@ pub trait ImpactLaw: Copy + Sync {
         Carried::ByImpulse
     }
 
+    /// Carries the coin only so far into an impact that [`carry`](Self::carry) has found to last
+    /// longer than `time`: for observers. The default is for laws without duration.
+    fn look_into(&self, _: &mut Strike<'_>, _time: f64) {}
+
     /// The restitution by which the time of the bounces that remain is judged.
     #[inline]
     fn rebound(&self, e: f64) -> f64 {

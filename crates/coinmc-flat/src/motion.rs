@@ -116,30 +116,6 @@ impl Motion {
         }
     }
 
-    /// A time `t` into an impact that lasts and ends in `after`, for observers: the law is not
-    /// followed again, every number goes evenly from one end to the other. (An impact lasts about
-    /// 0.1 ms.)
-    pub(crate) fn towards(&self, after: &Self, t: f64) -> Self {
-        let share = t / (after.time - self.time);
-        let even = |from: f64, to: f64| from + share * (to - from);
-        let turned = self.quadrant != after.quadrant;
-        Self {
-            // an impact that lays the coin flat may hand it to the next corner
-            delta: if turned {
-                self.delta
-            } else {
-                even(self.delta, after.delta)
-            },
-            quadrant: self.quadrant,
-            omega: even(self.omega, after.omega),
-            x: even(self.x, after.x),
-            z: even(self.z, after.z),
-            vx: even(self.vx, after.vx),
-            vz: even(self.vz, after.vz),
-            time: self.time + t,
-        }
-    }
-
     /// Above z = 1 nothing can touch: jumps to where the centre comes down to 1.
     pub(crate) fn skip_high(&mut self, shape: &Shape) {
         let t = self.vz + (self.vz * self.vz + 2.0 * (self.z - 1.0)).sqrt();

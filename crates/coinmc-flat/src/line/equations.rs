@@ -108,6 +108,11 @@ impl Body {
         }
     }
 
+    /// What a corner weighs along the normal: the inverse of K_zz.
+    pub(super) fn mass(&self, at: &Place) -> f64 {
+        1.0 / (1.0 + at.rx * at.rx / self.inertia)
+    }
+
     /// Normal force on a corner.
     #[inline]
     pub(super) fn normal(&self, which: usize, at: &Place) -> f64 {

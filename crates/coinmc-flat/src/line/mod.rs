@@ -11,8 +11,10 @@
 
 mod damping;
 mod equations;
+mod events;
 mod palmgren;
 mod passage;
+mod scale;
 
 pub use palmgren::Materials;
 
@@ -95,6 +97,21 @@ impl LineImpact {
         })
     }
 
+    /// The impact from the touch on.
+    fn passage(&self, strike: &Strike<'_>) -> Passage {
+        let (shape, motion) = (strike.shape, &*strike.motion);
+        let (sin, cos) = sin_cos(motion.delta);
+        let matrix = ContactMatrix::new(sin, cos, shape.k);
+        let approach = (-(motion.vz + motion.omega * sin)).max(0.0);
+        Passage::new(
+            self.body(motion, shape, strike.friction),
+            [motion.vx, motion.vz, motion.omega],
+            (approach, 1.0 / matrix.zz),
+            (self.strength, self.line.tangential),
+            strike.tolerance,
+        )
+    }
+
     fn body(&self, motion: &Motion, shape: &Shape, mu: f64) -> Body {
         Body {
             inertia: shape.k,
@@ -144,30 +161,17 @@ impl ImpactLaw for LineImpact {
         if strike.restitution < LEAST_RESTITUTION {
             return Carried::ByImpulse;
         }
-        let (shape, motion) = (strike.shape, &mut *strike.motion);
-        let touched = *motion;
-        let (sin, cos) = sin_cos(motion.delta);
-        let matrix = ContactMatrix::new(sin, cos, shape.k);
-        let approach = (-(motion.vz + motion.omega * sin)).max(0.0);
-        let mut passage = Passage::new(
-            self.body(motion, shape, strike.friction),
-            [motion.vx, motion.vz, motion.omega],
-            (approach, 1.0 / matrix.zz),
-            (self.strength, self.line.tangential),
-            strike.tolerance,
-        );
-        let release = passage.follow();
+        let mut passage = self.passage(strike);
+        let release = passage.follow(f64::INFINITY);
         strike.record = passage.record;
-        if release == Release::GivenUp {
+        strike.record.imbalance = passage.imbalance();
+        let Some(release) = release.filter(|release| *release != Release::GivenUp) else {
             strike.breaks.unresolved += 1;
             return Carried::ByImpulse;
-        }
-        let [x, z, turned, vx, vz, omega, ..] = passage.y;
-        motion.time += passage.time;
-        motion.x += x;
-        motion.z += z;
-        motion.turn(shape, turned);
-        (motion.vx, motion.vz, motion.omega) = (vx, vz, omega);
+        };
+        let (shape, motion) = (strike.shape, &mut *strike.motion);
+        let touched = *motion;
+        move_on(motion, shape, &passage);
         // what touches is on the surface, be it to rounding or to the depth of a bound corner
         motion.z = motion.z.max(sin_cos(motion.delta).1);
         if release == Release::Apart {
@@ -179,4 +183,20 @@ impl ImpactLaw for LineImpact {
         }
         Carried::Presses
     }
+
+    fn look_into(&self, strike: &mut Strike<'_>, time: f64) {
+        let mut passage = self.passage(strike);
+        passage.follow(time);
+        move_on(strike.motion, strike.shape, &passage);
+    }
+}
+
+/// From the touch to where a passage is.
+fn move_on(motion: &mut Motion, shape: &Shape, passage: &Passage) {
+    let [x, z, turned, vx, vz, omega, ..] = passage.y;
+    motion.time += passage.time;
+    motion.x += x;
+    motion.z += z;
+    motion.turn(shape, turned);
+    (motion.vx, motion.vz, motion.omega) = (vx, vz, omega);
 }

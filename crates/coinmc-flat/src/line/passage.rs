@@ -1,15 +1,15 @@
 //! From touch to release: steps, events between them, and what ends an impact.
 
 use super::equations::{Body, CORNERS, Grip, LOST, Place, State};
-use super::palmgren::{deepest, duration};
+use super::scale::Scale;
 use crate::dormand_prince::{Step, System, growth};
 use crate::impact::Record;
 
 /// Steps after which an impact is given up. A hard impact needs some tens, the worst of the stress
 /// test a few hundred.
 const MAX_STEPS: u32 = 20_000;
-/// A margin of friction this far below zero, in its own unit, is broken; nearer, it is rounding.
-const BROKEN: f64 = 1e-12;
+/// Rounding of a balance of energy.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// How an impact ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,19 +28,18 @@ pub(super) struct Passage {
     pub(super) y: State,
     pub(super) time: f64,
     pub(super) record: Record,
-    scale: Scale,
-    /// d of the damping.
-    strength: f64,
-}
-
-/// What errors are measured against.
-#[derive(Clone, Copy)]
-struct Scale {
+    pub(super) scale: Scale,
     tolerance: f64,
-    length: f64,
-    speed: f64,
-    time: f64,
-    force: f64,
+    /// Kinetic energy before, and that along the normal: what the tolerance is a share of.
+    energy: f64,
+    /// Energy that is accounted for: see [`Passage::balance`].
+    balance: f64,
+    /// The balance at the touch.
+    before: f64,
+    /// d of the damping.
+    pub(super) strength: f64,
+    /// Least speed from which damping is set: of the first touch.
+    pub(super) slowest: f64,
 }
 
 impl Passage {
@@ -53,34 +52,29 @@ impl Passage {
         (strength, ratio): (f64, f64),
         tolerance: f64,
     ) -> Self {
-        // static depth under the own weight, and the speed at which a fall by it ends: slower
-        // impacts are no impacts but a loading
-        let resting = libm::pow(1.0 / body.stiffness, 0.9);
-        let speed = approach.max(resting.sqrt());
-        let length = deepest(body.stiffness, mass, speed).max(resting);
-        body.tangential = ratio * body.stiffness * libm::pow(length, 1.0 / 9.0);
-        let scale = Scale {
-            tolerance,
-            length,
-            speed,
-            time: duration(body.stiffness, mass, speed),
-            force: body.stiffness * libm::pow(length, 10.0 / 9.0),
-        };
+        let scale = Scale::new(body.stiffness, mass, approach);
+        body.tangential = ratio * body.stiffness * libm::pow(scale.length, 1.0 / 9.0);
         let mut y = [0.0; 11];
         y[3..6].copy_from_slice(&velocity);
+        let kinetic = kinetic(&body, &y);
         Self {
             body,
             y,
             time: 0.0,
             record: Record::default(),
             scale,
+            tolerance,
+            energy: kinetic + 0.5 * mass * scale.speed * scale.speed,
+            balance: kinetic,
+            before: kinetic,
             strength,
+            slowest: scale.speed,
         }
     }
 
-    /// Follows the contact to its end.
-    pub(super) fn follow(&mut self) -> Release {
-        let before = self.energy();
+    /// Follows the contact to its end, or no further than `until` after the touch: `None`, and the
+    /// state is that of then.
+    pub(super) fn follow(&mut self, until: f64) -> Option<Release> {
         for which in 0..CORNERS {
             let at = self.body.place(&self.y, which);
             if which == 0 || (at.depth >= 0.0 && at.rate > 0.0) {
@@ -89,9 +83,9 @@ impl Passage {
         }
         let mut h = 0.01 * self.scale.time;
         let mut rates = self.body.rates(&self.y);
-        let end = loop {
+        loop {
             if self.record.steps == MAX_STEPS || !self.y.iter().all(|y| y.is_finite()) {
-                break Release::GivenUp;
+                return Some(Release::GivenUp);
             }
             self.record.steps += 1;
             let step = Step::take(&self.body, &self.y, &rates, h);
@@ -102,41 +96,62 @@ impl Passage {
             }
             let event = self.first_event(&step);
             let taken = event.map_or(1.0, |(share, _)| share);
+            // beyond the event the force is another one, which has spoiled the step
+            if (1.0 - taken) * h > self.tolerance * self.scale.time {
+                h *= taken;
+                continue;
+            }
+            let y = event.map_or(step.end, |(share, _)| step.at(share));
+            let balance = self.balance(&y);
+            let drift = (balance - self.balance).abs() / self.allowed_drift(taken * h);
+            if drift > 1.0 {
+                h *= growth(drift).min(0.9);
+                continue;
+            }
+            if self.time + taken * h > until {
+                self.y = step.at((until - self.time) / h);
+                self.time = until;
+                return None;
+            }
             self.time += taken * h;
-            if let Some((share, which)) = event {
-                self.y = step.at(share);
+            (self.y, self.balance) = (y, balance);
+            if let Some((_, which)) = event {
                 self.change(which);
                 rates = self.body.rates(&self.y);
                 // a corner that has just met the surface has a force that rises steeply
                 h = h.min(0.05 * self.scale.time);
             } else {
-                (self.y, rates) = (step.end, step.rates);
-                h = (h * growth(error)).min(self.scale.time / 6.0);
+                rates = step.rates;
+                h = (h * growth(error.max(drift))).min(self.scale.time / 6.0);
             }
-            if let Some(end) = self.end() {
-                break end;
+            let end = self.end();
+            if end.is_some() {
+                return end;
             }
-        };
-        let stored = |which| self.body.stored(&self.body.place(&self.y, which));
-        let held: f64 = (0..CORNERS).map(stored).sum();
-        self.record.imbalance = before - self.energy() - held - self.y[LOST];
-        end
+        }
     }
 
-    /// Kinetic and potential energy, the latter since the touch.
-    fn energy(&self) -> f64 {
-        let [_, z, _, vx, vz, omega, ..] = self.y;
-        0.5 * (vx * vx + vz * vz + self.body.inertia * omega * omega) + z
+    /// What the integration lost track of: no change of grip moves the balance.
+    pub(super) fn imbalance(&self) -> f64 {
+        self.before - self.balance
+    }
+
+    /// The energy, what is stored in the corners, and what damping and friction have taken (what is
+    /// in the springs along the surface counts as taken): constant, but for the integration's error.
+    fn balance(&self, y: &State) -> f64 {
+        let stored = |which| self.body.stored(&self.body.place(y, which));
+        kinetic(&self.body, y) + y[1] + (0..CORNERS).map(stored).sum::<f64>() + y[LOST]
+    }
+
+    /// By how much the balance may drift in a time: by the tolerance's share of the energy in the time
+    /// that one impact takes; below it lies rounding.
+    fn allowed_drift(&self, time: f64) -> f64 {
+        self.energy * (self.tolerance * time / self.scale.time).max(ROUNDING)
     }
 
     /// The step's error in units of what is allowed.
     fn error(&self, step: &Step<11>) -> f64 {
-        let Scale {
-            tolerance,
-            length,
-            speed,
-            ..
-        } = self.scale;
+        let Scale { length, speed, .. } = self.scale;
         let energy = speed * speed;
         let mut worst: f64 = 0.0;
         for (i, error) in step.error.iter().enumerate() {
@@ -146,7 +161,7 @@ impl Passage {
                 _ => length,
             };
             // below this lies rounding
-            let allowed = (tolerance * unit).max(4.0 * f64::EPSILON * step.end[i].abs());
+            let allowed = (self.tolerance * unit).max(4.0 * f64::EPSILON * step.end[i].abs());
             let share = error.abs() / allowed;
             // a NaN stays one
             worst = if share > worst || share.is_nan() {
@@ -158,121 +173,21 @@ impl Passage {
         worst
     }
 
-    /// The first margin that breaks in a step, and after which share of it: on its far side, so
-    /// that what follows begins beyond it.
-    fn first_event(&self, step: &Step<11>) -> Option<(f64, usize)> {
-        let mut first: Option<(f64, usize)> = None;
-        for which in 0..2 * CORNERS {
-            let after = self.margin(&step.end, which);
-            if after < 0.0 {
-                let share = self.crossing(step, which, after);
-                if first.is_none_or(|(earliest, _)| share < earliest) {
-                    first = Some((share, which));
-                }
-            }
-        }
-        first
-    }
-
-    /// The false position with Illinois's halving and some bisections, to the far end of the
-    /// bracket.
-    fn crossing(&self, step: &Step<11>, which: usize, end: f64) -> f64 {
-        let (mut near, mut far) = (0.0, 1.0);
-        let mut low = self.margin(&step.at(0.0), which).max(f64::MIN_POSITIVE);
-        let mut high = end;
-        for round in 0..60 {
-            let cut = far - high * (far - near) / (high - low);
-            // every third time a halving, lest a curved margin creeps
-            let share = if round % 3 == 2 || !(cut > near && cut < far) {
-                f64::midpoint(near, far)
-            } else {
-                cut
-            };
-            let margin = self.margin(&step.at(share), which);
-            if margin < 0.0 {
-                (far, high) = (share, margin);
-                if margin > -BROKEN {
-                    break;
-                }
-                low *= 0.5;
-            } else {
-                (near, low) = (share, margin.max(f64::MIN_POSITIVE));
-                high *= 0.5;
-            }
-            if far - near < 1e-14 {
-                break;
-            }
-        }
-        far
-    }
-
-    /// A margin without unit: of clearance for the first numbers, of friction for the others.
-    fn margin(&self, y: &State, which: usize) -> f64 {
-        if which < CORNERS {
-            return self.body.clearance(y, which) / self.scale.length;
-        }
-        let which = which - CORNERS;
-        let unit = match self.body.corners[which].grip {
-            Grip::Slides(_) => self.scale.speed,
-            _ => self.scale.force,
-        };
-        self.body.hold(y, which) / unit + BROKEN
-    }
-
-    /// A corner changes what it does.
-    fn change(&mut self, margin: usize) {
-        let which = margin % CORNERS;
-        match (self.body.corners[which].grip, margin < CORNERS) {
-            (Grip::Apart, _) => self.touch(which),
-            (_, true) => {
-                self.body.corners[which].grip = Grip::Apart;
-                *Body::spring(&mut self.y, which) = 0.0;
-            }
-            (Grip::Slides(direction), _) => {
-                let normal = self.body.normal(which, &self.body.place(&self.y, which));
-                *Body::spring(&mut self.y, which) =
-                    direction * self.body.mu * normal / self.body.tangential;
-                self.body.corners[which].grip = Grip::Sticks;
-            }
-            (Grip::Sticks | Grip::Smooth, _) => {
-                let stretch = *Body::spring(&mut self.y, which);
-                self.body.corners[which].grip = Grip::Slides(1.0_f64.copysign(stretch));
-            }
-        }
-    }
-
-    fn touch(&mut self, which: usize) {
-        let at = self.body.place(&self.y, which);
-        let corner = &mut self.body.corners[which];
-        corner.damping = self.strength / at.rate.max(self.scale.speed);
-        corner.grip = if self.body.mu == 0.0 {
-            Grip::Smooth
-        } else if at.slip == 0.0 {
-            Grip::Sticks
-        } else {
-            Grip::Slides(1.0_f64.copysign(at.slip))
-        };
-        *Body::spring(&mut self.y, which) = 0.0;
-    }
-
     /// Whether it is over, after a step; looks at the forces on the way.
     fn end(&mut self) -> Option<Release> {
-        let (mut touching, mut bound) = (false, true);
-        let mut force = 0.0;
-        for which in 0..CORNERS {
-            if self.body.corners[which].grip == Grip::Apart {
-                continue;
-            }
-            touching = true;
+        let down = self.body.corners.map(|corner| corner.grip != Grip::Apart);
+        let (mut bound, mut force, mut stored) = (true, 0.0, 0.0);
+        for which in (0..CORNERS).filter(|which| down[*which]) {
             let at = self.body.place(&self.y, which);
             force += self.body.normal(which, &at);
+            stored += self.body.stored(&at);
             bound &= self.is_bound(&at);
         }
         self.record.peak_force = self.record.peak_force.max(force);
-        if touching {
-            bound.then_some(Release::Bound)
-        } else {
+        if down == [false; CORNERS] {
             Some(Release::Apart)
+        } else {
+            (bound || self.is_laid_down(down, stored)).then_some(Release::Bound)
         }
     }
 
@@ -280,8 +195,32 @@ impl Passage {
     /// too little energy to come back to the surface. Damping can only take more.
     fn is_bound(&self, at: &Place) -> bool {
         let press = 1.0 + self.y[5] * self.y[5] * at.rz;
-        let mass = 1.0 / (1.0 + at.rx * at.rx / self.body.inertia);
-        let energy = mass * (0.5 * at.rate * at.rate - press * at.depth) + self.body.stored(at);
+        let energy = self.body.mass(at) * (0.5 * at.rate * at.rate - press * at.depth)
+            + self.body.stored(at);
         at.depth > 0.0 && press > 0.0 && energy < 0.0
     }
+
+    /// Whether the coin has too little energy to leave the surface as a whole: all but that of sliding
+    /// is less than it takes to lie flat on the edge between the corners that are down. (Two corners
+    /// that share the weight pass energy to and fro, so that neither is bound by itself.) Friction
+    /// may still make it trip: so may the rigid coin that follows.
+    fn is_laid_down(&self, down: [bool; CORNERS], stored: f64) -> bool {
+        let corners = &self.body.corners;
+        let edge = |(i, j): (usize, usize)| {
+            let (x, z) = (corners[i].x + corners[j].x, corners[i].z + corners[j].z);
+            0.5 * (x * x + z * z).sqrt()
+        };
+        let edges = [(0, 1), (0, 2), (3, 1), (3, 2)];
+        let both = edges.into_iter().find(|&(i, j)| down[i] && down[j]);
+        let flat = both.map_or_else(|| edge(edges[0]).min(edge(edges[1])), edge);
+        let [_, z, _, _, vz, omega, ..] = self.y;
+        let moving = 0.5 * (vz * vz + self.body.inertia * omega * omega);
+        // the centre is above the first corner by its own height at the touch
+        moving + stored + (z - corners[0].z) < flat
+    }
+}
+
+fn kinetic(body: &Body, y: &State) -> f64 {
+    let [_, _, _, vx, vz, omega, ..] = *y;
+    0.5 * (vx * vx + vz * vz + body.inertia * omega * omega)
 }

@@ -63,8 +63,10 @@ fn a_corner_under_the_centre_rebounds_with_e() {
     assert!((elastic.peak_force_n / force - 1.0).abs() < 1e-2);
 }
 
-/// What is left of the energy's balance is the integration's error: below 1000 times the tolerance
-/// times the energy before (measured: 120; thin coins turn hard).
+/// What is left of the energy's balance is the integration's error. In the time of one impact it may
+/// drift by the tolerance's share of the kinetic energy and of what of it is along the normal, which is
+/// no more; a step is at most a sixth of that time: below tolerance·energy·steps/3, whatever the impact.
+/// These last a few times of one impact: measured 1.3 tolerances.
 #[test]
 fn energy_balances_to_the_tolerance_and_is_never_gained() {
     for tolerance in [1e-6, 1e-9] {
@@ -86,15 +88,20 @@ fn energy_balances_to_the_tolerance_and_is_never_gained() {
             assert_eq!(found.breaks.unresolved, 0, "{trial}");
             let energy = |state: &State| state.energy_j_kg(&scene) * 0.01;
             let before = energy(&found.before);
-            worst = worst.max(found.imbalance_j.abs() / before);
+            let imbalance = found.imbalance_j.abs() / before;
             assert!(
-                found.stays || found.gain_j <= 1000.0 * tolerance * before,
+                imbalance <= (tolerance / 3.0 + 1e-14) * f64::from(found.steps),
+                "{trial} {found:?}"
+            );
+            worst = worst.max(imbalance);
+            assert!(
+                found.stays || found.gain_j <= 3.0 * tolerance * before,
                 "{trial} {found:?}"
             );
             assert!(energy(&found.after) <= before * (1.0 + 1e-14), "{trial}");
         }
         println!("{tolerance}: {worst}");
-        assert!(worst < 1000.0 * tolerance, "{tolerance}: {worst}");
+        assert!(worst < 3.0 * tolerance, "{tolerance}: {worst}");
     }
 }
 
@@ -148,6 +155,37 @@ fn a_gentle_touch_stays() {
         &touch(0.3, 0.0, -1e-4, 0.0),
     );
     assert!(found.stays);
+}
+
+/// A soft coin that lies on both corners and trembles has too little energy to leave as a whole, though
+/// neither corner is bound by itself; rocking without losses included.
+#[test]
+fn a_coin_that_lies_on_both_corners_stays() {
+    for (ratio, restitution, friction, spin) in [
+        (0.17, 0.3, 0.1, 0.8),
+        (0.14, 0.3, 0.0, 1e-4),
+        (0.1, 0.01, 2.0, 0.02),
+        (0.2, 1.0, 0.5, 1e-4),
+    ] {
+        let found = impact(
+            &scene(ratio, restitution, friction),
+            line(1e5),
+            1e-6,
+            &touch(PI, 1e-3, -1e-3, spin),
+        );
+        assert!(found.stays && found.breaks.unresolved == 0, "{found:?}");
+        assert!(found.steps < 3000, "{found:?}");
+    }
+}
+
+/// A corner that comes down hard after another has grazed the surface is resolved on its own scale.
+#[test]
+fn a_graze_before_a_hard_impact_costs_no_more_than_the_impact() {
+    let scene = scene(6.5, 0.01, 10.0);
+    let start = touch(1.5 * PI, -40.0, -50.0, 4000.0);
+    let found = impact(&scene, line(1e7), 1e-6, &start);
+    assert_eq!(found.breaks.unresolved, 0);
+    assert!(found.steps < 3000, "{found:?}");
 }
 
 /// Stiff along the surface and compliant there are different laws where the corner sticks; both

@@ -8,3 +8,4 @@ mod half_sine;
 mod hostile;
 mod line_contact;
 mod paper;
+mod sampling;

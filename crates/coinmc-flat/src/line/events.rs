@@ -1,0 +1,113 @@
+//! What happens on the way through an impact: corners touch and leave, begin to slide and stop.
+
+use super::equations::{Body, CORNERS, Grip, State};
+use super::passage::Passage;
+use super::scale::Scale;
+use crate::dormand_prince::Step;
+
+/// A margin of friction this far below zero, in its own unit, is broken; nearer, it is rounding.
+const BROKEN: f64 = 1e-12;
+
+impl Passage {
+    /// The first margin that breaks in a step, and after which share of it: on its far side, so
+    /// that what follows begins beyond it.
+    pub(super) fn first_event(&self, step: &Step<11>) -> Option<(f64, usize)> {
+        let mut first: Option<(f64, usize)> = None;
+        for which in 0..2 * CORNERS {
+            let after = self.margin(&step.end, which);
+            if after < 0.0 {
+                let share = self.crossing(step, which, after);
+                if first.is_none_or(|(earliest, _)| share < earliest) {
+                    first = Some((share, which));
+                }
+            }
+        }
+        first
+    }
+
+    /// The false position with Illinois's halving and some bisections, to the far end of the
+    /// bracket.
+    fn crossing(&self, step: &Step<11>, which: usize, end: f64) -> f64 {
+        let (mut near, mut far) = (0.0, 1.0);
+        let mut low = self.margin(&step.at(0.0), which).max(f64::MIN_POSITIVE);
+        let mut high = end;
+        for round in 0..60 {
+            let cut = far - high * (far - near) / (high - low);
+            // every third time a halving, lest a curved margin creeps
+            let share = if round % 3 == 2 || !(cut > near && cut < far) {
+                f64::midpoint(near, far)
+            } else {
+                cut
+            };
+            let margin = self.margin(&step.at(share), which);
+            if margin < 0.0 {
+                (far, high) = (share, margin);
+                if margin > -BROKEN {
+                    break;
+                }
+                low *= 0.5;
+            } else {
+                (near, low) = (share, margin.max(f64::MIN_POSITIVE));
+                high *= 0.5;
+            }
+            if far - near < 1e-14 {
+                break;
+            }
+        }
+        far
+    }
+
+    /// A margin without unit: of clearance for the first numbers, of friction for the others.
+    fn margin(&self, y: &State, which: usize) -> f64 {
+        if which < CORNERS {
+            return self.body.clearance(y, which) / self.scale.length;
+        }
+        let which = which - CORNERS;
+        let unit = match self.body.corners[which].grip {
+            Grip::Slides(_) => self.scale.speed,
+            _ => self.scale.force,
+        };
+        self.body.hold(y, which) / unit + BROKEN
+    }
+
+    /// A corner changes what it does.
+    pub(super) fn change(&mut self, margin: usize) {
+        let which = margin % CORNERS;
+        match (self.body.corners[which].grip, margin < CORNERS) {
+            (Grip::Apart, _) => self.touch(which),
+            (_, true) => {
+                self.body.corners[which].grip = Grip::Apart;
+                *Body::spring(&mut self.y, which) = 0.0;
+            }
+            (Grip::Slides(direction), _) => {
+                let normal = self.body.normal(which, &self.body.place(&self.y, which));
+                *Body::spring(&mut self.y, which) =
+                    direction * self.body.mu * normal / self.body.tangential;
+                self.body.corners[which].grip = Grip::Sticks;
+            }
+            (Grip::Sticks | Grip::Smooth, _) => {
+                let stretch = *Body::spring(&mut self.y, which);
+                self.body.corners[which].grip = Grip::Slides(1.0_f64.copysign(stretch));
+            }
+        }
+    }
+
+    pub(super) fn touch(&mut self, which: usize) {
+        let at = self.body.place(&self.y, which);
+        // a corner that comes down faster than the first sets the scale: in units of a graze, its
+        // impact would be resolved a thousand times too finely
+        if at.rate > self.scale.speed {
+            self.scale = Scale::new(self.body.stiffness, self.body.mass(&at), at.rate);
+        }
+        let corner = &mut self.body.corners[which];
+        corner.damping = self.strength / at.rate.max(self.slowest);
+        corner.grip = if self.body.mu == 0.0 {
+            Grip::Smooth
+        } else if at.slip == 0.0 {
+            Grip::Sticks
+        } else {
+            Grip::Slides(1.0_f64.copysign(at.slip))
+        };
+        *Body::spring(&mut self.y, which) = 0.0;
+    }
+}
