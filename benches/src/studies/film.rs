@@ -77,7 +77,7 @@ fn one(number: u64, options: &Options) -> Tried {
         shared: Shared {
             restitution: between(4, 0.3, 0.8),
             friction: between(5, 0.05, 0.4),
-            floor_m: 0.0,
+            ..Shared::default()
         },
         start: [
             0.0,

@@ -1,128 +1,36 @@
-//! The laws that can be fitted, and their parameters.
+//! What is known about the drops beforehand: the law, the coin and gravity.
 //!
-//! A law that joins the flat engine is one more arm in [`parameters`] and in [`Model::follow`]; a
-//! number of its own is one more [`Parameter`].
+//! A law that joins the flat engine is one more arm in [`parameters`](crate::parameters) and where
+//! [`Shared`] takes its numbers; a number of its own is one more [`Parameter`](crate::Parameter).
 
+use crate::parameter::Shared;
 use coinmc_core::{Coin, Engine, Launch, Observer, Outcome, Scene, Surface};
-use coinmc_flat::{AnyFlatEngine, Law, Settings};
-
-/// A number that all drops of a fit share.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Parameter {
-    /// Coefficient of restitution e.
-    Restitution,
-    /// Coefficient of Coulomb friction μ.
-    Friction,
-    /// Height of the surface in the film's coordinates, m: nobody places the origin exactly.
-    Floor,
-}
-
-impl Parameter {
-    /// All parameters, in the order of every table.
-    pub const ALL: [Self; 3] = [Self::Restitution, Self::Friction, Self::Floor];
-
-    /// The name used on the command line and in results.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Restitution => "restitution",
-            Self::Friction => "friction",
-            Self::Floor => "floor_m",
-        }
-    }
-
-    /// The values it may take.
-    pub fn range(self) -> (f64, f64) {
-        match self {
-            Self::Restitution => (0.0, 1.0),
-            // beyond this no impact of a coin slides
-            Self::Friction => (0.0, 10.0),
-            Self::Floor => (f64::NEG_INFINITY, f64::INFINITY),
-        }
-    }
-
-    /// Where a search begins; empty: at the value given.
-    pub(crate) fn grid(self) -> &'static [f64] {
-        match self {
-            Self::Restitution => &[0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9],
-            Self::Friction => &[
-                0.02, 0.05, 0.08, 0.12, 0.16, 0.21, 0.27, 0.35, 0.45, 0.6, 0.9,
-            ],
-            Self::Floor => &[],
-        }
-    }
-
-    /// What a change by one means: the unit of the search.
-    pub(crate) fn scale(self, coin: &Coin) -> f64 {
-        match self {
-            Self::Restitution | Self::Friction => 1.0,
-            Self::Floor => coin.rim_distance_m(),
-        }
-    }
-}
-
-/// The parameters a law depends on, and the floor on which all do.
-pub fn parameters(law: Law) -> &'static [Parameter] {
-    match law {
-        // the paper's law has no friction; its own numbers are given, not fitted
-        Law::Paper(_) => &[Parameter::Restitution, Parameter::Floor],
-        Law::Moreau | Law::ChatterjeeRuina | Law::HalfSine(_) | Law::LineContact(_) => {
-            &Parameter::ALL
-        }
-    }
-}
-
-/// A value for every parameter.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Shared {
-    /// Coefficient of restitution e.
-    pub restitution: f64,
-    /// Coefficient of Coulomb friction μ.
-    pub friction: f64,
-    /// Height of the surface in the film's coordinates, m.
-    pub floor_m: f64,
-}
-
-impl Shared {
-    /// The value of a parameter.
-    pub fn get(&self, parameter: Parameter) -> f64 {
-        match parameter {
-            Parameter::Restitution => self.restitution,
-            Parameter::Friction => self.friction,
-            Parameter::Floor => self.floor_m,
-        }
-    }
-
-    /// The same with another value of a parameter.
-    pub fn with(mut self, parameter: Parameter, value: f64) -> Self {
-        match parameter {
-            Parameter::Restitution => self.restitution = value,
-            Parameter::Friction => self.friction = value,
-            Parameter::Floor => self.floor_m = value,
-        }
-        self
-    }
-
-    /// The same with every parameter within its range.
-    pub(crate) fn clamped(self) -> Self {
-        Parameter::ALL.into_iter().fold(self, |shared, parameter| {
-            let (low, high) = parameter.range();
-            shared.with(parameter, shared.get(parameter).clamp(low, high))
-        })
-    }
-}
+use coinmc_flat::{AnyFlatEngine, Law, Settings, SettingsError};
 
 /// What is known about the drops beforehand.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Model {
-    /// The law of impact.
+    /// The law of impact, with the numbers of its own that a fit begins with or keeps.
     pub law: Law,
-    /// What was dropped.
+    /// What was dropped. Its mass matters for laws that name forces.
     pub coin: Coin,
     /// Acceleration of gravity, m/s².
     pub gravity_m_s2: f64,
 }
 
 impl Model {
+    /// Checks the numbers of the law.
+    ///
+    /// # Errors
+    /// [`SettingsError`] if one is out of its range.
+    pub fn validate(&self) -> Result<(), SettingsError> {
+        let settings = Settings {
+            law: self.law,
+            ..Settings::default()
+        };
+        settings.validate()
+    }
+
     /// Follows one drop; `None` where the numbers are beyond every range.
     pub(crate) fn follow(
         &self,
@@ -136,19 +44,29 @@ impl Model {
         };
         let surface = Surface::new(shared.restitution, friction).ok()?;
         let scene = Scene::new(self.coin, surface, self.gravity_m_s2).ok()?;
-        let engine = AnyFlatEngine::new(&scene, &self.settings()).ok()?;
+        let engine = AnyFlatEngine::new(&scene, &self.settings(shared)).ok()?;
         Some(engine.toss(&mut (), launch, observer))
     }
 
     /// Finer than the default: derivatives are taken by differences, and what the engine cuts off
-    /// must stay below them.
-    fn settings(&self) -> Settings {
+    /// must stay below them. (An impact resolved in time errs by less than its tolerance: 1e-9 is
+    /// the 1e-4th part of what the differences step.)
+    fn settings(&self, shared: &Shared) -> Settings {
+        let tolerance = match self.law {
+            Law::LineContact(_) => 1e-9,
+            _ => 1e-10,
+        };
         Settings {
-            law: self.law,
+            law: shared.applied(self.law),
             zeno: 1e-3,
-            tolerance: 1e-10,
+            tolerance,
             max_impacts: 10_000,
             ..Settings::default()
         }
+    }
+
+    /// Whether its impacts cost a hundred times those of the others.
+    pub(crate) fn is_costly(&self) -> bool {
+        matches!(self.law, Law::LineContact(_))
     }
 }

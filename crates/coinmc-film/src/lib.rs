@@ -7,7 +7,8 @@
 //! criteria that say which law describes the drops best ([`compare`]).
 //!
 //! # Files
-//! `text` Tracker's text · `drop` frames · `law` laws and parameters · `path` prediction · `flight`
+//! `text` Tracker's text · `drop` frames · `law` the model · `parameter` what is fitted · `path`
+//! prediction · `flight`
 //! the film before the first impact · `fit` the fit · `compare` several laws · `plot` and `table`
 //! residuals · `synthetic` drops filmed in the computer.
 
@@ -16,13 +17,16 @@ mod drop;
 mod fit;
 mod flight;
 mod law;
+mod parameter;
 mod path;
 mod plot;
 mod synthetic;
 mod table;
 pub mod text;
 
-pub use coinmc_flat::Law;
+pub use coinmc_flat::{
+    HalfSine, Law, Lever, LineContact, Materials, Paper, PulseTime, SettingsError,
+};
 pub use compare::{Ranked, compare};
 pub use drop::{Coordinate, FilmedDrop, Frame, MAX_FRAMES};
 pub use fit::{
@@ -30,7 +34,8 @@ pub use fit::{
     fit_all,
 };
 pub use flight::LEAST_FLIGHT;
-pub use law::{Model, Parameter, Shared, parameters};
+pub use law::Model;
+pub use parameter::{Parameter, Shared, parameters};
 pub use plot::residuals_svg;
 pub use synthetic::Synthetic;
 pub use table::residuals_csv;

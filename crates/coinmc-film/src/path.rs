@@ -1,7 +1,8 @@
 //! What a law predicts for the frames of a drop.
 
 use crate::drop::wrapped;
-use crate::law::{Model, Shared};
+use crate::law::Model;
+use crate::parameter::Shared;
 use coinmc_core::{Coin, Event, EventKind, Launch, Observer, State};
 use nalgebra::{UnitVector3, Vector3};
 

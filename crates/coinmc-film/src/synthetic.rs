@@ -1,7 +1,8 @@
 //! Drops filmed in the computer: to try the reader and the fit with, and to measure both.
 
 use crate::drop::{FilmedDrop, Frame, wrapped};
-use crate::law::{Model, Shared};
+use crate::law::Model;
+use crate::parameter::Shared;
 use crate::path::{Start, path};
 use coinmc_core::{Philox4x64, inverse_normal_cdf, unit_interval};
 
@@ -10,7 +11,7 @@ use coinmc_core::{Philox4x64, inverse_normal_cdf, unit_interval};
 pub struct Synthetic {
     /// Key of the random numbers.
     pub seed: u64,
-    /// The surface.
+    /// The surface. A law's own numbers are those of its model.
     pub shared: Shared,
     /// State at the first frame: x, x', z above the surface, z', θ, θ' (m, m/s, m, m/s, rad,
     /// rad/s).
@@ -34,9 +35,8 @@ impl Default for Synthetic {
         Self {
             seed: 1,
             shared: Shared {
-                restitution: 0.5,
                 friction: 0.2,
-                floor_m: 0.0,
+                ..Shared::default()
             },
             start: [
                 0.0,
@@ -64,7 +64,7 @@ impl Synthetic {
         let frames = (self.duration_s * self.rate_hz).clamp(0.0, 99_999.0) as usize + 1;
         let times: Vec<f64> = (0..frames).map(|i| i as f64 / self.rate_hz).collect();
         let start: Start = self.start;
-        let path = path(model, &self.shared, &start, &times)?;
+        let path = path(model, &self.shared.of(model.law), &start, &times)?;
         let noise = [
             self.position_noise_m,
             self.position_noise_m,

@@ -2,7 +2,6 @@
 
 use super::problem::{Miss, Problem, Unknown};
 use crate::drop::Coordinate;
-use crate::law::Parameter;
 use coinmc_core::{Philox4x64, inverse_normal_cdf, unit_interval};
 use nalgebra_lm::DMatrix;
 
@@ -22,6 +21,9 @@ pub(crate) struct Spread {
     /// By what the squared errors of a robust fit differ from those of squares: Huber, *Robust
     /// Statistics* (1981), eq. 7.6.5, without the correction for few residuals.
     pub(crate) factor: f64,
+    /// By what the variance of each unknown exceeds that of linear theory, as the weights of the
+    /// coordinates are themselves estimated.
+    pub(crate) inflation: Vec<f64>,
     /// How the unknowns move with each shared parameter, which come first, along the valley of the
     /// cost; all in units of the search.
     pub(crate) valleys: Vec<Vec<f64>>,
@@ -83,21 +85,51 @@ pub(crate) fn spread(problem: &Problem) -> Option<Spread> {
         taken: [0.0; 3],
         points: Coordinate::ALL.map(|c| of(&misses, c).len() as f64),
         factor: 1.0,
+        inflation: vec![1.0; problem.unknowns.len()],
         valleys: Vec::new(),
     };
     let degrees = (misses.len() as f64 - kept.len() as f64).max(1.0);
     spread.factor = factor(problem, &misses, degrees);
-    for (i, &j) in kept.iter().enumerate() {
-        let variance = spread.factor * inverse[(i, i)];
-        spread.errors[j] = Some(variance.max(0.0).sqrt() * problem.scale(problem.unknowns[j]));
-    }
     spread.valleys = valleys(problem, &kept, &inverse);
     let rows = matrix.select_columns(&kept);
     let leverages = (&rows * &inverse).component_mul(&rows).column_sum();
     for (miss, leverage) in misses.iter().zip(&leverages) {
         spread.taken[miss.coordinate.index()] += leverage;
     }
+    let excess = excess(&rows, &misses, &inverse, &spread);
+    for (i, &j) in kept.iter().enumerate() {
+        spread.inflation[j] = 1.0 + excess[i] / inverse[(i, i)];
+        let variance = spread.factor * inverse[(i, i)] * spread.inflation[j];
+        spread.errors[j] = Some(variance.max(0.0).sqrt() * problem.scale(problem.unknowns[j]));
+    }
     Some(spread)
+}
+
+/// Variance beyond linear theory's V because each coordinate is weighed by its own scatter, which is
+/// estimated with ν degrees of freedom: Kenward & Roger, Biometrics 53 (1997) 983,
+/// 2 V Σ (2/ν)(N − N V N) V over the coordinates, N the normal matrix of one. (Of a mean of two
+/// series it is Meier's formula.)
+fn excess(
+    rows: &DMatrix<f64>,
+    misses: &[Miss],
+    inverse: &DMatrix<f64>,
+    spread: &Spread,
+) -> Vec<f64> {
+    let mut excess = vec![0.0; inverse.nrows()];
+    for coordinate in Coordinate::ALL {
+        let c = coordinate.index();
+        let degrees = (spread.points[c] - spread.taken[c]).max(1.0);
+        let of_it = (0..misses.len()).filter(|i| misses[*i].coordinate == coordinate);
+        let rows = rows.select_rows(&of_it.collect::<Vec<_>>());
+        // N V, and V N V = (N V)ᵀ V
+        let weighed = rows.tr_mul(&(&rows * inverse));
+        let single = weighed.tr_mul(inverse);
+        let double = single.clone() * &weighed;
+        for (i, sum) in excess.iter_mut().enumerate() {
+            *sum += 4.0 / degrees * (single[(i, i)] - double[(i, i)]).max(0.0);
+        }
+    }
+    excess
 }
 
 /// The columns of the covariance of the shared parameters, each divided by its variance.
@@ -120,15 +152,15 @@ fn valleys(problem: &Problem, kept: &[usize], inverse: &DMatrix<f64>) -> Vec<Vec
 fn tells(problem: &Problem, j: usize, square: f64) -> bool {
     let unknown = problem.unknowns[j];
     let width = match unknown {
-        Unknown::Shared(parameter @ (Parameter::Restitution | Parameter::Friction)) => {
+        Unknown::Shared(parameter) => {
             let (low, high) = parameter.range();
             let value = problem.value(unknown);
             if value <= low || value >= high {
                 return false;
             }
-            high - low
+            ((high - low) / problem.scale(unknown)).min(1e3)
         }
-        Unknown::Shared(Parameter::Floor) | Unknown::Start(..) => 1e3,
+        Unknown::Start(..) => 1e3,
     };
     square > 1.0 / (width * width)
 }

@@ -25,11 +25,12 @@ pub use result::{Estimated, Fit, FittedDrop, Noise, Residual};
 
 use crate::drop::{FilmedDrop, MAX_FRAMES};
 use crate::flight::{Flight, LEAST_FLIGHT, flight, noise};
-use crate::law::{Model, Parameter, Shared, parameters};
+use crate::law::Model;
+use crate::parameter::{Parameter, Shared, parameters};
 use covariance::{Spread, scales, spread};
 use problem::{Problem, Task};
 use profile::{Around, End};
-use search::{Window, search};
+use search::{Window, elsewhere, search};
 
 /// Most drops of a fit.
 pub const MAX_DROPS: usize = 64;
@@ -42,15 +43,19 @@ const STAYS: f64 = 1e-4;
 /// Random steps about a minimum, and their size in standard errors.
 const HOPS: u64 = 16;
 const HOP: f64 = 1.5;
+/// Searches elsewhere, led back along a growing film, and steps of the optimiser at each length.
+const ELSEWHERE: u64 = 12;
+const PATIENCE: usize = 12;
 /// How often a better minimum may be found while intervals are made.
 const RESTARTS: usize = 5;
 
 /// What a fit is asked to do.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
-    /// Parameters to fit; the others keep their value of `shared`.
+    /// Parameters to fit, as far as a law has them; the others keep their value of `shared`, or
+    /// of the law.
     pub free: Vec<Parameter>,
-    /// Values of the parameters that are not fitted.
+    /// Values of the parameters that are not fitted. A law's own numbers are those of its model.
     pub shared: Shared,
     /// The film counts up to the bounce after this many. Impacts within four frames of each other
     /// are one bounce.
@@ -64,15 +69,11 @@ pub struct Options {
 }
 
 impl Default for Options {
-    /// Restitution and friction from the first two bounces, normal noise, 95 %.
+    /// Restitution, friction and η from the first two bounces, normal noise, 95 %.
     fn default() -> Self {
         Self {
-            free: vec![Parameter::Restitution, Parameter::Friction],
-            shared: Shared {
-                restitution: 0.5,
-                friction: 0.3,
-                floor_m: 0.0,
-            },
+            free: vec![Parameter::Restitution, Parameter::Friction, Parameter::Eta],
+            shared: Shared::default(),
             bounces: 2,
             until_s: f64::INFINITY,
             loss: Loss::Square,
@@ -134,7 +135,7 @@ pub fn fit_all(
             task,
             &flights,
             sigma,
-            &options.shared,
+            &options.shared.of(law),
             &free(task, options),
             window,
         );
@@ -214,15 +215,23 @@ fn finish(mut minimum: Problem<'_>, options: &Options) -> Option<Fit> {
     None
 }
 
-/// Looks for a better minimum near by, by random steps as large as the errors.
+/// Looks for a better minimum near by, by random steps as large as the errors, and where the first
+/// impact leaves room for one.
 fn hop(mut minimum: Problem<'_>) -> Option<Problem<'_>> {
     let around = spread(&minimum)?;
-    for number in 0..HOPS {
+    for number in 0..minimum.tries(HOPS) {
         let mut trial = minimum.clone();
         trial.shift(&around.draw(number), HOP);
         let trial = trial.minimise(40);
         if trial.cost() < minimum.cost() {
             minimum = trial;
+        }
+    }
+    for number in 0..minimum.tries(ELSEWHERE) {
+        if let Some(trial) = elsewhere(&minimum, number, PATIENCE)
+            && trial.cost() < minimum.cost()
+        {
+            minimum = trial.minimise(40);
         }
     }
     Some(minimum)

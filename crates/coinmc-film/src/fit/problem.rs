@@ -2,15 +2,21 @@
 
 use super::loss::Loss;
 use crate::drop::{Coordinate, FilmedDrop, wrapped};
-use crate::law::{Model, Parameter, Shared};
+use crate::law::Model;
+use crate::parameter::{Parameter, Shared};
 use crate::path::{Path, Start, path, start_scales};
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra_lm::storage::Owned;
-use nalgebra_lm::{DMatrix, DVector, Dyn};
+use nalgebra_lm::{DMatrix, DMatrixViewMut, DVector, Dyn};
 
 /// Step of the central differences, in the units of the search: the cube root of the rounding in a
 /// path, where truncation and rounding are alike.
 const STEP: f64 = 1e-5;
+
+/// Where the squared derivatives to one side exceed those to the other by this factor, they are none:
+/// the path jumps there. (Over a step of this size a derivative changes by its 1e-4th part, at rest
+/// or in the wildest drop.)
+const JUMP: f64 = 4.0;
 
 /// Everything that is fixed while a law is fitted.
 #[derive(Debug, Clone)]
@@ -82,6 +88,8 @@ pub(crate) struct Problem<'a> {
     pub(crate) weighing: Weighing,
     pub(crate) unknowns: Vec<Unknown>,
     pub(crate) point: Point,
+    /// Worth looking around at length: a path costs little, and the law may be the film's.
+    pub(crate) thorough: bool,
 }
 
 /// One residual: where it belongs, and what was seen less what was predicted.
@@ -112,6 +120,16 @@ impl<'a> Problem<'a> {
             weighing,
             unknowns,
             point,
+            thorough: !task.model.is_costly(),
+        }
+    }
+
+    /// How often to try where one would like to try so often.
+    pub(crate) fn tries(&self, usual: u64) -> u64 {
+        if self.thorough {
+            usual
+        } else {
+            usual.div_ceil(8)
         }
     }
 
@@ -167,7 +185,12 @@ impl<'a> Problem<'a> {
     /// What "one" means to the search.
     pub(crate) fn scale(&self, unknown: Unknown) -> f64 {
         match unknown {
-            Unknown::Shared(parameter) => parameter.scale(&self.task.model.coin),
+            Unknown::Shared(parameter) => {
+                let Model {
+                    coin, gravity_m_s2, ..
+                } = &self.task.model;
+                parameter.scale(coin, *gravity_m_s2)
+            }
             Unknown::Start(_, place) => start_scales(&self.task.model)[place],
         }
     }
@@ -198,8 +221,8 @@ impl<'a> Problem<'a> {
         self.point.shared = self.point.shared.clamped();
     }
 
-    /// Derivatives of the weighed residuals by the unknowns (in units of their scales), by central
-    /// differences. A first state moves its own drop alone.
+    /// Derivatives of the weighed residuals by the unknowns (in units of their scales), by differences:
+    /// see [`slope`]. A first state moves its own drop alone.
     pub(crate) fn derivatives(&self) -> Option<DMatrix<f64>> {
         let base = self.misses()?;
         let mut matrix = DMatrix::zeros(base.len(), self.unknowns.len());
@@ -221,17 +244,31 @@ impl<'a> Problem<'a> {
                 below.clear();
                 self.misses_of(drop, &up, &mut above)?;
                 self.misses_of(drop, &down, &mut below)?;
-                for (i, (a, b)) in above.iter().zip(&below).enumerate() {
-                    let change = match a.coordinate {
-                        Coordinate::Theta => wrapped(a.by - b.by),
-                        Coordinate::X | Coordinate::Z => a.by - b.by,
-                    };
-                    let sigma = self.weighing.sigma[a.coordinate.index()];
-                    matrix[(rows[drop] + i, column)] = change / sigma / (by_up - by_down);
-                }
+                let here = &base[rows[drop]..rows[drop + 1]];
+                let changes = |moved: &[Miss]| -> Vec<f64> {
+                    let pairs = moved.iter().zip(here);
+                    pairs
+                        .map(|(moved, here)| self.change(moved, here))
+                        .collect()
+                };
+                let column = matrix.view_mut((rows[drop], column), (here.len(), 1));
+                slope(
+                    (&changes(&above), by_up),
+                    (&changes(&below), by_down),
+                    column,
+                );
             }
         }
         Some(matrix)
+    }
+
+    /// From one residual to another of the same point, weighed.
+    fn change(&self, to: &Miss, from: &Miss) -> f64 {
+        let change = match to.coordinate {
+            Coordinate::Theta => wrapped(to.by - from.by),
+            Coordinate::X | Coordinate::Z => to.by - from.by,
+        };
+        change / self.weighing.sigma[to.coordinate.index()]
     }
 
     /// Moves to the nearest minimum.
@@ -251,6 +288,33 @@ impl<'a> Problem<'a> {
         } else {
             before
         }
+    }
+}
+
+/// Derivatives from the changes that a step up and a step down make: central ones, unless one of the
+/// steps leads over a jump, where the order of impacts changes; then those of the other.
+fn slope(
+    (up, by_up): (&[f64], f64),
+    (down, by_down): (&[f64], f64),
+    mut column: DMatrixViewMut<f64>,
+) {
+    let steepness = |changes: &[f64], by: f64| {
+        let squares: f64 = changes.iter().map(|change| change * change).sum();
+        if by == 0.0 {
+            f64::INFINITY
+        } else {
+            squares / (by * by)
+        }
+    };
+    let (above, below) = (steepness(up, by_up), steepness(down, by_down));
+    for (i, (a, b)) in up.iter().zip(down).enumerate() {
+        column[i] = if above > JUMP * below {
+            b / by_down
+        } else if below > JUMP * above {
+            a / by_up
+        } else {
+            (a - b) / (by_up - by_down)
+        };
     }
 }
 

@@ -8,7 +8,8 @@
 
 use super::covariance::Spread;
 use super::problem::{Problem, Unknown};
-use crate::law::Parameter;
+use super::search::elsewhere;
+use crate::parameter::Parameter;
 
 /// Steps of the optimiser at one value.
 const PATIENCE: usize = 12;
@@ -51,11 +52,12 @@ impl<'a> Around<'a, '_> {
         };
         let (least, value) = (self.best.cost(), self.best.value(self.best.unknowns[j]));
         let (low, high) = parameter.range();
+        let scale = self.best.scale(self.best.unknowns[j]);
         let mut inside = (value, 0.0);
         let mut outside: Option<(f64, f64)> = None;
         let mut warm = self.best.clone();
         let error = self.spread.errors[j];
-        let step = error.map_or(0.1 * value.abs() + 0.01, |error| self.t * error);
+        let step = error.map_or(0.1 * value.abs() + 0.01 * scale, |error| self.t * error);
         let mut next = value + direction * step;
         for _ in 0..TRIES {
             next = next.clamp(low, high);
@@ -65,7 +67,7 @@ impl<'a> Around<'a, '_> {
                 return End::Better(Box::new(trial));
             }
             // proportional to the distance where the model is linear
-            let root = (2.0 * rise.max(0.0) / self.spread.factor).sqrt() / self.t;
+            let root = (2.0 * rise.max(0.0) / self.factor(j)).sqrt() / self.t;
             if (root - 1.0).abs() < CLOSE {
                 return End::At(next);
             }
@@ -92,9 +94,14 @@ impl<'a> Around<'a, '_> {
         End::At(outside.map_or(inside.0, |outside| outside.0))
     }
 
-    fn is_inside(&self, trial: &Problem) -> bool {
+    fn is_inside(&self, j: usize, trial: &Problem) -> bool {
         let rise = trial.cost() - self.best.cost();
-        2.0 * rise < self.t * self.t * self.spread.factor
+        2.0 * rise < self.t * self.t * self.factor(j)
+    }
+
+    /// Squared error over that which the rise of the cost tells.
+    fn factor(&self, j: usize) -> f64 {
+        self.spread.factor * self.spread.inflation[j]
     }
 
     /// The best fit with the parameter held: from the last one inside, moved along the valley, and
@@ -119,23 +126,33 @@ impl<'a> Around<'a, '_> {
         } else {
             straight
         };
-        for hop in 0..HOPS {
-            if self.is_inside(&least) {
+        let freed = |mut trial: Problem<'a>| {
+            trial.unknowns.clone_from(&warm.unknowns);
+            trial
+        };
+        for hop in 0..self.best.tries(HOPS) {
+            if self.is_inside(j, &least) {
                 break;
             }
-            let mut step = self.spread.draw(hop);
-            let drift = step[j];
-            for (part, valley) in step.iter_mut().zip(&self.spread.valleys[j]) {
-                *part -= drift * valley;
-            }
-            let mut trial = least.clone();
-            trial.shift(&step, 1.0);
-            trial.point.shared = trial.point.shared.with(parameter, at);
-            trial.unknowns.retain(|unknown| *unknown != held);
-            let mut trial = trial.minimise(PATIENCE);
-            trial.unknowns.clone_from(&warm.unknowns);
-            if trial.cost() < least.cost() {
-                least = trial;
+            let mut from = least.clone();
+            from.unknowns.retain(|unknown| *unknown != held);
+            let near = {
+                let mut step = self.spread.draw(hop);
+                let drift = step[j];
+                for (part, valley) in step.iter_mut().zip(&self.spread.valleys[j]) {
+                    *part -= drift * valley;
+                }
+                let mut trial = least.clone();
+                trial.shift(&step, 1.0);
+                trial.point.shared = trial.point.shared.with(parameter, at);
+                trial.unknowns.clone_from(&from.unknowns);
+                trial.minimise(PATIENCE)
+            };
+            let far = elsewhere(&from, hop, PATIENCE);
+            for trial in [Some(near), far].into_iter().flatten() {
+                if trial.cost() < least.cost() {
+                    least = freed(trial.minimise(PATIENCE));
+                }
             }
         }
         least

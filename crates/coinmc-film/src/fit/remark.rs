@@ -1,7 +1,7 @@
 //! What a reader of a fit ought to know.
 
 use crate::drop::Coordinate;
-use crate::law::Parameter;
+use crate::parameter::Parameter;
 use std::fmt;
 
 /// Something that a fit cannot tell, or that speaks against it.

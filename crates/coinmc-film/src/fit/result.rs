@@ -2,10 +2,12 @@
 
 use super::covariance::{Spread, of};
 use super::problem::{Miss, Problem, Unknown};
+use super::search::early;
 use super::student::quantile;
 use super::{Loss, Options, Remark};
 use crate::drop::Coordinate;
-use crate::law::{Model, Parameter, Shared};
+use crate::law::Model;
+use crate::parameter::{Parameter, Shared};
 
 /// A shared parameter as fitted.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -178,6 +180,7 @@ fn estimates(
 fn drops(problem: &Problem, spread: &Spread, options: &Options) -> Option<Vec<FittedDrop>> {
     let task = problem.task;
     let t = quantile(options.confidence, spread.degrees());
+    let early = early(problem)?;
     let mut drops = Vec::new();
     for (d, filmed) in task.drops.iter().enumerate() {
         let frames = problem.weighing.frames[d];
@@ -185,11 +188,12 @@ fn drops(problem: &Problem, spread: &Spread, options: &Options) -> Option<Vec<Fi
         let mut impacts_s = task.path(d, &problem.point, frames)?.impacts_s;
         impacts_s.retain(|impact| *impact <= last);
         let mut half_width = [None; 6];
-        for (unknown, error) in problem.unknowns.iter().zip(&spread.errors) {
+        for (i, unknown) in problem.unknowns.iter().enumerate() {
             if let Unknown::Start(of, place) = unknown
                 && *of == d
             {
-                half_width[*place] = error.map(|error| t * error);
+                let (error, early) = (spread.errors[i], early.errors[i]);
+                half_width[*place] = error.map(|error| t * trusted(error, early));
             }
         }
         drops.push(FittedDrop {
@@ -202,6 +206,18 @@ fn drops(problem: &Problem, spread: &Spread, options: &Options) -> Option<Vec<Fi
         });
     }
     Some(drops)
+}
+
+/// The standard error of a first state. Each impact multiplies what sets two starts apart, so that
+/// soon a path is near the film along a narrow, winding valley only: linear theory sees its width
+/// and not its length. Where the frames long after the first impact seem to narrow a number much,
+/// what the ones before tell is taken.
+fn trusted(error: f64, early: Option<f64>) -> f64 {
+    /// By how much they may.
+    const NARROWED: f64 = 0.7;
+    early
+        .filter(|early| error < NARROWED * early)
+        .unwrap_or(error)
 }
 
 /// ln of the density of the residuals at the scatter that makes it greatest.

@@ -6,10 +6,11 @@
 //! the better starts, and lengthens the film step by step: the further an impact lies behind, the
 //! more it tells of the parameters and the more minima there are that are not it.
 
-use super::covariance::spread;
+use super::covariance::{Spread, spread};
 use super::problem::{Point, Problem, Task, Unknown, Weighing};
 use crate::flight::Flight;
-use crate::law::{Parameter, Shared};
+use crate::law::Model;
+use crate::parameter::{Parameter, Shared};
 
 /// Impacts within this many frames of each other are one bounce: the flight between them is too
 /// short to tell them apart.
@@ -26,6 +27,9 @@ const POOR: f64 = 1.15;
 /// Random steps from a poor minimum, and their sizes in standard errors.
 const WANDER: u64 = 60;
 const STRIDES: [f64; 3] = [2.0, 6.0, 20.0];
+
+/// Shares of the frames after the first impact over which a stray start is led back to a minimum.
+const STAGES: [f64; 4] = [0.1, 0.25, 0.5, 1.0];
 
 /// How hard to look.
 struct Effort {
@@ -78,7 +82,7 @@ pub(crate) fn search<'a>(
     free: &[Parameter],
     window: Window,
 ) -> Option<Problem<'a>> {
-    let starts: Vec<Problem> = grid(shared, free)
+    let starts: Vec<Problem> = grid(&task.model, shared, free)
         .into_iter()
         .map(|shared| {
             let weighing = Weighing {
@@ -95,7 +99,13 @@ pub(crate) fn search<'a>(
         })
         .collect();
     let mut found: Vec<Problem> = Vec::new();
-    for effort in &EFFORTS {
+    // the first finds most; where a path costs much the others would take hours
+    let efforts = if task.model.is_costly() {
+        &EFFORTS[..1]
+    } else {
+        &EFFORTS[..]
+    };
+    for effort in efforts {
         found.extend(grow(starts.clone(), flights, window, effort));
         found.sort_by(|a, b| poorness(a).total_cmp(&poorness(b)));
         if found
@@ -105,7 +115,9 @@ pub(crate) fn search<'a>(
             break;
         }
     }
-    found.into_iter().next().map(wander)
+    let mut minimum = wander(found.into_iter().next()?);
+    minimum.thorough &= poorness(&minimum) < POOR * POOR;
+    Some(minimum)
 }
 
 /// Looks further around a minimum that leaves more than noise.
@@ -116,7 +128,7 @@ fn wander(mut minimum: Problem<'_>) -> Problem<'_> {
     let Some(around) = spread(&minimum) else {
         return minimum;
     };
-    for (number, stride) in (0..WANDER).zip(STRIDES.into_iter().cycle()) {
+    for (number, stride) in (0..minimum.tries(WANDER)).zip(STRIDES.into_iter().cycle()) {
         let mut trial = minimum.clone();
         trial.shift(&around.draw(number), stride);
         let trial = trial.minimise(PATIENCE);
@@ -125,6 +137,52 @@ fn wander(mut minimum: Problem<'_>) -> Problem<'_> {
         }
     }
     minimum.minimise(LAST_PATIENCE)
+}
+
+/// A minimum that lies elsewhere, if the film up to soon after the first impact leaves room for it:
+/// a random step within that room (the same for the same number), then the film again, longer and
+/// longer. Along the whole film the way there leads over mountains, for every impact multiplies
+/// what sets two starts apart.
+pub(super) fn elsewhere<'a>(
+    from: &Problem<'a>,
+    number: u64,
+    patience: usize,
+) -> Option<Problem<'a>> {
+    let mut trial = from.clone();
+    for (stage, frames) in lengths(from)?.into_iter().enumerate() {
+        trial.weighing.frames = frames;
+        if stage == 0 {
+            let step = spread(&trial)?.draw(number);
+            trial.shift(&step, 1.0);
+        }
+        trial = trial.minimise(patience);
+    }
+    Some(trial)
+}
+
+/// What the film tells up to soon after the first impact: where linear theory still holds.
+pub(super) fn early(problem: &Problem) -> Option<Spread> {
+    let mut early = problem.clone();
+    early.weighing.frames = lengths(problem)?.into_iter().next()?;
+    spread(&early)
+}
+
+/// Frames of each drop, at each of the stages.
+fn lengths(problem: &Problem) -> Option<[Vec<usize>; STAGES.len()]> {
+    let mut lengths = STAGES.map(|_| Vec::new());
+    for (d, &all) in problem.weighing.frames.iter().enumerate() {
+        let times = &problem.task.times[d];
+        let path = problem.task.path(d, &problem.point, all)?;
+        let first = path.impacts_s.first().copied().unwrap_or(f64::INFINITY);
+        let touch = times.partition_point(|t| *t < first).min(all);
+        for (share, frames) in STAGES.into_iter().zip(&mut lengths) {
+            // a share of frames there are
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+            let more = (share * (all - touch) as f64).ceil() as usize;
+            frames.push(touch + more);
+        }
+    }
+    Some(lengths)
 }
 
 /// Mean square of the weighed residuals: 1 where the law leaves nothing but noise.
@@ -271,7 +329,8 @@ fn replaced<'a>(candidate: &Problem<'a>) -> Vec<Problem<'a>> {
         };
         for value in parameter.grid() {
             let mut other = candidate.clone();
-            other.point.shared = other.point.shared.with(*parameter, *value);
+            let value = value * candidate.scale(*unknown);
+            other.point.shared = other.point.shared.with(*parameter, value);
             all.push(other);
         }
     }
@@ -279,16 +338,17 @@ fn replaced<'a>(candidate: &Problem<'a>) -> Vec<Problem<'a>> {
 }
 
 /// Every combination of the free parameters' grids; the others stay.
-fn grid(shared: &Shared, free: &[Parameter]) -> Vec<Shared> {
+fn grid(model: &Model, shared: &Shared, free: &[Parameter]) -> Vec<Shared> {
     let mut points = vec![*shared];
     for parameter in free {
         if parameter.grid().is_empty() {
             continue;
         }
-        let values = || parameter.grid().iter();
+        let scale = parameter.scale(&model.coin, model.gravity_m_s2);
+        let values = || parameter.grid().iter().map(|value| value * scale);
         points = points
             .iter()
-            .flat_map(|point| values().map(|value| point.with(*parameter, *value)))
+            .flat_map(|point| values().map(|value| point.with(*parameter, value)))
             .collect();
     }
     points

@@ -2,5 +2,6 @@
 
 mod bad_files;
 mod fitting;
+mod laws;
 mod reading;
 mod round_trip;

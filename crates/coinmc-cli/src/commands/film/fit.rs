@@ -1,16 +1,16 @@
 //! `coinmc film fit`: laws fitted to drops.
 
 use super::files::{Columns, must_be_new, write_new};
+use super::law::LawName;
 use super::report;
-use super::scene::{SceneArguments, law};
+use super::scene::SceneArguments;
 use crate::arguments::Format;
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console};
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
 use coinmc_film::{
-    Fit as Fitted, Law, Loss, Model, Options, Parameter, compare, fit_all, residuals_csv,
-    residuals_svg,
+    Fit as Fitted, Loss, Model, Options, Parameter, compare, fit_all, residuals_csv, residuals_svg,
 };
 use std::path::PathBuf;
 
@@ -30,14 +30,14 @@ pub(super) struct Fit {
     #[command(flatten)]
     columns: Columns,
 
-    /// Laws to fit; several with commas [default: all]
-    #[arg(long = "law", value_name = "NAME", value_delimiter = ',', value_parser = law)]
+    /// Laws to fit; several with commas [default: moreau,chatterjee-ruina]
+    #[arg(long = "law", value_enum, value_name = "NAME", value_delimiter = ',')]
     #[arg(help_heading = "Fit")]
-    laws: Vec<Law>,
+    laws: Vec<LawName>,
 
-    /// Parameters to fit; several with commas
+    /// Parameters to fit, of laws that have them; several with commas
     #[arg(long = "fit", value_enum, value_name = "NAME", value_delimiter = ',')]
-    #[arg(default_values_t = [Name::Restitution, Name::Friction], help_heading = "Fit")]
+    #[arg(default_values_t = [Name::Restitution, Name::Friction, Name::Eta], help_heading = "Fit")]
     free: Vec<Name>,
 
     /// The film counts up to the bounce after this many
@@ -74,6 +74,14 @@ pub(super) struct Fit {
 enum Name {
     Restitution,
     Friction,
+    /// η of the paper's law
+    Eta,
+    /// Length of the half sine
+    Time,
+    /// Height of the half sine, where --peak-n gives one
+    Peak,
+    /// Stiffness of the contact, over that of its materials
+    Stiffness,
     /// Height of the surface in the film
     Floor,
 }
@@ -116,9 +124,9 @@ impl Fit {
     }
 
     fn task(&self) -> Result<(Vec<Model>, Options), Failure> {
-        let mut laws: Vec<Law> = Vec::new();
+        let mut laws: Vec<LawName> = Vec::new();
         let asked = if self.laws.is_empty() {
-            &Law::RIGID[..]
+            &LawName::USUAL[..]
         } else {
             &self.laws
         };
@@ -184,6 +192,10 @@ impl From<Name> for Parameter {
         match name {
             Name::Restitution => Self::Restitution,
             Name::Friction => Self::Friction,
+            Name::Eta => Self::Eta,
+            Name::Time => Self::PulseTime,
+            Name::Peak => Self::Peak,
+            Name::Stiffness => Self::Stiffness,
             Name::Floor => Self::Floor,
         }
     }

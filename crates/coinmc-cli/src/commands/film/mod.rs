@@ -2,6 +2,7 @@
 
 mod files;
 mod fit;
+mod law;
 mod read;
 mod report;
 mod scene;

@@ -3,8 +3,8 @@
 use crate::output::FORMAT_VERSION;
 use crate::terminal::table::{Column, Table};
 use crate::terminal::{Colors, Style, decimals_for};
-use coinmc_film::{Coordinate, Estimated, Fit, Ranked, compare};
-use serde_json::{Value, json};
+use coinmc_film::{Coordinate, Estimated, Fit, Ranked, compare, parameters};
+use serde_json::{Map, Value, json};
 
 /// For people: the laws in order, then the best one in detail.
 pub(super) fn to_text(fits: &[Fit], style: &Style) -> String {
@@ -125,11 +125,10 @@ fn fit_to_json(fit: &Fit, ranked: &Ranked) -> Value {
             "lo": estimate.lo,
             "hi": estimate.hi,
         })).collect::<Vec<_>>(),
-        "shared": {
-            "restitution": fit.shared.restitution,
-            "friction": fit.shared.friction,
-            "floor_m": fit.shared.floor_m,
-        },
+        "shared": parameters(fit.model.law)
+            .iter()
+            .map(|parameter| (parameter.name().to_owned(), json!(fit.shared.get(*parameter))))
+            .collect::<Map<_, _>>(),
         "noise": fit.noise.iter().map(|noise| json!({
             "coordinate": noise.coordinate.name(),
             "points": noise.n,

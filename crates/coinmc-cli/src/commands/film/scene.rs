@@ -1,11 +1,12 @@
 //! What was dropped, and the values that are not fitted.
 
+use super::law::{LawArguments, LawName};
 use crate::exit::Failure;
 use anyhow::anyhow;
 use clap::Args;
 use coinmc::config;
 use coinmc_core::{Coin, Scene};
-use coinmc_film::{Law, Model, Options, Shared};
+use coinmc_film::{Model, Options, Shared};
 use std::path::PathBuf;
 
 /// The coin, and where the parameters start or stay.
@@ -23,6 +24,10 @@ pub(super) struct SceneArguments {
     /// R of the coin, m
     #[arg(long, value_name = "M", required_unless_present = "config")]
     radius_m: Option<f64>,
+
+    /// Mass of the coin, kg: for laws that name forces [default: 0.01]
+    #[arg(long, value_name = "KG")]
+    mass_kg: Option<f64>,
 
     /// Acceleration of gravity, m/s² [default: 9.81]
     #[arg(long, value_name = "M/S2")]
@@ -44,18 +49,19 @@ pub(super) struct SceneArguments {
         allow_negative_numbers = true
     )]
     floor_m: f64,
+
+    #[command(flatten)]
+    laws: LawArguments,
 }
 
 impl SceneArguments {
-    /// The model of a law, and all its parameters.
-    pub(super) fn model(&self, law: Law) -> Result<(Model, Shared), Failure> {
-        let scene = match &self.config {
-            Some(path) => config::load(path, &[])?
-                .points
-                .first()
-                .map(|point| point.scene),
+    /// The model of a law, and the parameters of all laws.
+    pub(super) fn model(&self, name: LawName) -> Result<(Model, Shared), Failure> {
+        let point = match &self.config {
+            Some(path) => config::load(path, &[])?.points.into_iter().next(),
             None => None,
         };
+        let scene = point.as_ref().map(|point| point.scene);
         let input = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{error}"));
         let mut coin = match scene.map(|scene| scene.coin) {
             Some(coin) => coin,
@@ -65,6 +71,10 @@ impl SceneArguments {
             let ratio = self.ratio.unwrap_or(coin.ratio());
             coin = self.coin(ratio, self.radius_m.unwrap_or(coin.radius_m()))?;
         }
+        if let Some(mass_kg) = self.mass_kg {
+            coin = coin.with_mass(mass_kg).map_err(|error| input(&error))?;
+        }
+        let law = self.laws.law(name, &coin, point.map(|point| point.engine));
         let usual = Options::default().shared;
         let surface = scene.map(|scene| scene.surface);
         let given = |told: Option<f64>, in_config: Option<f64>, usual: f64| {
@@ -78,6 +88,7 @@ impl SceneArguments {
             ),
             friction: given(self.friction, surface.map(|s| s.friction()), usual.friction),
             floor_m: self.floor_m,
+            ..usual
         };
         let gravity_m_s2 = given(
             self.gravity,
@@ -92,6 +103,7 @@ impl SceneArguments {
         let surface = coinmc_core::Surface::new(shared.restitution, shared.friction)
             .map_err(|error| input(&error))?;
         Scene::new(coin, surface, gravity_m_s2).map_err(|error| input(&error))?;
+        model.validate().map_err(|error| input(&error))?;
         if !shared.floor_m.is_finite() {
             return Err(Failure::Input(anyhow!("--floor-m must be finite")));
         }
@@ -102,13 +114,4 @@ impl SceneArguments {
     fn coin(&self, ratio: f64, radius_m: f64) -> Result<Coin, Failure> {
         Coin::cylinder(ratio, radius_m).map_err(|error| Failure::Input(error.into()))
     }
-}
-
-/// A law by its name.
-pub(super) fn law(name: &str) -> Result<Law, String> {
-    let found = Law::RIGID.into_iter().find(|law| law.name() == name);
-    found.ok_or_else(|| {
-        let names: Vec<&str> = Law::RIGID.into_iter().map(Law::name).collect();
-        format!("the laws are {}", names.join(", "))
-    })
 }

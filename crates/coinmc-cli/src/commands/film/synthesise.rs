@@ -1,14 +1,15 @@
 //! `coinmc film synthesise`: a drop filmed in the computer, in Tracker's text.
 
 use super::files::{Direction, must_be_new, write_new};
-use super::scene::{SceneArguments, law};
+use super::law::LawName;
+use super::scene::SceneArguments;
 use crate::arguments::Format;
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, FORMAT_VERSION};
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
+use coinmc_film::Synthetic;
 use coinmc_film::text::{Delimiter, Dialect, write};
-use coinmc_film::{Law, Synthetic};
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -26,8 +27,8 @@ pub(super) struct Synthesise {
     scene: SceneArguments,
 
     /// The law of impact
-    #[arg(long, value_name = "NAME", default_value = "moreau", value_parser = law)]
-    law: Law,
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = LawName::Moreau)]
+    law: LawName,
 
     /// First state: x, x', z, z', θ, θ' in m, m/s, m, m/s, degrees, degrees/s
     #[arg(long, value_name = "NUMBERS", num_args = 6, value_delimiter = ',')]

@@ -1,0 +1,138 @@
+//! The laws of impact, with the numbers of their own.
+
+use clap::{Args, ValueEnum};
+use coinmc::plan::EngineChoice;
+use coinmc_core::Coin;
+use coinmc_film::{HalfSine, Law, Lever, LineContact, Materials, Paper, PulseTime};
+
+/// PLA on wood.
+const COIN_YOUNG_PA: f64 = 3e9;
+const SURFACE_YOUNG_PA: f64 = 1e10;
+const POISSON: f64 = 0.35;
+
+/// A law by its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum LawName {
+    /// Newton's restitution, Coulomb friction against the final slip
+    Moreau,
+    /// Chatterjee and Ruina's, tangential restitution 0
+    ChatterjeeRuina,
+    /// Gaek and Sukhov's: restitution is √k, no friction, and --eta
+    Paper,
+    /// A force that is half a sine in time: --pulse-s, --peak-n
+    HalfSine,
+    /// Elastic line contact resolved in time: --coin-young-pa, --surface-young-pa. Takes minutes
+    LineContact,
+}
+
+impl LawName {
+    /// Those that are fitted where none is named: two that need nothing but e and μ.
+    pub(super) const USUAL: [Self; 2] = [Self::Moreau, Self::ChatterjeeRuina];
+}
+
+/// The numbers of the laws that have some.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Numbers of the laws")]
+pub(super) struct LawArguments {
+    /// η of the paper's law, N s: where its search begins, if fitted [default: 0.001]
+    #[arg(long, value_name = "NS")]
+    eta: Option<f64>,
+
+    /// Its lever [default: height]
+    #[arg(long, value_enum, value_name = "NAME")]
+    lever: Option<LeverName>,
+
+    /// How long the half sine lasts, s [default: 0.001]
+    #[arg(long, value_name = "S")]
+    pulse_s: Option<f64>,
+
+    /// Its height, N [default: what restitution asks for]
+    #[arg(long, value_name = "N")]
+    peak_n: Option<f64>,
+
+    /// Young's modulus of the coin in line contact, Pa [default: 3e9, PLA]
+    #[arg(long, value_name = "PA")]
+    coin_young_pa: Option<f64>,
+
+    /// Young's modulus of the surface, Pa [default: 1e10, wood]
+    #[arg(long, value_name = "PA")]
+    surface_young_pa: Option<f64>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum LeverName {
+    /// H cos θ
+    Height,
+    /// 2R cos θ
+    Diameter,
+    /// That of the corner that touches
+    Corner,
+}
+
+impl LawArguments {
+    /// The law of this name: its numbers from the arguments, else from a config that has the same
+    /// law, else the usual ones.
+    pub(super) fn law(&self, name: LawName, coin: &Coin, configured: Option<EngineChoice>) -> Law {
+        let configured = match configured {
+            Some(EngineChoice::Flat(settings)) => Some(settings.law),
+            _ => None,
+        };
+        match name {
+            LawName::Moreau => Law::Moreau,
+            LawName::ChatterjeeRuina => Law::ChatterjeeRuina,
+            LawName::Paper => self.paper(configured),
+            LawName::HalfSine => self.half_sine(configured),
+            LawName::LineContact => self.line_contact(coin, configured),
+        }
+    }
+
+    fn paper(&self, configured: Option<Law>) -> Law {
+        let mut paper = match configured {
+            Some(Law::Paper(paper)) => paper,
+            _ => Paper {
+                eta_n_s: 1e-3,
+                lever: Lever::default(),
+            },
+        };
+        paper.eta_n_s = self.eta.unwrap_or(paper.eta_n_s);
+        paper.lever = self.lever.map_or(paper.lever, |lever| match lever {
+            LeverName::Height => Lever::Height,
+            LeverName::Diameter => Lever::Diameter,
+            LeverName::Corner => Lever::Corner,
+        });
+        Law::Paper(paper)
+    }
+
+    fn half_sine(&self, configured: Option<Law>) -> Law {
+        let mut pulse = match configured {
+            Some(Law::HalfSine(pulse)) => pulse,
+            _ => HalfSine {
+                time: PulseTime::Given(1e-3),
+                peak_n: None,
+            },
+        };
+        pulse.time = self.pulse_s.map_or(pulse.time, PulseTime::Given);
+        pulse.peak_n = self.peak_n.or(pulse.peak_n);
+        Law::HalfSine(pulse)
+    }
+
+    fn line_contact(&self, coin: &Coin, configured: Option<Law>) -> Law {
+        let mut line = match configured {
+            Some(Law::LineContact(line)) => line,
+            _ => LineContact {
+                materials: Materials {
+                    coin_young_pa: COIN_YOUNG_PA,
+                    coin_poisson: POISSON,
+                    surface_young_pa: SURFACE_YOUNG_PA,
+                    surface_poisson: POISSON,
+                    length_m: 2.0 * coin.radius_m(),
+                },
+                tangential: LineContact::mindlin(POISSON),
+            },
+        };
+        let materials = &mut line.materials;
+        materials.coin_young_pa = self.coin_young_pa.unwrap_or(materials.coin_young_pa);
+        materials.surface_young_pa = self.surface_young_pa.unwrap_or(materials.surface_young_pa);
+        Law::LineContact(line)
+    }
+}
