@@ -1,7 +1,7 @@
 //! Fair ratios of curves whose crossings are known.
 
-use coinmc::results::{FairRatio, Results, Row, fair_ratios};
-use coinmc_core::{Estimate, IntervalMethod, Tally, unit_interval};
+use coinmc::results::{FairRatio, Results, Row, fair_ratios, fair_values};
+use coinmc_core::{Estimate, Face, IntervalMethod, Tally, unit_interval};
 
 const THIRD: f64 = 1.0 / 3.0;
 
@@ -225,4 +225,33 @@ fn intervals_hold_the_truth_as_often_as_they_say() {
         assert!((929..=998).contains(&hits), "paired {paired}: {hits}");
         assert!(single > SWEEPS * 19 / 20, "paired {paired}: {single}");
     }
+}
+
+#[test]
+fn any_face_crosses_along_any_parameter() {
+    let rows = grid(0.25).map(|x| {
+        let axes = [("ratio", 1.0), ("restitution", x)];
+        let heads = with_arm(0.5 - 0.1 * x, 0.01);
+        Row {
+            heads,
+            ..row(&axes, with_arm(smooth(x), 0.01))
+        }
+    });
+    let results = results(&["restitution"], false, rows.collect());
+    let heads = fair_values(&results, Face::Heads, "restitution", 0.36);
+    let [fair] = &heads[..] else {
+        panic!("{heads:?}")
+    };
+    // a straight line is interpolated exactly; half way between points the arms of ± 0.01 are at most
+    // as long, so that the band is crossed within 0.1 on either side
+    assert!((fair.ratio - 1.4).abs() < 1e-9 && !fair.rising);
+    let (lo, hi) = (fair.lo.unwrap(), fair.hi.unwrap());
+    assert!(
+        (1.3 - 1e-9..1.37).contains(&lo) && (1.43..1.5 + 1e-9).contains(&hi),
+        "{lo} {hi}"
+    );
+    let side = fair_values(&results, Face::Side, "restitution", THIRD);
+    assert!((side[0].ratio - TRUTH).abs() < 0.01);
+    assert!(fair_ratios(&results, THIRD).is_empty());
+    assert!(fair_values(&results, Face::Side, "no such thing", THIRD).is_empty());
 }

@@ -6,7 +6,7 @@ use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, UInt64Type};
 use arrow_array::{Array, RecordBatch};
 use coinmc::plan::Plan;
-use coinmc::results::{Kind, Results, Row, columns, write_csv, write_parquet};
+use coinmc::results::{Kind, Results, Row, columns, record_batch, write_csv, write_parquet};
 use coinmc_core::{Tally, relative_error};
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use run_support::{plan, plan_of, run_whole};
@@ -89,6 +89,7 @@ fn csv_parquet_and_json_agree_cell_by_cell() {
     write_parquet(&results, &mut File::create(&path).unwrap()).unwrap();
     let reader = ParquetRecordBatchReaderBuilder::try_new(File::open(&path).unwrap()).unwrap();
     let batch = reader.build().unwrap().next().unwrap().unwrap();
+    assert_eq!(record_batch(&results).unwrap().columns(), batch.columns());
     let json = results.to_json();
     let table = csv(&results);
     let names = results.rows[0].parameters.iter().map(|(name, _)| &**name);

@@ -22,12 +22,13 @@
 //! the same interval.
 
 use super::{Results, Row};
+use coinmc_core::Face;
 use std::cmp::Ordering;
 
 /// Steps in which a band is searched between two points.
 const STEPS: u32 = 64;
 
-/// A ratio at which P(side) crosses the target.
+/// A ratio (or another swept parameter) at which P(side) (or another face's) crosses the target.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FairRatio {
     /// The other swept parameters.
@@ -36,7 +37,7 @@ pub struct FairRatio {
     pub engine: &'static str,
     /// Name of its law.
     pub law: &'static str,
-    /// H/R at which the interpolated curve crosses.
+    /// H/R, or the parameter asked for, at which the interpolated curve crosses.
     pub ratio: f64,
     /// Lower end of the interval; `None` if it reaches below the sweep.
     pub lo: Option<f64>,
@@ -60,11 +61,17 @@ pub struct FairRatio {
 /// # }
 /// ```
 pub fn fair_ratios(results: &Results, target: f64) -> Vec<FairRatio> {
-    groups(results)
+    fair_values(results, Face::Side, "ratio", target)
+}
+
+/// The same for any face along any swept parameter, by the name of its column; none if there is no
+/// such parameter.
+pub fn fair_values(results: &Results, face: Face, along: &str, target: f64) -> Vec<FairRatio> {
+    groups(results, along)
         .into_iter()
         .flat_map(|(at, rows)| {
             let first = rows[0];
-            let curve = Curve::new(&rows, results.paired);
+            let curve = Curve::new(&rows, face, along, results.paired);
             curve
                 .crossings(target)
                 .into_iter()
@@ -84,15 +91,11 @@ pub fn fair_ratios(results: &Results, target: f64) -> Vec<FairRatio> {
 
 type Group<'a> = (Vec<(String, f64)>, Vec<&'a Row>);
 
-/// Rows that differ in nothing but the ratio, in the order of their first row.
-fn groups(results: &Results) -> Vec<Group<'_>> {
-    let others: Vec<&String> = results
-        .axes
-        .iter()
-        .filter(|name| *name != "ratio")
-        .collect();
+/// Rows that differ in nothing but one parameter, in the order of their first row.
+fn groups<'a>(results: &'a Results, along: &str) -> Vec<Group<'a>> {
+    let others: Vec<&String> = results.axes.iter().filter(|name| *name != along).collect();
     let mut order = std::collections::HashMap::new();
-    let mut groups: Vec<Group<'_>> = Vec::new();
+    let mut groups: Vec<Group<'a>> = Vec::new();
     for row in &results.rows {
         let value = |name: &&String| row.parameter(name).unwrap_or(f64::NAN);
         let values: Vec<f64> = others.iter().map(value).collect();
@@ -120,7 +123,7 @@ struct Knot {
     above: f64,
 }
 
-/// P(side) over the ratio, with its band.
+/// The probability of a face over a parameter, with its band.
 #[derive(Debug)]
 struct Curve {
     knots: Vec<Knot>,
@@ -148,14 +151,14 @@ impl Value {
 }
 
 impl Curve {
-    fn new(rows: &[&Row], paired: bool) -> Self {
+    fn new(rows: &[&Row], face: Face, along: &str, paired: bool) -> Self {
         let knot = |row: &&Row| {
-            let (x, side) = (row.parameter("ratio")?, &row.side);
-            let (below, above) = (side.p - side.lo, side.hi - side.p);
-            let all = [x, side.p, below, above];
+            let (x, seen) = (row.parameter(along)?, row.estimate(face));
+            let (below, above) = (seen.p - seen.lo, seen.hi - seen.p);
+            let all = [x, seen.p, below, above];
             all.iter().all(|v| v.is_finite()).then_some(Knot {
                 x,
-                p: side.p,
+                p: seen.p,
                 below,
                 above,
             })

@@ -9,8 +9,8 @@ mod schema;
 
 pub use csv::write_csv;
 pub(crate) use estimates::{estimates, look_confidence};
-pub use fair::{FairRatio, fair_ratios};
-pub use parquet::write_parquet;
+pub use fair::{FairRatio, fair_ratios, fair_values};
+pub use parquet::{record_batch, write_parquet};
 pub(crate) use schema::Cell;
 pub use schema::{Column, FORMAT, Kind, columns};
 

@@ -3,7 +3,7 @@
 use super::schema::{Cell, Column, FORMAT, Kind, columns_of};
 use super::{Results, Row};
 use arrow_array::{ArrayRef, BooleanArray, Float64Array, RecordBatch, StringArray, UInt64Array};
-use arrow_schema::{DataType, Field, Schema};
+use arrow_schema::{ArrowError, DataType, Field, Schema};
 use parquet::arrow::ArrowWriter;
 use parquet::basic::Compression;
 use parquet::errors::ParquetError;
@@ -31,14 +31,36 @@ pub fn write_parquet(results: &Results, out: &mut (dyn Write + Send)) -> io::Res
     let mut writer =
         ArrowWriter::try_new(out, Arc::clone(&schema), Some(properties)).map_err(into_io)?;
     for rows in results.rows.chunks(GROUP) {
-        let arrays = columns.iter().map(|column| array(column, rows)).collect();
-        let batch = RecordBatch::try_new(Arc::clone(&schema), arrays).map_err(io::Error::other)?;
+        let batch = batch(&schema, &columns, rows).map_err(io::Error::other)?;
         writer
             .write(&batch)
             .and_then(|()| writer.flush())
             .map_err(into_io)?;
     }
     writer.close().map(drop).map_err(into_io)
+}
+
+/// The table in memory, for who takes Arrow: the columns of the Parquet file, and its metadata in
+/// that of the schema.
+///
+/// # Errors
+/// [`ArrowError`] if the table is beyond what Arrow can hold.
+pub fn record_batch(results: &Results) -> Result<RecordBatch, ArrowError> {
+    let columns = columns_of(results);
+    let entries = metadata(results).into_iter();
+    let entries = entries.filter_map(|entry| Some((entry.key, entry.value?)));
+    let fields: Vec<_> = columns.iter().map(field).collect();
+    let schema = Schema::new_with_metadata(fields, entries.collect::<HashMap<_, _>>());
+    batch(&Arc::new(schema), &columns, &results.rows)
+}
+
+fn batch(
+    schema: &Arc<Schema>,
+    columns: &[Column],
+    rows: &[Row],
+) -> Result<RecordBatch, ArrowError> {
+    let arrays = columns.iter().map(|column| array(column, rows)).collect();
+    RecordBatch::try_new(Arc::clone(schema), arrays)
 }
 
 fn field(column: &Column) -> Field {

@@ -30,8 +30,10 @@
 //! # }
 //! ```
 
+mod count;
 mod cut;
 mod directory;
+mod each;
 mod engines;
 mod error;
 mod manifest;
@@ -46,14 +48,16 @@ mod tally_file;
 mod watcher;
 mod workers;
 
+pub use count::{Count, count};
 pub(crate) use cut::looks;
-pub use engines::{SettingsError, toss};
-pub(crate) use engines::{Task, law, name as engine_name, stream, with_engine};
+pub use each::{Begin, Seen, follow_each, see_each};
+pub use engines::{SettingsError, stream, toss};
+pub(crate) use engines::{Task, law, name as engine_name, with_engine};
 pub use error::RunError;
 pub use merge::merge;
 pub use part::{Part, PartError};
 pub use shard::{Shard, run_shard};
-pub use stored::stored_plan;
+pub use stored::{stored_plan, stored_report};
 pub use watcher::{Progress, Watcher};
 
 use crate::plan::{Plan, Stop};
@@ -131,17 +135,16 @@ pub fn run(plan: &Plan, options: &Options<'_>) -> Result<Report, RunError> {
     let directory = RunDirectory::open(out, plan, part, watcher)?;
     let schedule = Schedule::new(plan, part, directory.finished(plan, watcher)?);
     watcher.progress(&schedule.progress());
-    let threads = threads.or_else(|| thread::available_parallelism().ok());
-    let threads = threads.unwrap_or(NonZeroUsize::MIN);
-    let schedule = workers::work_off(
-        plan,
-        schedule,
-        directory.tallies(),
-        threads,
-        cancel,
-        watcher,
-    )?;
+    let keep = |batch: &[_]| directory.tallies().store(batch);
+    let threads = one_a_core(threads);
+    let schedule = workers::work_off(plan, schedule, &keep, threads, cancel, watcher)?;
     conclude(plan, part, schedule, &directory, watcher)
+}
+
+/// The threads asked for, or one a core.
+fn one_a_core(threads: Option<NonZeroUsize>) -> NonZeroUsize {
+    let threads = threads.or_else(|| thread::available_parallelism().ok());
+    threads.unwrap_or(NonZeroUsize::MIN)
 }
 
 /// Writes the results of a schedule and reports them.
@@ -152,27 +155,33 @@ fn conclude(
     directory: &RunDirectory,
     watcher: &dyn Watcher,
 ) -> Result<Report, RunError> {
+    let mut report = report(plan, part, &schedule);
+    match report.status {
+        Status::Complete | Status::ShortOfTarget { .. } => {
+            directory.set_aside(&schedule.take_unneeded(), watcher)?;
+            directory.write_results(&report.results, watcher)?;
+        }
+        Status::Interrupted | Status::Part => directory.write_partial(&report.results)?,
+    }
+    let progress = schedule.progress();
+    watcher.progress(&progress);
+    (report.reused_shards, report.tosses) = (progress.reused_shards, progress.tosses_done);
+    Ok(report)
+}
+
+/// What a schedule has come to.
+fn report(plan: &Plan, part: Part, schedule: &Schedule<'_>) -> Report {
     let points = schedule.points().iter().enumerate();
     let rows = points
         .map(|(i, point)| Row::new(plan, i, point.tally, point.reached))
         .collect();
-    let results = Results::new(plan, rows);
-    let status = status(part, &schedule);
-    match status {
-        Status::Complete | Status::ShortOfTarget { .. } => {
-            directory.set_aside(&schedule.take_unneeded(), watcher)?;
-            directory.write_results(&results, watcher)?;
-        }
-        Status::Interrupted | Status::Part => directory.write_partial(&results)?,
-    }
     let progress = schedule.progress();
-    watcher.progress(&progress);
-    Ok(Report {
-        results,
-        status,
+    Report {
+        results: Results::new(plan, rows),
+        status: status(part, schedule),
         reused_shards: progress.reused_shards,
         tosses: progress.tosses_done,
-    })
+    }
 }
 
 fn status(part: Part, schedule: &Schedule<'_>) -> Status {

@@ -1,8 +1,11 @@
-//! What a run directory is the run of, read back.
+//! What a run directory is the run of and what it has counted, read back.
 
+use super::cut::Cut;
 use super::directory::CONFIG;
 use super::manifest::{self, Manifest};
-use super::{Part, RunError};
+use super::schedule::{Finished, Next, Schedule};
+use super::tallies::{Entry, Tallies};
+use super::{Part, Report, RunError, Watcher, report};
 use crate::config;
 use crate::plan::Plan;
 use std::path::Path;
@@ -17,6 +20,36 @@ pub fn stored_plan(dir: &Path) -> Result<Plan, RunError> {
     let plan = read_plan(dir)?;
     read_manifest(dir)?.must_be_same_run(&Manifest::new(&plan, Part::WHOLE), dir)?;
     Ok(plan)
+}
+
+/// What a run directory holds: its plan and what is counted so far, finished or not, also while a
+/// run goes on in it. Nothing in the directory is touched; of tallies that are not believed the
+/// watcher is told.
+///
+/// # Errors
+/// Those of [`stored_plan`], and [`RunError::Io`]. A directory that holds a part of a run is read
+/// as the whole, [`Interrupted`](super::Status::Interrupted).
+pub fn stored_report(dir: &Path, watcher: &dyn Watcher) -> Result<(Plan, Report), RunError> {
+    let plan = stored_plan(dir)?;
+    let mut finished = Finished::new();
+    let tallies = Tallies::of(dir, plan.hash());
+    tallies.scan(&plan, &Cut::new(&plan), |entry| {
+        match entry {
+            Entry::Finished(shard, tally) => {
+                finished.insert((shard.point, shard.tosses.start), tally);
+            }
+            Entry::Damaged(path, damage) => {
+                watcher.warning(&format!("{} is not used: {damage}", path.display()));
+            }
+            Entry::Leftover(_) => {}
+        }
+        Ok(())
+    })?;
+    let mut schedule = Schedule::new(&plan, Part::WHOLE, finished);
+    // shards that are not there stay handed out
+    while let Next::Shard(_) = schedule.next() {}
+    let report = report(&plan, Part::WHOLE, &schedule);
+    Ok((plan, report))
 }
 
 pub(super) fn read_manifest(dir: &Path) -> Result<Manifest, RunError> {

@@ -1,8 +1,7 @@
-//! Threads that do shards, and the one that stores what they finish.
+//! Threads that do shards, and the one that keeps what they finish.
 
 use super::schedule::{Next, Schedule};
 use super::shard::run_shard_while;
-use super::tallies::Tallies;
 use super::{RunError, Shard, Watcher};
 use crate::plan::Plan;
 use coinmc_core::Tally;
@@ -19,6 +18,9 @@ const BATCH: usize = 64;
 const NAP: Duration = Duration::from_millis(50);
 
 type Done = Result<(Shard, Tally), RunError>;
+
+/// Where finished shards are kept, a few at a time.
+pub(super) type Keep<'a> = &'a dyn Fn(&[(Shard, Tally)]) -> Result<(), RunError>;
 
 /// What the threads share.
 struct Floor<'a, 'p> {
@@ -70,11 +72,11 @@ impl Drop for Alarm<'_> {
 }
 
 /// Does all shards of the schedule, or those that are done before `cancel` is set, and gives the
-/// schedule back. Every tally it counts is on the disk.
+/// schedule back. Every tally it counts has been kept.
 pub(super) fn work_off<'p>(
     plan: &'p Plan,
     schedule: Schedule<'p>,
-    tallies: &Tallies,
+    keep: Keep<'_>,
     threads: NonZeroUsize,
     cancel: &AtomicBool,
     watcher: &dyn Watcher,
@@ -100,7 +102,7 @@ pub(super) fn work_off<'p>(
             }
         }
         drop(sender);
-        let stored = store(&floor, &receiver, tallies, watcher);
+        let stored = store(&floor, &receiver, keep, watcher);
         if stored.is_err() {
             floor.broken.store(true, Relaxed);
         }
@@ -135,7 +137,7 @@ fn work(floor: &Floor<'_, '_>, sender: &SyncSender<Done>) {
 fn store(
     floor: &Floor<'_, '_>,
     receiver: &Receiver<Done>,
-    tallies: &Tallies,
+    keep: Keep<'_>,
     watcher: &dyn Watcher,
 ) -> Result<(), RunError> {
     while let Ok(first) = receiver.recv() {
@@ -149,7 +151,7 @@ fn store(
                 Err(error) => failed = failed.or(Some(error)),
             }
         }
-        tallies.store(&stored)?;
+        keep(&stored)?;
         if let Some(error) = failed {
             return Err(error);
         }

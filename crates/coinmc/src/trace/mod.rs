@@ -34,7 +34,7 @@ pub use mcap::write_mcap;
 pub use parquet::write_parquet;
 pub use record::{Mode, Record, RecordKind};
 pub use recorder::{MAX_RECORDS, Recorder};
-pub use replay::{MAX_RATE_HZ, default_rate_hz, launch, outcome, replay, replay_within};
+pub use replay::{MAX_RATE_HZ, default_rate_hz, launch, outcome, record, replay, replay_within};
 pub use search::{Condition, ConditionError, EndKind, Findings, Found, Length, Query, search};
 pub use table::{Column, FORMAT, columns};
 pub use tell::outcome_name;

@@ -42,16 +42,33 @@ pub fn replay_within(
     rate_hz: f64,
     max_records: usize,
 ) -> Result<Trace, TraceError> {
+    let launch = launch(plan, point, toss)?;
+    let trace = record(plan, point, &launch, rate_hz, max_records)?;
+    Ok(Trace { toss, ..trace })
+}
+
+/// Follows and records a launch of somebody's own at a point of a plan; the trace's toss is 0. As
+/// [`replay_within`] else.
+///
+/// # Errors
+/// [`TraceError`] if the plan has no such point, its engine makes no toss, or the rate is no rate.
+pub fn record(
+    plan: &Plan,
+    point: usize,
+    launch: &Launch,
+    rate_hz: f64,
+    max_records: usize,
+) -> Result<Trace, TraceError> {
     if !(0.0..=MAX_RATE_HZ).contains(&rate_hz) {
         return Err(TraceError::Rate(rate_hz));
     }
-    let launch = launch(plan, point, toss)?;
-    let scene = plan.points[point].scene;
+    let launch = *launch;
+    let scene = point_of(plan, point)?.scene;
     let recorder = Recorder::new(&scene, rate_hz, max_records);
     let (outcome, recorder) = follow(plan, point, Watch { launch, recorder })?;
     Ok(Trace {
         point,
-        toss,
+        toss: 0,
         engine: engine_name(&plan.points[point].engine),
         scene,
         launch,

@@ -1,0 +1,56 @@
+//! A plan counted in memory, for who wants the numbers and no files.
+
+use super::schedule::{Finished, Schedule};
+use super::{Part, Report, RunError, Watcher, one_a_core, report, workers};
+use crate::plan::Plan;
+use std::num::NonZeroUsize;
+use std::sync::atomic::AtomicBool;
+
+/// How to count a plan. None of it changes what is counted.
+#[derive(Clone, Copy)]
+pub struct Count<'a> {
+    /// Threads that toss; `None` for one a core.
+    pub threads: Option<NonZeroUsize>,
+    /// Set it (from another thread or a signal) to stop within about 0.1 s.
+    pub cancel: &'a AtomicBool,
+    /// Who is told how it goes on.
+    pub watcher: &'a dyn Watcher,
+}
+
+/// Counts a plan: the same counts as a [`run`](super::run()) of it, and nothing is written. What was
+/// counted when it was told to stop is reported as such.
+///
+/// # Errors
+/// [`RunError::Settings`] if an engine refuses its settings, [`RunError::Thread`].
+///
+/// # Example
+/// ```
+/// use coinmc::run::{Count, count};
+/// use std::sync::atomic::AtomicBool;
+/// let plan = coinmc::config::parse(
+///     "inline",
+///     "coin.ratio = [1.0, 2.0]\nsurface = { restitution = 0.5, friction = 0.3 }\n\
+///      launch.preset = 'robot'\nengine.flat = {}\nstop.tosses = 1000",
+///     &[],
+/// ).unwrap();
+/// let cancel = AtomicBool::new(false);
+/// let report = count(&plan, &Count { threads: None, cancel: &cancel, watcher: &() })?;
+/// assert_eq!(report.tosses, 2000);
+/// assert!(report.results.rows[1].side.p > report.results.rows[0].side.p);
+/// # Ok::<(), coinmc::run::RunError>(())
+/// ```
+pub fn count(plan: &Plan, options: &Count<'_>) -> Result<Report, RunError> {
+    let Count {
+        threads,
+        cancel,
+        watcher,
+    } = *options;
+    let schedule = Schedule::new(plan, Part::WHOLE, Finished::new());
+    watcher.progress(&schedule.progress());
+    // the schedule itself holds the counts
+    let keep = |_: &[_]| Ok(());
+    let threads = one_a_core(threads);
+    let schedule = workers::work_off(plan, schedule, &keep, threads, cancel, watcher)?;
+    watcher.progress(&schedule.progress());
+    Ok(report(plan, Part::WHOLE, &schedule))
+}

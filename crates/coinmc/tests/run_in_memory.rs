@@ -1,0 +1,169 @@
+//! Counted in memory, read back, followed one by one: the same tosses as those of a run.
+
+mod run_support;
+
+use coinmc::plan::Plan;
+use coinmc::results::Results;
+use coinmc::run::{
+    Begin, Count, Part, RunError, Shard, Status, count, follow_each, run_shard, see_each,
+    stored_report, stream,
+};
+use coinmc::trace::replay;
+use coinmc_core::{Launch, Tally};
+use run_support::{
+    Ear, FIXED, HALF_WIDTH, contents, plan, plan_in_space, plan_of, run_whole, run_with,
+};
+use std::num::NonZeroUsize;
+use tempfile::tempdir;
+
+fn counted(plan: &Plan, threads: usize, ear: &Ear) -> (Results, Status, u64) {
+    let options = Count {
+        threads: NonZeroUsize::new(threads),
+        cancel: &ear.cancel,
+        watcher: ear,
+    };
+    let report = count(plan, &options).unwrap();
+    (report.results, report.status, report.tosses)
+}
+
+#[test]
+fn memory_holds_what_a_run_writes() {
+    for stop in [FIXED, HALF_WIDTH, "half_width = 0.001\nmax_tosses = 3000"] {
+        let (plan, dir) = (plan(stop), tempdir().unwrap());
+        let report = run_whole(&plan, dir.path());
+        let run = (report.results, report.status, report.tosses);
+        for threads in [1, 3] {
+            assert_eq!(counted(&plan, threads, &Ear::default()), run, "{stop}");
+        }
+    }
+}
+
+#[test]
+fn what_is_counted_when_cancelled_is_reported() {
+    let plan = plan("tosses = 400_000");
+    let ear = Ear::that_cancels_at(2);
+    let (results, status, tosses) = counted(&plan, 2, &ear);
+    assert_eq!(status, Status::Interrupted);
+    assert!(tosses < 6 * 400_000, "{tosses}");
+    let sum: u64 = results.rows.iter().map(|row| row.tally.tosses()).sum();
+    assert_eq!(sum, tosses);
+}
+
+#[test]
+fn a_directory_is_read_back_finished_or_not_and_not_touched() {
+    let (plan, dir) = (plan(FIXED), tempdir().unwrap());
+    let ear = Ear::that_cancels_at(2);
+    let cut = run_with(&plan, dir.path(), Part::WHOLE, 2, &ear).unwrap();
+    let before = contents(dir.path());
+    let (stored, report) = stored_report(dir.path(), &ear).unwrap();
+    assert_eq!(contents(dir.path()), before);
+    assert_eq!(stored, plan);
+    assert_eq!(report.status, Status::Interrupted);
+    assert_eq!(report.tosses, cut.tosses);
+    // points without tosses have no probability, and what is not a number is not equal
+    assert_eq!(report.results.to_json(), cut.results.to_json());
+
+    let whole = run_whole(&plan, dir.path());
+    let (_, report) = stored_report(dir.path(), &ear).unwrap();
+    assert_eq!(report.status, Status::Complete);
+    assert_eq!(report.results, whole.results);
+    assert!(ear.warnings().is_empty());
+}
+
+#[test]
+fn a_damaged_tally_is_told_and_left_alone() {
+    let (plan, dir) = (plan(FIXED), tempdir().unwrap());
+    run_whole(&plan, dir.path());
+    let tallies = std::fs::read_dir(dir.path().join("tallies")).unwrap();
+    let path = tallies.map(|entry| entry.unwrap().path()).next().unwrap();
+    std::fs::write(&path, "nonsense").unwrap();
+    let ear = Ear::default();
+    let (_, report) = stored_report(dir.path(), &ear).unwrap();
+    assert_eq!(report.status, Status::Interrupted);
+    let [warning] = &ear.warnings()[..] else {
+        panic!("{:?}", ear.warnings())
+    };
+    assert!(warning.contains("is not used"), "{warning}");
+    assert!(path.exists());
+}
+
+#[test]
+fn what_is_no_run_is_not_read_back() {
+    let dir = tempdir().unwrap();
+    assert!(matches!(
+        stored_report(dir.path(), &()),
+        Err(RunError::NotARunDirectory { .. })
+    ));
+}
+
+#[test]
+fn tosses_one_by_one_are_those_of_a_shard() {
+    let plans = [plan(FIXED), plan_in_space("moreau", FIXED)];
+    for plan in &plans {
+        let (point, tosses) = (1, 30..330);
+        let stream = stream(plan, point);
+        let found = &plan.points[point];
+        let mut tally = Tally::default();
+        let mut next = tosses.start;
+        let mut add = |toss, outcome: &_| {
+            assert_eq!(toss, next);
+            next += 1;
+            tally.add(outcome);
+            true
+        };
+        let begin = Begin::Drawn(&stream);
+        assert!(follow_each(found, begin, tosses.clone(), &mut add).unwrap());
+        let shard = Shard { point, tosses };
+        assert_eq!(tally, run_shard(plan, &shard).unwrap());
+    }
+}
+
+#[test]
+fn the_end_is_that_of_the_trace_and_a_launch_given_is_as_good_as_drawn() {
+    let plans = [plan(FIXED), plan_in_space("moreau", FIXED)];
+    for plan in &plans {
+        let found = &plan.points[0];
+        let stream = stream(plan, 0);
+        let drawn = |toss| -> Launch { Begin::Drawn(&stream).launch(found, toss) };
+        let mut seen = Vec::new();
+        for begin in [Begin::Drawn(&stream), Begin::Given(&drawn)] {
+            let mut keep = |toss: &_| {
+                seen.push(*toss);
+                true
+            };
+            assert!(see_each(found, begin, 0..20, &mut keep).unwrap());
+        }
+        let (first, second) = seen.split_at(20);
+        assert_eq!(first, second);
+        for toss in first {
+            let trace = replay(plan, 0, toss.toss, 0.0).unwrap();
+            assert_eq!(trace.outcome, toss.outcome);
+            assert_eq!(trace.records.last().unwrap().state, toss.end);
+        }
+    }
+}
+
+#[test]
+fn who_sees_may_stop() {
+    let plan = plan(FIXED);
+    let stream = stream(&plan, 0);
+    let mut seen = 0;
+    let mut three = |_, _: &_| {
+        seen += 1;
+        seen < 3
+    };
+    follow_each(&plan.points[0], Begin::Drawn(&stream), 0..1000, &mut three).unwrap();
+    assert_eq!(seen, 3);
+}
+
+#[test]
+fn a_closed_form_follows_nothing() {
+    let text = "coin.ratio = 1\nengine.analytic.rule = 'arc'";
+    let plan = coinmc::config::parse("test", text, &[]).unwrap();
+    let stream = stream(&plan, 0);
+    let begin = Begin::Drawn(&stream);
+    let mut never = |_, _: &_| unreachable!("a closed form makes no toss");
+    assert!(!follow_each(&plan.points[0], begin, 0..9, &mut never).unwrap());
+    let fixed = plan_of("[coin]\nratio = 1.0\n[surface]\nrestitution = 0.5\n[stop]\ntosses = 9\n");
+    assert_eq!(counted(&fixed, 1, &Ear::default()).2, 9);
+}
