@@ -19,3 +19,7 @@ lint:
 kill-test kills="200":
     cargo build --release
     COINMC_KILLS={{kills}} cargo test -p coinmc-tests --test resume
+
+# The Python wheel, into target/wheels
+wheel:
+    scripts/wheel

@@ -1,0 +1,103 @@
+"""How likely does a tossed cylinder come to rest on heads, on tails or on its side?
+
+The engines of coinmc at native speed, from NumPy's arrays into NumPy's arrays:
+
+* `toss`, `launches`: tosses one by one, with launches drawn or of your own;
+* `estimate`: probabilities with intervals, in memory; `run`, `open`: in a run directory;
+* `trace`: one toss, watched;
+* `sensitivity`: how strongly probabilities depend on parameters;
+* `check`, `Config`: what a config means;
+* `coinmc.analytic`: closed forms; `coinmc.film`: drops on film; `coinmc.plot`: pictures.
+
+All quantities are in SI units, and names carry their unit. *Ratio* always means H/R, height over
+**radius**. z points up, the surface is z = 0, and *heads* means that heads shows. The guide is
+docs/python.md.
+
+Examples
+--------
+>>> import coinmc
+>>> result = coinmc.estimate({
+...     "coin": {"ratio": {"from": 0.8, "to": 1.8, "steps": 6}},
+...     "surface": {"restitution": 0.5, "friction": 0.3},
+...     "launch": {"preset": "robot"},
+...     "engine": {"flat": {}},
+... }, tosses=20_000)
+>>> [fair] = result.fair()
+>>> 1.6 < fair.lo < fair.value < fair.hi < 1.75
+True
+"""
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+from coinmc import analytic
+from coinmc._codes import Ended, Face
+from coinmc._config import Config, ConfigLike, Group, Scene, Stop, check
+from coinmc._errors import ConfigError, Error, FilmError, Problem, RunError, TraceError
+from coinmc._intervals import Estimate
+from coinmc._launches import LAUNCH, STATE, launches
+from coinmc._lib import __version__
+from coinmc._results import Crossing, Result, estimate, open, run
+from coinmc._tosses import Tosses, toss
+from coinmc._trace import EVENT, SAMPLE, Trace, trace
+
+if TYPE_CHECKING:
+    from coinmc import film, plot
+    from coinmc._sensitivity import Sensitivity, sensitivity
+
+__all__ = [
+    "EVENT",
+    "LAUNCH",
+    "SAMPLE",
+    "STATE",
+    "Config",
+    "ConfigError",
+    "ConfigLike",
+    "Crossing",
+    "Ended",
+    "Error",
+    "Estimate",
+    "Face",
+    "FilmError",
+    "Group",
+    "Problem",
+    "Result",
+    "RunError",
+    "Scene",
+    "Sensitivity",
+    "Stop",
+    "Tosses",
+    "Trace",
+    "TraceError",
+    "__version__",
+    "analytic",
+    "check",
+    "estimate",
+    "film",
+    "launches",
+    "open",
+    "plot",
+    "run",
+    "sensitivity",
+    "toss",
+    "trace",
+]
+
+#: Imported when first asked for: nobody waits for what is not used.
+_LATER = {
+    "film": "coinmc.film",
+    "plot": "coinmc.plot",
+    "Sensitivity": "coinmc._sensitivity",
+    "sensitivity": "coinmc._sensitivity",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _LATER:
+        raise AttributeError(f"module 'coinmc' has no attribute {name!r}")
+    module = importlib.import_module(_LATER[name])
+    return module if name in ("film", "plot") else getattr(module, name)
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

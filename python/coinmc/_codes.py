@@ -1,0 +1,40 @@
+"""What the codes in arrays mean."""
+
+from enum import IntEnum
+
+__all__ = ["Ended", "Face"]
+
+
+class Face(IntEnum):
+    """What shows when the coin rests.
+
+    Examples
+    --------
+    >>> import coinmc
+    >>> coinmc.Face.SIDE, coinmc.Face(0).name
+    (<Face.SIDE: 2>, 'HEADS')
+    """
+
+    #: The heads face shows: its outward normal points up.
+    HEADS = 0
+    #: The tails face shows.
+    TAILS = 1
+    #: The coin lies (in the plane: stands) on its side.
+    SIDE = 2
+    #: The toss ended without a face; `Ended` says why.
+    UNDECIDED = 3
+
+
+class Ended(IntEnum):
+    """Why the engine stopped following the toss."""
+
+    #: The face is certain.
+    DECIDED = 0
+    #: Undecided at the limit of simulated time.
+    TIME_LIMIT = 1
+    #: It is proven that the coin never settles.
+    ENDLESS = 2
+    #: Undecided at the limit of impacts or of steps in contact.
+    IMPACT_LIMIT = 3
+    #: The numbers went wrong (not finite).
+    FAILED = 4

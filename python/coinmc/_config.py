@@ -1,0 +1,310 @@
+"""Configs: what is tossed, onto what, how and how often."""
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NamedTuple, TypeAlias
+
+from coinmc import _lib, _toml
+
+__all__ = ["Config", "ConfigLike", "Group", "Scene", "Stop", "check"]
+
+
+class Scene(NamedTuple):
+    """The coin of a point, and gravity.
+
+    Attributes
+    ----------
+    ratio : float
+        H/R, height over radius.
+    radius_m, height_m : float
+        R and H, m.
+    mass_kg : float
+        Mass, kg. No probability depends on it.
+    gravity_m_s2 : float
+        Acceleration of gravity, m/s².
+    """
+
+    ratio: float
+    radius_m: float
+    height_m: float
+    mass_kg: float
+    gravity_m_s2: float
+
+
+class Stop(NamedTuple):
+    """When a point has enough tosses.
+
+    Attributes
+    ----------
+    tosses : int
+        Tosses of a point; with a half width, the most.
+    half_width : float or None
+        The longest arm that every interval must come to, if that ends a point.
+    """
+
+    tosses: int
+    half_width: float | None
+
+
+class Group(NamedTuple):
+    """Points that are treated alike.
+
+    Attributes
+    ----------
+    points : int
+        How many.
+    computed : str
+        What is computed for them.
+    skipped : list of str
+        What is skipped, and why.
+    """
+
+    points: int
+    computed: str
+    skipped: list[str]
+
+
+class Config:
+    """A config as understood: every default and preset spelled out, every sweep counted out.
+
+    Parameters
+    ----------
+    config : path or dict
+        A TOML file, or a dict with the same tables.
+    overrides : dict, optional
+        Values that replace or add to the config's, by dotted key, as ``--set`` does on the command
+        line: ``{"coin.ratio": 1.2}``.
+
+    Raises
+    ------
+    coinmc.ConfigError
+        With every problem found, each with its place and a caret under it.
+
+    Examples
+    --------
+    >>> import coinmc
+    >>> config = coinmc.Config({
+    ...     "coin": {"ratio": [0.5, 1.0]},
+    ...     "surface": {"restitution": 0.5, "friction": 0.3},
+    ...     "launch": {"preset": "robot"},
+    ...     "engine": {"flat": {}},
+    ...     "stop": {"tosses": 1000},
+    ... })
+    >>> len(config), config.axes, config.parameters(1)["ratio"]
+    (2, ['ratio'], 1.0)
+    >>> len(coinmc.Config(config, overrides={"coin.ratio": 1.2}))
+    1
+    """
+
+    __slots__ = ("_overrides", "_plan", "_source")
+
+    def __init__(self, config: "ConfigLike", overrides: Mapping[str, Any] | None = None) -> None:
+        if isinstance(config, Config):
+            self._source = config._source
+            self._overrides = config._overrides + _toml.overrides_of(overrides)
+        else:
+            self._source = _source(config)
+            self._overrides = _toml.overrides_of(overrides)
+        self._plan = _read(self._source, self._overrides)
+
+    @classmethod
+    def from_toml(cls, text: str, overrides: Mapping[str, Any] | None = None) -> "Config":
+        """Read a config from TOML text.
+
+        Parameters
+        ----------
+        text : str
+            The text itself, not a path.
+        overrides : dict, optional
+            As for the class.
+
+        Examples
+        --------
+        >>> import coinmc
+        >>> coinmc.Config.from_toml("coin.ratio = 1\\nengine.analytic.rule = 'arc'").engine()
+        'analytic'
+        """
+        if not isinstance(text, str):
+            raise TypeError(f"TOML text is a str, not {type(text).__name__}")
+        config = object.__new__(cls)
+        config._source = ("text", text)
+        config._overrides = _toml.overrides_of(overrides)
+        config._plan = _read(config._source, config._overrides)
+        return config
+
+    @property
+    def resolved(self) -> str:
+        """The config with every default and preset spelled out, TOML."""
+        return self._plan.resolved
+
+    @property
+    def hash(self) -> str:
+        """A name for what will be computed: equal exactly for equal plans."""
+        return self._plan.hash
+
+    @property
+    def seed(self) -> int:
+        """Key of all random numbers."""
+        return self._plan.seed
+
+    @property
+    def paired(self) -> bool:
+        """Whether all points share their random numbers."""
+        return self._plan.paired
+
+    @property
+    def axes(self) -> list[str]:
+        """Columns of the swept parameters; the first varies slowest."""
+        return self._plan.axes
+
+    @property
+    def notes(self) -> list[str]:
+        """Remarks on the config that are no problems."""
+        return self._plan.notes
+
+    @property
+    def stop(self) -> Stop:
+        """When a point has enough tosses."""
+        return Stop(self._plan.tosses, self._plan.half_width)
+
+    @property
+    def confidence(self) -> float:
+        """Confidence of every interval."""
+        return self._plan.confidence
+
+    @property
+    def interval(self) -> str:
+        """How intervals are computed where the number of tosses is fixed."""
+        return self._plan.interval
+
+    @property
+    def tosses_planned(self) -> int:
+        """Tosses of all points, at most."""
+        return self._plan.tosses_planned
+
+    @property
+    def groups(self) -> list[Group]:
+        """What is computed and what is skipped and why, points of one treatment together."""
+        return [Group(*group) for group in self._plan.explain()]
+
+    def __len__(self) -> int:
+        """Give the number of points of the sweep."""
+        return len(self._plan)
+
+    def parameters(self, point: int = 0) -> dict[str, float]:
+        """Give the parameters of a point, by the names of their columns (SI units)."""
+        return dict(self._plan.parameters(point))
+
+    def engine(self, point: int = 0) -> str:
+        """Name the engine of a point: ``flat``, ``volumetric``, ``rapier`` or ``analytic``."""
+        return self._plan.engine(point)
+
+    def scene(self, point: int = 0) -> Scene:
+        """Give the coin of a point, and gravity."""
+        return Scene(*self._plan.scene(point))
+
+    def __repr__(self) -> str:
+        points = f"{len(self)} point" + ("s" if len(self) != 1 else "")
+        sweep = f" over {', '.join(self.axes)}" if self.axes else ""
+        return f"<coinmc.Config {self.hash[:8]}: {points}{sweep}, {self.engine()}>"
+
+    def __str__(self) -> str:
+        lines = [
+            f"plan      {self.hash[:8]}, seed {self.seed}",
+            f"points    {len(self):,}" + (f": {', '.join(self.axes)}" if self.axes else ""),
+            f"tosses    {self._tosses()}",
+        ]
+        for group in self.groups:
+            points = "1 point" if group.points == 1 else f"{group.points:,} points"
+            lines.append(f"computed  {points}: {group.computed}")
+            lines += [f"skipped   {reason}" for reason in group.skipped]
+        lines += [f"note      {note}" for note in self.notes]
+        return "\n".join(lines)
+
+    def _tosses(self) -> str:
+        if self.tosses_planned == 0:
+            return "none: closed forms are exact"
+        if self.stop.half_width is None:
+            return f"{self.stop.tosses:,} a point, {self.tosses_planned:,} in all"
+        most = f"{self.tosses_planned:,} at most"
+        return f"until every interval is within ±{self.stop.half_width}: {most}"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Config) and self.hash == other.hash
+
+    def __hash__(self) -> int:
+        return hash(self.hash)
+
+    def __reduce__(self):  # configs travel between processes
+        return _rebuilt, (self.resolved,)
+
+
+#: What every function takes for a config.
+ConfigLike: TypeAlias = Config | str | os.PathLike[str] | Mapping[str, Any]
+
+
+def check(config: ConfigLike, overrides: Mapping[str, Any] | None = None) -> Config:
+    """Read a config and show what would be computed, like ``coinmc check``.
+
+    Parameters
+    ----------
+    config : path, dict or Config
+        What is tossed; a text is taken for a path, never for TOML (that is `Config.from_toml`).
+    overrides : dict, optional
+        Values that replace the config's, by dotted key.
+
+    Returns
+    -------
+    Config
+        The config as understood; ``print`` it to read the plan.
+
+    Examples
+    --------
+    >>> import coinmc
+    >>> print(coinmc.check({"coin": {"ratio": 1.5}, "engine": {"analytic": {"rule": "zone"}}}))
+    plan      ...
+    points    1
+    tosses    none: closed forms are exact
+    computed  1 point: closed form zone: P(side) = x/sqrt(x² + 4), ...
+    """
+    return as_config(config, overrides)
+
+
+def as_config(config: ConfigLike, overrides: Mapping[str, Any] | None = None) -> Config:
+    """Make a config of whatever a user may give for one."""
+    if isinstance(config, Config) and not overrides:
+        return config
+    return Config(config, overrides)
+
+
+def plan_of(config: Config) -> _lib.Plan:
+    """Give the Rust part's plan of a config."""
+    return config._plan
+
+
+def default_directory(config: Config) -> Path:
+    """Name the run directory as the command line does: after the config and what it means."""
+    kind, source = config._source
+    stem = Path(source).stem if kind == "path" else "run"
+    return Path("runs") / f"{stem}-{config.hash[:8]}"
+
+
+def _rebuilt(text: str) -> Config:
+    return Config.from_toml(text)
+
+
+def _source(config: Any) -> tuple[str, str]:
+    if isinstance(config, (str, os.PathLike)):
+        path = os.fspath(config)
+        if not isinstance(path, str):
+            raise TypeError("a path is a str or a pathlib.Path, not bytes")
+        return "path", path
+    return "dict", _toml.document(config)
+
+
+def _read(source: tuple[str, str], overrides: list[str]) -> _lib.Plan:
+    kind, text = source
+    if kind == "path":
+        return _lib.Plan.load(text, overrides)
+    return _lib.Plan.parse("TOML text" if kind == "text" else "config from a dict", text, overrides)

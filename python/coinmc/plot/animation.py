@@ -1,0 +1,166 @@
+"""A toss in motion: GIF or MP4."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+from coinmc.plot.motion import Motion, motion_of
+from coinmc.plot.path import draw_coin
+from coinmc.plot.style import MODES, NEUTRAL, axes_for
+
+__all__ = ["animation"]
+
+# More frames than this are a long wait and a file that no page wants.
+_MOST_FRAMES = 2000
+
+
+def animation(
+    trace: Any,
+    path: str | os.PathLike[str] | None = None,
+    *,
+    slow: float = 4.0,
+    fps: int = 25,
+    dpi: float = 80,
+    view: Literal["side", "top"] = "side",
+    overwrite: bool = False,
+    ax: Axes | None = None,
+) -> FuncAnimation:
+    """Show the toss as a short film, seen from the side or from above.
+
+    Parameters
+    ----------
+    trace : coinmc.Trace
+        As `coinmc.trace` gives it, with at least `fps`/`slow` samples a second.
+    path : path, optional
+        File to write: ``.gif``, or ``.mp4`` where the program ffmpeg is installed. Nothing is
+        written if absent.
+    slow : float
+        How many times slower than life.
+    fps : int
+        Frames a second of the film, 1 to 50.
+    dpi : float
+        Dots an inch.
+    view : {"side", "top"}
+        From where it is seen.
+    overwrite : bool
+        Replace a file that is there.
+    ax : Axes, optional
+        Where to draw; its figure is what is filmed. A new figure if absent.
+
+    Returns
+    -------
+    FuncAnimation
+        Keep it as long as it is shown.
+
+    Raises
+    ------
+    FileExistsError
+        There is such a file, and `overwrite` is not set.
+    ValueError
+        Another ending, or a film of more than 2000 frames.
+    RuntimeError
+        MP4 without ffmpeg.
+
+    Examples
+    --------
+    >>> import coinmc
+    >>> from coinmc import plot
+    >>> toss = coinmc.trace("examples/hand.toml", toss=3)
+    >>> film = plot.animation(toss, "toss.gif", slow=1, fps=10)
+    """
+    motion = motion_of(trace)
+    frames = _frames(motion, slow, fps)
+    writer = None if path is None else _writer(Path(path), fps, overwrite)
+    own, ax = ax is None, axes_for(ax, size=(4.8, 4.8))
+    film = _film(ax, motion, frames, view, fps)
+    if own:
+        # the layout is that of every frame: to find it again each time takes longer than to draw
+        ax.figure.draw_without_rendering()
+        ax.figure.set_layout_engine("none")
+    if path is not None:
+        film.save(os.fspath(path), writer=writer, dpi=dpi)
+    return film
+
+
+def _frames(motion: Motion, slow: float, fps: int) -> NDArray[np.int64]:
+    """Index of the record that each frame shows: the last one not after it."""
+    if not (1 <= fps <= 50):
+        raise ValueError(f"fps must be 1 to 50, found {fps}")
+    if not (np.isfinite(slow) and slow > 0):
+        raise ValueError(f"slow must be positive, found {slow}")
+    span = motion.time_s[-1] - motion.time_s[0]
+    count = int(np.ceil(span * slow * fps)) + 1
+    if count > _MOST_FRAMES:
+        raise ValueError(
+            f"{count} frames are more than {_MOST_FRAMES}: lower slow (now {slow:g}) or fps ({fps})"
+        )
+    times = motion.time_s[0] + np.arange(count) / (slow * fps)
+    return np.append(
+        np.searchsorted(motion.time_s, times[:-1], side="right") - 1, len(motion.time_s) - 1
+    )
+
+
+def _writer(path: Path, fps: int, overwrite: bool) -> Any:
+    if path.suffix not in (".gif", ".mp4"):
+        raise ValueError(f"{path}: a film ends in .gif or .mp4")
+    if path.exists() and not overwrite:
+        raise FileExistsError(f"{path} exists: choose another name, or set overwrite=True")
+    if path.suffix == ".gif":
+        return PillowWriter(fps=fps)
+    if not FFMpegWriter.isAvailable():
+        raise RuntimeError(f"{path}: MP4 needs the program ffmpeg; install it, or name a .gif")
+    return FFMpegWriter(fps=fps)
+
+
+def _film(
+    ax: Axes, motion: Motion, frames: NDArray[np.int64], view: str, fps: int
+) -> FuncAnimation:
+    if view not in ("side", "top"):
+        raise ValueError(f"no view is called {view!r}: use side or top")
+    up = 2 if view == "side" else 1
+    _limits(ax, motion, up)
+    (trail,) = ax.plot([], [], color=MODES["flight"], linewidth=1)
+    clock = ax.set_title(" ", fontsize="medium", loc="left")
+    drawn: list[Any] = []
+
+    def show(at: int) -> list[Any]:
+        for artist in drawn:
+            artist.remove()
+        drawn[:] = draw_coin(ax, motion, at, view)
+        trail.set_data(motion.position_m[: at + 1, 0], motion.position_m[: at + 1, up])
+        hits = int((motion.impacts <= at).sum())
+        state = (
+            motion.outcome.replace("_", " ") if at == len(motion.time_s) - 1 else motion.mode[at]
+        )
+        clock.set_text(f"{motion.time_s[at]:.3f} s, {hits} impacts, {state}")
+        return [trail, clock, *drawn]
+
+    # the first frame is drawn once for the limits and once for the film
+    return FuncAnimation(
+        ax.figure, show, frames=frames.tolist(), init_func=list, interval=1000 / fps
+    )
+
+
+def _limits(ax: Axes, motion: Motion, up: int) -> None:
+    """Room for the coin everywhere on its way, as much across as up."""
+    reach = np.hypot(motion.radius_m, motion.height_m / 2)
+    way = motion.position_m[:, [0, up]]
+    low, high = way.min(axis=0) - 1.2 * reach, way.max(axis=0) + 1.2 * reach
+    if up == 2:
+        low[1] = min(low[1], -0.2 * reach)
+        ax.axhline(0, color=NEUTRAL, linewidth=1)
+    middle, half = (low + high) / 2, (high - low).max() / 2
+    ax.set(
+        xlim=(middle[0] - half, middle[0] + half),
+        ylim=(middle[1] - half, middle[1] + half),
+        xlabel="x, m",
+        ylabel="z, m" if up == 2 else "y, m",
+    )
+    ax.set_aspect("equal")

@@ -1,0 +1,266 @@
+"""Basins: the face as a function of two quantities of the launch, pixel by pixel."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from operator import index
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
+from matplotlib.image import AxesImage
+from matplotlib.patches import Patch
+from numpy.typing import NDArray
+
+from coinmc._config import Config, ConfigLike
+from coinmc._launches import as_launches, launches
+from coinmc._tosses import toss
+from coinmc.plot.style import FACES, UNDECIDED, axes_for, axis_label
+
+__all__ = ["VARIABLES", "basin", "basin_faces", "show_faces"]
+
+# Launches computed at once: enough to keep all cores busy, some tens of megabytes.
+_BLOCK = 1 << 18
+# Pixels along either side.
+_LONGEST = 1 << 14
+
+#: Quantities of the launch that an axis can be: field of the launch, and component or what it sets.
+VARIABLES: Mapping[str, tuple[str, int | None]] = {
+    "height_m": ("position_m", 2),
+    "vx_m_s": ("velocity_m_s", 0),
+    "vy_m_s": ("velocity_m_s", 1),
+    "vz_m_s": ("velocity_m_s", 2),
+    "wx_rad_s": ("spin_rad_s", 0),
+    "wy_rad_s": ("spin_rad_s", 1),
+    "wz_rad_s": ("spin_rad_s", 2),
+    "tilt_rad": ("axis", None),
+    "tilt_deg": ("axis", None),
+}
+
+
+def basin_faces(
+    config: ConfigLike,
+    x: str,
+    y: str,
+    extent: tuple[float, float, float, float],
+    *,
+    shape: tuple[int, int] = (2048, 2048),
+    launch: Any = None,
+    point: int = 0,
+    threads: int | None = None,
+    overrides: Mapping[str, Any] | None = None,
+) -> NDArray[np.uint8]:
+    """Compute the face of every launch of a grid of two quantities.
+
+    Parameters
+    ----------
+    config : path, Config or dict
+        Coin, surface and engine, as for `coinmc.toss`.
+    x, y : str
+        Quantities of the axes, of `VARIABLES`: height of the centre, components of velocity
+        and spin, or tilt of the heads normal from the vertical towards x.
+    extent : tuple of float
+        First and last value of `x`, first and last of `y`: the outer edges of the outer pixels.
+    shape : tuple of int
+        Rows and columns.
+    launch : structured array of one launch, optional
+        All other quantities, as `coinmc.launches` gives them; by default toss 0 of the
+        config.
+    point : int
+        The point of the sweep.
+    threads : int, optional
+        How many cores to use; all if absent.
+    overrides : mapping, optional
+        Changes of the config, as ``{"coin.ratio": 1.2}``.
+
+    Returns
+    -------
+    ndarray of uint8, `shape`
+        Codes of `coinmc.Face`, row 0 at the first value of `y`.
+
+    Raises
+    ------
+    ValueError
+        An axis, an extent or a shape that cannot be.
+
+    Examples
+    --------
+    >>> from coinmc import plot
+    >>> faces = plot.basin_faces(
+    ...     "examples/first.toml", "tilt_deg", "wy_rad_s", (0, 180, 0, 30), shape=(4, 6)
+    ... )
+    >>> faces.shape, faces.dtype
+    ((4, 6), dtype('uint8'))
+    """
+    rows, across = _checked(x, y, extent, shape)
+    config = Config(config, overrides)
+    x_values = _centres(extent[0], extent[1], across)
+    y_values = _centres(extent[2], extent[3], rows)
+    base = launches(config, 1, point=point) if launch is None else as_launches(launch)
+    if len(base) != 1:
+        raise ValueError(f"a map is of one launch, not of {len(base)}")
+    at_once = max(1, _BLOCK // across)
+    block = np.repeat(base, at_once * across).reshape(at_once, across)
+    _set(block, x, x_values[None, :])
+    faces = np.empty((rows, across), np.uint8)
+    for first in range(0, rows, at_once):
+        part = block[: min(at_once, rows - first)]
+        _set(part, y, y_values[first : first + len(part), None])
+        part_faces = toss(
+            config,
+            launches=part.reshape(-1),
+            point=point,
+            threads=threads,
+            progress=False,
+            faces_only=True,
+        )
+        faces[first : first + len(part)] = part_faces.reshape(len(part), across)
+    return faces
+
+
+def basin(
+    config: ConfigLike,
+    x: str,
+    y: str,
+    extent: tuple[float, float, float, float],
+    *,
+    shape: tuple[int, int] = (2048, 2048),
+    launch: Any = None,
+    point: int = 0,
+    threads: int | None = None,
+    overrides: Mapping[str, Any] | None = None,
+    ax: Axes | None = None,
+) -> tuple[AxesImage, Axes]:
+    """Map which launches end on heads, tails and side.
+
+    Every pixel is one toss, none is random: where the coin bounces, basins are as fine as dust, and
+    colours mix in proportion where a pixel of the screen covers several of the map.
+
+    Parameters
+    ----------
+    config, x, y, extent, shape, launch, point, threads, overrides
+        As for `basin_faces`.
+    ax : Axes, optional
+        Where to draw; a new figure if absent.
+
+    Returns
+    -------
+    image : AxesImage
+        Its array (``image.get_array()``) holds the codes of the faces.
+    ax : Axes
+
+    Examples
+    --------
+    >>> from coinmc import plot
+    >>> image, ax = plot.basin(
+    ...     "examples/first.toml", "tilt_deg", "wy_rad_s", (0, 180, 0, 30), shape=(40, 60)
+    ... )
+    >>> ax.get_ylabel()
+    'spin about y, rad/s'
+    """
+    faces = basin_faces(
+        config,
+        x,
+        y,
+        extent,
+        shape=shape,
+        launch=launch,
+        point=point,
+        threads=threads,
+        overrides=overrides,
+    )
+    return show_faces(faces, x, y, extent, ax)
+
+
+def show_faces(
+    faces: NDArray[np.uint8],
+    x: str,
+    y: str,
+    extent: tuple[float, float, float, float],
+    ax: Axes | None = None,
+) -> tuple[AxesImage, Axes]:
+    """Draws the faces that `basin_faces` found: `basin` without its computing.
+
+    Parameters
+    ----------
+    faces : ndarray of uint8, (rows, columns)
+        Codes of `coinmc.Face`.
+    x, y, extent
+        As they were computed.
+    ax : Axes, optional
+        Where to draw; a new figure if absent.
+
+    Returns
+    -------
+    image : AxesImage
+    ax : Axes
+    """
+    ax = axes_for(ax, size=(6.4, 5.6))
+    image = ax.imshow(
+        faces,
+        extent=extent,
+        origin="lower",
+        aspect="auto",
+        cmap=ListedColormap([*FACES.values(), UNDECIDED]),
+        vmin=-0.5,
+        vmax=3.5,
+        # codes are names: colours may be averaged, codes not
+        interpolation_stage="rgba",
+    )
+    ax.set(xlabel=axis_label(x), ylabel=axis_label(y))
+    ax.legend(
+        handles=_key(faces),
+        loc="lower center",
+        bbox_to_anchor=(0.5, 1.0),
+        ncols=4,
+        fontsize="small",
+        frameon=False,
+    )
+    return image, ax
+
+
+def _checked(
+    x: str, y: str, extent: tuple[float, float, float, float], shape: tuple[int, int]
+) -> tuple[int, int]:
+    for name in (x, y):
+        if name not in VARIABLES:
+            raise ValueError(f"no quantity is called {name!r}: use {', '.join(VARIABLES)}")
+    if VARIABLES[x] == VARIABLES[y]:
+        raise ValueError(f"both axes are the same quantity, {x}")
+    if len(extent) != 4 or not np.isfinite(extent).all():
+        raise ValueError(f"extent must be four finite numbers x0, x1, y0, y1, found {extent}")
+    if extent[0] == extent[1] or extent[2] == extent[3]:
+        raise ValueError(f"extent {extent} is empty")
+    rows, across = (index(side) for side in shape)
+    if not (1 <= rows <= _LONGEST and 1 <= across <= _LONGEST):
+        raise ValueError(f"shape must be 1 to {_LONGEST} rows and columns, found {shape}")
+    return rows, across
+
+
+def _centres(first: float, last: float, count: int) -> NDArray[np.float64]:
+    return first + (np.arange(count) + 0.5) * ((last - first) / count)
+
+
+def _set(launches: NDArray[Any], name: str, values: NDArray[np.float64]) -> None:
+    """Set one quantity of all launches, broadcasting."""
+    field, component = VARIABLES[name]
+    if component is not None:
+        launches[field][..., component] = values
+        return
+    tilt = np.deg2rad(values) if name == "tilt_deg" else values
+    launches["axis"][..., 0] = np.sin(tilt)
+    launches["axis"][..., 1] = 0.0
+    launches["axis"][..., 2] = np.cos(tilt)
+
+
+def _key(faces: NDArray[np.uint8]) -> list[Patch]:
+    """Say what occurs, with its share of the picture."""
+    counts = np.bincount(faces.ravel(), minlength=4)
+    names = [*FACES, "undecided"]
+    colours = [*FACES.values(), UNDECIDED]
+    return [
+        Patch(color=colour, label=f"{name} {100 * count / faces.size:.1f} %")
+        for name, colour, count in zip(names, colours, counts, strict=True)
+        if count
+    ]

@@ -1,0 +1,148 @@
+"""P(face) over two axes of a sweep."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import PatchCollection
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch, Rectangle
+from numpy.typing import NDArray
+
+from coinmc.plot.style import NEUTRAL, axes_for, axis_label, face_list
+from coinmc.plot.table import columns, need, parameters, select
+
+__all__ = ["heat"]
+
+_SETTINGS = ("", "_lo", "_hi")
+
+
+def heat(
+    result: Any,
+    x: str = "ratio",
+    y: str = "restitution",
+    face: str = "side",
+    *,
+    where: Mapping[str, Any] | None = None,
+    target: float = 1 / 3,
+    bar: bool = True,
+    ax: Axes | None = None,
+) -> Axes:
+    """Map a probability over two parameters, with its contour at a target.
+
+    Cells whose interval holds the target are hatched: the contour may as well pass there.
+
+    Parameters
+    ----------
+    result : table
+        A result, or any table with the columns `x`, `y`, ``p_<face>``, ``p_<face>_lo`` and
+        ``p_<face>_hi`` in which every pair of `x` and `y` has one row.
+    x, y : str
+        Columns of the axes.
+    face : str
+        ``heads``, ``tails`` or ``side``.
+    where : mapping of str to value, optional
+        Only rows with these values, as ``{"friction": 0.3}``: needed where more than two parameters
+        vary.
+    target : float
+        The probability whose contour is drawn.
+    bar : bool
+        Whether a bar of the colours is drawn beside the axes.
+    ax : Axes, optional
+        Where to draw; a new figure if absent.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    ValueError
+        A pair of `x` and `y` has no row, or several.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from coinmc import plot
+    >>> ratio, e = (axis.ravel() for axis in np.meshgrid([1.0, 1.5, 2.0], [0.2, 0.6]))
+    >>> p = {"p_side": ratio / 4, "p_side_lo": ratio / 5, "p_side_hi": ratio / 3}
+    >>> table = {"ratio": ratio, "restitution": e, **p}
+    >>> plot.heat(table).get_ylabel()
+    'restitution e'
+    """
+    (face,) = face_list(face)
+    table = select(columns(result), where)
+    need(table, [x, y, *(f"p_{face}{end}" for end in _SETTINGS)])
+    xs, ys, (p, low, high) = _grid(table, x, y, [f"p_{face}{end}" for end in _SETTINGS])
+    ax = axes_for(ax)
+    mesh = ax.pcolormesh(_edges(xs), _edges(ys), p, cmap="cividis", rasterized=True)
+    name = "1/3" if abs(target - 1 / 3) < 1e-9 else f"{target:g}"
+    key = _hatch(ax, _edges(xs), _edges(ys), (low <= target) & (target <= high), name)
+    if min(p.shape) > 1 and np.nanmin(p) < target < np.nanmax(p):
+        ax.contour(xs, ys, p, levels=[target], colors="white", linewidths=2.2)
+        # white on the map, grey in the legend, which has no map behind it
+        key.append(Line2D([], [], color=NEUTRAL, linewidth=2.2, label=f"P({face}) = {name}"))
+    ax.set(xlabel=axis_label(x), ylabel=axis_label(y))
+    if key:
+        place = {"loc": "lower left", "bbox_to_anchor": (0, 1), "ncols": 2}
+        ax.legend(handles=key, frameon=False, fontsize="small", **place)
+    if bar:
+        ax.figure.colorbar(mesh, ax=ax, label=f"P({face})")
+    return ax
+
+
+def _grid(
+    table: Mapping[str, NDArray[Any]], x: str, y: str, names: list[str]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], list[NDArray[np.float64]]]:
+    """Give the values of both axes, and each column over them, y first."""
+    xs, at_x = np.unique(table[x], return_inverse=True)
+    ys, at_y = np.unique(table[y], return_inverse=True)
+    counts = np.zeros((len(ys), len(xs)), int)
+    np.add.at(counts, (at_y, at_x), 1)
+    if counts.max(initial=0) > 1:
+        free = [
+            name
+            for name in parameters(table)
+            if name not in (x, y) and len(np.unique(table[name])) > 1
+        ]
+        remedy = f"fix {', '.join(free)} with where={{…}}" if free else "the table repeats rows"
+        raise ValueError(f"several rows have the same {x} and {y}: {remedy}")
+    if counts.min(initial=1) < 1:
+        row, column = np.argwhere(counts == 0)[0]
+        raise ValueError(f"no row has {x} = {xs[column]:g} and {y} = {ys[row]:g}: not a full grid")
+    grids = []
+    for name in names:
+        grid = np.empty(counts.shape)
+        grid[at_y, at_x] = table[name]
+        grids.append(grid)
+    return xs, ys, grids
+
+
+def _edges(centres: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Cells end half way between their centres; the outer ones are symmetric."""
+    if len(centres) == 1:
+        return centres[0] + np.array([-0.5, 0.5])
+    inner = (centres[1:] + centres[:-1]) / 2
+    return np.concatenate([[2 * centres[0] - inner[0]], inner, [2 * centres[-1] - inner[-1]]])
+
+
+def _hatch(
+    ax: Axes,
+    xs: NDArray[np.float64],
+    ys: NDArray[np.float64],
+    cells: NDArray[np.bool_],
+    name: str,
+) -> list[Any]:
+    """Hatches cells; returns what the legend says of them."""
+    if not cells.any():
+        return []
+    rectangles = [
+        Rectangle((xs[i], ys[j]), xs[i + 1] - xs[i], ys[j + 1] - ys[j])
+        for j, i in np.argwhere(cells)
+    ]
+    look = {"facecolor": "none", "edgecolor": "white", "linewidth": 0, "hatch": "////"}
+    ax.add_collection(PatchCollection(rectangles, **look))
+    return [Patch(**{**look, "edgecolor": NEUTRAL}, label=f"interval holds {name}")]

@@ -1,0 +1,70 @@
+"""The outline of the coin as it is seen from afar, and its rims in space."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["hull", "rims"]
+
+# Points of a rim; 0.4 % of the radius between chord and arc.
+_POINTS = 36
+
+
+def rims(
+    position_m: NDArray[np.float64], axis: NDArray[np.float64], radius_m: float, height_m: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Points on the rim of heads and of tails, each (36, 3), in m.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from coinmc.plot.outline import rims
+    >>> heads, tails = rims(np.zeros(3), np.array([0.0, 0.0, 1.0]), 1.0, 0.5)
+    >>> set(heads[:, 2].tolist()), set(tails[:, 2].tolist())
+    ({0.25}, {-0.25})
+    """
+    # any direction that is not along the axis spans the face with it
+    other = np.eye(3)[np.argmin(np.abs(axis))]
+    first = np.cross(axis, other)
+    first /= np.linalg.norm(first)
+    second = np.cross(axis, first)
+    angle = np.linspace(0, 2 * np.pi, _POINTS, endpoint=False)[:, None]
+    circle = position_m + radius_m * (np.cos(angle) * first + np.sin(angle) * second)
+    return circle + 0.5 * height_m * axis, circle - 0.5 * height_m * axis
+
+
+def hull(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Find the corners of the convex hull of points in a plane, anticlockwise (Andrew 1979).
+
+    Parameters
+    ----------
+    points : ndarray, (n, 2)
+
+    Returns
+    -------
+    ndarray, (m, 2)
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from coinmc.plot.outline import hull
+    >>> hull(np.array([[0, 0], [2, 0], [1, 1], [2, 2], [0, 2]])).tolist()
+    [[0, 0], [2, 0], [2, 2], [0, 2]]
+    """
+    ordered = points[np.lexsort((points[:, 1], points[:, 0]))].tolist()
+
+    def chain(path: list[list[float]]) -> list[list[float]]:
+        kept: list[list[float]] = []
+        for point in path:
+            while len(kept) > 1 and _turn(kept[-2], kept[-1], point) <= 0:
+                kept.pop()
+            kept.append(point)
+        return kept[:-1]
+
+    return np.array(chain(ordered) + chain(ordered[::-1]))
+
+
+def _turn(a: list[float], b: list[float], c: list[float]) -> float:
+    """Twice the area of the triangle: positive if the path turns left."""
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])

@@ -1,0 +1,254 @@
+"""P(face) along an axis of a sweep."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from itertools import cycle
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+from coinmc import analytic
+from coinmc.plot import published as others
+from coinmc.plot.style import (
+    CYCLE,
+    CYCLE_MARKERS,
+    FACE_MARKERS,
+    FACES,
+    NEUTRAL,
+    axes_for,
+    axis_label,
+    face_list,
+)
+from coinmc.plot.table import columns, need, parameters, select
+
+__all__ = ["probability"]
+
+Table = Mapping[str, NDArray[Any]]
+
+# The closed form that an engine's tosses tend to where nothing bounces.
+_LIMITS = {"flat": "arc", "volumetric": "zone", "rapier": "zone"}
+# What the published scene of Unity looks like in the columns of a result.
+_UNITY_SCENE = {"radius_m": 0.5, "restitution": 0.3, "friction": 10.0, "linear_drag_per_s": 1.0}
+# More curves than this cannot be told apart.
+_MOST_CURVES = 21
+_LINES = ["-", "--", "-.", ":"]
+
+
+def probability(
+    result: Any,
+    *,
+    x: str = "ratio",
+    faces: str | Iterable[str] = "side",
+    where: Mapping[str, Any] | None = None,
+    closed_forms: bool | Iterable[str] = True,
+    published: bool = True,
+    ax: Axes | None = None,
+) -> Axes:
+    """Plot the probability of faces with their intervals against a parameter.
+
+    Parameters
+    ----------
+    result : table
+        A result of `coinmc.run`, `coinmc.estimate` or `coinmc.open`, or any table
+        with the columns `x`, ``p_<face>``, ``p_<face>_lo`` and ``p_<face>_hi``. Every other
+        parameter that varies makes a curve of its own.
+    x : str
+        Column of the horizontal axis.
+    faces : str or iterable of str
+        Of ``heads``, ``tails`` and ``side``.
+    where : mapping of str to value, optional
+        Only rows with these values, as ``{"friction": 0.3}``.
+    closed_forms : bool or iterable of str
+        Rules of `coinmc.analytic` to draw, by name; True: the one of the same kind of toss
+        without bounces. Drawn against the ratio only.
+    published : bool
+        Show what was published for the engine: fair ratios with their errors and, beside results of
+        that very scene, the counts of table 1 of arXiv 2401.03557. Against the ratio only.
+    ax : Axes, optional
+        Where to draw; a new figure if absent.
+
+    Returns
+    -------
+    Axes
+
+    Examples
+    --------
+    >>> from coinmc import plot
+    >>> table = {
+    ...     "ratio": [1.0, 1.5, 2.0],
+    ...     "p_side": [0.07, 0.25, 0.50],
+    ...     "p_side_lo": [0.06, 0.24, 0.48],
+    ...     "p_side_hi": [0.08, 0.26, 0.52],
+    ... }
+    >>> ax = plot.probability(table, closed_forms=["arc"])
+    >>> ax.get_xlabel(), ax.get_ylabel()
+    ('H/R, height over radius', 'P(side)')
+    """
+    shown = face_list(faces)
+    table = select(columns(result), where)
+    need(table, [x, *(f"p_{face}{end}" for face in shown for end in ("", "_lo", "_hi"))])
+    ax = axes_for(ax)
+    curves = _curves(table, x)
+    for number, (name, curve) in enumerate(curves):
+        for face in shown:
+            _curve(ax, curve, x, face, _look(number, face, len(shown)), _label(name, face, shown))
+    span = (np.nanmin(table[x]), np.nanmax(table[x]))
+    if x == "ratio":
+        _closed_forms(ax, _rules(closed_forms, table), span, shown)
+        if published:
+            _published(ax, table, span, shown)
+    ax.axhline(1 / 3, color=NEUTRAL, linewidth=0.8, zorder=0)
+    ax.set(xlabel=axis_label(x), ylabel=_y_label(table, shown), ylim=(0, None))
+    if ax.get_legend_handles_labels()[1]:
+        ax.legend(fontsize="small", frameon=False)
+    return ax
+
+
+def _curves(table: Table, x: str) -> list[tuple[str, Table]]:
+    """Make a curve of each combination of the other parameters that vary, with its name."""
+    named = [name for name in ("engine", "law") if name in table]
+    others = [name for name in [*parameters(table), *named] if name != x]
+    varied = [name for name in others if len(np.unique(table[name])) > 1]
+    combinations = list(dict.fromkeys(zip(*(table[name].tolist() for name in varied), strict=True)))
+    if len(combinations) > _MOST_CURVES:
+        raise ValueError(
+            f"{len(combinations)} curves, one for each {', '.join(varied)}: choose some of them "
+            f"with where={{{varied[0]!r}: …}}, or plot a heat map"
+        )
+    curves = []
+    for values in combinations or [()]:
+        at = dict(zip(varied, values, strict=True))
+        rows = select(table, at)
+        order = np.argsort(rows[x], kind="stable")
+        named_values = (f"{_short(name)}{_value(value)}" for name, value in at.items())
+        curves.append((", ".join(named_values), {key: held[order] for key, held in rows.items()}))
+    return curves
+
+
+def _short(name: str) -> str:
+    """Name a parameter in a legend, with what stands before its value."""
+    symbols = {
+        "restitution": "e = ",
+        "friction": "μ = ",
+        "ratio": "H/R = ",
+        "engine": "",
+        "law": "",
+    }
+    return symbols.get(name, f"{name} = ")
+
+
+def _value(value: Any) -> str:
+    return value if isinstance(value, str) else f"{value:.6g}"
+
+
+def _label(name: str, face: str, shown: list[str]) -> str:
+    parts = [f"P({face})"] if len(shown) > 1 else []
+    return ", ".join(parts + ([name] if name else []))
+
+
+def _look(number: int, face: str, faces: int) -> dict[str, Any]:
+    """Several faces: a colour a face, a line a curve. One face: a colour and a marker a curve."""
+    if faces > 1:
+        line = _LINES[number % len(_LINES)]
+        return {"color": FACES[face], "marker": FACE_MARKERS[face], "linestyle": line}
+    line = _LINES[number // len(CYCLE) % len(_LINES)]
+    at = number % len(CYCLE)
+    return {"color": CYCLE[at], "marker": CYCLE_MARKERS[at], "linestyle": line}
+
+
+def _curve(ax: Axes, curve: Table, x: str, face: str, look: dict[str, Any], label: str) -> None:
+    p, low, high = (curve[f"p_{face}{end}"] for end in ("", "_lo", "_hi"))
+    ax.errorbar(
+        curve[x],
+        p,
+        # a closed form has no interval; rounding must not make an end negative
+        yerr=np.nan_to_num(np.maximum([p - low, high - p], 0)),
+        markersize=4,
+        linewidth=1,
+        elinewidth=1.2,
+        capsize=2.5,
+        label=label or None,
+        **look,
+    )
+
+
+def _engines(table: Table) -> list[str]:
+    return list(dict.fromkeys(table["engine"].tolist())) if "engine" in table else []
+
+
+def _rules(wanted: bool | Iterable[str], table: Table) -> list[str]:
+    if wanted is True:
+        rules = [_LIMITS[engine] for engine in _engines(table) if engine in _LIMITS]
+        return list(dict.fromkeys(rules))
+    if wanted is False:
+        return []
+    return [wanted] if isinstance(wanted, str) else list(wanted)
+
+
+def _closed_forms(ax: Axes, rules: list[str], span: tuple[float, float], shown: list[str]) -> None:
+    ratio = np.linspace(*span, 200)
+    for rule, line in zip(rules, cycle([":", "--", "-.", "-"])):
+        p = analytic.rule(rule, ratio)
+        for face in shown:
+            label = f"{rule} rule, no bounce" if rule in _LIMITS.values() else f"{rule} rule"
+            if len(shown) > 1:
+                label = f"P({face}), {label}"
+            ax.plot(ratio, getattr(p, face), line, color=NEUTRAL, label=label, zorder=1)
+
+
+def _published(ax: Axes, table: Table, span: tuple[float, float], shown: list[str]) -> None:
+    if "side" in shown:
+        for fair in others.fair_ratios(_engines(table)):
+            ax.errorbar(
+                fair.ratio,
+                1 / 3,
+                xerr=fair.half_width,
+                color=NEUTRAL,
+                marker="*",
+                markersize=9,
+                capsize=3,
+                linestyle="none",
+                label=f"fair: {fair.source}",
+            )
+    if _is_unity_scene(table):
+        _unity(ax, span, shown)
+
+
+def _is_unity_scene(table: Table) -> bool:
+    return all(
+        name in table and (table[name] == value).all() for name, value in _UNITY_SCENE.items()
+    )
+
+
+def _unity(ax: Axes, span: tuple[float, float], shown: list[str]) -> None:
+    """Draw the published counts within the sweep, with 95 % intervals by Wilson."""
+    counts = others.unity_table1()
+    inside = (counts["ratio"] >= span[0]) & (counts["ratio"] <= span[1])
+    for face in shown:
+        count, tosses = counts[face][inside], counts["tosses"][inside]
+        low, high = others.wilson(count, tosses)
+        share = count / tosses
+        name = f"{others.SOURCE}, Unity"
+        ax.errorbar(
+            counts["ratio"][inside],
+            share,
+            yerr=[share - low, high - share],
+            color=NEUTRAL,
+            marker=FACE_MARKERS[face],
+            markerfacecolor="none",
+            markersize=8,
+            capsize=3,
+            linestyle="none",
+            label=name if len(shown) == 1 else f"P({face}), {name}",
+        )
+
+
+def _y_label(table: Table, shown: list[str]) -> str:
+    name = f"P({shown[0]})" if len(shown) == 1 else "P(face)"
+    if "confidence" not in table:
+        return name
+    levels = np.unique(table["confidence"])
+    return f"{name}, {100 * levels[0]:g} % intervals" if len(levels) == 1 else name

@@ -1,0 +1,118 @@
+"""Published data that results are set beside: what the folder ``data`` holds, with provenance."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable
+from dataclasses import dataclass
+from importlib.resources import files
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["SOURCE", "FairRatio", "fair_ratios", "provenance", "unity_table1", "wilson"]
+
+#: Whose counts `unity_table1` gives.
+SOURCE = "Gaek & Sukhov, arXiv 2401.03557"
+
+
+@dataclass(frozen=True)
+class FairRatio:
+    """A published ratio at which P(side) = 1/3.
+
+    Attributes
+    ----------
+    engine : str
+        The engine that computes the same kind of toss.
+    ratio, half_width : float
+        H/R and its error as stated.
+    source : str
+        Authors, reference and model.
+    """
+
+    engine: str
+    ratio: float
+    half_width: float
+    source: str
+
+
+def _rows(name: str) -> list[dict[str, str]]:
+    text = files(__package__).joinpath("data", name).read_text(encoding="utf-8")
+    return list(csv.DictReader(text.splitlines()))
+
+
+def provenance() -> str:
+    """Where the data come from, under which terms, and what their columns mean (Markdown).
+
+    Examples
+    --------
+    >>> from coinmc.plot.published import provenance
+    >>> "arxiv.org/abs/2401.03557" in provenance()
+    True
+    """
+    return files(__package__).joinpath("data", "README.md").read_text(encoding="utf-8")
+
+
+def unity_table1() -> dict[str, NDArray[np.float64]]:
+    """Outcomes of the published Unity scene.
+
+    Returns
+    -------
+    dict of str to ndarray
+        ``ratio``, ``tosses`` and the counts ``heads``, ``tails``, ``side``, ``unidentified``.
+
+    Examples
+    --------
+    >>> from coinmc.plot.published import unity_table1
+    >>> table = unity_table1()
+    >>> (table["side"] / table["tosses"]).round(3)
+    array([0.   , 0.057, 0.449, 0.95 ])
+    """
+    rows = _rows("unity-table1.csv")
+    table = {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
+    counts = [table[name] for name in ("heads", "tails", "side", "unidentified")]
+    table["tosses"] = np.sum(counts, axis=0)
+    return table
+
+
+def fair_ratios(engines: Iterable[str]) -> list[FairRatio]:
+    """Give what was published for the kinds of toss that these engines compute.
+
+    Examples
+    --------
+    >>> from coinmc.plot.published import fair_ratios
+    >>> [(fair.ratio, fair.half_width) for fair in fair_ratios(["flat"])]
+    [(1.5, 0.05)]
+    """
+    wanted = set(engines)
+    return [
+        FairRatio(
+            engine=row["engine"],
+            ratio=float(row["fair_ratio"]),
+            half_width=float(row["half_width"]),
+            source=f"{row['authors']}, {row['reference']}, {row['model']}",
+        )
+        for row in _rows("fair-ratios.csv")
+        if row["engine"] in wanted
+    ]
+
+
+def wilson(
+    count: NDArray[np.float64], tosses: NDArray[np.float64], z: float = 1.959963984540054
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Wilson's interval of a share: both ends (z = 1.96: 95 %).
+
+    For counts that come without an interval. Those of coinmc bring their own.
+
+    Examples
+    --------
+    >>> from coinmc.plot.published import wilson
+    >>> low, high = wilson(7312, 100_000)
+    >>> f"{low:.6f} {high:.6f}"
+    '0.071523 0.074750'
+    """
+    share = count / tosses
+    middle = share + z * z / (2 * tosses)
+    reach = z * np.sqrt(share * (1 - share) / tosses + (z / (2 * tosses)) ** 2)
+    scale = 1 + z * z / tosses
+    return (middle - reach) / scale, (middle + reach) / scale

@@ -1,0 +1,67 @@
+"""What a probability depends on."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from coinmc.plot.style import FACES, NEUTRAL, axes_for, face_list
+from coinmc.plot.table import columns, need
+
+__all__ = ["sensitivity"]
+
+
+def sensitivity(table: Any, face: str = "side", *, ax: Axes | None = None) -> Axes:
+    """Show how much P(face) changes with each parameter, with intervals, longest first.
+
+    Parameters
+    ----------
+    table : table
+        As `coinmc.sensitivity` gives it: columns ``parameter``, ``d_p_<face>``,
+        ``d_p_<face>_lo`` and ``d_p_<face>_hi``.
+    face : str
+        ``heads``, ``tails`` or ``side``.
+    ax : Axes, optional
+        Where to draw; a new figure if absent.
+
+    Returns
+    -------
+    Axes
+
+    Notes
+    -----
+    A bar is dP/d ln(parameter): a hundredth of it is what P gains when the parameter grows by one
+    per cent.
+
+    Examples
+    --------
+    >>> from coinmc import plot
+    >>> table = {
+    ...     "parameter": ["coin.ratio", "surface.friction"],
+    ...     "d_p_side": [0.6, -0.1], "d_p_side_lo": [0.5, -0.12], "d_p_side_hi": [0.7, -0.08],
+    ... }
+    >>> plot.sensitivity(table).get_xlabel()
+    'dP(side)/d ln(parameter)'
+    """
+    (face,) = face_list(face)
+    names = ("parameter", *(f"d_p_{face}{end}" for end in ("", "_lo", "_hi")))
+    parameter, value, low, high = need(columns(table), names)
+    # the longest on top; horizontal bars count from below
+    order = np.argsort(np.abs(value), kind="stable")
+    value, low, high = value[order], low[order], high[order]
+    ax = axes_for(ax)
+    ax.barh(
+        np.arange(len(value)),
+        value,
+        xerr=np.maximum([value - low, high - value], 0),
+        color=FACES[face],
+        ecolor=NEUTRAL,
+        height=0.6,
+        capsize=3,
+    )
+    ax.axvline(0, color=NEUTRAL, linewidth=0.8)
+    ax.set_yticks(np.arange(len(value)), [str(name) for name in parameter[order]])
+    ax.set_xlabel(f"dP({face})/d ln(parameter)")
+    return ax

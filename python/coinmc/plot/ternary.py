@@ -1,0 +1,160 @@
+"""Heads, tails and side in one picture."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.patches import Polygon
+from numpy.typing import NDArray
+
+from coinmc.plot.style import CYCLE, NEUTRAL, axes_for, axis_label
+from coinmc.plot.table import columns, need, parameters, select
+
+__all__ = ["ternary"]
+
+# Where each face is certain: heads, tails, side.
+_CORNERS = np.array([[0.0, 0.0], [1.0, 0.0], [0.5, np.sqrt(0.75)]])
+_FACES = ("heads", "tails", "side")
+
+
+def ternary(
+    result: Any,
+    *,
+    where: Mapping[str, Any] | None = None,
+    along: str | None = None,
+    ax: Axes | None = None,
+) -> Axes:
+    """Draw the probabilities of the three faces in a triangle, with their intervals.
+
+    A corner is a face that is certain, the star a coin that is three-way fair. Around each point
+    lies the region in which all three intervals hold.
+
+    Parameters
+    ----------
+    result : table
+        A result, or any table with the columns ``p_<face>``, ``p_<face>_lo`` and ``p_<face>_hi`` of
+        the three faces.
+    where : mapping of str to value, optional
+        Only rows with these values.
+    along : str, optional
+        The points are joined along this column and its values written beside them; by default the
+        one parameter that varies, if it is the only one.
+    ax : Axes, optional
+        Where to draw; a new figure if absent.
+
+    Returns
+    -------
+    Axes
+
+    Notes
+    -----
+    Intervals of 95 % hold all three probabilities at once with 85 % at least (Bonferroni). Tosses
+    without a face belong to no corner: points are where the shares of the decided ones put them.
+
+    Examples
+    --------
+    >>> from coinmc import plot
+    >>> faces = {"heads": 0.38, "tails": 0.37, "side": 0.25}
+    >>> ends = {"": 0, "_lo": -0.01, "_hi": 0.01}
+    >>> table = {f"p_{f}{end}": [p + by] for f, p in faces.items() for end, by in ends.items()}
+    >>> len(plot.ternary(table).patches)  # the triangle and the region
+    2
+    """
+    table = select(columns(result), where)
+    p, low, high = (
+        np.stack(need(table, [f"p_{face}{end}" for face in _FACES]), axis=1).astype(float)
+        for end in ("", "_lo", "_hi")
+    )
+    known = np.isfinite(p).all(axis=1) & (p.sum(axis=1) > 0)
+    table = {name: column[known] for name, column in table.items()}
+    p, low, high = p[known], low[known], high[known]
+    ax = axes_for(ax, size=(5.6, 5.0))
+    _frame(ax)
+    along = along or _only_varied(table)
+    order = np.argsort(table[along], kind="stable") if along else np.arange(len(p))
+    points = (p / p.sum(axis=1, keepdims=True)) @ _CORNERS
+    for lo, hi in zip(low, high, strict=True):
+        corners = _region(lo, hi)
+        if len(corners) > 2:
+            ax.add_patch(Polygon(corners, color=CYCLE[0], alpha=0.35, linewidth=0.8))
+    line = "-" if along else "none"
+    ax.plot(
+        *points[order].T, color=CYCLE[0], linestyle=line, linewidth=0.8, marker="o", markersize=3
+    )
+    if along:
+        _name_points(ax, points[order], table[along][order], along)
+    return ax
+
+
+def _only_varied(table: Mapping[str, NDArray[Any]]) -> str | None:
+    varied = [name for name in parameters(table) if len(np.unique(table[name])) > 1]
+    return varied[0] if len(varied) == 1 else None
+
+
+def _name_points(ax: Axes, points: NDArray[Any], values: NDArray[Any], along: str) -> None:
+    """Write first and last value and some between, and say what they are."""
+    for at in np.unique(np.linspace(0, len(values) - 1, 6).round().astype(int)):
+        ax.annotate(
+            f"{values[at]:g}",
+            points[at],
+            xytext=(6, 0),
+            textcoords="offset points",
+            fontsize="small",
+            va="center",
+        )
+    ax.set_title(f"numbers: {axis_label(along)}", fontsize="small")
+
+
+def _frame(ax: Axes) -> None:
+    """Draw the triangle with lines at fifths, and the fair point."""
+    ax.add_patch(Polygon(_CORNERS, fill=False, edgecolor=NEUTRAL))
+    for share in (0.2, 0.4, 0.6, 0.8):
+        for face in range(3):
+            # where the share of this face is constant
+            ends = np.zeros((2, 3))
+            ends[:, face] = share
+            ends[0, (face + 1) % 3] = ends[1, (face + 2) % 3] = 1 - share
+            ax.plot(*(ends @ _CORNERS).T, color=NEUTRAL, linewidth=0.4, alpha=0.6, zorder=0)
+    ax.plot(*_CORNERS.mean(axis=0), marker="*", color=NEUTRAL, markersize=10, linestyle="none")
+    places = [("right", "top"), ("left", "top"), ("center", "bottom")]
+    for corner, face, (ha, va) in zip(_CORNERS, _FACES, places, strict=True):
+        ax.annotate(
+            f"P({face}) = 1",
+            corner,
+            ha=ha,
+            va=va,
+            xytext=(0, 4 if va == "bottom" else -4),
+            textcoords="offset points",
+        )
+    ax.set(xlim=(-0.12, 1.12), ylim=(-0.1, 0.96))
+    ax.set_aspect("equal")
+    ax.set_axis_off()
+
+
+def _region(low: NDArray[np.float64], high: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Corners of the part of the triangle in which every probability lies in its interval.
+
+    The triangle, cut by one half plane after the other (Sutherland & Hodgman 1974), in barycentric
+    coordinates.
+    """
+    corners = np.eye(3)
+    for face in range(3):
+        corners = _cut(corners, corners[:, face] - low[face])
+        corners = _cut(corners, high[face] - corners[:, face])
+    return corners @ _CORNERS
+
+
+def _cut(corners: NDArray[np.float64], inside: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Keep the polygon's part where a linear function, `inside` at its corners, is not negative."""
+    kept = []
+    for at in range(len(corners)):
+        here, before = inside[at], inside[at - 1]
+        if (here < 0) != (before < 0):
+            share = before / (before - here)
+            kept.append(corners[at - 1] + share * (corners[at] - corners[at - 1]))
+        if here >= 0:
+            kept.append(corners[at])
+    return np.array(kept).reshape(-1, 3)

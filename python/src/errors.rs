@@ -1,0 +1,67 @@
+//! Rust's errors as the exceptions of the Python part.
+
+use coinmc::config::Diagnostics;
+use coinmc::run::RunError;
+use coinmc::trace::TraceError;
+use coinmc_film::text::Diagnostics as FilmDiagnostics;
+use pyo3::PyErr;
+use pyo3::exceptions::PyValueError;
+
+mod python {
+    #![allow(missing_docs)] // described where they are defined, in Python
+
+    pyo3::import_exception!(coinmc._errors, ConfigError);
+    pyo3::import_exception!(coinmc._errors, RunError);
+    pyo3::import_exception!(coinmc._errors, TraceError);
+    pyo3::import_exception!(coinmc._errors, FilmError);
+}
+
+/// A problem: source, line, column, message, help.
+type Problem = (String, usize, usize, String, Option<String>);
+
+/// The command line's message, with carets, and the problems one by one.
+pub(crate) fn config(found: &Diagnostics) -> PyErr {
+    let problems = found.problems().iter().map(|problem| -> Problem {
+        let (message, help) = (problem.message.clone(), problem.help.clone());
+        let source = problem.source.clone();
+        (source, problem.line, problem.column, message, help)
+    });
+    let problems: Vec<Problem> = problems.collect();
+    python::ConfigError::new_err((found.render(false), problems))
+}
+
+/// The same of a film.
+pub(crate) fn footage(found: &FilmDiagnostics) -> PyErr {
+    let problems = found.problems().iter().map(|problem| -> Problem {
+        let (message, help) = (problem.message.clone(), problem.help.clone());
+        let file = problem.file.clone();
+        (file, problem.line, problem.column, message, help)
+    });
+    let problems: Vec<Problem> = problems.collect();
+    python::FilmError::new_err((found.render(false), problems))
+}
+
+/// What does not allow a fit.
+pub(crate) fn film(error: impl ToString) -> PyErr {
+    python::FilmError::new_err((error.to_string(), Vec::<Problem>::new()))
+}
+
+/// Why a run stopped.
+pub(crate) fn run(error: &RunError) -> PyErr {
+    python::RunError::new_err(error.to_string())
+}
+
+/// Why there is no trace.
+pub(crate) fn trace(error: &TraceError) -> PyErr {
+    python::TraceError::new_err(error.to_string())
+}
+
+/// Something that was given is out of range.
+pub(crate) fn value(error: impl ToString) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}
+
+/// What is no override.
+pub(crate) fn overriding(error: impl ToString) -> PyErr {
+    python::ConfigError::new_err((error.to_string(), Vec::<Problem>::new()))
+}

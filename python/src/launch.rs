@@ -1,0 +1,80 @@
+//! Launches as rows of twelve numbers: what the structured arrays of the Python part are made of.
+
+use coinmc::plan::{EngineChoice, Point};
+use coinmc_core::{Launch, State};
+use nalgebra::{UnitVector3, Vector3};
+
+/// Numbers of a row: position, velocity, axis, spin, each x, y, z.
+pub(crate) const ROW: usize = 12;
+
+/// An axis this close to unit length is taken as it is, so that launches handed out come back the
+/// same to the bit.
+const UNIT: f64 = 1e-12;
+
+/// A motion out of the plane, against what is in it, that is taken for rounding.
+const PLANAR: f64 = 1e-9;
+
+/// What is wrong with a row, in words that follow its number.
+pub(crate) type Fault = &'static str;
+
+/// Checks the launch of a row for a point's engine. What is not finite passes, except in the axis:
+/// the engine counts it as failed.
+pub(crate) fn check(point: &Point, row: &[f64]) -> Result<(), Fault> {
+    let axis = vector(row, 2);
+    let norm = axis.norm();
+    if !(norm > 0.0 && norm.is_finite()) {
+        return Err("its axis is no direction: give a vector of finite length, not 0");
+    }
+    if matches!(point.engine, EngineChoice::Flat(_)) && !is_planar(row, norm) {
+        return Err("the flat engine needs axis and velocity in the xz plane and spin about y");
+    }
+    Ok(())
+}
+
+fn is_planar(row: &[f64], norm: f64) -> bool {
+    let (velocity, spin) = (vector(row, 1), vector(row, 3));
+    // written so that what is not finite passes
+    let is_out = |part: f64, whole: f64| part.abs() > PLANAR * whole;
+    !(is_out(row[7], norm)
+        || is_out(velocity.y, velocity.norm())
+        || is_out(spin.x, spin.norm())
+        || is_out(spin.z, spin.norm()))
+}
+
+/// The launch of a row that [`check`] let pass.
+pub(crate) fn launch(row: &[f64]) -> Launch {
+    let axis = vector(row, 2);
+    Launch {
+        height_m: row[2],
+        velocity_m_s: vector(row, 1),
+        axis: if (axis.norm_squared() - 1.0).abs() <= UNIT {
+            UnitVector3::new_unchecked(axis)
+        } else {
+            UnitVector3::new_normalize(axis)
+        },
+        spin_rad_s: vector(row, 3),
+    }
+}
+
+/// Writes a launch into a row.
+pub(crate) fn write_launch(launch: &Launch, row: &mut [f64]) {
+    row[..3].copy_from_slice(&[0.0, 0.0, launch.height_m]);
+    row[3..6].copy_from_slice(launch.velocity_m_s.as_slice());
+    row[6..9].copy_from_slice(launch.axis.as_slice());
+    row[9..].copy_from_slice(launch.spin_rad_s.as_slice());
+}
+
+/// Writes a state into a row; `from` is where the coin was let go, which no engine looks at.
+pub(crate) fn write_state(state: &State, from: [f64; 2], row: &mut [f64]) {
+    row[..3].copy_from_slice(state.position_m.as_slice());
+    row[0] += from[0];
+    row[1] += from[1];
+    row[3..6].copy_from_slice(state.velocity_m_s.as_slice());
+    row[6..9].copy_from_slice(state.axis.as_slice());
+    row[9..].copy_from_slice(state.spin_rad_s.as_slice());
+}
+
+fn vector(row: &[f64], number: usize) -> Vector3<f64> {
+    let at = 3 * number;
+    Vector3::new(row[at], row[at + 1], row[at + 2])
+}

@@ -1,0 +1,51 @@
+//! The Rust part of the Python package `coinmc`: thin, typed functions over arrays that the Python
+//! part makes and owns. Whoever uses coinmc from Python meets the Python part alone.
+//!
+//! # Files
+//! `plan` configs · `supervise` long work, signals and progress · `share` threads · `launch` rows of
+//! numbers and launches · `columns` and `toss` tosses one by one · `run` estimates and runs ·
+//! `results` tables, also as Arrow · `trace` one toss watched · `analytic` closed forms · `film`
+//! drops on film · `errors` exceptions.
+
+// Arguments come converted from Python, and are owned.
+#![allow(clippy::needless_pass_by_value)]
+
+mod analytic;
+mod columns;
+mod errors;
+mod film;
+mod launch;
+mod plan;
+mod results;
+mod run;
+mod share;
+mod supervise;
+mod toss;
+mod trace;
+
+use pyo3::prelude::*;
+
+/// The Rust part of coinmc.
+#[pymodule]
+mod _lib {
+    #[pymodule_export]
+    use super::analytic::closed_form;
+    #[pymodule_export]
+    use super::film::{fit_film, read_film};
+    #[pymodule_export]
+    use super::plan::Plan;
+    #[pymodule_export]
+    use super::results::Results;
+    #[pymodule_export]
+    use super::run::{estimate, open, run};
+    #[pymodule_export]
+    use super::toss::{faces, launches, toss};
+    #[pymodule_export]
+    use super::trace::trace;
+    use pyo3::prelude::*;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}

@@ -1,0 +1,182 @@
+//! Configs, read and planned.
+
+use crate::errors;
+use coinmc::config::{self, Override};
+use coinmc::plan::{EngineChoice, Plan as Planned, Point, Stop};
+use pyo3::exceptions::{PyIndexError, PyTypeError};
+use pyo3::prelude::*;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// A config as understood.
+#[pyclass(frozen, module = "coinmc._lib")]
+pub(crate) struct Plan(pub(crate) Arc<Planned>);
+
+/// What a point tosses and where: ratio, radius, height, mass, gravity.
+type Scene = (f64, f64, f64, f64, f64);
+
+#[pymethods]
+impl Plan {
+    /// Reads a file.
+    #[staticmethod]
+    fn load(path: PathBuf, overrides: Vec<String>) -> PyResult<Self> {
+        let plan = config::load(&path, &parsed(&overrides)?);
+        plan.map(Self::from).map_err(|found| errors::config(&found))
+    }
+
+    /// Reads a text that messages call `name`.
+    #[staticmethod]
+    fn parse(name: &str, text: &str, overrides: Vec<String>) -> PyResult<Self> {
+        let plan = config::parse(name, text, &parsed(&overrides)?);
+        plan.map(Self::from).map_err(|found| errors::config(&found))
+    }
+
+    #[new]
+    fn new() -> PyResult<Self> {
+        Err(PyTypeError::new_err("use Plan.load or Plan.parse"))
+    }
+
+    #[getter]
+    fn hash(&self) -> String {
+        self.0.hash()
+    }
+
+    #[getter]
+    fn resolved(&self) -> &str {
+        &self.0.resolved_toml
+    }
+
+    #[getter]
+    fn seed(&self) -> u64 {
+        self.0.seed
+    }
+
+    #[getter]
+    fn paired(&self) -> bool {
+        self.0.paired
+    }
+
+    #[getter]
+    fn axes(&self) -> Vec<String> {
+        self.0.axes.clone()
+    }
+
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.0.notes.clone()
+    }
+
+    #[getter]
+    fn confidence(&self) -> f64 {
+        self.0.confidence
+    }
+
+    #[getter]
+    fn interval(&self) -> &'static str {
+        self.0.interval.name()
+    }
+
+    /// The half width that ends a point, if one does.
+    #[getter]
+    fn half_width(&self) -> Option<f64> {
+        match self.0.stop {
+            Stop::Tosses(_) => None,
+            Stop::HalfWidth { half_width, .. } => Some(half_width),
+        }
+    }
+
+    /// Tosses of a point, at most.
+    #[getter]
+    fn tosses(&self) -> u64 {
+        match self.0.stop {
+            Stop::Tosses(tosses) => tosses,
+            Stop::HalfWidth { max_tosses, .. } => max_tosses,
+        }
+    }
+
+    #[getter]
+    fn tosses_planned(&self) -> u64 {
+        self.0.tosses_planned()
+    }
+
+    fn __len__(&self) -> usize {
+        self.0.points.len()
+    }
+
+    /// Name and value of every parameter of a point.
+    fn parameters(&self, point: usize) -> PyResult<Vec<(String, f64)>> {
+        let parameters = self.point(point)?.parameters.iter();
+        Ok(parameters
+            .map(|(name, value)| (name.to_string(), *value))
+            .collect())
+    }
+
+    /// Name of the engine of a point.
+    fn engine(&self, point: usize) -> PyResult<&'static str> {
+        Ok(match self.point(point)?.engine {
+            EngineChoice::Flat(_) => "flat",
+            EngineChoice::Volumetric(_) => "volumetric",
+            EngineChoice::Rapier(_) => "rapier",
+            EngineChoice::Analytic(_) => "analytic",
+        })
+    }
+
+    /// Ratio, radius, height, mass and gravity of a point, SI.
+    fn scene(&self, point: usize) -> PyResult<Scene> {
+        let scene = &self.point(point)?.scene;
+        let coin = &scene.coin;
+        Ok((
+            coin.ratio(),
+            coin.radius_m(),
+            coin.height_m(),
+            coin.mass_kg(),
+            scene.gravity_m_s2(),
+        ))
+    }
+
+    /// Points treated alike, what is computed for them, and what is skipped and why.
+    fn explain(&self) -> Vec<(usize, String, Vec<String>)> {
+        let groups = self.0.explain().into_iter();
+        groups
+            .map(|group| (group.points, group.computed, group.skipped))
+            .collect()
+    }
+}
+
+impl From<Planned> for Plan {
+    fn from(plan: Planned) -> Self {
+        Self(Arc::new(plan))
+    }
+}
+
+impl Plan {
+    /// A point that there is.
+    pub(crate) fn point(&self, point: usize) -> PyResult<&Point> {
+        let points = self.0.points.len();
+        self.0.points.get(point).ok_or_else(|| {
+            PyIndexError::new_err(format!(
+                "there is no point {point}: this config has {points}, numbered from 0"
+            ))
+        })
+    }
+
+    /// A point that makes tosses.
+    pub(crate) fn tossing(&self, point: usize) -> PyResult<&Point> {
+        let found = self.point(point)?;
+        if found.engine.makes_tosses() {
+            return Ok(found);
+        }
+        Err(errors::value(format!(
+            "point {point} is answered by a closed form, which makes no tosses: give an engine that \
+             does, such as engine.flat"
+        )))
+    }
+}
+
+fn parsed(overrides: &[String]) -> PyResult<Vec<Override>> {
+    overrides
+        .iter()
+        .map(|text| text.parse::<Override>())
+        .collect::<Result<_, _>>()
+        .map_err(errors::overriding)
+}

@@ -1,0 +1,183 @@
+//! The results table for Python: as NumPy arrays, and as Arrow without a copy.
+
+use crate::errors;
+use arrow_array::cast::AsArray;
+use arrow_array::ffi_stream::FFI_ArrowArrayStream;
+use arrow_array::types::{Float64Type, UInt64Type};
+use arrow_array::{Array, ArrayRef, RecordBatch, RecordBatchIterator};
+use arrow_schema::DataType;
+use coinmc::results::{FairRatio, Results as Table, fair_values, record_batch};
+use coinmc::run::{Report, Status};
+use coinmc_core::Face;
+use numpy::IntoPyArray;
+use pyo3::prelude::*;
+use pyo3::types::{PyCapsule, PyDict};
+
+/// Name that the Arrow PyCapsule interface gives to streams.
+const STREAM: &std::ffi::CStr = c"arrow_array_stream";
+
+/// What a run, or an estimate, came to.
+#[pyclass(frozen, module = "coinmc._lib")]
+pub(crate) struct Results {
+    table: Table,
+    batch: RecordBatch,
+    status: Status,
+    tosses: u64,
+}
+
+/// A crossing: the other parameters, engine, law, value, its interval, confidence, rising.
+type Crossing = (
+    Vec<(String, f64)>,
+    &'static str,
+    &'static str,
+    f64,
+    Option<f64>,
+    Option<f64>,
+    f64,
+    bool,
+);
+
+impl Results {
+    /// The results of a report.
+    pub(crate) fn new(report: Report) -> PyResult<Self> {
+        let batch = record_batch(&report.results).map_err(errors::value)?;
+        Ok(Self {
+            table: report.results,
+            batch,
+            status: report.status,
+            tosses: report.tosses,
+        })
+    }
+}
+
+#[pymethods]
+impl Results {
+    fn __len__(&self) -> usize {
+        self.table.rows.len()
+    }
+
+    #[getter]
+    fn tosses(&self) -> u64 {
+        self.tosses
+    }
+
+    /// `complete`, `interrupted`, `part` or `short`.
+    #[getter]
+    fn status(&self) -> &'static str {
+        match self.status {
+            Status::Complete => "complete",
+            Status::Interrupted => "interrupted",
+            Status::Part => "part",
+            Status::ShortOfTarget { .. } => "short",
+        }
+    }
+
+    #[getter]
+    fn axes(&self) -> Vec<String> {
+        self.table.axes.clone()
+    }
+
+    #[getter]
+    fn config(&self) -> &str {
+        &self.table.config
+    }
+
+    /// Metadata of the table, text by text.
+    #[getter]
+    fn metadata<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let entries = PyDict::new(py);
+        let schema = self.batch.schema();
+        let mut sorted: Vec<_> = schema.metadata().iter().collect();
+        sorted.sort();
+        for (key, value) in sorted {
+            entries.set_item(key.strip_prefix("coinmc.").unwrap_or(key), value)?;
+        }
+        Ok(entries)
+    }
+
+    /// Name, unit and meaning of every column.
+    fn describe(&self) -> Vec<(String, String, String)> {
+        let schema = self.batch.schema();
+        let about = |field: &arrow_schema::Field, key: &str| {
+            field.metadata().get(key).cloned().unwrap_or_default()
+        };
+        let fields = schema.fields().iter();
+        fields
+            .map(|field| {
+                let name = field.name().clone();
+                (name, about(field, "unit"), about(field, "description"))
+            })
+            .collect()
+    }
+
+    /// The columns: arrays of numbers and flags, lists of texts.
+    fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let columns = PyDict::new(py);
+        let schema = self.batch.schema();
+        for (field, array) in schema.fields().iter().zip(self.batch.columns()) {
+            columns.set_item(field.name(), numpy(py, array)?)?;
+        }
+        Ok(columns)
+    }
+
+    /// The stream of the Arrow PyCapsule interface. A schema that is asked for is not looked at,
+    /// which the interface leaves to the producer.
+    #[pyo3(signature = (requested_schema=None))]
+    fn __arrow_c_stream__<'py>(
+        &self,
+        py: Python<'py>,
+        requested_schema: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyCapsule>> {
+        let _ = requested_schema;
+        // arrays are shared, not copied
+        let batches = RecordBatchIterator::new([Ok(self.batch.clone())], self.batch.schema());
+        let stream = FFI_ArrowArrayStream::new(Box::new(batches));
+        PyCapsule::new_with_value(py, stream, STREAM)
+    }
+
+    /// Where the probability of a face crosses a target along a swept parameter.
+    fn fair(&self, target: f64, face: &str, along: &str) -> PyResult<Vec<Crossing>> {
+        let face = Face::ALL.into_iter().find(|known| known.name() == face);
+        let face = face.ok_or_else(|| errors::value("the faces are heads, tails and side"))?;
+        let found = fair_values(&self.table, face, along, target);
+        Ok(found.into_iter().map(crossing).collect())
+    }
+}
+
+fn crossing(fair: FairRatio) -> Crossing {
+    (
+        fair.at,
+        fair.engine,
+        fair.law,
+        fair.ratio,
+        fair.lo,
+        fair.hi,
+        fair.confidence,
+        fair.rising,
+    )
+}
+
+/// A column: numbers that are missing become NaN.
+fn numpy<'py>(py: Python<'py>, array: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
+    Ok(match array.data_type() {
+        DataType::UInt64 => {
+            let values = array.as_primitive::<UInt64Type>().values().to_vec();
+            values.into_pyarray(py).into_any()
+        }
+        DataType::Float64 => {
+            let values = array.as_primitive::<Float64Type>().iter();
+            let values: Vec<f64> = values.map(|value| value.unwrap_or(f64::NAN)).collect();
+            values.into_pyarray(py).into_any()
+        }
+        DataType::Boolean => {
+            let values = array.as_boolean().iter();
+            let values: Vec<bool> = values.map(Option::unwrap_or_default).collect();
+            values.into_pyarray(py).into_any()
+        }
+        _ => {
+            let values = array.as_string::<i32>().iter();
+            let values: Vec<&str> = values.map(Option::unwrap_or_default).collect();
+            values.into_pyobject(py)?
+        }
+    })
+}

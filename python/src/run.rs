@@ -1,0 +1,66 @@
+//! Estimates in memory, runs in a directory, and what such a directory holds.
+
+use crate::errors;
+use crate::plan::Plan;
+use crate::results::Results;
+use crate::supervise::supervise;
+use coinmc::run::{Count, Options, Part, count, run as run_plan, stored_report};
+use pyo3::prelude::*;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+/// Results, and what went wrong and was dealt with.
+type Told<T> = PyResult<(T, Vec<String>)>;
+
+/// Counts all points in memory.
+#[pyfunction]
+#[pyo3(signature = (plan, threads=None, progress=None))]
+pub(crate) fn estimate(
+    py: Python<'_>,
+    plan: &Plan,
+    threads: Option<NonZeroUsize>,
+    progress: Option<Py<PyAny>>,
+) -> Told<Results> {
+    let (report, warnings) = supervise(py, progress, |desk| {
+        let options = Count {
+            threads,
+            cancel: &desk.stop,
+            watcher: desk,
+        };
+        count(&plan.0, &options)
+    })?;
+    let report = report.map_err(|error| errors::run(&error))?;
+    Ok((Results::new(report)?, warnings))
+}
+
+/// Runs a plan, or what is left of it, in a run directory.
+#[pyfunction]
+#[pyo3(signature = (plan, out, threads=None, progress=None))]
+pub(crate) fn run(
+    py: Python<'_>,
+    plan: &Plan,
+    out: PathBuf,
+    threads: Option<NonZeroUsize>,
+    progress: Option<Py<PyAny>>,
+) -> Told<Results> {
+    let (report, warnings) = supervise(py, progress, |desk| {
+        let options = Options {
+            out: &out,
+            part: Part::WHOLE,
+            threads,
+            cancel: &desk.stop,
+            watcher: desk,
+        };
+        run_plan(&plan.0, &options)
+    })?;
+    let report = report.map_err(|error| errors::run(&error))?;
+    Ok((Results::new(report)?, warnings))
+}
+
+/// Reads a run directory, finished or not.
+#[pyfunction]
+pub(crate) fn open(py: Python<'_>, path: PathBuf) -> Told<(Plan, Results)> {
+    let (read, warnings) = supervise(py, None, |desk| stored_report(&path, desk))?;
+    let (plan, report) = read.map_err(|error| errors::run(&error))?;
+    Ok(((Plan::from(plan), Results::new(report)?), warnings))
+}

@@ -1,0 +1,116 @@
+//! One toss, watched.
+
+use crate::errors;
+use crate::launch::{ROW, check, launch, write_state};
+use crate::plan::Plan;
+use crate::supervise::wait_for;
+use coinmc::trace::{
+    MAX_RECORDS, Record, RecordKind, Trace, default_rate_hz, launch as begin, outcome_name, record,
+    replay,
+};
+use coinmc_core::EventKind;
+use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::sync::Arc;
+
+/// Replays a toss of a point, or follows a launch given as a row, with so many samples a second;
+/// `rate_hz` None: a rate that shows it well.
+#[pyfunction]
+#[pyo3(signature = (plan, point, toss, row=None, rate_hz=None))]
+pub(crate) fn trace<'py>(
+    py: Python<'py>,
+    plan: &Plan,
+    point: usize,
+    toss: u64,
+    row: Option<PyReadonlyArray1<'py, f64>>,
+    rate_hz: Option<f64>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let row = row.as_ref().map(PyReadonlyArray1::as_slice).transpose()?;
+    let scene = plan.tossing(point)?.scene;
+    if let Some(row) = row {
+        if row.len() != ROW {
+            return Err(errors::value("a launch is a row of twelve numbers"));
+        }
+        check(plan.point(point)?, row)
+            .map_err(|fault| errors::value(format!("launch: {fault}")))?;
+    }
+    let (plan, own) = (Arc::clone(&plan.0), row.map(launch));
+    let made = wait_for(py, move || {
+        let launch = match own {
+            Some(launch) => launch,
+            None => begin(&plan, point, toss)?,
+        };
+        let rate_hz = rate_hz.unwrap_or_else(|| default_rate_hz(&scene, &launch));
+        match own {
+            Some(launch) => record(&plan, point, &launch, rate_hz, MAX_RECORDS),
+            None => replay(&plan, point, toss, rate_hz),
+        }
+    })?;
+    let trace = made.map_err(|error| errors::trace(&error))?;
+    let from = row.map_or([0.0; 2], |row| [row[0], row[1]]);
+    as_dict(py, &trace, from)
+}
+
+fn as_dict<'py>(py: Python<'py>, trace: &Trace, from: [f64; 2]) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    dict.set_item("engine", trace.engine)?;
+    dict.set_item("rate_hz", trace.rate_hz)?;
+    dict.set_item("outcome", outcome_name(&trace.outcome))?;
+    dict.set_item("face", trace.outcome.face().map(coinmc_core::Face::name))?;
+    dict.set_item("impacts", trace.outcome.impacts)?;
+    dict.set_item("contact_steps", trace.outcome.contact_steps)?;
+    dict.set_item("jams", trace.outcome.jams)?;
+    dict.set_item("overruled", trace.outcome.overruled)?;
+    dict.set_item("samples_until_s", trace.samples_until_s)?;
+    dict.set_item("events_until_s", trace.events_until_s)?;
+    let all: Vec<&Record> = trace.records.iter().collect();
+    let samples: Vec<&Record> = all.iter().copied().filter(|r| is_sample(r)).collect();
+    let events: Vec<&Record> = all.into_iter().filter(|r| is_event(r)).collect();
+    dict.set_item("samples", columns(py, &samples, from)?)?;
+    dict.set_item("events", columns(py, &events, from)?)?;
+    Ok(dict)
+}
+
+/// What was sampled, and the two ends.
+fn is_sample(record: &Record) -> bool {
+    matches!(
+        record.kind,
+        RecordKind::Sample | RecordKind::Event(EventKind::Launched | EventKind::Ended)
+    )
+}
+
+fn is_event(record: &Record) -> bool {
+    matches!(record.kind, RecordKind::Event(_))
+}
+
+fn columns<'py>(
+    py: Python<'py>,
+    records: &[&Record],
+    from: [f64; 2],
+) -> PyResult<Bound<'py, PyDict>> {
+    let numbers = |of: fn(&Record) -> f64| -> Bound<'py, PyArray1<f64>> {
+        let values: Vec<f64> = records.iter().map(|record| of(record)).collect();
+        values.into_pyarray(py)
+    };
+    let mut states = vec![0.0; records.len() * ROW];
+    let mut turns = Vec::with_capacity(records.len() * 4);
+    for (record, row) in records.iter().zip(states.chunks_exact_mut(ROW)) {
+        write_state(&record.state, from, row);
+        let q = &record.orientation;
+        turns.extend([q.w, q.i, q.j, q.k]);
+    }
+    let names = |of: fn(&Record) -> &'static str| -> Vec<&'static str> {
+        records.iter().map(|record| of(record)).collect()
+    };
+    let dict = PyDict::new(py);
+    dict.set_item("time_s", numbers(|record| record.state.time_s))?;
+    dict.set_item("energy_j_kg", numbers(|record| record.energy_j_kg))?;
+    let rows = states.into_pyarray(py).reshape([records.len(), ROW])?;
+    dict.set_item("state", rows)?;
+    let rows = turns.into_pyarray(py).reshape([records.len(), 4])?;
+    dict.set_item("quaternion", rows)?;
+    dict.set_item("kind", names(|record| record.kind.name()))?;
+    dict.set_item("mode", names(|record| record.mode.name()))?;
+    Ok(dict)
+}

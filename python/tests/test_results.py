@@ -1,0 +1,194 @@
+"""Results are a table to anyone, runs go on where they stopped, and directories are opened."""
+
+import json
+import pickle
+
+import numpy as np
+import pandas as pd
+import polars as pl
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+
+import coinmc
+
+
+@pytest.fixture
+def sweep(scene):
+    """Three points."""
+    return {**scene, "coin": {"ratio": [0.8, 1.2, 1.6]}}
+
+
+def test_arrow_and_parquet_are_one_table(sweep, tmp_path):
+    result = coinmc.run(sweep, tmp_path / "run")
+    table = pa.table(result)
+    written = pq.read_table(tmp_path / "run" / "results.parquet")
+    assert table.schema.equals(written.schema)
+    assert table.equals(written)
+    for ours, theirs in zip(table.schema, written.schema, strict=True):
+        assert ours.metadata == theirs.metadata, ours.name
+        assert result.units[ours.name] == ours.metadata.get(b"unit", b"").decode()
+        assert result.descriptions[ours.name] == ours.metadata[b"description"].decode()
+    for key, value in result.metadata.items():
+        assert table.schema.metadata[f"coinmc.{key}".encode()].decode() == value
+
+
+def test_arrow_shares_memory(sweep):
+    result = coinmc.estimate(sweep)
+    addresses = [
+        [
+            chunk.buffers()[1].address
+            for column in pa.table(result).columns
+            for chunk in column.chunks
+        ]
+        for _ in range(2)
+    ]
+    assert addresses[0] == addresses[1]
+
+
+def test_other_libraries_take_it(sweep):
+    result = coinmc.estimate(sweep)
+    frame = pl.DataFrame(result)
+    assert frame["p_side"].to_list() == result["p_side"].tolist()
+    assert frame["engine"].to_list() == result["engine"].tolist()
+    assert isinstance(pa.table(result).to_pandas(), pd.DataFrame)
+    from_columns = pd.DataFrame(result.columns)
+    assert from_columns["tosses"].tolist() == [3000] * 3
+    assert pa.table(result, schema=pa.table(result).schema).num_rows == 3
+
+
+def test_columns_are_arrays(sweep):
+    result = coinmc.estimate(sweep)
+    kinds = {name: column.dtype.kind for name, column in result.columns.items()}
+    assert (kinds["tosses"], kinds["p_side"], kinds["engine"], kinds["reached_target"]) == tuple(
+        "ufUb"
+    )
+    assert {len(column) for column in result.columns.values()} == {3} == {len(result)}
+    rule = {"coin": {"ratio": 1}, "engine": {"analytic": {"rule": "arc"}}}
+    exact = coinmc.estimate(rule)
+    assert np.isnan(exact["rel_error_side"][0])
+    assert exact["p_side"][0] == coinmc.analytic.arc(1.0)
+    assert exact.tosses == 0
+
+
+def test_what_is_shown(sweep):
+    result = coinmc.estimate(sweep)
+    assert "3 points" in repr(result)
+    assert repr(result).count("\n") == 4
+    assert result._repr_html_().count("<tr>") == 4
+    many = {"coin": {"ratio": {"from": 0.1, "to": 2, "steps": 50}}}
+    many["engine"] = {"analytic": {"rule": "zone"}}
+    assert "38 more points" in repr(coinmc.estimate(many))
+
+
+def test_a_run_is_the_estimate_and_the_directory_opens(sweep, tmp_path):
+    estimate = coinmc.estimate(sweep)
+    result = coinmc.run(sweep, tmp_path / "run")
+    opened = coinmc.open(tmp_path / "run")
+    assert pa.table(estimate).equals(pa.table(result))
+    assert pa.table(opened).equals(pa.table(result))
+    assert (result.status, opened.status, opened.path) == ("complete",) * 2 + (tmp_path / "run",)
+    assert opened.config == result.config
+    assert pa.table(pickle.loads(pickle.dumps(opened))).equals(pa.table(opened))
+    with pytest.raises(TypeError, match="cannot be pickled"):
+        pickle.dumps(estimate)
+
+
+def test_the_command_line_goes_on_with_a_run_and_back(scene, command, tmp_path):
+    config = tmp_path / "toss.toml"
+    config.write_text(coinmc.Config(scene).resolved)
+    command("run", config, "--out", tmp_path / "run", "--quiet")
+    before = (tmp_path / "run" / "results.parquet").read_bytes()
+    result = coinmc.run(config, tmp_path / "run")
+    assert result.tosses == 3000
+    assert (tmp_path / "run" / "results.parquet").read_bytes() == before
+
+
+def test_an_interrupted_run_goes_on(sweep, tmp_path):
+    whole = {**sweep, "stop": {"tosses": 200_000}}
+
+    def interrupting(done, planned):
+        if 0 < done < planned:
+            raise KeyboardInterrupt
+
+    try:
+        coinmc.run(whole, tmp_path / "run", progress=interrupting)
+        pytest.skip("it was over before it could be interrupted")
+    except KeyboardInterrupt:
+        pass
+    part = coinmc.open(tmp_path / "run")
+    assert part.status == "interrupted"
+    assert 0 < part.tosses < 600_000
+    result = coinmc.run(whole, tmp_path / "run")
+    assert result.status == "complete"
+    assert pa.table(result).equals(pa.table(coinmc.estimate(whole)))
+
+
+def test_a_run_without_a_directory_names_one_like_the_command_line(
+    scene, command, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "toss.toml").write_text(coinmc.Config(scene).resolved)
+    result = coinmc.run("toss.toml")
+    command("run", "toss.toml", "--quiet", cwd=tmp_path)
+    assert [path.name for path in (tmp_path / "runs").iterdir()] == [result.path.name]
+
+
+def test_a_point_short_of_its_target_says_so(scene):
+    stop = {"half_width": 0.001, "max_tosses": 2000}
+    assert coinmc.estimate({**scene, "stop": stop}).status == "short"
+
+
+def test_directories_of_others_are_refused(scene, command, tmp_path):
+    with pytest.raises(coinmc.RunError, match="is not a run directory"):
+        coinmc.open(tmp_path)
+    coinmc.run(scene, tmp_path / "run")
+    other = {**scene, "seed": 8}
+    with pytest.raises(coinmc.RunError) as caught:
+        coinmc.run(other, tmp_path / "run")
+    (tmp_path / "other.toml").write_text(coinmc.Config(other).resolved)
+    printed = command("run", tmp_path / "other.toml", "--out", tmp_path / "run", check=False)
+    assert " ".join(str(caught.value).split()) in " ".join(printed.stderr.split())
+
+
+def test_a_damaged_tally_is_told_and_not_used(scene, tmp_path):
+    coinmc.run(scene, tmp_path / "run")
+    [tally] = (tmp_path / "run" / "tallies").glob("*.tally")
+    tally.write_bytes(tally.read_bytes()[:-3])
+    with pytest.warns(RuntimeWarning, match="is not used"):
+        opened = coinmc.open(tmp_path / "run")
+    assert opened.status == "interrupted"
+    with pytest.warns(RuntimeWarning, match="is not used"):
+        again = coinmc.run(scene, tmp_path / "run")
+    assert again.tosses == 3000
+
+
+def test_the_fair_ratio_is_the_command_lines(command, examples, tmp_path):
+    path = examples / "flat-fair.toml"
+    arguments = ("--set", "stop.tosses=2000", "--format", "json", "--quiet")
+    printed = command("run", path, "--out", tmp_path / "run", *arguments).stdout
+    theirs = json.loads(printed)["fair_ratios"]
+    ours = coinmc.open(tmp_path / "run").fair()
+    assert len(ours) == len(theirs) > 0
+    for fair, line in zip(ours, theirs, strict=True):
+        assert (fair.value, fair.lo, fair.hi) == (line["ratio"], line["lo"], line["hi"])
+        assert (fair.at, fair.rising) == (line["at"], line["rising"])
+
+
+def test_fair_for_other_faces_and_parameters(scene):
+    config = {
+        **scene,
+        "surface": {"restitution": {"from": 0.0, "to": 0.9, "steps": 10}, "friction": 0.3},
+    }
+    result = coinmc.estimate(config, tosses=40_000)
+    target = float(result["p_heads"][[3, 6]].mean())
+    for along in ("restitution", "surface.restitution"):
+        for crossing in result.fair(target, face="heads", along=along):
+            assert 0.0 <= crossing.value <= 0.9
+    assert result.fair(target, face="heads", along="restitution")
+    with pytest.raises(ValueError, match="is not swept here; swept is restitution"):
+        result.fair()
+    with pytest.raises(ValueError, match="between 0 and 1"):
+        result.fair(1.5, along="restitution")
+    with pytest.raises(ValueError, match="heads, tails and side"):
+        result.fair(face="edge", along="restitution")

@@ -1,0 +1,83 @@
+"""Traces show what the engine did."""
+
+import csv
+
+import numpy as np
+import pytest
+
+import coinmc
+
+
+@pytest.mark.parametrize("example", ["first", "hand"])
+def test_a_trace_is_the_command_lines(example, examples, command, tmp_path):
+    path = examples / f"{example}.toml"
+    trace = coinmc.trace(path, 3, rate_hz=100)
+    command("trace", path, "--toss", 3, "--rate", 100, "--out", tmp_path / "toss.csv", "--quiet")
+    with (tmp_path / "toss.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    for records, kinds in ((trace.samples, ("sample", "launched", "ended")), (trace.events, None)):
+        theirs = [
+            row for row in rows if (row["kind"] in kinds if kinds else row["kind"] != "sample")
+        ]
+        assert len(theirs) == len(records)
+        columns = {
+            "time_s": records["time_s"],
+            "x_m": records["position_m"][:, 0],
+            "z_m": records["position_m"][:, 2],
+            "vz_m_s": records["velocity_m_s"][:, 2],
+            "ux": records["axis"][:, 0],
+            "qw": records["quaternion"][:, 0],
+            "qz": records["quaternion"][:, 3],
+            "wy_rad_s": records["spin_rad_s"][:, 1],
+            "energy_j_kg": records["energy_j_kg"],
+        }
+        for name, column in columns.items():
+            assert [float(row[name]) for row in theirs] == column.tolist(), name
+        assert [row["mode"] for row in theirs] == records["mode"].tolist()
+        if kinds is None:
+            assert [row["kind"] for row in theirs] == records["kind"].tolist()
+    assert {row["outcome"] for row in rows} == {trace.outcome}
+
+
+def test_energy_only_falls_and_axes_are_unit(examples):
+    trace = coinmc.trace(examples / "hand.toml", 5, rate_hz=1000)
+    energy = trace.samples["energy_j_kg"]
+    assert (np.diff(energy) <= 1e-9 * energy[0]).all()
+    norms = np.linalg.norm(trace.samples["axis"], axis=1)
+    np.testing.assert_allclose(norms, 1.0, atol=1e-9)
+    w, x, y, z = trace.samples["quaternion"].T
+    up = np.stack([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)], axis=1)
+    np.testing.assert_allclose(up, trace.samples["axis"], atol=1e-7)
+
+
+def test_samples_are_at_whole_multiples_between_the_ends(scene):
+    trace = coinmc.trace(scene, 1, rate_hz=50)
+    times = trace.samples["time_s"]
+    assert times[0] == 0.0
+    np.testing.assert_array_equal(times[1:-1], np.arange(1, len(times) - 1) / 50)
+    assert times[-1] == trace.duration_s == trace.events["time_s"][-1]
+    assert trace.complete
+    assert trace.scene["radius_m"] == coinmc.Config(scene).scene().radius_m
+    assert len(coinmc.trace(scene, 1, rate_hz=0)) == 2
+    assert coinmc.trace(scene, 1, rate_hz=None).rate_hz > 50
+
+
+def test_a_launch_of_ones_own_is_watched(scene):
+    launch = coinmc.launches(scene, 1, first=17)
+    own, drawn = coinmc.trace(scene, launch=launch), coinmc.trace(scene, 17)
+    np.testing.assert_array_equal(own.samples, drawn.samples)
+    assert (own.toss, drawn.toss) == (None, 17)
+
+
+def test_what_cannot_be_traced_is_said(scene, command, tmp_path):
+    with pytest.raises(coinmc.TraceError, match="3000") as caught:
+        coinmc.trace(scene, 3000)
+    (tmp_path / "toss.toml").write_text(coinmc.Config(scene).resolved)
+    printed = command("trace", tmp_path / "toss.toml", "--toss", 3000, check=False).stderr
+    assert " ".join(str(caught.value).split()) in " ".join(printed.split())
+    with pytest.raises(coinmc.TraceError, match="rate"):
+        coinmc.trace(scene, rate_hz=-1.0)
+    with pytest.raises(coinmc.TraceError, match="rate"):
+        coinmc.trace(scene, rate_hz=float("nan"))
+    with pytest.raises(ValueError, match="one launch"):
+        coinmc.trace(scene, launch=coinmc.launches(scene, 2))
