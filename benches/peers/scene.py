@@ -1,0 +1,101 @@
+"""A coin on a surface, as every engine is given it.
+
+Peers see the toss in a frame in which the radius is 1 m and gravity 9.81 m/s² (Froude scaling:
+lengths by 1/R, times by 1/sqrt(R)). It is the same toss, and spares them their troubles with small
+bodies: margins, slop and thresholds that are meant for metres.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+GRAVITY = 9.81
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A uniform cylinder of radius 1 m and mass 1 kg over the plane z = 0."""
+
+    height: float
+    """Height, m (H/R of the real coin)."""
+    restitution: float
+    friction: float
+    rolling: float
+    """Friction length of rolling and of pivoting, m (ρ/R of the real coin)."""
+    second: float
+    """One second of the real toss, s."""
+
+    @property
+    def rim(self) -> float:
+        """Distance of the rim from the centre, m."""
+        return float(np.hypot(1.0, 0.5 * self.height))
+
+    @property
+    def transverse(self) -> float:
+        """Moment of inertia about a diameter, kg m²."""
+        return (3.0 + self.height**2) / 12.0
+
+    @property
+    def axial(self) -> float:
+        """Moment of inertia about the axis, kg m²."""
+        return 0.5
+
+
+@dataclass(frozen=True)
+class Launch:
+    """One initial state, in the frame of its scene."""
+
+    height: float
+    """Of the centre, m."""
+    velocity: np.ndarray
+    """(3,), m/s."""
+    axis: np.ndarray
+    """(3,), the outward normal of heads."""
+    spin: np.ndarray
+    """(3,), rad/s."""
+
+
+def read(config: Path, ratio: float) -> tuple[Scene, dict]:
+    """The scene of a config at a ratio, and the config with only that ratio."""
+    tables = tomllib.loads(config.read_text())
+    coin, surface = tables["coin"], tables["surface"]
+    radius = coin.get("radius_m", 0.01)
+    if {"linear_drag_per_s", "angular_drag_per_s"} & set(tables.get("environment", {})):
+        raise SystemExit(f"{config}: peers are not given drag")
+    coin["ratio"] = ratio
+    return (
+        Scene(
+            height=ratio,
+            restitution=surface["restitution"],
+            friction=surface["friction"],
+            rolling=surface.get("contour_m", 0.0) / radius,
+            second=float(1.0 / np.sqrt(radius)),
+        ),
+        tables,
+    )
+
+
+def scaled(launches: np.ndarray, scene: Scene) -> list[Launch]:
+    """coinmc's launches (SI, see ``coinmc.launches``) in the frame of the scene."""
+    length, time = scene.second**2, scene.second
+    return [
+        Launch(
+            height=float(launch["position_m"][2]) * length,
+            velocity=np.array(launch["velocity_m_s"]) * (length / time),
+            axis=np.array(launch["axis"]),
+            spin=np.array(launch["spin_rad_s"]) / time,
+        )
+        for launch in launches
+    ]
+
+
+def turn_to(axis: np.ndarray) -> np.ndarray:
+    """The unit quaternion (w, x, y, z) that turns e_z to ``axis`` the short way."""
+    w = np.sqrt(max(0.0, 0.5 * (1.0 + axis[2])))
+    if w < 1e-9:
+        return np.array([0.0, 1.0, 0.0, 0.0])
+    return np.array([w, -axis[1] / (2.0 * w), axis[0] / (2.0 * w), 0.0])
