@@ -3,9 +3,9 @@
 use crate::studies::{
     Convergence, Energy, Film, FlatTable, ImpactAccuracy, ImpactBalance, ImpactCurves, ImpactLimit,
     LinkFuzz, MissedContacts, Oracle, RapierEnergy, RapierRestitution, RapierSpeed, RapierStep,
-    RapierStress, RobotSoak, Sensitivity, SpaceConvergence, SpaceDecision, SpaceEnergy, SpaceLaws,
-    SpaceMissed, SpacePeers, SpaceReferences, SpaceSpeed, SpaceStress, Speed, StoppingRule,
-    Undecided,
+    RapierStress, RobotSoak, Sensitivity, SpaceConvergence, SpaceDecision, SpaceEnergy, SpaceLanes,
+    SpaceLaws, SpaceMissed, SpacePeers, SpaceReferences, SpaceSpeed, SpaceStress, Speed,
+    StoppingRule, Undecided,
 };
 use crate::{memory, number};
 use anyhow::{Context, anyhow};
@@ -80,6 +80,8 @@ enum Command {
     SpaceStress(SpaceStress),
     /// In space: tosses a second, and the numerical bias at that speed
     SpaceSpeed(SpaceSpeed),
+    /// In space: tosses side by side against one after the other
+    SpaceLanes(SpaceLanes),
     /// In space: P(side) beside what other engines give
     SpacePeers(SpacePeers),
     /// In space: the decision by tilting energy against the rigorous one
@@ -139,6 +141,7 @@ impl Arguments {
             Command::SpaceEnergy(study) => study.carry_out(seed),
             Command::SpaceStress(study) => study.carry_out(seed),
             Command::SpaceSpeed(study) => study.carry_out(seed)?,
+            Command::SpaceLanes(study) => study.carry_out(),
             Command::SpacePeers(study) => study.carry_out(seed)?,
             Command::SpaceDecision(study) => study.carry_out(seed)?,
             Command::LinkFuzz(study) => study.carry_out(seed)?,

@@ -4,6 +4,7 @@ mod arguments;
 mod legs;
 mod memory;
 mod number;
+mod processor_time;
 mod report;
 mod run_once;
 mod studies;

@@ -3,7 +3,7 @@
 use crate::Case;
 use coinmc_core::{Engine, Philox4x64, Preset, run_tosses};
 use coinmc_flat::{ChatterjeeRuina, Moreau, Settings};
-use coinmc_volumetric::VolumetricEngine;
+use coinmc_volumetric::{Lanes, VolumetricEngine};
 use std::hint::black_box;
 use std::ops::Range;
 
@@ -30,8 +30,8 @@ enum Task {
     Toss(Case),
     /// Tosses under Chatterjee and Ruina's.
     TossChatterjeeRuina(Case),
-    /// Tosses in space under Moreau's law.
-    TossInSpace(Case),
+    /// Tosses in space under Moreau's law, with these lanes.
+    TossInSpace(Case, Lanes),
     /// Launches, not followed.
     Launch(Case),
     /// Blocks of four random words.
@@ -77,7 +77,8 @@ pub fn workloads() -> Vec<Workload> {
     list
 }
 
-/// Tosses in space: those with asked rates first.
+/// Tosses in space, one after the other (so that their instructions are the same on every
+/// processor): those with asked rates first.
 pub fn space_workloads() -> Vec<Workload> {
     let clean = |ratio, e, rho| Case::new(Preset::Clean, 0.01, ratio, e, 0.3).rolling(rho);
     let cases = [
@@ -89,8 +90,7 @@ pub fn space_workloads() -> Vec<Workload> {
         Case::new(Preset::Clean, 0.01, 0.85, 0.5, 0.0),
         Case::table1(1.0).rolling(0.01),
     ];
-    let toss =
-        |case: Case| Workload::new(format!("toss {}", short(&case)), Task::TossInSpace(case));
+    let toss = |case| Workload::toss_in_space(case, Lanes::Scalar);
     cases.into_iter().map(toss).collect()
 }
 
@@ -108,10 +108,24 @@ impl Workload {
         Self { name, task }
     }
 
+    /// Tosses in space with these lanes, or the portable ones where the processor lacks them.
+    pub fn toss_in_space(case: Case, lanes: Lanes) -> Self {
+        let name = match lanes {
+            Lanes::Scalar => format!("toss {}", short(&case)),
+            _ => format!("toss {} {lanes}", short(&case)),
+        };
+        let lanes = if lanes.is_available() {
+            lanes
+        } else {
+            Lanes::Portable
+        };
+        Self::new(name, Task::TossInSpace(case, lanes))
+    }
+
     /// The case, of tosses in space.
     pub fn case_in_space(&self) -> Option<Case> {
         match self.task {
-            Task::TossInSpace(case) => Some(case),
+            Task::TossInSpace(case, _) => Some(case),
             _ => None,
         }
     }
@@ -120,7 +134,7 @@ impl Workload {
     pub fn launch(&self) -> Option<String> {
         match &self.task {
             Task::Toss(case) | Task::TossChatterjeeRuina(case) => Some(launch_name(case.preset)),
-            Task::TossInSpace(_) | Task::Launch(_) | Task::Philox => None,
+            Task::TossInSpace(..) | Task::Launch(_) | Task::Philox => None,
         }
     }
 
@@ -134,17 +148,19 @@ impl Workload {
                 case,
                 range,
             ),
-            Task::TossInSpace(case) => toss_in_space(case, range),
+            Task::TossInSpace(case, lanes) => toss_in_space(case, *lanes, range),
             Task::Launch(case) => launches(case, range),
             Task::Philox => philox(range),
         }
     }
 }
 
-fn toss_in_space(case: &Case, range: Range<u64>) -> u64 {
+fn toss_in_space(case: &Case, lanes: Lanes, range: Range<u64>) -> u64 {
     let settings = coinmc_volumetric::Settings::default();
     let engine = VolumetricEngine::new(&case.scene, &settings, coinmc_volumetric::Moreau);
-    tosses(&engine.expect("the defaults are in range"), case, range)
+    let engine = engine.expect("the defaults are in range");
+    let engine = engine.with_lanes(lanes).expect("lanes are available");
+    tosses(&engine, case, range)
 }
 
 fn tosses<E: Engine>(engine: &E, case: &Case, range: Range<u64>) -> u64 {

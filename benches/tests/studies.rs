@@ -240,6 +240,16 @@ fn in_space_speed_has_a_rate_for_every_scene() {
 }
 
 #[test]
+fn in_space_lanes_all_have_a_rate() {
+    let lines = study(&["space-lanes", "--tosses", "50", "--repeats", "1"]);
+    let kinds = column(&lines, "lanes");
+    assert_eq!(kinds[..2], ["scalar", "portable"]);
+    let of_scalar = numbers(&lines, "of_scalar");
+    assert_eq!(kinds.len() % 30, 0);
+    assert!(of_scalar.iter().all(|ratio| *ratio > 0.0));
+}
+
+#[test]
 fn in_space_peers_stand_beside_ours() {
     let lines = study(&["space-peers", "--tosses", "50"]);
     let engines = column(&lines, "engine");
@@ -307,7 +317,8 @@ fn work_is_listed_and_unknown_work_refused() {
 
 #[test]
 fn steps_are_compared_with_events_toss_by_toss() {
-    let lines = study(&["rapier-step", "--tosses", "20", "--shortest", "5e-3"]);
+    let few = ["--tosses", "20", "--reference", "500", "--shortest", "5e-3"];
+    let lines = study(&[&["rapier-step"], &few[..]].concat());
     assert_eq!(lines.len(), 1 + 2 * 4 * 3);
     for tosses in column(&lines, "tosses") {
         assert_eq!(tosses, "20");

@@ -37,7 +37,9 @@ def draw(table: str, path: str) -> None:
     axes[0].set(xlabel="µs an impact", ylabel="error over speed of approach")
     axes[1].set(xlabel="steps an impact")
     steps = [10, 200]
-    axes[1].loglog(steps, [1e-3 * (n / steps[0]) ** -5 for n in steps], color="grey", label="order 5")
+    axes[1].loglog(
+        steps, [1e-3 * (n / steps[0]) ** -5 for n in steps], color="grey", label="order 5"
+    )
     axes[1].legend(fontsize="small", frameon=False)
     figure.suptitle("Median (dotted: worst) error, tolerance 1e-3 to 1e-11", fontsize="medium")
     figure.savefig(path, metadata={"Date": None, "Creator": None})

@@ -41,7 +41,7 @@ def draw(table: str, path: str) -> None:
     left.set_title("The paper's law (dotted: the corner's lever)", fontsize="medium")
     others = ["moreau", "half-sine 1e-3 s", "half-sine 1e-4 s", "line-contact"]
     for friction, style in [("0", "-"), ("0.3", "--")]:
-        for law, colour in zip(others, COLOURS):
+        for law, colour in zip(others, COLOURS, strict=False):
             curve = [row for row in rows if row["law"] == law and row["friction"] == friction]
             plot(right, curve, style, colour, f"{law}, μ = {friction}")
     right.set_title("Other laws", fontsize="medium")
@@ -62,7 +62,9 @@ def draw(table: str, path: str) -> None:
 def plot(axes, curve, style, colour, label) -> None:
     """Draws one curve with its band."""
     ratio = [float(row["ratio"]) for row in curve]
-    column = {name: [float(row[name]) for row in curve] for name in ["p_side", "p_side_lo", "p_side_hi"]}
+    column = {
+        name: [float(row[name]) for row in curve] for name in ["p_side", "p_side_lo", "p_side_hi"]
+    }
     axes.plot(ratio, column["p_side"], style, color=colour, label=label)
     axes.fill_between(
         ratio, column["p_side_lo"], column["p_side_hi"], color=colour, alpha=0.2, linewidth=0

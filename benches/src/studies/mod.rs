@@ -28,7 +28,7 @@ pub(crate) use rapier::{RapierEnergy, RapierRestitution, RapierSpeed, RapierStep
 pub(crate) use robot_soak::RobotSoak;
 pub(crate) use sensitivity::Sensitivity;
 pub(crate) use space::{
-    SpaceConvergence, SpaceDecision, SpaceEnergy, SpaceLaws, SpaceMissed, SpacePeers,
+    SpaceConvergence, SpaceDecision, SpaceEnergy, SpaceLanes, SpaceLaws, SpaceMissed, SpacePeers,
     SpaceReferences, SpaceSpeed, SpaceStress,
 };
 pub(crate) use speed::Speed;
