@@ -17,12 +17,12 @@ import time
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-import coinmc
-import numpy as np
-
 import engines
+import numpy as np
 import scene as scenes
 from errors import picture, table
+
+import coinmc
 
 FACES = ("heads", "tails", "side")
 # coinmc's tolerances: its defaults, as multiples of which it is measured.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pybullet
-
 from decide import face, follow
 from scene import GRAVITY, Launch, Scene, turn_to
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import pymunk
-
 from decide import face_in_plane, follow
 from scene import GRAVITY, Launch, Scene
 

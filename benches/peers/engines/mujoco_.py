@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 
 import mujoco
-
 from decide import face, follow
 from scene import GRAVITY, Launch, Scene, turn_to
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import warnings
 
 import numpy as np
-
 from decide import face, follow
 from scene import GRAVITY, Launch, Scene, turn_to
 
