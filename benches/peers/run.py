@@ -96,8 +96,10 @@ def ours(args, config: dict, launches: np.ndarray) -> list[Row]:
             f"engine.{engine}.{key}": share * value for key, value in TOLERANCES[engine].items()
         }
         begun = time.process_time()
-        tosses = coinmc.toss(config, launches=launches, threads=1, overrides=settings)
-        tossed.append((share, names(tosses.face), time.process_time() - begun))
+        codes = coinmc.toss(
+            config, launches=launches, threads=1, overrides=settings, faces_only=True
+        )
+        tossed.append((share, names(codes), time.process_time() - begun))
     rows = []
     for (share, faces, seconds), (_, reference, _) in itertools.pairwise(tossed):
         difference = (faces == "side").astype(float) - (reference == "side")

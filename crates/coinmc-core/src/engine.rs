@@ -23,7 +23,8 @@ pub trait Engine: Sync {
         observer: &mut impl Observer,
     ) -> Outcome;
 
-    /// Follows many tosses and hands on the outcome of each, in any order, until `each` breaks off.
+    /// Follows many tosses and hands on the outcome of each with its number among the launches, in any
+    /// order, until `each` breaks off.
     ///
     /// One after the other, unless the engine is faster with several at a time. Every outcome is
     /// that of [`Engine::toss`].
@@ -31,10 +32,10 @@ pub trait Engine: Sync {
         &self,
         workspace: &mut Self::Workspace,
         launches: impl Iterator<Item = Launch>,
-        mut each: impl FnMut(&Outcome) -> ControlFlow<()>,
+        mut each: impl FnMut(u64, &Outcome) -> ControlFlow<()>,
     ) {
-        for launch in launches {
-            if each(&self.toss(workspace, &launch, &mut ())).is_break() {
+        for (number, launch) in (0..).zip(launches) {
+            if each(number, &self.toss(workspace, &launch, &mut ())).is_break() {
                 return;
             }
         }
@@ -217,7 +218,7 @@ pub fn run_tosses<E: Engine>(
 ) -> Tally {
     let mut tally = Tally::default();
     let launches = tosses.map(|toss| launches.launch(&scene.coin, &mut stream.toss(toss)));
-    engine.toss_all(workspace, launches, |outcome| {
+    engine.toss_all(workspace, launches, |_, outcome| {
         tally.add(outcome);
         ControlFlow::Continue(())
     });

@@ -112,8 +112,10 @@ impl Engine for RapierEngine {
         &self,
         workspace: &mut Workspace,
         launches: impl Iterator<Item = Launch>,
-        mut each: impl FnMut(&Outcome) -> ControlFlow<()>,
+        mut each: impl FnMut(u64, &Outcome) -> ControlFlow<()>,
     ) {
-        self.examine_all(workspace, launches, |_, account| each(&account.outcome));
+        self.examine_all(workspace, launches, |number, account| {
+            each(number as u64, &account.outcome)
+        });
     }
 }

@@ -454,8 +454,10 @@ impl<L: ImpactLaw> Engine for VolumetricEngine<L> {
         &self,
         (): &mut (),
         mut launches: impl Iterator<Item = Launch>,
-        mut each: impl FnMut(&Outcome) -> ControlFlow<()>,
+        mut each: impl FnMut(u64, &Outcome) -> ControlFlow<()>,
     ) {
-        batch::toss_all(self, &mut launches, &mut |_, toss| each(&toss.outcome));
+        batch::toss_all(self, &mut launches, &mut |number, toss| {
+            each(number, &toss.outcome)
+        });
     }
 }

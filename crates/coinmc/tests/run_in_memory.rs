@@ -6,10 +6,10 @@ use coinmc::plan::Plan;
 use coinmc::results::Results;
 use coinmc::run::{
     Begin, Count, Part, RunError, Shard, Status, count, follow_each, run_shard, see_each,
-    stored_report, stream,
+    stored_report, stream, toss as toss_alone,
 };
 use coinmc::trace::replay;
-use coinmc_core::{Launch, Tally};
+use coinmc_core::{Launch, Outcome, Tally};
 use run_support::{
     Ear, FIXED, HALF_WIDTH, contents, plan, plan_in_space, plan_of, run_whole, run_with,
 };
@@ -103,16 +103,21 @@ fn tosses_one_by_one_are_those_of_a_shard() {
         let (point, tosses) = (1, 30..330);
         let stream = stream(plan, point);
         let found = &plan.points[point];
+        let begin = Begin::Drawn(&stream);
         let mut tally = Tally::default();
-        let mut next = tosses.start;
-        let mut add = |toss, outcome: &_| {
-            assert_eq!(toss, next);
-            next += 1;
+        let mut numbers = Vec::new();
+        let mut add = |toss, outcome: &Outcome| {
+            assert_eq!(
+                *outcome,
+                toss_alone(found, &begin.launch(found, toss)).unwrap()
+            );
+            numbers.push(toss);
             tally.add(outcome);
             true
         };
-        let begin = Begin::Drawn(&stream);
         assert!(follow_each(found, begin, tosses.clone(), &mut add).unwrap());
+        numbers.sort_unstable();
+        assert!(numbers.into_iter().eq(tosses.clone()));
         let shard = Shard { point, tosses };
         assert_eq!(tally, run_shard(plan, &shard).unwrap());
     }

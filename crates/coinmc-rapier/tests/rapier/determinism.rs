@@ -109,7 +109,7 @@ fn a_batch_that_breaks_off_leaves_nothing_behind() {
     let engine = RapierEngine::new(&scene, &settings).unwrap();
     let mut workspace = engine.workspace();
     let mut seen = 0;
-    engine.toss_all(&mut workspace, launches.iter().copied(), |_| {
+    engine.toss_all(&mut workspace, launches.iter().copied(), |_, _| {
         seen += 1;
         if seen == 10 {
             ControlFlow::Break(())

@@ -4,7 +4,7 @@ use super::{SettingsError, Task, with_engine};
 use crate::plan::Point;
 use coinmc_core::{Engine, Event, EventKind, Launch, Observer, Outcome, State, Stream};
 use nalgebra::Vector3;
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 
 /// How the tosses begin.
 #[derive(Clone, Copy)]
@@ -39,8 +39,8 @@ pub struct Seen {
     pub end: State,
 }
 
-/// Follows tosses in order and tells `see` the number and the outcome of each, as long as it says
-/// to go on. A closed form makes no toss: then `false`.
+/// Follows tosses and tells `see` the number and the outcome of each, in any order (an engine may
+/// follow several at a time), as long as it says to go on. A closed form makes no toss: then `false`.
 ///
 /// # Errors
 /// [`SettingsError`] if the engine refuses its settings.
@@ -78,7 +78,8 @@ pub fn follow_each(
     Ok(with_engine(point, follow)?.is_some())
 }
 
-/// [`follow_each`] with the coin as it was at the end, which takes a little longer.
+/// [`follow_each`] with the coin as it was at the end, one toss after the other: an engine that
+/// follows several at a time is a few times as fast without.
 ///
 /// # Errors
 /// Those of [`follow_each`].
@@ -108,14 +109,21 @@ impl Task for Follow<'_> {
     type Output = ();
 
     fn with<E: Engine>(self, engine: &E) {
-        let mut workspace = engine.workspace();
-        for toss in self.tosses {
-            let launch = self.begin.launch(self.point, toss);
-            let outcome = engine.toss(&mut workspace, &launch, &mut ());
-            if !(self.see)(toss, &outcome) {
-                return;
+        let Self {
+            point,
+            begin,
+            tosses,
+            see,
+        } = self;
+        let first = tosses.start;
+        let launches = tosses.map(|toss| begin.launch(point, toss));
+        engine.toss_all(&mut engine.workspace(), launches, |number, outcome| {
+            if see(first + number, outcome) {
+                ControlFlow::Continue(())
+            } else {
+                ControlFlow::Break(())
             }
-        }
+        });
     }
 }
 

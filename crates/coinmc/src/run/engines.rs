@@ -155,7 +155,7 @@ impl<F: Fn() -> bool> Task for Count<'_, F> {
         let mut tally = Tally::default();
         if (self.go_on)() {
             let tosses = self.tosses.map(launch);
-            engine.toss_all(&mut engine.workspace(), tosses, |outcome| {
+            engine.toss_all(&mut engine.workspace(), tosses, |_, outcome| {
                 tally.add(outcome);
                 if tally.tosses() % batch == 0 && !(self.go_on)() {
                     ControlFlow::Break(())
