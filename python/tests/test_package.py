@@ -14,8 +14,8 @@ import pytest
 import coinmc
 from coinmc import _lib
 
-# s of the processor, which a busy machine does not lengthen; the promise. The best of some counts
-IMPORT_S = 0.150
+# Time of `import coinmc` over that of `import numpy`, most of which it is: 1.2 measured (77 ms and 66)
+IMPORT_OF_NUMPY = 1.5
 HEAVY = (
     "arrow",
     "pandas",
@@ -130,7 +130,7 @@ def test_examples_in_docstrings(name, root, tmp_path, monkeypatch):
     assert failed == 0
 
 
-def test_importing_is_quick_and_brings_nothing_heavy():
+def test_importing_brings_nothing_heavy():
     program = (
         "import sys; before = set(sys.modules); import coinmc; print(*set(sys.modules) - before)"
     )
@@ -139,12 +139,18 @@ def test_importing_is_quick_and_brings_nothing_heavy():
     )
     names = {module.split(".")[0] for module in loaded.stdout.split()}
     assert not names & set(HEAVY)
-    timed = "import time; t = time.process_time(); import coinmc; print(time.process_time() - t)"
-    quickest = min(
-        float(subprocess.run([sys.executable, "-c", timed], check=True, capture_output=True).stdout)
-        for _ in range(8)
-    )
-    assert quickest < IMPORT_S
+
+
+def test_importing_takes_little_more_than_numpy():
+    """Side by side, in turns: on a busy machine both are slow. benches/python tells the times."""
+    timed = "import time; t = time.process_time(); import {}; print(time.process_time() - t)"
+    least = {"numpy": float("inf"), "coinmc": float("inf")}
+    for _ in range(8):
+        for name, before in least.items():
+            command = [sys.executable, "-c", timed.format(name)]
+            told = subprocess.run(command, check=True, capture_output=True)
+            least[name] = min(before, float(told.stdout))
+    assert least["coinmc"] < IMPORT_OF_NUMPY * least["numpy"]
 
 
 def test_the_wheel_is_small(package):
