@@ -115,7 +115,9 @@ def basins(rounds: int) -> None:
 def interrupts(rounds: int) -> None:
     """From Ctrl-C to the exception."""
     program = f"""
-import time, coinmc
+import signal, time, coinmc
+# a shell that runs things in the background has them ignore it
+signal.signal(signal.SIGINT, signal.default_int_handler)
 print(flush=True)
 try:
     coinmc.estimate({str(SCENE)!r}, tosses=10**10)

@@ -30,8 +30,10 @@ WORK = {
 }
 
 PROGRAM = """
-import sys, time
+import signal, sys, time
 import coinmc
+# a shell that runs the tests in the background has them ignore it
+signal.signal(signal.SIGINT, signal.default_int_handler)
 SCENE = {scene!r}
 print("begun", flush=True)
 try:
