@@ -14,7 +14,7 @@ import pytest
 import coinmc
 from coinmc import _lib
 
-# Time of `import coinmc` over that of `import numpy`, most of which it is: 1.2 measured (77 ms and 66)
+# Time of `import coinmc` over that of `import numpy`, most of which it is: 1.2 measured (77, 66 ms)
 IMPORT_OF_NUMPY = 1.5
 HEAVY = (
     "arrow",
