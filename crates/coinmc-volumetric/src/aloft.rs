@@ -4,10 +4,10 @@ use crate::contact::{Contact, Law};
 use crate::engine::VolumetricEngine;
 use crate::flight::{Departure, Orbit, first_contact, least_time};
 use crate::impact::ImpactLaw;
-use crate::lane::Lane;
 use crate::motion::{Motion, Spin};
 use crate::toss::Toss;
 use coinmc_core::{Observer, sample_between};
+use coinmc_lanes::Lane;
 
 /// The coin where a flight has ended.
 pub(crate) struct Landed<L: Lane> {

@@ -5,7 +5,6 @@ use crate::body::{Body, Friction, Units};
 use crate::contact::{self, Contact, Leave, Spent};
 use crate::flight::{Departure, Drag};
 use crate::impact::{ChatterjeeRuina, ImpactLaw, Moreau, Stronge};
-use crate::lane::{Lanes, NoSuchLanes};
 use crate::rest;
 use crate::settings::{Decision, Law, Settings, SettingsError};
 use crate::toss::Toss;
@@ -13,6 +12,7 @@ use crate::verdict::{Judge, Verdict};
 use coinmc_core::{
     Breaks, Ended, Engine, Event, EventKind, Face, Landing, Launch, Observer, Outcome, Scene,
 };
+use coinmc_lanes::{Lanes, NoSuchLanes};
 use std::ops::ControlFlow;
 
 /// Follows tosses of one scene under one law of impact.

@@ -36,7 +36,7 @@
 //! rim point and on the side · `rest` lying, standing, tripping · `verdict` when the face is
 //! settled · `toss` one toss and its place in the laboratory · `strike` one impact · `engine` their
 //! order · `batch` many tosses side by side · `watch` what an observer is shown of contact ·
-//! `settings` choices · `lane` and `series` arithmetic of the kernels.
+//! `settings` choices · `series` elementary functions of the kernels.
 
 mod aloft;
 mod batch;
@@ -44,8 +44,9 @@ mod body;
 mod contact;
 mod engine;
 mod flight;
+#[cfg(test)]
+mod four;
 mod impact;
-mod lane;
 mod motion;
 mod rest;
 mod series;
@@ -56,9 +57,9 @@ mod verdict;
 mod watch;
 
 pub use body::{Body, Friction};
+pub use coinmc_lanes::{Lane, Lanes, Mask, NoSuchLanes};
 pub use engine::{AnyVolumetricEngine, VolumetricEngine};
 pub use impact::{
     ChatterjeeRuina, ContactMatrix, ImpactLaw, Impulse, Kick, Moreau, Stronge, Touch,
 };
-pub use lane::{Lane, Lanes, Mask, NoSuchLanes};
 pub use settings::{Decision, Law, Settings, SettingsError};

@@ -18,7 +18,7 @@
 
 use crate::body::Body;
 use crate::impact::{Impulse, Touch};
-use crate::lane::{Lane, Mask};
+use coinmc_lanes::{Lane, Mask};
 
 /// Position and velocity in the folded frame; lengths in D, times in sqrt(D/g).
 #[derive(Debug, Clone, Copy)]

@@ -1,7 +1,7 @@
 //! Elementary functions for the kernels, over lanes: sine and cosine, and the two functions that
 //! linear drag needs. Additions and multiplications only.
 
-use crate::lane::{Lane, Mask};
+use coinmc_lanes::{Lane, Mask};
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4};
 
 /// (sin x, cos x) for any x, rad; within 4e-16 for |x| < 1e6, beyond that the phase itself has

@@ -3,8 +3,8 @@
 use crate::contact;
 use crate::engine::VolumetricEngine;
 use crate::impact::{ImpactLaw, Touch};
-use crate::lane::{Lane, Mask};
 use crate::motion::{Motion, Spin};
+use coinmc_lanes::{Lane, Mask};
 
 /// The coin after an impact.
 pub(crate) struct Struck<L: Lane> {

@@ -29,8 +29,8 @@
 //! cannot be passed with less than 1 plus that. This is exact for any e, in flight and in contact.
 
 use crate::body::{Body, Friction};
-use crate::lane::{Lane, Mask};
 use crate::motion::{Motion, Spin};
+use coinmc_lanes::{Lane, Mask};
 
 /// What is known of a toss.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -10,10 +10,10 @@ use crate::contact::{Law, Next, Reach};
 use crate::engine::{Onward, VolumetricEngine};
 use crate::flight::{load, store};
 use crate::impact::ImpactLaw;
-use crate::lane::Lanes;
-use crate::lane::wide::{Bits, Block, WIDTH, Wide, Work};
 use crate::settings::Settings;
 use crate::verdict::Judge;
+use coinmc_lanes::Lanes;
+use coinmc_lanes::{Bits, Block, WIDTH, Wide, Work};
 
 const NONE: Block = [0.0; WIDTH];
 

@@ -28,9 +28,9 @@ use crate::contact::rim::Mode;
 use crate::engine::{Finished, Onward, VolumetricEngine};
 use crate::flight::Group;
 use crate::impact::ImpactLaw;
-use crate::lane::Lanes;
-use crate::lane::wide::{Bits, WIDTH, first, lanes_of};
 use coinmc_core::{Ended, Landing, Launch};
+use coinmc_lanes::Lanes;
+use coinmc_lanes::{Bits, WIDTH, first, lanes_of};
 use pool::{Origin, Pool, Slot};
 use std::ops::ControlFlow;
 

@@ -5,9 +5,9 @@ use super::struck::StruckTosses;
 use crate::contact::rim::Mode;
 use crate::contact::{Law, Phase, Reach, Spent};
 use crate::flight::{Departing, Group};
-use crate::lane::Lanes;
-use crate::lane::wide::{Bits, WIDTH, lanes_of};
 use crate::toss::Toss;
+use coinmc_lanes::Lanes;
+use coinmc_lanes::{Bits, WIDTH, lanes_of};
 
 /// Tosses on their way: enough that eight are nearly always at one stage. From 64 to 256 the speed
 /// is the same within 5 %.

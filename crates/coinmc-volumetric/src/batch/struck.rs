@@ -6,12 +6,12 @@ use crate::contact::{FLAT, Law};
 use crate::engine::{Onward, VolumetricEngine, decided};
 use crate::flight::{Departing, Leavers, MOTION};
 use crate::impact::ImpactLaw;
-use crate::lane::Lanes;
-use crate::lane::wide::{Bits, Block, WIDTH, Wide, Work};
 use crate::motion::{Motion, Spin};
 use crate::rest;
 use crate::toss::Toss;
 use crate::verdict::Verdict;
+use coinmc_lanes::Lanes;
+use coinmc_lanes::{Bits, Block, WIDTH, Wide, Work};
 
 #[derive(Debug, Clone, Default)]
 pub(super) struct StruckTosses {

@@ -3,9 +3,9 @@
 use super::toss_all;
 use crate::engine::{Finished, VolumetricEngine};
 use crate::impact::{ChatterjeeRuina, ImpactLaw, Moreau, Stronge};
-use crate::lane::Lanes;
 use crate::settings::{Decision, Settings};
 use coinmc_core::{Coin, Domain, Drag, Ended, Landing, Launch, Preset, Scene, Stream, Surface};
+use coinmc_lanes::Lanes;
 use std::ops::ControlFlow;
 
 fn surface(e: f64, mu: f64, rho: f64) -> Surface {

@@ -5,9 +5,9 @@ use super::follow::FLAT;
 use super::integrator::{Trial, is_accepted, next_length, shorter, step};
 use super::rim::{Law, Mode, OMEGA_Y, Rates, RimFlow, RimState, SLIP_X, SLIP_Y, TILT};
 use super::state::place_below;
-use crate::lane::Lane;
 use crate::motion::{Motion, Spin};
 use crate::verdict::Judge;
+use coinmc_lanes::Lane;
 use std::f64::consts::FRAC_PI_2;
 
 /// Angle within which the other rim has come down, rad; the rest is an energy of 1e-12 at most.

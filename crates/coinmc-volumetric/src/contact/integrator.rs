@@ -1,7 +1,7 @@
 //! One step of an embedded Runge–Kutta pair: Dormand & Prince 5(4), J. Comput. Appl. Math. 6
 //! (1980) 19. The last stage of a step is the first of the next (six evaluations a step).
 
-use crate::lane::Lane;
+use coinmc_lanes::Lane;
 
 /// Least length of a step, in sqrt(D/g): below it the integrator gives up.
 pub(crate) const LEAST_STEP: f64 = 1e-13;

@@ -29,9 +29,9 @@
 use super::integrator::Flow;
 use crate::body::{Body, Friction};
 use crate::flight::Drag;
-use crate::lane::Lane;
 use crate::motion::{Motion, Spin};
 use crate::series::sin_cos_tilt;
+use coinmc_lanes::Lane;
 
 /// Components of the state, in the order of the integrator's vector.
 pub(crate) const TILT: usize = 0;

@@ -3,9 +3,9 @@
 use super::follow::FLAT;
 use super::rim::{Law, OMEGA_A, OMEGA_T, OMEGA_Y, RimState, SLIP_X, SLIP_Y, TILT};
 use crate::impact::{Impulse, Touch};
-use crate::lane::{Lane, Mask};
 use crate::motion::{Motion, Spin};
 use crate::series::sin_cos_tilt;
+use coinmc_lanes::{Lane, Mask};
 
 /// The contact's state of a motion whose lowest point stays on the surface.
 pub(super) fn rim_state(law: &Law, motion: &Motion<f64>, spin: &Spin<f64>) -> RimState<f64> {

@@ -5,7 +5,7 @@ use super::integrator::{is_accepted, next_length, shorter, step};
 use super::rim::{Law, Mode, OMEGA_A, OMEGA_T, OMEGA_Y, RimState, SLIP_X, SLIP_Y, TILT};
 use crate::body::{Body, Friction};
 use crate::flight::Drag;
-use crate::lane::four::Four;
+use crate::four::Four;
 use coinmc_core::{Coin, Domain, Stream, TossUniforms, UniformSource};
 use coinmc_oracle::newton_euler::{self, Contact, Twist};
 use coinmc_oracle::{Model, Motion, textbook, triad};

@@ -9,9 +9,9 @@
 //! z + v_z t p(kt) − g t² q(kt); p and q are those of [`decay`].
 
 use crate::body::Body;
-use crate::lane::Lane;
 use crate::motion::{LEAST_SIN, Motion};
 use crate::series::{decay, sin_cos};
+use coinmc_lanes::Lane;
 
 /// Rates of drag, in sqrt(g/D).
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -26,8 +26,8 @@
 
 use super::orbit::{Bounds, Gap, Orbit};
 use crate::body::Body;
-use crate::lane::{Lane, Mask};
 use crate::motion::Motion;
+use coinmc_lanes::{Lane, Mask};
 
 /// Gap that counts as touching, in D: above the rounding of f (about 1e-15), below anything that
 /// matters (an energy of 1e-14 m g D).

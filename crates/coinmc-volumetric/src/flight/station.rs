@@ -8,9 +8,9 @@
 use super::orbit::{Bounds, Drag, Orbit};
 use super::search::{MAX_EVALUATIONS, Search};
 use crate::body::Body;
-use crate::lane::wide::{Bits, Block, WIDTH, Wide, Work};
-use crate::lane::{Lanes, Mask};
 use crate::motion::Motion;
+use coinmc_lanes::{Bits, Block, WIDTH, Wide, Work};
+use coinmc_lanes::{Lanes, Mask};
 
 /// Numbers of a flight on search beside its orbit and bounds: time, least, evaluations.
 const SEARCH: usize = 3;

@@ -2,7 +2,7 @@
 
 use super::{Departure, Drag, Orbit, first_contact};
 use crate::body::Body;
-use crate::lane::four::Four;
+use crate::four::Four;
 use crate::motion::Motion;
 use coinmc_core::{Coin, Domain, Stream, UniformSource};
 use std::array::from_fn;

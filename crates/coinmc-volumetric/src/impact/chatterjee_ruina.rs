@@ -2,7 +2,7 @@
 
 use super::{Condensed, ImpactLaw, Impulse, Touch, twist::Limited};
 use crate::body::{Body, Friction};
-use crate::lane::Lane;
+use coinmc_lanes::Lane;
 
 /// Chatterjee & Ruina, "A new algebraic rigid-body collision law", J. Appl. Mech. 65 (1998) 939,
 /// with tangential restitution 0: p = (1 + e)p_I + κ(p_II − p_I).

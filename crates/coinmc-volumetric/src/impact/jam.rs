@@ -2,7 +2,7 @@
 
 use super::{Condensed, Impulse, Touch, twist::Limited};
 use crate::body::{Body, Friction};
-use crate::lane::Lane;
+use coinmc_lanes::Lane;
 
 /// The impulse of a contact that slides with unit slip n, does not approach (its normal velocity
 /// is taken as 0 and stays what it is) and jams: K_zz − μ K_xz n_x <= 0, Painlevé's configurations,

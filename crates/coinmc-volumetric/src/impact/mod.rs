@@ -21,7 +21,7 @@ pub use moreau::Moreau;
 pub use stronge::Stronge;
 
 use crate::body::{Body, Friction};
-use crate::lane::{Lane, Mask};
+use coinmc_lanes::{Lane, Mask};
 use twist::Twist;
 
 /// The inverse mass of the contact point: its velocity changes by K p.

@@ -3,7 +3,7 @@
 use super::twist::{Limited, Twisted};
 use super::{ChatterjeeRuina, Condensed, ContactMatrix, ImpactLaw, Impulse, Touch};
 use crate::body::{Body, Friction};
-use crate::lane::{Lane, Mask};
+use coinmc_lanes::{Lane, Mask};
 
 /// Newton restitution u_z⁺ = −e u_z⁻ and friction against the slip **after** the impact.
 ///

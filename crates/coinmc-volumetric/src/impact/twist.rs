@@ -24,7 +24,7 @@
 
 use super::Touch;
 use crate::body::{Body, Friction};
-use crate::lane::Lane;
+use coinmc_lanes::Lane;
 
 /// Rates that the friction lengths work against, and their inverse masses.
 #[derive(Clone, Copy)]

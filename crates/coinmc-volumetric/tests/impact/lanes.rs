@@ -1,10 +1,10 @@
 //! Four lanes side by side: each is to the bit what it is alone.
 
 use crate::common::{case, impulse, parts};
-use coinmc_volumetric::{Impulse, Lane, Law, Mask, Touch};
+use coinmc_volumetric::{Impulse, Law, Touch};
 use std::array::from_fn;
 
-#[path = "../../src/lane/four.rs"]
+#[path = "../../src/four.rs"]
 mod four;
 
 use four::Four;

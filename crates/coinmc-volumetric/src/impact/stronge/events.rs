@@ -1,7 +1,7 @@
 //! The first event on a piece of path.
 
 use super::path::{Path, Step};
-use crate::lane::{Lane, Mask};
+use coinmc_lanes::{Lane, Mask};
 
 /// What ended a piece of path.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -7,7 +7,7 @@ mod sweep;
 
 use super::{ChatterjeeRuina, ImpactLaw, Impulse, Touch};
 use crate::body::{Body, Friction};
-use crate::lane::{Lane, Mask};
+use coinmc_lanes::{Lane, Mask};
 use sweep::Sweep;
 
 /// Energetic restitution: the normal impulse gives back e² of the work that it took in

@@ -1,7 +1,7 @@
 //! What friction does at one moment: sliding or sticking, turning against its limit or held.
 
 use super::super::twist::{Limits, Reduced, Twist};
-use crate::lane::{Lane, Mask};
+use coinmc_lanes::{Lane, Mask};
 
 /// Contour or pivoting friction: its rate runs with a sign, or is 0.
 #[derive(Clone, Copy)]

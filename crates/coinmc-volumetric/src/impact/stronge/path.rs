@@ -1,6 +1,6 @@
 //! A piece of the path: the impulses as functions of a parameter.
 
-use crate::lane::{Lane, Mask};
+use coinmc_lanes::{Lane, Mask};
 
 /// Order of the Taylor series.
 pub(super) const ORDER: usize = 18;

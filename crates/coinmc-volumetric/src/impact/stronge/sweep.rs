@@ -6,7 +6,7 @@ use super::events::{Cut, Event};
 use super::modes::{Couplings, Rate, Rates, Torque};
 use super::path::{Drive, Line, Normal, Path, Step};
 use crate::body::{Body, Friction};
-use crate::lane::{Lane, Mask};
+use coinmc_lanes::{Lane, Mask};
 
 /// Slip, and the rates of rolling and pivoting, below this share of the velocities are none.
 const REST: f64 = 1e-13;

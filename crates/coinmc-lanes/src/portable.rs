@@ -1,9 +1,9 @@
 //! Eight lanes as plain arrays: whatever vector instructions the compiler may count on, it makes
 //! of these loops (NEON on AArch64).
 
-use super::operators::operators;
-use super::wide::{Bits, Block, WIDTH, Wide};
-use super::{Lane, Mask};
+use crate::operators::operators;
+use crate::wide::{Bits, Block, WIDTH, Wide};
+use crate::{Lane, Mask};
 use std::array::from_fn;
 
 #[derive(Debug, Clone, Copy)]

@@ -1,18 +1,18 @@
 //! Lanes of a fixed number, as the batch of tosses uses them: to and from memory, and masks as bits.
 
-use super::Lane;
+use crate::Lane;
 
 /// Tosses side by side, whatever the instruction set: one register of AVX-512, two of AVX2.
-pub(crate) const WIDTH: usize = 8;
+pub const WIDTH: usize = 8;
 
 /// One number of each of them.
-pub(crate) type Block = [f64; WIDTH];
+pub type Block = [f64; WIDTH];
 
 /// One truth value of each, the first in the lowest bit.
-pub(crate) type Bits = u8;
+pub type Bits = u8;
 
 /// [`WIDTH`] lanes.
-pub(crate) trait Wide: Lane {
+pub trait Wide: Lane {
     /// The lanes that memory holds.
     fn load(block: &Block) -> Self;
     /// The lanes, for memory.
@@ -25,7 +25,7 @@ pub(crate) trait Wide: Lane {
 
 /// Something that is done on lanes of any kind. Its `run` and all that this calls are to be
 /// inlined: only then are they compiled for the instruction set they run on.
-pub(crate) trait Work {
+pub trait Work {
     /// What comes of it.
     type Output;
 
@@ -34,7 +34,7 @@ pub(crate) trait Work {
 }
 
 /// Where the lanes of `bits` are, in rising order.
-pub(crate) fn lanes_of(mut bits: Bits) -> impl Iterator<Item = usize> {
+pub fn lanes_of(mut bits: Bits) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         (bits != 0).then(|| {
             let lane = bits.trailing_zeros() as usize;
@@ -45,6 +45,6 @@ pub(crate) fn lanes_of(mut bits: Bits) -> impl Iterator<Item = usize> {
 }
 
 /// The first `count` lanes.
-pub(crate) fn first(count: usize) -> Bits {
+pub fn first(count: usize) -> Bits {
     Bits::try_from((1_u32 << count) - 1).unwrap_or(Bits::MAX)
 }

@@ -1,9 +1,9 @@
 //! Which lanes there are, and which are used.
 
-use super::portable;
-use super::wide::Work;
+use crate::portable;
+use crate::wide::Work;
 #[cfg(target_arch = "x86_64")]
-use super::{avx2, avx512};
+use crate::{avx2, avx512};
 use std::fmt;
 use thiserror::Error;
 
@@ -12,7 +12,7 @@ use thiserror::Error;
 ///
 /// # Example
 /// ```
-/// use coinmc_volumetric::Lanes;
+/// use coinmc_lanes::Lanes;
 /// assert!(Lanes::best().is_available() && Lanes::Scalar.is_available());
 /// println!("{} of {:?}", Lanes::best(), Lanes::ALL);
 /// ```
@@ -70,7 +70,7 @@ impl Lanes {
 
     /// Does the work with these lanes, or with the portable ones where they are not to be had.
     #[inline]
-    pub(crate) fn enter<W: Work>(self, work: W) -> W::Output {
+    pub fn enter<W: Work>(self, work: W) -> W::Output {
         #[cfg(target_arch = "x86_64")]
         let entered = match self {
             Self::Avx512 => avx512::enter(work),

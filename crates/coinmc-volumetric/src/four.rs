@@ -1,6 +1,6 @@
 //! Four lanes side by side, for tests: each must be to the bit what it is alone.
 
-use super::{Lane, Mask};
+use coinmc_lanes::{Lane, Mask};
 use std::array::from_fn;
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, MulAssign, Neg, Not, Sub, SubAssign};
 

@@ -4,7 +4,7 @@
 //! fixes to the last bit (no fused operations, no library functions), and a choice made by a
 //! comparison is a [`select`](Lane::select): so the number of lanes changes the speed and nothing
 //! else. With `f64` as the lane, masks are `bool` and selects compile to moves or branches; with
-//! one of the [`wide`] kinds, eight tosses go side by side.
+//! one of the [`Wide`](crate::Wide) kinds, eight tosses go side by side.
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, MulAssign, Neg, Not, Sub, SubAssign};
@@ -117,16 +117,3 @@ impl Lane for f64 {
         if mask { yes } else { no }
     }
 }
-
-#[cfg(target_arch = "x86_64")]
-mod avx2;
-#[cfg(target_arch = "x86_64")]
-mod avx512;
-#[cfg(test)]
-pub(crate) mod four;
-mod lanes;
-mod operators;
-mod portable;
-pub(crate) mod wide;
-
-pub use lanes::{Lanes, NoSuchLanes};

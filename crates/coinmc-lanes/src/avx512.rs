@@ -5,9 +5,9 @@
 //! and values of it are made only inside [`enter`], which asks first.
 #![allow(unsafe_code)]
 
-use super::operators::operators;
-use super::wide::{Bits, Block, Wide, Work};
-use super::{Lane, Mask};
+use crate::operators::operators;
+use crate::wide::{Bits, Block, Wide, Work};
+use crate::{Lane, Mask};
 use std::arch::x86_64::{
     __m512d, __mmask8, _CMP_LE_OQ, _CMP_LT_OQ, _mm512_abs_pd, _mm512_add_pd, _mm512_and_si512,
     _mm512_andnot_si512, _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_cmp_pd_mask,
@@ -23,13 +23,13 @@ pub(crate) struct Eight(__m512d);
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct EightBits(__mmask8);
 
-pub(super) fn is_available() -> bool {
+pub(crate) fn is_available() -> bool {
     is_x86_feature_detected!("avx512f")
 }
 
 /// Does the work with these lanes; `Err` gives it back where the processor lacks them.
 #[inline]
-pub(super) fn enter<W: Work>(work: W) -> Result<W::Output, W> {
+pub(crate) fn enter<W: Work>(work: W) -> Result<W::Output, W> {
     #[target_feature(enable = "avx512f")]
     fn inside<W: Work>(work: W) -> W::Output {
         work.run::<Eight>()

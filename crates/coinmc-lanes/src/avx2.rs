@@ -4,9 +4,9 @@
 //! As in `avx512`: values are made only inside [`enter`], which asks the processor first.
 #![allow(unsafe_code)]
 
-use super::operators::operators;
-use super::wide::{Bits, Block, Wide, Work};
-use super::{Lane, Mask};
+use crate::operators::operators;
+use crate::wide::{Bits, Block, Wide, Work};
+use crate::{Lane, Mask};
 use std::arch::x86_64::{
     __m256d, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_add_pd, _mm256_and_pd, _mm256_and_si256,
     _mm256_andnot_pd, _mm256_blendv_pd, _mm256_castsi256_pd, _mm256_cmp_pd, _mm256_cmpeq_epi64,
@@ -22,13 +22,13 @@ pub(crate) struct Eight(__m256d, __m256d);
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct EightBits(__m256d, __m256d);
 
-pub(super) fn is_available() -> bool {
+pub(crate) fn is_available() -> bool {
     is_x86_feature_detected!("avx2")
 }
 
 /// Does the work with these lanes; `Err` gives it back where the processor lacks them.
 #[inline]
-pub(super) fn enter<W: Work>(work: W) -> Result<W::Output, W> {
+pub(crate) fn enter<W: Work>(work: W) -> Result<W::Output, W> {
     #[target_feature(enable = "avx2")]
     fn inside<W: Work>(work: W) -> W::Output {
         work.run::<Eight>()
