@@ -2,7 +2,9 @@
 
 from typing import NamedTuple
 
-__all__ = ["Estimate", "estimates", "normal_quantile"]
+from coinmc import _lib
+
+__all__ = ["Estimate", "estimates", "normal_quantile", "wilson"]
 
 
 class Estimate(NamedTuple):
@@ -35,34 +37,32 @@ class Estimate(NamedTuple):
 def estimates(counts: dict[str, int], confidence: float) -> dict[str, Estimate]:
     """Estimate the probability of every face; undecided tosses may have gone either way."""
     n = sum(counts.values())
-    z = normal_quantile(confidence)
-    undecided = counts["undecided"]
     made = {}
     for face in ("heads", "tails", "side"):
-        k = counts[face]
-        p = k / n if n else float("nan")
-        made[face] = Estimate(
-            p, _wilson(k, n, z)[0], _wilson(k + undecided, n, z)[1], n, confidence
-        )
+        share = wilson(counts[face], counts["undecided"], n, confidence)
+        made[face] = Estimate(*share, n, confidence)
     return made
+
+
+def wilson(k: int, undecided: int, n: int, confidence: float) -> tuple[float, float, float]:
+    """Estimate a probability from k of n tosses: the share and both ends of Wilson's interval.
+
+    Examples
+    --------
+    >>> from coinmc._intervals import wilson
+    >>> share, low, high = wilson(7312, 0, 100_000, 0.95)
+    >>> f"{low:.6f} {high:.6f}"
+    '0.071523 0.074750'
+    """
+    return _lib.wilson(k, undecided, n, _between_0_and_1(confidence))
 
 
 def normal_quantile(confidence: float) -> float:
     """Give z such that a normal number lies within ± z standard deviations with this confidence."""
-    # half a dozen modules that nothing else needs
-    from statistics import NormalDist
+    return -_lib.inverse_normal_cdf((1.0 - _between_0_and_1(confidence)) / 2.0)
 
+
+def _between_0_and_1(confidence: float) -> float:
     if not 0.0 < confidence < 1.0:
         raise ValueError(f"the confidence must lie between 0 and 1, not {confidence}")
-    return -NormalDist().inv_cdf((1.0 - confidence) / 2.0)
-
-
-def _wilson(k: int, n: int, z: float) -> tuple[float, float]:
-    """Score interval: all p with ``|k/n - p| <= z sqrt(p(1 - p)/n)``. Wilson, JASA 22 (1927)."""
-    if n == 0:
-        return 0.0, 1.0
-    p, z2n = k / n, z * z / n
-    arm = z * (p * (1.0 - p) / n + z2n / (4.0 * n)) ** 0.5
-    lo = 0.0 if k == 0 else max((p + z2n / 2.0 - arm) / (1.0 + z2n), 0.0)
-    hi = 1.0 if k == n else min((p + z2n / 2.0 + arm) / (1.0 + z2n), 1.0)
-    return lo, hi
+    return confidence

@@ -80,29 +80,22 @@ def run(
     progress: _Progress = None,
 ) -> tuple[Results, list[str]]: ...
 def open(path: str | os.PathLike[str]) -> tuple[tuple[Plan, Results], list[str]]: ...
-def faces(
-    plan: Plan,
-    point: int,
-    first: int,
-    rows: NDArray[np.float64] | None,
-    face: NDArray[np.uint8],
-    threads: int | None = None,
-    progress: _Progress = None,
-) -> None: ...
 def toss(
     plan: Plan,
     point: int,
     first: int,
     rows: NDArray[np.float64] | None,
     face: NDArray[np.uint8],
-    ended: NDArray[np.uint8],
-    impacts: NDArray[np.uint32],
-    time_s: NDArray[np.float64],
-    last: NDArray[np.float64],
+    beside: tuple[NDArray[np.uint8], NDArray[np.uint32], NDArray[np.float64], NDArray[np.float64]]
+    | None = None,
     threads: int | None = None,
     progress: _Progress = None,
 ) -> None: ...
 def launches(plan: Plan, point: int, first: int, rows: NDArray[np.float64]) -> None: ...
+def wilson(
+    successes: int, undecided: int, n: int, confidence: float
+) -> tuple[float, float, float]: ...
+def inverse_normal_cdf(p: float) -> float: ...
 def trace(
     plan: Plan,
     point: int,

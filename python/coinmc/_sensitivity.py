@@ -166,7 +166,7 @@ def _cross(
         size = min(_BLOCK, n - first)
         faces = np.empty((2, size), np.uint8)
         for row, config in zip(faces, pair, strict=True):
-            _lib.faces(plan_of(config), 0, first, None, row, threads, None)
+            _lib.toss(plan_of(config), 0, first, None, row, None, threads, None)
         both = faces[0] * len(Face) + faces[1]
         table += np.bincount(both, minlength=table.size).reshape(table.shape)
         if report:

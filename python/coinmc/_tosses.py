@@ -184,11 +184,11 @@ def toss(
     with reporting(progress, "toss") as report:
         if faces_only:
             face = np.empty(count, np.uint8)
-            _lib.faces(*begin, face, threads, report)
+            _lib.toss(*begin, face, None, threads, report)
             return face
         tosses = Tosses(config, point, first, count, launches)
-        columns = (tosses.face, tosses.ended, tosses.impacts, tosses.time_s, rows(tosses.final))
-        _lib.toss(*begin, *columns, threads, report)
+        beside = (tosses.ended, tosses.impacts, tosses.time_s, rows(tosses.final))
+        _lib.toss(*begin, tosses.face, beside, threads, report)
     return tosses
 
 

@@ -4,7 +4,7 @@
 //! # Files
 //! `plan` configs · `supervise` long work, signals and progress · `share` threads · `launch` rows of
 //! numbers and launches · `columns` and `toss` tosses one by one · `run` estimates and runs ·
-//! `results` tables, also as Arrow · `trace` one toss watched · `analytic` closed forms · `film`
+//! `results` tables, also as Arrow · `interval` of proportions · `trace` one toss watched · `analytic` closed forms · `film`
 //! drops on film · `errors` exceptions.
 
 // Arguments come converted from Python, and are owned.
@@ -14,6 +14,7 @@ mod analytic;
 mod columns;
 mod errors;
 mod film;
+mod interval;
 mod launch;
 mod plan;
 mod results;
@@ -33,13 +34,15 @@ mod _lib {
     #[pymodule_export]
     use super::film::{fit_film, read_film};
     #[pymodule_export]
+    use super::interval::{inverse_normal_cdf, wilson};
+    #[pymodule_export]
     use super::plan::Plan;
     #[pymodule_export]
     use super::results::Results;
     #[pymodule_export]
     use super::run::{estimate, open, run};
     #[pymodule_export]
-    use super::toss::{faces, launches, toss};
+    use super::toss::{launches, toss};
     #[pymodule_export]
     use super::trace::trace;
     use pyo3::prelude::*;

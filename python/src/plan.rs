@@ -2,7 +2,8 @@
 
 use crate::errors;
 use coinmc::config::{self, Override};
-use coinmc::plan::{EngineChoice, Plan as Planned, Point, Stop};
+use coinmc::plan::{Plan as Planned, Point, Stop};
+use coinmc::run::engine_name;
 use pyo3::exceptions::{PyIndexError, PyTypeError};
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -113,12 +114,7 @@ impl Plan {
 
     /// Name of the engine of a point.
     fn engine(&self, point: usize) -> PyResult<&'static str> {
-        Ok(match self.point(point)?.engine {
-            EngineChoice::Flat(_) => "flat",
-            EngineChoice::Volumetric(_) => "volumetric",
-            EngineChoice::Rapier(_) => "rapier",
-            EngineChoice::Analytic(_) => "analytic",
-        })
+        Ok(engine_name(&self.point(point)?.engine))
     }
 
     /// Ratio, radius, height, mass and gravity of a point, SI.

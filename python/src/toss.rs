@@ -76,7 +76,7 @@ impl Job<'_> {
     ) -> Result<(), Trouble> {
         let (face, first) = (columns.face, tosses.start);
         let followed = match columns.rest {
-            None => follow_each(self.point, begin, tosses, &mut |toss, outcome| {
+            None => follow_each(self.point, begin, tosses, |toss, outcome| {
                 face[place(toss - first)] = face_code(outcome);
                 desk.go_on()
             }),
@@ -169,42 +169,18 @@ fn workers(asked: Option<NonZeroUsize>, n: usize) -> usize {
     threads(asked).get().min(n.max(1))
 }
 
-/// Fills `face` with the codes of the faces of `len(face)` tosses: from number `first`, or of the
-/// launches in `rows`.
-#[pyfunction]
-#[pyo3(signature = (plan, point, first, rows, face, threads=None, progress=None))]
-#[allow(clippy::too_many_arguments)] // Python's arguments
-pub(crate) fn faces(
-    py: Python<'_>,
-    plan: &Plan,
-    point: usize,
-    first: u64,
-    rows: Option<PyReadonlyArray2<'_, f64>>,
-    mut face: PyReadwriteArray1<'_, u8>,
-    threads: Option<NonZeroUsize>,
-    progress: Option<Py<PyAny>>,
-) -> PyResult<()> {
-    let rows = rows.as_ref().map(PyReadonlyArray2::as_slice).transpose()?;
-    let call = Call {
-        plan,
-        point,
-        first,
-        rows,
-        threads,
-        progress,
-    };
-    let columns = Columns {
-        face: face.as_slice_mut()?,
-        rest: None,
-    };
-    call.fill(py, columns)
-}
+/// The columns beside the face, as Python gives them: ended, impacts, time, and twelve numbers a toss.
+type Beside<'py> = (
+    PyReadwriteArray1<'py, u8>,
+    PyReadwriteArray1<'py, u32>,
+    PyReadwriteArray1<'py, f64>,
+    PyReadwriteArray2<'py, f64>,
+);
 
-/// Fills all columns, each as long as `face`; `last` has twelve numbers a toss.
+/// Fills `face`, and the columns beside it if they are given, with `len(face)` tosses: from number
+/// `first`, or of the launches in `rows`.
 #[pyfunction]
-#[pyo3(signature = (
-    plan, point, first, rows, face, ended, impacts, time_s, last, threads=None, progress=None
-))]
+#[pyo3(signature = (plan, point, first, rows, face, beside=None, threads=None, progress=None))]
 #[allow(clippy::too_many_arguments)] // Python's arguments
 pub(crate) fn toss(
     py: Python<'_>,
@@ -213,21 +189,13 @@ pub(crate) fn toss(
     first: u64,
     rows: Option<PyReadonlyArray2<'_, f64>>,
     mut face: PyReadwriteArray1<'_, u8>,
-    mut ended: PyReadwriteArray1<'_, u8>,
-    mut impacts: PyReadwriteArray1<'_, u32>,
-    mut time_s: PyReadwriteArray1<'_, f64>,
-    mut last: PyReadwriteArray2<'_, f64>,
+    mut beside: Option<Beside<'_>>,
     threads: Option<NonZeroUsize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<()> {
     let face = face.as_slice_mut()?;
-    let rest = Rest {
-        ended: ended.as_slice_mut()?,
-        impacts: impacts.as_slice_mut()?,
-        time_s: time_s.as_slice_mut()?,
-        last: last.as_slice_mut()?,
-    };
-    if !rest.is_of(face.len()) {
+    let rest = beside.as_mut().map(slices).transpose()?;
+    if rest.as_ref().is_some_and(|rest| !rest.is_of(face.len())) {
         return Err(errors::value("columns must be equally long"));
     }
     let rows = rows.as_ref().map(PyReadonlyArray2::as_slice).transpose()?;
@@ -239,8 +207,16 @@ pub(crate) fn toss(
         threads,
         progress,
     };
-    let rest = Some(rest);
     call.fill(py, Columns { face, rest })
+}
+
+fn slices<'a>((ended, impacts, time_s, last): &'a mut Beside<'_>) -> PyResult<Rest<'a>> {
+    Ok(Rest {
+        ended: ended.as_slice_mut()?,
+        impacts: impacts.as_slice_mut()?,
+        time_s: time_s.as_slice_mut()?,
+        last: last.as_slice_mut()?,
+    })
 }
 
 /// Fills rows with the launches of a point from number `first`.

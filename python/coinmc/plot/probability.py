@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from coinmc import analytic
+from coinmc._intervals import wilson
 from coinmc.plot import published as others
 from coinmc.plot.style import (
     CYCLE,
@@ -229,8 +230,8 @@ def _unity(ax: Axes, span: tuple[float, float], shown: list[str]) -> None:
     inside = (counts["ratio"] >= span[0]) & (counts["ratio"] <= span[1])
     for face in shown:
         count, tosses = counts[face][inside], counts["tosses"][inside]
-        low, high = others.wilson(count, tosses)
-        share = count / tosses
+        seen = [wilson(int(k), 0, int(n), 0.95) for k, n in zip(count, tosses, strict=True)]
+        share, low, high = np.array(seen).reshape(-1, 3).T
         name = f"{others.SOURCE}, Unity"
         ax.errorbar(
             counts["ratio"][inside],

@@ -10,7 +10,7 @@ from importlib.resources import files
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["SOURCE", "FairRatio", "fair_ratios", "provenance", "unity_table1", "wilson"]
+__all__ = ["SOURCE", "FairRatio", "fair_ratios", "provenance", "unity_table1"]
 
 #: Whose counts `unity_table1` gives.
 SOURCE = "Gaek & Sukhov, arXiv 2401.03557"
@@ -95,24 +95,3 @@ def fair_ratios(engines: Iterable[str]) -> list[FairRatio]:
         for row in _rows("fair-ratios.csv")
         if row["engine"] in wanted
     ]
-
-
-def wilson(
-    count: NDArray[np.float64], tosses: NDArray[np.float64], z: float = 1.959963984540054
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Wilson's interval of a share: both ends (z = 1.96: 95 %).
-
-    For counts that come without an interval. Those of coinmc bring their own.
-
-    Examples
-    --------
-    >>> from coinmc.plot.published import wilson
-    >>> low, high = wilson(7312, 100_000)
-    >>> f"{low:.6f} {high:.6f}"
-    '0.071523 0.074750'
-    """
-    share = count / tosses
-    middle = share + z * z / (2 * tosses)
-    reach = z * np.sqrt(share * (1 - share) / tosses + (z / (2 * tosses)) ** 2)
-    scale = 1 + z * z / tosses
-    return (middle - reach) / scale, (middle + reach) / scale

@@ -56,7 +56,7 @@ pub struct Seen {
 /// ).unwrap();
 /// let begin = stream(&plan, 0);
 /// let mut most = 0;
-/// follow_each(&plan.points[0], Begin::Drawn(&begin), 0..100, &mut |_, outcome| {
+/// follow_each(&plan.points[0], Begin::Drawn(&begin), 0..100, |_, outcome| {
 ///     most = most.max(outcome.impacts);
 ///     true
 /// })?;
@@ -67,7 +67,7 @@ pub fn follow_each(
     point: &Point,
     begin: Begin<'_>,
     tosses: Range<u64>,
-    see: &mut dyn FnMut(u64, &Outcome) -> bool,
+    see: impl FnMut(u64, &Outcome) -> bool,
 ) -> Result<bool, SettingsError> {
     let follow = Follow {
         point,
@@ -98,14 +98,14 @@ pub fn see_each(
     Ok(with_engine(point, watch)?.is_some())
 }
 
-struct Follow<'a> {
+struct Follow<'a, F> {
     point: &'a Point,
     begin: Begin<'a>,
     tosses: Range<u64>,
-    see: &'a mut dyn FnMut(u64, &Outcome) -> bool,
+    see: F,
 }
 
-impl Task for Follow<'_> {
+impl<F: FnMut(u64, &Outcome) -> bool> Task for Follow<'_, F> {
     type Output = ();
 
     fn with<E: Engine>(self, engine: &E) {
@@ -113,7 +113,7 @@ impl Task for Follow<'_> {
             point,
             begin,
             tosses,
-            see,
+            mut see,
         } = self;
         let first = tosses.start;
         let launches = tosses.map(|toss| begin.launch(point, toss));

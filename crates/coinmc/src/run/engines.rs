@@ -5,11 +5,10 @@
 //! for it.
 
 use crate::plan::{EngineChoice, Plan, Point};
-use coinmc_core::{Domain, Ended, Engine, Face, Launch, Outcome, Stream, Tally};
+use coinmc_core::{Domain, Ended, Engine, Face, Launch, Outcome, Stream};
 use coinmc_flat::AnyFlatEngine;
 use coinmc_rapier::RapierEngine;
 use coinmc_volumetric::AnyVolumetricEngine;
-use std::ops::{ControlFlow, Range};
 use thiserror::Error;
 
 /// An engine refuses its settings.
@@ -27,15 +26,8 @@ pub enum SettingsError {
     Rapier(#[from] coinmc_rapier::SettingsError),
 }
 
-/// Tosses between two questions whether to go on: about 0.1 ms of typical tosses in the plane and
-/// 1 ms in space, so that asking costs nothing, and well under 0.1 s of the most tedious ones.
-const BATCH: u64 = 64;
-
-/// The same of tosses in time steps: one takes from 1 ms to seconds.
-const STEPPED_BATCH: u64 = 1;
-
 /// The engine's name in results.
-pub(crate) fn name(choice: &EngineChoice) -> &'static str {
+pub fn name(choice: &EngineChoice) -> &'static str {
     match choice {
         EngineChoice::Flat(_) => "flat",
         EngineChoice::Volumetric(_) => "volumetric",
@@ -112,58 +104,4 @@ pub fn toss(point: &Point, launch: &Launch) -> Result<Outcome, SettingsError> {
 pub fn stream(plan: &Plan, point: usize) -> Stream {
     let point = if plan.paired { 0 } else { point as u64 };
     Stream::new(plan.seed, Domain::Launch, point)
-}
-
-/// Tallies a range of tosses of one point, asking `go_on` every now and then; `None` if it said
-/// no.
-pub(super) fn tally(
-    plan: &Plan,
-    point: usize,
-    tosses: Range<u64>,
-    go_on: impl Fn() -> bool,
-) -> Result<Option<Tally>, SettingsError> {
-    let count = Count {
-        point: &plan.points[point],
-        stream: stream(plan, point),
-        tosses,
-        go_on,
-    };
-    Ok(with_engine(&plan.points[point], count)?.unwrap_or(Some(Tally::default())))
-}
-
-/// Tosses to be tallied.
-struct Count<'a, F> {
-    point: &'a Point,
-    stream: Stream,
-    tosses: Range<u64>,
-    go_on: F,
-}
-
-impl<F: Fn() -> bool> Task for Count<'_, F> {
-    type Output = Option<Tally>;
-
-    fn with<E: Engine>(self, engine: &E) -> Option<Tally> {
-        let Point {
-            scene, launches, ..
-        } = self.point;
-        let wanted = self.tosses.end.saturating_sub(self.tosses.start);
-        let batch = match self.point.engine {
-            EngineChoice::Rapier(_) => STEPPED_BATCH,
-            _ => BATCH,
-        };
-        let launch = |toss| launches.launch(&scene.coin, &mut self.stream.toss(toss));
-        let mut tally = Tally::default();
-        if (self.go_on)() {
-            let tosses = self.tosses.map(launch);
-            engine.toss_all(&mut engine.workspace(), tosses, |_, outcome| {
-                tally.add(outcome);
-                if tally.tosses() % batch == 0 && !(self.go_on)() {
-                    ControlFlow::Break(())
-                } else {
-                    ControlFlow::Continue(())
-                }
-            });
-        }
-        (tally.tosses() == wanted).then_some(tally)
-    }
 }

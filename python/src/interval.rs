@@ -1,0 +1,18 @@
+//! Intervals of proportions, as results have them.
+
+use coinmc_core::{Estimate, IntervalMethod};
+use pyo3::prelude::*;
+
+/// The share of `successes` in `n` tosses of which `undecided` have no face, and both ends of
+/// Wilson's interval.
+#[pyfunction]
+pub(crate) fn wilson(successes: u64, undecided: u64, n: u64, confidence: f64) -> (f64, f64, f64) {
+    let found = Estimate::new(successes, undecided, n, confidence, IntervalMethod::Wilson);
+    (found.p, found.lo, found.hi)
+}
+
+/// Inverse of the standard normal CDF, for p in (0, 1).
+#[pyfunction]
+pub(crate) fn inverse_normal_cdf(p: f64) -> f64 {
+    coinmc_core::inverse_normal_cdf(p)
+}
