@@ -73,7 +73,7 @@ impl<L: Lane> Attempt<L> {
         Attempted {
             length,
             wanted: L::select(accepted, calm, shorter(length, trial.error)),
-            eventful: accepted & self.happens(law, stick, mode, &trial.state, &now),
+            eventful: accepted & self.happens(law, stick, mode, length, &trial.state, &now),
             trial,
             now,
             state,
@@ -89,6 +89,7 @@ impl<L: Lane> Attempt<L> {
         law: &Law,
         stick: f64,
         mode: Mode,
+        length: L,
         state: &RimState<L>,
         now: &Rates<L>,
     ) -> L::Mask {
@@ -98,7 +99,13 @@ impl<L: Lane> Attempt<L> {
         let beyond = L::splat(FRAC_PI_2 + DOWN).lt(tilt);
         // on the way to level, and level already: where no step may lead on
         let level = tilt.le(flat);
-        let mut happens = down | beyond | level | !holds(law, mode, now);
+        let over = swings_over(
+            self.state[TILT],
+            self.state[OMEGA_Y],
+            state[OMEGA_Y],
+            length,
+        );
+        let mut happens = down | beyond | over | level | !holds(law, mode, now);
         if law.conserves(mode) {
             happens = happens | (state[OMEGA_Y] * self.state[OMEGA_Y]).lt(zero);
         }
@@ -108,6 +115,16 @@ impl<L: Lane> Attempt<L> {
         }
         happens
     }
+}
+
+/// Whether a coin that rises at `before` and falls at `after` a step of `length` may have been on
+/// its side between. The rate falls on the way; twice what it leads to at first leaves room for one
+/// that rises before.
+#[inline(always)]
+pub(super) fn swings_over<L: Lane>(tilt: L, before: L, after: L, length: L) -> L::Mask {
+    let zero = L::splat(0.0);
+    let reach = tilt + L::splat(2.0) * before * length;
+    zero.lt(before) & after.lt(zero) & L::splat(FRAC_PI_2).lt(reach)
 }
 
 /// The length of a step of which `length` is wanted.

@@ -1,6 +1,6 @@
 //! What happens within a step of contact: a point of a rim comes down, or the mode no longer holds.
 
-use super::attempt::{DOWN, YIELD, can_stick, holds, slip_speed};
+use super::attempt::{DOWN, YIELD, can_stick, holds, slip_speed, swings_over};
 use super::follow::{Contact, FLAT, Leave, Next, Phase, RESEED, SEED};
 use super::integrator::Trial;
 use super::rim::{Mode, OMEGA_Y, Rates, RimState, TILT};
@@ -95,13 +95,20 @@ impl Contact<'_> {
         length: f64,
         wanted: f64,
     ) -> (Next, f64) {
-        if let Some(mut reach) = Reach::of(phase, &trial.state, length) {
-            let mut state = trial.state;
-            while reach.is_away(&state) {
-                self.spent.steps += 1;
-                state = self.attempt(phase, reach.length).0.state;
+        if let Some(reach) = Reach::of(phase, &trial.state, length) {
+            return self.reach(phase, reach, trial.state);
+        }
+        // the other rim may also have come down within the step and be up again at its end
+        if swings_over(
+            phase.state[TILT],
+            phase.state[OMEGA_Y],
+            trial.state[OMEGA_Y],
+            length,
+        ) {
+            let (fraction, state) = self.turning_point(phase, trial);
+            if let Some(reach) = Reach::of(phase, &state, fraction * length) {
+                return self.reach(phase, reach, state);
             }
-            return reach.arrive(phase, state);
         }
         if holds(self.law, phase.mode, now) {
             if trial.state[OMEGA_Y] * phase.state[OMEGA_Y] < 0.0 {
@@ -113,6 +120,9 @@ impl Contact<'_> {
             return (self.after_step(phase), length);
         }
         let (fraction, state, now) = self.locate(phase, trial);
+        if let Some(reach) = Reach::of(phase, &state, fraction * length) {
+            return self.reach(phase, reach, state);
+        }
         phase.state = state;
         phase.now = now;
         phase.length = wanted;
@@ -124,6 +134,34 @@ impl Contact<'_> {
             Next::Change
         };
         (next, fraction * length)
+    }
+
+    /// Goes to where the tilt reaches its goal, from an attempt that led beyond it to `state`.
+    fn reach(
+        &mut self,
+        phase: &mut Phase,
+        mut reach: Reach,
+        mut state: RimState<f64>,
+    ) -> (Next, f64) {
+        while reach.is_away(&state) {
+            self.spent.steps += 1;
+            state = self.attempt(phase, reach.length).0.state;
+        }
+        reach.arrive(phase, state)
+    }
+
+    /// Where in a step the tilt is largest, by bisection of the dense output.
+    fn turning_point(&self, phase: &Phase, trial: &Trial<f64, 6>) -> (f64, RimState<f64>) {
+        let (mut low, mut high) = (0.0, 1.0);
+        while high - low > 1e-3 {
+            let middle = 0.5 * (low + high);
+            if trial.between(&phase.state, middle)[OMEGA_Y] > 0.0 {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        (high, trial.between(&phase.state, high))
     }
 
     /// The first moment of the step at which the mode no longer holds, by bisection of the dense
