@@ -4,7 +4,7 @@ use crate::studies::{
     Convergence, Energy, Film, FlatTable, ImpactAccuracy, ImpactBalance, ImpactCurves, ImpactLimit,
     LinkFuzz, MissedContacts, Oracle, RapierEnergy, RapierRestitution, RapierSpeed, RapierStep,
     RapierStress, RobotSoak, Sensitivity, SpaceConvergence, SpaceDecision, SpaceEnergy, SpaceLanes,
-    SpaceLaws, SpaceMissed, SpacePeers, SpaceReferences, SpaceSpeed, SpaceStress, Speed,
+    SpaceLaws, SpaceMissed, SpacePeers, SpaceReferences, SpaceSpeed, SpaceStress, Speed, Stability,
     StoppingRule, Undecided,
 };
 use crate::{memory, number};
@@ -56,6 +56,8 @@ enum Command {
     StoppingRule(StoppingRule),
     /// How the fair ratio depends on drop height, restitution and friction
     Sensitivity(Sensitivity),
+    /// Either engine under random tosses from a huge box: errors, gains and limits by region
+    Stability(Stability),
     /// Tosses a second, cost of the runner, two threads, peak memory
     Speed(Speed),
     /// Laws of impact: P(side) and the fair ratio under each
@@ -129,6 +131,7 @@ impl Arguments {
             Command::Undecided(study) => study.carry_out(seed),
             Command::StoppingRule(study) => study.carry_out(seed),
             Command::Sensitivity(study) => study.carry_out(seed)?,
+            Command::Stability(study) => study.carry_out(seed)?,
             Command::Speed(study) => study.carry_out(seed)?,
             Command::ImpactCurves(study) => study.carry_out(seed)?,
             Command::ImpactLimit(study) => study.carry_out(seed),

@@ -13,6 +13,7 @@ mod robot_soak;
 mod sensitivity;
 mod space;
 mod speed;
+mod stability;
 mod stopping_rule;
 mod undecided;
 
@@ -32,6 +33,7 @@ pub(crate) use space::{
     SpaceReferences, SpaceSpeed, SpaceStress,
 };
 pub(crate) use speed::Speed;
+pub(crate) use stability::Stability;
 pub(crate) use stopping_rule::StoppingRule;
 pub(crate) use undecided::Undecided;
 

@@ -8,7 +8,7 @@ use coinmc_core::{Scene, State};
 use nalgebra::Vector3;
 
 /// A flight without drag through a known state.
-pub(super) struct Flight {
+pub(in crate::studies) struct Flight {
     gravity: f64,
     radius: f64,
     half: f64,
@@ -24,7 +24,7 @@ pub(super) struct Flight {
 }
 
 impl Flight {
-    pub(super) fn new(scene: &Scene, state: &State) -> Self {
+    pub(in crate::studies) fn new(scene: &Scene, state: &State) -> Self {
         let coin = &scene.coin;
         let axis = state.axis.into_inner();
         let momentum = angular_momentum(coin, state);
@@ -59,7 +59,7 @@ impl Flight {
     }
 
     /// Height of the lowest point `t` seconds later, in D.
-    pub(super) fn gap(&self, t: f64) -> f64 {
+    pub(in crate::studies) fn gap(&self, t: f64) -> f64 {
         let u = self.axis(t);
         // from the horizontal part: 1 − u_z² has no digits left near 0
         let sine = (u.x * u.x + u.y * u.y).sqrt();

@@ -20,6 +20,7 @@ mod stress_box;
 pub(crate) use convergence::SpaceConvergence;
 pub(crate) use decision::SpaceDecision;
 pub(crate) use energy::SpaceEnergy;
+pub(super) use flight::Flight;
 pub(crate) use lanes::SpaceLanes;
 pub(crate) use laws::SpaceLaws;
 pub(crate) use missed::SpaceMissed;
@@ -40,7 +41,7 @@ use std::ops::Range;
 const FRICTION: f64 = 0.3;
 
 /// Tosses that one thread makes at a time: scenes differ a hundredfold in what a toss costs.
-const PART: u64 = 20_000;
+pub(super) const PART: u64 = 20_000;
 
 /// Titles of the cells of [`cells`].
 const COLUMNS: [&str; 5] = ["preset", "ratio", "restitution", "friction", "rho_over_r"];
@@ -79,7 +80,11 @@ fn engine(case: &Case, settings: &Settings) -> AnyVolumetricEngine {
 }
 
 /// A toss under whatever law the engine has.
-fn toss(engine: &AnyVolumetricEngine, launch: &Launch, observer: &mut impl Observer) -> Outcome {
+pub(super) fn toss(
+    engine: &AnyVolumetricEngine,
+    launch: &Launch,
+    observer: &mut impl Observer,
+) -> Outcome {
     match engine {
         AnyVolumetricEngine::Moreau(engine) => engine.toss(&mut (), launch, observer),
         AnyVolumetricEngine::ChatterjeeRuina(engine) => engine.toss(&mut (), launch, observer),

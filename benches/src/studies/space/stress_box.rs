@@ -5,6 +5,7 @@ use coinmc_bench::Case;
 use coinmc_core::{Coin, Launch, Orientation, Outcome, Scene, Surface, UniformSource};
 use coinmc_volumetric::{AnyVolumetricEngine, Settings};
 use nalgebra::{UnitVector3, Vector3};
+use std::f64::consts::TAU;
 use std::fmt;
 
 /// Dimensions of the random numbers; launches have the first ten.
@@ -65,6 +66,20 @@ impl Sample {
         }
     }
 
+    /// The same scene and a launch in the plane, for the flat engine: u anywhere in the xz plane, the
+    /// spin about y in either direction.
+    pub(in crate::studies) fn in_plane(seed: u64, toss: u64) -> Self {
+        let mut sample = Self::new(seed, toss);
+        let mut uniforms = Case::stream(seed).toss(toss);
+        let (sin, cos) = libm::sincos(TAU * uniforms.uniform(SPIN_AXIS[0]));
+        let forwards = uniforms.uniform(SPIN_AXIS[1]) < 0.5;
+        let launch = &mut sample.launch;
+        let spin = launch.spin_rad_s.norm();
+        launch.axis = UnitVector3::new_unchecked(Vector3::new(sin, 0.0, cos));
+        launch.spin_rad_s = Vector3::new(0.0, if forwards { spin } else { -spin }, 0.0);
+        sample
+    }
+
     /// Follows the toss.
     pub(super) fn toss(&self, settings: &Settings) -> Outcome {
         let engine = AnyVolumetricEngine::new(&self.scene, settings);
@@ -75,13 +90,18 @@ impl Sample {
         )
     }
 
+    /// Spin in units of sqrt(g/D): how often the coin turns while it topples.
+    pub(in crate::studies) fn turns(&self) -> f64 {
+        self.launch.spin_rad_s.norm() * self.scene.time_scale_s()
+    }
+
     /// A friction length is missing: the coin may roll or spin for ever.
     pub(super) fn rolls_freely(&self) -> bool {
         self.scene.surface.contour_m() == 0.0 || self.scene.surface.pivoting_m() == 0.0
     }
 
     /// Bounces lose nothing.
-    pub(super) fn is_elastic(&self) -> bool {
+    pub(in crate::studies) fn is_elastic(&self) -> bool {
         self.scene.surface.restitution() == 1.0
     }
 }
@@ -123,7 +143,7 @@ fn or_zero(p: f64, from: f64, to: f64) -> f64 {
 /// Uniform on the sphere.
 fn direction([height, azimuth]: [f64; 2]) -> UnitVector3<f64> {
     let z = 2.0 * height - 1.0;
-    let (sin, cos) = libm::sincos(std::f64::consts::TAU * azimuth);
+    let (sin, cos) = libm::sincos(TAU * azimuth);
     let across = (1.0 - z * z).sqrt();
     UnitVector3::new_normalize(Vector3::new(across * cos, across * sin, z))
 }
