@@ -1,13 +1,14 @@
 //! What can be asked for on the command line.
 
+use crate::number;
+use crate::run_apart::RunApart;
 use crate::studies::{
     Convergence, Energy, Film, FlatTable, ImpactAccuracy, ImpactBalance, ImpactCurves, ImpactLimit,
     LinkFuzz, MissedContacts, Oracle, RapierEnergy, RapierRestitution, RapierSpeed, RapierStep,
-    RapierStress, RobotSoak, Sensitivity, SpaceConvergence, SpaceDecision, SpaceEnergy, SpaceLanes,
-    SpaceLaws, SpaceMissed, SpacePeers, SpaceReferences, SpaceSpeed, SpaceStress, Speed, Stability,
-    StoppingRule, Undecided,
+    RapierStress, RobotSoak, Scaling, Sensitivity, SpaceConvergence, SpaceDecision, SpaceEnergy,
+    SpaceLanes, SpaceLaws, SpaceMissed, SpacePeers, SpaceReferences, SpaceSpeed, SpaceStress,
+    Speed, Stability, StoppingRule, Undecided,
 };
-use crate::{memory, number};
 use anyhow::{Context, anyhow};
 use clap::{Args, Parser, Subcommand};
 use coinmc_bench::{Workload, space_workloads, workloads};
@@ -58,6 +59,8 @@ enum Command {
     Sensitivity(Sensitivity),
     /// Either engine under random tosses from a huge box: errors, gains and limits by region
     Stability(Stability),
+    /// Whole runs over threads and numbers of tosses: rate, speed-up, memory
+    Scaling(Scaling),
     /// Tosses a second, cost of the runner, two threads, peak memory
     Speed(Speed),
     /// Laws of impact: P(side) and the fair ratio under each
@@ -104,9 +107,9 @@ enum Command {
     RobotSoak(RobotSoak),
     /// Do one named piece of work, for a profiler
     Work(Work),
-    /// Do one run and print its peak memory
+    /// Do one run and print what it took: seconds, processor seconds, peak kB
     #[command(hide = true)]
-    Memory(memory::Run),
+    RunApart(RunApart),
 }
 
 impl Arguments {
@@ -132,6 +135,7 @@ impl Arguments {
             Command::StoppingRule(study) => study.carry_out(seed),
             Command::Sensitivity(study) => study.carry_out(seed)?,
             Command::Stability(study) => study.carry_out(seed)?,
+            Command::Scaling(study) => study.carry_out()?,
             Command::Speed(study) => study.carry_out(seed)?,
             Command::ImpactCurves(study) => study.carry_out(seed)?,
             Command::ImpactLimit(study) => study.carry_out(seed),
@@ -155,7 +159,7 @@ impl Arguments {
             Command::RapierRestitution(study) => study.carry_out()?,
             Command::RobotSoak(study) => study.carry_out(seed)?,
             Command::Work(work) => return work.carry_out(),
-            Command::Memory(run) => return run.carry_out(),
+            Command::RunApart(run) => return run.carry_out(),
         };
         if let Some((path, file)) = csv {
             report

@@ -2,10 +2,10 @@
 
 mod arguments;
 mod legs;
-mod memory;
 mod number;
 mod processor_time;
 mod report;
+mod run_apart;
 mod run_once;
 mod studies;
 mod worst;

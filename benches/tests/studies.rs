@@ -371,3 +371,62 @@ fn skipping_saves_steps_and_gains_no_energy() {
         }
     }
 }
+
+/// Bounds ten times and more above the worst of 1e8 tosses in the plane and 1e6 in space.
+#[test]
+fn no_region_of_the_box_breaks_an_engine() {
+    for (engine, tosses) in [("flat", 4000.0), ("space", 400.0)] {
+        let count = format!("{tosses}");
+        let size = ["--tosses", &count, "--max-impacts", "500"];
+        let limits = ["--max-steps", "500", "--looked-into", "10"];
+        let arguments = [&["stability", "--engine", engine], &size[..], &limits[..]].concat();
+        let lines = study(&arguments);
+        for name in ["failed", "not_finite", "panics", "missed"] {
+            let broken = numbers(&lines, name);
+            assert!(broken.iter().all(|n| *n == 0.0), "{engine}: {name}");
+        }
+        for (name, most) in [("gain", 1e-12), ("residual", 1e-10), ("drift", 1e-11)] {
+            let worst = column(&lines, name);
+            let seen = worst.iter().filter(|cell| **cell != "none");
+            let worst = seen.map(|cell| cell.parse::<f64>().unwrap());
+            assert!(worst.fold(0.0, f64::max) < most, "{engine}: {name}");
+        }
+        // every toss is in one region of each parameter, and in the total
+        let all: f64 = numbers(&lines, "tosses").iter().sum();
+        assert_eq!(all, 7.0 * tosses);
+        let output = coinmc_bench(&["stability", "--engine", engine, "--only", "7"]);
+        assert!(String::from_utf8_lossy(&output.stdout).contains("restitution"));
+    }
+}
+
+#[test]
+fn a_long_study_of_stability_may_be_made_in_parts() {
+    let part = |first: &str, tosses: &str| {
+        let lines = study(&["stability", "--first", first, "--tosses", tosses]);
+        let limit = numbers(&lines, "impact_or_step_limit");
+        (lines.last().unwrap().clone(), *limit.last().unwrap())
+    };
+    let (whole, limit) = part("0", "3000");
+    let parts = [part("0", "2000"), part("2000", "1000")];
+    assert_eq!(parts[0].1 + parts[1].1, limit);
+    assert_ne!(parts[1].0, whole);
+}
+
+#[test]
+fn whole_runs_are_timed_over_threads_and_tosses() {
+    for toss in ["flat", "space"] {
+        let size = ["--tosses", "2000", "--repeats", "1", "--most", "10000"];
+        let lines = study(&[&["scaling", "--toss", toss], &size[..]].concat());
+        assert!(
+            numbers(&lines, "tosses_a_processor_second")
+                .iter()
+                .all(|rate| *rate > 100.0)
+        );
+        let peak = numbers(&lines, "peak_mib");
+        assert!(
+            peak.iter().all(|mib| (1.0..200.0).contains(mib)),
+            "{peak:?}"
+        );
+        assert_eq!(column(&lines, "tosses").last(), Some(&"10000"));
+    }
+}

@@ -10,6 +10,7 @@ mod missed_contacts;
 mod oracle;
 mod rapier;
 mod robot_soak;
+mod scaling;
 mod sensitivity;
 mod space;
 mod speed;
@@ -27,6 +28,7 @@ pub(crate) use missed_contacts::MissedContacts;
 pub(crate) use oracle::Oracle;
 pub(crate) use rapier::{RapierEnergy, RapierRestitution, RapierSpeed, RapierStep, RapierStress};
 pub(crate) use robot_soak::RobotSoak;
+pub(crate) use scaling::Scaling;
 pub(crate) use sensitivity::Sensitivity;
 pub(crate) use space::{
     SpaceConvergence, SpaceDecision, SpaceEnergy, SpaceLanes, SpaceLaws, SpaceMissed, SpacePeers,

@@ -3,9 +3,9 @@
 //! Absolute rates depend on the machine and on what else it does. Ratios are taken between runs
 //! that follow each other at once, several times over, and their median is shown.
 
-use crate::memory;
 use crate::number;
 use crate::report::{Report, Table};
+use crate::run_apart::{RunApart, Toss};
 use crate::run_once::{plan, run_once};
 use clap::Args;
 use coinmc::run::{Shard, run_shard};
@@ -129,7 +129,12 @@ impl Speed {
 
     fn measure_memory(&self, record: &mut Table) -> anyhow::Result<()> {
         for tosses in [self.memory_tosses.div_ceil(100), self.memory_tosses] {
-            let megabytes = memory::peak_kb(tosses)? / 1024.0;
+            let run = RunApart {
+                toss: Toss::Flat,
+                tosses,
+                threads: None,
+            };
+            let megabytes = run.measure()?.peak_kb / 1024.0;
             record.push(row(
                 "peak memory in MiB",
                 &format!("{tosses} tosses"),

@@ -64,7 +64,7 @@ impl Axis {
         let from = self.edges[region];
         match self.edges.get(region + 1) {
             Some(&to) if to == f64::MIN_POSITIVE => "0".to_owned(),
-            Some(&to) if from == f64::MIN_POSITIVE => format!("over 0, below {to}"),
+            Some(&to) if from == f64::MIN_POSITIVE => format!("above 0 to {to}"),
             Some(&to) => format!("{from} to {to}"),
             None => format!("{from} and more"),
         }
@@ -87,7 +87,7 @@ mod tests {
             }
         }
         assert_eq!(AXES[1].label(0), "0");
-        assert_eq!(AXES[1].label(1), "over 0, below 0.5");
+        assert_eq!(AXES[1].label(1), "above 0 to 0.5");
         assert_eq!(AXES[1].label(4), "1 and more");
         assert_eq!(AXES[0].label(0), "0 to 0.01");
     }

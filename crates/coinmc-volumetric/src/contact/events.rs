@@ -105,7 +105,7 @@ impl Contact<'_> {
             trial.state[OMEGA_Y],
             length,
         ) {
-            let (fraction, state) = self.turning_point(phase, trial);
+            let (fraction, state) = turning_point(phase, trial);
             if let Some(reach) = Reach::of(phase, &state, fraction * length) {
                 return self.reach(phase, reach, state);
             }
@@ -148,20 +148,6 @@ impl Contact<'_> {
             state = self.attempt(phase, reach.length).0.state;
         }
         reach.arrive(phase, state)
-    }
-
-    /// Where in a step the tilt is largest, by bisection of the dense output.
-    fn turning_point(&self, phase: &Phase, trial: &Trial<f64, 6>) -> (f64, RimState<f64>) {
-        let (mut low, mut high) = (0.0, 1.0);
-        while high - low > 1e-3 {
-            let middle = 0.5 * (low + high);
-            if trial.between(&phase.state, middle)[OMEGA_Y] > 0.0 {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        (high, trial.between(&phase.state, high))
     }
 
     /// The first moment of the step at which the mode no longer holds, by bisection of the dense
@@ -207,4 +193,18 @@ impl Contact<'_> {
         slip < RESEED * SEED * self.settings.stick
             || can_stick(self.law, &self.law.rates(&held, Mode::Stick))
     }
+}
+
+/// Where in a step the tilt is largest, by bisection of the dense output.
+fn turning_point(phase: &Phase, trial: &Trial<f64, 6>) -> (f64, RimState<f64>) {
+    let (mut low, mut high) = (0.0, 1.0);
+    while high - low > 1e-3 {
+        let middle = 0.5 * (low + high);
+        if trial.between(&phase.state, middle)[OMEGA_Y] > 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    (high, trial.between(&phase.state, high))
 }
