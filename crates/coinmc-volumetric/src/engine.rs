@@ -93,6 +93,18 @@ impl AnyVolumetricEngine {
             Law::Stronge => Self::Stronge(VolumetricEngine::new(scene, settings, Stronge)?),
         })
     }
+
+    /// The same with these lanes instead of [`Lanes::best`], for [`Engine::toss_all`].
+    ///
+    /// # Errors
+    /// [`NoSuchLanes`] if this processor has no such instructions.
+    pub fn with_lanes(self, lanes: Lanes) -> Result<Self, NoSuchLanes> {
+        Ok(match self {
+            Self::Moreau(engine) => Self::Moreau(engine.with_lanes(lanes)?),
+            Self::ChatterjeeRuina(engine) => Self::ChatterjeeRuina(engine.with_lanes(lanes)?),
+            Self::Stronge(engine) => Self::Stronge(engine.with_lanes(lanes)?),
+        })
+    }
 }
 
 impl<L: ImpactLaw> VolumetricEngine<L> {

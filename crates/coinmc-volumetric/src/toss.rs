@@ -77,14 +77,15 @@ impl Place {
 
 /// State and counters.
 #[derive(Debug, Clone, Copy)]
+#[repr(C)]
 pub(crate) struct Toss {
-    pub(crate) motion: Motion<f64>,
-    pub(crate) spin: Spin<f64>,
-    /// Whether u is up in the folded frame, −u otherwise.
-    pub(crate) heads_up: bool,
     pub(crate) impacts: u32,
     /// Impacts of one rim and the other, in turn, since the last flight.
     pub(crate) in_turn: u32,
+    /// Whether u is up in the folded frame, −u otherwise.
+    pub(crate) heads_up: bool,
+    pub(crate) motion: Motion<f64>,
+    pub(crate) spin: Spin<f64>,
     pub(crate) place: Place,
 }
 

@@ -17,11 +17,9 @@ use coinmc_lanes::{Bits, Block, WIDTH, Wide, Work};
 
 const NONE: Block = [0.0; WIDTH];
 
+/// Blocks first, each in a line of the cache.
+#[repr(C, align(64))]
 pub(super) struct Station {
-    pub(super) owner: [usize; WIDTH],
-    pub(super) occupied: Bits,
-    /// Coins that cannot go on without being looked at alone.
-    pub(super) attention: Bits,
     state: [Block; 6],
     rates: [Block; 6],
     press: Block,
@@ -29,18 +27,22 @@ pub(super) struct Station {
     ceiling: Block,
     /// Of the next step, or where `again` of the next attempt at it.
     length: Block,
-    again: Bits,
-    /// On the search for where a point comes down: attempts of a given length.
-    reaching: Bits,
     steps: Block,
     time: Block,
-    /// Of the last attempt: whether it might be made, whether something happens within it, and the
-    /// length that it wants next.
-    may: Bits,
-    eventful: Bits,
+    /// Of the last attempt: the length that it wants next, and what it found.
     wanted: Block,
     now: Rates<Block>,
     trial: Trial<Block, 6>,
+    pub(super) owner: [usize; WIDTH],
+    pub(super) occupied: Bits,
+    /// Coins that cannot go on without being looked at alone.
+    pub(super) attention: Bits,
+    again: Bits,
+    /// On the search for where a point comes down: attempts of a given length.
+    reaching: Bits,
+    /// Of the last attempt: whether it might be made, and whether something happens within it.
+    may: Bits,
+    eventful: Bits,
 }
 
 /// A count that is held as a float.

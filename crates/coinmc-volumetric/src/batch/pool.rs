@@ -23,16 +23,17 @@ pub(super) enum Origin {
     Elsewhere,
 }
 
-/// A toss.
+/// A toss. What a flight and an impact need of it is in one line of the cache, its first.
 #[derive(Debug, Clone, Copy)]
+#[repr(C, align(64))]
 pub(super) struct Slot {
+    pub(super) spent: Spent,
     /// Its number among the launches.
     pub(super) number: u64,
-    pub(super) toss: Toss,
-    pub(super) spent: Spent,
     /// How its next flight begins.
     pub(super) launched: bool,
     pub(super) parting: bool,
+    pub(super) toss: Toss,
     pub(super) phase: Phase,
     /// On the search for the end of contact.
     pub(super) reach: Option<Reach>,

@@ -14,15 +14,16 @@ use coinmc_lanes::Lanes;
 use coinmc_lanes::{Bits, Block, WIDTH, Wide, Work};
 
 #[derive(Debug, Clone, Default)]
+#[repr(C, align(64))]
 pub(super) struct StruckTosses {
     pub(super) leavers: Leavers,
-    pub(super) owner: [usize; WIDTH],
     /// Motions and axial spins, as flights begin with them; of a landing and then of an impact.
     pub(super) after: Departing,
     turn: Block,
     tilt: Block,
     /// Duration of the flight.
     took: Block,
+    pub(super) owner: [usize; WIDTH],
     reflected: Bits,
     lost: Bits,
     /// Whose impact may be the last; who has to be struck anew because it was not.

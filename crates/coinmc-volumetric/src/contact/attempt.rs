@@ -99,12 +99,8 @@ impl<L: Lane> Attempt<L> {
         let beyond = L::splat(FRAC_PI_2 + DOWN).lt(tilt);
         // on the way to level, and level already: where no step may lead on
         let level = tilt.le(flat);
-        let over = swings_over(
-            self.state[TILT],
-            self.state[OMEGA_Y],
-            state[OMEGA_Y],
-            length,
-        );
+        let (before, after) = (self.state[OMEGA_Y], state[OMEGA_Y]);
+        let over = swings_over(self.state[TILT], before, after, length);
         let mut happens = down | beyond | over | level | !holds(law, mode, now);
         if law.conserves(mode) {
             happens = happens | (state[OMEGA_Y] * self.state[OMEGA_Y]).lt(zero);
@@ -177,6 +173,18 @@ pub(super) fn holds<L: Lane>(law: &Law, mode: Mode, now: &Rates<L>) -> L::Mask {
             Mode::Slip => L::splat(YIELD).le(now.yields),
             Mode::Stick => can_stick(law, now),
         }
+}
+
+/// By how much the mode is consistent: a continuous measure, negative where it is not.
+pub(super) fn margin(law: &Law, mode: Mode, now: &Rates<f64>) -> f64 {
+    let consistent = match mode {
+        Mode::Slip => now.yields - YIELD,
+        Mode::Stick => {
+            let [fx, fy] = now.friction;
+            law.friction.mu * now.normal - (fx * fx + fy * fy).sqrt()
+        }
+    };
+    now.press.min(consistent)
 }
 
 /// Whether the forces of a held contact point are within the friction cone.

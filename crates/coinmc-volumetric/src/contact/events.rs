@@ -1,6 +1,6 @@
 //! What happens within a step of contact: a point of a rim comes down, or the mode no longer holds.
 
-use super::attempt::{DOWN, YIELD, can_stick, holds, slip_speed, swings_over};
+use super::attempt::{DOWN, YIELD, can_stick, holds, margin, slip_speed, swings_over};
 use super::follow::{Contact, FLAT, Leave, Next, Phase, RESEED, SEED};
 use super::integrator::Trial;
 use super::rim::{Mode, OMEGA_Y, Rates, RimState, TILT};
@@ -11,6 +11,60 @@ use std::f64::consts::FRAC_PI_2;
 const TURNING_POINTS: u32 = 3;
 /// Steps of Newton's method to where a point comes down; halving alone needs as many.
 const MOST_TRIES: u32 = 40;
+
+/// The search for the moment of a step at which a margin is gone: the chord's zero, a little to its
+/// far side so that the next is met from the other, and the middle every third time.
+struct Narrowing {
+    /// Fraction of the step and margin there: with a mode that holds, and one that does not.
+    low: (f64, f64),
+    high: (f64, f64),
+    tries: u32,
+    /// Whether the mode held at the last try.
+    held: bool,
+}
+
+impl Narrowing {
+    /// Width that is narrow enough, and how far beyond the chord's zero to look.
+    const ENOUGH: f64 = 4e-3;
+    const BEYOND: f64 = 1.6e-3;
+
+    fn new(low: f64, high: f64) -> Self {
+        Self {
+            low: (0.0, low),
+            high: (1.0, high),
+            tries: 0,
+            held: true,
+        }
+    }
+
+    /// Where to look next; `None` once it is narrow enough.
+    fn next(&mut self) -> Option<f64> {
+        let ((low, above), (high, below)) = (self.low, self.high);
+        let width = high - low;
+        if width <= Self::ENOUGH {
+            return None;
+        }
+        self.tries += 1;
+        let zero = low + width * above / (above - below);
+        let beyond = if self.held {
+            Self::BEYOND
+        } else {
+            -Self::BEYOND
+        };
+        let chord = zero + beyond;
+        let inside = low < chord && chord < high && !self.tries.is_multiple_of(3);
+        Some(if inside { chord } else { low + 0.5 * width })
+    }
+
+    fn narrow(&mut self, at: f64, margin: f64, holds: bool) {
+        self.held = holds;
+        if holds {
+            self.low = (at, margin);
+        } else {
+            self.high = (at, margin);
+        }
+    }
+}
 
 /// The search for the length of the step that ends where the tilt reaches a goal: Newton's method
 /// in a bracket, each evaluation an attempt at the step.
@@ -95,19 +149,16 @@ impl Contact<'_> {
         length: f64,
         wanted: f64,
     ) -> (Next, f64) {
-        if let Some(reach) = Reach::of(phase, &trial.state, length) {
-            return self.reach(phase, reach, trial.state);
+        if let Some(mut reach) = Reach::of(phase, &trial.state, length) {
+            let state = self.follow_up(phase, &mut reach, trial.state);
+            return reach.arrive(phase, state);
         }
         // the other rim may also have come down within the step and be up again at its end
-        if swings_over(
-            phase.state[TILT],
-            phase.state[OMEGA_Y],
-            trial.state[OMEGA_Y],
-            length,
-        ) {
+        let (before, after) = (phase.state[OMEGA_Y], trial.state[OMEGA_Y]);
+        if swings_over(phase.state[TILT], before, after, length) {
             let (fraction, state) = turning_point(phase, trial);
-            if let Some(reach) = Reach::of(phase, &state, fraction * length) {
-                return self.reach(phase, reach, state);
+            if let Some(down) = self.comes_down(phase, &state, fraction * length) {
+                return down;
             }
         }
         if holds(self.law, phase.mode, now) {
@@ -119,11 +170,12 @@ impl Contact<'_> {
             phase.length = wanted;
             return (self.after_step(phase), length);
         }
-        let (fraction, state, now) = self.locate(phase, trial);
-        if let Some(reach) = Reach::of(phase, &state, fraction * length) {
-            return self.reach(phase, reach, state);
+        let (fraction, state, now) = self.locate(phase, trial, now);
+        if let Some(down) = self.comes_down(phase, &state, fraction * length) {
+            return down;
         }
         phase.state = state;
+        phase.state[TILT] = phase.state[TILT].min(FRAC_PI_2);
         phase.now = now;
         phase.length = wanted;
         let next = if now.press <= 0.0 {
@@ -136,37 +188,62 @@ impl Contact<'_> {
         (next, fraction * length)
     }
 
-    /// Goes to where the tilt reaches its goal, from an attempt that led beyond it to `state`.
-    fn reach(
+    /// Attempts at the step, from one that led to `state`, until the tilt is at its goal; where that
+    /// leads.
+    fn follow_up(
         &mut self,
-        phase: &mut Phase,
-        mut reach: Reach,
+        phase: &Phase,
+        reach: &mut Reach,
         mut state: RimState<f64>,
-    ) -> (Next, f64) {
+    ) -> RimState<f64> {
         while reach.is_away(&state) {
             self.spent.steps += 1;
             state = self.attempt(phase, reach.length).0.state;
         }
-        reach.arrive(phase, state)
+        state
     }
 
-    /// The first moment of the step at which the mode no longer holds, by bisection of the dense
-    /// output: its own error is that of the step, so a thousandth of the step is close enough.
-    fn locate(&self, phase: &Phase, trial: &Trial<f64, 6>) -> (f64, RimState<f64>, Rates<f64>) {
-        let (mut low, mut high) = (0.0, 1.0);
-        let mut found = (trial.state, self.law.rates(&trial.state, phase.mode));
-        while high - low > 1e-3 {
-            let middle = 0.5 * (low + high);
-            let state = trial.between(&phase.state, middle);
+    /// Goes to where the other rim comes down on the way to `state`, which the dense output gives for
+    /// a time `length` into the step; `None` if it does not: the dense output's error may be what
+    /// lies beyond.
+    fn comes_down(
+        &mut self,
+        phase: &mut Phase,
+        state: &RimState<f64>,
+        length: f64,
+    ) -> Option<(Next, f64)> {
+        if state[TILT] <= FRAC_PI_2 + DOWN {
+            return None;
+        }
+        let mut reach = Reach::of(phase, state, length)?;
+        let state = self.follow_up(phase, &mut reach, *state);
+        let arrives = (state[TILT] - FRAC_PI_2).abs() <= DOWN && state[OMEGA_Y] > 0.0;
+        arrives.then(|| reach.arrive(phase, state))
+    }
+
+    /// A moment of the step at which the mode no longer holds, shortly after one at which it does, by
+    /// the dense output: its own error is that of the step, so a few thousandths of the step are close
+    /// enough.
+    fn locate(
+        &self,
+        phase: &Phase,
+        trial: &Trial<f64, 6>,
+        now: &Rates<f64>,
+    ) -> (f64, RimState<f64>, Rates<f64>) {
+        let margin = |now: &Rates<f64>| margin(self.law, phase.mode, now);
+        let before = self.law.rates(&phase.state, phase.mode);
+        let mut narrowing = Narrowing::new(margin(&before), margin(now));
+        let mut found = (trial.state, *now);
+        while let Some(at) = narrowing.next() {
+            let state = trial.between(&phase.state, at);
             let now = self.law.rates(&state, phase.mode);
-            if holds(self.law, phase.mode, &now) {
-                low = middle;
-            } else {
-                high = middle;
+            let holds = holds(self.law, phase.mode, &now);
+            narrowing.narrow(at, margin(&now), holds);
+            if !holds {
                 found = (state, now);
             }
         }
-        (high, found.0, found.1)
+        (narrowing.high.0, found.0, found.1)
     }
 
     fn after_step(&self, phase: &Phase) -> Next {

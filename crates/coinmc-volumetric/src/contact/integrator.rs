@@ -89,11 +89,19 @@ pub(crate) fn step<L: Lane, const N: usize>(
         (-1.0 / 40.0, &k7),
     ];
     let mut squares = L::splat(0.0);
-    for i in 0..N {
-        let sum = weighted(&error, i);
-        let scale = L::splat(tolerance) * (L::splat(1.0) + state[i].abs().max(end[i].abs()));
-        let relative = h * sum / scale;
-        squares += relative * relative;
+    // two components a quotient
+    for i in (0..N).step_by(2) {
+        let one = allowed(state[i], end[i], tolerance);
+        if i + 1 == N {
+            let relative = h * weighted(&error, i) / one;
+            squares += relative * relative;
+        } else {
+            let other = allowed(state[i + 1], end[i + 1], tolerance);
+            let share = h / (one * other);
+            let first = weighted(&error, i) * (other * share);
+            let second = weighted(&error, i + 1) * (one * share);
+            squares += first * first + second * second;
+        }
     }
     Trial {
         state: end,
@@ -101,6 +109,12 @@ pub(crate) fn step<L: Lane, const N: usize>(
         h,
         stages: [*k1, *k3, *k4, *k5, *k6, k7],
     }
+}
+
+/// The error allowed of a component.
+#[inline(always)]
+fn allowed<L: Lane>(from: L, to: L, tolerance: f64) -> L {
+    L::splat(tolerance) * (L::splat(1.0) + from.abs().max(to.abs()))
 }
 
 /// state + h Σ weight·rates.

@@ -58,7 +58,7 @@ fn line_rates(law: &Law, state: &LineState, creep: f64) -> LineRates {
         first * y1 + second * y2,
         second * y2 - first * y1,
     );
-    let (contour, pivoting) = law.twist(1.0, 0.0, 0.0, wa, -wz);
+    let (contour, pivoting) = law.twist(1.0, 0.0, wa, -wz);
     let (linear, angular) = (law.drag.linear, law.drag.angular);
     LineRates {
         rates: [

@@ -52,12 +52,17 @@ pub(crate) struct Law {
     pub(crate) drag: Drag,
     /// Ω_a/ω_a: I_a/I_t with gyroscopic torque, 1 without.
     pub(crate) axial_factor: f64,
-    /// See [`faded_sign`].
-    pub(crate) fade: f64,
-    /// 1/k_t, 1/k_a, and K_yy, which no tilt changes.
+    /// 1/k_t and 1/k_a.
     inverse_kt: f64,
     inverse_ka: f64,
+    /// K_yy and 1/K_yy, which no tilt changes.
     kyy: f64,
+    inverse_kyy: f64,
+    /// 1/(K_xx K_zz − K_xz²), which none changes either: the rim is as far as ever.
+    inverse_det: f64,
+    /// 1/(ρ_c fade) and 1/(ρ_p fade), see [`faded_sign`].
+    contour_fade: f64,
+    pivoting_fade: f64,
 }
 
 /// Whether the contact point is held or slides.
@@ -111,13 +116,23 @@ impl<L: Lane> Rates<L> {
     }
 }
 
-/// sign(rate) of dry friction that slows `rate` down by `braking` (per normal force), fading
-/// linearly to 0 where it would stop within the time `fade`: the rate of the fading is 1/fade
-/// however light the part that turns.
+/// sign(rate) of dry friction that slows `rate` down by b (per normal force), fading linearly to 0
+/// where it would stop within the time `fade`: the rate of the fading is 1/fade however light the
+/// part that turns. `share` is rate/(b fade).
 #[inline(always)]
-fn faded_sign<L: Lane>(rate: L, braking: L, fade: f64) -> L {
-    let band = (braking * L::splat(fade)).max(L::splat(f64::MIN_POSITIVE));
-    (rate / band).min(L::splat(1.0)).max(L::splat(-1.0))
+fn faded_sign<L: Lane>(share: L) -> L {
+    share.min(L::splat(1.0)).max(L::splat(-1.0))
+}
+
+/// Quotients that depend on the tilt alone.
+#[derive(Debug, Clone, Copy)]
+struct Quotients<L> {
+    /// 1/s.
+    sin: L,
+    /// 1/A and 1/G, A = s²/ka + c²/kt and G = c²/ka + s²/kt: how heavy the coin turns about the
+    /// horizontal x axis and the vertical.
+    along: L,
+    about: L,
 }
 
 impl Law {
@@ -129,15 +144,21 @@ impl Law {
         fade: f64,
     ) -> Self {
         let (inverse_kt, inverse_ka) = (1.0 / body.kt, 1.0 / body.ka);
+        let kyy = 1.0 + body.half * body.half * inverse_kt + body.radius * body.radius * inverse_ka;
+        // no length, no friction: then any finite quotient does
+        let inverse_fade = |length: f64| 1.0 / (length * fade).max(f64::MIN_POSITIVE);
         Self {
             body,
             friction,
             drag,
             axial_factor,
-            fade,
             inverse_kt,
             inverse_ka,
-            kyy: 1.0 + body.half * body.half * inverse_kt + body.radius * body.radius * inverse_ka,
+            kyy,
+            inverse_kyy: 1.0 / kyy,
+            inverse_det: 1.0 / (1.0 + inverse_kt),
+            contour_fade: inverse_fade(friction.contour),
+            pivoting_fade: inverse_fade(friction.pivoting),
         }
     }
 
@@ -157,8 +178,8 @@ impl Law {
         let (ikt, ika) = (k(self.inverse_kt), k(self.inverse_ka));
         let rx = radius * c - half * s;
         let rz = -(half * c + radius * s);
-        let inverse_s = k(1.0) / s;
-        let azimuth = -(wt * inverse_s);
+        let inverse = self.quotients(s, c);
+        let azimuth = -(wt * inverse.sin);
         let excess = k(self.axial_factor) * wa - azimuth * c;
         let drag_turn = k(self.drag.angular);
         let gyro_y = wt * excess - drag_turn * wy;
@@ -178,30 +199,28 @@ impl Law {
             bz -= linear * wy * rx;
         }
         let mu = k(self.friction.mu);
-        let (nx, ny) = match mode {
-            Mode::Stick => (k(0.0), k(0.0)),
-            Mode::Slip => direction(gx, gy),
-        };
-        let (fx, normal, yields) = match mode {
+        // sliding, both forces are of N/|γ| = −bz/(K_zz |γ| − μ K_xz γx): one quotient for all
+        let slip = Slip::of(mode, gx, gy);
+        let opposes = kzz * slip.speed - mu * kxz * slip.x;
+        let (fx, normal, drive) = match mode {
             Mode::Stick => {
-                let inverse = k(1.0) / (kxx * kzz - kxz * kxz);
+                let inverse = k(self.inverse_det);
                 (
                     (kxz * bz - kzz * bx) * inverse,
                     (kxz * bx - kxx * bz) * inverse,
-                    k(1.0),
+                    k(0.0),
                 )
             }
             Mode::Slip => {
-                let yields = kzz - mu * kxz * nx;
-                let normal = -(bz / yields);
-                (-(mu * normal * nx), normal, yields)
+                let drive = bz / opposes;
+                (mu * drive * slip.x, -(drive * slip.speed), drive)
             }
         };
-        let (twist_a, twist_t) = self.twist(s, c, c * inverse_s, wa, wt);
+        let (twist_a, twist_t) = self.twist_at(s, c, &inverse, wa, wt);
         by -= normal * (radius * twist_a * ika + half * twist_t * ikt);
         let fy = match mode {
-            Mode::Stick => -(by / kyy),
-            Mode::Slip => -(mu * normal * ny),
+            Mode::Stick => -(by * k(self.inverse_kyy)),
+            Mode::Slip => mu * drive * slip.y,
         };
         let (slide_x, slide_y) = match mode {
             Mode::Stick => (k(0.0), k(0.0)),
@@ -219,27 +238,55 @@ impl Law {
             normal,
             friction: [fx, fy],
             press: -bz,
-            yields,
+            yields: match mode {
+                Mode::Stick => k(1.0),
+                Mode::Slip => opposes / slip.speed,
+            },
+        }
+    }
+
+    /// The quotients of a tilt: one division for all three.
+    #[inline(always)]
+    fn quotients<L: Lane>(&self, s: L, c: L) -> Quotients<L> {
+        if !self.friction.twists() {
+            let none = L::splat(0.0);
+            return Quotients {
+                sin: L::splat(1.0) / s,
+                along: none,
+                about: none,
+            };
+        }
+        let (ikt, ika) = (L::splat(self.inverse_kt), L::splat(self.inverse_ka));
+        let along = s * s * ika + c * c * ikt;
+        let about = c * c * ika + s * s * ikt;
+        let both = along * about;
+        let inverse = L::splat(1.0) / (s * both);
+        let inverse_both = s * inverse;
+        Quotients {
+            sin: both * inverse,
+            along: about * inverse_both,
+            about: along * inverse_both,
         }
     }
 
     /// (t_a, t_θ): torques of contour and pivoting friction per normal force.
     #[inline(always)]
-    pub(crate) fn twist<L: Lane>(&self, s: L, c: L, cot: L, wa: L, wt: L) -> (L, L) {
+    pub(crate) fn twist<L: Lane>(&self, s: L, c: L, wa: L, wt: L) -> (L, L) {
+        self.twist_at(s, c, &self.quotients(s, c), wa, wt)
+    }
+
+    #[inline(always)]
+    fn twist_at<L: Lane>(&self, s: L, c: L, inverse: &Quotients<L>, wa: L, wt: L) -> (L, L) {
         if !self.friction.twists() {
             return (L::splat(0.0), L::splat(0.0));
         }
-        let (ikt, ika) = (L::splat(self.inverse_kt), L::splat(self.inverse_ka));
-        let (contour, pivoting) = (
-            L::splat(self.friction.contour),
-            L::splat(self.friction.pivoting),
-        );
-        // ω_x = s ψ' and ω_z, and what the torques take from them
+        // ω_x = s ψ' and ω_z; friction takes ρ_c A/s and ρ_p G from them
         let (along, about) = (wa * s + wt * c, wa * c - wt * s);
-        let slows_along = contour * (s * ika + c * cot * ikt);
-        let slows_about = pivoting * (c * c * ika + s * s * ikt);
-        let contour = contour * faded_sign(along, slows_along, self.fade);
-        let pivoting = pivoting * faded_sign(about, slows_about, self.fade);
+        let along = along * s * inverse.along * L::splat(self.contour_fade);
+        let about = about * inverse.about * L::splat(self.pivoting_fade);
+        let contour = L::splat(self.friction.contour) * faded_sign(along);
+        let pivoting = L::splat(self.friction.pivoting) * faded_sign(about);
+        let cot = c * inverse.sin;
         (contour + pivoting * c, contour * cot - pivoting * s)
     }
 
@@ -266,13 +313,33 @@ impl Law {
     }
 }
 
-/// The unit vector along (x, y); (1, 0) along nothing.
-#[inline(always)]
-pub(crate) fn direction<L: Lane>(x: L, y: L) -> (L, L) {
-    let length = (x * x + y * y).sqrt();
-    let none = length.le(L::splat(0.0));
-    let inverse = L::splat(1.0) / L::select(none, L::splat(1.0), length);
-    (L::select(none, L::splat(1.0), x * inverse), y * inverse)
+/// A slip, and how fast it is.
+struct Slip<L> {
+    x: L,
+    y: L,
+    speed: L,
+}
+
+impl<L: Lane> Slip<L> {
+    /// Of a contact that slides; along x at unit speed of one that does not.
+    #[inline(always)]
+    fn of(mode: Mode, x: L, y: L) -> Self {
+        let (zero, one) = (L::splat(0.0), L::splat(1.0));
+        if mode == Mode::Stick {
+            return Self {
+                x: one,
+                y: zero,
+                speed: one,
+            };
+        }
+        let speed = (x * x + y * y).sqrt();
+        let none = speed.le(zero);
+        Self {
+            x: L::select(none, one, x),
+            y: L::select(none, zero, y),
+            speed: L::select(none, one, speed),
+        }
+    }
 }
 
 /// The fastest rate of a coin in contact: of rolling, tilting, precessing, toppling.

@@ -364,7 +364,7 @@ fn power(law: &Law, state: &RimState<f64>, mode: Mode) -> f64 {
     let [tilt, wy, wa, wt, gx, gy] = *state;
     let (s, c) = libm::sincos(tilt);
     let now = law.rates(state, mode);
-    let (twist_a, twist_t) = law.twist(s, c, c / s, wa, wt);
+    let (twist_a, twist_t) = law.twist(s, c, wa, wt);
     let (radius, half) = (law.body.radius, law.body.half);
     let v = [
         gx + wy * (half * c + radius * s),

@@ -173,6 +173,11 @@ impl<L: Lane> Orbit<L> {
         set(&mut self.elapsed, elapsed);
     }
 
+    /// Whether drag acts.
+    pub(crate) fn is_dragged(&self) -> bool {
+        self.drag.acts()
+    }
+
     /// Time from the start of the flight.
     #[inline(always)]
     pub(crate) fn since_start(&self, t: L) -> L {
@@ -319,14 +324,15 @@ impl<L: Lane> Orbit<L> {
         (after, [nx, ny], reflected)
     }
 
-    /// A rate above all of the flight's first moments: of turning, of toppling, and of another
-    /// point becoming the lowest (the opposite one of the rim as the tilt vanishes, the other rim's
-    /// as u becomes horizontal).
+    /// A time that is a `share` of what the flight's first moments take at the fastest: of turning,
+    /// of toppling, and of another point becoming the lowest (the opposite one of the rim as the
+    /// tilt vanishes, the other rim's as u becomes horizontal).
     #[inline(always)]
-    pub(crate) fn fastest(&self, m: &Motion<L>) -> L {
+    pub(crate) fn moment(&self, m: &Motion<L>, share: L) -> L {
         let least = L::splat(LEAST_SIN);
-        let swap = self.across / (m.sin * m.cos.max(least)).max(least);
-        L::splat(1.0) + self.rate + swap
+        let way = (m.sin * m.cos.max(least)).max(least);
+        // share/(1 + w + across/way)
+        share * way / ((L::splat(1.0) + self.rate) * way + self.across)
     }
 
     /// What drag leaves of the angular momentum at time `t`.
@@ -338,13 +344,14 @@ impl<L: Lane> Orbit<L> {
         remains(self.drag.angular, self.since_start(t))
     }
 
-    /// Whether Newton's step of length `step`, with the second-order term, has its error of third
-    /// order below all rounding: f''' is of the order of the cube of the rates.
+    /// Whether Newton's step of length `step`, with the second-order term, leaves a gap below
+    /// 1e-14: its error is of third order, and f''' of the order of the cube of the rates.
     #[inline(always)]
     pub(crate) fn resolves(&self, step: L, sin: L) -> L::Mask {
-        const THIRD_ORDER: f64 = 2e-6;
-        let fastest = L::splat(1.0) + self.rate + self.across / sin;
-        (step.abs() * fastest).lt(L::splat(THIRD_ORDER))
+        const THIRD_ORDER: f64 = 2e-5;
+        // the fastest rate times sin
+        let fastest = (L::splat(1.0) + self.rate) * sin + self.across;
+        (step.abs() * fastest).lt(L::splat(THIRD_ORDER) * sin)
     }
 
     /// How far the centre goes sideways.
@@ -353,20 +360,32 @@ impl<L: Lane> Orbit<L> {
         (m.vx * t * p, m.vy * t * p)
     }
 
-    /// Bounds that hold for the whole flight.
+    /// What bounds the whole flight.
     #[inline(always)]
-    pub(crate) fn bounds(&self, body: &Body) -> Bounds<L> {
+    pub(crate) fn extent(&self, body: &Body) -> Extent<L> {
         let amplitude = (self.b[2] * self.b[2] + self.d[2] * self.d[2]).sqrt();
-        let middle = self.a[2].abs();
+        Extent {
+            amplitude,
+            clear: highest(body, self.a[2].abs(), amplitude),
+            reach: L::splat(REACH) / self.across,
+        }
+    }
+
+    /// Bounds that hold for the flight from now on.
+    #[inline(always)]
+    pub(crate) fn bounds(&self, extent: &Extent<L>) -> Bounds<L> {
+        let amplitude = extent.amplitude;
         let faster = self.rate + L::splat(self.drag.angular);
         let swing = self.rate * faster * amplitude;
         Bounds {
+            rate: self.rate,
             swing,
-            spread: swing * (middle + amplitude),
+            spread: swing * (self.a[2].abs() + amplitude),
             wander: self.across,
             bend: faster * self.across,
             climb: self.horizontal * faster,
-            clear: highest(body, middle, amplitude),
+            clear: extent.clear,
+            reach: extent.reach,
         }
     }
 }
@@ -395,9 +414,43 @@ fn remains<L: Lane>(k: f64, t: L) -> L {
     (L::splat(1.0) - x * p).max(L::splat(0.0))
 }
 
+/// Part of its distance from the vertical that u may go while [`Bounds::jerk`] holds.
+const REACH: f64 = 0.25;
+
+/// What bounds a flight beside its orbit.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Extent<L> {
+    /// uz goes this far to either side.
+    amplitude: L,
+    /// No contact while the centre is above this.
+    pub(crate) clear: L,
+    /// [`REACH`] over the greatest speed of u.
+    reach: L,
+}
+
+impl<T: Copy> Extent<T> {
+    /// All of it, for memory.
+    #[inline(always)]
+    pub(crate) fn numbers(&self) -> [T; 3] {
+        [self.amplitude, self.clear, self.reach]
+    }
+
+    /// The extent of [`numbers`](Self::numbers).
+    #[inline(always)]
+    pub(crate) fn of(&[amplitude, clear, reach]: &[T; 3]) -> Self {
+        Self {
+            amplitude,
+            clear,
+            reach,
+        }
+    }
+}
+
 /// See [`Orbit::bounds`].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Bounds<L> {
+    /// u turns no faster.
+    rate: L,
     /// |uz''| is nowhere larger.
     pub(crate) swing: L,
     /// Half of (sin²)'' is nowhere larger.
@@ -410,33 +463,22 @@ pub(crate) struct Bounds<L> {
     pub(crate) climb: L,
     /// No contact while the centre is above this.
     pub(crate) clear: L,
+    reach: L,
 }
 
-impl<T: Copy> Bounds<T> {
-    /// All of them, for memory.
+impl<L: Lane> Bounds<L> {
+    /// |f'''| of a rim is nowhere larger, without drag, for the time that it also gives: while u
+    /// is no nearer the vertical than 1 − [`REACH`] of what it is, `sin`. See `search`, *Below*.
     #[inline(always)]
-    pub(crate) fn numbers(&self) -> [T; 6] {
-        [
-            self.swing,
-            self.spread,
-            self.wander,
-            self.bend,
-            self.climb,
-            self.clear,
-        ]
-    }
-
-    /// The bounds of [`numbers`](Self::numbers).
-    #[inline(always)]
-    pub(crate) fn of(numbers: &[T; 6]) -> Self {
-        let [swing, spread, wander, bend, climb, clear] = *numbers;
-        Self {
-            swing,
-            spread,
-            wander,
-            bend,
-            climb,
-            clear,
-        }
+    pub(crate) fn jerk(&self, body: &Body, sin: L, inverse_sin: L) -> (L, L) {
+        const CROSS: f64 = 3.0 / (1.0 - REACH);
+        // 3·2/√27 over (1 − REACH)², a rounding up
+        const CUBE: f64 = 1.154_701 / ((1.0 - REACH) * (1.0 - REACH));
+        let turns = self.wander * inverse_sin;
+        let bends =
+            self.rate * self.rate + turns * (L::splat(CROSS) * self.rate + L::splat(CUBE) * turns);
+        let jerk = L::splat(body.half) * self.rate * self.swing
+            + L::splat(body.radius) * self.wander * bends;
+        (jerk, self.reach * sin)
     }
 }

@@ -13,6 +13,14 @@
 //!   and as |a + a'τ| is convex it lies below its chord over [0, T]: with the chord's slope σ,
 //!   f_b(τ) >= f_b + (f_b' + R sin' − Rσ) τ − ½(1 + h·swing + R·bend) τ² for τ <= T.
 //!   This is the one for a coin that claps down flat: its u comes in along a radius, σ = sin'.
+//! * without drag, a gap that widens is followed by its curvature: f(τ) >= f' τ + ½f''τ² − J τ³/6
+//!   with J no less than |f'''| until then. uz''' is at most w·swing. With V = wander, the part of
+//!   a' along a being sin' and the part across p, p² + sin'² <= V², differentiation of |a| gives
+//!   sin''' = 3 p a''_p/sin − 3 p² sin'/sin² + a''' along a, where |a''| <= wV, |a'''| <= w²V and
+//!   |p² sin'| <= 2V³/√27. Until τ = sin/(4V) sin is no less than ¾ of what it is, so
+//!   J = h w·swing + R V(w² + (3/¾) wV/sin + (6/√27)(V/(¾ sin))²). For the short flights of a coin
+//!   that comes to rest this bound is all but f itself, where the first is many times too steep;
+//!   after lift-off, where f, f' and f'' vanish together, its steps grow by a constant factor.
 //!
 //! The search steps to the first root of the best bound of the worse rim: no root is passed.
 //!
@@ -24,7 +32,7 @@
 //! with exactly one root of f before it. From there, Newton's method with the second-order term
 //! closes in, bisecting where it leaves the bracket.
 
-use super::orbit::{Bounds, Gap, Orbit};
+use super::orbit::{Bounds, Extent, Gap, Orbit};
 use crate::body::Body;
 use crate::motion::Motion;
 use coinmc_lanes::{Lane, Mask};
@@ -82,7 +90,7 @@ pub(super) struct Search<L: Lane> {
 #[inline(always)]
 pub(crate) fn least_time<L: Lane>(orbit: &Orbit<L>, motion: &Motion<L>, parting: L::Mask) -> L {
     let share = L::select(parting, L::splat(PARTING), L::splat(THROWN));
-    share / orbit.fastest(motion)
+    orbit.moment(motion, share)
 }
 
 /// Time of the first contact of a flight, counted as the orbit counts it on return: from where the
@@ -94,9 +102,10 @@ pub(crate) fn first_contact<L: Lane>(
     departure: Departure,
     least: L,
 ) -> Found<L> {
-    let bounds = orbit.bounds(body);
+    let extent = orbit.extent(body);
     let launched = L::Mask::splat(departure == Departure::Launched);
-    let mut search = Search::new(orbit, &bounds, launched, least);
+    let mut search = Search::new(orbit, &extent, launched, least);
+    let bounds = orbit.bounds(&extent);
     let mut gap = orbit.first_gap(body);
     for _ in 0..MAX_EVALUATIONS {
         search.step(orbit, body, &bounds, &gap);
@@ -116,13 +125,13 @@ impl<L: Lane> Search<L> {
     #[inline(always)]
     pub(super) fn new(
         orbit: &mut Orbit<L>,
-        bounds: &Bounds<L>,
+        extent: &Extent<L>,
         launched: L::Mask,
         least: L,
     ) -> Self {
         let zero = L::splat(0.0);
         let (z, vz) = orbit.fall(zero);
-        let skip = high_step(orbit, bounds, z, vz);
+        let skip = high_step(orbit, extent.clear, z, vz);
         let departs = skip.le(zero);
         let skips = zero.lt(skip);
         if skips.any() {
@@ -182,12 +191,17 @@ impl<L: Lane> Search<L> {
             let (mut own, other) = lower_bound_steps(orbit, body, bounds, now);
             let lingers = leaves & free;
             if lingers.any() {
-                // not beyond where the opposite point of the rim may come down instead
-                let (_, until) = chord(now);
-                own = L::select(lingers, own.max(self.least.min(until)), own);
+                let short = lingers & own.lt(self.least);
+                if short.any() {
+                    // not beyond where the opposite point of the rim may come down instead
+                    let (_, until) = chord(now);
+                    own = L::select(short, own.max(self.least.min(until)), own);
+                }
                 self.least = L::select(lingers, self.least + self.least, self.least);
             }
-            let step = own.min(other).max(high_step(orbit, bounds, now.z, now.vz));
+            let step = own
+                .min(other)
+                .max(high_step(orbit, bounds.clear, now.z, now.vz));
             self.advance(step, free);
         }
     }
@@ -247,9 +261,9 @@ impl<L: Lane> Search<L> {
 
 /// Time for which the centre certainly stays above all contact; 0 if it is not above.
 #[inline(always)]
-fn high_step<L: Lane>(orbit: &Orbit<L>, bounds: &Bounds<L>, z: L, vz: L) -> L {
+fn high_step<L: Lane>(orbit: &Orbit<L>, clear: L, z: L, vz: L) -> L {
     let zero = L::splat(0.0);
-    let excess = z - bounds.clear;
+    let excess = z - clear;
     let high = zero.lt(excess);
     if !high.any() {
         return zero;
@@ -278,7 +292,10 @@ fn lower_bound_steps<L: Lane>(
         rise: L::splat(2.0) * half * now.uz.abs(),
         climb: L::splat(2.0) * half * now.uz_rate * L::splat(1.0).copysign(now.uz),
     };
-    let (own, other) = rims.steps(now.slope, bend);
+    let (mut own, other) = rims.steps(now.slope, bend);
+    if !orbit.is_dragged() {
+        own = own.max(widening_step(body, bounds, now, inverse));
+    }
     let flat = now.sin.lt(L::splat(SMALL));
     if !flat.any() {
         return (own, other);
@@ -292,6 +309,17 @@ fn lower_bound_steps<L: Lane>(
         L::select(flat, own.max(coarse.0).max(straight.0.min(until)), own),
         L::select(flat, other.max(coarse.1).max(straight.1.min(until)), other),
     )
+}
+
+/// Time for which the gap of the lowest rim, which widens, certainly goes on to be open: by its
+/// curvature now and the bound of the next derivative. 0 if it does not widen.
+#[inline(always)]
+fn widening_step<L: Lane>(body: &Body, bounds: &Bounds<L>, now: &Gap<L>, inverse_sin: L) -> L {
+    let zero = L::splat(0.0);
+    let (jerk, until) = bounds.jerk(body, now.sin, inverse_sin);
+    let (curvature, bend) = (L::splat(0.5) * now.curvature, L::splat(1.0 / 3.0) * jerk);
+    let step = first_root(now.slope, curvature, bend).min(until);
+    L::select(zero.le(now.slope), step, zero)
 }
 
 /// The gap of the lowest rim, and by how much and how fast the other is higher.

@@ -5,7 +5,7 @@
 //! step for all flights there are; a flight that is done leaves, and another may take its lane. The
 //! second ([`close_in`]) follows where flights that have left are gathered.
 
-use super::orbit::{Bounds, Drag, Orbit};
+use super::orbit::{Drag, Extent, Orbit};
 use super::search::{MAX_EVALUATIONS, Search};
 use crate::body::Body;
 use crate::motion::Motion;
@@ -15,15 +15,16 @@ use coinmc_lanes::{Lanes, Mask};
 /// Numbers of a flight on search beside its orbit and bounds: time, least, evaluations.
 const SEARCH: usize = 3;
 const ORBIT: usize = Orbit::<f64>::NUMBERS;
-const BOUNDS: usize = 6;
+const EXTENT: usize = 3;
 /// Of a motion: its own, and the axial spin.
 pub(crate) const MOTION: usize = 10;
 
 /// Flights on search, one a lane.
 #[derive(Debug, Clone)]
+#[repr(C, align(64))]
 pub(crate) struct Group {
     orbit: [Block; ORBIT],
-    bounds: [Block; BOUNDS],
+    extent: [Block; EXTENT],
     search: [Block; SEARCH],
     /// The bracket of a flight that has left.
     bracket: [Block; 2],
@@ -33,7 +34,7 @@ pub(crate) struct Group {
     launched: Bits,
     /// On search.
     active: Bits,
-    /// Of those that have left: the root is in the bracket; the search was given up.
+    /// Of those that have left: the root is yet to be found in the bracket; the search was given up.
     bracketed: Bits,
     lost: Bits,
     /// Those that have left with the last step.
@@ -44,6 +45,7 @@ pub(crate) struct Group {
 
 /// Flights at the end of their search.
 #[derive(Debug, Clone, Copy)]
+#[repr(C, align(64))]
 pub(crate) struct Leavers {
     orbit: [Block; ORBIT],
     motion: [Block; MOTION],
@@ -72,7 +74,7 @@ impl Default for Group {
     fn default() -> Self {
         Self {
             orbit: [[0.0; WIDTH]; ORBIT],
-            bounds: [[0.0; WIDTH]; BOUNDS],
+            extent: [[0.0; WIDTH]; EXTENT],
             search: [[0.0; WIDTH]; SEARCH],
             bracket: [[0.0; WIDTH]; 2],
             motion: [[0.0; WIDTH]; MOTION],
@@ -106,7 +108,7 @@ impl Group {
         for (to, from) in self.orbit.iter_mut().zip(&from.orbit) {
             to[lane] = from[at];
         }
-        for (to, from) in self.bounds.iter_mut().zip(&from.bounds) {
+        for (to, from) in self.extent.iter_mut().zip(&from.extent) {
             to[lane] = from[at];
         }
         for (to, from) in self.search.iter_mut().zip(&from.search) {
@@ -159,6 +161,7 @@ impl Group {
 
 /// Flights about to begin.
 #[derive(Debug, Clone)]
+#[repr(C, align(64))]
 pub(crate) struct Departing {
     pub(crate) motion: [Block; MOTION],
     pub(crate) launched: Bits,
@@ -234,7 +237,7 @@ impl Group {
     fn step<L: Wide>(&mut self, body: &Body, drag: Drag) {
         let group = self;
         let orbit = Orbit::of(&load::<L, ORBIT>(&group.orbit), drag);
-        let bounds = Bounds::of(&load::<L, BOUNDS>(&group.bounds));
+        let bounds = orbit.bounds(&Extent::of(&load::<L, EXTENT>(&group.extent)));
         let [time, least, before] = load::<L, SEARCH>(&group.search);
         let mut search = Search {
             time,
@@ -248,9 +251,10 @@ impl Group {
         };
         let gap = orbit.gap(body, time);
         search.approach(&orbit, body, &bounds, &gap);
+        search.close_in(&orbit, &gap);
         let evaluations = before + L::splat(1.0);
         let out = L::splat(f64::from(MAX_EVALUATIONS)).le(evaluations);
-        let lost = search.active & out & !search.bracketed;
+        let lost = search.active & out;
         // lanes that are free, or wait to be gathered, keep what they have
         let was_active = L::mask(group.active);
         let numbers = [
@@ -265,7 +269,8 @@ impl Group {
             L::select(was_active, search.high, high),
         ];
         store(&mut group.bracket, &bracket);
-        let (was, bracketed) = (group.active, L::bits(search.bracketed));
+        let bracketed = search.bracketed & search.active & !out;
+        let (was, bracketed) = (group.active, L::bits(bracketed));
         let lost = L::bits(lost) & was;
         group.bracketed = (group.bracketed & !was) | (bracketed & was);
         group.lost = (group.lost & !was) | lost;
@@ -290,17 +295,24 @@ impl Work for Depart<'_> {
         let mut orbit = Orbit::new(&motion, self.drag);
         let parting = L::mask(self.begin.parting);
         let least = super::least_time(&orbit, &motion, parting);
-        let bounds = orbit.bounds(self.body);
+        let extent = orbit.extent(self.body);
         let launched = L::mask(self.begin.launched);
-        let search = Search::new(&mut orbit, &bounds, launched, least);
+        let begins = Search::new(&mut orbit, &extent, launched, least);
+        let mut search = begins;
+        let gap = orbit.first_gap(self.body);
+        search.approach(&orbit, self.body, &orbit.bounds(&extent), &gap);
+        // what ends here, or is bracketed, is done again by the next sweep, which sees to its end
+        let goes_on = search.active & !search.bracketed;
+        let numbers = [
+            L::select(goes_on, search.time, begins.time),
+            L::select(goes_on, search.least, begins.least),
+            L::select(goes_on, L::splat(1.0), L::splat(0.0)),
+        ];
         let group = self.group;
         store(&mut group.orbit, &orbit.numbers());
-        store(&mut group.bounds, &bounds.numbers());
-        store(
-            &mut group.search,
-            &[search.time, search.least, L::splat(0.0)],
-        );
-        group.departs = L::bits(search.departs);
+        store(&mut group.extent, &extent.numbers());
+        store(&mut group.search, &numbers);
+        group.departs = L::bits(begins.departs);
         group.launched = self.begin.launched;
     }
 }
@@ -328,10 +340,10 @@ impl Leavers {
             let gap = orbit.gap(body, search.time);
             search.touch(&gap);
             search.close_in(orbit, &gap);
+            evaluations += L::splat(1.0);
             let out = search.active & most.le(evaluations);
             lost = lost | out;
             search.active = search.active & !out;
-            evaluations += L::splat(1.0);
         }
         (search.time, lost)
     }

@@ -110,3 +110,38 @@ fn lanes_of_flight_do_not_see_each_other() {
         }
     }
 }
+
+/// What the search for a widening gap steps by: until `until`, the gap of a rim is no less than the
+/// cubic with the greatest jerk, and that is no empty bound.
+#[test]
+fn no_rim_closes_faster_than_its_jerk_allows() {
+    let (mut shares, mut checked) = (0.0, 0_u32);
+    for (trial, ratio) in (0..3000).zip([0.1, 0.85, 2.0, 10.0].into_iter().cycle()) {
+        let body = Body::new(&Coin::cylinder(ratio, 0.01).expect("a good coin"));
+        let none = Drag {
+            linear: 0.0,
+            angular: 0.0,
+        };
+        let orbit = Orbit::new(&motion(&body, trial, trial % 2 == 0), none);
+        let bounds = orbit.bounds(&orbit.extent(&body));
+        let now = orbit.first_gap(&body);
+        let (jerk, until) = bounds.jerk(&body, now.sin, 1.0 / now.sin);
+        for i in 1..=40 {
+            let t = until * f64::from(i) / 40.0;
+            let then = orbit.gap(&body, t);
+            // of the rim that is the lowest at first
+            let touch = body.half.copysign(now.uz) * then.uz + body.radius * then.sin;
+            let fall = then.z - touch - now.height;
+            let parabola = t * (now.slope + 0.5 * t * now.curvature);
+            let most = jerk * t * t * t / 6.0;
+            // rounding of heights and of what cancels in the curvature
+            let rounding = 1e-13 * (1.0 + then.z + t * t * now.curvature.abs());
+            let error = (fall - parabola).abs();
+            assert!(error <= most + rounding, "{trial} {t}: {error:e} {most:e}");
+            shares += error / most.max(rounding);
+            checked += 1;
+        }
+    }
+    let mean = shares / f64::from(checked);
+    assert!(mean > 0.01, "{mean}");
+}

@@ -91,8 +91,8 @@ impl<L: Lane> Touch<L> {
     #[inline(always)]
     pub fn matrix(&self, body: &Body) -> ContactMatrix<L> {
         let one = L::splat(1.0);
-        let kt = L::splat(body.kt);
-        let (x, z) = (self.rx / kt, self.rz / kt);
+        let inverse_kt = L::splat(1.0 / body.kt);
+        let (x, z) = (self.rx * inverse_kt, self.rz * inverse_kt);
         ContactMatrix {
             xx: one + self.rz * z,
             xz: -(self.rx * z),
@@ -148,17 +148,18 @@ impl<L: Lane> Impulse<L> {
     /// What the impulse changes.
     #[inline(always)]
     pub fn kick(self, body: &Body, touch: &Touch<L>) -> Kick<L> {
-        let kt = L::splat(body.kt);
+        let (inverse_kt, inverse_ka) = (L::splat(1.0 / body.kt), L::splat(1.0 / body.ka));
         // J_c/s first: with J_c <= ρ_c p_z the quotient is what stays finite as s → 0
         let rim = self.contour / touch.sin;
         Kick {
             vx: self.x,
             vy: self.y,
             vz: self.z,
-            omega_y: (touch.rz * self.x - touch.rx * self.z) / kt,
+            omega_y: (touch.rz * self.x - touch.rx * self.z) * inverse_kt,
             spin: (L::splat(body.radius) * self.y - self.contour - touch.cos * self.pivoting)
-                / L::splat(body.ka),
-            turn: (L::splat(body.half) * self.y - touch.cos * rim + touch.sin * self.pivoting) / kt,
+                * inverse_ka,
+            turn: (L::splat(body.half) * self.y - touch.cos * rim + touch.sin * self.pivoting)
+                * inverse_kt,
         }
     }
 

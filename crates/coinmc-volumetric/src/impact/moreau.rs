@@ -86,10 +86,24 @@ struct Problem<L> {
     twist: Option<Limited<L>>,
 }
 
-/// φ(σ) = μ p_z/|p_t| − 1 and its derivative.
+/// One σ, and the quotients of it that friction needs.
+struct Trial<L> {
+    sigma: L,
+    /// 1/(σ + α), 1/(σ + K_yy) and 1/(1 + σ).
+    x: L,
+    y: L,
+    rigid: L,
+}
+
+/// φ(σ) = μ p_z/|p_t| − 1 as a difference over |p_t|, and Newton's step to its root, σ and all
+/// impulses scaled by σ + α.
 struct Cone<L> {
-    phi: L,
-    slope: L,
+    /// μ p_z and |p_t|.
+    limit: L,
+    size: L,
+    /// Newton's step as a quotient; its denominator has the sign of φ'.
+    step: L,
+    over: L,
 }
 
 impl<L: Lane> Problem<L> {
@@ -119,9 +133,24 @@ impl<L: Lane> Problem<L> {
         }
     }
 
+    /// A σ with its quotients: one division for two. (One for all three would leave the range of
+    /// numbers where friction is next to nothing and σ beyond 1e100.)
+    #[inline(always)]
+    fn at(&self, sigma: L) -> Trial<L> {
+        let one = L::splat(1.0);
+        let (y, rigid) = (sigma + self.yy, sigma + one);
+        let inverse = one / (y * rigid);
+        Trial {
+            sigma,
+            x: one / (sigma + self.alpha),
+            y: rigid * inverse,
+            rigid: y * inverse,
+        }
+    }
+
     /// The sideways slip that p_y has to oppose, with the friction lengths' share.
     #[inline(always)]
-    fn sideways(&self, sigma: L) -> Twisted<L> {
+    fn sideways(&self, at: &Trial<L>) -> Twisted<L> {
         let zero = L::splat(0.0);
         match &self.twist {
             None => Twisted {
@@ -131,9 +160,8 @@ impl<L: Lane> Problem<L> {
                 slope: zero,
             },
             Some(limited) => {
-                let inverse = L::splat(1.0) / (sigma + self.alpha);
-                let lift = self.coupling * self.slip_x * inverse;
-                limited.joint(sigma, self.base + lift, -(lift * inverse))
+                let lift = self.coupling * self.slip_x * at.x;
+                limited.joint(at.sigma, at.y, at.rigid, self.base + lift, -(lift * at.x))
             }
         }
     }
@@ -142,29 +170,40 @@ impl<L: Lane> Problem<L> {
     /// and φ is linear in σ but for the ratio q = (σ + α)/(σ + K_yy), which changes little.
     #[inline(always)]
     fn cone(&self, sigma: L) -> Cone<L> {
-        let side = self.sideways(sigma);
+        let at = self.at(sigma);
+        let side = self.sideways(&at);
         let (y, dy) = (side.slip_y, side.slope);
         let reach = sigma + self.alpha;
-        let inverse = L::splat(1.0) / (sigma + self.yy);
-        let q = reach * inverse;
-        let dq = (self.yy - self.alpha) * inverse * inverse;
+        let q = reach * at.y;
+        let dq = (self.yy - self.alpha) * at.y * at.y;
         let cross = y * q;
-        let size = (self.slip_x * self.slip_x + cross * cross).sqrt();
+        let square = self.slip_x * self.slip_x + cross * cross;
+        let size = square.sqrt();
         let limit = self.mu * (self.base * reach + self.coupling * self.slip_x);
-        let inverse = L::splat(1.0) / size;
-        let ratio = limit * inverse;
-        let growth = cross * (dy * q + y * dq) * inverse;
+        let growth = cross * (dy * q + y * dq);
         Cone {
-            phi: ratio - L::splat(1.0),
-            slope: (self.mu * self.base - ratio * growth) * inverse,
+            limit,
+            size,
+            step: (limit - size) * square,
+            over: self.mu * self.base * square - limit * growth,
         }
     }
 
-    /// σ if the ratio q were 1, its limit for little friction: exact for slip along x.
+    /// σ if the ratio q were what it is where it would be 1 (its limit for little friction): nearly
+    /// exact without friction lengths.
     #[inline(always)]
     fn guess(&self) -> L {
-        let size = (self.slip_x * self.slip_x + self.slip_y * self.slip_y).sqrt();
-        let reach = (size / self.mu - self.coupling * self.slip_x) / self.base;
+        let inverse = L::splat(1.0) / (self.mu * self.base);
+        let first = self.sigma(self.slip_y, inverse);
+        let q = (first + self.alpha) / (first + self.yy);
+        self.sigma(self.slip_y * q, inverse)
+    }
+
+    /// σ if the sideways slip times q were `cross`; `inverse` is 1/(μ·base).
+    #[inline(always)]
+    fn sigma(&self, cross: L, inverse: L) -> L {
+        let size = (self.slip_x * self.slip_x + cross * cross).sqrt();
+        let reach = (size - self.mu * self.coupling * self.slip_x) * inverse;
         // bounded, so that a friction too small for its root to be a number stays finite
         (reach - self.alpha).max(L::splat(0.0)).min(L::splat(1e150))
     }
@@ -172,16 +211,16 @@ impl<L: Lane> Problem<L> {
     #[inline(always)]
     fn solve(&self, sin: L) -> Impulse<L> {
         let zero = L::splat(0.0);
-        let still = self.sideways(zero);
-        let stick = self.impulse(zero, &still, sin);
+        let still = self.at(zero);
+        let stick = self.impulse(&still, &self.sideways(&still), sin);
         let (size, limit) = (stick.x * stick.x + stick.y * stick.y, self.mu * stick.z);
         let sticks = zero.lt(stick.z) & size.le(limit * limit);
         let active = zero.lt(self.base) & !sticks;
         if !active.any() {
             return Impulse::select(sticks, stick, Impulse::none());
         }
-        let sigma = self.root(self.guess(), active);
-        let slide = self.impulse(sigma, &self.sideways(sigma), sin);
+        let slides = self.at(self.root(self.guess(), active));
+        let slide = self.impulse(&slides, &self.sideways(&slides), sin);
         let slide = Impulse::select(active, slide, Impulse::none());
         Impulse::select(sticks, stick, slide)
     }
@@ -199,18 +238,18 @@ impl<L: Lane> Problem<L> {
         let (mut low, mut high) = (zero, L::splat(f64::INFINITY));
         for _ in 0..MAX_STEPS {
             let cone = self.cone(sigma);
-            let below = cone.phi.lt(zero);
+            let below = cone.limit.lt(cone.size);
             low = L::select(active & below, sigma, low);
             high = L::select(active & !below, sigma, high);
-            let newton = sigma - cone.phi / cone.slope;
-            let inside = low.le(newton) & newton.le(high) & zero.lt(cone.slope);
+            let newton = sigma - cone.step / cone.over;
+            let inside = low.le(newton) & newton.le(high) & zero.lt(cone.over);
             // without an upper end yet the bracket grows, else it is halved
             let open = two * (sigma + self.alpha);
-            let half = low + (high - low) / two;
+            let half = low + (high - low) * L::splat(0.5);
             let fallback = L::select(high.lt(L::splat(f64::INFINITY)), half, open);
             let next = L::select(inside, newton, fallback);
             let moved = (next - sigma).abs();
-            let converged = cone.phi.abs().le(close) & inside
+            let converged = (cone.limit - cone.size).abs().le(close * cone.size) & inside
                 | moved.le(L::splat(f64::EPSILON) * (sigma + self.alpha));
             sigma = L::select(active, next, sigma);
             active = active & !converged;
@@ -222,11 +261,11 @@ impl<L: Lane> Problem<L> {
     }
 
     #[inline(always)]
-    fn impulse(&self, sigma: L, side: &Twisted<L>, sin: L) -> Impulse<L> {
-        let x = -self.slip_x / (sigma + self.alpha);
+    fn impulse(&self, at: &Trial<L>, side: &Twisted<L>, sin: L) -> Impulse<L> {
+        let x = -(self.slip_x * at.x);
         Impulse {
             x,
-            y: -side.slip_y / (sigma + self.yy),
+            y: -(side.slip_y * at.y),
             z: self.base - self.coupling * x,
             contour: sin * side.contour,
             pivoting: side.pivoting,

@@ -192,22 +192,25 @@ impl<L: Lane> Limited<L> {
         self.least(&reduced, z.max(L::splat(0.0)))
     }
 
-    /// C and P jointly with p_y = −slip_y⁺/σ, and the derivative by σ; `dz` is that of z.
+    /// C and P jointly with p_y = −slip_y⁺/σ, and the derivative by σ; `dz` is that of z, `inverse`
+    /// is 1/(σ + K_yy) and `rigid` 1/(1 + σ).
     #[inline(always)]
-    pub(super) fn joint(&self, sigma: L, z: L, dz: L) -> Twisted<L> {
+    pub(super) fn joint(&self, sigma: L, inverse: L, rigid: L, z: L, dz: L) -> Twisted<L> {
         let r = &self.rates;
-        let one = L::splat(1.0);
-        let inverse = one / (sigma + self.yy);
         let (roll_y, pivot_y) = (r.roll_y * inverse, r.pivot_y * inverse);
+        // both inverse masses times σ + K_yy, and one quotient for both
+        let reach = sigma + self.yy;
+        let roll = r.roll_roll * reach - r.roll_y * r.roll_y;
+        let pivot = r.pivot_pivot * reach - r.pivot_y * r.pivot_y;
+        let share = reach / (roll * pivot);
         // without limits the coin stops turning and the centre moves on with −σ p_y
-        let rigid = one / (one + sigma);
         let drift = self.centre * rigid;
         let reduced = Reduced {
             roll: r.roll - roll_y * self.slip_y,
             pivot: r.pivot - pivot_y * self.slip_y,
             roll_pivot: r.roll_pivot - roll_y * r.pivot_y,
-            roll_mass: one / (r.roll_roll - roll_y * r.roll_y),
-            pivot_mass: one / (r.pivot_pivot - pivot_y * r.pivot_y),
+            roll_mass: pivot * share,
+            pivot_mass: roll * share,
             free: self.momentum - self.rx * drift,
         };
         let positive = z.max(L::splat(0.0));

@@ -5,6 +5,7 @@
 mod common;
 mod decision;
 mod flight;
+mod hardest;
 mod hostile;
 mod impacts;
 mod limits;
