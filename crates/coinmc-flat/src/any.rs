@@ -7,6 +7,8 @@ use crate::line::LineImpact;
 use crate::paper::PaperImpact;
 use crate::settings::{Law, Settings, SettingsError};
 use coinmc_core::{Engine, Launch, Observer, Outcome, Scene};
+use coinmc_lanes::{Lanes, NoSuchLanes};
+use std::ops::ControlFlow;
 
 /// An engine of any law, for callers that learn the law at run time: one `match`, then static
 /// dispatch.
@@ -51,19 +53,57 @@ impl AnyFlatEngine {
     }
 }
 
-/// One `match` a toss: for callers that have no loop of their own to compile for each law.
+/// The same of every law.
+macro_rules! each_law {
+    ($any:expr, $engine:ident => $same:expr) => {
+        match $any {
+            Self::Moreau($engine) => $same,
+            Self::ChatterjeeRuina($engine) => $same,
+            Self::Paper($engine) => $same,
+            Self::HalfSine($engine) => $same,
+            Self::LineContact($engine) => $same,
+        }
+    };
+}
+
+impl AnyFlatEngine {
+    /// The same with these lanes instead of the fastest of this processor, for [`Engine::toss_all`].
+    ///
+    /// # Errors
+    /// [`NoSuchLanes`] if this processor has no such instructions.
+    pub fn with_lanes(self, lanes: Lanes) -> Result<Self, NoSuchLanes> {
+        Ok(match self {
+            Self::Moreau(engine) => Self::Moreau(engine.with_lanes(lanes)?),
+            Self::ChatterjeeRuina(engine) => Self::ChatterjeeRuina(engine.with_lanes(lanes)?),
+            Self::Paper(engine) => Self::Paper(engine.with_lanes(lanes)?),
+            Self::HalfSine(engine) => Self::HalfSine(engine.with_lanes(lanes)?),
+            Self::LineContact(engine) => Self::LineContact(engine.with_lanes(lanes)?),
+        })
+    }
+
+    /// The lanes of [`Engine::toss_all`].
+    pub fn lanes(&self) -> Lanes {
+        each_law!(self, engine => engine.lanes())
+    }
+}
+
+/// One `match` a toss, or a batch of them: for callers that have no loop of their own to compile for
+/// each law.
 impl Engine for AnyFlatEngine {
     type Workspace = ();
 
     fn workspace(&self) {}
 
     fn toss(&self, (): &mut (), launch: &Launch, observer: &mut impl Observer) -> Outcome {
-        match self {
-            Self::Moreau(engine) => engine.toss(&mut (), launch, observer),
-            Self::ChatterjeeRuina(engine) => engine.toss(&mut (), launch, observer),
-            Self::Paper(engine) => engine.toss(&mut (), launch, observer),
-            Self::HalfSine(engine) => engine.toss(&mut (), launch, observer),
-            Self::LineContact(engine) => engine.toss(&mut (), launch, observer),
-        }
+        each_law!(self, engine => engine.toss(&mut (), launch, observer))
+    }
+
+    fn toss_all(
+        &self,
+        (): &mut (),
+        launches: impl Iterator<Item = Launch>,
+        each: impl FnMut(u64, &Outcome) -> ControlFlow<()>,
+    ) {
+        each_law!(self, engine => engine.toss_all(&mut (), launches, each));
     }
 }

@@ -12,9 +12,9 @@ use crate::impact::ContactMatrix;
 use crate::motion::Motion;
 use crate::pivot::{PivotEnd, glide, stick, stuck_forces};
 use crate::shape::Shape;
-use crate::slide::{SlideEnd, SlideTask, slide};
+use crate::slide::{SlideEnd, SlidePhase, SlideTask};
+use crate::trig::sin_cos;
 use crate::watch::Watch;
-use coinmc_core::trig::sin_cos;
 use coinmc_core::{EventKind, Observer};
 
 /// Where the friction needed only grazes the cone, sticking sees it reached and sliding sees it
@@ -35,6 +35,43 @@ pub(crate) enum Leave {
     Balanced,
     /// Out of steps.
     Lost,
+}
+
+/// What sustained contact knows beside the motion.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Hold {
+    /// Slip of the corner; 0: at rest, may stick.
+    slip: f64,
+    /// It has got nowhere.
+    stalled: bool,
+    /// Angle before the mode, and whether the corner was at rest then.
+    delta: f64,
+    at_rest: bool,
+}
+
+impl Hold {
+    /// The beginning, with this slip of the corner.
+    pub(crate) fn new(slip: f64) -> Self {
+        Self {
+            slip,
+            stalled: false,
+            delta: 0.0,
+            at_rest: false,
+        }
+    }
+}
+
+/// A corner that slides.
+#[derive(Debug, Clone)]
+pub(crate) struct Slider {
+    hold: Hold,
+    pub(crate) phase: SlidePhase,
+}
+
+/// What sustained contact has come to.
+pub(crate) enum Poised {
+    Slides(Hold),
+    Leaves(Leave),
 }
 
 /// The laws in force and the counters of one toss.
@@ -61,69 +98,87 @@ impl Contact<'_> {
         energy < 1.0
     }
 
-    /// Follows sustained contact at the lowest corner, which slides at `slip` (0: at rest, may
-    /// stick). The time of closed-form phases is filled in for an observer alone, who is told of
-    /// every mode.
-    pub(crate) fn follow<O: Observer>(
+    /// Follows sustained contact at the lowest corner until it slides, or the contact ends. The time
+    /// of closed-form phases is filled in for an observer alone, who is told of every mode.
+    pub(crate) fn poise<O: Observer>(
         &mut self,
         motion: &mut Motion,
-        mut slip: f64,
+        mut hold: Hold,
         watch: &mut Watch<'_, O>,
-    ) -> Leave {
-        let mut stalled = false;
-        loop {
-            if self.is_certain(motion) {
-                return Leave::Certain;
+    ) -> Poised {
+        if self.is_certain(motion) {
+            return Poised::Leaves(Leave::Certain);
+        }
+        if self.steps >= self.max_steps {
+            return Poised::Leaves(Leave::Lost);
+        }
+        self.steps += 1;
+        let (gap, at_end) = self.shape.gap(motion.quadrant, motion.delta);
+        if gap <= 0.0 && motion.omega != 0.0 && (motion.omega > 0.0) == at_end {
+            return Poised::Leaves(self.next_corner(motion));
+        }
+        (hold.delta, hold.at_rest) = (motion.delta, hold.slip == 0.0);
+        if self.mu == 0.0 || (hold.at_rest && self.can_stick(motion, hold.stalled)) {
+            if motion.omega == 0.0 && motion.delta == 0.0 {
+                return Poised::Leaves(Leave::Balanced);
             }
-            if self.steps >= self.max_steps {
-                return Leave::Lost;
-            }
-            self.steps += 1;
-            let (gap, at_end) = self.shape.gap(motion.quadrant, motion.delta);
-            if gap <= 0.0 && motion.omega != 0.0 && (motion.omega > 0.0) == at_end {
-                return self.next_corner(motion);
-            }
-            let before = motion.energy(self.shape.k);
-            let (delta, at_rest) = (motion.delta, slip == 0.0);
-            if self.mu == 0.0 || (slip == 0.0 && self.can_stick(motion, stalled)) {
-                if motion.omega == 0.0 && motion.delta == 0.0 {
-                    return Leave::Balanced;
-                }
-                watch.event(self.conserving_mode(), motion);
-                let end = if self.mu == 0.0 {
-                    glide(motion, self.shape, watch)
-                } else {
-                    let blind = if stalled { GRAZE } else { 0.0 };
-                    stick(motion, self.shape, self.mu, blind, watch)
-                };
-                motion.cap_energy(self.shape.k, before);
-                match end {
-                    PivotEnd::Flat => return self.next_corner(motion),
-                    PivotEnd::LiftsOff => return Leave::LiftOff,
-                    PivotEnd::Slips => {}
-                }
-            }
-            if slip == 0.0 {
-                match self.slip_direction(motion) {
-                    Some(direction) => slip = 0.0_f64.copysign(direction),
-                    None => return Leave::LiftOff,
-                }
-            }
-            watch.event(EventKind::Sliding, motion);
-            let (end, slip_after) = self.slide(motion, slip, watch);
-            slip = slip_after;
-            match end {
-                SlideEnd::Stops => {
-                    slip = 0.0;
-                    stalled = at_rest && (motion.delta - delta).abs() < GRAZE;
-                }
-                SlideEnd::LiftsOff => return Leave::LiftOff,
-                SlideEnd::Flat => return self.next_corner(motion),
-                SlideEnd::Jams => slip = self.jam(motion, slip),
-                SlideEnd::Certain => return Leave::Certain,
-                SlideEnd::Lost => return Leave::Lost,
+            match self.pivot(motion, hold.stalled, watch) {
+                PivotEnd::Flat => return Poised::Leaves(self.next_corner(motion)),
+                PivotEnd::LiftsOff => return Poised::Leaves(Leave::LiftOff),
+                PivotEnd::Slips => {}
             }
         }
+        if hold.slip == 0.0 {
+            match self.slip_direction(motion) {
+                Some(direction) => hold.slip = 0.0_f64.copysign(direction),
+                None => return Poised::Leaves(Leave::LiftOff),
+            }
+        }
+        watch.event(EventKind::Sliding, motion);
+        Poised::Slides(hold)
+    }
+
+    /// What follows a sliding phase: contact goes on so (`Ok`) or ends.
+    pub(crate) fn slid(
+        &mut self,
+        motion: &mut Motion,
+        slider: &Slider,
+        end: SlideEnd,
+    ) -> Result<Hold, Leave> {
+        let mut hold = slider.hold;
+        self.steps += slider.phase.steps;
+        hold.slip = slider.phase.slip(end);
+        match end {
+            SlideEnd::Stops => {
+                let turned = (motion.delta - hold.delta).abs();
+                hold.stalled = hold.at_rest && turned < GRAZE;
+            }
+            SlideEnd::LiftsOff => return Err(Leave::LiftOff),
+            SlideEnd::Flat => return Err(self.next_corner(motion)),
+            SlideEnd::Jams => hold.slip = self.jam(motion, hold.slip),
+            SlideEnd::Certain => return Err(Leave::Certain),
+            SlideEnd::Lost => return Err(Leave::Lost),
+        }
+        Ok(hold)
+    }
+
+    /// A phase that conserves energy.
+    fn pivot<O: Observer>(
+        &self,
+        motion: &mut Motion,
+        stalled: bool,
+        watch: &mut Watch<'_, O>,
+    ) -> PivotEnd {
+        let before = motion.energy(self.shape.k);
+        watch.event(self.conserving_mode(), motion);
+        let end = if self.mu == 0.0 {
+            glide(motion, self.shape, watch)
+        } else {
+            let blind = if stalled { GRAZE } else { 0.0 };
+            stick(motion, self.shape, self.mu, blind, watch)
+        };
+        motion.cap_energy(self.shape.k, before);
+        end
     }
 
     fn conserving_mode(&self) -> EventKind {
@@ -156,22 +211,19 @@ impl Contact<'_> {
         Some(-1.0_f64.copysign(friction))
     }
 
-    fn slide<O: Observer>(
-        &mut self,
-        motion: &mut Motion,
-        slip: f64,
-        watch: &mut Watch<'_, O>,
-    ) -> (SlideEnd, f64) {
+    /// The sliding phase that begins here.
+    pub(crate) fn slider(&self, motion: &Motion, hold: Hold) -> Slider {
         let task = SlideTask {
             shape: self.shape,
             mu: self.mu,
-            slip,
+            slip: hold.slip,
             tolerance: self.tolerance,
             max_steps: self.max_steps - self.steps,
         };
-        let (end, slip, steps) = slide(motion, &task, watch);
-        self.steps += steps;
-        (end, slip)
+        Slider {
+            hold,
+            phase: SlidePhase::new(motion, &task),
+        }
     }
 
     /// Painlevé's configuration: no finite force lets the corner go on sliding (A <= 0), so it is

@@ -2,10 +2,25 @@
 //! with its continuous extension of order 4 (Hairer, Nørsett & Wanner, *Solving Ordinary
 //! Differential Equations I*, II.6).
 
+use coinmc_lanes::Lane;
+
 /// y' = f(y).
 pub(crate) trait System<const N: usize> {
     /// f(y).
     fn rates(&self, y: &[f64; N]) -> [f64; N];
+}
+
+/// f, where there may be none: as the stages of a step ask for it.
+pub(crate) trait Flow<const N: usize, L> {
+    /// f(y), or `None`.
+    fn rates(&mut self, y: &[L; N]) -> Option<[L; N]>;
+}
+
+impl<const N: usize, L, F: FnMut(&[L; N]) -> Option<[L; N]>> Flow<N, L> for F {
+    #[inline(always)]
+    fn rates(&mut self, y: &[L; N]) -> Option<[L; N]> {
+        self(y)
+    }
 }
 
 /// A step taken.
@@ -24,7 +39,8 @@ impl<const N: usize> Step<N> {
     /// A step of length `h` from `y`, where f is `k1`.
     #[inline]
     pub(crate) fn take(system: &impl System<N>, y: &[f64; N], k1: &[f64; N], h: f64) -> Self {
-        let stages = stages(|y| Some(system.rates(y)), y, k1, h).expect("f is defined everywhere");
+        let stages = stages(|y: &[f64; N]| Some(system.rates(y)), y, k1, h)
+            .expect("f is defined everywhere");
         let [k3, k4, k5, k6] = &stages.inner;
         let end = stages.end;
         let k7 = system.rates(&end);
@@ -62,32 +78,32 @@ impl<const N: usize> Step<N> {
 }
 
 /// The stages of a step that later ones or its end are made of, and its end.
-pub(crate) struct Stages<const N: usize> {
+pub(crate) struct Stages<const N: usize, L = f64> {
     /// The third to the sixth; the second serves the others only.
-    inner: [[f64; N]; 4],
+    inner: [[L; N]; 4],
     /// The state of order 5.
-    pub(crate) end: [f64; N],
+    pub(crate) end: [L; N],
 }
 
 /// The stages of a step of length `h` from `y`, where f is `k1`; `None` if f is, at any of them.
-#[inline]
-pub(crate) fn stages<const N: usize>(
-    rates: impl Fn(&[f64; N]) -> Option<[f64; N]>,
-    y: &[f64; N],
-    k1: &[f64; N],
-    h: f64,
-) -> Option<Stages<N>> {
-    let k2 = rates(&combine(y, h, [(0.2, k1)]))?;
-    let k3 = rates(&combine(y, h, [(3.0 / 40.0, k1), (9.0 / 40.0, &k2)]))?;
+#[inline(always)]
+pub(crate) fn stages<const N: usize, L: Lane>(
+    mut flow: impl Flow<N, L>,
+    y: &[L; N],
+    k1: &[L; N],
+    h: L,
+) -> Option<Stages<N, L>> {
+    let k2 = flow.rates(&combine(y, h, [(0.2, k1)]))?;
+    let k3 = flow.rates(&combine(y, h, [(3.0 / 40.0, k1), (9.0 / 40.0, &k2)]))?;
     let a4 = [(44.0 / 45.0, k1), (-56.0 / 15.0, &k2), (32.0 / 9.0, &k3)];
-    let k4 = rates(&combine(y, h, a4))?;
+    let k4 = flow.rates(&combine(y, h, a4))?;
     let a5 = [
         (19372.0 / 6561.0, k1),
         (-25360.0 / 2187.0, &k2),
         (64448.0 / 6561.0, &k3),
         (-212.0 / 729.0, &k4),
     ];
-    let k5 = rates(&combine(y, h, a5))?;
+    let k5 = flow.rates(&combine(y, h, a5))?;
     let a6 = [
         (9017.0 / 3168.0, k1),
         (-355.0 / 33.0, &k2),
@@ -95,7 +111,7 @@ pub(crate) fn stages<const N: usize>(
         (49.0 / 176.0, &k4),
         (-5103.0 / 18656.0, &k5),
     ];
-    let k6 = rates(&combine(y, h, a6))?;
+    let k6 = flow.rates(&combine(y, h, a6))?;
     let order5 = [
         (35.0 / 384.0, k1),
         (500.0 / 1113.0, &k3),
@@ -112,10 +128,10 @@ pub(crate) fn stages<const N: usize>(
 /// Weight in the difference of the two orders of f at the step's end, the seventh stage.
 pub(crate) const LAST_DIFFERENCE: f64 = -1.0 / 40.0;
 
-impl<const N: usize> Stages<N> {
+impl<const N: usize, L: Lane> Stages<N, L> {
     /// The difference of the two orders but for the share of the seventh stage.
-    #[inline]
-    pub(crate) fn difference<'a>(&'a self, k1: &'a [f64; N]) -> [(f64, &'a [f64; N]); 5] {
+    #[inline(always)]
+    pub(crate) fn difference<'a>(&'a self, k1: &'a [L; N]) -> [(f64, &'a [L; N]); 5] {
         let [k3, k4, k5, k6] = &self.inner;
         [
             (71.0 / 57600.0, k1),
@@ -133,19 +149,21 @@ pub(crate) fn growth(error: f64) -> f64 {
 }
 
 /// y + h Σ weight·rates
-#[inline]
-pub(crate) fn combine<const N: usize, const M: usize>(
-    y: &[f64; N],
-    h: f64,
-    terms: [(f64, &[f64; N]); M],
-) -> [f64; N] {
-    std::array::from_fn(|i| {
-        let mut sum = 0.0;
-        for (weight, rates) in terms {
-            sum += weight * rates[i];
+#[inline(always)]
+pub(crate) fn combine<const N: usize, const M: usize, L: Lane>(
+    y: &[L; N],
+    h: L,
+    terms: [(f64, &[L; N]); M],
+) -> [L; N] {
+    let mut end = *y;
+    for (i, component) in end.iter_mut().enumerate() {
+        let mut sum = L::splat(0.0);
+        for (weight, rates) in &terms {
+            sum += L::splat(*weight) * rates[i];
         }
-        y[i] + h * sum
-    })
+        *component += h * sum;
+    }
+    end
 }
 
 #[cfg(test)]

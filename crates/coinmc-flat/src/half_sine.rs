@@ -23,8 +23,9 @@ use crate::line::{Materials, duration, stiffness};
 use crate::motion::Motion;
 use crate::settings::{Law, SettingsError, positive};
 use crate::shape::Shape;
+use crate::trig::sin_cos;
 use coinmc_core::Scene;
-use coinmc_core::trig::sin_cos;
+use coinmc_lanes::Lane;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Steps after which a pulse is given up; the worst of the stress test needs some hundred.
@@ -234,7 +235,9 @@ fn integrate(pulse: &Pulse, omega: f64, tolerance: f64, until: f64) -> Option<([
 }
 
 impl ImpactLaw for HalfSineImpact {
-    fn impulse(&self, k: ContactMatrix, ux: f64, uz: f64, e: f64, mu: f64) -> Impulse {
+    const SIDE_BY_SIDE: bool = false;
+
+    fn impulse<L: Lane>(&self, k: ContactMatrix<L>, ux: L, uz: L, e: f64, mu: f64) -> Impulse<L> {
         Moreau.impulse(k, ux, uz, e, mu)
     }
 

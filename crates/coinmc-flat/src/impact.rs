@@ -9,39 +9,41 @@ use crate::motion::Motion;
 use crate::settings::Law;
 use crate::shape::Shape;
 use coinmc_core::Breaks;
+use coinmc_lanes::{Lane, Mask};
 
 /// The contact's inverse mass matrix K.
 #[derive(Debug, Clone, Copy)]
-pub struct ContactMatrix {
+pub struct ContactMatrix<L = f64> {
     /// Horizontal velocity by horizontal impulse.
-    pub xx: f64,
+    pub xx: L,
     /// Horizontal velocity by normal impulse.
-    pub xz: f64,
+    pub xz: L,
     /// Normal velocity by normal impulse.
-    pub zz: f64,
+    pub zz: L,
 }
 
-impl ContactMatrix {
+impl<L: Lane> ContactMatrix<L> {
     /// K of a corner with the centre at angle δ beyond its balance, sin δ and cos δ given.
-    #[inline]
-    pub fn new(sin: f64, cos: f64, k: f64) -> Self {
+    #[inline(always)]
+    pub fn new(sin: L, cos: L, k: f64) -> Self {
+        let (one, k) = (L::splat(1.0), L::splat(k));
         Self {
-            xx: 1.0 + cos * cos / k,
+            xx: one + cos * cos / k,
             xz: -sin * cos / k,
-            zz: 1.0 + sin * sin / k,
+            zz: one + sin * sin / k,
         }
     }
 
     /// det K = 1 + 1/k: the corner is a distance 1 from the centre, whatever δ.
-    #[inline]
-    fn determinant(self) -> f64 {
+    #[inline(always)]
+    fn determinant(self) -> L {
         self.xx * self.zz - self.xz * self.xz
     }
 
     /// The impulse that changes the contact velocity by (dx, dz).
-    #[inline]
-    pub(crate) fn solve(self, dx: f64, dz: f64) -> (f64, f64) {
-        let inverse = 1.0 / self.determinant();
+    #[inline(always)]
+    pub(crate) fn solve(self, dx: L, dz: L) -> (L, L) {
+        let inverse = L::splat(1.0) / self.determinant();
         (
             (self.zz * dx - self.xz * dz) * inverse,
             (self.xx * dz - self.xz * dx) * inverse,
@@ -51,13 +53,24 @@ impl ContactMatrix {
 
 /// An impulse per unit mass.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Impulse {
+pub struct Impulse<L: Lane = f64> {
     /// Horizontal part.
-    pub x: f64,
+    pub x: L,
     /// Normal part, not negative.
-    pub z: f64,
+    pub z: L,
     /// The contact point does not slide afterwards.
-    pub sticks: bool,
+    pub sticks: L::Mask,
+}
+
+impl<L: Lane> Impulse<L> {
+    #[inline(always)]
+    fn select(mask: L::Mask, yes: Self, no: Self) -> Self {
+        Self {
+            x: L::select(mask, yes.x, no.x),
+            z: L::select(mask, yes.z, no.z),
+            sticks: (mask & yes.sticks) | (!mask & no.sticks),
+        }
+    }
 }
 
 /// A law of impact at one corner.
@@ -65,15 +78,19 @@ pub struct Impulse {
 /// A law is an own type with its citation and the argument why it never gains energy. To add
 /// one: implement this trait, add a variant to [`Law`] and an arm where the engine is built.
 pub trait ImpactLaw: Copy + Sync {
+    /// Whether an impact is its impulse and no more, so that impacts go side by side.
+    const SIDE_BY_SIDE: bool = true;
+
     /// The impulse for contact velocity (`ux`, `uz`) before the impact (uz < 0 approaches),
-    /// restitution `e` and friction `mu`.
-    fn impulse(&self, k: ContactMatrix, ux: f64, uz: f64, e: f64, mu: f64) -> Impulse;
+    /// restitution `e` and friction `mu`: of one impact, or of several side by side.
+    fn impulse<L: Lane>(&self, k: ContactMatrix<L>, ux: L, uz: L, e: f64, mu: f64) -> Impulse<L>;
 
     /// Its name in configs and results.
     fn law(&self) -> Law;
 
-    /// Carries the coin through an impact that is more than an impulse at one instant. The default
-    /// leaves it to [`impulse`](Self::impulse).
+    /// Carries the coin through an impact that is more than an impulse at one instant; a law that
+    /// does so is not [`SIDE_BY_SIDE`](Self::SIDE_BY_SIDE). The default leaves it to
+    /// [`impulse`](Self::impulse).
     #[inline]
     fn carry(&self, _: &mut Strike<'_>) -> Carried {
         Carried::ByImpulse
@@ -135,28 +152,37 @@ pub enum Carried {
 pub struct Moreau;
 
 impl ImpactLaw for Moreau {
-    #[inline]
-    fn impulse(&self, k: ContactMatrix, ux: f64, uz: f64, e: f64, mu: f64) -> Impulse {
-        let rebound = -(1.0 + e) * uz;
+    #[inline(always)]
+    fn impulse<L: Lane>(&self, k: ContactMatrix<L>, ux: L, uz: L, e: f64, mu: f64) -> Impulse<L> {
+        let rebound = L::splat(-(1.0 + e)) * uz;
         if mu == 0.0 {
             return Impulse {
-                x: 0.0,
+                x: L::splat(0.0),
                 z: rebound / k.zz,
-                sticks: false,
+                sticks: L::Mask::splat(false),
             };
         }
         let (x, z) = k.solve(-ux, rebound);
-        let candidate = if x.abs() <= mu * z {
-            Some(Impulse { x, z, sticks: true })
-        } else {
+        let sticks = x.abs().le(L::splat(mu) * z);
+        let (mut p, mut found) = (Impulse { x, z, sticks }, sticks);
+        if (!sticks).any() {
             // the friction that would be needed shows which way it fails to stop the slip
-            let slip = -1.0_f64.copysign(x);
-            slide(k, ux, rebound, mu * slip).or_else(|| slide(k, ux, rebound, -mu * slip))
-        };
-        match candidate {
-            Some(p) if work(k, ux, uz, p) <= 0.0 => p,
-            _ => ChatterjeeRuina.impulse(k, ux, uz, e, mu),
+            let friction = L::splat(mu) * -L::splat(1.0).copysign(x);
+            for friction in [friction, -friction] {
+                let (slides, one) = slide(k, ux, rebound, friction);
+                p = Impulse::select(!found & slides, one, p);
+                found = found | slides;
+                if !(!found).any() {
+                    break;
+                }
+            }
         }
+        let sound = found & work(k, ux, uz, p).le(L::splat(0.0));
+        if (!sound).any() {
+            let guard = ChatterjeeRuina.impulse(k, ux, uz, e, mu);
+            p = Impulse::select(sound, p, guard);
+        }
+        p
     }
 
     fn law(&self) -> Law {
@@ -164,25 +190,26 @@ impl ImpactLaw for Moreau {
     }
 }
 
-/// The impulse with friction −`friction`·p_z if the contact then slides in `friction`'s direction.
-#[inline]
-fn slide(k: ContactMatrix, ux: f64, rebound: f64, friction: f64) -> Option<Impulse> {
+/// The impulse with friction −`friction`·p_z, and whether the contact then slides in `friction`'s
+/// direction.
+#[inline(always)]
+fn slide<L: Lane>(k: ContactMatrix<L>, ux: L, rebound: L, friction: L) -> (L::Mask, Impulse<L>) {
+    let zero = L::splat(0.0);
     let resistance = k.zz - friction * k.xz;
     let z = rebound / resistance;
     let slip = ux + (k.xz - friction * k.xx) * z;
-    (resistance > 0.0 && slip * friction > 0.0).then_some(Impulse {
-        x: -friction * z,
-        z,
-        sticks: false,
-    })
+    let slides = zero.lt(resistance) & zero.lt(slip * friction);
+    let x = -friction * z;
+    let sticks = L::Mask::splat(false);
+    (slides, Impulse { x, z, sticks })
 }
 
 /// Energy that an impulse adds, ½p·(u⁻ + u⁺).
-#[inline]
-fn work(k: ContactMatrix, ux: f64, uz: f64, p: Impulse) -> f64 {
+#[inline(always)]
+fn work<L: Lane>(k: ContactMatrix<L>, ux: L, uz: L, p: Impulse<L>) -> L {
     let after_x = ux + k.xx * p.x + k.xz * p.z;
     let after_z = uz + k.xz * p.x + k.zz * p.z;
-    0.5 * (p.x * (ux + after_x) + p.z * (uz + after_z))
+    L::splat(0.5) * (p.x * (ux + after_x) + p.z * (uz + after_z))
 }
 
 /// Chatterjee & Ruina, "A new algebraic rigid-body collision law", J. Appl. Mech. 65 (1998) 939,
@@ -196,24 +223,22 @@ fn work(k: ContactMatrix, ux: f64, uz: f64, p: Impulse) -> f64 {
 pub struct ChatterjeeRuina;
 
 impl ImpactLaw for ChatterjeeRuina {
-    #[inline]
-    fn impulse(&self, k: ContactMatrix, ux: f64, uz: f64, e: f64, mu: f64) -> Impulse {
+    #[inline(always)]
+    fn impulse<L: Lane>(&self, k: ContactMatrix<L>, ux: L, uz: L, e: f64, mu: f64) -> Impulse<L> {
+        let friction = L::splat(mu);
         let smooth = -uz / k.zz;
         let (stop_x, stop_z) = k.solve(-ux, -uz);
         let (dx, dz) = (stop_x, stop_z - smooth);
-        let base = (1.0 + e) * smooth;
-        let inside = dx.abs() <= mu * (base + dz);
-        // here |dx| > mu (base + dz) and 0 <= mu base: the denominator is positive
-        let kappa = if inside {
-            1.0
-        } else {
-            mu * base / (dx.abs() - mu * dz)
-        };
+        let base = L::splat(1.0 + e) * smooth;
+        let inside = dx.abs().le(friction * (base + dz));
+        // where it is not, |dx| > mu (base + dz) and 0 <= mu base: the denominator is positive
+        let outside = friction * base / (dx.abs() - friction * dz);
+        let kappa = L::select(inside, L::splat(1.0), outside);
         // with e = 0 and κ = 1 this is p_II: the contact stops
         Impulse {
             x: kappa * dx,
             z: base + kappa * dz,
-            sticks: inside && e == 0.0,
+            sticks: inside & L::Mask::splat(e == 0.0),
         }
     }
 

@@ -15,11 +15,15 @@
 //!
 //! # Files
 //! `shape` geometry · `motion` state · `flight` first contact · `impact` laws that are an impulse ·
-//! `paper`, `half_sine` and `line` laws that are more · `dormand_prince` steps in time · `pivot` and
-//! `slide` contact phases · `contact` their order · `engine` the toss · `any` its law chosen at run
-//! time · `single` one impact alone · `watch` what an observer is shown · `settings` choices.
+//! `touching` what an impulse does · `paper`, `half_sine` and `line` laws that are more ·
+//! `dormand_prince` steps in time · `bounce` one impact and what follows it · `pivot` and `slide`
+//! contact phases · `contact` their order · `engine` the toss · `batch` many side by side · `any` its
+//! law chosen at run time · `single` one impact alone · `watch` what an observer is shown ·
+//! `settings` choices · `trig` sine and cosine.
 
 mod any;
+mod batch;
+mod bounce;
 mod contact;
 mod dormand_prince;
 mod engine;
@@ -34,9 +38,12 @@ mod settings;
 mod shape;
 mod single;
 mod slide;
+mod touching;
+mod trig;
 mod watch;
 
 pub use any::AnyFlatEngine;
+pub use coinmc_lanes::{Lane, Lanes, NoSuchLanes};
 pub use engine::FlatEngine;
 pub use half_sine::{HalfSine, HalfSineImpact, PulseTime};
 pub use impact::{Carried, ChatterjeeRuina, ContactMatrix, ImpactLaw, Impulse, Moreau, Strike};

@@ -1,8 +1,10 @@
 //! The state of the toss in units of D, sqrt(D/g) and m, and its flight.
 
-use crate::shape::{Quadrant, Shape, next};
-use coinmc_core::trig::sin_cos;
+use crate::flight::Arc;
+use crate::shape::{Quadrant, Shape, as_quadrant, next};
+use crate::trig::sin_cos;
 use coinmc_core::{Launch, Scene, State};
+use coinmc_lanes::{Lane, Mask};
 use nalgebra::{UnitVector3, Vector3};
 use std::f64::consts::FRAC_PI_2;
 
@@ -78,7 +80,7 @@ impl Motion {
     /// The same without the energy of horizontal motion.
     #[inline]
     pub(crate) fn energy_without_sliding(&self, k: f64) -> f64 {
-        0.5 * (self.vz * self.vz + k * self.omega * self.omega) + self.z
+        energy_without_sliding(k, [self.z, self.vz, self.omega])
     }
 
     /// Free flight for `t`, within the quadrant.
@@ -116,13 +118,6 @@ impl Motion {
         }
     }
 
-    /// Above z = 1 nothing can touch: jumps to where the centre comes down to 1.
-    pub(crate) fn skip_high(&mut self, shape: &Shape) {
-        let t = self.vz + (self.vz * self.vz + 2.0 * (self.z - 1.0)).sqrt();
-        self.fly(shape, t);
-        self.z = 1.0;
-    }
-
     /// Free flight for `t`, through any number of quadrants.
     #[inline]
     pub(crate) fn fly(&mut self, shape: &Shape, t: f64) {
@@ -134,14 +129,22 @@ impl Motion {
     /// The quadrant and δ of an angle from flat at the start of the present quadrant.
     #[inline]
     fn enter(&mut self, shape: &Shape, angle: f64) {
-        let quarters = (angle / FRAC_PI_2).floor();
-        // the low two bits of a two's complement number are its remainder; beyond i64 the angle
-        // has no digits left for the quarter anyway, and the cast saturates
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-        let turned = (quarters as i64 & 3) as u8;
-        self.quadrant = (self.quadrant + turned) & 3;
-        let within = (angle - quarters * FRAC_PI_2).clamp(0.0, FRAC_PI_2);
-        self.delta = within - shape.first_span(self.quadrant);
+        let (quadrant, delta) = shape.enter(f64::from(self.quadrant), angle);
+        (self.quadrant, self.delta) = (as_quadrant(quadrant), delta);
+    }
+
+    /// What is left of the quadrant, in flight.
+    #[inline]
+    pub(crate) fn arc(&self, shape: &Shape) -> Arc<f64> {
+        let flight = [self.delta, self.omega, self.z, self.vz];
+        Arc::new(shape, f64::from(self.quadrant), flight)
+    }
+
+    /// The coin as it is in flight.
+    #[inline]
+    pub(crate) fn set_flight(&mut self, arc: &Arc<f64>) {
+        self.quadrant = as_quadrant(arc.quadrant);
+        (self.delta, self.z, self.vz) = (arc.delta, arc.z, arc.vz);
     }
 
     /// On the lowest corner with angular velocity `omega` while that corner slides at `slip`.
@@ -157,9 +160,7 @@ impl Motion {
     /// contact ever gains energy. Velocities shrink together, so every constraint on them holds.
     #[inline]
     pub(crate) fn cap_energy(&mut self, k: f64, before: f64) {
-        let now = self.energy(k);
-        if now > before {
-            let scale = ((before - self.z) / (now - self.z)).max(0.0).sqrt();
+        if let Some(scale) = cap(self.z, self.energy(k), before) {
             self.vx *= scale;
             self.vz *= scale;
             self.omega *= scale;
@@ -185,4 +186,21 @@ impl Motion {
             spin_rad_s: Vector3::new(0.0, self.omega / units.time_s, 0.0),
         }
     }
+}
+
+/// Energy at height `z` but for that of horizontal motion.
+#[inline(always)]
+pub(crate) fn energy_without_sliding<L: Lane>(k: f64, [z, vz, omega]: [L; 3]) -> L {
+    L::splat(0.5) * (vz * vz + L::splat(k) * omega * omega) + z
+}
+
+/// By what all velocities shrink so that the energy `now`, at height `z`, is no more than `before`;
+/// `None` if they need not.
+#[inline(always)]
+pub(crate) fn cap<L: Lane>(z: L, now: L, before: L) -> Option<L> {
+    let gained = before.lt(now);
+    gained.any().then(|| {
+        let share = ((before - z) / (now - z)).max(L::splat(0.0));
+        L::select(gained, share.sqrt(), L::splat(1.0))
+    })
 }

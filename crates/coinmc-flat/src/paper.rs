@@ -30,8 +30,9 @@
 use crate::impact::{Carried, ContactMatrix, ImpactLaw, Impulse, Moreau, Strike};
 use crate::settings::{Law, SettingsError, positive};
 use crate::shape::{Quadrant, Shape};
+use crate::trig::sin_cos;
 use coinmc_core::Scene;
-use coinmc_core::trig::sin_cos;
+use coinmc_lanes::Lane;
 
 /// Restitution assumed when the time of the remaining bounces is judged, if √k is less: the turning
 /// that the law adds makes even k = 0 rebound.
@@ -127,7 +128,9 @@ impl PaperImpact {
 }
 
 impl ImpactLaw for PaperImpact {
-    fn impulse(&self, k: ContactMatrix, ux: f64, uz: f64, e: f64, mu: f64) -> Impulse {
+    const SIDE_BY_SIDE: bool = false;
+
+    fn impulse<L: Lane>(&self, k: ContactMatrix<L>, ux: L, uz: L, e: f64, mu: f64) -> Impulse<L> {
         Moreau.impulse(k, ux, uz, e, mu)
     }
 

@@ -1,6 +1,9 @@
 //! The rectangle 2R × H in units of D, and where its corners are.
 
+use crate::trig::floor;
 use coinmc_core::{Coin, Face};
+use coinmc_lanes::Lane;
+use std::f64::consts::FRAC_PI_2;
 
 /// Quarter turns: 0 begins heads up, 1 heads to the right, 2 tails up, 3 heads to the left.
 pub(crate) type Quadrant = u8;
@@ -44,20 +47,48 @@ impl Shape {
         }
     }
 
-    /// Height of the centre at that angle.
-    #[inline]
-    pub(crate) fn last_height(&self, quadrant: Quadrant, omega: f64) -> f64 {
-        self.flat_height[if omega > 0.0 {
-            end(quadrant)
-        } else {
-            start(quadrant)
-        }]
-    }
-
     /// δ at the quadrant's start (most negative).
     #[inline]
     pub(crate) fn first_span(&self, quadrant: Quadrant) -> f64 {
         self.span[start(quadrant)]
+    }
+
+    /// Angle from the start of a quadrant to its balance: [`first_span`](Self::first_span) over lanes,
+    /// with the quadrant as a number.
+    #[inline(always)]
+    pub(crate) fn first<L: Lane>(&self, quadrant: L) -> L {
+        L::select(
+            is_odd(quadrant),
+            L::splat(self.span[1]),
+            L::splat(self.span[0]),
+        )
+    }
+
+    /// The quadrant's last δ, and the height of the centre there, for a coin that turns in the
+    /// direction of `omega`.
+    #[inline(always)]
+    pub(crate) fn last<L: Lane>(&self, quadrant: L, omega: L) -> (L, L) {
+        let (odd, forwards) = (is_odd(quadrant), L::splat(0.0).lt(omega));
+        // flat on a face at the start of even quadrants and at the end of odd ones
+        let on_face = (odd & forwards) | !(odd | forwards);
+        let pick = |[face, side]: [f64; 2]| L::select(on_face, L::splat(face), L::splat(side));
+        let span = pick(self.span);
+        (L::select(forwards, span, -span), pick(self.flat_height))
+    }
+
+    /// The quadrant and δ of an angle from flat at the start of `quadrant`.
+    #[inline(always)]
+    pub(crate) fn enter<L: Lane>(&self, quadrant: L, angle: L) -> (L, L) {
+        let (zero, four, quarter) = (L::splat(0.0), L::splat(4.0), L::splat(FRAC_PI_2));
+        let turned = floor(angle / quarter);
+        // beyond all digits of the angle this is any quadrant, but one of the four
+        let on = quadrant + (turned - floor(turned * L::splat(0.25)) * four);
+        let entered = L::select(four.le(on), on - four, on);
+        let within = angle - turned * quarter;
+        // what is not a number stays so
+        let within = L::select(within.lt(zero), zero, within);
+        let within = L::select(quarter.lt(within), quarter, within);
+        (entered, within - self.first(entered))
     }
 
     /// Angle left to the nearer flat position, and whether that is the quadrant's end.
@@ -108,6 +139,22 @@ impl Shape {
             _ => Face::Side,
         }
     }
+}
+
+/// A quadrant of its number.
+#[inline]
+pub(crate) fn as_quadrant(number: f64) -> Quadrant {
+    // one of the four; the first for what is not a number
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let quadrant = number as Quadrant;
+    quadrant & 3
+}
+
+/// Whether a quadrant's number is odd.
+#[inline(always)]
+fn is_odd<L: Lane>(quadrant: L) -> L::Mask {
+    let from_two = (quadrant - L::splat(2.0)).abs();
+    L::splat(0.5).lt(from_two) & from_two.lt(L::splat(1.5))
 }
 
 fn start(quadrant: Quadrant) -> usize {

@@ -64,9 +64,9 @@ impl<L: ImpactLaw> FlatEngine<L> {
     /// The impact of a coin with this velocity, spin and tilt whose lowest corner has just touched;
     /// the launch's height is not looked at. No bounces are summed up: this is the law alone.
     pub fn impact_once(&self, launch: &Launch) -> SingleImpact {
-        let (units, shape) = (self.units(), self.shape());
+        let (units, shape) = (&self.units, &self.shape);
         let mut motion = Motion::new(launch, units, shape);
-        motion.z = coinmc_core::trig::sin_cos(motion.delta).1;
+        motion.z = crate::trig::sin_cos(motion.delta).1;
         let before = motion;
         let mut breaks = Breaks::default();
         let energy = before.energy(shape.k);
@@ -76,7 +76,7 @@ impl<L: ImpactLaw> FlatEngine<L> {
             self.press(&mut motion, energy);
         }
         motion.cap_energy(shape.k, energy);
-        let force = self.mass_kg() * units.length_m / (units.time_s * units.time_s);
+        let force = self.mass_kg * units.length_m / (units.time_s * units.time_s);
         SingleImpact {
             before: before.state(units, shape),
             after: motion.state(units, shape),

@@ -22,8 +22,9 @@ use crate::impact::{Carried, ContactMatrix, ImpactLaw, Impulse, Moreau, Strike};
 use crate::motion::Motion;
 use crate::settings::{Law, SettingsError, positive};
 use crate::shape::Shape;
+use crate::trig::sin_cos;
 use coinmc_core::Scene;
-use coinmc_core::trig::sin_cos;
+use coinmc_lanes::Lane;
 use damping::{LEAST_RESTITUTION, strength};
 use equations::{Body, CORNERS, Corner, Grip};
 pub(crate) use palmgren::duration;
@@ -149,7 +150,9 @@ fn corners(motion: &Motion, shape: &Shape) -> [Corner; CORNERS] {
 }
 
 impl ImpactLaw for LineImpact {
-    fn impulse(&self, k: ContactMatrix, ux: f64, uz: f64, e: f64, mu: f64) -> Impulse {
+    const SIDE_BY_SIDE: bool = false;
+
+    fn impulse<L: Lane>(&self, k: ContactMatrix<L>, ux: L, uz: L, e: f64, mu: f64) -> Impulse<L> {
         Moreau.impulse(k, ux, uz, e, mu)
     }
 

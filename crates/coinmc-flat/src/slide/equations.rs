@@ -9,82 +9,145 @@
 //! Integrated by Dormand & Prince's embedded pair of order 5(4), J. Comput. Appl. Math. 6 (1980)
 //! 19. Where A → 0 the force that sliding needs grows without bound (Painlevé 1895).
 
-use crate::dormand_prince::{LAST_DIFFERENCE, combine, stages};
-use coinmc_core::trig::sin_cos;
+use crate::dormand_prince::{Flow, LAST_DIFFERENCE, combine, stages};
+use crate::trig::sin_cos;
+use coinmc_lanes::{Lane, Mask};
 use std::f64::consts::FRAC_PI_2;
 
 /// A/k below which the configuration counts as Painlevé's.
 pub(super) const JAM: f64 = 1e-2;
 
 /// (δ, ω, γ, x)
-pub(super) type Slide = [f64; 4];
+pub(super) type Slide<L = f64> = [L; 4];
 
 /// The end of a step: where, and how fast it goes on.
-#[derive(Clone, Copy)]
-pub(super) struct Arrival {
-    pub(super) state: Slide,
-    pub(super) rates: Slide,
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Arrival<L = f64> {
+    pub(super) state: Slide<L>,
+    pub(super) rates: Slide<L>,
+    /// (sin δ, cos δ)
+    pub(super) angle: (L, L),
 }
 
-/// The equations of motion for one direction of slip.
-pub(super) struct Sliding {
+/// The equations of motion for one direction of slip, of one corner or several side by side.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sliding<L = f64> {
     pub(super) k: f64,
     /// μ n, signed friction.
-    pub(super) friction: f64,
+    pub(super) friction: L,
 }
 
-impl Sliding {
-    /// A/k.
-    #[inline]
-    pub(super) fn openness(&self, delta: f64) -> f64 {
-        let (sin, cos) = sin_cos(delta);
-        1.0 + (sin + self.friction * cos) * sin / self.k
+/// What came of the attempt at a step.
+pub(super) struct Attempt<L: Lane> {
+    /// The state of order 5.
+    pub(super) state: Slide<L>,
+    /// The error estimate but for the share of the seventh stage.
+    pub(super) partial: Slide<L>,
+    /// Whether it could be made at all.
+    pub(super) possible: L::Mask,
+}
+
+/// An attempt with the rates at its end.
+pub(super) struct WholeStep<L: Lane> {
+    pub(super) end: Arrival<L>,
+    /// Largest relative error.
+    pub(super) error: L,
+    /// Whether it could be made at all, and whether the motion goes on from its end.
+    pub(super) possible: L::Mask,
+    pub(super) sound: L::Mask,
+}
+
+impl<L: Lane> Sliding<L> {
+    /// A/k at an angle, given by its sine and cosine.
+    #[inline(always)]
+    pub(super) fn openness(&self, (sin, cos): (L, L)) -> L {
+        L::splat(1.0) + (sin + self.friction * cos) * sin / L::splat(self.k)
     }
 
-    /// The right-hand side, or `None` next to Painlevé's configuration and far out of range.
-    #[inline]
-    pub(super) fn rates(&self, y: &Slide) -> Option<Slide> {
-        let [delta, omega, slip, _] = *y;
-        let inside = delta.abs() < FRAC_PI_2;
+    /// A state with the right-hand side, and whether that is sound: not next to Painlevé's
+    /// configuration nor far out of range.
+    #[inline(always)]
+    pub(super) fn at(&self, state: &Slide<L>) -> (Arrival<L>, L::Mask) {
+        let [delta, omega, slip, _] = *state;
+        let one = L::splat(1.0);
+        let inside = delta.abs().lt(L::splat(FRAC_PI_2));
         let (sin, cos) = sin_cos(delta);
         let w2 = omega * omega;
-        let inverse_k = 1.0 / self.k;
-        let a = 1.0 + (sin + self.friction * cos) * sin * inverse_k;
-        // a NaN fails both
-        let open = a > 0.5 * JAM;
-        if !(inside && open) {
-            return None;
-        }
-        let normal = (1.0 - w2 * cos) / a;
+        let inverse_k = L::splat(1.0 / self.k);
+        let a = one + (sin + self.friction * cos) * sin * inverse_k;
+        // what is not a number fails both
+        let open = L::splat(0.5 * JAM).lt(a);
+        let normal = (one - w2 * cos) / a;
         let lever = self.friction + (self.friction * cos + sin) * cos * inverse_k;
-        Some([
+        let rates = [
             omega,
             normal * (sin + self.friction * cos) * inverse_k,
             w2 * sin - normal * lever,
             slip + omega * cos,
-        ])
+        ];
+        let at = Arrival {
+            state: *state,
+            rates,
+            angle: (sin, cos),
+        };
+        (at, inside & open)
     }
 
-    /// One step of length `h`: the state of order 5, and the error estimate but for the share of
-    /// the seventh stage.
-    #[inline]
-    pub(super) fn step(&self, start: &Arrival, h: f64) -> Option<(Slide, Slide)> {
-        let stages = stages(|y| self.rates(y), &start.state, &start.rates, h)?;
-        let difference = stages.difference(&start.rates);
-        Some((stages.end, combine(&[0.0; 4], h, difference)))
+    /// One step of length `h`.
+    #[inline(always)]
+    pub(super) fn step(&self, start: &Arrival<L>, h: L) -> Attempt<L> {
+        let mut flow = Sound {
+            sliding: self,
+            sound: L::Mask::splat(true),
+        };
+        let stages = stages(&mut flow, &start.state, &start.rates, h);
+        let possible = flow.sound;
+        match stages {
+            Some(stages) => Attempt {
+                state: stages.end,
+                partial: combine(&[L::splat(0.0); 4], h, stages.difference(&start.rates)),
+                possible,
+            },
+            None => Attempt {
+                state: start.state,
+                partial: start.state,
+                possible,
+            },
+        }
     }
 
-    /// A step with the rates at its end and its relative error.
-    #[inline]
-    pub(super) fn step_with_error(&self, start: &Arrival, h: f64) -> Option<(Arrival, f64)> {
-        let (state, partial) = self.step(start, h)?;
-        let rates = self.rates(&state)?;
-        let error = combine(&partial, h, [(LAST_DIFFERENCE, &rates)]);
-        let relative = |i: usize| error[i].abs() / (1.0 + state[i].abs());
-        Some((
-            Arrival { state, rates },
-            relative(0).max(relative(1)).max(relative(2)),
-        ))
+    /// One step of length `h` with all that is asked of it.
+    #[inline(always)]
+    pub(super) fn whole_step(&self, start: &Arrival<L>, h: L) -> WholeStep<L> {
+        let made = self.step(start, h);
+        let (end, sound) = self.at(&made.state);
+        let error = combine(&made.partial, h, [(LAST_DIFFERENCE, &end.rates)]);
+        // of all but the place
+        let mut largest = L::splat(0.0);
+        for (error, state) in error.iter().zip(&end.state).take(3) {
+            largest = largest.max(error.abs() / (L::splat(1.0) + state.abs()));
+        }
+        WholeStep {
+            end,
+            error: largest,
+            possible: made.possible,
+            sound,
+        }
+    }
+}
+
+/// The right-hand side where it is asked for, and whether it has been sound each time.
+struct Sound<'a, L: Lane> {
+    sliding: &'a Sliding<L>,
+    sound: L::Mask,
+}
+
+impl<L: Lane> Flow<4, L> for &mut Sound<'_, L> {
+    #[inline(always)]
+    fn rates(&mut self, y: &Slide<L>) -> Option<Slide<L>> {
+        let (at, sound) = self.sliding.at(y);
+        self.sound = self.sound & sound;
+        self.sound.any().then_some(at.rates)
     }
 }
 
@@ -99,9 +162,9 @@ mod tests {
         };
         let mut state = [-0.3, -0.4, 3.0, 0.0];
         for _ in 0..steps {
-            let rates = sliding.rates(&state).unwrap();
+            let (start, _) = sliding.at(&state);
             let h = 1.5 / f64::from(steps);
-            state = sliding.step(&Arrival { state, rates }, h).unwrap().0;
+            state = sliding.step(&start, h).state;
         }
         state
     }
@@ -129,13 +192,13 @@ mod tests {
             let (vx, vz) = (y[2] + y[1] * c, -y[1] * s);
             0.5 * (vx * vx + vz * vz + sliding.k * y[1] * y[1]) + c
         };
-        let rates = sliding.rates(&y).unwrap();
+        let rates = sliding.at(&y).0.rates;
         let h = 1e-5;
         let shifted = |h: f64| std::array::from_fn(|i| y[i] + h * rates[i]);
         // central difference: error h² times a third derivative of order 1
         let change = (energy(&shifted(h)) - energy(&shifted(-h))) / (2.0 * h);
         let (_, c) = sin_cos(y[0]);
-        let normal = (1.0 - y[1] * y[1] * c) / sliding.openness(y[0]);
+        let normal = (1.0 - y[1] * y[1] * c) / sliding.openness(sin_cos(y[0]));
         assert!((change - (-0.7 * normal * 0.5)).abs() < 1e-9, "{change}");
     }
 }

@@ -1,9 +1,8 @@
 //! What ends a sliding phase, and exactly when.
 
 use super::SlideEnd;
-use super::equations::{Arrival, Slide, Sliding};
+use super::equations::{Arrival, Slide};
 use crate::shape::{Quadrant, Shape};
-use coinmc_core::trig::sin_cos;
 
 /// How near to its event a phase ends, in units of D, sqrt(D g) and m g.
 const EVENT: f64 = 1e-11;
@@ -14,119 +13,185 @@ const REST: f64 = 1e-12;
 const ENDS: [SlideEnd; 3] = [SlideEnd::Stops, SlideEnd::LiftsOff, SlideEnd::Flat];
 
 /// What must stay positive for the phase to go on: slip, contact force, distance to flat.
-pub(super) struct Margins<'a> {
-    pub(super) shape: &'a Shape,
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Margins {
+    pub(super) shape: Shape,
     pub(super) quadrant: Quadrant,
     /// Sign of the slip.
     pub(super) direction: f64,
 }
 
-impl Margins<'_> {
+impl Margins {
     #[inline]
-    fn at(&self, y: &Slide) -> [f64; 3] {
+    fn at(&self, y: &Slide, cos: f64) -> [f64; 3] {
         let [delta, omega, slip, _] = *y;
         [
             self.direction * slip + REST,
-            1.0 - omega * omega * sin_cos(delta).1,
+            1.0 - omega * omega * cos,
             self.shape.gap(self.quadrant, delta).0,
         ]
     }
 
-    /// d/dt of margin number `which`.
+    /// d/dt of the margins.
     #[inline]
-    fn slope(&self, which: usize, at: &Arrival) -> f64 {
+    fn slopes(&self, at: &Arrival) -> [f64; 3] {
         let [delta, omega, ..] = at.state;
-        match which {
-            0 => self.direction * at.rates[2],
-            1 => {
-                let (sin, cos) = sin_cos(delta);
-                omega * (omega * omega * sin - 2.0 * at.rates[1] * cos)
-            }
-            _ if self.shape.gap(self.quadrant, delta).1 => -omega,
-            _ => omega,
-        }
+        let (sin, cos) = at.angle;
+        let to_end = self.shape.gap(self.quadrant, delta).1;
+        [
+            self.direction * at.rates[2],
+            omega * (omega * omega * sin - 2.0 * at.rates[1] * cos),
+            if to_end { -omega } else { omega },
+        ]
     }
 
-    /// Where a margin that is positive at both ends of an accepted step dips below zero between
-    /// them: the time of its lowest point, at which a shorter step should end. Judged by the
-    /// cubic through both ends.
+    /// The margins over a step of length `h`.
     #[inline]
-    pub(super) fn dip(&self, start: &Arrival, end: &Arrival, h: f64) -> Option<f64> {
-        let (before, after) = (self.at(&start.state), self.at(&end.state));
+    pub(super) fn over(&self, start: &Arrival, end: &Arrival, h: f64) -> Over {
+        let before = self.at(&start.state, start.angle.1);
+        let after = self.at(&end.state, end.angle.1);
+        let (first, last) = (self.slopes(start), self.slopes(end));
+        let curve = |which: usize| {
+            let slopes = [first[which] * h, last[which] * h];
+            Cubic::new([before[which], after[which]], slopes)
+        };
+        Over {
+            after,
+            rising: std::array::from_fn(|which| first[which] * h < 0.0 && last[which] * h > 0.0),
+            curves: std::array::from_fn(curve),
+        }
+    }
+}
+
+/// The margins over a step, interpolated by cubics in its length.
+pub(super) struct Over {
+    after: [f64; 3],
+    /// Falls at the start and rises at the end.
+    rising: [bool; 3],
+    curves: [Cubic; 3],
+}
+
+impl Over {
+    /// Where a margin that is positive at both ends of an accepted step dips below zero between
+    /// them: the share of the step at its lowest point, at which a shorter step should end.
+    #[inline]
+    pub(super) fn dip(&self) -> Option<f64> {
         (0..3).find_map(|which| {
-            let slopes = [self.slope(which, start) * h, self.slope(which, end) * h];
-            let turns = slopes[0] < 0.0 && slopes[1] > 0.0 && after[which] >= 0.0;
-            let lowest =
-                turns.then(|| Cubic::new([before[which], after[which]], slopes).lowest())?;
-            (lowest.1 < 0.0).then_some(lowest.0 * h)
+            let turns = self.rising[which] && self.after[which] >= 0.0;
+            let (share, lowest) = turns.then(|| self.curves[which].lowest())?;
+            (lowest < 0.0).then_some(share)
         })
     }
 
-    /// The earliest event within an accepted step of length `h`, or `None`: after which time, in
-    /// which state, which end.
-    ///
-    /// The broken margin is interpolated by a cubic in the length of the step; its root is the
-    /// first trial, Newton with the cubic's slope gives the next ones, a bisection where that
-    /// leaves the bracket. Each trial is a true step from `start`, as accurate as the step itself.
+    /// The search for the earliest event within the step, which begins at `start`; `None` if there
+    /// is no event.
     #[inline]
-    pub(super) fn first_event(
-        &self,
-        sliding: &Sliding,
-        start: &Arrival,
-        end: &Arrival,
-        h: f64,
-    ) -> Option<(f64, Slide, SlideEnd)> {
-        let (before, after) = (self.at(&start.state), self.at(&end.state));
-        if after.iter().all(|margin| *margin >= 0.0) {
+    pub(super) fn search(&self, start: &Arrival) -> Option<EventSearch> {
+        if self.after.iter().all(|margin| *margin >= 0.0) {
             return None;
         }
-        let cubic = |which: usize| {
-            let slopes = [self.slope(which, start) * h, self.slope(which, end) * h];
-            Cubic::new([before[which], after[which]], slopes)
+        let (which, share) = earliest(&self.curves, &self.after)?;
+        Some(EventSearch {
+            start: *start,
+            curves: self.curves,
+            which,
+            share,
+            inside: Inside {
+                share: 0.0,
+                state: start.state,
+                angle: start.angle,
+            },
+            outside: 1.0,
+            trials: 0,
+        })
+    }
+}
+
+/// The margin that is broken first and the share of the step at which it is.
+#[inline]
+fn earliest(curves: &[Cubic; 3], margins: &[f64; 3]) -> Option<(usize, f64)> {
+    (0..3)
+        .filter(|which| margins[*which] < 0.0)
+        .map(|which| (which, curves[which].root()))
+        .min_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// A search for an event: each trial is a true step, as accurate as the step itself.
+///
+/// The root of the broken margin's cubic is the first trial, Newton with the cubic's slope gives the
+/// next ones, a bisection where that leaves the bracket.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct EventSearch {
+    /// Where the step begins.
+    pub(super) start: Arrival,
+    curves: [Cubic; 3],
+    /// The margin that is broken first.
+    which: usize,
+    /// The next trial, as a share of the step.
+    pub(super) share: f64,
+    pub(super) inside: Inside,
+    /// The first trial after the event.
+    outside: f64,
+    trials: u32,
+}
+
+/// The last trial before an event.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Inside {
+    pub(super) share: f64,
+    pub(super) state: Slide,
+    pub(super) angle: (f64, f64),
+}
+
+impl EventSearch {
+    /// What the event is.
+    pub(super) fn end(&self) -> SlideEnd {
+        ENDS[self.which]
+    }
+
+    /// Takes up where the trial has led, with sine and cosine there, if it could be made; `true` if
+    /// the search is over.
+    pub(super) fn tried(&mut self, margins: &Margins, to: Option<(Slide, (f64, f64))>) -> bool {
+        const MOST_TRIALS: u32 = 100;
+        self.trials += 1;
+        let Some((state, angle)) = to else {
+            return true;
         };
-        let earliest = |margins: &[f64; 3]| {
-            (0..3)
-                .filter(|which| margins[*which] < 0.0)
-                .map(|which| (which, cubic(which).root()))
-                .min_by(|a, b| a.1.total_cmp(&b.1))
-        };
-        let (mut which, mut share) = earliest(&after)?;
-        let mut curve = cubic(which);
-        let (mut inside, mut outside) = ((0.0, start.state), 1.0);
-        for _ in 0..100 {
-            let Some((state, _)) = sliding.step(start, share * h) else {
-                break;
+        let at = margins.at(&state, angle.1);
+        if at.iter().all(|margin| *margin >= 0.0) {
+            self.inside = Inside {
+                share: self.share,
+                state,
+                angle,
             };
-            let margins = self.at(&state);
-            if margins.iter().all(|margin| *margin >= 0.0) {
-                inside = (share, state);
-                if margins[which] <= EVENT {
-                    break;
-                }
-            } else {
-                outside = share;
-                if margins[which] >= 0.0 {
-                    which = earliest(&margins).map_or(which, |(other, _)| other);
-                    curve = cubic(which);
-                }
+            if at[self.which] <= EVENT {
+                return true;
             }
-            if outside - inside.0 <= EVENT {
-                break;
+        } else {
+            self.outside = self.share;
+            if at[self.which] >= 0.0 {
+                let first = earliest(&self.curves, &at);
+                self.which = first.map_or(self.which, |(which, _)| which);
             }
-            // aims just inside the margin, so that the last trial can be kept
-            let newton = share - (margins[which] - 0.5 * EVENT) / curve.slope(share);
-            let bracketed = newton > inside.0 && newton < outside;
-            share = if bracketed {
-                newton
-            } else {
-                f64::midpoint(inside.0, outside)
-            };
         }
-        Some((inside.0 * h, inside.1, ENDS[which]))
+        if self.outside - self.inside.share <= EVENT || self.trials == MOST_TRIALS {
+            return true;
+        }
+        // aims just inside the margin, so that the last trial can be kept
+        let slope = self.curves[self.which].slope(self.share);
+        let newton = self.share - (at[self.which] - 0.5 * EVENT) / slope;
+        let bracketed = newton > self.inside.share && newton < self.outside;
+        self.share = if bracketed {
+            newton
+        } else {
+            f64::midpoint(self.inside.share, self.outside)
+        };
+        false
     }
 }
 
 /// c₀ + c₁t + c₂t² + c₃t³ on [0, 1].
+#[derive(Debug, Clone, Copy)]
 struct Cubic([f64; 4]);
 
 impl Cubic {

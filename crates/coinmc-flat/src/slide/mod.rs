@@ -2,14 +2,16 @@
 
 mod equations;
 mod events;
+mod side_by_side;
 
 use crate::motion::Motion;
 use crate::shape::Shape;
+use crate::trig::sin_cos;
 use crate::watch::Watch;
 use coinmc_core::Observer;
-use coinmc_core::trig::sin_cos;
 use equations::{Arrival, JAM, Slide, Sliding};
-use events::Margins;
+use events::{EventSearch, Inside, Margins, Over};
+pub(crate) use side_by_side::slide_on;
 
 /// How a sliding phase ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,92 +40,225 @@ pub(crate) struct SlideTask<'a> {
     pub(crate) max_steps: u32,
 }
 
-/// Slides until the phase ends. The motion is left on its corner; returns why, the slip and the
-/// steps taken.
-pub(crate) fn slide<O: Observer>(
-    motion: &mut Motion,
-    task: &SlideTask,
-    watch: &mut Watch<'_, O>,
-) -> (SlideEnd, f64, u32) {
-    let shape = task.shape;
-    let direction = 1.0_f64.copysign(task.slip);
-    let sliding = Sliding {
-        k: shape.k,
-        friction: task.mu * direction,
-    };
-    let margins = Margins {
-        shape,
-        quadrant: motion.quadrant,
-        direction,
-    };
-    let mut energy = motion.energy(shape.k);
-    let mut y = [motion.delta, motion.omega, task.slip, motion.x];
-    // a fraction of the time in which the fastest thing here turns by one
-    let mut h = 0.2 / (1.0 + motion.omega.abs());
-    let mut steps = 0;
-    let mut rejected_in_a_row = 0;
-    let end = loop {
-        let Some(rates) = sliding.rates(&y) else {
-            break SlideEnd::Jams;
+/// A sliding phase on its way: what is attempted next is a step from `y`, the whole of it or, on
+/// the search for an event within, a share.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SlidePhase {
+    sliding: Sliding,
+    margins: Margins,
+    tolerance: f64,
+    max_steps: u32,
+    energy: f64,
+    y: Slide,
+    h: f64,
+    pub(crate) steps: u32,
+    rejected_in_a_row: u32,
+    search: Option<EventSearch>,
+}
+
+/// An attempt at a whole step.
+#[derive(Debug, Clone, Copy)]
+struct Made {
+    start: Arrival,
+    /// Whether the motion goes on at all from there.
+    begins: bool,
+    end: Arrival,
+    /// Largest relative error.
+    error: f64,
+    possible: bool,
+}
+
+impl SlidePhase {
+    pub(crate) fn new(motion: &Motion, task: &SlideTask) -> Self {
+        let shape = *task.shape;
+        let direction = 1.0_f64.copysign(task.slip);
+        Self {
+            sliding: Sliding {
+                k: shape.k,
+                friction: task.mu * direction,
+            },
+            margins: Margins {
+                shape,
+                quadrant: motion.quadrant,
+                direction,
+            },
+            tolerance: task.tolerance,
+            max_steps: task.max_steps,
+            energy: motion.energy(shape.k),
+            y: [motion.delta, motion.omega, task.slip, motion.x],
+            // a fraction of the time in which the fastest thing here turns by one
+            h: 0.2 / (1.0 + motion.omega.abs()),
+            steps: 0,
+            rejected_in_a_row: 0,
+            search: None,
+        }
+    }
+
+    /// Slip at the end.
+    pub(crate) fn slip(&self, end: SlideEnd) -> f64 {
+        if end == SlideEnd::Stops {
+            0.0
+        } else {
+            self.y[2]
+        }
+    }
+
+    /// Slides until the phase ends. The motion is left on its corner.
+    pub(crate) fn follow<O: Observer>(
+        &mut self,
+        motion: &mut Motion,
+        watch: &mut Watch<'_, O>,
+    ) -> SlideEnd {
+        loop {
+            let end = if let Some(search) = &self.search {
+                let tried = self.sliding.step(&search.start, self.length());
+                let to = tried
+                    .possible
+                    .then(|| (tried.state, sin_cos(tried.state[0])));
+                self.tried(to, motion, watch)
+            } else {
+                let made = self.attempt();
+                self.made(made, motion, watch)
+            };
+            if let Some(end) = end {
+                return end;
+            }
+        }
+    }
+
+    /// Length of the step to attempt.
+    fn length(&self) -> f64 {
+        let share = self.search.as_ref().map(|search| search.share * self.h);
+        share.unwrap_or(self.h)
+    }
+
+    fn attempt(&self) -> Made {
+        let (start, begins) = self.sliding.at(&self.y);
+        if !begins {
+            return Made {
+                start,
+                begins,
+                end: start,
+                error: 0.0,
+                possible: false,
+            };
+        }
+        let step = self.sliding.whole_step(&start, self.h);
+        Made {
+            start,
+            begins,
+            end: step.end,
+            error: step.error,
+            possible: step.possible && step.sound,
+        }
+    }
+
+    /// Takes up an attempt at a whole step.
+    fn made<O: Observer>(
+        &mut self,
+        made: Made,
+        motion: &mut Motion,
+        watch: &mut Watch<'_, O>,
+    ) -> Option<SlideEnd> {
+        let open = made.begins && self.sliding.openness(made.start.angle) >= JAM;
+        if !open || self.rejected_in_a_row > 40 {
+            return Some(self.end(SlideEnd::Jams, motion));
+        }
+        if self.steps == self.max_steps {
+            return Some(self.end(SlideEnd::Lost, motion));
+        }
+        self.steps += 1;
+        let over = self.margins.over(&made.start, &made.end, self.h);
+        if let Some(shorter) = self.shorter(&made, &over) {
+            self.h = shorter;
+            self.rejected_in_a_row += 1;
+            return None;
+        }
+        self.rejected_in_a_row = 0;
+        self.search = over.search(&made.start);
+        if self.search.is_some() {
+            return None;
+        }
+        let end = Inside {
+            share: 1.0,
+            state: made.end.state,
+            angle: made.end.angle,
         };
-        if sliding.openness(y[0]) < JAM || rejected_in_a_row > 40 {
-            break SlideEnd::Jams;
+        self.move_on(&made.start, &end, motion, watch);
+        if self.energy < 1.0 {
+            return Some(self.end(SlideEnd::Certain, motion));
         }
-        if steps == task.max_steps {
-            break SlideEnd::Lost;
+        let longer = growth(self.tolerance, made.error).clamp(0.2, 4.0);
+        self.h = (self.h * longer).min(0.5 / (1.0 + self.y[1].abs()));
+        None
+    }
+
+    /// The length of the step to try instead, of one that is not accepted.
+    fn shorter(&self, made: &Made, over: &Over) -> Option<f64> {
+        let h = self.h;
+        if !made.possible {
+            return Some(0.25 * h);
         }
-        steps += 1;
-        let start = Arrival { state: y, rates };
-        let Some((next, error)) = sliding.step_with_error(&start, h) else {
-            h *= 0.25;
-            rejected_in_a_row += 1;
-            continue;
-        };
-        if error > task.tolerance {
-            h *= growth(task.tolerance, error).max(0.1);
-            rejected_in_a_row += 1;
-            continue;
+        if made.error > self.tolerance {
+            return Some(h * growth(self.tolerance, made.error).max(0.1));
         }
-        if let Some(shorter) = margins.dip(&start, &next, h)
-            && shorter < 0.99 * h
-        {
-            h = shorter;
-            rejected_in_a_row += 1;
-            continue;
+        let dip = over.dip().map(|share| share * h);
+        dip.filter(|shorter| *shorter < 0.99 * h)
+    }
+
+    /// Takes up a trial of the search for an event.
+    fn tried<O: Observer>(
+        &mut self,
+        to: Option<(Slide, (f64, f64))>,
+        motion: &mut Motion,
+        watch: &mut Watch<'_, O>,
+    ) -> Option<SlideEnd> {
+        let search = self.search.as_mut()?;
+        if !search.tried(&self.margins, to) {
+            return None;
         }
-        rejected_in_a_row = 0;
-        let event = margins.first_event(&sliding, &start, &next, h);
-        let (taken, state) = event.map_or((h, next.state), |(taken, state, _)| (taken, state));
-        let before = *motion;
-        y = state;
-        motion.time += taken;
+        let (start, inside, end) = (search.start, search.inside, search.end());
+        self.move_on(&start, &inside, motion, watch);
+        Some(self.end(end, motion))
+    }
+
+    /// Moves the coin to the end of an accepted step, or part of it.
+    fn move_on<O: Observer>(
+        &mut self,
+        start: &Arrival,
+        to: &Inside,
+        motion: &mut Motion,
+        watch: &mut Watch<'_, O>,
+    ) {
+        let (before, energy, k) = (*motion, self.energy, self.sliding.k);
+        self.y = to.state;
+        motion.time += to.share * self.h;
         watch.passed(before.time, motion.time, |t| {
             let mut motion = before;
             // a part of a step that was accepted is a step that can be made
-            if let Some((mut y, _)) = sliding.step(&start, t) {
-                place(&mut motion, &mut y, energy, shape.k);
+            let mut part = self.sliding.step(start, t);
+            if part.possible {
+                let angle = sin_cos(part.state[0]);
+                place(&mut motion, &mut part.state, angle, (energy, k));
             }
             motion
         });
-        place(motion, &mut y, energy, shape.k);
-        energy = energy.min(motion.energy(shape.k));
-        if let Some((.., end)) = event {
-            break end;
-        }
-        if energy < 1.0 {
-            break SlideEnd::Certain;
-        }
-        h = (h * growth(task.tolerance, error).clamp(0.2, 4.0)).min(0.5 / (1.0 + y[1].abs()));
-    };
-    if end == SlideEnd::Flat {
-        // exactly flat, so that the next quadrant begins where this one ended
-        motion.delta = shape.last_angle(motion.quadrant, y[0]);
-        let (sin, cos) = sin_cos(motion.delta);
-        motion.set_on_corner(sin, cos, y[1], y[2]);
-        motion.cap_energy(shape.k, energy);
+        place(motion, &mut self.y, to.angle, (energy, k));
+        self.energy = energy.min(motion.energy(k));
     }
-    let slip = if end == SlideEnd::Stops { 0.0 } else { y[2] };
-    (end, slip, steps)
+
+    /// Ends the phase.
+    fn end(&self, end: SlideEnd, motion: &mut Motion) -> SlideEnd {
+        if end == SlideEnd::Flat {
+            let (shape, y) = (&self.margins.shape, &self.y);
+            // exactly flat, so that the next quadrant begins where this one ended
+            motion.delta = shape.last_angle(motion.quadrant, y[0]);
+            let (sin, cos) = sin_cos(motion.delta);
+            motion.set_on_corner(sin, cos, y[1], y[2]);
+            motion.cap_energy(shape.k, self.energy);
+        }
+        end
+    }
 }
 
 /// By how much the next step may be longer: the usual exponent for a pair of order 5(4), and the
@@ -136,8 +271,12 @@ fn growth(tolerance: f64, error: f64) -> f64 {
 /// Writes the integrated state back, taking out what truncation added to the energy; the slip
 /// shrinks with the other velocities.
 #[inline]
-fn place(motion: &mut Motion, y: &mut Slide, energy_before: f64, k: f64) {
-    let (sin, cos) = sin_cos(y[0]);
+fn place(
+    motion: &mut Motion,
+    y: &mut Slide,
+    (sin, cos): (f64, f64),
+    (energy_before, k): (f64, f64),
+) {
     motion.delta = y[0];
     motion.x = y[3];
     motion.set_on_corner(sin, cos, y[1], y[2]);

@@ -1,0 +1,88 @@
+//! A coin whose lowest corner is on the surface, and what an impulse there does to it: over lanes.
+
+use crate::impact::{ContactMatrix, Impulse};
+use crate::motion::{self, Motion};
+use crate::trig::sin_cos;
+use coinmc_lanes::Lane;
+
+/// The angle, by its sine and cosine, and the velocities; the centre is cos δ high.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Touching<L> {
+    pub(crate) sin: L,
+    pub(crate) cos: L,
+    pub(crate) vx: L,
+    pub(crate) vz: L,
+    pub(crate) omega: L,
+}
+
+impl Touching<f64> {
+    #[inline]
+    pub(crate) fn of(motion: &Motion) -> Self {
+        Self::new(motion.delta, motion.vx, motion.vz, motion.omega)
+    }
+}
+
+impl<L: Lane> Touching<L> {
+    #[inline(always)]
+    pub(crate) fn new(delta: L, vx: L, vz: L, omega: L) -> Self {
+        let (sin, cos) = sin_cos(delta);
+        Self {
+            sin,
+            cos,
+            vx,
+            vz,
+            omega,
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn matrix(&self, k: f64) -> ContactMatrix<L> {
+        ContactMatrix::new(self.sin, self.cos, k)
+    }
+
+    /// Velocity of the corner, which does not leave.
+    #[inline(always)]
+    pub(crate) fn approach(&self) -> (L, L) {
+        // a corner that is swapped in may leave already, by rounding
+        let down = (self.vz + self.omega * self.sin).min(L::splat(0.0));
+        (self.vx - self.omega * self.cos, down)
+    }
+
+    /// The angular velocity after an impulse.
+    #[inline(always)]
+    pub(crate) fn turned(&self, p: &Impulse<L>, k: f64) -> L {
+        self.omega + (self.sin * p.z - self.cos * p.x) / L::splat(k)
+    }
+
+    /// After an impulse.
+    #[inline(always)]
+    pub(crate) fn pushed(&self, p: &Impulse<L>, k: f64) -> Self {
+        Self {
+            vx: self.vx + p.x,
+            vz: self.vz + p.z,
+            omega: self.turned(p, k),
+            ..*self
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn energy_without_sliding(&self, k: f64) -> L {
+        motion::energy_without_sliding(k, [self.cos, self.vz, self.omega])
+    }
+
+    #[inline(always)]
+    pub(crate) fn energy(&self, k: f64) -> L {
+        self.energy_without_sliding(k) + L::splat(0.5) * self.vx * self.vx
+    }
+
+    /// With no more energy than `before`: see [`Motion::cap_energy`].
+    #[inline(always)]
+    pub(crate) fn capped(self, k: f64, before: L) -> Self {
+        motion::cap(self.cos, self.energy(k), before).map_or(self, |scale| Self {
+            vx: self.vx * scale,
+            vz: self.vz * scale,
+            omega: self.omega * scale,
+            ..self
+        })
+    }
+}
