@@ -3,11 +3,11 @@
 use crate::number;
 use crate::run_apart::RunApart;
 use crate::studies::{
-    Convergence, Energy, Film, FlatTable, ImpactAccuracy, ImpactBalance, ImpactCurves, ImpactLimit,
-    LinkFuzz, MissedContacts, Oracle, RapierEnergy, RapierRestitution, RapierSpeed, RapierStep,
-    RapierStress, RobotSoak, Scaling, Sensitivity, SpaceConvergence, SpaceDecision, SpaceEnergy,
-    SpaceLanes, SpaceLaws, SpaceMissed, SpacePeers, SpaceReferences, SpaceSpeed, SpaceStress,
-    Speed, Stability, StoppingRule, Undecided,
+    Convergence, Energy, Film, FlatLanes, FlatTable, ImpactAccuracy, ImpactBalance, ImpactCurves,
+    ImpactLimit, Integration, LinkFuzz, MissedContacts, Oracle, RapierEnergy, RapierRestitution,
+    RapierSpeed, RapierStep, RapierStress, RobotSoak, Scaling, Sensitivity, SpaceConvergence,
+    SpaceDecision, SpaceEnergy, SpaceLanes, SpaceLaws, SpaceMissed, SpacePeers, SpaceReferences,
+    SpaceSpeed, SpaceStress, Speed, Stability, StoppingRule, Undecided,
 };
 use anyhow::{Context, anyhow};
 use clap::{Args, Parser, Subcommand};
@@ -41,6 +41,8 @@ pub(crate) struct Arguments {
 enum Command {
     /// P(side) in the scenes of an earlier planar study, and against Chipmunk and Box2D
     FlatTable(FlatTable),
+    /// Flat tosses side by side against one after the other
+    FlatLanes(FlatLanes),
     /// Fits to synthetic film: how often the intervals hold the truth
     Film(Film),
     /// How P(side) depends on the engine's settings, toss by toss
@@ -57,6 +59,8 @@ enum Command {
     StoppingRule(StoppingRule),
     /// How the fair ratio depends on drop height, restitution and friction
     Sensitivity(Sensitivity),
+    /// Adhesive scenes: error of random and Sobol tosses, control variate, quadrature
+    Integration(Integration),
     /// Either engine under random tosses from a huge box: errors, gains and limits by region
     Stability(Stability),
     /// Whole runs over threads and numbers of tosses: rate, speed-up, memory
@@ -126,6 +130,7 @@ impl Arguments {
         let seed = self.seed;
         let report = match self.command {
             Command::FlatTable(study) => study.carry_out(seed),
+            Command::FlatLanes(study) => study.carry_out(),
             Command::Film(study) => study.carry_out(seed),
             Command::Convergence(study) => study.carry_out(seed),
             Command::MissedContacts(study) => study.carry_out(seed),
@@ -134,6 +139,7 @@ impl Arguments {
             Command::Undecided(study) => study.carry_out(seed),
             Command::StoppingRule(study) => study.carry_out(seed),
             Command::Sensitivity(study) => study.carry_out(seed)?,
+            Command::Integration(study) => study.carry_out(seed),
             Command::Stability(study) => study.carry_out(seed)?,
             Command::Scaling(study) => study.carry_out()?,
             Command::Speed(study) => study.carry_out(seed)?,

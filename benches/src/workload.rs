@@ -2,7 +2,7 @@
 
 use crate::Case;
 use coinmc_core::{Engine, Philox4x64, Preset, run_tosses};
-use coinmc_flat::{ChatterjeeRuina, Moreau, Settings};
+use coinmc_flat::{ChatterjeeRuina, ImpactLaw, Moreau, Settings};
 use coinmc_volumetric::{Lanes, VolumetricEngine};
 use std::hint::black_box;
 use std::ops::Range;
@@ -26,9 +26,9 @@ pub struct Workload {
 
 #[derive(Debug, Clone)]
 enum Task {
-    /// Tosses under Moreau's law.
-    Toss(Case),
-    /// Tosses under Chatterjee and Ruina's.
+    /// Tosses under Moreau's law, with these lanes.
+    Toss(Case, Lanes),
+    /// Tosses under Chatterjee and Ruina's, one after the other.
     TossChatterjeeRuina(Case),
     /// Tosses in space under Moreau's law, with these lanes.
     TossInSpace(Case, Lanes),
@@ -38,7 +38,8 @@ enum Task {
     Philox,
 }
 
-/// Flat ones: tosses first, then the parts a toss is made of.
+/// Flat ones, one after the other (so that their instructions are the same on every processor):
+/// tosses first, then the parts a toss is made of.
 pub fn workloads() -> Vec<Workload> {
     use Preset::{CleanFlat, Robot};
     let case = |preset, ratio, e, mu| Case::new(preset, 0.01, ratio, e, mu);
@@ -53,7 +54,7 @@ pub fn workloads() -> Vec<Workload> {
         case(CleanFlat, 10.0, 0.5, 0.3),
     ]
     .into_iter()
-    .map(|case| Workload::new(format!("toss {}", short(&case)), Task::Toss(case)))
+    .map(|case| Workload::toss_flat(case, Lanes::Scalar))
     .collect();
     let other_law = case(CleanFlat, 1.2, 0.5, 0.3);
     list.push(Workload::new(
@@ -64,7 +65,7 @@ pub fn workloads() -> Vec<Workload> {
         let adhesive = case(preset, 1.2, 0.0, 0.0).adhesive();
         list.push(Workload::new(
             format!("first contact {preset} x=1.2"),
-            Task::Toss(adhesive),
+            Task::Toss(adhesive, Lanes::Scalar),
         ));
     }
     for preset in [CleanFlat, Robot] {
@@ -103,23 +104,36 @@ fn short(case: &Case) -> String {
     case.to_string().replace(" R=0.01", "")
 }
 
+fn toss_name(case: &Case, lanes: Lanes) -> String {
+    match lanes {
+        Lanes::Scalar => format!("toss {}", short(case)),
+        _ => format!("toss {} {lanes}", short(case)),
+    }
+}
+
+/// These lanes, or the portable ones.
+fn available(lanes: Lanes) -> Lanes {
+    if lanes.is_available() {
+        lanes
+    } else {
+        Lanes::Portable
+    }
+}
+
 impl Workload {
     fn new(name: String, task: Task) -> Self {
         Self { name, task }
     }
 
+    /// Flat tosses with these lanes, or the portable ones where the processor lacks them.
+    pub fn toss_flat(case: Case, lanes: Lanes) -> Self {
+        Self::new(toss_name(&case, lanes), Task::Toss(case, available(lanes)))
+    }
+
     /// Tosses in space with these lanes, or the portable ones where the processor lacks them.
     pub fn toss_in_space(case: Case, lanes: Lanes) -> Self {
-        let name = match lanes {
-            Lanes::Scalar => format!("toss {}", short(&case)),
-            _ => format!("toss {} {lanes}", short(&case)),
-        };
-        let lanes = if lanes.is_available() {
-            lanes
-        } else {
-            Lanes::Portable
-        };
-        Self::new(name, Task::TossInSpace(case, lanes))
+        let task = Task::TossInSpace(case, available(lanes));
+        Self::new(toss_name(&case, lanes), task)
     }
 
     /// The case, of tosses in space.
@@ -133,7 +147,7 @@ impl Workload {
     /// Of flat tosses, the name of the workload that makes their launches alone.
     pub fn launch(&self) -> Option<String> {
         match &self.task {
-            Task::Toss(case) | Task::TossChatterjeeRuina(case) => Some(launch_name(case.preset)),
+            Task::Toss(case, _) | Task::TossChatterjeeRuina(case) => Some(launch_name(case.preset)),
             Task::TossInSpace(..) | Task::Launch(_) | Task::Philox => None,
         }
     }
@@ -142,17 +156,20 @@ impl Workload {
     /// depends on the numbers only, so that no compiler can leave any of the work out.
     pub fn run(&self, range: Range<u64>) -> u64 {
         match &self.task {
-            Task::Toss(case) => tosses(&case.engine(&Settings::default(), Moreau), case, range),
-            Task::TossChatterjeeRuina(case) => tosses(
-                &case.engine(&Settings::default(), ChatterjeeRuina),
-                case,
-                range,
-            ),
+            Task::Toss(case, lanes) => toss_flat(case, Moreau, *lanes, range),
+            Task::TossChatterjeeRuina(case) => {
+                toss_flat(case, ChatterjeeRuina, Lanes::Scalar, range)
+            }
             Task::TossInSpace(case, lanes) => toss_in_space(case, *lanes, range),
             Task::Launch(case) => launches(case, range),
             Task::Philox => philox(range),
         }
     }
+}
+
+fn toss_flat<L: ImpactLaw>(case: &Case, law: L, lanes: Lanes, range: Range<u64>) -> u64 {
+    let engine = case.engine(&Settings::default(), law).with_lanes(lanes);
+    tosses(&engine.expect("lanes are available"), case, range)
 }
 
 fn toss_in_space(case: &Case, lanes: Lanes, range: Range<u64>) -> u64 {

@@ -240,6 +240,16 @@ fn in_space_speed_has_a_rate_for_every_scene() {
 }
 
 #[test]
+fn flat_lanes_all_have_a_rate() {
+    let lines = study(&["flat-lanes", "--tosses", "200", "--repeats", "1"]);
+    let kinds = column(&lines, "lanes");
+    assert_eq!(kinds[..2], ["scalar", "portable"]);
+    let of_scalar = numbers(&lines, "of_scalar");
+    assert_eq!(kinds.len() % 12, 0);
+    assert!(of_scalar.iter().all(|ratio| *ratio > 0.0));
+}
+
+#[test]
 fn in_space_lanes_all_have_a_rate() {
     let lines = study(&["space-lanes", "--tosses", "50", "--repeats", "1"]);
     let kinds = column(&lines, "lanes");
@@ -428,5 +438,22 @@ fn whole_runs_are_timed_over_threads_and_tosses() {
             "{peak:?}"
         );
         assert_eq!(column(&lines, "tosses").last(), Some(&"10000"));
+    }
+}
+
+#[test]
+fn quadrature_is_sharper_than_tosses() {
+    let lines = study(&["integration", "--estimates", "8", "--most", "1e4"]);
+    // seven scenes, two numbers of evaluations, five ways
+    assert_eq!(lines.len(), 1 + 7 * 2 * 5);
+    let (ways, errors) = (column(&lines, "way"), column(&lines, "error"));
+    let (scenes, number) = (column(&lines, "scene"), column(&lines, "evaluations"));
+    let methods = column(&lines, "method");
+    let error = |i: usize| errors[i].parse::<f64>().unwrap();
+    for i in (0..ways.len()).filter(|&i| ways[i] == "auto" && methods[i] != "tossed") {
+        let random = (0..ways.len())
+            .find(|&j| ways[j] == "random" && scenes[j] == scenes[i] && number[j] == number[i]);
+        // the error of 8 estimates is good to a quarter
+        assert!(error(i) < 0.7 * error(random.unwrap()), "{}", lines[i + 1]);
     }
 }

@@ -224,7 +224,8 @@ class Config:
 
     def _tosses(self) -> str:
         if self.tosses_planned == 0:
-            return "none: closed forms are exact"
+            analytic = self.engine() == "analytic"
+            return "none: closed forms are exact" if analytic else "none: points are integrated"
         if self.stop.half_width is None:
             return f"{self.stop.tosses:,} a point, {self.tosses_planned:,} in all"
         most = f"{self.tosses_planned:,} at most"

@@ -209,7 +209,9 @@ class Result:
         rows = []
         for row in range(min(len(self), _SHOWN)):
             cells = [f"{columns[axis][row]:.6g}" for axis in axes]
-            cells.append(f"{columns['tosses'][row]:,}")
+            evaluations = columns["evaluations"][row]
+            shown = f"{evaluations:,} evaluations" if evaluations else f"{columns['tosses'][row]:,}"
+            cells.append(shown)
             for face in ("heads", "tails", "side"):
                 p, lo, hi = (columns[f"p_{face}{end}"][row] for end in ("", "_lo", "_hi"))
                 cells.append(f"{p:.5f}" if lo == hi else f"{p:.5f} [{lo:.5f}, {hi:.5f}]")

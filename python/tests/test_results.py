@@ -175,6 +175,36 @@ def test_the_fair_ratio_is_the_command_lines(command, examples, tmp_path):
         assert (fair.at, fair.rising) == (line["at"], line["rising"])
 
 
+@pytest.mark.parametrize(
+    ("engine", "preset", "interval"),
+    [("volumetric", "hand", "student-t"), ("volumetric", "clean", "exact")],
+)
+def test_what_does_not_bounce_is_integrated_as_by_the_command_line(
+    command, tmp_path, engine, preset, interval
+):
+    config = {
+        "seed": 5,
+        "coin": {"ratio": [0.7, 1.4]},
+        "surface": {"landing": "adhesive"},
+        "launch": {"preset": preset},
+        "engine": {engine: {}},
+        "stop": {"tosses": 20_000},
+    }
+    assert "none: points are integrated" in str(coinmc.check(config))
+    path = tmp_path / "toss.toml"
+    path.write_text(coinmc.Config(config).resolved)
+    printed = command("run", path, "--out", tmp_path / "run", "--format", "json", "--quiet").stdout
+    rows = json.loads(printed)["rows"]
+    result = coinmc.estimate(config)
+    assert result.tosses == 0 and set(result["interval"]) == {interval}
+    for name in ("p_side", "p_side_lo", "p_side_hi", "p_heads", "evaluations", "sampling"):
+        assert [row[name] for row in rows] == list(result[name])
+    forced = coinmc.estimate(config, overrides={"sampling.method": "random"})
+    assert forced.tosses == 40_000 and set(forced["sampling"]) == {"random"}
+    # 4 standard errors of 20 000 tosses
+    assert np.abs(forced["p_side"] - result["p_side"]).max() < 4 * np.sqrt(0.25 / 20_000)
+
+
 def test_fair_for_other_faces_and_parameters(scene):
     config = {
         **scene,

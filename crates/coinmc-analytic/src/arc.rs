@@ -9,9 +9,11 @@
 //!
 //! > P(side) = 2·2α/(2π) = (2/π)·atan(x/2),  1 − P(side) = (2/π)·atan(2/x).
 //!
-//! The angle is uniform in the limit of a vigorous toss: it turns often, the number of turns is not
-//! controlled, and the coin falls by its own size while it hardly turns. A coin that turns fast
-//! while it falls slowly touches with a rim sooner, and its angle at contact is not uniform.
+//! The angle that counts is that at the moment when the centre comes down to `l`: nothing touches
+//! before, and from then on the coin cannot pass a balance over a rim without having touched. It is
+//! uniform if the angle at launch is uniform over whole turns, whatever the spin, and in the limit
+//! of a vigorous toss: it turns often, and the number of turns is not controlled. (The angle *at
+//! contact* is not uniform for a coin that turns fast while it falls slowly; the face is the same.)
 //!
 //! **Small and large coins.** `x/π` as `x → 0`; `1 − 4/(πx)` as `x → ∞`.
 //!

@@ -4,7 +4,7 @@
 //! continued fraction stops after a fixed number of terms and ln Γ(n) cancels, so that at
 //! n = 1e8 an interval misses its own estimate.
 
-/// The x at which the regularised incomplete beta function I_x(a, b) equals `tail`, for a, b >= 1;
+/// The x at which the regularised incomplete beta function I_x(a, b) equals `tail`, for a, b >= ½;
 /// returned as (x, 1 − x), both with all their digits.
 ///
 /// In the variable w = ln(t/(1 − t)) the density is t^a (1 − t)^b dw: analytic, log-concave, its

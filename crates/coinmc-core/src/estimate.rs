@@ -132,6 +132,22 @@ fn clopper_pearson(k: u64, n: u64, tail: f64) -> (f64, f64) {
     )
 }
 
+/// The t that Student's distribution with `dof` degrees of freedom exceeds with probability `tail`,
+/// 0 < `tail` < ½.
+///
+/// P(T > t) = ½ I_x(ν/2, ½) with x = ν/(ν + t²), I the regularised incomplete beta function.
+///
+/// # Example
+/// ```
+/// use coinmc_core::student_t_quantile;
+/// assert!((student_t_quantile(15, 0.025) - 2.131_449_545_559_323).abs() < 1e-9);
+/// ```
+pub fn student_t_quantile(dof: u32, tail: f64) -> f64 {
+    let dof = f64::from(dof);
+    let (x, rest) = beta_quantile(dof / 2.0, 0.5, 2.0 * tail);
+    (dof * rest / x).sqrt()
+}
+
 /// Exact relative standard error of an estimated probability, ΔP/P = sqrt((1 − P)/(P N)).
 ///
 /// # Example

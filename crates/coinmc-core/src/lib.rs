@@ -48,7 +48,9 @@ pub mod trig;
 
 pub use coin::{Coin, CoinError};
 pub use engine::{Engine, Event, EventKind, Observer, State, run_tosses, sample_between};
-pub use estimate::{Estimate, IntervalMethod, relative_error, rule_of_thumb_relative_error};
+pub use estimate::{
+    Estimate, IntervalMethod, relative_error, rule_of_thumb_relative_error, student_t_quantile,
+};
 pub use launch::{
     Launch, LaunchDistribution, LaunchError, Marginal, Orientation, Preset, Spin,
     inverse_normal_cdf,

@@ -4,8 +4,11 @@
 //! [`Plan::hash`] give the same results to the byte.
 
 mod explain;
+mod sampling;
 
 pub use explain::Explanation;
+pub use coinmc_quadrature::{Goal, Integral, Method};
+pub use sampling::Sampling;
 
 use coinmc_analytic::Rule;
 use coinmc_core::{IntervalMethod, LaunchDistribution, Scene};
@@ -24,7 +27,7 @@ pub const MAX_TOSSES: u64 = 1_000_000_000_000_000;
 
 /// Version of what a resolved config means. It changes when the same text comes to mean other
 /// results.
-const PLAN_FORMAT: u32 = 1;
+const PLAN_FORMAT: u32 = 2;
 
 /// Everything a run will do.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,6 +39,8 @@ pub struct Plan {
     pub paired: bool,
     /// When a point has enough tosses.
     pub stop: Stop,
+    /// How launches are drawn where the first contact decides.
+    pub sampling: Sampling,
     /// Confidence of every interval, in (0, 1).
     pub confidence: f64,
     /// How intervals are computed when the number of tosses is fixed.
@@ -70,16 +75,12 @@ impl Plan {
 
     /// Tosses that the run will make at most, over all points.
     pub fn tosses_planned(&self) -> u64 {
-        let tossed = self
-            .points
-            .iter()
-            .filter(|point| point.engine.makes_tosses());
         let each = match self.stop {
             Stop::Tosses(tosses) => tosses,
             Stop::HalfWidth { max_tosses, .. } => max_tosses,
         };
         // MAX_POINTS · MAX_TOSSES lies beyond u64
-        each.saturating_mul(tossed.count() as u64)
+        each.saturating_mul(self.points_tossed())
     }
 }
 

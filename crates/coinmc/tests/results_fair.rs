@@ -16,6 +16,8 @@ fn row(parameters: &[(&str, f64)], side: Estimate) -> Row {
         law: "moreau",
         gyroscopic_torque: true,
         tally: Tally::default(),
+        sampling: "random",
+        evaluations: 0,
         heads: side,
         tails: side,
         side,

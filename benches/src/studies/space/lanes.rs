@@ -2,13 +2,11 @@
 
 use super::{cells, columns};
 use crate::number;
-use crate::processor_time::Stopwatch;
 use crate::report::{Report, Table};
+use crate::studies::lanes::{RATE_COLUMNS, RATES, Turns};
 use clap::Args;
 use coinmc_bench::{Case, Workload};
 use coinmc_core::Preset;
-use coinmc_volumetric::Lanes;
-use std::hint::black_box;
 
 /// The study's arguments.
 #[derive(Debug, Args)]
@@ -24,66 +22,25 @@ pub(crate) struct SpaceLanes {
 
 impl SpaceLanes {
     pub(crate) fn carry_out(&self) -> Report {
-        let kinds = Lanes::ALL.into_iter().filter(|lanes| lanes.is_available());
-        let kinds: Vec<Lanes> = kinds.collect();
+        let turns = Turns {
+            tosses: self.tosses,
+            repeats: self.repeats,
+        };
         let title = format!(
             "One core, {} repeats of {} tosses, friction {}",
             self.repeats,
             self.tosses,
             super::FRICTION
         );
-        let names = ["lanes", "tosses_a_second", "lowest", "highest", "of_scalar"];
-        let mut record = Table::new(title, &columns(&names));
+        let mut record = Table::new(title, &columns(&RATE_COLUMNS));
         for case in cases() {
-            let works: Vec<Workload> = kinds
-                .iter()
-                .map(|lanes| Workload::toss_in_space(case, *lanes))
-                .collect();
-            let seconds = self.time(&works);
-            for (lanes, own) in kinds.iter().zip(&seconds) {
-                let mut row = cells(&case);
-                row.push(lanes.to_string());
-                row.extend(self.rates(own, &seconds[0]));
-                record.push(row);
+            for rates in turns.rates(|lanes| Workload::toss_in_space(case, lanes)) {
+                record.push([cells(&case), rates].concat());
             }
         }
         let mut report = Report::new(record);
-        report.remark(
-            "Rates are medians, by the time on the processor. All kinds of lanes take turns in \
-             every repeat, and of_scalar is the median of the ratios: it holds on a busy machine \
-             as well. The tosses are the same with all of them, to the last bit.",
-        );
+        report.remark(RATES);
         report
-    }
-
-    /// Seconds of every repeat of each; every other repeat goes backwards.
-    fn time(&self, works: &[Workload]) -> Vec<Vec<f64>> {
-        let mut seconds = vec![Vec::new(); works.len()];
-        for repeat in 0..self.repeats {
-            let mut order: Vec<usize> = (0..works.len()).collect();
-            if repeat % 2 == 1 {
-                order.reverse();
-            }
-            for i in order {
-                let watch = Stopwatch::start();
-                black_box(works[i].run(0..self.tosses));
-                // a run too short for the clock counts as its least
-                seconds[i].push(watch.seconds().max(1e-6));
-            }
-        }
-        seconds
-    }
-
-    fn rates(&self, own: &[f64], scalar: &[f64]) -> Vec<String> {
-        let rates: Vec<f64> = own.iter().map(|s| self.tosses as f64 / s).collect();
-        let ratios: Vec<f64> = scalar.iter().zip(own).map(|(one, own)| one / own).collect();
-        let lowest = rates.iter().copied().fold(f64::INFINITY, f64::min);
-        let highest = rates.iter().copied().fold(0.0, f64::max);
-        let mut cells: Vec<String> = [number::median(&rates), lowest, highest]
-            .map(|rate| format!("{rate:.0}"))
-            .into();
-        cells.push(format!("{:.2}", number::median(&ratios)));
-        cells
     }
 }
 

@@ -158,6 +158,13 @@ fn closing_line(report: &Report, progress: &Progress) -> String {
     if closed && report.status != Status::Interrupted {
         return format!("coinmc: {points} by closed form, nothing to toss");
     }
+    let evaluations: u64 = report.results.rows.iter().map(|row| row.evaluations).sum();
+    if report.tosses == 0 && evaluations > 0 {
+        return format!(
+            "coinmc: {points} integrated by {} evaluations, nothing to toss",
+            grouped(evaluations)
+        );
+    }
     let (made, time) = progress.made(report.tosses);
     let earlier = report.tosses - made;
     if made == 0 && earlier > 0 && report.status != Status::Interrupted {

@@ -7,6 +7,8 @@ use super::Philox4x64;
 pub enum Domain {
     /// Launches of a run.
     Launch,
+    /// Scrambles of low-discrepancy points.
+    Scramble,
 }
 
 impl Domain {
@@ -14,6 +16,7 @@ impl Domain {
     fn word(self) -> u64 {
         match self {
             Self::Launch => 0,
+            Self::Scramble => 1,
         }
     }
 }
@@ -77,16 +80,24 @@ pub struct TossUniforms {
     cached: u32,
 }
 
-impl UniformSource for TossUniforms {
+impl TossUniforms {
+    /// The random word of this dimension, 64 bits; [`UniformSource::uniform`] is made of it.
     #[inline]
-    fn uniform(&mut self, dimension: u32) -> f64 {
+    pub fn word(&mut self, dimension: u32) -> u64 {
         let index = dimension / 4;
         if index != self.cached {
             self.counter[0] = u64::from(index);
             self.block = self.philox.block(self.counter);
             self.cached = index;
         }
-        unit_interval(self.block[(dimension % 4) as usize])
+        self.block[(dimension % 4) as usize]
+    }
+}
+
+impl UniformSource for TossUniforms {
+    #[inline]
+    fn uniform(&mut self, dimension: u32) -> f64 {
+        unit_interval(self.word(dimension))
     }
 }
 

@@ -6,7 +6,7 @@ use super::form::{Form, What};
 use super::launch;
 use super::source::Span;
 use super::sweep::Sweep;
-use crate::plan::{Point, Stop};
+use crate::plan::{Point, Sampling, Stop};
 use coinmc_core::{
     Coin, CoinError, Drag, IntervalMethod, Landing, LaunchDistribution, Preset, Scene, Surface,
 };
@@ -315,6 +315,12 @@ pub(super) fn stop(root: &Form) -> Option<Stop> {
         half_width,
         max_tosses: integer(form, "max_tosses")?,
     })
+}
+
+/// How launches are drawn.
+pub(super) fn sampling(root: &Form) -> Option<Sampling> {
+    let name = root.get("sampling")?.get("method")?.word()?;
+    Sampling::ALL.into_iter().find(|known| known.name() == name)
 }
 
 /// Confidence and method of the intervals.

@@ -155,6 +155,7 @@ fn plan(
         seed: build::integer(&root, "seed")?,
         paired: build::boolean(&root, "paired")?,
         stop: build::stop(&root)?,
+        sampling: build::sampling(&root)?,
         confidence,
         interval,
         axes: sweep.axes.into_iter().map(|axis| axis.name).collect(),

@@ -1,10 +1,12 @@
 //! What a plan computes and what it skips, in words.
 
 mod omission;
+mod without_tosses;
 
-use super::{EngineChoice, Plan, Point};
+use super::{EngineChoice, Plan};
 use coinmc_core::Landing;
 use coinmc_flat as flat;
+use coinmc_quadrature::Method;
 use coinmc_rapier as rapier;
 use coinmc_volumetric as volumetric;
 use omission::{Omission, omissions};
@@ -35,13 +37,13 @@ impl Plan {
     /// ```
     pub fn explain(&self) -> Vec<Explanation> {
         let mut treatments: Vec<(Treatment, Explanation)> = Vec::new();
-        for point in &self.points {
-            let treatment = Treatment::of(point);
+        for index in 0..self.points.len() {
+            let treatment = Treatment::of(self, index);
             let known = treatments.iter_mut().find(|(known, _)| *known == treatment);
             if let Some((_, explanation)) = known {
                 explanation.points += 1;
             } else {
-                let explanation = treatment.explain(point);
+                let explanation = treatment.explain(&self.points[index].engine);
                 treatments.push((treatment, explanation));
             }
         }
@@ -58,38 +60,45 @@ struct Treatment {
     engine: std::mem::Discriminant<EngineChoice>,
     /// Slow contacts do not bounce. Unlike the rest this is something computed.
     threshold: bool,
+    /// The first contact decides.
+    adhesive: bool,
+    /// How it is integrated, and how many random numbers are left to that.
+    integrated: Option<(Method, usize)>,
     omissions: Vec<Omission>,
 }
 
 impl Treatment {
-    fn of(point: &Point) -> Self {
+    fn of(plan: &Plan, index: usize) -> Self {
+        let point = &plan.points[index];
         let surface = &point.scene.surface;
-        let impacts = point.engine.makes_tosses() && surface.landing() == Landing::Bouncing;
+        let adhesive = surface.landing() == Landing::Adhesive;
+        let impacts = point.engine.makes_tosses() && !adhesive;
+        let method = plan.method(index);
         Self {
             engine: std::mem::discriminant(&point.engine),
             threshold: impacts && surface.restitution_threshold_m_s() > 0.0,
-            omissions: omissions(point),
+            adhesive,
+            integrated: method.map(|method| (method, method.dimensions_left(&point.launches))),
+            omissions: omissions(point, method),
         }
     }
 
-    fn explain(&self, point: &Point) -> Explanation {
-        let adhesive = point.scene.surface.landing() == Landing::Adhesive;
-        let computed = match &point.engine {
-            EngineChoice::Analytic(rule) => format!(
+    fn explain(&self, engine: &EngineChoice) -> Explanation {
+        let computed = match (self.integrated, engine) {
+            (Some((method, left)), _) => without_tosses::computed(method, left),
+            (None, EngineChoice::Analytic(rule)) => format!(
                 "closed form {rule}: P(side) = {}, x = H/R ({})",
                 rule.formula(),
                 rule.assumption()
             ),
-            EngineChoice::Flat(_) | EngineChoice::Volumetric(_) | EngineChoice::Rapier(_)
-                if adhesive =>
-            {
+            (None, _) if self.adhesive => {
                 "flight in closed form to the first contact; the coin sticks there and falls to the \
                  side its centre hangs over"
                     .to_owned()
             }
-            EngineChoice::Flat(settings) => in_the_plane(settings),
-            EngineChoice::Volumetric(settings) => in_space(settings, self.threshold),
-            EngineChoice::Rapier(settings) => in_steps(settings, self.threshold),
+            (None, EngineChoice::Flat(settings)) => in_the_plane(settings),
+            (None, EngineChoice::Volumetric(settings)) => in_space(settings, self.threshold),
+            (None, EngineChoice::Rapier(settings)) => in_steps(settings, self.threshold),
         };
         Explanation {
             points: 1,

@@ -4,9 +4,16 @@
 use crate::plan::{EngineChoice, Plan, Stop};
 use crate::run::looks;
 use coinmc_core::{Estimate, Face, IntervalMethod, Tally};
+use coinmc_quadrature::{Integral, Share};
 
 /// Name of the interval of a closed form.
 pub(super) const EXACT: &str = "exact";
+/// Name of the interval of an integral.
+pub(super) const STUDENT: &str = "student-t";
+/// Names of how launches were drawn.
+pub(super) const RANDOM: &str = "random";
+pub(super) const QUASI_RANDOM: &str = "quasi-random";
+pub(super) const CLOSED_FORM: &str = "closed-form";
 
 /// The estimates of heads, tails and side at point `index`, given its tosses so far.
 ///
@@ -47,6 +54,18 @@ pub(crate) fn estimates(plan: &Plan, index: usize, tally: &Tally) -> [Estimate; 
             confidence: plan.confidence,
             ..at_look
         }
+    })
+}
+
+/// The estimates of heads, tails and side of an integral; `n` counts its evaluations.
+pub(super) fn integrated(plan: &Plan, integral: &Integral) -> [Estimate; 3] {
+    integral.faces.map(|Share { p, lo, hi }| Estimate {
+        p,
+        lo,
+        hi,
+        n: integral.evaluations,
+        confidence: plan.confidence,
+        method: plan.interval,
     })
 }
 

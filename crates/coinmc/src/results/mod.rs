@@ -18,6 +18,7 @@ use crate::plan::Plan;
 use crate::published::Published;
 use crate::run::{engine_name, law};
 use coinmc_core::{Estimate, Face, Tally};
+use coinmc_quadrature::Integral;
 use std::sync::Arc;
 
 /// All points of a run.
@@ -59,8 +60,14 @@ pub struct Row {
     /// Probability of the side.
     pub side: Estimate,
     /// How the intervals were computed: `wilson`, `clopper-pearson`, `sequential-clopper-pearson`
-    /// where the point stopped at a half width, `exact` for a closed form.
+    /// where the point stopped at a half width, `student-t` of an integral, `exact` for a closed
+    /// form.
     pub interval: &'static str,
+    /// How the launches were drawn: `random`, `quasi-random`, or `closed-form` where there was
+    /// nothing to draw.
+    pub sampling: &'static str,
+    /// Evaluations of a point that was integrated, else 0.
+    pub evaluations: u64,
     /// The point has the tosses, or the half width, asked for.
     pub reached_target: bool,
     /// What was published for the same launch and ratio; no column of the table.
@@ -100,8 +107,43 @@ impl Row {
             tails,
             side,
             interval: estimates::interval_name(plan, index),
+            sampling: if point.engine.makes_tosses() {
+                estimates::RANDOM
+            } else {
+                estimates::CLOSED_FORM
+            },
+            evaluations: 0,
             reached_target,
             published: Published::of(point),
+        }
+    }
+
+    /// The row of point `index` that was integrated.
+    ///
+    /// # Panics
+    /// If the plan has no such point.
+    pub fn integrated(
+        plan: &Plan,
+        index: usize,
+        integral: &Integral,
+        reached_target: bool,
+    ) -> Self {
+        let [heads, tails, side] = estimates::integrated(plan, integral);
+        let (interval, sampling) = if integral.exact {
+            (estimates::EXACT, estimates::CLOSED_FORM)
+        } else {
+            (estimates::STUDENT, estimates::QUASI_RANDOM)
+        };
+        Self {
+            heads,
+            tails,
+            side,
+            interval,
+            sampling,
+            evaluations: integral.evaluations,
+            // published counts are compared with counts
+            published: None,
+            ..Self::new(plan, index, Tally::default(), reached_target)
         }
     }
 
@@ -125,7 +167,11 @@ impl Row {
     /// The longest arm of the three intervals: 0 for a closed form, 1 before the first toss.
     pub fn half_width(&self) -> f64 {
         if self.interval == estimates::EXACT {
-            return 0.0;
+            // no tosses, and no length unless some launch has no face
+            return Face::ALL
+                .iter()
+                .map(|&face| self.estimate(face).hi - self.estimate(face).p)
+                .fold(0.0, f64::max);
         }
         Face::ALL
             .iter()

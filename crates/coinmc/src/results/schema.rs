@@ -1,7 +1,7 @@
 //! The one definition of the results table: CSV, Parquet, JSON and docs/formats.md follow it.
 
 use super::{Results, Row};
-use coinmc_core::{Estimate, relative_error, rule_of_thumb_relative_error};
+use coinmc_core::{relative_error, rule_of_thumb_relative_error};
 
 /// Version of the table.
 pub const FORMAT: u64 = 1;
@@ -124,7 +124,7 @@ const FIXED: &[Definition] = &[
         "tosses",
         Kind::Count,
         "1",
-        "All tosses, undecided ones included; 0 for a closed form.",
+        "All tosses, undecided ones included; 0 for a closed form or an integral.",
         |row| Cell::Count(row.tally.tosses()),
     ),
     (
@@ -183,7 +183,7 @@ const FIXED: &[Definition] = &[
         "p_heads",
         Kind::Number,
         "1",
-        "Estimated probability of heads: heads/tosses.",
+        "Probability of heads: heads/tosses, or the integral.",
         |row| Cell::finite(row.heads.p),
     ),
     (
@@ -204,7 +204,7 @@ const FIXED: &[Definition] = &[
         "p_tails",
         Kind::Number,
         "1",
-        "Estimated probability of tails: tails/tosses.",
+        "Probability of tails: tails/tosses, or the integral.",
         |row| Cell::finite(row.tails.p),
     ),
     (
@@ -225,7 +225,7 @@ const FIXED: &[Definition] = &[
         "p_side",
         Kind::Number,
         "1",
-        "Estimated probability of the side: side/tosses.",
+        "Probability of the side: side/tosses, or the integral.",
         |row| Cell::finite(row.side.p),
     ),
     (
@@ -261,14 +261,14 @@ const FIXED: &[Definition] = &[
         Kind::Number,
         "1",
         "Relative standard error of p_side, sqrt((1 - P)/(P N)); empty while no toss shows the side.",
-        |row| counted(&row.side, relative_error(row.side.p, row.side.n)),
+        |row| counted(row, relative_error(row.side.p, row.side.n)),
     ),
     (
         "rule_of_thumb",
         Kind::Number,
         "1",
         "The rule of thumb for it, 1/sqrt(N), exact only at P = 1/2.",
-        |row| counted(&row.side, rule_of_thumb_relative_error(row.side.n)),
+        |row| counted(row, rule_of_thumb_relative_error(row.side.n)),
     ),
     (
         "impacts_per_toss",
@@ -340,6 +340,20 @@ const FIXED: &[Definition] = &[
         "Impacts whose integration in time was given up, in all tosses.",
         |row| Cell::Count(row.tally.unresolved),
     ),
+    (
+        "sampling",
+        Kind::Text,
+        "",
+        "How launches were drawn: random, quasi-random, or closed-form where none was.",
+        |row| Cell::Text(row.sampling),
+    ),
+    (
+        "evaluations",
+        Kind::Count,
+        "1",
+        "Evaluations of a point that was integrated; 0 where tosses were counted, and for a rule.",
+        |row| Cell::Count(row.evaluations),
+    ),
 ];
 
 /// The columns of a table with these parameters, in order.
@@ -408,8 +422,9 @@ fn unit_of(name: &str) -> &'static str {
         .map_or("1", |(_, unit)| unit)
 }
 
-fn counted(estimate: &Estimate, value: f64) -> Cell<'static> {
-    if estimate.n == 0 {
+/// A value that only counts of tosses have.
+fn counted(row: &Row, value: f64) -> Cell<'static> {
+    if row.side.n == 0 || row.evaluations > 0 {
         Cell::Missing
     } else {
         Cell::finite(value)

@@ -39,12 +39,7 @@ impl Cut {
     pub(super) fn new(plan: &Plan) -> Self {
         match plan.stop {
             Stop::Tosses(tosses) => {
-                let tossed = plan
-                    .points
-                    .iter()
-                    .filter(|point| point.engine.makes_tosses())
-                    .count();
-                let total = tosses.saturating_mul(tossed as u64);
+                let total = tosses.saturating_mul(plan.points_tossed());
                 let size = total.div_ceil(MOST_SHARDS).checked_next_power_of_two();
                 Self {
                     ends: vec![tosses],
@@ -101,6 +96,10 @@ impl Cut {
     /// The shard's number in the whole run, which decides the part that does it. Only a run of
     /// fixed length has parts.
     pub(super) fn number(&self, shard: &Shard) -> u64 {
+        if shard.tosses.is_empty() {
+            // integrated: one shard a point, dealt out in turn
+            return shard.point as u64;
+        }
         let size = self.size(0);
         let shards_a_point = self.ends[0].div_ceil(size);
         (shard.point as u64)

@@ -91,8 +91,8 @@ impl RunDirectory {
         let mut finished = Finished::new();
         self.tallies.scan(plan, &Cut::new(plan), |entry| {
             match entry {
-                Entry::Finished(shard, tally) => {
-                    finished.insert((shard.point, shard.tosses.start), tally);
+                Entry::Finished(shard, piece) => {
+                    finished.insert((shard.point, shard.tosses.start), piece);
                 }
                 Entry::Leftover(path) => replace::remove(&path)?,
                 Entry::Damaged(path, damage) => {

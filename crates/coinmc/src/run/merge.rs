@@ -3,12 +3,12 @@
 use super::cut::Cut;
 use super::directory::RunDirectory;
 use super::manifest::Manifest;
+use super::piece::Piece;
 use super::schedule::{Finished, Next, Schedule};
 use super::stored::{read_manifest, read_plan};
 use super::tallies::{Entry, Tallies};
 use super::{Part, Report, RunError, Shard, Watcher, conclude};
 use crate::plan::Plan;
-use coinmc_core::Tally;
 use std::collections::hash_map::Entry as Slot;
 use std::collections::{BTreeSet, HashMap};
 use std::fs;
@@ -44,16 +44,16 @@ pub fn merge(inputs: &[PathBuf], out: &Path, watcher: &dyn Watcher) -> Result<Re
         &plan,
         collected
             .iter()
-            .map(|(key, found)| (*key, found.tally))
+            .map(|(key, found)| (*key, found.piece))
             .collect(),
     )?;
     write(&plan, ours, collected, inputs, out, watcher)
 }
 
-/// A tally and the run directory it came from.
+/// A piece and the run directory it came from.
 struct Found {
     shard: Shard,
-    tally: Tally,
+    piece: Piece,
     input: usize,
 }
 
@@ -78,9 +78,9 @@ fn collect(
     let mut collected = Collected::new();
     for (input, dir) in inputs.iter().enumerate() {
         Tallies::of(dir, plan_hash.to_owned()).scan(plan, &cut, |entry| match entry {
-            Entry::Finished(shard, tally) => {
+            Entry::Finished(shard, piece) => {
                 match collected.entry((shard.point, shard.tosses.start)) {
-                    Slot::Occupied(there) if there.get().tally != tally => {
+                    Slot::Occupied(there) if there.get().piece != piece => {
                         let first = inputs[there.get().input].clone();
                         return Err(RunError::Conflict {
                             shard,
@@ -92,7 +92,7 @@ fn collect(
                     Slot::Vacant(free) => {
                         free.insert(Found {
                             shard,
-                            tally,
+                            piece,
                             input,
                         });
                     }
@@ -146,7 +146,7 @@ fn write(
     let mut new = Vec::new();
     for (key, found) in &collected {
         match there.get(key) {
-            Some(tally) if *tally != found.tally => {
+            Some(piece) if *piece != found.piece => {
                 return Err(RunError::Conflict {
                     shard: found.shard.clone(),
                     first: inputs[found.input].clone(),
@@ -154,14 +154,14 @@ fn write(
                 });
             }
             Some(_) => {}
-            None => new.push((found.shard.clone(), found.tally)),
+            None => new.push((found.shard.clone(), found.piece)),
         }
     }
     new.chunks(BATCH)
         .try_for_each(|batch| directory.tallies().store(batch))?;
     let finished = collected
         .into_iter()
-        .map(|(key, found)| (key, found.tally))
+        .map(|(key, found)| (key, found.piece))
         .collect();
     let mut schedule = Schedule::new(plan, Part::WHOLE, finished);
     let whole = schedule.next();

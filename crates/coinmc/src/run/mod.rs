@@ -36,9 +36,11 @@ mod directory;
 mod each;
 mod engines;
 mod error;
+mod integral_file;
 mod manifest;
 mod merge;
 mod part;
+mod piece;
 mod replace;
 mod schedule;
 mod shard;
@@ -56,6 +58,7 @@ pub(crate) use engines::{Task, law, with_engine};
 pub use error::RunError;
 pub use merge::merge;
 pub use part::{Part, PartError};
+pub use piece::integrate_point;
 pub use shard::{Shard, run_shard};
 pub use stored::{stored_plan, stored_report};
 pub use watcher::{Progress, Watcher};
@@ -173,7 +176,10 @@ fn conclude(
 fn report(plan: &Plan, part: Part, schedule: &Schedule<'_>) -> Report {
     let points = schedule.points().iter().enumerate();
     let rows = points
-        .map(|(i, point)| Row::new(plan, i, point.tally, point.reached))
+        .map(|(i, point)| match &point.integral {
+            Some(integral) => Row::integrated(plan, i, integral, point.reached),
+            None => Row::new(plan, i, point.tally, point.reached),
+        })
         .collect();
     let progress = schedule.progress();
     Report {

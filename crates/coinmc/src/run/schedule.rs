@@ -1,16 +1,18 @@
 //! Which shard comes next, and what the shards of a point add up to.
 
 use super::cut::Cut;
+use super::piece::{Piece, whole};
 use super::{Part, Progress, Shard};
 use crate::plan::{Plan, Stop};
 use crate::results::estimates;
 use coinmc_core::{Face, IntervalMethod, Tally};
+use coinmc_quadrature::Integral;
 use std::collections::HashMap;
 
-/// Tallies known beforehand, by point and first toss of their shard.
-pub(super) type Finished = HashMap<(usize, u64), Tally>;
+/// Pieces known beforehand, by point and first toss of their shard.
+pub(super) type Finished = HashMap<(usize, u64), Piece>;
 
-/// Hands out shards and takes their tallies back, in whatever order they arrive.
+/// Hands out shards and takes what they came to back, in whatever order they arrive.
 ///
 /// Points are opened in order, a stage at a time; the next stage of an open point comes before
 /// the next point. Nothing ever waits for all shards of a stage but that stage's successor. What
@@ -38,6 +40,8 @@ pub(super) struct Schedule<'a> {
 pub(super) struct PointState {
     /// All tosses so far.
     pub(super) tally: Tally,
+    /// What a point without tosses came to.
+    pub(super) integral: Option<Integral>,
     /// The stop rule is met.
     pub(super) reached: bool,
     stage: usize,
@@ -84,11 +88,7 @@ impl<'a> Schedule<'a> {
             // what the other parts do is theirs to forecast
             cut.stage(0).end / u64::from(part.of())
         };
-        let tossed = plan
-            .points
-            .iter()
-            .filter(|point| point.engine.makes_tosses())
-            .count() as u64;
+        let tossed = plan.points_tossed();
         let points = vec![
             PointState {
                 forecast,
@@ -98,7 +98,7 @@ impl<'a> Schedule<'a> {
         ];
         let reused = finished
             .values()
-            .map(Tally::tosses)
+            .map(Piece::tosses)
             .fold(0, u64::saturating_add);
         let progress = Progress {
             points_done: 0,
@@ -157,12 +157,15 @@ impl<'a> Schedule<'a> {
     }
 
     /// Takes back a shard that [`next`](Self::next) handed out.
-    pub(super) fn complete(&mut self, shard: &Shard, tally: &Tally) {
+    pub(super) fn complete(&mut self, shard: &Shard, piece: &Piece) {
         let point = &mut self.points[shard.point];
-        point.tally.merge(tally);
+        match piece {
+            Piece::Tossed(tally) => point.tally.merge(tally),
+            Piece::Integrated(integral) => point.integral = Some(*integral),
+        }
         point.outstanding -= 1;
         self.in_flight -= 1;
-        self.progress.tosses_done += tally.tosses();
+        self.progress.tosses_done += piece.tosses();
         self.update_worst(shard.point);
         self.close_stage_if_complete(shard.point);
     }
@@ -190,18 +193,18 @@ impl<'a> Schedule<'a> {
         &self.points
     }
 
-    /// Takes out the tallies known beforehand that the run turned out not to need.
+    /// Takes out the pieces known beforehand that the run turned out not to need.
     pub(super) fn take_unneeded(&mut self) -> Vec<(usize, u64)> {
         let unneeded = std::mem::take(&mut self.finished);
-        for tally in unneeded.values() {
-            self.forget_reused(tally);
+        for piece in unneeded.values() {
+            self.forget_reused(piece);
         }
         unneeded.into_keys().collect()
     }
 
-    fn forget_reused(&mut self, tally: &Tally) {
-        self.progress.tosses_done -= tally.tosses();
-        self.progress.tosses_reused -= tally.tosses();
+    fn forget_reused(&mut self, piece: &Piece) {
+        self.progress.tosses_done -= piece.tosses();
+        self.progress.tosses_reused -= piece.tosses();
         self.progress.reused_shards -= 1;
     }
 
@@ -214,7 +217,11 @@ impl<'a> Schedule<'a> {
             }
             None => return false,
         };
-        if self.plan.points[point].engine.makes_tosses() {
+        if self.plan.integrates(point) {
+            self.set_forecast(point, 0);
+            let shards = Box::new(std::iter::once(whole(point)));
+            self.current = Some(Stage { point, shards });
+        } else if self.plan.points[point].engine.makes_tosses() {
             let shards = Box::new(self.cut.shards(point, self.points[point].stage));
             self.current = Some(Stage { point, shards });
         } else {
@@ -226,16 +233,21 @@ impl<'a> Schedule<'a> {
     }
 
     fn take_finished(&mut self, shard: &Shard) -> bool {
-        let Some(tally) = self.finished.remove(&(shard.point, shard.tosses.start)) else {
+        let Some(piece) = self.finished.remove(&(shard.point, shard.tosses.start)) else {
             return false;
         };
         let point = &mut self.points[shard.point];
-        let Some(sum) = point.tally.checked_merge(&tally) else {
-            // only forged counts overflow: the shard is done again
-            self.forget_reused(&tally);
-            return false;
-        };
-        point.tally = sum;
+        match piece {
+            Piece::Integrated(integral) => point.integral = Some(integral),
+            Piece::Tossed(tally) => {
+                let Some(sum) = point.tally.checked_merge(&tally) else {
+                    // only forged counts overflow: the shard is done again
+                    self.forget_reused(&piece);
+                    return false;
+                };
+                point.tally = sum;
+            }
+        }
         self.update_worst(shard.point);
         true
     }
@@ -246,10 +258,13 @@ impl<'a> Schedule<'a> {
             return;
         }
         point.handed_out = false;
-        let last = point.stage + 1 == self.cut.stages();
-        point.reached = match self.plan.stop {
-            Stop::Tosses(_) => self.part == Part::WHOLE,
-            Stop::HalfWidth { half_width, .. } => {
+        let last = self.plan.integrates(index) || point.stage + 1 == self.cut.stages();
+        point.reached = match (self.plan.stop, &point.integral) {
+            (Stop::Tosses(_), _) => self.part == Part::WHOLE,
+            (Stop::HalfWidth { half_width, .. }, Some(integral)) => {
+                integral.half_width() <= half_width
+            }
+            (Stop::HalfWidth { half_width, .. }, None) => {
                 let faces = estimates(self.plan, index, &point.tally);
                 faces
                     .iter()
@@ -288,7 +303,10 @@ impl<'a> Schedule<'a> {
     }
 
     fn update_worst(&mut self, index: usize) {
-        let half_width = quick_half_width(self.plan, &self.points[index].tally);
+        let half_width = match &self.points[index].integral {
+            Some(integral) => integral.half_width(),
+            None => quick_half_width(self.plan, &self.points[index].tally),
+        };
         self.points[index].half_width = half_width;
         self.worst = match self.worst {
             Some(worst) if worst != index && self.points[worst].half_width >= half_width => {

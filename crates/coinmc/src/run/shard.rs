@@ -1,5 +1,6 @@
 //! The unit of work.
 
+use super::piece::{Piece, integrate_while};
 use super::{Begin, RunError, SettingsError, follow_each, stream};
 use crate::plan::{EngineChoice, Plan};
 use coinmc_core::Tally;
@@ -34,8 +35,9 @@ impl fmt::Display for Shard {
     }
 }
 
-/// Does one shard, on this thread. A point that a closed form answers has no tosses, and its
-/// tally stays empty.
+/// Does one shard of tosses, on this thread. A point that a closed form answers has no tosses, and
+/// its tally stays empty; one that is integrated is tossed all the same, as
+/// `sampling.method = "random"` would.
 ///
 /// # Errors
 /// [`RunError::NoSuchShard`] if the plan has no such point or the range runs backwards;
@@ -45,8 +47,21 @@ pub fn run_shard(plan: &Plan, shard: &Shard) -> Result<Tally, RunError> {
     Ok(run_shard_while(plan, shard, || true)?.unwrap_or_default())
 }
 
-/// Does one shard unless `go_on`, asked every now and then, says no: then `None`.
-pub(super) fn run_shard_while(
+/// Does one shard, whatever its point is answered by, unless `go_on`, asked every now and then, says
+/// no: then `None`.
+pub(super) fn do_shard_while(
+    plan: &Plan,
+    shard: &Shard,
+    go_on: impl Fn() -> bool,
+) -> Result<Option<Piece>, RunError> {
+    if plan.integrates(shard.point) {
+        let found = integrate_while(plan, shard.point, plan.goal(), go_on)?;
+        return Ok(found.map(Piece::Integrated));
+    }
+    Ok(run_shard_while(plan, shard, go_on)?.map(Piece::Tossed))
+}
+
+fn run_shard_while(
     plan: &Plan,
     shard: &Shard,
     go_on: impl Fn() -> bool,

@@ -35,8 +35,8 @@ pub fn stored_report(dir: &Path, watcher: &dyn Watcher) -> Result<(Plan, Report)
     let tallies = Tallies::of(dir, plan.hash());
     tallies.scan(&plan, &Cut::new(&plan), |entry| {
         match entry {
-            Entry::Finished(shard, tally) => {
-                finished.insert((shard.point, shard.tosses.start), tally);
+            Entry::Finished(shard, piece) => {
+                finished.insert((shard.point, shard.tosses.start), piece);
             }
             Entry::Damaged(path, damage) => {
                 watcher.warning(&format!("{} is not used: {damage}", path.display()));

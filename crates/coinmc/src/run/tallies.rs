@@ -1,11 +1,12 @@
 //! The directory of tally files: reading what is there, adding what is finished.
 
 use super::cut::Cut;
+use super::integral_file;
+use super::piece::{Piece, whole};
 use super::replace::{self, Replacement, TEMPORARY};
 use super::tally_file::{self, Damage};
 use super::{RunError, Shard};
 use crate::plan::Plan;
-use coinmc_core::Tally;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -25,7 +26,7 @@ pub(super) struct Tallies {
 #[derive(Debug)]
 pub(super) enum Entry {
     /// A shard that is finished.
-    Finished(Shard, Tally),
+    Finished(Shard, Piece),
     /// A file that is not believed.
     Damaged(PathBuf, Damage),
     /// What a killed run was writing.
@@ -56,14 +57,9 @@ impl Tallies {
             let Some(name) = name.to_str() else { continue };
             let path = self.path.join(name);
             if let Some((point, start)) = tally_file::parse_name(name) {
-                let shard = cut.shard_at(point, start).filter(|_| {
-                    plan.points
-                        .get(point)
-                        .is_some_and(|point| point.engine.makes_tosses())
-                });
-                let read = shard
+                let read = shard_at(plan, cut, point, start)
                     .ok_or(Damage::NoSuchShard)
-                    .map(|shard| self.read(&path, shard));
+                    .map(|shard| self.read(&path, shard, plan));
                 found(match read {
                     Ok(entry) => entry?,
                     Err(damage) => Entry::Damaged(path, damage),
@@ -79,28 +75,38 @@ impl Tallies {
         Ok(())
     }
 
-    fn read(&self, path: &Path, shard: Shard) -> Result<Entry, RunError> {
+    fn read(&self, path: &Path, shard: Shard, plan: &Plan) -> Result<Entry, RunError> {
         if !replace::is_file(path) {
             return Ok(Entry::Damaged(path.to_owned(), Damage::NotAFile));
         }
         let bytes = replace::read_bounded(path, tally_file::MAX_BYTES)
             .map_err(|error| RunError::io("read", path, error))?;
-        let tally = bytes
-            .ok_or(Damage::TooLong)
-            .and_then(|bytes| tally_file::decode(&bytes, &shard, &self.plan_hash));
-        Ok(match tally {
-            Ok(tally) => Entry::Finished(shard, tally),
+        let hash = &self.plan_hash;
+        let piece = bytes.ok_or(Damage::TooLong).and_then(|bytes| {
+            if let Some(method) = plan.method(shard.point) {
+                let integral = integral_file::decode(&bytes, shard.point, method, hash);
+                return integral.map(Piece::Integrated);
+            }
+            tally_file::decode(&bytes, &shard, hash).map(Piece::Tossed)
+        });
+        Ok(match piece {
+            Ok(piece) => Entry::Finished(shard, piece),
             Err(damage) => Entry::Damaged(path.to_owned(), damage),
         })
     }
 
     /// Adds finished shards, on the disk to stay. Together they cost little more than one: the
     /// first sync takes the others' data along.
-    pub(super) fn store(&self, batch: &[(Shard, Tally)]) -> Result<(), RunError> {
+    pub(super) fn store(&self, batch: &[(Shard, Piece)]) -> Result<(), RunError> {
         let mut files = Vec::with_capacity(batch.len());
-        for (shard, tally) in batch {
+        for (shard, piece) in batch {
             let mut file = Replacement::begin(&self.path.join(tally_file::name(shard)))?;
-            let text = tally_file::encode(shard, tally, &self.plan_hash);
+            let text = match piece {
+                Piece::Tossed(tally) => tally_file::encode(shard, tally, &self.plan_hash),
+                Piece::Integrated(integral) => {
+                    integral_file::encode(shard.point, integral, &self.plan_hash)
+                }
+            };
             let written = file.writer().write_all(text.as_bytes());
             written.map_err(|error| file.error(error))?;
             files.push(file);
@@ -115,6 +121,19 @@ impl Tallies {
             point,
             tosses: start..start,
         }))
+    }
+}
+
+/// The shard of a point that begins at toss `start`, if the plan has one.
+fn shard_at(plan: &Plan, cut: &Cut, point: usize, start: u64) -> Option<Shard> {
+    if point >= plan.points.len() {
+        None
+    } else if plan.integrates(point) {
+        (start == 0).then(|| whole(point))
+    } else if plan.makes_tosses(point) {
+        cut.shard_at(point, start)
+    } else {
+        None
     }
 }
 

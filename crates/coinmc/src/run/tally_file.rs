@@ -8,7 +8,7 @@ use thiserror::Error;
 /// Version of the format.
 const FORMAT: u64 = 1;
 const TITLE: &str = "coinmc tally";
-const CHECKSUM: &str = "crc32 ";
+pub(super) const CHECKSUM: &str = "crc32 ";
 const EXTENSION: &str = ".tally";
 /// No tally file is longer; what is longer is not read.
 pub(super) const MAX_BYTES: usize = 1024;

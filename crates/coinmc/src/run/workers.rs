@@ -1,10 +1,10 @@
 //! Threads that do shards, and the one that keeps what they finish.
 
+use super::piece::Piece;
 use super::schedule::{Next, Schedule};
-use super::shard::run_shard_while;
+use super::shard::do_shard_while;
 use super::{RunError, Shard, Watcher};
 use crate::plan::Plan;
-use coinmc_core::Tally;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
@@ -17,10 +17,10 @@ const BATCH: usize = 64;
 /// How long a worker without work sleeps before it looks whether it should stop.
 const NAP: Duration = Duration::from_millis(50);
 
-type Done = Result<(Shard, Tally), RunError>;
+type Done = Result<(Shard, Piece), RunError>;
 
 /// Where finished shards are kept, a few at a time.
-pub(super) type Keep<'a> = &'a dyn Fn(&[(Shard, Tally)]) -> Result<(), RunError>;
+pub(super) type Keep<'a> = &'a dyn Fn(&[(Shard, Piece)]) -> Result<(), RunError>;
 
 /// What the threads share.
 struct Floor<'a, 'p> {
@@ -72,7 +72,7 @@ impl Drop for Alarm<'_> {
 }
 
 /// Does all shards of the schedule, or those that are done before `cancel` is set, and gives the
-/// schedule back. Every tally it counts has been kept.
+/// schedule back. Every piece it counts has been kept.
 pub(super) fn work_off<'p>(
     plan: &'p Plan,
     schedule: Schedule<'p>,
@@ -117,11 +117,11 @@ pub(super) fn work_off<'p>(
 fn work(floor: &Floor<'_, '_>, sender: &SyncSender<Done>) {
     let _alarm = Alarm(&floor.broken);
     while let Some(shard) = floor.next_shard() {
-        let done = match run_shard_while(floor.plan, &shard, || floor.go_on()) {
-            Ok(Some(tally)) => {
-                floor.schedule().complete(&shard, &tally);
+        let done = match do_shard_while(floor.plan, &shard, || floor.go_on()) {
+            Ok(Some(piece)) => {
+                floor.schedule().complete(&shard, &piece);
                 floor.changed.notify_all();
-                Ok((shard, tally))
+                Ok((shard, piece))
             }
             Ok(None) => return,
             Err(error) => Err(error),

@@ -1,5 +1,7 @@
 //! What a plan will cost, from tossing some of its points for a moment.
 
+mod integrals;
+
 use coinmc::plan::{Plan, Stop};
 use coinmc::run::{RunError, Shard, run_shard};
 use coinmc_core::{Face, Tally, inverse_normal_cdf};
@@ -7,15 +9,15 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 /// At most so many points are tried, spread over the sweep.
-const POINTS: usize = 8;
+const POINTS: usize = 24;
 /// Time for all of them. A single toss may overrun it, nothing else does.
-const BUDGET: Duration = Duration::from_millis(600);
+const BUDGET: Duration = Duration::from_millis(800);
 
 /// Tosses before a point that stops at a half width is first looked at.
 const FIRST_LOOK: u64 = 1 << 14;
 
-/// A forecast, good to a factor of two or so.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A forecast.
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Cost {
     /// Tosses that the run will make.
     pub(super) tosses: u64,
@@ -25,69 +27,106 @@ pub(super) struct Cost {
     pub(super) threads: usize,
     /// How long the run will take; `None` if nothing is tossed.
     pub(super) time: Option<Duration>,
+    /// What each point costs that tosses, in the order of the sweep.
+    pub(super) points: Vec<PointCost>,
 }
 
-/// Tosses a sample of points and extrapolates.
+/// The forecast for one point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct PointCost {
+    pub(super) point: usize,
+    pub(super) tosses: f64,
+    /// Of one thread.
+    pub(super) seconds: f64,
+}
+
+/// Tries a sample of points and interpolates between them.
 pub(super) fn estimate(plan: &Plan) -> Result<Cost, RunError> {
     let threads = thread::available_parallelism().map_or(1, usize::from);
-    let sample = sample(plan);
-    if sample.is_empty() {
-        return Ok(Cost {
-            tosses: 0,
-            tosses_per_s: 0.0,
-            threads,
-            time: None,
-        });
-    }
-    let tossed = plan
-        .points
-        .iter()
-        .filter(|point| point.engine.makes_tosses())
-        .count();
-    let budget = BUDGET / u32::try_from(sample.len()).unwrap_or(u32::MAX);
-    let (mut tosses, mut seconds, mut made, mut spent) = (0.0, 0.0, 0.0, 0.0);
-    for &point in &sample {
-        let (tally, time) = toss_for(plan, point, budget)?;
-        let (n, time) = (tally.tosses() as f64, time.as_secs_f64());
-        let needed = needed(plan, &tally) as f64;
-        tosses += needed;
-        seconds += needed * time / n;
-        made += n;
-        spent += time;
-    }
-    let scale = tossed as f64 / sample.len() as f64;
-    let time = Duration::try_from_secs_f64(seconds * scale / threads as f64);
-    // Casting saturates, and so it should: a forecast beyond u64 is "forever".
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-    let tosses = (tosses * scale) as u64;
+    let points = 0..plan.points.len();
+    let tossed: Vec<usize> = points
+        .clone()
+        .filter(|&point| plan.makes_tosses(point))
+        .collect();
+    let integrated = points.filter(|&point| plan.integrates(point));
+    let budget = BUDGET / u32::try_from(tossed.len().clamp(1, POINTS)).unwrap_or(u32::MAX);
+    let mut points = costs(&tossed, |point| {
+        let (tally, seconds_a_toss) = toss_for(plan, point, budget)?;
+        let tosses = needed(plan, &tally) as f64;
+        Ok((tosses, tosses * seconds_a_toss))
+    })?;
+    let sum = |points: &[PointCost], of: fn(&PointCost) -> f64| points.iter().map(of).sum::<f64>();
+    let tosses = sum(&points, |point| point.tosses);
+    let tosses_per_s = if points.is_empty() {
+        0.0
+    } else {
+        tosses / sum(&points, |point| point.seconds)
+    };
+    points.extend(costs(&integrated.collect::<Vec<_>>(), |point| {
+        Ok((0.0, integrals::seconds(plan, point)?))
+    })?);
+    points.sort_by_key(|cost| cost.point);
+    let seconds = sum(&points, |point| point.seconds) / threads as f64;
+    let time = Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX);
     Ok(Cost {
-        tosses,
-        tosses_per_s: made / spent,
+        // Casting saturates, and so it should: a forecast beyond u64 is "forever".
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        tosses: tosses.round() as u64,
+        tosses_per_s,
         threads,
-        time: Some(time.unwrap_or(Duration::MAX)),
+        time: (!points.is_empty()).then_some(time),
+        points,
     })
 }
 
-/// Points that toss, evenly spread over those there are, the first among them.
-fn sample(plan: &Plan) -> Vec<usize> {
-    let points = plan.points.iter().enumerate();
-    let tossed: Vec<usize> = points
-        .filter(|(_, point)| point.engine.makes_tosses())
-        .map(|(index, _)| index)
-        .collect();
-    let wanted = tossed.len().min(POINTS);
-    (0..wanted)
-        .map(|i| tossed[i * tossed.len() / wanted])
-        .collect()
+/// The cost of each of the points: `try_one` gives tosses and seconds of those that are tried,
+/// straight lines between them those of the others.
+fn costs(
+    points: &[usize],
+    mut try_one: impl FnMut(usize) -> Result<(f64, f64), RunError>,
+) -> Result<Vec<PointCost>, RunError> {
+    let mut known = Vec::new();
+    for place in spread(points.len()) {
+        let (tosses, seconds) = try_one(points[place])?;
+        known.push((place, tosses, seconds));
+    }
+    Ok(between(points, &known))
 }
 
-/// The first tosses of a point, ever more of them until the time is up.
-fn toss_for(plan: &Plan, point: usize, budget: Duration) -> Result<(Tally, Duration), RunError> {
+/// Places in a list of `length`, evenly spread, the first and the last among them.
+fn spread(length: usize) -> impl Iterator<Item = usize> {
+    let wanted = length.min(POINTS);
+    let gaps = wanted.saturating_sub(1).max(1);
+    (0..wanted).map(move |i| i * (length - 1) / gaps)
+}
+
+/// The cost of every point, `known` holding the place, the tosses and the seconds of those tried.
+fn between(points: &[usize], known: &[(usize, f64, f64)]) -> Vec<PointCost> {
+    let cost = |(place, &point): (usize, &usize)| {
+        let after = known.partition_point(|(there, ..)| *there < place);
+        let high = known[after.min(known.len() - 1)];
+        let low = known[after.saturating_sub(1)];
+        let width = high.0.saturating_sub(low.0).max(1) as f64;
+        let share = place.saturating_sub(low.0) as f64 / width;
+        let at = |low: f64, high: f64| low + (high - low) * share.min(1.0);
+        PointCost {
+            point,
+            tosses: at(low.1, high.1),
+            seconds: at(low.2, high.2),
+        }
+    };
+    points.iter().enumerate().map(cost).collect()
+}
+
+/// The first tosses of a point, ever more of them until the time is up, and the seconds that one of
+/// the last half of them took: the first are few, and an engine that follows many side by side has
+/// not got going with them.
+fn toss_for(plan: &Plan, point: usize, budget: Duration) -> Result<(Tally, f64), RunError> {
     let start = Instant::now();
     let mut tally = Tally::default();
     let mut batch = 1;
     loop {
-        let from = tally.tosses();
+        let (from, begun) = (tally.tosses(), Instant::now());
         tally.merge(&run_shard(
             plan,
             &Shard {
@@ -95,10 +134,10 @@ fn toss_for(plan: &Plan, point: usize, budget: Duration) -> Result<(Tally, Durat
                 tosses: from..from + batch,
             },
         )?);
-        let elapsed = start.elapsed();
         // The next batch, twice as large, would take about twice what all took so far.
-        if elapsed * 3 > budget {
-            return Ok((tally, elapsed));
+        if start.elapsed() * 3 > budget {
+            let seconds = begun.elapsed().as_secs_f64();
+            return Ok((tally, seconds / batch as f64));
         }
         batch *= 2;
     }
@@ -153,10 +192,39 @@ mod tests {
 
     #[test]
     fn the_sample_is_spread_over_the_sweep() {
-        assert_eq!(
-            sample(&plan("tosses = 1000")),
-            [0, 5, 10, 15, 20, 25, 30, 35]
+        let places: Vec<usize> = spread(40).collect();
+        assert_eq!(places.len(), POINTS);
+        assert_eq!((places[0], places[POINTS - 1]), (0, 39));
+        let steps = places.windows(2).map(|pair| pair[1] - pair[0]);
+        assert!(steps.into_iter().all(|step| step == 1 || step == 2));
+        assert_eq!(spread(2).collect::<Vec<_>>(), [0, 1]);
+        assert_eq!(spread(1).collect::<Vec<_>>(), [0]);
+        assert_eq!(spread(0).count(), 0);
+    }
+
+    #[test]
+    fn points_between_those_tried_lie_on_straight_lines() {
+        let costs = between(
+            &[3, 4, 6, 7, 9],
+            &[(0, 10.0, 1.0), (2, 20.0, 2.0), (4, 20.0, 6.0)],
         );
+        let expected = [
+            (3, 10.0, 1.0),
+            (4, 15.0, 1.5),
+            (6, 20.0, 2.0),
+            (7, 20.0, 4.0),
+            (9, 20.0, 6.0),
+        ];
+        for (cost, (point, tosses, seconds)) in costs.iter().zip(expected) {
+            assert_eq!(
+                *cost,
+                PointCost {
+                    point,
+                    tosses,
+                    seconds
+                }
+            );
+        }
     }
 
     #[test]

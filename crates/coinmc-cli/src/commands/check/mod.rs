@@ -7,12 +7,13 @@ use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, FORMAT_VERSION};
 use crate::terminal::progress::with_prefix;
 use crate::terminal::{Colors, Style, compact, count, duration, grouped, in_ascii, wrapped};
-use calibration::Cost;
+use calibration::{Cost, PointCost};
 use clap::Args;
 use coinmc::config::{self, Override};
 use coinmc::plan::{Plan, Stop};
 use serde_json::{Value, json};
 use std::path::PathBuf;
+use std::time::Duration;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -22,6 +23,10 @@ Examples:
 
 /// The interval of a closed form.
 const EXACT: &str = "exact";
+/// A time that nobody notices.
+const INSTANT: Duration = Duration::from_millis(1);
+/// That of an integral.
+const STUDENT: &str = "student-t";
 /// Columns of the titles.
 const INDENT: usize = 10;
 
@@ -91,6 +96,9 @@ fn to_text(plan: &Plan, cost: &Cost, style: &Style) -> String {
         item("note", note);
     }
     item("cost", &in_words(cost));
+    if let Some(range) = cheapest_and_dearest(plan, cost) {
+        item("a point", &range);
+    }
     if style.unicode { text } else { in_ascii(&text) }
 }
 
@@ -152,10 +160,21 @@ fn two_digits(n: u64) -> u64 {
 
 fn intervals(plan: &Plan) -> &'static str {
     match plan.stop {
+        _ if is_integrated(plan) => STUDENT,
         _ if plan.tosses_planned() == 0 => EXACT,
         Stop::Tosses(_) => plan.interval.name(),
         Stop::HalfWidth { .. } => "sequential-clopper-pearson",
     }
+}
+
+/// Whether some point is integrated and not exact.
+fn is_integrated(plan: &Plan) -> bool {
+    (0..plan.points.len()).any(|index| {
+        plan.method(index).is_some_and(|method| {
+            let left = method.dimensions_left(&plan.points[index].launches);
+            left > 0
+        })
+    })
 }
 
 fn confidence(plan: &Plan) -> String {
@@ -168,6 +187,13 @@ fn confidence(plan: &Plan) -> String {
 fn in_words(cost: &Cost) -> String {
     match cost.time {
         None => "nothing to toss".to_owned(),
+        // closed forms
+        Some(time) if cost.tosses == 0 && time < INSTANT => "nothing to toss".to_owned(),
+        Some(time) if cost.tosses == 0 => format!(
+            "nothing to toss; integrals take about {} on {}",
+            duration(time),
+            count(cost.threads as u64, "core")
+        ),
         Some(time) => format!(
             "about {} on {} ({} tosses/s on one, as just measured)",
             duration(time),
@@ -177,10 +203,42 @@ fn in_words(cost: &Cost) -> String {
     }
 }
 
+/// What the points of a sweep cost, if not all the same.
+fn cheapest_and_dearest(plan: &Plan, cost: &Cost) -> Option<String> {
+    let by_time = |a: &&PointCost, b: &&PointCost| a.seconds.total_cmp(&b.seconds);
+    let (least, most) = (
+        cost.points.iter().min_by(by_time)?,
+        cost.points.iter().max_by(by_time)?,
+    );
+    let seconds = |point: &PointCost| {
+        duration(Duration::try_from_secs_f64(point.seconds).unwrap_or(Duration::MAX))
+    };
+    let place = |point: &PointCost| {
+        let of = &plan.points[point.point];
+        let axes = plan.axes.iter().filter_map(|axis| {
+            let value = parameter(of, axis)?;
+            Some(format!("{axis} {}", compact(value)))
+        });
+        axes.collect::<Vec<_>>().join(", ")
+    };
+    (cost.points.len() > 1).then(|| {
+        format!(
+            "from {} ({}) to {} ({}) of one core",
+            seconds(least),
+            place(least),
+            seconds(most),
+            place(most)
+        )
+    })
+}
+
 /// The document of `--format json`; docs/formats.md describes it.
 fn to_json(plan: &Plan, cost: &Cost) -> Value {
     let groups = plan.explain().into_iter().map(|group| {
         json!({ "points": group.points, "computed": group.computed, "skipped": group.skipped })
+    });
+    let points_cost = cost.points.iter().map(|point| {
+        json!({ "point": point.point, "tosses": point.tosses.round(), "core_s": point.seconds })
     });
     json!({
         "format_version": FORMAT_VERSION,
@@ -199,6 +257,7 @@ fn to_json(plan: &Plan, cost: &Cost) -> Value {
             "threads": cost.threads,
             "tosses_per_s_and_thread": cost.time.map(|_| cost.tosses_per_s),
             "time_s": cost.time.map_or(0.0, |time| time.as_secs_f64()),
+            "points": points_cost.collect::<Vec<_>>(),
         },
         "resolved_config": plan.resolved_toml,
     })

@@ -92,8 +92,17 @@ fn cells(row: &Row, shown: &[&str], decimals: usize, style: &Style) -> Vec<Strin
     let parameter = |name: &&str| row.parameter(name).map_or("-".to_owned(), compact);
     let mut cells: Vec<String> = shown.iter().map(parameter).collect();
     cells.extend([&row.heads, &row.tails, &row.side].map(|p| probability(p, row, decimals, style)));
-    cells.extend([grouped(row.tally.tosses()), grouped(row.tally.undecided())]);
+    cells.extend([tosses(row), grouped(row.tally.undecided())]);
     cells
+}
+
+/// Tosses, or the evaluations that stand for them.
+fn tosses(row: &Row) -> String {
+    if row.evaluations > 0 {
+        format!("{} evaluations", grouped(row.evaluations))
+    } else {
+        grouped(row.tally.tosses())
+    }
 }
 
 /// Two digits of the shortest interval's arm, so that no row loses any.

@@ -7,7 +7,7 @@ use super::engines::engines;
 use super::launch::launch;
 use super::terms::{default, field, fields, number, table};
 use super::{Absent, Bounds, Condition, Fallback, Kind, Rule, TableKind, Whole, Word};
-use crate::plan::{MAX_POINTS, MAX_TOSSES};
+use crate::plan::{MAX_POINTS, MAX_TOSSES, Sampling};
 use coinmc_core::{IntervalMethod, Landing, Scene};
 
 use Absent::{Is, Omitted, Required};
@@ -58,6 +58,12 @@ pub(in crate::config) fn root() -> TableKind {
                 "estimate",
                 "How intervals are computed.",
                 estimate(),
+                Is(Fallback::Table),
+            ),
+            table(
+                "sampling",
+                "How launches are drawn where the first contact decides.",
+                sampling(),
                 Is(Fallback::Table),
             ),
             table(
@@ -318,6 +324,25 @@ fn estimate() -> TableKind {
             Is(Fallback::Word(IntervalMethod::default().name())),
         ),
     ])
+}
+
+fn sampling() -> TableKind {
+    let method = |method: Sampling, doc| Word {
+        name: method.name(),
+        doc,
+    };
+    fields(vec![field(
+        "method",
+        "How probabilities are found where landing = \"adhesive\" (engines flat and volumetric).",
+        Kind::Word(vec![
+            method(
+                Sampling::Auto,
+                "by closed form or quadrature, without tosses, wherever that is sharper",
+            ),
+            method(Sampling::Random, "by random tosses, as everywhere else"),
+        ]),
+        Is(Fallback::Word(Sampling::Auto.name())),
+    )])
 }
 
 fn sweep() -> TableKind {

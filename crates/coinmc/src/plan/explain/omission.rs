@@ -2,11 +2,14 @@
 
 use crate::plan::{EngineChoice, Point};
 use coinmc_core::Landing;
+use coinmc_quadrature::Method;
 
 /// Something that is not computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Omission {
     Tosses,
+    RandomTosses,
+    FirstContact,
     OutOfPlane,
     Drag,
     GyroscopicTorque,
@@ -22,6 +25,11 @@ impl Omission {
     pub(super) fn reason(self) -> &'static str {
         match self {
             Self::Tosses => "tosses: the probability is known without them",
+            Self::RandomTosses => {
+                "random tosses: nothing bounces, and quadrature is sharper (sampling.method = \
+                 \"random\" tosses all the same)"
+            }
+            Self::FirstContact => "the search for the first contact: its face is known before it",
             Self::OutOfPlane => "motion out of the xz plane: no launch of this config leaves it",
             Self::Drag => "drag: both of its rates are 0",
             Self::GyroscopicTorque => {
@@ -43,8 +51,8 @@ impl Omission {
     }
 }
 
-/// All that the tosses of a point do without.
-pub(super) fn omissions(point: &Point) -> Vec<Omission> {
+/// All that the tosses of a point, or its integration by a method, do without.
+pub(super) fn omissions(point: &Point, integrated: Option<Method>) -> Vec<Omission> {
     let (scene, surface) = (&point.scene, &point.scene.surface);
     let mut omissions = Vec::new();
     let mut omit = |omission, holds: bool| {
@@ -57,6 +65,9 @@ pub(super) fn omissions(point: &Point) -> Vec<Omission> {
         EngineChoice::Flat(_) => false,
         EngineChoice::Volumetric(_) | EngineChoice::Rapier(_) => true,
     };
+    omit(Omission::RandomTosses, integrated.is_some());
+    let decided = integrated.is_some_and(|method| method != Method::Tossed);
+    omit(Omission::FirstContact, decided);
     omit(Omission::OutOfPlane, !in_space);
     omit(Omission::Drag, in_space && scene.drag().is_none());
     omit(Omission::GyroscopicTorque, !scene.has_gyroscopic_torque());

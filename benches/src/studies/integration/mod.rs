@@ -1,0 +1,142 @@
+//! Error against evaluations, and against time, of the ways to answer an adhesive scene.
+
+mod ways;
+
+use crate::number;
+use crate::processor_time::Stopwatch;
+use crate::report::{Report, Table};
+use clap::Args;
+use coinmc_bench::Case;
+use coinmc_core::{LaunchDistribution, Marginal, Orientation, Preset, Spin};
+use ways::{Subject, Way};
+
+/// Evaluations of the first column, and by how much they grow.
+const FIRST: u64 = 1 << 10;
+const GROWTH: u64 = 8;
+/// Evaluations of the way that stands for the truth.
+const TRUTH: u64 = 1 << 20;
+
+/// Variance of rounding alone.
+const EXACT: f64 = 1e-24;
+
+/// The study's arguments.
+#[derive(Debug, Args)]
+pub(crate) struct Integration {
+    /// Estimates of each way and number of evaluations, whose errors are averaged
+    #[arg(long, value_parser = number::count, default_value = "32", value_name = "N")]
+    estimates: u64,
+    /// Evaluations of the largest
+    #[arg(long, value_parser = number::count, default_value = "65_536", value_name = "N")]
+    most: u64,
+}
+
+impl Integration {
+    pub(crate) fn carry_out(&self, seed: u64) -> Report {
+        let columns = [
+            "scene",
+            "method",
+            "way",
+            "evaluations",
+            "error",
+            "us_an_evaluation",
+            "variance_gain",
+            "time_gain",
+        ];
+        let title = format!(
+            "P(heads) of a coin of ratio 1 that stays where it lands: root mean square error of {} \
+             estimates; gains over as many random tosses, and over random tosses for as long",
+            self.estimates
+        );
+        let mut record = Table::new(title, &columns);
+        for (name, launches) in scenes() {
+            let case = Case::new(Preset::Clean, 0.01, 1.0, 0.0, 0.0).adhesive();
+            let subject = Subject::new(case.scene, launches);
+            let truth = subject.heads(Way::Auto, u64::MAX, TRUTH);
+            let mut evaluations = FIRST;
+            while evaluations <= self.most {
+                self.rows(&subject, name, truth, evaluations, seed, &mut record);
+                evaluations *= GROWTH;
+            }
+        }
+        let mut report = Report::new(record);
+        report.remark(
+            "variance_gain: how many times as many random tosses have the same error. A way that \
+             gains less than 1.5 is not offered.",
+        );
+        report
+    }
+
+    fn rows(
+        &self,
+        subject: &Subject,
+        name: &str,
+        truth: f64,
+        evaluations: u64,
+        seed: u64,
+        record: &mut Table,
+    ) {
+        let mut random = (0.0, 0.0);
+        for way in Way::ALL {
+            let watch = Stopwatch::start();
+            let first = seed.wrapping_mul(self.estimates);
+            let square: f64 = (0..self.estimates)
+                .map(|number| {
+                    let p = subject.heads(way, first.wrapping_add(number), evaluations);
+                    (p - truth).powi(2)
+                })
+                .sum();
+            let seconds = watch.seconds();
+            let variance = square / self.estimates as f64;
+            if way == Way::Random {
+                random = (variance, seconds);
+            }
+            let gain = random.0 / variance;
+            let shown = |gain: f64| {
+                if variance < EXACT {
+                    "exact".to_owned()
+                } else {
+                    format!("{gain:.1}")
+                }
+            };
+            let each = seconds / (self.estimates * evaluations) as f64;
+            record.push(vec![
+                name.to_owned(),
+                subject.method().name().to_owned(),
+                way.name().to_owned(),
+                evaluations.to_string(),
+                number::tiny(variance.sqrt()),
+                format!("{:.2}", each * 1e6),
+                shown(gain),
+                shown(gain * random.1 / seconds.max(1e-9)),
+            ]);
+        }
+    }
+}
+
+/// One scene for each method that leaves something to points, and one that is exact.
+fn scenes() -> Vec<(&'static str, LaunchDistribution)> {
+    let normal = |mean, sd| Marginal::Normal { mean, sd };
+    let clean = Preset::Clean.distribution();
+    let spinning = Spin::Components([normal(5.0, 4.0), normal(5.0, 4.0), normal(5.0, 20.0)]);
+    let uneven = LaunchDistribution {
+        spin: spinning,
+        ..clean
+    };
+    let tilted = LaunchDistribution {
+        orientation: Orientation::Tilt(normal(0.0, 0.3)),
+        ..uneven
+    };
+    let low = LaunchDistribution {
+        height_m: Marginal::Constant(0.005),
+        ..Preset::Robot.distribution()
+    };
+    vec![
+        ("clean", clean),
+        ("robot", Preset::Robot.distribution()),
+        ("hand", Preset::Hand.distribution()),
+        ("table1", Preset::Table1.distribution()),
+        ("uneven spin", uneven),
+        ("tilted", tilted),
+        ("low", low),
+    ]
+}

@@ -1,0 +1,51 @@
+//! What an integration finds.
+
+use crate::method::Method;
+
+/// The probability of a face with its interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Share {
+    /// The probability.
+    pub p: f64,
+    /// Lower end of the interval.
+    pub lo: f64,
+    /// Upper end.
+    pub hi: f64,
+}
+
+impl Share {
+    /// A probability known to rounding.
+    pub(crate) fn exact(p: f64) -> Self {
+        Self { p, lo: p, hi: p }
+    }
+
+    /// The longer arm of the interval.
+    pub fn half_width(&self) -> f64 {
+        (self.hi - self.p).max(self.p - self.lo)
+    }
+}
+
+/// The probabilities of an adhesive scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Integral {
+    /// How they were found.
+    pub method: Method,
+    /// Heads, tails, side.
+    pub faces: [Share; 3],
+    /// Evaluations of the integrand: 0 for a rule, 1 where a single one decides.
+    pub evaluations: u64,
+    /// The probabilities are exact (to rounding); else their intervals are Student's.
+    pub exact: bool,
+}
+
+impl Integral {
+    /// P(side).
+    pub fn side(&self) -> &Share {
+        &self.faces[2]
+    }
+
+    /// The longest arm of the three intervals.
+    pub fn half_width(&self) -> f64 {
+        self.faces.iter().map(Share::half_width).fold(0.0, f64::max)
+    }
+}

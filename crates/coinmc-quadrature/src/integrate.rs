@@ -1,0 +1,212 @@
+//! The integration of one scene.
+
+use crate::conditional::Conditional;
+use crate::integral::{Integral, Share};
+use crate::method::{Method, upright};
+use crate::replicates::{Goal, REPLICATES};
+use crate::sobol::{DIMENSIONS, Points, Sobol};
+use coinmc_analytic::Rule;
+use coinmc_core::{Engine, Face, LaunchDistribution, Scene, Stream, UniformSource, unit_interval};
+use std::ops::{ControlFlow, Range};
+
+/// Evaluations between two questions whether to go on: at most milliseconds.
+const BATCH: u64 = 256;
+
+/// Sums of heads, tails and side.
+type Sums = [f64; 3];
+
+/// Finds the probabilities of the faces of a scene with adhesive landing by a method that is
+/// [`Method::of`] it, or by [`Method::Tossed`]. `None` if `go_on`, asked every now and then, says
+/// no.
+///
+/// Ends when every interval is within the goal's half width, or at its evaluations. The result
+/// depends on the arguments alone. `engine` is asked only by [`Method::Tossed`].
+pub fn integrate<E: Engine>(
+    method: Method,
+    scene: &Scene,
+    launches: &LaunchDistribution,
+    engine: &E,
+    scrambles: &Stream,
+    goal: &Goal,
+    go_on: impl Fn() -> bool,
+) -> Option<Integral> {
+    let rule = |rule: Rule| {
+        let p = rule.probabilities(scene.coin.ratio());
+        Some(exact(method, [p.heads, p.tails, p.side], 0))
+    };
+    let dimensions = method.dimensions(launches);
+    match method {
+        Method::Zone => rule(Rule::Zone),
+        Method::Arc => rule(Rule::Arc),
+        Method::Over(variable) => {
+            let conditional = Conditional::new(scene, launches, variable);
+            replicated(method, &dimensions, scrambles, goal, |sample| {
+                in_closed_form(&conditional, sample, &go_on)
+            })
+        }
+        Method::Tossed => {
+            let launches = upright(launches);
+            let mut workspace = engine.workspace();
+            replicated(method, &dimensions, scrambles, goal, |sample| {
+                let tosses = sample.map(|mut at| launches.launch(&scene.coin, &mut at));
+                tossed(engine, &mut workspace, tosses, &go_on)
+            })
+        }
+    }
+}
+
+fn in_closed_form(
+    conditional: &Conditional<'_>,
+    sample: Sample<'_>,
+    go_on: impl Fn() -> bool,
+) -> Option<Sums> {
+    let mut sums = [0.0; 3];
+    for (number, mut at) in (0_u64..).zip(sample) {
+        if number.is_multiple_of(BATCH) && !go_on() {
+            return None;
+        }
+        let drawn = at.last();
+        let faces = conditional.faces(&mut at, drawn);
+        sums.iter_mut().zip(faces).for_each(|(sum, p)| *sum += p);
+    }
+    Some(sums)
+}
+
+fn tossed<E: Engine>(
+    engine: &E,
+    workspace: &mut E::Workspace,
+    launches: impl Iterator<Item = coinmc_core::Launch>,
+    go_on: impl Fn() -> bool,
+) -> Option<Sums> {
+    let (mut sums, mut tosses) = ([0.0; 3], 0_u64);
+    let mut going = go_on();
+    if !going {
+        return None;
+    }
+    engine.toss_all(workspace, launches, |_, outcome| {
+        for (sum, face) in sums.iter_mut().zip(Face::ALL) {
+            *sum += f64::from(u8::from(outcome.face() == Some(face)));
+        }
+        tosses += 1;
+        going = !tosses.is_multiple_of(BATCH) || go_on();
+        if going {
+            ControlFlow::Continue(())
+        } else {
+            ControlFlow::Break(())
+        }
+    });
+    going.then_some(sums)
+}
+
+fn exact(method: Method, faces: [f64; 3], evaluations: u64) -> Integral {
+    Integral {
+        method,
+        faces: faces.map(Share::exact),
+        evaluations,
+        exact: true,
+    }
+}
+
+/// Sums over a sample at each look until the goal is reached; the sample of no dimension is one
+/// point.
+fn replicated(
+    method: Method,
+    dimensions: &[u32],
+    scrambles: &Stream,
+    goal: &Goal,
+    mut sums_of: impl FnMut(Sample<'_>) -> Option<Sums>,
+) -> Option<Integral> {
+    if dimensions.is_empty() {
+        let sobol = Sobol::plain(1);
+        let faces = sums_of(Sample::new(&sobol, dimensions, 1..2))?;
+        let undecided = 1.0 - faces.iter().sum::<f64>();
+        let mut found = exact(method, faces, 1);
+        for share in &mut found.faces {
+            share.hi = (share.p + undecided).min(1.0);
+        }
+        return Some(found);
+    }
+    // the last coordinate is for the quantity that is integrated out
+    let scramble = |replicate: u32| {
+        let words = &mut scrambles.toss(u64::from(replicate));
+        Sobol::scrambled(dimensions.len() + 1, words)
+    };
+    let replicates: Vec<Sobol> = (0..REPLICATES).map(scramble).collect();
+    let mut sums = [[0.0; 3]; REPLICATES as usize];
+    let mut found = exact(method, [0.0; 3], 0);
+    found.exact = false;
+    let mut done = 0;
+    for points in goal.looks() {
+        for (sums, sobol) in sums.iter_mut().zip(&replicates) {
+            let more = sums_of(Sample::new(sobol, dimensions, done..points))?;
+            sums.iter_mut()
+                .zip(more)
+                .for_each(|(sum, more)| *sum += more);
+        }
+        done = points;
+        found.faces = goal.shares(&sums, points, method == Method::Tossed);
+        found.evaluations = points * u64::from(REPLICATES);
+        if found.half_width() <= goal.half_width {
+            break;
+        }
+    }
+    Some(found)
+}
+
+/// Points of a replicate, as uniforms of a launch.
+struct Sample<'a> {
+    points: Points<'a>,
+    /// The coordinate of each launch dimension.
+    places: [usize; DIMENSIONS],
+    /// The coordinate beyond them.
+    last: usize,
+}
+
+/// The uniforms of one launch.
+struct At {
+    words: [u64; DIMENSIONS],
+    places: [usize; DIMENSIONS],
+    last: usize,
+}
+
+impl<'a> Sample<'a> {
+    fn new(sobol: &'a Sobol, dimensions: &[u32], range: Range<u64>) -> Self {
+        let mut places = [0; DIMENSIONS];
+        for (place, dimension) in dimensions.iter().enumerate() {
+            places[*dimension as usize] = place;
+        }
+        Self {
+            points: sobol.points(range),
+            places,
+            last: dimensions.len(),
+        }
+    }
+}
+
+impl Iterator for Sample<'_> {
+    type Item = At;
+
+    #[inline]
+    fn next(&mut self) -> Option<At> {
+        let words = self.points.next()?;
+        let (places, last) = (self.places, self.last);
+        Some(At {
+            words,
+            places,
+            last,
+        })
+    }
+}
+
+impl At {
+    fn last(&self) -> f64 {
+        unit_interval(self.words[self.last])
+    }
+}
+
+impl UniformSource for At {
+    #[inline]
+    fn uniform(&mut self, dimension: u32) -> f64 {
+        unit_interval(self.words[self.places[dimension as usize]])
+    }
+}

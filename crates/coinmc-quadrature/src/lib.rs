@@ -1,0 +1,71 @@
+//! Adhesive landings answered without sampling: the probabilities of the faces by a closed form, or
+//! by quadrature over the launches with an interval.
+//!
+//! # What decides an adhesive landing
+//! No point of the coin is farther from its centre than D = sqrt(R² + H²/4), so nothing touches
+//! before the centre has come down to D. The height of the centre at which a coin touches,
+//! s(u) = R sqrt(1 − u_z²) + (H/2)|u_z|, reaches D just where |u_z| = sin α, the border between the
+//! side and a face (see [`coinmc_analytic`]). Below D the axis cannot cross that border without
+//! having touched before. Hence
+//!
+//! > the face is that of the axis **at the moment when the centre passes D on its way down**:
+//! > side ⇔ `|u_z| < sin α` there,
+//!
+//! for any spin, drag or not, if the coin is let go at or above D. No first contact is searched.
+//! Until then u turns about the fixed direction of its angular momentum (without gyroscopic torque:
+//! of its angular velocity), `u_z = A + B cos(φ₀ + wτ)`, and the moment follows from height and
+//! vertical velocity alone.
+//!
+//! # What is done with it
+//! * [`Method::Zone`]: the joint law of axis and spin knows no direction, so the axis is isotropic
+//!   at that moment too: P(side) = sin α, exact.
+//! * [`Method::Arc`]: a flat toss whose tilt is uniform over whole turns: P(side) = 2α/π, exact.
+//! * [`Method::Over`]: one random quantity (the azimuth of an isotropic axis, or one that the phase
+//!   is monotone in: tilt, rate of spin, vertical velocity, height) is integrated out in closed form; the rest, if anything is left,
+//!   by scrambled Sobol points.
+//! * [`Method::Tossed`]: where none of this holds and few numbers are random, tosses of the engine
+//!   at scrambled Sobol points.
+//!
+//! Where nothing is left of that, random tosses are as good.
+//!
+//! Sixteen independent scrambles give a Student interval: see [`integrate`].
+//!
+//! # Example
+//! A flat coin tossed at a given tilt with a random spin, to six digits:
+//! ```
+//! use coinmc_core::{Coin, Domain, Landing, Preset, Scene, Stream, Surface};
+//! use coinmc_flat::{FlatEngine, Moreau, Settings};
+//! use coinmc_quadrature::{Goal, Method, integrate};
+//! let coin = Coin::cylinder(1.2, 0.01)?;
+//! let surface = Surface::new(0.0, 0.0)?.with_landing(Landing::Adhesive);
+//! let scene = Scene::new(coin, surface, 9.81)?;
+//! let launches = Preset::Robot.distribution();
+//! let engine = FlatEngine::new(&scene, &Settings::default(), Moreau)?;
+//! let goal = Goal { confidence: 0.95, half_width: 1e-6, evaluations: 1 << 20 };
+//! let method = Method::of(&scene, &launches, f64::INFINITY).unwrap();
+//! let scrambles = Stream::new(1, Domain::Scramble, 0);
+//! let found = integrate(method, &scene, &launches, &engine, &scrambles, &goal, || true).unwrap();
+//! let arc = coinmc_analytic::arc::p_side(1.2);
+//! assert!((found.side().p - arc).abs() <= found.side().half_width());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Files
+//! `passage` when the centre passes D · `axis` how the axis turns until then · `method` what can be
+//! integrated in closed form · `conditional` that closed form · `sobol` the points · `replicates`
+//! scrambles, interval, when to stop · `integrate` one scene.
+
+mod axis;
+mod conditional;
+mod integral;
+mod integrate;
+mod method;
+mod passage;
+mod replicates;
+mod sobol;
+
+pub use integral::{Integral, Share};
+pub use integrate::integrate;
+pub use method::{Method, Variable};
+pub use replicates::{Goal, LEAST_EVALUATIONS, MOST_EVALUATIONS, REPLICATES};
+pub use sobol::{DIMENSIONS, Points, Sobol};

@@ -1,0 +1,342 @@
+//! What of a scene can be integrated in closed form.
+
+use crate::axis::axial_factor;
+use crate::passage::{Passage, is_constant};
+use crate::sobol::DIMENSIONS;
+use coinmc_core::{LaunchDistribution, Marginal, Orientation, Scene, Spin, UniformSource};
+use std::f64::consts::TAU;
+
+/// The launch dimension of an isotropic axis's azimuth.
+const AZIMUTH: u32 = 1;
+
+/// Most random numbers of a launch with which tosses at Sobol points beat random ones: the face is a
+/// step function of them, and the gain of a step falls with its dimensions (measured in
+/// docs/sampling.md: some 30 fold with two that matter, at most 5 fold with four).
+const MOST_TOSSED: usize = 3;
+
+/// How the probabilities of an adhesive scene are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Method {
+    /// The zone rule: the axis is isotropic when the centre passes D. Exact.
+    Zone,
+    /// The arc rule: the tilt is uniform over whole turns when the centre passes D. Exact.
+    Arc,
+    /// One quantity is integrated out in closed form, what is left by Sobol points.
+    Over(Variable),
+    /// Tosses at Sobol points.
+    Tossed,
+}
+
+/// A random quantity that is integrated out in closed form.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Variable {
+    /// Azimuth of an isotropic axis about an angular velocity that does not depend on it.
+    Azimuth,
+    /// Tilt at launch, of a flat toss.
+    Tilt,
+    /// Rate of a spin of known direction.
+    Rate,
+    /// Vertical velocity at launch.
+    Velocity,
+    /// Height at launch.
+    Height,
+}
+
+impl Variable {
+    /// What it is, in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Azimuth => "the azimuth of the axis about the spin",
+            Self::Tilt => "the tilt",
+            Self::Rate => "the rate of spin",
+            Self::Velocity => "the vertical velocity",
+            Self::Height => "the height",
+        }
+    }
+}
+
+impl Method {
+    /// Every method.
+    pub const ALL: [Self; 8] = [
+        Self::Zone,
+        Self::Arc,
+        Self::Over(Variable::Azimuth),
+        Self::Over(Variable::Tilt),
+        Self::Over(Variable::Rate),
+        Self::Over(Variable::Velocity),
+        Self::Over(Variable::Height),
+        Self::Tossed,
+    ];
+
+    /// The name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Zone => "zone",
+            Self::Arc => "arc",
+            Self::Over(Variable::Azimuth) => "over-azimuth",
+            Self::Over(Variable::Tilt) => "over-tilt",
+            Self::Over(Variable::Rate) => "over-rate",
+            Self::Over(Variable::Velocity) => "over-velocity",
+            Self::Over(Variable::Height) => "over-height",
+            Self::Tossed => "tossed",
+        }
+    }
+
+    /// How many random numbers of a launch are left to Sobol points; with none the result is exact.
+    pub fn dimensions_left(self, launches: &LaunchDistribution) -> usize {
+        self.dimensions(launches).len()
+    }
+
+    /// The best method for a scene with adhesive landing; `None` where random tosses are as good.
+    /// `time_limit_s` is the simulated time, s, after which its engine gives a toss up.
+    pub fn of(scene: &Scene, launches: &LaunchDistribution, time_limit_s: f64) -> Option<Self> {
+        let tossed = Self::Tossed.dimensions_left(launches) <= MOST_TOSSED;
+        let tossed = tossed.then_some(Self::Tossed);
+        if !Passage::new(scene).is_certain(launches, time_limit_s) {
+            return tossed;
+        }
+        if knows_no_direction(scene, launches) {
+            return Some(Self::Zone);
+        }
+        if is_whole_turns(launches) {
+            return Some(Self::Arc);
+        }
+        variable(launches).map(Self::Over).or(tossed)
+    }
+
+    /// Launch dimensions that are left to Sobol points.
+    pub(crate) fn dimensions(self, launches: &LaunchDistribution) -> Vec<u32> {
+        match self {
+            Self::Zone | Self::Arc => vec![],
+            Self::Over(variable) => {
+                let mut asked = asked(&without(launches, variable));
+                // an isotropic axis asks for its height on the sphere first
+                asked.retain(|&dimension| variable != Variable::Azimuth || dimension != AZIMUTH);
+                asked
+            }
+            Self::Tossed => asked(&upright(launches)),
+        }
+    }
+}
+
+/// Whether the law of axis and spin together stays the same under every rotation, or the coin turns
+/// by a rotation that does not depend on its isotropic axis: either way the axis is isotropic at
+/// any time.
+fn knows_no_direction(scene: &Scene, launches: &LaunchDistribution) -> bool {
+    if launches.orientation != Orientation::Isotropic {
+        return false;
+    }
+    match &launches.spin {
+        // at a uniform azimuth about the axis
+        Spin::Precessing { .. } => true,
+        Spin::About { rate_rad_s, .. } => {
+            axial_factor(scene) == 1.0 || *rate_rad_s == Marginal::Constant(0.0)
+        }
+        Spin::Components(components) => axial_factor(scene) == 1.0 || is_isotropic(components),
+    }
+}
+
+/// Whether a vector of these components knows no direction: equal normal ones about 0 (and no
+/// others that are independent: Maxwell 1860), or none at all.
+fn is_isotropic(components: &[Marginal; 3]) -> bool {
+    let [x, y, z] = components;
+    let centred = match x {
+        Marginal::Constant(value) => *value == 0.0,
+        Marginal::Normal { mean, .. } => *mean == 0.0,
+        Marginal::Uniform { .. } => false,
+    };
+    centred && x == y && y == z
+}
+
+/// Whether the coin turns in the plane from a tilt that is uniform over whole turns.
+fn is_whole_turns(launches: &LaunchDistribution) -> bool {
+    // 360 degrees are whole turns to rounding
+    const ROUNDING: f64 = 1e-13;
+    let Some(Marginal::Uniform { from, to }) = planar_tilt(launches) else {
+        return false;
+    };
+    let turns = (to - from) / TAU;
+    turns >= 1.0 - ROUNDING && (turns - turns.round()).abs() <= ROUNDING * turns
+}
+
+/// The random tilt of a coin that turns about the normal of the plane it is tilted in.
+fn planar_tilt(launches: &LaunchDistribution) -> Option<Marginal> {
+    match launches.orientation {
+        Orientation::Tilt(tilt) if launches.spin.is_planar() && !is_constant(&tilt) => Some(tilt),
+        _ => None,
+    }
+}
+
+/// The rate of a spin of which nothing else depends on the rate.
+pub(crate) fn rate(spin: &Spin) -> Option<Marginal> {
+    match *spin {
+        Spin::About { rate_rad_s, .. } | Spin::Precessing { rate_rad_s, .. } => Some(rate_rad_s),
+        Spin::Components(_) => None,
+    }
+}
+
+/// The quantity to integrate out. First those that go round: over a turn little else matters.
+fn variable(launches: &LaunchDistribution) -> Option<Variable> {
+    let random = |marginal: &Marginal| !is_constant(marginal);
+    let isotropic = launches.orientation == Orientation::Isotropic;
+    if isotropic && !matches!(launches.spin, Spin::Precessing { .. }) {
+        Some(Variable::Azimuth)
+    } else if planar_tilt(launches).is_some() {
+        Some(Variable::Tilt)
+    } else if rate(&launches.spin).is_some_and(|rate| random(&rate)) {
+        Some(Variable::Rate)
+    } else if random(&launches.velocity_m_s[2]) {
+        Some(Variable::Velocity)
+    } else if random(&launches.height_m) {
+        Some(Variable::Height)
+    } else {
+        None
+    }
+}
+
+/// The same launches with a quantity put to 1 (a rate) or 0: it is integrated out, and the rest
+/// does not depend on it.
+pub(crate) fn without(launches: &LaunchDistribution, variable: Variable) -> LaunchDistribution {
+    let mut rest = upright(launches);
+    let none = Marginal::Constant(0.0);
+    match variable {
+        Variable::Azimuth => {}
+        Variable::Tilt => rest.orientation = Orientation::Tilt(none),
+        Variable::Rate => match &mut rest.spin {
+            Spin::About { rate_rad_s, .. } | Spin::Precessing { rate_rad_s, .. } => {
+                *rate_rad_s = Marginal::Constant(1.0);
+            }
+            Spin::Components(_) => {}
+        },
+        Variable::Velocity => rest.velocity_m_s[2] = none,
+        Variable::Height => rest.height_m = none,
+    }
+    rest
+}
+
+/// The same launches without horizontal velocity: it moves the place of the first contact and
+/// nothing else.
+pub(crate) fn upright(launches: &LaunchDistribution) -> LaunchDistribution {
+    let mut upright = *launches;
+    upright.velocity_m_s[..2].fill(Marginal::Constant(0.0));
+    upright
+}
+
+/// The dimensions that launches of a distribution ask for.
+fn asked(launches: &LaunchDistribution) -> Vec<u32> {
+    struct Asked(Vec<u32>);
+    impl UniformSource for Asked {
+        fn uniform(&mut self, dimension: u32) -> f64 {
+            self.0.push(dimension);
+            0.5
+        }
+    }
+    // what a distribution asks for does not depend on the coin
+    let coin = coinmc_core::Coin::cylinder(1.0, 1.0).expect("a coin");
+    let mut asked = Asked(vec![]);
+    launches.launch(&coin, &mut asked);
+    debug_assert!(asked.0.len() <= DIMENSIONS);
+    asked.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_core::{Coin, Preset, Surface};
+    use nalgebra::Vector3;
+
+    fn scene() -> Scene {
+        let coin = Coin::cylinder(1.0, 0.01).unwrap();
+        Scene::new(coin, Surface::new(0.0, 0.0).unwrap(), 9.81).unwrap()
+    }
+
+    fn of(launches: &LaunchDistribution) -> Option<Method> {
+        Method::of(&scene(), launches, f64::INFINITY)
+    }
+
+    #[test]
+    fn every_preset_has_its_method() {
+        let expected = [
+            (Preset::Robot, Method::Over(Variable::Tilt), 1),
+            (Preset::Table1, Method::Over(Variable::Velocity), 6),
+            (Preset::Clean, Method::Zone, 0),
+            (Preset::CleanFlat, Method::Arc, 0),
+            (Preset::Hand, Method::Over(Variable::Rate), 3),
+            (Preset::Drop, Method::Zone, 0),
+        ];
+        for (preset, method, left) in expected {
+            let launches = preset.distribution();
+            assert_eq!(of(&launches), Some(method), "{preset}");
+            assert_eq!(method.dimensions(&launches).len(), left, "{preset}");
+        }
+    }
+
+    #[test]
+    fn a_law_that_knows_a_direction_is_not_the_zone() {
+        let clean = Preset::Clean.distribution();
+        let normal = |mean, sd| Marginal::Normal { mean, sd };
+        let spins = [
+            [normal(0.0, 20.0), normal(0.0, 20.0), normal(0.0, 19.0)],
+            [normal(1.0, 20.0), normal(1.0, 20.0), normal(1.0, 20.0)],
+            [Marginal::Uniform {
+                from: -1.0,
+                to: 1.0,
+            }; 3],
+            [Marginal::Constant(1.0); 3],
+        ];
+        for spin in spins {
+            let launches = LaunchDistribution {
+                spin: Spin::Components(spin),
+                ..clean
+            };
+            assert_eq!(of(&launches), Some(Method::Over(Variable::Azimuth)));
+            // a coin that turns about a fixed axis takes every one of them
+            let fixed = scene().with_gyroscopic_torque(false);
+            assert_eq!(
+                Method::of(&fixed, &launches, f64::INFINITY),
+                Some(Method::Zone)
+            );
+        }
+        let about = Spin::About {
+            axis: Vector3::x_axis(),
+            rate_rad_s: normal(0.0, 1.0),
+        };
+        let launches = LaunchDistribution {
+            spin: about,
+            ..clean
+        };
+        assert_eq!(of(&launches), Some(Method::Over(Variable::Azimuth)));
+    }
+
+    #[test]
+    fn low_launches_and_short_limits_are_tossed() {
+        let mut launches = Preset::Robot.distribution();
+        assert_eq!(Method::of(&scene(), &launches, 0.1), Some(Method::Tossed));
+        launches.height_m = Marginal::Uniform {
+            from: 0.011,
+            to: 0.5,
+        };
+        assert_eq!(of(&launches), Some(Method::Tossed)); // D = 11.2 mm
+        launches.height_m = Marginal::Uniform {
+            from: 0.012,
+            to: 0.5,
+        };
+        assert_eq!(of(&launches), Some(Method::Over(Variable::Tilt)));
+        // seven random numbers: a step in seven dimensions
+        let low = LaunchDistribution {
+            height_m: Marginal::Constant(0.001),
+            ..Preset::Table1.distribution()
+        };
+        assert_eq!(of(&low), None);
+    }
+
+    #[test]
+    fn half_turns_are_not_whole_ones() {
+        let mut launches = Preset::CleanFlat.distribution();
+        for (turns, whole) in [(0.5, false), (1.0, true), (1.5, false), (3.0, true)] {
+            let to = 1.0 + turns * TAU;
+            launches.orientation = Orientation::Tilt(Marginal::Uniform { from: 1.0, to });
+            assert_eq!(of(&launches) == Some(Method::Arc), whole, "{turns}");
+        }
+    }
+}

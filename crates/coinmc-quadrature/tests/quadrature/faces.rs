@@ -1,0 +1,179 @@
+//! Probabilities against closed forms and against sampling.
+
+use crate::common::{engine, found, goal, scene, uneven};
+use coinmc_core::{
+    Domain, Engine, Face, LaunchDistribution, Marginal, Orientation, Preset, Spin, Stream,
+    run_tosses,
+};
+use coinmc_quadrature::{Method, Variable};
+use nalgebra::Vector3;
+
+/// Half widths, in standard errors, beyond which Monte Carlo disagrees: 1 in 15 000 each.
+const SIGMAS: f64 = 4.0;
+
+/// 2e5 tosses against the integral; 15 comparisons.
+#[test]
+fn integrals_agree_with_sampling() {
+    const TOSSES: u64 = 200_000;
+    let cases = [
+        (Preset::Table1.distribution(), 1.2),
+        (Preset::Clean.distribution(), 0.7),
+        (Preset::Hand.distribution(), 2.0),
+        (Preset::Robot.distribution(), 1.1),
+        (uneven(), 0.9),
+    ];
+    for (number, (launches, ratio)) in cases.iter().enumerate() {
+        let scene = scene(*ratio);
+        let method = Method::of(&scene, launches, f64::INFINITY).unwrap();
+        let integral = found(method, &scene, launches, 1, &goal(1e-4, 1 << 18));
+        let stream = Stream::new(3, Domain::Launch, number as u64);
+        let engine = engine(&scene);
+        let tally = run_tosses(
+            &engine,
+            &mut engine.workspace(),
+            &scene,
+            launches,
+            &stream,
+            0..TOSSES,
+        );
+        for (face, share) in Face::ALL.into_iter().zip(integral.faces) {
+            let p = tally.count(face) as f64 / TOSSES as f64;
+            let error = (share.p * (1.0 - share.p) / TOSSES as f64).sqrt();
+            let far = (p - share.p).abs() - share.half_width();
+            assert!(
+                far < SIGMAS * error,
+                "{number} {method:?} {face:?} {p} {share:?}"
+            );
+        }
+    }
+}
+
+/// Tosses at Sobol points know nothing of the closed forms, and find them within their intervals.
+#[test]
+fn closed_forms_are_recovered_by_tosses() {
+    for (preset, method, rule) in [
+        (Preset::Clean, Method::Zone, coinmc_analytic::Rule::Zone),
+        (Preset::CleanFlat, Method::Arc, coinmc_analytic::Rule::Arc),
+        (Preset::Drop, Method::Zone, coinmc_analytic::Rule::Zone),
+    ] {
+        for ratio in [0.2, 1.0, 3.0] {
+            let (scene, launches) = (scene(ratio), preset.distribution());
+            let exact = found(method, &scene, &launches, 1, &goal(1e-5, 0));
+            assert_eq!(
+                (exact.side().p, exact.half_width()),
+                (rule.p_side(ratio), 0.0)
+            );
+            assert_eq!((exact.evaluations, exact.exact), (0, true));
+            // one interval in 1e4 misses
+            let sure = coinmc_quadrature::Goal {
+                confidence: 0.9999,
+                ..goal(1e-4, 1 << 16)
+            };
+            let tossed = found(Method::Tossed, &scene, &launches, 1, &sure);
+            for (tossed, exact) in tossed.faces.iter().zip(exact.faces) {
+                assert!(
+                    (tossed.p - exact.p).abs() <= tossed.half_width(),
+                    "{preset} {ratio} {tossed:?}"
+                );
+                assert!(tossed.half_width() < 1e-2, "{preset} {ratio} {tossed:?}");
+            }
+        }
+    }
+}
+
+/// A tilt over half a turn shows the side as often as over whole ones; heads by symmetry with tails
+/// where the spin has no sign.
+#[test]
+fn the_robot_lands_on_its_side_by_the_arc_rule() {
+    for ratio in [0.1, 1.0, 5.0] {
+        let launches = Preset::Robot.distribution();
+        let method = Method::Over(Variable::Tilt);
+        let integral = found(method, &scene(ratio), &launches, 1, &goal(1e-7, 1 << 20));
+        let arc = coinmc_analytic::arc::p_side(ratio);
+        assert!(
+            (integral.side().p - arc).abs() < 1e-11,
+            "{ratio} {integral:?}"
+        );
+        assert!(integral.half_width() < 1e-6, "{ratio} {integral:?}");
+    }
+}
+
+/// A coin let go heads up with its angular momentum at ψ to its axis, often turned: the thick coin's
+/// closed form is the limit of a spread of the phase by many turns.
+#[test]
+fn precession_with_a_wide_spread_of_turns_is_its_closed_form() {
+    let psi = 1.2;
+    let launches = LaunchDistribution {
+        spin: Spin::Precessing {
+            rate_rad_s: Marginal::Uniform {
+                from: 100.0,
+                to: 1000.0,
+            },
+            psi_rad: Marginal::Constant(psi),
+        },
+        ..Preset::Hand.distribution()
+    };
+    let scene = scene(1.0);
+    let method = Method::of(&scene, &launches, f64::INFINITY).unwrap();
+    let integral = found(method, &scene, &launches, 1, &goal(1e-6, 1 << 16));
+    let exact = coinmc_analytic::precession::thick::probabilities(1.0, psi);
+    // some 60 turns: the ends of the spread weigh less than one of them
+    assert!(
+        (integral.side().p - exact.side).abs() < 0.01,
+        "{integral:?} {exact:?}"
+    );
+    assert!(integral.half_width() <= 1e-5, "{integral:?}");
+}
+
+#[test]
+fn a_scene_without_chance_is_one_evaluation() {
+    let launches = LaunchDistribution {
+        orientation: Orientation::Tilt(Marginal::Constant(0.3)),
+        spin: Spin::About {
+            axis: Vector3::y_axis(),
+            rate_rad_s: Marginal::Constant(7.0),
+        },
+        ..Preset::Robot.distribution()
+    };
+    let scene = scene(1.0);
+    let method = Method::of(&scene, &launches, f64::INFINITY).unwrap();
+    let integral = found(method, &scene, &launches, 1, &goal(1e-5, 1 << 20));
+    assert_eq!(
+        (method, integral.evaluations, integral.exact),
+        (Method::Tossed, 1, true)
+    );
+    assert_eq!(integral.faces.map(|share| share.p).iter().sum::<f64>(), 1.0);
+    // with a spread of the rate alone: one evaluation of its closed form
+    let spread = LaunchDistribution {
+        spin: Spin::About {
+            axis: Vector3::y_axis(),
+            rate_rad_s: Marginal::Normal { mean: 7.0, sd: 3.0 },
+        },
+        ..launches
+    };
+    let method = Method::of(&scene, &spread, f64::INFINITY).unwrap();
+    let integral = found(method, &scene, &spread, 1, &goal(1e-5, 1 << 20));
+    assert_eq!((integral.evaluations, integral.half_width()), (1, 0.0));
+}
+
+#[test]
+fn it_stops_when_told_to() {
+    use std::cell::Cell;
+    let scene = scene(1.0);
+    let launches = uneven();
+    let asked = Cell::new(0);
+    let go_on = || {
+        asked.set(asked.get() + 1);
+        asked.get() < 5
+    };
+    let scrambles = crate::common::scrambles(1);
+    let engine = engine(&scene);
+    let goal = goal(1e-9, 1 << 22);
+    for method in [Method::Tossed, Method::Over(Variable::Azimuth)] {
+        asked.set(0);
+        let found = coinmc_quadrature::integrate(
+            method, &scene, &launches, &engine, &scrambles, &goal, go_on,
+        );
+        assert!(found.is_none(), "{method:?}");
+    }
+}

@@ -1,0 +1,94 @@
+//! Which points are tossed, and which are answered without.
+
+use super::{EngineChoice, Plan, Point, Stop};
+use coinmc_core::Landing;
+use coinmc_quadrature::{Goal, LEAST_EVALUATIONS, MOST_EVALUATIONS, Method};
+
+/// How launches are drawn where the first contact decides. Elsewhere they are random.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Sampling {
+    /// Not at all, or at Sobol points, wherever that is sharper than at random: see [`Method`].
+    #[default]
+    Auto,
+    /// Random tosses.
+    Random,
+}
+
+impl Sampling {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Auto, Self::Random];
+
+    /// The name used in configs.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Random => "random",
+        }
+    }
+}
+
+/// Half width at which an integral ends where the config asks for a number of tosses.
+const HALF_WIDTH: f64 = 1e-5;
+
+impl Plan {
+    /// Whether point `index` is integrated: answered as one piece of work, without counting tosses.
+    ///
+    /// # Panics
+    /// If there is no such point, as [`makes_tosses`](Self::makes_tosses) and
+    /// [`method`](Self::method).
+    pub fn integrates(&self, index: usize) -> bool {
+        self.method(index).is_some()
+    }
+
+    /// Whether tosses of point `index` are counted.
+    pub fn makes_tosses(&self, index: usize) -> bool {
+        self.points[index].engine.makes_tosses() && !self.integrates(index)
+    }
+
+    /// How point `index` is integrated; `None` if it is not.
+    pub fn method(&self, index: usize) -> Option<Method> {
+        let point = &self.points[index];
+        match self.sampling {
+            Sampling::Auto => Method::of(&point.scene, &point.launches, time_limit_s(point)?),
+            Sampling::Random => None,
+        }
+    }
+
+    /// How many points are tossed.
+    pub(crate) fn points_tossed(&self) -> u64 {
+        let points = 0..self.points.len();
+        points.filter(|&index| self.makes_tosses(index)).count() as u64
+    }
+
+    /// What an integral is to reach: the half width asked for, with no more evaluations than the
+    /// config would have tossed, but for a few thousand at the least and a few million at the most.
+    pub fn goal(&self) -> Goal {
+        let (half_width, evaluations) = match self.stop {
+            Stop::Tosses(tosses) => (HALF_WIDTH, tosses),
+            Stop::HalfWidth {
+                half_width,
+                max_tosses,
+            } => (half_width, max_tosses),
+        };
+        Goal {
+            confidence: self.confidence,
+            half_width,
+            evaluations: evaluations.clamp(LEAST_EVALUATIONS, MOST_EVALUATIONS),
+        }
+    }
+}
+
+/// Simulated time, s, after which a point's engine gives a toss up, if the first contact decides
+/// and the engine follows it in closed form.
+fn time_limit_s(point: &Point) -> Option<f64> {
+    if point.scene.surface.landing() != Landing::Adhesive {
+        return None;
+    }
+    match &point.engine {
+        EngineChoice::Flat(_) => Some(f64::INFINITY),
+        EngineChoice::Volumetric(settings) => {
+            Some(settings.time_limit * point.scene.time_scale_s())
+        }
+        EngineChoice::Rapier(_) | EngineChoice::Analytic(_) => None,
+    }
+}

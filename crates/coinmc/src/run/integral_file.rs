@@ -1,0 +1,179 @@
+//! The file of one integrated point: a few lines of text with a checksum. See docs/formats.md.
+
+use super::tally_file::{CHECKSUM, Damage, MAX_BYTES};
+use coinmc_core::Face;
+use coinmc_quadrature::{Integral, MOST_EVALUATIONS, Method, Share};
+use std::fmt::Write;
+
+/// Version of the format.
+const FORMAT: u64 = 1;
+const TITLE: &str = "coinmc integral";
+/// How the lines of an interval begin that is exact, and of one that is Student's.
+const KINDS: [&str; 2] = ["student-t", "exact"];
+
+/// The file's content.
+pub(super) fn encode(point: usize, integral: &Integral, plan_hash: &str) -> String {
+    let mut text = format!(
+        "{TITLE} {FORMAT}\nplan {plan_hash}\npoint {point}\nmethod {}\nevaluations {}\ninterval {}\n",
+        integral.method.name(),
+        integral.evaluations,
+        KINDS[usize::from(integral.exact)],
+    );
+    for (face, Share { p, lo, hi }) in Face::ALL.iter().zip(&integral.faces) {
+        // the shortest decimals that read back to the same bits
+        writeln!(text, "{} {p:?} {lo:?} {hi:?}", face.name()).expect("a String takes all text");
+    }
+    let checksum = crc32fast::hash(text.as_bytes());
+    writeln!(text, "{CHECKSUM}{checksum:08x}").expect("a String takes all text");
+    text
+}
+
+/// Reads the file of a point that the plan integrates by `method`. Anything but the very bytes that
+/// [`encode`] would write is refused.
+pub(super) fn decode(
+    bytes: &[u8],
+    point: usize,
+    method: Method,
+    plan_hash: &str,
+) -> Result<Integral, Damage> {
+    if bytes.len() > MAX_BYTES {
+        return Err(Damage::TooLong);
+    }
+    let text = std::str::from_utf8(bytes).map_err(|_| Damage::Checksum)?;
+    let (body, checksum) = text.rsplit_once(CHECKSUM).ok_or(Damage::Checksum)?;
+    if checksum != format!("{:08x}\n", crc32fast::hash(body.as_bytes())) {
+        return Err(Damage::Checksum);
+    }
+    // The checksum is right, so the file is as it was written: what follows tells a stranger.
+    let mut lines = body.lines();
+    let mut value = |key: &str| {
+        let line = lines.next().and_then(|line| line.strip_prefix(key));
+        line.and_then(|line| line.strip_prefix(' '))
+            .ok_or(Damage::Form)
+    };
+    if value(TITLE)? != FORMAT.to_string() {
+        return Err(Damage::Version);
+    }
+    if value("plan")? != plan_hash {
+        return Err(Damage::OtherPlan);
+    }
+    if value("point")? != point.to_string() || value("method")? != method.name() {
+        return Err(Damage::OtherShard);
+    }
+    let evaluations = value("evaluations")?.parse().map_err(|_| Damage::Form)?;
+    let exact = value("interval")? == KINDS[1];
+    let mut faces = [Share {
+        p: 0.0,
+        lo: 0.0,
+        hi: 0.0,
+    }; 3];
+    for (share, face) in faces.iter_mut().zip(Face::ALL) {
+        *share = numbers(value(face.name())?).ok_or(Damage::Form)?;
+    }
+    let integral = Integral {
+        method,
+        faces,
+        evaluations,
+        exact,
+    };
+    if !is_possible(&integral) {
+        return Err(Damage::Counts);
+    }
+    if encode(point, &integral, plan_hash) == text {
+        Ok(integral)
+    } else {
+        Err(Damage::Form)
+    }
+}
+
+/// "p lo hi".
+fn numbers(text: &str) -> Option<Share> {
+    let mut numbers = text.split(' ').map(str::parse);
+    let mut next = || numbers.next()?.ok();
+    Some(Share {
+        p: next()?,
+        lo: next()?,
+        hi: next()?,
+    })
+}
+
+/// Whether an integration can find this.
+fn is_possible(integral: &Integral) -> bool {
+    let in_order = |share: &Share| 0.0 <= share.lo && share.lo <= share.p && share.p <= share.hi;
+    let sum: f64 = integral.faces.iter().map(|share| share.p).sum();
+    integral.evaluations <= MOST_EVALUATIONS
+        && integral
+            .faces
+            .iter()
+            .all(|share| in_order(share) && share.hi <= 1.0)
+        && sum <= 1.0 + 1e-9
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_quadrature::Variable;
+
+    const HASH: &str = "0123456789abcdef";
+    const METHOD: Method = Method::Over(Variable::Rate);
+
+    fn example() -> Integral {
+        let share = |p: f64| Share {
+            p,
+            lo: p - 1e-5,
+            hi: p + 1.3e-5,
+        };
+        Integral {
+            method: METHOD,
+            faces: [share(0.1 + 0.2), share(1.0 / 3.0), share(0.25)],
+            evaluations: 4096,
+            exact: false,
+        }
+    }
+
+    #[test]
+    fn files_read_back_and_any_damage_is_seen() {
+        for method in Method::ALL {
+            let written = Integral {
+                method,
+                exact: method == Method::Arc,
+                ..example()
+            };
+            let text = encode(7, &written, HASH);
+            assert!(text.len() <= MAX_BYTES);
+            assert_eq!(decode(text.as_bytes(), 7, method, HASH), Ok(written));
+            for place in 0..text.len() {
+                let mut flipped = text.clone().into_bytes();
+                flipped[place] ^= 1;
+                assert!(decode(&flipped, 7, method, HASH).is_err(), "{place}");
+                assert!(decode(&text.as_bytes()[..place], 7, method, HASH).is_err());
+            }
+        }
+    }
+
+    #[test]
+    fn strangers_with_a_right_checksum_are_told_apart() {
+        let text = encode(7, &example(), HASH);
+        let decode = |text: &str, point, hash| super::decode(text.as_bytes(), point, METHOD, hash);
+        assert_eq!(decode(&text, 8, HASH), Err(Damage::OtherShard));
+        assert_eq!(decode(&text, 7, "f00"), Err(Damage::OtherPlan));
+        let other = super::decode(text.as_bytes(), 7, Method::Tossed, HASH);
+        assert_eq!(other, Err(Damage::OtherShard));
+        let body = text.rsplit_once(CHECKSUM).unwrap().0;
+        let resigned =
+            |body: String| format!("{body}{CHECKSUM}{:08x}\n", crc32fast::hash(body.as_bytes()));
+        for (from, to, damage) in [
+            ("integral 1", "integral 2", Damage::Version),
+            ("evaluations 4096", "evaluations +4096", Damage::Form),
+            ("evaluations 4096", "evaluations 4194305", Damage::Counts),
+            ("side 0.25", "side 0.5", Damage::Counts),
+            ("side 0.25", "side NaN", Damage::Counts),
+            ("side 0.25", "side 0.250", Damage::Form),
+            ("student-t", "student", Damage::Form),
+            ("heads", "tails", Damage::Form),
+        ] {
+            let forged = resigned(body.replace(from, to));
+            assert_eq!(decode(&forged, 7, HASH), Err(damage), "{to}");
+        }
+    }
+}

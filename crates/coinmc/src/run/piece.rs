@@ -1,0 +1,127 @@
+//! What a piece of work comes to, and the piece that is no range of tosses.
+
+use super::{RunError, SettingsError, Shard, Task, with_engine};
+use crate::plan::{Plan, Point};
+use coinmc_core::{Domain, Engine, Stream, Tally};
+use coinmc_quadrature::{Goal, Integral, Method, integrate};
+
+/// What a shard came to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Piece {
+    /// A range of tosses.
+    Tossed(Tally),
+    /// A whole point, integrated: its shard is an empty range.
+    Integrated(Integral),
+}
+
+impl Piece {
+    /// Tosses counted in it.
+    pub(super) fn tosses(&self) -> u64 {
+        match self {
+            Self::Tossed(tally) => tally.tosses(),
+            Self::Integrated(_) => 0,
+        }
+    }
+}
+
+/// The one shard of a point that is integrated.
+pub(super) fn whole(point: usize) -> Shard {
+    Shard {
+        point,
+        tosses: 0..0,
+    }
+}
+
+/// Integrates a point, on this thread; `None` if it is one that is tossed or a closed form.
+///
+/// Ends at the goal of the plan, or after `evaluations` if that comes first (not before
+/// the first look). The result depends on the plan and that number alone.
+///
+/// # Errors
+/// [`RunError::NoSuchShard`] if there is no such point, [`RunError::Settings`] if its engine refuses
+/// its settings.
+///
+/// # Example
+/// ```
+/// let plan = coinmc::config::parse(
+///     "inline",
+///     "coin.ratio = 1\nsurface.landing = 'adhesive'\nlaunch.preset = 'clean'\n\
+///      engine.volumetric = {}\nstop.tosses = 1e6",
+///     &[],
+/// ).unwrap();
+/// let integral = coinmc::run::integrate_point(&plan, 0, u64::MAX)?.unwrap();
+/// assert!(integral.exact && (integral.side().p - 0.2_f64.sqrt()).abs() < 1e-15);
+/// # Ok::<(), coinmc::run::RunError>(())
+/// ```
+pub fn integrate_point(
+    plan: &Plan,
+    point: usize,
+    evaluations: u64,
+) -> Result<Option<Integral>, RunError> {
+    if point >= plan.points.len() {
+        return Err(RunError::NoSuchShard {
+            shard: whole(point),
+            points: plan.points.len(),
+        });
+    }
+    let goal = plan.goal();
+    let goal = Goal {
+        evaluations: goal.evaluations.min(evaluations),
+        ..goal
+    };
+    integrate_while(plan, point, goal, || true)
+}
+
+/// [`integrate_point`] to a goal of its own, unless `go_on` says no: then `None`.
+pub(super) fn integrate_while(
+    plan: &Plan,
+    index: usize,
+    goal: Goal,
+    go_on: impl Fn() -> bool,
+) -> Result<Option<Integral>, RunError> {
+    let Some(method) = plan.method(index) else {
+        return Ok(None);
+    };
+    let stream_point = if plan.paired { 0 } else { index as u64 };
+    let work = Work {
+        method,
+        point: &plan.points[index],
+        scrambles: Stream::new(plan.seed, Domain::Scramble, stream_point),
+        goal,
+        go_on,
+    };
+    let found = with_engine(&plan.points[index], work);
+    found
+        .map(Option::flatten)
+        .map_err(|source: SettingsError| RunError::Settings {
+            point: index,
+            source,
+        })
+}
+
+struct Work<'a, F> {
+    method: Method,
+    point: &'a Point,
+    scrambles: Stream,
+    goal: Goal,
+    go_on: F,
+}
+
+impl<F: Fn() -> bool> Task for Work<'_, F> {
+    type Output = Option<Integral>;
+
+    fn with<E: Engine>(self, engine: &E) -> Option<Integral> {
+        let Point {
+            scene, launches, ..
+        } = self.point;
+        integrate(
+            self.method,
+            scene,
+            launches,
+            engine,
+            &self.scrambles,
+            &self.goal,
+            self.go_on,
+        )
+    }
+}

@@ -1,0 +1,285 @@
+//! Points that are integrated instead of tossed: the same numbers however the run was cut,
+//! interrupted or resumed, and those of random tosses.
+
+mod run_support;
+
+use coinmc::plan::Plan;
+use coinmc::results::{Row, fair_ratios};
+use coinmc::run::{Count, Part, Status, count, integrate_point, merge};
+use run_support::{Ear, assert_same, contents, run_whole, run_with};
+use std::fs;
+use std::num::NonZeroUsize;
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+const ENGINES: &str = "launch.preset = 'hand'\nengine.volumetric = {}\n";
+
+/// Three ratios of a coin that stays where it lands.
+fn plan_of(engine: &str, stop: &str, more: &str) -> Plan {
+    let text = format!(
+        "seed = 7\ncoin.ratio = [0.5, 1.0, 2.0]\nsurface.landing = 'adhesive'\n{engine}\
+         stop = {{ {stop} }}\n{more}\n"
+    );
+    coinmc::config::parse("test", &text, &[]).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+fn plan() -> Plan {
+    plan_of(ENGINES, "tosses = 20_000", "")
+}
+
+fn counted(plan: &Plan, threads: usize) -> Vec<Row> {
+    let options = Count {
+        threads: NonZeroUsize::new(threads),
+        cancel: &AtomicBool::new(false),
+        watcher: &(),
+    };
+    count(plan, &options).unwrap().results.rows
+}
+
+fn tally(dir: &Path, point: usize) -> std::path::PathBuf {
+    dir.join(format!("tallies/p{point:06}-t00000000000000.tally"))
+}
+
+#[test]
+fn a_run_integrates_and_says_so() {
+    let (dir, plan) = (tempfile::tempdir().unwrap(), plan());
+    let report = run_whole(&plan, dir.path());
+    assert_eq!((report.status, report.tosses), (Status::Complete, 0));
+    assert_eq!(plan.tosses_planned(), 0);
+    for (point, row) in report.results.rows.iter().enumerate() {
+        let alone = integrate_point(&plan, point, u64::MAX).unwrap().unwrap();
+        assert_eq!(*row, Row::integrated(&plan, point, &alone, true));
+        assert_eq!((row.interval, row.sampling), ("student-t", "quasi-random"));
+        assert!(
+            row.evaluations >= 1024 && row.evaluations <= 20_000,
+            "{row:?}"
+        );
+        assert_eq!((row.tally.tosses(), row.side.n), (0, row.evaluations));
+        assert!(
+            row.half_width() < 2e-4 && row.side.lo < row.side.p,
+            "{row:?}"
+        );
+    }
+    for threads in [1, 2, 5] {
+        assert_eq!(counted(&plan, threads), report.results.rows);
+    }
+    let csv = fs::read_to_string(dir.path().join("results.csv")).unwrap();
+    let mut lines = csv.lines();
+    assert!(lines.next().unwrap().ends_with(",sampling,evaluations"));
+    // counts of tosses have no relative error where there are none
+    assert!(lines.all(|line| line.contains(",student-t,,,,,") && line.contains(",quasi-random,")));
+}
+
+#[test]
+fn a_run_killed_or_damaged_anywhere_ends_the_same() {
+    let (whole, other, plan) = (
+        tempfile::tempdir().unwrap(),
+        tempfile::tempdir().unwrap(),
+        plan(),
+    );
+    run_whole(&plan, whole.path());
+    let before = contents(whole.path());
+    let again = run_whole(&plan, whole.path());
+    assert_eq!((again.reused_shards, before), (3, contents(whole.path())));
+
+    let ear = Ear::that_cancels_at(1);
+    let stopped = run_with(&plan, other.path(), Part::WHOLE, 1, &ear).unwrap();
+    assert!(matches!(
+        stopped.status,
+        Status::Interrupted | Status::Complete
+    ));
+    run_whole(&plan, other.path());
+    assert_same(whole.path(), other.path());
+
+    // a tally where an integral belongs, and half a file
+    let text = fs::read_to_string(tally(other.path(), 1)).unwrap();
+    fs::write(tally(other.path(), 0), &text).unwrap();
+    fs::write(tally(other.path(), 1), &text[..text.len() / 2]).unwrap();
+    let ear = Ear::default();
+    run_with(&plan, other.path(), Part::WHOLE, 2, &ear).unwrap();
+    assert_eq!(ear.warnings().len(), 2, "{:?}", ear.warnings());
+    for point in 0..2 {
+        fs::remove_file(tally(other.path(), point).with_extension("tally.rejected")).unwrap();
+    }
+    assert_same(whole.path(), other.path());
+}
+
+#[test]
+fn parts_of_a_run_merge_to_the_whole() {
+    let dir = tempfile::tempdir().unwrap();
+    let plan = plan();
+    let at = |name: &str| dir.path().join(name);
+    run_whole(&plan, &at("whole"));
+    let parts: Vec<_> = (1..=2)
+        .map(|index| {
+            let part = Part::new(index, 2).unwrap();
+            let out = at(&format!("part-{index}"));
+            let report = run_with(&plan, &out, part, 1, &Ear::default()).unwrap();
+            assert_eq!(report.status, Status::Part);
+            out
+        })
+        .collect();
+    let error = merge(&parts[..1], &at("half"), &()).unwrap_err();
+    assert!(error.to_string().contains("point"), "{error}");
+    merge(&parts, &at("merged"), &()).unwrap();
+    assert_same(&at("whole"), &at("merged"));
+}
+
+/// 2e5 tosses, six faces: one of 6e4 such runs has a face beyond 4 standard errors in one of them.
+#[test]
+fn forced_random_tosses_agree() {
+    for engine in [
+        "launch.preset = 'table1'\nengine.volumetric = {}\n",
+        "launch.preset = 'robot'\nengine.flat = {}\n",
+    ] {
+        let integrated = counted(&plan_of(engine, "tosses = 200_000", ""), 2);
+        let random = plan_of(engine, "tosses = 200_000", "sampling.method = 'random'");
+        assert_eq!(random.tosses_planned(), 600_000);
+        for (row, tossed) in integrated.iter().zip(counted(&random, 2)) {
+            assert_eq!((tossed.sampling, tossed.evaluations), ("random", 0));
+            for (a, b) in [
+                (&row.heads, &tossed.heads),
+                (&row.tails, &tossed.tails),
+                (&row.side, &tossed.side),
+            ] {
+                let error = (a.p * (1.0 - a.p) / 200_000.0).sqrt();
+                assert!(
+                    (a.p - b.p).abs() < 4.0 * error + a.half_width(),
+                    "{a:?} {b:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn closed_forms_are_exact_and_few_random_numbers_are_quasi_random() {
+    let clean = "launch.preset = 'clean'\nengine.volumetric = {}\n";
+    for row in counted(&plan_of(clean, "tosses = 100_000", ""), 1) {
+        assert_eq!((row.interval, row.sampling), ("exact", "closed-form"));
+        assert_eq!((row.evaluations, row.half_width()), (0, 0.0));
+    }
+    // let go below the distance of its rim: nothing is known but by tossing
+    let low = "launch = { preset = 'robot', height_m = 0.005 }\nengine.flat = {}\n";
+    let random = plan_of(low, "tosses = 100_000", "sampling.method = 'random'");
+    let tossed = counted(&plan_of(low, "tosses = 100_000", ""), 2);
+    for (row, random) in tossed.iter().zip(counted(&random, 2)) {
+        assert_eq!((row.sampling, row.evaluations), ("quasi-random", 1 << 16));
+        // both ends of two intervals of 95 %, each doubled: one in 1e4 a row
+        let apart = (row.side.p - random.side.p).abs();
+        assert!(
+            apart < 2.0 * (row.half_width() + random.half_width()),
+            "{row:?}"
+        );
+        assert!(row.half_width() < random.half_width(), "{row:?}");
+    }
+}
+
+/// A step in many dimensions is tossed at random as ever.
+#[test]
+fn what_quadrature_does_not_sharpen_is_tossed() {
+    let low = "launch = { preset = 'table1', height_m = 0.005 }\nengine.volumetric = {}\n";
+    let rows = counted(&plan_of(low, "tosses = 1000", ""), 1);
+    assert!(
+        rows.iter()
+            .all(|row| row.sampling == "random" && row.tally.tosses() == 1000)
+    );
+}
+
+#[test]
+fn a_half_width_is_reached_or_said_to_be_missed() {
+    let stop = |width| format!("half_width = {width}, max_tosses = 10_000");
+    let dir = tempfile::tempdir().unwrap();
+    let wide = run_whole(&plan_of(ENGINES, &stop(1e-2), ""), &dir.path().join("wide"));
+    assert_eq!(wide.status, Status::Complete);
+    let narrow = run_whole(
+        &plan_of(ENGINES, &stop(1e-7), ""),
+        &dir.path().join("narrow"),
+    );
+    assert_eq!(narrow.status, Status::ShortOfTarget { points: 3 });
+    for (wide, narrow) in wide.results.rows.iter().zip(&narrow.results.rows) {
+        assert!(wide.half_width() <= 1e-2 && narrow.half_width() > 1e-7);
+        assert!(wide.evaluations <= narrow.evaluations);
+    }
+}
+
+/// Paired points share their scrambles as they share their tosses, others share neither.
+#[test]
+fn paired_points_share_their_scrambles() {
+    let same = |paired: &str| {
+        let text = format!(
+            "seed = 3\n{paired}coin.ratio = 1.0\ncoin.radius_m = [0.01, 0.0100000000001]\n\
+             surface.landing = 'adhesive'\n{ENGINES}stop.tosses = 1000\n"
+        );
+        let plan = coinmc::config::parse("test", &text, &[]).unwrap();
+        let rows = counted(&plan, 1);
+        (rows[0].side.p - rows[1].side.p).abs() < 1e-9
+    };
+    assert!(same("paired = true\n") && !same(""));
+}
+
+#[test]
+fn the_fair_ratio_is_found_through_integrals() {
+    let text = "coin.ratio = { from = 0.9, to = 1.4, steps = 21 }\nsurface.landing = 'adhesive'\n\
+                launch.preset = 'robot'\nengine.flat = {}\nstop.tosses = 1e5";
+    let plan = coinmc::config::parse("test", text, &[]).unwrap();
+    let report = run_whole(&plan, tempfile::tempdir().unwrap().path());
+    let [fair] = &fair_ratios(&report.results, 1.0 / 3.0)[..] else {
+        panic!("one crossing")
+    };
+    let arc = 2.0 / 3.0_f64.sqrt();
+    assert!((fair.ratio - arc).abs() < 1e-5, "{fair:?}");
+    assert!(fair.lo.unwrap() < arc && arc < fair.hi.unwrap(), "{fair:?}");
+}
+
+#[test]
+fn what_is_integrated_is_explained() {
+    let explained = |engine: &str, more: &str| {
+        let plan = plan_of(engine, "tosses = 10", more);
+        let [all] = &plan.explain()[..] else { panic!() };
+        (all.computed.clone(), all.skipped.join("; "))
+    };
+    let hand = explained(ENGINES, "");
+    assert!(
+        hand.0
+            .starts_with("quadrature: the rate of spin in closed form"),
+        "{}",
+        hand.0
+    );
+    assert!(hand.0.contains("other 3 random numbers"), "{}", hand.0);
+    assert!(
+        hand.1
+            .contains("sampling.method = \"random\" tosses all the same"),
+        "{}",
+        hand.1
+    );
+    let drop = explained("launch.preset = 'drop'\nengine.volumetric = {}\n", "");
+    assert!(
+        drop.0
+            .starts_with("closed form zone, exact: P(side) = x/sqrt(x² + 4)"),
+        "{}",
+        drop.0
+    );
+    let flat = explained("launch.preset = 'clean-flat'\nengine.flat = {}\n", "");
+    assert!(flat.0.starts_with("closed form arc, exact"), "{}", flat.0);
+    let random = explained(ENGINES, "sampling.method = 'random'");
+    assert!(random.0.contains("to the first contact"), "{}", random.0);
+    assert!(!random.1.contains("random tosses"), "{}", random.1);
+    let low = explained(
+        "launch = { preset = 'robot', height_m = 0.005 }\nengine.flat = {}\n",
+        "",
+    );
+    assert!(
+        low.0.contains("the 2 random numbers of their launches"),
+        "{}",
+        low.0
+    );
+}
+
+/// The method is part of what a plan is.
+#[test]
+fn the_method_names_the_plan() {
+    let hash = |more| plan_of(ENGINES, "tosses = 10", more).hash();
+    assert_eq!(hash(""), hash("sampling.method = 'auto'"));
+    assert_ne!(hash(""), hash("sampling.method = 'random'"));
+}
