@@ -243,7 +243,10 @@ impl<L: Lane> Search<L> {
         // the resolution of time is reached: nothing lies between, or nothing changes
         let closed = middle.le(self.low) | self.high.le(middle);
         let same = next.le(self.time) & self.time.le(next);
-        let resolved = inside & orbit.resolves(step, now.sin);
+        // the gap has a kink where u becomes horizontal and the other rim the lowest: beyond it the
+        // step has followed the wrong one
+        let one_rim = L::splat(0.0).le(now.uz * (now.uz + now.uz_rate * step));
+        let resolved = inside & one_rim & orbit.resolves(step, now.sin);
         let done = lanes & (closed | same | resolved);
         self.active = self.active & !done;
         self.time = L::select(lanes, L::select(closed, self.low, next), self.time);

@@ -6,7 +6,7 @@ use coinmc_core::{Coin, Event, EventKind, Launch, Observer, Scene, Surface};
 use nalgebra::{UnitVector3, Vector3};
 
 /// H/R, R m, e, μ, contour m, pivoting m, height m, u, spin rad/s.
-const HARDEST: [[f64; 13]; 2] = [
+const HARDEST: [[f64; 13]; 3] = [
     // came down on its side within a step of contact in which friction also changed its mode: the
     // coin was put back onto its side with an energy 3e-7 and 4e-6 above what it had
     [
@@ -39,6 +39,23 @@ const HARDEST: [[f64; 13]; 2] = [
         3_218.541_138_563_664,
         1_268.360_476_945_465_5,
     ],
+    // a long rod whose other rim came down just as the last step of a search passed the horizontal:
+    // found 1.5e-6 D too late and put back onto the surface, it gained 6e-8 in flight
+    [
+        2_891.208_573_163_485_7,
+        0.092_606_066_326_694_49,
+        0.942_938_828_050_165_2,
+        0.009_113_322_044_867_702,
+        1.946_241_801_578_630_3e-5,
+        1.611_353_066_419_43e-6,
+        0.011_309_685_006_714_96,
+        -0.065_480_762_224_049_35,
+        -0.046_218_907_631_578_8,
+        -0.996_782_866_203_016_7,
+        -201.258_604_648_592_32,
+        1_361.422_623_709_205_7,
+        -429.714_050_543_635_5,
+    ],
 ];
 
 fn scene_and_launch(numbers: &[f64; 13]) -> (Scene, Launch) {
@@ -67,12 +84,13 @@ fn scene_and_launch(numbers: &[f64; 13]) -> (Scene, Launch) {
     (scene, launch)
 }
 
-/// Largest gain of energy beyond flight, relative, and distance of the lowest point from the surface
-/// in contact, in D.
+/// Largest gain of energy beyond flight, relative; change of energy in flight, relative; and
+/// distance of the lowest point from the surface in contact, in D.
 struct Worst<'a> {
     scene: &'a Scene,
     last: Option<(EventKind, f64)>,
     gain: f64,
+    drift: f64,
     residual: f64,
 }
 
@@ -80,13 +98,18 @@ impl Observer for Worst<'_> {
     fn event(&mut self, event: &Event) {
         let (coin, state) = (&self.scene.coin, &event.state);
         let energy = state.energy_j_kg(self.scene);
-        if let Some((from, before)) = self.last
-            && !matches!(
+        if let Some((from, before)) = self.last {
+            let change = energy / before - 1.0;
+            let departs = matches!(
                 from,
                 EventKind::Launched | EventKind::Impact | EventKind::LiftOff
-            )
-        {
-            self.gain = self.gain.max(energy / before - 1.0);
+            );
+            let flown = departs && event.kind == EventKind::Touching;
+            if flown {
+                self.drift = self.drift.max(change.abs());
+            } else {
+                self.gain = self.gain.max(change);
+            }
         }
         if !matches!(event.kind, EventKind::Launched | EventKind::Ended) {
             let across = (state.axis.x.powi(2) + state.axis.y.powi(2)).sqrt();
@@ -98,7 +121,8 @@ impl Observer for Worst<'_> {
     }
 }
 
-/// Energies are sums of terms up to a thousand times as large as what passes in an event: 1e-12.
+/// Energies are sums of terms up to a thousand times as large as what passes in an event: 1e-12; in
+/// flight the state at the contact is turned by the phase of all of it as well: 1e-11.
 #[test]
 fn they_gain_nothing_and_stay_on_the_surface() {
     for numbers in &HARDEST {
@@ -107,10 +131,12 @@ fn they_gain_nothing_and_stay_on_the_surface() {
             scene: &scene,
             last: None,
             gain: f64::NEG_INFINITY,
+            drift: 0.0,
             residual: 0.0,
         };
         Tosser::new(&scene).watch(&launch, &mut worst);
         assert!(worst.gain < 1e-12, "{numbers:?}: {:e}", worst.gain);
+        assert!(worst.drift < 1e-11, "{numbers:?}: {:e}", worst.drift);
         assert!(worst.residual < 1e-12, "{numbers:?}: {:e}", worst.residual);
     }
 }
