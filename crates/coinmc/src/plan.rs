@@ -6,8 +6,8 @@
 mod explain;
 mod sampling;
 
-pub use explain::Explanation;
 pub use coinmc_quadrature::{Goal, Integral, Method};
+pub use explain::Explanation;
 pub use sampling::Sampling;
 
 use coinmc_analytic::Rule;
