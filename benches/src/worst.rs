@@ -12,6 +12,11 @@ pub(crate) struct Worst {
     pub(crate) toss: u64,
 }
 
+/// The larger; what is not a number is larger than any.
+pub(crate) fn largest(a: f64, b: f64) -> f64 {
+    if b > a || b.is_nan() { b } else { a }
+}
+
 impl Default for Worst {
     fn default() -> Self {
         Self {

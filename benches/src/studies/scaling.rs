@@ -30,6 +30,9 @@ pub(crate) struct Scaling {
     most: u64,
 }
 
+/// A run of fewer tosses tells how long a process takes to start.
+const FEWEST: u64 = 1000;
+
 const COLUMNS: [&str; 8] = [
     "toss",
     "tosses",
@@ -76,7 +79,7 @@ impl Scaling {
 
     fn over_tosses(&self, cores: usize, record: &mut Table) -> anyhow::Result<()> {
         let mut counts: Vec<u64> = (0..5).map(|i| self.most / 10_u64.pow(i)).collect();
-        counts.retain(|&tosses| tosses > 0);
+        counts.retain(|&tosses| tosses >= FEWEST);
         for tosses in counts.into_iter().rev() {
             let taken = self.run(tosses, cores)?;
             record.push(self.row(tosses, cores, &[taken], None));

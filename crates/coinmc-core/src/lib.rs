@@ -44,7 +44,6 @@ mod outcome;
 mod random;
 mod surface;
 mod tally;
-pub mod trig;
 
 pub use coin::{Coin, CoinError};
 pub use engine::{Engine, Event, EventKind, Observer, State, run_tosses, sample_between};

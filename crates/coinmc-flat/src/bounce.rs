@@ -5,9 +5,9 @@ use crate::impact::{Carried, ImpactLaw, Impulse, Record, Strike};
 use crate::motion::Motion;
 use crate::shape::Shape;
 use crate::touching::Touching;
-use crate::trig::sin_cos;
 use coinmc_core::{Breaks, Face};
 use coinmc_lanes::Lane;
+use coinmc_lanes::sin_cos;
 
 /// What follows an impact.
 pub(crate) enum After {

@@ -13,9 +13,9 @@ use crate::motion::Motion;
 use crate::pivot::{PivotEnd, glide, stick, stuck_forces};
 use crate::shape::Shape;
 use crate::slide::{SlideEnd, SlidePhase, SlideTask};
-use crate::trig::sin_cos;
 use crate::watch::Watch;
 use coinmc_core::{EventKind, Observer};
+use coinmc_lanes::sin_cos;
 
 /// Where the friction needed only grazes the cone, sticking sees it reached and sliding sees it
 /// not left. A coin that gets nowhere this way is stuck for this angle, rad: the friction it needs

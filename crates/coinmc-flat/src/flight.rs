@@ -14,7 +14,7 @@
 
 use crate::motion::Motion;
 use crate::shape::Shape;
-use crate::trig::sin_cos;
+use coinmc_lanes::sin_cos;
 use coinmc_lanes::{Lane, Mask};
 
 /// f at which the corner touches, in units of D: above the rounding noise of f (about 3e-16),

@@ -23,9 +23,9 @@ use crate::line::{Materials, duration, stiffness};
 use crate::motion::Motion;
 use crate::settings::{Law, SettingsError, positive};
 use crate::shape::Shape;
-use crate::trig::sin_cos;
 use coinmc_core::Scene;
 use coinmc_lanes::Lane;
+use coinmc_lanes::sin_cos;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Steps after which a pulse is given up; the worst of the stress test needs some hundred.

@@ -19,7 +19,7 @@
 //! `dormand_prince` steps in time · `bounce` one impact and what follows it · `pivot` and `slide`
 //! contact phases · `contact` their order · `engine` the toss · `batch` many side by side · `any` its
 //! law chosen at run time · `single` one impact alone · `watch` what an observer is shown ·
-//! `settings` choices · `trig` sine and cosine.
+//! `settings` choices.
 
 mod any;
 mod batch;
@@ -39,7 +39,6 @@ mod shape;
 mod single;
 mod slide;
 mod touching;
-mod trig;
 mod watch;
 
 pub use any::AnyFlatEngine;

@@ -30,9 +30,9 @@
 use crate::impact::{Carried, ContactMatrix, ImpactLaw, Impulse, Moreau, Strike};
 use crate::settings::{Law, SettingsError, positive};
 use crate::shape::{Quadrant, Shape};
-use crate::trig::sin_cos;
 use coinmc_core::Scene;
 use coinmc_lanes::Lane;
+use coinmc_lanes::sin_cos;
 
 /// Restitution assumed when the time of the remaining bounces is judged, if √k is less: the turning
 /// that the law adds makes even k = 0 rebound.

@@ -7,9 +7,9 @@
 
 use crate::motion::Motion;
 use crate::shape::Shape;
-use crate::trig::sin_cos;
 use crate::watch::Watch;
 use coinmc_core::Observer;
+use coinmc_lanes::sin_cos;
 
 /// How a pivoting phase ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,6 +1,5 @@
 //! The rectangle 2R × H in units of D, and where its corners are.
 
-use crate::trig::floor;
 use coinmc_core::{Coin, Face};
 use coinmc_lanes::Lane;
 use std::f64::consts::FRAC_PI_2;
@@ -80,9 +79,9 @@ impl Shape {
     #[inline(always)]
     pub(crate) fn enter<L: Lane>(&self, quadrant: L, angle: L) -> (L, L) {
         let (zero, four, quarter) = (L::splat(0.0), L::splat(4.0), L::splat(FRAC_PI_2));
-        let turned = floor(angle / quarter);
+        let turned = (angle / quarter).floor();
         // beyond all digits of the angle this is any quadrant, but one of the four
-        let on = quadrant + (turned - floor(turned * L::splat(0.25)) * four);
+        let on = quadrant + (turned - (turned * L::splat(0.25)).floor() * four);
         let entered = L::select(four.le(on), on - four, on);
         let within = angle - turned * quarter;
         // what is not a number stays so

@@ -66,7 +66,7 @@ impl<L: ImpactLaw> FlatEngine<L> {
     pub fn impact_once(&self, launch: &Launch) -> SingleImpact {
         let (units, shape) = (&self.units, &self.shape);
         let mut motion = Motion::new(launch, units, shape);
-        motion.z = crate::trig::sin_cos(motion.delta).1;
+        motion.z = coinmc_lanes::sin_cos(motion.delta).1;
         let before = motion;
         let mut breaks = Breaks::default();
         let energy = before.energy(shape.k);

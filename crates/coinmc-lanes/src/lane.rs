@@ -51,6 +51,17 @@ pub trait Lane:
         Self::select(near, (self + shift) - shift, self)
     }
 
+    /// The greatest integer that is not above.
+    #[inline(always)]
+    fn floor(self) -> Self {
+        // from 2^52 on all numbers are integers, so that adding it leaves no digits after the point
+        let shift = Self::splat(4_503_599_627_370_496.0);
+        let size = self.abs();
+        let near = ((size + shift) - shift).copysign(self);
+        let near = Self::select(size.lt(shift), near, self);
+        Self::select(self.lt(near), near - Self::splat(1.0), near)
+    }
+
     /// The smaller; `other` where `self` is not a number.
     #[inline(always)]
     fn min(self, other: Self) -> Self {
@@ -115,5 +126,20 @@ impl Lane for f64 {
     #[inline(always)]
     fn select(mask: bool, yes: Self, no: Self) -> Self {
         if mask { yes } else { no }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounds_down() {
+        for x in [
+            -7.0, -2.5, -0.3, 0.0, 0.3, 0.5, 1.0, 1.5, 6.999, 1e12, -1e18,
+        ] {
+            assert_eq!(Lane::floor(x), f64::floor(x), "{x}");
+        }
+        assert!(Lane::floor(f64::NAN).is_nan());
     }
 }

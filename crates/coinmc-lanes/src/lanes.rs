@@ -58,6 +58,18 @@ impl Lanes {
         }
     }
 
+    /// These lanes, if this processor has them.
+    ///
+    /// # Errors
+    /// [`NoSuchLanes`] if it lacks their instructions.
+    pub fn available(self) -> Result<Self, NoSuchLanes> {
+        if self.is_available() {
+            Ok(self)
+        } else {
+            Err(NoSuchLanes(self))
+        }
+    }
+
     /// Their name in tables.
     pub fn name(self) -> &'static str {
         match self {

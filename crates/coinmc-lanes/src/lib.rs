@@ -32,8 +32,10 @@ mod lane;
 mod lanes;
 mod operators;
 mod portable;
+mod trig;
 mod wide;
 
 pub use lane::{Lane, Mask};
 pub use lanes::{Lanes, NoSuchLanes};
+pub use trig::{PI_2_TAIL, sin_cos, sin_cos_near_zero};
 pub use wide::{Bits, Block, WIDTH, Wide, Work, first, lanes_of};

@@ -166,10 +166,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn with_lanes(mut self, lanes: Lanes) -> Result<Self, NoSuchLanes> {
-        if !lanes.is_available() {
-            return Err(NoSuchLanes(lanes));
-        }
-        self.lanes = lanes;
+        self.lanes = lanes.available()?;
         Ok(self)
     }
 

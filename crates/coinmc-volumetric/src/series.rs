@@ -1,7 +1,7 @@
 //! Elementary functions for the kernels, over lanes: sine and cosine, and the two functions that
 //! linear drag needs. Additions and multiplications only.
 
-use coinmc_lanes::{Lane, Mask};
+use coinmc_lanes::{Lane, Mask, PI_2_TAIL, sin_cos_near_zero};
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4};
 
 /// (sin x, cos x) for any x, rad; within 4e-16 for |x| < 1e6, beyond that the phase itself has
@@ -17,7 +17,7 @@ pub(crate) fn sin_cos<L: Lane>(x: L) -> (L, L) {
     let half = L::splat(0.5);
     let turns = (x * L::splat(FRAC_2_PI)).round();
     let y = ((x - turns * L::splat(HIGH)) - turns * L::splat(MIDDLE)) - turns * L::splat(LOW);
-    let (s, c) = near_zero(y);
+    let (s, c) = sin_cos_near_zero(y);
     // turns modulo 4: −2, −1, 0, 1 or 2
     let quarter = turns - (turns * L::splat(0.25)).round() * L::splat(4.0);
     let back = L::splat(1.5).lt(quarter.abs());
@@ -33,45 +33,10 @@ pub(crate) fn sin_cos<L: Lane>(x: L) -> (L, L) {
 /// (sin x, cos x) for a tilt, 0 <= x <= π/2 rad, within 4e-16; smooth and close a little beyond.
 #[inline(always)]
 pub(crate) fn sin_cos_tilt<L: Lane>(x: L) -> (L, L) {
-    /// π/2 − FRAC_PI_2.
-    const TAIL: f64 = 6.123_233_995_736_766e-17;
     let fold = L::splat(FRAC_PI_4).lt(x);
-    let y = L::select(fold, (L::splat(FRAC_PI_2) - x) + L::splat(TAIL), x);
-    let (s, c) = near_zero(y);
+    let y = L::select(fold, (L::splat(FRAC_PI_2) - x) + L::splat(PI_2_TAIL), x);
+    let (s, c) = sin_cos_near_zero(y);
     (L::select(fold, c, s), L::select(fold, s, c))
-}
-
-/// (sin y, cos y) for |y| <= π/4.
-#[inline(always)]
-fn near_zero<L: Lane>(y: L) -> (L, L) {
-    const S: [f64; 6] = [
-        -1.666_666_666_666_663_2e-1,
-        8.333_333_333_322_49e-3,
-        -1.984_126_982_985_795e-4,
-        2.755_731_370_707_007e-6,
-        -2.505_076_025_340_686_3e-8,
-        1.589_690_995_211_55e-10,
-    ];
-    const C: [f64; 6] = [
-        4.166_666_666_666_66e-2,
-        -1.388_888_888_887_411e-3,
-        2.480_158_728_947_673e-5,
-        -2.755_731_435_139_066_3e-7,
-        2.087_572_321_298_175e-9,
-        -1.135_964_755_778_819_5e-11,
-    ];
-    let k = L::splat;
-    let z = y * y;
-    let w = z * z;
-    let sine_tail =
-        k(S[0]) + z * (k(S[1]) + z * k(S[2])) + z * w * (k(S[3]) + z * (k(S[4]) + z * k(S[5])));
-    let cosine_tail = z * (k(C[0]) + z * (k(C[1]) + z * k(C[2])))
-        + w * w * (k(C[3]) + z * (k(C[4]) + z * k(C[5])));
-    let half = k(0.5) * z;
-    let head = k(1.0) - half;
-    // (1 − head) − half is the rounding error of head, put back
-    let cosine = head + (((k(1.0) - head) - half) + z * cosine_tail);
-    (y + y * z * sine_tail, cosine)
 }
 
 /// p = (1 − e^(−x))/x and q = (x − 1 + e^(−x))/x² for x >= 0: with linear drag k a velocity v₀

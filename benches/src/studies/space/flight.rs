@@ -4,11 +4,69 @@
 //! the rate |L|/I_t. The engine's folded frame and its bounds have no part in it.
 
 use super::angular_momentum;
+use crate::worst::largest;
 use coinmc_core::{Scene, State};
 use nalgebra::Vector3;
 
+/// Even samples of a flight.
+const SAMPLES: u32 = 400;
+/// Beside them, samples that close in on each end by factors of two.
+const CLOSING_IN: std::ops::Range<i32> = 10..40;
+/// Penetration, in D, that is no rounding error: a contact was passed over.
+const MISSED: f64 = 1e-12;
+
+/// A flight between two states, by each of them: near either end that one is exact.
+pub(in crate::studies) struct Leg {
+    pub(super) from: Flight,
+    pub(super) back: Flight,
+    pub(super) duration: f64,
+}
+
+impl Leg {
+    pub(in crate::studies) fn new(scene: &Scene, start: &State, end: &State) -> Self {
+        Self {
+            from: Flight::new(scene, start),
+            back: Flight::new(scene, end),
+            // not from the clock, which has long run on
+            duration: (start.velocity_m_s.z - end.velocity_m_s.z) / scene.gravity_m_s2(),
+        }
+    }
+
+    /// The largest penetration at many instants, in D; NaN if any is.
+    pub(in crate::studies) fn depth(&self) -> f64 {
+        let even = (1..SAMPLES).map(|i| {
+            let share = f64::from(i) / f64::from(SAMPLES);
+            if 2 * i < SAMPLES {
+                self.from.gap(share * self.duration)
+            } else {
+                self.back.gap((share - 1.0) * self.duration)
+            }
+        });
+        let towards_the_ends = CLOSING_IN.flat_map(|halvings| {
+            let t = libm::ldexp(self.duration, -halvings);
+            [self.from.gap(t), self.back.gap(-t)]
+        });
+        let gaps = even.chain(towards_the_ends);
+        gaps.fold(f64::NEG_INFINITY, |depth, gap| largest(depth, -gap))
+    }
+
+    /// Whether a flight of this depth passes over a contact.
+    pub(in crate::studies) fn is_missed(depth: f64) -> bool {
+        depth > MISSED || depth.is_nan()
+    }
+
+    /// What counts as passing over a contact, for a report.
+    pub(super) fn criterion() -> String {
+        let closing_in = 2 * CLOSING_IN.len();
+        format!(
+            "deeper than {MISSED:e} D at one of {SAMPLES} even samples and {closing_in} towards \
+             the ends"
+        )
+    }
+}
+
 /// A flight without drag through a known state.
-pub(in crate::studies) struct Flight {
+pub(super) struct Flight {
     gravity: f64,
     radius: f64,
     half: f64,
@@ -24,7 +82,7 @@ pub(in crate::studies) struct Flight {
 }
 
 impl Flight {
-    pub(in crate::studies) fn new(scene: &Scene, state: &State) -> Self {
+    pub(super) fn new(scene: &Scene, state: &State) -> Self {
         let coin = &scene.coin;
         let axis = state.axis.into_inner();
         let momentum = angular_momentum(coin, state);
@@ -59,7 +117,7 @@ impl Flight {
     }
 
     /// Height of the lowest point `t` seconds later, in D.
-    pub(in crate::studies) fn gap(&self, t: f64) -> f64 {
+    pub(super) fn gap(&self, t: f64) -> f64 {
         let u = self.axis(t);
         // from the horizontal part: 1 − u_z² has no digits left near 0
         let sine = (u.x * u.x + u.y * u.y).sqrt();

@@ -1,7 +1,7 @@
 //! Every flight between two events, sampled densely.
 
 use super::super::{Examiner, survey, worst_text};
-use super::flight::Flight;
+use super::flight::Leg;
 use super::{angular_momentum, cells, columns, examine};
 use crate::legs::Legs;
 use crate::number;
@@ -11,13 +11,6 @@ use clap::Args;
 use coinmc_bench::Case;
 use coinmc_core::{Event, Observer, Preset, State};
 use coinmc_volumetric::Settings;
-
-/// Even samples of a flight.
-const SAMPLES: u32 = 400;
-/// Beside them, samples that close in on each end by factors of two.
-const CLOSING_IN: std::ops::Range<i32> = 10..40;
-/// Penetration, in D, that is no rounding error: a contact was passed over.
-const MISSED: f64 = 1e-12;
 
 /// The study's arguments.
 #[derive(Debug, Args)]
@@ -88,11 +81,10 @@ impl SpaceMissed {
         let mut report = Report::new(record);
         report.show(shown);
         report.remark(format!(
-            "{} of {} flights pass over a contact (deeper than {MISSED:e} D at one of {SAMPLES} even \
-             samples and {} towards the ends)",
+            "{} of {} flights pass over a contact ({})",
             scans.iter().map(|scan| scan.missed).sum::<u64>(),
             scans.iter().map(|scan| scan.flights).sum::<u64>(),
-            2 * CLOSING_IN.len(),
+            Leg::criterion(),
         ));
         for (_, what, of) in KEPT {
             let worst = Worst::over(scans.iter().map(|scan| (scan.case, of(scan))));
@@ -142,37 +134,19 @@ impl<'a> Scan<'a> {
         row
     }
 
-    /// Looks at a flight from its start and, in the second half, back from its end: each half is
-    /// then exact where the coin is near the surface.
     fn scan(&mut self, start: &State, end: &State) {
-        let scene = &self.case.scene;
-        // not from the clock, which has long run on
-        let duration = (start.velocity_m_s.z - end.velocity_m_s.z) / scene.gravity_m_s2();
-        let (from, back) = (Flight::new(scene, start), Flight::new(scene, end));
-        let mut deepest = Worst::default();
-        for i in 1..SAMPLES {
-            let share = f64::from(i) / f64::from(SAMPLES);
-            let gap = if 2 * i < SAMPLES {
-                from.gap(share * duration)
-            } else {
-                back.gap((share - 1.0) * duration)
-            };
-            deepest.see(-gap, self.toss);
-        }
-        for halvings in CLOSING_IN {
-            let t = duration * libm::ldexp(1.0, -halvings);
-            deepest.see(-from.gap(t), self.toss);
-            deepest.see(-back.gap(-t), self.toss);
-        }
+        let leg = Leg::new(&self.case.scene, start, end);
+        let depth = leg.depth();
         self.flights += 1;
-        self.missed += u64::from(deepest.value > MISSED || deepest.value.is_nan());
-        self.penetration.see(deepest.value, self.toss);
-        self.residual.see(back.gap(0.0).abs(), self.toss);
-        self.compare(start, end, &from, duration);
+        self.missed += u64::from(Leg::is_missed(depth));
+        self.penetration.see(depth, self.toss);
+        self.residual.see(leg.back.gap(0.0).abs(), self.toss);
+        self.compare(start, end, &leg);
     }
 
     /// Where the flight ends, and what it should keep.
-    fn compare(&mut self, start: &State, end: &State, from: &Flight, duration: f64) {
+    fn compare(&mut self, start: &State, end: &State, leg: &Leg) {
+        let (from, duration) = (&leg.from, leg.duration);
         let scene = &self.case.scene;
         let mut expected = from.position(duration);
         // the duration is rounded; the mean rise is not
@@ -216,6 +190,7 @@ impl Examiner for Scan<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::flight::Flight;
     use super::*;
     use coinmc_core::Scene;
     use nalgebra::{UnitVector3, Vector3};

@@ -20,7 +20,7 @@ mod stress_box;
 pub(crate) use convergence::SpaceConvergence;
 pub(crate) use decision::SpaceDecision;
 pub(crate) use energy::SpaceEnergy;
-pub(super) use flight::Flight;
+pub(super) use flight::Leg;
 pub(crate) use lanes::SpaceLanes;
 pub(crate) use laws::SpaceLaws;
 pub(crate) use missed::SpaceMissed;

@@ -1,15 +1,9 @@
 //! What is seen of one toss from outside the engine.
 
-use super::super::space::Flight;
+use super::super::space::Leg;
 use crate::legs::Legs;
+use crate::worst::largest;
 use coinmc_core::{Event, EventKind, Observer, Scene, State};
-
-/// Even samples of a flight that is looked into.
-const SAMPLES: u32 = 400;
-/// Beside them, samples that close in on each end by factors of two.
-const CLOSING_IN: std::ops::Range<i32> = 10..40;
-/// Penetration, in D, that is no rounding error: a contact was passed over.
-const MISSED: f64 = 1e-12;
 
 /// The worst of a toss. Each is −∞ where nothing of the kind happened.
 #[derive(Debug, Clone, Copy)]
@@ -67,45 +61,17 @@ impl<'a> Witness<'a> {
         (state.position_m.z - lowest) / coin.rim_distance_m()
     }
 
-    /// Looks at a flight from its start and, in the second half, back from its end: each half is
-    /// then exact where the coin is near the surface.
-    fn look_into(&mut self, start: &State, end: &State) {
-        // not from the clock, which has long run on
-        let duration = (start.velocity_m_s.z - end.velocity_m_s.z) / self.scene.gravity_m_s2();
-        let (from, back) = (Flight::new(self.scene, start), Flight::new(self.scene, end));
-        let mut depth = f64::NEG_INFINITY;
-        for i in 1..SAMPLES {
-            let share = f64::from(i) / f64::from(SAMPLES);
-            let gap = if 2 * i < SAMPLES {
-                from.gap(share * duration)
-            } else {
-                back.gap((share - 1.0) * duration)
-            };
-            depth = largest(depth, -gap);
-        }
-        for halvings in CLOSING_IN {
-            let t = duration * 0.5_f64.powi(halvings);
-            depth = largest(depth, -from.gap(t));
-            depth = largest(depth, -back.gap(-t));
-        }
-        self.seen.flights += 1;
-        self.seen.missed += u64::from(depth > MISSED || depth.is_nan());
-        self.seen.depth = largest(self.seen.depth, depth);
-    }
-
     fn fly(&mut self, start: &State, end: &State) {
         let energies = [start, end].map(|state| state.energy_j_kg(self.scene));
         let drift = (energies[1] / energies[0] - 1.0).abs();
         self.seen.drift = largest(self.seen.drift, drift);
         if self.looks_into_flights {
-            self.look_into(start, end);
+            let depth = Leg::new(self.scene, start, end).depth();
+            self.seen.flights += 1;
+            self.seen.missed += u64::from(Leg::is_missed(depth));
+            self.seen.depth = largest(self.seen.depth, depth);
         }
     }
-}
-
-/// The larger; what is not a number is larger than any.
-fn largest(a: f64, b: f64) -> f64 {
-    if b > a || b.is_nan() { b } else { a }
 }
 
 impl Observer for Witness<'_> {

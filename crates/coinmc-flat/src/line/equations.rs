@@ -12,7 +12,7 @@
 
 use super::palmgren::{EXPONENT, ninth_root, power};
 use crate::dormand_prince::System;
-use crate::trig::sin_cos;
+use coinmc_lanes::sin_cos;
 use std::f64::consts::FRAC_PI_2;
 
 /// x, z, φ since the touch; v_x, v_z, ω; the four springs s; what damping and friction have taken.

@@ -6,9 +6,9 @@ mod side_by_side;
 
 use crate::motion::Motion;
 use crate::shape::Shape;
-use crate::trig::sin_cos;
 use crate::watch::Watch;
 use coinmc_core::Observer;
+use coinmc_lanes::sin_cos;
 use equations::{Arrival, JAM, Slide, Sliding};
 use events::{EventSearch, Inside, Margins, Over};
 pub(crate) use side_by_side::slide_on;

@@ -1,6 +1,7 @@
 //! The file of one integrated point: a few lines of text with a checksum. See docs/formats.md.
 
-use super::tally_file::{CHECKSUM, Damage, MAX_BYTES};
+use super::sealed::{seal, unseal};
+use super::tally_file::Damage;
 use coinmc_core::Face;
 use coinmc_quadrature::{Integral, MOST_EVALUATIONS, Method, Share};
 use std::fmt::Write;
@@ -23,9 +24,7 @@ pub(super) fn encode(point: usize, integral: &Integral, plan_hash: &str) -> Stri
         // the shortest decimals that read back to the same bits
         writeln!(text, "{} {p:?} {lo:?} {hi:?}", face.name()).expect("a String takes all text");
     }
-    let checksum = crc32fast::hash(text.as_bytes());
-    writeln!(text, "{CHECKSUM}{checksum:08x}").expect("a String takes all text");
-    text
+    seal(text)
 }
 
 /// Reads the file of a point that the plan integrates by `method`. Anything but the very bytes that
@@ -36,16 +35,7 @@ pub(super) fn decode(
     method: Method,
     plan_hash: &str,
 ) -> Result<Integral, Damage> {
-    if bytes.len() > MAX_BYTES {
-        return Err(Damage::TooLong);
-    }
-    let text = std::str::from_utf8(bytes).map_err(|_| Damage::Checksum)?;
-    let (body, checksum) = text.rsplit_once(CHECKSUM).ok_or(Damage::Checksum)?;
-    if checksum != format!("{:08x}\n", crc32fast::hash(body.as_bytes())) {
-        return Err(Damage::Checksum);
-    }
-    // The checksum is right, so the file is as it was written: what follows tells a stranger.
-    let mut lines = body.lines();
+    let mut lines = unseal(bytes)?.lines();
     let mut value = |key: &str| {
         let line = lines.next().and_then(|line| line.strip_prefix(key));
         line.and_then(|line| line.strip_prefix(' '))
@@ -79,7 +69,7 @@ pub(super) fn decode(
     if !is_possible(&integral) {
         return Err(Damage::Counts);
     }
-    if encode(point, &integral, plan_hash) == text {
+    if encode(point, &integral, plan_hash).as_bytes() == bytes {
         Ok(integral)
     } else {
         Err(Damage::Form)
@@ -112,6 +102,7 @@ fn is_possible(integral: &Integral) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::run::sealed::MAX_BYTES;
     use coinmc_quadrature::Variable;
 
     const HASH: &str = "0123456789abcdef";
@@ -159,9 +150,7 @@ mod tests {
         assert_eq!(decode(&text, 7, "f00"), Err(Damage::OtherPlan));
         let other = super::decode(text.as_bytes(), 7, Method::Tossed, HASH);
         assert_eq!(other, Err(Damage::OtherShard));
-        let body = text.rsplit_once(CHECKSUM).unwrap().0;
-        let resigned =
-            |body: String| format!("{body}{CHECKSUM}{:08x}\n", crc32fast::hash(body.as_bytes()));
+        let body = unseal(text.as_bytes()).unwrap();
         for (from, to, damage) in [
             ("integral 1", "integral 2", Damage::Version),
             ("evaluations 4096", "evaluations +4096", Damage::Form),
@@ -172,7 +161,7 @@ mod tests {
             ("student-t", "student", Damage::Form),
             ("heads", "tails", Damage::Form),
         ] {
-            let forged = resigned(body.replace(from, to));
+            let forged = seal(body.replace(from, to));
             assert_eq!(decode(&forged, 7, HASH), Err(damage), "{to}");
         }
     }

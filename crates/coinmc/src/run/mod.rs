@@ -43,6 +43,7 @@ mod part;
 mod piece;
 mod replace;
 mod schedule;
+mod sealed;
 mod shard;
 mod stored;
 mod tallies;

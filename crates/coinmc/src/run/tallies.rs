@@ -4,6 +4,7 @@ use super::cut::Cut;
 use super::integral_file;
 use super::piece::{Piece, whole};
 use super::replace::{self, Replacement, TEMPORARY};
+use super::sealed::MAX_BYTES;
 use super::tally_file::{self, Damage};
 use super::{RunError, Shard};
 use crate::plan::Plan;
@@ -79,7 +80,7 @@ impl Tallies {
         if !replace::is_file(path) {
             return Ok(Entry::Damaged(path.to_owned(), Damage::NotAFile));
         }
-        let bytes = replace::read_bounded(path, tally_file::MAX_BYTES)
+        let bytes = replace::read_bounded(path, MAX_BYTES)
             .map_err(|error| RunError::io("read", path, error))?;
         let hash = &self.plan_hash;
         let piece = bytes.ok_or(Damage::TooLong).and_then(|bytes| {

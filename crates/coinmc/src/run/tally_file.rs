@@ -1,6 +1,7 @@
 //! The file of one finished shard: a few lines of text with a checksum. See docs/formats.md.
 
 use super::Shard;
+use super::sealed::{seal, unseal};
 use coinmc_core::Tally;
 use std::fmt::Write;
 use thiserror::Error;
@@ -8,10 +9,7 @@ use thiserror::Error;
 /// Version of the format.
 const FORMAT: u64 = 1;
 const TITLE: &str = "coinmc tally";
-pub(super) const CHECKSUM: &str = "crc32 ";
 const EXTENSION: &str = ".tally";
-/// No tally file is longer; what is longer is not read.
-pub(super) const MAX_BYTES: usize = 1024;
 
 /// Why a tally file is not believed.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -74,23 +72,12 @@ pub(super) fn encode(shard: &Shard, tally: &Tally, plan_hash: &str) -> String {
             writeln!(text, "{name} {count}").expect("a String takes all text");
         }
     }
-    let checksum = crc32fast::hash(text.as_bytes());
-    writeln!(text, "{CHECKSUM}{checksum:08x}").expect("a String takes all text");
-    text
+    seal(text)
 }
 
 /// Reads the file of `shard`. Anything but the very bytes that [`encode`] would write is refused.
 pub(super) fn decode(bytes: &[u8], shard: &Shard, plan_hash: &str) -> Result<Tally, Damage> {
-    if bytes.len() > MAX_BYTES {
-        return Err(Damage::TooLong);
-    }
-    let text = std::str::from_utf8(bytes).map_err(|_| Damage::Checksum)?;
-    let (body, checksum) = text.rsplit_once(CHECKSUM).ok_or(Damage::Checksum)?;
-    if checksum != format!("{:08x}\n", crc32fast::hash(body.as_bytes())) {
-        return Err(Damage::Checksum);
-    }
-    // The checksum is right, so the file is as it was written: what follows tells a stranger.
-    let mut lines = body.lines();
+    let mut lines = unseal(bytes)?.lines();
     let title = lines
         .next()
         .and_then(|line| line.strip_prefix(TITLE))
@@ -128,7 +115,7 @@ pub(super) fn decode(bytes: &[u8], shard: &Shard, plan_hash: &str) -> Result<Tal
     if !is_possible(&tally, shard.tosses.end - shard.tosses.start) {
         return Err(Damage::Counts);
     }
-    if encode(shard, &tally, plan_hash) == text {
+    if encode(shard, &tally, plan_hash).as_bytes() == bytes {
         Ok(tally)
     } else {
         Err(Damage::Form)
@@ -165,6 +152,7 @@ fn is_possible(tally: &Tally, tosses: u64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::run::sealed::MAX_BYTES;
     use proptest::prelude::*;
 
     const HASH: &str = "0123456789abcdef";
@@ -248,9 +236,7 @@ mod tests {
             decode(text.as_bytes(), &other, HASH),
             Err(Damage::OtherShard)
         );
-        let resigned =
-            |body: String| format!("{body}{CHECKSUM}{:08x}\n", crc32fast::hash(body.as_bytes()));
-        let body = text.rsplit_once(CHECKSUM).unwrap().0;
+        let body = unseal(text.as_bytes()).unwrap();
         for (from, to, damage) in [
             ("tally 1", "tally 2", Damage::Version),
             ("heads 50", "heads +50", Damage::Form),
@@ -261,7 +247,7 @@ mod tests {
             ("sinkings 9\n", "sinkings 701\n", Damage::Counts),
             ("coinmc", "someone", Damage::Form),
         ] {
-            let forged = resigned(body.replace(from, to));
+            let forged = seal(body.replace(from, to));
             assert_eq!(decode(forged.as_bytes(), &shard, HASH), Err(damage), "{to}");
         }
     }

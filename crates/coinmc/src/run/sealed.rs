@@ -1,0 +1,30 @@
+//! Short files of text that end with a checksum of all before it: those of tallies and integrals.
+
+use super::tally_file::Damage;
+use std::fmt::Write;
+
+const CHECKSUM: &str = "crc32 ";
+/// No such file is longer; what is longer is not read.
+pub(super) const MAX_BYTES: usize = 1024;
+
+/// The text with its checksum.
+pub(super) fn seal(mut text: String) -> String {
+    let checksum = crc32fast::hash(text.as_bytes());
+    writeln!(text, "{CHECKSUM}{checksum:08x}").expect("a String takes all text");
+    text
+}
+
+/// The text of a file whose checksum is right. It is then as it was written: what it says may still
+/// be a stranger's.
+pub(super) fn unseal(bytes: &[u8]) -> Result<&str, Damage> {
+    if bytes.len() > MAX_BYTES {
+        return Err(Damage::TooLong);
+    }
+    let text = std::str::from_utf8(bytes).map_err(|_| Damage::Checksum)?;
+    let (body, checksum) = text.rsplit_once(CHECKSUM).ok_or(Damage::Checksum)?;
+    if checksum == format!("{:08x}\n", crc32fast::hash(body.as_bytes())) {
+        Ok(body)
+    } else {
+        Err(Damage::Checksum)
+    }
+}
