@@ -136,16 +136,17 @@ fn progress_only_goes_forward_and_ends_where_it_was_planned() {
 #[test]
 fn tosses_in_space_depend_on_the_plan_alone() {
     for law in ["moreau", "chatterjee-ruina", "stronge"] {
-        let (plan, dir) = (plan_in_space(law, FIXED), tempdir().unwrap());
+        // two shards a point
+        let (plan, dir) = (plan_in_space(law, "tosses = 17_000"), tempdir().unwrap());
         let (whole, broken) = (dir.path().join("whole"), dir.path().join("broken"));
         let report = run_with(&plan, &whole, Part::WHOLE, 1, &Ear::default()).unwrap();
         let row = &report.results.rows[1];
         assert_eq!((row.engine, row.law), ("volumetric", law));
         let mut sum = Tally::default();
-        for tosses in [0..1, 1..16_385, 16_385..40_000] {
+        for tosses in [0..1, 1..16_385, 16_385..17_000] {
             sum.merge(&run_shard(&plan, &Shard { point: 1, tosses }).unwrap());
         }
-        assert_eq!((sum, sum.tosses()), (row.tally, 40_000));
+        assert_eq!((sum, sum.tosses()), (row.tally, 17_000));
         let mut breaks = 0;
         while {
             // the first time before the first toss
