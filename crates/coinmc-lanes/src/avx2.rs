@@ -5,7 +5,7 @@
 #![allow(unsafe_code)]
 
 use crate::operators::operators;
-use crate::wide::{Bits, Block, Wide, Work};
+use crate::wide::{Bits, Block, WIDTH, Wide, Work};
 use crate::{Lane, Mask};
 use std::arch::x86_64::{
     __m256d, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_add_pd, _mm256_and_pd, _mm256_and_si256,
@@ -102,6 +102,8 @@ impl Mask for EightBits {
 impl Lane for Eight {
     type Mask = EightBits;
 
+    const COUNT: usize = WIDTH;
+
     instructions! {
         sqrt() _mm256_sqrt_pd;
         // of equal numbers, and where one is not a number, the second: as the selects are
@@ -114,6 +116,16 @@ impl Lane for Eight {
         // SAFETY: the module's text.
         let half = unsafe { _mm256_set1_pd(value) };
         Self(half, half)
+    }
+    #[inline(always)]
+    fn lane(self, index: usize) -> f64 {
+        self.store()[index]
+    }
+    #[inline(always)]
+    fn with_lane(self, index: usize, value: f64) -> Self {
+        let mut block = self.store();
+        block[index] = value;
+        Self::load(&block)
     }
     #[inline(always)]
     fn abs(self) -> Self {

@@ -6,7 +6,7 @@
 #![allow(unsafe_code)]
 
 use crate::operators::operators;
-use crate::wide::{Bits, Block, Wide, Work};
+use crate::wide::{Bits, Block, WIDTH, Wide, Work};
 use crate::{Lane, Mask};
 use std::arch::x86_64::{
     __m512d, __mmask8, _CMP_LE_OQ, _CMP_LT_OQ, _mm512_abs_pd, _mm512_add_pd, _mm512_and_si512,
@@ -101,6 +101,8 @@ impl Mask for EightBits {
 impl Lane for Eight {
     type Mask = EightBits;
 
+    const COUNT: usize = WIDTH;
+
     instructions! {
         sqrt() _mm512_sqrt_pd;
         abs() _mm512_abs_pd;
@@ -113,6 +115,16 @@ impl Lane for Eight {
     fn splat(value: f64) -> Self {
         // SAFETY: the module's text.
         Self(unsafe { _mm512_set1_pd(value) })
+    }
+    #[inline(always)]
+    fn lane(self, index: usize) -> f64 {
+        self.store()[index]
+    }
+    #[inline(always)]
+    fn with_lane(self, index: usize, value: f64) -> Self {
+        let mut block = self.store();
+        block[index] = value;
+        Self::load(&block)
     }
     #[inline(always)]
     fn copysign(self, sign: Self) -> Self {

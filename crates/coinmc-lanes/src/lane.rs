@@ -25,8 +25,16 @@ pub trait Lane:
     /// The result of a comparison, lane by lane.
     type Mask: Mask;
 
+    /// How many lanes.
+    const COUNT: usize;
+
     /// The same number in every lane.
     fn splat(value: f64) -> Self;
+    /// The number in one lane, 0 to [`COUNT`](Self::COUNT) − 1: for what has to be done number
+    /// by number.
+    fn lane(self, index: usize) -> f64;
+    /// The same but for one lane, 0 to [`COUNT`](Self::COUNT) − 1.
+    fn with_lane(self, index: usize, value: f64) -> Self;
     /// Square root.
     fn sqrt(self) -> Self;
     /// Magnitude.
@@ -99,8 +107,20 @@ impl Mask for bool {
 impl Lane for f64 {
     type Mask = bool;
 
+    const COUNT: usize = 1;
+
     #[inline(always)]
     fn splat(value: f64) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn lane(self, index: usize) -> f64 {
+        debug_assert!(index < Self::COUNT, "lane {index}");
+        self
+    }
+    #[inline(always)]
+    fn with_lane(self, index: usize, value: f64) -> Self {
+        debug_assert!(index < Self::COUNT, "lane {index}");
         value
     }
     #[inline(always)]
@@ -132,6 +152,7 @@ impl Lane for f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Block, Lanes, WIDTH, Wide, Work};
 
     #[test]
     fn rounds_down() {
@@ -141,5 +162,38 @@ mod tests {
             assert_eq!(Lane::floor(x), f64::floor(x), "{x}");
         }
         assert!(Lane::floor(f64::NAN).is_nan());
+    }
+
+    /// Puts a number of its own into every lane, the last lane first.
+    struct Numbered;
+
+    impl Work for Numbered {
+        type Output = Block;
+
+        #[inline(always)]
+        fn run<L: Wide>(self) -> Block {
+            assert_eq!(L::COUNT, WIDTH);
+            let filled = (0..L::COUNT).rev().fold(L::splat(-1.0), |lanes, i| {
+                let lanes = lanes.with_lane(i, 0.5 + i as f64);
+                assert_eq!(lanes.lane(i), 0.5 + i as f64);
+                assert!(i == 0 || lanes.lane(i - 1) == -1.0, "lane {i} spilt");
+                lanes
+            });
+            let block = filled.store();
+            for (i, &number) in block.iter().enumerate() {
+                assert_eq!(filled.lane(i), number);
+            }
+            block
+        }
+    }
+
+    #[test]
+    fn every_lane_is_read_and_set_alone() {
+        for lanes in Lanes::ALL.into_iter().filter(|lanes| lanes.is_available()) {
+            let block = lanes.enter(Numbered);
+            assert_eq!(block, [0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5], "{lanes}");
+        }
+        assert_eq!(f64::COUNT, 1);
+        assert_eq!(2.5_f64.with_lane(0, 3.5).lane(0), 3.5);
     }
 }

@@ -63,6 +63,8 @@ impl Mask for EightBits {
 impl Lane for Eight {
     type Mask = EightBits;
 
+    const COUNT: usize = WIDTH;
+
     lane_by_lane! {
         sqrt() f64::sqrt;
         abs() f64::abs;
@@ -72,6 +74,15 @@ impl Lane for Eight {
     #[inline(always)]
     fn splat(value: f64) -> Self {
         Self([value; WIDTH])
+    }
+    #[inline(always)]
+    fn lane(self, index: usize) -> f64 {
+        self.0[index]
+    }
+    #[inline(always)]
+    fn with_lane(mut self, index: usize, value: f64) -> Self {
+        self.0[index] = value;
+        self
     }
     #[inline(always)]
     fn lt(self, other: Self) -> EightBits {

@@ -79,8 +79,17 @@ impl Mask for Bits {
 impl Lane for Four {
     type Mask = Bits;
 
+    const COUNT: usize = 4;
+
     fn splat(value: f64) -> Self {
         Self([value; 4])
+    }
+    fn lane(self, index: usize) -> f64 {
+        self.0[index]
+    }
+    fn with_lane(mut self, index: usize, value: f64) -> Self {
+        self.0[index] = value;
+        self
     }
     fn sqrt(self) -> Self {
         Self(self.0.map(f64::sqrt))

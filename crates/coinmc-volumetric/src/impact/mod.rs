@@ -102,6 +102,22 @@ impl<L: Lane> Touch<L> {
             zz: one + self.rx * x,
         }
     }
+
+    /// The touch in one lane.
+    #[inline(always)]
+    pub(crate) fn lane(&self, index: usize) -> Touch<f64> {
+        Touch {
+            sin: self.sin.lane(index),
+            cos: self.cos.lane(index),
+            rx: self.rx.lane(index),
+            rz: self.rz.lane(index),
+            slip_x: self.slip_x.lane(index),
+            slip_y: self.slip_y.lane(index),
+            approach: self.approach.lane(index),
+            spin: self.spin.lane(index),
+            turn: self.turn.lane(index),
+        }
+    }
 }
 
 /// An impulse per unit mass, in sqrt(g D); contour and pivoting are moments, in D sqrt(g D).
@@ -129,6 +145,18 @@ impl<L: Lane> Impulse<L> {
             z: L::select(mask, yes.z, no.z),
             contour: L::select(mask, yes.contour, no.contour),
             pivoting: L::select(mask, yes.pivoting, no.pivoting),
+        }
+    }
+
+    /// The same but for one lane.
+    #[inline(always)]
+    pub(crate) fn with_lane(self, index: usize, one: Impulse<f64>) -> Self {
+        Self {
+            x: self.x.with_lane(index, one.x),
+            y: self.y.with_lane(index, one.y),
+            z: self.z.with_lane(index, one.z),
+            contour: self.contour.with_lane(index, one.contour),
+            pivoting: self.pivoting.with_lane(index, one.pivoting),
         }
     }
 

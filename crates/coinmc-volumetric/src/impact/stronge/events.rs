@@ -1,7 +1,6 @@
 //! The first event on a piece of path.
 
 use super::path::{Path, Step};
-use coinmc_lanes::{Lane, Mask};
 
 /// What ended a piece of path.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,114 +17,92 @@ pub(super) enum Event {
     Pivot,
 }
 
-impl Event {
-    #[inline(always)]
-    pub(super) fn code<L: Lane>(self) -> L {
-        L::splat(f64::from(self as u8))
-    }
+/// The end of a piece, cut by one event after another.
+pub(super) struct Cut<'a> {
+    path: &'a Path,
+    at: f64,
+    /// What the piece adds up to here.
+    pub(super) step: Step,
+    pub(super) event: Event,
 }
 
-/// The end of a piece, cut by one event after another.
-pub(super) struct Cut<L> {
-    pub(super) at: L,
-    pub(super) event: L,
-}
+/// How far an event is off, after a step along the piece: below 0 it has happened. (One kind of
+/// reference and not a generic function, or the search for the root is compiled for each event.)
+type Distance<'a> = &'a dyn Fn(&Step) -> f64;
 
 /// Evaluations of the bracketing secant; a third of them halve, which alone would be enough.
 const MAX_STEPS: u32 = 200;
 
-impl<L: Lane> Cut<L> {
-    #[inline(always)]
-    pub(super) fn new(path: &Path<L>) -> Self {
+impl<'a> Cut<'a> {
+    pub(super) fn new(path: &'a Path) -> Self {
         Self {
+            path,
             at: path.end,
-            event: Event::End.code(),
+            step: path.step(path.end),
+            event: Event::End,
         }
     }
 
-    /// Cuts the piece where `distance` falls below 0, in the lanes of `on`.
-    #[inline(always)]
-    pub(super) fn by(
-        &mut self,
-        path: &Path<L>,
-        on: L::Mask,
-        event: Event,
-        distance: impl Fn(&Step<L>) -> L,
-    ) {
-        let end = distance(&path.step(self.at));
-        let crossed = on & end.lt(L::splat(0.0));
-        if crossed.any() {
-            let root = first_root(path, self.at, end, crossed, distance);
-            self.at = L::select(crossed, root, self.at);
-            self.event = L::select(crossed, event.code(), self.event);
+    /// Cuts the piece where `distance` falls below 0.
+    pub(super) fn by(&mut self, event: Event, distance: Distance) {
+        let end = distance(&self.step);
+        if end < 0.0 {
+            self.shorten(event, self.at, end, distance);
         }
     }
 
     /// As [`Cut::by`], for a distance that may come back within the piece: looks halfway first.
-    #[inline(always)]
-    pub(super) fn by_bent(
-        &mut self,
-        path: &Path<L>,
-        on: L::Mask,
-        event: Event,
-        distance: impl Fn(&Step<L>) -> L,
-    ) {
-        let half = self.at * L::splat(0.5);
-        let there = distance(&path.step(half));
-        let crossed = on & there.lt(L::splat(0.0));
-        if crossed.any() {
-            let root = first_root(path, half, there, crossed, &distance);
-            self.at = L::select(crossed, root, self.at);
-            self.event = L::select(crossed, event.code(), self.event);
+    pub(super) fn by_bent(&mut self, event: Event, distance: Distance) {
+        let half = self.at * 0.5;
+        let there = distance(&self.path.step(half));
+        if there < 0.0 {
+            self.shorten(event, half, there, distance);
+        } else {
+            self.by(event, distance);
         }
-        self.by(path, on & !crossed, event, distance);
     }
 
-    #[inline(always)]
-    pub(super) fn is(&self, event: Event) -> L::Mask {
-        let code = event.code::<L>();
-        self.event.le(code) & code.le(self.event)
+    /// Ends the piece at the root below `high`, where `distance` is `end` < 0.
+    #[inline(never)]
+    fn shorten(&mut self, event: Event, high: f64, end: f64, distance: Distance) {
+        self.at = first_root(self.path, high, end, distance);
+        self.step = self.path.step(self.at);
+        self.event = event;
     }
 }
 
 /// A root of `distance` between 0 and `high`, where it is `end` < 0: regula falsi with the Illinois
 /// modification, halving where that does not shrink the bracket.
-#[inline(always)]
-fn first_root<L: Lane>(
-    path: &Path<L>,
-    mut high: L,
-    end: L,
-    mut active: L::Mask,
-    distance: impl Fn(&Step<L>) -> L,
-) -> L {
-    let (zero, half) = (L::splat(0.0), L::splat(0.5));
-    let mut low = zero;
-    let mut at_low = distance(&path.step(zero));
+fn first_root(path: &Path, mut high: f64, end: f64, distance: Distance) -> f64 {
+    let mut low = 0.0;
+    let mut at_low = distance(&path.step(low));
     let mut at_high = end;
-    let mut root = L::select(zero.lt(at_low), high, zero);
-    active = active & zero.lt(at_low);
+    if at_low.is_nan() || at_low <= 0.0 {
+        return low;
+    }
+    let mut root = high;
     for count in 0..MAX_STEPS {
-        if !active.any() {
-            break;
-        }
         let width = high - low;
         let secant = low + width * (at_low / (at_low - at_high));
         // every third step halves, so that the bracket shrinks whatever the function
-        let halving = <L::Mask as Mask>::splat(count % 3 == 2);
-        let inside = low.lt(secant) & secant.lt(high) & !halving;
-        let next = L::select(inside, secant, low + half * width);
-        let value = distance(&path.step(next));
-        let positive = zero.lt(value);
-        root = L::select(active, next, root);
-        let narrow = (high - low).le(L::splat(2.0 * f64::EPSILON) * high);
+        let halves = count % 3 == 2;
+        root = if !halves && low < secant && secant < high {
+            secant
+        } else {
+            low + 0.5 * width
+        };
+        let value = distance(&path.step(root));
+        if value == 0.0 || width <= 2.0 * f64::EPSILON * high {
+            break;
+        }
         // the end that stays counts half, so that the next secant overshoots
-        at_high = L::select(active & positive, at_high * half, at_high);
-        at_low = L::select(active & !positive, at_low * half, at_low);
-        low = L::select(active & positive, next, low);
-        at_low = L::select(active & positive, value, at_low);
-        high = L::select(active & !positive, next, high);
-        at_high = L::select(active & !positive, value, at_high);
-        active = active & !narrow & !value.abs().le(zero);
+        if 0.0 < value {
+            (low, at_low) = (root, value);
+            at_high *= 0.5;
+        } else {
+            (high, at_high) = (root, value);
+            at_low *= 0.5;
+        }
     }
     root
 }

@@ -7,7 +7,7 @@ mod sweep;
 
 use super::{ChatterjeeRuina, ImpactLaw, Impulse, Touch};
 use crate::body::{Body, Friction};
-use coinmc_lanes::{Lane, Mask};
+use coinmc_lanes::Lane;
 use sweep::Sweep;
 
 /// Energetic restitution: the normal impulse gives back e² of the work that it took in
@@ -50,6 +50,7 @@ const MAX_PIECES: u32 = 2000;
 impl ImpactLaw for Stronge {
     const SIDE_BY_SIDE: bool = false;
 
+    /// One touch after the other.
     #[inline]
     fn impulse<L: Lane>(
         &self,
@@ -58,15 +59,25 @@ impl ImpactLaw for Stronge {
         touch: &Touch<L>,
         e: L,
     ) -> Impulse<L> {
-        let mut sweep = Sweep::new(body, friction, touch, e);
-        let mut active = touch.approach.lt(L::splat(0.0));
-        for _ in 0..MAX_PIECES {
-            if !active.any() {
-                return sweep.impulse(touch.sin);
-            }
-            active = sweep.advance(active);
+        (0..L::COUNT).fold(Impulse::none(), |all, i| {
+            all.with_lane(i, alone(body, friction, &touch.lane(i), e.lane(i)))
+        })
+    }
+}
+
+/// The impulse of one touch.
+fn alone(body: &Body, friction: &Friction, touch: &Touch<f64>, e: f64) -> Impulse<f64> {
+    let mut sweep = Sweep::new(body, friction, touch, e);
+    let mut goes_on = touch.approach < 0.0;
+    for _ in 0..MAX_PIECES {
+        if !goes_on {
+            return sweep.impulse(touch.sin);
         }
-        let guard = ChatterjeeRuina.impulse(body, friction, touch, e);
-        Impulse::select(active, guard, sweep.impulse(touch.sin))
+        goes_on = sweep.advance();
+    }
+    if goes_on {
+        ChatterjeeRuina.impulse(body, friction, touch, e)
+    } else {
+        sweep.impulse(touch.sin)
     }
 }

@@ -1,193 +1,213 @@
 //! A piece of the path: the impulses as functions of a parameter.
 
-use coinmc_lanes::{Lane, Mask};
-
 /// Order of the Taylor series.
-pub(super) const ORDER: usize = 18;
+const ORDER: usize = 18;
 
 /// Truncation error of a piece, relative to the slip it starts from.
 const TRUNCATION: f64 = 1e-11;
 
-type Series<L> = [L; ORDER + 1];
-
 /// The drive of the slip: slip' = (K_xx f_x + b_x, K_yy f_y + b_y) with f = −μ slip/|slip|.
-pub(super) struct Drive<L> {
-    pub(super) mu: L,
-    pub(super) xx: L,
-    pub(super) yy: L,
-    pub(super) bx: L,
-    pub(super) by: L,
+pub(super) struct Drive {
+    pub(super) mu: f64,
+    pub(super) xx: f64,
+    pub(super) yy: f64,
+    pub(super) bx: f64,
+    pub(super) by: f64,
 }
 
 /// How u_z follows the impulses: its value, and by z and by x.
-pub(super) struct Normal<L> {
-    pub(super) now: L,
-    pub(super) zz: L,
-    pub(super) xz: L,
+pub(super) struct Normal {
+    pub(super) now: f64,
+    pub(super) zz: f64,
+    pub(super) xz: f64,
 }
 
 /// What a piece adds.
 #[derive(Clone, Copy)]
-pub(super) struct Step<L> {
-    pub(super) x: L,
-    pub(super) y: L,
-    pub(super) z: L,
+pub(super) struct Step {
+    pub(super) x: f64,
+    pub(super) y: f64,
+    pub(super) z: f64,
     /// Of ∫u_z dτ.
-    pub(super) work: L,
+    pub(super) work: f64,
 }
 
 /// A piece of the path over a parameter from 0 to `end`.
-pub(super) struct Path<L: Lane> {
-    pub(super) end: L,
-    turning: L::Mask,
-    curve: Curve<L>,
-    line: Line<L>,
+pub(super) struct Path {
+    pub(super) end: f64,
+    shape: Shape,
+}
+
+// One of them lives at a time, and briefly.
+#[expect(clippy::large_enum_variant)]
+enum Shape {
+    Line(Line),
+    Curve(Curve),
 }
 
 /// A piece with a constant f; the parameter is τ.
-pub(super) struct Line<L> {
-    pub(super) x: L,
-    pub(super) y: L,
+pub(super) struct Line {
+    pub(super) x: f64,
+    pub(super) y: f64,
     /// u_z, and half its derivative.
-    pub(super) normal: L,
-    pub(super) half_gain: L,
+    pub(super) normal: f64,
+    pub(super) half_gain: f64,
 }
 
-/// Series in ξ, where dτ = |slip| ds and s = ξ·scale. By s the slip obeys
+/// Series in ξ, where dτ = |slip| ds and s = ξ·scale: the terms of ξ, ξ², … By s the slip obeys
 /// slip' = −μ diag(K_xx, K_yy) slip + b|slip|, smooth even where slip nearly vanishes.
-struct Curve<L> {
-    x: Series<L>,
-    y: Series<L>,
-    z: Series<L>,
-    work: Series<L>,
+struct Curve([Step; ORDER]);
+
+/// One term of the series of the slip and of its size.
+#[derive(Clone, Copy, Default)]
+struct Slip {
+    x: f64,
+    y: f64,
+    size: f64,
 }
 
-#[inline(always)]
-fn horner<L: Lane>(series: &Series<L>, at: L) -> L {
-    let mut sum = series[ORDER];
-    for k in (1..ORDER).rev() {
-        sum = sum * at + series[k];
-    }
-    sum * at
+impl Step {
+    const NONE: Self = Self {
+        x: 0.0,
+        y: 0.0,
+        z: 0.0,
+        work: 0.0,
+    };
 }
 
-impl<L: Lane> Curve<L> {
-    fn none() -> Self {
-        let zero = [L::splat(0.0); ORDER + 1];
-        Self {
-            x: zero,
-            y: zero,
-            z: zero,
-            work: zero,
+impl Line {
+    fn step(&self, at: f64) -> Step {
+        Step {
+            x: self.x * at,
+            y: self.y * at,
+            z: at,
+            work: at * (self.normal + at * self.half_gain),
         }
     }
+}
 
+impl Curve {
     /// The series from slip (gx, gy) on and the largest ξ at which it is accurate; where `length`
     /// is a number, τ goes little beyond it.
-    fn new(drive: &Drive<L>, normal: &Normal<L>, gx: L, gy: L, length: L) -> (Self, L) {
-        let zero = L::splat(0.0);
-        let mut out = Self::none();
-        let mut x = [zero; ORDER + 1];
-        let (mut y, mut r, mut u) = (x, x, x);
-        (x[0], y[0], u[0]) = (gx, gy, normal.now);
-        let square = gx * gx + gy * gy;
-        r[0] = square.sqrt();
-        let over = L::splat(1.0) / r[0];
+    fn new(drive: &Drive, normal: &Normal, gx: f64, gy: f64, length: f64) -> (Self, f64) {
+        let mut terms = [Step::NONE; ORDER];
+        let mut slips = [Slip::default(); ORDER + 1];
+        let mut normals = [0.0; ORDER + 1];
+        let first = (gx * gx + gy * gy).sqrt();
+        slips[0] = Slip {
+            x: gx,
+            y: gy,
+            size: first,
+        };
+        normals[0] = normal.now;
+        let over = 1.0 / first;
         let (ax, ay) = (drive.mu * drive.xx, drive.mu * drive.yy);
         // |slip'| <= speed·|slip|: the series converge up to about that time
         let speed = ax.max(ay) + (drive.bx * drive.bx + drive.by * drive.by).sqrt();
-        let scale = L::splat(2.0) / speed;
+        let mut scale = 2.0 / speed;
         let needed = length * over;
-        let scale = L::select(zero.lt(needed), needed.min(scale), scale);
-        for k in 0..ORDER {
-            let step = scale * L::splat(1.0 / (k + 1) as f64);
-            out.x[k + 1] = -(drive.mu * x[k]) * step;
-            out.y[k + 1] = -(drive.mu * y[k]) * step;
-            out.z[k + 1] = r[k] * step;
-            x[k + 1] = (drive.bx * r[k] - ax * x[k]) * step;
-            y[k + 1] = (drive.by * r[k] - ay * y[k]) * step;
-            u[k + 1] = normal.zz * out.z[k + 1] + normal.xz * out.x[k + 1];
-            let mut power = zero;
-            for i in 0..=k {
-                power += u[i] * r[k - i];
-            }
-            out.work[k + 1] = power * step;
-            // r² = x² + y², term k + 1
-            let mut sum = L::splat(2.0) * (x[0] * x[k + 1] + y[0] * y[k + 1]);
-            for i in 1..=k {
-                let j = k + 1 - i;
-                sum += x[i] * x[j] + y[i] * y[j] - r[i] * r[j];
-            }
-            r[k + 1] = sum * over * L::splat(0.5);
+        if 0.0 < needed && needed < scale {
+            scale = needed;
         }
-        let work = L::splat(1.0) / (normal.now.abs() + r[0]);
-        let term = |k: usize| x[k].abs() + y[k].abs() + r[k].abs() + out.work[k].abs() * work;
-        let last = term(ORDER).max(term(ORDER - 1));
-        let end = reach(last, L::splat(TRUNCATION) * r[0]);
-        (out, end)
+        for k in 0..ORDER {
+            let step = scale * (1.0 / (k + 1) as f64);
+            let mut power = 0.0;
+            for (normal, slip) in normals[..=k].iter().zip(slips[..=k].iter().rev()) {
+                power += normal * slip.size;
+            }
+            let now = slips[k];
+            let term = Step {
+                x: -(drive.mu * now.x) * step,
+                y: -(drive.mu * now.y) * step,
+                z: now.size * step,
+                work: power * step,
+            };
+            let x = (drive.bx * now.size - ax * now.x) * step;
+            let y = (drive.by * now.size - ay * now.y) * step;
+            normals[k + 1] = normal.zz * term.z + normal.xz * term.x;
+            terms[k] = term;
+            // |slip|² = x² + y², term k + 1
+            let mut sum = 2.0 * (gx * x + gy * y);
+            let between = &slips[1..=k];
+            for (a, b) in between.iter().zip(between.iter().rev()) {
+                sum += a.x * b.x + a.y * b.y - a.size * b.size;
+            }
+            let size = sum * over * 0.5;
+            slips[k + 1] = Slip { x, y, size };
+        }
+        let work = 1.0 / (normal.now.abs() + first);
+        let size = |k: usize| {
+            let slip = &slips[k];
+            slip.x.abs() + slip.y.abs() + slip.size.abs() + terms[k - 1].work.abs() * work
+        };
+        let last = size(ORDER).max(size(ORDER - 1));
+        (Self(terms), reach(last, TRUNCATION * first))
+    }
+
+    /// By Horner's rule.
+    fn step(&self, at: f64) -> Step {
+        let Self(terms) = self;
+        let mut sum = terms[ORDER - 1];
+        for term in terms[..ORDER - 1].iter().rev() {
+            sum = Step {
+                x: sum.x * at + term.x,
+                y: sum.y * at + term.y,
+                z: sum.z * at + term.z,
+                work: sum.work * at + term.work,
+            };
+        }
+        Step {
+            x: sum.x * at,
+            y: sum.y * at,
+            z: sum.z * at,
+            work: sum.work * at,
+        }
     }
 }
 
 /// The largest of 1, .8, .64, … at which a last term of size `term` at 1 is below `allowed`.
-#[inline(always)]
-fn reach<L: Lane>(mut term: L, allowed: L) -> L {
+fn reach(mut term: f64, allowed: f64) -> f64 {
     const SHRINK: f64 = 0.8;
     // SHRINK^(ORDER − 1)
     const LESS: f64 = 0.022_517_998_136_852_48;
-    let mut at = L::splat(1.0);
-    for _ in 0..40 {
-        let long = allowed.lt(term);
-        if !long.any() {
-            break;
-        }
-        at = L::select(long, at * L::splat(SHRINK), at);
-        term = L::select(long, term * L::splat(LESS), term);
+    let mut at = 1.0;
+    let mut count = 0;
+    while allowed < term && count < 40 {
+        at *= SHRINK;
+        term *= LESS;
+        count += 1;
     }
     at
 }
 
-impl<L: Lane> Path<L> {
-    /// A path that turns where `turning` is set, from `slip` on; else the line up to `length`.
-    #[inline(always)]
-    pub(super) fn new(
-        turning: L::Mask,
-        drive: &Drive<L>,
-        normal: &Normal<L>,
-        slip: (L, L),
-        line: Line<L>,
-        length: L,
-    ) -> Self {
-        let (curve, end) = if turning.any() {
-            Curve::new(drive, normal, slip.0, slip.1, length)
-        } else {
-            (Curve::none(), length)
-        };
+impl Path {
+    /// A constant friction up to a normal impulse of `length`.
+    pub(super) fn straight(line: Line, length: f64) -> Self {
         Self {
-            end: L::select(turning, end, length),
-            turning,
-            curve,
-            line,
+            end: length,
+            shape: Shape::Line(line),
+        }
+    }
+
+    /// A slip that turns, from (gx, gy) on; as far as it is accurate, or little beyond `length`.
+    pub(super) fn turning(
+        drive: &Drive,
+        normal: &Normal,
+        (gx, gy): (f64, f64),
+        length: f64,
+    ) -> Self {
+        let (curve, end) = Curve::new(drive, normal, gx, gy, length);
+        Self {
+            end,
+            shape: Shape::Curve(curve),
         }
     }
 
     /// What the piece adds up to `at`.
-    #[inline(always)]
-    pub(super) fn step(&self, at: L) -> Step<L> {
-        let line = Step {
-            x: self.line.x * at,
-            y: self.line.y * at,
-            z: at,
-            work: at * (self.line.normal + at * self.line.half_gain),
-        };
-        if !self.turning.any() {
-            return line;
-        }
-        let pick = |series: &Series<L>, line: L| L::select(self.turning, horner(series, at), line);
-        Step {
-            x: pick(&self.curve.x, line.x),
-            y: pick(&self.curve.y, line.y),
-            z: pick(&self.curve.z, line.z),
-            work: pick(&self.curve.work, line.work),
+    pub(super) fn step(&self, at: f64) -> Step {
+        match &self.shape {
+            Shape::Line(line) => line.step(at),
+            Shape::Curve(curve) => curve.step(at),
         }
     }
 }
@@ -218,10 +238,11 @@ mod tests {
                 xz,
             };
             let (curve, _) = Curve::new(&drive, &normal, x, y, f64::NAN);
-            work += horner(&curve.work, at);
-            tau += horner(&curve.z, at);
-            px += horner(&curve.x, at);
-            py += horner(&curve.y, at);
+            let step = curve.step(at);
+            work += step.work;
+            tau += step.z;
+            px += step.x;
+            py += step.y;
             x = 0.4 + xx * px + xz * tau;
             y = 1.0 + yy * py + 0.2 * tau;
         }

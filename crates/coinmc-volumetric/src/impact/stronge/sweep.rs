@@ -6,7 +6,6 @@ use super::events::{Cut, Event};
 use super::modes::{Couplings, Rate, Rates, Torque};
 use super::path::{Drive, Line, Normal, Path, Step};
 use crate::body::{Body, Friction};
-use coinmc_lanes::{Lane, Mask};
 
 /// Slip, and the rates of rolling and pivoting, below this share of the velocities are none.
 const REST: f64 = 1e-13;
@@ -19,65 +18,70 @@ const STRAIGHT: f64 = 1e-13;
 const STEADY: f64 = 1e-11;
 
 /// The impulses so far and the modes of friction.
-pub(super) struct Sweep<L: Lane> {
-    k: ContactMatrix<L>,
-    couplings: Couplings<L>,
-    touch: Touch<L>,
+pub(super) struct Sweep {
+    k: ContactMatrix<f64>,
+    couplings: Couplings,
+    touch: Touch<f64>,
     /// The size of the velocities.
-    size: L,
+    size: f64,
     /// e².
-    returned: L,
+    returned: f64,
     twists: bool,
-    contour_acts: bool,
-    pivoting_acts: bool,
-    x: L,
-    y: L,
-    z: L,
-    contour: L,
-    pivoting: L,
+    x: f64,
+    y: f64,
+    z: f64,
+    contour: f64,
+    pivoting: f64,
     /// The least ∫u_z dτ so far.
-    least: L,
+    least: f64,
     /// What has come back since: apart, or a small e would drown in the digits of the whole.
-    back: L,
-    rates: Rates<L>,
+    back: f64,
+    rates: Rates,
     /// The contact point is at rest.
-    still: L::Mask,
+    still: bool,
     /// u_z >= 0.
-    opening: L::Mask,
+    opening: bool,
 }
 
 /// The velocities at one moment.
-struct Now<L> {
-    slip_x: L,
-    slip_y: L,
-    normal: L,
+struct Now {
+    slip_x: f64,
+    slip_y: f64,
+    normal: f64,
+    /// |slip|.
+    speed: f64,
+}
+
+/// How a piece goes on.
+#[derive(Clone, Copy)]
+enum Course {
+    /// f turns with the slip.
+    Turns,
+    /// f stays as it is.
+    Keeps,
+    /// This constant f brings the slip to 0 within a normal impulse of `length`.
+    Stops { x: f64, y: f64, length: f64 },
 }
 
 /// The friction of one piece.
-struct Piece<L: Lane> {
-    turning: L::Mask,
+struct Piece {
+    course: Course,
     /// f where it is constant.
-    x: L,
-    y: L,
-    /// Where a straight slip stops.
-    stops: L::Mask,
-    length: L,
-    still: L::Mask,
-    drive: Drive<L>,
-    contour: Torque<L>,
-    pivoting: Torque<L>,
+    x: f64,
+    y: f64,
+    /// The normal impulse it takes at most; where f turns, about that.
+    length: f64,
+    /// The contact point stays at rest.
+    still: bool,
+    drive: Drive,
+    contour: Torque,
+    pivoting: Torque,
 }
 
-impl<L: Lane> Sweep<L> {
-    pub(super) fn new(body: &Body, friction: &Friction, touch: &Touch<L>, e: L) -> Self {
+impl Sweep {
+    pub(super) fn new(body: &Body, friction: &Friction, touch: &Touch<f64>, e: f64) -> Self {
         let k = touch.matrix(body);
         let twist = Twist::rates(body, touch);
-        let zero = L::splat(0.0);
-        let limits = (
-            L::splat(friction.contour) / touch.sin,
-            L::splat(friction.pivoting),
-        );
-        let off = <L::Mask as Mask>::splat(false);
         Self {
             k,
             couplings: Couplings {
@@ -87,31 +91,29 @@ impl<L: Lane> Sweep<L> {
                 yy: k.yy,
                 rx: touch.rx,
                 rz: touch.rz,
-                mu: L::splat(friction.mu),
+                mu: friction.mu,
             },
             touch: *touch,
             size: touch.slip_x.abs() + touch.slip_y.abs() + touch.approach.abs(),
             returned: e * e,
             twists: friction.twists(),
-            contour_acts: friction.contour > 0.0,
-            pivoting_acts: friction.pivoting > 0.0,
-            x: zero,
-            y: zero,
-            z: zero,
-            contour: zero,
-            pivoting: zero,
-            least: zero,
-            back: zero,
+            x: 0.0,
+            y: 0.0,
+            z: 0.0,
+            contour: 0.0,
+            pivoting: 0.0,
+            least: 0.0,
+            back: 0.0,
             rates: Rates {
-                roll: Rate::new(twist.roll, limits.0),
-                pivot: Rate::new(twist.pivot, limits.1),
+                roll: Rate::new(twist.roll, friction.contour / touch.sin),
+                pivot: Rate::new(twist.pivot, friction.pivoting),
             },
-            still: off,
-            opening: off,
+            still: false,
+            opening: false,
         }
     }
 
-    pub(super) fn impulse(&self, sin: L) -> Impulse<L> {
+    pub(super) fn impulse(&self, sin: f64) -> Impulse<f64> {
         Impulse {
             x: self.x,
             y: self.y,
@@ -121,77 +123,47 @@ impl<L: Lane> Sweep<L> {
         }
     }
 
-    #[inline(always)]
-    fn now(&self) -> Now<L> {
+    fn now(&self) -> Now {
         let (k, t) = (&self.k, &self.couplings.twist);
+        let slip_x = self.touch.slip_x + k.xx * self.x + k.xz * self.z;
+        let slip_y = self.touch.slip_y + k.yy * self.y - t.slip_y(self.contour, self.pivoting);
         Now {
-            slip_x: self.touch.slip_x + k.xx * self.x + k.xz * self.z,
-            slip_y: self.touch.slip_y + k.yy * self.y - t.slip_y(self.contour, self.pivoting),
+            slip_x,
+            slip_y,
             normal: self.touch.approach + k.xz * self.x + k.zz * self.z,
+            speed: (slip_x * slip_x + slip_y * slip_y).sqrt(),
         }
     }
 
-    /// One piece of path; where the impact goes on after it.
-    pub(super) fn advance(&mut self, active: L::Mask) -> L::Mask {
+    /// One piece of path; whether the impact goes on after it.
+    pub(super) fn advance(&mut self) -> bool {
         let now = self.now();
-        let piece = self.piece(&now, active);
-        let normal = Normal {
-            now: now.normal,
-            zz: self.k.zz,
-            xz: self.k.xz,
-        };
-        let gain = self.k.zz + self.k.xz * piece.x;
-        let line = Line {
-            x: piece.x,
-            y: piece.y,
-            normal: now.normal,
-            half_gain: gain * L::splat(0.5),
-        };
-        let slip = (now.slip_x, now.slip_y);
-        let path = Path::new(
-            piece.turning,
-            &piece.drive,
-            &normal,
-            slip,
-            line,
-            piece.length,
-        );
-        let cut = self.cut(&path, &piece, &now, active);
-        let step = path.step(cut.at);
-        self.take(&step, &piece, active);
-        self.switch(&cut, &piece, active)
+        let piece = self.piece(&now);
+        let path = self.path(&piece, &now);
+        let cut = self.cut(&path, &piece, &now);
+        self.take(&cut.step, &piece);
+        self.switch(cut.event, &piece)
     }
 
     /// The modes of friction for what comes next.
-    fn piece(&mut self, now: &Now<L>, active: L::Mask) -> Piece<L> {
-        let zero = L::splat(0.0);
+    fn piece(&mut self, now: &Now) -> Piece {
         let mu = self.couplings.mu;
-        let frictionless = mu.le(zero);
-        let speed = (now.slip_x * now.slip_x + now.slip_y * now.slip_y).sqrt();
-        let at_rest = (self.still | speed.le(L::splat(REST) * self.size)) & !frictionless;
-        let mut fx = zero;
-        let mut fy = zero;
-        let mut sticks = at_rest;
-        if (active & at_rest).any() {
-            let still = self
-                .rates
-                .still(&self.couplings, active & at_rest, self.twists);
-            fx = L::select(at_rest, still.x, fx);
-            fy = L::select(at_rest, still.y, fy);
-            sticks = at_rest & still.sticks;
-        }
-        let over = mu / speed;
-        let slides = !at_rest & !frictionless;
-        fx = L::select(slides, -(now.slip_x * over), fx);
-        fy = L::select(slides, -(now.slip_y * over), fy);
-        let (contour, pivoting) = if self.twists {
-            self.rates.beside(&self.couplings, fy, active)
+        let rests = self.still || now.speed <= REST * self.size;
+        let mut still = false;
+        let (x, y) = if mu <= 0.0 {
+            (0.0, 0.0)
+        } else if rests {
+            let rest = self.rates.still(&self.couplings, self.twists);
+            still = rest.sticks;
+            (rest.x, rest.y)
         } else {
-            let none = Torque {
-                by_y: zero,
-                rest: zero,
-            };
-            (none, none)
+            let over = mu / now.speed;
+            (-(now.slip_x * over), -(now.slip_y * over))
+        };
+        let (contour, pivoting) = if self.twists {
+            self.rates.beside(&self.couplings, y)
+        } else {
+            (Torque::NONE, Torque::NONE)
         };
         let t = &self.couplings.twist;
         let drive = Drive {
@@ -201,163 +173,196 @@ impl<L: Lane> Sweep<L> {
             bx: self.k.xz,
             by: -t.slip_y(contour.rest, pivoting.rest),
         };
-        let (stop_x, stop_y, until, straight, steady) = self.stop(&drive, now, fx, fy, speed);
-        let stops = slides & straight;
-        let keeps = slides & !straight & steady;
-        fx = L::select(stops, stop_x, fx);
-        fy = L::select(stops, stop_y, fy);
-        // with constant f the work is back at 0, its end for e = 1, no later than here
-        let gain = self.k.zz + self.k.xz * fx;
-        let root =
-            (now.normal * now.normal - L::splat(2.0) * gain * (self.least + self.back)).sqrt();
-        let back = (root - now.normal) / gain * L::splat(1.0 + 1e-6);
+        let course = if mu > 0.0 && !rests {
+            self.course(&drive, now, x, y)
+        } else {
+            Course::Keeps
+        };
+        let (x, y, length) = match course {
+            Course::Stops { x, y, length } => (x, y, length),
+            Course::Turns | Course::Keeps => (x, y, self.longest(now, x)),
+        };
         Piece {
-            turning: slides & !stops & !keeps,
-            x: fx,
-            y: fy,
-            stops,
-            length: L::select(stops, until, back),
-            still: sticks,
+            course,
+            x,
+            y,
+            length,
+            still,
             drive,
             contour,
             pivoting,
         }
     }
 
-    /// The constant f that brings the slip to 0, with |f| = μ, the impulse that takes, and whether
-    /// the slip turns too little on its way for this to differ from the path.
+    /// With a constant f of this x part the work is back at 0, its end for e = 1, no later than
+    /// here.
+    fn longest(&self, now: &Now, x: f64) -> f64 {
+        let gain = self.k.zz + self.k.xz * x;
+        let root = (now.normal * now.normal - 2.0 * gain * (self.least + self.back)).sqrt();
+        (root - now.normal) / gain * (1.0 + 1e-6)
+    }
+
+    /// How a slip goes on that starts with this f. It stops straight if it turns too little on its
+    /// way for this to differ from the path, with the constant f, |f| = μ, that brings it to 0.
     ///
     /// Over the path the mean of f is (−slip/τ − b)/K; its length falls short of μ by the order of
     /// the square of the angle between slip and slip'.
-    #[inline(always)]
-    fn stop(
-        &self,
-        drive: &Drive<L>,
-        now: &Now<L>,
-        fx: L,
-        fy: L,
-        speed: L,
-    ) -> (L, L, L, L::Mask, L::Mask) {
-        let zero = L::splat(0.0);
+    fn course(&self, drive: &Drive, now: &Now, fx: f64, fy: f64) -> Course {
         let (dx, dy) = (drive.xx * fx + drive.bx, drive.yy * fy + drive.by);
         let along = dx * now.slip_x + dy * now.slip_y;
         let across = dx * now.slip_y - dy * now.slip_x;
+        if 0.0 <= along {
+            let drift = STEADY * drive.mu * drive.xx * now.speed;
+            let is_steady = across.abs() <= drift;
+            return if is_steady {
+                Course::Keeps
+            } else {
+                Course::Turns
+            };
+        }
+        let is_straight = now.speed * across * across <= STRAIGHT * self.size * along * along;
+        if !is_straight {
+            return Course::Turns;
+        }
         let (gx, gy) = (now.slip_x / drive.xx, now.slip_y / drive.yy);
         let (bx, by) = (drive.bx / drive.xx, drive.by / drive.yy);
         let square = gx * gx + gy * gy;
         let mixed = gx * bx + gy * by;
         let rest = drive.mu * drive.mu - (bx * bx + by * by);
         let root = mixed * mixed + square * rest;
-        // 1/τ, the larger root: the first stop
-        let rate = (root.max(zero).sqrt() - mixed) / square;
-        let little = (speed * across * across).le(L::splat(STRAIGHT) * self.size * along * along);
-        let straight = along.lt(zero) & little & zero.le(root) & zero.lt(rate);
-        let until = L::splat(1.0) / rate;
-        let drift = L::splat(STEADY) * drive.mu * drive.xx * speed;
-        let steady = zero.le(along) & across.abs().le(drift);
-        (
-            -(gx * rate) - bx,
-            -(gy * rate) - by,
-            until,
-            straight,
-            steady,
-        )
+        // 1/τ, the larger root: the first stop; not a number where there is none
+        let rate = (root.sqrt() - mixed) / square;
+        if 0.0 < rate {
+            Course::Stops {
+                x: -(gx * rate) - bx,
+                y: -(gy * rate) - by,
+                length: 1.0 / rate,
+            }
+        } else {
+            Course::Turns
+        }
+    }
+
+    fn path(&self, piece: &Piece, now: &Now) -> Path {
+        let k = &self.k;
+        if let Course::Turns = piece.course {
+            let normal = Normal {
+                now: now.normal,
+                zz: k.zz,
+                xz: k.xz,
+            };
+            return Path::turning(
+                &piece.drive,
+                &normal,
+                (now.slip_x, now.slip_y),
+                piece.length,
+            );
+        }
+        let line = Line {
+            x: piece.x,
+            y: piece.y,
+            normal: now.normal,
+            half_gain: (k.zz + k.xz * piece.x) * 0.5,
+        };
+        Path::straight(line, piece.length)
     }
 
     /// The piece up to its first event.
-    fn cut(&self, path: &Path<L>, piece: &Piece<L>, now: &Now<L>, active: L::Mask) -> Cut<L> {
-        let (k, t) = (&self.k, &self.couplings.twist);
+    fn cut<'a>(&self, path: &'a Path, piece: &Piece, now: &Now) -> Cut<'a> {
+        let k = &self.k;
         let mut cut = Cut::new(path);
-        cut.by(path, active & !self.opening, Event::Turn, |s| {
-            -(now.normal + k.zz * s.z + k.xz * s.x)
-        });
-        let missing = -(self.returned * self.least) - self.back;
-        cut.by(path, active & self.opening, Event::Over, |s| {
-            missing - s.work
-        });
-        if !self.twists {
-            return cut;
+        if self.opening {
+            let missing = -(self.returned * self.least) - self.back;
+            cut.by(Event::Over, &|s| missing - s.work);
+        } else {
+            cut.by(Event::Turn, &|s| -(now.normal + k.zz * s.z + k.xz * s.x));
         }
+        if self.twists {
+            self.cut_by_rates(&mut cut, piece, now);
+        }
+        cut
+    }
+
+    /// Where a rate that friction works against comes to 0 or leaves it.
+    fn cut_by_rates(&self, cut: &mut Cut, piece: &Piece, now: &Now) {
+        let t = &self.couplings.twist;
         let (c, p) = (&piece.contour, &piece.pivoting);
-        let turns = |s: &Step<L>| {
+        let turns = matches!(piece.course, Course::Turns);
+        let impulses = |s: &Step| {
             (
+                self.y + s.y,
                 self.contour + c.by_y * s.y + c.rest * s.z,
                 self.pivoting + p.by_y * s.y + p.rest * s.z,
             )
         };
         // f_y along a turning path
-        let sideways = |s: &Step<L>| {
+        let sideways = |s: &Step| {
             let x = now.slip_x + piece.drive.xx * s.x + piece.drive.bx * s.z;
             let y = now.slip_y + piece.drive.yy * s.y + piece.drive.by * s.z;
             -(self.couplings.mu * y / (x * x + y * y).sqrt())
         };
         // a rate that has just left 0 has the sign of rounding
-        let none = L::splat(REST) * (self.size + t.roll.abs() + t.pivot.abs());
-        if self.contour_acts {
-            let roll = &self.rates.roll;
-            cut.by_bent(path, active & !roll.zero, Event::Roll, |s| {
-                let (c, p) = turns(s);
-                let y = self.y + s.y;
+        let none = REST * (self.size + t.roll.abs() + t.pivot.abs());
+        let Rates { roll, pivot } = &self.rates;
+        if roll.limit > 0.0 && !roll.zero {
+            cut.by_bent(Event::Roll, &|s| {
+                let (y, c, p) = impulses(s);
                 none + roll.sign * (t.roll + t.roll_y * y - t.roll_roll * c - t.roll_pivot * p)
             });
-            cut.by_bent(path, active & roll.zero & piece.turning, Event::Roll, |s| {
+        } else if roll.limit > 0.0 && turns {
+            cut.by_bent(Event::Roll, &|s| {
                 roll.limit - (c.by_y * sideways(s) + c.rest).abs()
             });
         }
-        if self.pivoting_acts {
-            let pivot = &self.rates.pivot;
-            cut.by_bent(path, active & !pivot.zero, Event::Pivot, |s| {
-                let (c, p) = turns(s);
-                let y = self.y + s.y;
+        if pivot.limit > 0.0 && !pivot.zero {
+            cut.by_bent(Event::Pivot, &|s| {
+                let (y, c, p) = impulses(s);
                 none + pivot.sign * (t.pivot + t.pivot_y * y - t.roll_pivot * c - t.pivot_pivot * p)
             });
-            cut.by_bent(
-                path,
-                active & pivot.zero & piece.turning,
-                Event::Pivot,
-                |s| pivot.limit - (p.by_y * sideways(s) + p.rest).abs(),
-            );
+        } else if pivot.limit > 0.0 && turns {
+            cut.by_bent(Event::Pivot, &|s| {
+                pivot.limit - (p.by_y * sideways(s) + p.rest).abs()
+            });
         }
-        cut
     }
 
     /// Adds a piece.
-    #[inline(always)]
-    fn take(&mut self, step: &Step<L>, piece: &Piece<L>, active: L::Mask) {
+    fn take(&mut self, step: &Step, piece: &Piece) {
         let (c, p) = (&piece.contour, &piece.pivoting);
-        let add = |sum: &mut L, part: L| *sum = L::select(active, *sum + part, *sum);
-        add(&mut self.x, step.x);
-        add(&mut self.y, step.y);
-        add(&mut self.z, step.z);
-        add(&mut self.contour, c.by_y * step.y + c.rest * step.z);
-        add(&mut self.pivoting, p.by_y * step.y + p.rest * step.z);
-        add(&mut self.back, step.work);
-        let deeper = active & self.back.lt(L::splat(0.0));
-        self.least = L::select(deeper, self.least + self.back, self.least);
-        self.back = L::select(deeper, L::splat(0.0), self.back);
+        self.x += step.x;
+        self.y += step.y;
+        self.z += step.z;
+        self.contour += c.by_y * step.y + c.rest * step.z;
+        self.pivoting += p.by_y * step.y + p.rest * step.z;
+        self.back += step.work;
+        if self.back < 0.0 {
+            self.least += self.back;
+            self.back = 0.0;
+        }
     }
 
-    /// The modes after the event that ended the piece; where the impact goes on.
-    #[inline(always)]
-    fn switch(&mut self, cut: &Cut<L>, piece: &Piece<L>, active: L::Mask) -> L::Mask {
-        let stopped = piece.stops & cut.is(Event::End);
-        self.still = (self.still & !active) | ((stopped | piece.still) & active);
-        let turned = active & cut.is(Event::Turn);
+    /// The modes after the event that ended the piece; whether the impact goes on.
+    fn switch(&mut self, event: Event, piece: &Piece) -> bool {
+        let stopped = matches!(piece.course, Course::Stops { .. }) && event == Event::End;
+        self.still = stopped || piece.still;
         let now = self.now();
-        // friction may drive the point back into the surface
-        let back = active & !turned & now.normal.lt(L::splat(0.0));
-        self.opening = (self.opening | turned) & !back;
-        if self.twists {
-            let y = -(self.couplings.mu * now.slip_y)
-                / (now.slip_x * now.slip_x + now.slip_y * now.slip_y).sqrt();
-            let (c, p) = (&piece.contour, &piece.pivoting);
-            let on = active & cut.is(Event::Roll);
-            self.rates.roll.switch(on, c.by_y * y + c.rest);
-            let on = active & cut.is(Event::Pivot);
-            self.rates.pivot.switch(on, p.by_y * y + p.rest);
+        // f_y of a slip that turns
+        let y = -(self.couplings.mu * now.slip_y) / now.speed;
+        let (c, p) = (&piece.contour, &piece.pivoting);
+        match event {
+            Event::Roll => self.rates.roll.switch(c.by_y * y + c.rest),
+            Event::Pivot => self.rates.pivot.switch(p.by_y * y + p.rest),
+            Event::End | Event::Turn | Event::Over => {}
         }
-        // with e = 0 nothing comes back
-        let plastic = turned & self.returned.le(L::splat(0.0));
-        active & !cut.is(Event::Over) & !plastic
+        if event == Event::Turn {
+            self.opening = true;
+            // with e = 0 nothing comes back
+            return self.returned > 0.0;
+        }
+        if now.normal < 0.0 {
+            // friction drives the point back into the surface
+            self.opening = false;
+        }
+        event != Event::Over
     }
 }
