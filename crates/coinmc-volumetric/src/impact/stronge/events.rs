@@ -26,10 +26,6 @@ pub(super) struct Cut<'a> {
     pub(super) event: Event,
 }
 
-/// How far an event is off, after a step along the piece: below 0 it has happened. (One kind of
-/// reference and not a generic function, or the search for the root is compiled for each event.)
-type Distance<'a> = &'a dyn Fn(&Step) -> f64;
-
 /// Evaluations of the bracketing secant; a third of them halve, which alone would be enough.
 const MAX_STEPS: u32 = 200;
 
@@ -43,8 +39,8 @@ impl<'a> Cut<'a> {
         }
     }
 
-    /// Cuts the piece where `distance` falls below 0.
-    pub(super) fn by(&mut self, event: Event, distance: Distance) {
+    /// Cuts the piece where `distance`, after a step along it, falls below 0.
+    pub(super) fn by(&mut self, event: Event, distance: impl Fn(&Step) -> f64) {
         let end = distance(&self.step);
         if end < 0.0 {
             self.shorten(event, self.at, end, distance);
@@ -52,7 +48,7 @@ impl<'a> Cut<'a> {
     }
 
     /// As [`Cut::by`], for a distance that may come back within the piece: looks halfway first.
-    pub(super) fn by_bent(&mut self, event: Event, distance: Distance) {
+    pub(super) fn by_bent(&mut self, event: Event, distance: impl Fn(&Step) -> f64) {
         let half = self.at * 0.5;
         let there = distance(&self.path.step(half));
         if there < 0.0 {
@@ -63,8 +59,9 @@ impl<'a> Cut<'a> {
     }
 
     /// Ends the piece at the root below `high`, where `distance` is `end` < 0.
+    // rarer than the looks for it, and there are six
     #[inline(never)]
-    fn shorten(&mut self, event: Event, high: f64, end: f64, distance: Distance) {
+    fn shorten(&mut self, event: Event, high: f64, end: f64, distance: impl Fn(&Step) -> f64) {
         self.at = first_root(self.path, high, end, distance);
         self.step = self.path.step(self.at);
         self.event = event;
@@ -73,7 +70,7 @@ impl<'a> Cut<'a> {
 
 /// A root of `distance` between 0 and `high`, where it is `end` < 0: regula falsi with the Illinois
 /// modification, halving where that does not shrink the bracket.
-fn first_root(path: &Path, mut high: f64, end: f64, distance: Distance) -> f64 {
+fn first_root(path: &Path, mut high: f64, end: f64, distance: impl Fn(&Step) -> f64) -> f64 {
     let mut low = 0.0;
     let mut at_low = distance(&path.step(low));
     let mut at_high = end;

@@ -273,9 +273,9 @@ impl Sweep {
         let mut cut = Cut::new(path);
         if self.opening {
             let missing = -(self.returned * self.least) - self.back;
-            cut.by(Event::Over, &|s| missing - s.work);
+            cut.by(Event::Over, |s| missing - s.work);
         } else {
-            cut.by(Event::Turn, &|s| -(now.normal + k.zz * s.z + k.xz * s.x));
+            cut.by(Event::Turn, |s| -(now.normal + k.zz * s.z + k.xz * s.x));
         }
         if self.twists {
             self.cut_by_rates(&mut cut, piece, now);
@@ -305,22 +305,22 @@ impl Sweep {
         let none = REST * (self.size + t.roll.abs() + t.pivot.abs());
         let Rates { roll, pivot } = &self.rates;
         if roll.limit > 0.0 && !roll.zero {
-            cut.by_bent(Event::Roll, &|s| {
+            cut.by_bent(Event::Roll, |s| {
                 let (y, c, p) = impulses(s);
                 none + roll.sign * (t.roll + t.roll_y * y - t.roll_roll * c - t.roll_pivot * p)
             });
         } else if roll.limit > 0.0 && turns {
-            cut.by_bent(Event::Roll, &|s| {
+            cut.by_bent(Event::Roll, |s| {
                 roll.limit - (c.by_y * sideways(s) + c.rest).abs()
             });
         }
         if pivot.limit > 0.0 && !pivot.zero {
-            cut.by_bent(Event::Pivot, &|s| {
+            cut.by_bent(Event::Pivot, |s| {
                 let (y, c, p) = impulses(s);
                 none + pivot.sign * (t.pivot + t.pivot_y * y - t.roll_pivot * c - t.pivot_pivot * p)
             });
         } else if pivot.limit > 0.0 && turns {
-            cut.by_bent(Event::Pivot, &|s| {
+            cut.by_bent(Event::Pivot, |s| {
                 pivot.limit - (p.by_y * sideways(s) + p.rest).abs()
             });
         }
