@@ -15,6 +15,13 @@ const BATCH: u64 = 256;
 /// Sums of heads, tails and side.
 type Sums = [f64; 3];
 
+/// What a sample comes to.
+struct Seen {
+    sums: Sums,
+    /// Some evaluations were one face or none, and no fraction of them.
+    whole: bool,
+}
+
 /// Finds the probabilities of the faces of a scene with adhesive landing by a method that is
 /// [`Method::of`] it, or by [`Method::Tossed`]. `None` if `go_on`, asked every now and then, says
 /// no.
@@ -59,17 +66,22 @@ fn in_closed_form(
     conditional: &Conditional<'_>,
     sample: Sample<'_>,
     go_on: impl Fn() -> bool,
-) -> Option<Sums> {
-    let mut sums = [0.0; 3];
+) -> Option<Seen> {
+    let mut seen = Seen {
+        sums: [0.0; 3],
+        whole: false,
+    };
     for (number, mut at) in (0_u64..).zip(sample) {
         if number.is_multiple_of(BATCH) && !go_on() {
             return None;
         }
         let drawn = at.last();
         let faces = conditional.faces(&mut at, drawn);
-        sums.iter_mut().zip(faces).for_each(|(sum, p)| *sum += p);
+        let sums = seen.sums.iter_mut().zip(faces.p);
+        sums.for_each(|(sum, p)| *sum += p);
+        seen.whole |= faces.drawn;
     }
-    Some(sums)
+    Some(seen)
 }
 
 fn tossed<E: Engine>(
@@ -77,7 +89,7 @@ fn tossed<E: Engine>(
     workspace: &mut E::Workspace,
     launches: impl Iterator<Item = coinmc_core::Launch>,
     go_on: impl Fn() -> bool,
-) -> Option<Sums> {
+) -> Option<Seen> {
     let (mut sums, mut tosses) = ([0.0; 3], 0_u64);
     let mut going = go_on();
     if !going {
@@ -95,7 +107,7 @@ fn tossed<E: Engine>(
             ControlFlow::Break(())
         }
     });
-    going.then_some(sums)
+    going.then_some(Seen { sums, whole: true })
 }
 
 fn exact(method: Method, faces: [f64; 3], evaluations: u64) -> Integral {
@@ -114,11 +126,11 @@ fn replicated(
     dimensions: &[u32],
     scrambles: &Stream,
     goal: &Goal,
-    mut sums_of: impl FnMut(Sample<'_>) -> Option<Sums>,
+    mut sums_of: impl FnMut(Sample<'_>) -> Option<Seen>,
 ) -> Option<Integral> {
     if dimensions.is_empty() {
         let sobol = Sobol::plain(1);
-        let faces = sums_of(Sample::new(&sobol, dimensions, 1..2))?;
+        let faces = sums_of(Sample::new(&sobol, dimensions, 1..2))?.sums;
         let undecided = 1.0 - faces.iter().sum::<f64>();
         let mut found = exact(method, faces, 1);
         for share in &mut found.faces {
@@ -135,16 +147,17 @@ fn replicated(
     let mut sums = [[0.0; 3]; REPLICATES as usize];
     let mut found = exact(method, [0.0; 3], 0);
     found.exact = false;
-    let mut done = 0;
+    let (mut done, mut whole) = (0, false);
     for points in goal.looks() {
         for (sums, sobol) in sums.iter_mut().zip(&replicates) {
             let more = sums_of(Sample::new(sobol, dimensions, done..points))?;
+            whole |= more.whole;
             sums.iter_mut()
-                .zip(more)
+                .zip(more.sums)
                 .for_each(|(sum, more)| *sum += more);
         }
         done = points;
-        found.faces = goal.shares(&sums, points, method == Method::Tossed);
+        found.faces = goal.shares(&sums, points, whole);
         found.evaluations = points * u64::from(REPLICATES);
         if found.half_width() <= goal.half_width {
             break;

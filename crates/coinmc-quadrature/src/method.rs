@@ -1,6 +1,7 @@
 //! What of a scene can be integrated in closed form.
 
 use crate::axis::axial_factor;
+use crate::conditional::Conditional;
 use crate::passage::{Passage, is_constant};
 use crate::sobol::DIMENSIONS;
 use coinmc_core::{LaunchDistribution, Marginal, Orientation, Scene, Spin, UniformSource};
@@ -92,7 +93,12 @@ impl Method {
     pub fn of(scene: &Scene, launches: &LaunchDistribution, time_limit_s: f64) -> Option<Self> {
         let tossed = Self::Tossed.dimensions_left(launches) <= MOST_TOSSED;
         let tossed = tossed.then_some(Self::Tossed);
-        if !Passage::new(scene).is_certain(launches, time_limit_s) {
+        let passage = Passage::new(scene);
+        if time_limit_s != f64::INFINITY && !passage.ends_before(time_limit_s, launches) {
+            // tosses without a face are counted by their reason
+            return None;
+        }
+        if !passage.is_certain(launches) {
             return tossed;
         }
         if knows_no_direction(scene, launches) {
@@ -101,7 +107,16 @@ impl Method {
         if is_whole_turns(launches) {
             return Some(Self::Arc);
         }
-        variable(launches).map(Self::Over).or(tossed)
+        let Some(variable) = variable(launches) else {
+            return tossed;
+        };
+        let over = Self::Over(variable);
+        let alone = over.dimensions_left(launches) == 0;
+        if alone && !Conditional::new(scene, launches, variable).is_followed() {
+            // drawn after all, and nothing is left to integrate over
+            return tossed;
+        }
+        Some(over)
     }
 
     /// Launch dimensions that are left to Sobol points.
@@ -309,9 +324,9 @@ mod tests {
     }
 
     #[test]
-    fn low_launches_and_short_limits_are_tossed() {
+    fn low_launches_are_tossed_and_short_limits_are_met_at_random() {
         let mut launches = Preset::Robot.distribution();
-        assert_eq!(Method::of(&scene(), &launches, 0.1), Some(Method::Tossed));
+        assert_eq!(Method::of(&scene(), &launches, 0.1), None);
         launches.height_m = Marginal::Uniform {
             from: 0.011,
             to: 0.5,
@@ -322,12 +337,59 @@ mod tests {
             to: 0.5,
         };
         assert_eq!(of(&launches), Some(Method::Over(Variable::Tilt)));
+        // a coin that no toss brings down within the limit, though its centre passes D
+        let slow = LaunchDistribution {
+            height_m: Marginal::Constant(0.012),
+            velocity_m_s: [Marginal::Constant(0.0); 3],
+            ..launches
+        };
+        assert_eq!(
+            Method::of(&scene(), &slow, 0.03),
+            None,
+            "D after 13 ms, the ground after 49 ms"
+        );
         // seven random numbers: a step in seven dimensions
         let low = LaunchDistribution {
             height_m: Marginal::Constant(0.001),
             ..Preset::Table1.distribution()
         };
         assert_eq!(of(&low), None);
+    }
+
+    /// A single random quantity that leads round too often to be followed is not one that is known.
+    #[test]
+    fn one_quantity_of_many_turns_is_tossed() {
+        let uniform = |from, to| Marginal::Uniform { from, to };
+        let still = [Marginal::Constant(0.0); 3];
+        let of = |rate_rad_s, height_m, up| {
+            let mut velocity_m_s = still;
+            velocity_m_s[2] = up;
+            of(&LaunchDistribution {
+                height_m,
+                velocity_m_s,
+                orientation: Orientation::Tilt(Marginal::Constant(0.3)),
+                spin: Spin::About {
+                    axis: Vector3::y_axis(),
+                    rate_rad_s,
+                },
+            })
+        };
+        let (one, none) = (Marginal::Constant(1.0), Marginal::Constant(0.0));
+        for (rate, over) in [(1e2, true), (1e5, false)] {
+            let fixed = Marginal::Constant(rate);
+            for (method, variable) in [
+                (of(uniform(-rate, rate), one, none), Variable::Rate),
+                (of(fixed, uniform(1.0, 2.0), none), Variable::Height),
+                (of(fixed, one, uniform(0.0, 1.0)), Variable::Velocity),
+            ] {
+                let expected = if over {
+                    Method::Over(variable)
+                } else {
+                    Method::Tossed
+                };
+                assert_eq!(method, Some(expected), "{rate} {variable:?}");
+            }
+        }
     }
 
     #[test]

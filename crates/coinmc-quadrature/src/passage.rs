@@ -9,6 +9,10 @@ use coinmc_core::{LaunchDistribution, Marginal, Scene};
 
 /// Standard deviations beyond which no launch lies: an inverse CDF of 52 binary digits ends at 8.2.
 const FARTHEST: f64 = 8.5;
+/// Products of drag and time below which the first term of a series tells the size of its effect.
+const LITTLE: f64 = 1e-3;
+/// Those that change no digit.
+const NOTHING: f64 = 1e-17;
 /// Steps of a search that needs about six.
 const MOST_STEPS: u32 = 200;
 
@@ -31,22 +35,45 @@ impl Passage {
         }
     }
 
-    /// Whether every launch begins at D or above, and passes it before `time_limit_s`.
-    pub(crate) fn is_certain(&self, launches: &LaunchDistribution, time_limit_s: f64) -> bool {
-        let (low, high) = support(&launches.height_m);
+    /// Whether every launch begins at D or above, and so passes it.
+    pub(crate) fn is_certain(&self, launches: &LaunchDistribution) -> bool {
+        support(&launches.height_m).0 >= self.distance
+    }
+
+    /// Whether every toss has touched before `time_limit_s`: at the latest when its centre comes to
+    /// the surface.
+    pub(crate) fn ends_before(&self, time_limit_s: f64, launches: &LaunchDistribution) -> bool {
+        let (_, high) = support(&launches.height_m);
         let (_, fastest) = support(&launches.velocity_m_s[2]);
-        low >= self.distance && self.time(high, fastest) < time_limit_s
+        let surface = Self {
+            distance: 0.0,
+            ..*self
+        };
+        // a coin that would begin in the surface is lifted, at most to D
+        surface.time(high.max(self.distance), fastest) < time_limit_s
     }
 
     /// When the centre, let go at height h >= D with vertical velocity v, passes D, s.
     pub(crate) fn time(&self, h: f64, v: f64) -> f64 {
         let (above, g, k) = (h - self.distance, self.gravity, self.linear);
+        let end = (v * v + 2.0 * g * above).sqrt();
+        let free = if v < 0.0 {
+            // the root by its other form: a fast throw downwards would cancel
+            2.0 * above / (end - v)
+        } else {
+            (end + v).max(0.0) / g
+        };
         if k == 0.0 {
-            return ((v * v + 2.0 * g * above).sqrt() + v).max(0.0) / g;
+            return free;
         }
-        // e^(−kt) > 0 bounds the time from above. The height is concave in time, so that Newton's
-        // steps from there come down to the root and never pass it.
-        let mut time = (k * above + (v + g / k).max(0.0)) / g;
+        // So little drag changes the time by some of that part of it: twice the time is above. Else
+        // e^(−kt) > 0 bounds it. The height is concave in time, so that Newton's steps from there
+        // come down to the root and never pass it; from 1/k alone, each would but halve the way.
+        let mut time = if k * free < LITTLE {
+            2.0 * free
+        } else {
+            (k * above + (v + g / k).max(0.0)) / g
+        };
         for _ in 0..MOST_STEPS {
             let tau = undamped(k, time);
             let height = above + v * tau - g * self.sag(time);
@@ -69,7 +96,7 @@ impl Passage {
     /// The time at which [`turning_time`](Self::turning_time) is `turned`; infinity if never.
     pub(crate) fn time_of_turning(&self, turned: f64) -> f64 {
         let k = self.angular;
-        if k == 0.0 {
+        if k * turned < NOTHING {
             turned
         } else if k * turned < 1.0 {
             -libm::log1p(-k * turned) / k
@@ -107,7 +134,7 @@ impl Passage {
 
 /// (1 − e^(−kt))/k.
 fn undamped(k: f64, t: f64) -> f64 {
-    if k == 0.0 {
+    if k * t < NOTHING {
         t
     } else {
         -libm::expm1(-k * t) / k
@@ -164,6 +191,34 @@ mod tests {
                     assert!((passage.time_of_turning(turned) - time).abs() < 1e-10 * time);
                 }
             }
+        }
+    }
+
+    /// Drag of 1e-12/s and less moves nothing by more than some 1e-12, down to the least number.
+    #[test]
+    fn drag_may_be_as_little_as_it_likes() {
+        for (h, v) in [(1.0, 0.0), (5.0, 20.0), (0.5, -3.0)] {
+            let none = passage(0.0, 0.0).time(h, v);
+            for k in [1e-12, 1e-30, 1e-61, 1e-100, 1e-300, 1e-310, 5e-324] {
+                let passage = passage(k, k);
+                let time = passage.time(h, v);
+                assert!((time - none).abs() < 1e-10 * none, "{k} {time} {none}");
+                let turned = passage.turning_time(time);
+                assert!((turned - none).abs() < 1e-10 * none, "{k} {turned}");
+                assert!((passage.time_of_turning(turned) - none).abs() < 1e-10 * none);
+            }
+        }
+    }
+
+    /// Thrown downwards, the coin needs above/|v| less what gravity saves: a share of
+    /// g·above/(2v²), here 5e-12 and less.
+    #[test]
+    fn a_throw_downwards_keeps_its_digits() {
+        let passage = passage(0.0, 0.0);
+        let above = 0.75;
+        for v in [-1e6, -1e9] {
+            let time = passage.time(above + passage.distance, v);
+            assert!((time * -v / above - 1.0).abs() < 1e-11, "{v} {time}");
         }
     }
 

@@ -51,7 +51,7 @@ impl Goal {
     }
 
     /// The intervals after `points` points of each replicate, given its sums of heads, tails and
-    /// side. `whole`: every evaluation is one face or none, and no fraction of them.
+    /// side. `whole`: some evaluations are one face or none, and no fraction of them.
     pub(crate) fn shares(&self, sums: &[[f64; 3]], points: u64, whole: bool) -> [Share; 3] {
         let t = student_t_quantile(REPLICATES - 1, (1.0 - self.look_confidence()) / 2.0);
         let mean = |sum: f64| sum / points as f64;

@@ -6,7 +6,7 @@
 mod explain;
 mod sampling;
 
-pub use coinmc_quadrature::{Goal, Integral, Method};
+pub use coinmc_quadrature::{Goal, Integral, MOST_EVALUATIONS, Method};
 pub use explain::Explanation;
 pub use sampling::Sampling;
 

@@ -5,11 +5,12 @@ mod run_support;
 
 use coinmc::plan::Plan;
 use coinmc::results::{Row, fair_ratios};
-use coinmc::run::{Count, Part, Status, count, integrate_point, merge};
+use coinmc::run::{Count, Part, Progress, Status, Watcher, count, integrate_point, merge};
 use run_support::{Ear, assert_same, contents, run_whole, run_with};
 use std::fs;
 use std::num::NonZeroUsize;
 use std::path::Path;
+use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
 
 const ENGINES: &str = "launch.preset = 'hand'\nengine.volumetric = {}\n";
@@ -116,11 +117,18 @@ fn parts_of_a_run_merge_to_the_whole() {
             let out = at(&format!("part-{index}"));
             let report = run_with(&plan, &out, part, 1, &Ear::default()).unwrap();
             assert_eq!(report.status, Status::Part);
+            // nothing more is to come of what this part integrated
+            for row in &report.results.rows {
+                assert_eq!(row.reached_target, row.evaluations > 0, "{row:?}");
+            }
             out
         })
         .collect();
     let error = merge(&parts[..1], &at("half"), &()).unwrap_err();
-    assert!(error.to_string().contains("point"), "{error}");
+    assert_eq!(
+        error.to_string(),
+        "1 shard is in none of the parts: point 1"
+    );
     merge(&parts, &at("merged"), &()).unwrap();
     assert_same(&at("whole"), &at("merged"));
 }
@@ -173,6 +181,83 @@ fn closed_forms_are_exact_and_few_random_numbers_are_quasi_random() {
         );
         assert!(row.half_width() < random.half_width(), "{row:?}");
     }
+}
+
+/// A single random number that leads round thousands of times is not integrated as if it were
+/// known. Both ends of two intervals of 95 %, each doubled: one in 1e4 a row.
+#[test]
+fn one_random_number_of_many_turns_is_not_exact() {
+    for launch in [
+        "height_m = 1.0, spin = { about = { axis = [0, 1, 0], rate_rad_s = { uniform = { from = -1e5, \
+         to = 1e5 } } } }",
+        "height_m = { uniform = { from = 1.0, to = 2.0 } }, \
+         spin = { about = { axis = [0, 1, 0], rate_rad_s = 1e5 } }",
+    ] {
+        let engine = format!(
+            "launch = {{ orientation = {{ tilt_deg = 0 }}, {launch} }}\nengine.volumetric = {{}}\n"
+        );
+        let random = plan_of(&engine, "tosses = 50_000", "sampling.method = 'random'");
+        let random = counted(&random, 2);
+        for (row, random) in counted(&plan_of(&engine, "tosses = 50_000", ""), 2)
+            .iter()
+            .zip(random)
+        {
+            assert_eq!((row.interval, row.evaluations), ("student-t", 1 << 15));
+            let apart = (row.side.p - random.side.p).abs();
+            assert!(
+                apart < 2.0 * (row.half_width() + random.half_width()),
+                "{row:?}"
+            );
+        }
+    }
+}
+
+/// A toss that its limit of time ends shows no face: it is counted, not called exact.
+#[test]
+fn a_limit_of_time_is_met_by_tosses_that_are_counted() {
+    let flat = "launch = { height_m = 0.0113, orientation = { tilt_deg = 0 }, \
+                spin = { about = { axis = [0, 1, 0], rate_rad_s = 0 } } }\n";
+    for (limit, undecided) in [("1.0", 100), ("1e3", 0)] {
+        let engine = format!("{flat}engine.volumetric.time_limit = {limit}\n");
+        let row = &counted(&plan_of(&engine, "tosses = 100", ""), 1)[0];
+        assert_eq!(row.tally.time_limit, undecided, "{row:?}");
+        assert_eq!(row.interval == "exact", undecided == 0, "{row:?}");
+    }
+}
+
+/// Hears how many tosses are planned.
+#[derive(Default)]
+struct Planned(Mutex<Vec<u64>>);
+
+impl Watcher for Planned {
+    fn progress(&self, progress: &Progress) {
+        self.0.lock().unwrap().push(progress.tosses_planned);
+    }
+
+    fn warning(&self, message: &str) {
+        panic!("{message}");
+    }
+}
+
+/// Points that are integrated take nothing off what the others are to toss.
+#[test]
+fn the_tosses_planned_are_those_of_tossed_points() {
+    let text = "coin.ratio = [0.5, 1.0, 2.0]\nsurface.landing = 'adhesive'\n\
+                launch = { preset = 'table1', height_m = [5.0, 0.001] }\nengine.volumetric = {}\n\
+                stop.tosses = 40_000";
+    let plan = coinmc::config::parse("test", text, &[]).unwrap();
+    let planned = Planned::default();
+    let options = Count {
+        threads: NonZeroUsize::new(2),
+        cancel: &AtomicBool::new(false),
+        watcher: &planned,
+    };
+    count(&plan, &options).unwrap();
+    let heard = planned.0.into_inner().unwrap();
+    assert!(
+        heard.len() > 3 && heard.iter().all(|&n| n == 120_000),
+        "{heard:?}"
+    );
 }
 
 /// A step in many dimensions is tossed at random as ever.

@@ -10,7 +10,7 @@ use crate::terminal::{count, duration, grouped};
 use anyhow::Context;
 use clap::Args;
 use coinmc::config::{self, Override};
-use coinmc::plan::Plan;
+use coinmc::plan::{MOST_EVALUATIONS, Plan};
 use coinmc::published::TABLE1_SOURCE;
 use coinmc::results::{FairRatio, Row, fair_ratios};
 use coinmc::run::{Options, Part, Report, Status};
@@ -160,10 +160,7 @@ fn closing_line(report: &Report, progress: &Progress) -> String {
     }
     let evaluations: u64 = report.results.rows.iter().map(|row| row.evaluations).sum();
     if report.tosses == 0 && evaluations > 0 {
-        return format!(
-            "coinmc: {points} integrated by {} evaluations, nothing to toss",
-            grouped(evaluations)
-        );
+        return integrated_line(report, evaluations);
     }
     let (made, time) = progress.made(report.tosses);
     let earlier = report.tosses - made;
@@ -180,6 +177,31 @@ fn closing_line(report: &Report, progress: &Progress) -> String {
     }
     if earlier > 0 {
         line += &format!(", {} taken over from an earlier run", grouped(earlier));
+    }
+    line
+}
+
+/// What was done where nothing is tossed.
+fn integrated_line(report: &Report, evaluations: u64) -> String {
+    let rows = &report.results.rows;
+    let points = count(rows.len() as u64, "point");
+    let is_done = |row: &&Row| row.evaluations > 0 || row.interval == "exact";
+    let done = rows.iter().filter(is_done).count();
+    if report.reused_shards == rows.len() as u64 {
+        return format!("coinmc: finished earlier, nothing integrated again: {points}");
+    }
+    let points = if done < rows.len() {
+        format!("{} of {points}", grouped(done as u64))
+    } else {
+        points
+    };
+    let mut line = format!(
+        "coinmc: {points} integrated by {}, nothing to toss",
+        count(evaluations, "evaluation")
+    );
+    if report.reused_shards > 0 {
+        let reused = grouped(report.reused_shards);
+        line += &format!(", {reused} taken over from an earlier run");
     }
     line
 }
@@ -204,11 +226,31 @@ fn advice(report: &Report, out: &Path) -> Option<String> {
              `coinmc merge PART… --out WHOLE`"
                 .to_owned(),
         ),
-        Status::ShortOfTarget { points } => Some(format!(
-            "coinmc: {} came to stop.max_tosses before stop.half_width: raise the one or the other",
-            count(points as u64, "point"),
-        )),
+        Status::ShortOfTarget { points } => Some(short_of_target(&report.results.rows, points)),
     }
+}
+
+/// What to do about points that stopped short of the half width. An integral has a limit of its own
+/// that no `max_tosses` raises.
+fn short_of_target(rows: &[Row], points: usize) -> String {
+    let is_capped = |row: &&Row| !row.reached_target && row.evaluations == MOST_EVALUATIONS;
+    let capped = rows.iter().filter(is_capped).count();
+    let mut lines = vec![];
+    if points > capped {
+        lines.push(format!(
+            "coinmc: {} came to stop.max_tosses before stop.half_width: raise the one or the other",
+            count((points - capped) as u64, "point"),
+        ));
+    }
+    if capped > 0 {
+        lines.push(format!(
+            "coinmc: {} came to {} evaluations, the most of an integral, before stop.half_width: \
+             raise it, or toss with sampling.method = \"random\"",
+            count(capped as u64, "point"),
+            grouped(MOST_EVALUATIONS),
+        ));
+    }
+    lines.join("\n")
 }
 
 /// The command line that started this process, for a shell.
@@ -307,6 +349,28 @@ mod tests {
         assert_eq!(at_1["p_side"], json!(495.0 / 1103.0));
         assert_eq!(at_1["differs"][0], "radius_m");
         assert_eq!(json(1), None);
+    }
+
+    #[test]
+    fn no_larger_number_of_tosses_is_asked_for_in_vain() {
+        let config = "coin.ratio = [1, 2]\nsurface.landing = 'adhesive'\nlaunch.preset = 'table1'\n\
+                      engine.volumetric = {}\nstop = { half_width = 1e-7, max_tosses = 1e15 }";
+        let plan = config::parse("test", config, &[]).unwrap();
+        let mut rows: Vec<Row> = (0..2)
+            .map(|i| Row::new(&plan, i, Tally::default(), false))
+            .collect();
+        let text = short_of_target(&rows, 2);
+        assert!(text.contains("2 points came to stop.max_tosses"), "{text}");
+        rows[1].evaluations = MOST_EVALUATIONS;
+        let text = short_of_target(&rows, 2);
+        assert!(text.contains("1 point came to stop.max_tosses"), "{text}");
+        assert!(
+            text.contains("\ncoinmc: 1 point came to 4 194 304 evaluations"),
+            "{text}"
+        );
+        rows[0].reached_target = true;
+        let text = short_of_target(&rows, 1);
+        assert!(!text.contains("max_tosses"), "{text}");
     }
 
     #[test]

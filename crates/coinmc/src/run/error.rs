@@ -157,7 +157,7 @@ pub enum RunError {
         dir: PathBuf,
     },
     /// Parts together do not make a whole.
-    #[error("{total} shards are in none of the parts: {}", list(missing, *total))]
+    #[error("{} in none of the parts: {}", number(*total), list(missing, *total))]
     Missing {
         /// The first of them, neighbours joined.
         missing: Vec<Shard>,
@@ -192,6 +192,13 @@ impl RunError {
                 source,
             },
         }
+    }
+}
+
+fn number(shards: u64) -> String {
+    match shards {
+        1 => "1 shard is".to_owned(),
+        _ => format!("{shards} shards are"),
     }
 }
 

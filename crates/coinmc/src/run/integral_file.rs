@@ -3,7 +3,7 @@
 use super::sealed::{seal, unseal};
 use super::tally_file::Damage;
 use coinmc_core::Face;
-use coinmc_quadrature::{Integral, MOST_EVALUATIONS, Method, Share};
+use coinmc_quadrature::{Integral, LEAST_EVALUATIONS, MOST_EVALUATIONS, Method, Share};
 use std::fmt::Write;
 
 /// Version of the format.
@@ -87,16 +87,29 @@ fn numbers(text: &str) -> Option<Share> {
     })
 }
 
-/// Whether an integration can find this.
+/// Whether an integration can find this: in particular, some face shows.
 fn is_possible(integral: &Integral) -> bool {
     let in_order = |share: &Share| 0.0 <= share.lo && share.lo <= share.p && share.p <= share.hi;
-    let sum: f64 = integral.faces.iter().map(|share| share.p).sum();
-    integral.evaluations <= MOST_EVALUATIONS
+    let sum = |end: fn(&Share) -> f64| integral.faces.iter().map(end).sum::<f64>();
+    let evaluations = integral.evaluations;
+    let counted = match (integral.exact, integral.method) {
+        (true, Method::Zone | Method::Arc) => evaluations == 0,
+        (true, _) => evaluations == 1,
+        (false, Method::Zone | Method::Arc) => false,
+        (false, _) => {
+            evaluations.is_power_of_two()
+                && (LEAST_EVALUATIONS..=MOST_EVALUATIONS).contains(&evaluations)
+        }
+    };
+    let exact = |share: &Share| !integral.exact || share.lo == share.p;
+    counted
+        && integral.faces.iter().all(exact)
         && integral
             .faces
             .iter()
             .all(|share| in_order(share) && share.hi <= 1.0)
-        && sum <= 1.0 + 1e-9
+        && sum(|share| share.p) <= 1.0 + 1e-9
+        && sum(|share| share.hi) >= 1.0 - 1e-9
 }
 
 #[cfg(test)]
@@ -116,7 +129,7 @@ mod tests {
         };
         Integral {
             method: METHOD,
-            faces: [share(0.1 + 0.2), share(1.0 / 3.0), share(0.25)],
+            faces: [share(0.1 + 0.2), share(0.434), share(0.266)],
             evaluations: 4096,
             exact: false,
         }
@@ -125,11 +138,17 @@ mod tests {
     #[test]
     fn files_read_back_and_any_damage_is_seen() {
         for method in Method::ALL {
-            let written = Integral {
+            let mut written = Integral {
                 method,
-                exact: method == Method::Arc,
                 ..example()
             };
+            if matches!(method, Method::Zone | Method::Arc) {
+                (written.exact, written.evaluations) = (true, 0);
+                for share in &mut written.faces {
+                    (share.lo, share.hi) = (share.p, share.p);
+                }
+                written.faces[2].hi = 0.267;
+            }
             let text = encode(7, &written, HASH);
             assert!(text.len() <= MAX_BYTES);
             assert_eq!(decode(text.as_bytes(), 7, method, HASH), Ok(written));
@@ -155,9 +174,18 @@ mod tests {
             ("integral 1", "integral 2", Damage::Version),
             ("evaluations 4096", "evaluations +4096", Damage::Form),
             ("evaluations 4096", "evaluations 4194305", Damage::Counts),
-            ("side 0.25", "side 0.5", Damage::Counts),
-            ("side 0.25", "side NaN", Damage::Counts),
-            ("side 0.25", "side 0.250", Damage::Form),
+            ("evaluations 4096", "evaluations 0", Damage::Counts),
+            ("evaluations 4096", "evaluations 512", Damage::Counts),
+            ("evaluations 4096", "evaluations 4097", Damage::Counts),
+            ("interval student-t", "interval exact", Damage::Counts),
+            (
+                "side 0.266 0.26599 0.266013",
+                "side 0.0 0.0 0.0",
+                Damage::Counts,
+            ),
+            ("side 0.266", "side 0.5", Damage::Counts),
+            ("side 0.266", "side NaN", Damage::Counts),
+            ("side 0.266", "side 0.2660", Damage::Form),
             ("student-t", "student", Damage::Form),
             ("heads", "tails", Damage::Form),
         ] {

@@ -89,13 +89,16 @@ impl<'a> Schedule<'a> {
             cut.stage(0).end / u64::from(part.of())
         };
         let tossed = plan.points_tossed();
-        let points = vec![
-            PointState {
-                forecast,
-                ..PointState::default()
-            };
-            plan.points.len()
-        ];
+        let points = (0..plan.points.len()).map(|index| PointState {
+            // what was never planned must not be taken off again
+            forecast: if plan.makes_tosses(index) {
+                forecast
+            } else {
+                0
+            },
+            ..PointState::default()
+        });
+        let points = points.collect();
         let reused = finished
             .values()
             .map(Piece::tosses)
@@ -218,7 +221,6 @@ impl<'a> Schedule<'a> {
             None => return false,
         };
         if self.plan.integrates(point) {
-            self.set_forecast(point, 0);
             let shards = Box::new(std::iter::once(whole(point)));
             self.current = Some(Stage { point, shards });
         } else if self.plan.points[point].engine.makes_tosses() {
@@ -226,7 +228,6 @@ impl<'a> Schedule<'a> {
             self.current = Some(Stage { point, shards });
         } else {
             self.points[point].reached = true;
-            self.points[point].forecast = 0;
             self.progress.points_done += 1;
         }
         true
@@ -260,7 +261,9 @@ impl<'a> Schedule<'a> {
         point.handed_out = false;
         let last = self.plan.integrates(index) || point.stage + 1 == self.cut.stages();
         point.reached = match (self.plan.stop, &point.integral) {
-            (Stop::Tosses(_), _) => self.part == Part::WHOLE,
+            // a point that is integrated is done by one part
+            (Stop::Tosses(_), Some(_)) => true,
+            (Stop::Tosses(_), None) => self.part == Part::WHOLE,
             (Stop::HalfWidth { half_width, .. }, Some(integral)) => {
                 integral.half_width() <= half_width
             }

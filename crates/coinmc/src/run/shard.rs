@@ -27,6 +27,10 @@ pub struct Shard {
 
 impl fmt::Display for Shard {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.tosses.is_empty() {
+            // of a point that is integrated: one shard, no tosses
+            return write!(f, "point {}", self.point);
+        }
         write!(
             f,
             "point {}, tosses {}..{}",

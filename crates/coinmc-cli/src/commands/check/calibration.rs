@@ -13,6 +13,9 @@ const POINTS: usize = 24;
 /// Time for all of them. A single toss may overrun it, nothing else does.
 const BUDGET: Duration = Duration::from_millis(800);
 
+/// A forecast should be right within this factor.
+const SURE: f64 = 1.5;
+
 /// Tosses before a point that stops at a half width is first looked at.
 const FIRST_LOOK: u64 = 1 << 14;
 
@@ -27,6 +30,8 @@ pub(super) struct Cost {
     pub(super) threads: usize,
     /// How long the run will take; `None` if nothing is tossed.
     pub(super) time: Option<Duration>,
+    /// The tosses tried took so different times that the run's may too.
+    pub(super) unsure: bool,
     /// What each point costs that tosses, in the order of the sweep.
     pub(super) points: Vec<PointCost>,
 }
@@ -50,10 +55,13 @@ pub(super) fn estimate(plan: &Plan) -> Result<Cost, RunError> {
         .collect();
     let integrated = points.filter(|&point| plan.integrates(point));
     let budget = BUDGET / u32::try_from(tossed.len().clamp(1, POINTS)).unwrap_or(u32::MAX);
+    let mut with_batch = [0.0; 2];
     let mut points = costs(&tossed, |point| {
-        let (tally, seconds_a_toss) = toss_for(plan, point, budget)?;
+        let (tally, pace) = toss_for(plan, point, budget)?;
         let tosses = needed(plan, &tally) as f64;
-        Ok((tosses, tosses * seconds_a_toss))
+        with_batch[0] += tosses * pace.before;
+        with_batch[1] += tosses * pace.last;
+        Ok((tosses, tosses * pace.last))
     })?;
     let sum = |points: &[PointCost], of: fn(&PointCost) -> f64| points.iter().map(of).sum::<f64>();
     let tosses = sum(&points, |point| point.tosses);
@@ -75,8 +83,15 @@ pub(super) fn estimate(plan: &Plan) -> Result<Cost, RunError> {
         tosses_per_s,
         threads,
         time: (!points.is_empty()).then_some(time),
+        unsure: is_unsure(with_batch),
         points,
     })
+}
+
+/// Whether two forecasts, each by tosses of its own, are further apart than a forecast should be from
+/// the run.
+fn is_unsure([one, other]: [f64; 2]) -> bool {
+    one.max(other) > SURE * one.min(other)
 }
 
 /// The cost of each of the points: `try_one` gives tosses and seconds of those that are tried,
@@ -118,13 +133,23 @@ fn between(points: &[usize], known: &[(usize, f64, f64)]) -> Vec<PointCost> {
     points.iter().enumerate().map(cost).collect()
 }
 
-/// The first tosses of a point, ever more of them until the time is up, and the seconds that one of
-/// the last half of them took: the first are few, and an engine that follows many side by side has
-/// not got going with them.
-fn toss_for(plan: &Plan, point: usize, budget: Duration) -> Result<(Tally, f64), RunError> {
+/// Seconds that a toss took.
+#[derive(Debug, Clone, Copy)]
+struct Pace {
+    /// In the last half of all tosses.
+    last: f64,
+    /// In the quarter before.
+    before: f64,
+}
+
+/// The first tosses of a point, ever more of them until the time is up, and how long they took. The
+/// last half of them tells: the first are few, and an engine that follows many side by side has not
+/// got going with them.
+fn toss_for(plan: &Plan, point: usize, budget: Duration) -> Result<(Tally, Pace), RunError> {
     let start = Instant::now();
     let mut tally = Tally::default();
     let mut batch = 1;
+    let mut before = None;
     loop {
         let (from, begun) = (tally.tosses(), Instant::now());
         tally.merge(&run_shard(
@@ -134,11 +159,13 @@ fn toss_for(plan: &Plan, point: usize, budget: Duration) -> Result<(Tally, f64),
                 tosses: from..from + batch,
             },
         )?);
+        let last = begun.elapsed().as_secs_f64() / batch as f64;
         // The next batch, twice as large, would take about twice what all took so far.
         if start.elapsed() * 3 > budget {
-            let seconds = begun.elapsed().as_secs_f64();
-            return Ok((tally, seconds / batch as f64));
+            let before = before.unwrap_or(last);
+            return Ok((tally, Pace { last, before }));
         }
+        before = Some(last);
         batch *= 2;
     }
 }
@@ -256,6 +283,12 @@ mod tests {
             needed("half_width = 1e-6, max_tosses = 100_000_000_000_000"),
             1 << 42
         );
+    }
+
+    #[test]
+    fn two_batches_that_agree_make_a_forecast_sure() {
+        assert!(!is_unsure([0.0, 0.0]) && !is_unsure([2.0, 2.9]) && !is_unsure([2.9, 2.0]));
+        assert!(is_unsure([2.0, 3.1]) && is_unsure([3.1, 2.0]) && is_unsure([0.0, 1.0]));
     }
 
     #[test]

@@ -195,10 +195,15 @@ fn in_words(cost: &Cost) -> String {
             count(cost.threads as u64, "core")
         ),
         Some(time) => format!(
-            "about {} on {} ({} tosses/s on one, as just measured)",
+            "about {} on {} ({} tosses/s on one, as just measured{})",
             duration(time),
             count(cost.threads as u64, "core"),
-            with_prefix(cost.tosses_per_s)
+            with_prefix(cost.tosses_per_s),
+            if cost.unsure {
+                "; unsure, as a few tosses take most of the time"
+            } else {
+                ""
+            }
         ),
     }
 }
@@ -257,6 +262,7 @@ fn to_json(plan: &Plan, cost: &Cost) -> Value {
             "threads": cost.threads,
             "tosses_per_s_and_thread": cost.time.map(|_| cost.tosses_per_s),
             "time_s": cost.time.map_or(0.0, |time| time.as_secs_f64()),
+            "unsure": cost.unsure,
             "points": points_cost.collect::<Vec<_>>(),
         },
         "resolved_config": plan.resolved_toml,

@@ -7,7 +7,7 @@ mod published;
 
 use super::plot::{Curve, Level, Plot, Reference};
 use super::table::{Column, Table};
-use super::{Colors, Style, compact, decimals_for, grouped, wrapped};
+use super::{Colors, Style, compact, count, decimals_for, grouped, wrapped};
 use coinmc::results::{FairRatio, Results, Row};
 use coinmc_analytic::Rule;
 use coinmc_core::Estimate;
@@ -99,7 +99,7 @@ fn cells(row: &Row, shown: &[&str], decimals: usize, style: &Style) -> Vec<Strin
 /// Tosses, or the evaluations that stand for them.
 fn tosses(row: &Row) -> String {
     if row.evaluations > 0 {
-        format!("{} evaluations", grouped(row.evaluations))
+        count(row.evaluations, "evaluation")
     } else {
         grouped(row.tally.tosses())
     }

@@ -1,31 +1,73 @@
 //! What the integrals of a plan will cost.
 
-use coinmc::plan::{Integral, Plan};
+use coinmc::plan::Plan;
 use coinmc::run::{RunError, integrate_point};
 use std::time::Instant;
 
-/// Evaluations of a trial: some 10 ms.
-const TRIAL: u64 = 1 << 12;
-/// By how much the interval shortens when the evaluations double: by half or more where little is
-/// random, by a quarter where much is.
-const SHORTENS: f64 = 0.6;
+/// Evaluations of the first trial, some 10 ms, and of the second.
+const TRIALS: [u64; 2] = [1 << 12, 1 << 14];
 
 /// The time of a point's integral on one thread.
 pub(super) fn seconds(plan: &Plan, point: usize) -> Result<f64, RunError> {
-    let start = Instant::now();
-    let found = integrate_point(plan, point, TRIAL)?;
-    let trial = start.elapsed().as_secs_f64();
-    Ok(found.map_or(0.0, |found| trial * longer(plan, &found)))
+    let goal = plan.goal().half_width;
+    let mut trials = Vec::new();
+    for evaluations in TRIALS {
+        let start = Instant::now();
+        let Some(found) = integrate_point(plan, point, evaluations)? else {
+            return Ok(0.0);
+        };
+        let trial = Trial {
+            evaluations: found.evaluations as f64,
+            half_width: found.half_width(),
+            seconds: start.elapsed().as_secs_f64(),
+        };
+        if trial.half_width <= goal || found.evaluations < evaluations {
+            return Ok(trial.seconds);
+        }
+        trials.push(trial);
+    }
+    let evaluations = needed(&trials[0], &trials[1], goal);
+    let most = plan.goal().evaluations as f64;
+    let wanted = evaluations.min(most) / trials[1].evaluations;
+    Ok(trials[1].seconds * wanted.max(1.0))
 }
 
-/// How many times as long as the trial a point will take.
-fn longer(plan: &Plan, trial: &Integral) -> f64 {
-    let goal = plan.goal();
-    let (mut width, mut times) = (trial.half_width(), 1.0);
-    let trial = trial.evaluations as f64;
-    while width > goal.half_width && trial * times * 2.0 <= goal.evaluations as f64 {
-        width *= SHORTENS;
-        times *= 2.0;
+/// What an integral with so many evaluations came to.
+#[derive(Debug, Clone, Copy)]
+struct Trial {
+    evaluations: f64,
+    half_width: f64,
+    seconds: f64,
+}
+
+/// Evaluations until the interval is short enough: a power of two times those of the last trial, as
+/// an integral doubles them, while the interval goes on to shorten as it did from one trial to the
+/// other. (By the square root of the evaluations at least, by their number at most: a pair of
+/// intervals is chance in part.)
+fn needed(first: &Trial, last: &Trial, goal: f64) -> f64 {
+    let shorter = libm::log2(first.half_width / last.half_width);
+    let more = libm::log2(last.evaluations / first.evaluations);
+    let order = (shorter / more).clamp(0.5, 1.0);
+    let doublings = (libm::log2(last.half_width / goal) / order).ceil();
+    last.evaluations * libm::exp2(doublings.max(0.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn intervals_go_on_as_they_began() {
+        let trial = |evaluations, half_width| Trial {
+            evaluations,
+            half_width,
+            seconds: 0.0,
+        };
+        let needed = |second| needed(&trial(1000.0, 0.01), &trial(4000.0, second), 0.001);
+        // as the square root: 0.005 to 0.001 takes 25 times as many, 32 as they double
+        assert_eq!(needed(0.005), 32.0 * 4000.0);
+        // no better than their number, no worse than its root
+        assert_eq!(needed(0.002), 2.0 * 4000.0);
+        assert_eq!(needed(0.009), 128.0 * 4000.0);
     }
-    times
 }
