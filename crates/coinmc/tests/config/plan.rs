@@ -1,12 +1,10 @@
 //! Good configs: what they come to mean.
 
-mod config_support;
-
+use crate::support::{column, parse};
 use coinmc::config;
 use coinmc::plan::{EngineChoice, Stop};
 use coinmc_core::{IntervalMethod, Landing, Marginal, Orientation, Preset, Spin};
 use coinmc_flat::{Decision, Settings};
-use config_support::{column, parse};
 use std::path::Path;
 
 const SMALL: &str = "

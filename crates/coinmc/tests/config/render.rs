@@ -10,7 +10,7 @@ fn expect(name: &str, text: &str, overrides: &[&str]) {
         .to_string()
         + "\n";
     let path =
-        Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/config_expected/{name}.txt"));
+        Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/config/expected/{name}.txt"));
     if std::env::var_os("UPDATE_EXPECTED").is_some() {
         std::fs::write(&path, &rendered).unwrap();
     }

@@ -1,9 +1,7 @@
 //! Damaged files are noticed and done again; directories of others are left alone.
 
-mod run_support;
-
+use crate::support::{Ear, FIXED, HALF_WIDTH, contents, plan, run_whole, run_with};
 use coinmc::run::{Part, RunError, Status};
-use run_support::{Ear, FIXED, HALF_WIDTH, contents, plan, run_whole, run_with};
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::tempdir;

@@ -1,7 +1,6 @@
 //! One table in three forms, the same in each, and as documented.
 
-mod run_support;
-
+use crate::support::{plan, plan_of, run_whole};
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, UInt64Type};
 use arrow_array::{Array, RecordBatch};
@@ -9,7 +8,6 @@ use coinmc::plan::Plan;
 use coinmc::results::{Kind, Results, Row, columns, record_batch, write_csv, write_parquet};
 use coinmc_core::{Tally, relative_error};
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
-use run_support::{plan, plan_of, run_whole};
 use std::fs::File;
 
 /// Rows of all kinds: ordinary, without the side, with undecided tosses, without tosses.
@@ -270,7 +268,7 @@ fn parquet_carries_units_and_the_config_and_is_the_same_every_time() {
 
 #[test]
 fn every_column_is_documented_as_it_is() {
-    let document = include_str!("../../../docs/formats.md");
+    let document = include_str!("../../../../docs/formats.md");
     let plan = plan("tosses = 1");
     let always = &plan.points[0].parameters[..9];
     for column in columns(always.iter().map(|(name, _)| &**name)) {
@@ -294,7 +292,7 @@ fn every_column_is_documented_as_it_is() {
 
 #[test]
 fn every_counter_is_documented() {
-    let document = include_str!("../../../docs/formats.md");
+    let document = include_str!("../../../../docs/formats.md");
     for name in Tally::COUNTERS {
         assert!(document.contains(&format!("`{name}`")), "{name}");
     }

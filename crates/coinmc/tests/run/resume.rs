@@ -1,13 +1,11 @@
 //! What is counted depends on the plan alone: threads, breaks and kills leave no trace.
 
-mod run_support;
-
+use crate::support::{
+    Ear, FIXED, HALF_WIDTH, assert_same, contents, plan, plan_in_space, run_whole, run_with,
+};
 use coinmc::results::Row;
 use coinmc::run::{Part, Shard, Status, run_shard};
 use coinmc_core::Tally;
-use run_support::{
-    Ear, FIXED, HALF_WIDTH, assert_same, contents, plan, plan_in_space, run_whole, run_with,
-};
 use std::process::{Command, Stdio};
 use std::sync::atomic::Ordering::SeqCst;
 use std::time::{Duration, Instant};
@@ -207,7 +205,7 @@ fn kills_at_any_instant_change_nothing() {
     for round in 0..3 {
         for millis in [1, 3, 5, 8, 13, 21, 34, 55, 89, 144] {
             let mut child = Command::new(std::env::current_exe().unwrap())
-                .args(["child_that_is_killed", "--exact"])
+                .args(["resume::child_that_is_killed", "--exact"])
                 .env(CHILD, &killed)
                 .stdout(Stdio::null())
                 .spawn()

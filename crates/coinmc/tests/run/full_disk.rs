@@ -4,10 +4,8 @@
 //! half-way. The shell ignores the signal that comes with it, and so does what it starts.
 #![cfg(unix)]
 
-mod run_support;
-
+use crate::support::{Ear, FIXED, assert_same, contents, plan, run_whole, run_with};
 use coinmc::run::{Part, RunError, Status};
-use run_support::{Ear, FIXED, assert_same, contents, plan, run_whole, run_with};
 use std::path::Path;
 use std::process::Command;
 use tempfile::tempdir;
@@ -35,7 +33,7 @@ fn run_limited(out: &Path, blocks: u32) {
             "trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" \"$@\""
         ))
         .arg(std::env::current_exe().unwrap())
-        .args(["child_with_a_limit", "--exact"])
+        .args(["full_disk::child_with_a_limit", "--exact"])
         .env(CHILD, out)
         .output()
         .unwrap();

@@ -1,7 +1,8 @@
 //! Counted in memory, read back, followed one by one: the same tosses as those of a run.
 
-mod run_support;
-
+use crate::support::{
+    Ear, FIXED, HALF_WIDTH, contents, plan, plan_in_space, plan_of, run_whole, run_with,
+};
 use coinmc::plan::Plan;
 use coinmc::results::Results;
 use coinmc::run::{
@@ -10,9 +11,6 @@ use coinmc::run::{
 };
 use coinmc::trace::replay;
 use coinmc_core::{Launch, Outcome, Tally};
-use run_support::{
-    Ear, FIXED, HALF_WIDTH, contents, plan, plan_in_space, plan_of, run_whole, run_with,
-};
 use std::num::NonZeroUsize;
 use tempfile::tempdir;
 

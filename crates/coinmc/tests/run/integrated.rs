@@ -1,12 +1,10 @@
 //! Points that are integrated instead of tossed: the same numbers however the run was cut,
 //! interrupted or resumed, and those of random tosses.
 
-mod run_support;
-
+use crate::support::{Ear, assert_same, contents, run_whole, run_with};
 use coinmc::plan::Plan;
 use coinmc::results::{Row, fair_ratios};
 use coinmc::run::{Count, Part, Progress, Status, Watcher, count, integrate_point, merge};
-use run_support::{Ear, assert_same, contents, run_whole, run_with};
 use std::fs;
 use std::num::NonZeroUsize;
 use std::path::Path;

@@ -1,9 +1,7 @@
 //! Parts and their merge.
 
-mod run_support;
-
+use crate::support::{Ear, FIXED, HALF_WIDTH, assert_same, contents, plan, run_whole, run_with};
 use coinmc::run::{Part, RunError, Shard, Status, merge};
-use run_support::{Ear, FIXED, HALF_WIDTH, assert_same, contents, plan, run_whole, run_with};
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::tempdir;

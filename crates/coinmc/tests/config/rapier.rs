@@ -1,11 +1,9 @@
 //! Configs of the engine in time steps: what they come to mean, and that they run.
 
-mod config_support;
-
+use crate::support::parse;
 use coinmc::plan::EngineChoice;
 use coinmc::run::{Shard, run_shard};
 use coinmc_rapier::{Decision, Flight, FrictionModel, Gyroscopic, Precision, Settings, Standing};
-use config_support::parse;
 use std::collections::HashSet;
 
 const IN_STEPS: &str = "

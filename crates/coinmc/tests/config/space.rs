@@ -1,11 +1,9 @@
 //! Configs of the toss in space: what they come to mean.
 
-mod config_support;
-
+use crate::support::{column, parse};
 use coinmc::plan::EngineChoice;
 use coinmc_core::Preset;
 use coinmc_volumetric as volumetric;
-use config_support::{column, parse};
 use std::collections::HashSet;
 
 /// A toss in space.

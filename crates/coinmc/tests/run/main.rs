@@ -1,0 +1,9 @@
+//! Runs: cut into shards, broken off, merged and damaged, they count the same.
+
+mod damage;
+mod full_disk;
+mod in_memory;
+mod integrated;
+mod merge;
+mod resume;
+mod support;
