@@ -45,6 +45,10 @@ def coinmc(binary):
 
 @pytest.fixture(scope="session")
 def random_words() -> dict:
-    """What tests/examples/random_words.rs prints."""
-    run = ("run", "--quiet", "--profile", "test", "-p", "coinmc-tests", "--example", "random-words")
-    return json.loads(cargo(*run))
+    """What tests/examples/random-words.rs prints."""
+    # of the workspace, with whose features the tests of Rust have built it
+    build = ("build", "--quiet", "--workspace", "--profile", "test", "--message-format", "json")
+    said = cargo(*build, "--example", "random-words").splitlines()
+    built = [json.loads(line).get("executable") for line in said]
+    program = next(path for path in reversed(built) if path)
+    return json.loads(subprocess.run(program, check=True, stdout=subprocess.PIPE).stdout)
