@@ -14,6 +14,8 @@ const STEP: f64 = 1e-3;
 const TURN: f64 = 5e-3;
 /// Most by which a step changes the slip, of the slip.
 const BRAKE: f64 = 0.05;
+/// Most by which a step changes the sine of the tilt, of the sine: a coin that falls level turns ever faster.
+const FALL: f64 = 0.05;
 /// Most steps of a phase.
 const STEPS: u32 = 200_000;
 
@@ -40,7 +42,7 @@ impl Reference {
     }
 
     /// The energy, in m g D, with which a phase that begins in `start` ends after `duration`
-    /// seconds; `None` if that takes too many steps.
+    /// seconds; `None` if that takes too many steps, or ends level, where the equations have no value.
     pub(super) fn energy_after(&self, start: &State, sticks: bool, duration: f64) -> Option<f64> {
         let unit = self.scene.time_scale_s();
         let mut motion = motion(&self.scene, start);
@@ -51,7 +53,8 @@ impl Reference {
             motion = runge_kutta(&self.model, &motion, h, |at| self.mode(at, sticks));
             left -= h;
             if left <= 0.0 {
-                return Some(motion.energy(&self.model));
+                let energy = motion.energy(&self.model);
+                return energy.is_finite().then_some(energy);
             }
         }
         None
@@ -88,7 +91,10 @@ impl Reference {
     fn step(&self, motion: &Motion, sticks: bool) -> f64 {
         let wander = twist_rates(motion).0;
         let rate = (motion.spin.norm_squared() + wander * wander).sqrt();
-        let step = STEP.min(TURN / rate);
+        let (u, spin) = (&motion.axis, &motion.spin);
+        let s = motion.sine();
+        let fall = u.z * (spin.x * u.y - spin.y * u.x) / s;
+        let step = STEP.min(TURN / rate).min(FALL * s / fall.abs());
         if sticks {
             return step;
         }
