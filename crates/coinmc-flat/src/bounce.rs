@@ -6,8 +6,7 @@ use crate::motion::Motion;
 use crate::shape::Shape;
 use crate::touching::Touching;
 use coinmc_core::{Breaks, Face};
-use coinmc_lanes::Lane;
-use coinmc_lanes::sin_cos;
+use coinmc_lanes::{Lane, sin_cos};
 
 /// What follows an impact.
 pub(crate) enum After {

@@ -14,8 +14,7 @@
 
 use crate::motion::Motion;
 use crate::shape::Shape;
-use coinmc_lanes::sin_cos;
-use coinmc_lanes::{Lane, Mask};
+use coinmc_lanes::{Lane, Mask, sin_cos};
 
 /// f at which the corner touches, in units of D: above the rounding noise of f (about 3e-16),
 /// below anything that matters (an energy of 1e-15 m g D).

@@ -24,8 +24,7 @@ use crate::motion::Motion;
 use crate::settings::{Law, SettingsError, positive};
 use crate::shape::Shape;
 use coinmc_core::Scene;
-use coinmc_lanes::Lane;
-use coinmc_lanes::sin_cos;
+use coinmc_lanes::{Lane, sin_cos};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Steps after which a pulse is given up; the worst of the stress test needs some hundred.

@@ -3,8 +3,7 @@
 use crate::flight::Arc;
 use crate::shape::{Quadrant, Shape, as_quadrant, next};
 use coinmc_core::{Launch, Scene, State};
-use coinmc_lanes::sin_cos;
-use coinmc_lanes::{Lane, Mask};
+use coinmc_lanes::{Lane, Mask, sin_cos};
 use nalgebra::{UnitVector3, Vector3};
 use std::f64::consts::FRAC_PI_2;
 

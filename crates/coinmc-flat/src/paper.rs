@@ -31,8 +31,7 @@ use crate::impact::{Carried, ContactMatrix, ImpactLaw, Impulse, Moreau, Strike};
 use crate::settings::{Law, SettingsError, positive};
 use crate::shape::{Quadrant, Shape};
 use coinmc_core::Scene;
-use coinmc_lanes::Lane;
-use coinmc_lanes::sin_cos;
+use coinmc_lanes::{Lane, sin_cos};
 
 /// Restitution assumed when the time of the remaining bounces is judged, if √k is less: the turning
 /// that the law adds makes even k = 0 rebound.

@@ -2,8 +2,7 @@
 
 use crate::impact::{ContactMatrix, Impulse};
 use crate::motion::{self, Motion};
-use coinmc_lanes::Lane;
-use coinmc_lanes::sin_cos;
+use coinmc_lanes::{Lane, sin_cos};
 
 /// The angle, by its sine and cosine, and the velocities; the centre is cos δ high.
 #[derive(Debug, Clone, Copy)]

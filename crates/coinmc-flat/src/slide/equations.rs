@@ -10,8 +10,7 @@
 //! 19. Where A → 0 the force that sliding needs grows without bound (Painlevé 1895).
 
 use crate::dormand_prince::{Flow, LAST_DIFFERENCE, combine, stages};
-use coinmc_lanes::sin_cos;
-use coinmc_lanes::{Lane, Mask};
+use coinmc_lanes::{Lane, Mask, sin_cos};
 use std::f64::consts::FRAC_PI_2;
 
 /// A/k below which the configuration counts as Painlevé's.

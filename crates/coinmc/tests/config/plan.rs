@@ -1,24 +1,11 @@
 //! Good configs: what they come to mean.
 
-use crate::support::{column, parse};
+use crate::support::{SMALL, column, parse};
 use coinmc::config;
 use coinmc::plan::{EngineChoice, Stop};
 use coinmc_core::{IntervalMethod, Landing, Marginal, Orientation, Preset, Spin};
 use coinmc_flat::{Decision, Settings};
 use std::path::Path;
-
-const SMALL: &str = "
-[coin]
-ratio = 1.2
-[surface]
-restitution = 0.5
-friction = 0.3
-[launch]
-preset = 'robot'
-[engine.flat]
-[stop]
-tosses = 1000
-";
 
 #[test]
 fn defaults_are_those_of_the_crates() {

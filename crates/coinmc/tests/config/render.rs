@@ -1,5 +1,6 @@
 //! What a person sees: rendered messages against expected files. `UPDATE_EXPECTED=1` writes them.
 
+use crate::support::SMALL;
 use coinmc::config::{self, Override};
 use std::path::Path;
 
@@ -18,19 +19,8 @@ fn expect(name: &str, text: &str, overrides: &[&str]) {
     assert_eq!(rendered, expected, "{name}");
 }
 
-const REST: &str = "
-[surface]
-restitution = 0.5
-friction = 0.3
-[launch]
-preset = 'robot'
-[engine.flat]
-[stop]
-tosses = 1000
-";
-
 fn with(coin: &str) -> String {
-    format!("[coin]\n{coin}{REST}")
+    SMALL.replace("ratio = 1.2", coin)
 }
 
 #[test]

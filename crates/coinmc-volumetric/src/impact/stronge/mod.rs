@@ -71,7 +71,7 @@ fn alone(body: &Body, friction: &Friction, touch: &Touch<f64>, e: f64) -> Impuls
     let mut goes_on = touch.approach < 0.0;
     for _ in 0..MAX_PIECES {
         if !goes_on {
-            return sweep.impulse(touch.sin);
+            break;
         }
         goes_on = sweep.advance();
     }

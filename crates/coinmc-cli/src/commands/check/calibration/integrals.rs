@@ -9,7 +9,7 @@ const TRIALS: [u64; 2] = [1 << 12, 1 << 14];
 
 /// The time of a point's integral on one thread.
 pub(super) fn seconds(plan: &Plan, point: usize) -> Result<f64, RunError> {
-    let goal = plan.goal().half_width;
+    let (goal, most) = (plan.goal().half_width, plan.goal().evaluations);
     let mut trials = Vec::new();
     for evaluations in TRIALS {
         let start = Instant::now();
@@ -21,14 +21,14 @@ pub(super) fn seconds(plan: &Plan, point: usize) -> Result<f64, RunError> {
             half_width: found.half_width(),
             seconds: start.elapsed().as_secs_f64(),
         };
-        if trial.half_width <= goal || found.evaluations < evaluations {
+        let is_whole = found.evaluations < evaluations || most <= evaluations;
+        if is_whole || trial.half_width <= goal {
             return Ok(trial.seconds);
         }
         trials.push(trial);
     }
     let evaluations = needed(&trials[0], &trials[1], goal);
-    let most = plan.goal().evaluations as f64;
-    let wanted = evaluations.min(most) / trials[1].evaluations;
+    let wanted = evaluations.min(most as f64) / trials[1].evaluations;
     Ok(trials[1].seconds * wanted.max(1.0))
 }
 
