@@ -323,10 +323,10 @@ impl<L: ImpactLaw> Engine for FlatEngine<L> {
     fn toss_all(
         &self,
         (): &mut (),
-        mut launches: impl Iterator<Item = Launch>,
-        mut each: impl FnMut(u64, &Outcome) -> ControlFlow<()>,
+        launches: impl Iterator<Item = Launch>,
+        each: impl FnMut(u64, &Outcome) -> ControlFlow<()>,
     ) {
-        batch::toss_all(self, &mut launches, &mut each);
+        batch::toss_all(self, launches, each);
     }
 }
 

@@ -462,11 +462,9 @@ impl<L: ImpactLaw> Engine for VolumetricEngine<L> {
     fn toss_all(
         &self,
         (): &mut (),
-        mut launches: impl Iterator<Item = Launch>,
+        launches: impl Iterator<Item = Launch>,
         mut each: impl FnMut(u64, &Outcome) -> ControlFlow<()>,
     ) {
-        batch::toss_all(self, &mut launches, &mut |number, toss| {
-            each(number, &toss.outcome)
-        });
+        batch::toss_all(self, launches, |number, toss| each(number, &toss.outcome));
     }
 }

@@ -44,14 +44,12 @@ const GROUPS: usize = 8;
 const STRUCK: u32 = 5;
 const SKIPPED: u32 = 3;
 
-/// What is told of every toss: its number among the launches, and its outcome.
-pub(crate) type Each<'a> = &'a mut dyn FnMut(u64, &Outcome) -> ControlFlow<()>;
-
-/// Follows the tosses of all launches until `each` breaks off.
+/// Follows the tosses of all launches, and tells `each` the number of every toss among them and its
+/// outcome, until that breaks off.
 pub(crate) fn toss_all<L: ImpactLaw>(
     engine: &FlatEngine<L>,
-    launches: &mut dyn Iterator<Item = Launch>,
-    each: Each<'_>,
+    launches: impl Iterator<Item = Launch>,
+    mut each: impl FnMut(u64, &Outcome) -> ControlFlow<()>,
 ) {
     let alone = engine.lanes == Lanes::Scalar
         || !L::SIDE_BY_SIDE
@@ -64,17 +62,24 @@ pub(crate) fn toss_all<L: ImpactLaw>(
         }
         return;
     }
-    let mut batch = Batch {
-        engine,
-        groups: vec![Group::default(); GROUPS],
-        riders: vec![[Rider::default(); WIDTH]; GROUPS],
-        sliding: Vec::with_capacity(GROUPS * WIDTH),
-        launches,
-        launched: 0,
-        each,
-        broken_off: false,
-    };
-    batch.run();
+    let mut launches = launches.fuse();
+    let mut batch = Batch::new(engine);
+    loop {
+        while batch.has_room()
+            && let Some(launch) = launches.next()
+        {
+            batch.launch(&launch);
+        }
+        let is_done = !batch.advance() && batch.ended.is_empty();
+        for (number, outcome) in batch.ended.drain(..) {
+            if each(number, &outcome).is_break() {
+                return;
+            }
+        }
+        if is_done {
+            return;
+        }
+    }
 }
 
 /// A toss, but for its motion.
@@ -119,37 +124,73 @@ fn watch<'a, L>(engine: &'a FlatEngine<L>, observer: &'a mut ()) -> Watch<'a, ()
     }
 }
 
+// what neither `launches` nor `each` is in, so that it is compiled once a law
 struct Batch<'a, L> {
     engine: &'a FlatEngine<L>,
     groups: Vec<Group>,
     riders: Vec<[Rider; WIDTH]>,
     sliding: Vec<Sliding>,
-    launches: &'a mut dyn Iterator<Item = Launch>,
+    /// Lanes without a toss.
+    vacant: Vec<(usize, usize)>,
     launched: u64,
-    each: Each<'a>,
-    broken_off: bool,
+    /// Tosses that have ended and are yet to be told, by number.
+    ended: Vec<(u64, Outcome)>,
 }
 
-impl<L: ImpactLaw> Batch<'_, L> {
-    fn run(&mut self) {
-        for group in 0..GROUPS {
-            for lane in 0..WIDTH {
-                self.launch(group, lane);
-            }
+impl<'a, L: ImpactLaw> Batch<'a, L> {
+    fn new(engine: &'a FlatEngine<L>) -> Self {
+        let lanes = (0..GROUPS).flat_map(|group| (0..WIDTH).map(move |lane| (group, lane)));
+        Self {
+            engine,
+            groups: vec![Group::default(); GROUPS],
+            riders: vec![[Rider::default(); WIDTH]; GROUPS],
+            sliding: Vec::with_capacity(GROUPS * WIDTH),
+            vacant: lanes.rev().collect(),
+            launched: 0,
+            ended: Vec::with_capacity(2 * GROUPS * WIDTH),
         }
-        while !self.broken_off {
-            let flying = self.groups.iter().any(Group::is_at_work);
-            if self.sliding.len() >= WIDTH || !flying && !self.sliding.is_empty() {
-                self.slide();
-            } else if flying {
-                Group::sweep(&mut self.groups, self.engine.lanes, &self.engine.shape);
-                for group in 0..GROUPS {
-                    self.attend(group);
-                }
-            } else {
-                return;
-            }
+    }
+
+    /// Whether one more toss may be launched: no more of them end before they are told than there
+    /// are lanes.
+    fn has_room(&self) -> bool {
+        !self.vacant.is_empty() && self.ended.len() < GROUPS * WIDTH
+    }
+
+    /// Gives a vacant lane to a launch that is followed at all.
+    fn launch(&mut self, launch: &Launch) {
+        let (engine, number) = (self.engine, self.launched);
+        self.launched += 1;
+        let toss = engine.launched(launch);
+        if let Some(ended) = engine.ends_at_launch(&toss, launch) {
+            self.ended.push((number, toss.outcome(ended)));
+            return;
         }
+        let Some((at, lane)) = self.vacant.pop() else {
+            // never: whoever launches sees to the room first
+            return;
+        };
+        self.riders[at][lane] = Rider {
+            number,
+            ..Rider::default()
+        };
+        self.groups[at].put(lane, &toss.motion, &engine.shape, false);
+    }
+
+    /// One piece of work: `false` if nothing is left to do.
+    fn advance(&mut self) -> bool {
+        let flying = self.groups.iter().any(Group::is_at_work);
+        if self.sliding.len() >= WIDTH || !flying && !self.sliding.is_empty() {
+            self.slide();
+        } else if flying {
+            Group::sweep(&mut self.groups, self.engine.lanes, &self.engine.shape);
+            for group in 0..GROUPS {
+                self.attend(group);
+            }
+        } else {
+            return false;
+        }
+        true
     }
 
     /// What a step of the search has led to.
@@ -235,10 +276,11 @@ impl<L: ImpactLaw> Batch<'_, L> {
     fn slide(&mut self) {
         let engine = self.engine;
         let from = self.sliding.len().saturating_sub(WIDTH);
-        let phases = self.sliding[from..].iter_mut();
-        let mut phases: Vec<_> = phases
-            .map(|sliding| (&mut sliding.slider.phase, &mut sliding.motion))
-            .collect();
+        let mut sliding = self.sliding[from..].iter_mut();
+        let mut phases = std::array::from_fn(|_| {
+            let sliding = sliding.next()?;
+            Some((&mut sliding.slider.phase, &mut sliding.motion))
+        });
         let ends = slide_on(engine.lanes, &mut phases, &mut watch(engine, &mut ()));
         // from the last, so that what takes its place in the list has had its turn
         for index in (from..self.sliding.len()).rev() {
@@ -270,37 +312,7 @@ impl<L: ImpactLaw> Batch<'_, L> {
             overruled: false,
             breaks: Breaks::default(),
         };
-        self.tell(rider.number, &outcome);
-        self.launch(at, lane);
-    }
-
-    fn tell(&mut self, number: u64, outcome: &Outcome) {
-        // others of the same eight may end with the one that was the last
-        if !self.broken_off {
-            self.broken_off = (self.each)(number, outcome).is_break();
-        }
-    }
-
-    /// Gives a lane to the next launch that is followed at all.
-    fn launch(&mut self, at: usize, lane: usize) {
-        let engine = self.engine;
-        while !self.broken_off {
-            let Some(launch) = self.launches.next() else {
-                return;
-            };
-            let number = self.launched;
-            self.launched += 1;
-            let toss = engine.launched(&launch);
-            if let Some(ended) = engine.ends_at_launch(&toss, &launch) {
-                self.tell(number, &toss.outcome(ended));
-                continue;
-            }
-            self.riders[at][lane] = Rider {
-                number,
-                ..Rider::default()
-            };
-            self.groups[at].put(lane, &toss.motion, &engine.shape, false);
-            return;
-        }
+        self.ended.push((rider.number, outcome));
+        self.vacant.push((at, lane));
     }
 }

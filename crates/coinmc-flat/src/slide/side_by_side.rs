@@ -29,28 +29,33 @@ struct Arrivals {
     cos: Block,
 }
 
+/// A phase, with the motion of its coin.
+type Slides<'a> = (&'a mut SlidePhase, &'a mut Motion);
+
 /// One attempt of each phase, or one trial of its search for an event; of those that are over, how.
-/// At most [`WIDTH`].
 pub(crate) fn slide_on(
     lanes: Lanes,
-    phases: &mut [(&mut SlidePhase, &mut Motion)],
+    phases: &mut [Option<Slides<'_>>; WIDTH],
     watch: &mut Watch<'_, ()>,
 ) -> [Option<SlideEnd>; WIDTH] {
     let mut attempts = Attempts::default();
     let mut k = 1.0;
     for lane in 0..WIDTH {
-        // beyond the last, lanes do the same as the first, for nothing
-        let phase = &*phases[if lane < phases.len() { lane } else { 0 }].0;
-        attempts.ask(lane, phase);
-        k = phase.sliding.k;
+        // where none is, a lane does the same as the first, for nothing
+        if let Some((phase, _)) = phases[lane].as_ref().or(phases[0].as_ref()) {
+            attempts.ask(lane, phase);
+            k = phase.sliding.k;
+        }
     }
     lanes.enter(Attempt {
         attempts: &mut attempts,
         k,
     });
     let mut ends = [None; WIDTH];
-    for (lane, (phase, motion)) in phases.iter_mut().enumerate() {
-        ends[lane] = attempts.answer(lane, phase, motion, watch);
+    for (lane, slides) in phases.iter_mut().enumerate() {
+        if let Some((phase, motion)) = slides {
+            ends[lane] = attempts.answer(lane, phase, motion, watch);
+        }
     }
     ends
 }

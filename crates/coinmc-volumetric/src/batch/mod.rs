@@ -31,17 +31,15 @@ use crate::impact::ImpactLaw;
 use coinmc_core::{Ended, Landing, Launch};
 use coinmc_lanes::Lanes;
 use coinmc_lanes::{Bits, WIDTH, first, lanes_of};
-use pool::{Origin, Pool, Slot};
+use pool::{Origin, Pool, SLOTS, Slot};
 use std::ops::ControlFlow;
 
-/// What is told of every toss: its number among the launches, and how it ended.
-pub(crate) type Each<'a> = &'a mut dyn FnMut(u64, &Finished) -> ControlFlow<()>;
-
-/// Follows the tosses of all launches until `each` breaks off.
+/// Follows the tosses of all launches, and tells `each` the number of every toss among them and how
+/// it ended, until that breaks off.
 pub(crate) fn toss_all<L: ImpactLaw>(
     engine: &VolumetricEngine<L>,
-    launches: &mut dyn Iterator<Item = Launch>,
-    each: Each<'_>,
+    launches: impl Iterator<Item = Launch>,
+    mut each: impl FnMut(u64, &Finished) -> ControlFlow<()>,
 ) {
     if engine.lanes == Lanes::Scalar {
         for (number, launch) in (0..).zip(launches) {
@@ -51,31 +49,63 @@ pub(crate) fn toss_all<L: ImpactLaw>(
         }
         return;
     }
-    let mut batch = Batch {
-        engine,
-        pool: Pool::new(),
-        launched: 0,
-        each,
-        broken_off: false,
-    };
-    batch.run(launches);
+    let mut launches = launches.fuse();
+    let mut batch = Batch::new(engine);
+    loop {
+        while batch.has_room()
+            && let Some(launch) = launches.next()
+        {
+            batch.launch(&launch);
+        }
+        let is_done = !batch.advance() && batch.ended.is_empty();
+        for (number, finished) in batch.ended.drain(..) {
+            if each(number, &finished).is_break() {
+                return;
+            }
+        }
+        if is_done {
+            return;
+        }
+    }
 }
 
+// what neither `launches` nor `each` is in, so that it is compiled once a law
 struct Batch<'a, L> {
     engine: &'a VolumetricEngine<L>,
     pool: Pool,
     launched: u64,
-    each: Each<'a>,
-    broken_off: bool,
+    /// Tosses that have ended and are yet to be told, by number.
+    ended: Vec<(u64, Finished)>,
 }
 
-impl<L: ImpactLaw> Batch<'_, L> {
-    fn run(&mut self, launches: &mut dyn Iterator<Item = Launch>) {
-        loop {
-            self.admit(launches);
-            if self.broken_off || !self.advance() {
-                return;
-            }
+impl<'a, L: ImpactLaw> Batch<'a, L> {
+    fn new(engine: &'a VolumetricEngine<L>) -> Self {
+        Self {
+            engine,
+            pool: Pool::new(),
+            launched: 0,
+            ended: Vec::with_capacity(2 * SLOTS),
+        }
+    }
+
+    /// Whether one more toss may be launched: no more of them end before they are told than there
+    /// are slots.
+    fn has_room(&self) -> bool {
+        !self.pool.free.is_empty() && self.ended.len() < SLOTS
+    }
+
+    /// Launches a toss into a free slot.
+    fn launch(&mut self, launch: &Launch) {
+        let Some(slot) = self.pool.free.pop() else {
+            // never: whoever launches sees to the room first
+            return;
+        };
+        let toss = self.engine.launched(launch);
+        self.pool.slots[slot] = Slot::new(self.launched, toss);
+        self.launched += 1;
+        match self.engine.ends_at_launch(&toss, launch) {
+            Some(ended) => self.end(slot, ended),
+            None => self.pool.departing.push(slot),
         }
     }
 
@@ -111,33 +141,10 @@ impl<L: ImpactLaw> Batch<'_, L> {
         true
     }
 
-    /// Launches tosses into all free slots.
-    fn admit(&mut self, launches: &mut dyn Iterator<Item = Launch>) {
-        while let Some(&slot) = self.pool.free.last() {
-            let Some(launch) = launches.next() else {
-                return;
-            };
-            self.pool.free.pop();
-            let toss = self.engine.launched(&launch);
-            self.pool.slots[slot] = Slot::new(self.launched, toss);
-            self.launched += 1;
-            match self.engine.ends_at_launch(&toss, &launch) {
-                Some(ended) => self.end(slot, ended),
-                None => self.pool.departing.push(slot),
-            }
-            if self.broken_off {
-                return;
-            }
-        }
-    }
-
     fn end(&mut self, slot: usize, ended: Ended) {
         let of = &self.pool.slots[slot];
         let finished = Finished::new(ended, &of.toss, &of.spent);
-        // others of the same eight may end with the one that was the last
-        if !self.broken_off {
-            self.broken_off = (self.each)(of.number, &finished).is_break();
-        }
+        self.ended.push((of.number, finished));
         self.pool.free.push(slot);
     }
 

@@ -11,7 +11,7 @@ use coinmc_lanes::{Bits, WIDTH, lanes_of};
 
 /// Tosses on their way: enough that eight are nearly always at one stage. From 64 to 256 the speed
 /// is the same within 5 %.
-const SLOTS: usize = 128;
+pub(super) const SLOTS: usize = 128;
 /// Groups of flights on search: half of the tosses, the others being at other stages.
 const GROUPS: usize = 8;
 

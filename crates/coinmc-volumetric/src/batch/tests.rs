@@ -29,7 +29,7 @@ fn launches(scene: &Scene, preset: Preset, count: u64) -> Vec<Launch> {
 /// Every toss by its number.
 fn ends<L: ImpactLaw>(engine: &VolumetricEngine<L>, launches: &[Launch]) -> Vec<Finished> {
     let mut ends = vec![None; launches.len()];
-    toss_all(engine, &mut launches.iter().copied(), &mut |number, end| {
+    toss_all(engine, launches.iter().copied(), |number, end| {
         let index = usize::try_from(number).expect("a small number");
         assert!(ends[index].replace(*end).is_none(), "toss {number} twice");
         ControlFlow::Continue(())
@@ -156,7 +156,7 @@ fn breaking_off_ends_it_at_once() {
     for lanes in Lanes::ALL.into_iter().filter(|lanes| lanes.is_available()) {
         let engine = engine.clone().with_lanes(lanes).expect("they are there");
         let mut told = 0;
-        toss_all(&engine, &mut launches.iter().copied(), &mut |_, _| {
+        toss_all(&engine, launches.iter().copied(), |_, _| {
             told += 1;
             if told == 300 {
                 ControlFlow::Break(())
