@@ -3,7 +3,7 @@
 use crate::Case;
 use coinmc_core::{Engine, Philox4x64, Preset, run_tosses};
 use coinmc_flat::{ChatterjeeRuina, ImpactLaw, Moreau, Settings};
-use coinmc_volumetric::{Lanes, VolumetricEngine};
+use coinmc_volumetric::{Lanes, Stronge, VolumetricEngine};
 use std::hint::black_box;
 use std::ops::Range;
 
@@ -32,6 +32,8 @@ enum Task {
     TossChatterjeeRuina(Case),
     /// Tosses in space under Moreau's law, with these lanes.
     TossInSpace(Case, Lanes),
+    /// Tosses in space under Stronge's, one after the other.
+    TossStronge(Case),
     /// Launches, not followed.
     Launch(Case),
     /// Blocks of four random words.
@@ -92,7 +94,13 @@ pub fn space_workloads() -> Vec<Workload> {
         Case::table1(1.0).rolling(0.01),
     ];
     let toss = |case| Workload::toss_in_space(case, Lanes::Scalar);
-    cases.into_iter().map(toss).collect()
+    let mut list: Vec<Workload> = cases.into_iter().map(toss).collect();
+    let other_law = clean(0.85, 0.5, 0.01);
+    list.push(Workload::new(
+        format!("toss {} stronge", short(&other_law)),
+        Task::TossStronge(other_law),
+    ));
+    list
 }
 
 fn launch_name(preset: Preset) -> String {
@@ -139,7 +147,7 @@ impl Workload {
     /// The case, of tosses in space.
     pub fn case_in_space(&self) -> Option<Case> {
         match self.task {
-            Task::TossInSpace(case, _) => Some(case),
+            Task::TossInSpace(case, _) | Task::TossStronge(case) => Some(case),
             _ => None,
         }
     }
@@ -148,7 +156,7 @@ impl Workload {
     pub fn launch(&self) -> Option<String> {
         match &self.task {
             Task::Toss(case, _) | Task::TossChatterjeeRuina(case) => Some(launch_name(case.preset)),
-            Task::TossInSpace(..) | Task::Launch(_) | Task::Philox => None,
+            Task::TossInSpace(..) | Task::TossStronge(_) | Task::Launch(_) | Task::Philox => None,
         }
     }
 
@@ -160,7 +168,10 @@ impl Workload {
             Task::TossChatterjeeRuina(case) => {
                 toss_flat(case, ChatterjeeRuina, Lanes::Scalar, range)
             }
-            Task::TossInSpace(case, lanes) => toss_in_space(case, *lanes, range),
+            Task::TossInSpace(case, lanes) => {
+                toss_in_space(case, coinmc_volumetric::Moreau, *lanes, range)
+            }
+            Task::TossStronge(case) => toss_in_space(case, Stronge, Lanes::Scalar, range),
             Task::Launch(case) => launches(case, range),
             Task::Philox => philox(range),
         }
@@ -172,9 +183,12 @@ fn toss_flat<L: ImpactLaw>(case: &Case, law: L, lanes: Lanes, range: Range<u64>)
     tosses(&engine.expect("lanes are available"), case, range)
 }
 
-fn toss_in_space(case: &Case, lanes: Lanes, range: Range<u64>) -> u64 {
+fn toss_in_space<L>(case: &Case, law: L, lanes: Lanes, range: Range<u64>) -> u64
+where
+    L: coinmc_volumetric::ImpactLaw,
+{
     let settings = coinmc_volumetric::Settings::default();
-    let engine = VolumetricEngine::new(&case.scene, &settings, coinmc_volumetric::Moreau);
+    let engine = VolumetricEngine::new(&case.scene, &settings, law);
     let engine = engine.expect("the defaults are in range");
     let engine = engine.with_lanes(lanes).expect("lanes are available");
     tosses(&engine, case, range)

@@ -1,4 +1,5 @@
-//! Error against evaluations, and against time, of the ways to answer an adhesive scene.
+//! Error against evaluations, and against time, of the ways to answer a scene: where the first
+//! contact decides, and where the coin bounces.
 
 mod ways;
 
@@ -43,14 +44,13 @@ impl Integration {
             "time_gain",
         ];
         let title = format!(
-            "P(heads) of a coin of ratio 1 that stays where it lands: root mean square error of {} \
-             estimates; gains over as many random tosses, and over random tosses for as long",
+            "P(heads) of a coin of ratio 1 that stays where it lands (and, last, of one that bounces): \
+             root mean square error of {} estimates; gains over as many random tosses, and over \
+             random tosses for as long",
             self.estimates
         );
         let mut record = Table::new(title, &columns);
-        for (name, launches) in scenes() {
-            let case = Case::new(Preset::Clean, 0.01, 1.0, 0.0, 0.0).adhesive();
-            let subject = Subject::new(case.scene, launches);
+        for (name, subject) in subjects() {
             let truth = subject.heads(Way::Auto, u64::MAX, TRUTH);
             let mut evaluations = FIRST;
             while evaluations <= self.most {
@@ -76,7 +76,7 @@ impl Integration {
         record: &mut Table,
     ) {
         let mut random = (0.0, 0.0);
-        for way in Way::ALL {
+        for &way in subject.ways() {
             let watch = Stopwatch::start();
             let first = seed.wrapping_mul(self.estimates);
             let square: f64 = (0..self.estimates)
@@ -113,8 +113,23 @@ impl Integration {
     }
 }
 
-/// One scene for each method that leaves something to points, and one that is exact.
-fn scenes() -> Vec<(&'static str, LaunchDistribution)> {
+/// One scene for each method that leaves something to points, one that is exact, two that bounce.
+fn subjects() -> Vec<(&'static str, Subject)> {
+    let adhesive = Case::new(Preset::Clean, 0.01, 1.0, 0.0, 0.0).adhesive();
+    let lands = |(name, launches)| (name, Subject::new(adhesive.scene, launches));
+    let mut subjects: Vec<_> = launches().into_iter().map(lands).collect();
+    for (name, preset) in [
+        ("clean, e = 0.5", Preset::Clean),
+        ("robot, e = 0.5", Preset::Robot),
+    ] {
+        let case = Case::new(preset, 0.01, 1.0, 0.5, 0.3).rolling(0.01);
+        subjects.push((name, Subject::new(case.scene, case.launches())));
+    }
+    subjects
+}
+
+/// Launches of the scenes that the first contact decides.
+fn launches() -> Vec<(&'static str, LaunchDistribution)> {
     let normal = |mean, sd| Marginal::Normal { mean, sd };
     let clean = Preset::Clean.distribution();
     let spinning = Spin::Components([normal(5.0, 4.0), normal(5.0, 4.0), normal(5.0, 20.0)]);

@@ -1,7 +1,7 @@
-//! Ways to find P(heads) of an adhesive scene, side by side.
+//! Ways to find P(heads) of a scene, side by side.
 
 use coinmc_core::{
-    Domain, Engine, Face, LaunchDistribution, Scene, Stream, TossUniforms, UniformSource,
+    Domain, Engine, Face, Landing, LaunchDistribution, Scene, Stream, TossUniforms, UniformSource,
     unit_interval,
 };
 use coinmc_quadrature::{Goal, Method, Sobol, integrate};
@@ -24,7 +24,7 @@ pub(super) enum Way {
 }
 
 impl Way {
-    pub(super) const ALL: [Self; 5] = [
+    const ALL: [Self; 5] = [
         Self::Random,
         Self::Stratified,
         Self::Control,
@@ -65,6 +65,14 @@ impl Subject {
         };
         subject.at_launch = subject.share_at_launch();
         subject
+    }
+
+    /// All ways; where the coin bounces, tosses at Sobol points are the last.
+    pub(super) fn ways(&self) -> &'static [Way] {
+        match self.scene.surface.landing() {
+            Landing::Adhesive => &Way::ALL,
+            Landing::Bouncing => &Way::ALL[..4],
+        }
     }
 
     /// The method of `auto`, tosses at Sobol points where that would toss at random.
