@@ -287,17 +287,14 @@ impl<'a, L: ImpactLaw> Batch<'a, L> {
             let Some(end) = ends[index - from] else {
                 continue;
             };
-            let Sliding {
-                at,
-                lane,
-                motion,
-                slider,
-            } = self.sliding.swap_remove(index);
-            let mut toss = self.riders[at][lane].toss(engine, motion);
+            let sliding = &self.sliding[index];
+            let (at, lane) = (sliding.at, sliding.lane);
+            let mut toss = self.riders[at][lane].toss(engine, sliding.motion);
             let early = &mut Early::never();
             let mut nobody = ();
             let watch = &mut watch(engine, &mut nobody);
-            let onward = engine.slid(&mut toss, &slider, end, early, watch);
+            let onward = engine.slid(&mut toss, &sliding.slider, end, early, watch);
+            self.sliding.swap_remove(index);
             self.go(at, lane, &toss, onward);
         }
     }
