@@ -242,3 +242,35 @@ fn breaking_off_and_fewer_tosses_than_lanes() {
         assert_eq!(told, 300, "{lanes}");
     }
 }
+
+#[test]
+fn launches_that_end_at_once_are_told_while_others_go_on() {
+    let scene = scene(1.2, 0.5, 0.3);
+    let mut resting = preset(Preset::Robot, &scene, 700, 0);
+    resting.height_m = 0.0;
+    (resting.velocity_m_s, resting.spin_rad_s) = Default::default();
+    let flying = launches(&scene, Preset::Robot, 300);
+    let mixed: Vec<Launch> = flying
+        .iter()
+        .flat_map(|&fly| [resting, fly, resting])
+        .collect();
+    let outcomes = agree(&scene, &Settings::default(), &mixed);
+    assert!(outcomes[0].impacts == 0 && outcomes[0].face().is_some());
+    for lanes in Lanes::ALL {
+        let Ok(engine) = engine(&scene, &Settings::default()).with_lanes(lanes) else {
+            continue;
+        };
+        // of an endless number of them, none may be kept until the others have ended
+        let mut told = 0_u64;
+        let endless = flying.iter().copied().chain(std::iter::repeat(resting));
+        engine.toss_all(&mut (), endless, |_, _| {
+            told += 1;
+            if told == 100_000 {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        assert_eq!(told, 100_000, "{lanes}");
+    }
+}

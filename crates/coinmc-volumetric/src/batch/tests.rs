@@ -167,3 +167,34 @@ fn breaking_off_ends_it_at_once() {
         assert_eq!(told, 300, "{lanes}");
     }
 }
+
+#[test]
+fn launches_that_end_at_once_are_told_while_others_go_on() {
+    let scene = scene(0.85, surface(0.5, 0.3, 0.01));
+    let flying = launches(&scene, Preset::Clean, 300);
+    let resting = Launch {
+        height_m: 0.0,
+        velocity_m_s: [0.0; 3].into(),
+        spin_rad_s: [0.0; 3].into(),
+        ..flying[0]
+    };
+    let mixed = flying.iter().flat_map(|&fly| [resting, fly, resting]);
+    let mixed: Vec<Launch> = mixed.collect();
+    agree(&scene, &Settings::default(), Moreau, &mixed);
+    let engine = VolumetricEngine::new(&scene, &Settings::default(), Moreau).expect("good");
+    for lanes in Lanes::ALL.into_iter().filter(|lanes| lanes.is_available()) {
+        let engine = engine.clone().with_lanes(lanes).expect("they are there");
+        // of an endless number of them, none may be kept until the others have ended
+        let mut told = 0_u64;
+        let endless = flying.iter().copied().chain(std::iter::repeat(resting));
+        toss_all(&engine, endless, |_, _| {
+            told += 1;
+            if told == 100_000 {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        assert_eq!(told, 100_000, "{lanes}");
+    }
+}
