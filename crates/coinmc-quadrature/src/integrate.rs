@@ -37,14 +37,9 @@ pub fn integrate<E: Engine>(
     goal: &Goal,
     go_on: impl Fn() -> bool,
 ) -> Option<Integral> {
-    let rule = |rule: Rule| {
-        let p = rule.probabilities(scene.coin.ratio());
-        Some(exact(method, [p.heads, p.tails, p.side], 0))
-    };
     let dimensions = method.dimensions(launches);
     match method {
-        Method::Zone => rule(Rule::Zone),
-        Method::Arc => rule(Rule::Arc),
+        Method::Zone | Method::Arc => method.by_rule(scene),
         Method::Over(variable) => {
             let conditional = Conditional::new(scene, launches, variable);
             replicated(method, &dimensions, scrambles, goal, |sample| {
@@ -59,6 +54,31 @@ pub fn integrate<E: Engine>(
                 tossed(engine, &mut workspace, tosses, &go_on)
             })
         }
+    }
+}
+
+impl Method {
+    /// The probabilities of the faces of a scene that this method is of, if a rule gives them: exact,
+    /// and of no cost.
+    ///
+    /// # Example
+    /// ```
+    /// use coinmc_core::{Coin, Scene, Surface};
+    /// use coinmc_quadrature::Method;
+    /// let scene = Scene::new(Coin::cylinder(2.0, 0.01)?, Surface::new(0.0, 0.3)?, 9.81)?;
+    /// let found = Method::Zone.by_rule(&scene).ok_or("a rule")?;
+    /// assert!(found.exact && (found.side().p - 0.5_f64.sqrt()).abs() < 1e-15);
+    /// assert!(Method::Tossed.by_rule(&scene).is_none());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn by_rule(self, scene: &Scene) -> Option<Integral> {
+        let rule = match self {
+            Self::Zone => Rule::Zone,
+            Self::Arc => Rule::Arc,
+            Self::Over(_) | Self::Tossed => return None,
+        };
+        let p = rule.probabilities(scene.coin.ratio());
+        Some(exact(self, [p.heads, p.tails, p.side], 0))
     }
 }
 

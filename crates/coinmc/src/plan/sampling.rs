@@ -2,7 +2,7 @@
 
 use super::{EngineChoice, Plan, Point, Stop};
 use coinmc_core::Landing;
-use coinmc_quadrature::{Goal, LEAST_EVALUATIONS, MOST_EVALUATIONS, Method};
+use coinmc_quadrature::{Goal, Integral, LEAST_EVALUATIONS, MOST_EVALUATIONS, Method};
 
 /// How launches are drawn where the first contact decides. Elsewhere they are random.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -34,18 +34,24 @@ impl Plan {
     /// Whether point `index` is integrated: answered as one piece of work, without counting tosses.
     ///
     /// # Panics
-    /// If there is no such point, as [`makes_tosses`](Self::makes_tosses) and
+    /// If there is no such point, as [`makes_tosses`](Self::makes_tosses), [`known`](Self::known) and
     /// [`method`](Self::method).
     pub fn integrates(&self, index: usize) -> bool {
-        self.method(index).is_some()
+        self.method(index).is_some() && self.known(index).is_none()
     }
 
     /// Whether tosses of point `index` are counted.
     pub fn makes_tosses(&self, index: usize) -> bool {
-        self.points[index].engine.makes_tosses() && !self.integrates(index)
+        self.points[index].engine.makes_tosses() && self.method(index).is_none()
     }
 
-    /// How point `index` is integrated; `None` if it is not.
+    /// The answer of point `index` where no work is needed: a rule in closed form gives it, though an
+    /// engine is asked for.
+    pub fn known(&self, index: usize) -> Option<Integral> {
+        self.method(index)?.by_rule(&self.points[index].scene)
+    }
+
+    /// How point `index` is answered without counting tosses; `None` if it is not.
     pub fn method(&self, index: usize) -> Option<Method> {
         let point = &self.points[index];
         match self.sampling {

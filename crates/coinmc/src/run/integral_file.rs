@@ -92,14 +92,11 @@ fn is_possible(integral: &Integral) -> bool {
     let in_order = |share: &Share| 0.0 <= share.lo && share.lo <= share.p && share.p <= share.hi;
     let sum = |end: fn(&Share) -> f64| integral.faces.iter().map(end).sum::<f64>();
     let evaluations = integral.evaluations;
-    let counted = match (integral.exact, integral.method) {
-        (true, Method::Zone | Method::Arc) => evaluations == 0,
-        (true, _) => evaluations == 1,
-        (false, Method::Zone | Method::Arc) => false,
-        (false, _) => {
-            evaluations.is_power_of_two()
-                && (LEAST_EVALUATIONS..=MOST_EVALUATIONS).contains(&evaluations)
-        }
+    let counted = if integral.exact {
+        evaluations == 1
+    } else {
+        evaluations.is_power_of_two()
+            && (LEAST_EVALUATIONS..=MOST_EVALUATIONS).contains(&evaluations)
     };
     let exact = |share: &Share| !integral.exact || share.lo == share.p;
     counted
@@ -137,13 +134,14 @@ mod tests {
 
     #[test]
     fn files_read_back_and_any_damage_is_seen() {
-        for method in Method::ALL {
+        let kept = |method: &Method| !matches!(method, Method::Zone | Method::Arc);
+        for method in Method::ALL.into_iter().filter(kept) {
             let mut written = Integral {
                 method,
                 ..example()
             };
-            if matches!(method, Method::Zone | Method::Arc) {
-                (written.exact, written.evaluations) = (true, 0);
+            if method == Method::Over(Variable::Height) {
+                (written.exact, written.evaluations) = (true, 1);
                 for share in &mut written.faces {
                     (share.lo, share.hi) = (share.p, share.p);
                 }

@@ -131,6 +131,42 @@ fn parts_of_a_run_merge_to_the_whole() {
     assert_same(&at("whole"), &at("merged"));
 }
 
+#[test]
+fn what_a_rule_gives_takes_no_work_and_no_file() {
+    let clean = "launch.preset = 'clean'\nengine.volumetric = {}\n";
+    let dir = tempfile::tempdir().unwrap();
+    let at = |name: &str| dir.path().join(name);
+    for stop in ["tosses = 20_000", "half_width = 1e-3, max_tosses = 1e6"] {
+        let plan = plan_of(clean, stop, "");
+        let out = at(&format!("{stop:.6}"));
+        let report = run_whole(&plan, &out);
+        assert_eq!((report.status, report.tosses), (Status::Complete, 0));
+        assert_eq!(fs::read_dir(out.join("tallies")).unwrap().count(), 0);
+        for (point, row) in report.results.rows.iter().enumerate() {
+            let alone = integrate_point(&plan, point, u64::MAX).unwrap().unwrap();
+            assert_eq!(Some(alone), plan.known(point));
+            assert_eq!(*row, Row::integrated(&plan, point, &alone, true));
+            assert_eq!((row.interval, row.sampling), ("exact", "closed-form"));
+        }
+        assert_eq!(run_whole(&plan, &out).results, report.results);
+    }
+    let plan = plan_of(clean, "tosses = 20_000", "");
+    let parts = [1, 2].map(|index| {
+        let out = at(&format!("part-{index}"));
+        run_with(
+            &plan,
+            &out,
+            Part::new(index, 2).unwrap(),
+            1,
+            &Ear::default(),
+        )
+        .unwrap();
+        out
+    });
+    merge(&parts, &at("merged"), &()).unwrap();
+    assert_same(&at("tosses"), &at("merged"));
+}
+
 /// 2e5 tosses, six faces: one of 6e4 such runs has a face beyond 4 standard errors in one of them.
 #[test]
 fn forced_random_tosses_agree() {
