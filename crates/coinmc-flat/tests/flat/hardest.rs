@@ -1,4 +1,4 @@
-//! The tosses out of 1e8 from a huge box of scenes that came closest to an error (`coinmc-bench
+//! The tosses out of 1e9 from a huge box of scenes that came closest to an error (`coinmc-bench
 //! stability`): largest residual, gain and depth.
 
 use coinmc_core::{Coin, Engine, Event, EventKind, Launch, Observer, Scene, Surface};
@@ -7,7 +7,7 @@ use nalgebra::{UnitVector3, Vector3};
 use std::ops::ControlFlow;
 
 /// H/R, R m, e, μ, height m, u_x, u_z, spin rad/s.
-const HARDEST: [[f64; 8]; 6] = [
+const HARDEST: [[f64; 8]; 7] = [
     [
         3.612_064_956_978_947_4,
         0.006_980_883_114_680_167_5,
@@ -68,6 +68,16 @@ const HARDEST: [[f64; 8]; 6] = [
         0.034_371_481_679_174_046,
         -354.258_799_051_725_76,
     ],
+    [
+        1_488.919_382_144_217_5,
+        18.679_232_111_475_745,
+        1.0,
+        0.676_375_141_313_717_8,
+        1.861_604_889_975_336_4,
+        -0.866_558_903_826_935_7,
+        0.499_074_810_222_134_57,
+        37_891.742_070_363_1,
+    ],
 ];
 
 fn scene_and_launch(numbers: &[f64; 8]) -> (Scene, Launch) {
@@ -84,10 +94,12 @@ fn scene_and_launch(numbers: &[f64; 8]) -> (Scene, Launch) {
     (scene, launch)
 }
 
-/// Largest gain of energy beyond flight, and distance from the surface at a touch, in D.
+/// Largest gain of energy beyond flight, and distance from the surface at a touch, in D, over what
+/// rounding explains of it.
 struct Worst<'a> {
     scene: &'a Scene,
     last: Option<(EventKind, f64)>,
+    last_time_s: f64,
     gain: f64,
     residual: f64,
 }
@@ -108,14 +120,20 @@ impl Observer for Worst<'_> {
             let lowest =
                 0.5 * coin.height_m() * state.axis.z.abs() + coin.radius_m() * state.axis.x.abs();
             let gap = (state.position_m.z - lowest).abs() / coin.rim_distance_m();
-            self.residual = self.residual.max(gap);
+            let time_s = state.time_s - self.last_time_s;
+            let phase = state.spin_rad_s.y.abs() * time_s;
+            let fall = self.scene.gravity_m_s2() * time_s * time_s / coin.rim_distance_m();
+            let rounding = f64::EPSILON * (1.0 + phase + fall);
+            self.residual = self.residual.max(gap / rounding);
         }
+        self.last_time_s = state.time_s;
         self.last = Some((event.kind, energy));
     }
 }
 
-/// A phase ωt of up to 1e6 turns a unit of time, over hundreds of them, is known to some 1e-16 of
-/// itself: that is the residual, 1e-9 at most. The energy has no such excuse.
+/// A phase ωt of up to 1e6 radians a unit of time and a height of up to 1e6 D are known to ε of
+/// themselves, by the rounding of ω, t, the velocity and what is made of them, some eight roundings:
+/// that is the residual. The energy has no such excuse.
 #[test]
 fn they_gain_nothing_and_touch_the_surface() {
     for numbers in &HARDEST {
@@ -129,11 +147,12 @@ fn they_gain_nothing_and_touch_the_surface() {
             scene: &scene,
             last: None,
             gain: f64::NEG_INFINITY,
+            last_time_s: 0.0,
             residual: 0.0,
         };
         let alone = engine.toss(&mut (), &launch, &mut worst);
         assert!(worst.gain < 1e-14, "{numbers:?}: {:e}", worst.gain);
-        assert!(worst.residual < 1e-9, "{numbers:?}: {:e}", worst.residual);
+        assert!(worst.residual < 8.0, "{numbers:?}: {:e}", worst.residual);
         for lanes in Lanes::ALL {
             let Ok(engine) = engine.clone().with_lanes(lanes) else {
                 continue;
