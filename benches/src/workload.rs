@@ -144,10 +144,10 @@ impl Workload {
         Self::new(toss_name(&case, lanes), task)
     }
 
-    /// The case, of tosses in space.
+    /// The case, of tosses in space under Moreau's law.
     pub fn case_in_space(&self) -> Option<Case> {
         match self.task {
-            Task::TossInSpace(case, _) | Task::TossStronge(case) => Some(case),
+            Task::TossInSpace(case, _) => Some(case),
             _ => None,
         }
     }

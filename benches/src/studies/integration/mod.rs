@@ -14,8 +14,8 @@ use ways::{Subject, Way};
 /// Evaluations of the first column, and by how much they grow.
 const FIRST: u64 = 1 << 10;
 const GROWTH: u64 = 8;
-/// Evaluations of the way that stands for the truth.
-const TRUTH: u64 = 1 << 20;
+/// Evaluations of what stands for the truth, over those of the largest estimate.
+const TRUTH: u64 = 16;
 
 /// Variance of rounding alone.
 const EXACT: f64 = 1e-24;
@@ -51,7 +51,7 @@ impl Integration {
         );
         let mut record = Table::new(title, &columns);
         for (name, subject) in subjects() {
-            let truth = subject.heads(Way::Auto, u64::MAX, TRUTH);
+            let truth = subject.heads(Way::Auto, u64::MAX, TRUTH.saturating_mul(self.most));
             let mut evaluations = FIRST;
             while evaluations <= self.most {
                 self.rows(&subject, name, truth, evaluations, seed, &mut record);
