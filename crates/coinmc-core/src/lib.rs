@@ -35,6 +35,7 @@
 //! # Ok::<(), coinmc_core::CoinError>(())
 //! ```
 
+mod batch;
 mod beta;
 mod coin;
 mod engine;
@@ -45,6 +46,7 @@ mod random;
 mod surface;
 mod tally;
 
+pub use batch::TossBatch;
 pub use coin::{Coin, CoinError};
 pub use engine::{Engine, Event, EventKind, Observer, State, run_tosses, sample_between};
 pub use estimate::{

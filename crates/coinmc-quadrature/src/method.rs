@@ -4,7 +4,7 @@ use crate::axis::axial_factor;
 use crate::conditional::Conditional;
 use crate::passage::{Passage, is_constant};
 use crate::sobol::DIMENSIONS;
-use coinmc_core::{LaunchDistribution, Marginal, Orientation, Scene, Spin, UniformSource};
+use coinmc_core::{Landing, LaunchDistribution, Marginal, Orientation, Scene, Spin, UniformSource};
 use std::f64::consts::TAU;
 
 /// The launch dimension of an isotropic axis's azimuth.
@@ -88,9 +88,13 @@ impl Method {
         self.dimensions(launches).len()
     }
 
-    /// The best method for a scene with adhesive landing; `None` where random tosses are as good.
+    /// The best method for a scene; `None` where random tosses are as good, as wherever a coin
+    /// bounces.
     /// `time_limit_s` is the simulated time, s, after which its engine gives a toss up.
     pub fn of(scene: &Scene, launches: &LaunchDistribution, time_limit_s: f64) -> Option<Self> {
+        if scene.surface.landing() != Landing::Adhesive {
+            return None;
+        }
         let tossed = Self::Tossed.dimensions_left(launches) <= MOST_TOSSED;
         let tossed = tossed.then_some(Self::Tossed);
         let passage = Passage::new(scene);
@@ -262,7 +266,8 @@ mod tests {
 
     fn scene() -> Scene {
         let coin = Coin::cylinder(1.0, 0.01).unwrap();
-        Scene::new(coin, Surface::new(0.0, 0.0).unwrap(), 9.81).unwrap()
+        let surface = Surface::new(0.0, 0.0).unwrap();
+        Scene::new(coin, surface.with_landing(Landing::Adhesive), 9.81).unwrap()
     }
 
     fn of(launches: &LaunchDistribution) -> Option<Method> {
@@ -279,9 +284,12 @@ mod tests {
             (Preset::Hand, Method::Over(Variable::Rate), 3),
             (Preset::Drop, Method::Zone, 0),
         ];
+        let mut bounces = scene();
+        bounces.surface = bounces.surface.with_landing(Landing::Bouncing);
         for (preset, method, left) in expected {
             let launches = preset.distribution();
             assert_eq!(of(&launches), Some(method), "{preset}");
+            assert_eq!(Method::of(&bounces, &launches, f64::INFINITY), None);
             assert_eq!(method.dimensions(&launches).len(), left, "{preset}");
         }
     }

@@ -77,11 +77,8 @@ impl Subject {
 
     /// The method of `auto`, tosses at Sobol points where that would toss at random.
     pub(super) fn method(&self) -> Method {
-        match self.scene.surface.landing() {
-            Landing::Adhesive => Method::of(&self.scene, &self.launches, f64::INFINITY),
-            Landing::Bouncing => None,
-        }
-        .unwrap_or(Method::Tossed)
+        let method = Method::of(&self.scene, &self.launches, f64::INFINITY);
+        method.unwrap_or(Method::Tossed)
     }
 
     /// P(heads) by as many evaluations.

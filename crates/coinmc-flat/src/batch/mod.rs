@@ -30,7 +30,7 @@ use crate::motion::Motion;
 use crate::settings::Decision;
 use crate::slide::slide_on;
 use crate::watch::Watch;
-use coinmc_core::{Breaks, Ended, Landing, Launch, Outcome};
+use coinmc_core::{Breaks, Ended, Landing, Launch, Outcome, TossBatch};
 use coinmc_lanes::{Bits, Lanes, WIDTH, lanes_of};
 use group::Group;
 use std::ops::ControlFlow;
@@ -62,24 +62,7 @@ pub(crate) fn toss_all<L: ImpactLaw>(
         }
         return;
     }
-    let mut launches = launches.fuse();
-    let mut batch = Batch::new(engine);
-    loop {
-        while batch.has_room()
-            && let Some(launch) = launches.next()
-        {
-            batch.launch(&launch);
-        }
-        let is_done = !batch.advance() && batch.ended.is_empty();
-        for (number, outcome) in batch.ended.drain(..) {
-            if each(number, &outcome).is_break() {
-                return;
-            }
-        }
-        if is_done {
-            return;
-        }
-    }
+    Batch::new(engine).follow_all(launches, each);
 }
 
 /// A toss, but for its motion.
@@ -124,7 +107,6 @@ fn watch<'a, L>(engine: &'a FlatEngine<L>, observer: &'a mut ()) -> Watch<'a, ()
     }
 }
 
-// what neither `launches` nor `each` is in, so that it is compiled once a law
 struct Batch<'a, L> {
     engine: &'a FlatEngine<L>,
     groups: Vec<Group>,
@@ -150,9 +132,11 @@ impl<'a, L: ImpactLaw> Batch<'a, L> {
             ended: Vec::with_capacity(2 * GROUPS * WIDTH),
         }
     }
+}
 
-    /// Whether one more toss may be launched: no more of them end before they are told than there
-    /// are lanes.
+impl<L: ImpactLaw> TossBatch for Batch<'_, L> {
+    type End = Outcome;
+
     fn has_room(&self) -> bool {
         !self.vacant.is_empty() && self.ended.len() < GROUPS * WIDTH
     }
@@ -193,6 +177,12 @@ impl<'a, L: ImpactLaw> Batch<'a, L> {
         true
     }
 
+    fn ended(&mut self) -> &mut Vec<(u64, Outcome)> {
+        &mut self.ended
+    }
+}
+
+impl<L: ImpactLaw> Batch<'_, L> {
     /// What a step of the search has led to.
     fn attend(&mut self, at: usize) {
         let engine = self.engine;

@@ -48,6 +48,20 @@ fn together(engine: &AnyFlatEngine, launches: &[Launch]) -> Vec<Outcome> {
     outcomes.expect("every toss ends")
 }
 
+/// How many tosses are told of to one who breaks off after `enough`.
+fn told(engine: &AnyFlatEngine, launches: impl Iterator<Item = Launch>, enough: u64) -> u64 {
+    let mut told = 0;
+    engine.toss_all(&mut (), launches, |_, _| {
+        told += 1;
+        if told == enough {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    });
+    told
+}
+
 /// Compares every kind of lanes with the single toss.
 fn agree(scene: &Scene, settings: &Settings, launches: &[Launch]) -> Vec<Outcome> {
     let engine = engine(scene, settings);
@@ -230,16 +244,7 @@ fn breaking_off_and_fewer_tosses_than_lanes() {
         let Ok(engine) = engine(&scene, &Settings::default()).with_lanes(lanes) else {
             continue;
         };
-        let mut told = 0;
-        engine.toss_all(&mut (), launches.iter().copied(), |_, _| {
-            told += 1;
-            if told == 300 {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        });
-        assert_eq!(told, 300, "{lanes}");
+        assert_eq!(told(&engine, launches.iter().copied(), 300), 300, "{lanes}");
     }
 }
 
@@ -261,16 +266,7 @@ fn launches_that_end_at_once_are_told_while_others_go_on() {
             continue;
         };
         // of an endless number of them, none may be kept until the others have ended
-        let mut told = 0_u64;
         let endless = flying.iter().copied().chain(std::iter::repeat(resting));
-        engine.toss_all(&mut (), endless, |_, _| {
-            told += 1;
-            if told == 100_000 {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        });
-        assert_eq!(told, 100_000, "{lanes}");
+        assert_eq!(told(&engine, endless, 100_000), 100_000, "{lanes}");
     }
 }

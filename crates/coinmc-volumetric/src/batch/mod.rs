@@ -28,7 +28,7 @@ use crate::contact::rim::Mode;
 use crate::engine::{Finished, Onward, VolumetricEngine};
 use crate::flight::Group;
 use crate::impact::ImpactLaw;
-use coinmc_core::{Ended, Landing, Launch};
+use coinmc_core::{Ended, Landing, Launch, TossBatch};
 use coinmc_lanes::Lanes;
 use coinmc_lanes::{Bits, WIDTH, first, lanes_of};
 use pool::{Origin, Pool, SLOTS, Slot};
@@ -49,27 +49,9 @@ pub(crate) fn toss_all<L: ImpactLaw>(
         }
         return;
     }
-    let mut launches = launches.fuse();
-    let mut batch = Batch::new(engine);
-    loop {
-        while batch.has_room()
-            && let Some(launch) = launches.next()
-        {
-            batch.launch(&launch);
-        }
-        let is_done = !batch.advance() && batch.ended.is_empty();
-        for (number, finished) in batch.ended.drain(..) {
-            if each(number, &finished).is_break() {
-                return;
-            }
-        }
-        if is_done {
-            return;
-        }
-    }
+    Batch::new(engine).follow_all(launches, each);
 }
 
-// what neither `launches` nor `each` is in, so that it is compiled once a law
 struct Batch<'a, L> {
     engine: &'a VolumetricEngine<L>,
     pool: Pool,
@@ -87,9 +69,11 @@ impl<'a, L: ImpactLaw> Batch<'a, L> {
             ended: Vec::with_capacity(2 * SLOTS),
         }
     }
+}
 
-    /// Whether one more toss may be launched: no more of them end before they are told than there
-    /// are slots.
+impl<L: ImpactLaw> TossBatch for Batch<'_, L> {
+    type End = Finished;
+
     fn has_room(&self) -> bool {
         !self.pool.free.is_empty() && self.ended.len() < SLOTS
     }
@@ -141,6 +125,12 @@ impl<'a, L: ImpactLaw> Batch<'a, L> {
         true
     }
 
+    fn ended(&mut self) -> &mut Vec<(u64, Finished)> {
+        &mut self.ended
+    }
+}
+
+impl<L: ImpactLaw> Batch<'_, L> {
     fn end(&mut self, slot: usize, ended: Ended) {
         let of = &self.pool.slots[slot];
         let finished = Finished::new(ended, &of.toss, &of.spent);

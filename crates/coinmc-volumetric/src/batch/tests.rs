@@ -42,6 +42,24 @@ fn same(end: &Finished, alone: &Finished) -> bool {
     end.outcome == alone.outcome && end.time.to_bits() == alone.time.to_bits()
 }
 
+/// How many tosses are told of to one who breaks off after `enough`.
+fn told<L: ImpactLaw>(
+    engine: &VolumetricEngine<L>,
+    launches: impl Iterator<Item = Launch>,
+    enough: u64,
+) -> u64 {
+    let mut told = 0;
+    toss_all(engine, launches, |_, _| {
+        told += 1;
+        if told == enough {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    });
+    told
+}
+
 /// Compares every set of lanes with the single toss.
 fn agree<L: ImpactLaw>(scene: &Scene, settings: &Settings, law: L, launches: &[Launch]) {
     let engine = VolumetricEngine::new(scene, settings, law).expect("good settings");
@@ -155,16 +173,7 @@ fn breaking_off_ends_it_at_once() {
     let engine = VolumetricEngine::new(&scene, &Settings::default(), Moreau).expect("good");
     for lanes in Lanes::ALL.into_iter().filter(|lanes| lanes.is_available()) {
         let engine = engine.clone().with_lanes(lanes).expect("they are there");
-        let mut told = 0;
-        toss_all(&engine, launches.iter().copied(), |_, _| {
-            told += 1;
-            if told == 300 {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        });
-        assert_eq!(told, 300, "{lanes}");
+        assert_eq!(told(&engine, launches.iter().copied(), 300), 300, "{lanes}");
     }
 }
 
@@ -185,16 +194,7 @@ fn launches_that_end_at_once_are_told_while_others_go_on() {
     for lanes in Lanes::ALL.into_iter().filter(|lanes| lanes.is_available()) {
         let engine = engine.clone().with_lanes(lanes).expect("they are there");
         // of an endless number of them, none may be kept until the others have ended
-        let mut told = 0_u64;
         let endless = flying.iter().copied().chain(std::iter::repeat(resting));
-        toss_all(&engine, endless, |_, _| {
-            told += 1;
-            if told == 100_000 {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        });
-        assert_eq!(told, 100_000, "{lanes}");
+        assert_eq!(told(&engine, endless, 100_000), 100_000, "{lanes}");
     }
 }

@@ -1,7 +1,6 @@
 //! Which points are tossed, and which are answered without.
 
 use super::{EngineChoice, Plan, Point, Stop};
-use coinmc_core::Landing;
 use coinmc_quadrature::{Goal, Integral, LEAST_EVALUATIONS, MOST_EVALUATIONS, Method};
 
 /// How launches are drawn where the first contact decides. Elsewhere they are random.
@@ -37,7 +36,9 @@ impl Plan {
     /// If there is no such point, as [`makes_tosses`](Self::makes_tosses), [`known`](Self::known) and
     /// [`method`](Self::method).
     pub fn integrates(&self, index: usize) -> bool {
-        self.method(index).is_some() && self.known(index).is_none()
+        let scene = &self.points[index].scene;
+        self.method(index)
+            .is_some_and(|method| method.by_rule(scene).is_none())
     }
 
     /// Whether tosses of point `index` are counted.
@@ -84,12 +85,9 @@ impl Plan {
     }
 }
 
-/// Simulated time, s, after which a point's engine gives a toss up, if the first contact decides
-/// and the engine follows it in closed form.
+/// Simulated time, s, after which a point's engine gives a toss up, if the engine follows a flight in
+/// closed form.
 fn time_limit_s(point: &Point) -> Option<f64> {
-    if point.scene.surface.landing() != Landing::Adhesive {
-        return None;
-    }
     match &point.engine {
         EngineChoice::Flat(_) => Some(f64::INFINITY),
         EngineChoice::Volumetric(settings) => {

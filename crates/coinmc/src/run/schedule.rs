@@ -220,17 +220,14 @@ impl<'a> Schedule<'a> {
             }
             None => return false,
         };
-        if let Some(integral) = self.plan.known(point) {
-            self.points[point].integral = Some(integral);
-            self.points[point].reached = true;
-            self.progress.points_done += 1;
-        } else if self.plan.integrates(point) {
+        if self.plan.integrates(point) {
             let shards = Box::new(std::iter::once(whole(point)));
             self.current = Some(Stage { point, shards });
-        } else if self.plan.points[point].engine.makes_tosses() {
+        } else if self.plan.makes_tosses(point) {
             let shards = Box::new(self.cut.shards(point, self.points[point].stage));
             self.current = Some(Stage { point, shards });
         } else {
+            self.points[point].integral = self.plan.known(point);
             self.points[point].reached = true;
             self.progress.points_done += 1;
         }

@@ -1,0 +1,92 @@
+//! Tosses side by side: launches go in as there is room, ends come out in any order.
+
+use crate::Launch;
+use std::ops::ControlFlow;
+
+/// Tosses that an engine has under way together.
+///
+/// It knows neither where launches come from nor who is told of the ends, so it is compiled once
+/// whatever these are, and calls neither.
+///
+/// # Example
+/// ```
+/// use coinmc_core::{Coin, Domain, Launch, Preset, Stream, TossBatch};
+/// use std::ops::ControlFlow;
+///
+/// /// Two tosses at a time that end where they begin.
+/// #[derive(Default)]
+/// struct Heights(u64, Vec<(u64, f64)>);
+///
+/// impl TossBatch for Heights {
+///     type End = f64;
+///     fn has_room(&self) -> bool {
+///         self.1.len() < 2
+///     }
+///     fn launch(&mut self, launch: &Launch) {
+///         self.1.push((self.0, launch.height_m));
+///         self.0 += 1;
+///     }
+///     fn advance(&mut self) -> bool {
+///         false
+///     }
+///     fn ended(&mut self) -> &mut Vec<(u64, f64)> {
+///         &mut self.1
+///     }
+/// }
+///
+/// let (coin, stream) = (Coin::cylinder(1.0, 0.01)?, Stream::new(1, Domain::Launch, 0));
+/// let distribution = Preset::Robot.distribution();
+/// let launches = (0..5).map(|toss| distribution.launch(&coin, &mut stream.toss(toss)));
+/// let mut seen = vec![];
+/// Heights::default().follow_all(launches, |number, _| {
+///     seen.push(number);
+///     ControlFlow::Continue(())
+/// });
+/// assert_eq!(seen, [0, 1, 2, 3, 4]);
+/// # Ok::<(), coinmc_core::CoinError>(())
+/// ```
+pub trait TossBatch {
+    /// What comes of a toss.
+    type End;
+
+    /// Whether one more toss may be launched. Not without bound: tosses that end at once wait to be
+    /// told, too.
+    fn has_room(&self) -> bool;
+
+    /// Launches a toss, where there is room. Tosses are numbered as they come, from 0.
+    fn launch(&mut self, launch: &Launch);
+
+    /// One piece of work; `false` if no toss is under way.
+    fn advance(&mut self) -> bool;
+
+    /// Tosses that have ended and are yet to be told, by number.
+    fn ended(&mut self) -> &mut Vec<(u64, Self::End)>;
+
+    /// Follows the tosses of all launches, and tells `each` the number of every toss among them and
+    /// its end, until that breaks off.
+    fn follow_all(
+        mut self,
+        launches: impl Iterator<Item = Launch>,
+        mut each: impl FnMut(u64, &Self::End) -> ControlFlow<()>,
+    ) where
+        Self: Sized,
+    {
+        let mut launches = launches.fuse();
+        loop {
+            while self.has_room()
+                && let Some(launch) = launches.next()
+            {
+                self.launch(&launch);
+            }
+            let is_done = !self.advance() && self.ended().is_empty();
+            for (number, end) in self.ended().drain(..) {
+                if each(number, &end).is_break() {
+                    return;
+                }
+            }
+            if is_done {
+                return;
+            }
+        }
+    }
+}
