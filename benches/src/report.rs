@@ -34,7 +34,7 @@ impl Table {
 
     /// Adds a row of as many cells as there are columns.
     pub(crate) fn push(&mut self, cells: Vec<String>) {
-        debug_assert_eq!(cells.len(), self.columns.len());
+        assert_eq!(cells.len(), self.columns.len());
         self.rows.push(cells);
     }
 

@@ -47,7 +47,7 @@ def coinmc(binary):
 def random_words() -> dict:
     """What tests/examples/random-words.rs prints."""
     # of the workspace, with whose features the tests of Rust have built it
-    build = ("build", "--quiet", "--workspace", "--profile", "test", "--message-format", "json")
+    build = ("build", "--quiet", "--workspace", "--release", "--message-format", "json")
     said = cargo(*build, "--example", "random-words").splitlines()
     built = [json.loads(line).get("executable") for line in said]
     program = next(path for path in reversed(built) if path)

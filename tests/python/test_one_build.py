@@ -1,4 +1,4 @@
-"""The program and the Python wheel share all that they compile.
+"""The program, the Python wheel and the tests share all that they compile.
 
 Cargo compiles a package anew for every set of features that is asked of it. If one build asks for
 another set than the other, all that depends on the package is compiled twice: minutes for nothing.
@@ -6,24 +6,44 @@ another set than the other, all that depends on the package is compiled twice: m
 
 import os
 import subprocess
+from collections import defaultdict
+
+import pytest
 
 
-def features(root, package: str) -> dict[str, str]:
-    """Features of every package that a build compiles, by name and version."""
+def features(root, *which: str) -> dict[str, set[str]]:
+    """Features of every package that a build compiles, by name and version.
+
+    There may be several sets of them: procedural macros have packages of their own.
+    """
     cargo = os.environ.get("CARGO", "cargo")
-    words = [cargo, "tree", "--edges", "normal,build", "--prefix", "none"]
-    words += ["--package", package, "--format", "{p} | {f}"]
+    words = [cargo, "tree", "--prefix", "none", "--format", "{p} | {f}", *which]
     told = subprocess.run(words, cwd=root, check=True, capture_output=True, text=True).stdout
-    lines = {line.removesuffix(" (*)") for line in told.splitlines()}
-    return dict(sorted(line.split(" | ", 1) for line in lines))
+    sets = defaultdict(set)
+    for line in told.splitlines():
+        if " | " in line:
+            name, asked = line.removesuffix(" (*)").split(" | ", 1)
+            sets[name].add(asked)
+    return sets
 
 
-def test_program_and_wheel_ask_for_the_same_features(root):
-    program, wheel = features(root, "coinmc-cli"), features(root, "coinmc-python")
-    shared = program.keys() & wheel.keys()
+@pytest.mark.parametrize(
+    "other",
+    [
+        ("--edges", "normal,build", "--package", "coinmc-python"),
+        ("--edges", "normal,build,dev", "--workspace"),
+    ],
+    ids=["wheel", "tests"],
+)
+def test_builds_ask_for_the_features_of_the_program(root, other):
+    program = features(root, "--edges", "normal,build", "--package", "coinmc-cli")
+    theirs = features(root, *other)
+    shared = program.keys() & theirs.keys()
     assert len(shared) > 100
     different = {
-        name: (program[name], wheel[name]) for name in shared if program[name] != wheel[name]
+        name: (program[name], theirs[name])
+        for name in sorted(shared)
+        if not program[name] <= theirs[name]
     }
     # mended in the two Cargo.toml, where they name packages that they do not use
     assert not different

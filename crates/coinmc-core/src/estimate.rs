@@ -56,7 +56,9 @@ pub struct Estimate {
 
 impl Estimate {
     /// Estimates a probability from `successes` in `n` tosses of which `undecided` have no face.
-    /// `confidence` lies in (0, 1).
+    ///
+    /// # Panics
+    /// If there are fewer tosses than successes and undecided ones, or `confidence` is not in (0, 1).
     pub fn new(
         successes: u64,
         undecided: u64,
@@ -64,7 +66,7 @@ impl Estimate {
         confidence: f64,
         method: IntervalMethod,
     ) -> Self {
-        debug_assert!(successes + undecided <= n && confidence > 0.0 && confidence < 1.0);
+        assert!(successes + undecided <= n && confidence > 0.0 && confidence < 1.0);
         let (lo, hi) = if n == 0 {
             (0.0, 1.0)
         } else {

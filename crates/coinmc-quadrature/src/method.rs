@@ -254,7 +254,7 @@ fn asked(launches: &LaunchDistribution) -> Vec<u32> {
     let coin = coinmc_core::Coin::cylinder(1.0, 1.0).expect("a coin");
     let mut asked = Asked(vec![]);
     launches.launch(&coin, &mut asked);
-    debug_assert!(asked.0.len() <= DIMENSIONS);
+    assert!(asked.0.len() <= DIMENSIONS);
     asked.0
 }
 

@@ -165,6 +165,6 @@ fn write(
         .collect();
     let mut schedule = Schedule::new(plan, Part::WHOLE, finished);
     let whole = schedule.next();
-    debug_assert_eq!(whole, Next::Done, "checked before");
+    assert_eq!(whole, Next::Done, "checked before");
     conclude(plan, Part::WHOLE, schedule, &directory, watcher)
 }

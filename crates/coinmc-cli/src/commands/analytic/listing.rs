@@ -75,7 +75,7 @@ impl Listing {
 
     /// Adds a row; a number that does not exist (NaN) becomes null.
     pub(super) fn push(&mut self, cells: Vec<Value>) {
-        debug_assert_eq!(cells.len(), self.fields.len());
+        assert_eq!(cells.len(), self.fields.len());
         self.rows.push(cells);
     }
 
