@@ -3,7 +3,7 @@
 use coinmc_core::{
     Coin, Domain, Drag, Landing, LaunchDistribution, Preset, Scene, Stream, Surface,
 };
-use coinmc_flat::{FlatEngine, ImpactLaw, Settings};
+use coinmc_flat::{AnyFlatEngine, Settings};
 use std::fmt;
 
 /// A scene and how the coin is let go.
@@ -125,8 +125,8 @@ impl Case {
     ///
     /// # Panics
     /// If a setting is out of range.
-    pub fn engine<L: ImpactLaw>(&self, settings: &Settings, law: L) -> FlatEngine<L> {
-        FlatEngine::new(&self.scene, settings, law).expect("settings are in range")
+    pub fn engine(&self, settings: &Settings) -> AnyFlatEngine {
+        AnyFlatEngine::new(&self.scene, settings).expect("settings are in range")
     }
 }
 

@@ -2,8 +2,8 @@
 
 use crate::Case;
 use coinmc_core::{Engine, Philox4x64, Preset, run_tosses};
-use coinmc_flat::{ChatterjeeRuina, ImpactLaw, Moreau, Settings};
-use coinmc_volumetric::{Lanes, Stronge, VolumetricEngine};
+use coinmc_flat::{Law, Settings};
+use coinmc_volumetric::{AnyVolumetricEngine, Lanes};
 use std::hint::black_box;
 use std::ops::Range;
 
@@ -164,31 +164,37 @@ impl Workload {
     /// depends on the numbers only, so that no compiler can leave any of the work out.
     pub fn run(&self, range: Range<u64>) -> u64 {
         match &self.task {
-            Task::Toss(case, lanes) => toss_flat(case, Moreau, *lanes, range),
+            Task::Toss(case, lanes) => toss_flat(case, Law::Moreau, *lanes, range),
             Task::TossChatterjeeRuina(case) => {
-                toss_flat(case, ChatterjeeRuina, Lanes::Scalar, range)
+                toss_flat(case, Law::ChatterjeeRuina, Lanes::Scalar, range)
             }
             Task::TossInSpace(case, lanes) => {
-                toss_in_space(case, coinmc_volumetric::Moreau, *lanes, range)
+                toss_in_space(case, coinmc_volumetric::Law::Moreau, *lanes, range)
             }
-            Task::TossStronge(case) => toss_in_space(case, Stronge, Lanes::Scalar, range),
+            Task::TossStronge(case) => {
+                toss_in_space(case, coinmc_volumetric::Law::Stronge, Lanes::Scalar, range)
+            }
             Task::Launch(case) => launches(case, range),
             Task::Philox => philox(range),
         }
     }
 }
 
-fn toss_flat<L: ImpactLaw>(case: &Case, law: L, lanes: Lanes, range: Range<u64>) -> u64 {
-    let engine = case.engine(&Settings::default(), law).with_lanes(lanes);
+fn toss_flat(case: &Case, law: Law, lanes: Lanes, range: Range<u64>) -> u64 {
+    let settings = Settings {
+        law,
+        ..Settings::default()
+    };
+    let engine = case.engine(&settings).with_lanes(lanes);
     tosses(&engine.expect("lanes are available"), case, range)
 }
 
-fn toss_in_space<L>(case: &Case, law: L, lanes: Lanes, range: Range<u64>) -> u64
-where
-    L: coinmc_volumetric::ImpactLaw,
-{
-    let settings = coinmc_volumetric::Settings::default();
-    let engine = VolumetricEngine::new(&case.scene, &settings, law);
+fn toss_in_space(case: &Case, law: coinmc_volumetric::Law, lanes: Lanes, range: Range<u64>) -> u64 {
+    let settings = coinmc_volumetric::Settings {
+        law,
+        ..coinmc_volumetric::Settings::default()
+    };
+    let engine = AnyVolumetricEngine::new(&case.scene, &settings);
     let engine = engine.expect("the defaults are in range");
     let engine = engine.with_lanes(lanes).expect("lanes are available");
     tosses(&engine, case, range)

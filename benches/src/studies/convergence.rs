@@ -10,7 +10,7 @@ use crate::report::{Report, Table};
 use clap::Args;
 use coinmc_bench::Case;
 use coinmc_core::{Engine, Face, Preset};
-use coinmc_flat::{Moreau, Settings};
+use coinmc_flat::Settings;
 
 const ZENO: [f64; 6] = [1.0, 0.3, 0.1, 0.03, 0.003, 0.001];
 const TOLERANCE: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-8];
@@ -111,11 +111,8 @@ fn compare(case: &Case, variants: &[Variant], seed: u64, tosses: u64) -> Vec<Cha
         tolerance: default.tolerance / 10.0,
         ..default
     };
-    let reference = case.engine(&tight, Moreau);
-    let engines: Vec<_> = variants
-        .iter()
-        .map(|v| case.engine(&v.settings, Moreau))
-        .collect();
+    let reference = case.engine(&tight);
+    let engines: Vec<_> = variants.iter().map(|v| case.engine(&v.settings)).collect();
     let mut changes = vec![Change::default(); variants.len()];
     let (launches, stream) = (case.launches(), Case::stream(seed));
     for toss in 0..tosses {

@@ -48,7 +48,7 @@ use crate::number;
 use crate::worst::Worst;
 use coinmc_bench::Case;
 use coinmc_core::{Engine, Estimate, IntervalMethod, Observer, Preset, Tally, run_tosses};
-use coinmc_flat::{Moreau, Settings};
+use coinmc_flat::Settings;
 use rayon::prelude::*;
 use std::io::{IsTerminal, stderr};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -78,7 +78,7 @@ fn survey<'a, T: Sync, R: Send>(items: &'a [T], each: impl Fn(&'a T) -> R + Sync
 
 /// Tallies the first tosses of a case.
 fn tally(case: &Case, settings: &Settings, seed: u64, tosses: u64) -> Tally {
-    let engine = case.engine(settings, Moreau);
+    let engine = case.engine(settings);
     let (launches, stream) = (case.launches(), Case::stream(seed));
     run_tosses(
         &engine,
@@ -127,7 +127,7 @@ fn examine(case: &Case, seed: u64, quota: u64, examiner: &mut impl Examiner) {
         max_impacts: EXAMINED_IMPACTS,
         ..Settings::default()
     };
-    let engine = case.engine(&settings, Moreau);
+    let engine = case.engine(&settings);
     let (launches, stream) = (case.launches(), Case::stream(seed));
     for toss in 0..quota {
         if examiner.examined() >= quota {

@@ -7,7 +7,7 @@ use clap::Args;
 use coinmc_bench::Case;
 use coinmc_core::{Engine, Face, Preset};
 use coinmc_oracle::{StepperSettings, TimeStepper};
-use coinmc_volumetric::{Moreau, Settings, VolumetricEngine};
+use coinmc_volumetric::{AnyVolumetricEngine, Settings};
 
 /// (H/R, e, friction lengths in R) of the scenes, all with μ = 0.3 and the preset clean.
 const SCENES: [(f64, f64, f64); 7] = [
@@ -89,7 +89,7 @@ impl Oracle {
 
     fn compare(&self, scene: &Scene, seed: u64) -> Differences {
         let scene = &scene.case;
-        let engine = VolumetricEngine::new(&scene.scene, &Settings::default(), Moreau)
+        let engine = AnyVolumetricEngine::new(&scene.scene, &Settings::default())
             .expect("settings are in range");
         let settings = StepperSettings {
             step: self.step,

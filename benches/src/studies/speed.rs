@@ -11,7 +11,7 @@ use clap::Args;
 use coinmc::run::{Shard, run_shard};
 use coinmc_bench::{Case, workloads};
 use coinmc_core::{Engine, Preset, run_tosses};
-use coinmc_flat::{Moreau, Settings};
+use coinmc_flat::Settings;
 use std::hint::black_box;
 use std::num::NonZeroUsize;
 use std::time::Instant;
@@ -167,7 +167,7 @@ impl Speed {
 
 /// What any caller of the engine would write.
 fn bare_loop(case: &Case, seed: u64, tosses: u64) {
-    let engine = case.engine(&Settings::default(), Moreau);
+    let engine = case.engine(&Settings::default());
     let (launches, stream) = (case.launches(), Case::stream(seed));
     let scene = &case.scene;
     black_box(run_tosses(

@@ -6,7 +6,7 @@ use crate::report::{Report, Table};
 use clap::Args;
 use coinmc_bench::Case;
 use coinmc_core::{Engine, Estimate, IntervalMethod, Preset, Tally};
-use coinmc_flat::{Moreau, Settings};
+use coinmc_flat::Settings;
 use std::time::Instant;
 
 /// Slowest scenes that are printed.
@@ -81,7 +81,7 @@ impl Undecided {
 }
 
 fn toss(case: &Case, seed: u64, tosses: u64) -> Found {
-    let engine = case.engine(&Settings::default(), Moreau);
+    let engine = case.engine(&Settings::default());
     let (launches, stream) = (case.launches(), Case::stream(seed));
     let (mut tally, mut named) = (Tally::default(), Vec::new());
     let start = Instant::now();

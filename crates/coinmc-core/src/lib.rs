@@ -41,6 +41,7 @@ mod coin;
 mod engine;
 mod estimate;
 mod launch;
+mod observer;
 mod outcome;
 mod random;
 mod surface;
@@ -48,7 +49,7 @@ mod tally;
 
 pub use batch::TossBatch;
 pub use coin::{Coin, CoinError};
-pub use engine::{Engine, Event, EventKind, Observer, State, run_tosses, sample_between};
+pub use engine::{Engine, Event, EventKind, State, run_tosses, toss_in_turn};
 pub use estimate::{
     Estimate, IntervalMethod, relative_error, rule_of_thumb_relative_error, student_t_quantile,
 };
@@ -56,6 +57,7 @@ pub use launch::{
     Launch, LaunchDistribution, LaunchError, Marginal, Orientation, Preset, Spin,
     inverse_normal_cdf,
 };
+pub use observer::{Observer, Onlooker, sample_between};
 pub use outcome::{Breaks, Ended, Face, Outcome};
 pub use random::{Domain, Philox4x64, Stream, TossUniforms, UniformSource, unit_interval};
 pub use surface::{Drag, Landing, Scene, Surface, SurfaceError};

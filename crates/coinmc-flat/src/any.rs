@@ -1,17 +1,20 @@
 //! The engine of a law that is known at run time only.
 
+use crate::batch::Batch;
 use crate::engine::FlatEngine;
 use crate::half_sine::HalfSineImpact;
 use crate::impact::{ChatterjeeRuina, Moreau};
 use crate::line::LineImpact;
 use crate::paper::PaperImpact;
 use crate::settings::{Law, Settings, SettingsError};
-use coinmc_core::{Engine, Launch, Observer, Outcome, Scene};
+use coinmc_core::{Engine, Launch, Observer, Onlooker, Outcome, Scene, TossBatch, toss_in_turn};
 use coinmc_lanes::{Lanes, NoSuchLanes};
 use std::ops::ControlFlow;
 
-/// An engine of any law, for callers that learn the law at run time: one `match`, then static
-/// dispatch.
+/// An engine of any law, for callers that learn the law at run time: one `match` a toss.
+///
+/// It is compiled with this crate, for all laws and once for all observers; of the engine of one law
+/// every caller compiles an instance of its own, and one more for each observer.
 #[derive(Debug, Clone)]
 pub enum AnyFlatEngine {
     /// [`Moreau`].
@@ -87,15 +90,78 @@ impl AnyFlatEngine {
     }
 }
 
-/// One `match` a toss, or a batch of them: for callers that have no loop of their own to compile for
-/// each law.
+impl AnyFlatEngine {
+    fn any_observer<O: Observer>(&self, launch: &Launch, observer: &mut O) -> Outcome {
+        if O::ACTIVE {
+            self.observed(launch, &mut Onlooker::new(observer))
+        } else {
+            self.unobserved(launch)
+        }
+    }
+}
+
+// nothing of this is generic: so it is compiled here
+impl AnyFlatEngine {
+    fn unobserved(&self, launch: &Launch) -> Outcome {
+        each_law!(self, engine => engine.toss_observed(launch, &mut ()))
+    }
+
+    fn observed(&self, launch: &Launch, observer: &mut Onlooker) -> Outcome {
+        each_law!(self, engine => engine.toss_observed(launch, observer))
+    }
+
+    fn batch(&self) -> Option<AnyBatch<'_>> {
+        match self {
+            Self::Moreau(engine) => Batch::of(engine).map(AnyBatch::Moreau),
+            Self::ChatterjeeRuina(engine) => Batch::of(engine).map(AnyBatch::ChatterjeeRuina),
+            // not side by side
+            Self::Paper(_) | Self::HalfSine(_) | Self::LineContact(_) => None,
+        }
+    }
+}
+
+enum AnyBatch<'a> {
+    Moreau(Batch<'a, Moreau>),
+    ChatterjeeRuina(Batch<'a, ChatterjeeRuina>),
+}
+
+/// The same of every law with batches.
+macro_rules! each_batch {
+    ($any:expr, $batch:ident => $same:expr) => {
+        match $any {
+            Self::Moreau($batch) => $same,
+            Self::ChatterjeeRuina($batch) => $same,
+        }
+    };
+}
+
+impl TossBatch for AnyBatch<'_> {
+    type End = Outcome;
+
+    fn has_room(&self) -> bool {
+        each_batch!(self, batch => batch.has_room())
+    }
+
+    fn launch(&mut self, launch: &Launch) {
+        each_batch!(self, batch => batch.launch(launch));
+    }
+
+    fn advance(&mut self) -> bool {
+        each_batch!(self, batch => batch.advance())
+    }
+
+    fn ended(&mut self) -> &mut Vec<(u64, Outcome)> {
+        each_batch!(self, batch => batch.ended())
+    }
+}
+
 impl Engine for AnyFlatEngine {
     type Workspace = ();
 
     fn workspace(&self) {}
 
     fn toss(&self, (): &mut (), launch: &Launch, observer: &mut impl Observer) -> Outcome {
-        each_law!(self, engine => engine.toss(&mut (), launch, observer))
+        self.any_observer(launch, observer)
     }
 
     fn toss_all(
@@ -104,6 +170,9 @@ impl Engine for AnyFlatEngine {
         launches: impl Iterator<Item = Launch>,
         each: impl FnMut(u64, &Outcome) -> ControlFlow<()>,
     ) {
-        each_law!(self, engine => engine.toss_all(&mut (), launches, each));
+        match self.batch() {
+            Some(batch) => batch.follow_all(launches, each),
+            None => toss_in_turn(self, &mut (), launches, each),
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! The toss: flight, impact, sustained contact, decision.
 
-use crate::batch;
+use crate::batch::Batch;
 use crate::bounce::After;
 use crate::contact::{Contact, Hold, Leave, Poised, Slider};
 use crate::flight::fly_to_contact;
@@ -11,7 +11,8 @@ use crate::shape::Shape;
 use crate::slide::SlideEnd;
 use crate::watch::Watch;
 use coinmc_core::{
-    Breaks, Ended, Engine, EventKind, Face, Landing, Launch, Observer, Outcome, Scene,
+    Breaks, Ended, Engine, EventKind, Face, Landing, Launch, Observer, Outcome, Scene, TossBatch,
+    toss_in_turn,
 };
 use coinmc_lanes::{Lanes, NoSuchLanes};
 use std::ops::ControlFlow;
@@ -326,7 +327,10 @@ impl<L: ImpactLaw> Engine for FlatEngine<L> {
         launches: impl Iterator<Item = Launch>,
         each: impl FnMut(u64, &Outcome) -> ControlFlow<()>,
     ) {
-        batch::toss_all(self, launches, each);
+        match Batch::of(self) {
+            Some(batch) => batch.follow_all(launches, each),
+            None => toss_in_turn(self, &mut (), launches, each),
+        }
     }
 }
 

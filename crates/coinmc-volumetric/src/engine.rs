@@ -1,16 +1,17 @@
 //! The toss: flight, impact, sustained contact, decision.
 
-use crate::batch;
+use crate::batch::Batch;
 use crate::body::{Body, Friction, Units};
 use crate::contact::{self, Contact, Leave, Spent};
 use crate::flight::{Departure, Drag};
-use crate::impact::{ChatterjeeRuina, ImpactLaw, Moreau, Stronge};
+use crate::impact::ImpactLaw;
 use crate::rest;
-use crate::settings::{Decision, Law, Settings, SettingsError};
+use crate::settings::{Decision, Settings, SettingsError};
 use crate::toss::Toss;
 use crate::verdict::{Judge, Verdict};
 use coinmc_core::{
     Breaks, Ended, Engine, Event, EventKind, Face, Landing, Launch, Observer, Outcome, Scene,
+    TossBatch, toss_in_turn,
 };
 use coinmc_lanes::{Lanes, NoSuchLanes};
 use std::ops::ControlFlow;
@@ -66,46 +67,6 @@ pub(crate) enum Onward {
 const LEAST_TOLERANCE: f64 = 1e-13;
 /// Impacts of one rim and the other in turn, without flight, after which the coin lies on its side.
 const ALTERNATIONS: u32 = 100;
-
-/// An engine of any law, for callers that learn the law at run time: one `match`, then static
-/// dispatch.
-#[derive(Debug, Clone)]
-pub enum AnyVolumetricEngine {
-    /// [`Moreau`].
-    Moreau(VolumetricEngine<Moreau>),
-    /// [`ChatterjeeRuina`].
-    ChatterjeeRuina(VolumetricEngine<ChatterjeeRuina>),
-    /// [`Stronge`].
-    Stronge(VolumetricEngine<Stronge>),
-}
-
-impl AnyVolumetricEngine {
-    /// The engine of `settings.law`.
-    ///
-    /// # Errors
-    /// [`SettingsError`] if a setting is out of range.
-    pub fn new(scene: &Scene, settings: &Settings) -> Result<Self, SettingsError> {
-        Ok(match settings.law {
-            Law::Moreau => Self::Moreau(VolumetricEngine::new(scene, settings, Moreau)?),
-            Law::ChatterjeeRuina => {
-                Self::ChatterjeeRuina(VolumetricEngine::new(scene, settings, ChatterjeeRuina)?)
-            }
-            Law::Stronge => Self::Stronge(VolumetricEngine::new(scene, settings, Stronge)?),
-        })
-    }
-
-    /// The same with these lanes instead of [`Lanes::best`], for [`Engine::toss_all`].
-    ///
-    /// # Errors
-    /// [`NoSuchLanes`] if this processor has no such instructions.
-    pub fn with_lanes(self, lanes: Lanes) -> Result<Self, NoSuchLanes> {
-        Ok(match self {
-            Self::Moreau(engine) => Self::Moreau(engine.with_lanes(lanes)?),
-            Self::ChatterjeeRuina(engine) => Self::ChatterjeeRuina(engine.with_lanes(lanes)?),
-            Self::Stronge(engine) => Self::Stronge(engine.with_lanes(lanes)?),
-        })
-    }
-}
 
 impl<L: ImpactLaw> VolumetricEngine<L> {
     /// An engine for this scene. `settings.law` is not looked at: `law` is the law.
@@ -465,6 +426,9 @@ impl<L: ImpactLaw> Engine for VolumetricEngine<L> {
         launches: impl Iterator<Item = Launch>,
         mut each: impl FnMut(u64, &Outcome) -> ControlFlow<()>,
     ) {
-        batch::toss_all(self, launches, |number, toss| each(number, &toss.outcome));
+        match Batch::of(self) {
+            Some(batch) => batch.follow_all(launches, |number, end| each(number, &end.outcome)),
+            None => toss_in_turn(self, &mut (), launches, each),
+        }
     }
 }

@@ -39,6 +39,7 @@
 //! `settings` choices · `series` elementary functions of the kernels.
 
 mod aloft;
+mod any;
 mod batch;
 mod body;
 mod contact;
@@ -56,9 +57,10 @@ mod toss;
 mod verdict;
 mod watch;
 
+pub use any::AnyVolumetricEngine;
 pub use body::{Body, Friction};
 pub use coinmc_lanes::{Lane, Lanes, Mask, NoSuchLanes};
-pub use engine::{AnyVolumetricEngine, VolumetricEngine};
+pub use engine::VolumetricEngine;
 pub use impact::{
     ChatterjeeRuina, ContactMatrix, ImpactLaw, Impulse, Kick, Moreau, Stronge, Touch,
 };

@@ -5,7 +5,7 @@ use coinmc_core::{
     unit_interval,
 };
 use coinmc_quadrature::{Goal, Method, Sobol, integrate};
-use coinmc_volumetric::{Moreau, Settings, VolumetricEngine};
+use coinmc_volumetric::{AnyVolumetricEngine, Settings};
 use std::ops::ControlFlow;
 
 /// A way, by what it does with the random numbers of the launches.
@@ -47,7 +47,7 @@ impl Way {
 pub(super) struct Subject {
     pub(super) scene: Scene,
     pub(super) launches: LaunchDistribution,
-    engine: VolumetricEngine<Moreau>,
+    engine: AnyVolumetricEngine,
     /// P(heads) of the axis at launch.
     at_launch: f64,
 }
@@ -56,7 +56,7 @@ impl Subject {
     /// # Panics
     /// If the default settings are out of range.
     pub(super) fn new(scene: Scene, launches: LaunchDistribution) -> Self {
-        let engine = VolumetricEngine::new(&scene, &Settings::default(), Moreau);
+        let engine = AnyVolumetricEngine::new(&scene, &Settings::default());
         let mut subject = Self {
             scene,
             launches,

@@ -16,7 +16,7 @@ use clap::Args;
 use coinmc_bench::Case;
 use coinmc_core::{Engine, Face, Tally};
 use coinmc_rapier::{Account, Settings};
-use coinmc_volumetric::{Moreau, VolumetricEngine};
+use coinmc_volumetric::AnyVolumetricEngine;
 
 /// The number of the first toss of the event-driven engine's own sample, beyond all others.
 const OTHERS: u64 = 1 << 40;
@@ -153,9 +153,9 @@ impl RapierStep {
     }
 }
 
-fn events(case: &Case) -> anyhow::Result<VolumetricEngine<Moreau>> {
+fn events(case: &Case) -> anyhow::Result<AnyVolumetricEngine> {
     let settings = coinmc_volumetric::Settings::default();
-    Ok(VolumetricEngine::new(&case.scene, &settings, Moreau)?)
+    Ok(AnyVolumetricEngine::new(&case.scene, &settings)?)
 }
 
 impl Found {

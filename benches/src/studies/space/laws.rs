@@ -2,12 +2,12 @@
 
 use super::grid::Grid;
 use super::paired::{Paired, side, undecided};
-use super::{cells, columns, engine, survey_tosses, tightened, toss};
+use super::{cells, columns, engine, survey_tosses, tightened};
 use crate::number;
 use crate::report::{Report, Table};
 use clap::Args;
 use coinmc_bench::Case;
-use coinmc_core::Tally;
+use coinmc_core::{Engine, Tally};
 use coinmc_volumetric::{Law, Settings};
 use std::ops::Range;
 
@@ -105,7 +105,7 @@ fn tally(case: &Case, law: Law, seed: u64, tosses: Range<u64>) -> Tally {
     let mut tally = Tally::default();
     for number in tosses {
         let launch = launches.launch(&case.scene.coin, &mut stream.toss(number));
-        tally.add(&toss(&engine, &launch, &mut ()));
+        tally.add(&engine.toss(&mut (), &launch, &mut ()));
     }
     tally
 }

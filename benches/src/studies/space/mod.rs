@@ -32,8 +32,8 @@ pub(super) use stress_box::Sample;
 
 use super::{EXAMINED_IMPACTS, Examiner, survey};
 use coinmc_bench::Case;
-use coinmc_core::{Coin, Engine, Launch, Observer, Outcome, State, Tally, run_tosses};
-use coinmc_volumetric::{AnyVolumetricEngine, ImpactLaw, Settings, VolumetricEngine};
+use coinmc_core::{Coin, Engine, State, Tally, run_tosses};
+use coinmc_volumetric::{AnyVolumetricEngine, Settings};
 use nalgebra::Vector3;
 use std::ops::Range;
 
@@ -79,25 +79,13 @@ fn engine(case: &Case, settings: &Settings) -> AnyVolumetricEngine {
     AnyVolumetricEngine::new(&case.scene, settings).expect("settings are in range")
 }
 
-/// A toss under whatever law the engine has.
-pub(super) fn toss(
-    engine: &AnyVolumetricEngine,
-    launch: &Launch,
-    observer: &mut impl Observer,
-) -> Outcome {
-    match engine {
-        AnyVolumetricEngine::Moreau(engine) => engine.toss(&mut (), launch, observer),
-        AnyVolumetricEngine::ChatterjeeRuina(engine) => engine.toss(&mut (), launch, observer),
-        AnyVolumetricEngine::Stronge(engine) => engine.toss(&mut (), launch, observer),
-    }
-}
-
-/// Tallies tosses of a case under a law.
-fn tally<L: ImpactLaw>(case: &Case, law: L, seed: u64, tosses: Range<u64>) -> Tally {
-    let engine = VolumetricEngine::new(&case.scene, &Settings::default(), law);
-    let engine = engine.expect("the defaults are in range");
+/// Tallies tosses of a case by an engine.
+fn tally<E>(case: &Case, engine: &E, seed: u64, tosses: Range<u64>) -> Tally
+where
+    E: Engine<Workspace = ()>,
+{
     let (launches, stream) = (case.launches(), Case::stream(seed));
-    run_tosses(&engine, &mut (), &case.scene, &launches, &stream, tosses)
+    run_tosses(engine, &mut (), &case.scene, &launches, &stream, tosses)
 }
 
 /// Makes the first tosses of every item in parts, on all cores, and merges what the parts find, in
@@ -139,7 +127,7 @@ fn examine(case: &Case, settings: &Settings, seed: u64, quota: u64, examiner: &m
         }
         examiner.begin(number);
         let launch = launches.launch(&case.scene.coin, &mut stream.toss(number));
-        toss(&engine, &launch, examiner);
+        engine.toss(&mut (), &launch, examiner);
     }
 }
 

@@ -1,8 +1,8 @@
 //! The same tosses made in two ways.
 
-use super::{engine, toss};
+use super::engine;
 use coinmc_bench::Case;
-use coinmc_core::{Estimate, Face, IntervalMethod, Outcome, Tally};
+use coinmc_core::{Engine, Estimate, Face, IntervalMethod, Outcome, Tally};
 use coinmc_volumetric::Settings;
 use std::ops::Range;
 
@@ -30,8 +30,8 @@ impl Paired {
         for number in tosses {
             let launch = launches.launch(&case.scene.coin, &mut stream.toss(number));
             paired.add(
-                &toss(&first, &launch, &mut ()),
-                &toss(&second, &launch, &mut ()),
+                &first.toss(&mut (), &launch, &mut ()),
+                &second.toss(&mut (), &launch, &mut ()),
             );
         }
         paired

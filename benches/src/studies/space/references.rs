@@ -1,19 +1,19 @@
 //! The four reference values of an earlier study, under the law that it solved and under ours.
 //!
 //! Both demand the same of an impact: friction against the final slip, contour and pivoting
-//! friction against their final rates. Ours ([`Moreau`]) solves these conditions together; the
+//! friction against their final rates. Ours ([`Moreau`](coinmc_volumetric::Moreau)) solves these conditions together; the
 //! earlier study solved friction without the lengths and then added these in a few sweeps
 //! ([`Sequential`]).
 
 use super::paired::side;
 use super::sequential::Sequential;
-use super::{FRICTION, survey_tosses, tally};
+use super::{FRICTION, engine, survey_tosses, tally};
 use crate::number;
 use crate::report::{Report, Table};
 use clap::Args;
 use coinmc_bench::Case;
 use coinmc_core::{Preset, Tally};
-use coinmc_volumetric::Moreau;
+use coinmc_volumetric::{Settings, VolumetricEngine};
 
 /// A published value.
 struct Reference {
@@ -81,9 +81,17 @@ impl SpaceReferences {
         let tallies = survey_tosses(
             &jobs,
             self.tosses,
-            |(scene, law), tosses| match *law {
-                Some(sweeps) => tally(&scene.case(), Sequential { sweeps }, seed, tosses),
-                None => tally(&scene.case(), Moreau, seed, tosses),
+            |(scene, sweeps), tosses| {
+                let (case, settings) = (scene.case(), Settings::default());
+                match *sweeps {
+                    Some(sweeps) => {
+                        let law = Sequential { sweeps };
+                        let engine = VolumetricEngine::new(&case.scene, &settings, law);
+                        let engine = engine.expect("the defaults are in range");
+                        tally(&case, &engine, seed, tosses)
+                    }
+                    None => tally(&case, &engine(&case, &settings), seed, tosses),
+                }
             },
             Tally::merge,
         );

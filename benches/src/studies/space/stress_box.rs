@@ -1,8 +1,7 @@
 //! Random scenes and launches from all over the box that the engine has to survive.
 
-use super::toss;
 use coinmc_bench::Case;
-use coinmc_core::{Coin, Launch, Orientation, Outcome, Scene, Surface, UniformSource};
+use coinmc_core::{Coin, Engine, Launch, Orientation, Outcome, Scene, Surface, UniformSource};
 use coinmc_volumetric::{AnyVolumetricEngine, Settings};
 use nalgebra::{UnitVector3, Vector3};
 use std::f64::consts::TAU;
@@ -83,11 +82,8 @@ impl Sample {
     /// Follows the toss.
     pub(super) fn toss(&self, settings: &Settings) -> Outcome {
         let engine = AnyVolumetricEngine::new(&self.scene, settings);
-        toss(
-            &engine.expect("settings are in range"),
-            &self.launch,
-            &mut (),
-        )
+        let engine = engine.expect("settings are in range");
+        engine.toss(&mut (), &self.launch, &mut ())
     }
 
     /// Spin in units of sqrt(g/D): how often the coin turns while it topples.

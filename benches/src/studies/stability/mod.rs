@@ -4,7 +4,7 @@ mod found;
 mod region;
 mod witness;
 
-use super::space::{self, PART, Sample};
+use super::space::{PART, Sample};
 use super::survey;
 use crate::number;
 use crate::report::{Report, Table};
@@ -136,7 +136,7 @@ impl Stability {
             Which::Space => {
                 let engine = AnyVolumetricEngine::new(&sample.scene, &limits.space[elastic]);
                 let engine = engine.expect("settings are in range");
-                space::toss(&engine, &sample.launch, &mut witness)
+                engine.toss(&mut (), &sample.launch, &mut witness)
             }
         };
         (outcome, witness.seen)

@@ -33,7 +33,6 @@ use crate::watch::Watch;
 use coinmc_core::{Breaks, Ended, Landing, Launch, Outcome, TossBatch};
 use coinmc_lanes::{Bits, Lanes, WIDTH, lanes_of};
 use group::Group;
-use std::ops::ControlFlow;
 
 /// Groups of eight: while one waits for its last result, the processor works on the others. From 4
 /// to 16 the speed is the same.
@@ -43,27 +42,6 @@ const GROUPS: usize = 8;
 /// and a jump less. One more or less changes little.
 const STRUCK: u32 = 5;
 const SKIPPED: u32 = 3;
-
-/// Follows the tosses of all launches, and tells `each` the number of every toss among them and its
-/// outcome, until that breaks off.
-pub(crate) fn toss_all<L: ImpactLaw>(
-    engine: &FlatEngine<L>,
-    launches: impl Iterator<Item = Launch>,
-    mut each: impl FnMut(u64, &Outcome) -> ControlFlow<()>,
-) {
-    let alone = engine.lanes == Lanes::Scalar
-        || !L::SIDE_BY_SIDE
-        || engine.settings.decision != Decision::Certain;
-    if alone {
-        for (number, launch) in (0..).zip(launches) {
-            if each(number, &engine.toss_observed(&launch, &mut ())).is_break() {
-                return;
-            }
-        }
-        return;
-    }
-    Batch::new(engine).follow_all(launches, each);
-}
 
 /// A toss, but for its motion.
 #[derive(Debug, Clone, Copy, Default)]
@@ -107,7 +85,7 @@ fn watch<'a, L>(engine: &'a FlatEngine<L>, observer: &'a mut ()) -> Watch<'a, ()
     }
 }
 
-struct Batch<'a, L> {
+pub(crate) struct Batch<'a, L> {
     engine: &'a FlatEngine<L>,
     groups: Vec<Group>,
     riders: Vec<[Rider; WIDTH]>,
@@ -120,6 +98,14 @@ struct Batch<'a, L> {
 }
 
 impl<'a, L: ImpactLaw> Batch<'a, L> {
+    /// `None` for an engine whose tosses are followed one after the other.
+    pub(crate) fn of(engine: &'a FlatEngine<L>) -> Option<Self> {
+        let alone = !L::SIDE_BY_SIDE
+            || engine.lanes == Lanes::Scalar
+            || engine.settings.decision != Decision::Certain;
+        (!alone).then(|| Self::new(engine))
+    }
+
     fn new(engine: &'a FlatEngine<L>) -> Self {
         let lanes = (0..GROUPS).flat_map(|group| (0..WIDTH).map(move |lane| (group, lane)));
         Self {

@@ -32,27 +32,8 @@ use coinmc_core::{Ended, Landing, Launch, TossBatch};
 use coinmc_lanes::Lanes;
 use coinmc_lanes::{Bits, WIDTH, first, lanes_of};
 use pool::{Origin, Pool, SLOTS, Slot};
-use std::ops::ControlFlow;
 
-/// Follows the tosses of all launches, and tells `each` the number of every toss among them and how
-/// it ended, until that breaks off.
-pub(crate) fn toss_all<L: ImpactLaw>(
-    engine: &VolumetricEngine<L>,
-    launches: impl Iterator<Item = Launch>,
-    mut each: impl FnMut(u64, &Finished) -> ControlFlow<()>,
-) {
-    if engine.lanes == Lanes::Scalar {
-        for (number, launch) in (0..).zip(launches) {
-            if each(number, &engine.run(&launch, &mut ())).is_break() {
-                return;
-            }
-        }
-        return;
-    }
-    Batch::new(engine).follow_all(launches, each);
-}
-
-struct Batch<'a, L> {
+pub(crate) struct Batch<'a, L> {
     engine: &'a VolumetricEngine<L>,
     pool: Pool,
     launched: u64,
@@ -61,13 +42,14 @@ struct Batch<'a, L> {
 }
 
 impl<'a, L: ImpactLaw> Batch<'a, L> {
-    fn new(engine: &'a VolumetricEngine<L>) -> Self {
-        Self {
+    /// `None` for an engine whose tosses are followed one after the other.
+    pub(crate) fn of(engine: &'a VolumetricEngine<L>) -> Option<Self> {
+        (engine.lanes != Lanes::Scalar).then(|| Self {
             engine,
             pool: Pool::new(),
             launched: 0,
             ended: Vec::with_capacity(2 * SLOTS),
-        }
+        })
     }
 }
 

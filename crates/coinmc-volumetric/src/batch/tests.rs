@@ -1,10 +1,12 @@
 //! Tosses side by side end to the bit as they do alone.
 
-use super::toss_all;
+use super::Batch;
 use crate::engine::{Finished, VolumetricEngine};
 use crate::impact::{ChatterjeeRuina, ImpactLaw, Moreau, Stronge};
 use crate::settings::{Decision, Settings};
-use coinmc_core::{Coin, Domain, Drag, Ended, Landing, Launch, Preset, Scene, Stream, Surface};
+use coinmc_core::{
+    Coin, Domain, Drag, Ended, Engine, Landing, Launch, Preset, Scene, Stream, Surface, TossBatch,
+};
 use coinmc_lanes::Lanes;
 use std::ops::ControlFlow;
 
@@ -29,7 +31,8 @@ fn launches(scene: &Scene, preset: Preset, count: u64) -> Vec<Launch> {
 /// Every toss by its number.
 fn ends<L: ImpactLaw>(engine: &VolumetricEngine<L>, launches: &[Launch]) -> Vec<Finished> {
     let mut ends = vec![None; launches.len()];
-    toss_all(engine, launches.iter().copied(), |number, end| {
+    let batch = Batch::of(engine).expect("lanes");
+    batch.follow_all(launches.iter().copied(), |number, end| {
         let index = usize::try_from(number).expect("a small number");
         assert!(ends[index].replace(*end).is_none(), "toss {number} twice");
         ControlFlow::Continue(())
@@ -49,7 +52,7 @@ fn told<L: ImpactLaw>(
     enough: u64,
 ) -> u64 {
     let mut told = 0;
-    toss_all(engine, launches, |_, _| {
+    engine.toss_all(&mut (), launches, |_, _| {
         told += 1;
         if told == enough {
             ControlFlow::Break(())
@@ -64,7 +67,10 @@ fn told<L: ImpactLaw>(
 fn agree<L: ImpactLaw>(scene: &Scene, settings: &Settings, law: L, launches: &[Launch]) {
     let engine = VolumetricEngine::new(scene, settings, law).expect("good settings");
     let alone: Vec<Finished> = launches.iter().map(|l| engine.run(l, &mut ())).collect();
-    for lanes in Lanes::ALL {
+    for lanes in Lanes::ALL
+        .into_iter()
+        .filter(|lanes| *lanes != Lanes::Scalar)
+    {
         let Ok(engine) = engine.clone().with_lanes(lanes) else {
             println!("SKIPPED: this processor has no {lanes}");
             continue;

@@ -1,8 +1,6 @@
 //! From an engine's name to its code: the one place that knows all engines.
 //!
-//! A new engine is a variant of [`EngineChoice`] and an arm in each `match` here. What an engine is
-//! made of (its law) is matched here too, once a [`Task`], so that the loop over tosses is compiled
-//! for it.
+//! A new engine is a variant of [`EngineChoice`] and an arm in each `match` here.
 
 use crate::plan::{EngineChoice, Plan, Point};
 use coinmc_core::{Domain, Ended, Engine, Face, Launch, Outcome, Stream};
@@ -63,18 +61,10 @@ pub(crate) fn with_engine<T: Task>(
 ) -> Result<Option<T::Output>, SettingsError> {
     let scene = &point.scene;
     Ok(Some(match point.engine {
-        EngineChoice::Flat(settings) => match AnyFlatEngine::new(scene, &settings)? {
-            AnyFlatEngine::Moreau(engine) => task.with(&engine),
-            AnyFlatEngine::ChatterjeeRuina(engine) => task.with(&engine),
-            AnyFlatEngine::Paper(engine) => task.with(&engine),
-            AnyFlatEngine::HalfSine(engine) => task.with(&engine),
-            AnyFlatEngine::LineContact(engine) => task.with(&engine),
-        },
-        EngineChoice::Volumetric(settings) => match AnyVolumetricEngine::new(scene, &settings)? {
-            AnyVolumetricEngine::Moreau(engine) => task.with(&engine),
-            AnyVolumetricEngine::ChatterjeeRuina(engine) => task.with(&engine),
-            AnyVolumetricEngine::Stronge(engine) => task.with(&engine),
-        },
+        EngineChoice::Flat(settings) => task.with(&AnyFlatEngine::new(scene, &settings)?),
+        EngineChoice::Volumetric(settings) => {
+            task.with(&AnyVolumetricEngine::new(scene, &settings)?)
+        }
         EngineChoice::Rapier(settings) => task.with(&RapierEngine::new(scene, &settings)?),
         EngineChoice::Analytic(_) => return Ok(None),
     }))
