@@ -411,6 +411,27 @@ fn no_region_of_the_box_breaks_an_engine() {
 }
 
 #[test]
+fn in_random_scenes_a_toss_ends_as_it_does_alone() {
+    for engine in ["flat", "space"] {
+        let size = [
+            "--tosses",
+            "20000",
+            "--together",
+            "50",
+            "--looked-into",
+            "1000",
+        ];
+        let limits = ["--max-impacts", "50", "--max-steps", "50"];
+        let lines = study(&[&["stability", "--engine", engine], &size[..], &limits[..]].concat());
+        let differ = column(&lines, "differ");
+        assert_eq!(*differ.last().unwrap(), "0 of 400", "{engine}");
+        assert_eq!(numbers(&lines, "tosses").last(), Some(&20_000.0));
+    }
+    let output = coinmc_bench(&["stability", "--together", "50", "--first", "20"]);
+    assert!(!output.status.success());
+}
+
+#[test]
 fn a_long_study_of_stability_may_be_made_in_parts() {
     let part = |first: &str, tosses: &str| {
         let lines = study(&["stability", "--first", first, "--tosses", tosses]);

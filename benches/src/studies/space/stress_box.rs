@@ -34,28 +34,19 @@ impl Sample {
     /// or 0; spin 1e-2 … 1e5 rad/s or 0; height 1e-3 … 1e3 R or 0. Log-uniform but for e, which is
     /// uniform. A tenth of the tosses has each end of e and μ, and 0 of the others.
     pub(in crate::studies) fn new(seed: u64, toss: u64) -> Self {
+        Self::in_scene(seed, toss, toss)
+    }
+
+    /// The same launch in the scene of toss number `scene`.
+    pub(in crate::studies) fn in_scene(seed: u64, scene: u64, toss: u64) -> Self {
+        let scene = random_scene(seed, scene);
         let mut uniforms = Case::stream(seed).toss(toss);
         let mut at = |dimension| uniforms.uniform(dimension);
-        let radius = logarithmic(at(RADIUS), 1e-6, 1e3);
-        let coin = Coin::cylinder(logarithmic(at(RATIO), 1e-4, 1e4), radius);
-        let coin = coin.expect("both are positive");
-        let (low, high) = (AT_AN_END, 1.0 - AT_AN_END);
-        let restitution = ((at(RESTITUTION) - low) / (high - low)).clamp(0.0, 1.0);
-        let friction = match at(FRICTION) {
-            p if p < low => 0.0,
-            p if p > high => 10.0,
-            p => logarithmic((p - low) / (high - low), 1e-3, 10.0),
-        };
-        let lengths = [CONTOUR, PIVOTING].map(|d| radius * or_zero(at(d), 1e-5, 0.1));
-        let surface = Surface::new(restitution, friction)
-            .and_then(|surface| surface.with_friction_lengths(lengths[0], lengths[1]))
-            .expect("in range");
-        let scene = Scene::new(coin, surface, Scene::STANDARD_GRAVITY_M_S2);
         let spin = or_zero(at(SPIN), 1e-2, 1e5);
         let direction = direction(SPIN_AXIS.map(&mut at));
-        let height = radius * or_zero(at(HEIGHT), 1e-3, 1e3);
+        let height = scene.coin.radius_m() * or_zero(at(HEIGHT), 1e-3, 1e3);
         Self {
-            scene: scene.expect("gravity is positive"),
+            scene,
             launch: Launch {
                 height_m: height,
                 velocity_m_s: Vector3::zeros(),
@@ -67,8 +58,8 @@ impl Sample {
 
     /// The same scene and a launch in the plane, for the flat engine: u anywhere in the xz plane, the
     /// spin about y in either direction.
-    pub(in crate::studies) fn in_plane(seed: u64, toss: u64) -> Self {
-        let mut sample = Self::new(seed, toss);
+    pub(in crate::studies) fn in_plane(seed: u64, scene: u64, toss: u64) -> Self {
+        let mut sample = Self::in_scene(seed, scene, toss);
         let mut uniforms = Case::stream(seed).toss(toss);
         let (sin, cos) = libm::sincos(TAU * uniforms.uniform(SPIN_AXIS[0]));
         let forwards = uniforms.uniform(SPIN_AXIS[1]) < 0.5;
@@ -120,6 +111,28 @@ impl fmt::Display for Sample {
             self.launch.height_m / radius,
         )
     }
+}
+
+/// The scene of toss number `toss` of a seed.
+fn random_scene(seed: u64, toss: u64) -> Scene {
+    let mut uniforms = Case::stream(seed).toss(toss);
+    let mut at = |dimension| uniforms.uniform(dimension);
+    let radius = logarithmic(at(RADIUS), 1e-6, 1e3);
+    let coin = Coin::cylinder(logarithmic(at(RATIO), 1e-4, 1e4), radius);
+    let coin = coin.expect("both are positive");
+    let (low, high) = (AT_AN_END, 1.0 - AT_AN_END);
+    let restitution = ((at(RESTITUTION) - low) / (high - low)).clamp(0.0, 1.0);
+    let friction = match at(FRICTION) {
+        p if p < low => 0.0,
+        p if p > high => 10.0,
+        p => logarithmic((p - low) / (high - low), 1e-3, 10.0),
+    };
+    let lengths = [CONTOUR, PIVOTING].map(|d| radius * or_zero(at(d), 1e-5, 0.1));
+    let surface = Surface::new(restitution, friction)
+        .and_then(|surface| surface.with_friction_lengths(lengths[0], lengths[1]))
+        .expect("in range");
+    let scene = Scene::new(coin, surface, Scene::STANDARD_GRAVITY_M_S2);
+    scene.expect("gravity is positive")
 }
 
 /// Log-uniform.

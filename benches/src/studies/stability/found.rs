@@ -8,7 +8,7 @@ use crate::worst::Worst;
 use coinmc_core::{Ended, Outcome, Tally};
 
 /// Titles of the cells of [`Region::row`].
-pub(super) const COLUMNS: [&str; 15] = [
+pub(super) const COLUMNS: [&str; 16] = [
     "parameter",
     "region",
     "tosses",
@@ -24,6 +24,7 @@ pub(super) const COLUMNS: [&str; 15] = [
     "drift",
     "missed",
     "depth",
+    "differ",
 ];
 
 /// Tosses that are named, of each kind.
@@ -37,6 +38,8 @@ pub(super) struct Region {
     not_finite: u64,
     flights: u64,
     missed: u64,
+    compared: u64,
+    differ: u64,
     gain: Worst,
     residual: Worst,
     drift: Worst,
@@ -104,6 +107,8 @@ impl Region {
         self.not_finite += u64::from(seen.not_finite);
         self.flights += seen.flights;
         self.missed += seen.missed;
+        self.compared += u64::from(seen.agrees.is_some());
+        self.differ += u64::from(seen.agrees == Some(false));
         self.gain.see(seen.gain, toss);
         self.residual.see(seen.residual, toss);
         self.drift.see(seen.drift, toss);
@@ -116,6 +121,8 @@ impl Region {
         self.not_finite += other.not_finite;
         self.flights += other.flights;
         self.missed += other.missed;
+        self.compared += other.compared;
+        self.differ += other.differ;
         for (worst, other) in [
             (&mut self.gain, other.gain),
             (&mut self.residual, other.residual),
@@ -144,6 +151,7 @@ impl Region {
         row.extend([self.gain, self.residual, self.drift].map(value));
         row.push(format!("{} of {}", self.missed, self.flights));
         row.push(value(self.depth));
+        row.push(format!("{} of {}", self.differ, self.compared));
         row
     }
 }
@@ -161,6 +169,9 @@ impl Hardest {
         }
         if seen.missed > 0 {
             self.name("missed contact", toss);
+        }
+        if seen.agrees == Some(false) {
+            self.name("differs", toss);
         }
         for (ranked, value) in [
             (&mut self.gain, seen.gain),
@@ -253,10 +264,7 @@ mod tests {
             gain,
             residual: 0.0,
             drift: 0.0,
-            depth: f64::NEG_INFINITY,
-            flights: 0,
-            missed: 0,
-            not_finite: false,
+            ..Seen::nothing()
         };
         (outcome, seen)
     }

@@ -8,14 +8,14 @@ use super::space::{PART, Sample};
 use super::survey;
 use crate::number;
 use crate::report::{Report, Table};
-use anyhow::anyhow;
+use anyhow::{anyhow, bail};
 use clap::{Args, ValueEnum};
 use coinmc_core::{Ended, Engine, Outcome};
 use coinmc_flat::AnyFlatEngine;
 use coinmc_volumetric::AnyVolumetricEngine;
 use found::{Found, Hardest};
 use region::AXES;
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 use std::panic::{self, AssertUnwindSafe};
 use witness::{Seen, Witness};
 
@@ -26,9 +26,13 @@ pub(crate) struct Stability {
     #[arg(long, value_enum, default_value_t = Which::Flat)]
     engine: Which,
 
-    /// Tosses, each with a scene of its own
+    /// Tosses
     #[arg(long, value_parser = number::count, default_value = "1e7", value_name = "N")]
     tosses: u64,
+
+    /// Tosses of a scene: the first is watched, all are made side by side
+    #[arg(long, value_parser = number::count, default_value = "1", value_name = "N")]
+    together: u64,
 
     /// Number of the first toss: a long study may be made in parts
     #[arg(long, value_parser = number::count_or_zero, default_value = "0", value_name = "TOSS")]
@@ -46,7 +50,7 @@ pub(crate) struct Stability {
     #[arg(long, value_parser = number::count, default_value = "2000", value_name = "N")]
     max_steps: u64,
 
-    /// One toss of so many has its flights sampled densely
+    /// One toss of so many, if it is watched, has its flights sampled densely
     #[arg(long, value_parser = number::count, default_value = "1000", value_name = "N")]
     looked_into: u64,
 
@@ -77,8 +81,12 @@ impl Stability {
         }
         let end = self.first.checked_add(self.tosses);
         let end = end.ok_or_else(|| anyhow!("toss numbers end at {}", u64::MAX))?;
-        let starts = (0..self.tosses.div_ceil(PART)).map(|part| self.first + part * PART);
-        let parts: Vec<Range<u64>> = starts.map(|start| start..(start + PART).min(end)).collect();
+        if !self.first.is_multiple_of(self.together) {
+            bail!("--first is no multiple of --together");
+        }
+        let part = PART.next_multiple_of(self.together);
+        let starts = (0..self.tosses.div_ceil(part)).map(|index| self.first + index * part);
+        let parts: Vec<Range<u64>> = starts.map(|start| start..(start + part).min(end)).collect();
         // a panic is counted and named; its message would tear the table
         let hook = panic::take_hook();
         panic::set_hook(Box::new(|_| {}));
@@ -106,40 +114,59 @@ impl Stability {
     }
 
     fn sample(&self, seed: u64, toss: u64) -> Sample {
+        let scene = toss / self.together;
         match self.engine {
-            Which::Flat => Sample::in_plane(seed, toss),
-            Which::Space => Sample::new(seed, toss),
+            Which::Flat => Sample::in_plane(seed, scene, toss),
+            Which::Space => Sample::in_scene(seed, scene, toss),
         }
     }
 
     fn find(&self, seed: u64, tosses: Range<u64>, limits: &Limits) -> Found {
         let mut found = Found::default();
-        for toss in tosses {
-            let sample = self.sample(seed, toss);
-            let looks = toss.is_multiple_of(self.looked_into);
-            let made = panic::catch_unwind(AssertUnwindSafe(|| self.toss(&sample, looks, limits)));
-            found.add(toss, &sample, made.ok());
+        let mut first = tosses.start;
+        while first < tosses.end {
+            let numbers = first..(first + self.together).min(tosses.end);
+            let samples: Vec<Sample> = numbers.map(|toss| self.sample(seed, toss)).collect();
+            let looks = first.is_multiple_of(self.looked_into);
+            let made = panic::catch_unwind(AssertUnwindSafe(|| {
+                self.in_one_scene(&samples, looks, limits)
+            }));
+            match made {
+                Ok(made) => {
+                    for ((toss, sample), made) in (first..).zip(&samples).zip(made) {
+                        found.add(toss, sample, Some(made));
+                    }
+                }
+                Err(_) => {
+                    for (toss, sample) in (first..).zip(&samples) {
+                        found.add(toss, sample, None);
+                    }
+                }
+            }
+            first += self.together;
         }
         found
     }
 
-    /// Follows a toss and watches it.
-    fn toss(&self, sample: &Sample, looks: bool, limits: &Limits) -> (Outcome, Seen) {
-        let mut witness = Witness::new(&sample.scene, looks);
-        let elastic = usize::from(sample.is_elastic());
-        let outcome = match self.engine {
+    /// Follows tosses of one scene: the first is watched, and is made again side by side with the
+    /// others if there are any.
+    fn in_one_scene(
+        &self,
+        samples: &[Sample],
+        looks: bool,
+        limits: &Limits,
+    ) -> Vec<(Outcome, Seen)> {
+        let (scene, elastic) = (&samples[0].scene, usize::from(samples[0].is_elastic()));
+        match self.engine {
             Which::Flat => {
-                let engine = AnyFlatEngine::new(&sample.scene, &limits.flat[elastic]);
-                let engine = engine.expect("settings are in range");
-                engine.toss(&mut (), &sample.launch, &mut witness)
+                let engine = AnyFlatEngine::new(scene, &limits.flat[elastic]);
+                make(&engine.expect("settings are in range"), samples, looks)
             }
             Which::Space => {
-                let engine = AnyVolumetricEngine::new(&sample.scene, &limits.space[elastic]);
-                let engine = engine.expect("settings are in range");
-                engine.toss(&mut (), &sample.launch, &mut witness)
+                let engine = AnyVolumetricEngine::new(scene, &limits.space[elastic]);
+                make(&engine.expect("settings are in range"), samples, looks)
             }
-        };
-        (outcome, witness.seen)
+        }
     }
 
     fn report(&self, seed: u64, found: &Found) -> Report {
@@ -162,7 +189,8 @@ impl Stability {
             "gain: of energy in an impact or a contact phase, relative to the energy before. residual: \
              distance of the lowest point from the surface at a contact, in D. drift: relative change \
              of energy in flight. missed: flights that pass over a contact, of those looked into; \
-             depth: the deepest of these, in D. n: spin in units of sqrt(g/D).",
+             depth: the deepest of these, in D. n: spin in units of sqrt(g/D). differ: tosses that end \
+             otherwise side by side than alone, of those made both ways.",
         );
         report.remark("--only TOSS makes a toss again, alone.");
         report
@@ -180,7 +208,7 @@ impl Stability {
     /// One toss, told in full.
     fn alone(&self, seed: u64, toss: u64, limits: &Limits) -> Report {
         let sample = self.sample(seed, toss);
-        let (outcome, seen) = self.toss(&sample, true, limits);
+        let (outcome, seen) = self.in_one_scene(std::slice::from_ref(&sample), true, limits)[0];
         let mut table = Table::new(sample.to_string(), &["what", "value"]);
         let ended = match outcome.ended {
             Ended::Decided(face) => format!("{face:?}"),
@@ -204,4 +232,25 @@ impl Stability {
         report.remark(format!("{:?}\n{:?}", sample.scene, sample.launch));
         report
     }
+}
+
+fn make<E>(engine: &E, samples: &[Sample], looks: bool) -> Vec<(Outcome, Seen)>
+where
+    E: Engine<Workspace = ()>,
+{
+    let mut witness = Witness::new(&samples[0].scene, looks);
+    let alone = engine.toss(&mut (), &samples[0].launch, &mut witness);
+    let mut made = vec![(alone, witness.seen)];
+    if samples.len() == 1 {
+        return made;
+    }
+    made.resize(samples.len(), (alone, Seen::nothing()));
+    let launches = samples.iter().map(|sample| sample.launch);
+    engine.toss_all(&mut (), launches, |number, outcome| {
+        let toss = usize::try_from(number).expect("an index");
+        made[toss].0 = *outcome;
+        ControlFlow::Continue(())
+    });
+    made[0].1.agrees = Some(made[0].0 == alone);
+    made
 }

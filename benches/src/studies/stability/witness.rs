@@ -22,6 +22,24 @@ pub(super) struct Seen {
     pub(super) missed: u64,
     /// A number of an event's state is infinite or none.
     pub(super) not_finite: bool,
+    /// Whether it ends side by side with others as it does alone, if it was made both ways.
+    pub(super) agrees: Option<bool>,
+}
+
+impl Seen {
+    /// What is seen of a toss that nobody watches.
+    pub(super) fn nothing() -> Self {
+        Self {
+            gain: f64::NEG_INFINITY,
+            residual: f64::NEG_INFINITY,
+            drift: f64::NEG_INFINITY,
+            depth: f64::NEG_INFINITY,
+            flights: 0,
+            missed: 0,
+            not_finite: false,
+            agrees: None,
+        }
+    }
 }
 
 /// Watches one toss.
@@ -40,15 +58,7 @@ impl<'a> Witness<'a> {
             looks_into_flights,
             legs: Legs::default(),
             last: None,
-            seen: Seen {
-                gain: f64::NEG_INFINITY,
-                residual: f64::NEG_INFINITY,
-                drift: f64::NEG_INFINITY,
-                depth: f64::NEG_INFINITY,
-                flights: 0,
-                missed: 0,
-                not_finite: false,
-            },
+            seen: Seen::nothing(),
         }
     }
 
