@@ -16,6 +16,8 @@ pub(super) struct Replacement {
     temporary: PathBuf,
     /// Gone once the file stands in its place.
     file: Option<BufWriter<File>>,
+    /// Nothing has been written since the last sync: another would wait for the disk all the same.
+    synced: bool,
 }
 
 impl Replacement {
@@ -33,11 +35,13 @@ impl Replacement {
             place: place.to_owned(),
             temporary,
             file: Some(BufWriter::new(file)),
+            synced: false,
         })
     }
 
     /// Where the content goes.
     pub(super) fn writer(&mut self) -> impl Write + Send + '_ {
+        self.synced = false;
         self.file.as_mut().expect("only `finish` takes the file")
     }
 
@@ -46,9 +50,28 @@ impl Replacement {
         RunError::io("write", &self.place, error)
     }
 
+    /// Hands all content to the system.
+    pub(super) fn hand_over(&mut self) -> Result<(), RunError> {
+        let handed_over = self.writer().flush();
+        handed_over.map_err(|error| self.error(error))
+    }
+
+    /// Puts the content on the disk.
+    pub(super) fn sync(&mut self) -> Result<(), RunError> {
+        if self.synced {
+            return Ok(());
+        }
+        self.hand_over()?;
+        let file = self.file.as_ref().expect("only `finish` takes the file");
+        let synced = file.get_ref().sync_all();
+        synced.map_err(|error| self.error(error))?;
+        self.synced = true;
+        Ok(())
+    }
+
     /// Puts the file in its place, on the disk to stay (once the directory is synced too).
     pub(super) fn finish(mut self) -> Result<(), RunError> {
-        self.flush()?;
+        self.sync()?;
         fs::rename(&self.temporary, &self.place)
             .map_err(|error| RunError::io("put into place", &self.place, error))?;
         self.file = None;
@@ -58,19 +81,13 @@ impl Replacement {
     /// Like [`finish`](Self::finish), but leaves a file with the same content alone. Whether
     /// another content was replaced.
     pub(super) fn finish_if_new(mut self) -> Result<bool, RunError> {
-        self.flush()?;
+        self.sync()?;
         let there = is_file(&self.place);
         if there && same_content(&self.temporary, &self.place).map_err(|e| self.error(e))? {
             return Ok(false);
         }
         self.finish()?;
         Ok(there)
-    }
-
-    fn flush(&mut self) -> Result<(), RunError> {
-        let file = self.file.as_mut().expect("only `finish` takes the file");
-        let flushed = file.flush().and_then(|()| file.get_ref().sync_all());
-        flushed.map_err(|error| RunError::io("write", &self.place, error))
     }
 }
 

@@ -10,7 +10,9 @@ use super::{RunError, Shard};
 use crate::plan::Plan;
 use std::fs;
 use std::io::Write;
+use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
+use std::thread;
 
 /// Added to the name of a file that is not believed.
 const REJECTED: &str = ".rejected";
@@ -96,8 +98,7 @@ impl Tallies {
         })
     }
 
-    /// Adds finished shards, on the disk to stay. Together they cost little more than one: the
-    /// first sync takes the others' data along.
+    /// Adds finished shards, on the disk to stay.
     pub(super) fn store(&self, batch: &[(Shard, Piece)]) -> Result<(), RunError> {
         let mut files = Vec::with_capacity(batch.len());
         for (shard, piece) in batch {
@@ -112,6 +113,7 @@ impl Tallies {
             written.map_err(|error| file.error(error))?;
             files.push(file);
         }
+        sync_together(&mut files)?;
         files.into_iter().try_for_each(Replacement::finish)?;
         replace::sync_directory(&self.path)
     }
@@ -123,6 +125,29 @@ impl Tallies {
             tosses: start..start,
         }))
     }
+}
+
+/// Syncs files by several threads: a thread that waits for the disk sleeps, and wakes late while the
+/// workers keep all processors busy. (64 files after the other took 0.2 s there.) What one sync brings
+/// to the disk, those beside it need not: so all are with the system before the first begins.
+fn sync_together(files: &mut [Replacement]) -> Result<(), RunError> {
+    const EACH: usize = 4;
+    files.iter_mut().try_for_each(Replacement::hand_over)?;
+    let sync = |files: &mut [Replacement]| files.iter_mut().try_for_each(Replacement::sync);
+    if files.len() <= EACH {
+        return sync(files);
+    }
+    thread::scope(|scope| {
+        let mut threads = vec![];
+        for files in files.chunks_mut(EACH) {
+            let thread = thread::Builder::new().spawn_scoped(scope, move || sync(files));
+            threads.push(thread.map_err(RunError::Thread)?);
+        }
+        let join = |thread: thread::ScopedJoinHandle<'_, _>| {
+            thread.join().unwrap_or_else(|panic| resume_unwind(panic))
+        };
+        threads.into_iter().try_for_each(join)
+    })
 }
 
 /// The shard of a point that begins at toss `start`, if the plan has one.
