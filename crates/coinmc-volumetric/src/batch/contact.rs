@@ -218,19 +218,21 @@ struct Terms<'a> {
 
 // apart from the laws of impact, so that it is compiled once
 fn make(station: &mut Station, lanes: Lanes, terms: Terms<'_>, mode: Mode) {
-    match mode {
-        Mode::Stick => lanes.enter(Make::<true> { station, terms }),
-        Mode::Slip => lanes.enter(Make::<false> { station, terms }),
+    match (mode, terms.law.drag.acts()) {
+        (Mode::Stick, false) => lanes.enter(Make::<true, false> { station, terms }),
+        (Mode::Slip, false) => lanes.enter(Make::<false, false> { station, terms }),
+        (Mode::Stick, true) => lanes.enter(Make::<true, true> { station, terms }),
+        (Mode::Slip, true) => lanes.enter(Make::<false, true> { station, terms }),
     }
 }
 
 /// Attempts of coins that stick, or that slip.
-struct Make<'a, const STICKS: bool> {
+struct Make<'a, const STICKS: bool, const DRAGS: bool> {
     station: &'a mut Station,
     terms: Terms<'a>,
 }
 
-impl<const STICKS: bool> Work for Make<'_, STICKS> {
+impl<const STICKS: bool, const DRAGS: bool> Work for Make<'_, STICKS, DRAGS> {
     type Output = ();
 
     #[inline(always)]
@@ -247,13 +249,8 @@ impl<const STICKS: bool> Work for Make<'_, STICKS> {
             again: L::mask(station.again),
         };
         let settings = terms.settings;
-        let made = attempt.make(
-            terms.law,
-            terms.judge,
-            terms.tolerance,
-            settings.stick,
-            mode,
-        );
+        let law = terms.law.with_known_drag::<DRAGS>();
+        let made = attempt.make(&law, terms.judge, terms.tolerance, settings.stick, mode);
         let steps = L::load(&station.steps) + L::splat(1.0);
         let last = L::splat(f64::from(settings.max_steps)).le(steps);
         let may = !(made.length.lt(L::splat(LEAST_STEP)) | last);

@@ -44,7 +44,12 @@ fn has(bits: Bits, lane: usize) -> bool {
 impl StruckTosses {
     /// Ends the flights.
     pub(super) fn land(&mut self, lanes: Lanes, law: &Law) {
-        lanes.enter(Land { tosses: self, law });
+        let tosses = self;
+        if law.drag.acts() {
+            lanes.enter(Land::<true> { tosses, law });
+        } else {
+            lanes.enter(Land::<false> { tosses, law });
+        }
     }
 
     /// Ends the flight of a toss, but for its motion.
@@ -164,18 +169,18 @@ impl StruckTosses {
     }
 }
 
-struct Land<'a> {
+struct Land<'a, const DRAGS: bool> {
     tosses: &'a mut StruckTosses,
     law: &'a Law,
 }
 
-impl Work for Land<'_> {
+impl<const DRAGS: bool> Work for Land<'_, DRAGS> {
     type Output = ();
 
     #[inline(always)]
     fn run<L: Wide>(self) {
         let (tosses, law) = (self.tosses, self.law);
-        let orbit = tosses.leavers.orbit::<L>(law.drag);
+        let orbit = tosses.leavers.orbit::<L>(law.drag.known::<DRAGS>());
         let (time, lost) = tosses.leavers.close_in(&orbit, &law.body);
         let (motion, axial) = tosses.leavers.motion::<L>();
         let landed = land(law, &orbit, &motion, axial, time);

@@ -162,6 +162,15 @@ impl Law {
         }
     }
 
+    /// The same with drag of which the compiler knows whether it acts.
+    #[inline(always)]
+    pub(crate) fn with_known_drag<const ACTS: bool>(&self) -> Self {
+        Self {
+            drag: self.drag.known::<ACTS>(),
+            ..*self
+        }
+    }
+
     /// Whether contact in this mode loses nothing.
     pub(super) fn conserves(&self, mode: Mode) -> bool {
         let smooth = mode == Mode::Stick || self.friction.mu == 0.0;
@@ -181,21 +190,26 @@ impl Law {
         let inverse = self.quotients(s, c);
         let azimuth = -(wt * inverse.sin);
         let excess = k(self.axial_factor) * wa - azimuth * c;
-        let drag_turn = k(self.drag.angular);
-        let gyro_y = wt * excess - drag_turn * wy;
+        let mut gyro_y = wt * excess;
         let vx = gx - wy * rz;
         let vy = gy - radius * wa - half * wt;
         let kxx = k(1.0) + rz * rz * ikt;
         let kxz = -(rx * rz * ikt);
         let kzz = k(1.0) + rx * rx * ikt;
         let kyy = k(self.kyy);
+        let angular = k(self.drag.angular);
+        let (mut slows_a, mut slows_t) = (k(0.0), k(0.0));
+        if self.drag.acts() {
+            gyro_y -= angular * wy;
+            (slows_a, slows_t) = (angular * wa, angular * wt);
+        }
         let mut bx = azimuth * vy + rz * gyro_y - rx * wy * wy;
         let mut bz = -(k(1.0) + rz * wy * wy + rx * gyro_y);
         let mut by = -(azimuth * vx) - half * wy * excess;
         if self.drag.acts() {
             let linear = k(self.drag.linear);
             bx -= linear * vx;
-            by -= linear * vy + drag_turn * (radius * wa + half * wt);
+            by -= linear * vy + angular * (radius * wa + half * wt);
             bz -= linear * wy * rx;
         }
         let mu = k(self.friction.mu);
@@ -230,8 +244,8 @@ impl Law {
             state: [
                 wy,
                 gyro_y + (rz * fx - rx * normal) * ikt,
-                (radius * fy - normal * twist_a) * ika - drag_turn * wa,
-                (half * fy - normal * twist_t) * ikt - wy * excess - drag_turn * wt,
+                (radius * fy - normal * twist_a) * ika - slows_a,
+                (half * fy - normal * twist_t) * ikt - wy * excess - slows_t,
                 slide_x,
                 slide_y,
             ],

@@ -21,6 +21,18 @@ pub(crate) struct Drag {
 }
 
 impl Drag {
+    const NONE: Self = Self {
+        linear: 0.0,
+        angular: 0.0,
+    };
+
+    /// The same, of which the compiler knows where there is none: `ACTS` is whether it
+    /// [`acts`](Self::acts).
+    #[inline(always)]
+    pub(crate) fn known<const ACTS: bool>(self) -> Self {
+        if ACTS { self } else { Self::NONE }
+    }
+
     pub(crate) fn acts(self) -> bool {
         self.linear != 0.0 || self.angular != 0.0
     }

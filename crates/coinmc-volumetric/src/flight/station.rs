@@ -145,17 +145,31 @@ impl Group {
 
     /// One step of every flight of all groups.
     pub(crate) fn sweep(groups: &mut [Self], lanes: Lanes, body: &Body, drag: Drag) {
-        lanes.enter(Sweep { groups, body, drag });
+        if drag.acts() {
+            lanes.enter(Sweep::<true> { groups, body, drag });
+        } else {
+            lanes.enter(Sweep::<false> { groups, body, drag });
+        }
     }
 
     /// Flights that begin with `motion`, ready for their search. `least` is made of `parting`.
     pub(crate) fn depart(&mut self, lanes: Lanes, body: &Body, drag: Drag, begin: &Departing) {
-        lanes.enter(Depart {
-            group: self,
-            body,
-            drag,
-            begin,
-        });
+        let group = self;
+        if drag.acts() {
+            lanes.enter(Depart::<true> {
+                group,
+                body,
+                drag,
+                begin,
+            });
+        } else {
+            lanes.enter(Depart::<false> {
+                group,
+                body,
+                drag,
+                begin,
+            });
+        }
     }
 }
 
@@ -211,13 +225,13 @@ fn split<L: Wide>(numbers: &[L; MOTION]) -> (Motion<L>, L) {
     (Motion::of(&[sin, cos, ox, oy, oz, vx, vy, vz, z]), axial)
 }
 
-struct Sweep<'a> {
+struct Sweep<'a, const DRAGS: bool> {
     groups: &'a mut [Group],
     body: &'a Body,
     drag: Drag,
 }
 
-impl Work for Sweep<'_> {
+impl<const DRAGS: bool> Work for Sweep<'_, DRAGS> {
     type Output = ();
 
     #[inline(always)]
@@ -225,7 +239,7 @@ impl Work for Sweep<'_> {
         for group in self.groups {
             group.left = 0;
             if group.active != 0 {
-                group.step::<L>(self.body, self.drag);
+                group.step::<L>(self.body, self.drag.known::<DRAGS>());
             }
         }
     }
@@ -279,20 +293,20 @@ impl Group {
     }
 }
 
-struct Depart<'a> {
+struct Depart<'a, const DRAGS: bool> {
     group: &'a mut Group,
     body: &'a Body,
     drag: Drag,
     begin: &'a Departing,
 }
 
-impl Work for Depart<'_> {
+impl<const DRAGS: bool> Work for Depart<'_, DRAGS> {
     type Output = ();
 
     #[inline(always)]
     fn run<L: Wide>(self) {
         let (motion, _) = self.begin.load::<L>();
-        let mut orbit = Orbit::new(&motion, self.drag);
+        let mut orbit = Orbit::new(&motion, self.drag.known::<DRAGS>());
         let parting = L::mask(self.begin.parting);
         let least = super::least_time(&orbit, &motion, parting);
         let extent = orbit.extent(self.body);
