@@ -18,7 +18,7 @@ pub(crate) enum After {
 
 impl<L: ImpactLaw> FlatEngine<L> {
     /// The impact of the lowest corner.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn impact(&self, toss: &mut Toss) -> After {
         let motion = &mut toss.motion;
         let touching = Touching::of(motion);
@@ -46,7 +46,7 @@ impl<L: ImpactLaw> FlatEngine<L> {
     }
 
     /// The law's impact of the lowest corner.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn strike(&self, motion: &mut Motion, breaks: &mut Breaks) -> (Carried, Record) {
         let mut strike = self.at_touch(motion, breaks);
         let carried = self.law.carry(&mut strike);
@@ -122,7 +122,7 @@ impl<L: ImpactLaw> FlatEngine<L> {
     ///
     /// Between impacts the corner falls with a = 1 − ω²cos δ (its acceleration without contact),
     /// so the remaining bounces take 2 e v/(a(1 − e)), v the normal speed now.
-    #[inline]
+    #[inline(always)]
     fn plastic(&self, motion: &mut Motion, touching: &Touching<f64>) -> Option<f64> {
         if self.bounces_on(touching) {
             return None;
