@@ -1,9 +1,9 @@
 //! The four reference values of an earlier study, under the law that it solved and under ours.
 //!
 //! Both demand the same of an impact: friction against the final slip, contour and pivoting
-//! friction against their final rates. Ours ([`Moreau`](coinmc_volumetric::Moreau)) solves these conditions together; the
-//! earlier study solved friction without the lengths and then added these in a few sweeps
-//! ([`Sequential`]).
+//! friction against their final rates. Ours ([`Moreau`](coinmc_volumetric::Moreau)) solves these
+//! conditions together; the earlier study solved friction without the lengths and then added these
+//! in a few sweeps ([`Sequential`]).
 
 use super::paired::side;
 use super::sequential::Sequential;
