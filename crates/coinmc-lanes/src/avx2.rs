@@ -8,11 +8,12 @@ use crate::operators::operators;
 use crate::wide::{Bits, Block, WIDTH, Wide, Work};
 use crate::{Lane, Mask};
 use std::arch::x86_64::{
-    __m256d, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_add_pd, _mm256_and_pd, _mm256_and_si256,
-    _mm256_andnot_pd, _mm256_blendv_pd, _mm256_castsi256_pd, _mm256_cmp_pd, _mm256_cmpeq_epi64,
-    _mm256_div_pd, _mm256_loadu_pd, _mm256_max_pd, _mm256_min_pd, _mm256_movemask_pd,
-    _mm256_mul_pd, _mm256_or_pd, _mm256_set_epi64x, _mm256_set1_epi64x, _mm256_set1_pd,
-    _mm256_sqrt_pd, _mm256_storeu_pd, _mm256_sub_pd, _mm256_xor_pd,
+    __m256d, __m256i, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_add_pd, _mm256_and_pd, _mm256_and_si256,
+    _mm256_andnot_pd, _mm256_blendv_pd, _mm256_castpd_ps, _mm256_castps_pd, _mm256_castsi256_pd,
+    _mm256_cmp_pd, _mm256_cmpeq_epi64, _mm256_div_pd, _mm256_loadu_pd, _mm256_max_pd,
+    _mm256_min_pd, _mm256_movemask_pd, _mm256_mul_pd, _mm256_or_pd, _mm256_permutevar8x32_ps,
+    _mm256_set_epi64x, _mm256_set1_epi64x, _mm256_set1_pd, _mm256_setr_epi32, _mm256_sqrt_pd,
+    _mm256_storeu_pd, _mm256_sub_pd, _mm256_xor_pd,
 };
 
 #[derive(Debug, Clone, Copy)]
@@ -21,6 +22,41 @@ pub(crate) struct Eight(__m256d, __m256d);
 /// All bits of a lane set, or none.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct EightBits(__m256d, __m256d);
+
+/// Where the numbers of one half come from.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Half {
+    /// In the half they are in; of both words that a number is made of.
+    words: __m256i,
+    /// From the higher half.
+    high: __m256d,
+}
+
+impl Half {
+    #[inline(always)]
+    fn of([a, b, c, d]: [i32; 4]) -> Self {
+        let place = |lane: i32| 2 * (lane & 3);
+        let half = |lane: i32| -i64::from((lane >> 2) & 1);
+        let [p, q, r, s] = [place(a), place(b), place(c), place(d)];
+        // SAFETY: the module's text.
+        unsafe {
+            Self {
+                words: _mm256_setr_epi32(p, p + 1, q, q + 1, r, r + 1, s, s + 1),
+                high: _mm256_castsi256_pd(_mm256_set_epi64x(half(d), half(c), half(b), half(a))),
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn pick(self, from: Eight) -> __m256d {
+        // SAFETY: the module's text.
+        unsafe {
+            let low = _mm256_permutevar8x32_ps(_mm256_castpd_ps(from.0), self.words);
+            let high = _mm256_permutevar8x32_ps(_mm256_castpd_ps(from.1), self.words);
+            _mm256_blendv_pd(_mm256_castps_pd(low), _mm256_castps_pd(high), self.high)
+        }
+    }
+}
 
 pub(crate) fn is_available() -> bool {
     is_x86_feature_detected!("avx2")
@@ -168,6 +204,8 @@ impl Lane for Eight {
 }
 
 impl Wide for Eight {
+    type Picks = (Half, Half);
+
     #[inline(always)]
     fn load(block: &Block) -> Self {
         let (low, high) = block.split_at(4);
@@ -206,5 +244,15 @@ impl Wide for Eight {
             _mm256_castsi256_pd(_mm256_cmpeq_epi64(set, places))
         };
         EightBits(half(i64::from(bits)), half(i64::from(bits >> 4)))
+    }
+
+    #[inline(always)]
+    fn picks(lanes: [u8; WIDTH]) -> (Half, Half) {
+        let [a, b, c, d, e, f, g, h] = lanes.map(i32::from);
+        (Half::of([a, b, c, d]), Half::of([e, f, g, h]))
+    }
+    #[inline(always)]
+    fn pick(self, (low, high): (Half, Half)) -> Self {
+        Self(low.pick(self), high.pick(self))
     }
 }

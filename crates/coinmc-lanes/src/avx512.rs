@@ -9,11 +9,11 @@ use crate::operators::operators;
 use crate::wide::{Bits, Block, WIDTH, Wide, Work};
 use crate::{Lane, Mask};
 use std::arch::x86_64::{
-    __m512d, __mmask8, _CMP_LE_OQ, _CMP_LT_OQ, _mm512_abs_pd, _mm512_add_pd, _mm512_and_si512,
-    _mm512_andnot_si512, _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_cmp_pd_mask,
-    _mm512_div_pd, _mm512_loadu_pd, _mm512_mask_blend_pd, _mm512_max_pd, _mm512_min_pd,
-    _mm512_mul_pd, _mm512_or_si512, _mm512_set1_pd, _mm512_sqrt_pd, _mm512_storeu_pd,
-    _mm512_sub_pd, _mm512_xor_si512,
+    __m512d, __m512i, __mmask8, _CMP_LE_OQ, _CMP_LT_OQ, _mm_cvtsi64_si128, _mm512_abs_pd,
+    _mm512_add_pd, _mm512_and_si512, _mm512_andnot_si512, _mm512_castpd_si512, _mm512_castsi512_pd,
+    _mm512_cmp_pd_mask, _mm512_cvtepu8_epi64, _mm512_div_pd, _mm512_loadu_pd, _mm512_mask_blend_pd,
+    _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd, _mm512_or_si512, _mm512_permutexvar_pd,
+    _mm512_set1_pd, _mm512_sqrt_pd, _mm512_storeu_pd, _mm512_sub_pd, _mm512_xor_si512,
 };
 
 #[derive(Debug, Clone, Copy)]
@@ -154,6 +154,8 @@ impl Lane for Eight {
 }
 
 impl Wide for Eight {
+    type Picks = __m512i;
+
     #[inline(always)]
     fn load(block: &Block) -> Self {
         // SAFETY: the module's text; a block is eight numbers, at any address.
@@ -173,5 +175,16 @@ impl Wide for Eight {
     #[inline(always)]
     fn mask(bits: Bits) -> EightBits {
         EightBits(bits)
+    }
+
+    #[inline(always)]
+    fn picks(lanes: [u8; WIDTH]) -> __m512i {
+        // SAFETY: the module's text.
+        unsafe { _mm512_cvtepu8_epi64(_mm_cvtsi64_si128(i64::from_le_bytes(lanes))) }
+    }
+    #[inline(always)]
+    fn pick(self, picks: __m512i) -> Self {
+        // SAFETY: the module's text.
+        Self(unsafe { _mm512_permutexvar_pd(picks, self.0) })
     }
 }

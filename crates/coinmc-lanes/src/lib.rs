@@ -32,10 +32,12 @@ mod lane;
 mod lanes;
 mod operators;
 mod portable;
+mod route;
 mod trig;
 mod wide;
 
 pub use lane::{Lane, Mask};
 pub use lanes::{Lanes, NoSuchLanes};
-pub use trig::{PI_2_TAIL, sin_cos, sin_cos_near_zero};
+pub use route::Route;
+pub use trig::{COSINE, PI_2_TAIL, SINE, sin_cos, sin_cos_near_zero};
 pub use wide::{Bits, Block, WIDTH, Wide, Work, first, lanes_of};

@@ -102,6 +102,8 @@ impl Lane for Eight {
 }
 
 impl Wide for Eight {
+    type Picks = [u8; WIDTH];
+
     #[inline(always)]
     fn load(block: &Block) -> Self {
         Self(*block)
@@ -117,5 +119,14 @@ impl Wide for Eight {
     #[inline(always)]
     fn mask(bits: Bits) -> EightBits {
         EightBits(from_fn(|i| all(bits & (1 << i) != 0)))
+    }
+
+    #[inline(always)]
+    fn picks(lanes: [u8; WIDTH]) -> [u8; WIDTH] {
+        lanes
+    }
+    #[inline(always)]
+    fn pick(self, picks: [u8; WIDTH]) -> Self {
+        Self(picks.map(|lane| self.0[usize::from(lane) % WIDTH]))
     }
 }

@@ -9,6 +9,27 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 /// π/2 − FRAC_PI_2, the part of π/2 that an f64 cannot hold.
 pub const PI_2_TAIL: f64 = 6.123_233_995_736_766e-17;
 
+/// Of sin y = y + y³ times a polynomial in y²: the minimax polynomial of FreeBSD's msun (`k_sin.c`)
+/// for |y| <= π/4, from the constant term up.
+pub const SINE: [f64; 6] = [
+    -1.666_666_666_666_663_2e-1,
+    8.333_333_333_322_49e-3,
+    -1.984_126_982_985_795e-4,
+    2.755_731_370_707_007e-6,
+    -2.505_076_025_340_686_3e-8,
+    1.589_690_995_211_55e-10,
+];
+
+/// The same of cos y = 1 − y²/2 + y⁴ times a polynomial in y² (`k_cos.c`).
+pub const COSINE: [f64; 6] = [
+    4.166_666_666_666_66e-2,
+    -1.388_888_888_887_411e-3,
+    2.480_158_728_947_673e-5,
+    -2.755_731_435_139_066_3e-7,
+    2.087_572_321_298_175e-9,
+    -1.135_964_755_778_819_5e-11,
+];
+
 /// (sin x, cos x) for |x| <= π/2, in radians, within 1.5 ulp of the exact values.
 ///
 /// Beyond π/4 the complement π/2 − |x| is evaluated and the two are exchanged, so that both stay
@@ -28,26 +49,12 @@ pub fn sin_cos<L: Lane>(x: L) -> (L, L) {
     (L::select(fold, c, s).copysign(x), L::select(fold, s, c))
 }
 
-/// (sin y, cos y) for |y| <= π/4, rad: the minimax polynomials of FreeBSD's msun (`k_sin.c`,
-/// `k_cos.c`, S. Moshier / Sun Microsystems 1993).
+/// (sin y, cos y) for |y| <= π/4, rad: the minimax polynomials of FreeBSD's msun ([`SINE`],
+/// [`COSINE`]; S. Moshier / Sun Microsystems 1993).
 #[inline(always)]
 pub fn sin_cos_near_zero<L: Lane>(y: L) -> (L, L) {
-    const S: [f64; 6] = [
-        -1.666_666_666_666_663_2e-1,
-        8.333_333_333_322_49e-3,
-        -1.984_126_982_985_795e-4,
-        2.755_731_370_707_007e-6,
-        -2.505_076_025_340_686_3e-8,
-        1.589_690_995_211_55e-10,
-    ];
-    const C: [f64; 6] = [
-        4.166_666_666_666_66e-2,
-        -1.388_888_888_887_411e-3,
-        2.480_158_728_947_673e-5,
-        -2.755_731_435_139_066_3e-7,
-        2.087_572_321_298_175e-9,
-        -1.135_964_755_778_819_5e-11,
-    ];
+    const S: [f64; 6] = SINE;
+    const C: [f64; 6] = COSINE;
     let k = L::splat;
     let z = y * y;
     let w = z * z;

@@ -13,6 +13,9 @@ pub type Bits = u8;
 
 /// [`WIDTH`] lanes.
 pub trait Wide: Lane {
+    /// Numbers of lanes, one for each.
+    type Picks: Copy;
+
     /// The lanes that memory holds.
     fn load(block: &Block) -> Self;
     /// The lanes, for memory.
@@ -21,6 +24,10 @@ pub trait Wide: Lane {
     fn bits(mask: Self::Mask) -> Bits;
     /// The mask of set bits.
     fn mask(bits: Bits) -> Self::Mask;
+    /// Places as [`pick`](Self::pick) takes them: the lowest three bits of each number.
+    fn picks(lanes: [u8; WIDTH]) -> Self::Picks;
+    /// In every lane what was in the lane whose number stands there.
+    fn pick(self, picks: Self::Picks) -> Self;
 }
 
 /// Something that is done on lanes of any kind. Its `run` and all that this calls are to be

@@ -26,12 +26,11 @@ mod tests;
 
 use crate::contact::rim::Mode;
 use crate::engine::{Finished, Onward, VolumetricEngine};
-use crate::flight::Group;
 use crate::impact::ImpactLaw;
 use coinmc_core::{Ended, Landing, Launch, TossBatch};
 use coinmc_lanes::Lanes;
 use coinmc_lanes::{Bits, WIDTH, first, lanes_of};
-use pool::{Origin, Pool, SLOTS, Slot};
+use pool::{Pool, SLOTS, Slot};
 
 pub(crate) struct Batch<'a, L> {
     engine: &'a VolumetricEngine<L>,
@@ -79,19 +78,19 @@ impl<L: ImpactLaw> TossBatch for Batch<'_, L> {
     /// are. `false` if nothing is left to do.
     fn advance(&mut self) -> bool {
         let pool = &self.pool;
-        if pool.landed.len() >= WIDTH {
+        if pool.searching.landed() >= WIDTH {
             self.bounce();
-        } else if pool.departing.len() >= WIDTH && pool.vacant.len() >= WIDTH {
+        } else if pool.departing.len() >= WIDTH && pool.searching.vacant() >= WIDTH {
             self.depart();
-        } else if pool.again.len() >= WIDTH && pool.vacant.len() >= WIDTH {
+        } else if pool.again.len() >= WIDTH && pool.searching.vacant() >= WIDTH {
             self.strike_again();
         } else if pool.slips.with(&pool.slipping) >= WIDTH {
             self.attempt(Mode::Slip);
         } else if pool.sticks.with(&pool.sticking) >= WIDTH {
             self.attempt(Mode::Stick);
-        } else if pool.on_search() > 0 {
+        } else if pool.searching.is_any() {
             self.sweep();
-        } else if !pool.landed.is_empty() {
+        } else if pool.searching.landed() > 0 {
             self.bounce();
         } else if !pool.again.is_empty() {
             self.strike_again();
@@ -122,57 +121,46 @@ impl<L: ImpactLaw> Batch<'_, L> {
 
     /// Puts flights on search.
     fn depart(&mut self) {
-        let count = self.pool.departing.len().min(WIDTH);
-        let from = self.pool.departing.len() - count;
-        let mut owners = [0; WIDTH];
-        owners[..count].copy_from_slice(&self.pool.departing[from..]);
-        self.pool.departing.truncate(from);
-        let begin = &mut self.pool.begin;
+        let (law, pool) = (&self.engine.contact, &mut self.pool);
+        let count = pool.departing.len().min(WIDTH);
+        let from = pool.departing.len() - count;
+        let begin = &mut pool.begin;
         (begin.launched, begin.parting) = (0, 0);
         for lane in 0..WIDTH {
             // beyond the last, lanes do the same as the first, for nothing
-            let slot = &self.pool.slots[owners[if lane < count { lane } else { 0 }]];
+            let owner = pool.departing[from + if lane < count { lane } else { 0 }];
+            let slot = &pool.slots[owner];
             let [motion @ .., axial] = &mut begin.motion;
             for (block, number) in motion.iter_mut().zip(slot.toss.motion.numbers()) {
                 block[lane] = number;
             }
             axial[lane] = slot.toss.spin.axial;
+            begin.owners.set(lane, owner);
             begin.launched |= Bits::from(slot.launched) << lane;
             begin.parting |= Bits::from(slot.parting) << lane;
         }
-        let (lanes, law) = (self.engine.lanes, &self.engine.contact);
-        self.pool
-            .put_on_search(lanes, law, Origin::Elsewhere, &owners, first(count));
+        pool.departing.truncate(from);
+        let (lanes, flies) = (self.engine.lanes, first(count));
+        pool.searching
+            .depart(lanes, &law.body, law.drag, &pool.begin, flies);
     }
 
     /// One step of every flight on search.
     fn sweep(&mut self) {
-        let (law, pool) = (&self.engine.contact, &mut self.pool);
-        Group::sweep(&mut pool.groups, self.engine.lanes, &law.body, law.drag);
-        for (i, group) in pool.groups.iter().enumerate() {
-            pool.landed
-                .extend(lanes_of(group.left).map(|lane| (i, lane)));
-        }
+        let law = &self.engine.contact;
+        let searching = &mut self.pool.searching;
+        searching.sweep(self.engine.lanes, &law.body, law.drag);
     }
 
     /// Lands flights and throws the coins back.
     fn bounce(&mut self) {
-        let engine = self.engine;
-        let struck = &mut self.pool.struck;
-        let count = self.pool.landed.len().min(WIDTH);
-        let from = self.pool.landed.len() - count;
-        for at in 0..WIDTH {
-            let (group, lane) = self.pool.landed[from + if at < count { at } else { 0 }];
-            let group = &self.pool.groups[group];
-            group.hand_over(lane, &mut struck.leavers, at);
-            struck.owner[at] = group.owner[lane];
-        }
-        self.pool.vacant.extend(self.pool.landed.drain(from..));
-        struck.land(engine.lanes, &engine.contact);
+        let (engine, pool) = (self.engine, &mut self.pool);
+        let searching = &mut pool.searching;
+        let count = pool.struck.land(engine.lanes, &engine.contact, searching);
         let mut open = 0;
         for lane in 0..count {
             match self.without_impact(lane) {
-                Some(onward) => self.go(self.pool.struck.owner[lane], onward),
+                Some(onward) => self.go(self.pool.struck.owner(lane), onward),
                 None => open |= 1 << lane,
             }
         }
@@ -197,37 +185,35 @@ impl<L: ImpactLaw> Batch<'_, L> {
 
     /// Throws coins back, those of `open`.
     fn strike(&mut self, open: Bits, may_end: bool) {
-        let engine = self.engine;
+        let (engine, law) = (self.engine, &self.engine.contact);
         self.pool.struck.strike(engine, may_end);
-        let owners = self.pool.struck.owner;
         let again = open & self.pool.struck.again();
         for lane in lanes_of(again) {
-            let (pool, owner) = (&mut self.pool, owners[lane]);
+            let pool = &mut self.pool;
+            let owner = pool.struck.owner(lane);
             pool.struck.scatter(lane, &mut pool.slots[owner].toss);
             pool.again.push(owner);
         }
         let mut flies = 0;
         for lane in lanes_of(open & !again) {
-            let (pool, owner) = (&mut self.pool, owners[lane]);
+            let pool = &mut self.pool;
+            let owner = pool.struck.owner(lane);
             pool.slots[owner].toss.impacts += 1;
             match pool.struck.rebound(engine, lane, &mut pool.slots[owner]) {
                 Onward::Fly(false) => flies |= 1 << lane,
                 onward => self.go(owner, onward),
             }
         }
-        self.pool.put_on_search(
-            engine.lanes,
-            &engine.contact,
-            Origin::Struck,
-            &owners,
-            flies,
-        );
+        let (pool, lanes) = (&mut self.pool, engine.lanes);
+        let begin = &pool.struck.after;
+        pool.searching
+            .depart(lanes, &law.body, law.drag, begin, flies);
     }
 
     /// What a landed coin does instead of an impact of its own lane.
     fn without_impact(&mut self, lane: usize) -> Option<Onward> {
         let (engine, struck) = (self.engine, &self.pool.struck);
-        let slot = &mut self.pool.slots[struck.owner[lane]];
+        let slot = &mut self.pool.slots[struck.owner(lane)];
         if struck.is_lost(lane) {
             struck.restore(lane, &mut slot.toss, engine.contact.axial_factor);
             return Some(Onward::End(engine.lost(&slot.toss)));

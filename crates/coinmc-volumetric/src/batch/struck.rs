@@ -4,14 +4,14 @@ use super::pool::Slot;
 use crate::aloft::land;
 use crate::contact::{FLAT, Law};
 use crate::engine::{Onward, VolumetricEngine, decided};
-use crate::flight::{Departing, Leavers, MOTION};
+use crate::flight::{Departing, Leavers, MOTION, Searching};
 use crate::impact::ImpactLaw;
 use crate::motion::{Motion, Spin};
 use crate::rest;
 use crate::toss::Toss;
 use crate::verdict::Verdict;
 use coinmc_lanes::Lanes;
-use coinmc_lanes::{Bits, Block, WIDTH, Wide, Work};
+use coinmc_lanes::{Bits, Block, Wide, Work};
 
 #[derive(Debug, Clone, Default)]
 #[repr(C, align(64))]
@@ -23,7 +23,6 @@ pub(super) struct StruckTosses {
     tilt: Block,
     /// Duration of the flight.
     took: Block,
-    pub(super) owner: [usize; WIDTH],
     reflected: Bits,
     lost: Bits,
     /// Whose impact may be the last; who has to be struck anew because it was not.
@@ -42,13 +41,21 @@ fn has(bits: Bits, lane: usize) -> bool {
 }
 
 impl StruckTosses {
-    /// Ends the flights.
-    pub(super) fn land(&mut self, lanes: Lanes, law: &Law) {
+    /// Ends up to eight flights; how many.
+    pub(super) fn land(&mut self, lanes: Lanes, law: &Law, searching: &mut Searching) -> usize {
         let tosses = self;
         if law.drag.acts() {
-            lanes.enter(Land::<true> { tosses, law });
+            lanes.enter(Land::<true> {
+                tosses,
+                searching,
+                law,
+            })
         } else {
-            lanes.enter(Land::<false> { tosses, law });
+            lanes.enter(Land::<false> {
+                tosses,
+                searching,
+                law,
+            })
         }
     }
 
@@ -63,13 +70,18 @@ impl StruckTosses {
     /// Takes over a landed coin.
     #[inline]
     pub(super) fn gather(&mut self, lane: usize, owner: usize, toss: &Toss) {
-        self.owner[lane] = owner;
+        self.after.owners.set(lane, owner);
         let [motion @ .., axial] = &mut self.after.motion;
         for (block, number) in motion.iter_mut().zip(toss.motion.numbers()) {
             block[lane] = number;
         }
         axial[lane] = toss.spin.axial;
         (self.turn[lane], self.tilt[lane]) = (toss.spin.turn, toss.spin.tilt);
+    }
+
+    /// Whose lane it is.
+    pub(super) fn owner(&self, lane: usize) -> usize {
+        self.after.owners.of(lane)
     }
 
     /// Coins whose impact was not the last, and so has not been.
@@ -171,15 +183,18 @@ impl StruckTosses {
 
 struct Land<'a, const DRAGS: bool> {
     tosses: &'a mut StruckTosses,
+    searching: &'a mut Searching,
     law: &'a Law,
 }
 
 impl<const DRAGS: bool> Work for Land<'_, DRAGS> {
-    type Output = ();
+    type Output = usize;
 
     #[inline(always)]
-    fn run<L: Wide>(self) {
+    fn run<L: Wide>(self) -> usize {
         let (tosses, law) = (self.tosses, self.law);
+        let count = self.searching.gather::<L>(&mut tosses.leavers);
+        tosses.after.owners = tosses.leavers.owners;
         let orbit = tosses.leavers.orbit::<L>(law.drag.known::<DRAGS>());
         let (time, lost) = tosses.leavers.close_in(&orbit, &law.body);
         let (motion, axial) = tosses.leavers.motion::<L>();
@@ -188,6 +203,7 @@ impl<const DRAGS: bool> Work for Land<'_, DRAGS> {
         tosses.took = orbit.since_start(time).store();
         tosses.reflected = L::bits(landed.reflected);
         tosses.lost = L::bits(lost);
+        count
     }
 }
 

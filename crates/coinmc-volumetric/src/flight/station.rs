@@ -1,16 +1,15 @@
 //! Flights side by side on the search for their first contact.
 //!
 //! The search has two parts: steps that no root is passed by, of which a flight takes from one to
-//! hundreds, and Newton's method in a bracket, a few steps each. The first is done here, step by
-//! step for all flights there are; a flight that is done leaves, and another may take its lane. The
-//! second ([`close_in`]) follows where flights that have left are gathered.
+//! hundreds, and Newton's method in a bracket, a few steps each. The first is a step of a
+//! [`Group`]; a flight that is done leaves, and another may take its lane. The second
+//! ([`close_in`](Leavers::close_in)) follows where flights that have left are gathered.
 
 use super::orbit::{Drag, Extent, Orbit};
-use super::search::{MAX_EVALUATIONS, Search};
+use super::search::{MAX_EVALUATIONS, Search, least_time};
 use crate::body::Body;
 use crate::motion::Motion;
-use coinmc_lanes::{Bits, Block, WIDTH, Wide, Work};
-use coinmc_lanes::{Lanes, Mask};
+use coinmc_lanes::{Bits, Block, Mask, Route, Wide};
 
 /// Numbers of a flight on search beside its orbit and bounds: time, least, evaluations.
 const SEARCH: usize = 3;
@@ -19,165 +18,38 @@ const EXTENT: usize = 3;
 /// Of a motion: its own, and the axial spin.
 pub(crate) const MOTION: usize = 10;
 
-/// Flights on search, one a lane.
-#[derive(Debug, Clone)]
+/// Whose lanes they are. Numbers of tosses travel as the bits of an `f64`, like all that a lane has:
+/// no arithmetic is done with them.
+#[derive(Debug, Clone, Copy, Default)]
 #[repr(C, align(64))]
-pub(crate) struct Group {
-    orbit: [Block; ORBIT],
-    extent: [Block; EXTENT],
-    search: [Block; SEARCH],
-    /// The bracket of a flight that has left.
-    bracket: [Block; 2],
-    /// The motion with which the flight began.
-    motion: [Block; MOTION],
-    departs: Bits,
-    launched: Bits,
-    /// On search.
-    active: Bits,
-    /// Of those that have left: the root is yet to be found in the bracket; the search was given up.
-    bracketed: Bits,
-    lost: Bits,
-    /// Those that have left with the last step.
-    pub(crate) left: Bits,
-    /// Whose flight it is.
-    pub(crate) owner: [usize; WIDTH],
-}
+pub(crate) struct Owners(Block);
 
-/// Flights at the end of their search.
-#[derive(Debug, Clone, Copy)]
-#[repr(C, align(64))]
-pub(crate) struct Leavers {
-    orbit: [Block; ORBIT],
-    motion: [Block; MOTION],
-    time: Block,
-    bracket: [Block; 2],
-    evaluations: Block,
-    bracketed: Bits,
-    lost: Bits,
-}
-
-impl Default for Leavers {
-    fn default() -> Self {
-        Self {
-            orbit: [[0.0; WIDTH]; ORBIT],
-            motion: [[0.0; WIDTH]; MOTION],
-            time: [0.0; WIDTH],
-            bracket: [[0.0; WIDTH]; 2],
-            evaluations: [0.0; WIDTH],
-            bracketed: 0,
-            lost: 0,
-        }
-    }
-}
-
-impl Default for Group {
-    fn default() -> Self {
-        Self {
-            orbit: [[0.0; WIDTH]; ORBIT],
-            extent: [[0.0; WIDTH]; EXTENT],
-            search: [[0.0; WIDTH]; SEARCH],
-            bracket: [[0.0; WIDTH]; 2],
-            motion: [[0.0; WIDTH]; MOTION],
-            departs: 0,
-            launched: 0,
-            active: 0,
-            left: 0,
-            bracketed: 0,
-            lost: 0,
-            owner: [0; WIDTH],
-        }
-    }
-}
-
-/// Sets one bit.
-fn set(bits: &mut Bits, lane: usize, value: bool) {
-    *bits = (*bits & !(1 << lane)) | (Bits::from(value) << lane);
-}
-
-impl Group {
-    /// Takes over a flight of another group.
+impl Owners {
     #[inline]
-    pub(crate) fn take(
-        &mut self,
-        lane: usize,
-        from: &Self,
-        begin: &Departing,
-        at: usize,
-        owner: usize,
-    ) {
-        for (to, from) in self.orbit.iter_mut().zip(&from.orbit) {
-            to[lane] = from[at];
-        }
-        for (to, from) in self.extent.iter_mut().zip(&from.extent) {
-            to[lane] = from[at];
-        }
-        for (to, from) in self.search.iter_mut().zip(&from.search) {
-            to[lane] = from[at];
-        }
-        for (to, from) in self.motion.iter_mut().zip(&begin.motion) {
-            to[lane] = from[at];
-        }
-        set(&mut self.departs, lane, from.departs & (1 << at) != 0);
-        set(&mut self.launched, lane, from.launched & (1 << at) != 0);
-        set(&mut self.active, lane, true);
-        set(&mut self.bracketed, lane, false);
-        set(&mut self.lost, lane, false);
-        self.owner[lane] = owner;
+    pub(crate) fn of(&self, lane: usize) -> usize {
+        // what `set` was given
+        #[allow(clippy::cast_possible_truncation)]
+        let owner = self.0[lane].to_bits() as usize;
+        owner
     }
 
-    /// Hands over a flight that has left.
     #[inline]
-    pub(crate) fn hand_over(&self, lane: usize, to: &mut Leavers, at: usize) {
-        for (to, from) in to.orbit.iter_mut().zip(&self.orbit) {
-            to[at] = from[lane];
-        }
-        for (to, from) in to.bracket.iter_mut().zip(&self.bracket) {
-            to[at] = from[lane];
-        }
-        for (to, from) in to.motion.iter_mut().zip(&self.motion) {
-            to[at] = from[lane];
-        }
-        to.time[at] = self.search[0][lane];
-        to.evaluations[at] = self.search[2][lane];
-        set(&mut to.bracketed, at, self.bracketed & (1 << lane) != 0);
-        set(&mut to.lost, at, self.lost & (1 << lane) != 0);
+    pub(crate) fn set(&mut self, lane: usize, owner: usize) {
+        self.0[lane] = f64::from_bits(owner as u64);
     }
 
-    /// One step of every flight of all groups.
-    pub(crate) fn sweep(groups: &mut [Self], lanes: Lanes, body: &Body, drag: Drag) {
-        if drag.acts() {
-            lanes.enter(Sweep::<true> { groups, body, drag });
-        } else {
-            lanes.enter(Sweep::<false> { groups, body, drag });
-        }
-    }
-
-    /// Flights that begin with `motion`, ready for their search. `least` is made of `parting`.
-    pub(crate) fn depart(&mut self, lanes: Lanes, body: &Body, drag: Drag, begin: &Departing) {
-        let group = self;
-        if drag.acts() {
-            lanes.enter(Depart::<true> {
-                group,
-                body,
-                drag,
-                begin,
-            });
-        } else {
-            lanes.enter(Depart::<false> {
-                group,
-                body,
-                drag,
-                begin,
-            });
-        }
+    #[inline(always)]
+    fn follow<L: Wide>(&mut self, route: &Route, from: &Self) {
+        self.0 = route.follow(L::load(&from.0), L::load(&self.0)).store();
     }
 }
 
 /// Flights about to begin.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 #[repr(C, align(64))]
 pub(crate) struct Departing {
     pub(crate) motion: [Block; MOTION],
+    pub(crate) owners: Owners,
     pub(crate) launched: Bits,
     pub(crate) parting: Bits,
 }
@@ -190,14 +62,40 @@ impl Departing {
     }
 }
 
-impl Default for Departing {
-    fn default() -> Self {
-        Self {
-            motion: [[0.0; WIDTH]; MOTION],
-            launched: 0,
-            parting: 0,
-        }
-    }
+/// Flights on search, one a lane.
+#[derive(Debug, Clone, Default)]
+#[repr(C, align(64))]
+pub(super) struct Group {
+    orbit: [Block; ORBIT],
+    extent: [Block; EXTENT],
+    search: [Block; SEARCH],
+    /// The bracket of a flight that has left.
+    bracket: [Block; 2],
+    /// The motion with which the flight began.
+    motion: [Block; MOTION],
+    owners: Owners,
+    departs: Bits,
+    launched: Bits,
+    /// On search.
+    active: Bits,
+    /// Of those that have left: the root is yet to be found in the bracket; the search was given up.
+    bracketed: Bits,
+    lost: Bits,
+    /// Those that have left with the last step.
+    pub(super) left: Bits,
+}
+
+/// Flights at the end of their search.
+#[derive(Debug, Clone, Default)]
+#[repr(C, align(64))]
+pub(crate) struct Leavers {
+    orbit: [Block; ORBIT],
+    search: [Block; SEARCH],
+    bracket: [Block; 2],
+    motion: [Block; MOTION],
+    pub(crate) owners: Owners,
+    bracketed: Bits,
+    lost: Bits,
 }
 
 /// The columns of a block each, in registers.
@@ -218,6 +116,14 @@ pub(crate) fn store<L: Wide, const N: usize>(blocks: &mut [Block; N], from: &[L;
     }
 }
 
+/// What follows a route.
+#[inline(always)]
+fn follow<L: Wide, const N: usize>(route: &Route, from: &[Block; N], to: &mut [Block; N]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = route.follow(L::load(from), L::load(to)).store();
+    }
+}
+
 /// A motion and its axial spin.
 #[inline(always)]
 fn split<L: Wide>(numbers: &[L; MOTION]) -> (Motion<L>, L) {
@@ -225,30 +131,69 @@ fn split<L: Wide>(numbers: &[L; MOTION]) -> (Motion<L>, L) {
     (Motion::of(&[sin, cos, ox, oy, oz, vx, vy, vz, z]), axial)
 }
 
-struct Sweep<'a, const DRAGS: bool> {
-    groups: &'a mut [Group],
-    body: &'a Body,
-    drag: Drag,
-}
-
-impl<const DRAGS: bool> Work for Sweep<'_, DRAGS> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<L: Wide>(self) {
-        for group in self.groups {
-            group.left = 0;
-            if group.active != 0 {
-                group.step::<L>(self.body, self.drag.known::<DRAGS>());
-            }
-        }
-    }
-}
-
 impl Group {
+    /// All of a group sets out: its flights are ready for their search, and have taken the first step
+    /// of it where that does not end it.
+    #[inline(always)]
+    pub(super) fn set_out<L: Wide>(&mut self, begin: &Departing, body: &Body, drag: Drag) {
+        let (motion, _) = begin.load::<L>();
+        let mut orbit = Orbit::new(&motion, drag);
+        let least = least_time(&orbit, &motion, L::mask(begin.parting));
+        let extent = orbit.extent(body);
+        let begins = Search::new(&mut orbit, &extent, L::mask(begin.launched), least);
+        let mut search = begins;
+        let gap = orbit.first_gap(body);
+        search.approach(&orbit, body, &orbit.bounds(&extent), &gap);
+        // what ends here, or is bracketed, is done again by the next step, which sees to its end
+        let goes_on = search.active & !search.bracketed;
+        let numbers = [
+            L::select(goes_on, search.time, begins.time),
+            L::select(goes_on, search.least, begins.least),
+            L::select(goes_on, L::splat(1.0), L::splat(0.0)),
+        ];
+        store(&mut self.orbit, &orbit.numbers());
+        store(&mut self.extent, &extent.numbers());
+        store(&mut self.search, &numbers);
+        self.departs = L::bits(begins.departs);
+        self.launched = begin.launched;
+    }
+
+    /// Takes over flights of a group that has set out with `begin`.
+    #[inline(always)]
+    pub(super) fn take<L: Wide>(&mut self, from: &Self, begin: &Departing, route: &Route) {
+        follow::<L, ORBIT>(route, &from.orbit, &mut self.orbit);
+        follow::<L, EXTENT>(route, &from.extent, &mut self.extent);
+        follow::<L, SEARCH>(route, &from.search, &mut self.search);
+        follow::<L, MOTION>(route, &begin.motion, &mut self.motion);
+        self.owners.follow::<L>(route, &begin.owners);
+        self.departs = route.follow_bits::<L>(from.departs, self.departs);
+        self.launched = route.follow_bits::<L>(from.launched, self.launched);
+        let taken = route.to();
+        self.active |= taken;
+        self.bracketed &= !taken;
+        self.lost &= !taken;
+    }
+
+    /// Hands over flights that have left.
+    #[inline(always)]
+    pub(super) fn hand_over<L: Wide>(&self, to: &mut Leavers, route: &Route) {
+        follow::<L, ORBIT>(route, &self.orbit, &mut to.orbit);
+        follow::<L, SEARCH>(route, &self.search, &mut to.search);
+        follow::<L, 2>(route, &self.bracket, &mut to.bracket);
+        follow::<L, MOTION>(route, &self.motion, &mut to.motion);
+        to.owners.follow::<L>(route, &self.owners);
+        to.bracketed = route.follow_bits::<L>(self.bracketed, to.bracketed);
+        to.lost = route.follow_bits::<L>(self.lost, to.lost);
+    }
+
+    /// Whether any flight is on search.
+    pub(super) fn is_active(&self) -> bool {
+        self.active != 0
+    }
+
     /// One step of every flight.
     #[inline(always)]
-    fn step<L: Wide>(&mut self, body: &Body, drag: Drag) {
+    pub(super) fn step<L: Wide>(&mut self, body: &Body, drag: Drag) {
         let group = self;
         let orbit = Orbit::of(&load::<L, ORBIT>(&group.orbit), drag);
         let bounds = orbit.bounds(&Extent::of(&load::<L, EXTENT>(&group.extent)));
@@ -293,52 +238,15 @@ impl Group {
     }
 }
 
-struct Depart<'a, const DRAGS: bool> {
-    group: &'a mut Group,
-    body: &'a Body,
-    drag: Drag,
-    begin: &'a Departing,
-}
-
-impl<const DRAGS: bool> Work for Depart<'_, DRAGS> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<L: Wide>(self) {
-        let (motion, _) = self.begin.load::<L>();
-        let mut orbit = Orbit::new(&motion, self.drag.known::<DRAGS>());
-        let parting = L::mask(self.begin.parting);
-        let least = super::least_time(&orbit, &motion, parting);
-        let extent = orbit.extent(self.body);
-        let launched = L::mask(self.begin.launched);
-        let begins = Search::new(&mut orbit, &extent, launched, least);
-        let mut search = begins;
-        let gap = orbit.first_gap(self.body);
-        search.approach(&orbit, self.body, &orbit.bounds(&extent), &gap);
-        // what ends here, or is bracketed, is done again by the next sweep, which sees to its end
-        let goes_on = search.active & !search.bracketed;
-        let numbers = [
-            L::select(goes_on, search.time, begins.time),
-            L::select(goes_on, search.least, begins.least),
-            L::select(goes_on, L::splat(1.0), L::splat(0.0)),
-        ];
-        let group = self.group;
-        store(&mut group.orbit, &orbit.numbers());
-        store(&mut group.extent, &extent.numbers());
-        store(&mut group.search, &numbers);
-        group.departs = L::bits(begins.departs);
-        group.launched = self.begin.launched;
-    }
-}
-
 impl Leavers {
     /// Ends the search of each: its time, and whether it is lost.
     #[inline(always)]
     pub(crate) fn close_in<L: Wide>(&self, orbit: &Orbit<L>, body: &Body) -> (L, L::Mask) {
         let [low, high] = load::<L, 2>(&self.bracket);
+        let [time, _, mut evaluations] = load::<L, SEARCH>(&self.search);
         let bracketed = L::mask(self.bracketed);
         let mut search = Search {
-            time: L::load(&self.time),
+            time,
             low,
             high,
             bracketed,
@@ -347,7 +255,6 @@ impl Leavers {
             departs: L::Mask::splat(false),
             launched: L::Mask::splat(false),
         };
-        let mut evaluations = L::load(&self.evaluations);
         let most = L::splat(f64::from(MAX_EVALUATIONS));
         let mut lost = L::mask(self.lost);
         while search.active.any() {

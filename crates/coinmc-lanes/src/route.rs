@@ -1,0 +1,177 @@
+//! From lanes of one block to lanes of another.
+
+use crate::wide::{Bits, WIDTH, Wide};
+
+/// Which lanes of some blocks go to which of others.
+///
+/// # Example
+/// ```
+/// use coinmc_lanes::{Block, Lanes, Route, Wide, Work};
+///
+/// struct Move<'a>(&'a Block, &'a mut Block, Route);
+///
+/// impl Work for Move<'_> {
+///     type Output = ();
+///
+///     #[inline(always)]
+///     fn run<L: Wide>(self) {
+///         *self.1 = self.2.follow(L::load(self.0), L::load(self.1)).store();
+///     }
+/// }
+///
+/// let tens = [10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0];
+/// let mut numbers = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0];
+/// let route = Route::between(0b0110_0100, 0b1000_0001);
+/// Lanes::best().enter(Move(&tens, &mut numbers, route));
+/// assert_eq!(numbers, [30.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 60.0]);
+/// assert_eq!((route.from(), route.to()), (0b0010_0100, 0b1000_0001));
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Route {
+    /// By the lane that it goes to.
+    sources: [u8; WIDTH],
+    from: Bits,
+    to: Bits,
+}
+
+impl Route {
+    /// From the first lane of `from` to the first of `to`, and so on until either has no more.
+    #[inline(always)]
+    pub fn between(from: Bits, to: Bits) -> Self {
+        let count = from.count_ones().min(to.count_ones()) as usize;
+        let from = FIRST[usize::from(from)][count];
+        let to = FIRST[usize::from(to)][count];
+        let places = u64::from_le_bytes(PLACES[usize::from(from)]);
+        // without branches, as how many lanes go is not to be foreseen
+        let (mut sources, mut rank) = (0, 0);
+        for lane in 0..WIDTH {
+            sources |= ((places >> (8 * rank)) & 7) << (8 * lane);
+            rank += (to >> lane) & 1;
+        }
+        Self {
+            sources: sources.to_le_bytes(),
+            from,
+            to,
+        }
+    }
+
+    /// From the first lane of `from` to all of `to`.
+    #[inline(always)]
+    pub fn to_all(from: Bits, to: Bits) -> Self {
+        let from = FIRST[usize::from(from)][1];
+        Self {
+            sources: [PLACES[usize::from(from)][0]; WIDTH],
+            from,
+            to,
+        }
+    }
+
+    /// The lanes that go.
+    pub fn from(&self) -> Bits {
+        self.from
+    }
+
+    /// The lanes they go to.
+    pub fn to(&self) -> Bits {
+        self.to
+    }
+
+    /// What is at the end of the route: `to`, but for the lanes that come of `from`.
+    #[inline(always)]
+    pub fn follow<L: Wide>(&self, from: L, to: L) -> L {
+        L::select(L::mask(self.to), from.pick(L::picks(self.sources)), to)
+    }
+
+    /// The same of one truth value a lane.
+    #[inline(always)]
+    pub fn follow_bits<L: Wide>(&self, from: Bits, to: Bits) -> Bits {
+        let (zero, one) = (L::splat(0.0), L::splat(1.0));
+        let number = |bits| L::select(L::mask(bits), one, zero);
+        L::bits(zero.lt(self.follow(number(from), number(to))))
+    }
+}
+
+/// Of any lanes, the first so many.
+static FIRST: [[Bits; WIDTH + 1]; 256] = {
+    let mut first = [[0; WIDTH + 1]; 256];
+    let mut bits = 0;
+    while bits < 256 {
+        let (mut taken, mut count, mut lane) = (0, 0, 0);
+        while lane < WIDTH {
+            if (bits >> lane) & 1 != 0 {
+                taken |= 1 << lane;
+                count += 1;
+                first[bits][count] = taken;
+            }
+            lane += 1;
+        }
+        bits += 1;
+    }
+    first
+};
+
+/// Of any lanes, where they are, in rising order.
+static PLACES: [[u8; WIDTH]; 256] = {
+    let mut places = [[0; WIDTH]; 256];
+    let mut bits = 0;
+    while bits < 256 {
+        let (mut lane, mut count) = (0, 0);
+        while lane < 8 {
+            if (bits >> lane) & 1 != 0 {
+                places[bits][count] = lane;
+                count += 1;
+            }
+            lane += 1;
+        }
+        bits += 1;
+    }
+    places
+};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Block, Lanes, Work, lanes_of};
+
+    struct Follow(Route, [Block; 2], [Bits; 2]);
+
+    impl Work for Follow {
+        type Output = (Block, Bits);
+
+        #[inline(always)]
+        fn run<L: Wide>(self) -> (Block, Bits) {
+            let Self(route, [from, to], [from_bits, to_bits]) = self;
+            let numbers = route.follow(L::load(&from), L::load(&to)).store();
+            (numbers, route.follow_bits::<L>(from_bits, to_bits))
+        }
+    }
+
+    #[test]
+    fn every_lane_goes_where_its_rank_says_with_all_lanes() {
+        let from_numbers = [0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5];
+        let to_numbers = from_numbers.map(|number| -number);
+        let (from_bits, to_bits) = (0b1011_0010, 0b0110_1010);
+        for lanes in Lanes::ALL.into_iter().filter(|lanes| lanes.is_available()) {
+            for from in 0..=Bits::MAX {
+                for to in 0..=Bits::MAX {
+                    let route = Route::between(from, to);
+                    let (mut numbers, mut bits) = (to_numbers, to_bits);
+                    let (mut taken, mut met) = (0, 0);
+                    for (source, goal) in lanes_of(from).zip(lanes_of(to)) {
+                        numbers[goal] = from_numbers[source];
+                        bits = (bits & !(1 << goal)) | (((from_bits >> source) & 1) << goal);
+                        taken |= 1 << source;
+                        met |= 1 << goal;
+                    }
+                    assert_eq!((route.from(), route.to()), (taken, met), "{from:b} {to:b}");
+                    let follow = Follow(route, [from_numbers, to_numbers], [from_bits, to_bits]);
+                    assert_eq!(
+                        lanes.enter(follow),
+                        (numbers, bits),
+                        "{lanes} {from:b} {to:b}"
+                    );
+                }
+            }
+        }
+    }
+}
