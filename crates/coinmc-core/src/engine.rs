@@ -1,6 +1,7 @@
 //! What an engine is.
 
 use crate::{Launch, LaunchDistribution, Observer, Outcome, Scene, Stream, Tally};
+use coinmc_lanes::Lanes;
 use nalgebra::{UnitVector3, Vector3};
 use std::ops::{ControlFlow, Range};
 
@@ -14,6 +15,11 @@ pub trait Engine: Sync {
 
     /// A fresh workspace.
     fn workspace(&self) -> Self::Workspace;
+
+    /// With how many at a time it follows tosses, and their launches are drawn for it.
+    fn lanes(&self) -> Lanes {
+        Lanes::Scalar
+    }
 
     /// Follows one toss to its end and tells the observer what happened on the way.
     fn toss(
@@ -120,7 +126,7 @@ pub fn run_tosses<E: Engine>(
     tosses: Range<u64>,
 ) -> Tally {
     let mut tally = Tally::default();
-    let launches = tosses.map(|toss| launches.launch(&scene.coin, &mut stream.toss(toss)));
+    let launches = launches.launches(&scene.coin, stream, tosses, engine.lanes());
     engine.toss_all(workspace, launches, |_, outcome| {
         tally.add(outcome);
         ControlFlow::Continue(())

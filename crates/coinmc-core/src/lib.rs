@@ -49,12 +49,13 @@ mod tally;
 
 pub use batch::TossBatch;
 pub use coin::{Coin, CoinError};
+pub use coinmc_lanes::Lanes;
 pub use engine::{Engine, Event, EventKind, State, run_tosses, toss_in_turn};
 pub use estimate::{
     Estimate, IntervalMethod, relative_error, rule_of_thumb_relative_error, student_t_quantile,
 };
 pub use launch::{
-    Launch, LaunchDistribution, LaunchError, Marginal, Orientation, Preset, Spin,
+    Launch, LaunchDistribution, LaunchError, Launches, Marginal, Orientation, Preset, Spin,
     inverse_normal_cdf,
 };
 pub use observer::{Observer, Onlooker, sample_between};

@@ -1,10 +1,10 @@
 //! Launch distributions: what comes out has the distribution asked for.
 
 use coinmc_core::{
-    Coin, Domain, Launch, LaunchDistribution, Marginal, Orientation, Preset, Spin, Stream,
+    Coin, Domain, Lanes, Launch, LaunchDistribution, Marginal, Orientation, Preset, Spin, Stream,
     UniformSource,
 };
-use nalgebra::Vector3;
+use nalgebra::{UnitVector3, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 const N: u64 = 100_000;
@@ -192,5 +192,73 @@ fn precession_about_any_axis_keeps_its_rate() {
     ] {
         let omega = spin.angular_velocity(&coin, &axis, &mut Zeros);
         assert!((omega.norm() - 1.0).abs() < 1e-15 && omega.dot(&axis).abs() < 1e-15);
+    }
+}
+
+/// All numbers of a launch, to the bit.
+fn bits(launch: &Launch) -> Vec<u64> {
+    let vectors = [launch.velocity_m_s, *launch.axis, launch.spin_rad_s];
+    let numbers = vectors.iter().flat_map(|vector| vector.iter());
+    let numbers = numbers.chain([&launch.height_m]);
+    numbers.map(|number| number.to_bits()).collect()
+}
+
+/// Every kind of orientation with every kind of spin, and the presets.
+fn distributions() -> Vec<LaunchDistribution> {
+    let uniform = |from, to| Marginal::Uniform { from, to };
+    let normal = Marginal::Normal {
+        mean: 0.3,
+        sd: 20.0,
+    };
+    let axis = UnitVector3::new_normalize(Vector3::new(0.3, -0.2, 0.7));
+    let orientations = [
+        Orientation::Fixed(axis),
+        Orientation::Isotropic,
+        Orientation::EulerAngles,
+        Orientation::Tilt(uniform(-9.0, 12.0)),
+        Orientation::Tilt(normal),
+    ];
+    let spins = [
+        at_rest(),
+        Spin::Components([normal, uniform(-3.0, 3.0), Marginal::Constant(1.0)]),
+        Spin::About {
+            axis,
+            rate_rad_s: normal,
+        },
+        Spin::Precessing {
+            rate_rad_s: normal,
+            psi_rad: uniform(0.0, PI),
+        },
+    ];
+    let each = |orientation| spins.map(|spin| with(orientation, spin));
+    let presets = Preset::ALL.map(Preset::distribution);
+    orientations
+        .into_iter()
+        .flat_map(each)
+        .chain(presets)
+        .collect()
+}
+
+#[test]
+fn launches_drawn_side_by_side_are_those_drawn_alone() {
+    let coin = coin();
+    let stream = Stream::new(11, Domain::Launch, 3);
+    for distribution in distributions() {
+        // of any number of tosses from any on, and up to the last there is
+        for tosses in [0..2000, 3..21, 8..9, u64::MAX - 5..u64::MAX, 7..7] {
+            for lanes in Lanes::ALL.into_iter().filter(|lanes| lanes.is_available()) {
+                let mut many = distribution.launches(&coin, &stream, tosses.clone(), lanes);
+                for toss in tosses.clone() {
+                    let alone = distribution.launch(&coin, &mut stream.toss(toss));
+                    let beside = many.next().expect("as many launches as tosses");
+                    assert_eq!(
+                        bits(&beside),
+                        bits(&alone),
+                        "{lanes} {toss} {distribution:?}"
+                    );
+                }
+                assert_eq!(many.next(), None);
+            }
+        }
     }
 }

@@ -160,6 +160,10 @@ impl Engine for AnyFlatEngine {
 
     fn workspace(&self) {}
 
+    fn lanes(&self) -> Lanes {
+        each_law!(self, engine => engine.lanes())
+    }
+
     fn toss(&self, (): &mut (), launch: &Launch, observer: &mut impl Observer) -> Outcome {
         self.any_observer(launch, observer)
     }

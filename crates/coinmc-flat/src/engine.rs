@@ -317,6 +317,10 @@ impl<L: ImpactLaw> Engine for FlatEngine<L> {
 
     fn workspace(&self) {}
 
+    fn lanes(&self) -> Lanes {
+        self.lanes
+    }
+
     fn toss(&self, (): &mut (), launch: &Launch, observer: &mut impl Observer) -> Outcome {
         self.toss_observed(launch, observer)
     }

@@ -416,6 +416,10 @@ impl<L: ImpactLaw> Engine for VolumetricEngine<L> {
 
     fn workspace(&self) {}
 
+    fn lanes(&self) -> Lanes {
+        self.lanes
+    }
+
     fn toss(&self, (): &mut (), launch: &Launch, observer: &mut impl Observer) -> Outcome {
         self.run(launch, observer).outcome
     }

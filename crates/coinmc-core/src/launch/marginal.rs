@@ -1,7 +1,8 @@
 //! One random quantity.
 
 use super::LaunchError;
-use crate::UniformSource;
+use super::draw::Uniforms;
+use coinmc_lanes::{Lane, Mask};
 
 /// The distribution of one number.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,22 +45,23 @@ impl Marginal {
         }
     }
 
-    /// The value at quantile `p` in (0, 1): the inverse CDF.
-    #[inline]
-    pub fn quantile(&self, p: f64) -> f64 {
+    /// The value at quantile `p` in (0, 1), or the values at several: the inverse CDF.
+    #[inline(always)]
+    pub fn quantile<L: Lane>(&self, p: L) -> L {
+        let k = L::splat;
         match *self {
-            Self::Constant(x) => x,
+            Self::Constant(x) => k(x),
             // this form is symmetric: quantile(1 − p) mirrors quantile(p) for from = −to
-            Self::Uniform { from, to } => from * (1.0 - p) + to * p,
-            Self::Normal { mean, sd } => mean + sd * inverse_normal_cdf(p),
+            Self::Uniform { from, to } => k(from) * (k(1.0) - p) + k(to) * p,
+            Self::Normal { mean, sd } => k(mean) + k(sd) * inverse_normal(p),
         }
     }
 
     /// A value from this source's `dimension`; a constant asks for no random number.
-    #[inline]
-    pub(crate) fn sample(&self, dimension: u32, uniforms: &mut impl UniformSource) -> f64 {
+    #[inline(always)]
+    pub(super) fn sample<L: Lane>(&self, dimension: u32, uniforms: &mut impl Uniforms<L>) -> L {
         match *self {
-            Self::Constant(x) => x,
+            Self::Constant(x) => L::splat(x),
             _ => self.quantile(uniforms.uniform(dimension)),
         }
     }
@@ -78,11 +80,38 @@ impl Marginal {
 /// ```
 #[inline]
 pub fn inverse_normal_cdf(p: f64) -> f64 {
-    let q = p - 0.5;
-    if q.abs() <= 0.425 {
-        let r = 0.180_625 - q * q;
-        return q * polynomial(&CENTRE_NUMERATOR, r) / polynomial(&CENTRE_DENOMINATOR, r);
+    inverse_normal(p)
+}
+
+/// How far from ½ the centre reaches, where 85 % of all p are.
+const CENTRE: f64 = 0.425;
+
+/// [`inverse_normal_cdf`], of one number or of several: the centre side by side, the tails one by
+/// one.
+#[inline(always)]
+fn inverse_normal<L: Lane>(p: L) -> L {
+    let k = L::splat;
+    let q = p - k(0.5);
+    let central = q.abs().le(k(CENTRE));
+    if L::COUNT == 1 && !central.any() {
+        return k(tail(p.lane(0), q.lane(0)));
     }
+    let r = k(0.180_625) - q * q;
+    let mut value = q * polynomial(&CENTRE_NUMERATOR, r) / polynomial(&CENTRE_DENOMINATOR, r);
+    if (!central).any() {
+        for i in 0..L::COUNT {
+            let (p, q) = (p.lane(i), q.lane(i));
+            if q.abs() > CENTRE {
+                value = value.with_lane(i, tail(p, q));
+            }
+        }
+    }
+    value
+}
+
+/// Beyond the centre; q = p − ½.
+#[inline]
+fn tail(p: f64, q: f64) -> f64 {
     let tail = if q < 0.0 { p } else { 1.0 - p };
     let r = (-libm::log(tail)).sqrt();
     let magnitude = if r <= 5.0 {
@@ -94,9 +123,13 @@ pub fn inverse_normal_cdf(p: f64) -> f64 {
 }
 
 /// Horner's rule, coefficients from the constant term up.
-#[inline]
-fn polynomial(coefficients: &[f64; 8], x: f64) -> f64 {
-    coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c)
+#[inline(always)]
+fn polynomial<L: Lane>(coefficients: &[f64; 8], x: L) -> L {
+    let mut sum = L::splat(0.0);
+    for coefficient in coefficients.iter().rev() {
+        sum = sum * x + L::splat(*coefficient);
+    }
+    sum
 }
 
 const CENTRE_NUMERATOR: [f64; 8] = [

@@ -1,17 +1,24 @@
 //! How a toss begins, and how beginnings are distributed.
 
+mod draw;
 mod marginal;
 mod orientation;
 mod preset;
+mod side_by_side;
+mod sincos;
 mod spin;
 
 pub use marginal::{Marginal, inverse_normal_cdf};
 pub use orientation::Orientation;
 pub use preset::Preset;
+pub use side_by_side::Launches;
 pub use spin::Spin;
 
-use crate::{Coin, UniformSource};
+use crate::{Coin, Stream, UniformSource};
+use coinmc_lanes::{Lane, Lanes};
+use draw::{Draw, Uniforms, sample3};
 use nalgebra::{UnitVector3, Vector3};
+use std::ops::Range;
 use thiserror::Error;
 
 /// One initial state. The coin is a body of revolution, so its spin phase does not matter and
@@ -95,15 +102,42 @@ impl LaunchDistribution {
 
     /// The launch of these uniforms.
     pub fn launch(&self, coin: &Coin, uniforms: &mut impl UniformSource) -> Launch {
-        let axis = self.orientation.axis(uniforms);
-        let spin_rad_s = self.spin.angular_velocity(coin, &axis, uniforms);
-        let height_m = self.height_m.sample(dimension::HEIGHT, uniforms);
-        let velocity = sample3(&self.velocity_m_s, dimension::VELOCITY, uniforms);
-        Launch {
-            height_m,
-            velocity_m_s: velocity,
+        self.draw(coin, uniforms).launch(|&number| number)
+    }
+
+    /// The launches of these tosses, drawn several at a time with these lanes: each is the
+    /// [`launch`](Self::launch) of its toss's uniforms, to the last bit.
+    ///
+    /// # Example
+    /// ```
+    /// use coinmc_core::{Coin, Domain, Lanes, Preset, Stream};
+    /// let coin = Coin::cylinder(1.5, 0.01)?;
+    /// let launches = Preset::Clean.distribution();
+    /// let stream = Stream::new(1, Domain::Launch, 0);
+    /// let many: Vec<_> = launches.launches(&coin, &stream, 7..20, Lanes::best()).collect();
+    /// assert_eq!(many.len(), 13);
+    /// assert_eq!(many[5], launches.launch(&coin, &mut stream.toss(12)));
+    /// # Ok::<(), coinmc_core::CoinError>(())
+    /// ```
+    pub fn launches(
+        &self,
+        coin: &Coin,
+        stream: &Stream,
+        tosses: Range<u64>,
+        lanes: Lanes,
+    ) -> Launches {
+        Launches::new(self, coin, stream, tosses, lanes)
+    }
+
+    /// One launch, or several side by side.
+    #[inline(always)]
+    fn draw<L: Lane>(&self, coin: &Coin, uniforms: &mut impl Uniforms<L>) -> Draw<L> {
+        let axis = self.orientation.draw(uniforms);
+        Draw {
             axis,
-            spin_rad_s,
+            spin: self.spin.draw(coin, axis, uniforms),
+            height: self.height_m.sample(dimension::HEIGHT, uniforms),
+            velocity: sample3(&self.velocity_m_s, dimension::VELOCITY, uniforms),
         }
     }
 
@@ -115,18 +149,4 @@ impl LaunchDistribution {
             && self.spin.is_planar()
             && self.velocity_m_s[1] == Marginal::Constant(0.0)
     }
-}
-
-fn sample3(
-    marginals: &[Marginal; 3],
-    dimensions: [u32; 3],
-    uniforms: &mut impl UniformSource,
-) -> Vector3<f64> {
-    let [x, y, z] = marginals;
-    let [dx, dy, dz] = dimensions;
-    Vector3::new(
-        x.sample(dx, uniforms),
-        y.sample(dy, uniforms),
-        z.sample(dz, uniforms),
-    )
 }

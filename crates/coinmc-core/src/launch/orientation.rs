@@ -1,9 +1,12 @@
 //! How the coin is turned when it is let go.
 
 use super::dimension::ORIENTATION;
+use super::draw::Uniforms;
+use super::sincos::sin_cos;
 use super::{LaunchError, Marginal};
 use crate::UniformSource;
-use nalgebra::{UnitVector3, Vector3};
+use coinmc_lanes::Lane;
+use nalgebra::UnitVector3;
 use std::f64::consts::TAU;
 
 /// The distribution of the axis u.
@@ -36,30 +39,33 @@ impl Orientation {
     /// The axis of these uniforms.
     #[inline]
     pub fn axis(&self, uniforms: &mut impl UniformSource) -> UnitVector3<f64> {
+        UnitVector3::new_unchecked(self.draw(uniforms).into())
+    }
+
+    /// One axis, or several side by side.
+    #[inline(always)]
+    pub(super) fn draw<L: Lane>(&self, uniforms: &mut impl Uniforms<L>) -> [L; 3] {
         let [a, b, c] = ORIENTATION;
+        let (k, turn) = (L::splat, L::splat(TAU));
         match self {
-            Self::Fixed(axis) => *axis,
+            Self::Fixed(axis) => [k(axis.x), k(axis.y), k(axis.z)],
             Self::Isotropic => {
-                let z = 2.0 * uniforms.uniform(a) - 1.0;
-                let (sin, cos) = libm::sincos(TAU * uniforms.uniform(b));
+                let z = k(2.0) * uniforms.uniform(a) - k(1.0);
+                let (sin, cos) = sin_cos(turn * uniforms.uniform(b));
                 // (1 − z)(1 + z): 1 − z² would lose the digits near the poles
-                let s = ((1.0 - z) * (1.0 + z)).sqrt();
-                UnitVector3::new_unchecked(Vector3::new(s * cos, s * sin, z))
+                let s = ((k(1.0) - z) * (k(1.0) + z)).sqrt();
+                [s * cos, s * sin, z]
             }
             Self::EulerAngles => {
-                let (sin_a, cos_a) = libm::sincos(TAU * uniforms.uniform(a));
-                let (sin_b, cos_b) = libm::sincos(TAU * uniforms.uniform(b));
-                let (sin_c, cos_c) = libm::sincos(TAU * uniforms.uniform(c));
+                let (sin_a, cos_a) = sin_cos(turn * uniforms.uniform(a));
+                let (sin_b, cos_b) = sin_cos(turn * uniforms.uniform(b));
+                let (sin_c, cos_c) = sin_cos(turn * uniforms.uniform(c));
                 let (x, y) = (-sin_b, cos_b * sin_a);
-                UnitVector3::new_unchecked(Vector3::new(
-                    x * cos_c - y * sin_c,
-                    x * sin_c + y * cos_c,
-                    cos_b * cos_a,
-                ))
+                [x * cos_c - y * sin_c, x * sin_c + y * cos_c, cos_b * cos_a]
             }
             Self::Tilt(angle) => {
-                let (sin, cos) = libm::sincos(angle.sample(a, uniforms));
-                UnitVector3::new_unchecked(Vector3::new(sin, 0.0, cos))
+                let (sin, cos) = sin_cos(angle.sample(a, uniforms));
+                [sin, k(0.0), cos]
             }
         }
     }

@@ -1,8 +1,11 @@
 //! How the coin spins when it is let go.
 
 use super::dimension::SPIN;
-use super::{LaunchError, Marginal, sample3};
+use super::draw::{Uniforms, sample3};
+use super::sincos::sin_cos;
+use super::{LaunchError, Marginal};
 use crate::{Coin, UniformSource};
+use coinmc_lanes::Lane;
 use nalgebra::{UnitVector3, Vector3};
 use std::f64::consts::TAU;
 
@@ -56,21 +59,41 @@ impl Spin {
         axis: &UnitVector3<f64>,
         uniforms: &mut impl UniformSource,
     ) -> Vector3<f64> {
+        self.draw(coin, [axis.x, axis.y, axis.z], uniforms).into()
+    }
+
+    /// One angular velocity, or several side by side.
+    #[inline(always)]
+    pub(super) fn draw<L: Lane>(
+        &self,
+        coin: &Coin,
+        axis: [L; 3],
+        uniforms: &mut impl Uniforms<L>,
+    ) -> [L; 3] {
         let [a, b, c] = SPIN;
         match self {
             Self::Components(components) => sample3(components, SPIN, uniforms),
-            Self::About { axis, rate_rad_s } => axis.into_inner() * rate_rad_s.sample(a, uniforms),
+            Self::About { axis, rate_rad_s } => {
+                let rate = rate_rad_s.sample(a, uniforms);
+                let k = L::splat;
+                [k(axis.x) * rate, k(axis.y) * rate, k(axis.z) * rate]
+            }
             Self::Precessing {
                 rate_rad_s,
                 psi_rad,
             } => {
                 let rate = rate_rad_s.sample(a, uniforms);
-                let (sin_psi, cos_psi) = libm::sincos(psi_rad.sample(b, uniforms));
-                let (sin, cos) = libm::sincos(TAU * uniforms.uniform(c));
+                let (sin_psi, cos_psi) = sin_cos(psi_rad.sample(b, uniforms));
+                let (sin, cos) = sin_cos(L::splat(TAU) * uniforms.uniform(c));
                 let (e1, e2) = normals(axis);
                 // L = I_t·rate·(cos ψ u + sin ψ e): its component along u belongs to I_a
-                let along = cos_psi * coin.transverse_gyration_m2() / coin.axial_gyration_m2();
-                (axis.into_inner() * along + (e1 * cos + e2 * sin) * sin_psi) * rate
+                let along = cos_psi * L::splat(coin.transverse_gyration_m2())
+                    / L::splat(coin.axial_gyration_m2());
+                let mut spin = axis;
+                for (i, part) in spin.iter_mut().enumerate() {
+                    *part = (*part * along + (e1[i] * cos + e2[i] * sin) * sin_psi) * rate;
+                }
+                spin
             }
         }
     }
@@ -90,12 +113,14 @@ impl Spin {
 ///
 /// Duff et al., "Building an orthonormal basis, revisited", JCGT 6 (2017) 1: no branch, no
 /// singular direction.
-fn normals(u: &UnitVector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
-    let sign = 1.0_f64.copysign(u.z);
-    let a = -1.0 / (sign + u.z);
-    let b = u.x * u.y * a;
+#[inline(always)]
+fn normals<L: Lane>([x, y, z]: [L; 3]) -> ([L; 3], [L; 3]) {
+    let one = L::splat(1.0);
+    let sign = one.copysign(z);
+    let a = -one / (sign + z);
+    let b = x * y * a;
     (
-        Vector3::new(1.0 + sign * u.x * u.x * a, sign * b, -sign * u.x),
-        Vector3::new(b, sign + u.y * u.y * a, -u.y),
+        [one + sign * x * x * a, sign * b, -sign * x],
+        [b, sign + y * y * a, -y],
     )
 }

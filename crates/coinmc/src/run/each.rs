@@ -116,14 +116,22 @@ impl<F: FnMut(u64, &Outcome) -> bool> Task for Follow<'_, F> {
             mut see,
         } = self;
         let first = tosses.start;
-        let launches = tosses.map(|toss| begin.launch(point, toss));
-        engine.toss_all(&mut engine.workspace(), launches, |number, outcome| {
+        let see = |number, outcome: &Outcome| {
             if see(first + number, outcome) {
                 ControlFlow::Continue(())
             } else {
                 ControlFlow::Break(())
             }
-        });
+        };
+        let workspace = &mut engine.workspace();
+        match begin {
+            Begin::Drawn(stream) => {
+                let (coin, lanes) = (&point.scene.coin, engine.lanes());
+                let launches = point.launches.launches(coin, stream, tosses, lanes);
+                engine.toss_all(workspace, launches, see);
+            }
+            Begin::Given(launch) => engine.toss_all(workspace, tosses.map(launch), see),
+        }
     }
 }
 
