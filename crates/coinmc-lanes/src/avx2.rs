@@ -5,7 +5,7 @@
 #![allow(unsafe_code)]
 
 use crate::operators::operators;
-use crate::wide::{Bits, Block, WIDTH, Wide, Work};
+use crate::wide::{Bits, Block, WIDTH, Wide, Work, map_where};
 use crate::{Lane, Mask};
 use std::arch::x86_64::{
     __m256d, __m256i, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_add_pd, _mm256_and_pd, _mm256_and_si256,
@@ -156,6 +156,10 @@ impl Lane for Eight {
     #[inline(always)]
     fn lane(self, index: usize) -> f64 {
         self.store()[index]
+    }
+    #[inline(always)]
+    fn map_where(self, mask: EightBits, each: impl Fn(f64) -> f64) -> Self {
+        map_where(self, mask, each)
     }
     #[inline(always)]
     fn with_lane(self, index: usize, value: f64) -> Self {

@@ -6,7 +6,7 @@
 #![allow(unsafe_code)]
 
 use crate::operators::operators;
-use crate::wide::{Bits, Block, WIDTH, Wide, Work};
+use crate::wide::{Bits, Block, WIDTH, Wide, Work, map_where};
 use crate::{Lane, Mask};
 use std::arch::x86_64::{
     __m512d, __m512i, __mmask8, _CMP_LE_OQ, _CMP_LT_OQ, _mm_cvtsi64_si128, _mm512_abs_pd,
@@ -119,6 +119,10 @@ impl Lane for Eight {
     #[inline(always)]
     fn lane(self, index: usize) -> f64 {
         self.store()[index]
+    }
+    #[inline(always)]
+    fn map_where(self, mask: EightBits, each: impl Fn(f64) -> f64) -> Self {
+        map_where(self, mask, each)
     }
     #[inline(always)]
     fn with_lane(self, index: usize, value: f64) -> Self {

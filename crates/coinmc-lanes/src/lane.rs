@@ -35,6 +35,9 @@ pub trait Lane:
     fn lane(self, index: usize) -> f64;
     /// The same but for one lane, 0 to [`COUNT`](Self::COUNT) − 1.
     fn with_lane(self, index: usize, value: f64) -> Self;
+    /// What `each` makes of every number in a lane of the mask, the others as they are: for what
+    /// has to be done number by number in some lanes.
+    fn map_where(self, mask: Self::Mask, each: impl Fn(f64) -> f64) -> Self;
     /// Square root.
     fn sqrt(self) -> Self;
     /// Magnitude.
@@ -124,6 +127,10 @@ impl Lane for f64 {
         value
     }
     #[inline(always)]
+    fn map_where(self, mask: bool, each: impl Fn(f64) -> f64) -> Self {
+        if mask { each(self) } else { self }
+    }
+    #[inline(always)]
     fn sqrt(self) -> Self {
         f64::sqrt(self)
     }
@@ -185,6 +192,31 @@ mod tests {
             }
             block
         }
+    }
+
+    /// Doubles what is above 3.
+    struct Doubled(Block);
+
+    impl Work for Doubled {
+        type Output = Block;
+
+        #[inline(always)]
+        fn run<L: Wide>(self) -> Block {
+            let lanes = L::load(&self.0);
+            let above = L::splat(3.0).lt(lanes);
+            lanes.map_where(above, |number| 2.0 * number).store()
+        }
+    }
+
+    #[test]
+    fn lanes_of_a_mask_are_mapped() {
+        let numbers = [1.0, 4.0, 2.0, 3.0, 5.0, 3.5, 0.0, 8.0];
+        for lanes in Lanes::ALL.into_iter().filter(|lanes| lanes.is_available()) {
+            let block = lanes.enter(Doubled(numbers));
+            assert_eq!(block, [1.0, 8.0, 2.0, 3.0, 10.0, 7.0, 0.0, 16.0], "{lanes}");
+        }
+        assert_eq!(2.0_f64.map_where(true, |number| 2.0 * number), 4.0);
+        assert_eq!(2.0_f64.map_where(false, |number| 2.0 * number), 2.0);
     }
 
     #[test]

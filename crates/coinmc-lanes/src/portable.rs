@@ -2,7 +2,7 @@
 //! of these loops (NEON on AArch64).
 
 use crate::operators::operators;
-use crate::wide::{Bits, Block, WIDTH, Wide};
+use crate::wide::{Bits, Block, WIDTH, Wide, map_where};
 use crate::{Lane, Mask};
 use std::array::from_fn;
 
@@ -78,6 +78,10 @@ impl Lane for Eight {
     #[inline(always)]
     fn lane(self, index: usize) -> f64 {
         self.0[index]
+    }
+    #[inline(always)]
+    fn map_where(self, mask: EightBits, each: impl Fn(f64) -> f64) -> Self {
+        map_where(self, mask, each)
     }
     #[inline(always)]
     fn with_lane(mut self, index: usize, value: f64) -> Self {

@@ -30,6 +30,16 @@ pub trait Wide: Lane {
     fn pick(self, picks: Self::Picks) -> Self;
 }
 
+/// [`Lane::map_where`] through memory.
+#[inline(always)]
+pub(crate) fn map_where<L: Wide>(lanes: L, mask: L::Mask, each: impl Fn(f64) -> f64) -> L {
+    let mut block = lanes.store();
+    for lane in lanes_of(L::bits(mask)) {
+        block[lane] = each(block[lane]);
+    }
+    L::load(&block)
+}
+
 /// Something that is done on lanes of any kind. Its `run` and all that this calls are to be
 /// inlined: only then are they compiled for the instruction set they run on.
 pub trait Work {

@@ -87,6 +87,9 @@ impl Lane for Four {
     fn lane(self, index: usize) -> f64 {
         self.0[index]
     }
+    fn map_where(self, mask: Bits, each: impl Fn(f64) -> f64) -> Self {
+        Self(from_fn(|i| self.0[i].map_where(mask.0[i], &each)))
+    }
     fn with_lane(mut self, index: usize, value: f64) -> Self {
         self.0[index] = value;
         self

@@ -93,25 +93,19 @@ fn inverse_normal<L: Lane>(p: L) -> L {
     let k = L::splat;
     let q = p - k(0.5);
     let central = q.abs().le(k(CENTRE));
-    if L::COUNT == 1 && !central.any() {
-        return k(tail(p.lane(0), q.lane(0)));
+    let tails = p.map_where(!central, tail);
+    if !central.any() {
+        return tails;
     }
     let r = k(0.180_625) - q * q;
-    let mut value = q * polynomial(&CENTRE_NUMERATOR, r) / polynomial(&CENTRE_DENOMINATOR, r);
-    if (!central).any() {
-        for i in 0..L::COUNT {
-            let (p, q) = (p.lane(i), q.lane(i));
-            if q.abs() > CENTRE {
-                value = value.with_lane(i, tail(p, q));
-            }
-        }
-    }
-    value
+    let centre = q * polynomial(&CENTRE_NUMERATOR, r) / polynomial(&CENTRE_DENOMINATOR, r);
+    L::select(central, centre, tails)
 }
 
-/// Beyond the centre; q = p − ½.
+/// Beyond the centre.
 #[inline]
-fn tail(p: f64, q: f64) -> f64 {
+fn tail(p: f64) -> f64 {
+    let q = p - 0.5;
     let tail = if q < 0.0 { p } else { 1.0 - p };
     let r = (-libm::log(tail)).sqrt();
     let magnitude = if r <= 5.0 {

@@ -2,7 +2,8 @@
 
 use super::draw::{Draw, Uniforms};
 use super::{Launch, LaunchDistribution};
-use crate::{Coin, Stream, TossUniforms, UniformSource};
+use crate::random::EachUniforms;
+use crate::{Coin, Stream};
 use coinmc_lanes::{Block, Lanes, WIDTH, Wide, Work};
 use std::ops::Range;
 
@@ -41,11 +42,10 @@ impl Launches {
     /// Draws eight.
     #[inline(never)]
     fn draw(&mut self, from: u64) {
-        let mut uniforms = [0, 1, 2, 3, 4, 5, 6, 7].map(|i| self.stream.toss(from + i));
         self.drawn = self.lanes.enter(Drawing {
             distribution: &self.distribution,
             coin: &self.coin,
-            uniforms: &mut uniforms,
+            uniforms: self.stream.tosses(from),
         });
         self.drawn_from = Some(from);
     }
@@ -61,9 +61,10 @@ impl Iterator for Launches {
             let uniforms = &mut self.stream.toss(toss);
             return Some(self.distribution.launch(&self.coin, uniforms));
         }
-        let lane = (toss % 8) as usize;
-        if self.drawn_from != Some(toss - lane as u64) {
-            self.draw(toss - lane as u64);
+        let lane = (toss % WIDTH as u64) as usize;
+        let from = toss - lane as u64;
+        if self.drawn_from != Some(from) {
+            self.draw(from);
         }
         Some(self.drawn.launch(|block| block[lane]))
     }
@@ -76,30 +77,22 @@ impl Iterator for Launches {
 struct Drawing<'a> {
     distribution: &'a LaunchDistribution,
     coin: &'a Coin,
-    uniforms: &'a mut [TossUniforms; WIDTH],
+    uniforms: EachUniforms,
 }
 
 impl Work for Drawing<'_> {
     type Output = Draw<Block>;
 
     #[inline(always)]
-    fn run<L: Wide>(self) -> Draw<Block> {
-        let mut each = Each(self.uniforms);
-        let drawn: Draw<L> = self.distribution.draw(self.coin, &mut each);
+    fn run<L: Wide>(mut self) -> Draw<Block> {
+        let drawn: Draw<L> = self.distribution.draw(self.coin, &mut self.uniforms);
         drawn.store()
     }
 }
 
-/// The uniforms of eight tosses.
-struct Each<'a>(&'a mut [TossUniforms; WIDTH]);
-
-impl<L: Wide> Uniforms<L> for Each<'_> {
+impl<L: Wide> Uniforms<L> for EachUniforms {
     #[inline(always)]
     fn uniform(&mut self, dimension: u32) -> L {
-        let mut block = [0.0; WIDTH];
-        for (number, uniforms) in block.iter_mut().zip(self.0.iter_mut()) {
-            *number = UniformSource::uniform(uniforms, dimension);
-        }
-        L::load(&block)
+        L::load(&self.uniforms(dimension))
     }
 }

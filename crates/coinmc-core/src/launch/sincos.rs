@@ -16,17 +16,18 @@ pub(super) fn sin_cos<L: Lane>(x: L) -> (L, L) {
     let (quadrant, usual) = quadrant(size);
     let (sin, cos) = reduced(size, quadrant);
     let negative = x.lt(L::splat(0.0));
-    let (mut sin, mut cos) = (L::select(negative, -sin, sin), cos);
-    if (!usual).any() {
-        for i in 0..L::COUNT {
-            let (size, x) = (size.lane(i), x.lane(i));
-            if !self::quadrant(size).1 {
-                let (of_one, cos_of_one) = libm::sincos(x);
-                (sin, cos) = (sin.with_lane(i, of_one), cos.with_lane(i, cos_of_one));
-            }
-        }
+    let sin = L::select(negative, -sin, sin);
+    if !(!usual).any() {
+        return (sin, cos);
     }
-    (sin, cos)
+    let (of_one, cos_of_one) = (
+        x.map_where(!usual, |x| libm::sincos(x).0),
+        x.map_where(!usual, |x| libm::sincos(x).1),
+    );
+    (
+        L::select(usual, sin, of_one),
+        L::select(usual, cos, cos_of_one),
+    )
 }
 
 /// The number whose higher word this is and whose lower word is 0: libm compares higher words.

@@ -7,4 +7,5 @@ mod philox;
 mod stream;
 
 pub use philox::Philox4x64;
+pub(crate) use stream::EachUniforms;
 pub use stream::{Domain, Stream, TossUniforms, UniformSource, unit_interval};

@@ -1,6 +1,7 @@
 //! From the generator to the uniforms of one toss.
 
 use super::Philox4x64;
+use coinmc_lanes::{Block, WIDTH};
 
 /// Keeps independent uses of one seed apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -68,6 +69,16 @@ impl Stream {
             cached: u32::MAX,
         }
     }
+
+    /// The uniforms of eight tosses, of which `first` is the first.
+    pub(crate) fn tosses(&self, first: u64) -> EachUniforms {
+        EachUniforms {
+            philox: self.philox,
+            counter: [0, first, self.point, self.domain],
+            blocks: [[0; WIDTH]; 4],
+            cached: u32::MAX,
+        }
+    }
 }
 
 /// The uniforms of one toss, computed four at a time and only when asked for.
@@ -98,6 +109,41 @@ impl UniformSource for TossUniforms {
     #[inline]
     fn uniform(&mut self, dimension: u32) -> f64 {
         unit_interval(self.word(dimension))
+    }
+}
+
+/// The uniforms of several tosses in turn, side by side: of each the same as alone.
+#[derive(Debug, Clone)]
+pub(crate) struct EachUniforms {
+    philox: Philox4x64,
+    /// Of the first of them.
+    counter: [u64; 4],
+    /// Of a word of the block held, that of every toss.
+    blocks: [[u64; WIDTH]; 4],
+    cached: u32,
+}
+
+impl EachUniforms {
+    #[inline(always)]
+    pub(crate) fn uniforms(&mut self, dimension: u32) -> Block {
+        let index = dimension / 4;
+        if index != self.cached {
+            self.hold(index);
+        }
+        self.blocks[(dimension % 4) as usize].map(unit_interval)
+    }
+
+    #[inline]
+    fn hold(&mut self, index: u32) {
+        let [_, first, point, domain] = self.counter;
+        for i in 0..WIDTH {
+            let toss = first + i as u64;
+            let words = self.philox.block([u64::from(index), toss, point, domain]);
+            for (block, word) in self.blocks.iter_mut().zip(words) {
+                block[i] = word;
+            }
+        }
+        self.cached = index;
     }
 }
 
