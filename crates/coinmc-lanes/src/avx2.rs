@@ -58,6 +58,7 @@ impl Half {
     }
 }
 
+#[inline]
 pub(crate) fn is_available() -> bool {
     is_x86_feature_detected!("avx2")
 }

@@ -23,6 +23,7 @@ pub(crate) struct Eight(__m512d);
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct EightBits(__mmask8);
 
+#[inline]
 pub(crate) fn is_available() -> bool {
     is_x86_feature_detected!("avx512f")
 }

@@ -157,17 +157,25 @@ impl<L: ImpactLaw> Batch<'_, L> {
         let (engine, pool) = (self.engine, &mut self.pool);
         let searching = &mut pool.searching;
         let count = pool.struck.land(engine.lanes, &engine.contact, searching);
-        let mut open = 0;
+        let mut aside = pool.struck.unusual();
         for lane in 0..count {
-            match self.without_impact(lane) {
-                Some(onward) => self.go(self.pool.struck.owner(lane), onward),
-                None => open |= 1 << lane,
-            }
+            let slot = &mut pool.slots[pool.struck.owner(lane)];
+            pool.struck.bring_down(lane, slot);
+            let late = slot.spent.time > engine.settings.time_limit;
+            let last = slot.toss.impacts == engine.settings.max_impacts;
+            aside |= Bits::from(late | last) << lane;
         }
-        if !L::SIDE_BY_SIDE || open == 0 {
-            return;
+        if !L::SIDE_BY_SIDE || engine.landing == Landing::Adhesive {
+            aside = Bits::MAX;
         }
-        self.strike(open, true);
+        for lane in lanes_of(aside & first(count)) {
+            let onward = self.without_impact(lane);
+            self.go(self.pool.struck.owner(lane), onward);
+        }
+        let open = first(count) & !aside;
+        if open != 0 {
+            self.strike(open, true);
+        }
     }
 
     /// Throws back coins whose last bounce this was not.
@@ -186,19 +194,23 @@ impl<L: ImpactLaw> Batch<'_, L> {
     /// Throws coins back, those of `open`.
     fn strike(&mut self, open: Bits, may_end: bool) {
         let (engine, law) = (self.engine, &self.engine.contact);
-        self.pool.struck.strike(engine, may_end);
-        let again = open & self.pool.struck.again();
+        let pool = &mut self.pool;
+        pool.struck.strike(engine, may_end);
+        let again = open & pool.struck.again();
+        for lane in 0..WIDTH {
+            // the last lanes may repeat the first, and are not open
+            let slot = &mut pool.slots[pool.struck.owner(lane)];
+            slot.toss.impacts += u32::from(((open & !again) >> lane) & 1);
+        }
         for lane in lanes_of(again) {
-            let pool = &mut self.pool;
             let owner = pool.struck.owner(lane);
             pool.struck.scatter(lane, &mut pool.slots[owner].toss);
             pool.again.push(owner);
         }
-        let mut flies = 0;
-        for lane in lanes_of(open & !again) {
+        let mut flies = open & pool.struck.flies();
+        for lane in lanes_of(open & !again & !flies) {
             let pool = &mut self.pool;
             let owner = pool.struck.owner(lane);
-            pool.slots[owner].toss.impacts += 1;
             match pool.struck.rebound(engine, lane, &mut pool.slots[owner]) {
                 Onward::Fly(false) => flies |= 1 << lane,
                 onward => self.go(owner, onward),
@@ -211,31 +223,21 @@ impl<L: ImpactLaw> Batch<'_, L> {
     }
 
     /// What a landed coin does instead of an impact of its own lane.
-    fn without_impact(&mut self, lane: usize) -> Option<Onward> {
+    fn without_impact(&mut self, lane: usize) -> Onward {
         let (engine, struck) = (self.engine, &self.pool.struck);
         let slot = &mut self.pool.slots[struck.owner(lane)];
         if struck.is_lost(lane) {
             struck.restore(lane, &mut slot.toss, engine.contact.axial_factor);
-            return Some(Onward::End(engine.lost(&slot.toss)));
+            return Onward::End(engine.lost(&slot.toss));
         }
-        struck.bring_down(lane, slot);
-        if engine.landing == Landing::Adhesive {
-            struck.scatter(lane, &mut slot.toss);
-        }
-        let alone = if slot.spent.time > engine.settings.time_limit {
+        struck.scatter(lane, &mut slot.toss);
+        if slot.spent.time > engine.settings.time_limit {
             Onward::End(Ended::TimeLimit)
         } else if engine.landing == Landing::Adhesive {
             Onward::End(engine.stuck(&slot.toss))
-        } else if !L::SIDE_BY_SIDE
-            || struck.is_level(lane)
-            || slot.toss.impacts == engine.settings.max_impacts
-        {
-            Onward::Strike
         } else {
-            return None;
-        };
-        struck.scatter(lane, &mut slot.toss);
-        Some(alone)
+            Onward::Strike
+        }
     }
 
     /// One attempt at a step of sustained contact.

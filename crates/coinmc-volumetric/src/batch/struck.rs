@@ -25,6 +25,7 @@ pub(super) struct StruckTosses {
     took: Block,
     reflected: Bits,
     lost: Bits,
+    level: Bits,
     /// Whose impact may be the last; who has to be struck anew because it was not.
     may_end: Bits,
     again: Bits,
@@ -89,9 +90,14 @@ impl StruckTosses {
         self.again
     }
 
-    /// Whether a coin is all but level.
-    pub(super) fn is_level(&self, lane: usize) -> bool {
-        self.after.motion[0][lane] <= FLAT
+    /// Coins whose flight was lost, or that are all but level.
+    pub(super) fn unusual(&self) -> Bits {
+        self.lost | self.level
+    }
+
+    /// Coins that an impact sends into a flight like most.
+    pub(super) fn flies(&self) -> Bits {
+        !(self.again | self.settled | self.sustains | self.parts | self.extreme)
     }
 
     /// Hands a motion to its toss.
@@ -121,7 +127,8 @@ impl StruckTosses {
         });
     }
 
-    /// What follows an impact; unless that is a flight like most, the toss has its motion.
+    /// What follows an impact that does not send the coin into a flight like most; unless it is one
+    /// after all, the toss has its motion.
     #[inline]
     pub(super) fn rebound<L: ImpactLaw>(
         &self,
@@ -143,9 +150,6 @@ impl StruckTosses {
         } else {
             Onward::Fly(has(self.parts, lane))
         };
-        if after == Onward::Fly(false) && !has(self.extreme, lane) {
-            return after;
-        }
         self.scatter(lane, toss);
         if !has(self.extreme, lane) {
             return after;
@@ -200,9 +204,11 @@ impl<const DRAGS: bool> Work for Land<'_, DRAGS> {
         let (motion, axial) = tosses.leavers.motion::<L>();
         let landed = land(law, &orbit, &motion, axial, time);
         tosses.set(&landed.motion, &landed.spin);
-        tosses.took = orbit.since_start(time).store();
-        tosses.reflected = L::bits(landed.reflected);
         tosses.lost = L::bits(lost);
+        // a toss whose flight is lost ends where that began
+        tosses.took = L::select(lost, L::splat(0.0), orbit.since_start(time)).store();
+        tosses.reflected = L::bits(landed.reflected) & !tosses.lost;
+        tosses.level = L::bits(landed.motion.sin.le(L::splat(FLAT)));
         count
     }
 }
