@@ -30,7 +30,7 @@ use crate::impact::ImpactLaw;
 use coinmc_core::{Ended, Landing, Launch, TossBatch};
 use coinmc_lanes::Lanes;
 use coinmc_lanes::{Bits, WIDTH, first, lanes_of};
-use pool::{Pool, SLOTS, Slot};
+use pool::{Pool, SLOTS};
 
 pub(crate) struct Batch<'a, L> {
     engine: &'a VolumetricEngine<L>,
@@ -66,7 +66,7 @@ impl<L: ImpactLaw> TossBatch for Batch<'_, L> {
             return;
         };
         let toss = self.engine.launched(launch);
-        self.pool.slots[slot] = Slot::new(self.launched, toss);
+        self.pool.slots[slot].begin(self.launched, toss);
         self.launched += 1;
         match self.engine.ends_at_launch(&toss, launch) {
             Some(ended) => self.end(slot, ended),
@@ -215,6 +215,9 @@ impl<L: ImpactLaw> Batch<'_, L> {
                 Onward::Fly(false) => flies |= 1 << lane,
                 onward => self.go(owner, onward),
             }
+        }
+        if flies == 0 {
+            return;
         }
         let (pool, lanes) = (&mut self.pool, engine.lanes);
         let begin = &pool.struck.after;

@@ -28,16 +28,25 @@ pub(super) struct Slot {
 }
 
 impl Slot {
-    pub(super) fn new(number: u64, toss: Toss) -> Self {
+    fn empty() -> Self {
         Self {
-            number,
-            toss,
             spent: Spent::default(),
+            number: 0,
             launched: true,
             parting: false,
+            toss: Toss::still(),
             phase: Phase::none(),
             reach: None,
         }
+    }
+
+    /// Begins anew with a toss just launched. Its phase is set where contact begins.
+    #[inline]
+    pub(super) fn begin(&mut self, number: u64, toss: Toss) {
+        (self.number, self.toss) = (number, toss);
+        self.spent = Spent::default();
+        (self.launched, self.parting) = (true, false);
+        self.reach = None;
     }
 }
 
@@ -63,7 +72,7 @@ pub(super) struct Pool {
 impl Pool {
     pub(super) fn new() -> Self {
         Self {
-            slots: vec![Slot::new(0, Toss::still()); SLOTS],
+            slots: vec![Slot::empty(); SLOTS],
             free: (0..SLOTS).rev().collect(),
             departing: Vec::with_capacity(SLOTS),
             searching: Searching::none(),
