@@ -6,7 +6,7 @@
 
 use crate::operators::operators;
 use crate::wide::{Bits, Block, WIDTH, Wide, Work, map_where};
-use crate::{Lane, Mask};
+use crate::{Lane, Mask, Route};
 use std::arch::x86_64::{
     __m256d, __m256i, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_add_pd, _mm256_and_pd, _mm256_and_si256,
     _mm256_andnot_pd, _mm256_blendv_pd, _mm256_castpd_ps, _mm256_castps_pd, _mm256_castsi256_pd,
@@ -15,6 +15,7 @@ use std::arch::x86_64::{
     _mm256_set_epi64x, _mm256_set1_epi64x, _mm256_set1_pd, _mm256_setr_epi32, _mm256_sqrt_pd,
     _mm256_storeu_pd, _mm256_sub_pd, _mm256_xor_pd,
 };
+use std::sync::LazyLock;
 
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Eight(__m256d, __m256d);
@@ -23,57 +24,32 @@ pub(crate) struct Eight(__m256d, __m256d);
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct EightBits(__m256d, __m256d);
 
-/// Where the numbers of one half come from.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Half {
-    /// In the half they are in; of both words that a number is made of.
-    words: __m256i,
-    /// From the higher half.
-    high: __m256d,
-}
-
-impl Half {
-    #[inline(always)]
-    fn of([a, b, c, d]: [i32; 4]) -> Self {
-        let place = |lane: i32| 2 * (lane & 3);
-        let half = |lane: i32| -i64::from((lane >> 2) & 1);
-        let [p, q, r, s] = [place(a), place(b), place(c), place(d)];
-        // SAFETY: the module's text.
-        unsafe {
-            Self {
-                words: _mm256_setr_epi32(p, p + 1, q, q + 1, r, r + 1, s, s + 1),
-                high: _mm256_castsi256_pd(_mm256_set_epi64x(half(d), half(c), half(b), half(a))),
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn pick(self, from: Eight) -> __m256d {
-        // SAFETY: the module's text.
-        unsafe {
-            let low = _mm256_permutevar8x32_ps(_mm256_castpd_ps(from.0), self.words);
-            let high = _mm256_permutevar8x32_ps(_mm256_castpd_ps(from.1), self.words);
-            _mm256_blendv_pd(_mm256_castps_pd(low), _mm256_castps_pd(high), self.high)
-        }
-    }
-}
-
+/// Whether the processor has all that [`enter`] makes use of: every one with AVX2 of Intel's and AMD's
+/// does.
 #[inline]
 pub(crate) fn is_available() -> bool {
-    is_x86_feature_detected!("avx2")
+    static IS_AVAILABLE: LazyLock<bool> = LazyLock::new(|| {
+        is_x86_feature_detected!("avx2")
+            && is_x86_feature_detected!("bmi1")
+            && is_x86_feature_detected!("bmi2")
+            && is_x86_feature_detected!("lzcnt")
+            && is_x86_feature_detected!("popcnt")
+    });
+    *IS_AVAILABLE
 }
 
 /// Does the work with these lanes; `Err` gives it back where the processor lacks them.
 #[inline]
 pub(crate) fn enter<W: Work>(work: W) -> Result<W::Output, W> {
-    #[target_feature(enable = "avx2")]
+    // beside the lanes' own AVX2, what the compiler makes faster code of
+    #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
     fn inside<W: Work>(work: W) -> W::Output {
         work.run::<Eight>()
     }
     if !is_available() {
         return Err(work);
     }
-    // SAFETY: the processor has AVX2.
+    // SAFETY: the processor has all of the features.
     Ok(unsafe { inside(work) })
 }
 
@@ -209,8 +185,6 @@ impl Lane for Eight {
 }
 
 impl Wide for Eight {
-    type Picks = (Half, Half);
-
     #[inline(always)]
     fn load(block: &Block) -> Self {
         let (low, high) = block.split_at(4);
@@ -252,12 +226,82 @@ impl Wide for Eight {
     }
 
     #[inline(always)]
-    fn picks(lanes: [u8; WIDTH]) -> (Half, Half) {
-        let [a, b, c, d, e, f, g, h] = lanes.map(i32::from);
-        (Half::of([a, b, c, d]), Half::of([e, f, g, h]))
+    fn follow<const N: usize>(route: &Route, from: &[Block; N], to: &mut [Block; N]) {
+        let picks = Picks::of(route);
+        for (to, from) in to.iter_mut().zip(from) {
+            *to = picks.pick(Self::load(from), Self::load(to)).store();
+        }
     }
     #[inline(always)]
-    fn pick(self, (low, high): (Half, Half)) -> Self {
-        Self(low.pick(self), high.pick(self))
+    fn follow_bits(route: &Route, from: Bits, to: Bits) -> Bits {
+        let (zero, one) = (Self::splat(0.0), Self::splat(1.0));
+        let from = Self::select(Self::mask(from), one, zero);
+        let to = Self::select(Self::mask(to), one, zero);
+        Self::bits(zero.lt(Picks::of(route).pick(from, to)))
+    }
+}
+
+/// What a route does with both registers.
+#[derive(Clone, Copy)]
+struct Picks {
+    low: Half,
+    high: Half,
+    goals: EightBits,
+}
+
+impl Picks {
+    #[inline(always)]
+    fn of(route: &Route) -> Self {
+        let [a, b, c, d, e, f, g, h] = route.sources();
+        Self {
+            low: Half::of([a, b, c, d]),
+            high: Half::of([e, f, g, h]),
+            goals: Eight::mask(route.to()),
+        }
+    }
+
+    #[inline(always)]
+    fn pick(self, from: Eight, to: Eight) -> Eight {
+        Eight::select(
+            self.goals,
+            Eight(self.low.pick(from), self.high.pick(from)),
+            to,
+        )
+    }
+}
+
+/// Where the numbers of one half come from.
+#[derive(Debug, Clone, Copy)]
+struct Half {
+    /// In the half they are in; of both words that a number is made of.
+    words: __m256i,
+    /// From the higher half.
+    high: __m256d,
+}
+
+impl Half {
+    #[inline(always)]
+    fn of(sources: [u8; 4]) -> Self {
+        let [a, b, c, d] = sources.map(i32::from);
+        let place = |lane: i32| 2 * (lane & 3);
+        let half = |lane: i32| -i64::from((lane >> 2) & 1);
+        let [p, q, r, s] = [place(a), place(b), place(c), place(d)];
+        // SAFETY: the module's text.
+        unsafe {
+            Self {
+                words: _mm256_setr_epi32(p, p + 1, q, q + 1, r, r + 1, s, s + 1),
+                high: _mm256_castsi256_pd(_mm256_set_epi64x(half(d), half(c), half(b), half(a))),
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn pick(self, from: Eight) -> __m256d {
+        // SAFETY: the module's text.
+        unsafe {
+            let low = _mm256_permutevar8x32_ps(_mm256_castpd_ps(from.0), self.words);
+            let high = _mm256_permutevar8x32_ps(_mm256_castpd_ps(from.1), self.words);
+            _mm256_blendv_pd(_mm256_castps_pd(low), _mm256_castps_pd(high), self.high)
+        }
     }
 }

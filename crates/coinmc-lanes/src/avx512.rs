@@ -1,4 +1,4 @@
-//! Eight lanes in one register of AVX-512F.
+//! Eight lanes in one register of AVX-512.
 //!
 //! # Safety
 //! Every method calls instructions that the processor must have. The type is private to the crate,
@@ -7,7 +7,7 @@
 
 use crate::operators::operators;
 use crate::wide::{Bits, Block, WIDTH, Wide, Work, map_where};
-use crate::{Lane, Mask};
+use crate::{Lane, Mask, Route};
 use std::arch::x86_64::{
     __m512d, __m512i, __mmask8, _CMP_LE_OQ, _CMP_LT_OQ, _mm_cvtsi64_si128, _mm512_abs_pd,
     _mm512_add_pd, _mm512_and_si512, _mm512_andnot_si512, _mm512_castpd_si512, _mm512_castsi512_pd,
@@ -15,6 +15,7 @@ use std::arch::x86_64::{
     _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd, _mm512_or_si512, _mm512_permutexvar_pd,
     _mm512_set1_pd, _mm512_sqrt_pd, _mm512_storeu_pd, _mm512_sub_pd, _mm512_xor_si512,
 };
+use std::sync::LazyLock;
 
 #[derive(Debug, Clone, Copy)]
 #[repr(transparent)]
@@ -23,22 +24,35 @@ pub(crate) struct Eight(__m512d);
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct EightBits(__mmask8);
 
+/// Whether the processor has all that [`enter`] makes use of: every one with AVX-512 since Skylake-SP
+/// does.
 #[inline]
 pub(crate) fn is_available() -> bool {
-    is_x86_feature_detected!("avx512f")
+    static IS_AVAILABLE: LazyLock<bool> = LazyLock::new(|| {
+        is_x86_feature_detected!("avx512f")
+            && is_x86_feature_detected!("avx512vl")
+            && is_x86_feature_detected!("avx512dq")
+            && is_x86_feature_detected!("avx512bw")
+            && is_x86_feature_detected!("bmi1")
+            && is_x86_feature_detected!("bmi2")
+            && is_x86_feature_detected!("lzcnt")
+            && is_x86_feature_detected!("popcnt")
+    });
+    *IS_AVAILABLE
 }
 
 /// Does the work with these lanes; `Err` gives it back where the processor lacks them.
 #[inline]
 pub(crate) fn enter<W: Work>(work: W) -> Result<W::Output, W> {
-    #[target_feature(enable = "avx512f")]
+    // beside the lanes' own AVX-512F, what the compiler makes faster code of
+    #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,bmi1,bmi2,lzcnt,popcnt")]
     fn inside<W: Work>(work: W) -> W::Output {
         work.run::<Eight>()
     }
     if !is_available() {
         return Err(work);
     }
-    // SAFETY: the processor has AVX-512F.
+    // SAFETY: the processor has all of the features.
     Ok(unsafe { inside(work) })
 }
 
@@ -159,8 +173,6 @@ impl Lane for Eight {
 }
 
 impl Wide for Eight {
-    type Picks = __m512i;
-
     #[inline(always)]
     fn load(block: &Block) -> Self {
         // SAFETY: the module's text; a block is eight numbers, at any address.
@@ -183,13 +195,43 @@ impl Wide for Eight {
     }
 
     #[inline(always)]
-    fn picks(lanes: [u8; WIDTH]) -> __m512i {
-        // SAFETY: the module's text.
-        unsafe { _mm512_cvtepu8_epi64(_mm_cvtsi64_si128(i64::from_le_bytes(lanes))) }
+    fn follow<const N: usize>(route: &Route, from: &[Block; N], to: &mut [Block; N]) {
+        let picks = Picks::of(route);
+        for (to, from) in to.iter_mut().zip(from) {
+            *to = picks.pick(Self::load(from), Self::load(to)).store();
+        }
     }
     #[inline(always)]
-    fn pick(self, picks: __m512i) -> Self {
+    fn follow_bits(route: &Route, from: Bits, to: Bits) -> Bits {
+        let (zero, one) = (Self::splat(0.0), Self::splat(1.0));
+        let from = Self::select(EightBits(from), one, zero);
+        let to = Self::select(EightBits(to), one, zero);
+        zero.lt(Picks::of(route).pick(from, to)).0
+    }
+}
+
+/// What a route does with a register.
+#[derive(Clone, Copy)]
+struct Picks {
+    sources: __m512i,
+    goals: EightBits,
+}
+
+impl Picks {
+    #[inline(always)]
+    fn of(route: &Route) -> Self {
+        let sources = i64::from_le_bytes(route.sources());
+        Self {
+            // SAFETY: the module's text.
+            sources: unsafe { _mm512_cvtepu8_epi64(_mm_cvtsi64_si128(sources)) },
+            goals: EightBits(route.to()),
+        }
+    }
+
+    #[inline(always)]
+    fn pick(self, from: Eight, to: Eight) -> Eight {
         // SAFETY: the module's text.
-        Self(unsafe { _mm512_permutexvar_pd(picks, self.0) })
+        let picked = Eight(unsafe { _mm512_permutexvar_pd(self.sources, from.0) });
+        Eight::select(self.goals, picked, to)
     }
 }

@@ -3,7 +3,7 @@
 
 use crate::operators::operators;
 use crate::wide::{Bits, Block, WIDTH, Wide, map_where};
-use crate::{Lane, Mask};
+use crate::{Lane, Mask, Route};
 use std::array::from_fn;
 
 #[derive(Debug, Clone, Copy)]
@@ -106,8 +106,6 @@ impl Lane for Eight {
 }
 
 impl Wide for Eight {
-    type Picks = [u8; WIDTH];
-
     #[inline(always)]
     fn load(block: &Block) -> Self {
         Self(*block)
@@ -126,11 +124,17 @@ impl Wide for Eight {
     }
 
     #[inline(always)]
-    fn picks(lanes: [u8; WIDTH]) -> [u8; WIDTH] {
-        lanes
+    fn follow<const N: usize>(route: &Route, from: &[Block; N], to: &mut [Block; N]) {
+        for (source, goal) in route.pairs() {
+            for (to, from) in to.iter_mut().zip(from) {
+                to[goal] = from[source];
+            }
+        }
     }
     #[inline(always)]
-    fn pick(self, picks: [u8; WIDTH]) -> Self {
-        Self(picks.map(|lane| self.0[usize::from(lane) % WIDTH]))
+    fn follow_bits(route: &Route, from: Bits, to: Bits) -> Bits {
+        route.pairs().fold(to, |bits, (source, goal)| {
+            (bits & !(1 << goal)) | (((from >> source) & 1) << goal)
+        })
     }
 }

@@ -1,6 +1,6 @@
 //! From lanes of one block to lanes of another.
 
-use crate::wide::{Bits, WIDTH, Wide};
+use crate::wide::{Bits, WIDTH, lanes_of};
 
 /// Which lanes of some blocks go to which of others.
 ///
@@ -8,22 +8,22 @@ use crate::wide::{Bits, WIDTH, Wide};
 /// ```
 /// use coinmc_lanes::{Block, Lanes, Route, Wide, Work};
 ///
-/// struct Move<'a>(&'a Block, &'a mut Block, Route);
+/// struct Move<'a>(&'a [Block; 1], &'a mut [Block; 1], Route);
 ///
 /// impl Work for Move<'_> {
 ///     type Output = ();
 ///
 ///     #[inline(always)]
 ///     fn run<L: Wide>(self) {
-///         *self.1 = self.2.follow(L::load(self.0), L::load(self.1)).store();
+///         L::follow(&self.2, self.0, self.1);
 ///     }
 /// }
 ///
-/// let tens = [10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0];
-/// let mut numbers = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0];
+/// let tens = [[10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0]];
+/// let mut numbers = [[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]];
 /// let route = Route::between(0b0110_0100, 0b1000_0001);
 /// Lanes::best().enter(Move(&tens, &mut numbers, route));
-/// assert_eq!(numbers, [30.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 60.0]);
+/// assert_eq!(numbers, [[30.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 60.0]]);
 /// assert_eq!((route.from(), route.to()), (0b0010_0100, 0b1000_0001));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -76,18 +76,16 @@ impl Route {
         self.to
     }
 
-    /// What is at the end of the route: `to`, but for the lanes that come of `from`.
+    /// Lane by lane: which goes, and where it goes to.
     #[inline(always)]
-    pub fn follow<L: Wide>(&self, from: L, to: L) -> L {
-        L::select(L::mask(self.to), from.pick(L::picks(self.sources)), to)
+    pub(crate) fn pairs(&self) -> impl Iterator<Item = (usize, usize)> {
+        let sources = self.sources;
+        lanes_of(self.to).map(move |to| (usize::from(sources[to]), to))
     }
 
-    /// The same of one truth value a lane.
-    #[inline(always)]
-    pub fn follow_bits<L: Wide>(&self, from: Bits, to: Bits) -> Bits {
-        let (zero, one) = (L::splat(0.0), L::splat(1.0));
-        let number = |bits| L::select(L::mask(bits), one, zero);
-        L::bits(zero.lt(self.follow(number(from), number(to))))
+    /// Where the lanes of `to` come from; of others, any.
+    pub(crate) fn sources(&self) -> [u8; WIDTH] {
+        self.sources
     }
 }
 
@@ -131,7 +129,7 @@ static PLACES: [[u8; WIDTH]; 256] = {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Block, Lanes, Work, lanes_of};
+    use crate::{Block, Lanes, Wide, Work};
 
     struct Follow(Route, [Block; 2], [Bits; 2]);
 
@@ -141,8 +139,9 @@ mod tests {
         #[inline(always)]
         fn run<L: Wide>(self) -> (Block, Bits) {
             let Self(route, [from, to], [from_bits, to_bits]) = self;
-            let numbers = route.follow(L::load(&from), L::load(&to)).store();
-            (numbers, route.follow_bits::<L>(from_bits, to_bits))
+            let mut numbers = [to];
+            L::follow(&route, &[from], &mut numbers);
+            (numbers[0], L::follow_bits(&route, from_bits, to_bits))
         }
     }
 

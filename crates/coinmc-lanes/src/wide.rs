@@ -1,6 +1,6 @@
 //! Lanes of a fixed number, as the batch of tosses uses them: to and from memory, and masks as bits.
 
-use crate::Lane;
+use crate::{Lane, Route};
 
 /// Tosses side by side, whatever the instruction set: one register of AVX-512, two of AVX2.
 pub const WIDTH: usize = 8;
@@ -13,9 +13,6 @@ pub type Bits = u8;
 
 /// [`WIDTH`] lanes.
 pub trait Wide: Lane {
-    /// Numbers of lanes, one for each.
-    type Picks: Copy;
-
     /// The lanes that memory holds.
     fn load(block: &Block) -> Self;
     /// The lanes, for memory.
@@ -24,10 +21,10 @@ pub trait Wide: Lane {
     fn bits(mask: Self::Mask) -> Bits;
     /// The mask of set bits.
     fn mask(bits: Bits) -> Self::Mask;
-    /// Places as [`pick`](Self::pick) takes them: the lowest three bits of each number.
-    fn picks(lanes: [u8; WIDTH]) -> Self::Picks;
-    /// In every lane what was in the lane whose number stands there.
-    fn pick(self, picks: Self::Picks) -> Self;
+    /// Puts the lanes of `from` that go along a route into those of `to`, in every block.
+    fn follow<const N: usize>(route: &Route, from: &[Block; N], to: &mut [Block; N]);
+    /// The same of one truth value a lane: `to`, with those of `from` that go.
+    fn follow_bits(route: &Route, from: Bits, to: Bits) -> Bits;
 }
 
 /// [`Lane::map_where`] through memory.

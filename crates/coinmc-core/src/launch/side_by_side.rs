@@ -61,6 +61,8 @@ impl Iterator for Launches {
             let uniforms = &mut self.stream.toss(toss);
             return Some(self.distribution.launch(&self.coin, uniforms));
         }
+        // less than eight
+        #[allow(clippy::cast_possible_truncation)]
         let lane = (toss % WIDTH as u64) as usize;
         let from = toss - lane as u64;
         if self.drawn_from != Some(from) {

@@ -22,25 +22,25 @@ pub(crate) const MOTION: usize = 10;
 /// no arithmetic is done with them.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(C, align(64))]
-pub(crate) struct Owners(Block);
+pub(crate) struct Owners([Block; 1]);
 
 impl Owners {
     #[inline]
     pub(crate) fn of(&self, lane: usize) -> usize {
         // what `set` was given
         #[allow(clippy::cast_possible_truncation)]
-        let owner = self.0[lane].to_bits() as usize;
+        let owner = self.0[0][lane].to_bits() as usize;
         owner
     }
 
     #[inline]
     pub(crate) fn set(&mut self, lane: usize, owner: usize) {
-        self.0[lane] = f64::from_bits(owner as u64);
+        self.0[0][lane] = f64::from_bits(owner as u64);
     }
 
     #[inline(always)]
     fn follow<L: Wide>(&mut self, route: &Route, from: &Self) {
-        self.0 = route.follow(L::load(&from.0), L::load(&self.0)).store();
+        L::follow(route, &from.0, &mut self.0);
     }
 }
 
@@ -116,14 +116,6 @@ pub(crate) fn store<L: Wide, const N: usize>(blocks: &mut [Block; N], from: &[L;
     }
 }
 
-/// What follows a route.
-#[inline(always)]
-fn follow<L: Wide, const N: usize>(route: &Route, from: &[Block; N], to: &mut [Block; N]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = route.follow(L::load(from), L::load(to)).store();
-    }
-}
-
 /// A motion and its axial spin.
 #[inline(always)]
 fn split<L: Wide>(numbers: &[L; MOTION]) -> (Motion<L>, L) {
@@ -161,13 +153,13 @@ impl Group {
     /// Takes over flights of a group that has set out with `begin`.
     #[inline(always)]
     pub(super) fn take<L: Wide>(&mut self, from: &Self, begin: &Departing, route: &Route) {
-        follow::<L, ORBIT>(route, &from.orbit, &mut self.orbit);
-        follow::<L, EXTENT>(route, &from.extent, &mut self.extent);
-        follow::<L, SEARCH>(route, &from.search, &mut self.search);
-        follow::<L, MOTION>(route, &begin.motion, &mut self.motion);
+        L::follow(route, &from.orbit, &mut self.orbit);
+        L::follow(route, &from.extent, &mut self.extent);
+        L::follow(route, &from.search, &mut self.search);
+        L::follow(route, &begin.motion, &mut self.motion);
         self.owners.follow::<L>(route, &begin.owners);
-        self.departs = route.follow_bits::<L>(from.departs, self.departs);
-        self.launched = route.follow_bits::<L>(from.launched, self.launched);
+        self.departs = L::follow_bits(route, from.departs, self.departs);
+        self.launched = L::follow_bits(route, from.launched, self.launched);
         let taken = route.to();
         self.active |= taken;
         self.bracketed &= !taken;
@@ -177,13 +169,13 @@ impl Group {
     /// Hands over flights that have left.
     #[inline(always)]
     pub(super) fn hand_over<L: Wide>(&self, to: &mut Leavers, route: &Route) {
-        follow::<L, ORBIT>(route, &self.orbit, &mut to.orbit);
-        follow::<L, SEARCH>(route, &self.search, &mut to.search);
-        follow::<L, 2>(route, &self.bracket, &mut to.bracket);
-        follow::<L, MOTION>(route, &self.motion, &mut to.motion);
+        L::follow(route, &self.orbit, &mut to.orbit);
+        L::follow(route, &self.search, &mut to.search);
+        L::follow(route, &self.bracket, &mut to.bracket);
+        L::follow(route, &self.motion, &mut to.motion);
         to.owners.follow::<L>(route, &self.owners);
-        to.bracketed = route.follow_bits::<L>(self.bracketed, to.bracketed);
-        to.lost = route.follow_bits::<L>(self.lost, to.lost);
+        to.bracketed = L::follow_bits(route, self.bracketed, to.bracketed);
+        to.lost = L::follow_bits(route, self.lost, to.lost);
     }
 
     /// Whether any flight is on search.
