@@ -2,13 +2,19 @@
 //! nor a restart change what is counted.
 
 use super::Shard;
-use crate::plan::{Plan, Stop};
+use crate::plan::{EngineChoice, Plan, Stop};
 use std::ops::Range;
 
 /// Fewest tosses of a shard that is not the end of a point: some 30 ms of work in the plane, more in
 /// space, which hides what a file costs.
 const LEAST: u64 = 1 << 14;
-/// A run of fixed length has at most this many shards beyond one a point.
+/// Most tosses of a shard of a run of fixed length, unless there were to be too many shards: a tenth of a
+/// second of work in the plane, up to some seconds in space.
+const LARGE: u64 = 1 << 17;
+/// A run of fixed length has about this many shards before they are made larger than [`LARGE`] …
+const ENOUGH_SHARDS: u64 = 256;
+/// … and at most this many, beyond one a point. What is tossed in time steps takes so long that it has as
+/// many from the beginning.
 const MOST_SHARDS: u64 = 8192;
 /// A stage after the first is cut into at most this many shards.
 const SHARDS_A_STAGE: u64 = 16;
@@ -20,6 +26,19 @@ pub(crate) fn looks(max_tosses: u64) -> impl Iterator<Item = u64> {
     doubling
         .take_while(move |&n| n < max_tosses)
         .chain([max_tosses])
+}
+
+/// Tosses of a shard where so many are made in all.
+fn fixed_size(total: u64, plan: &Plan) -> u64 {
+    let of_at_most = |shards: u64| {
+        let size = total.div_ceil(shards).checked_next_power_of_two();
+        size.unwrap_or(1 << 63)
+    };
+    let mut engines = plan.points.iter().map(|point| &point.engine);
+    let stepped = engines.any(|engine| matches!(engine, EngineChoice::Rapier(_)));
+    let enough = if stepped { MOST_SHARDS } else { ENOUGH_SHARDS };
+    let size = of_at_most(enough).clamp(LEAST, LARGE);
+    size.max(of_at_most(MOST_SHARDS))
 }
 
 /// The cut of one plan.
@@ -40,10 +59,9 @@ impl Cut {
         match plan.stop {
             Stop::Tosses(tosses) => {
                 let total = tosses.saturating_mul(plan.points_tossed());
-                let size = total.div_ceil(MOST_SHARDS).checked_next_power_of_two();
                 Self {
                     ends: vec![tosses],
-                    fixed: Some(size.unwrap_or(1 << 63).max(LEAST)),
+                    fixed: Some(fixed_size(total, plan)),
                 }
             }
             Stop::HalfWidth { max_tosses, .. } => Self {
@@ -119,10 +137,14 @@ mod tests {
     use std::collections::HashSet;
 
     fn plan(points: u32, stop: &str) -> Plan {
+        plan_of("flat", points, stop)
+    }
+
+    fn plan_of(engine: &str, points: u32, stop: &str) -> Plan {
         let text = format!(
             "seed = 1\n[coin]\nradius_m = 0.01\nratio = {{ from = 1.0, to = 2.0, steps = {points} }}\n\
              [surface]\nrestitution = 0.5\nfriction = 0.3\n[launch]\npreset = \"robot\"\n\
-             [engine.flat]\n[stop]\n{stop}\n"
+             [engine.{engine}]\n[stop]\n{stop}\n"
         );
         crate::config::parse("test", &text, &[]).unwrap_or_else(|problems| panic!("{problems}"))
     }
@@ -179,6 +201,24 @@ mod tests {
         ));
         let shards = (0..cut.stages()).map(|stage| cut.shards(0, stage).count());
         assert!(shards.sum::<usize>() as u64 <= cut.stages() as u64 * SHARDS_A_STAGE);
+    }
+
+    #[test]
+    fn shards_are_large_enough_to_hide_what_a_file_costs() {
+        let size = |tosses: u64| Cut::new(&plan(2, &format!("tosses = {tosses}"))).size(0);
+        for (tosses_a_point, expected) in [
+            (1, 1 << 14),
+            (1 << 21, 1 << 14),
+            ((1 << 21) + 1, 1 << 15),
+            (5_000_000, 1 << 16),
+            (50_000_000, 1 << 17),
+            (1 << 29, 1 << 17),
+            ((1 << 29) + 1, 1 << 18),
+        ] {
+            assert_eq!(size(tosses_a_point), expected, "{tosses_a_point}");
+        }
+        let stepped = Cut::new(&plan_of("rapier", 2, "tosses = 5_000_000"));
+        assert_eq!(stepped.size(0), 1 << 14);
     }
 
     #[test]
