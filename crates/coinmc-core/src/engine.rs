@@ -16,7 +16,7 @@ pub trait Engine: Sync {
     /// A fresh workspace.
     fn workspace(&self) -> Self::Workspace;
 
-    /// With how many at a time it follows tosses, and their launches are drawn for it.
+    /// The lanes in which it follows many tosses; their launches are drawn in the same.
     fn lanes(&self) -> Lanes {
         Lanes::Scalar
     }
