@@ -427,8 +427,11 @@ fn in_random_scenes_a_toss_ends_as_it_does_alone() {
         assert_eq!(*differ.last().unwrap(), "0 of 400", "{engine}");
         assert_eq!(numbers(&lines, "tosses").last(), Some(&20_000.0));
     }
-    let output = coinmc_bench(&["stability", "--together", "50", "--first", "20"]);
-    assert!(!output.status.success());
+    for refused in [["50", "20"], ["20001", "0"]] {
+        let [together, first] = refused;
+        let output = coinmc_bench(&["stability", "--together", together, "--first", first]);
+        assert!(!output.status.success(), "{refused:?}");
+    }
 }
 
 #[test]

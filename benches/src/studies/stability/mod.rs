@@ -81,6 +81,9 @@ impl Stability {
         }
         let end = self.first.checked_add(self.tosses);
         let end = end.ok_or_else(|| anyhow!("toss numbers end at {}", u64::MAX))?;
+        if self.together > PART {
+            bail!("--together is at most {PART}: the tosses of a scene are held in memory");
+        }
         if !self.first.is_multiple_of(self.together) {
             bail!("--first is no multiple of --together");
         }
