@@ -4,7 +4,7 @@
 //! As in `avx512`: values are made only inside [`enter`], which asks the processor first.
 #![allow(unsafe_code)]
 
-use crate::operators::operators;
+use crate::operators::{by_permutation, operators};
 use crate::wide::{Bits, Block, WIDTH, Wide, Work, map_where};
 use crate::{Lane, Mask, Route};
 use std::arch::x86_64::{
@@ -225,20 +225,7 @@ impl Wide for Eight {
         EightBits(half(i64::from(bits)), half(i64::from(bits >> 4)))
     }
 
-    #[inline(always)]
-    fn follow<const N: usize>(route: &Route, from: &[Block; N], to: &mut [Block; N]) {
-        let picks = Picks::of(route);
-        for (to, from) in to.iter_mut().zip(from) {
-            *to = picks.pick(Self::load(from), Self::load(to)).store();
-        }
-    }
-    #[inline(always)]
-    fn follow_bits(route: &Route, from: Bits, to: Bits) -> Bits {
-        let (zero, one) = (Self::splat(0.0), Self::splat(1.0));
-        let from = Self::select(Self::mask(from), one, zero);
-        let to = Self::select(Self::mask(to), one, zero);
-        Self::bits(zero.lt(Picks::of(route).pick(from, to)))
-    }
+    by_permutation!(Picks);
 }
 
 /// What a route does with both registers.

@@ -5,7 +5,7 @@
 //! and values of it are made only inside [`enter`], which asks first.
 #![allow(unsafe_code)]
 
-use crate::operators::operators;
+use crate::operators::{by_permutation, operators};
 use crate::wide::{Bits, Block, WIDTH, Wide, Work, map_where};
 use crate::{Lane, Mask, Route};
 use std::arch::x86_64::{
@@ -194,20 +194,7 @@ impl Wide for Eight {
         EightBits(bits)
     }
 
-    #[inline(always)]
-    fn follow<const N: usize>(route: &Route, from: &[Block; N], to: &mut [Block; N]) {
-        let picks = Picks::of(route);
-        for (to, from) in to.iter_mut().zip(from) {
-            *to = picks.pick(Self::load(from), Self::load(to)).store();
-        }
-    }
-    #[inline(always)]
-    fn follow_bits(route: &Route, from: Bits, to: Bits) -> Bits {
-        let (zero, one) = (Self::splat(0.0), Self::splat(1.0));
-        let from = Self::select(EightBits(from), one, zero);
-        let to = Self::select(EightBits(to), one, zero);
-        zero.lt(Picks::of(route).pick(from, to)).0
-    }
+    by_permutation!(Picks);
 }
 
 /// What a route does with a register.

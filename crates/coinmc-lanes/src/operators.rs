@@ -1,4 +1,4 @@
-//! The operators that every kind of lanes derives from its own methods.
+//! What kinds of lanes derive from their own methods: operators, and routes by permutation.
 
 /// Binary operators of a lane type by its methods of the same name, and those that assign.
 macro_rules! operators {
@@ -54,4 +54,28 @@ macro_rules! operators {
     )*};
 }
 
+/// The methods of [`Wide`](crate::Wide) that follow a route, for lanes whose registers a `$picks` of the
+/// route permutes.
+#[cfg(target_arch = "x86_64")]
+macro_rules! by_permutation {
+    ($picks:ident) => {
+        #[inline(always)]
+        fn follow<const N: usize>(route: &Route, from: &[Block; N], to: &mut [Block; N]) {
+            let picks = $picks::of(route);
+            for (to, from) in to.iter_mut().zip(from) {
+                *to = picks.pick(Self::load(from), Self::load(to)).store();
+            }
+        }
+        #[inline(always)]
+        fn follow_bits(route: &Route, from: Bits, to: Bits) -> Bits {
+            let (zero, one) = (Self::splat(0.0), Self::splat(1.0));
+            let from = Self::select(Self::mask(from), one, zero);
+            let to = Self::select(Self::mask(to), one, zero);
+            Self::bits(zero.lt($picks::of(route).pick(from, to)))
+        }
+    };
+}
+
+#[cfg(target_arch = "x86_64")]
+pub(crate) use by_permutation;
 pub(crate) use operators;

@@ -53,16 +53,14 @@ pub fn sin_cos<L: Lane>(x: L) -> (L, L) {
 /// [`COSINE`]; S. Moshier / Sun Microsystems 1993).
 #[inline(always)]
 pub fn sin_cos_near_zero<L: Lane>(y: L) -> (L, L) {
-    const S: [f64; 6] = SINE;
-    const C: [f64; 6] = COSINE;
+    let ([s1, s2, s3, s4, s5, s6], [c1, c2, c3, c4, c5, c6]) = (SINE, COSINE);
     let k = L::splat;
     let z = y * y;
     let w = z * z;
-    let sine_tail =
-        k(S[0]) + z * (k(S[1]) + z * k(S[2])) + z * w * (k(S[3]) + z * (k(S[4]) + z * k(S[5])));
+    let sine_tail = k(s1) + z * (k(s2) + z * k(s3)) + z * w * (k(s4) + z * (k(s5) + z * k(s6)));
     let sine = y + y * z * sine_tail;
-    let cosine_tail = z * (k(C[0]) + z * (k(C[1]) + z * k(C[2])))
-        + w * w * (k(C[3]) + z * (k(C[4]) + z * k(C[5])));
+    let cosine_tail =
+        z * (k(c1) + z * (k(c2) + z * k(c3))) + w * w * (k(c4) + z * (k(c5) + z * k(c6)));
     let half = k(0.5) * z;
     let head = k(1.0) - half;
     // (1 − head) − half is the rounding error of head, put back

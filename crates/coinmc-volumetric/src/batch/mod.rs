@@ -130,12 +130,7 @@ impl<L: ImpactLaw> Batch<'_, L> {
             // beyond the last, lanes do the same as the first, for nothing
             let owner = pool.departing[from + if lane < count { lane } else { 0 }];
             let slot = &pool.slots[owner];
-            let [motion @ .., axial] = &mut begin.motion;
-            for (block, number) in motion.iter_mut().zip(slot.toss.motion.numbers()) {
-                block[lane] = number;
-            }
-            axial[lane] = slot.toss.spin.axial;
-            begin.owners.set(lane, owner);
+            begin.put(lane, owner, &slot.toss.motion, &slot.toss.spin);
             begin.launched |= Bits::from(slot.launched) << lane;
             begin.parting |= Bits::from(slot.parting) << lane;
         }

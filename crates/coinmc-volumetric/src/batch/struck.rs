@@ -71,12 +71,7 @@ impl StruckTosses {
     /// Takes over a landed coin.
     #[inline]
     pub(super) fn gather(&mut self, lane: usize, owner: usize, toss: &Toss) {
-        self.after.owners.set(lane, owner);
-        let [motion @ .., axial] = &mut self.after.motion;
-        for (block, number) in motion.iter_mut().zip(toss.motion.numbers()) {
-            block[lane] = number;
-        }
-        axial[lane] = toss.spin.axial;
+        self.after.put(lane, owner, &toss.motion, &toss.spin);
         (self.turn[lane], self.tilt[lane]) = (toss.spin.turn, toss.spin.tilt);
     }
 

@@ -8,7 +8,7 @@
 use super::orbit::{Drag, Extent, Orbit};
 use super::search::{MAX_EVALUATIONS, Search, least_time};
 use crate::body::Body;
-use crate::motion::Motion;
+use crate::motion::{Motion, Spin};
 use coinmc_lanes::{Bits, Block, Mask, Route, Wide};
 
 /// Numbers of a flight on search beside its orbit and bounds: time, least, evaluations.
@@ -55,6 +55,23 @@ pub(crate) struct Departing {
 }
 
 impl Departing {
+    /// Takes over a coin.
+    #[inline]
+    pub(crate) fn put(
+        &mut self,
+        lane: usize,
+        owner: usize,
+        motion: &Motion<f64>,
+        spin: &Spin<f64>,
+    ) {
+        let [blocks @ .., axial] = &mut self.motion;
+        for (block, number) in blocks.iter_mut().zip(motion.numbers()) {
+            block[lane] = number;
+        }
+        axial[lane] = spin.axial;
+        self.owners.set(lane, owner);
+    }
+
     /// The motions and their axial spins.
     #[inline(always)]
     pub(crate) fn load<L: Wide>(&self) -> (Motion<L>, L) {
