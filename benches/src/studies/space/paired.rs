@@ -4,7 +4,7 @@ use super::engine;
 use coinmc_bench::Case;
 use coinmc_core::{Engine, Estimate, Face, IntervalMethod, Outcome, Tally};
 use coinmc_volumetric::Settings;
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 
 /// 97.5 % quantile of the standard normal distribution.
 const SIGMAS: f64 = 1.96;
@@ -24,15 +24,10 @@ pub(super) struct Paired {
 impl Paired {
     /// Makes tosses of a case under two settings.
     pub(super) fn of(case: &Case, settings: [&Settings; 2], seed: u64, tosses: Range<u64>) -> Self {
-        let [first, second] = settings.map(|settings| engine(case, settings));
-        let (launches, stream) = (case.launches(), Case::stream(seed));
+        let [first, second] = settings.map(|settings| outcomes(case, settings, seed, &tosses));
         let mut paired = Self::default();
-        for number in tosses {
-            let launch = launches.launch(&case.scene.coin, &mut stream.toss(number));
-            paired.add(
-                &first.toss(&mut (), &launch, &mut ()),
-                &second.toss(&mut (), &launch, &mut ()),
-            );
+        for (first, second) in first.iter().zip(&second) {
+            paired.add(first, second);
         }
         paired
     }
@@ -94,6 +89,21 @@ impl Paired {
     pub(super) fn side(&self) -> Estimate {
         side(&self.first)
     }
+}
+
+/// The outcome of every toss, in the order of their numbers.
+fn outcomes(case: &Case, settings: &Settings, seed: u64, tosses: &Range<u64>) -> Vec<Outcome> {
+    let engine = engine(case, settings);
+    let (launches, stream) = (case.launches(), Case::stream(seed));
+    let launches = launches.launches(&case.scene.coin, &stream, tosses.clone(), engine.lanes());
+    let mut outcomes = Vec::new();
+    engine.toss_all(&mut (), launches, |number, outcome| {
+        outcomes.push((number, *outcome));
+        ControlFlow::Continue(())
+    });
+    // tosses that are followed side by side do not end in their order
+    outcomes.sort_unstable_by_key(|(number, _)| *number);
+    outcomes.into_iter().map(|(_, outcome)| outcome).collect()
 }
 
 /// P(side) with its 95 % interval.
