@@ -26,9 +26,9 @@
 //! # Range
 //! Any ratio and moments of inertia, restitution 0 to 1, any friction and friction lengths, linear
 //! drag, with or without gyroscopic torque. Rigid bodies: elastic compliance and the flow of air
-//! are not modelled. What is never lost is never settled: a coin that goes on for ever (e = 1
-//! without friction, rolling without friction lengths) ends as [`coinmc_core::Ended::Endless`]
-//! where that can be told, else at a limit; both are counted.
+//! are not modelled. What is never lost is never settled: a coin that passes from well to well for
+//! ever (e = 1 without friction, rolling without friction lengths) ends as
+//! [`coinmc_core::Ended::Endless`] where that can be told, else at a limit; both are counted.
 //!
 //! # Files
 //! `body` shape, friction, units · `motion` state and frame · `flight` orbit and first contact ·

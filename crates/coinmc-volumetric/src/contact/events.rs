@@ -5,10 +5,14 @@ use super::follow::{Contact, FLAT, Leave, Next, Phase, RESEED, SEED};
 use super::integrator::Trial;
 use super::rim::{Mode, OMEGA_Y, Rates, RimState, TILT};
 use super::state::change_slip;
+use crate::verdict::Verdict;
 use std::f64::consts::FRAC_PI_2;
 
 /// Turning points of the tilt after which a conserving motion is seen to repeat itself.
 const TURNING_POINTS: u32 = 3;
+/// As close to the balance, in u_z, an extreme of the tilt is not told from it: a hundred times the
+/// error of the dense output.
+const CLOSE: f64 = 1e-4;
 /// Steps of Newton's method to where a point comes down; halving alone needs as many.
 const MOST_TRIES: u32 = 40;
 
@@ -162,8 +166,9 @@ impl Contact<'_> {
             }
         }
         if holds(self.law, phase.mode, now) {
-            if trial.state[OMEGA_Y] * phase.state[OMEGA_Y] < 0.0 {
-                phase.turning_points += 1;
+            if self.law.conserves(phase.mode) && before * after < 0.0 {
+                let (_, state) = turning_point(phase, trial);
+                phase.turned(state[TILT]);
             }
             phase.state = trial.state;
             phase.now = *now;
@@ -247,13 +252,31 @@ impl Contact<'_> {
     }
 
     fn after_step(&self, phase: &Phase) -> Next {
-        if self.law.conserves(phase.mode) && phase.turning_points >= TURNING_POINTS {
-            return Next::End(Leave::Endless);
+        if phase.turning_points >= TURNING_POINTS {
+            return Next::End(self.repeats(phase));
         }
         if phase.mode == Mode::Slip && self.is_stopping(phase) {
             Next::Change
         } else {
             Next::Go
+        }
+    }
+
+    /// The end of a motion that repeats itself. Between its extremes the tilt passes none beyond
+    /// them: with both in one well the coin stays there for ever, and that settles the face unless
+    /// energy alone may.
+    fn repeats(&self, phase: &Phase) -> Leave {
+        // u_z is largest where the tilt is least
+        let [highest, lowest] = phase.tilts.map(libm::cos);
+        let half = self.law.body.half;
+        if !self.judge.tilts_only() {
+            Leave::Endless
+        } else if highest < half - CLOSE {
+            Leave::Settled(Verdict::Side)
+        } else if lowest > half + CLOSE {
+            Leave::Settled(Verdict::Face)
+        } else {
+            Leave::Endless
         }
     }
 
@@ -272,12 +295,13 @@ impl Contact<'_> {
     }
 }
 
-/// Where in a step the tilt is largest, by bisection of the dense output.
+/// Where in a step the tilt turns, by bisection of the dense output.
 fn turning_point(phase: &Phase, trial: &Trial<f64, 6>) -> (f64, RimState<f64>) {
+    let rises = phase.state[OMEGA_Y] > 0.0;
     let (mut low, mut high) = (0.0, 1.0);
     while high - low > 1e-3 {
         let middle = 0.5 * (low + high);
-        if trial.between(&phase.state, middle)[OMEGA_Y] > 0.0 {
+        if (trial.between(&phase.state, middle)[OMEGA_Y] > 0.0) == rises {
             low = middle;
         } else {
             high = middle;

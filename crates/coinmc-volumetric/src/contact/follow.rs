@@ -75,6 +75,9 @@ impl Spent {
     }
 }
 
+/// [`Phase::tilts`] before the first.
+const NO_TILTS: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+
 /// A phase on one rim point.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Phase {
@@ -84,6 +87,8 @@ pub(crate) struct Phase {
     /// Length of the next step, but for what the state forbids.
     pub(crate) length: f64,
     pub(super) turning_points: u32,
+    /// The least and the largest tilt at a turning point, rad.
+    pub(super) tilts: [f64; 2],
     /// The energy at the mode's beginning: within it, truncation may err either way.
     pub(crate) ceiling: f64,
 }
@@ -104,8 +109,15 @@ impl Phase {
             now: Rates::none(),
             length: 0.0,
             turning_points: 0,
+            tilts: NO_TILTS,
             ceiling: 0.0,
         }
+    }
+
+    /// Counts a turning point.
+    pub(super) fn turned(&mut self, tilt: f64) {
+        self.turning_points += 1;
+        self.tilts = [self.tilts[0].min(tilt), self.tilts[1].max(tilt)];
     }
 
     fn start(&self) -> Start {

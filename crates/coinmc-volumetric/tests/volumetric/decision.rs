@@ -1,8 +1,9 @@
 //! The rules of decision beside each other.
 
-use crate::common::{Tosser, paired, preset, scene, side};
-use coinmc_core::Preset;
-use coinmc_volumetric::{Decision, Settings};
+use crate::common::{Tosser, paired, preset, scene, side, stream};
+use coinmc_core::{Ended, Engine, Face, LaunchDistribution, Marginal, Preset, Scene, Spin};
+use coinmc_volumetric::{AnyVolumetricEngine, Decision, Settings};
+use std::ops::ControlFlow;
 
 /// Leaving out what cannot become tilt changes the side's share by less than .001 and 5 standard
 /// errors of the paired difference; heads and tails are not exchanged.
@@ -31,4 +32,84 @@ fn tilting_agrees_with_energy() {
         assert!(mean.abs() <= 0.001 + 5.0 * error, "{ratio} {e}: {mean}");
         assert!(differ <= 25, "{ratio} {e}: {differ}");
     }
+}
+
+/// The same where it is hardest, side by side; as many tosses of 20,000 as are said may be on the side
+/// by one rule only. In brackets how many are if straight rolling is left out whole, or, in the
+/// last, sliding of a flat coin. Of 400,000 tosses with other seeds 1.3 of 10,000 were at most: 15
+/// of 20,000 or more are one seed in 1e7.
+#[test]
+fn what_cannot_become_tilt_is_not_overestimated() {
+    let clean = Preset::Clean.distribution();
+    let mut hand = Preset::Hand.distribution();
+    hand.spin = Spin::Precessing {
+        rate_rad_s: Marginal::Constant(240.0),
+        psi_rad: Marginal::Constant(75.0_f64.to_radians()),
+    };
+    for (scene, launches, differ_at_most) in [
+        // rolls longest, and turns while it does (66, 38)
+        (scene(0.85, 0.0, 0.3, 0.003), &clean, 14),
+        (scene(0.85, 0.5, 0.3, 0.003), &clean, 14),
+        // spins fast: what holds it up leaning is gyroscopic (328)
+        (scene(1.2, 0.5, 0.3, 0.005), &hand, 14),
+        // slides flat on a face, tall enough for friction to help it over (8)
+        (scene(2.0, 0.8, 0.3, 0.03), &clean, 1),
+    ] {
+        let sides = |decision| {
+            let settings = Settings {
+                decision,
+                ..Settings::default()
+            };
+            sides(&scene, &settings, launches, 20_000)
+        };
+        let (one, other) = (sides(Decision::Tilting), sides(Decision::Energy));
+        let differ = one.iter().zip(&other).filter(|(a, b)| a != b).count();
+        println!("{}: {differ} of 20000 differ", scene.coin.ratio());
+        assert!(differ <= differ_at_most, "{}: {differ}", scene.coin.ratio());
+    }
+}
+
+/// Without friction lengths two of five coins roll for ever, most of them within one well, which
+/// settles their face. What energy decides stays as it is. Of 5000 other tosses 5 % were endless
+/// instead of 39 %.
+#[test]
+fn a_coin_that_rolls_for_ever_in_one_well_is_settled_there() {
+    let scene = scene(0.85, 0.5, 0.3, 0.0);
+    let energy = Settings {
+        decision: Decision::Energy,
+        ..Settings::default()
+    };
+    let (tilting, energy) = (Tosser::new(&scene), Tosser::with(&scene, &energy));
+    let (mut endless, mut open, mut differ) = (0, 0, 0);
+    for toss in 0..1000 {
+        let launch = preset(Preset::Clean, &scene, 252, toss);
+        let (one, other) = (tilting.toss(&launch), energy.toss(&launch));
+        endless += u32::from(one.ended == Ended::Endless);
+        open += u32::from(other.ended == Ended::Endless);
+        differ += u32::from(other.face().is_some() && one.face() != other.face());
+        assert!(one.contact_steps <= other.contact_steps, "{toss}");
+    }
+    println!("{endless} and {open} of 1000 endless, {differ} differ");
+    // 6 standard errors of the share
+    assert!(endless < 92 && open > 300, "{endless} {open}");
+    assert!(differ <= 3, "{differ}");
+}
+
+/// Which tosses end on the side; all of them are decided.
+fn sides(
+    scene: &Scene,
+    settings: &Settings,
+    launches: &LaunchDistribution,
+    tosses: u64,
+) -> Vec<bool> {
+    let engine = AnyVolumetricEngine::new(scene, settings).expect("good settings");
+    let mut sides = Vec::new();
+    let launches = launches.launches(&scene.coin, &stream(251), 0..tosses, engine.lanes());
+    engine.toss_all(&mut (), launches, |number, outcome| {
+        let face = outcome.face().expect("a decided toss");
+        sides.push((number, face == Face::Side));
+        ControlFlow::Continue(())
+    });
+    sides.sort_unstable();
+    sides.into_iter().map(|(_, side)| side).collect()
 }

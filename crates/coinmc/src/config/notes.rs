@@ -36,8 +36,8 @@ pub(super) fn notes(root: &Form, points: &[Point]) -> Vec<String> {
     }
     if points.iter().any(rolls_for_ever) {
         notes.push(
-            "surface.contour_m = 0: nothing stops a coin that rolls on its rim; tosses that energy \
-             does not decide stay undecided, endless or up to engine.volumetric.max_steps"
+            "surface.contour_m = 0: nothing stops a coin that rolls on its rim; tosses that roll from \
+             face to side and back stay undecided, endless or up to engine.volumetric.max_steps"
                 .to_owned(),
         );
     }
