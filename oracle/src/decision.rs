@@ -39,13 +39,11 @@ fn rolling_energy(model: &Model, motion: &Motion) -> f64 {
     // unit vector across: horizontal and normal to u
     let across = nalgebra::Vector3::new(-u.y, u.x, 0.0) / motion.sine();
     let k = model.axial / (model.radius * model.radius);
-    let spin = motion.spin.dot(u);
-    let conserved = motion.velocity.dot(&across) - k * model.radius * spin;
-    let factor = if model.gyroscopic {
-        model.axial / model.transverse
+    let conserved = motion.velocity.dot(&across) - k * model.radius * motion.spin.dot(u);
+    let turn = if model.gyroscopic {
+        (model.inertia(u) * motion.spin).z / model.transverse
     } else {
-        1.0
+        motion.spin.z
     };
-    let turn = motion.spin.z + (factor - 1.0) * spin * u.z;
     0.5 * conserved * conserved / (1.0 + k) / (1.0 + 4.0 * turn * turn)
 }

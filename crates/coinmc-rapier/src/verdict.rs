@@ -9,9 +9,9 @@
 //!   no impulse at the contact changes: the less of it the faster the axis will turn about the
 //!   vertical, the share 1/(1 + 2Ω_z²). Flat on a face that of sliding and of spinning about u, if
 //!   friction at the leading point, μ' = μ v/slip of it ahead, cannot tip the coin (μ'H/2 <= R); what
-//!   is left is then not to exceed sqrt(1 + μ'²) − μ'R, as friction helps it. With μ = 0 the horizontal velocity never changes, nor
-//!   does the spin about u of a coin on its side, and both are left out. Derived in
-//!   `docs/theory-space.md`, *Decisions*.
+//!   is left is then not to exceed sqrt(1 + μ'²) − μ'R, as friction helps it. With μ = 0 the
+//!   horizontal velocity never changes, nor does the spin about u of a coin on its side, and both
+//!   are left out. Derived in `docs/theory-space.md`, *Decisions*.
 
 use crate::body::{Body, Scaled};
 use crate::motion::Motion;

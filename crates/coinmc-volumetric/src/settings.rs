@@ -34,8 +34,9 @@ impl Law {
 pub enum Decision {
     /// When the energy that can still tilt the coin is too small to carry it over its rim: leaning
     /// to its side the energy of straight rolling is left out, the less of it the faster its axis
-    /// will turn, flat on a face that of sliding and spinning; and when it lies on both rims and its weight has twice the moment that could lift
-    /// one. Not quite rigorous; its bias is measured in docs/validation.md.
+    /// will turn, flat on a face that of sliding and spinning; and when it lies on both rims and its
+    /// weight has twice the moment that could lift one. Not quite rigorous; its bias is measured in
+    /// docs/validation.md.
     #[default]
     Tilting,
     /// When the whole mechanical energy (without friction: all but that of motion which nothing

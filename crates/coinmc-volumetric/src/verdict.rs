@@ -140,7 +140,17 @@ impl Judge {
         let spinning = L::splat(0.5 * self.body.ka) * spin.axial * spin.axial;
         if self.tilting {
             let lies = !side & m.sin.lt(L::splat(self.flat));
-            let idle = self.idle(m, spin, side, lies);
+            let flat = if self.slides {
+                spinning
+            } else {
+                spinning + sliding
+            };
+            let rolling = if self.slides {
+                spinning
+            } else {
+                self.rolling_left_out(m, spin)
+            };
+            let idle = L::select(side, rolling, L::select(lies, flat, L::splat(0.0)));
             let barrier = L::select(lies, L::splat(self.brim), one);
             settled = settled | (energy - idle).lt(barrier);
         }
@@ -150,23 +160,12 @@ impl Judge {
         settled
     }
 
-    /// See the module's text, *Tilting*: energy of a coin on its side, or one that `lies` flat, that
-    /// cannot become tilt.
+    /// See the module's text, *Tilting*: the share of straight rolling that is left out.
     #[inline(always)]
-    fn idle<L: Lane>(&self, m: &Motion<L>, spin: &Spin<L>, side: L::Mask, lies: L::Mask) -> L {
-        let (one, half) = (L::splat(1.0), L::splat(0.5));
-        let spinning = L::splat(0.5 * self.body.ka) * spin.axial * spin.axial;
-        let (rolling, flat) = if self.slides {
-            (spinning, spinning)
-        } else {
-            let invariant = m.vy - L::splat(self.lever) * spin.axial;
-            let turns = one + L::splat(TOPPLING) * m.oz * m.oz;
-            (
-                L::splat(self.rolling) * invariant * invariant / turns,
-                spinning + half * (m.vx * m.vx + m.vy * m.vy),
-            )
-        };
-        L::select(side, rolling, L::select(lies, flat, L::splat(0.0)))
+    fn rolling_left_out<L: Lane>(&self, m: &Motion<L>, spin: &Spin<L>) -> L {
+        let invariant = m.vy - L::splat(self.lever) * spin.axial;
+        let turns = L::splat(1.0) + L::splat(TOPPLING) * m.oz * m.oz;
+        L::splat(self.rolling) * invariant * invariant / turns
     }
 
     /// See the module's text, *Without friction*.
