@@ -27,7 +27,7 @@ import coinmc
 FACES = ("heads", "tails", "side")
 # coinmc's tolerances: its defaults, as multiples of which it is measured.
 TOLERANCES = {
-    "volumetric": {"tolerance": 2e-4, "zeno": 2e-2, "stick": 1e-2, "fade": 1e-2},
+    "volumetric": {"tolerance": 2e-4, "zeno": 2e-2, "stick_speed": 1e-2, "smoothing_time": 1e-2},
     "flat": {"tolerance": 1e-6, "zeno": 1e-2},
 }
 TENFOLD = (1.0, 0.1, 0.01)

@@ -72,7 +72,7 @@ def read(config: Path, ratio: float) -> tuple[Scene, dict]:
             height=ratio,
             restitution=surface["restitution"],
             friction=surface["friction"],
-            rolling=surface.get("contour_m", 0.0) / radius,
+            rolling=surface.get("rolling_friction_m", 0.0) / radius,
             second=float(1.0 / np.sqrt(radius)),
         ),
         tables,

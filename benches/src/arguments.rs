@@ -118,7 +118,7 @@ enum Command {
 
 impl Arguments {
     /// Does what was asked.
-    pub(crate) fn carry_out(self) -> anyhow::Result<()> {
+    pub(crate) fn execute(self) -> anyhow::Result<()> {
         // before the study: a typing error should not cost minutes
         let csv = self
             .csv
@@ -129,43 +129,43 @@ impl Arguments {
             .transpose()?;
         let seed = self.seed;
         let report = match self.command {
-            Command::FlatTable(study) => study.carry_out(seed),
-            Command::FlatLanes(study) => study.carry_out(),
-            Command::Film(study) => study.carry_out(seed),
-            Command::Convergence(study) => study.carry_out(seed),
-            Command::MissedContacts(study) => study.carry_out(seed),
-            Command::Oracle(study) => study.carry_out(seed),
-            Command::Energy(study) => study.carry_out(seed),
-            Command::Undecided(study) => study.carry_out(seed),
-            Command::StoppingRule(study) => study.carry_out(seed),
-            Command::Sensitivity(study) => study.carry_out(seed)?,
-            Command::Integration(study) => study.carry_out(seed),
-            Command::Stability(study) => study.carry_out(seed)?,
-            Command::Scaling(study) => study.carry_out()?,
-            Command::Speed(study) => study.carry_out(seed)?,
-            Command::ImpactCurves(study) => study.carry_out(seed)?,
-            Command::ImpactLimit(study) => study.carry_out(seed),
-            Command::ImpactAccuracy(study) => study.carry_out(seed),
-            Command::ImpactBalance(study) => study.carry_out(seed),
-            Command::SpaceConvergence(study) => study.carry_out(seed),
-            Command::SpaceLaws(study) => study.carry_out(seed),
-            Command::SpaceReferences(study) => study.carry_out(seed),
-            Command::SpaceMissed(study) => study.carry_out(seed),
-            Command::SpaceEnergy(study) => study.carry_out(seed),
-            Command::SpaceStress(study) => study.carry_out(seed),
-            Command::SpaceSpeed(study) => study.carry_out(seed)?,
-            Command::SpaceLanes(study) => study.carry_out(),
-            Command::SpacePeers(study) => study.carry_out(seed)?,
-            Command::SpaceDecision(study) => study.carry_out(seed)?,
-            Command::LinkFuzz(study) => study.carry_out(seed)?,
-            Command::RapierStep(study) => study.carry_out(seed)?,
-            Command::RapierSpeed(study) => study.carry_out(seed)?,
-            Command::RapierEnergy(study) => study.carry_out(seed)?,
-            Command::RapierStress(study) => study.carry_out(seed),
-            Command::RapierRestitution(study) => study.carry_out()?,
-            Command::RobotSoak(study) => study.carry_out(seed)?,
-            Command::Work(work) => return work.carry_out(),
-            Command::RunApart(run) => return run.carry_out(),
+            Command::FlatTable(study) => study.execute(seed),
+            Command::FlatLanes(study) => study.execute(),
+            Command::Film(study) => study.execute(seed),
+            Command::Convergence(study) => study.execute(seed),
+            Command::MissedContacts(study) => study.execute(seed),
+            Command::Oracle(study) => study.execute(seed),
+            Command::Energy(study) => study.execute(seed),
+            Command::Undecided(study) => study.execute(seed),
+            Command::StoppingRule(study) => study.execute(seed),
+            Command::Sensitivity(study) => study.execute(seed)?,
+            Command::Integration(study) => study.execute(seed),
+            Command::Stability(study) => study.execute(seed)?,
+            Command::Scaling(study) => study.execute()?,
+            Command::Speed(study) => study.execute(seed)?,
+            Command::ImpactCurves(study) => study.execute(seed)?,
+            Command::ImpactLimit(study) => study.execute(seed),
+            Command::ImpactAccuracy(study) => study.execute(seed),
+            Command::ImpactBalance(study) => study.execute(seed),
+            Command::SpaceConvergence(study) => study.execute(seed),
+            Command::SpaceLaws(study) => study.execute(seed),
+            Command::SpaceReferences(study) => study.execute(seed),
+            Command::SpaceMissed(study) => study.execute(seed),
+            Command::SpaceEnergy(study) => study.execute(seed),
+            Command::SpaceStress(study) => study.execute(seed),
+            Command::SpaceSpeed(study) => study.execute(seed)?,
+            Command::SpaceLanes(study) => study.execute(),
+            Command::SpacePeers(study) => study.execute(seed)?,
+            Command::SpaceDecision(study) => study.execute(seed)?,
+            Command::LinkFuzz(study) => study.execute(seed)?,
+            Command::RapierStep(study) => study.execute(seed)?,
+            Command::RapierSpeed(study) => study.execute(seed)?,
+            Command::RapierEnergy(study) => study.execute(seed)?,
+            Command::RapierStress(study) => study.execute(seed),
+            Command::RapierRestitution(study) => study.execute()?,
+            Command::RobotSoak(study) => study.execute(seed)?,
+            Command::Work(work) => return work.execute(),
+            Command::RunApart(run) => return run.execute(),
         };
         if let Some((path, file)) = csv {
             report
@@ -189,7 +189,7 @@ struct Work {
 }
 
 impl Work {
-    fn carry_out(&self) -> anyhow::Result<()> {
+    fn execute(&self) -> anyhow::Result<()> {
         let all = [workloads(), space_workloads()].concat();
         let Some(name) = &self.name else {
             let names: Vec<&str> = all.iter().map(|work| work.name.as_str()).collect();

@@ -78,7 +78,7 @@ impl Case {
 
     /// The contour friction length in radii, to nine decimals: what was asked for.
     pub fn rho_over_r(&self) -> f64 {
-        let ratio = self.scene.surface.contour_m() / self.scene.coin.radius_m();
+        let ratio = self.scene.surface.rolling_friction_m() / self.scene.coin.radius_m();
         (1e9 * ratio).round() / 1e9
     }
 
@@ -142,7 +142,7 @@ impl fmt::Display for Case {
             surface.restitution(),
             surface.friction()
         )?;
-        if surface.contour_m() > 0.0 {
+        if surface.rolling_friction_m() > 0.0 {
             write!(f, " rho={}", self.rho_over_r())?;
         }
         Ok(())

@@ -13,5 +13,5 @@ mod worst;
 use clap::Parser;
 
 fn main() -> anyhow::Result<()> {
-    arguments::Arguments::parse().carry_out()
+    arguments::Arguments::parse().execute()
 }

@@ -55,7 +55,7 @@ impl Toss {
             }
             Self::Space => {
                 "coin = { ratio = 0.85, radius_m = 0.01 }\n\
-                 surface = { restitution = 0.5, friction = 0.3, contour_m = 1e-4, pivoting_m = 1e-4 }\n\
+                 surface = { restitution = 0.5, friction = 0.3, rolling_friction_m = 1e-4, pivoting_friction_m = 1e-4 }\n\
                  launch.preset = 'clean'\nengine.volumetric.law = 'moreau'"
             }
         };
@@ -65,7 +65,7 @@ impl Toss {
 
 impl RunApart {
     /// Makes the run in this process and prints what it took.
-    pub(crate) fn carry_out(&self) -> anyhow::Result<()> {
+    pub(crate) fn execute(&self) -> anyhow::Result<()> {
         let plan = plan(&self.toss.config(self.tosses))?;
         let start = Instant::now();
         run_once(&plan, self.threads)?;

@@ -20,7 +20,7 @@ pub(crate) fn run_once(plan: &Plan, threads: Option<NonZeroUsize>) -> anyhow::Re
         part: Part::WHOLE,
         threads,
         cancel: &AtomicBool::new(false),
-        watcher: &(),
+        sink: &(),
     };
     Ok(run(plan, &options)?)
 }

@@ -139,7 +139,7 @@ fn a_study_is_the_same_every_time_and_another_with_another_seed() {
     assert_ne!(of("1"), of("2"));
 }
 
-/// The column of this name as numbers; a cell like "3 (endless 3)" counts as its first word.
+/// The column of this name as numbers; a cell like "3 (never_settles 3)" counts as its first word.
 fn numbers(lines: &[String], name: &str) -> Vec<f64> {
     let number = |cell: &str| cell.split(' ').next().unwrap().parse().unwrap();
     column(lines, name).into_iter().map(number).collect()

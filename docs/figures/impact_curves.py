@@ -21,13 +21,13 @@ RESTITUTION = "0.5"
 
 
 def draw(table: str, path: str) -> None:
-    """Plots P(side) against H/R: the paper's law by η on the left, the others on the right."""
+    """Plots P(side) against H/R: Gaek & Sukhov's law by η on the left, the others on the right."""
     with open(table, newline="") as file:
         rows = [row for row in csv.DictReader(file) if row["restitution"] == RESTITUTION]
     figure, (left, right) = plt.subplots(
         1, 2, figsize=(9.6, 4.2), sharey=True, layout="constrained"
     )
-    of_paper = [row for row in rows if row["law"].startswith("paper")]
+    of_paper = [row for row in rows if row["law"].startswith("gaek-sukhov")]
     etas = sorted({float(row["law"].split()[2]) for row in of_paper})
     for lever, style in [("height", "-"), ("corner", ":")]:
         for eta, colour in zip(etas, COLOURS, strict=True):
@@ -38,7 +38,7 @@ def draw(table: str, path: str) -> None:
             ]
             label = f"η = {eta:g} N s" if lever == "height" else None
             plot(left, curve, style, colour, label)
-    left.set_title("The paper's law (dotted: the corner's lever)", fontsize="medium")
+    left.set_title("Gaek & Sukhov's law (dotted: the corner's lever)", fontsize="medium")
     others = ["moreau", "half-sine 1e-3 s", "half-sine 1e-4 s", "line-contact"]
     for friction, style in [("0", "-"), ("0.3", "--")]:
         for law, colour in zip(others, COLOURS, strict=False):

@@ -66,7 +66,7 @@ static void fill_status(coinmc_status *status, uint32_t now_ms)
     status->rx_bad = robot.rx_bad;
 }
 
-static void carry_out(const coinmc_request *request, uint32_t now_ms, coinmc_reply *reply)
+static void execute(const coinmc_request *request, uint32_t now_ms, coinmc_reply *reply)
 {
     coinmc_info info;
     hardware_info(&info);
@@ -159,7 +159,7 @@ static void answer(const coinmc_received *frame, uint32_t now_ms, coinmc_reply *
         return;
     }
     if (read == COINMC_GOOD)
-        carry_out(&request, now_ms, reply);
+        execute(&request, now_ms, reply);
     else
         reply->as.nak = read == COINMC_MALFORMED ? COINMC_NAK_BAD_MESSAGE : COINMC_NAK_BAD_RANGE;
     robot.has_answered = true;

@@ -43,7 +43,7 @@ class Trace:
         All events, launch and end included; times are exact.
     outcome : str
         The face that shows (``heads``, ``tails``, ``side``), or why there is none
-        (``time_limit``, ``endless``, ``impact_limit``, ``failed``).
+        (``time_limit``, ``never_settles``, ``impact_limit``, ``failed``).
     face : Face
         The face, or ``Face.UNDECIDED``.
     scene : dict

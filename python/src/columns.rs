@@ -105,7 +105,7 @@ fn end_code(outcome: &Outcome) -> u8 {
     match EndKind::of(outcome.ended) {
         EndKind::Decided => 0,
         EndKind::TimeLimit => 1,
-        EndKind::Endless => 2,
+        EndKind::NeverSettles => 2,
         EndKind::ImpactLimit => 3,
         EndKind::Failed => 4,
     }

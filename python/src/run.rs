@@ -25,7 +25,7 @@ pub(crate) fn estimate(
         let options = Count {
             threads,
             cancel: &desk.stop,
-            watcher: desk,
+            sink: desk,
         };
         count(&plan.0, &options)
     })?;
@@ -49,7 +49,7 @@ pub(crate) fn run(
             part: Part::WHOLE,
             threads,
             cancel: &desk.stop,
-            watcher: desk,
+            sink: desk,
         };
         run_plan(&plan.0, &options)
     })?;

@@ -2,7 +2,7 @@
 //! signals (Ctrl-C) and progress.
 
 use crate::errors;
-use coinmc::run::{Progress, Watcher};
+use coinmc::run::{Progress, ProgressSink};
 use pyo3::prelude::*;
 use std::num::NonZeroUsize;
 use std::panic::resume_unwind;
@@ -41,7 +41,7 @@ impl Desk {
     }
 }
 
-impl Watcher for Desk {
+impl ProgressSink for Desk {
     fn progress(&self, progress: &Progress) {
         self.done.store(progress.tosses_done, Relaxed);
         self.planned.store(progress.tosses_planned, Relaxed);

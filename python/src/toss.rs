@@ -7,7 +7,7 @@ use crate::plan::Plan;
 use crate::share::{Stretch, share_out};
 use crate::supervise::{Desk, supervise, threads};
 use coinmc::plan::{MAX_TOSSES, Point};
-use coinmc::run::{Begin, SettingsError, follow_each, see_each, stream};
+use coinmc::run::{Begin, SettingsError, for_each_end, for_each_outcome, stream};
 use coinmc_core::Stream;
 use numpy::{PyReadonlyArray2, PyReadwriteArray1, PyReadwriteArray2};
 use pyo3::prelude::*;
@@ -76,11 +76,11 @@ impl Job<'_> {
     ) -> Result<(), Trouble> {
         let (face, first) = (columns.face, tosses.start);
         let followed = match columns.rest {
-            None => follow_each(self.point, begin, tosses, |toss, outcome| {
+            None => for_each_outcome(self.point, begin, tosses, |toss, outcome| {
                 face[place(toss - first)] = face_code(outcome);
                 desk.go_on()
             }),
-            Some(mut rest) => see_each(self.point, begin, tosses, &mut |seen| {
+            Some(mut rest) => for_each_end(self.point, begin, tosses, &mut |seen| {
                 let i = place(seen.toss - first);
                 face[i] = face_code(&seen.outcome);
                 rest.write(i, seen, from(seen.toss));

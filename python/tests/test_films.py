@@ -128,10 +128,10 @@ def test_the_configs_own_law_is_fitted_by_its_name(drop, root):
         "coin": {"ratio": 1.0, "radius_m": 0.01},
         "surface": {"restitution": 0.5, "friction": 0.0},
         "launch": {"preset": "robot"},
-        "engine": {"flat": {"law": {"paper": {"eta_n_s": 1e-3}}}},
+        "engine": {"flat": {"law": {"gaek-sukhov": {"eta_n_s": 1e-3}}}},
         "stop": {"tosses": 1},
     }
-    fit = film.fit(drop, config, laws=["paper", "moreau"], free="restitution", until_s=0.25)
-    assert {law.law for law in fit.all} == {"paper", "moreau"}
+    fit = film.fit(drop, config, laws=["gaek-sukhov", "moreau"], free="restitution", until_s=0.25)
+    assert {law.law for law in fit.all} == {"gaek-sukhov", "moreau"}
     with pytest.raises(ValueError, match="there is no law"):
-        film.fit(drop, root / "examples" / "drop.toml", laws=["paper"])
+        film.fit(drop, root / "examples" / "drop.toml", laws=["gaek-sukhov"])

@@ -231,7 +231,7 @@ MISTAKES = {
     "quantity": (lambda: plot.basin({}, "tilt", "vx_m_s", (0, 1, 0, 1)), "no quantity is called"),
     "same": (lambda: plot.basin({}, "tilt_rad", "tilt_deg", (0, 1, 0, 1)), "the same quantity"),
     "extent": (lambda: plot.basin({}, "vx_m_s", "tilt_deg", (0, 0, 0, 1)), "is empty"),
-    "endless": (lambda: plot.basin({}, "vx_m_s", "tilt_deg", (0, np.inf, 0, 1)), "finite"),
+    "never_settles": (lambda: plot.basin({}, "vx_m_s", "tilt_deg", (0, np.inf, 0, 1)), "finite"),
     "launches": (
         lambda: plot.basin(
             ROOT / "examples/first.toml",

@@ -26,7 +26,7 @@ radius_m = 0.5
 [surface]
 restitution = 0.3
 friction = 10.0
-contour_m = [0.0, 0.001]
+rolling_friction_m = [0.0, 0.001]
 restitution_threshold_m_s = 2.0
 [environment]
 linear_drag_per_s = 1.0
@@ -114,7 +114,7 @@ def test_all_that_defines_a_toss_is_named(run):
         assert row["gyroscopic_torque"] == (row["engine"] != "volumetric")
         drag = row["linear_drag_per_s"], row["angular_drag_per_s"]
         assert drag == ((1.0, 0.05) if row["engine"] == "volumetric" else (0.0, 0.0))
-        assert row["contour_m"] >= row["pivoting_m"] == 0.0
+        assert row["rolling_friction_m"] >= row["pivoting_friction_m"] == 0.0
     published = [entry["side"] for entry in document["published"]]
     in_space = document["rows"][0]["engine"] == "volumetric"
     assert published == ([661, 661, 495, 495] if in_space else [])

@@ -27,8 +27,8 @@ ratio = [0.25, 0.85]
 [surface]
 restitution = 0.5
 friction = 0.3
-contour_m = [1e-5, 1e-4]
-pivoting_m = 1e-4
+rolling_friction_m = [1e-5, 1e-4]
+pivoting_friction_m = 1e-4
 restitution_threshold_m_s = 0.1
 [environment]
 linear_drag_per_s = 0.1
@@ -40,8 +40,8 @@ preset = "drop"
 law = "stronge"
 decision = "energy"
 zeno = { from = 0.001, to = 0.1, steps = 3, scale = "log" }
-stick = 1e-3
-fade = 1e-3
+stick_speed = 1e-3
+smoothing_time = 1e-3
 time_limit = 1e4
 [stop]
 tosses = 1000
@@ -66,8 +66,8 @@ BAD = [
     ("surface.restitution", [0.5, -0.1]),
     ("surface.friction", -0.1),
     ("surface.landing", "soft"),
-    ("surface.contour_m", -1e-4),
-    ("surface.pivoting_m", [1e-4, -1e-4]),
+    ("surface.rolling_friction_m", -1e-4),
+    ("surface.pivoting_friction_m", [1e-4, -1e-4]),
     ("surface.restitution_threshold_m_s", "2"),
     ("environment.linear_drag_per_s", -1.0),
     ("environment.angular_drag_per_s", {"from": -1.0, "to": 1.0, "steps": 3}),
@@ -78,8 +78,8 @@ BAD = [
     ("engine.flat.zeno", 0.0),
     ("engine", {"volumetric": {"law": "newton"}}),
     ("engine", {"volumetric": {"decision": "certain"}}),
-    ("engine", {"volumetric": {"stick": 0.2}}),
-    ("engine", {"volumetric": {"fade": 0.0}}),
+    ("engine", {"volumetric": {"stick_speed": 0.2}}),
+    ("engine", {"volumetric": {"smoothing_time": 0.0}}),
     ("engine", {"volumetric": {"time_limit": 0.0}}),
     ("engine", {"volumetric": {"energy_fraction": 0.01}}),
     ("engine.rapier", {}),

@@ -20,8 +20,8 @@ radius_m = 0.01
 [surface]
 restitution = 0.5
 friction = 0.3
-contour_m = 1e-4
-pivoting_m = 1e-4
+rolling_friction_m = 1e-4
+pivoting_friction_m = 1e-4
 [launch]
 preset = "clean"
 [engine.volumetric]

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use std::{env, fs, thread};
 use tempfile::TempDir;
 
-/// Long enough (about a second) to be killed in the middle, with 35 shards.
+/// Long enough (about a second) to be killed in the middle, with 35 chunks.
 const CONFIG: &str = "\
 seed = 11
 [coin]
@@ -23,7 +23,7 @@ preset = \"robot\"
 tosses = 80_000
 ";
 
-/// The same in space, with 10 shards.
+/// The same in space, with 10 chunks.
 const IN_SPACE: &str = "\
 seed = 11
 [coin]
@@ -31,8 +31,8 @@ ratio = [0.85, 2.0]
 [surface]
 restitution = 0.5
 friction = 0.3
-contour_m = 1e-4
-pivoting_m = 1e-4
+rolling_friction_m = 1e-4
+pivoting_friction_m = 1e-4
 [launch]
 preset = \"clean\"
 [engine.volumetric]
@@ -82,8 +82,8 @@ impl Bench {
     }
 }
 
-/// Shards that a run directory holds.
-fn shards(out: &Path) -> u64 {
+/// Chunks that a run directory holds.
+fn chunks(out: &Path) -> u64 {
     let entries = fs::read_dir(out.join("tallies"))
         .into_iter()
         .flatten()
@@ -94,10 +94,10 @@ fn shards(out: &Path) -> u64 {
         .count() as u64
 }
 
-/// Waits until a running process has finished so many shards, or has ended.
-fn wait_for(shards_done: u64, out: &Path, child: &mut Child) {
+/// Waits until a running process has finished so many chunks, or has ended.
+fn wait_for(chunks_done: u64, out: &Path, child: &mut Child) {
     let ended = |child: &mut Child| child.try_wait().expect("the child can be asked").is_some();
-    while shards(out) < shards_done && !ended(child) {
+    while chunks(out) < chunks_done && !ended(child) {
         thread::sleep(Duration::from_micros(500));
     }
 }
@@ -141,13 +141,13 @@ fn a_killed_run_in_space_ends_in_the_same_bytes() {
     killed_runs_end_in_the_same_bytes(IN_SPACE);
 }
 
-/// The instant of each kill is drawn as a number of finished shards and some milliseconds more, so
+/// The instant of each kill is drawn as a number of finished chunks and some milliseconds more, so
 /// that it falls into start, work or end of the run however fast the machine is.
 fn killed_runs_end_in_the_same_bytes(config: &str) {
     let kills: u64 = env::var("COINMC_KILLS").map_or(10, |n| n.parse().expect("a number"));
     let bench = Bench::of(config);
     let reference = bench.reference();
-    let all = shards(&reference);
+    let all = chunks(&reference);
     let (mut n, mut run, mut hits) = (0, 0, 0);
     while n < kills {
         let out = bench.path(&format!("run-{run}"));
@@ -155,7 +155,7 @@ fn killed_runs_end_in_the_same_bytes(config: &str) {
         for _ in 0..=run % 3 {
             let mut quiet = bench.run(&out);
             quiet.stdout(Stdio::null()).stderr(Stdio::null());
-            let there = shards(&out);
+            let there = chunks(&out);
             let mut child = quiet.spawn().expect("coinmc starts");
             wait_for(there + drawn(n, 0) % (all + 1 - there), &out, &mut child);
             thread::sleep(Duration::from_micros(drawn(n, 1) % 20_000));

@@ -44,7 +44,7 @@ struct Change {
 }
 
 impl Convergence {
-    pub(crate) fn carry_out(&self, seed: u64) -> Report {
+    pub(crate) fn execute(&self, seed: u64) -> Report {
         let cases = Case::grid(
             &[Preset::CleanFlat],
             &[0.0, 0.3, 0.5, 0.8],

@@ -40,7 +40,7 @@ struct Ledger<'a> {
 }
 
 impl Energy {
-    pub(crate) fn carry_out(&self, seed: u64) -> Report {
+    pub(crate) fn execute(&self, seed: u64) -> Report {
         let presets = [Preset::CleanFlat, Preset::Robot];
         let cases = stress_box(&presets, &[0.0, 0.3, 0.5, 0.8, 0.95, 1.0]);
         let quota = self.events.div_ceil(cases.len() as u64);

@@ -36,7 +36,7 @@ struct Tried {
 }
 
 impl Film {
-    pub(crate) fn carry_out(&self, seed: u64) -> Report {
+    pub(crate) fn execute(&self, seed: u64) -> Report {
         let first = seed.saturating_sub(1).saturating_mul(1_000_000);
         let numbers: Vec<u64> = (1..=self.cases).map(|case| first + case).collect();
         let options = Options {

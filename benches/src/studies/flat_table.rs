@@ -49,7 +49,7 @@ struct Entry {
 }
 
 impl FlatTable {
-    pub(crate) fn carry_out(&self, seed: u64) -> Report {
+    pub(crate) fn execute(&self, seed: u64) -> Report {
         let entries = entries();
         let settings = Settings::default();
         let estimates = survey(&entries, |entry| {

@@ -52,7 +52,7 @@ struct Finding {
 }
 
 impl LinkFuzz {
-    pub(crate) fn carry_out(&self, seed: u64) -> anyhow::Result<Report> {
+    pub(crate) fn execute(&self, seed: u64) -> anyhow::Result<Report> {
         let targets = [
             self.target("link_decoder", properties::decoder)?,
             self.target("link_device", properties::device)?,

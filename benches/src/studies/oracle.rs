@@ -56,7 +56,7 @@ struct Differences {
 }
 
 impl Oracle {
-    pub(crate) fn carry_out(&self, seed: u64) -> Report {
+    pub(crate) fn execute(&self, seed: u64) -> Report {
         let scenes: Vec<Scene> = SCENES.map(Scene::new).into();
         let found = survey(&scenes, |scene| self.compare(scene, seed));
         let mut record = Table::new(

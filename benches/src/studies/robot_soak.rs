@@ -85,7 +85,7 @@ enum Mishap {
 }
 
 impl RobotSoak {
-    pub(crate) fn carry_out(self, seed: u64) -> anyhow::Result<Report> {
+    pub(crate) fn execute(self, seed: u64) -> anyhow::Result<Report> {
         let program = match &self.program {
             Some(program) => program.clone(),
             None => {

@@ -45,7 +45,7 @@ const COLUMNS: [&str; 8] = [
 ];
 
 impl Scaling {
-    pub(crate) fn carry_out(&self) -> anyhow::Result<Report> {
+    pub(crate) fn execute(&self) -> anyhow::Result<Report> {
         let cores = available_parallelism().map_or(1, NonZeroUsize::get);
         let mut record = Table::new("Whole runs", &COLUMNS);
         self.over_threads(cores, &mut record)?;

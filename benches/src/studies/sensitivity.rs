@@ -30,7 +30,7 @@ pub(crate) struct Sensitivity {
 }
 
 impl Sensitivity {
-    pub(crate) fn carry_out(&self, seed: u64) -> anyhow::Result<Report> {
+    pub(crate) fn execute(&self, seed: u64) -> anyhow::Result<Report> {
         let columns = [
             "parameter",
             "value",

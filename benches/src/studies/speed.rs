@@ -8,7 +8,7 @@ use crate::report::{Report, Table};
 use crate::run_apart::{RunApart, Toss};
 use crate::run_once::{plan, run_once};
 use clap::Args;
-use coinmc::run::{Shard, run_shard};
+use coinmc::run::{Chunk, run_chunk};
 use coinmc_bench::{Case, workloads};
 use coinmc_core::{Engine, Preset, run_tosses};
 use coinmc_flat::Settings;
@@ -36,7 +36,7 @@ pub(crate) struct Speed {
 type Task<'a> = Box<dyn Fn() -> anyhow::Result<()> + 'a>;
 
 impl Speed {
-    pub(crate) fn carry_out(&self, seed: u64) -> anyhow::Result<Report> {
+    pub(crate) fn execute(&self, seed: u64) -> anyhow::Result<Report> {
         let columns = ["measured", "of", "median", "lowest", "highest"];
         let title = format!("{} repeats of {} tosses", self.repeats, self.tosses);
         let mut record = Table::new(title, &columns);
@@ -102,21 +102,21 @@ impl Speed {
             let plan = &plan;
             Box::new(move || run_once(plan, NonZeroUsize::new(n)).map(|_| ()))
         };
-        let shard: Task<'_> = Box::new(|| {
-            run_shard(
+        let chunk: Task<'_> = Box::new(|| {
+            run_chunk(
                 &plan,
-                &Shard {
+                &Chunk {
                     point: 0,
                     tosses: 0..tosses,
                 },
             )?;
             Ok(())
         });
-        let seconds = self.interleave(&[bare(), bare(), shard, threads(1), threads(2)])?;
+        let seconds = self.interleave(&[bare(), bare(), chunk, threads(1), threads(2)])?;
         let of = format!("clean-flat x=1.2 e=0.5 mu={friction}");
         for (name, other) in [
             ("bare loop again", 1),
-            ("one shard", 2),
+            ("one chunk", 2),
             ("run, 1 thread", 3),
         ] {
             let ratios = ratios(&seconds[other], &seconds[0]);

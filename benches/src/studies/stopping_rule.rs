@@ -33,7 +33,7 @@ struct Compared {
 }
 
 impl StoppingRule {
-    pub(crate) fn carry_out(&self, seed: u64) -> Report {
+    pub(crate) fn execute(&self, seed: u64) -> Report {
         let cases = cases();
         let compared = survey(&cases, |case| {
             let under = |decision| {
@@ -45,7 +45,7 @@ impl StoppingRule {
             };
             Compared {
                 case: *case,
-                certain: under(Decision::Certain),
+                certain: under(Decision::Energy),
                 early: under(Decision::EnergyFraction(FRACTION)),
             }
         });

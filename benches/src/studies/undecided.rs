@@ -34,7 +34,7 @@ struct Found {
 }
 
 impl Undecided {
-    pub(crate) fn carry_out(&self, seed: u64) -> Report {
+    pub(crate) fn execute(&self, seed: u64) -> Report {
         let cases = stress_box(&[self.preset], &[0.0, 0.3, 0.5, 0.8, 0.95]);
         let found = survey(&cases, |case| toss(case, seed, self.tosses));
         let columns = [
@@ -67,10 +67,10 @@ impl Undecided {
         let method = IntervalMethod::ClopperPearson;
         let bound = Estimate::new(undecided, 0, tosses, 0.9, method).hi;
         report.remark(format!(
-            "{undecided} of {tosses} tosses undecided (time {}, endless {}, impacts {}, failed {}): \
+            "{undecided} of {tosses} tosses undecided (time {}, never_settles {}, impacts {}, failed {}): \
              below {bound:.1e} with 95 % confidence, at the limit of {} impacts; {} jams",
             total.time_limit,
-            total.endless,
+            total.never_settles,
             total.impact_limit,
             total.failed,
             Settings::default().max_impacts,

@@ -66,10 +66,10 @@ pub(crate) enum Format {
 
 impl Arguments {
     /// Does what was asked and says how it went.
-    pub(crate) fn carry_out(self) -> ExitCode {
+    pub(crate) fn execute(self) -> ExitCode {
         let format = self.command.format();
         let console = Console::new(self.color, format);
-        match self.command.carry_out(&console) {
+        match self.command.execute(&console) {
             Ok(outcome) => outcome.into(),
             Err(failure) => failure.report(&console).into(),
         }
@@ -90,17 +90,17 @@ impl Command {
         }
     }
 
-    fn carry_out(&self, console: &Console) -> Result<Outcome, Failure> {
+    fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         match self {
-            Self::Run(run) => run.carry_out(console),
-            Self::Check(check) => check.carry_out(console),
-            Self::Merge(merge) => merge.carry_out(console),
-            Self::Trace(trace) => trace.carry_out(console),
-            Self::Film(film) => film.carry_out(console),
-            Self::Analytic(analytic) => analytic.carry_out(console),
-            Self::Robot(robot) => robot.carry_out(console),
-            Self::Schema(schema) => schema.carry_out(),
-            Self::Completions(completions) => completions.carry_out(),
+            Self::Run(run) => run.execute(console),
+            Self::Check(check) => check.execute(console),
+            Self::Merge(merge) => merge.execute(console),
+            Self::Trace(trace) => trace.execute(console),
+            Self::Film(film) => film.execute(console),
+            Self::Analytic(analytic) => analytic.execute(console),
+            Self::Robot(robot) => robot.execute(console),
+            Self::Schema(schema) => schema.execute(),
+            Self::Completions(completions) => completions.execute(),
         }
     }
 }

@@ -10,7 +10,7 @@ static CANCEL: AtomicBool = AtomicBool::new(false);
 /// Starts listening and returns the flag that a signal sets. `on_first` is called once, at the
 /// first signal, on a thread of its own.
 ///
-/// Nothing is lost when the second signal ends the process at once: shards are renamed into place,
+/// Nothing is lost when the second signal ends the process at once: chunks are renamed into place,
 /// so each is there whole or not at all.
 pub(crate) fn listen(
     mut on_first: impl FnMut() + Send + 'static,

@@ -15,5 +15,5 @@ use clap::Parser;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    arguments::Arguments::parse().carry_out()
+    arguments::Arguments::parse().execute()
 }

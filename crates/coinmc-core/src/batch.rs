@@ -38,7 +38,7 @@ use std::ops::ControlFlow;
 /// let distribution = Preset::Robot.distribution();
 /// let launches = (0..5).map(|toss| distribution.launch(&coin, &mut stream.toss(toss)));
 /// let mut seen = vec![];
-/// Heights::default().follow_all(launches, |number, _| {
+/// Heights::default().toss_all_in_batch(launches, |number, _| {
 ///     seen.push(number);
 ///     ControlFlow::Continue(())
 /// });
@@ -64,7 +64,7 @@ pub trait TossBatch {
 
     /// Follows the tosses of all launches, and tells `each` the number of every toss among them and
     /// its end, until that breaks off.
-    fn follow_all(
+    fn toss_all_in_batch(
         mut self,
         launches: impl Iterator<Item = Launch>,
         mut each: impl FnMut(u64, &Self::End) -> ControlFlow<()>,

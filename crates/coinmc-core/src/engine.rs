@@ -40,12 +40,12 @@ pub trait Engine: Sync {
         launches: impl Iterator<Item = Launch>,
         each: impl FnMut(u64, &Outcome) -> ControlFlow<()>,
     ) {
-        toss_in_turn(self, workspace, launches, each);
+        toss_sequential(self, workspace, launches, each);
     }
 }
 
 /// [`Engine::toss_all`], one toss after the other.
-pub fn toss_in_turn<E: Engine + ?Sized>(
+pub fn toss_sequential<E: Engine + ?Sized>(
     engine: &E,
     workspace: &mut E::Workspace,
     launches: impl Iterator<Item = Launch>,

@@ -50,7 +50,7 @@ mod tally;
 pub use batch::TossBatch;
 pub use coin::{Coin, CoinError};
 pub use coinmc_lanes::Lanes;
-pub use engine::{Engine, Event, EventKind, State, run_tosses, toss_in_turn};
+pub use engine::{Engine, Event, EventKind, State, run_tosses, toss_sequential};
 pub use estimate::{
     Estimate, IntervalMethod, relative_error, rule_of_thumb_relative_error, student_t_quantile,
 };
@@ -58,7 +58,7 @@ pub use launch::{
     Launch, LaunchDistribution, LaunchError, Launches, Marginal, Orientation, Preset, Spin,
     inverse_normal_cdf,
 };
-pub use observer::{Observer, Onlooker, sample_between};
+pub use observer::{DynObserver, Observer, sample_between};
 pub use outcome::{Breaks, Ended, Face, Outcome};
 pub use random::{Domain, Philox4x64, Stream, TossUniforms, UniformSource, unit_interval};
 pub use surface::{Drag, Landing, Scene, Surface, SurfaceError};

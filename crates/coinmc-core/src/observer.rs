@@ -114,7 +114,7 @@ impl<O: Observer> Observer for &mut O {
 ///
 /// # Example
 /// ```
-/// use coinmc_core::{Event, EventKind, Observer, Onlooker, State};
+/// use coinmc_core::{Event, EventKind, Observer, DynObserver, State};
 /// use nalgebra::Vector3;
 /// struct Impacts(u32);
 /// impl Observer for Impacts {
@@ -131,19 +131,19 @@ impl<O: Observer> Observer for &mut O {
 /// };
 /// let mut impacts = Impacts(0);
 /// let kind = EventKind::Impact;
-/// Onlooker::new(&mut impacts).event(&Event { kind, state });
+/// DynObserver::new(&mut impacts).event(&Event { kind, state });
 /// assert_eq!(impacts.0, 1);
 /// ```
-pub struct Onlooker<'a>(&'a mut dyn Watch);
+pub struct DynObserver<'a>(&'a mut dyn ErasedObserver);
 
 /// What of an [`Observer`] can be called through a pointer.
-trait Watch {
+trait ErasedObserver {
     fn see_event(&mut self, event: &Event);
     fn instant_s(&self) -> f64;
     fn see_sample(&mut self, state: &State);
 }
 
-impl<O: Observer> Watch for O {
+impl<O: Observer> ErasedObserver for O {
     fn see_event(&mut self, event: &Event) {
         self.event(event);
     }
@@ -157,14 +157,14 @@ impl<O: Observer> Watch for O {
     }
 }
 
-impl<'a> Onlooker<'a> {
+impl<'a> DynObserver<'a> {
     /// Hands on to `observer`.
     pub fn new<O: Observer>(observer: &'a mut O) -> Self {
         Self(observer)
     }
 }
 
-impl Observer for Onlooker<'_> {
+impl Observer for DynObserver<'_> {
     fn event(&mut self, event: &Event) {
         self.0.see_event(event);
     }

@@ -34,7 +34,7 @@ pub enum Ended {
     TimeLimit,
     /// It is proven that the coin never settles: it stands balanced on its rim, or rolls or bounces
     /// for ever without loss.
-    Endless,
+    NeverSettles,
     /// The toss was still undecided at the engine's limit of impacts or contact phases.
     ImpactLimit,
     /// The numbers went wrong (not finite). Counted, never classified.

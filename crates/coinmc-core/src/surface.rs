@@ -30,8 +30,8 @@ pub enum Landing {
 pub struct Surface {
     restitution: f64,
     friction: f64,
-    contour_m: f64,
-    pivoting_m: f64,
+    rolling_friction_m: f64,
+    pivoting_friction_m: f64,
     threshold_m_s: f64,
     landing: Landing,
 }
@@ -75,8 +75,8 @@ impl Surface {
         Ok(Self {
             restitution,
             friction,
-            contour_m: 0.0,
-            pivoting_m: 0.0,
+            rolling_friction_m: 0.0,
+            pivoting_friction_m: 0.0,
             threshold_m_s: 0.0,
             landing: Landing::Bouncing,
         })
@@ -91,17 +91,17 @@ impl Surface {
     /// [`SurfaceError::FrictionLength`] unless both are finite and not negative.
     pub fn with_friction_lengths(
         self,
-        contour_m: f64,
-        pivoting_m: f64,
+        rolling_friction_m: f64,
+        pivoting_friction_m: f64,
     ) -> Result<Self, SurfaceError> {
-        for length in [contour_m, pivoting_m] {
+        for length in [rolling_friction_m, pivoting_friction_m] {
             if !(length >= 0.0 && length.is_finite()) {
                 return Err(SurfaceError::FrictionLength(length));
             }
         }
         Ok(Self {
-            contour_m,
-            pivoting_m,
+            rolling_friction_m,
+            pivoting_friction_m,
             ..self
         })
     }
@@ -138,13 +138,13 @@ impl Surface {
     }
 
     /// Contour (rolling) friction length ρ_c, m.
-    pub fn contour_m(&self) -> f64 {
-        self.contour_m
+    pub fn rolling_friction_m(&self) -> f64 {
+        self.rolling_friction_m
     }
 
     /// Pivoting friction length ρ_p, m.
-    pub fn pivoting_m(&self) -> f64 {
-        self.pivoting_m
+    pub fn pivoting_friction_m(&self) -> f64 {
+        self.pivoting_friction_m
     }
 
     /// Approach speed of the contact point below which restitution is 0, m/s; 0: none.

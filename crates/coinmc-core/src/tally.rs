@@ -23,7 +23,7 @@ pub struct Tally {
     /// Undecided at the limit of simulated time.
     pub time_limit: u64,
     /// Undecided for ever.
-    pub endless: u64,
+    pub never_settles: u64,
     /// Undecided at the limit of impacts.
     pub impact_limit: u64,
     /// Numbers that went wrong.
@@ -58,7 +58,7 @@ impl Tally {
         "tails",
         "side",
         "time_limit",
-        "endless",
+        "never_settles",
         "impact_limit",
         "failed",
         "impacts",
@@ -83,7 +83,7 @@ impl Tally {
             Ended::Decided(Face::Tails) => self.tails += 1,
             Ended::Decided(Face::Side) => self.side += 1,
             Ended::TimeLimit => self.time_limit += 1,
-            Ended::Endless => self.endless += 1,
+            Ended::NeverSettles => self.never_settles += 1,
             Ended::ImpactLimit => self.impact_limit += 1,
             Ended::Failed => self.failed += 1,
         }
@@ -130,7 +130,7 @@ impl Tally {
 
     /// Tosses that ended without a face, for whatever reason.
     pub fn undecided(&self) -> u64 {
-        self.time_limit + self.endless + self.impact_limit + self.failed
+        self.time_limit + self.never_settles + self.impact_limit + self.failed
     }
 
     /// All tosses, undecided ones included.
@@ -145,7 +145,7 @@ impl Tally {
             self.tails,
             self.side,
             self.time_limit,
-            self.endless,
+            self.never_settles,
             self.impact_limit,
             self.failed,
             self.impacts,
@@ -167,7 +167,7 @@ impl Tally {
             tails,
             side,
             time_limit,
-            endless,
+            never_settles,
             impact_limit,
             failed,
             impacts,
@@ -185,7 +185,7 @@ impl Tally {
             tails,
             side,
             time_limit,
-            endless,
+            never_settles,
             impact_limit,
             failed,
             impacts,

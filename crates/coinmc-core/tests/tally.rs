@@ -9,7 +9,7 @@ fn outcome() -> impl Strategy<Value = Outcome> {
         Just(Ended::Decided(Face::Tails)),
         Just(Ended::Decided(Face::Side)),
         Just(Ended::TimeLimit),
-        Just(Ended::Endless),
+        Just(Ended::NeverSettles),
         Just(Ended::ImpactLimit),
         Just(Ended::Failed),
     ];

@@ -39,7 +39,7 @@ impl Model {
         observer: &mut impl Observer,
     ) -> Option<Outcome> {
         let friction = match self.law {
-            Law::Paper(_) => 0.0,
+            Law::GaekSukhov(_) => 0.0,
             _ => shared.friction,
         };
         let surface = Surface::new(shared.restitution, friction).ok()?;

@@ -6,11 +6,11 @@ use coinmc_flat::{Law, LineContact, Materials, PulseTime};
 /// A number that all drops of a fit share.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Parameter {
-    /// Coefficient of restitution e; of the paper's law √k.
+    /// Coefficient of restitution e; of Gaek & Sukhov's law √k.
     Restitution,
     /// Coefficient of Coulomb friction μ.
     Friction,
-    /// η of the paper's law, N s.
+    /// η of Gaek & Sukhov's law, N s.
     Eta,
     /// Length τ of the half sine, s.
     PulseTime,
@@ -93,8 +93,8 @@ pub fn parameters(law: Law) -> &'static [Parameter] {
     use Parameter::{Eta, Floor, Friction, Peak, Restitution, Stiffness};
     match law {
         Law::Moreau | Law::ChatterjeeRuina => &[Restitution, Friction, Floor],
-        // the paper's law has no friction
-        Law::Paper(_) => &[Restitution, Eta, Floor],
+        // Gaek & Sukhov's law has no friction
+        Law::GaekSukhov(_) => &[Restitution, Eta, Floor],
         Law::HalfSine(pulse) => match (pulse.time, pulse.peak_n) {
             (PulseTime::Given(_), None) => &[Restitution, Friction, Parameter::PulseTime, Floor],
             (PulseTime::Given(_), Some(_)) => {
@@ -117,7 +117,7 @@ pub struct Shared {
     pub friction: f64,
     /// Height of the surface in the film's coordinates, m.
     pub floor_m: f64,
-    /// η of the paper's law, N s.
+    /// η of Gaek & Sukhov's law, N s.
     pub eta_n_s: f64,
     /// Length of the half sine, s.
     pub time_s: f64,
@@ -179,7 +179,7 @@ impl Shared {
     pub(crate) fn of(mut self, law: Law) -> Self {
         self.stiffness = 1.0;
         match law {
-            Law::Paper(paper) => self.eta_n_s = paper.eta_n_s,
+            Law::GaekSukhov(gaek_sukhov) => self.eta_n_s = gaek_sukhov.eta_n_s,
             Law::HalfSine(pulse) => {
                 if let PulseTime::Given(time) = pulse.time {
                     self.time_s = time;
@@ -201,9 +201,9 @@ impl Shared {
         };
         match law {
             Law::Moreau | Law::ChatterjeeRuina => law,
-            Law::Paper(mut paper) => {
-                paper.eta_n_s = self.eta_n_s;
-                Law::Paper(paper)
+            Law::GaekSukhov(mut gaek_sukhov) => {
+                gaek_sukhov.eta_n_s = self.eta_n_s;
+                Law::GaekSukhov(gaek_sukhov)
             }
             Law::HalfSine(mut pulse) => {
                 pulse.time = match pulse.time {

@@ -38,13 +38,13 @@ pub(crate) fn path(model: &Model, shared: &Shared, start: &Start, at: &[f64]) ->
         axis: UnitVector3::new_unchecked(Vector3::new(sin, 0.0, cos)),
         spin_rad_s: Vector3::new(0.0, start[5], 0.0),
     };
-    let mut watcher = Watcher {
+    let mut recorder = PathRecorder {
         at,
         path: Path::default(),
         last: None,
     };
-    model.follow(&shared, &launch, &mut watcher)?;
-    let Watcher { mut path, last, .. } = watcher;
+    model.follow(&shared, &launch, &mut recorder)?;
+    let PathRecorder { mut path, last, .. } = recorder;
     path.valid = path.seen.len();
     fly_on(&mut path, &last?, model, at);
     for [x, z, _] in &mut path.seen {
@@ -84,13 +84,13 @@ fn seen(state: &State) -> [f64; 3] {
     [position.x, position.z, wrapped(libm::atan2(axis.x, axis.z))]
 }
 
-struct Watcher<'a> {
+struct PathRecorder<'a> {
     at: &'a [f64],
     path: Path,
     last: Option<State>,
 }
 
-impl Observer for Watcher<'_> {
+impl Observer for PathRecorder<'_> {
     fn event(&mut self, event: &Event) {
         if event.kind == EventKind::Impact {
             self.path.impacts_s.push(event.state.time_s);

@@ -2,12 +2,14 @@
 
 use crate::batch::Batch;
 use crate::engine::FlatEngine;
+use crate::gaek_sukhov::GaekSukhovImpact;
 use crate::half_sine::HalfSineImpact;
 use crate::impact::{ChatterjeeRuina, Moreau};
 use crate::line::LineImpact;
-use crate::paper::PaperImpact;
 use crate::settings::{Law, Settings, SettingsError};
-use coinmc_core::{Engine, Launch, Observer, Onlooker, Outcome, Scene, TossBatch, toss_in_turn};
+use coinmc_core::{
+    DynObserver, Engine, Launch, Observer, Outcome, Scene, TossBatch, toss_sequential,
+};
 use coinmc_lanes::{Lanes, NoSuchLanes};
 use std::ops::ControlFlow;
 
@@ -21,8 +23,8 @@ pub enum AnyFlatEngine {
     Moreau(FlatEngine<Moreau>),
     /// [`ChatterjeeRuina`].
     ChatterjeeRuina(FlatEngine<ChatterjeeRuina>),
-    /// [`PaperImpact`].
-    Paper(FlatEngine<PaperImpact>),
+    /// [`GaekSukhovImpact`].
+    GaekSukhov(FlatEngine<GaekSukhovImpact>),
     /// [`HalfSineImpact`].
     HalfSine(FlatEngine<HalfSineImpact>),
     /// [`LineImpact`].
@@ -40,9 +42,9 @@ impl AnyFlatEngine {
             Law::ChatterjeeRuina => {
                 Self::ChatterjeeRuina(FlatEngine::new(scene, settings, ChatterjeeRuina)?)
             }
-            Law::Paper(paper) => {
-                let law = PaperImpact::new(scene, paper)?;
-                Self::Paper(FlatEngine::new(scene, settings, law)?)
+            Law::GaekSukhov(gaek_sukhov) => {
+                let law = GaekSukhovImpact::new(scene, gaek_sukhov)?;
+                Self::GaekSukhov(FlatEngine::new(scene, settings, law)?)
             }
             Law::HalfSine(pulse) => {
                 let law = HalfSineImpact::new(scene, pulse)?;
@@ -62,7 +64,7 @@ macro_rules! each_law {
         match $any {
             Self::Moreau($engine) => $same,
             Self::ChatterjeeRuina($engine) => $same,
-            Self::Paper($engine) => $same,
+            Self::GaekSukhov($engine) => $same,
             Self::HalfSine($engine) => $same,
             Self::LineContact($engine) => $same,
         }
@@ -78,7 +80,7 @@ impl AnyFlatEngine {
         Ok(match self {
             Self::Moreau(engine) => Self::Moreau(engine.with_lanes(lanes)?),
             Self::ChatterjeeRuina(engine) => Self::ChatterjeeRuina(engine.with_lanes(lanes)?),
-            Self::Paper(engine) => Self::Paper(engine.with_lanes(lanes)?),
+            Self::GaekSukhov(engine) => Self::GaekSukhov(engine.with_lanes(lanes)?),
             Self::HalfSine(engine) => Self::HalfSine(engine.with_lanes(lanes)?),
             Self::LineContact(engine) => Self::LineContact(engine.with_lanes(lanes)?),
         })
@@ -93,7 +95,7 @@ impl AnyFlatEngine {
 impl AnyFlatEngine {
     fn any_observer<O: Observer>(&self, launch: &Launch, observer: &mut O) -> Outcome {
         if O::ACTIVE {
-            self.observed(launch, &mut Onlooker::new(observer))
+            self.observed(launch, &mut DynObserver::new(observer))
         } else {
             self.unobserved(launch)
         }
@@ -106,7 +108,7 @@ impl AnyFlatEngine {
         each_law!(self, engine => engine.toss_observed(launch, &mut ()))
     }
 
-    fn observed(&self, launch: &Launch, observer: &mut Onlooker) -> Outcome {
+    fn observed(&self, launch: &Launch, observer: &mut DynObserver) -> Outcome {
         each_law!(self, engine => engine.toss_observed(launch, observer))
     }
 
@@ -115,7 +117,7 @@ impl AnyFlatEngine {
             Self::Moreau(engine) => Batch::of(engine).map(AnyBatch::Moreau),
             Self::ChatterjeeRuina(engine) => Batch::of(engine).map(AnyBatch::ChatterjeeRuina),
             // not side by side
-            Self::Paper(_) | Self::HalfSine(_) | Self::LineContact(_) => None,
+            Self::GaekSukhov(_) | Self::HalfSine(_) | Self::LineContact(_) => None,
         }
     }
 }
@@ -175,8 +177,8 @@ impl Engine for AnyFlatEngine {
         each: impl FnMut(u64, &Outcome) -> ControlFlow<()>,
     ) {
         match self.batch() {
-            Some(batch) => batch.follow_all(launches, each),
-            None => toss_in_turn(self, &mut (), launches, each),
+            Some(batch) => batch.toss_all_in_batch(launches, each),
+            None => toss_sequential(self, &mut (), launches, each),
         }
     }
 }

@@ -10,10 +10,10 @@
 
 use crate::impact::ContactMatrix;
 use crate::motion::Motion;
+use crate::observer_adapter::ObserverAdapter;
 use crate::pivot::{PivotEnd, glide, stick, stuck_forces};
 use crate::shape::Shape;
 use crate::slide::{SlideEnd, SlidePhase, SlideTask};
-use crate::watch::Watch;
 use coinmc_core::{EventKind, Observer};
 use coinmc_lanes::sin_cos;
 
@@ -104,7 +104,7 @@ impl Contact<'_> {
         &mut self,
         motion: &mut Motion,
         mut hold: Hold,
-        watch: &mut Watch<'_, O>,
+        adapter: &mut ObserverAdapter<'_, O>,
     ) -> Poised {
         if self.is_certain(motion) {
             return Poised::Leaves(Leave::Certain);
@@ -122,7 +122,7 @@ impl Contact<'_> {
             if motion.omega == 0.0 && motion.delta == 0.0 {
                 return Poised::Leaves(Leave::Balanced);
             }
-            match self.pivot(motion, hold.stalled, watch) {
+            match self.pivot(motion, hold.stalled, adapter) {
                 PivotEnd::Flat => return Poised::Leaves(self.next_corner(motion)),
                 PivotEnd::LiftsOff => return Poised::Leaves(Leave::LiftOff),
                 PivotEnd::Slips => {}
@@ -134,7 +134,7 @@ impl Contact<'_> {
                 None => return Poised::Leaves(Leave::LiftOff),
             }
         }
-        watch.event(EventKind::Sliding, motion);
+        adapter.event(EventKind::Sliding, motion);
         Poised::Slides(hold)
     }
 
@@ -167,15 +167,15 @@ impl Contact<'_> {
         &self,
         motion: &mut Motion,
         stalled: bool,
-        watch: &mut Watch<'_, O>,
+        adapter: &mut ObserverAdapter<'_, O>,
     ) -> PivotEnd {
         let before = motion.energy(self.shape.k);
-        watch.event(self.conserving_mode(), motion);
+        adapter.event(self.conserving_mode(), motion);
         let end = if self.mu == 0.0 {
-            glide(motion, self.shape, watch)
+            glide(motion, self.shape, adapter)
         } else {
             let blind = if stalled { GRAZE } else { 0.0 };
-            stick(motion, self.shape, self.mu, blind, watch)
+            stick(motion, self.shape, self.mu, blind, adapter)
         };
         motion.cap_energy(self.shape.k, before);
         end

@@ -6,13 +6,13 @@ use crate::contact::{Contact, Hold, Leave, Poised, Slider};
 use crate::flight::fly_to_contact;
 use crate::impact::ImpactLaw;
 use crate::motion::{Motion, Units};
+use crate::observer_adapter::ObserverAdapter;
 use crate::settings::{Decision, Settings, SettingsError};
 use crate::shape::Shape;
 use crate::slide::SlideEnd;
-use crate::watch::Watch;
 use coinmc_core::{
     Breaks, Ended, Engine, EventKind, Face, Landing, Launch, Observer, Outcome, Scene, TossBatch,
-    toss_in_turn,
+    toss_sequential,
 };
 use coinmc_lanes::{Lanes, NoSuchLanes};
 use std::ops::ControlFlow;
@@ -124,18 +124,18 @@ impl<L: ImpactLaw> FlatEngine<L> {
         &self,
         toss: &mut Toss,
         early: &mut Early,
-        watch: &mut Watch<'_, O>,
+        adapter: &mut ObserverAdapter<'_, O>,
     ) -> Ended {
         let mut departing = false;
         loop {
-            if !self.fly(&mut toss.motion, departing, watch) {
+            if !self.fly(&mut toss.motion, departing, adapter) {
                 return self.lost(&toss.motion);
             }
             if self.landing == Landing::Adhesive {
                 return certain(&toss.motion);
             }
             departing = true;
-            if let Some(ended) = self.bounce(toss, early, watch) {
+            if let Some(ended) = self.bounce(toss, early, adapter) {
                 return ended;
             }
         }
@@ -147,17 +147,17 @@ impl<L: ImpactLaw> FlatEngine<L> {
         &self,
         toss: &mut Toss,
         early: &mut Early,
-        watch: &mut Watch<'_, O>,
+        adapter: &mut ObserverAdapter<'_, O>,
     ) -> Option<Ended> {
-        let mut onward = self.touch(toss, early, watch);
+        let mut onward = self.touch(toss, early, adapter);
         loop {
             onward = match onward {
                 Onward::Fly => return None,
                 Onward::End(ended) => return Some(ended),
                 Onward::Slide(hold) => {
                     let mut slider = toss.contact.slider(&toss.motion, hold);
-                    let end = slider.phase.follow(&mut toss.motion, watch);
-                    self.slid(toss, &slider, end, early, watch)
+                    let end = slider.phase.follow(&mut toss.motion, adapter);
+                    self.slid(toss, &slider, end, early, adapter)
                 }
             };
         }
@@ -168,20 +168,20 @@ impl<L: ImpactLaw> FlatEngine<L> {
         &self,
         toss: &mut Toss,
         early: &mut Early,
-        watch: &mut Watch<'_, O>,
+        adapter: &mut ObserverAdapter<'_, O>,
     ) -> Onward {
         loop {
             if toss.impacts == self.settings.max_impacts {
                 return Onward::End(Ended::ImpactLimit);
             }
             toss.impacts += 1;
-            watch.event(EventKind::Touching, &toss.motion);
+            adapter.event(EventKind::Touching, &toss.motion);
             let touching = toss.motion;
             let after = self.impact(toss);
-            watch.passed(touching.time, toss.motion.time, |t| {
+            adapter.passed(touching.time, toss.motion.time, |t| {
                 self.look_into(touching, t)
             });
-            watch.event(EventKind::Impact, &toss.motion);
+            adapter.event(EventKind::Impact, &toss.motion);
             early.look(&toss.motion, self.shape.k);
             let slip = match after {
                 After::Decided(face) => return Onward::End(Ended::Decided(face)),
@@ -191,11 +191,14 @@ impl<L: ImpactLaw> FlatEngine<L> {
                 After::Flight => return Onward::Fly,
                 After::Contact(slip) => slip,
             };
-            let leave = match toss.contact.poise(&mut toss.motion, Hold::new(slip), watch) {
+            let leave = match toss
+                .contact
+                .poise(&mut toss.motion, Hold::new(slip), adapter)
+            {
                 Poised::Slides(hold) => return Onward::Slide(hold),
                 Poised::Leaves(leave) => leave,
             };
-            if let Some(onward) = self.leave(toss, leave, early, watch) {
+            if let Some(onward) = self.leave(toss, leave, early, adapter) {
                 return onward;
             }
         }
@@ -208,18 +211,18 @@ impl<L: ImpactLaw> FlatEngine<L> {
         slider: &Slider,
         end: SlideEnd,
         early: &mut Early,
-        watch: &mut Watch<'_, O>,
+        adapter: &mut ObserverAdapter<'_, O>,
     ) -> Onward {
         let leave = match toss.contact.slid(&mut toss.motion, slider, end) {
             Err(leave) => leave,
-            Ok(hold) => match toss.contact.poise(&mut toss.motion, hold, watch) {
+            Ok(hold) => match toss.contact.poise(&mut toss.motion, hold, adapter) {
                 Poised::Slides(hold) => return Onward::Slide(hold),
                 Poised::Leaves(leave) => leave,
             },
         };
-        match self.leave(toss, leave, early, watch) {
+        match self.leave(toss, leave, early, adapter) {
             Some(onward) => onward,
-            None => self.touch(toss, early, watch),
+            None => self.touch(toss, early, adapter),
         }
     }
 
@@ -229,17 +232,17 @@ impl<L: ImpactLaw> FlatEngine<L> {
         toss: &Toss,
         leave: Leave,
         early: &mut Early,
-        watch: &mut Watch<'_, O>,
+        adapter: &mut ObserverAdapter<'_, O>,
     ) -> Option<Onward> {
         early.look(&toss.motion, self.shape.k);
         match leave {
             Leave::NextCorner => None,
             Leave::LiftOff => {
-                watch.event(EventKind::LiftOff, &toss.motion);
+                adapter.event(EventKind::LiftOff, &toss.motion);
                 Some(Onward::Fly)
             }
             Leave::Certain => Some(Onward::End(certain(&toss.motion))),
-            Leave::Balanced => Some(Onward::End(Ended::Endless)),
+            Leave::Balanced => Some(Onward::End(Ended::NeverSettles)),
             Leave::Lost => Some(Onward::End(self.lost(&toss.motion))),
         }
     }
@@ -258,11 +261,11 @@ impl<L: ImpactLaw> FlatEngine<L> {
         &self,
         motion: &mut Motion,
         departing: bool,
-        watch: &mut Watch<'_, O>,
+        adapter: &mut ObserverAdapter<'_, O>,
     ) -> bool {
         let start = *motion;
         let found = fly_to_contact(motion, &self.shape, departing);
-        watch.passed(start.time, motion.time, |t| {
+        adapter.passed(start.time, motion.time, |t| {
             let mut motion = start;
             motion.fly(&self.shape, t);
             motion
@@ -296,7 +299,7 @@ impl Early {
 
     fn new(decision: Decision, energy: f64) -> Self {
         match decision {
-            Decision::Certain => Self::never(),
+            Decision::Energy => Self::never(),
             Decision::EnergyFraction(fraction) => Self {
                 below: fraction * energy,
                 face: None,
@@ -332,8 +335,8 @@ impl<L: ImpactLaw> Engine for FlatEngine<L> {
         each: impl FnMut(u64, &Outcome) -> ControlFlow<()>,
     ) {
         match Batch::of(self) {
-            Some(batch) => batch.follow_all(launches, each),
-            None => toss_in_turn(self, &mut (), launches, each),
+            Some(batch) => batch.toss_all_in_batch(launches, each),
+            None => toss_sequential(self, &mut (), launches, each),
         }
     }
 }
@@ -343,17 +346,17 @@ impl<L: ImpactLaw> FlatEngine<L> {
         let mut toss = self.launched(launch);
         let energy = toss.motion.energy(self.shape.k);
         let mut early = Early::new(self.settings.decision, energy);
-        let mut watch = Watch {
+        let mut adapter = ObserverAdapter {
             observer,
             units: &self.units,
             shape: &self.shape,
         };
-        watch.event(EventKind::Launched, &toss.motion);
+        adapter.event(EventKind::Launched, &toss.motion);
         let last = match self.ends_at_launch(&toss, launch) {
             Some(ended) => ended,
-            None => self.follow(&mut toss, &mut early, &mut watch),
+            None => self.follow(&mut toss, &mut early, &mut adapter),
         };
-        watch.event(EventKind::Ended, &toss.motion);
+        adapter.event(EventKind::Ended, &toss.motion);
         let ended = early.face.map_or(last, Ended::Decided);
         Outcome {
             ended,

@@ -18,7 +18,7 @@
 //! `touching` what an impulse does · `paper`, `half_sine` and `line` laws that are more ·
 //! `dormand_prince` steps in time · `bounce` one impact and what follows it · `pivot` and `slide`
 //! contact phases · `contact` their order · `engine` the toss · `batch` many side by side · `any` its
-//! law chosen at run time · `single` one impact alone · `watch` what an observer is shown ·
+//! law chosen at run time · `single` one impact alone · `observer_adapter` what an observer is shown ·
 //! `settings` choices.
 
 mod any;
@@ -28,25 +28,25 @@ mod contact;
 mod dormand_prince;
 mod engine;
 mod flight;
+mod gaek_sukhov;
 mod half_sine;
 mod impact;
 mod line;
 mod motion;
-mod paper;
+mod observer_adapter;
 mod pivot;
 mod settings;
 mod shape;
 mod single;
 mod slide;
 mod touching;
-mod watch;
 
 pub use any::AnyFlatEngine;
 pub use coinmc_lanes::{Lane, Lanes, NoSuchLanes};
 pub use engine::FlatEngine;
+pub use gaek_sukhov::{GaekSukhov, GaekSukhovImpact, Lever};
 pub use half_sine::{HalfSine, HalfSineImpact, PulseTime};
 pub use impact::{Carried, ChatterjeeRuina, ContactMatrix, ImpactLaw, Impulse, Moreau, Strike};
 pub use line::{LineContact, LineImpact, Materials};
-pub use paper::{Lever, Paper, PaperImpact};
 pub use settings::{Decision, Law, Settings, SettingsError};
 pub use single::SingleImpact;

@@ -6,8 +6,8 @@
 //! E >= 1 (a coin below the barrier is decided), hence ω never changes sign.
 
 use crate::motion::Motion;
+use crate::observer_adapter::ObserverAdapter;
 use crate::shape::Shape;
-use crate::watch::Watch;
 use coinmc_core::Observer;
 use coinmc_lanes::sin_cos;
 
@@ -43,7 +43,7 @@ pub(crate) fn stick<O: Observer>(
     shape: &Shape,
     mu: f64,
     mut step: f64,
-    watch: &mut Watch<'_, O>,
+    adapter: &mut ObserverAdapter<'_, O>,
 ) -> PivotEnd {
     let inertia = 1.0 + shape.k;
     let (sin0, cos0) = sin_cos(motion.delta);
@@ -84,7 +84,7 @@ pub(crate) fn stick<O: Observer>(
         let before = *motion;
         let took = duration(&slowness, before.delta, delta);
         motion.time += took;
-        watch.passed(before.time, motion.time, |t| {
+        adapter.passed(before.time, motion.time, |t| {
             let mut motion = before;
             let turned = turned(&slowness, (before.delta, delta), t, took);
             place(&mut motion, turned);
@@ -118,7 +118,7 @@ fn cone_step(q: f64, rate: f64) -> f64 {
 pub(crate) fn glide<O: Observer>(
     motion: &mut Motion,
     shape: &Shape,
-    watch: &mut Watch<'_, O>,
+    adapter: &mut ObserverAdapter<'_, O>,
 ) -> PivotEnd {
     let (sin0, cos0) = sin_cos(motion.delta);
     let energy = 0.5 * (shape.k + sin0 * sin0) * motion.omega * motion.omega + cos0;
@@ -157,7 +157,7 @@ pub(crate) fn glide<O: Observer>(
         let took = duration(&slowness, before.delta, delta);
         motion.time += took;
         motion.x += motion.vx * took;
-        watch.passed(before.time, motion.time, |t| {
+        adapter.passed(before.time, motion.time, |t| {
             let mut motion = before;
             motion.x += motion.vx * t;
             place(

@@ -1,8 +1,8 @@
 //! What a user may choose about the flat engine.
 
+use crate::gaek_sukhov::GaekSukhov;
 use crate::half_sine::HalfSine;
 use crate::line::LineContact;
-use crate::paper::Paper;
 use thiserror::Error;
 
 /// The law of impact at a corner.
@@ -15,7 +15,7 @@ pub enum Law {
     /// Chatterjee & Ruina (1998), tangential restitution 0.
     ChatterjeeRuina,
     /// Gaek & Sukhov's law as published.
-    Paper(Paper),
+    GaekSukhov(GaekSukhov),
     /// A force that is half a sine in time.
     HalfSine(HalfSine),
     /// Elastic line contact with damping and friction, resolved in time.
@@ -31,7 +31,7 @@ impl Law {
         match self {
             Self::Moreau => "moreau",
             Self::ChatterjeeRuina => "chatterjee-ruina",
-            Self::Paper(_) => "paper",
+            Self::GaekSukhov(_) => "gaek-sukhov",
             Self::HalfSine(_) => "half-sine",
             Self::LineContact(_) => "line-contact",
         }
@@ -40,7 +40,7 @@ impl Law {
     fn validate(self) -> Result<(), SettingsError> {
         match self {
             Self::Moreau | Self::ChatterjeeRuina => Ok(()),
-            Self::Paper(paper) => paper.validate(),
+            Self::GaekSukhov(gaek_sukhov) => gaek_sukhov.validate(),
             Self::HalfSine(pulse) => pulse.validate(),
             Self::LineContact(line) => line.validate(),
         }
@@ -52,7 +52,7 @@ impl Law {
 pub enum Decision {
     /// When energy alone makes it certain.
     #[default]
-    Certain,
+    Energy,
     /// When the mechanical energy has fallen to this fraction of its initial value (0.01 in Gaek
     /// & Sukhov, arXiv 2401.03557) or the face is certain. The toss is followed on to the certain
     /// end, and counted as `overruled` where the two disagree.
@@ -120,8 +120,8 @@ pub enum SettingsError {
         /// What was given.
         found: f64,
     },
-    /// The paper's law has no friction.
-    #[error("the paper's law knows no friction: friction must be 0, not {0}")]
+    /// Gaek & Sukhov's law has no friction.
+    #[error("Gaek & Sukhov's law knows no friction: friction must be 0, not {0}")]
     Friction(f64),
 }
 

@@ -34,11 +34,11 @@ impl AnyFlatEngine {
     /// # Example
     /// ```
     /// use coinmc_core::{Coin, Launch, Scene, Surface};
-    /// use coinmc_flat::{AnyFlatEngine, Law, Lever, Paper, Settings};
+    /// use coinmc_flat::{AnyFlatEngine, Law, Lever, GaekSukhov, Settings};
     /// use nalgebra::{Unit, Vector3};
     /// let scene = Scene::new(Coin::cylinder(1.0, 0.01)?, Surface::new(0.5, 0.0)?, 9.81)?;
-    /// let paper = Paper { eta_n_s: 1e-3, lever: Lever::Height };
-    /// let settings = Settings { law: Law::Paper(paper), ..Settings::default() };
+    /// let paper = GaekSukhov { eta_n_s: 1e-3, lever: Lever::Height };
+    /// let settings = Settings { law: Law::GaekSukhov(paper), ..Settings::default() };
     /// let launch = Launch {
     ///     height_m: 0.0, // the coin is put onto the surface
     ///     velocity_m_s: Vector3::new(0.0, 0.0, -2.0),
@@ -53,7 +53,7 @@ impl AnyFlatEngine {
         match self {
             Self::Moreau(engine) => engine.impact_once(launch),
             Self::ChatterjeeRuina(engine) => engine.impact_once(launch),
-            Self::Paper(engine) => engine.impact_once(launch),
+            Self::GaekSukhov(engine) => engine.impact_once(launch),
             Self::HalfSine(engine) => engine.impact_once(launch),
             Self::LineContact(engine) => engine.impact_once(launch),
         }

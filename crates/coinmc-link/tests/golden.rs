@@ -228,7 +228,7 @@ fn bad_bodies() -> Vec<(&'static str, Vec<u8>, BadMessage)> {
         ("varint-not-shortest", vec![8, 0x81, 0x00], Malformed),
         ("varint-too-large", vec![7, 0x80, 0x80, 0x04], Malformed),
         (
-            "varint-endless",
+            "varint-never_settles",
             vec![8, 255, 255, 255, 255, 255],
             Malformed,
         ),

@@ -42,7 +42,7 @@ pub(crate) fn follow<W: World, O: Observer>(
 
 /// Follows the launches, several at a time, and hands on the account of each with its number, in any
 /// order, until `each` breaks off.
-pub(crate) fn follow_all<W: World>(
+pub(crate) fn toss_all_in_batch<W: World>(
     rules: &Rules,
     world: &mut W,
     launches: impl Iterator<Item = Launch>,

@@ -91,8 +91,8 @@ impl Scaled {
             restitution: surface.restitution(),
             friction: surface.friction(),
             threshold: surface.restitution_threshold_m_s() / units.speed_m_s(),
-            contour: surface.contour_m() / units.length_m,
-            pivoting: surface.pivoting_m() / units.length_m,
+            contour: surface.rolling_friction_m() / units.length_m,
+            pivoting: surface.pivoting_friction_m() / units.length_m,
             linear_drag: drag.linear_per_s() * units.time_s,
             angular_drag: drag.angular_per_s() * units.time_s,
             axial_factor: if scene.has_gyroscopic_torque() {

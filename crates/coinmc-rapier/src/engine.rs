@@ -82,7 +82,7 @@ impl RapierEngine {
         launches: impl Iterator<Item = Launch>,
         each: impl FnMut(usize, &Account) -> ControlFlow<()>,
     ) {
-        in_world!(workspace, world => batch::follow_all(&self.0, world, launches, each));
+        in_world!(workspace, world => batch::toss_all_in_batch(&self.0, world, launches, each));
     }
 }
 

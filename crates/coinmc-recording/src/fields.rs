@@ -105,8 +105,8 @@ mod tests {
         assert_eq!(Fields::new(&[255, 255, 255, 255, 1]).str(), None);
         assert_eq!(Fields::new(&[1, 0, 0, 0, 255]).str(), None);
         assert_eq!(Fields::new(&[4, 0, 0, 0, 1, 0, 0, 0]).map(), None);
-        let mut endless = vec![1];
-        endless.put_u64(u64::MAX);
-        assert_eq!(Fields::new(&endless).record(), None);
+        let mut never_settles = vec![1];
+        never_settles.put_u64(u64::MAX);
+        assert_eq!(Fields::new(&never_settles).record(), None);
     }
 }

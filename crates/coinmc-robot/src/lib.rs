@@ -38,7 +38,7 @@ pub use coinmc_core::Face;
 pub use directory::{Directory, DirectoryError, Setup};
 pub use experiment::{Experiment, MAX_THROWS, NoExperiment};
 pub use session::{
-    Live, POLL, RoundTrips, SessionError, SessionOptions, SessionReport, Watcher, fault, name,
+    Live, POLL, ProgressSink, RoundTrips, SessionError, SessionOptions, SessionReport, fault, name,
     run_session,
 };
 pub use setting::{MAX_ANGLE_CDEG, MAX_SPIN_MREV_S, Setting, SettingError};

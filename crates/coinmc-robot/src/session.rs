@@ -45,11 +45,11 @@ pub struct SessionOptions<'a> {
     /// Set it to finish the open throw and stop.
     pub cancel: &'a AtomicBool,
     /// Who is told.
-    pub watcher: &'a dyn Watcher,
+    pub sink: &'a dyn ProgressSink,
 }
 
 /// Told how a session goes.
-pub trait Watcher {
+pub trait ProgressSink {
     /// Something changed.
     fn live(&self, live: &Live);
     /// Something happened that a person may want to know.
@@ -155,7 +155,7 @@ pub fn run_session(
         camera: Camera::start(options.camera.clone())?,
         photos_under_way: 0,
         notes: Notes {
-            watcher: options.watcher,
+            sink: options.sink,
             recorder,
             live: Live::default(),
             round_trips: RoundTrips::default(),
@@ -191,7 +191,7 @@ struct Session<'a> {
 impl Session<'_> {
     fn run(&mut self) -> Result<bool, SessionError> {
         self.notes.live = live(&self.journal, self.options.rules.throws);
-        self.options.watcher.live(&self.notes.live);
+        self.options.sink.live(&self.notes.live);
         loop {
             if self.options.cancel.load(Ordering::Relaxed) {
                 self.cycle.stop();
@@ -245,7 +245,7 @@ impl Session<'_> {
                 let status = self.cycle.status().copied();
                 if status.is_some() && self.notes.live.status != status {
                     self.notes.live.status = status;
-                    self.options.watcher.live(&self.notes.live);
+                    self.options.sink.live(&self.notes.live);
                 }
             }
             Answer::Connected { greeting, .. } => self.cycle.connected(&greeting),
@@ -316,7 +316,7 @@ impl Session<'_> {
         }
         self.notes.live.here += 1;
         self.notes.record(|to, now| to.result(throw, now));
-        self.options.watcher.live(&self.notes.live);
+        self.options.sink.live(&self.notes.live);
     }
 
     fn finish(&mut self) {
@@ -331,7 +331,7 @@ impl Session<'_> {
 
 /// Display, log and recording together.
 struct Notes<'a> {
-    watcher: &'a dyn Watcher,
+    sink: &'a dyn ProgressSink,
     recorder: Option<SessionRecorder>,
     live: Live,
     round_trips: RoundTrips,
@@ -339,12 +339,12 @@ struct Notes<'a> {
 
 impl Notes<'_> {
     fn note(&mut self, text: &str) {
-        self.watcher.note(text);
+        self.sink.note(text);
         self.record(|to, now| to.log(LogLevel::Info, text, now));
     }
 
     fn warning(&mut self, text: &str) {
-        self.watcher.warning(text);
+        self.sink.warning(text);
         self.record(|to, now| to.log(LogLevel::Warning, text, now));
     }
 
@@ -358,7 +358,7 @@ impl Notes<'_> {
         };
         if let Err(error) = what(recorder, unix_ms().saturating_mul(1_000_000)) {
             self.recorder = None;
-            self.watcher.warning(&format!(
+            self.sink.warning(&format!(
                 "{error}. This session is not recorded any further; the journal is"
             ));
         }
@@ -382,7 +382,7 @@ impl Notes<'_> {
                     self.note(&format!(
                         "the line to the robot is lost ({why}); trying again"
                     ));
-                    self.watcher.live(&self.live);
+                    self.sink.live(&self.live);
                 }
             }
             LinkEvent::Connected { greeting, seen } => {

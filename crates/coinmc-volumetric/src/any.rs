@@ -4,7 +4,9 @@ use crate::batch::Batch;
 use crate::engine::{Finished, VolumetricEngine};
 use crate::impact::{ChatterjeeRuina, Moreau, Stronge};
 use crate::settings::{Law, Settings, SettingsError};
-use coinmc_core::{Engine, Launch, Observer, Onlooker, Outcome, Scene, TossBatch, toss_in_turn};
+use coinmc_core::{
+    DynObserver, Engine, Launch, Observer, Outcome, Scene, TossBatch, toss_sequential,
+};
 use coinmc_lanes::{Lanes, NoSuchLanes};
 use std::ops::ControlFlow;
 
@@ -62,7 +64,7 @@ impl AnyVolumetricEngine {
 
     fn any_observer<O: Observer>(&self, launch: &Launch, observer: &mut O) -> Outcome {
         if O::ACTIVE {
-            self.observed(launch, &mut Onlooker::new(observer))
+            self.observed(launch, &mut DynObserver::new(observer))
         } else {
             self.unobserved(launch)
         }
@@ -75,7 +77,7 @@ impl AnyVolumetricEngine {
         each_law!(self, engine => engine.run(launch, &mut ()).outcome)
     }
 
-    fn observed(&self, launch: &Launch, observer: &mut Onlooker) -> Outcome {
+    fn observed(&self, launch: &Launch, observer: &mut DynObserver) -> Outcome {
         each_law!(self, engine => engine.run(launch, observer).outcome)
     }
 
@@ -134,8 +136,10 @@ impl Engine for AnyVolumetricEngine {
         mut each: impl FnMut(u64, &Outcome) -> ControlFlow<()>,
     ) {
         match self.batch() {
-            Some(batch) => batch.follow_all(launches, |number, end| each(number, &end.outcome)),
-            None => toss_in_turn(self, &mut (), launches, each),
+            Some(batch) => {
+                batch.toss_all_in_batch(launches, |number, end| each(number, &end.outcome))
+            }
+            None => toss_sequential(self, &mut (), launches, each),
         }
     }
 }

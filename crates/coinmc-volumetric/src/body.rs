@@ -57,8 +57,8 @@ impl Friction {
         let d = scene.coin.rim_distance_m();
         Self {
             mu: scene.surface.friction(),
-            contour: scene.surface.contour_m() / d,
-            pivoting: scene.surface.pivoting_m() / d,
+            contour: scene.surface.rolling_friction_m() / d,
+            pivoting: scene.surface.pivoting_friction_m() / d,
         }
     }
 

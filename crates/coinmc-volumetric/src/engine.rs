@@ -11,7 +11,7 @@ use crate::toss::Toss;
 use crate::verdict::{Judge, Verdict};
 use coinmc_core::{
     Breaks, Ended, Engine, Event, EventKind, Face, Landing, Launch, Observer, Outcome, Scene,
-    TossBatch, toss_in_turn,
+    TossBatch, toss_sequential,
 };
 use coinmc_lanes::{Lanes, NoSuchLanes};
 use std::ops::ControlFlow;
@@ -101,7 +101,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
             impact: law,
             settings: *settings,
             units,
-            contact: contact::Law::new(body, friction, drag, axial_factor, settings.fade),
+            contact: contact::Law::new(body, friction, drag, axial_factor, settings.smoothing_time),
             judge,
             tolerance: (settings.tolerance * body.escape_speed()).max(LEAST_TOLERANCE),
             restitution,
@@ -271,8 +271,8 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         contact: &mut Contact<'_>,
         observer: &mut O,
     ) -> Onward {
-        let (motion, spin, mut watch) = toss.watched(&self.units, observer);
-        let leave = contact.follow(motion, spin, &mut watch);
+        let (motion, spin, mut adapter) = toss.watched(&self.units, observer);
+        let leave = contact.follow(motion, spin, &mut adapter);
         if leave == Leave::LiftOff {
             self.notify(toss, EventKind::LiftOff, observer);
         }
@@ -292,7 +292,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         }
         Onward::End(match leave {
             Leave::Settled(verdict) => decided(verdict, toss),
-            Leave::Endless => Ended::Endless,
+            Leave::NeverSettles => Ended::NeverSettles,
             Leave::Late => Ended::TimeLimit,
             _ => self.lost(toss),
         })
@@ -347,7 +347,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         } else if verdict != Verdict::Open {
             Some(decided(verdict, toss))
         } else {
-            self.conserves.then_some(Ended::Endless)
+            self.conserves.then_some(Ended::NeverSettles)
         }
     }
 
@@ -431,8 +431,10 @@ impl<L: ImpactLaw> Engine for VolumetricEngine<L> {
         mut each: impl FnMut(u64, &Outcome) -> ControlFlow<()>,
     ) {
         match Batch::of(self) {
-            Some(batch) => batch.follow_all(launches, |number, end| each(number, &end.outcome)),
-            None => toss_in_turn(self, &mut (), launches, each),
+            Some(batch) => {
+                batch.toss_all_in_batch(launches, |number, end| each(number, &end.outcome))
+            }
+            None => toss_sequential(self, &mut (), launches, each),
         }
     }
 }

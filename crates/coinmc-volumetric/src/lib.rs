@@ -28,14 +28,14 @@
 //! drag, with or without gyroscopic torque. Rigid bodies: elastic compliance and the flow of air
 //! are not modelled. What is never lost is never settled: a coin that passes from well to well for
 //! ever (e = 1 without friction, rolling without friction lengths) ends as
-//! [`coinmc_core::Ended::Endless`] where that can be told, else at a limit; both are counted.
+//! [`coinmc_core::Ended::NeverSettles`] where that can be told, else at a limit; both are counted.
 //!
 //! # Files
 //! `body` shape, friction, units · `motion` state and frame · `flight` orbit and first contact ·
 //! `aloft` the toss in flight · `impact` laws, friction lengths, tangential impact · `contact` on a
 //! rim point and on the side · `rest` lying, standing, tripping · `verdict` when the face is
 //! settled · `toss` one toss and its place in the laboratory · `strike` one impact · `engine` their
-//! order · `batch` many tosses side by side · `watch` what an observer is shown of contact ·
+//! order · `batch` many tosses side by side · `observer_adapter` what an observer is shown of contact ·
 //! `settings` choices · `series` elementary functions of the kernels.
 
 mod aloft;
@@ -49,13 +49,13 @@ mod flight;
 mod four;
 mod impact;
 mod motion;
+mod observer_adapter;
 mod rest;
 mod series;
 mod settings;
 mod strike;
 mod toss;
 mod verdict;
-mod watch;
 
 pub use any::AnyVolumetricEngine;
 pub use body::{Body, Friction};

@@ -27,8 +27,8 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         contact: &mut Contact<'_>,
         observer: &mut O,
     ) -> Onward {
-        let (motion, spin, mut watch) = toss.watched(&self.units, observer);
-        let tips = contact.lie(motion, spin, &mut watch);
+        let (motion, spin, mut adapter) = toss.watched(&self.units, observer);
+        let tips = contact.lie(motion, spin, &mut adapter);
         match tips {
             Ok(this_rim) => {
                 if !this_rim {

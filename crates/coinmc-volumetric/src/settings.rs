@@ -83,9 +83,9 @@ pub struct Settings {
     pub tolerance: f64,
     /// Slip, in sqrt(g D), below which a contact point that can stick does; also the creep below
     /// which friction holds a coin that lies on both rims.
-    pub stick: f64,
+    pub stick_speed: f64,
     /// Time, in sqrt(D/g), over which rolling and pivoting friction end the last of a rotation.
-    pub fade: f64,
+    pub smoothing_time: f64,
     /// Impacts after which a toss is given up as undecided.
     pub max_impacts: u32,
     /// Steps of sustained contact after which a toss is given up as undecided.
@@ -101,8 +101,8 @@ impl Default for Settings {
             decision: Decision::default(),
             zeno: 0.02,
             tolerance: 2e-4,
-            stick: 1e-2,
-            fade: 1e-2,
+            stick_speed: 1e-2,
+            smoothing_time: 1e-2,
             max_impacts: 100_000,
             max_steps: 1_000_000,
             time_limit: 1e12,
@@ -119,12 +119,12 @@ pub enum SettingsError {
     /// tolerance lies outside [1e-12, 1e-2].
     #[error("tolerance must lie in [1e-12, 1e-2], not {0}")]
     Tolerance(f64),
-    /// stick lies outside (0, 0.1].
-    #[error("stick must lie in (0, 0.1], not {0}")]
-    Stick(f64),
-    /// fade lies outside (0, 0.1].
-    #[error("fade must lie in (0, 0.1], not {0}")]
-    Fade(f64),
+    /// stick_speed lies outside (0, 0.1].
+    #[error("stick_speed must lie in (0, 0.1], not {0}")]
+    StickSpeed(f64),
+    /// smoothing_time lies outside (0, 0.1].
+    #[error("smoothing_time must lie in (0, 0.1], not {0}")]
+    SmoothingTime(f64),
     /// No impact is allowed.
     #[error("max_impacts must be at least 1")]
     MaxImpacts,
@@ -148,11 +148,11 @@ impl Settings {
         if !(1e-12..=1e-2).contains(&self.tolerance) {
             return Err(SettingsError::Tolerance(self.tolerance));
         }
-        if !(self.stick > 0.0 && self.stick <= 0.1) {
-            return Err(SettingsError::Stick(self.stick));
+        if !(self.stick_speed > 0.0 && self.stick_speed <= 0.1) {
+            return Err(SettingsError::StickSpeed(self.stick_speed));
         }
-        if !(self.fade > 0.0 && self.fade <= 0.1) {
-            return Err(SettingsError::Fade(self.fade));
+        if !(self.smoothing_time > 0.0 && self.smoothing_time <= 0.1) {
+            return Err(SettingsError::SmoothingTime(self.smoothing_time));
         }
         if self.max_impacts == 0 {
             return Err(SettingsError::MaxImpacts);

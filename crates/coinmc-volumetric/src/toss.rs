@@ -3,8 +3,8 @@
 use crate::body::{Body, Units};
 use crate::contact::FLAT;
 use crate::motion::{Motion, Spin};
+use crate::observer_adapter::ObserverAdapter;
 use crate::series::sin_cos;
-use crate::watch::Watch;
 use coinmc_core::{Face, Launch, Observer, State};
 use nalgebra::{UnitVector3, Vector3};
 
@@ -96,14 +96,18 @@ impl Toss {
         &'a mut self,
         units: &'a Units,
         observer: &'a mut O,
-    ) -> (&'a mut Motion<f64>, &'a mut Spin<f64>, Watch<'a, O>) {
-        let watch = Watch {
+    ) -> (
+        &'a mut Motion<f64>,
+        &'a mut Spin<f64>,
+        ObserverAdapter<'a, O>,
+    ) {
+        let adapter = ObserverAdapter {
             observer,
             place: &mut self.place,
             heads_up: self.heads_up,
             units,
         };
-        (&mut self.motion, &mut self.spin, watch)
+        (&mut self.motion, &mut self.spin, adapter)
     }
 
     /// No toss yet.

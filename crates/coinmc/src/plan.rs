@@ -103,7 +103,7 @@ pub enum Stop {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Point {
     /// The parameters that results show: always `ratio`, `radius_m`, `restitution`, `friction`,
-    /// `contour_m`, `pivoting_m`, `restitution_threshold_m_s`, `linear_drag_per_s`,
+    /// `rolling_friction_m`, `pivoting_friction_m`, `restitution_threshold_m_s`, `linear_drag_per_s`,
     /// `angular_drag_per_s`, and every swept one, by the name of its column.
     pub parameters: Vec<(Arc<str>, f64)>,
     /// Coin, surface, gravity, drag.

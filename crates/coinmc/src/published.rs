@@ -146,8 +146,8 @@ fn differences(scene: &Scene) -> Vec<&'static str> {
         ("radius_m", scene.coin.radius_m() == 0.5),
         ("restitution", surface.restitution() == 0.3),
         ("friction", surface.friction() == 10.0),
-        ("contour_m", surface.contour_m() == 0.0),
-        ("pivoting_m", surface.pivoting_m() == 0.0),
+        ("rolling_friction_m", surface.rolling_friction_m() == 0.0),
+        ("pivoting_friction_m", surface.pivoting_friction_m() == 0.0),
         (
             "restitution_threshold_m_s",
             surface.restitution_threshold_m_s() == 2.0,

@@ -86,7 +86,7 @@ def axis_label(name: str) -> str:
     Examples
     --------
     >>> from coinmc.plot.style import axis_label
-    >>> axis_label("ratio"), axis_label("contour_m"), axis_label("jams")
+    >>> axis_label("ratio"), axis_label("rolling_friction_m"), axis_label("jams")
     ('H/R, height over radius', 'contour, m', 'jams')
     """
     name = name.rpartition(".")[2]

@@ -44,8 +44,8 @@ const SUBJECTS: [Subject; 5] = [
         friction: 0.3,
     },
     Subject {
-        name: "paper",
-        law: || super::curves::paper(1e-3, coinmc_flat::Lever::Height),
+        name: "gaek-sukhov",
+        law: || super::curves::gaek_sukhov(1e-3, coinmc_flat::Lever::Height),
         friction: 0.0,
     },
     Subject {
@@ -103,7 +103,7 @@ impl Faces {
 }
 
 impl ImpactAccuracy {
-    pub(crate) fn carry_out(&self, seed: u64) -> Report {
+    pub(crate) fn execute(&self, seed: u64) -> Report {
         let columns = [
             "law",
             "tolerance",

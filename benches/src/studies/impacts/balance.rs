@@ -37,7 +37,7 @@ struct Worst {
 }
 
 impl ImpactBalance {
-    pub(crate) fn carry_out(&self, seed: u64) -> Report {
+    pub(crate) fn execute(&self, seed: u64) -> Report {
         let columns = [
             "young_pa",
             "impacts",

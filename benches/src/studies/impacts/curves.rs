@@ -7,7 +7,7 @@ use crate::run_once::{plan, run_once};
 use clap::Args;
 use coinmc::results::{Results, Row, fair_ratios};
 use coinmc_core::Tally;
-use coinmc_flat::{Law, Lever, Paper};
+use coinmc_flat::{GaekSukhov, Law, Lever};
 
 /// η: a coin of 10 g has such momenta at 0.01 to 3 m/s, the robot's at 3 m/s.
 const ETAS_N_S: [f64; 6] = [1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2];
@@ -26,9 +26,9 @@ pub(crate) struct ImpactCurves {
     line_tosses: u64,
 }
 
-/// The paper's law with this constant.
-pub(super) fn paper(eta_n_s: f64, lever: Lever) -> Law {
-    Law::Paper(Paper { eta_n_s, lever })
+/// Gaek & Sukhov's law with this constant.
+pub(super) fn gaek_sukhov(eta_n_s: f64, lever: Lever) -> Law {
+    Law::GaekSukhov(GaekSukhov { eta_n_s, lever })
 }
 
 /// A curve: its law in words and as a config, restitution, friction.
@@ -61,8 +61,13 @@ fn curves() -> Vec<Curve> {
         for lever in [Lever::Height, Lever::Corner] {
             for eta in ETAS_N_S {
                 let lever = lever.name();
-                let law = format!("{{ paper = {{ eta_n_s = {eta:e}, lever = '{lever}' }} }}");
-                push(format!("paper {lever} {eta:e}"), law, restitution, 0.0);
+                let law = format!("{{ gaek-sukhov = {{ eta_n_s = {eta:e}, lever = '{lever}' }} }}");
+                push(
+                    format!("gaek-sukhov {lever} {eta:e}"),
+                    law,
+                    restitution,
+                    0.0,
+                );
             }
         }
         for friction in [0.0, 0.3] {
@@ -84,7 +89,7 @@ fn curves() -> Vec<Curve> {
 }
 
 impl ImpactCurves {
-    pub(crate) fn carry_out(&self, seed: u64) -> anyhow::Result<Report> {
+    pub(crate) fn execute(&self, seed: u64) -> anyhow::Result<Report> {
         let columns = [
             "law",
             "restitution",

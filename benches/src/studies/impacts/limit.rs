@@ -97,7 +97,7 @@ struct Medians {
 }
 
 impl ImpactLimit {
-    pub(crate) fn carry_out(&self, seed: u64) -> Report {
+    pub(crate) fn execute(&self, seed: u64) -> Report {
         let columns = [
             "law",
             "impacts",

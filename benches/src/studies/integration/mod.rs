@@ -32,7 +32,7 @@ pub(crate) struct Integration {
 }
 
 impl Integration {
-    pub(crate) fn carry_out(&self, seed: u64) -> Report {
+    pub(crate) fn execute(&self, seed: u64) -> Report {
         let columns = [
             "scene",
             "method",

@@ -20,7 +20,7 @@ pub(crate) struct RapierEnergy {
 }
 
 impl RapierEnergy {
-    pub(crate) fn carry_out(&self, seed: u64) -> anyhow::Result<Report> {
+    pub(crate) fn execute(&self, seed: u64) -> anyhow::Result<Report> {
         let mut jobs: Vec<(Case, Settings)> = Vec::new();
         for ratio in [0.25, 1.0, 2.0] {
             let [clean, table1] = cases(ratio);

@@ -65,7 +65,7 @@ impl Observer for Watch {
 }
 
 impl RapierRestitution {
-    pub(crate) fn carry_out(&self) -> anyhow::Result<Report> {
+    pub(crate) fn execute(&self) -> anyhow::Result<Report> {
         let columns = [
             "step_s",
             "point_e",

@@ -68,7 +68,7 @@ struct Ways {
 }
 
 impl RapierSpeed {
-    pub(crate) fn carry_out(&self, seed: u64) -> anyhow::Result<Report> {
+    pub(crate) fn execute(&self, seed: u64) -> anyhow::Result<Report> {
         let columns = [
             "scene",
             "ratio",

@@ -64,7 +64,7 @@ struct Found {
 }
 
 impl RapierStep {
-    pub(crate) fn carry_out(&self, seed: u64) -> anyhow::Result<Report> {
+    pub(crate) fn execute(&self, seed: u64) -> anyhow::Result<Report> {
         let cases: Vec<Case> = (0..2)
             .flat_map(|scene| RATIOS.map(|ratio| super::cases(ratio)[scene]))
             .collect();

@@ -39,7 +39,7 @@ struct Found {
 const STEPS: [f64; 3] = [0.1, 0.03, 0.01];
 
 impl RapierStress {
-    pub(crate) fn carry_out(&self, seed: u64) -> Report {
+    pub(crate) fn execute(&self, seed: u64) -> Report {
         let starts = (0..self.tosses.div_ceil(PART)).map(|part| part * PART);
         let ranges = starts.map(|start| start..(start + PART).min(self.tosses));
         let ranges: Vec<Range<u64>> = ranges.collect();

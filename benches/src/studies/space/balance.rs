@@ -24,15 +24,15 @@ pub(super) struct Reference {
     model: Model,
     scene: Scene,
     /// The engine's setting of that name: the time over which friction ends the last of a rotation.
-    fade: f64,
+    smoothing_time: f64,
 }
 
 impl Reference {
-    pub(super) fn new(scene: &Scene, fade: f64) -> Self {
+    pub(super) fn new(scene: &Scene, smoothing_time: f64) -> Self {
         Self {
             model: Model::new(scene),
             scene: *scene,
-            fade,
+            smoothing_time,
         }
     }
 
@@ -69,7 +69,7 @@ impl Reference {
         (contact, self.twist(motion))
     }
 
-    /// Dry friction that fades linearly where it would end the rotation within the time `fade`.
+    /// Dry friction that fades linearly where it would end the rotation within the time `smoothing_time`.
     fn twist(&self, motion: &Motion) -> Twist {
         let model = &self.model;
         let s = motion.sine();
@@ -79,7 +79,7 @@ impl Reference {
         let (contour, pivoting) = twist_rates(motion);
         let level = Vector3::new(motion.axis.x, motion.axis.y, 0.0) / s;
         let share = |rate: f64, braking: f64| {
-            (rate / (braking * self.fade).max(f64::MIN_POSITIVE)).clamp(-1.0, 1.0)
+            (rate / (braking * self.smoothing_time).max(f64::MIN_POSITIVE)).clamp(-1.0, 1.0)
         };
         Twist {
             // ω along the horizontal part of u is s ψ', and the torque on it ρ_c N/s

@@ -26,7 +26,7 @@ pub(crate) struct SpaceConvergence {
 }
 
 impl SpaceConvergence {
-    pub(crate) fn carry_out(&self, seed: u64) -> Report {
+    pub(crate) fn execute(&self, seed: u64) -> Report {
         let default = Settings::default();
         let tight = tightened(&default);
         let cases = self.grid.cases();

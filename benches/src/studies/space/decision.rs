@@ -27,7 +27,7 @@ pub(crate) struct SpaceDecision {
 }
 
 impl SpaceDecision {
-    pub(crate) fn carry_out(&self, seed: u64) -> anyhow::Result<Report> {
+    pub(crate) fn execute(&self, seed: u64) -> anyhow::Result<Report> {
         let [tilting, energy] = [Decision::Tilting, Decision::Energy].map(|decision| Settings {
             decision,
             time_limit: self.time_limit,
@@ -85,19 +85,19 @@ fn remarks(cases: &[Case], found: &[Paired]) -> [String; 3] {
     let all = || cases.iter().zip(found);
     let rough = all().filter(|(case, _)| case.rho_over_r() > 0.0);
     let largest = rough.map(|(_, f)| f.bias().abs()).fold(0.0, f64::max);
-    let (mut tosses, mut endless, mut other) = (0, 0, 0);
+    let (mut tosses, mut never_settles, mut other) = (0, 0, 0);
     for (_, f) in all().filter(|(case, _)| case.rho_over_r() == 0.0) {
         tosses += f.first.tosses();
-        endless += f.first.endless + f.first.time_limit;
+        never_settles += f.first.never_settles + f.first.time_limit;
         other += f.first.impact_limit + f.first.failed;
     }
     let share = |count: u64| count as f64 / f64::max(tosses as f64, 1.0);
     [
         format!("largest |bias| with friction lengths: {largest:.5}"),
         format!(
-            "without friction lengths {:.5} of {tosses} tosses roll for ever (endless or at the \
+            "without friction lengths {:.5} of {tosses} tosses roll for ever (never_settles or at the \
              limit of time), {:.1e} are undecided otherwise",
-            share(endless),
+            share(never_settles),
             share(other)
         ),
         "bias: P(side) of tilting minus energy. other_face: tosses with another outcome; without \

@@ -69,7 +69,7 @@ struct Balance {
 }
 
 impl SpaceEnergy {
-    pub(crate) fn carry_out(&self, seed: u64) -> Report {
+    pub(crate) fn execute(&self, seed: u64) -> Report {
         let scenes = scenes();
         let quota = self.events.div_ceil(scenes.len() as u64);
         let ledgers = survey(&scenes, |(case, law)| {
@@ -112,7 +112,7 @@ impl SpaceEnergy {
         let default = Settings::default();
         let tight = Settings {
             tolerance: 1e-10,
-            stick: 1e-5,
+            stick_speed: 1e-5,
             ..default
         };
         let quota = self.phases.div_ceil(BALANCED.len() as u64);
@@ -126,7 +126,7 @@ impl SpaceEnergy {
             })
             .collect();
         let found = survey(&jobs, |(case, _, settings)| {
-            let mut balance = Balance::new(case, settings.fade);
+            let mut balance = Balance::new(case, settings.smoothing_time);
             examine(case, settings, seed, quota, &mut balance);
             balance
         });
@@ -224,9 +224,9 @@ impl Examiner for Ledger<'_> {
 }
 
 impl Balance {
-    fn new(case: &Case, fade: f64) -> Self {
+    fn new(case: &Case, smoothing_time: f64) -> Self {
         Self {
-            reference: Reference::new(&case.scene, fade),
+            reference: Reference::new(&case.scene, smoothing_time),
             toss: 0,
             start: None,
             differences: Vec::new(),

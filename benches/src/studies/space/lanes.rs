@@ -21,7 +21,7 @@ pub(crate) struct SpaceLanes {
 }
 
 impl SpaceLanes {
-    pub(crate) fn carry_out(&self) -> Report {
+    pub(crate) fn execute(&self) -> Report {
         let turns = Turns {
             tosses: self.tosses,
             repeats: self.repeats,

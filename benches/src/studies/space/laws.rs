@@ -27,7 +27,7 @@ pub(crate) struct SpaceLaws {
 }
 
 impl SpaceLaws {
-    pub(crate) fn carry_out(&self, seed: u64) -> Report {
+    pub(crate) fn execute(&self, seed: u64) -> Report {
         let scenes = self.scenes();
         let tallies = survey_tosses(
             &scenes,

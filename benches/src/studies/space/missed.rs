@@ -61,7 +61,7 @@ const KEPT: [Kept; 5] = [
 ];
 
 impl SpaceMissed {
-    pub(crate) fn carry_out(&self, seed: u64) -> Report {
+    pub(crate) fn execute(&self, seed: u64) -> Report {
         let cases = cases();
         let quota = self.flights.div_ceil(cases.len() as u64);
         let scans = survey(&cases, |case| {

@@ -68,8 +68,8 @@ fn tightened(settings: &Settings) -> Settings {
     Settings {
         zeno: settings.zeno / 10.0,
         tolerance: settings.tolerance / 10.0,
-        stick: settings.stick / 10.0,
-        fade: settings.fade / 10.0,
+        stick_speed: settings.stick_speed / 10.0,
+        smoothing_time: settings.smoothing_time / 10.0,
         ..*settings
     }
 }

@@ -112,11 +112,11 @@ pub(super) fn side(tally: &Tally) -> Estimate {
     Estimate::new(tally.side, tally.undecided(), n, 0.95, method)
 }
 
-/// "12 (time 3, endless 9)"; "0" where every toss has a face.
+/// "12 (time 3, never_settles 9)"; "0" where every toss has a face.
 pub(super) fn undecided(tally: &Tally) -> String {
     let kinds = [
         ("time", tally.time_limit),
-        ("endless", tally.endless),
+        ("never_settles", tally.never_settles),
         ("impacts", tally.impact_limit),
         ("failed", tally.failed),
     ];

@@ -44,7 +44,7 @@ struct Ours {
 }
 
 impl SpacePeers {
-    pub(crate) fn carry_out(&self, seed: u64) -> anyhow::Result<Report> {
+    pub(crate) fn execute(&self, seed: u64) -> anyhow::Result<Report> {
         let peers = peers(PUBLISHED)?;
         let ours = ours();
         let default = Settings::default();

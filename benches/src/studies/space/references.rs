@@ -75,7 +75,7 @@ impl Reference {
 }
 
 impl SpaceReferences {
-    pub(crate) fn carry_out(&self, seed: u64) -> Report {
+    pub(crate) fn execute(&self, seed: u64) -> Report {
         let with_laws = |scene: &'static Reference| LAWS.map(|law| (scene, law));
         let jobs: Vec<(&Reference, Option<u32>)> = REFERENCES.iter().flat_map(with_laws).collect();
         let tallies = survey_tosses(

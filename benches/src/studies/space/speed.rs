@@ -31,7 +31,7 @@ pub(crate) struct SpaceSpeed {
 }
 
 impl SpaceSpeed {
-    pub(crate) fn carry_out(&self, seed: u64) -> anyhow::Result<Report> {
+    pub(crate) fn execute(&self, seed: u64) -> anyhow::Result<Report> {
         let all = workloads();
         let flat = all.iter().find(|work| work.name == FLAT);
         let flat = flat.with_context(|| format!("no piece of work is called `{FLAT}`"))?;

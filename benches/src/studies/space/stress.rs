@@ -82,7 +82,7 @@ fn law(name: &str) -> Result<Law, String> {
 }
 
 impl SpaceStress {
-    pub(crate) fn carry_out(&self, seed: u64) -> Report {
+    pub(crate) fn execute(&self, seed: u64) -> Report {
         let settings = [self.max_impacts, self.max_elastic].map(|most| Settings {
             law: self.law,
             max_impacts: limit(most),

@@ -84,7 +84,8 @@ impl Sample {
 
     /// A friction length is missing: the coin may roll or spin for ever.
     pub(super) fn rolls_freely(&self) -> bool {
-        self.scene.surface.contour_m() == 0.0 || self.scene.surface.pivoting_m() == 0.0
+        self.scene.surface.rolling_friction_m() == 0.0
+            || self.scene.surface.pivoting_friction_m() == 0.0
     }
 
     /// Bounces lose nothing.
@@ -105,8 +106,8 @@ impl fmt::Display for Sample {
             radius,
             surface.restitution(),
             surface.friction(),
-            surface.contour_m() / radius,
-            surface.pivoting_m() / radius,
+            surface.rolling_friction_m() / radius,
+            surface.pivoting_friction_m() / radius,
             self.launch.spin_rad_s.norm(),
             self.launch.height_m / radius,
         )

@@ -15,7 +15,7 @@ pub(super) const COLUMNS: [&str; 16] = [
     "undecided",
     "impact_or_step_limit",
     "time_limit",
-    "endless",
+    "never_settles",
     "failed",
     "not_finite",
     "panics",
@@ -142,7 +142,7 @@ impl Region {
         let counts = [
             tally.impact_limit,
             tally.time_limit,
-            tally.endless,
+            tally.never_settles,
             tally.failed,
             self.not_finite,
             self.panics,

@@ -74,7 +74,7 @@ struct Limits {
 }
 
 impl Stability {
-    pub(crate) fn carry_out(&self, seed: u64) -> anyhow::Result<Report> {
+    pub(crate) fn execute(&self, seed: u64) -> anyhow::Result<Report> {
         let limits = self.limits()?;
         if let Some(toss) = self.only {
             return Ok(self.alone(seed, toss, &limits));

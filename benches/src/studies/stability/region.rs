@@ -32,7 +32,10 @@ pub(super) const AXES: [Axis; 6] = [
         edges: &[0.0, f64::MIN_POSITIVE, 1e-3, 1e-2],
         of: |sample| {
             let surface = &sample.scene.surface;
-            surface.contour_m().min(surface.pivoting_m()) / sample.scene.coin.radius_m()
+            surface
+                .rolling_friction_m()
+                .min(surface.pivoting_friction_m())
+                / sample.scene.coin.radius_m()
         },
     },
     Axis {

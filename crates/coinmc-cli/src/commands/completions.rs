@@ -20,7 +20,7 @@ pub(crate) struct Completions {
 }
 
 impl Completions {
-    pub(crate) fn carry_out(&self) -> Result<Outcome, Failure> {
+    pub(crate) fn execute(&self) -> Result<Outcome, Failure> {
         // Into memory first: the generator panics where a pipe breaks.
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut Arguments::command(), "coinmc", &mut script);

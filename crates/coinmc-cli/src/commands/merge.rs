@@ -39,7 +39,7 @@ impl Merge {
         self.format
     }
 
-    pub(crate) fn carry_out(&self, console: &Console) -> Result<Outcome, Failure> {
+    pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let progress = Progress::new(*console.stderr(), true);
         let report = coinmc::run::merge(&self.parts, &self.out, &progress)?;
         present(&report, &self.out, console, false)

@@ -69,7 +69,7 @@ impl Run {
         self.format
     }
 
-    pub(crate) fn carry_out(&self, console: &Console) -> Result<Outcome, Failure> {
+    pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let plan = config::load(&self.config, &self.overrides)?;
         let out = self.out.clone().unwrap_or_else(|| self.default_out(&plan));
         let progress = Progress::new(*console.stderr(), self.quiet);
@@ -89,7 +89,7 @@ impl Run {
                 part: self.shard,
                 threads: self.threads.and_then(|n| NonZeroUsize::new(n.into())),
                 cancel,
-                watcher: &progress,
+                sink: &progress,
             },
         );
         progress.finish();
@@ -187,7 +187,7 @@ fn integrated_line(report: &Report, evaluations: u64) -> String {
     let points = count(rows.len() as u64, "point");
     let is_done = |row: &&Row| row.evaluations > 0 || row.interval == "exact";
     let done = rows.iter().filter(is_done).count();
-    if report.reused_shards == rows.len() as u64 {
+    if report.reused_chunks == rows.len() as u64 {
         return format!("coinmc: finished earlier, nothing integrated again: {points}");
     }
     let points = if done < rows.len() {
@@ -199,8 +199,8 @@ fn integrated_line(report: &Report, evaluations: u64) -> String {
         "coinmc: {points} integrated by {}, nothing to toss",
         count(evaluations, "evaluation")
     );
-    if report.reused_shards > 0 {
-        let reused = grouped(report.reused_shards);
+    if report.reused_chunks > 0 {
+        let reused = grouped(report.reused_chunks);
         line += &format!(", {reused} taken over from an earlier run");
     }
     line

@@ -12,7 +12,7 @@ pub(crate) struct Schema {}
 
 impl Schema {
     #[allow(clippy::unused_self)] // every verb has the same shape
-    pub(crate) fn carry_out(&self) -> Result<Outcome, Failure> {
+    pub(crate) fn execute(&self) -> Result<Outcome, Failure> {
         let schema = coinmc::config::json_schema();
         let text = format!("{}\n", schema.trim_end());
         output::print(&text).map_err(|error| Failure::Runtime(error.into()))?;

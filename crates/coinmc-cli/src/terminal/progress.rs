@@ -1,7 +1,7 @@
 //! How far a run is, on standard error.
 
 use super::{Style, compact, duration, grouped};
-use coinmc::run::{Progress as Counts, Watcher};
+use coinmc::run::{Progress as Counts, ProgressSink};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, IsTerminal, Write};
 use std::sync::{Arc, OnceLock};
@@ -96,7 +96,7 @@ impl Progress {
     }
 }
 
-impl Watcher for Progress {
+impl ProgressSink for Progress {
     fn progress(&self, counts: &Counts) {
         let start = self.start.get_or_init(|| Start {
             tosses: counts.tosses_done,
@@ -166,7 +166,7 @@ mod tests {
             tosses_done: 1_234_567,
             tosses_planned: 2_234_567,
             tosses_reused: 234_567,
-            reused_shards: 3,
+            reused_chunks: 3,
             worst_half_width: Some(0.001_23),
         }
     }

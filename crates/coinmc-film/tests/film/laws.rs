@@ -2,7 +2,7 @@
 
 use coinmc_core::Coin;
 use coinmc_film::{
-    FilmedDrop, Fit, HalfSine, Law, Lever, LineContact, Materials, Model, Options, Paper,
+    FilmedDrop, Fit, GaekSukhov, HalfSine, Law, Lever, LineContact, Materials, Model, Options,
     Parameter, PulseTime, Shared, Synthetic, compare, fit, fit_all, parameters,
 };
 
@@ -14,8 +14,8 @@ fn model(law: Law) -> Model {
     }
 }
 
-fn paper(eta_n_s: f64) -> Law {
-    Law::Paper(Paper {
+fn gaek_sukhov(eta_n_s: f64) -> Law {
+    Law::GaekSukhov(GaekSukhov {
         eta_n_s,
         lever: Lever::Height,
     })
@@ -69,9 +69,9 @@ fn is_found(fit: &Fit, parameter: Parameter, truth: f64) -> bool {
 
 #[test]
 fn restitution_and_eta_of_the_paper_s_law_are_found() {
-    let drop = film(paper(2e-3));
+    let drop = film(gaek_sukhov(2e-3));
     // from a wrong η, which is searched
-    let fit = fit(&model(paper(1e-3)), &[drop], &one_bounce()).unwrap();
+    let fit = fit(&model(gaek_sukhov(1e-3)), &[drop], &one_bounce()).unwrap();
     let names: Vec<_> = fit.parameters.iter().map(|e| e.parameter).collect();
     assert_eq!(names, [Parameter::Restitution, Parameter::Eta]);
     assert!(is_found(&fit, Parameter::Restitution, 0.5));
@@ -85,12 +85,12 @@ fn restitution_and_eta_of_the_paper_s_law_are_found() {
 /// η is kept where it is not asked for.
 #[test]
 fn numbers_of_a_law_stay_where_they_are_not_fitted() {
-    let drop = film(paper(2e-3));
+    let drop = film(gaek_sukhov(2e-3));
     let options = Options {
         free: vec![Parameter::Restitution, Parameter::Friction],
         ..one_bounce()
     };
-    let fit = fit(&model(paper(2e-3)), &[drop], &options).unwrap();
+    let fit = fit(&model(gaek_sukhov(2e-3)), &[drop], &options).unwrap();
     assert_eq!(fit.parameters.len(), 1);
     assert_eq!(fit.shared.eta_n_s, 2e-3);
     assert!(is_found(&fit, Parameter::Restitution, 0.5));
@@ -134,7 +134,7 @@ fn restitution_of_a_line_contact_is_found() {
 /// Each drop is described best by the law that made it, by a margin that decides.
 #[test]
 fn the_law_that_made_the_drop_is_preferred() {
-    for [truth, other] in [[paper(2e-3), Law::Moreau], [pulse(5e-3), Law::Moreau]] {
+    for [truth, other] in [[gaek_sukhov(2e-3), Law::Moreau], [pulse(5e-3), Law::Moreau]] {
         let models = [other, truth].map(model);
         let fits = fit_all(&models, &[film(truth)], &one_bounce()).unwrap();
         let ranked = compare(&fits);
@@ -146,7 +146,10 @@ fn the_law_that_made_the_drop_is_preferred() {
 #[test]
 fn each_law_has_its_own_parameters() {
     let names = |law| parameters(law).iter().map(|p| p.name()).collect::<Vec<_>>();
-    assert_eq!(names(paper(1.0)), ["restitution", "eta_n_s", "floor_m"]);
+    assert_eq!(
+        names(gaek_sukhov(1.0)),
+        ["restitution", "eta_n_s", "floor_m"]
+    );
     assert_eq!(
         names(pulse(1.0)),
         ["restitution", "friction", "time_s", "floor_m"]
@@ -155,5 +158,5 @@ fn each_law_has_its_own_parameters() {
         names(line()),
         ["restitution", "friction", "stiffness", "floor_m"]
     );
-    assert!(model(paper(-1.0)).validate().is_err() && model(line()).validate().is_ok());
+    assert!(model(gaek_sukhov(-1.0)).validate().is_err() && model(line()).validate().is_ok());
 }

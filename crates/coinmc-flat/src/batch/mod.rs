@@ -27,9 +27,9 @@ use crate::contact::{Contact, Slider};
 use crate::engine::{Early, FlatEngine, Onward, Toss, certain};
 use crate::impact::ImpactLaw;
 use crate::motion::Motion;
+use crate::observer_adapter::ObserverAdapter;
 use crate::settings::Decision;
 use crate::slide::slide_on;
-use crate::watch::Watch;
 use coinmc_core::{Breaks, Ended, Landing, Launch, Outcome, TossBatch};
 use coinmc_lanes::{Bits, Lanes, WIDTH, lanes_of};
 use group::Group;
@@ -77,8 +77,8 @@ struct Sliding {
 }
 
 /// Nobody watches.
-fn watch<'a, L>(engine: &'a FlatEngine<L>, observer: &'a mut ()) -> Watch<'a, ()> {
-    Watch {
+fn adapter<'a, L>(engine: &'a FlatEngine<L>, observer: &'a mut ()) -> ObserverAdapter<'a, ()> {
+    ObserverAdapter {
         observer,
         units: &engine.units,
         shape: &engine.shape,
@@ -102,7 +102,7 @@ impl<'a, L: ImpactLaw> Batch<'a, L> {
     pub(crate) fn of(engine: &'a FlatEngine<L>) -> Option<Self> {
         let alone = !L::SIDE_BY_SIDE
             || engine.lanes == Lanes::Scalar
-            || engine.settings.decision != Decision::Certain;
+            || engine.settings.decision != Decision::Energy;
         (!alone).then(|| Self::new(engine))
     }
 
@@ -227,7 +227,11 @@ impl<L: ImpactLaw> Batch<'_, L> {
         let engine = self.engine;
         let rider = self.riders[at][lane];
         let mut toss = rider.toss(engine, self.groups[at].motion(lane));
-        let onward = engine.touch(&mut toss, &mut Early::never(), &mut watch(engine, &mut ()));
+        let onward = engine.touch(
+            &mut toss,
+            &mut Early::never(),
+            &mut adapter(engine, &mut ()),
+        );
         self.go(at, lane, &toss, onward);
     }
 
@@ -257,7 +261,7 @@ impl<L: ImpactLaw> Batch<'_, L> {
             let sliding = sliding.next()?;
             Some((&mut sliding.slider.phase, &mut sliding.motion))
         });
-        let ends = slide_on(engine.lanes, &mut phases, &mut watch(engine, &mut ()));
+        let ends = slide_on(engine.lanes, &mut phases, &mut adapter(engine, &mut ()));
         // from the last, so that what takes its place in the list has had its turn
         for index in (from..self.sliding.len()).rev() {
             let Some(end) = ends[index - from] else {
@@ -268,8 +272,8 @@ impl<L: ImpactLaw> Batch<'_, L> {
             let mut toss = self.riders[at][lane].toss(engine, sliding.motion);
             let early = &mut Early::never();
             let mut nobody = ();
-            let watch = &mut watch(engine, &mut nobody);
-            let onward = engine.slid(&mut toss, &sliding.slider, end, early, watch);
+            let adapter = &mut adapter(engine, &mut nobody);
+            let onward = engine.slid(&mut toss, &sliding.slider, end, early, adapter);
             self.sliding.swap_remove(index);
             self.go(at, lane, &toss, onward);
         }

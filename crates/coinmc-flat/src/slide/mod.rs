@@ -5,8 +5,8 @@ mod events;
 mod side_by_side;
 
 use crate::motion::Motion;
+use crate::observer_adapter::ObserverAdapter;
 use crate::shape::Shape;
-use crate::watch::Watch;
 use coinmc_core::Observer;
 use coinmc_lanes::sin_cos;
 use equations::{Arrival, JAM, Slide, Sliding};
@@ -107,7 +107,7 @@ impl SlidePhase {
     pub(crate) fn follow<O: Observer>(
         &mut self,
         motion: &mut Motion,
-        watch: &mut Watch<'_, O>,
+        adapter: &mut ObserverAdapter<'_, O>,
     ) -> SlideEnd {
         loop {
             let end = if let Some(search) = &self.search {
@@ -115,10 +115,10 @@ impl SlidePhase {
                 let to = tried
                     .possible
                     .then(|| (tried.state, sin_cos(tried.state[0])));
-                self.tried(to, motion, watch)
+                self.tried(to, motion, adapter)
             } else {
                 let made = self.attempt();
-                self.made(made, motion, watch)
+                self.made(made, motion, adapter)
             };
             if let Some(end) = end {
                 return end;
@@ -158,7 +158,7 @@ impl SlidePhase {
         &mut self,
         made: Made,
         motion: &mut Motion,
-        watch: &mut Watch<'_, O>,
+        adapter: &mut ObserverAdapter<'_, O>,
     ) -> Option<SlideEnd> {
         let open = made.begins && self.sliding.openness(made.start.angle) >= JAM;
         if !open || self.rejected_in_a_row > 40 {
@@ -184,7 +184,7 @@ impl SlidePhase {
             state: made.end.state,
             angle: made.end.angle,
         };
-        self.move_on(&made.start, &end, motion, watch);
+        self.move_on(&made.start, &end, motion, adapter);
         if self.energy < 1.0 {
             return Some(self.end(SlideEnd::Certain, motion));
         }
@@ -211,14 +211,14 @@ impl SlidePhase {
         &mut self,
         to: Option<(Slide, (f64, f64))>,
         motion: &mut Motion,
-        watch: &mut Watch<'_, O>,
+        adapter: &mut ObserverAdapter<'_, O>,
     ) -> Option<SlideEnd> {
         let search = self.search.as_mut()?;
         if !search.tried(&self.margins, to) {
             return None;
         }
         let (start, inside, end) = (search.start, search.inside, search.end());
-        self.move_on(&start, &inside, motion, watch);
+        self.move_on(&start, &inside, motion, adapter);
         Some(self.end(end, motion))
     }
 
@@ -228,12 +228,12 @@ impl SlidePhase {
         start: &Arrival,
         to: &Inside,
         motion: &mut Motion,
-        watch: &mut Watch<'_, O>,
+        adapter: &mut ObserverAdapter<'_, O>,
     ) {
         let (before, energy, k) = (*motion, self.energy, self.sliding.k);
         self.y = to.state;
         motion.time += to.share * self.h;
-        watch.passed(before.time, motion.time, |t| {
+        adapter.passed(before.time, motion.time, |t| {
             let mut motion = before;
             // a part of a step that was accepted is a step that can be made
             let mut part = self.sliding.step(start, t);

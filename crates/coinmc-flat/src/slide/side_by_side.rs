@@ -3,7 +3,7 @@
 use super::equations::{Arrival, Sliding};
 use super::{Made, SlideEnd, SlidePhase};
 use crate::motion::Motion;
-use crate::watch::Watch;
+use crate::observer_adapter::ObserverAdapter;
 use coinmc_lanes::{Bits, Block, Lanes, WIDTH, Wide, Work};
 
 /// What eight phases ask for, and what came of it.
@@ -36,7 +36,7 @@ type Slides<'a> = (&'a mut SlidePhase, &'a mut Motion);
 pub(crate) fn slide_on(
     lanes: Lanes,
     phases: &mut [Option<Slides<'_>>; WIDTH],
-    watch: &mut Watch<'_, ()>,
+    adapter: &mut ObserverAdapter<'_, ()>,
 ) -> [Option<SlideEnd>; WIDTH] {
     let mut attempts = Attempts::default();
     let mut k = 1.0;
@@ -54,7 +54,7 @@ pub(crate) fn slide_on(
     let mut ends = [None; WIDTH];
     for (lane, slides) in phases.iter_mut().enumerate() {
         if let Some((phase, motion)) = slides {
-            ends[lane] = attempts.answer(lane, phase, motion, watch);
+            ends[lane] = attempts.answer(lane, phase, motion, adapter);
         }
     }
     ends
@@ -74,13 +74,13 @@ impl Attempts {
         lane: usize,
         phase: &mut SlidePhase,
         motion: &mut Motion,
-        watch: &mut Watch<'_, ()>,
+        adapter: &mut ObserverAdapter<'_, ()>,
     ) -> Option<SlideEnd> {
         let has = |bits: Bits| bits & (1 << lane) != 0;
         let end = self.end.of(lane);
         if phase.search.is_some() {
             let to = has(self.possible).then_some((end.state, end.angle));
-            return phase.tried(to, motion, watch);
+            return phase.tried(to, motion, adapter);
         }
         let made = Made {
             start: self.start.of(lane),
@@ -89,7 +89,7 @@ impl Attempts {
             error: self.error[lane],
             possible: has(self.possible & self.sound),
         };
-        phase.made(made, motion, watch)
+        phase.made(made, motion, adapter)
     }
 }
 

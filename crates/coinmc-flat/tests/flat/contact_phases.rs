@@ -63,21 +63,21 @@ impl Body {
         mut y: World,
         mode: Mode,
         time: f64,
-        mut watch: impl FnMut(&World),
+        mut adapter: impl FnMut(&World),
     ) -> World {
         // a nonnegative time of a few units: a few thousand steps
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let steps = (time * 2000.0).ceil().max(1.0) as u32;
         let h = time / f64::from(steps);
         for _ in 0..steps {
-            watch(&y);
+            adapter(&y);
             let a = self.rates(&y, mode);
             let b = self.rates(&(y + a * (h / 2.0)), mode);
             let c = self.rates(&(y + b * (h / 2.0)), mode);
             let d = self.rates(&(y + c * h), mode);
             y += (a + (b + c) * 2.0 + d) * (h / 6.0);
         }
-        watch(&y);
+        adapter(&y);
         y
     }
 

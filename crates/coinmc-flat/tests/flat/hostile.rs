@@ -86,7 +86,7 @@ fn outrageous_launches_end_and_what_is_no_number_fails() {
             let outcome = engine.toss(&mut (), &launch, &mut ());
             let end = match outcome.ended {
                 Ended::Decided(_) => 0,
-                Ended::TimeLimit | Ended::Endless => 1,
+                Ended::TimeLimit | Ended::NeverSettles => 1,
                 Ended::ImpactLimit => 2,
                 Ended::Failed => 3,
             };

@@ -3,8 +3,8 @@
 use crate::common::{Dice, Start, preset, scene};
 use coinmc_core::{Ended, Engine, Face, Landing, Launch, Outcome, Preset, Scene};
 use coinmc_flat::{
-    AnyFlatEngine, Decision, HalfSine, Lanes, Law, Lever, LineContact, Materials, Paper, PulseTime,
-    Settings,
+    AnyFlatEngine, Decision, GaekSukhov, HalfSine, Lanes, Law, Lever, LineContact, Materials,
+    PulseTime, Settings,
 };
 use std::ops::ControlFlow;
 
@@ -127,7 +127,7 @@ fn laws_that_are_more_than_an_impulse() {
         length_m: 0.02,
     };
     let laws = [
-        Law::Paper(Paper {
+        Law::GaekSukhov(GaekSukhov {
             eta_n_s: 1e-3,
             lever: Lever::Height,
         }),
@@ -265,8 +265,8 @@ fn launches_that_end_at_once_are_told_while_others_go_on() {
         let Ok(engine) = engine(&scene, &Settings::default()).with_lanes(lanes) else {
             continue;
         };
-        // of an endless number of them, none may be kept until the others have ended
-        let endless = flying.iter().copied().chain(std::iter::repeat(resting));
-        assert_eq!(told(&engine, endless, 100_000), 100_000, "{lanes}");
+        // of an never_settles number of them, none may be kept until the others have ended
+        let never_settles = flying.iter().copied().chain(std::iter::repeat(resting));
+        assert_eq!(told(&engine, never_settles, 100_000), 100_000, "{lanes}");
     }
 }

@@ -2,7 +2,7 @@
 
 use coinmc_core::{Coin, Domain, Launch, Scene, Stream, Surface, TossUniforms, UniformSource};
 use coinmc_flat::{
-    AnyFlatEngine, HalfSine, Law, Lever, LineContact, Materials, Paper, PulseTime, Settings,
+    AnyFlatEngine, GaekSukhov, HalfSine, Law, Lever, LineContact, Materials, PulseTime, Settings,
     SingleImpact,
 };
 use nalgebra::{UnitVector3, Vector3};
@@ -39,8 +39,8 @@ pub(crate) fn pulse(time_s: f64) -> Law {
     })
 }
 
-pub(crate) fn paper(eta_n_s: f64, lever: Lever) -> Law {
-    Law::Paper(Paper { eta_n_s, lever })
+pub(crate) fn gaek_sukhov(eta_n_s: f64, lever: Lever) -> Law {
+    Law::GaekSukhov(GaekSukhov { eta_n_s, lever })
 }
 
 pub(crate) fn settings(law: Law, tolerance: f64) -> Settings {

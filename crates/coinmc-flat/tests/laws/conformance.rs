@@ -1,6 +1,6 @@
 //! What every law owes the engine: determinism, mirror symmetry, no gain of energy, an end.
 
-use crate::common::{engine, line, materials, paper, pulse, scene};
+use crate::common::{engine, gaek_sukhov, line, materials, pulse, scene};
 use coinmc_core::{
     Domain, Engine, Event, Face, Observer, Preset, Scene, Stream, Tally, run_tosses,
 };
@@ -14,8 +14,8 @@ fn laws() -> Vec<(Law, f64)> {
         peak_n: Some(300.0),
     };
     vec![
-        (paper(3e-3, Lever::Height), 0.0),
-        (paper(3e-3, Lever::Corner), 0.0),
+        (gaek_sukhov(3e-3, Lever::Height), 0.0),
+        (gaek_sukhov(3e-3, Lever::Corner), 0.0),
         (pulse(1e-4), 0.3),
         (Law::HalfSine(capped), 0.3),
         (line(3e9), 0.3),

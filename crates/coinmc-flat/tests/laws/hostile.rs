@@ -3,7 +3,7 @@
 use crate::common::{Dice, impact, line, materials, scene, settings, touch};
 use coinmc_core::{Engine, Scene};
 use coinmc_flat::{
-    AnyFlatEngine, HalfSine, Law, Lever, LineContact, Materials, Paper, PulseTime, Settings,
+    AnyFlatEngine, GaekSukhov, HalfSine, Law, Lever, LineContact, Materials, PulseTime, Settings,
 };
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -18,7 +18,7 @@ fn quantities_out_of_range_are_refused() {
     };
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let laws = [
-            Law::Paper(Paper {
+            Law::GaekSukhov(GaekSukhov {
                 eta_n_s: if bad == 0.0 { -1.0 } else { bad },
                 lever: Lever::Height,
             }),

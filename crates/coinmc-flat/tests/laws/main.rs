@@ -4,8 +4,8 @@
 
 mod common;
 mod conformance;
+mod gaek_sukhov;
 mod half_sine;
 mod hostile;
 mod line_contact;
-mod paper;
 mod sampling;

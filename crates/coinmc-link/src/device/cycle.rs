@@ -84,7 +84,7 @@ impl Cycle {
         self.silent = false;
     }
 
-    pub(super) fn carry_out(
+    pub(super) fn execute(
         &mut self,
         hardware: &mut impl Hardware,
         request: Request,

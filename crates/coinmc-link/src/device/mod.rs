@@ -116,7 +116,7 @@ impl<H: Hardware> Device<H> {
             return reply;
         }
         let reply = match request {
-            Ok(request) => self.carry_out(request, now_ms),
+            Ok(request) => self.execute(request, now_ms),
             Err(BadMessage::Malformed) => Reply::Nak(Nak::BadMessage),
             Err(BadMessage::OutOfRange) => Reply::Nak(Nak::BadRange),
         };
@@ -141,7 +141,7 @@ impl<H: Hardware> Device<H> {
         })
     }
 
-    fn carry_out(&mut self, request: Request, now_ms: u32) -> Reply {
+    fn execute(&mut self, request: Request, now_ms: u32) -> Reply {
         if beyond(&self.hardware.info(), &request) {
             return Reply::Nak(Nak::BadRange);
         }
@@ -154,7 +154,7 @@ impl<H: Hardware> Device<H> {
                 self.hardware.light(permille);
                 Ok(())
             }
-            other => self.cycle.carry_out(&mut self.hardware, other, now_ms),
+            other => self.cycle.execute(&mut self.hardware, other, now_ms),
         };
         match done {
             Ok(()) => Reply::Ok {

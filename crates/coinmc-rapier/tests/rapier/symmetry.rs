@@ -41,7 +41,10 @@ fn scaled(scene: &Scene, settings: &Settings, length: f64, time: f64) -> (Scene,
     let surface = &scene.surface;
     let threshold = surface.restitution_threshold_m_s() * length / time;
     let surface = surface
-        .with_friction_lengths(surface.contour_m() * length, surface.pivoting_m() * length)
+        .with_friction_lengths(
+            surface.rolling_friction_m() * length,
+            surface.pivoting_friction_m() * length,
+        )
         .and_then(|surface| surface.with_restitution_threshold(threshold))
         .unwrap();
     let coin = Coin::cylinder(scene.coin.ratio(), scene.coin.radius_m() * length).unwrap();

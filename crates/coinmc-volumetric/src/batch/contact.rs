@@ -250,7 +250,13 @@ impl<const STICKS: bool, const DRAGS: bool> Work for Make<'_, STICKS, DRAGS> {
         };
         let settings = terms.settings;
         let law = terms.law.with_known_drag::<DRAGS>();
-        let made = attempt.make(&law, terms.judge, terms.tolerance, settings.stick, mode);
+        let made = attempt.make(
+            &law,
+            terms.judge,
+            terms.tolerance,
+            settings.stick_speed,
+            mode,
+        );
         let steps = L::load(&station.steps) + L::splat(1.0);
         let last = L::splat(f64::from(settings.max_steps)).le(steps);
         let may = !(made.length.lt(L::splat(LEAST_STEP)) | last);

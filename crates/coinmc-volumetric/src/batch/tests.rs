@@ -32,7 +32,7 @@ fn launches(scene: &Scene, preset: Preset, count: u64) -> Vec<Launch> {
 fn ends<L: ImpactLaw>(engine: &VolumetricEngine<L>, launches: &[Launch]) -> Vec<Finished> {
     let mut ends = vec![None; launches.len()];
     let batch = Batch::of(engine).expect("lanes");
-    batch.follow_all(launches.iter().copied(), |number, end| {
+    batch.toss_all_in_batch(launches.iter().copied(), |number, end| {
         let index = usize::try_from(number).expect("a small number");
         assert!(ends[index].replace(*end).is_none(), "toss {number} twice");
         ControlFlow::Continue(())
@@ -199,8 +199,8 @@ fn launches_that_end_at_once_are_told_while_others_go_on() {
     let engine = VolumetricEngine::new(&scene, &Settings::default(), Moreau).expect("good");
     for lanes in Lanes::ALL.into_iter().filter(|lanes| lanes.is_available()) {
         let engine = engine.clone().with_lanes(lanes).expect("they are there");
-        // of an endless number of them, none may be kept until the others have ended
-        let endless = flying.iter().copied().chain(std::iter::repeat(resting));
-        assert_eq!(told(&engine, endless, 100_000), 100_000, "{lanes}");
+        // of an never_settles number of them, none may be kept until the others have ended
+        let never_settles = flying.iter().copied().chain(std::iter::repeat(resting));
+        assert_eq!(told(&engine, never_settles, 100_000), 100_000, "{lanes}");
     }
 }

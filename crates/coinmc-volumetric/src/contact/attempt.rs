@@ -46,14 +46,14 @@ pub(crate) struct Attempted<L: Lane> {
 }
 
 impl<L: Lane> Attempt<L> {
-    /// Makes the attempt. `stick` is the slip below which a point may be held.
+    /// Makes the attempt. `stick_speed` is the slip below which a point may be held.
     #[inline(always)]
     pub(crate) fn make(
         &self,
         law: &Law,
         judge: &Judge,
         tolerance: f64,
-        stick: f64,
+        stick_speed: f64,
         mode: Mode,
     ) -> Attempted<L> {
         let limited = limit(law, mode, &self.state, &self.rates, self.length);
@@ -73,7 +73,7 @@ impl<L: Lane> Attempt<L> {
         Attempted {
             length,
             wanted: L::select(accepted, calm, shorter(length, trial.error)),
-            eventful: accepted & self.happens(law, stick, mode, length, &trial.state, &now),
+            eventful: accepted & self.happens(law, stick_speed, mode, length, &trial.state, &now),
             trial,
             now,
             state,
@@ -87,7 +87,7 @@ impl<L: Lane> Attempt<L> {
     fn happens(
         &self,
         law: &Law,
-        stick: f64,
+        stick_speed: f64,
         mode: Mode,
         length: L,
         state: &RimState<L>,
@@ -107,7 +107,7 @@ impl<L: Lane> Attempt<L> {
         }
         if mode == Mode::Slip && law.friction.mu > 0.0 {
             let slows = state[SLIP_X] * now.state[SLIP_X] + state[SLIP_Y] * now.state[SLIP_Y];
-            happens = happens | (slip_speed(state).le(L::splat(stick)) & slows.lt(zero));
+            happens = happens | (slip_speed(state).le(L::splat(stick_speed)) & slows.lt(zero));
         }
         happens
     }

@@ -270,13 +270,13 @@ impl Contact<'_> {
         let [highest, lowest] = phase.tilts.map(libm::cos);
         let half = self.law.body.half;
         if !self.judge.tilts_only() {
-            Leave::Endless
+            Leave::NeverSettles
         } else if highest < half - CLOSE {
             Leave::Settled(Verdict::Side)
         } else if lowest > half + CLOSE {
             Leave::Settled(Verdict::Face)
         } else {
-            Leave::Endless
+            Leave::NeverSettles
         }
     }
 
@@ -286,11 +286,14 @@ impl Contact<'_> {
         let slip = slip_speed(state);
         let [.., gx, gy] = *state;
         let [.., ax, ay] = phase.now.state;
-        if self.law.friction.mu == 0.0 || slip > self.settings.stick || gx * ax + gy * ay >= 0.0 {
+        if self.law.friction.mu == 0.0
+            || slip > self.settings.stick_speed
+            || gx * ax + gy * ay >= 0.0
+        {
             return false;
         }
         let held = change_slip(self.law, state, 0.0, 0.0);
-        slip < RESEED * SEED * self.settings.stick
+        slip < RESEED * SEED * self.settings.stick_speed
             || can_stick(self.law, &self.law.rates(&held, Mode::Stick))
     }
 }

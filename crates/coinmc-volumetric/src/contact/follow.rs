@@ -14,9 +14,9 @@ use super::rim::{Law, Mode, OMEGA_Y, Rates, RimFlow, RimState, TILT};
 use super::state::{change_slip, kicked, place_below, rim_state};
 use crate::impact::jam;
 use crate::motion::{Motion, Spin};
+use crate::observer_adapter::ObserverAdapter;
 use crate::settings::Settings;
 use crate::verdict::{Judge, Verdict};
-use crate::watch::Watch;
 use coinmc_core::{EventKind, Observer};
 use std::f64::consts::FRAC_PI_2;
 
@@ -32,7 +32,7 @@ pub(crate) enum Leave {
     /// The face is settled.
     Settled(Verdict),
     /// The motion repeats itself without loss.
-    Endless,
+    NeverSettles,
     /// Out of time.
     Late,
     /// Out of steps, or not a number.
@@ -42,7 +42,7 @@ pub(crate) enum Leave {
 /// Tilt at which the opposite point of the rim has come down, rad: a coin that does not roll round
 /// the rim before comes down on all of it.
 pub(crate) const FLAT: f64 = 1e-9;
-/// A contact that gives way starts to slide at this fraction of `stick`: its direction then
+/// A contact that gives way starts to slide at this fraction of `stick_speed`: its direction then
 /// settles within a time of that order. One that slows down to `RESEED` of that starts anew.
 pub(super) const SEED: f64 = 1.0;
 pub(super) const RESEED: f64 = 0.1;
@@ -139,16 +139,16 @@ pub(crate) enum Next {
 }
 
 impl Contact<'_> {
-    /// Follows sustained contact from `motion`, which is left where it ends. `watch` is told of
+    /// Follows sustained contact from `motion`, which is left where it ends. `observer_adapter` is told of
     /// every mode and every step.
     pub(crate) fn follow<O: Observer>(
         &mut self,
         motion: &mut Motion<f64>,
         spin: &mut Spin<f64>,
-        watch: &mut Watch<'_, O>,
+        adapter: &mut ObserverAdapter<'_, O>,
     ) -> Leave {
         let mut phase = self.start(motion, spin);
-        watch.event(kind(phase.mode), motion, spin);
+        adapter.event(kind(phase.mode), motion, spin);
         loop {
             if let Some(leave) = self.is_over(motion, spin) {
                 return leave;
@@ -161,13 +161,13 @@ impl Contact<'_> {
             let ceiling = phase.ceiling;
             self.move_on(&mut phase, length, motion, spin);
             if let Some(start) = before {
-                watch.passed(length, |t| self.within(&start, t, ceiling));
+                adapter.passed(length, |t| self.within(&start, t, ceiling));
             }
             if let Some(leave) = self.go_on(next, &mut phase, motion, spin) {
                 return leave;
             }
             if matches!(next, Next::Change) {
-                watch.event(kind(phase.mode), motion, spin);
+                adapter.event(kind(phase.mode), motion, spin);
             }
         }
     }
@@ -288,7 +288,7 @@ impl Contact<'_> {
             now: self.law.rates(&state, mode),
             ..Phase::none()
         };
-        if mu == 0.0 || slip > self.settings.stick {
+        if mu == 0.0 || slip > self.settings.stick_speed {
             return phase(state, Mode::Slip);
         }
         let stick = phase(change_slip(self.law, &state, 0.0, 0.0), Mode::Stick);
@@ -298,7 +298,7 @@ impl Contact<'_> {
         // it gives way against the friction that holding it would need
         let [fx, fy] = stick.now.friction;
         let needed = (fx * fx + fy * fy).sqrt();
-        let least = SEED * self.settings.stick;
+        let least = SEED * self.settings.stick_speed;
         if slip < RESEED * least && needed > 0.0 {
             let seed = -least / needed;
             let gives = |gx, gy| phase(change_slip(self.law, &state, gx, gy), Mode::Slip);

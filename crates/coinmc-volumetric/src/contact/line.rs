@@ -9,7 +9,7 @@
 //! with N_1 + N_2 = 1 (m g) and, as the coin does not tilt,
 //! h (N_1 − N_2) = k_t Ω_a ω_z + R f_x, Ω_a = ω_a I_a/I_t: where that asks for a negative force,
 //! the coin tips onto the other rim, if contact of that rim alone agrees. Friction is
-//! f_i = −μ N_i γ_i/√(γ_i² + ε²), ε = `stick`: sticking is a creep slower than ε. Straight rolling
+//! f_i = −μ N_i γ_i/√(γ_i² + ε²), ε = `stick_speed`: sticking is a creep slower than ε. Straight rolling
 //! and sliding is the textbook's: a slip v_y + R ω_a decays at the rate μ(1 + R²/k_a), and ω_a of a
 //! rolling coin at ρ_c/(k_a + R²).
 //!
@@ -21,8 +21,8 @@ use super::follow::{Contact, Leave};
 use super::integrator::{LEAST_STEP, is_accepted, next_length, shorter, step};
 use super::rim::Law;
 use crate::motion::{Motion, Spin};
+use crate::observer_adapter::ObserverAdapter;
 use crate::verdict::Verdict;
-use crate::watch::Watch;
 use coinmc_core::{EventKind, Observer};
 use std::f64::consts::FRAC_PI_2;
 
@@ -79,15 +79,15 @@ impl Contact<'_> {
         &mut self,
         motion: &mut Motion<f64>,
         spin: &mut Spin<f64>,
-        watch: &mut Watch<'_, O>,
+        adapter: &mut ObserverAdapter<'_, O>,
     ) -> Result<bool, Leave> {
-        let creep = self.settings.stick;
+        let creep = self.settings.stick_speed;
         // ω_z = −ω_θ where u is horizontal
         let mut state = [motion.vx, motion.vy, spin.axial, -spin.turn];
         let mut length = 0.01;
         lay(self.law, &state, motion, spin);
         if O::ACTIVE && !self.rolls_straight(&state) {
-            watch.event(EventKind::Sliding, motion, spin);
+            adapter.event(EventKind::Sliding, motion, spin);
         }
         loop {
             lay(self.law, &state, motion, spin);
@@ -105,7 +105,7 @@ impl Contact<'_> {
                 return Err(Leave::Settled(Verdict::Side));
             }
             if self.rolls_straight(&state) {
-                return Err(self.roll_out(&state, motion, spin, watch));
+                return Err(self.roll_out(&state, motion, spin, adapter));
             }
             if self.spent.time > self.settings.time_limit {
                 return Err(Leave::Late);
@@ -127,7 +127,7 @@ impl Contact<'_> {
             let start = state;
             state = self.capped(trial.state, before);
             self.spent.time += length;
-            watch.passed(length, |t| {
+            adapter.passed(length, |t| {
                 let rates = |s: &LineState| line_rates(self.law, s, creep).rates;
                 let trial = step(&start, &now.rates, t, self.tolerance, rates);
                 laid(self.law, &self.capped(trial.state, before))
@@ -163,7 +163,7 @@ impl Contact<'_> {
         let [vx, vy, wa, wz] = *state;
         let body = &self.law.body;
         let slip = (vy + body.radius * wa).abs() + (body.half * wz).abs() + vx.abs();
-        self.law.friction.mu > 0.0 && slip < self.settings.stick
+        self.law.friction.mu > 0.0 && slip < self.settings.stick_speed
     }
 
     /// The state with no more kinetic energy than `most`.
@@ -186,7 +186,7 @@ impl Contact<'_> {
         state: &LineState,
         motion: &mut Motion<f64>,
         spin: &mut Spin<f64>,
-        watch: &mut Watch<'_, O>,
+        adapter: &mut ObserverAdapter<'_, O>,
     ) -> Leave {
         let Law {
             body,
@@ -198,13 +198,13 @@ impl Contact<'_> {
         let a = friction.contour * body.radius / (body.ka + r2);
         let b = (drag.linear * r2 + drag.angular * body.ka) / (body.ka + r2);
         let speed = state[1].abs();
-        watch.event(EventKind::Sticking, motion, spin);
+        adapter.event(EventKind::Sticking, motion, spin);
         if a == 0.0 {
             // drag alone never quite stops it; without either it goes on for ever
             return if b > 0.0 {
                 Leave::Settled(Verdict::Side)
             } else {
-                Leave::Endless
+                Leave::NeverSettles
             };
         }
         let dragged = b * speed >= 1e-12 * a;
@@ -227,7 +227,7 @@ impl Contact<'_> {
         let mut begun = 0.0;
         while begun < pieces {
             let start = begun * piece;
-            watch.passed(piece, |t| {
+            adapter.passed(piece, |t| {
                 laid(self.law, &state.map(|rate| rate * left(start + t)))
             });
             self.spent.time += piece;

@@ -60,7 +60,7 @@ pub(crate) struct Law {
     inverse_kyy: f64,
     /// 1/(K_xx K_zz − K_xz²), which none changes either: the rim is as far as ever.
     inverse_det: f64,
-    /// 1/(ρ_c fade) and 1/(ρ_p fade), see [`faded_sign`].
+    /// 1/(ρ_c smoothing_time) and 1/(ρ_p smoothing_time), see [`smoothed_sign`].
     contour_fade: f64,
     pivoting_fade: f64,
 }
@@ -117,10 +117,10 @@ impl<L: Lane> Rates<L> {
 }
 
 /// sign(rate) of dry friction that slows `rate` down by b (per normal force), fading linearly to 0
-/// where it would stop within the time `fade`: the rate of the fading is 1/fade however light the
-/// part that turns. `share` is rate/(b fade).
+/// where it would stop within the time `smoothing_time`: the rate of the decay is 1/smoothing_time however light the
+/// part that turns. `share` is rate/(b smoothing_time).
 #[inline(always)]
-fn faded_sign<L: Lane>(share: L) -> L {
+fn smoothed_sign<L: Lane>(share: L) -> L {
     share.min(L::splat(1.0)).max(L::splat(-1.0))
 }
 
@@ -141,12 +141,13 @@ impl Law {
         friction: Friction,
         drag: Drag,
         axial_factor: f64,
-        fade: f64,
+        smoothing_time: f64,
     ) -> Self {
         let (inverse_kt, inverse_ka) = (1.0 / body.kt, 1.0 / body.ka);
         let kyy = 1.0 + body.half * body.half * inverse_kt + body.radius * body.radius * inverse_ka;
         // no length, no friction: then any finite quotient does
-        let inverse_fade = |length: f64| 1.0 / (length * fade).max(f64::MIN_POSITIVE);
+        let inverse_smoothing =
+            |length: f64| 1.0 / (length * smoothing_time).max(f64::MIN_POSITIVE);
         Self {
             body,
             friction,
@@ -157,8 +158,8 @@ impl Law {
             kyy,
             inverse_kyy: 1.0 / kyy,
             inverse_det: 1.0 / (1.0 + inverse_kt),
-            contour_fade: inverse_fade(friction.contour),
-            pivoting_fade: inverse_fade(friction.pivoting),
+            contour_fade: inverse_smoothing(friction.contour),
+            pivoting_fade: inverse_smoothing(friction.pivoting),
         }
     }
 
@@ -298,8 +299,8 @@ impl Law {
         let (along, about) = (wa * s + wt * c, wa * c - wt * s);
         let along = along * s * inverse.along * L::splat(self.contour_fade);
         let about = about * inverse.about * L::splat(self.pivoting_fade);
-        let contour = L::splat(self.friction.contour) * faded_sign(along);
-        let pivoting = L::splat(self.friction.pivoting) * faded_sign(about);
+        let contour = L::splat(self.friction.contour) * smoothed_sign(along);
+        let pivoting = L::splat(self.friction.pivoting) * smoothed_sign(about);
         let cot = c * inverse.sin;
         (contour + pivoting * c, contour * cot - pivoting * s)
     }

@@ -121,7 +121,7 @@ fn thin_and_thick() {
     }
 }
 
-/// A vanishing tilt makes ψ' and its friction's moment endless: everything stays finite.
+/// A vanishing tilt makes ψ' and its friction's moment never_settles: everything stays finite.
 #[test]
 fn almost_flat() {
     for law in Law::ALL {

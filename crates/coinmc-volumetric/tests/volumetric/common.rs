@@ -40,10 +40,10 @@ impl Tosser {
     }
 
     pub(crate) fn toss(&self, launch: &Launch) -> Outcome {
-        self.watch(launch, &mut ())
+        self.adapter(launch, &mut ())
     }
 
-    pub(crate) fn watch(&self, launch: &Launch, observer: &mut impl Observer) -> Outcome {
+    pub(crate) fn adapter(&self, launch: &Launch, observer: &mut impl Observer) -> Outcome {
         match &self.0 {
             AnyVolumetricEngine::Moreau(engine) => engine.toss(&mut (), launch, observer),
             AnyVolumetricEngine::ChatterjeeRuina(engine) => engine.toss(&mut (), launch, observer),
@@ -54,7 +54,7 @@ impl Tosser {
     /// The toss and its events.
     pub(crate) fn record(&self, scene: &Scene, launch: &Launch) -> (Outcome, Vec<Moment>) {
         let mut recorder = Recorder::default();
-        let outcome = self.watch(launch, &mut recorder);
+        let outcome = self.adapter(launch, &mut recorder);
         let moments = recorder.0.iter().map(|event| moment(scene, event));
         (outcome, moments.collect())
     }

@@ -70,7 +70,7 @@ fn what_cannot_become_tilt_is_not_overestimated() {
 }
 
 /// Without friction lengths two of five coins roll for ever, most of them within one well, which
-/// settles their face. What energy decides stays as it is. Of 5000 other tosses 5 % were endless
+/// settles their face. What energy decides stays as it is. Of 5000 other tosses 5 % were never_settles
 /// instead of 39 %.
 #[test]
 fn a_coin_that_rolls_for_ever_in_one_well_is_settled_there() {
@@ -80,18 +80,18 @@ fn a_coin_that_rolls_for_ever_in_one_well_is_settled_there() {
         ..Settings::default()
     };
     let (tilting, energy) = (Tosser::new(&scene), Tosser::with(&scene, &energy));
-    let (mut endless, mut open, mut differ) = (0, 0, 0);
+    let (mut never_settles, mut open, mut differ) = (0, 0, 0);
     for toss in 0..1000 {
         let launch = preset(Preset::Clean, &scene, 252, toss);
         let (one, other) = (tilting.toss(&launch), energy.toss(&launch));
-        endless += u32::from(one.ended == Ended::Endless);
-        open += u32::from(other.ended == Ended::Endless);
+        never_settles += u32::from(one.ended == Ended::NeverSettles);
+        open += u32::from(other.ended == Ended::NeverSettles);
         differ += u32::from(other.face().is_some() && one.face() != other.face());
         assert!(one.contact_steps <= other.contact_steps, "{toss}");
     }
-    println!("{endless} and {open} of 1000 endless, {differ} differ");
+    println!("{never_settles} and {open} of 1000 never_settles, {differ} differ");
     // 6 standard errors of the share
-    assert!(endless < 92 && open > 300, "{endless} {open}");
+    assert!(never_settles < 92 && open > 300, "{never_settles} {open}");
     assert!(differ <= 3, "{differ}");
 }
 

@@ -134,7 +134,7 @@ fn they_gain_nothing_and_stay_on_the_surface() {
             drift: 0.0,
             residual: 0.0,
         };
-        Tosser::new(&scene).watch(&launch, &mut worst);
+        Tosser::new(&scene).adapter(&launch, &mut worst);
         assert!(worst.gain < 1e-12, "{numbers:?}: {:e}", worst.gain);
         assert!(worst.drift < 1e-11, "{numbers:?}: {:e}", worst.drift);
         assert!(worst.residual < 1e-12, "{numbers:?}: {:e}", worst.residual);

@@ -205,7 +205,7 @@ fn outrageous_launches_end_and_what_is_no_number_fails() {
                 Ended::TimeLimit => 1,
                 Ended::ImpactLimit => 2,
                 Ended::Failed => 3,
-                Ended::Endless => 4,
+                Ended::NeverSettles => 4,
             };
             ends[end] += 1;
             if !is_finite(&launch) {

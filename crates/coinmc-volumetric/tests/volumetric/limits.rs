@@ -181,7 +181,7 @@ fn tosses_that_lose_energy_are_decided() {
 }
 
 /// Nothing takes energy at e = 1 without friction: decided at launch, by the rule that is exact
-/// without friction, or endless.
+/// without friction, or never_settles.
 #[test]
 fn without_loss_a_toss_is_settled_at_its_launch_or_never() {
     for ratio in [0.1, 1.0, 5.0] {
@@ -202,7 +202,7 @@ fn without_loss_a_toss_is_settled_at_its_launch_or_never() {
                     ends[0] += 1;
                 }
                 ended => {
-                    assert_eq!(ended, Ended::Endless, "{toss}");
+                    assert_eq!(ended, Ended::NeverSettles, "{toss}");
                     ends[1] += 1;
                 }
             }

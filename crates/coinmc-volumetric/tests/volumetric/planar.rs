@@ -46,7 +46,7 @@ impl Both {
         let mut seen = [Impacts::default(), Impacts::default()];
         let [a, b] = &mut seen;
         let outcomes = [
-            self.space.watch(launch, a),
+            self.space.adapter(launch, a),
             self.flat.toss(&mut (), launch, b),
         ];
         let [a, b] = seen;

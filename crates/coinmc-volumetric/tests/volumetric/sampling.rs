@@ -24,7 +24,7 @@ fn scenes() -> Vec<Scene> {
 
 fn sampled(tosser: &Tosser, launch: &Launch, rate: f64) -> (Outcome, Sampler) {
     let mut sampler = Sampler::new(rate);
-    let outcome = tosser.watch(launch, &mut sampler);
+    let outcome = tosser.adapter(launch, &mut sampler);
     (outcome, sampler)
 }
 
@@ -37,7 +37,7 @@ fn sampling_changes_nothing() {
             let launch = preset(Preset::Clean, &scene, 400, toss);
             let alone = tosser.toss(&launch);
             let mut recorder = Recorder::default();
-            tosser.watch(&launch, &mut recorder);
+            tosser.adapter(&launch, &mut recorder);
             for rate in [7.0, 100.0, 1000.0] {
                 let (outcome, sampler) = sampled(&tosser, &launch, rate);
                 assert_eq!(outcome, alone);
@@ -154,8 +154,8 @@ fn tight() -> Settings {
     Settings {
         decision: Decision::Energy,
         tolerance: 1e-10,
-        stick: 1e-6,
-        fade: 1e-6,
+        stick_speed: 1e-6,
+        smoothing_time: 1e-6,
         time_limit: 10.0,
         ..Settings::default()
     }
@@ -337,7 +337,7 @@ fn samples_join_the_events() {
         for toss in 0..40 {
             let launch = preset(Preset::Clean, &scene, 404, toss);
             let mut recorder = Recorder::default();
-            tosser.watch(&launch, &mut recorder);
+            tosser.adapter(&launch, &mut recorder);
             let pairs: Vec<(Event, Event)> = recorder
                 .0
                 .windows(2)
@@ -354,7 +354,7 @@ fn samples_join_the_events() {
                 wanted,
                 seen: Vec::new(),
             };
-            tosser.watch(&launch, &mut instants);
+            tosser.adapter(&launch, &mut instants);
             assert_eq!(instants.seen.len(), 2 * pairs.len());
             let events = pairs.iter().flat_map(|(from, to)| [from, to]);
             for (event, sample) in events.zip(&instants.seen) {

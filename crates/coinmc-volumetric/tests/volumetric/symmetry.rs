@@ -119,7 +119,10 @@ fn scaled(launch: &Launch, length: f64, time: f64) -> Launch {
 fn scaled_scene(scene: &Scene, length: f64, time: f64) -> Scene {
     let (coin, surface) = (&scene.coin, &scene.surface);
     let surface = surface
-        .with_friction_lengths(surface.contour_m() * length, surface.pivoting_m() * length)
+        .with_friction_lengths(
+            surface.rolling_friction_m() * length,
+            surface.pivoting_friction_m() * length,
+        )
         .unwrap();
     let gravity = scene.gravity_m_s2() * length / (time * time);
     let coin = Coin::cylinder(coin.ratio(), coin.radius_m() * length).unwrap();

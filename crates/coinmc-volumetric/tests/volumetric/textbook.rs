@@ -11,8 +11,8 @@ fn tight() -> Settings {
     Settings {
         decision: Decision::Energy,
         tolerance: 1e-10,
-        stick: 1e-6,
-        fade: 1e-6,
+        stick_speed: 1e-6,
+        smoothing_time: 1e-6,
         ..Settings::default()
     }
 }
@@ -55,7 +55,7 @@ fn steady_precession_stays_steady() {
         let (ended, moments) = begin(&scene, &motion, &settings);
         let last = moments.last().expect("an end");
         assert!(
-            matches!(ended, Ended::Endless | Ended::TimeLimit),
+            matches!(ended, Ended::NeverSettles | Ended::TimeLimit),
             "{ratio} {tilt} {circle}: {ended:?} {moments:?}"
         );
         let off = (last.motion.axis.z - motion.axis.z).abs();
@@ -80,14 +80,14 @@ fn lying(model: &Model, velocity: f64, spin: f64) -> Motion {
 }
 
 /// Slides, then rolls, with 1/(1 + k) of the speed (two thirds) for ever. Sticking is a creep of
-/// less than `stick`, 1e-6.
+/// less than `stick_speed`, 1e-6.
 #[test]
 fn a_sliding_cylinder_comes_to_roll() {
     for (ratio, mu) in [(1.0, 0.3), (3.0, 0.1), (10.0, 1.0)] {
         let scene = scene(ratio, 0.0, mu, 0.0);
         let model = Model::new(&scene);
         let (ended, moments) = begin(&scene, &lying(&model, 5.0, 0.0), &tight());
-        assert_eq!(ended, Ended::Endless, "{ratio} {mu}");
+        assert_eq!(ended, Ended::NeverSettles, "{ratio} {mu}");
         let last = moments.last().expect("an end");
         let (time, speed) = textbook::slide_to_rolling(&model, 5.0);
         assert!((last.motion.velocity.y - speed).abs() < 1e-5, "{last:?}");

@@ -165,8 +165,12 @@ const ALWAYS: [Always; 9] = [
     ("radius_m", |scene| scene.coin.radius_m()),
     ("restitution", |scene| scene.surface.restitution()),
     ("friction", |scene| scene.surface.friction()),
-    ("contour_m", |scene| scene.surface.contour_m()),
-    ("pivoting_m", |scene| scene.surface.pivoting_m()),
+    ("rolling_friction_m", |scene| {
+        scene.surface.rolling_friction_m()
+    }),
+    ("pivoting_friction_m", |scene| {
+        scene.surface.pivoting_friction_m()
+    }),
     ("restitution_threshold_m_s", |scene| {
         scene.surface.restitution_threshold_m_s()
     }),
@@ -272,8 +276,8 @@ fn surface(form: &Form, at: &At<'_>) -> Result<Surface, Fault> {
         None => return Err(Fault::Reported),
     };
     let (contour, pivoting) = (
-        at.required(form, "contour_m")?,
-        at.required(form, "pivoting_m")?,
+        at.required(form, "rolling_friction_m")?,
+        at.required(form, "pivoting_friction_m")?,
     );
     let threshold = at.required(form, "restitution_threshold_m_s")?;
     Surface::new(

@@ -6,7 +6,7 @@ use super::build::{At, Fault, boolean, get, integer};
 use super::diagnostics::Problems;
 use super::form::{Form, What};
 use super::quantity::Quantity;
-use super::schema::CERTAIN;
+use super::schema::ENERGY;
 use crate::plan::EngineChoice;
 use coinmc_flat as flat;
 use coinmc_rapier as rapier;
@@ -33,7 +33,7 @@ pub(super) fn choice(root: &Form, at: &At<'_>) -> Result<EngineChoice, Fault> {
 
 fn in_the_plane(form: &Form, at: &At<'_>) -> Result<flat::Settings, Fault> {
     let decision = match &get(form, "decision")?.what {
-        What::Word(CERTAIN) => flat::Decision::Certain,
+        What::Word(ENERGY) => flat::Decision::Energy,
         What::Tagged(_, fraction) => flat::Decision::EnergyFraction(at.number(fraction)?),
         _ => return Err(Fault::Reported),
     };
@@ -57,8 +57,8 @@ fn in_space(form: &Form, at: &At<'_>) -> Result<volumetric::Settings, Fault> {
         decision: named(form, "decision", Decision::ALL, Decision::name)?,
         zeno: at.required(form, "zeno")?,
         tolerance: at.required(form, "tolerance")?,
-        stick: at.required(form, "stick")?,
-        fade: at.required(form, "fade")?,
+        stick_speed: at.required(form, "stick_speed")?,
+        smoothing_time: at.required(form, "smoothing_time")?,
         max_impacts: whole(form, "max_impacts")?,
         max_steps: whole(form, "max_steps")?,
         time_limit: at.required(form, "time_limit")?,
@@ -123,8 +123,8 @@ fn whole(form: &Form, key: &str) -> Result<u32, Fault> {
 
 /// What the flat engine does not model: the table, the key, and what it would be.
 const NOT_IN_THE_PLANE: [(&str, &str, &str); 5] = [
-    ("surface", "contour_m", "rolling friction"),
-    ("surface", "pivoting_m", "pivoting friction"),
+    ("surface", "rolling_friction_m", "rolling friction"),
+    ("surface", "pivoting_friction_m", "pivoting friction"),
     (
         "surface",
         "restitution_threshold_m_s",

@@ -36,8 +36,8 @@ pub(super) fn notes(root: &Form, points: &[Point]) -> Vec<String> {
     }
     if points.iter().any(rolls_for_ever) {
         notes.push(
-            "surface.contour_m = 0: nothing stops a coin that rolls on its rim; tosses that roll from \
-             face to side and back stay undecided, endless or up to engine.volumetric.max_steps"
+            "surface.rolling_friction_m = 0: nothing stops a coin that rolls on its rim; tosses that roll from \
+             face to side and back stay undecided, never_settles or up to engine.volumetric.max_steps"
                 .to_owned(),
         );
     }
@@ -64,8 +64,8 @@ fn in_vain(points: &[Point]) -> Option<String> {
     let properties: [Property; 5] = [
         ("restitution", Surface::restitution),
         ("friction", Surface::friction),
-        ("contour_m", Surface::contour_m),
-        ("pivoting_m", Surface::pivoting_m),
+        ("rolling_friction_m", Surface::rolling_friction_m),
+        ("pivoting_friction_m", Surface::pivoting_friction_m),
         (
             "restitution_threshold_m_s",
             Surface::restitution_threshold_m_s,
@@ -93,6 +93,6 @@ fn rolls_for_ever(point: &Point) -> bool {
     matches!(point.engine, EngineChoice::Volumetric(_))
         && !adhesive(point)
         && surface.friction() > 0.0
-        && surface.contour_m() == 0.0
+        && surface.rolling_friction_m() == 0.0
         && scene.drag().is_none()
 }

@@ -114,7 +114,7 @@ impl Treatment {
 
 fn in_the_plane(settings: &flat::Settings) -> String {
     let decided = match settings.decision {
-        flat::Decision::Certain => "until energy alone makes the face certain",
+        flat::Decision::Energy => "until energy alone makes the face certain",
         flat::Decision::EnergyFraction(_) => {
             "until the energy has fallen to the chosen fraction, and on to the certain face to \
              count disagreements"

@@ -159,11 +159,11 @@ const FIXED: &[Definition] = &[
         |row| Cell::Count(row.tally.time_limit),
     ),
     (
-        "endless",
+        "never_settles",
         Kind::Count,
         "1",
         "Undecided for ever: proven never to settle.",
-        |row| Cell::Count(row.tally.endless),
+        |row| Cell::Count(row.tally.never_settles),
     ),
     (
         "impact_limit",

@@ -1,7 +1,7 @@
 //! A plan counted in memory, for who wants the numbers and no files.
 
 use super::schedule::{Finished, Schedule};
-use super::{Part, Report, RunError, Watcher, one_a_core, report, workers};
+use super::{Part, ProgressSink, Report, RunError, one_a_core, report, workers};
 use crate::plan::Plan;
 use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
@@ -14,7 +14,7 @@ pub struct Count<'a> {
     /// Set it (from another thread or a signal) to stop within about 0.1 s.
     pub cancel: &'a AtomicBool,
     /// Who is told how it goes on.
-    pub watcher: &'a dyn Watcher,
+    pub sink: &'a dyn ProgressSink,
 }
 
 /// Counts a plan: the same counts as a [`run`](super::run()) of it, and nothing is written. What was
@@ -34,7 +34,7 @@ pub struct Count<'a> {
 ///     &[],
 /// ).unwrap();
 /// let cancel = AtomicBool::new(false);
-/// let report = count(&plan, &Count { threads: None, cancel: &cancel, watcher: &() })?;
+/// let report = count(&plan, &Count { threads: None, cancel: &cancel, sink: &() })?;
 /// assert_eq!(report.tosses, 2000);
 /// assert!(report.results.rows[1].side.p > report.results.rows[0].side.p);
 /// # Ok::<(), coinmc::run::RunError>(())
@@ -43,14 +43,14 @@ pub fn count(plan: &Plan, options: &Count<'_>) -> Result<Report, RunError> {
     let Count {
         threads,
         cancel,
-        watcher,
+        sink,
     } = *options;
     let schedule = Schedule::new(plan, Part::WHOLE, Finished::new());
-    watcher.progress(&schedule.progress());
+    sink.progress(&schedule.progress());
     // the schedule itself holds the counts
     let keep = |_: &[_]| Ok(());
     let threads = one_a_core(threads);
-    let schedule = workers::work_off(plan, schedule, &keep, threads, cancel, watcher)?;
-    watcher.progress(&schedule.progress());
+    let schedule = workers::work_off(plan, schedule, &keep, threads, cancel, sink)?;
+    sink.progress(&schedule.progress());
     Ok(report(plan, Part::WHOLE, &schedule))
 }

@@ -1,23 +1,23 @@
-//! How a run is cut into shards: a function of the plan alone, so that neither threads nor parts
+//! How a run is cut into chunks: a function of the plan alone, so that neither threads nor parts
 //! nor a restart change what is counted.
 
-use super::Shard;
+use super::Chunk;
 use crate::plan::{EngineChoice, Plan, Stop};
 use std::ops::Range;
 
-/// Fewest tosses of a shard that is not the end of a point: some 30 ms of work in the plane, more in
+/// Fewest tosses of a chunk that is not the end of a point: some 30 ms of work in the plane, more in
 /// space, which hides what a file costs.
 const LEAST: u64 = 1 << 14;
-/// Most tosses of a shard of a run of fixed length, unless there were to be too many shards: a tenth of a
+/// Most tosses of a chunk of a run of fixed length, unless there were to be too many chunks: a tenth of a
 /// second of work in the plane, up to some seconds in space.
 const LARGE: u64 = 1 << 17;
-/// A run of fixed length has about this many shards before they are made larger than [`LARGE`] …
-const ENOUGH_SHARDS: u64 = 256;
+/// A run of fixed length has about this many chunks before they are made larger than [`LARGE`] …
+const ENOUGH_CHUNKS: u64 = 256;
 /// … and at most this many, beyond one a point. What is tossed in time steps takes so long that it has as
 /// many from the beginning.
-const MOST_SHARDS: u64 = 8192;
-/// A stage after the first is cut into at most this many shards.
-const SHARDS_A_STAGE: u64 = 16;
+const MOST_CHUNKS: u64 = 8192;
+/// A stage after the first is cut into at most this many chunks.
+const CHUNKS_A_STAGE: u64 = 16;
 
 /// Toss counts at which a point that stops at a half width is looked at: 2^14, 2^15, … below
 /// `max_tosses`, then `max_tosses`.
@@ -28,29 +28,29 @@ pub(crate) fn looks(max_tosses: u64) -> impl Iterator<Item = u64> {
         .chain([max_tosses])
 }
 
-/// Tosses of a shard where so many are made in all.
+/// Tosses of a chunk where so many are made in all.
 fn fixed_size(total: u64, plan: &Plan) -> u64 {
-    let of_at_most = |shards: u64| {
-        let size = total.div_ceil(shards).checked_next_power_of_two();
+    let of_at_most = |chunks: u64| {
+        let size = total.div_ceil(chunks).checked_next_power_of_two();
         size.unwrap_or(1 << 63)
     };
     let mut engines = plan.points.iter().map(|point| &point.engine);
     let stepped = engines.any(|engine| matches!(engine, EngineChoice::Rapier(_)));
-    let enough = if stepped { MOST_SHARDS } else { ENOUGH_SHARDS };
+    let enough = if stepped { MOST_CHUNKS } else { ENOUGH_CHUNKS };
     let size = of_at_most(enough).clamp(LEAST, LARGE);
-    size.max(of_at_most(MOST_SHARDS))
+    size.max(of_at_most(MOST_CHUNKS))
 }
 
 /// The cut of one plan.
 ///
 /// A point's tosses fall into stages, each ending where the point is looked at: one stage for a
-/// fixed number of tosses, one a look otherwise. A stage falls into shards of equal size, the
+/// fixed number of tosses, one a look otherwise. A stage falls into chunks of equal size, the
 /// last may be shorter.
 #[derive(Debug, Clone)]
 pub(super) struct Cut {
     /// Where each stage ends.
     ends: Vec<u64>,
-    /// Size of a shard where the number of tosses is fixed.
+    /// Size of a chunk where the number of tosses is fixed.
     fixed: Option<u64>,
 }
 
@@ -82,52 +82,52 @@ impl Cut {
         start..self.ends[stage]
     }
 
-    /// The shards of a stage of a point, in order, one at a time: a long run has more of them
+    /// The chunks of a stage of a point, in order, one at a time: a long run has more of them
     /// than memory.
-    pub(super) fn shards(&self, point: usize, stage: usize) -> impl Iterator<Item = Shard> + use<> {
+    pub(super) fn chunks(&self, point: usize, stage: usize) -> impl Iterator<Item = Chunk> + use<> {
         let Range { start, end } = self.stage(stage);
         let size = self.size(start);
         let starts = std::iter::successors(Some(start), move |start| start.checked_add(size));
         starts
             .take_while(move |&start| start < end)
-            .map(move |start| Shard {
+            .map(move |start| Chunk {
                 point,
                 tosses: start..end.min(start.saturating_add(size)),
             })
     }
 
-    /// The shard of this point that begins at toss `start`, if there is one.
-    pub(super) fn shard_at(&self, point: usize, start: u64) -> Option<Shard> {
+    /// The chunk of this point that begins at toss `start`, if there is one.
+    pub(super) fn chunk_at(&self, point: usize, start: u64) -> Option<Chunk> {
         let stage = self.ends.partition_point(|&end| end <= start);
         (stage < self.stages()).then_some(())?;
         let range = self.stage(stage);
         let size = self.size(range.start);
         (start - range.start).is_multiple_of(size).then(|| {
             let end = range.end.min(start.saturating_add(size));
-            Shard {
+            Chunk {
                 point,
                 tosses: start..end,
             }
         })
     }
 
-    /// The shard's number in the whole run, which decides the part that does it. Only a run of
+    /// The chunk's number in the whole run, which decides the part that does it. Only a run of
     /// fixed length has parts.
-    pub(super) fn number(&self, shard: &Shard) -> u64 {
-        if shard.tosses.is_empty() {
-            // integrated: one shard a point, dealt out in turn
-            return shard.point as u64;
+    pub(super) fn number(&self, chunk: &Chunk) -> u64 {
+        if chunk.tosses.is_empty() {
+            // integrated: one chunk a point, dealt out in turn
+            return chunk.point as u64;
         }
         let size = self.size(0);
-        let shards_a_point = self.ends[0].div_ceil(size);
-        (shard.point as u64)
-            .wrapping_mul(shards_a_point)
-            .wrapping_add(shard.tosses.start / size)
+        let chunks_a_point = self.ends[0].div_ceil(size);
+        (chunk.point as u64)
+            .wrapping_mul(chunks_a_point)
+            .wrapping_add(chunk.tosses.start / size)
     }
 
     fn size(&self, stage_start: u64) -> u64 {
         self.fixed
-            .unwrap_or_else(|| LEAST.max(stage_start / SHARDS_A_STAGE))
+            .unwrap_or_else(|| LEAST.max(stage_start / CHUNKS_A_STAGE))
     }
 }
 
@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn shards_tile_a_point_and_are_found_by_their_start() {
+    fn chunks_tile_a_point_and_are_found_by_their_start() {
         for (stop, tosses) in [
             ("tosses = 1", 1),
             ("tosses = 16_384", 16_384),
@@ -160,26 +160,26 @@ mod tests {
             ("half_width = 0.01\nmax_tosses = 10_000_001", 10_000_001),
         ] {
             let cut = Cut::new(&plan(3, stop));
-            let shards = (0..cut.stages()).flat_map(|stage| cut.shards(1, stage));
+            let chunks = (0..cut.stages()).flat_map(|stage| cut.chunks(1, stage));
             let mut end = 0;
-            for shard in shards {
-                assert_eq!(shard.tosses.start, end);
-                assert!(shard.tosses.end > end);
-                end = shard.tosses.end;
-                assert_eq!(cut.shard_at(1, shard.tosses.start), Some(shard.clone()));
+            for chunk in chunks {
+                assert_eq!(chunk.tosses.start, end);
+                assert!(chunk.tosses.end > end);
+                end = chunk.tosses.end;
+                assert_eq!(cut.chunk_at(1, chunk.tosses.start), Some(chunk.clone()));
                 assert_eq!(
-                    cut.shard_at(1, shard.tosses.start + 1).is_some(),
-                    shard.tosses.end - shard.tosses.start == 1 && end < tosses
+                    cut.chunk_at(1, chunk.tosses.start + 1).is_some(),
+                    chunk.tosses.end - chunk.tosses.start == 1 && end < tosses
                 );
             }
             assert_eq!(end, tosses, "{stop}");
-            assert_eq!(cut.shard_at(1, tosses), None);
-            assert_eq!(cut.shard_at(1, u64::MAX), None);
+            assert_eq!(cut.chunk_at(1, tosses), None);
+            assert_eq!(cut.chunk_at(1, u64::MAX), None);
         }
     }
 
     #[test]
-    fn a_run_has_a_bounded_number_of_shards_each_with_a_number_of_its_own() {
+    fn a_run_has_a_bounded_number_of_chunks_each_with_a_number_of_its_own() {
         for (points, tosses) in [
             (2, 1_u64),
             (7, 100_000),
@@ -188,9 +188,9 @@ mod tests {
         ] {
             let plan = plan(points, &format!("tosses = {tosses}"));
             let cut = Cut::new(&plan);
-            let shards = (0..plan.points.len()).flat_map(|point| cut.shards(point, 0));
-            let numbers: Vec<u64> = shards.map(|shard| cut.number(&shard)).collect();
-            assert!(numbers.len() as u64 <= MOST_SHARDS + u64::from(points));
+            let chunks = (0..plan.points.len()).flat_map(|point| cut.chunks(point, 0));
+            let numbers: Vec<u64> = chunks.map(|chunk| cut.number(&chunk)).collect();
+            assert!(numbers.len() as u64 <= MOST_CHUNKS + u64::from(points));
             assert_eq!(numbers.iter().collect::<HashSet<_>>().len(), numbers.len());
             assert!(cut.size(0).is_power_of_two());
         }
@@ -199,12 +199,12 @@ mod tests {
             2,
             "half_width = 1e-6\nmax_tosses = 1_000_000_000_000",
         ));
-        let shards = (0..cut.stages()).map(|stage| cut.shards(0, stage).count());
-        assert!(shards.sum::<usize>() as u64 <= cut.stages() as u64 * SHARDS_A_STAGE);
+        let chunks = (0..cut.stages()).map(|stage| cut.chunks(0, stage).count());
+        assert!(chunks.sum::<usize>() as u64 <= cut.stages() as u64 * CHUNKS_A_STAGE);
     }
 
     #[test]
-    fn shards_are_large_enough_to_hide_what_a_file_costs() {
+    fn chunks_are_large_enough_to_hide_what_a_file_costs() {
         let size = |tosses: u64| Cut::new(&plan(2, &format!("tosses = {tosses}"))).size(0);
         for (tosses_a_point, expected) in [
             (1, 1 << 14),

@@ -5,7 +5,7 @@ use super::manifest::{self, Manifest};
 use super::replace::{self, Replacement};
 use super::schedule::Finished;
 use super::tallies::{self, Entry, Tallies};
-use super::{Part, RunError, Watcher};
+use super::{Part, ProgressSink, RunError};
 use crate::plan::Plan;
 use crate::results::{Results, write_csv, write_parquet};
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -39,9 +39,9 @@ impl RunDirectory {
         path: &Path,
         plan: &Plan,
         part: Part,
-        watcher: &dyn Watcher,
+        sink: &dyn ProgressSink,
     ) -> Result<Self, RunError> {
-        Self::open_with(path, plan, Manifest::new(plan, part), watcher)
+        Self::open_with(path, plan, Manifest::new(plan, part), sink)
     }
 
     /// [`open`](Self::open) with a manifest that may name more than this machine.
@@ -49,7 +49,7 @@ impl RunDirectory {
         path: &Path,
         plan: &Plan,
         mut ours: Manifest,
-        watcher: &dyn Watcher,
+        sink: &dyn ProgressSink,
     ) -> Result<Self, RunError> {
         // looked at before anything is touched, and again when nobody else can change it
         must_be_usable(path, &ours)?;
@@ -66,7 +66,7 @@ impl RunDirectory {
         if theirs.as_ref() != Some(&ours) {
             ours.write(path)?;
         }
-        write_config(path, plan, watcher)?;
+        write_config(path, plan, sink)?;
         make_tally_directory(path)?;
         replace::sync_directory(path)?;
         let tallies = Tallies::of(path, ours.plan_hash);
@@ -86,18 +86,18 @@ impl RunDirectory {
     pub(super) fn finished(
         &self,
         plan: &Plan,
-        watcher: &dyn Watcher,
+        sink: &dyn ProgressSink,
     ) -> Result<Finished, RunError> {
         let mut finished = Finished::new();
         self.tallies.scan(plan, &Cut::new(plan), |entry| {
             match entry {
-                Entry::Finished(shard, piece) => {
-                    finished.insert((shard.point, shard.tosses.start), piece);
+                Entry::Finished(chunk, piece) => {
+                    finished.insert((chunk.point, chunk.tosses.start), piece);
                 }
                 Entry::Leftover(path) => replace::remove(&path)?,
                 Entry::Damaged(path, damage) => {
                     let aside = tallies::reject(&path)?;
-                    watcher.warning(&format!(
+                    sink.warning(&format!(
                         "{} is not used: {damage}. Its tosses are done again; it is now {}",
                         path.display(),
                         aside.display()
@@ -113,14 +113,14 @@ impl RunDirectory {
     pub(super) fn set_aside(
         &self,
         unneeded: &[(usize, u64)],
-        watcher: &dyn Watcher,
+        sink: &dyn ProgressSink,
     ) -> Result<(), RunError> {
         for &(point, start) in unneeded {
             let path = self.tallies.place(point, start);
             if replace::is_file(&path) {
                 let aside = tallies::reject(&path)?;
                 let (path, aside) = (path.display(), aside.display());
-                watcher.warning(&format!("{path} is no part of this run; it is now {aside}"));
+                sink.warning(&format!("{path} is no part of this run; it is now {aside}"));
             }
         }
         Ok(())
@@ -130,11 +130,11 @@ impl RunDirectory {
     pub(super) fn write_results(
         &self,
         results: &Results,
-        watcher: &dyn Watcher,
+        sink: &dyn ProgressSink,
     ) -> Result<(), RunError> {
         replace::remove(&self.path.join(PARTIAL))?;
-        self.write(PARQUET, watcher, |file| write_parquet(results, file))?;
-        self.write(CSV, watcher, |file| write_csv(results, file))?;
+        self.write(PARQUET, sink, |file| write_parquet(results, file))?;
+        self.write(CSV, sink, |file| write_csv(results, file))?;
         replace::sync_directory(&self.path)
     }
 
@@ -149,7 +149,7 @@ impl RunDirectory {
     fn write(
         &self,
         name: &str,
-        watcher: &dyn Watcher,
+        sink: &dyn ProgressSink,
         content: impl FnOnce(&mut (dyn io::Write + Send)) -> io::Result<()>,
     ) -> Result<(), RunError> {
         let path = self.path.join(name);
@@ -158,7 +158,7 @@ impl RunDirectory {
         written.map_err(|error| file.error(error))?;
         if file.finish_if_new()? {
             let path = path.display();
-            watcher.warning(&format!(
+            sink.warning(&format!(
                 "{path} was not what the tallies give and was replaced"
             ));
         }
@@ -240,7 +240,7 @@ fn lock(dir: &Path) -> Result<File, RunError> {
     }
 }
 
-fn write_config(dir: &Path, plan: &Plan, watcher: &dyn Watcher) -> Result<(), RunError> {
+fn write_config(dir: &Path, plan: &Plan, sink: &dyn ProgressSink) -> Result<(), RunError> {
     let path = dir.join(CONFIG);
     let ours = plan.resolved_toml.as_bytes();
     if replace::is_file(&path) {
@@ -253,7 +253,7 @@ fn write_config(dir: &Path, plan: &Plan, watcher: &dyn Watcher) -> Result<(), Ru
             return Ok(());
         }
         let path = path.display();
-        watcher.warning(&format!(
+        sink.warning(&format!(
             "{path} was not the config of this run and was replaced"
         ));
     }

@@ -47,7 +47,7 @@ pub struct Seen {
 ///
 /// # Example
 /// ```
-/// use coinmc::run::{Begin, follow_each, stream};
+/// use coinmc::run::{Begin, for_each_outcome, stream};
 /// let plan = coinmc::config::parse(
 ///     "inline",
 ///     "coin.ratio = 1\nsurface = { restitution = 0.5, friction = 0.3 }\n\
@@ -56,14 +56,14 @@ pub struct Seen {
 /// ).unwrap();
 /// let begin = stream(&plan, 0);
 /// let mut most = 0;
-/// follow_each(&plan.points[0], Begin::Drawn(&begin), 0..100, |_, outcome| {
+/// for_each_outcome(&plan.points[0], Begin::Drawn(&begin), 0..100, |_, outcome| {
 ///     most = most.max(outcome.impacts);
 ///     true
 /// })?;
 /// assert!(most > 1);
 /// # Ok::<(), coinmc::run::SettingsError>(())
 /// ```
-pub fn follow_each(
+pub fn for_each_outcome(
     point: &Point,
     begin: Begin<'_>,
     tosses: Range<u64>,
@@ -78,12 +78,12 @@ pub fn follow_each(
     Ok(with_engine(point, follow)?.is_some())
 }
 
-/// [`follow_each`] with the coin as it was at the end, one toss after the other: an engine that
+/// [`for_each_outcome`] with the coin as it was at the end, one toss after the other: an engine that
 /// follows several at a time is a few times as fast without.
 ///
 /// # Errors
-/// Those of [`follow_each`].
-pub fn see_each(
+/// Those of [`for_each_outcome`].
+pub fn for_each_end(
     point: &Point,
     begin: Begin<'_>,
     tosses: Range<u64>,

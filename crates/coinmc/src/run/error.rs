@@ -1,18 +1,18 @@
 //! Why a run stopped, and what to do about it.
 
-use super::{Part, SettingsError, Shard};
+use super::{Chunk, Part, SettingsError};
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Why a run, a shard or a merge failed. Finished shards are kept whatever the error: the same
+/// Why a run, a chunk or a merge failed. Finished chunks are kept whatever the error: the same
 /// run can be started again once the cause is gone.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RunError {
     /// The disk, or the user's share of it, is full.
     #[error(
-        "no space left for {}: free some and run again, finished shards are kept ({source})",
+        "no space left for {}: free some and run again, finished chunks are kept ({source})",
         path.display()
     )]
     OutOfSpace {
@@ -120,11 +120,11 @@ pub enum RunError {
         "a run that stops at a half width cannot be cut into parts: give a fixed number of tosses"
     )]
     PartsNeedFixedTosses,
-    /// The shard lies outside the plan.
-    #[error("{shard} lies outside the plan, which has {points} points")]
-    NoSuchShard {
-        /// The shard asked for.
-        shard: Shard,
+    /// The chunk lies outside the plan.
+    #[error("{chunk} lies outside the plan, which has {points} points")]
+    NoSuchChunk {
+        /// The chunk asked for.
+        chunk: Chunk,
         /// Number of points.
         points: usize,
     },
@@ -160,18 +160,18 @@ pub enum RunError {
     #[error("{} in none of the parts: {}", number(*total), list(missing, *total))]
     Missing {
         /// The first of them, neighbours joined.
-        missing: Vec<Shard>,
+        missing: Vec<Chunk>,
         /// How many there are in all.
         total: u64,
     },
     /// Two parts count the same tosses differently.
     #[error(
-        "{} and {} disagree about {shard}: one of them is not of this program, or was altered",
+        "{} and {} disagree about {chunk}: one of them is not of this program, or was altered",
         first.display(), second.display()
     )]
     Conflict {
         /// The tosses in question.
-        shard: Shard,
+        chunk: Chunk,
         /// One run directory.
         first: PathBuf,
         /// The other.
@@ -195,17 +195,17 @@ impl RunError {
     }
 }
 
-fn number(shards: u64) -> String {
-    match shards {
-        1 => "1 shard is".to_owned(),
-        _ => format!("{shards} shards are"),
+fn number(chunks: u64) -> String {
+    match chunks {
+        1 => "1 chunk is".to_owned(),
+        _ => format!("{chunks} chunks are"),
     }
 }
 
-fn list(missing: &[Shard], total: u64) -> String {
+fn list(missing: &[Chunk], total: u64) -> String {
     let mut text = missing
         .iter()
-        .map(Shard::to_string)
+        .map(Chunk::to_string)
         .collect::<Vec<_>>()
         .join("; ");
     if missing.len() < usize::try_from(total).unwrap_or(usize::MAX) {

@@ -48,7 +48,7 @@ pub(super) fn decode(
         return Err(Damage::OtherPlan);
     }
     if value("point")? != point.to_string() || value("method")? != method.name() {
-        return Err(Damage::OtherShard);
+        return Err(Damage::OtherChunk);
     }
     let evaluations = value("evaluations")?.parse().map_err(|_| Damage::Form)?;
     let exact = value("interval")? == KINDS[1];
@@ -163,10 +163,10 @@ mod tests {
     fn strangers_with_a_right_checksum_are_told_apart() {
         let text = encode(7, &example(), HASH);
         let decode = |text: &str, point, hash| super::decode(text.as_bytes(), point, METHOD, hash);
-        assert_eq!(decode(&text, 8, HASH), Err(Damage::OtherShard));
+        assert_eq!(decode(&text, 8, HASH), Err(Damage::OtherChunk));
         assert_eq!(decode(&text, 7, "f00"), Err(Damage::OtherPlan));
         let other = super::decode(text.as_bytes(), 7, Method::Tossed, HASH);
-        assert_eq!(other, Err(Damage::OtherShard));
+        assert_eq!(other, Err(Damage::OtherChunk));
         let body = unseal(text.as_bytes()).unwrap();
         for (from, to, damage) in [
             ("integral 1", "integral 2", Damage::Version),

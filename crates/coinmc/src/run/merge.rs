@@ -7,14 +7,14 @@ use super::piece::Piece;
 use super::schedule::{Finished, Next, Schedule};
 use super::stored::{read_manifest, read_plan};
 use super::tallies::{Entry, Tallies};
-use super::{Part, Report, RunError, Shard, Watcher, conclude};
+use super::{Chunk, Part, ProgressSink, Report, RunError, conclude};
 use crate::plan::Plan;
 use std::collections::hash_map::Entry as Slot;
 use std::collections::{BTreeSet, HashMap};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A message names at most this many missing shards.
+/// A message names at most this many missing chunks.
 const NAMED: usize = 20;
 
 /// Puts the parts of a run together in a run directory of their own, which is that of the whole
@@ -23,10 +23,10 @@ const NAMED: usize = 20;
 /// Everything is checked before anything is written.
 ///
 /// # Errors
-/// [`RunError::Missing`] with the shards that no part holds, [`RunError::Conflict`] if two parts
+/// [`RunError::Missing`] with the chunks that no part holds, [`RunError::Conflict`] if two parts
 /// disagree, [`RunError::OtherPlan`] or [`RunError::OtherVersion`] if they are not of one run, and
 /// what [`run`](super::run) says about a directory it cannot use.
-pub fn merge(inputs: &[PathBuf], out: &Path, watcher: &dyn Watcher) -> Result<Report, RunError> {
+pub fn merge(inputs: &[PathBuf], out: &Path, sink: &dyn ProgressSink) -> Result<Report, RunError> {
     let first = inputs.first().ok_or(RunError::NothingToMerge)?;
     let plan = read_plan(first)?;
     let mut ours = Manifest {
@@ -39,7 +39,7 @@ pub fn merge(inputs: &[PathBuf], out: &Path, watcher: &dyn Watcher) -> Result<Re
         theirs.must_be_same_run(&ours, input)?;
         ours.targets.extend(theirs.targets);
     }
-    let collected = collect(&plan, &ours.plan_hash, inputs, watcher)?;
+    let collected = collect(&plan, &ours.plan_hash, inputs, sink)?;
     must_be_whole(
         &plan,
         collected
@@ -47,12 +47,12 @@ pub fn merge(inputs: &[PathBuf], out: &Path, watcher: &dyn Watcher) -> Result<Re
             .map(|(key, found)| (*key, found.piece))
             .collect(),
     )?;
-    write(&plan, ours, collected, inputs, out, watcher)
+    write(&plan, ours, collected, inputs, out, sink)
 }
 
 /// A piece and the run directory it came from.
 struct Found {
-    shard: Shard,
+    chunk: Chunk,
     piece: Piece,
     input: usize,
 }
@@ -72,18 +72,18 @@ fn collect(
     plan: &Plan,
     plan_hash: &str,
     inputs: &[PathBuf],
-    watcher: &dyn Watcher,
+    sink: &dyn ProgressSink,
 ) -> Result<Collected, RunError> {
     let cut = Cut::new(plan);
     let mut collected = Collected::new();
     for (input, dir) in inputs.iter().enumerate() {
         Tallies::of(dir, plan_hash.to_owned()).scan(plan, &cut, |entry| match entry {
-            Entry::Finished(shard, piece) => {
-                match collected.entry((shard.point, shard.tosses.start)) {
+            Entry::Finished(chunk, piece) => {
+                match collected.entry((chunk.point, chunk.tosses.start)) {
                     Slot::Occupied(there) if there.get().piece != piece => {
                         let first = inputs[there.get().input].clone();
                         return Err(RunError::Conflict {
-                            shard,
+                            chunk,
                             first,
                             second: dir.clone(),
                         });
@@ -91,7 +91,7 @@ fn collect(
                     Slot::Occupied(_) => {}
                     Slot::Vacant(free) => {
                         free.insert(Found {
-                            shard,
+                            chunk,
                             piece,
                             input,
                         });
@@ -100,7 +100,7 @@ fn collect(
                 Ok(())
             }
             Entry::Damaged(path, damage) => {
-                watcher.warning(&format!("{} is not used: {damage}", path.display()));
+                sink.warning(&format!("{} is not used: {damage}", path.display()));
                 Ok(())
             }
             Entry::Leftover(_) => Ok(()),
@@ -109,18 +109,18 @@ fn collect(
     Ok(collected)
 }
 
-/// Plays the run through with what was collected: a shard that would have to be done is missing.
+/// Plays the run through with what was collected: a chunk that would have to be done is missing.
 fn must_be_whole(plan: &Plan, finished: Finished) -> Result<(), RunError> {
     let mut schedule = Schedule::new(plan, Part::WHOLE, finished);
-    let (mut missing, mut total) = (Vec::<Shard>::new(), 0);
-    while let Next::Shard(shard) = schedule.next() {
+    let (mut missing, mut total) = (Vec::<Chunk>::new(), 0);
+    while let Next::Chunk(chunk) = schedule.next() {
         total += 1;
         let room = missing.len() < NAMED;
         match missing.last_mut() {
-            Some(last) if last.point == shard.point && last.tosses.end == shard.tosses.start => {
-                last.tosses.end = shard.tosses.end;
+            Some(last) if last.point == chunk.point && last.tosses.end == chunk.tosses.start => {
+                last.tosses.end = chunk.tosses.end;
             }
-            _ if room => missing.push(shard),
+            _ if room => missing.push(chunk),
             _ => {}
         }
     }
@@ -137,24 +137,24 @@ fn write(
     collected: Collected,
     inputs: &[PathBuf],
     out: &Path,
-    watcher: &dyn Watcher,
+    sink: &dyn ProgressSink,
 ) -> Result<Report, RunError> {
     /// Tallies stored together.
     const BATCH: usize = 256;
-    let directory = RunDirectory::open_with(out, plan, manifest, watcher)?;
-    let there = directory.finished(plan, watcher)?;
+    let directory = RunDirectory::open_with(out, plan, manifest, sink)?;
+    let there = directory.finished(plan, sink)?;
     let mut new = Vec::new();
     for (key, found) in &collected {
         match there.get(key) {
             Some(piece) if *piece != found.piece => {
                 return Err(RunError::Conflict {
-                    shard: found.shard.clone(),
+                    chunk: found.chunk.clone(),
                     first: inputs[found.input].clone(),
                     second: out.to_owned(),
                 });
             }
             Some(_) => {}
-            None => new.push((found.shard.clone(), found.piece)),
+            None => new.push((found.chunk.clone(), found.piece)),
         }
     }
     new.chunks(BATCH)
@@ -166,5 +166,5 @@ fn write(
     let mut schedule = Schedule::new(plan, Part::WHOLE, finished);
     let whole = schedule.next();
     assert_eq!(whole, Next::Done, "checked before");
-    conclude(plan, Part::WHOLE, schedule, &directory, watcher)
+    conclude(plan, Part::WHOLE, schedule, &directory, sink)
 }

@@ -1,8 +1,8 @@
-//! From a plan to results: shards done on all cores, each kept in the run directory as soon as it
+//! From a plan to results: chunks done on all cores, each kept in the run directory as soon as it
 //! is finished.
 //!
 //! ```text
-//! Plan ──cut──▶ shards ──workers──▶ tallies/*.tally ──▶ results.csv, results.parquet
+//! Plan ──cut──▶ chunks ──workers──▶ tallies/*.tally ──▶ results.csv, results.parquet
 //!                           ▲             │
 //!                           └── a later run takes them over
 //! ```
@@ -21,7 +21,7 @@
 //!     part: Part::WHOLE,
 //!     threads: None,
 //!     cancel: &cancel,
-//!     watcher: &(),
+//!     sink: &(),
 //! })?;
 //! for row in &report.results.rows {
 //!     println!("{:?}: {} in [{}, {}]", row.parameters, row.side.p, row.side.lo, row.side.hi);
@@ -30,6 +30,7 @@
 //! # }
 //! ```
 
+mod chunk;
 mod count;
 mod cut;
 mod directory;
@@ -41,28 +42,27 @@ mod manifest;
 mod merge;
 mod part;
 mod piece;
+mod progress;
 mod replace;
 mod schedule;
 mod sealed;
-mod shard;
 mod stored;
 mod tallies;
 mod tally_file;
-mod watcher;
 mod workers;
 
+pub use chunk::{Chunk, run_chunk};
 pub use count::{Count, count};
 pub(crate) use cut::looks;
-pub use each::{Begin, Seen, follow_each, see_each};
+pub use each::{Begin, Seen, for_each_end, for_each_outcome};
 pub use engines::{SettingsError, name as engine_name, stream, toss};
 pub(crate) use engines::{Task, law, with_engine};
 pub use error::RunError;
 pub use merge::merge;
 pub use part::{Part, PartError};
 pub use piece::integrate_point;
-pub use shard::{Shard, run_shard};
+pub use progress::{Progress, ProgressSink};
 pub use stored::{stored_plan, stored_report};
-pub use watcher::{Progress, Watcher};
 
 use crate::plan::{Plan, Stop};
 use crate::results::{Results, Row};
@@ -85,7 +85,7 @@ pub struct Options<'a> {
     /// Set it (from another thread or a signal) to stop within about 0.1 s.
     pub cancel: &'a AtomicBool,
     /// Who is told how the run goes on.
-    pub watcher: &'a dyn Watcher,
+    pub sink: &'a dyn ProgressSink,
 }
 
 /// What a run came to.
@@ -95,8 +95,8 @@ pub struct Report {
     pub results: Results,
     /// Whether the run is finished.
     pub status: Status,
-    /// Shards taken over from an earlier run.
-    pub reused_shards: u64,
+    /// Chunks taken over from an earlier run.
+    pub reused_chunks: u64,
     /// All tosses counted, those of an earlier run included.
     pub tosses: u64,
 }
@@ -124,7 +124,7 @@ pub enum Status {
 /// and with `results.partial.csv` if it was cancelled or only a part was asked for.
 ///
 /// # Errors
-/// [`RunError`]; finished shards are kept and running again goes on.
+/// [`RunError`]; finished chunks are kept and running again goes on.
 pub fn run(plan: &Plan, options: &Options<'_>) -> Result<Report, RunError> {
     if options.part != Part::WHOLE && !matches!(plan.stop, Stop::Tosses(_)) {
         return Err(RunError::PartsNeedFixedTosses);
@@ -134,15 +134,15 @@ pub fn run(plan: &Plan, options: &Options<'_>) -> Result<Report, RunError> {
         part,
         threads,
         cancel,
-        watcher,
+        sink,
     } = *options;
-    let directory = RunDirectory::open(out, plan, part, watcher)?;
-    let schedule = Schedule::new(plan, part, directory.finished(plan, watcher)?);
-    watcher.progress(&schedule.progress());
+    let directory = RunDirectory::open(out, plan, part, sink)?;
+    let schedule = Schedule::new(plan, part, directory.finished(plan, sink)?);
+    sink.progress(&schedule.progress());
     let keep = |batch: &[_]| directory.tallies().store(batch);
     let threads = one_a_core(threads);
-    let schedule = workers::work_off(plan, schedule, &keep, threads, cancel, watcher)?;
-    conclude(plan, part, schedule, &directory, watcher)
+    let schedule = workers::work_off(plan, schedule, &keep, threads, cancel, sink)?;
+    conclude(plan, part, schedule, &directory, sink)
 }
 
 /// The threads asked for, or one a core.
@@ -157,19 +157,19 @@ fn conclude(
     part: Part,
     mut schedule: Schedule<'_>,
     directory: &RunDirectory,
-    watcher: &dyn Watcher,
+    sink: &dyn ProgressSink,
 ) -> Result<Report, RunError> {
     let mut report = report(plan, part, &schedule);
     match report.status {
         Status::Complete | Status::ShortOfTarget { .. } => {
-            directory.set_aside(&schedule.take_unneeded(), watcher)?;
-            directory.write_results(&report.results, watcher)?;
+            directory.set_aside(&schedule.take_unneeded(), sink)?;
+            directory.write_results(&report.results, sink)?;
         }
         Status::Interrupted | Status::Part => directory.write_partial(&report.results)?,
     }
     let progress = schedule.progress();
-    watcher.progress(&progress);
-    (report.reused_shards, report.tosses) = (progress.reused_shards, progress.tosses_done);
+    sink.progress(&progress);
+    (report.reused_chunks, report.tosses) = (progress.reused_chunks, progress.tosses_done);
     Ok(report)
 }
 
@@ -186,7 +186,7 @@ fn report(plan: &Plan, part: Part, schedule: &Schedule<'_>) -> Report {
     Report {
         results: Results::new(plan, rows),
         status: status(part, schedule),
-        reused_shards: progress.reused_shards,
+        reused_chunks: progress.reused_chunks,
         tosses: progress.tosses_done,
     }
 }

@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
 
-/// Part `index` of `of`, counted from 1: the shards whose number is `index - 1` modulo `of`.
+/// Part `index` of `of`, counted from 1: the chunks whose number is `index - 1` modulo `of`.
 ///
 /// # Example
 /// ```
@@ -63,9 +63,9 @@ impl Part {
         self.of
     }
 
-    /// Whether shard number `shard` of the run belongs to this part.
-    pub(super) fn owns(self, shard: u64) -> bool {
-        shard % u64::from(self.of) == u64::from(self.index - 1)
+    /// Whether chunk number `chunk` of the run belongs to this part.
+    pub(super) fn owns(self, chunk: u64) -> bool {
+        chunk % u64::from(self.of) == u64::from(self.index - 1)
     }
 }
 
@@ -129,10 +129,10 @@ mod tests {
     }
 
     #[test]
-    fn every_shard_belongs_to_exactly_one_part() {
-        for shard in 0..20 {
+    fn every_chunk_belongs_to_exactly_one_part() {
+        for chunk in 0..20 {
             let owners = (1..=3)
-                .filter(|&i| Part::new(i, 3).unwrap().owns(shard))
+                .filter(|&i| Part::new(i, 3).unwrap().owns(chunk))
                 .count();
             assert_eq!(owners, 1);
         }

@@ -1,16 +1,16 @@
 //! What a piece of work comes to, and the piece that is no range of tosses.
 
-use super::{RunError, SettingsError, Shard, Task, with_engine};
+use super::{Chunk, RunError, SettingsError, Task, with_engine};
 use crate::plan::{Plan, Point};
 use coinmc_core::{Domain, Engine, Stream, Tally};
 use coinmc_quadrature::{Goal, Integral, Method, integrate};
 
-/// What a shard came to.
+/// What a chunk came to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Piece {
     /// A range of tosses.
     Tossed(Tally),
-    /// A whole point, integrated: its shard is an empty range.
+    /// A whole point, integrated: its chunk is an empty range.
     Integrated(Integral),
 }
 
@@ -24,9 +24,9 @@ impl Piece {
     }
 }
 
-/// The one shard of a point that is integrated.
-pub(super) fn whole(point: usize) -> Shard {
-    Shard {
+/// The one chunk of a point that is integrated.
+pub(super) fn whole(point: usize) -> Chunk {
+    Chunk {
         point,
         tosses: 0..0,
     }
@@ -38,7 +38,7 @@ pub(super) fn whole(point: usize) -> Shard {
 /// the first look). The result depends on the plan and that number alone.
 ///
 /// # Errors
-/// [`RunError::NoSuchShard`] if there is no such point, [`RunError::Settings`] if its engine refuses
+/// [`RunError::NoSuchChunk`] if there is no such point, [`RunError::Settings`] if its engine refuses
 /// its settings.
 ///
 /// # Example
@@ -59,8 +59,8 @@ pub fn integrate_point(
     evaluations: u64,
 ) -> Result<Option<Integral>, RunError> {
     if point >= plan.points.len() {
-        return Err(RunError::NoSuchShard {
-            shard: whole(point),
+        return Err(RunError::NoSuchChunk {
+            chunk: whole(point),
             points: plan.points.len(),
         });
     }

@@ -1,22 +1,22 @@
-//! Which shard comes next, and what the shards of a point add up to.
+//! Which chunk comes next, and what the chunks of a point add up to.
 
 use super::cut::Cut;
 use super::piece::{Piece, whole};
-use super::{Part, Progress, Shard};
+use super::{Chunk, Part, Progress};
 use crate::plan::{Plan, Stop};
 use crate::results::estimates;
 use coinmc_core::{Face, IntervalMethod, Tally};
 use coinmc_quadrature::Integral;
 use std::collections::HashMap;
 
-/// Pieces known beforehand, by point and first toss of their shard.
+/// Pieces known beforehand, by point and first toss of their chunk.
 pub(super) type Finished = HashMap<(usize, u64), Piece>;
 
-/// Hands out shards and takes what they came to back, in whatever order they arrive.
+/// Hands out chunks and takes what they came to back, in whatever order they arrive.
 ///
 /// Points are opened in order, a stage at a time; the next stage of an open point comes before
-/// the next point. Nothing ever waits for all shards of a stage but that stage's successor. What
-/// is held is one tally a point, not one a shard.
+/// the next point. Nothing ever waits for all chunks of a stage but that stage's successor. What
+/// is held is one tally a point, not one a chunk.
 #[derive(Debug)]
 pub(super) struct Schedule<'a> {
     plan: &'a Plan,
@@ -24,11 +24,11 @@ pub(super) struct Schedule<'a> {
     part: Part,
     finished: Finished,
     points: Vec<PointState>,
-    /// The first point no shard of which was handed out.
+    /// The first point no chunk of which was handed out.
     unopened: usize,
     /// Open points whose next stage can be handed out.
     ready: Vec<usize>,
-    /// The stage whose shards are being handed out.
+    /// The stage whose chunks are being handed out.
     current: Option<Stage>,
     in_flight: u64,
     progress: Progress,
@@ -45,9 +45,9 @@ pub(super) struct PointState {
     /// The stop rule is met.
     pub(super) reached: bool,
     stage: usize,
-    /// Shards of the stage that were handed out and are not back.
+    /// Chunks of the stage that were handed out and are not back.
     outstanding: u64,
-    /// All shards of the stage were handed out.
+    /// All chunks of the stage were handed out.
     handed_out: bool,
     half_width: f64,
     /// Tosses that the point is thought to need.
@@ -56,7 +56,7 @@ pub(super) struct PointState {
 
 struct Stage {
     point: usize,
-    shards: Box<dyn Iterator<Item = Shard> + Send>,
+    chunks: Box<dyn Iterator<Item = Chunk> + Send>,
 }
 
 impl std::fmt::Debug for Stage {
@@ -70,9 +70,9 @@ impl std::fmt::Debug for Stage {
 /// What to do now.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Next {
-    /// This shard.
-    Shard(Shard),
-    /// Wait until a shard comes back: only then is it known what is next.
+    /// This chunk.
+    Chunk(Chunk),
+    /// Wait until a chunk comes back: only then is it known what is next.
     Wait,
     /// Nothing; all is done.
     Done,
@@ -109,7 +109,7 @@ impl<'a> Schedule<'a> {
             tosses_done: reused,
             tosses_planned: forecast.saturating_mul(tossed),
             tosses_reused: reused,
-            reused_shards: finished.len() as u64,
+            reused_chunks: finished.len() as u64,
             worst_half_width: None,
         };
         Self {
@@ -127,7 +127,7 @@ impl<'a> Schedule<'a> {
         }
     }
 
-    /// The next thing to do. Shards known beforehand are counted in passing.
+    /// The next thing to do. Chunks known beforehand are counted in passing.
     pub(super) fn next(&mut self) -> Next {
         loop {
             let Some(stage) = &mut self.current else {
@@ -141,27 +141,27 @@ impl<'a> Schedule<'a> {
                 };
             };
             let point = stage.point;
-            let Some(shard) = stage.shards.next() else {
+            let Some(chunk) = stage.chunks.next() else {
                 self.current = None;
                 self.points[point].handed_out = true;
                 self.close_stage_if_complete(point);
                 continue;
             };
-            if self.part != Part::WHOLE && !self.part.owns(self.cut.number(&shard)) {
+            if self.part != Part::WHOLE && !self.part.owns(self.cut.number(&chunk)) {
                 continue;
             }
-            if self.take_finished(&shard) {
+            if self.take_finished(&chunk) {
                 continue;
             }
             self.points[point].outstanding += 1;
             self.in_flight += 1;
-            return Next::Shard(shard);
+            return Next::Chunk(chunk);
         }
     }
 
-    /// Takes back a shard that [`next`](Self::next) handed out.
-    pub(super) fn complete(&mut self, shard: &Shard, piece: &Piece) {
-        let point = &mut self.points[shard.point];
+    /// Takes back a chunk that [`next`](Self::next) handed out.
+    pub(super) fn complete(&mut self, chunk: &Chunk, piece: &Piece) {
+        let point = &mut self.points[chunk.point];
         match piece {
             Piece::Tossed(tally) => point.tally.merge(tally),
             Piece::Integrated(integral) => point.integral = Some(*integral),
@@ -169,8 +169,8 @@ impl<'a> Schedule<'a> {
         point.outstanding -= 1;
         self.in_flight -= 1;
         self.progress.tosses_done += piece.tosses();
-        self.update_worst(shard.point);
-        self.close_stage_if_complete(shard.point);
+        self.update_worst(chunk.point);
+        self.close_stage_if_complete(chunk.point);
     }
 
     /// How far the run is.
@@ -208,7 +208,7 @@ impl<'a> Schedule<'a> {
     fn forget_reused(&mut self, piece: &Piece) {
         self.progress.tosses_done -= piece.tosses();
         self.progress.tosses_reused -= piece.tosses();
-        self.progress.reused_shards -= 1;
+        self.progress.reused_chunks -= 1;
     }
 
     fn open_stage(&mut self) -> bool {
@@ -221,11 +221,11 @@ impl<'a> Schedule<'a> {
             None => return false,
         };
         if self.plan.integrates(point) {
-            let shards = Box::new(std::iter::once(whole(point)));
-            self.current = Some(Stage { point, shards });
+            let chunks = Box::new(std::iter::once(whole(point)));
+            self.current = Some(Stage { point, chunks });
         } else if self.plan.makes_tosses(point) {
-            let shards = Box::new(self.cut.shards(point, self.points[point].stage));
-            self.current = Some(Stage { point, shards });
+            let chunks = Box::new(self.cut.chunks(point, self.points[point].stage));
+            self.current = Some(Stage { point, chunks });
         } else {
             self.points[point].integral = self.plan.known(point);
             self.points[point].reached = true;
@@ -234,23 +234,23 @@ impl<'a> Schedule<'a> {
         true
     }
 
-    fn take_finished(&mut self, shard: &Shard) -> bool {
-        let Some(piece) = self.finished.remove(&(shard.point, shard.tosses.start)) else {
+    fn take_finished(&mut self, chunk: &Chunk) -> bool {
+        let Some(piece) = self.finished.remove(&(chunk.point, chunk.tosses.start)) else {
             return false;
         };
-        let point = &mut self.points[shard.point];
+        let point = &mut self.points[chunk.point];
         match piece {
             Piece::Integrated(integral) => point.integral = Some(integral),
             Piece::Tossed(tally) => {
                 let Some(sum) = point.tally.checked_merge(&tally) else {
-                    // only forged counts overflow: the shard is done again
+                    // only forged counts overflow: the chunk is done again
                     self.forget_reused(&piece);
                     return false;
                 };
                 point.tally = sum;
             }
         }
-        self.update_worst(shard.point);
+        self.update_worst(chunk.point);
         true
     }
 

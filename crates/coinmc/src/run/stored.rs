@@ -5,7 +5,7 @@ use super::directory::CONFIG;
 use super::manifest::{self, Manifest};
 use super::schedule::{Finished, Next, Schedule};
 use super::tallies::{Entry, Tallies};
-use super::{Part, Report, RunError, Watcher, report};
+use super::{Part, ProgressSink, Report, RunError, report};
 use crate::config;
 use crate::plan::Plan;
 use std::path::Path;
@@ -24,30 +24,30 @@ pub fn stored_plan(dir: &Path) -> Result<Plan, RunError> {
 
 /// What a run directory holds: its plan and what is counted so far, finished or not, also while a
 /// run goes on in it. Nothing in the directory is touched; of tallies that are not believed the
-/// watcher is told.
+/// sink is told.
 ///
 /// # Errors
 /// Those of [`stored_plan`], and [`RunError::Io`]. A directory that holds a part of a run is read
 /// as the whole, [`Interrupted`](super::Status::Interrupted).
-pub fn stored_report(dir: &Path, watcher: &dyn Watcher) -> Result<(Plan, Report), RunError> {
+pub fn stored_report(dir: &Path, sink: &dyn ProgressSink) -> Result<(Plan, Report), RunError> {
     let plan = stored_plan(dir)?;
     let mut finished = Finished::new();
     let tallies = Tallies::of(dir, plan.hash());
     tallies.scan(&plan, &Cut::new(&plan), |entry| {
         match entry {
-            Entry::Finished(shard, piece) => {
-                finished.insert((shard.point, shard.tosses.start), piece);
+            Entry::Finished(chunk, piece) => {
+                finished.insert((chunk.point, chunk.tosses.start), piece);
             }
             Entry::Damaged(path, damage) => {
-                watcher.warning(&format!("{} is not used: {damage}", path.display()));
+                sink.warning(&format!("{} is not used: {damage}", path.display()));
             }
             Entry::Leftover(_) => {}
         }
         Ok(())
     })?;
     let mut schedule = Schedule::new(&plan, Part::WHOLE, finished);
-    // shards that are not there stay handed out
-    while let Next::Shard(_) = schedule.next() {}
+    // chunks that are not there stay handed out
+    while let Next::Chunk(_) = schedule.next() {}
     let report = report(&plan, Part::WHOLE, &schedule);
     Ok((plan, report))
 }

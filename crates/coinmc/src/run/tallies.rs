@@ -6,7 +6,7 @@ use super::piece::{Piece, whole};
 use super::replace::{self, Replacement, TEMPORARY};
 use super::sealed::MAX_BYTES;
 use super::tally_file::{self, Damage};
-use super::{RunError, Shard};
+use super::{Chunk, RunError};
 use crate::plan::Plan;
 use std::fs;
 use std::io::Write;
@@ -28,8 +28,8 @@ pub(super) struct Tallies {
 /// of it.
 #[derive(Debug)]
 pub(super) enum Entry {
-    /// A shard that is finished.
-    Finished(Shard, Piece),
+    /// A chunk that is finished.
+    Finished(Chunk, Piece),
     /// A file that is not believed.
     Damaged(PathBuf, Damage),
     /// What a killed run was writing.
@@ -60,9 +60,9 @@ impl Tallies {
             let Some(name) = name.to_str() else { continue };
             let path = self.path.join(name);
             if let Some((point, start)) = tally_file::parse_name(name) {
-                let read = shard_at(plan, cut, point, start)
-                    .ok_or(Damage::NoSuchShard)
-                    .map(|shard| self.read(&path, shard, plan));
+                let read = chunk_at(plan, cut, point, start)
+                    .ok_or(Damage::NoSuchChunk)
+                    .map(|chunk| self.read(&path, chunk, plan));
                 found(match read {
                     Ok(entry) => entry?,
                     Err(damage) => Entry::Damaged(path, damage),
@@ -78,7 +78,7 @@ impl Tallies {
         Ok(())
     }
 
-    fn read(&self, path: &Path, shard: Shard, plan: &Plan) -> Result<Entry, RunError> {
+    fn read(&self, path: &Path, chunk: Chunk, plan: &Plan) -> Result<Entry, RunError> {
         if !replace::is_file(path) {
             return Ok(Entry::Damaged(path.to_owned(), Damage::NotAFile));
         }
@@ -86,27 +86,27 @@ impl Tallies {
             .map_err(|error| RunError::io("read", path, error))?;
         let hash = &self.plan_hash;
         let piece = bytes.ok_or(Damage::TooLong).and_then(|bytes| {
-            if let Some(method) = plan.method(shard.point) {
-                let integral = integral_file::decode(&bytes, shard.point, method, hash);
+            if let Some(method) = plan.method(chunk.point) {
+                let integral = integral_file::decode(&bytes, chunk.point, method, hash);
                 return integral.map(Piece::Integrated);
             }
-            tally_file::decode(&bytes, &shard, hash).map(Piece::Tossed)
+            tally_file::decode(&bytes, &chunk, hash).map(Piece::Tossed)
         });
         Ok(match piece {
-            Ok(piece) => Entry::Finished(shard, piece),
+            Ok(piece) => Entry::Finished(chunk, piece),
             Err(damage) => Entry::Damaged(path.to_owned(), damage),
         })
     }
 
-    /// Adds finished shards, on the disk to stay.
-    pub(super) fn store(&self, batch: &[(Shard, Piece)]) -> Result<(), RunError> {
+    /// Adds finished chunks, on the disk to stay.
+    pub(super) fn store(&self, batch: &[(Chunk, Piece)]) -> Result<(), RunError> {
         let mut files = Vec::with_capacity(batch.len());
-        for (shard, piece) in batch {
-            let mut file = Replacement::begin(&self.path.join(tally_file::name(shard)))?;
+        for (chunk, piece) in batch {
+            let mut file = Replacement::begin(&self.path.join(tally_file::name(chunk)))?;
             let text = match piece {
-                Piece::Tossed(tally) => tally_file::encode(shard, tally, &self.plan_hash),
+                Piece::Tossed(tally) => tally_file::encode(chunk, tally, &self.plan_hash),
                 Piece::Integrated(integral) => {
-                    integral_file::encode(shard.point, integral, &self.plan_hash)
+                    integral_file::encode(chunk.point, integral, &self.plan_hash)
                 }
             };
             let written = file.writer().write_all(text.as_bytes());
@@ -118,9 +118,9 @@ impl Tallies {
         replace::sync_directory(&self.path)
     }
 
-    /// Where the file of the shard of `point` that begins at toss `start` stands.
+    /// Where the file of the chunk of `point` that begins at toss `start` stands.
     pub(super) fn place(&self, point: usize, start: u64) -> PathBuf {
-        self.path.join(tally_file::name(&Shard {
+        self.path.join(tally_file::name(&Chunk {
             point,
             tosses: start..start,
         }))
@@ -150,14 +150,14 @@ fn sync_together(files: &mut [Replacement]) -> Result<(), RunError> {
     })
 }
 
-/// The shard of a point that begins at toss `start`, if the plan has one.
-fn shard_at(plan: &Plan, cut: &Cut, point: usize, start: u64) -> Option<Shard> {
+/// The chunk of a point that begins at toss `start`, if the plan has one.
+fn chunk_at(plan: &Plan, cut: &Cut, point: usize, start: u64) -> Option<Chunk> {
     if point >= plan.points.len() {
         None
     } else if plan.integrates(point) {
         (start == 0).then(|| whole(point))
     } else if plan.makes_tosses(point) {
-        cut.shard_at(point, start)
+        cut.chunk_at(point, start)
     } else {
         None
     }

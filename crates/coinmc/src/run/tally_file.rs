@@ -1,6 +1,6 @@
-//! The file of one finished shard: a few lines of text with a checksum. See docs/formats.md.
+//! The file of one finished chunk: a few lines of text with a checksum. See docs/formats.md.
 
-use super::Shard;
+use super::Chunk;
 use super::sealed::{seal, unseal};
 use coinmc_core::Tally;
 use std::fmt::Write;
@@ -24,30 +24,30 @@ pub(super) enum Damage {
     Version,
     #[error("it belongs to another plan")]
     OtherPlan,
-    #[error("it holds another shard than its name says")]
-    OtherShard,
-    #[error("the plan has no shard of that name")]
-    NoSuchShard,
+    #[error("it holds another chunk than its name says")]
+    OtherChunk,
+    #[error("the plan has no chunk of that name")]
+    NoSuchChunk,
     #[error("its counts are impossible")]
     Counts,
     #[error("it is not in the form that this program writes")]
     Form,
 }
 
-/// Name of the file of a shard.
-pub(super) fn name(shard: &Shard) -> String {
-    format!("p{:06}-t{:014}{EXTENSION}", shard.point, shard.tosses.start)
+/// Name of the file of a chunk.
+pub(super) fn name(chunk: &Chunk) -> String {
+    format!("p{:06}-t{:014}{EXTENSION}", chunk.point, chunk.tosses.start)
 }
 
-/// Point and first toss of the shard whose file has this name; `None` for any other name.
+/// Point and first toss of the chunk whose file has this name; `None` for any other name.
 pub(super) fn parse_name(file: &str) -> Option<(usize, u64)> {
     let (point, start) = file
         .strip_suffix(EXTENSION)?
         .strip_prefix('p')?
         .split_once("-t")?;
     let (point, start) = (point.parse().ok()?, start.parse().ok()?);
-    // one spelling only, so that no two names mean the same shard
-    (name(&Shard {
+    // one spelling only, so that no two names mean the same chunk
+    (name(&Chunk {
         point,
         tosses: start..start,
     }) == file)
@@ -61,8 +61,8 @@ fn is_always_written(index: usize) -> bool {
 }
 
 /// The file's content.
-pub(super) fn encode(shard: &Shard, tally: &Tally, plan_hash: &str) -> String {
-    let Shard { point, tosses } = shard;
+pub(super) fn encode(chunk: &Chunk, tally: &Tally, plan_hash: &str) -> String {
+    let Chunk { point, tosses } = chunk;
     let mut text = format!(
         "{TITLE} {FORMAT}\nplan {plan_hash}\npoint {point}\ntosses {} {}\n",
         tosses.start, tosses.end
@@ -75,8 +75,8 @@ pub(super) fn encode(shard: &Shard, tally: &Tally, plan_hash: &str) -> String {
     seal(text)
 }
 
-/// Reads the file of `shard`. Anything but the very bytes that [`encode`] would write is refused.
-pub(super) fn decode(bytes: &[u8], shard: &Shard, plan_hash: &str) -> Result<Tally, Damage> {
+/// Reads the file of `chunk`. Anything but the very bytes that [`encode`] would write is refused.
+pub(super) fn decode(bytes: &[u8], chunk: &Chunk, plan_hash: &str) -> Result<Tally, Damage> {
     let mut lines = unseal(bytes)?.lines();
     let title = lines
         .next()
@@ -93,11 +93,11 @@ pub(super) fn decode(bytes: &[u8], shard: &Shard, plan_hash: &str) -> Result<Tal
         return Err(Damage::OtherPlan);
     }
     let place = [
-        format!("point {}", shard.point),
-        format!("tosses {} {}", shard.tosses.start, shard.tosses.end),
+        format!("point {}", chunk.point),
+        format!("tosses {} {}", chunk.tosses.start, chunk.tosses.end),
     ];
     if !place.iter().all(|expected| lines.next() == Some(expected)) {
-        return Err(Damage::OtherShard);
+        return Err(Damage::OtherChunk);
     }
     let mut counts = [0; Tally::COUNTERS.len()];
     let mut line = lines.next();
@@ -112,10 +112,10 @@ pub(super) fn decode(bytes: &[u8], shard: &Shard, plan_hash: &str) -> Result<Tal
         line = lines.next();
     }
     let tally = Tally::from_array(counts);
-    if !is_possible(&tally, shard.tosses.end - shard.tosses.start) {
+    if !is_possible(&tally, chunk.tosses.end - chunk.tosses.start) {
         return Err(Damage::Counts);
     }
-    if encode(shard, &tally, plan_hash).as_bytes() == bytes {
+    if encode(chunk, &tally, plan_hash).as_bytes() == bytes {
         Ok(tally)
     } else {
         Err(Damage::Form)
@@ -129,7 +129,7 @@ fn is_possible(tally: &Tally, tosses: u64) -> bool {
         tally.tails,
         tally.side,
         tally.time_limit,
-        tally.endless,
+        tally.never_settles,
         tally.impact_limit,
         tally.failed,
     ];
@@ -157,8 +157,8 @@ mod tests {
 
     const HASH: &str = "0123456789abcdef";
 
-    fn example() -> (Shard, Tally) {
-        let shard = Shard {
+    fn example() -> (Chunk, Tally) {
+        let chunk = Chunk {
             point: 3,
             tosses: 16384..16484,
         };
@@ -171,15 +171,15 @@ mod tests {
             sinkings: 9,
             ..Tally::default()
         };
-        (shard, tally)
+        (chunk, tally)
     }
 
     #[test]
     fn names_have_one_spelling() {
-        let (shard, _) = example();
-        assert_eq!(name(&shard), "p000003-t00000000016384.tally");
-        assert_eq!(parse_name(&name(&shard)), Some((3, 16384)));
-        let far = Shard {
+        let (chunk, _) = example();
+        assert_eq!(name(&chunk), "p000003-t00000000016384.tally");
+        assert_eq!(parse_name(&name(&chunk)), Some((3, 16384)));
+        let far = Chunk {
             point: 12_345_678,
             tosses: u64::MAX - 1..u64::MAX,
         };
@@ -198,7 +198,7 @@ mod tests {
 
     #[test]
     fn forged_counts_are_refused_without_overflow() {
-        let (shard, tally) = example();
+        let (chunk, tally) = example();
         for forged in [
             Tally {
                 heads: u64::MAX,
@@ -214,27 +214,27 @@ mod tests {
                 ..tally
             },
         ] {
-            let text = encode(&shard, &forged, HASH);
-            assert_eq!(decode(text.as_bytes(), &shard, HASH), Err(Damage::Counts));
+            let text = encode(&chunk, &forged, HASH);
+            assert_eq!(decode(text.as_bytes(), &chunk, HASH), Err(Damage::Counts));
         }
     }
 
     #[test]
     fn strangers_with_a_right_checksum_are_told_apart() {
-        let (shard, tally) = example();
-        let text = encode(&shard, &tally, HASH);
-        let other = Shard {
+        let (chunk, tally) = example();
+        let text = encode(&chunk, &tally, HASH);
+        let other = Chunk {
             point: 4,
-            ..shard.clone()
+            ..chunk.clone()
         };
-        assert_eq!(decode(text.as_bytes(), &shard, HASH), Ok(tally));
+        assert_eq!(decode(text.as_bytes(), &chunk, HASH), Ok(tally));
         assert_eq!(
-            decode(text.as_bytes(), &shard, "f00"),
+            decode(text.as_bytes(), &chunk, "f00"),
             Err(Damage::OtherPlan)
         );
         assert_eq!(
             decode(text.as_bytes(), &other, HASH),
-            Err(Damage::OtherShard)
+            Err(Damage::OtherChunk)
         );
         let body = unseal(text.as_bytes()).unwrap();
         for (from, to, damage) in [
@@ -248,18 +248,18 @@ mod tests {
             ("coinmc", "someone", Damage::Form),
         ] {
             let forged = seal(body.replace(from, to));
-            assert_eq!(decode(forged.as_bytes(), &shard, HASH), Err(damage), "{to}");
+            assert_eq!(decode(forged.as_bytes(), &chunk, HASH), Err(damage), "{to}");
         }
     }
 
     #[test]
     fn the_longest_file_is_within_the_bound() {
-        let shard = Shard {
+        let chunk = Chunk {
             point: usize::MAX,
             tosses: 0..u64::MAX,
         };
         let text = encode(
-            &shard,
+            &chunk,
             &Tally::from_array([u64::MAX; Tally::COUNTERS.len()]),
             &"f".repeat(128),
         );
@@ -276,23 +276,23 @@ mod tests {
             flip in 1..=u8::MAX,
             inserted in any::<u8>(),
         ) {
-            let [heads, tails, side, time_limit, endless, impact_limit, failed] = faces;
+            let [heads, tails, side, time_limit, never_settles, impact_limit, failed] = faces;
             let tally = Tally {
-                heads, tails, side, time_limit, endless, impact_limit, failed, ..Tally::default()
+                heads, tails, side, time_limit, never_settles, impact_limit, failed, ..Tally::default()
             };
-            let shard = Shard { point, tosses: start..start + tally.tosses() };
-            let bytes = encode(&shard, &tally, HASH).into_bytes();
-            prop_assert_eq!(decode(&bytes, &shard, HASH), Ok(tally));
-            prop_assert_eq!(parse_name(&name(&shard)), Some((point, start)));
+            let chunk = Chunk { point, tosses: start..start + tally.tosses() };
+            let bytes = encode(&chunk, &tally, HASH).into_bytes();
+            prop_assert_eq!(decode(&bytes, &chunk, HASH), Ok(tally));
+            prop_assert_eq!(parse_name(&name(&chunk)), Some((point, start)));
 
             let place = place.index(bytes.len());
             let mut flipped = bytes.clone();
             flipped[place] ^= flip;
-            prop_assert!(decode(&flipped, &shard, HASH).is_err());
-            prop_assert!(decode(&bytes[..place], &shard, HASH).is_err());
+            prop_assert!(decode(&flipped, &chunk, HASH).is_err());
+            prop_assert!(decode(&bytes[..place], &chunk, HASH).is_err());
             let mut longer = bytes;
             longer.insert(place, inserted);
-            prop_assert!(decode(&longer, &shard, HASH).is_err());
+            prop_assert!(decode(&longer, &chunk, HASH).is_err());
         }
     }
 }

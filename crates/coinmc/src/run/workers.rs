@@ -1,9 +1,9 @@
-//! Threads that do shards, and the one that keeps what they finish.
+//! Threads that do chunks, and the one that keeps what they finish.
 
+use super::chunk::do_chunk_while;
 use super::piece::Piece;
 use super::schedule::{Next, Schedule};
-use super::shard::do_shard_while;
-use super::{RunError, Shard, Watcher};
+use super::{Chunk, ProgressSink, RunError};
 use crate::plan::Plan;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
@@ -12,21 +12,21 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-/// Finished shards that may wait for the disk, and the most that are stored together.
+/// Finished chunks that may wait for the disk, and the most that are stored together.
 const BATCH: usize = 64;
 /// How long a worker without work sleeps before it looks whether it should stop.
 const NAP: Duration = Duration::from_millis(50);
 
-type Done = Result<(Shard, Piece), RunError>;
+type Done = Result<(Chunk, Piece), RunError>;
 
-/// Where finished shards are kept, a few at a time.
-pub(super) type Keep<'a> = &'a dyn Fn(&[(Shard, Piece)]) -> Result<(), RunError>;
+/// Where finished chunks are kept, a few at a time.
+pub(super) type Keep<'a> = &'a dyn Fn(&[(Chunk, Piece)]) -> Result<(), RunError>;
 
 /// What the threads share.
 struct Floor<'a, 'p> {
     plan: &'p Plan,
     schedule: Mutex<Schedule<'p>>,
-    /// A shard came back: there may be new work.
+    /// A chunk came back: there may be new work.
     changed: Condvar,
     /// The user wants to stop.
     cancel: &'a AtomicBool,
@@ -44,11 +44,11 @@ impl<'p> Floor<'_, 'p> {
         self.schedule.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn next_shard(&self) -> Option<Shard> {
+    fn next_chunk(&self) -> Option<Chunk> {
         let mut schedule = self.schedule();
         while self.go_on() {
             match schedule.next() {
-                Next::Shard(shard) => return Some(shard),
+                Next::Chunk(chunk) => return Some(chunk),
                 Next::Done => return None,
                 Next::Wait => {
                     let woken = self.changed.wait_timeout(schedule, NAP);
@@ -71,7 +71,7 @@ impl Drop for Alarm<'_> {
     }
 }
 
-/// Does all shards of the schedule, or those that are done before `cancel` is set, and gives the
+/// Does all chunks of the schedule, or those that are done before `cancel` is set, and gives the
 /// schedule back. Every piece it counts has been kept.
 pub(super) fn work_off<'p>(
     plan: &'p Plan,
@@ -79,7 +79,7 @@ pub(super) fn work_off<'p>(
     keep: Keep<'_>,
     threads: NonZeroUsize,
     cancel: &AtomicBool,
-    watcher: &dyn Watcher,
+    sink: &dyn ProgressSink,
 ) -> Result<Schedule<'p>, RunError> {
     let floor = Floor {
         plan,
@@ -102,7 +102,7 @@ pub(super) fn work_off<'p>(
             }
         }
         drop(sender);
-        let stored = store(&floor, &receiver, keep, watcher);
+        let stored = store(&floor, &receiver, keep, sink);
         if stored.is_err() {
             floor.broken.store(true, Relaxed);
         }
@@ -116,12 +116,12 @@ pub(super) fn work_off<'p>(
 
 fn work(floor: &Floor<'_, '_>, sender: &SyncSender<Done>) {
     let _alarm = Alarm(&floor.broken);
-    while let Some(shard) = floor.next_shard() {
-        let done = match do_shard_while(floor.plan, &shard, || floor.go_on()) {
+    while let Some(chunk) = floor.next_chunk() {
+        let done = match do_chunk_while(floor.plan, &chunk, || floor.go_on()) {
             Ok(Some(piece)) => {
-                floor.schedule().complete(&shard, &piece);
+                floor.schedule().complete(&chunk, &piece);
                 floor.changed.notify_all();
-                Ok((shard, piece))
+                Ok((chunk, piece))
             }
             Ok(None) => return,
             Err(error) => Err(error),
@@ -138,7 +138,7 @@ fn store(
     floor: &Floor<'_, '_>,
     receiver: &Receiver<Done>,
     keep: Keep<'_>,
-    watcher: &dyn Watcher,
+    sink: &dyn ProgressSink,
 ) -> Result<(), RunError> {
     while let Ok(first) = receiver.recv() {
         let batch = std::iter::once(first)
@@ -147,7 +147,7 @@ fn store(
         let (mut stored, mut failed) = (Vec::new(), None);
         for done in batch {
             match done {
-                Ok(shard) => stored.push(shard),
+                Ok(chunk) => stored.push(chunk),
                 Err(error) => failed = failed.or(Some(error)),
             }
         }
@@ -155,7 +155,7 @@ fn store(
         if let Some(error) = failed {
             return Err(error);
         }
-        watcher.progress(&floor.schedule().progress());
+        sink.progress(&floor.schedule().progress());
     }
     Ok(())
 }

@@ -36,7 +36,7 @@ pub enum EndKind {
     /// Undecided at the limit of simulated time.
     TimeLimit,
     /// Proven never to settle.
-    Endless,
+    NeverSettles,
     /// Undecided at the limit of impacts or of steps in contact.
     ImpactLimit,
     /// The numbers went wrong.
@@ -48,7 +48,7 @@ impl EndKind {
     pub const ALL: [Self; 5] = [
         Self::Decided,
         Self::TimeLimit,
-        Self::Endless,
+        Self::NeverSettles,
         Self::ImpactLimit,
         Self::Failed,
     ];
@@ -58,7 +58,7 @@ impl EndKind {
         match ended {
             Ended::Decided(_) => Self::Decided,
             Ended::TimeLimit => Self::TimeLimit,
-            Ended::Endless => Self::Endless,
+            Ended::NeverSettles => Self::NeverSettles,
             Ended::ImpactLimit => Self::ImpactLimit,
             Ended::Failed => Self::Failed,
         }
@@ -69,7 +69,7 @@ impl EndKind {
         match self {
             Self::Decided => "decided",
             Self::TimeLimit => "time_limit",
-            Self::Endless => "endless",
+            Self::NeverSettles => "never_settles",
             Self::ImpactLimit => "impact_limit",
             Self::Failed => "failed",
         }
@@ -80,7 +80,7 @@ impl EndKind {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error(
     "a condition is `face=heads`, `face=tails`, `face=side`, `ended=decided`, \
-     `ended=time_limit`, `ended=endless`, `ended=impact_limit` or `ended=failed`"
+     `ended=time_limit`, `ended=never_settles`, `ended=impact_limit` or `ended=failed`"
 )]
 pub struct ConditionError;
 

@@ -49,8 +49,8 @@ const NUMBERS: &[Case] = &[
     ("law = 'moreau'", "tolerance = 0.5", &[(10, 13, "must be from 1e-12 to 0.01")]),
     ("law = 'moreau'", "max_impacts = 0", &[(10, 15, "a whole number from 1 to 4294967295, found `0`")]),
     ("law = 'moreau'", "decision = { energy_fraction = 1.0 }", &[(10, 32, "must be above 0 and below 1, found `1.0`")]),
-    ("0.3", "0.3\ncontour_m = -1e-9", &[(7, 13, "`surface.contour_m` must be from 0 to 1e6, found `-1e-9`")]),
-    ("0.3", "0.3\npivoting_m = 'none'", &[(7, 14, "`surface.pivoting_m` must be a number")]),
+    ("0.3", "0.3\ncontour_m = -1e-9", &[(7, 13, "`surface.rolling_friction_m` must be from 0 to 1e6, found `-1e-9`")]),
+    ("0.3", "0.3\npivoting_m = 'none'", &[(7, 14, "`surface.pivoting_friction_m` must be a number")]),
     ("0.3", "0.3\nrestitution_threshold_m_s = inf", &[(7, 29, "must be finite, from 0 to 1e6")]),
     ("[stop]", "[environment]\nlinear_drag_per_s = -1\nangular_drag_per_s = nan\n[stop]", &[(12, 21, "`environment.linear_drag_per_s` must be from 0 to 1e6"), (13, 22, "`environment.angular_drag_per_s` must be finite")]),
     ("[stop]", "[environment]\ngyroscopic_torque = 0\n[stop]", &[(12, 21, "`environment.gyroscopic_torque` must be true or false, found an integer: `0`")]),
@@ -75,7 +75,7 @@ const VOLUMETRIC: &[Case] = &[
     (FLAT, "[engine.volumetric]\ndecision = 'certain'", &[(10, 12, "must be one of \"tilting\", \"energy\", found `certain`")]),
     (FLAT, "[engine.volumetric]\ndecision = { energy_fraction = 0.01 }", &[(10, 12, "found a table")]),
     (FLAT, "[engine.volumetric]\ntolerance = 1e-13", &[(10, 13, "must be from 1e-12 to 0.01")]),
-    (FLAT, "[engine.volumetric]\nstick = 0.2\nfade = 0", &[(10, 9, "above 0 and at most 0.1"), (11, 8, "`engine.volumetric.fade` must be above 0")]),
+    (FLAT, "[engine.volumetric]\nstick_speed = 0.2\nsmoothing_time = 0", &[(10, 15, "above 0 and at most 0.1"), (11, 18, "`engine.volumetric.smoothing_time` must be above 0")]),
     (FLAT, "[engine.volumetric]\nmax_impacts = 0\ntime_limit = 0", &[(10, 15, "a whole number from 1"), (11, 14, "`engine.volumetric.time_limit` must be above 0")]),
     (FLAT, "[engine.volumetric]\ntime_limit = inf", &[(10, 14, "must be finite")]),
     (FLAT, "[engine.volumetirc]", &[(9, 9, "did you mean `volumetric`?")]),
@@ -84,13 +84,13 @@ const VOLUMETRIC: &[Case] = &[
 /// What the flat engine does not model is refused, never ignored.
 #[rustfmt::skip]
 const NOT_FLAT: &[Case] = &[
-    ("'moreau'", "{ paper = { eta_n_s = 1e-3 } }", &[(6, 12, "the paper's law knows no friction: `surface.friction` must be 0 set `friction = 0`")]),
-    ("'moreau'", "{ paper = {} }", &[(6, 12, "no friction"), (10, 17, "`eta_n_s` is missing")]),
+    ("'moreau'", "{ gaek-sukhov = { eta_n_s = 1e-3 } }", &[(6, 12, "Gaek & Sukhov's law knows no friction: `surface.friction` must be 0 set `friction = 0`")]),
+    ("'moreau'", "{ gaek-sukhov = {} }", &[(6, 12, "no friction"), (10, 17, "`eta_n_s` is missing")]),
     ("'moreau'", "{ half-sine = { peak_n = 10 } }", &[(10, 21, "one of `time_s`, `contact` is missing")]),
     ("'moreau'", "{ half-sine = { time_s = 0 } }", &[(10, 32, "must be from 1e-12 to 1")]),
     ("'moreau'", "{ line-contact = { coin_young_pa = 1e9, surface_young_pa = 1e9, length_m = 0 } }", &[(10, 82, "`engine.flat.law.line-contact.length_m` must be from 1e-9")]),
-    ("'moreau'", "'paper'", &[(10, 7, "{paper = …}")]),
-    ("0.3", "0.3\ncontour_m = 1e-4", &[(7, 13, "engine.flat models no rolling friction: `surface.contour_m` must be 0 remove `contour_m`, or toss in space with [engine.volumetric]")]),
+    ("'moreau'", "'gaek-sukhov'", &[(10, 7, "{gaek-sukhov = …}")]),
+    ("0.3", "0.3\ncontour_m = 1e-4", &[(7, 13, "engine.flat models no rolling friction: `surface.rolling_friction_m` must be 0 remove `rolling_friction_m`, or toss in space with [engine.volumetric]")]),
     ("0.3", "0.3\ncontour_m = [0, 1e-4]\npivoting_m = 1e-4", &[(7, 13, "rolling friction"), (8, 14, "engine.flat models no pivoting friction")]),
     ("0.3", "0.3\npivoting_m = { from = 0, to = 1e-4, steps = 3 }", &[(7, 14, "pivoting friction")]),
     ("0.3", "0.3\nrestitution_threshold_m_s = 2", &[(7, 29, "engine.flat models no restitution threshold")]),
@@ -175,8 +175,8 @@ const TABLES: &[Case] = &[
     ("[engine.flat]\nlaw = 'moreau'", "[engine.analytic]\nrule = 'arcs'", &[(10, 8, "did you mean \"arc\"?")]),
     ("[engine.flat]\nlaw = 'moreau'", "[engine.analytic]", &[(9, 1, "`rule` is missing in `engine.analytic`")]),
     ("[engine.flat]\nlaw = 'moreau'", "[engine]\nflat = 1", &[(10, 8, "`engine.flat` must be a table")]),
-    ("'moreau'", "'moro'", &[(10, 7, "must be one of \"moreau\", \"chatterjee-ruina\", {paper = …}, {half-sine = …}, {line-contact = …}, found `moro`")]),
-    ("law = 'moreau'", "decision = 'maybe'", &[(10, 12, "must be one of \"certain\", {energy_fraction = …}, found `maybe`")]),
+    ("'moreau'", "'moro'", &[(10, 7, "must be one of \"moreau\", \"chatterjee-ruina\", {gaek-sukhov = …}, {half-sine = …}, {line-contact = …}, found `moro`")]),
+    ("law = 'moreau'", "decision = 'maybe'", &[(10, 12, "must be one of \"energy\", {energy_fraction = …}, found `maybe`")]),
 ];
 
 #[rustfmt::skip]

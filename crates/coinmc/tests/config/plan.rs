@@ -41,8 +41,8 @@ fn defaults_are_those_of_the_crates() {
             ("radius_m", 0.01),
             ("restitution", 0.5),
             ("friction", 0.3),
-            ("contour_m", 0.0),
-            ("pivoting_m", 0.0),
+            ("rolling_friction_m", 0.0),
+            ("pivoting_friction_m", 0.0),
             ("restitution_threshold_m_s", 0.0),
             ("linear_drag_per_s", 0.0),
             ("angular_drag_per_s", 0.0),
@@ -331,7 +331,7 @@ fn treatments_are_explained_together() {
 /// resolved config means the same.
 #[test]
 fn laws_of_impact_with_quantities_reach_the_engine() {
-    use coinmc_flat::{HalfSine, Law, Lever, LineContact, Paper, PulseTime};
+    use coinmc_flat::{GaekSukhov, HalfSine, Law, Lever, LineContact, PulseTime};
     let law = |text: &str| {
         let law = format!("engine.flat.law={text}");
         let plan = parse(SMALL, &[&law, "surface.friction=0"]);
@@ -345,8 +345,8 @@ fn laws_of_impact_with_quantities_reach_the_engine() {
     };
     let lever = Lever::Height;
     assert_eq!(
-        law("{ paper = { eta_n_s = [1e-3, 2e-3] } }")[..2],
-        [1e-3, 2e-3].map(|eta_n_s| Law::Paper(Paper { eta_n_s, lever }))
+        law("{ gaek-sukhov = { eta_n_s = [1e-3, 2e-3] } }")[..2],
+        [1e-3, 2e-3].map(|eta_n_s| Law::GaekSukhov(GaekSukhov { eta_n_s, lever }))
     );
     let Law::LineContact(LineContact {
         materials,

@@ -72,7 +72,7 @@ fn engine() -> impl Strategy<Value = (String, String, String)> {
     let in_space = (contact, air, settings).prop_map(
         |((contour, pivoting, threshold), (linear, angular, torque), (law, stick, limit))| {
             let surface = format!(
-                "contour_m = {contour}\npivoting_m = {pivoting}\n\
+                "rolling_friction_m = {contour}\npivoting_m = {pivoting}\n\
                  restitution_threshold_m_s = {threshold:?}\n"
             );
             let environment = format!(

@@ -2,7 +2,7 @@
 
 use crate::support::parse;
 use coinmc::plan::EngineChoice;
-use coinmc::run::{Shard, run_shard};
+use coinmc::run::{Chunk, run_chunk};
 use coinmc_rapier::{Decision, Flight, FrictionModel, Gyroscopic, Precision, Settings, Standing};
 use std::collections::HashSet;
 
@@ -100,14 +100,14 @@ fn what_this_build_does_not_have_is_refused() {
     }
 }
 
-/// Shards of any cut come to the same tally.
+/// Chunks of any cut come to the same tally.
 #[test]
-fn shards_add_up() {
+fn chunks_add_up() {
     let plan = parse(IN_STEPS, &["engine.rapier.step_s=2e-3"]);
-    let shard = |tosses| run_shard(&plan, &Shard { point: 0, tosses }).unwrap();
-    let whole = shard(0..20);
-    let mut parts = shard(13..20);
-    parts.merge(&shard(0..13));
+    let chunk = |tosses| run_chunk(&plan, &Chunk { point: 0, tosses }).unwrap();
+    let whole = chunk(0..20);
+    let mut parts = chunk(13..20);
+    parts.merge(&chunk(0..13));
     assert_eq!(whole, parts);
     assert_eq!(whole.tosses(), 20);
     assert!(whole.side > 10);

@@ -13,8 +13,8 @@ ratio = 0.85
 [surface]
 restitution = 0.5
 friction = 0.3
-contour_m = 1e-4
-pivoting_m = 2e-4
+rolling_friction_m = 1e-4
+pivoting_friction_m = 2e-4
 [launch]
 preset = 'clean'
 [engine.volumetric]
@@ -34,7 +34,10 @@ fn the_toss_in_space_has_the_defaults_of_its_crate() {
     );
     assert_eq!(point.launches, Preset::Clean.distribution());
     let surface = point.scene.surface;
-    assert_eq!((surface.contour_m(), surface.pivoting_m()), (1e-4, 2e-4));
+    assert_eq!(
+        (surface.rolling_friction_m(), surface.pivoting_friction_m()),
+        (1e-4, 2e-4)
+    );
     assert_eq!(surface.restitution_threshold_m_s(), 0.0);
     assert!(point.scene.drag().is_none() && point.scene.has_gyroscopic_torque());
     assert_eq!(plan.tosses_planned(), 1000);
@@ -50,7 +53,7 @@ fn all_of_the_toss_in_space_can_be_chosen() {
         "environment.angular_drag_per_s=0.05",
         "environment.gyroscopic_torque=false",
         "engine.volumetric={law='stronge', decision='energy', zeno=0.01, tolerance=1e-6, \
-         stick=1e-3, fade=1e-4, max_impacts=7, max_steps=9, time_limit=100}",
+         stick_speed = 1e-3, smoothing_time=1e-4, max_impacts=7, max_steps=9, time_limit=100}",
     ];
     let plan = parse(IN_SPACE, &sets);
     let point = &plan.points[0];
@@ -63,8 +66,8 @@ fn all_of_the_toss_in_space_can_be_chosen() {
         decision: volumetric::Decision::Energy,
         zeno: 0.01,
         tolerance: 1e-6,
-        stick: 1e-3,
-        fade: 1e-4,
+        stick_speed: 1e-3,
+        smoothing_time: 1e-4,
         max_impacts: 7,
         max_steps: 9,
         time_limit: 100.0,
@@ -76,8 +79,8 @@ fn all_of_the_toss_in_space_can_be_chosen() {
 #[test]
 fn any_number_of_the_toss_in_space_can_be_swept() {
     for (key, name) in [
-        ("surface.contour_m", "contour_m"),
-        ("surface.pivoting_m", "pivoting_m"),
+        ("surface.rolling_friction_m", "rolling_friction_m"),
+        ("surface.pivoting_friction_m", "pivoting_friction_m"),
         (
             "surface.restitution_threshold_m_s",
             "restitution_threshold_m_s",
@@ -86,8 +89,14 @@ fn any_number_of_the_toss_in_space_can_be_swept() {
         ("environment.angular_drag_per_s", "angular_drag_per_s"),
         ("engine.volumetric.zeno", "engine.volumetric.zeno"),
         ("engine.volumetric.tolerance", "engine.volumetric.tolerance"),
-        ("engine.volumetric.stick", "engine.volumetric.stick"),
-        ("engine.volumetric.fade", "engine.volumetric.fade"),
+        (
+            "engine.volumetric.stick_speed",
+            "engine.volumetric.stick_speed",
+        ),
+        (
+            "engine.volumetric.smoothing_time",
+            "engine.volumetric.smoothing_time",
+        ),
         (
             "engine.volumetric.time_limit",
             "engine.volumetric.time_limit",
@@ -108,8 +117,8 @@ fn all_physics_and_settings_of_the_toss_in_space_are_in_the_hash() {
     let base = parse(IN_SPACE, &[]);
     let mut hashes = HashSet::from([base.hash()]);
     for set in [
-        "surface.contour_m=1.1e-4",
-        "surface.pivoting_m=0",
+        "surface.rolling_friction_m=1.1e-4",
+        "surface.pivoting_friction_m=0",
         "surface.restitution_threshold_m_s=0.01",
         "environment.linear_drag_per_s=0.1",
         "environment.angular_drag_per_s=0.1",
@@ -120,8 +129,8 @@ fn all_physics_and_settings_of_the_toss_in_space_are_in_the_hash() {
         "engine.volumetric.decision=energy",
         "engine.volumetric.zeno=0.03",
         "engine.volumetric.tolerance=1e-6",
-        "engine.volumetric.stick=1e-3",
-        "engine.volumetric.fade=1e-4",
+        "engine.volumetric.stick_speed=1e-3",
+        "engine.volumetric.smoothing_time=1e-4",
         "engine.volumetric.max_impacts=10",
         "engine.volumetric.time_limit=10",
         "launch.preset=drop",
@@ -146,8 +155,14 @@ fn what_the_toss_in_space_skips_is_explained() {
     );
     assert_eq!(skipped, "drag: both of its rates are 0");
     for (sets, word) in [
-        (&["surface.contour_m=0"][..], "contour_m is 0"),
-        (&["surface.pivoting_m=0"], "pivoting_m is 0"),
+        (
+            &["surface.rolling_friction_m=0"][..],
+            "rolling_friction_m is 0",
+        ),
+        (
+            &["surface.pivoting_friction_m=0"],
+            "pivoting_friction_m is 0",
+        ),
         (&["surface.friction=0"], "friction is 0"),
         (&["surface.restitution=0"], "restitution is 0"),
         (&["environment.gyroscopic_torque=false"], "switched off"),
@@ -167,7 +182,7 @@ fn what_the_toss_in_space_skips_is_explained() {
     assert!(computed.ends_with("until energy alone makes the face certain"));
     let (computed, _) = explained(&["surface.landing=adhesive", "sampling.method=random"]);
     assert!(computed.contains("to the first contact"));
-    let sets = ["surface.contour_m=[0, 1e-4]", "coin.ratio=[1, 2]"];
+    let sets = ["surface.rolling_friction_m=[0, 1e-4]", "coin.ratio=[1, 2]"];
     let points: Vec<_> = parse(IN_SPACE, &sets)
         .explain()
         .iter()
@@ -179,14 +194,17 @@ fn what_the_toss_in_space_skips_is_explained() {
 #[test]
 fn what_may_surprise_in_space_is_noted() {
     let notes = |sets: &[&str]| parse(IN_SPACE, sets).notes.join("; ");
-    assert!(notes(&["surface.contour_m=0"]).contains("engine.volumetric.max_steps"));
+    assert!(notes(&["surface.rolling_friction_m=0"]).contains("engine.volumetric.max_steps"));
     // something else ends it: no roll without friction, and drag
-    let frictionless = ["surface.contour_m=0", "surface.friction=0"];
-    let dragged = ["surface.contour_m=0", "environment.angular_drag_per_s=1"];
+    let frictionless = ["surface.rolling_friction_m=0", "surface.friction=0"];
+    let dragged = [
+        "surface.rolling_friction_m=0",
+        "environment.angular_drag_per_s=1",
+    ];
     assert_eq!((notes(&frictionless), notes(&dragged)), Default::default());
     assert!(notes(&["surface.restitution=1"]).contains("engine.volumetric.max_impacts"));
     assert!(notes(&["surface.landing=adhesive"]).starts_with(
-        "surface.restitution, surface.friction, surface.contour_m and surface.pivoting_m change \
+        "surface.restitution, surface.friction, surface.rolling_friction_m and surface.pivoting_friction_m change \
          nothing"
     ));
 }

@@ -30,7 +30,7 @@ fn example(plan: &Plan) -> Results {
             heads: 5,
             side: 1,
             time_limit: 2,
-            endless: 5,
+            never_settles: 5,
             impact_limit: 3,
             failed: 4,
             ..Tally::default()
@@ -133,7 +133,10 @@ fn cells_hold_what_their_names_say() {
         ("flat", "moreau", "wilson")
     );
     assert_eq!((cell(2, "tosses"), cell(2, "undecided")), ("20", "14"));
-    assert_eq!((cell(2, "endless"), cell(2, "impact_limit")), ("5", "3"));
+    assert_eq!(
+        (cell(2, "never_settles"), cell(2, "impact_limit")),
+        ("5", "3")
+    );
     assert_eq!(
         (cell(0, "p_side"), cell(0, "p_heads"), cell(0, "p_tails")),
         ("0.21", "0.49", "0.3")
@@ -173,7 +176,7 @@ fn cells_hold_what_their_names_say() {
 #[test]
 fn every_result_names_the_law_and_all_that_defines_the_toss() {
     let text = "[coin]\nratio = 1\n[surface]\nrestitution = 0.3\nfriction = 10\ncontour_m = 1e-4\n\
-                pivoting_m = 2e-4\nrestitution_threshold_m_s = 2\n[environment]\n\
+                pivoting_friction_m = 2e-4\nrestitution_threshold_m_s = 2\n[environment]\n\
                 linear_drag_per_s = 1\nangular_drag_per_s = 0.05\ngyroscopic_torque = false\n\
                 [launch]\npreset = \"table1\"\n[engine.volumetric]\nlaw = \"stronge\"\n\
                 [stop]\ntosses = 1\n";
@@ -189,8 +192,8 @@ fn every_result_names_the_law_and_all_that_defines_the_toss() {
     let expected = [
         ("restitution", "0.3"),
         ("friction", "10.0"),
-        ("contour_m", "0.0001"),
-        ("pivoting_m", "0.0002"),
+        ("rolling_friction_m", "0.0001"),
+        ("pivoting_friction_m", "0.0002"),
         ("restitution_threshold_m_s", "2.0"),
         ("linear_drag_per_s", "1.0"),
         ("angular_drag_per_s", "0.05"),
@@ -200,7 +203,10 @@ fn every_result_names_the_law_and_all_that_defines_the_toss() {
     ];
     assert_eq!(cells[3..13], expected);
     let published = results.rows[0].published.as_ref().unwrap();
-    assert_eq!(published.differs, ["radius_m", "contour_m", "pivoting_m"]);
+    assert_eq!(
+        published.differs,
+        ["radius_m", "rolling_friction_m", "pivoting_friction_m"]
+    );
 }
 
 #[test]

@@ -29,7 +29,7 @@ fn damaged_tallies_are_set_aside_and_done_again() {
             bytes[120] ^= 4;
             fs::write(path, bytes).unwrap();
         }),
-        ("another shard", |path, other| {
+        ("another chunk", |path, other| {
             assert!(fs::copy(other, path).is_ok());
         }),
         ("longer", |path, _| {
@@ -63,7 +63,7 @@ fn damaged_tallies_are_set_aside_and_done_again() {
         assert_eq!(warnings.len(), 1, "{word}: {warnings:?}");
         assert!(warnings[0].contains(word), "{word}: {warnings:?}");
         assert_eq!(report.results, whole.results);
-        assert_eq!(report.reused_shards, 17);
+        assert_eq!(report.reused_chunks, 17);
         let rejected = PathBuf::from(format!("{}.rejected", victim.display()));
         if rejected.is_dir() {
             fs::remove_dir(rejected).unwrap();

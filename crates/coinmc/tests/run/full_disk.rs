@@ -70,7 +70,7 @@ fn a_full_disk_is_a_clear_error_and_the_run_goes_on_later() {
     let ear = Ear::default();
     let report = run_with(&plan, &full, Part::WHOLE, 2, &ear).unwrap();
     assert_eq!(
-        (report.status, report.reused_shards),
+        (report.status, report.reused_chunks),
         (Status::Complete, 18)
     );
     assert!(ear.warnings().is_empty(), "{:?}", ear.warnings());

@@ -6,7 +6,7 @@ use crate::support::{
 use coinmc::plan::Plan;
 use coinmc::results::Results;
 use coinmc::run::{
-    Begin, Count, Part, RunError, Shard, Status, count, follow_each, run_shard, see_each,
+    Begin, Chunk, Count, Part, RunError, Status, count, for_each_end, for_each_outcome, run_chunk,
     stored_report, stream, toss as toss_alone,
 };
 use coinmc::trace::replay;
@@ -18,7 +18,7 @@ fn counted(plan: &Plan, threads: usize, ear: &Ear) -> (Results, Status, u64) {
     let options = Count {
         threads: NonZeroUsize::new(threads),
         cancel: &ear.cancel,
-        watcher: ear,
+        sink: ear,
     };
     let report = count(plan, &options).unwrap();
     (report.results, report.status, report.tosses)
@@ -95,7 +95,7 @@ fn what_is_no_run_is_not_read_back() {
 }
 
 #[test]
-fn tosses_one_by_one_are_those_of_a_shard() {
+fn tosses_one_by_one_are_those_of_a_chunk() {
     let plans = [plan(FIXED), plan_in_space("moreau", FIXED)];
     for plan in &plans {
         let (point, tosses) = (1, 30..330);
@@ -113,11 +113,11 @@ fn tosses_one_by_one_are_those_of_a_shard() {
             tally.add(outcome);
             true
         };
-        assert!(follow_each(found, begin, tosses.clone(), &mut add).unwrap());
+        assert!(for_each_outcome(found, begin, tosses.clone(), &mut add).unwrap());
         numbers.sort_unstable();
         assert!(numbers.into_iter().eq(tosses.clone()));
-        let shard = Shard { point, tosses };
-        assert_eq!(tally, run_shard(plan, &shard).unwrap());
+        let chunk = Chunk { point, tosses };
+        assert_eq!(tally, run_chunk(plan, &chunk).unwrap());
     }
 }
 
@@ -134,7 +134,7 @@ fn the_end_is_that_of_the_trace_and_a_launch_given_is_as_good_as_drawn() {
                 seen.push(*toss);
                 true
             };
-            assert!(see_each(found, begin, 0..20, &mut keep).unwrap());
+            assert!(for_each_end(found, begin, 0..20, &mut keep).unwrap());
         }
         let (first, second) = seen.split_at(20);
         assert_eq!(first, second);
@@ -155,7 +155,7 @@ fn who_sees_may_stop() {
         seen += 1;
         seen < 3
     };
-    follow_each(&plan.points[0], Begin::Drawn(&stream), 0..1000, &mut three).unwrap();
+    for_each_outcome(&plan.points[0], Begin::Drawn(&stream), 0..1000, &mut three).unwrap();
     assert_eq!(seen, 3);
 }
 
@@ -166,7 +166,7 @@ fn a_closed_form_follows_nothing() {
     let stream = stream(&plan, 0);
     let begin = Begin::Drawn(&stream);
     let mut never = |_, _: &_| unreachable!("a closed form makes no toss");
-    assert!(!follow_each(&plan.points[0], begin, 0..9, &mut never).unwrap());
+    assert!(!for_each_outcome(&plan.points[0], begin, 0..9, &mut never).unwrap());
     let fixed = plan_of("[coin]\nratio = 1.0\n[surface]\nrestitution = 0.5\n[stop]\ntosses = 9\n");
     assert_eq!(counted(&fixed, 1, &Ear::default()).2, 9);
 }

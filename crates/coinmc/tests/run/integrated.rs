@@ -4,7 +4,7 @@
 use crate::support::{Ear, assert_same, contents, run_whole, run_with};
 use coinmc::plan::Plan;
 use coinmc::results::{Row, fair_ratios};
-use coinmc::run::{Count, Part, Progress, Status, Watcher, count, integrate_point, merge};
+use coinmc::run::{Count, Part, Progress, ProgressSink, Status, count, integrate_point, merge};
 use std::fs;
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -30,7 +30,7 @@ fn counted(plan: &Plan, threads: usize) -> Vec<Row> {
     let options = Count {
         threads: NonZeroUsize::new(threads),
         cancel: &AtomicBool::new(false),
-        watcher: &(),
+        sink: &(),
     };
     count(plan, &options).unwrap().results.rows
 }
@@ -79,7 +79,7 @@ fn a_run_killed_or_damaged_anywhere_ends_the_same() {
     run_whole(&plan, whole.path());
     let before = contents(whole.path());
     let again = run_whole(&plan, whole.path());
-    assert_eq!((again.reused_shards, before), (3, contents(whole.path())));
+    assert_eq!((again.reused_chunks, before), (3, contents(whole.path())));
 
     let ear = Ear::that_cancels_at(1);
     let stopped = run_with(&plan, other.path(), Part::WHOLE, 1, &ear).unwrap();
@@ -125,7 +125,7 @@ fn parts_of_a_run_merge_to_the_whole() {
     let error = merge(&parts[..1], &at("half"), &()).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "1 shard is in none of the parts: point 1"
+        "1 chunk is in none of the parts: point 1"
     );
     merge(&parts, &at("merged"), &()).unwrap();
     assert_same(&at("whole"), &at("merged"));
@@ -263,7 +263,7 @@ fn a_limit_of_time_is_met_by_tosses_that_are_counted() {
 #[derive(Default)]
 struct Planned(Mutex<Vec<u64>>);
 
-impl Watcher for Planned {
+impl ProgressSink for Planned {
     fn progress(&self, progress: &Progress) {
         self.0.lock().unwrap().push(progress.tosses_planned);
     }
@@ -284,7 +284,7 @@ fn the_tosses_planned_are_those_of_tossed_points() {
     let options = Count {
         threads: NonZeroUsize::new(2),
         cancel: &AtomicBool::new(false),
-        watcher: &planned,
+        sink: &planned,
     };
     count(&plan, &options).unwrap();
     let heard = planned.0.into_inner().unwrap();

@@ -1,4 +1,4 @@
-//! Runs: cut into shards, broken off, merged and damaged, they count the same.
+//! Runs: cut into chunks, broken off, merged and damaged, they count the same.
 
 mod damage;
 mod full_disk;

@@ -1,7 +1,7 @@
 //! Parts and their merge.
 
 use crate::support::{Ear, FIXED, HALF_WIDTH, assert_same, contents, plan, run_whole, run_with};
-use coinmc::run::{Part, RunError, Shard, Status, merge};
+use coinmc::run::{Chunk, Part, RunError, Status, merge};
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::tempdir;
@@ -41,19 +41,19 @@ fn merged_parts_are_the_whole_run_to_the_byte() {
 }
 
 #[test]
-fn missing_shards_are_named_and_nothing_is_written() {
+fn missing_chunks_are_named_and_nothing_is_written() {
     let dir = tempdir().unwrap();
     let parts = run_parts(dir.path(), 3);
     let out = dir.path().join("merged");
     let error = merge(&parts[..2], &out, &()).unwrap_err();
-    // three shards a point: the third of each is missing
+    // three chunks a point: the third of each is missing
     let RunError::Missing { missing, total } = &error else {
         panic!("{error}")
     };
     assert_eq!(*total, 6);
     assert_eq!(
         missing[1],
-        Shard {
+        Chunk {
             point: 1,
             tosses: 32_768..40_000
         }
@@ -87,7 +87,7 @@ fn missing_shards_are_named_and_nothing_is_written() {
 }
 
 #[test]
-fn neighbouring_missing_shards_are_named_together() {
+fn neighbouring_missing_chunks_are_named_together() {
     let dir = tempdir().unwrap();
     let out = dir.path().join("run");
     run_with(&plan(FIXED), &out, Part::WHOLE, 1, &Ear::that_cancels_at(1)).unwrap();
@@ -97,7 +97,7 @@ fn neighbouring_missing_shards_are_named_together() {
     };
     assert_eq!(
         missing.last(),
-        Some(&Shard {
+        Some(&Chunk {
             point: 5,
             tosses: 0..40_000
         })

@@ -4,7 +4,7 @@ use crate::support::{
     Ear, FIXED, HALF_WIDTH, assert_same, contents, plan, plan_in_space, run_whole, run_with,
 };
 use coinmc::results::Row;
-use coinmc::run::{Part, Shard, Status, run_shard};
+use coinmc::run::{Chunk, Part, Status, run_chunk};
 use coinmc_core::Tally;
 use std::process::{Command, Stdio};
 use std::sync::atomic::Ordering::SeqCst;
@@ -25,13 +25,13 @@ fn threads_change_nothing() {
 }
 
 #[test]
-fn a_run_is_its_shards_however_they_are_cut() {
+fn a_run_is_its_chunks_however_they_are_cut() {
     let (plan, dir) = (plan(FIXED), tempdir().unwrap());
     let report = run_whole(&plan, dir.path());
     for (point, row) in report.results.rows.iter().enumerate() {
         let mut sum = Tally::default();
         for tosses in [0..1, 1..77, 77..16_384, 16_384..16_384, 16_384..40_000] {
-            sum.merge(&run_shard(&plan, &Shard { point, tosses }).unwrap());
+            sum.merge(&run_chunk(&plan, &Chunk { point, tosses }).unwrap());
         }
         assert_eq!(sum, row.tally);
         assert_eq!(*row, Row::new(&plan, point, sum, true));
@@ -57,7 +57,7 @@ fn breaks_change_nothing() {
             assert!(files.contains_key("results.partial.csv"));
             assert!(!files.contains_key("results.csv") && !files.contains_key("results.parquet"));
             breaks += 1;
-            assert!(breaks < 100, "each run should finish a shard at least");
+            assert!(breaks < 100, "each run should finish a chunk at least");
         }
         assert!(breaks >= 2, "{breaks}");
         assert_same(&whole, &broken);
@@ -71,7 +71,7 @@ fn a_finished_run_is_only_reported_again() {
     let before = contents(dir.path());
     let ear = Ear::default();
     let again = run_with(&plan, dir.path(), Part::WHOLE, 2, &ear).unwrap();
-    assert_eq!(again.reused_shards, 18);
+    assert_eq!(again.reused_chunks, 18);
     assert_eq!(first.results, again.results);
     assert_eq!(before, contents(dir.path()));
     let heard = ear.progress.lock().unwrap();
@@ -134,7 +134,7 @@ fn progress_only_goes_forward_and_ends_where_it_was_planned() {
 #[test]
 fn tosses_in_space_depend_on_the_plan_alone() {
     for law in ["moreau", "chatterjee-ruina", "stronge"] {
-        // two shards a point
+        // two chunks a point
         let (plan, dir) = (plan_in_space(law, "tosses = 17_000"), tempdir().unwrap());
         let (whole, broken) = (dir.path().join("whole"), dir.path().join("broken"));
         let report = run_with(&plan, &whole, Part::WHOLE, 1, &Ear::default()).unwrap();
@@ -142,7 +142,7 @@ fn tosses_in_space_depend_on_the_plan_alone() {
         assert_eq!((row.engine, row.law), ("volumetric", law));
         let mut sum = Tally::default();
         for tosses in [0..1, 1..16_385, 16_385..17_000] {
-            sum.merge(&run_shard(&plan, &Shard { point: 1, tosses }).unwrap());
+            sum.merge(&run_chunk(&plan, &Chunk { point: 1, tosses }).unwrap());
         }
         assert_eq!((sum, sum.tosses()), (row.tally, 17_000));
         let mut breaks = 0;
@@ -153,14 +153,14 @@ fn tosses_in_space_depend_on_the_plan_alone() {
             report.status != Status::Complete
         } {
             breaks += 1;
-            assert!(breaks < 100, "each run should finish a shard at least");
+            assert!(breaks < 100, "each run should finish a chunk at least");
         }
         assert!(breaks >= 1);
         assert_same(&whole, &broken);
     }
 }
 
-/// A shard of this run would take minutes, and a list of them more memory than there is.
+/// A chunk of this run would take minutes, and a list of them more memory than there is.
 #[test]
 fn the_longest_run_begins_at_once_and_stops_when_told() {
     let (plan, dir, ear) = (

@@ -2,14 +2,14 @@
 #![allow(dead_code, reason = "each test binary uses its own share")]
 
 use coinmc::plan::Plan;
-use coinmc::run::{Options, Part, Progress, Report, RunError, Watcher, run};
+use coinmc::run::{Options, Part, Progress, ProgressSink, Report, RunError, run};
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::SeqCst};
 
-/// Two restitutions, three ratios, 40 000 tosses a point: 18 shards.
+/// Two restitutions, three ratios, 40 000 tosses a point: 18 chunks.
 pub(crate) const FIXED: &str = "tosses = 40_000";
 /// Up to 8 looks; the flat engine's P(side) is known to ± 0.004 after some 100 000 tosses.
 pub(crate) const HALF_WIDTH: &str = "half_width = 0.006\nmax_tosses = 1_000_000";
@@ -63,7 +63,7 @@ pub(crate) fn run_with(
             part,
             threads,
             cancel: &ear.cancel,
-            watcher: ear,
+            sink: ear,
         },
     )
 }
@@ -91,7 +91,7 @@ impl Ear {
     }
 }
 
-impl Watcher for Ear {
+impl ProgressSink for Ear {
     fn progress(&self, progress: &Progress) {
         self.progress.lock().unwrap().push(*progress);
         if self.cancel_at == Some(self.heard.fetch_add(1, SeqCst)) {

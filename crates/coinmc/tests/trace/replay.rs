@@ -1,7 +1,7 @@
 //! A toss replayed is the toss of the run.
 
 use crate::plans::{all, flat, space};
-use coinmc::run::{Shard, run_shard};
+use coinmc::run::{Chunk, run_chunk};
 use coinmc::trace::{RecordKind, outcome, replay, replay_within};
 use coinmc_core::{EventKind, Tally};
 
@@ -10,16 +10,16 @@ fn replayed_outcomes_are_those_of_the_run_toss_by_toss() {
     for plan in all(12) {
         for point in 0..plan.points.len() {
             for toss in 0..12 {
-                let shard = Shard {
+                let chunk = Chunk {
                     point,
                     tosses: toss..toss + 1,
                 };
-                let run = run_shard(&plan, &shard).unwrap();
+                let run = run_chunk(&plan, &chunk).unwrap();
                 for rate_hz in [0.0, 317.0] {
                     let trace = replay(&plan, point, toss, rate_hz).unwrap();
                     let mut tally = Tally::default();
                     tally.add(&trace.outcome);
-                    assert_eq!(tally, run, "{} {shard}", trace.engine);
+                    assert_eq!(tally, run, "{} {chunk}", trace.engine);
                 }
             }
         }

@@ -95,7 +95,7 @@ impl Analytic {
         }
     }
 
-    pub(crate) fn carry_out(&self, console: &Console) -> Result<Outcome, Failure> {
+    pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let listing = self.listing();
         match self.format {
             ListingFormat::Table => output::print(&listing.to_table(console.stdout())),

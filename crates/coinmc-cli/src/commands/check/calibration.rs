@@ -3,7 +3,7 @@
 mod integrals;
 
 use coinmc::plan::{Plan, Stop};
-use coinmc::run::{RunError, Shard, run_shard};
+use coinmc::run::{Chunk, RunError, run_chunk};
 use coinmc_core::{Face, Tally, inverse_normal_cdf};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -152,9 +152,9 @@ fn toss_for(plan: &Plan, point: usize, budget: Duration) -> Result<(Tally, Pace)
     let mut before = None;
     loop {
         let (from, begun) = (tally.tosses(), Instant::now());
-        tally.merge(&run_shard(
+        tally.merge(&run_chunk(
             plan,
-            &Shard {
+            &Chunk {
                 point,
                 tosses: from..from + batch,
             },

@@ -54,7 +54,7 @@ impl Check {
         self.format
     }
 
-    pub(crate) fn carry_out(&self, console: &Console) -> Result<Outcome, Failure> {
+    pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let plan = config::load(&self.config, &self.overrides)?;
         let cost = calibration::estimate(&plan)?;
         match self.format {

@@ -74,7 +74,7 @@ pub(super) struct Fit {
 enum Name {
     Restitution,
     Friction,
-    /// η of the paper's law
+    /// η of Gaek & Sukhov's law
     Eta,
     /// Length of the half sine
     Time,
@@ -99,7 +99,7 @@ impl Fit {
         self.format
     }
 
-    pub(super) fn carry_out(&self, console: &Console) -> Result<Outcome, Failure> {
+    pub(super) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         for path in &self.residuals {
             if !["csv", "svg"].contains(&ending(path)) {
                 return Err(Failure::Input(anyhow!(

@@ -3,7 +3,7 @@
 use clap::{Args, ValueEnum};
 use coinmc::plan::EngineChoice;
 use coinmc_core::Coin;
-use coinmc_film::{HalfSine, Law, Lever, LineContact, Materials, Paper, PulseTime};
+use coinmc_film::{GaekSukhov, HalfSine, Law, Lever, LineContact, Materials, PulseTime};
 
 /// PLA on wood.
 const COIN_YOUNG_PA: f64 = 3e9;
@@ -18,7 +18,7 @@ pub(super) enum LawName {
     /// Chatterjee and Ruina's, tangential restitution 0
     ChatterjeeRuina,
     /// Gaek and Sukhov's: restitution is √k, no friction, and --eta
-    Paper,
+    GaekSukhov,
     /// A force that is half a sine in time: --pulse-s, --peak-n
     HalfSine,
     /// Elastic line contact resolved in time: --coin-young-pa, --surface-young-pa. Takes minutes
@@ -34,7 +34,7 @@ impl LawName {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Numbers of the laws")]
 pub(super) struct LawArguments {
-    /// η of the paper's law, N s: where its search begins, if fitted [default: 0.001]
+    /// η of Gaek & Sukhov's law, N s: where its search begins, if fitted [default: 0.001]
     #[arg(long, value_name = "NS")]
     eta: Option<f64>,
 
@@ -80,27 +80,27 @@ impl LawArguments {
         match name {
             LawName::Moreau => Law::Moreau,
             LawName::ChatterjeeRuina => Law::ChatterjeeRuina,
-            LawName::Paper => self.paper(configured),
+            LawName::GaekSukhov => self.gaek_sukhov(configured),
             LawName::HalfSine => self.half_sine(configured),
             LawName::LineContact => self.line_contact(coin, configured),
         }
     }
 
-    fn paper(&self, configured: Option<Law>) -> Law {
-        let mut paper = match configured {
-            Some(Law::Paper(paper)) => paper,
-            _ => Paper {
+    fn gaek_sukhov(&self, configured: Option<Law>) -> Law {
+        let mut gaek_sukhov = match configured {
+            Some(Law::GaekSukhov(gaek_sukhov)) => gaek_sukhov,
+            _ => GaekSukhov {
                 eta_n_s: 1e-3,
                 lever: Lever::default(),
             },
         };
-        paper.eta_n_s = self.eta.unwrap_or(paper.eta_n_s);
-        paper.lever = self.lever.map_or(paper.lever, |lever| match lever {
+        gaek_sukhov.eta_n_s = self.eta.unwrap_or(gaek_sukhov.eta_n_s);
+        gaek_sukhov.lever = self.lever.map_or(gaek_sukhov.lever, |lever| match lever {
             LeverName::Height => Lever::Height,
             LeverName::Diameter => Lever::Diameter,
             LeverName::Corner => Lever::Corner,
         });
-        Law::Paper(paper)
+        Law::GaekSukhov(gaek_sukhov)
     }
 
     fn half_sine(&self, configured: Option<Law>) -> Law {

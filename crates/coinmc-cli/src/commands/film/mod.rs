@@ -51,11 +51,11 @@ impl Film {
         }
     }
 
-    pub(crate) fn carry_out(&self, console: &Console) -> Result<Outcome, Failure> {
+    pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         match &self.verb {
-            Verb::Read(read) => read.carry_out(console),
-            Verb::Fit(fit) => fit.carry_out(console),
-            Verb::Synthesise(synthesise) => synthesise.carry_out(console),
+            Verb::Read(read) => read.execute(console),
+            Verb::Fit(fit) => fit.execute(console),
+            Verb::Synthesise(synthesise) => synthesise.execute(console),
         }
     }
 }

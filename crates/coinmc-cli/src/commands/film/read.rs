@@ -30,7 +30,7 @@ impl Read {
         self.format
     }
 
-    pub(super) fn carry_out(&self, _: &Console) -> Result<Outcome, Failure> {
+    pub(super) fn execute(&self, _: &Console) -> Result<Outcome, Failure> {
         let footage = self.columns.read(&self.files)?;
         let printed = match self.format {
             Format::Json => output::print_json(&json!({

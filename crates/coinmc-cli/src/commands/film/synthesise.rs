@@ -88,7 +88,7 @@ impl Synthesise {
         self.format
     }
 
-    pub(super) fn carry_out(&self, _: &Console) -> Result<Outcome, Failure> {
+    pub(super) fn execute(&self, _: &Console) -> Result<Outcome, Failure> {
         must_be_new([&self.file])?;
         self.check()?;
         let (model, shared) = self.scene.model(self.law)?;

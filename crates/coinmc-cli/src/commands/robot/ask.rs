@@ -47,7 +47,7 @@ pub(super) struct Home {
 }
 
 impl Info {
-    pub(super) fn carry_out(&self, console: &Console) -> Result<Outcome, Failure> {
+    pub(super) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let mut robot = Robot::connect(&self.at.port)?;
         let Reply::Info(info) = robot.ask(&Request::Info)? else {
             return Err(out_of_turn());
@@ -94,7 +94,7 @@ impl Info {
 }
 
 impl Status {
-    pub(super) fn carry_out(&self, console: &Console) -> Result<Outcome, Failure> {
+    pub(super) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let mut robot = Robot::connect(&self.at.port)?;
         let status = robot.status()?;
         let (spin, angle) = (
@@ -144,7 +144,7 @@ impl Status {
 }
 
 impl Home {
-    pub(super) fn carry_out(&self) -> Result<Outcome, Failure> {
+    pub(super) fn execute(&self) -> Result<Outcome, Failure> {
         let mut robot = Robot::connect(&self.port)?;
         match robot.ask(&Request::Home { axes: axis::ALL })? {
             Reply::Ok { .. } => output::note("the robot finds its end stops"),

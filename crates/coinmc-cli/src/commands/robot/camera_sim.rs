@@ -39,7 +39,7 @@ pub(super) struct CameraSim {
 }
 
 impl CameraSim {
-    pub(super) fn carry_out(&self) -> Result<Outcome, Failure> {
+    pub(super) fn execute(&self) -> Result<Outcome, Failure> {
         let faults = CameraFaults {
             misread: self.misread,
             unread: self.unread,

@@ -30,7 +30,7 @@ pub(super) struct Export {
 }
 
 impl Export {
-    pub(super) fn carry_out(&self) -> Result<Outcome, Failure> {
+    pub(super) fn execute(&self) -> Result<Outcome, Failure> {
         let (experiment, history) = read(&self.directory)?;
         let out = self
             .out

@@ -46,7 +46,7 @@ pub(super) struct Fairness {
 }
 
 impl Fairness {
-    pub(super) fn carry_out(&self, console: &Console) -> Result<Outcome, Failure> {
+    pub(super) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let (checks, remarks) = match (&self.counts, &self.directory) {
             (Some(counts), _) => (die(counts)?, Vec::new()),
             (None, Some(directory)) => {

@@ -3,7 +3,7 @@
 use crate::terminal::progress::{bar, note_above};
 use crate::terminal::{Colors, Style, duration, grouped};
 use coinmc_link::State;
-use coinmc_robot::{Live, Watcher, fault, name};
+use coinmc_robot::{Live, ProgressSink, fault, name};
 use indicatif::ProgressBar;
 use std::cell::Cell;
 use std::time::{Duration, Instant};
@@ -40,7 +40,7 @@ impl LiveLine {
     }
 }
 
-impl Watcher for LiveLine {
+impl ProgressSink for LiveLine {
     fn live(&self, live: &Live) {
         let too_soon = self.last.get().is_some_and(|last| last.elapsed() < REDRAW);
         if self.bar.is_hidden() || too_soon {

@@ -71,19 +71,19 @@ impl Robot {
         }
     }
 
-    pub(crate) fn carry_out(&self, console: &Console) -> Result<Outcome, Failure> {
+    pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         match &self.command {
-            Command::Ports(_) => ports::Ports::carry_out(console),
-            Command::Info(info) => info.carry_out(console),
-            Command::Status(status) => status.carry_out(console),
-            Command::Home(home) => home.carry_out(),
-            Command::Throw(throw) => throw.carry_out(),
-            Command::Run(run) => run.carry_out(console),
-            Command::Resume(resume) => resume.carry_out(console),
-            Command::Export(export) => export.carry_out(),
-            Command::Fairness(fairness) => fairness.carry_out(console),
-            Command::Sim(sim) => sim.carry_out(),
-            Command::CameraSim(camera) => camera.carry_out(),
+            Command::Ports(_) => ports::Ports::execute(console),
+            Command::Info(info) => info.execute(console),
+            Command::Status(status) => status.execute(console),
+            Command::Home(home) => home.execute(),
+            Command::Throw(throw) => throw.execute(),
+            Command::Run(run) => run.execute(console),
+            Command::Resume(resume) => resume.execute(console),
+            Command::Export(export) => export.execute(),
+            Command::Fairness(fairness) => fairness.execute(console),
+            Command::Sim(sim) => sim.execute(),
+            Command::CameraSim(camera) => camera.execute(),
         }
     }
 }

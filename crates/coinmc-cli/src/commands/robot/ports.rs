@@ -19,7 +19,7 @@ pub(super) struct Ports {
 }
 
 impl Ports {
-    pub(super) fn carry_out(console: &Console) -> Result<Outcome, Failure> {
+    pub(super) fn execute(console: &Console) -> Result<Outcome, Failure> {
         let found = ports().map_err(|error| Failure::Runtime(error.into()))?;
         match console.format() {
             Format::Json => output::print_json(&json!({

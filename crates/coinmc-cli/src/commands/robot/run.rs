@@ -112,7 +112,7 @@ pub(super) struct Session {
 }
 
 impl Run {
-    pub(super) fn carry_out(&self, console: &Console) -> Result<Outcome, Failure> {
+    pub(super) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let plan = config::load(&self.config, &self.overrides)?;
         let out = self.out.clone().unwrap_or_else(|| {
             let stem = self.config.file_stem();
@@ -121,23 +121,23 @@ impl Run {
         });
         let experiment = Experiment::new(plan).map_err(|e| Failure::Input(e.into()))?;
         self.session
-            .carry_out(&experiment, &Directory::at(&out), console)
+            .execute(&experiment, &Directory::at(&out), console)
     }
 }
 
 impl Resume {
-    pub(super) fn carry_out(&self, console: &Console) -> Result<Outcome, Failure> {
+    pub(super) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let directory = Directory::at(&self.directory);
         let experiment = directory.experiment().map_err(failure)?;
         if !directory.journal().exists() {
             return Err(failure(DirectoryError::Missing(self.directory.clone())));
         }
-        self.session.carry_out(&experiment, &directory, console)
+        self.session.execute(&experiment, &directory, console)
     }
 }
 
 impl Session {
-    fn carry_out(
+    fn execute(
         &self,
         experiment: &Experiment,
         directory: &Directory,
@@ -179,7 +179,7 @@ impl Session {
                 speed: setup.speed,
                 record: !self.no_recording,
                 cancel,
-                watcher: &line,
+                sink: &line,
             },
         );
         line.finish();

@@ -74,7 +74,7 @@ pub(super) struct Sim {
 }
 
 impl Sim {
-    pub(super) fn carry_out(&self) -> Result<Outcome, Failure> {
+    pub(super) fn execute(&self) -> Result<Outcome, Failure> {
         let plan = config::load(&self.config, &self.overrides)?;
         let experiment = Experiment::new(plan).map_err(|e| Failure::Input(e.into()))?;
         let cancel = interrupt::listen(|| {})

@@ -29,7 +29,7 @@ pub(super) struct Throw {
 }
 
 impl Throw {
-    pub(super) fn carry_out(&self) -> Result<Outcome, Failure> {
+    pub(super) fn execute(&self) -> Result<Outcome, Failure> {
         let setting = Setting::nearest(self.spin, self.angle)
             .map_err(|error| Failure::Input(error.into()))?;
         let mut robot = Robot::connect(&self.port)?;

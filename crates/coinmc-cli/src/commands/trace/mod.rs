@@ -137,9 +137,9 @@ impl Trace {
         }
     }
 
-    pub(crate) fn carry_out(&self, console: &Console) -> Result<Outcome, Failure> {
+    pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         match (&self.recover, &self.config) {
-            (Some(Verb::Recover(recover)), _) => recover.carry_out(console),
+            (Some(Verb::Recover(recover)), _) => recover.execute(console),
             (None, Some(config)) => self.trace(config, console),
             (None, None) => Err(Failure::Input(anyhow!("name a config or a run directory"))),
         }

@@ -31,7 +31,7 @@ impl Recover {
         self.format
     }
 
-    pub(super) fn carry_out(&self, console: &Console) -> Result<Outcome, Failure> {
+    pub(super) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let out = self.out.clone().unwrap_or_else(|| beside(&self.file));
         let recovered = coinmc_recording::recover(&self.file, &out)?;
         match console.format() {

@@ -104,7 +104,7 @@ fn a_long_table_shows_its_ends() {
 fn every_end_has_its_sentence() {
     let mut trace = trace(FLAT, 5);
     for (ended, says) in [
-        (Ended::Endless, "never settles"),
+        (Ended::NeverSettles, "never settles"),
         (Ended::TimeLimit, "time_limit"),
         (Ended::ImpactLimit, "limit of impacts"),
         (Ended::Failed, "range of numbers"),

@@ -22,7 +22,7 @@ pub(super) fn verdict(trace: &Trace) -> String {
             )
         }
         Ended::Decided(face) => decided(trace, &when, face),
-        Ended::Endless => format!(
+        Ended::NeverSettles => format!(
             "Undecided: it is proven {when} that the coin never settles. Nothing takes its energy: \
              it stands balanced, or bounces or rolls for ever."
         ),

@@ -134,11 +134,14 @@ fn published_counts_are_told_by_launch_and_ratio_alone() {
     assert!(has("", "5") && has("engine.volumetric.law=stronge", "0.25"));
     assert!(!has("", "2") && !has("launch.height_m=4", "1") && !has("launch.preset=clean", "1"));
     let text = text(
-        &unity("surface.contour_m=1e-3\nsurface.friction=[1, 10]", "1"),
+        &unity(
+            "surface.rolling_friction_m=1e-3\nsurface.friction=[1, 10]",
+            "1",
+        ),
         &Style::plain(100),
     );
     assert!(
-        text.contains("Not the published scene, it differs in: friction, contour_m.\n"),
+        text.contains("Not the published scene, it differs in: friction, rolling_friction_m.\n"),
         "{text}"
     );
 }
@@ -146,7 +149,7 @@ fn published_counts_are_told_by_launch_and_ratio_alone() {
 #[test]
 fn a_toss_in_space_is_compared_with_its_own_kind() {
     let config = "coin.ratio = [0.5, 1.0, 1.5]\n\
-                  surface = { restitution = 0.5, friction = 0.3, contour_m = 1e-4 }\n\
+                  surface = { restitution = 0.5, friction = 0.3, rolling_friction_m = 1e-4 }\n\
                   launch.preset = 'clean'\nengine.volumetric = {}\nstop.tosses = 10000";
     let text = text(&results(config, 1.3), &Style::plain(80));
     for line in [
@@ -162,7 +165,7 @@ fn a_toss_in_space_is_compared_with_its_own_kind() {
 #[test]
 fn undecided_tosses_are_counted_by_why_not() {
     let mut results = unity("", "2");
-    results.rows[0].tally.endless = 3;
+    results.rows[0].tally.never_settles = 3;
     results.rows[0].tally.impact_limit = 1000;
     let text = text(&results, &Style::plain(100));
     assert!(
@@ -184,7 +187,7 @@ fn nothing_is_wider_than_the_terminal() {
         &sweep("{ from = 0.5, to = 2.5, steps = 9 }", "[0.3, 0.5, 0.7]"),
         0.8,
     );
-    let unity = unity("surface.contour_m=1e-3", "[0.03125, 1, 5]");
+    let unity = unity("surface.rolling_friction_m=1e-3", "[0.03125, 1, 5]");
     for width in [60, 72, 100, 200] {
         for results in [&results, &unity] {
             for line in text(results, &Style::plain(width)).lines() {

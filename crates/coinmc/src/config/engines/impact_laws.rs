@@ -4,12 +4,12 @@ use super::super::build::{At, Fault, get};
 use super::super::diagnostics::Problems;
 use super::super::form::{Form, What};
 use super::{is_somewhere_not_zero, named};
-use coinmc_flat::{HalfSine, Law, Lever, LineContact, Materials, Paper, PulseTime};
+use coinmc_flat::{GaekSukhov, HalfSine, Law, Lever, LineContact, Materials, PulseTime};
 
 /// The law in force.
 pub(super) fn law(form: &Form, at: &At<'_>) -> Result<Law, Fault> {
     match &get(form, "law")?.what {
-        What::Tagged("paper", inner) => Ok(Law::Paper(Paper {
+        What::Tagged("gaek-sukhov", inner) => Ok(Law::GaekSukhov(GaekSukhov {
             eta_n_s: at.required(inner, "eta_n_s")?,
             lever: named(inner, "lever", Lever::ALL, Lever::name)?,
         })),
@@ -44,7 +44,7 @@ fn materials(form: &Form, at: &At<'_>) -> Result<Materials, Fault> {
     })
 }
 
-/// The paper's law has no friction: whatever the surface says would be ignored.
+/// Gaek & Sukhov's law has no friction: whatever the surface says would be ignored.
 pub(super) fn refuse_friction(root: &Form, problems: &mut Problems) {
     let law = root.get("engine").and_then(|engine| match &engine.what {
         What::Tagged(_, inner) => inner.get("law"),
@@ -53,12 +53,12 @@ pub(super) fn refuse_friction(root: &Form, problems: &mut Problems) {
     let friction = root
         .get("surface")
         .and_then(|surface| surface.get("friction"));
-    if law.and_then(Form::tag) == Some("paper")
+    if law.and_then(Form::tag) == Some("gaek-sukhov")
         && let Some(friction) = friction.filter(|form| is_somewhere_not_zero(form))
     {
         problems.add_with_help(
             friction.span,
-            "the paper's law knows no friction: `surface.friction` must be 0",
+            "Gaek & Sukhov's law knows no friction: `surface.friction` must be 0",
             "set `friction = 0`, or take another `engine.flat.law`",
         );
     }

@@ -12,7 +12,7 @@ use coinmc_volumetric as volumetric;
 use impact_laws::impact_laws;
 
 /// The name of the decision that needs no number.
-pub(in crate::config) const CERTAIN: &str = "certain";
+pub(in crate::config) const ENERGY: &str = "energy";
 
 /// Limit of the small numbers below which motion counts as none.
 const SMALL: Bounds = above_zero(0.1);
@@ -73,12 +73,12 @@ fn in_the_plane() -> TableKind {
             DECISION,
             Kind::Choice(
                 vec![Word {
-                    name: CERTAIN,
+                    name: ENERGY,
                     doc: "when energy alone makes it certain",
                 }],
                 vec![fraction],
             ),
-            Is(Fallback::Word(CERTAIN)),
+            Is(Fallback::Word(ENERGY)),
         ),
         zeno(settings.zeno),
         number(
@@ -135,17 +135,17 @@ fn in_space() -> TableKind {
             default(settings.tolerance),
         ),
         number(
-            "stick",
+            "stick_speed",
             "Slip, in sqrt(g D), below which a contact point that can stick does; D is the distance \
              of the rim from the centre.",
             SMALL,
-            default(settings.stick),
+            default(settings.stick_speed),
         ),
         number(
-            "fade",
+            "smoothing_time",
             "Time, in sqrt(D/g), over which rolling and pivoting friction end the last of a rotation.",
             SMALL,
-            default(settings.fade),
+            default(settings.smoothing_time),
         ),
         count(
             "max_impacts",

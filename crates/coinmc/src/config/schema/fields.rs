@@ -184,7 +184,7 @@ fn surface() -> TableKind {
                 Omitted,
             ),
             number(
-                "contour_m",
+                "rolling_friction_m",
                 "Contour (rolling) friction length, m: the power lost is normal force × this × rate \
                  at which the contact point moves along the rim. Coins on hard surfaces: about \
                  0.001 to 0.01 R.",
@@ -192,7 +192,7 @@ fn surface() -> TableKind {
                 default(0.0),
             ),
             number(
-                "pivoting_m",
+                "pivoting_friction_m",
                 "Pivoting friction length, m: the power lost is normal force × this × rate at which \
                  the coin turns about the vertical.",
                 Bounds::closed(0.0, 1e6),

@@ -8,7 +8,7 @@ mod launch;
 mod rapier;
 mod terms;
 
-pub(super) use engines::CERTAIN;
+pub(super) use engines::ENERGY;
 pub(super) use fields::{range, root};
 pub(super) use json::json_schema;
 

@@ -44,9 +44,11 @@ impl Omission {
             Self::Tangential => "the tangential half of impacts and contacts: friction is 0",
             Self::Bounces => "sequences of bounces: restitution is 0",
             Self::Contour => {
-                "contour (rolling) friction: contour_m is 0, pure rolling loses nothing"
+                "contour (rolling) friction: rolling_friction_m is 0, pure rolling loses nothing"
             }
-            Self::Pivoting => "pivoting friction: pivoting_m is 0, pure pivoting loses nothing",
+            Self::Pivoting => {
+                "pivoting friction: pivoting_friction_m is 0, pure pivoting loses nothing"
+            }
         }
     }
 }
@@ -77,7 +79,13 @@ pub(super) fn omissions(point: &Point, integrated: Option<Method>) -> Vec<Omissi
     }
     omit(Omission::Tangential, surface.friction() == 0.0);
     omit(Omission::Bounces, surface.restitution() == 0.0);
-    omit(Omission::Contour, in_space && surface.contour_m() == 0.0);
-    omit(Omission::Pivoting, in_space && surface.pivoting_m() == 0.0);
+    omit(
+        Omission::Contour,
+        in_space && surface.rolling_friction_m() == 0.0,
+    );
+    omit(
+        Omission::Pivoting,
+        in_space && surface.pivoting_friction_m() == 0.0,
+    );
     omissions
 }

@@ -29,7 +29,7 @@ fn outcome(trace: &Trace) -> String {
             };
             format!("{face}, {how}")
         }
-        Ended::Endless => "Never settles, as is certain".to_owned(),
+        Ended::NeverSettles => "Never settles, as is certain".to_owned(),
         Ended::TimeLimit => "Undecided: given up at the limit of time".to_owned(),
         Ended::ImpactLimit => "Undecided: given up at the limit of impacts".to_owned(),
         Ended::Failed => "Failed: its numbers left the range of numbers".to_owned(),

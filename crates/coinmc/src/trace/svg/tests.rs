@@ -6,7 +6,7 @@ fn trace(launch: &str, engine: &str, toss: u64, rate_hz: f64) -> Trace {
     // the flat engine has no friction lengths
     let lengths = match engine {
         "flat" => "",
-        _ => ", contour_m = 1e-4, pivoting_m = 1e-4",
+        _ => ", rolling_friction_m = 1e-4, pivoting_friction_m = 1e-4",
     };
     let config = format!(
         "coin = {{ ratio = 0.85, radius_m = 0.01 }}\n\

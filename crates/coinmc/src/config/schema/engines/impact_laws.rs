@@ -17,9 +17,9 @@ pub(super) fn impact_laws(fallback: &'static str) -> Field {
     };
     let tables = vec![
         table(
-            "paper",
+            "gaek-sukhov",
             "Gaek & Sukhov's law as published: surface.restitution is the square root of its k.",
-            paper(),
+            gaek_sukhov(),
             Required,
         ),
         table(
@@ -43,7 +43,7 @@ pub(super) fn impact_laws(fallback: &'static str) -> Field {
     )
 }
 
-fn paper() -> TableKind {
+fn gaek_sukhov() -> TableKind {
     let lever = |lever: flat::Lever| Word {
         name: lever.name(),
         doc: match lever {

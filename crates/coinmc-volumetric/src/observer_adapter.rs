@@ -7,14 +7,14 @@ use crate::toss::Place;
 use coinmc_core::{Event, EventKind, Observer, sample_between};
 
 /// An observer, and what it takes to show it a motion in contact.
-pub(crate) struct Watch<'a, O> {
+pub(crate) struct ObserverAdapter<'a, O> {
     pub(crate) observer: &'a mut O,
     pub(crate) place: &'a mut Place,
     pub(crate) heads_up: bool,
     pub(crate) units: &'a Units,
 }
 
-impl<O: Observer> Watch<'_, O> {
+impl<O: Observer> ObserverAdapter<'_, O> {
     pub(crate) fn event(&mut self, kind: EventKind, motion: &Motion<f64>, spin: &Spin<f64>) {
         if O::ACTIVE {
             let state = self.place.state(motion, spin, self.heads_up, self.units);
@@ -68,8 +68,8 @@ mod tests {
         let surface = Surface::new(0.5, 9.0).expect("a good surface");
         let scene = Scene::new(coin, surface, 9.81).expect("good gravity");
         let (units, mut toss, mut nobody) = (Units::new(&scene), Toss::still(), Nobody);
-        let (_, _, mut watch) = toss.watched(&units, &mut nobody);
-        watch.passed(0.0, |_| {
+        let (_, _, mut adapter) = toss.watched(&units, &mut nobody);
+        adapter.passed(0.0, |_| {
             panic!("rates that may be no numbers were asked for")
         });
     }

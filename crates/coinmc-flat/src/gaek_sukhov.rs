@@ -37,16 +37,16 @@ use coinmc_lanes::{Lane, sin_cos};
 /// that the law adds makes even k = 0 rebound.
 const LEAST_REBOUND: f64 = 0.5;
 
-/// The paper's law: its one number beside k, and how its lever is read.
+/// Gaek & Sukhov's law: its one number beside k, and how its lever is read.
 ///
 /// # Example
 /// ```
-/// use coinmc_flat::{Law, Lever, Paper, Settings};
-/// let law = Law::Paper(Paper { eta_n_s: 0.01, lever: Lever::Height });
+/// use coinmc_flat::{Law, Lever, GaekSukhov, Settings};
+/// let law = Law::GaekSukhov(GaekSukhov { eta_n_s: 0.01, lever: Lever::Height });
 /// assert!(Settings { law, ..Settings::default() }.validate().is_ok());
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Paper {
+pub struct GaekSukhov {
     /// η = 2 N_max τ/π, N s.
     pub eta_n_s: f64,
     /// The lever of the impulse η.
@@ -79,7 +79,7 @@ impl Lever {
     }
 }
 
-impl Paper {
+impl GaekSukhov {
     pub(crate) fn validate(self) -> Result<(), SettingsError> {
         if self.eta_n_s == 0.0 {
             return Ok(());
@@ -88,29 +88,29 @@ impl Paper {
     }
 }
 
-/// [`Paper`] for one scene, without units.
+/// [`GaekSukhov`] for one scene, without units.
 #[derive(Debug, Clone, Copy)]
-pub struct PaperImpact {
-    paper: Paper,
+pub struct GaekSukhovImpact {
+    gaek_sukhov: GaekSukhov,
     /// η in units of m sqrt(g D).
     eta: f64,
 }
 
-impl PaperImpact {
+impl GaekSukhovImpact {
     /// The law in this scene.
     ///
     /// # Errors
     /// [`SettingsError`] if η is out of range or the surface has friction.
-    pub fn new(scene: &Scene, paper: Paper) -> Result<Self, SettingsError> {
-        paper.validate()?;
+    pub fn new(scene: &Scene, gaek_sukhov: GaekSukhov) -> Result<Self, SettingsError> {
+        gaek_sukhov.validate()?;
         let friction = scene.surface.friction();
         if friction != 0.0 {
             return Err(SettingsError::Friction(friction));
         }
         let speed = scene.coin.rim_distance_m() / scene.time_scale_s();
         Ok(Self {
-            paper,
-            eta: paper.eta_n_s / (scene.coin.mass_kg() * speed),
+            gaek_sukhov,
+            eta: gaek_sukhov.eta_n_s / (scene.coin.mass_kg() * speed),
         })
     }
 
@@ -118,7 +118,7 @@ impl PaperImpact {
     fn lever(&self, shape: &Shape, quadrant: Quadrant, delta: f64) -> f64 {
         let (side, tilt) = shape.face_tilt(quadrant, delta);
         let (half_height, radius) = shape.base(0, false);
-        match self.paper.lever {
+        match self.gaek_sukhov.lever {
             Lever::Height => side * 2.0 * half_height * sin_cos(tilt).1,
             Lever::Diameter => side * 2.0 * radius * sin_cos(tilt).1,
             Lever::Corner => sin_cos(delta).0,
@@ -126,7 +126,7 @@ impl PaperImpact {
     }
 }
 
-impl ImpactLaw for PaperImpact {
+impl ImpactLaw for GaekSukhovImpact {
     const SIDE_BY_SIDE: bool = false;
 
     fn impulse<L: Lane>(&self, k: ContactMatrix<L>, ux: L, uz: L, e: f64, mu: f64) -> Impulse<L> {
@@ -134,7 +134,7 @@ impl ImpactLaw for PaperImpact {
     }
 
     fn law(&self) -> Law {
-        Law::Paper(self.paper)
+        Law::GaekSukhov(self.gaek_sukhov)
     }
 
     fn rebound(&self, e: f64) -> f64 {

@@ -1,6 +1,6 @@
 //! Gaek & Sukhov's law against its own formulas, in SI, by hand.
 
-use crate::common::{Dice, engine, impact, paper, scene, touch};
+use crate::common::{Dice, engine, gaek_sukhov, impact, scene, touch};
 use coinmc_core::Engine;
 use coinmc_flat::{AnyFlatEngine, Lever, Settings, SettingsError};
 use std::f64::consts::FRAC_PI_2;
@@ -21,7 +21,12 @@ fn single_impacts_are_the_paper_s_formulas() {
         // tilt of the face, and u to the right of the vertical: the lever turns it back
         let tilt = dice.between(0.01, FRAC_PI_2 - 0.01);
         let (vz, spin) = (-dice.between(0.5, 4.0), dice.between(-60.0, 60.0));
-        let found = impact(&scene, paper(eta, lever), 1e-6, &touch(tilt, 0.3, vz, spin));
+        let found = impact(
+            &scene,
+            gaek_sukhov(eta, lever),
+            1e-6,
+            &touch(tilt, 0.3, vz, spin),
+        );
         let (radius, height) = (0.01, 0.01 * ratio);
         let inertia = MASS_KG * (3.0 * radius * radius + height * height) / 12.0;
         let (sin, cos) = libm::sincos(tilt);
@@ -65,7 +70,7 @@ fn single_impacts_are_the_paper_s_formulas() {
 fn where_it_breaks_the_corner_s_own_impact_stands_in() {
     let scene = scene(1.0, 0.6, 0.0);
     let start = touch(0.4, 0.2, -1.0, 5.0);
-    let broken = impact(&scene, paper(0.5, Lever::Height), 1e-6, &start);
+    let broken = impact(&scene, gaek_sukhov(0.5, Lever::Height), 1e-6, &start);
     assert_eq!(broken.breaks.negative_heights, 1);
     let newton = AnyFlatEngine::new(&scene, &Settings::default())
         .unwrap()
@@ -79,7 +84,7 @@ fn without_lever_the_height_is_k_of_the_fall() {
     for lever in Lever::ALL {
         let found = impact(
             &scene(1.0, 0.7, 0.0),
-            paper(0.0, lever),
+            gaek_sukhov(0.0, lever),
             1e-6,
             &touch(0.3, 0.0, -2.0, 0.0),
         );
@@ -100,7 +105,7 @@ fn every_toss_ends_whatever_eta() {
     ] {
         for lever in Lever::ALL {
             let scene = scene(1.3, e, 0.0);
-            let engine = engine(&scene, paper(eta, lever));
+            let engine = engine(&scene, gaek_sukhov(eta, lever));
             for toss in 0..200 {
                 let mut dice = Dice::new(201, toss);
                 let mut launch =
@@ -117,7 +122,7 @@ fn every_toss_ends_whatever_eta() {
 fn friction_is_refused() {
     let with_friction = scene(1.0, 0.5, 0.3);
     let settings = Settings {
-        law: paper(1e-3, Lever::Height),
+        law: gaek_sukhov(1e-3, Lever::Height),
         ..Settings::default()
     };
     let refused = AnyFlatEngine::new(&with_friction, &settings).err();

@@ -6,13 +6,13 @@ use crate::shape::Shape;
 use coinmc_core::{Event, EventKind, Observer, sample_between};
 
 /// An observer, and what it takes to show it a motion.
-pub(crate) struct Watch<'a, O> {
+pub(crate) struct ObserverAdapter<'a, O> {
     pub(crate) observer: &'a mut O,
     pub(crate) units: &'a Units,
     pub(crate) shape: &'a Shape,
 }
 
-impl<O: Observer> Watch<'_, O> {
+impl<O: Observer> ObserverAdapter<'_, O> {
     pub(crate) fn event(&mut self, kind: EventKind, motion: &Motion) {
         if O::ACTIVE {
             let state = motion.state(self.units, self.shape);

@@ -14,24 +14,24 @@ pub struct Progress {
     pub tosses_planned: u64,
     /// Of `tosses_done`, those that an earlier run had counted.
     pub tosses_reused: u64,
-    /// Shards taken over from an earlier run.
-    pub reused_shards: u64,
+    /// Chunks taken over from an earlier run.
+    pub reused_chunks: u64,
     /// The longest arm of any face's interval at any point tossed so far (by Wilson's formula,
     /// which is quick); `None` before the first toss.
     pub worst_half_width: Option<f64>,
 }
 
 /// Who follows a run. `()` ignores everything.
-pub trait Watcher: Sync {
+pub trait ProgressSink: Sync {
     /// Called at the start, when what is left of an earlier run has been read, each time finished
-    /// shards are on the disk, and at the end.
+    /// chunks are on the disk, and at the end.
     fn progress(&self, progress: &Progress);
 
     /// Something was wrong and has been dealt with; the text says how.
     fn warning(&self, message: &str);
 }
 
-impl Watcher for () {
+impl ProgressSink for () {
     fn progress(&self, _: &Progress) {}
     fn warning(&self, _: &str) {}
 }
