@@ -137,7 +137,7 @@ impl Engine for AnyVolumetricEngine {
     ) {
         match self.batch() {
             Some(batch) => {
-                batch.toss_all_in_batch(launches, |number, end| each(number, &end.outcome))
+                batch.toss_all_in_batch(launches, |number, end| each(number, &end.outcome));
             }
             None => toss_sequential(self, &mut (), launches, each),
         }

@@ -432,7 +432,7 @@ impl<L: ImpactLaw> Engine for VolumetricEngine<L> {
     ) {
         match Batch::of(self) {
             Some(batch) => {
-                batch.toss_all_in_batch(launches, |number, end| each(number, &end.outcome))
+                batch.toss_all_in_batch(launches, |number, end| each(number, &end.outcome));
             }
             None => toss_sequential(self, &mut (), launches, each),
         }
