@@ -1,7 +1,7 @@
-"""Draws docs/flat-fair.svg from the results of examples/flat-fair.toml.
+"""Draws docs/figures/flat-fair.svg from the results of examples/flat-fair.toml.
 
 coinmc run examples/flat-fair.toml --out runs/flat-fair
-python docs/figures/flat_fair.py runs/flat-fair docs/flat-fair.svg
+python docs/figures/flat_fair.py runs/flat-fair docs/figures/flat-fair.svg
 """
 
 import sys

@@ -1,7 +1,7 @@
-"""Draws docs/impact-accuracy.svg from the CSV of a study.
+"""Draws docs/figures/impact-accuracy.svg from the CSV of a study.
 
 coinmc-bench --csv impact-accuracy.csv impact-accuracy
-python docs/figures/impact_accuracy.py impact-accuracy.csv docs/impact-accuracy.svg
+python docs/figures/impact_accuracy.py impact-accuracy.csv docs/figures/impact-accuracy.svg
 """
 
 import csv

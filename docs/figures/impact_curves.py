@@ -1,7 +1,7 @@
-"""Draws docs/impact-curves.svg from the CSV of a study.
+"""Draws docs/figures/impact-curves.svg from the CSV of a study.
 
 coinmc-bench --csv impact-curves.csv impact-curves
-python docs/figures/impact_curves.py impact-curves.csv docs/impact-curves.svg
+python docs/figures/impact_curves.py impact-curves.csv docs/figures/impact-curves.svg
 """
 
 import csv

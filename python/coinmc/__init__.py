@@ -11,7 +11,7 @@ The engines of coinmc at native speed, from NumPy's arrays into NumPy's arrays:
 
 All quantities are in SI units, and names carry their unit. *Ratio* always means H/R, height over
 **radius**. z points up, the surface is z = 0, and *heads* means that heads shows. The guide is
-docs/python.md.
+docs/guide/python.md.
 
 Examples
 --------

@@ -4,7 +4,7 @@ All functions take numbers or arrays of any shape and broadcast them against eac
 own do; numbers give numbers. NaN in any argument gives NaN, and so does what lies outside the
 domain of a function; nothing is raised for it, and no warning is given. `is_heads` gives a truth
 value, and False for NaN. Ratios are H/R, height over radius, from 0 to infinity, both included.
-Derivations, sources and accuracy are in docs/theory.md.
+Derivations, sources and accuracy are in docs/methods/plane.md.
 
 Examples
 --------

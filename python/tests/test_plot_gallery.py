@@ -13,10 +13,10 @@ from PIL import Image
 
 mpl.use("Agg")
 ROOT = Path(__file__).resolve().parents[2]
-PAGE = ROOT / "docs/gallery.md"
-SCRIPTS = sorted((ROOT / "docs/gallery").glob("*.py"))
+PAGE = ROOT / "docs/guide/gallery.md"
+SCRIPTS = sorted((ROOT / "docs/guide/gallery").glob("*.py"))
 PICTURES = sorted(
-    path for path in (ROOT / "docs/gallery").iterdir() if path.suffix in (".png", ".gif")
+    path for path in (ROOT / "docs/guide/gallery").iterdir() if path.suffix in (".png", ".gif")
 )
 # One picture and what of its script the page shows. Not ```python: those run once more elsewhere.
 SHOWN = re.compile(r"!\[[^\]]+\]\((gallery/[^)]+)\)\n\n```py\n(.*?)```", re.DOTALL)
@@ -54,7 +54,7 @@ def test_the_page_shows_every_picture_with_the_lines_that_draw_it():
     assert set(shown) == {f"gallery/{path.name}" for path in PICTURES}
     assert {Path(name).stem for name in shown} == {path.stem for path in SCRIPTS}
     for name, lines in shown.items():
-        script = (ROOT / "docs/gallery" / f"{Path(name).stem}.py").read_text(encoding="utf-8")
+        script = (ROOT / "docs/guide/gallery" / f"{Path(name).stem}.py").read_text(encoding="utf-8")
         assert lines in script, name
 
 
@@ -64,7 +64,7 @@ def test_the_pictures_are_small():
 
 def cells():
     """The code of each cell of the notebook."""
-    text = (ROOT / "docs/notebooks/fair_coin.py").read_text(encoding="utf-8")
+    text = (ROOT / "docs/guide/notebooks/fair_coin.py").read_text(encoding="utf-8")
     parts = re.split(r"^# %%(.*)$", text, flags=re.MULTILINE)
     heads, bodies = parts[1::2], parts[2::2]
     return [body for head, body in zip(heads, bodies, strict=True) if "markdown" not in head]
@@ -88,7 +88,7 @@ def test_the_notebook_is_one():
     import jupytext
     import nbclient
 
-    notebook = jupytext.read(ROOT / "docs/notebooks/fair_coin.py")
+    notebook = jupytext.read(ROOT / "docs/guide/notebooks/fair_coin.py")
     code = [cell for cell in notebook.cells if cell.cell_type == "code"]
     assert len(code) == 10
     # what is tested is installed already

@@ -59,7 +59,7 @@ pub enum Decision {
     EnergyFraction(f64),
 }
 
-/// Settings of the flat engine. The defaults are converged: see docs/validation.md.
+/// Settings of the flat engine. The defaults are converged: see docs/validation/planar.md.
 ///
 /// # Example
 /// ```

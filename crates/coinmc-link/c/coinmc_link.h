@@ -1,7 +1,7 @@
 /* The robot's serial link for firmware in C: frames and messages, protocol 1.0.
  *
  * Plain C99, this file alone, no memory but what the caller gives, no library but <stdint.h>,
- * <stdbool.h>, <stddef.h> and <string.h>. Describes what docs/robot-protocol.md describes, and is
+ * <stdbool.h>, <stddef.h> and <string.h>. Describes what docs/reference/robot-protocol.md describes, and is
  * checked against the same golden frames as the Rust crate beside it.
  *
  * Licensed under MIT or Apache-2.0, at your option. */

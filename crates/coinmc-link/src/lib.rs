@@ -3,7 +3,7 @@
 //!
 //! The same code runs in the host program and in the robot's firmware. Nothing here reads a clock or
 //! a port: bytes and milliseconds are put in, bytes and events come out, so every behaviour can be
-//! tested, fuzzed and replayed. `docs/robot-protocol.md` is the wire format for people who write
+//! tested, fuzzed and replayed. `docs/reference/robot-protocol.md` is the wire format for people who write
 //! firmware in another language.
 //!
 //! * [`Wire`] and [`Decoder`]: one message a frame, COBS between zero bytes, CRC-32.

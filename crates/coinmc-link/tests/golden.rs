@@ -1,4 +1,4 @@
-//! The wire format, pinned: every message as a frame, in docs/robot-protocol/golden-frames.txt, as
+//! The wire format, pinned: every message as a frame, in docs/reference/robot-protocol/golden-frames.txt, as
 //! this crate writes and reads it and as the C header does.
 
 mod support;
@@ -16,7 +16,8 @@ const HEADER: Header = Header {
 };
 
 fn golden_file() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../docs/robot-protocol/golden-frames.txt")
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+        .join("../../docs/reference/robot-protocol/golden-frames.txt")
 }
 
 #[test]

@@ -12,7 +12,7 @@ const AZIMUTH: u32 = 1;
 
 /// Most random numbers of a launch with which tosses at Sobol points beat random ones: the face is a
 /// step function of them, and the gain of a step falls with its dimensions (measured in
-/// docs/sampling.md: some 30 fold with two that matter, at most 5 fold with four).
+/// docs/methods/sampling.md: some 30 fold with two that matter, at most 5 fold with four).
 const MOST_TOSSED: usize = 3;
 
 /// How the probabilities of an adhesive scene are found.

@@ -4,7 +4,7 @@
 //! Rapier makes the steps at the surface. This crate gives it a half-space and one cylinder in a
 //! frame in which every coin has the same size, computes free flight in closed form, ends a toss when
 //! energy has settled its face, and counts what goes wrong. What Rapier gets wrong for a coin, and at
-//! which step that stops to matter, was measured: `docs/rapier.md`.
+//! which step that stops to matter, was measured: `docs/methods/rapier.md`.
 //!
 //! # Example
 //! Forty tosses of a coin as thick as it is wide:

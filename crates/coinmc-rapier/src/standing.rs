@@ -6,7 +6,7 @@
 //! would have it in those steps, and the steps that follow show whether the coin still stands.
 //!
 //! This is a choice of the model and no skip: in the steps that are not made the solver's own error
-//! settles which way the coin leans in the end, and statistics are others with them (`docs/rapier.md`).
+//! settles which way the coin leans in the end, and statistics are others with them (`docs/methods/rapier.md`).
 
 use crate::body::Scaled;
 use crate::motion::Motion;

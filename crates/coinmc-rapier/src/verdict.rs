@@ -3,7 +3,7 @@
 //! * *Energy.* To pass from a face to the side or back, the centre must rise to D at least once. So
 //!   a coin whose mechanical energy is below m g D stays in the well it is in: a face if its lowest
 //!   point is beyond the centre (|u_z| > H/(2D)), else the side. Rigorous as long as energy is only
-//!   lost; what Rapier gains is measured, see `docs/rapier.md`.
+//!   lost; what Rapier gains is measured, see `docs/methods/rapier.md`.
 //! * *Tilting.* Energy that cannot become tilt is left out. On the side that of straight rolling,
 //!   Λ²/(2(1 + k_a/R²)) with Λ = v_y − (k_a/R) ω_a, y the horizontal direction across the axis, which
 //!   no impulse at the contact changes: the less of it the faster the axis will turn about the
@@ -11,7 +11,7 @@
 //!   friction at the leading point, μ' = μ v/slip of it ahead, cannot tip the coin (μ'H/2 <= R); what
 //!   is left is then not to exceed sqrt(1 + μ'²) − μ'R, as friction helps it. With μ = 0 the
 //!   horizontal velocity never changes, nor does the spin about u of a coin on its side, and both
-//!   are left out. Derived in `docs/theory-space.md`, *Decisions*.
+//!   are left out. Derived in `docs/methods/space.md`, *Decisions*.
 
 use crate::body::{Body, Scaled};
 use crate::motion::Motion;

@@ -4,7 +4,7 @@
 //! back by an [`ImpactLaw`]. When the remaining bounces would be over before it has turned
 //! noticeably it goes on in sustained contact: on one point of a rim, sticking or sliding, with
 //! friction against rolling and pivoting, or along its side. The toss ends when the energy that
-//! can still tilt the coin is too small to carry it over its rim. Derivations: `docs/theory-space.md`.
+//! can still tilt the coin is too small to carry it over its rim. Derivations: `docs/methods/space.md`.
 //!
 //! # Example
 //! Five hundred tosses of a coin as thick as it is wide, over a surface that brakes rolling:

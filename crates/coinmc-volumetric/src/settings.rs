@@ -36,7 +36,7 @@ pub enum Decision {
     /// to its side the energy of straight rolling is left out, the less of it the faster its axis
     /// will turn, flat on a face that of sliding and spinning; and when it lies on both rims and its
     /// weight has twice the moment that could lift one. Not quite rigorous; its bias is measured in
-    /// docs/validation.md.
+    /// docs/validation/spatial.md.
     #[default]
     Tilting,
     /// When the whole mechanical energy (without friction: all but that of motion which nothing
@@ -58,7 +58,7 @@ impl Decision {
     }
 }
 
-/// Settings of the volumetric engine. The defaults are converged: see docs/validation.md.
+/// Settings of the volumetric engine. The defaults are converged: see docs/validation/spatial.md.
 ///
 /// Speeds and times are in sqrt(g D) and sqrt(D/g), D = sqrt(R² + H²/4) being the distance of the
 /// rim from the centre: the same settings serve a coin of any size.

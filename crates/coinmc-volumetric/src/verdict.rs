@@ -17,7 +17,7 @@
 //!   Λ cos(Ω_z t) is left along the axis, so the share 1/(1 + Ω_z² t²) of the energy is left out,
 //!   all of it for an axis that will not turn, and t² = `TOPPLING`. (The rate φ' at which the axis
 //!   turns now will not do: a leaning coin that spins fast nods, and passes φ' = 0 while it is held
-//!   up by Ω_z.) Nearly rigorous: `docs/validation.md` has the bias that is left.
+//!   up by Ω_z.) Nearly rigorous: `docs/validation/spatial.md` has the bias that is left.
 //!   A coin that lies on both rims is settled, too, once the weight's moment is twice what could
 //!   lift a rim (see `contact::line`);
 //! * *flat on a face*, within `flat` of it, the energy of sliding and of spinning about u. Friction

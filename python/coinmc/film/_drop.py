@@ -81,7 +81,7 @@ def read(path: str | os.PathLike[str], **options: Any) -> Drop:
     ----------
     path : path
         The file. Delimiter, decimal mark, encoding, columns and units are found out; see
-        docs/film.md.
+        docs/guide/film.md.
     **options
         What the file does not say, as for `parse`.
 

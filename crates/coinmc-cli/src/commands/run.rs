@@ -268,7 +268,7 @@ fn quoted(word: &str) -> String {
     }
 }
 
-/// The document of `--format json`; docs/formats.md describes it.
+/// The document of `--format json`; docs/reference/formats.md describes it.
 fn to_json(report: &Report, fair: &[FairRatio], out: &Path) -> Value {
     let mut table = report.results.to_json();
     let status = match report.status {

@@ -7,7 +7,7 @@
 //! ```
 //! Tabs, semicolons, commas or blanks between cells; decimals behind a point or a comma; lines with
 //! `#` and blank lines mean nothing. All problems of a file are reported at once, each with its
-//! place. The formats are described in docs/film.md.
+//! place. The formats are described in docs/guide/film.md.
 
 mod choice;
 mod diagnostics;

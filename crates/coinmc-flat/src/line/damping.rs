@@ -8,7 +8,7 @@
 //!
 //! whatever n, K and M. For e → 1, d = 3(1 − e)/2; for e → 0, e d → 1. This is exact for one corner
 //! whose mass along the normal stays the same while it is down: without friction, or while it slides
-//! one way. Elsewhere the restitution that results is measured, see docs/theory-impact.md.
+//! one way. Elsewhere the restitution that results is measured, see docs/methods/impact-laws.md.
 
 /// Below this restitution an impact is not resolved in time: it gives nothing back.
 pub(crate) const LEAST_RESTITUTION: f64 = 1e-3;

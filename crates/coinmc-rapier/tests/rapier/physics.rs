@@ -87,7 +87,7 @@ fn flight_keeps_energy_and_angular_momentum() {
 }
 
 /// Measured: no toss of these ever rises above its energy at launch by more than 1e-9 of it; the
-/// bound leaves room for what other scenes do, see docs/rapier.md.
+/// bound leaves room for what other scenes do, see docs/methods/rapier.md.
 #[test]
 fn energy_stays_below_its_value_at_launch() {
     for (scene, preset, settings) in [

@@ -10,7 +10,7 @@
 //! {"face": "heads"}
 //! ```
 //!
-//! docs/robot.md has the rules. A child that hangs, dies, or answers anything else is ended and
+//! docs/guide/robot.md has the rules. A child that hangs, dies, or answers anything else is ended and
 //! started again, and the photo counts as failed.
 
 mod child;

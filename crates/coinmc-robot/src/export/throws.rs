@@ -59,7 +59,7 @@ enum Cells {
     Text(fn(&ThrowRow) -> Option<String>),
 }
 
-/// The one definition of the table; CSV, Parquet and docs/robot.md follow it.
+/// The one definition of the table; CSV, Parquet and docs/guide/robot.md follow it.
 const COLUMNS: [Column; 13] = [
     Column {
         name: "throw",

@@ -12,7 +12,7 @@
 //! V 2 fault-102 <crc>                          void, with the reason
 //! ```
 //!
-//! Every announced throw ends as exactly one of done and void. docs/robot.md describes every
+//! Every announced throw ends as exactly one of done and void. docs/guide/robot.md describes every
 //! field.
 
 mod entry;

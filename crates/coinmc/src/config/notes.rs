@@ -45,7 +45,7 @@ pub(super) fn notes(root: &Form, points: &[Point]) -> Vec<String> {
     if points.iter().any(steps) {
         notes.push(
             "engine.rapier: the intervals hold the chance of the tosses, not the error of the time \
-             steps and of Rapier's impacts; docs/rapier.md has measured it"
+             steps and of Rapier's impacts; docs/methods/rapier.md has measured it"
                 .to_owned(),
         );
     }

@@ -1,4 +1,4 @@
-//! The one definition of the results table: CSV, Parquet, JSON and docs/formats.md follow it.
+//! The one definition of the results table: CSV, Parquet, JSON and docs/reference/formats.md follow it.
 
 use super::{Results, Row};
 use coinmc_core::{relative_error, rule_of_thumb_relative_error};

@@ -1,4 +1,4 @@
-//! The file of one integrated point: a few lines of text with a checksum. See docs/formats.md.
+//! The file of one integrated point: a few lines of text with a checksum. See docs/reference/formats.md.
 
 use super::sealed::{seal, unseal};
 use super::tally_file::Damage;

@@ -13,7 +13,7 @@ pub(super) const FILE: &str = "manifest.json";
 /// No manifest is longer; what is longer is not read.
 const MAX_BYTES: usize = 64 << 10;
 
-/// The manifest's fields. See docs/formats.md.
+/// The manifest's fields. See docs/reference/formats.md.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Manifest {

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! What is counted depends on the plan alone: not on threads, parts, machine, order, or on how
-//! often the run was killed and started again. The files are described in docs/formats.md.
+//! often the run was killed and started again. The files are described in docs/reference/formats.md.
 //!
 //! # Example
 //! ```no_run

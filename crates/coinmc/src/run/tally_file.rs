@@ -1,4 +1,4 @@
-//! The file of one finished chunk: a few lines of text with a checksum. See docs/formats.md.
+//! The file of one finished chunk: a few lines of text with a checksum. See docs/reference/formats.md.
 
 use super::Chunk;
 use super::sealed::{seal, unseal};

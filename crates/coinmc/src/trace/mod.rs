@@ -10,7 +10,7 @@
 //!
 //! States between events come from the engine itself (in flight its closed form, in contact a step
 //! of its own integrator), never from interpolation; times of events are exact. The files are
-//! described in docs/traces.md.
+//! described in docs/guide/traces.md.
 
 mod csv;
 mod error;

@@ -1,4 +1,4 @@
-//! The one definition of the table of records: CSV, Parquet, JSON lines and docs/traces.md follow
+//! The one definition of the table of records: CSV, Parquet, JSON lines and docs/guide/traces.md follow
 //! it.
 
 use super::tell::outcome_name;

@@ -28,7 +28,7 @@ fn the_engine_has_the_defaults_of_its_crate() {
     assert_eq!(point.engine, EngineChoice::Rapier(Settings::default()));
     assert_eq!(plan.tosses_planned(), 20);
     // its error is not in the intervals
-    assert!(matches!(&plan.notes[..], [note] if note.contains("docs/rapier.md")));
+    assert!(matches!(&plan.notes[..], [note] if note.contains("docs/methods/rapier.md")));
     assert_eq!(parse(&plan.resolved_toml, &[]), plan);
     let [explanation] = &plan.explain()[..] else {
         panic!("one treatment")

@@ -274,7 +274,7 @@ fn parquet_carries_units_and_the_config_and_is_the_same_every_time() {
 
 #[test]
 fn every_column_is_documented_as_it_is() {
-    let document = include_str!("../../../../docs/formats.md");
+    let document = include_str!("../../../../docs/reference/formats.md");
     let plan = plan("tosses = 1");
     let always = &plan.points[0].parameters[..9];
     for column in columns(always.iter().map(|(name, _)| &**name)) {
@@ -291,14 +291,14 @@ fn every_column_is_documented_as_it_is() {
         );
         assert!(
             document.lines().any(|there| there == line),
-            "docs/formats.md lacks\n{line}"
+            "docs/reference/formats.md lacks\n{line}"
         );
     }
 }
 
 #[test]
 fn every_counter_is_documented() {
-    let document = include_str!("../../../../docs/formats.md");
+    let document = include_str!("../../../../docs/reference/formats.md");
     for name in Tally::COUNTERS {
         assert!(document.contains(&format!("`{name}`")), "{name}");
     }

@@ -237,7 +237,7 @@ fn cheapest_and_dearest(plan: &Plan, cost: &Cost) -> Option<String> {
     })
 }
 
-/// The document of `--format json`; docs/formats.md describes it.
+/// The document of `--format json`; docs/reference/formats.md describes it.
 fn to_json(plan: &Plan, cost: &Cost) -> Value {
     let groups = plan.explain().into_iter().map(|group| {
         json!({ "points": group.points, "computed": group.computed, "skipped": group.skipped })

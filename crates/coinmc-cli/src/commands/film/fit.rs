@@ -17,7 +17,7 @@ use std::path::PathBuf;
 /// Fit laws of impact to filmed drops, and say which describes them best
 ///
 /// All drops share restitution and friction; each has its own first state. Intervals and criteria
-/// are explained in docs/film.md.
+/// are explained in docs/guide/film.md.
 #[derive(Debug, Args)]
 pub(super) struct Fit {
     /// Files of text that Tracker exported, one drop each

@@ -26,7 +26,7 @@ Examples:
 /// Fit the laws of impact to coins that were filmed
 ///
 /// Reads the text that Tracker (Open Source Physics) exports: a time, x and y of the coin's centre
-/// and an angle, frame by frame. docs/film.md leads from a video to a fitted law.
+/// and an angle, frame by frame. docs/guide/film.md leads from a video to a fitted law.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, arg_required_else_help = true)]
 pub(crate) struct Film {

@@ -28,7 +28,7 @@ Examples:
   coinmc robot export day                         throws and results as CSV and Parquet
   coinmc robot fairness day                       is the robot fair, and how sure is that
 
-A simulated robot to try it with: see `coinmc robot sim --help`, and docs/robot.md.";
+A simulated robot to try it with: see `coinmc robot sim --help`, and docs/guide/robot.md.";
 
 /// Throw real coins: run the coin-tossing robot, or a simulated one
 #[derive(Debug, Args)]

@@ -31,7 +31,7 @@ finishes the open throw first; a second one stops at once, and loses nothing eit
 /// Throw what a config describes, photograph, and keep a journal
 ///
 /// The config is that of `coinmc run`: the coin, the surface, the distribution of spin and start
-/// angle, the engine that the outcome is compared with, and stop.tosses. docs/robot.md describes
+/// angle, the engine that the outcome is compared with, and stop.tosses. docs/guide/robot.md describes
 /// the journal and the camera's side.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -71,7 +71,7 @@ pub(super) struct Session {
     #[command(flatten)]
     port: PortArgument,
 
-    /// The camera: a command of the shell that speaks JSON lines (docs/robot.md)
+    /// The camera: a command of the shell that speaks JSON lines (docs/guide/robot.md)
     #[arg(long, value_name = "COMMAND")]
     camera: Option<String>,
 
@@ -202,7 +202,7 @@ impl Session {
         let camera = camera.ok_or_else(|| {
             Failure::Input(anyhow!(
                 "no camera: give the command that takes and reads photos with --camera \
-                 (docs/robot.md says what it must speak)"
+                 (docs/guide/robot.md says what it must speak)"
             ))
         })?;
         let port = match (&self.port.port, &last) {

@@ -115,7 +115,7 @@ fn remarks(trace: &Trace, selected: &Selected, traces: &[Recorded]) -> Vec<Strin
     remarks
 }
 
-/// The document of `--format json`; docs/formats.md describes it.
+/// The document of `--format json`; docs/reference/formats.md describes it.
 fn to_json(plan: &Plan, selected: &Selected, traces: &[Recorded], files: &[PathBuf]) -> Value {
     let status = match selected.status {
         Status::Complete => "complete",

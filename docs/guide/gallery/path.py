@@ -1,0 +1,18 @@
+"""A toss in the plane: all of it, and its last bounces.
+
+python docs/guide/gallery/path.py docs/guide/gallery/path.png
+"""
+
+import sys
+
+from matplotlib import pyplot
+
+import coinmc
+from coinmc import plot
+
+toss = coinmc.trace("examples/own-launch.toml", toss=3, overrides={"coin.ratio": 1.0})
+figure, (left, right) = pyplot.subplots(1, 2, figsize=(9, 4.4), layout="constrained")
+plot.path(toss, ax=left)
+plot.path(toss, times=(0.48, 1.0), coins=18, ax=right)
+
+figure.savefig(sys.argv[1], dpi=90)
