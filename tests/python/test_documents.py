@@ -12,8 +12,7 @@ COMMAND = re.compile(r"^\$ (?:coinmc|cargo run --release --) (run .*)$", re.MULT
 
 
 def documents(root: Path) -> list[Path]:
-    found = [root / "README.md", *(root / "docs").glob("*.md")]
-    return sorted(path for path in found if path.exists())
+    return sorted([*root.glob("*.md"), *(root / "docs").rglob("*.md")])
 
 
 def test_python_blocks_run(root, binary, tmp_path):
@@ -24,7 +23,7 @@ def test_python_blocks_run(root, binary, tmp_path):
         blocks = PYTHON.findall(text)
         if not blocks:
             continue
-        folder = tmp_path / document.stem
+        folder = tmp_path / document.relative_to(root).with_suffix("")
         shutil.copytree(root / "examples", folder / "examples")
         environment = {**os.environ, "PATH": path}
         for arguments in COMMAND.findall(text):
@@ -37,4 +36,4 @@ def test_python_blocks_run(root, binary, tmp_path):
             capture_output=True,
             text=True,
         )
-        assert done.returncode == 0, f"{document.name}:\n{done.stderr}"
+        assert done.returncode == 0, f"{document.relative_to(root)}:\n{done.stderr}"

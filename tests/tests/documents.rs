@@ -2,19 +2,31 @@
 
 use coinmc_tests::{Shown, blocks, command, copy, replay, root};
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-/// README.md and docs/*.md.
+/// Every Markdown file of docs/, and those at the root.
 fn documents() -> Vec<PathBuf> {
-    let docs = fs::read_dir(root().join("docs")).into_iter().flatten();
-    let mut documents: Vec<PathBuf> = docs
-        .map(|entry| entry.expect("a directory entry").path())
-        .filter(|path| path.extension().is_some_and(|extension| extension == "md"))
-        .collect();
-    documents.push(root().join("README.md"));
+    let mut documents = markdown(root());
+    let mut folders = vec![root().join("docs")];
+    while let Some(folder) = folders.pop() {
+        documents.extend(markdown(&folder));
+        folders.extend(entries(&folder).into_iter().filter(|path| path.is_dir()));
+    }
     documents.sort();
-    documents.retain(|path| path.exists());
     documents
+}
+
+/// The Markdown files of one folder.
+fn markdown(folder: &Path) -> Vec<PathBuf> {
+    let is_markdown = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "md");
+    entries(folder).into_iter().filter(is_markdown).collect()
+}
+
+fn entries(folder: &Path) -> Vec<PathBuf> {
+    fs::read_dir(folder)
+        .expect("a folder of the repository")
+        .map(|entry| entry.expect("a directory entry").path())
+        .collect()
 }
 
 #[test]
