@@ -2,10 +2,11 @@
 
 use crate::batch::Batch;
 use crate::engine::FlatEngine;
-use crate::gaek_sukhov::GaekSukhovImpact;
-use crate::half_sine::HalfSineImpact;
-use crate::impact::{ChatterjeeRuina, Moreau};
-use crate::line::LineImpact;
+use crate::laws::chatterjee_ruina::ChatterjeeRuina;
+use crate::laws::gaek_sukhov::GaekSukhovImpact;
+use crate::laws::half_sine::HalfSineImpact;
+use crate::laws::line_contact::LineContactImpact;
+use crate::laws::moreau::Moreau;
 use crate::settings::{Law, Settings, SettingsError};
 use coinmc_core::{
     DynObserver, Engine, Launch, Observer, Outcome, Scene, TossBatch, toss_sequential,
@@ -27,8 +28,8 @@ pub enum AnyFlatEngine {
     GaekSukhov(FlatEngine<GaekSukhovImpact>),
     /// [`HalfSineImpact`].
     HalfSine(FlatEngine<HalfSineImpact>),
-    /// [`LineImpact`].
-    LineContact(FlatEngine<LineImpact>),
+    /// [`LineContactImpact`].
+    LineContact(FlatEngine<LineContactImpact>),
 }
 
 impl AnyFlatEngine {
@@ -51,7 +52,7 @@ impl AnyFlatEngine {
                 Self::HalfSine(FlatEngine::new(scene, settings, law)?)
             }
             Law::LineContact(line) => {
-                let law = LineImpact::new(scene, line)?;
+                let law = LineContactImpact::new(scene, line)?;
                 Self::LineContact(FlatEngine::new(scene, settings, law)?)
             }
         })

@@ -1,7 +1,8 @@
 //! One impact of the lowest corner, and what follows it: flight, sustained contact, a decision.
 
+use crate::contact_matrix::Impulse;
 use crate::engine::{FlatEngine, Toss};
-use crate::impact::{Carried, ImpactLaw, Impulse, Record, Strike};
+use crate::impact_law::{Impact, ImpactLaw, ImpactRecord, Resolution};
 use crate::motion::Motion;
 use crate::shape::Shape;
 use crate::touching::Touching;
@@ -34,7 +35,7 @@ impl<L: ImpactLaw> FlatEngine<L> {
             };
         }
         let (carried, _) = self.strike(motion, &mut toss.breaks);
-        if carried == Carried::Presses {
+        if carried == Resolution::StaysInContact {
             return self.settle(motion, before);
         }
         motion.cap_energy(k, before);
@@ -47,11 +48,15 @@ impl<L: ImpactLaw> FlatEngine<L> {
 
     /// The law's impact of the lowest corner.
     #[inline(always)]
-    pub(crate) fn strike(&self, motion: &mut Motion, breaks: &mut Breaks) -> (Carried, Record) {
+    pub(crate) fn strike(
+        &self,
+        motion: &mut Motion,
+        breaks: &mut Breaks,
+    ) -> (Resolution, ImpactRecord) {
         let mut strike = self.at_touch(motion, breaks);
-        let carried = self.law.carry(&mut strike);
+        let carried = self.law.resolve(&mut strike);
         let record = strike.record;
-        if carried == Carried::ByImpulse {
+        if carried == Resolution::UseImpulse {
             let touching = Touching::of(motion);
             let p = self.impulse(&touching, self.restitution);
             let struck = touching.pushed(&p, self.shape.k);
@@ -69,26 +74,26 @@ impl<L: ImpactLaw> FlatEngine<L> {
     }
 
     #[inline(always)]
-    fn at_touch<'a>(&'a self, motion: &'a mut Motion, breaks: &'a mut Breaks) -> Strike<'a> {
-        Strike {
+    fn at_touch<'a>(&'a self, motion: &'a mut Motion, breaks: &'a mut Breaks) -> Impact<'a> {
+        Impact {
             motion,
             shape: &self.shape,
             restitution: self.restitution,
             friction: self.friction,
             tolerance: self.settings.tolerance,
             breaks,
-            record: Record::default(),
+            record: ImpactRecord::default(),
         }
     }
 
     /// The coin a time `t` into an impact that lasts longer, for observers: the law is followed
     /// again, so that tosses nobody looks at keep nothing of it.
-    pub(crate) fn look_into(&self, touching: Motion, t: f64) -> Motion {
+    pub(crate) fn resolve_until(&self, touching: Motion, t: f64) -> Motion {
         let mut motion = touching;
         motion.z = sin_cos(motion.delta).1;
         let mut unseen = Breaks::default();
         self.law
-            .look_into(&mut self.at_touch(&mut motion, &mut unseen), t);
+            .resolve_until(&mut self.at_touch(&mut motion, &mut unseen), t);
         motion
     }
 
@@ -127,7 +132,7 @@ impl<L: ImpactLaw> FlatEngine<L> {
         if self.bounces_on(touching) {
             return None;
         }
-        let e = self.law.rebound(self.restitution);
+        let e = self.law.effective_restitution(self.restitution);
         let (_, uz) = touching.approach();
         let p = self.impulse(touching, 0.0);
         let omega = touching.turned(&p, self.shape.k);
@@ -143,7 +148,7 @@ impl<L: ImpactLaw> FlatEngine<L> {
     /// of turning >= 1 tell most impacts apart.
     #[inline(always)]
     pub(crate) fn bounces_on<N: Lane>(&self, touching: &Touching<N>) -> N::Mask {
-        let e = self.law.rebound(self.restitution);
+        let e = self.law.effective_restitution(self.restitution);
         let (_, uz) = touching.approach();
         let least = N::splat(self.settings.zeno * (1.0 - e));
         least.le(-uz * N::splat(2.0) * N::splat(e))

@@ -8,7 +8,7 @@
 //!   sliding ── A → 0 (Painlevé) ──▶ tangential impact ──▶ sticking or flight
 //! ```
 
-use crate::impact::ContactMatrix;
+use crate::contact_matrix::ContactMatrix;
 use crate::motion::Motion;
 use crate::observer_adapter::ObserverAdapter;
 use crate::pivot::{PivotEnd, glide, stick, stuck_forces};

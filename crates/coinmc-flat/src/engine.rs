@@ -4,7 +4,7 @@ use crate::batch::Batch;
 use crate::bounce::After;
 use crate::contact::{Contact, Hold, Leave, Poised, Slider};
 use crate::flight::fly_to_contact;
-use crate::impact::ImpactLaw;
+use crate::impact_law::ImpactLaw;
 use crate::motion::{Motion, Units};
 use crate::observer_adapter::ObserverAdapter;
 use crate::settings::{Decision, Settings, SettingsError};
@@ -179,7 +179,7 @@ impl<L: ImpactLaw> FlatEngine<L> {
             let touching = toss.motion;
             let after = self.impact(toss);
             adapter.passed(touching.time, toss.motion.time, |t| {
-                self.look_into(touching, t)
+                self.resolve_until(touching, t)
             });
             adapter.event(EventKind::Impact, &toss.motion);
             early.look(&toss.motion, self.shape.k);

@@ -14,10 +14,10 @@
 //! at the limit of impacts; they are counted.
 //!
 //! # Files
-//! `shape` geometry · `motion` state · `flight` first contact · `impact` laws that are an impulse ·
-//! `touching` what an impulse does · `paper`, `half_sine` and `line` laws that are more ·
+//! `shape` geometry · `motion` state · `flight` first contact · `impact_law` the trait of the laws of
+//! impact, `laws` a file for each · `contact_matrix` and `touching` what an impulse does ·
 //! `dormand_prince` steps in time · `bounce` one impact and what follows it · `pivot` and `slide`
-//! contact phases · `contact` their order · `engine` the toss · `batch` many side by side · `any` its
+//! contact phases · `contact` their order · `engine` the toss · `batch` many tosses at once · `any` its
 //! law chosen at run time · `single` one impact alone · `observer_adapter` what an observer is shown ·
 //! `settings` choices.
 
@@ -25,13 +25,12 @@ mod any;
 mod batch;
 mod bounce;
 mod contact;
+mod contact_matrix;
 mod dormand_prince;
 mod engine;
 mod flight;
-mod gaek_sukhov;
-mod half_sine;
-mod impact;
-mod line;
+mod impact_law;
+mod laws;
 mod motion;
 mod observer_adapter;
 mod pivot;
@@ -43,10 +42,14 @@ mod touching;
 
 pub use any::AnyFlatEngine;
 pub use coinmc_lanes::{Lane, Lanes, NoSuchLanes};
+pub use contact_matrix::{ContactMatrix, Impulse};
 pub use engine::FlatEngine;
-pub use gaek_sukhov::{GaekSukhov, GaekSukhovImpact, Lever};
-pub use half_sine::{HalfSine, HalfSineImpact, PulseTime};
-pub use impact::{Carried, ChatterjeeRuina, ContactMatrix, ImpactLaw, Impulse, Moreau, Strike};
-pub use line::{LineContact, LineImpact, Materials};
+pub use impact_law::{Impact, ImpactLaw, Resolution};
+pub use laws::chatterjee_ruina::ChatterjeeRuina;
+pub use laws::gaek_sukhov::{GaekSukhov, GaekSukhovImpact, Lever};
+pub use laws::half_sine::{HalfSine, HalfSineImpact, PulseTime};
+pub use laws::line_contact::{LineContact, LineContactImpact};
+pub use laws::moreau::Moreau;
+pub use laws::palmgren::Materials;
 pub use settings::{Decision, Law, Settings, SettingsError};
 pub use single::SingleImpact;

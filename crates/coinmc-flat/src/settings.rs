@@ -1,8 +1,8 @@
 //! What a user may choose about the flat engine.
 
-use crate::gaek_sukhov::GaekSukhov;
-use crate::half_sine::HalfSine;
-use crate::line::LineContact;
+use crate::laws::gaek_sukhov::GaekSukhov;
+use crate::laws::half_sine::HalfSine;
+use crate::laws::line_contact::LineContact;
 use thiserror::Error;
 
 /// The law of impact at a corner.

@@ -2,7 +2,7 @@
 
 use crate::any::AnyFlatEngine;
 use crate::engine::FlatEngine;
-use crate::impact::{Carried, ImpactLaw};
+use crate::impact_law::{ImpactLaw, Resolution};
 use crate::motion::Motion;
 use coinmc_core::{Breaks, Launch, State};
 
@@ -72,7 +72,7 @@ impl<L: ImpactLaw> FlatEngine<L> {
         let energy = before.energy(shape.k);
         let (carried, record) = self.strike(&mut motion, &mut breaks);
         let gain = (motion.energy(shape.k) - energy).max(0.0);
-        if carried == Carried::Presses {
+        if carried == Resolution::StaysInContact {
             self.press(&mut motion, energy);
         }
         motion.cap_energy(shape.k, energy);
@@ -80,7 +80,7 @@ impl<L: ImpactLaw> FlatEngine<L> {
         SingleImpact {
             before: before.state(units, shape),
             after: motion.state(units, shape),
-            stays: carried == Carried::Presses,
+            stays: carried == Resolution::StaysInContact,
             peak_force_n: record.peak_force * force,
             steps: record.steps,
             imbalance_j: record.imbalance * force * units.length_m,

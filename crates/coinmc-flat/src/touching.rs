@@ -1,6 +1,6 @@
 //! A coin whose lowest corner is on the surface, and what an impulse there does to it: over lanes.
 
-use crate::impact::{ContactMatrix, Impulse};
+use crate::contact_matrix::{ContactMatrix, Impulse};
 use crate::motion::{self, Motion};
 use coinmc_lanes::{Lane, sin_cos};
 

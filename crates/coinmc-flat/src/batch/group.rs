@@ -2,7 +2,7 @@
 
 use crate::engine::FlatEngine;
 use crate::flight::{Arc, LEAST_DEPARTURE, MAX_EVALUATIONS};
-use crate::impact::ImpactLaw;
+use crate::impact_law::ImpactLaw;
 use crate::motion::Motion;
 use crate::shape::{Shape, as_quadrant};
 use crate::touching::Touching;

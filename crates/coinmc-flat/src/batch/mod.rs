@@ -25,7 +25,7 @@ mod group;
 
 use crate::contact::{Contact, Slider};
 use crate::engine::{Early, FlatEngine, Onward, Toss, certain};
-use crate::impact::ImpactLaw;
+use crate::impact_law::ImpactLaw;
 use crate::motion::Motion;
 use crate::observer_adapter::ObserverAdapter;
 use crate::settings::Decision;
@@ -100,7 +100,7 @@ pub(crate) struct Batch<'a, L> {
 impl<'a, L: ImpactLaw> Batch<'a, L> {
     /// `None` for an engine whose tosses are followed one after the other.
     pub(crate) fn of(engine: &'a FlatEngine<L>) -> Option<Self> {
-        let alone = !L::SIDE_BY_SIDE
+        let alone = !L::BATCHED
             || engine.lanes == Lanes::Scalar
             || engine.settings.decision != Decision::Energy;
         (!alone).then(|| Self::new(engine))

@@ -17,11 +17,13 @@
 //!   coin is set back onto the surface. Where that, or turning meanwhile, gains energy, it is counted
 //!   and taken from all velocities alike.
 
+use crate::contact_matrix::{ContactMatrix, Impulse};
 use crate::dormand_prince::{Step, System, growth};
-use crate::impact::{Carried, ContactMatrix, ImpactLaw, Impulse, Moreau, Strike};
-use crate::line::{Materials, duration, stiffness};
+use crate::impact_law::{Impact, ImpactLaw, Resolution};
+use crate::laws::moreau::Moreau;
+use crate::laws::palmgren::{Materials, duration, scene_stiffness};
 use crate::motion::Motion;
-use crate::settings::{Law, SettingsError, positive};
+use crate::settings::{SettingsError, positive};
 use crate::shape::Shape;
 use coinmc_core::Scene;
 use coinmc_lanes::{Lane, sin_cos};
@@ -70,7 +72,6 @@ impl HalfSine {
 /// [`HalfSine`] for one scene, without units.
 #[derive(Debug, Clone, Copy)]
 pub struct HalfSineImpact {
-    pulse: HalfSine,
     time: Time,
     /// N_max in m g.
     peak: Option<f64>,
@@ -92,22 +93,21 @@ impl HalfSineImpact {
         let weight = scene.coin.mass_kg() * scene.gravity_m_s2();
         let time = match pulse.time {
             PulseTime::Given(time) => Time::Given(time / scene.time_scale_s()),
-            PulseTime::Contact(materials) => Time::OfStiffness(stiffness(scene, &materials)),
+            PulseTime::Contact(materials) => Time::OfStiffness(scene_stiffness(scene, &materials)),
         };
         Ok(Self {
-            pulse,
             time,
             peak: pulse.peak_n.map(|peak| peak / weight),
         })
     }
 
     /// The pulse; `None` if the corner does not approach.
-    fn pulse(&self, strike: &mut Strike<'_>) -> Option<Pulse> {
-        let (delta, omega, inertia) = (strike.motion.delta, strike.motion.omega, strike.shape.k);
+    fn pulse(&self, impact: &mut Impact<'_>) -> Option<Pulse> {
+        let (delta, omega, inertia) = (impact.motion.delta, impact.motion.omega, impact.shape.k);
         let (sin, cos) = sin_cos(delta);
         let matrix = ContactMatrix::new(sin, cos, inertia);
-        let ux = strike.motion.vx - omega * cos;
-        let uz = strike.motion.vz + omega * sin;
+        let ux = impact.motion.vx - omega * cos;
+        let uz = impact.motion.vz + omega * sin;
         if uz >= 0.0 {
             return None;
         }
@@ -118,7 +118,7 @@ impl HalfSineImpact {
         Some(Pulse {
             delta,
             inertia,
-            impulse: self.pushed(matrix, (ux, uz), strike, time),
+            impulse: self.pushed(matrix, (ux, uz), impact, time),
             time,
         })
     }
@@ -128,10 +128,10 @@ impl HalfSineImpact {
         &self,
         matrix: ContactMatrix,
         (ux, uz): (f64, f64),
-        strike: &mut Strike<'_>,
+        impact: &mut Impact<'_>,
         time: f64,
     ) -> Impulse {
-        let (e, mu) = (strike.restitution, strike.friction);
+        let (e, mu) = (impact.restitution, impact.friction);
         let wanted = Moreau.impulse(matrix, ux, uz, e, mu);
         let Some(peak) = self.peak else {
             return wanted;
@@ -139,12 +139,12 @@ impl HalfSineImpact {
         let given = 2.0 * peak * time / PI;
         if given >= wanted.z {
             let most = Moreau.impulse(matrix, ux, uz, 1.0, mu);
-            strike.breaks.energy_gains += u32::from(given > most.z);
+            impact.breaks.energy_gains += u32::from(given > most.z);
             return wanted;
         }
         let least = Moreau.impulse(matrix, ux, uz, 0.0, mu);
         if given < least.z {
-            strike.breaks.sinkings += 1;
+            impact.breaks.sinkings += 1;
             return least;
         }
         Impulse {
@@ -234,48 +234,44 @@ fn integrate(pulse: &Pulse, omega: f64, tolerance: f64, until: f64) -> Option<([
 }
 
 impl ImpactLaw for HalfSineImpact {
-    const SIDE_BY_SIDE: bool = false;
+    const BATCHED: bool = false;
 
     fn impulse<L: Lane>(&self, k: ContactMatrix<L>, ux: L, uz: L, e: f64, mu: f64) -> Impulse<L> {
         Moreau.impulse(k, ux, uz, e, mu)
     }
 
-    fn law(&self) -> Law {
-        Law::HalfSine(self.pulse)
-    }
-
-    fn carry(&self, strike: &mut Strike<'_>) -> Carried {
-        let Some(pulse) = self.pulse(strike) else {
-            return Carried::ByImpulse;
+    fn resolve(&self, impact: &mut Impact<'_>) -> Resolution {
+        let Some(pulse) = self.pulse(impact) else {
+            return Resolution::UseImpulse;
         };
-        let found = integrate(&pulse, strike.motion.omega, strike.tolerance, pulse.time);
+        let found = integrate(&pulse, impact.motion.omega, impact.tolerance, pulse.time);
         let Some((turned, steps)) = found else {
-            strike.breaks.unresolved += 1;
-            return Carried::ByImpulse;
+            impact.breaks.unresolved += 1;
+            return Resolution::UseImpulse;
         };
-        strike.record.steps = steps;
-        strike.record.peak_force = FRAC_PI_2 * pulse.impulse.z / pulse.time;
-        let (motion, inertia) = (&mut *strike.motion, strike.shape.k);
+        impact.record.steps = steps;
+        impact.record.peak_force = FRAC_PI_2 * pulse.impulse.z / pulse.time;
+        let (motion, inertia) = (&mut *impact.motion, impact.shape.k);
         let before = motion.energy(inertia);
-        pulse.move_on(motion, strike.shape, turned, pulse.time);
+        pulse.move_on(motion, impact.shape, turned, pulse.time);
         let (sin, cos) = sin_cos(motion.delta);
         motion.z = cos;
-        let gained = motion.energy(inertia) > before * (1.0 + strike.tolerance);
-        strike.breaks.energy_gains += u32::from(gained);
+        let gained = motion.energy(inertia) > before * (1.0 + impact.tolerance);
+        impact.breaks.energy_gains += u32::from(gained);
         if motion.vz + motion.omega * sin > 0.0 {
-            return Carried::Departs;
+            return Resolution::Separates;
         }
         // gravity and turning have eaten the rebound
-        Carried::Presses
+        Resolution::StaysInContact
     }
 
-    fn look_into(&self, strike: &mut Strike<'_>, time: f64) {
-        let Some(pulse) = self.pulse(strike) else {
+    fn resolve_until(&self, impact: &mut Impact<'_>, time: f64) {
+        let Some(pulse) = self.pulse(impact) else {
             return;
         };
-        let found = integrate(&pulse, strike.motion.omega, strike.tolerance, time);
+        let found = integrate(&pulse, impact.motion.omega, impact.tolerance, time);
         if let Some((turned, _)) = found {
-            pulse.move_on(strike.motion, strike.shape, turned, time);
+            pulse.move_on(impact.motion, impact.shape, turned, time);
         }
     }
 }

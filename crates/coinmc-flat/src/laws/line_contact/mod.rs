@@ -1,7 +1,7 @@
 //! Line contact resolved in time: an elastic, damped, dry contact from touch to release.
 //!
 //! The coin flies rigidly; where a corner meets the surface both yield as a line contact does
-//! ([`palmgren`]), with the damping that gives the wanted restitution ([`damping`]) and friction
+//! ([`palmgren`](crate::laws::palmgren)), with the damping that gives the wanted restitution ([`damping`]) and friction
 //! behind a spring ([`equations`]). Any number of corners may touch at once. Gravity acts all the
 //! time, the coin turns and moves while it is down, and nothing is idealised but the law of force.
 //!
@@ -12,21 +12,20 @@
 mod damping;
 mod equations;
 mod events;
-mod palmgren;
 mod passage;
 mod scale;
 
-pub use palmgren::Materials;
-
-use crate::impact::{Carried, ContactMatrix, ImpactLaw, Impulse, Moreau, Strike};
+use crate::contact_matrix::{ContactMatrix, Impulse};
+use crate::impact_law::{Impact, ImpactLaw, Resolution};
+use crate::laws::moreau::Moreau;
+use crate::laws::palmgren::{Materials, scene_stiffness};
 use crate::motion::Motion;
-use crate::settings::{Law, SettingsError, positive};
+use crate::settings::{SettingsError, positive};
 use crate::shape::Shape;
 use coinmc_core::Scene;
 use coinmc_lanes::{Lane, sin_cos};
 use damping::{LEAST_RESTITUTION, strength};
 use equations::{Body, CORNERS, Corner, Grip};
-pub(crate) use palmgren::duration;
 use passage::{Passage, Release};
 
 /// A corner this near to the surface touches it, in D.
@@ -68,27 +67,21 @@ impl LineContact {
 
 /// [`LineContact`] for one scene, without units.
 #[derive(Debug, Clone, Copy)]
-pub struct LineImpact {
+pub struct LineContactImpact {
     line: LineContact,
     stiffness: f64,
     /// d of the damping, for the scene's restitution.
     strength: f64,
 }
 
-/// K in units of m g/D^(10/9).
-pub(crate) fn stiffness(scene: &Scene, materials: &Materials) -> f64 {
-    let weight = scene.coin.mass_kg() * scene.gravity_m_s2();
-    materials.stiffness() * libm::pow(scene.coin.rim_distance_m(), palmgren::EXPONENT) / weight
-}
-
-impl LineImpact {
+impl LineContactImpact {
     /// The law in this scene.
     ///
     /// # Errors
     /// [`SettingsError`] if a quantity is out of range.
     pub fn new(scene: &Scene, line: LineContact) -> Result<Self, SettingsError> {
         line.validate()?;
-        let stiffness = stiffness(scene, &line.materials);
+        let stiffness = scene_stiffness(scene, &line.materials);
         positive("stiffness of the contact over the coin's weight", stiffness)?;
         Ok(Self {
             line,
@@ -98,17 +91,17 @@ impl LineImpact {
     }
 
     /// The impact from the touch on.
-    fn passage(&self, strike: &Strike<'_>) -> Passage {
-        let (shape, motion) = (strike.shape, &*strike.motion);
+    fn passage(&self, impact: &Impact<'_>) -> Passage {
+        let (shape, motion) = (impact.shape, &*impact.motion);
         let (sin, cos) = sin_cos(motion.delta);
         let matrix = ContactMatrix::new(sin, cos, shape.k);
         let approach = (-(motion.vz + motion.omega * sin)).max(0.0);
         Passage::new(
-            self.body(motion, shape, strike.friction),
+            self.body(motion, shape, impact.friction),
             [motion.vx, motion.vz, motion.omega],
             (approach, 1.0 / matrix.zz),
             (self.strength, self.line.tangential),
-            strike.tolerance,
+            impact.tolerance,
         )
     }
 
@@ -148,48 +141,44 @@ fn corners(motion: &Motion, shape: &Shape) -> [Corner; CORNERS] {
     ]
 }
 
-impl ImpactLaw for LineImpact {
-    const SIDE_BY_SIDE: bool = false;
+impl ImpactLaw for LineContactImpact {
+    const BATCHED: bool = false;
 
     fn impulse<L: Lane>(&self, k: ContactMatrix<L>, ux: L, uz: L, e: f64, mu: f64) -> Impulse<L> {
         Moreau.impulse(k, ux, uz, e, mu)
     }
 
-    fn law(&self) -> Law {
-        Law::LineContact(self.line)
-    }
-
-    fn carry(&self, strike: &mut Strike<'_>) -> Carried {
-        if strike.restitution < LEAST_RESTITUTION {
-            return Carried::ByImpulse;
+    fn resolve(&self, impact: &mut Impact<'_>) -> Resolution {
+        if impact.restitution < LEAST_RESTITUTION {
+            return Resolution::UseImpulse;
         }
-        let mut passage = self.passage(strike);
+        let mut passage = self.passage(impact);
         let release = passage.follow(f64::INFINITY);
-        strike.record = passage.record;
-        strike.record.imbalance = passage.imbalance();
+        impact.record = passage.record;
+        impact.record.imbalance = passage.imbalance();
         let Some(release) = release.filter(|release| *release != Release::GivenUp) else {
-            strike.breaks.unresolved += 1;
-            return Carried::ByImpulse;
+            impact.breaks.unresolved += 1;
+            return Resolution::UseImpulse;
         };
-        let (shape, motion) = (strike.shape, &mut *strike.motion);
+        let (shape, motion) = (impact.shape, &mut *impact.motion);
         let touched = *motion;
         move_on(motion, shape, &passage);
         // what touches is on the surface, be it to rounding or to the depth of a bound corner
         motion.z = motion.z.max(sin_cos(motion.delta).1);
         if release == Release::Apart {
-            return Carried::Departs;
+            return Resolution::Separates;
         }
         // the coin has sunk in and cannot pay for coming up where it is now: it stays where it touched
         if motion.z > touched.energy(shape.k) {
             *motion = touched;
         }
-        Carried::Presses
+        Resolution::StaysInContact
     }
 
-    fn look_into(&self, strike: &mut Strike<'_>, time: f64) {
-        let mut passage = self.passage(strike);
+    fn resolve_until(&self, impact: &mut Impact<'_>, time: f64) {
+        let mut passage = self.passage(impact);
         passage.follow(time);
-        move_on(strike.motion, strike.shape, &passage);
+        move_on(impact.motion, impact.shape, &passage);
     }
 }
 

@@ -10,8 +10,8 @@
 //!   slider: it takes F·(u_x − s') >= 0 and gives back ½ k_t s². k_t is constant in an impact, for a
 //!   stiffness that changes with the load would make energy of nothing.
 
-use super::palmgren::{EXPONENT, ninth_root, power};
 use crate::dormand_prince::System;
+use crate::laws::palmgren::{EXPONENT, ninth_root, power};
 use coinmc_lanes::sin_cos;
 use std::f64::consts::FRAC_PI_2;
 

@@ -6,6 +6,7 @@
 //! bracket. The exponents of length add up to 2, so the constant is the same in m, N and Pa.
 
 use crate::settings::{SettingsError, positive};
+use coinmc_core::Scene;
 
 /// n of Q = K δⁿ.
 pub(crate) const EXPONENT: f64 = 10.0 / 9.0;
@@ -72,6 +73,12 @@ fn poisson(name: &'static str, found: f64) -> Result<(), SettingsError> {
             found,
         })
     }
+}
+
+/// K in units of m g/D^(10/9).
+pub(crate) fn scene_stiffness(scene: &Scene, materials: &Materials) -> f64 {
+    let weight = scene.coin.mass_kg() * scene.gravity_m_s2();
+    materials.stiffness() * libm::pow(scene.coin.rim_distance_m(), EXPONENT) / weight
 }
 
 /// δ^(10/9), 0 for δ <= 0. Two cube roots are quicker than a power.

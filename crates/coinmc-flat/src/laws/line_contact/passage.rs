@@ -3,7 +3,7 @@
 use super::equations::{Body, CORNERS, Grip, LOST, Place, State};
 use super::scale::Scale;
 use crate::dormand_prince::{Step, System, growth};
-use crate::impact::Record;
+use crate::impact_law::ImpactRecord;
 
 /// Steps after which an impact is given up. A hard impact needs some tens, the worst of the stress
 /// test a few hundred.
@@ -27,7 +27,7 @@ pub(super) struct Passage {
     pub(super) body: Body,
     pub(super) y: State,
     pub(super) time: f64,
-    pub(super) record: Record,
+    pub(super) record: ImpactRecord,
     pub(super) scale: Scale,
     tolerance: f64,
     /// Kinetic energy before, and that along the normal: what the tolerance is a share of.
@@ -61,7 +61,7 @@ impl Passage {
             body,
             y,
             time: 0.0,
-            record: Record::default(),
+            record: ImpactRecord::default(),
             scale,
             tolerance,
             energy: kinetic + 0.5 * mass * scale.speed * scale.speed,

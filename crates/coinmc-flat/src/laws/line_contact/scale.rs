@@ -1,6 +1,6 @@
 //! How large things are in an impact.
 
-use super::palmgren::{deepest, duration};
+use crate::laws::palmgren::{deepest, duration};
 
 /// What errors are measured against: the compression of one corner without losses.
 #[derive(Debug, Clone, Copy)]

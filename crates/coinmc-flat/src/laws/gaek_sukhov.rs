@@ -27,8 +27,10 @@
 //! energy. Setting h₃ = 0 and keeping the energy balance instead would leave coins that rock from
 //! corner to corner for ever, since the law takes nothing from rotation.
 
-use crate::impact::{Carried, ContactMatrix, ImpactLaw, Impulse, Moreau, Strike};
-use crate::settings::{Law, SettingsError, positive};
+use crate::contact_matrix::{ContactMatrix, Impulse};
+use crate::impact_law::{Impact, ImpactLaw, Resolution};
+use crate::laws::moreau::Moreau;
+use crate::settings::{SettingsError, positive};
 use crate::shape::{Quadrant, Shape};
 use coinmc_core::Scene;
 use coinmc_lanes::{Lane, sin_cos};
@@ -127,43 +129,39 @@ impl GaekSukhovImpact {
 }
 
 impl ImpactLaw for GaekSukhovImpact {
-    const SIDE_BY_SIDE: bool = false;
+    const BATCHED: bool = false;
 
     fn impulse<L: Lane>(&self, k: ContactMatrix<L>, ux: L, uz: L, e: f64, mu: f64) -> Impulse<L> {
         Moreau.impulse(k, ux, uz, e, mu)
     }
 
-    fn law(&self) -> Law {
-        Law::GaekSukhov(self.gaek_sukhov)
-    }
-
-    fn rebound(&self, e: f64) -> f64 {
+    fn effective_restitution(&self, e: f64) -> f64 {
         e.max(LEAST_REBOUND)
     }
 
-    fn carry(&self, strike: &mut Strike<'_>) -> Carried {
-        let (shape, breaks) = (strike.shape, &mut *strike.breaks);
-        let motion = &mut *strike.motion;
+    fn resolve(&self, impact: &mut Impact<'_>) -> Resolution {
+        let (shape, breaks) = (impact.shape, &mut *impact.breaks);
+        let motion = &mut *impact.motion;
         let inertia = shape.k;
         let sin = sin_cos(motion.delta).0;
         let lever = self.lever(shape, motion.quadrant, motion.delta);
         breaks.wrong_levers += u32::from(lever * sin < 0.0);
         let fall = 0.5 * motion.vz * motion.vz;
-        let left = strike.restitution * strike.restitution * fall;
+        let left = impact.restitution * impact.restitution * fall;
         let omega = motion.omega + self.eta * lever / inertia;
         let turned = 0.5 * inertia * (motion.omega * motion.omega - omega * omega);
         let rise = left + turned;
         if rise < 0.0 {
             breaks.negative_heights += 1;
             breaks.energy_gains += u32::from(fall + turned < 0.0);
-            return Carried::ByImpulse;
+            return Resolution::UseImpulse;
         }
         let speed = (2.0 * rise).sqrt();
         if speed + omega * sin < 0.0 {
             breaks.sinkings += 1;
-            return Carried::ByImpulse;
+            return Resolution::UseImpulse;
         }
         (motion.vz, motion.omega) = (speed, omega);
-        Carried::Departs
+        Resolution::Separates
     }
 }

@@ -61,7 +61,7 @@ mod tests {
     fn a_mass_on_it_rebounds_as_wanted() {
         for e in [0.2, 0.5, 0.9] {
             let c = strength(e);
-            let force = |depth: f64, v: f64| -super::super::palmgren::power(depth) * (1.0 + c * v);
+            let force = |depth: f64, v: f64| -crate::laws::palmgren::power(depth) * (1.0 + c * v);
             let (mut depth, mut v, h) = (0.0_f64, 1.0_f64, 1e-4);
             while depth >= 0.0 {
                 let (half, fast) = (depth + 0.5 * h * v, v + 0.5 * h * force(depth, v));

@@ -1,0 +1,74 @@
+//! Moreau's law of impact.
+
+use crate::contact_matrix::{ContactMatrix, Impulse};
+use crate::impact_law::ImpactLaw;
+use crate::laws::chatterjee_ruina::ChatterjeeRuina;
+use coinmc_lanes::{Lane, Mask};
+
+/// Newton restitution u_z⁺ = −e u_z⁻ with Coulomb friction against the slip **after** the impact.
+///
+/// Moreau, "Unilateral contact and dry friction in finite freedom dynamics", CISM 302 (1988): the
+/// contact sticks if the impulse that stops it lies in the friction cone, else it slides and the
+/// friction impulse is −μ p_z against the final slip. The work of the impulse is
+/// ½p·(u⁻ + u⁺), of which the normal part −½(1 − e)|u_z⁻|p_z and the friction with u⁺ dissipate;
+/// the friction with u⁻ need not. Where the sum would be positive, or no solution exists, the
+/// impulse of [`ChatterjeeRuina`] is used.
+#[derive(Debug, Clone, Copy)]
+pub struct Moreau;
+
+impl ImpactLaw for Moreau {
+    #[inline(always)]
+    fn impulse<L: Lane>(&self, k: ContactMatrix<L>, ux: L, uz: L, e: f64, mu: f64) -> Impulse<L> {
+        let rebound = L::splat(-(1.0 + e)) * uz;
+        if mu == 0.0 {
+            return Impulse {
+                x: L::splat(0.0),
+                z: rebound / k.zz,
+                sticks: L::Mask::splat(false),
+            };
+        }
+        let (x, z) = k.solve(-ux, rebound);
+        let sticks = x.abs().le(L::splat(mu) * z);
+        let (mut p, mut found) = (Impulse { x, z, sticks }, sticks);
+        if (!sticks).any() {
+            // the friction that would be needed shows which way it fails to stop the slip
+            let friction = L::splat(mu) * -L::splat(1.0).copysign(x);
+            for friction in [friction, -friction] {
+                let (slides, one) = slide(k, ux, rebound, friction);
+                p = Impulse::select(!found & slides, one, p);
+                found = found | slides;
+                if !(!found).any() {
+                    break;
+                }
+            }
+        }
+        let sound = found & work(k, ux, uz, p).le(L::splat(0.0));
+        if (!sound).any() {
+            let guard = ChatterjeeRuina.impulse(k, ux, uz, e, mu);
+            p = Impulse::select(sound, p, guard);
+        }
+        p
+    }
+}
+
+/// The impulse with friction −`friction`·p_z, and whether the contact then slides in `friction`'s
+/// direction.
+#[inline(always)]
+fn slide<L: Lane>(k: ContactMatrix<L>, ux: L, rebound: L, friction: L) -> (L::Mask, Impulse<L>) {
+    let zero = L::splat(0.0);
+    let resistance = k.zz - friction * k.xz;
+    let z = rebound / resistance;
+    let slip = ux + (k.xz - friction * k.xx) * z;
+    let slides = zero.lt(resistance) & zero.lt(slip * friction);
+    let x = -friction * z;
+    let sticks = L::Mask::splat(false);
+    (slides, Impulse { x, z, sticks })
+}
+
+/// Energy that an impulse adds, ½p·(u⁻ + u⁺).
+#[inline(always)]
+fn work<L: Lane>(k: ContactMatrix<L>, ux: L, uz: L, p: Impulse<L>) -> L {
+    let after_x = ux + k.xx * p.x + k.xz * p.z;
+    let after_z = uz + k.xz * p.x + k.zz * p.z;
+    L::splat(0.5) * (p.x * (ux + after_x) + p.z * (uz + after_z))
+}
