@@ -1,4 +1,4 @@
-//! Closed forms for how likely a tossed cylinder comes to rest on heads, on tails or on its side.
+#![doc = include_str!("../README.md")]
 //!
 //! # Words
 //!
@@ -49,16 +49,6 @@
 //! that of the faces are each correct to a few units in the last place: neither is computed as one
 //! minus the other. All elementary functions come from the crate `libm`, so that every platform
 //! returns the same bits.
-//!
-//! ```
-//! use coinmc_analytic::Rule;
-//!
-//! for rule in Rule::ALL {
-//!     let fair = rule.fair_ratio(1.0 / 3.0);
-//!     println!("{:16} {:8.4}  {}", rule.name(), fair, rule.formula());
-//!     assert!((rule.p_side(fair) - 1.0 / 3.0).abs() < 1e-15);
-//! }
-//! ```
 
 pub mod arc;
 pub mod cross_section;

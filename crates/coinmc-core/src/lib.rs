@@ -1,5 +1,6 @@
-//! The words every coinmc engine shares. No input, no output, no threads.
+#![doc = include_str!("../README.md")]
 //!
+//! # How the types fit together
 //! A [`Coin`] is tossed onto a [`Surface`] (together with gravity: a [`Scene`]). A
 //! [`LaunchDistribution`] turns uniform random numbers into a [`Launch`]; an [`Engine`] turns a
 //! launch into an [`Outcome`]; a [`Tally`] counts outcomes; an [`Estimate`] is a probability with
@@ -18,22 +19,6 @@
 //!   about y.
 //! * +u is the outward normal of the heads face, and the outcome *heads* means that heads
 //!   **shows** at rest (u points up), as in everyday speech: the coin lies on its tails face.
-//!
-//! # Example
-//! ```
-//! use coinmc_core::{Coin, IntervalMethod, Estimate, Tally, Face, Outcome};
-//!
-//! let coin = Coin::cylinder(1.5, 0.01)?;           // H/R = 1.5, R = 1 cm
-//! assert_eq!(coin.height_m(), 0.015);
-//!
-//! let mut tally = Tally::default();
-//! tally.add(&Outcome::decided(Face::Side));
-//! tally.add(&Outcome::decided(Face::Heads));
-//! let side = Estimate::new(tally.side, 0, tally.tosses(), 0.95, IntervalMethod::Wilson);
-//! assert_eq!(side.p, 0.5);
-//! assert!(side.lo > 0.09 && side.hi < 0.91);
-//! # Ok::<(), coinmc_core::CoinError>(())
-//! ```
 
 mod batch;
 mod beta;

@@ -1,5 +1,6 @@
-//! Drops on film: what a law of impact has to say about a coin that was filmed.
+#![doc = include_str!("../README.md")]
 //!
+//! # How it works
 //! A camera sees a coin fall, turn and bounce in a vertical plane; somebody marks its centre and its
 //! angle frame by frame in Tracker (Open Source Physics). This crate reads what Tracker exports
 //! ([`text`]), and fits the laws of the flat engine to it ([`fit`]): restitution and friction, which

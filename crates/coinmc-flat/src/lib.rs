@@ -1,5 +1,6 @@
-//! Event-driven toss of a coin that moves and turns in a vertical plane (the *flat* toss).
+#![doc = include_str!("../README.md")]
 //!
+//! # Model
 //! The coin's section is a rectangle 2R × H with the moment of inertia of the coin about a
 //! diameter. It flies in closed form ([`flight`](self)), touches with a corner at the first root
 //! of gap(t), which is never missed, and is thrown back by an [`ImpactLaw`]. When the remaining

@@ -1,5 +1,4 @@
-//! Adhesive landings answered without sampling: the probabilities of the faces by a closed form, or
-//! by quadrature over the launches with an interval.
+#![doc = include_str!("../README.md")]
 //!
 //! # What decides an adhesive landing
 //! No point of the coin is farther from its centre than D = sqrt(R² + H²/4), so nothing touches
@@ -29,26 +28,6 @@
 //! Where nothing is left of that, random tosses are as good.
 //!
 //! Sixteen independent scrambles give a Student interval: see [`integrate`].
-//!
-//! # Example
-//! A flat coin tossed at a given tilt with a random spin, to six digits:
-//! ```
-//! use coinmc_core::{Coin, Domain, Landing, Preset, Scene, Stream, Surface};
-//! use coinmc_flat::{FlatEngine, Moreau, Settings};
-//! use coinmc_quadrature::{Goal, Method, integrate};
-//! let coin = Coin::cylinder(1.2, 0.01)?;
-//! let surface = Surface::new(0.0, 0.0)?.with_landing(Landing::Adhesive);
-//! let scene = Scene::new(coin, surface, 9.81)?;
-//! let launches = Preset::Robot.distribution();
-//! let engine = FlatEngine::new(&scene, &Settings::default(), Moreau)?;
-//! let goal = Goal { confidence: 0.95, half_width: 1e-6, evaluations: 1 << 20 };
-//! let method = Method::of(&scene, &launches, f64::INFINITY).unwrap();
-//! let scrambles = Stream::new(1, Domain::Scramble, 0);
-//! let found = integrate(method, &scene, &launches, &engine, &scrambles, &goal, || true).unwrap();
-//! let arc = coinmc_analytic::arc::p_side(1.2);
-//! assert!((found.side().p - arc).abs() <= found.side().half_width());
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
 //!
 //! # Files
 //! `passage` when the centre passes D · `axis` how the axis turns until then · `method` what can be

@@ -1,24 +1,10 @@
-//! Tosses in time steps on a general physics engine, Rapier: the counterpart of the event-driven
-//! engine, as published work on thick coins used Unity.
+#![doc = include_str!("../README.md")]
 //!
+//! # Model
 //! Rapier makes the steps at the surface. This crate gives it a half-space and one cylinder in a
 //! frame in which every coin has the same size, computes free flight in closed form, ends a toss when
 //! energy has settled its face, and counts what goes wrong. What Rapier gets wrong for a coin, and at
 //! which step that stops to matter, was measured: `docs/methods/rapier.md`.
-//!
-//! # Example
-//! Forty tosses of a coin as thick as it is wide:
-//! ```
-//! use coinmc_core::{Coin, Domain, Engine, Face, Preset, Scene, Stream, Surface, run_tosses};
-//! use coinmc_rapier::{RapierEngine, Settings};
-//! let coin = Coin::cylinder(2.0, 0.01)?;
-//! let scene = Scene::new(coin, Surface::new(0.5, 0.3)?, Scene::STANDARD_GRAVITY_M_S2)?;
-//! let engine = RapierEngine::new(&scene, &Settings::default())?;
-//! let (launches, stream) = (Preset::Clean.distribution(), Stream::new(1, Domain::Launch, 0));
-//! let tally = run_tosses(&engine, &mut engine.workspace(), &scene, &launches, &stream, 0..40);
-//! assert!(tally.count(Face::Side) > 20);
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
 //!
 //! # Range
 //! Any ratio and moments of inertia, restitution, friction, restitution threshold, drag, with or

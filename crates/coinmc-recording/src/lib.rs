@@ -1,6 +1,6 @@
-//! Recordings in MCAP files (<https://mcap.dev>): messages by topic and time, with their schemas,
-//! beside metadata and attachments. Viewers and tools of many languages read them.
+#![doc = include_str!("../README.md")]
 //!
+//! # Contents
 //! * [`Recorder`] writes. Messages are JSON, told by serde; chunks can be compressed by LZ4, in
 //!   Rust alone. What was flushed survives a crash.
 //! * [`recover()`] reads what can be read of a file that was cut off or damaged, and writes it anew.

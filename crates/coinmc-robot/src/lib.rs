@@ -1,5 +1,6 @@
-//! Host side of the coin-tossing robot: nothing lost, nothing doubled, nothing misrecorded.
+#![doc = include_str!("../README.md")]
 //!
+//! # How the parts fit together
 //! ```text
 //! config ─▶ Experiment ─settings─▶ Cycle ◀──▶ Journal ─▶ export, fairness
 //!                                   │  ▲

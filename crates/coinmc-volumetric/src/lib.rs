@@ -1,27 +1,11 @@
-//! Event-driven toss of a coin in space: a rigid cylinder on a plane.
+#![doc = include_str!("../README.md")]
 //!
+//! # Model
 //! The coin flies in closed form to the first root of its gap, which is never missed, and is thrown
 //! back by an [`ImpactLaw`]. When the remaining bounces would be over before it has turned
 //! noticeably it goes on in sustained contact: on one point of a rim, sticking or sliding, with
 //! friction against rolling and pivoting, or along its side. The toss ends when the energy that
 //! can still tilt the coin is too small to carry it over its rim. Derivations: `docs/methods/space.md`.
-//!
-//! # Example
-//! Five hundred tosses of a coin as thick as it is wide, over a surface that brakes rolling:
-//! ```
-//! use coinmc_core::{Coin, Domain, Engine, Face, Preset, Scene, Stream, Surface, run_tosses};
-//! use coinmc_volumetric::{Moreau, Settings, VolumetricEngine};
-//! let coin = Coin::cylinder(2.0, 0.01)?;
-//! let surface = Surface::new(0.5, 0.3)?.with_friction_lengths(1e-4, 1e-4)?;
-//! let scene = Scene::new(coin, surface, Scene::STANDARD_GRAVITY_M_S2)?;
-//! let engine = VolumetricEngine::new(&scene, &Settings::default(), Moreau)?;
-//! let launches = Preset::Clean.distribution();
-//! let stream = Stream::new(1, Domain::Launch, 0);
-//! let tally = run_tosses(&engine, &mut engine.workspace(), &scene, &launches, &stream, 0..500);
-//! assert_eq!(tally.undecided(), 0);
-//! assert!(tally.count(Face::Side) > tally.count(Face::Heads) + tally.count(Face::Tails));
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
 //!
 //! # Range
 //! Any ratio and moments of inertia, restitution 0 to 1, any friction and friction lengths, linear

@@ -1,4 +1,29 @@
-//! Config → plan → run → results.
+#![doc = include_str!("../README.md")]
+//!
+//! # Config → plan → run → results
+//! ```text
+//! TOML ──config──▶ Plan ──run──▶ Report { Results } ──results──▶ CSV, Parquet, JSON
+//!                   │ └───count──▶  the same, without files
+//!                   └─────trace──▶  one toss again, event by event
+//! ```
+//!
+//! | to … | see |
+//! |---|---|
+//! | read a config, and report every mistake in it at once | [`config::load`], [`config::parse`] |
+//! | ask what will be computed, and what is skipped and why | [`plan::Plan`] |
+//! | run it in a directory that survives being killed | [`run::run`], [`run::merge`] |
+//! | count in memory, or visit each toss | [`run::count`], [`run::for_each_outcome`] |
+//! | write or read the table of results | [`results`] |
+//! | find out how thick a fair coin is | [`results::fair_values`] |
+//! | watch a toss | [`trace`] |
+//! | compare with published counts | [`published`] |
+//!
+//! To toss coins without configs, take an engine: [`coinmc_flat`] in a plane, [`coinmc_volumetric`] in
+//! space, or `coinmc_rapier` in time steps; [`coinmc_core`] holds what they share.
+//!
+//! # Cargo features
+//! * `rapier`: the engine `[engine.rapier]`. Without it such a config is rejected.
+//! * `rapier-f32`: that engine in single precision, too, for comparison.
 
 pub mod config;
 pub mod plan;

@@ -47,12 +47,12 @@ pub struct Published {
 }
 
 static TABLE1: LazyLock<Vec<Counts>> = LazyLock::new(|| {
-    let text = include_str!("../../../data/unity-table1.csv");
+    let text = include_str!("../data/unity-table1.csv");
     read(text, "ratio,heads,tails,side,unidentified", counts)
 });
 
 static FAIR_RATIOS: LazyLock<Vec<FairRatio>> = LazyLock::new(|| {
-    let text = include_str!("../../../data/fair-ratios.csv");
+    let text = include_str!("../data/fair-ratios.csv");
     let header = "engine,fair_ratio,half_width,authors,reference,model";
     read(text, header, fair_ratio)
 });
