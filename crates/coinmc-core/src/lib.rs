@@ -47,4 +47,4 @@ pub use observer::{DynObserver, Observer, sample_between};
 pub use outcome::{Breaks, Ended, Face, Outcome};
 pub use random::{Domain, Philox4x64, Stream, TossUniforms, UniformSource, unit_interval};
 pub use surface::{Drag, Landing, Scene, Surface, SurfaceError};
-pub use tally::Tally;
+pub use tally::{Counter, CounterKind, Tally};

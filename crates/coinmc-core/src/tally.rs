@@ -2,80 +2,98 @@
 
 use crate::{Ended, Face, Outcome};
 
-/// How many tosses ended how. Merging is addition of integers: exact, and the same in any order.
-///
-/// # Example
-/// ```
-/// use coinmc_core::{Ended, Face, Outcome, Tally};
-/// let mut tally = Tally::default();
-/// tally.add(&Outcome::decided(Face::Heads));
-/// tally.add(&Outcome { ended: Ended::TimeLimit, ..Outcome::decided(Face::Heads) });
-/// assert_eq!((tally.heads, tally.undecided(), tally.tosses()), (1, 1, 2));
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Tally {
-    /// Tosses that show heads.
-    pub heads: u64,
-    /// Tosses that show tails.
-    pub tails: u64,
-    /// Tosses on the side.
-    pub side: u64,
-    /// Undecided at the limit of simulated time.
-    pub time_limit: u64,
-    /// Undecided for ever.
-    pub never_settles: u64,
-    /// Undecided at the limit of impacts.
-    pub impact_limit: u64,
-    /// Numbers that went wrong.
-    pub failed: u64,
-    /// Impacts, summed over tosses.
-    pub impacts: u64,
-    /// Steps in sustained contact, summed over tosses.
-    pub contact_steps: u64,
-    /// Tangential impacts in Painlevé configurations, summed over tosses.
-    pub jams: u64,
-    /// Tosses that a stopping rule decided and the certain rule decides otherwise.
-    pub overruled: u64,
-    /// Impacts at which the law asked for a negative height of rebound, summed over tosses.
-    pub negative_heights: u64,
-    /// Impacts at which the law would have gained energy, summed over tosses.
-    pub energy_gains: u64,
-    /// Impacts at which the law's lever turned the coin the wrong way, summed over tosses.
-    pub wrong_levers: u64,
-    /// Impacts after which the corner would have gone on into the surface, summed over tosses.
-    pub sinkings: u64,
-    /// Impacts whose integration was given up, summed over tosses.
-    pub unresolved: u64,
+/// One counter of a [`Tally`], for whoever writes tallies to a file or a table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Counter {
+    /// Its name.
+    pub name: &'static str,
+    /// What it counts, in one sentence.
+    pub doc: &'static str,
+    /// How a toss moves it.
+    pub kind: CounterKind,
 }
 
-/// Number of counters.
-const COUNT: usize = 16;
+/// How a toss moves a counter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CounterKind {
+    /// Every toss adds 1 to exactly one counter of this kind.
+    Ending,
+    /// A toss adds at most 1.
+    Toss,
+    /// A toss adds any number that fits into 32 bits.
+    Event,
+    /// An impact adds at most 1, and only under a law of impact that breaks down.
+    Breakdown,
+}
+
+/// Defines [`Tally`] from one list of counters: name, kind, and what each counts.
+macro_rules! tally {
+    ($($name:ident: $kind:ident, $doc:literal;)+) => {
+        /// How many tosses ended how. Merging is addition of integers: exact, and the same in any
+        /// order.
+        ///
+        /// # Example
+        /// ```
+        /// use coinmc_core::{Ended, Face, Outcome, Tally};
+        /// let mut tally = Tally::default();
+        /// tally.add(&Outcome::decided(Face::Heads));
+        /// tally.add(&Outcome { ended: Ended::TimeLimit, ..Outcome::decided(Face::Heads) });
+        /// assert_eq!((tally.heads, tally.undecided(), tally.tosses()), (1, 1, 2));
+        /// ```
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+        pub struct Tally {
+            $(#[doc = $doc] pub $name: u64,)+
+        }
+
+        /// Number of counters.
+        const COUNT: usize = [$(stringify!($name)),+].len();
+
+        impl Tally {
+            /// All counters, in the order of [`to_array`](Self::to_array).
+            pub const COUNTERS: [Counter; COUNT] = [$(Counter {
+                name: stringify!($name),
+                doc: $doc,
+                kind: CounterKind::$kind,
+            }),+];
+
+            /// The counts in the order of [`COUNTERS`](Self::COUNTERS), for writing to a file.
+            pub fn to_array(&self) -> [u64; COUNT] {
+                [$(self.$name),+]
+            }
+
+            /// The reverse of [`to_array`](Self::to_array).
+            pub fn from_array(counts: [u64; COUNT]) -> Self {
+                let [$($name),+] = counts;
+                Self { $($name),+ }
+            }
+        }
+    };
+}
+
+tally! {
+    heads: Ending, "Tosses that show heads.";
+    tails: Ending, "Tosses that show tails.";
+    side: Ending, "Tosses on the side.";
+    time_limit: Ending, "Undecided at the limit of simulated time.";
+    never_settles: Ending, "Undecided for ever: proven never to settle.";
+    impact_limit: Ending, "Undecided at the limit of impacts or of steps in contact.";
+    failed: Ending, "Undecided because a number became NaN or infinite.";
+    impacts: Event, "Impacts, in all tosses.";
+    contact_steps: Event, "Steps in sustained contact, in all tosses.";
+    jams: Event, "Tangential impacts in Painlevé configurations, in all tosses.";
+    overruled: Toss, "Tosses that the stopping rule chosen decides otherwise than energy.";
+    negative_heights: Breakdown,
+        "Impacts at which the law of impact asked for a negative height of rebound, in all tosses.";
+    energy_gains: Breakdown,
+        "Impacts at which the law of impact would have gained energy, in all tosses.";
+    wrong_levers: Breakdown,
+        "Impacts at which the law's lever turned the coin the wrong way, in all tosses.";
+    sinkings: Breakdown,
+        "Impacts after which the corner would have gone on into the surface, in all tosses.";
+    unresolved: Breakdown, "Impacts whose integration in time was given up, in all tosses.";
+}
 
 impl Tally {
-    /// Names of the counters, in the order of [`to_array`](Self::to_array).
-    pub const COUNTERS: [&'static str; COUNT] = [
-        "heads",
-        "tails",
-        "side",
-        "time_limit",
-        "never_settles",
-        "impact_limit",
-        "failed",
-        "impacts",
-        "contact_steps",
-        "jams",
-        "overruled",
-        "negative_heights",
-        "energy_gains",
-        "wrong_levers",
-        "sinkings",
-        "unresolved",
-    ];
-
-    /// Counters that laws of impact without breakdowns never move: the last ones of
-    /// [`COUNTERS`](Self::COUNTERS), from this place on.
-    pub const FIRST_BREAK: usize = 11;
-
     /// Counts one toss.
     pub fn add(&mut self, outcome: &Outcome) {
         match outcome.ended {
@@ -136,67 +154,5 @@ impl Tally {
     /// All tosses, undecided ones included.
     pub fn tosses(&self) -> u64 {
         self.heads + self.tails + self.side + self.undecided()
-    }
-
-    /// The counters in the order of [`COUNTERS`](Self::COUNTERS), for writing to a file.
-    pub fn to_array(&self) -> [u64; COUNT] {
-        [
-            self.heads,
-            self.tails,
-            self.side,
-            self.time_limit,
-            self.never_settles,
-            self.impact_limit,
-            self.failed,
-            self.impacts,
-            self.contact_steps,
-            self.jams,
-            self.overruled,
-            self.negative_heights,
-            self.energy_gains,
-            self.wrong_levers,
-            self.sinkings,
-            self.unresolved,
-        ]
-    }
-
-    /// The reverse of [`to_array`](Self::to_array).
-    pub fn from_array(counts: [u64; COUNT]) -> Self {
-        let [
-            heads,
-            tails,
-            side,
-            time_limit,
-            never_settles,
-            impact_limit,
-            failed,
-            impacts,
-            contact_steps,
-            jams,
-            overruled,
-            negative_heights,
-            energy_gains,
-            wrong_levers,
-            sinkings,
-            unresolved,
-        ] = counts;
-        Self {
-            heads,
-            tails,
-            side,
-            time_limit,
-            never_settles,
-            impact_limit,
-            failed,
-            impacts,
-            contact_steps,
-            jams,
-            overruled,
-            negative_heights,
-            energy_gains,
-            wrong_levers,
-            sinkings,
-            unresolved,
-        }
     }
 }

@@ -58,7 +58,7 @@ proptest! {
 }
 
 #[test]
-fn an_overflow_is_told() {
+fn an_overflow_is_reported() {
     let full = Tally {
         heads: u64::MAX,
         ..Tally::default()
@@ -73,10 +73,11 @@ fn an_overflow_is_told() {
 #[test]
 fn the_names_of_the_counters_match_their_order() {
     let mut counts = [0; Tally::COUNTERS.len()];
-    for (i, name) in Tally::COUNTERS.into_iter().enumerate() {
+    for (i, counter) in Tally::COUNTERS.iter().enumerate() {
         counts[i] = 7;
         let tally = Tally::from_array(counts);
         let named = format!("{tally:?}");
+        let name = counter.name;
         assert!(named.contains(&format!("{name}: 7")), "{name} {named}");
         counts[i] = 0;
     }

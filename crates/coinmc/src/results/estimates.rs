@@ -1,8 +1,7 @@
 //! From counts to probabilities with intervals, for points of fixed length and for points that
 //! stop when they are good enough.
 
-use crate::plan::{EngineChoice, Plan, Stop};
-use crate::run::looks;
+use crate::plan::{EngineChoice, Plan, Stop, looks};
 use coinmc_core::{Estimate, Face, IntervalMethod, Tally};
 use coinmc_quadrature::{Integral, Share};
 

@@ -1,7 +1,7 @@
 //! The one definition of the results table: CSV, Parquet, JSON and docs/reference/formats.md follow it.
 
 use super::{Results, Row};
-use coinmc_core::{relative_error, rule_of_thumb_relative_error};
+use coinmc_core::{Tally, relative_error, rule_of_thumb_relative_error};
 
 /// Version of the table.
 pub const FORMAT: u64 = 1;
@@ -67,17 +67,22 @@ pub struct Column {
     source: Source,
 }
 
+/// Where a column's cells come from.
 #[derive(Debug, Clone, Copy)]
 enum Source {
+    /// The parameter at this place.
     Parameter(usize),
-    Fixed(fn(&Row) -> Cell<'_>),
+    /// The tally's counter at this place.
+    Counter(usize),
+    Row(fn(&Row) -> Cell<'_>),
 }
 
 impl Column {
     /// The column's cell in a row.
     pub(crate) fn cell<'a>(&self, row: &'a Row) -> Cell<'a> {
         match self.source {
-            Source::Fixed(cell) => cell(row),
+            Source::Row(cell) => cell(row),
+            Source::Counter(index) => Cell::Count(row.tally.to_array()[index]),
             Source::Parameter(index) => match row.parameters.get(index) {
                 Some((name, value)) if **name == *self.name => Cell::Number(*value),
                 _ => {
@@ -89,302 +94,188 @@ impl Column {
     }
 }
 
-type Definition = (
-    &'static str,
-    Kind,
-    &'static str,
-    &'static str,
-    fn(&Row) -> Cell<'_>,
-);
+/// What was computed, and the counts of how tosses ended.
+fn endings() -> Vec<Column> {
+    vec![
+        text("engine", "Who followed the tosses.", |row| {
+            Cell::Text(row.engine)
+        }),
+        text("law", "Law of impact, or the closed form.", |row| {
+            Cell::Text(row.law)
+        }),
+        flag(
+            "gyroscopic_torque",
+            "Whether the gyroscopic torque acts, as in nature.",
+            |row| Cell::Flag(row.gyroscopic_torque),
+        ),
+        count(
+            "tosses",
+            "All tosses, undecided ones included; 0 for a closed form or an integral.",
+            |row| Cell::Count(row.tally.tosses()),
+        ),
+        counter("heads"),
+        counter("tails"),
+        counter("side"),
+        count(
+            "undecided",
+            "Tosses without a face: the sum of the next four.",
+            |row| Cell::Count(row.tally.undecided()),
+        ),
+        counter("time_limit"),
+        counter("never_settles"),
+        counter("impact_limit"),
+        counter("failed"),
+    ]
+}
 
-/// The columns after `point` and the parameters.
-const FIXED: &[Definition] = &[
-    (
-        "engine",
-        Kind::Text,
-        "",
-        "Who followed the tosses.",
-        |row| Cell::Text(row.engine),
-    ),
-    (
-        "law",
-        Kind::Text,
-        "",
-        "Law of impact, or the closed form.",
-        |row| Cell::Text(row.law),
-    ),
-    (
-        "gyroscopic_torque",
-        Kind::Flag,
-        "",
-        "Whether the gyroscopic torque acts, as in nature.",
-        |row| Cell::Flag(row.gyroscopic_torque),
-    ),
-    (
-        "tosses",
-        Kind::Count,
-        "1",
-        "All tosses, undecided ones included; 0 for a closed form or an integral.",
-        |row| Cell::Count(row.tally.tosses()),
-    ),
-    (
-        "heads",
-        Kind::Count,
-        "1",
-        "Tosses that show heads.",
-        |row| Cell::Count(row.tally.heads),
-    ),
-    (
-        "tails",
-        Kind::Count,
-        "1",
-        "Tosses that show tails.",
-        |row| Cell::Count(row.tally.tails),
-    ),
-    ("side", Kind::Count, "1", "Tosses on the side.", |row| {
-        Cell::Count(row.tally.side)
-    }),
-    (
-        "undecided",
-        Kind::Count,
-        "1",
-        "Tosses without a face: the sum of the next four.",
-        |row| Cell::Count(row.tally.undecided()),
-    ),
-    (
-        "time_limit",
-        Kind::Count,
-        "1",
-        "Undecided at the limit of simulated time.",
-        |row| Cell::Count(row.tally.time_limit),
-    ),
-    (
-        "never_settles",
-        Kind::Count,
-        "1",
-        "Undecided for ever: proven never to settle.",
-        |row| Cell::Count(row.tally.never_settles),
-    ),
-    (
-        "impact_limit",
-        Kind::Count,
-        "1",
-        "Undecided at the limit of impacts or of steps in contact.",
-        |row| Cell::Count(row.tally.impact_limit),
-    ),
-    (
-        "failed",
-        Kind::Count,
-        "1",
-        "Undecided because numbers went wrong.",
-        |row| Cell::Count(row.tally.failed),
-    ),
-    (
-        "p_heads",
-        Kind::Number,
-        "1",
-        "Probability of heads: heads/tosses, or the integral.",
-        |row| Cell::finite(row.heads.p),
-    ),
-    (
-        "p_heads_lo",
-        Kind::Number,
-        "1",
-        "Lower end of its interval.",
-        |row| Cell::finite(row.heads.lo),
-    ),
-    (
-        "p_heads_hi",
-        Kind::Number,
-        "1",
-        "Upper end of its interval.",
-        |row| Cell::finite(row.heads.hi),
-    ),
-    (
-        "p_tails",
-        Kind::Number,
-        "1",
-        "Probability of tails: tails/tosses, or the integral.",
-        |row| Cell::finite(row.tails.p),
-    ),
-    (
-        "p_tails_lo",
-        Kind::Number,
-        "1",
-        "Lower end of its interval.",
-        |row| Cell::finite(row.tails.lo),
-    ),
-    (
-        "p_tails_hi",
-        Kind::Number,
-        "1",
-        "Upper end of its interval.",
-        |row| Cell::finite(row.tails.hi),
-    ),
-    (
-        "p_side",
-        Kind::Number,
-        "1",
-        "Probability of the side: side/tosses, or the integral.",
-        |row| Cell::finite(row.side.p),
-    ),
-    (
-        "p_side_lo",
-        Kind::Number,
-        "1",
-        "Lower end of its interval.",
-        |row| Cell::finite(row.side.lo),
-    ),
-    (
-        "p_side_hi",
-        Kind::Number,
-        "1",
-        "Upper end of its interval.",
-        |row| Cell::finite(row.side.hi),
-    ),
-    (
-        "confidence",
-        Kind::Number,
-        "1",
-        "Probability that an interval holds the true value.",
-        |row| Cell::Number(row.side.confidence),
-    ),
-    (
-        "interval",
-        Kind::Text,
-        "",
-        "How the intervals were computed.",
-        |row| Cell::Text(row.interval),
-    ),
-    (
-        "rel_error_side",
-        Kind::Number,
-        "1",
-        "Relative standard error of p_side, sqrt((1 - P)/(P N)); empty while no toss shows the side.",
-        |row| counted(row, relative_error(row.side.p, row.side.n)),
-    ),
-    (
-        "rule_of_thumb",
-        Kind::Number,
-        "1",
-        "The rule of thumb for it, 1/sqrt(N), exact only at P = 1/2.",
-        |row| counted(row, rule_of_thumb_relative_error(row.side.n)),
-    ),
-    (
-        "impacts_per_toss",
-        Kind::Number,
-        "1",
-        "Mean number of impacts.",
-        |row| per_toss(row, row.tally.impacts),
-    ),
-    (
-        "contact_steps_per_toss",
-        Kind::Number,
-        "1",
-        "Mean number of steps in sustained contact.",
-        |row| per_toss(row, row.tally.contact_steps),
-    ),
-    (
-        "jams",
-        Kind::Count,
-        "1",
-        "Tangential impacts in Painlevé configurations, in all tosses.",
-        |row| Cell::Count(row.tally.jams),
-    ),
-    (
-        "overruled",
-        Kind::Count,
-        "1",
-        "Tosses that the stopping rule chosen decides otherwise than energy.",
-        |row| Cell::Count(row.tally.overruled),
-    ),
-    (
-        "reached_target",
-        Kind::Flag,
-        "",
-        "The point has the tosses, or the half width, asked for.",
-        |row| Cell::Flag(row.reached_target),
-    ),
-    (
-        "negative_heights",
-        Kind::Count,
-        "1",
-        "Impacts at which the law of impact asked for a negative height of rebound, in all tosses.",
-        |row| Cell::Count(row.tally.negative_heights),
-    ),
-    (
-        "energy_gains",
-        Kind::Count,
-        "1",
-        "Impacts at which the law of impact would have gained energy, in all tosses.",
-        |row| Cell::Count(row.tally.energy_gains),
-    ),
-    (
-        "wrong_levers",
-        Kind::Count,
-        "1",
-        "Impacts at which the law's lever turned the coin the wrong way, in all tosses.",
-        |row| Cell::Count(row.tally.wrong_levers),
-    ),
-    (
-        "sinkings",
-        Kind::Count,
-        "1",
-        "Impacts after which the corner would have gone on into the surface, in all tosses.",
-        |row| Cell::Count(row.tally.sinkings),
-    ),
-    (
-        "unresolved",
-        Kind::Count,
-        "1",
-        "Impacts whose integration in time was given up, in all tosses.",
-        |row| Cell::Count(row.tally.unresolved),
-    ),
-    (
-        "sampling",
-        Kind::Text,
-        "",
-        "How launches were drawn: random, quasi-random, or closed-form where none was.",
-        |row| Cell::Text(row.sampling),
-    ),
-    (
-        "evaluations",
-        Kind::Count,
-        "1",
-        "Evaluations of a point that was integrated; 0 where tosses were counted, and for a rule.",
-        |row| Cell::Count(row.evaluations),
-    ),
-];
+/// The probabilities with their intervals and errors.
+fn probabilities() -> Vec<Column> {
+    vec![
+        number(
+            "p_heads",
+            "Probability of heads: heads/tosses, or the integral.",
+            |row| Cell::finite(row.heads.p),
+        ),
+        number("p_heads_lo", "Lower end of its interval.", |row| {
+            Cell::finite(row.heads.lo)
+        }),
+        number("p_heads_hi", "Upper end of its interval.", |row| {
+            Cell::finite(row.heads.hi)
+        }),
+        number(
+            "p_tails",
+            "Probability of tails: tails/tosses, or the integral.",
+            |row| Cell::finite(row.tails.p),
+        ),
+        number("p_tails_lo", "Lower end of its interval.", |row| {
+            Cell::finite(row.tails.lo)
+        }),
+        number("p_tails_hi", "Upper end of its interval.", |row| {
+            Cell::finite(row.tails.hi)
+        }),
+        number(
+            "p_side",
+            "Probability of the side: side/tosses, or the integral.",
+            |row| Cell::finite(row.side.p),
+        ),
+        number("p_side_lo", "Lower end of its interval.", |row| {
+            Cell::finite(row.side.lo)
+        }),
+        number("p_side_hi", "Upper end of its interval.", |row| {
+            Cell::finite(row.side.hi)
+        }),
+        number(
+            "confidence",
+            "Probability that an interval holds the true value.",
+            |row| Cell::Number(row.side.confidence),
+        ),
+        text("interval", "How the intervals were computed.", |row| {
+            Cell::Text(row.interval)
+        }),
+        number(
+            "rel_error_side",
+            "Relative standard error of p_side, sqrt((1 - P)/(P N)); empty while no toss shows the side.",
+            |row| counted(row, relative_error(row.side.p, row.side.n)),
+        ),
+        number(
+            "rule_of_thumb",
+            "The rule of thumb for it, 1/sqrt(N), exact only at P = 1/2.",
+            |row| counted(row, rule_of_thumb_relative_error(row.side.n)),
+        ),
+    ]
+}
 
-/// The columns of a table with these parameters, in order.
-pub fn columns<'a>(parameters: impl IntoIterator<Item = &'a str>) -> Vec<Column> {
-    let point = Column {
-        name: "point".to_owned(),
-        kind: Kind::Count,
-        unit: "1",
-        doc: "Index of the point in the sweep, from 0.",
-        source: Source::Fixed(|row| Cell::Count(row.point as u64)),
-    };
-    let parameters = parameters
-        .into_iter()
-        .enumerate()
-        .map(|(index, name)| Column {
-            name: name.to_owned(),
-            kind: Kind::Number,
-            unit: unit_of(name),
-            doc: "Parameter of the point.",
-            source: Source::Parameter(index),
-        });
-    let fixed = FIXED.iter().map(|&(name, kind, unit, doc, cell)| Column {
+/// The work done, what went wrong on the way, and how launches were drawn.
+fn work() -> Vec<Column> {
+    vec![
+        number("impacts_per_toss", "Mean number of impacts.", |row| {
+            per_toss(row, row.tally.impacts)
+        }),
+        number(
+            "contact_steps_per_toss",
+            "Mean number of steps in sustained contact.",
+            |row| per_toss(row, row.tally.contact_steps),
+        ),
+        counter("jams"),
+        counter("overruled"),
+        flag(
+            "reached_target",
+            "The point has the tosses, or the half width, asked for.",
+            |row| Cell::Flag(row.reached_target),
+        ),
+        counter("negative_heights"),
+        counter("energy_gains"),
+        counter("wrong_levers"),
+        counter("sinkings"),
+        counter("unresolved"),
+        text(
+            "sampling",
+            "How launches were drawn: random, quasi-random, or closed-form where none was.",
+            |row| Cell::Text(row.sampling),
+        ),
+        count(
+            "evaluations",
+            "Evaluations of a point that was integrated; 0 where tosses were counted, and for a rule.",
+            |row| Cell::Count(row.evaluations),
+        ),
+    ]
+}
+
+/// The column of one of the tally's counters.
+fn counter(name: &str) -> Column {
+    let mut counters = Tally::COUNTERS.iter().enumerate();
+    let (index, counter) = counters
+        .find(|(_, counter)| counter.name == name)
+        .unwrap_or_else(|| unreachable!("a test builds every column: {name}"));
+    column(name, Kind::Count, "1", counter.doc, Source::Counter(index))
+}
+
+fn count(name: &str, doc: &'static str, cell: fn(&Row) -> Cell<'_>) -> Column {
+    column(name, Kind::Count, "1", doc, Source::Row(cell))
+}
+
+fn number(name: &str, doc: &'static str, cell: fn(&Row) -> Cell<'_>) -> Column {
+    column(name, Kind::Number, "1", doc, Source::Row(cell))
+}
+
+fn text(name: &str, doc: &'static str, cell: fn(&Row) -> Cell<'_>) -> Column {
+    column(name, Kind::Text, "", doc, Source::Row(cell))
+}
+
+fn flag(name: &str, doc: &'static str, cell: fn(&Row) -> Cell<'_>) -> Column {
+    column(name, Kind::Flag, "", doc, Source::Row(cell))
+}
+
+fn column(name: &str, kind: Kind, unit: &'static str, doc: &'static str, source: Source) -> Column {
+    Column {
         name: name.to_owned(),
         kind,
         unit,
         doc,
-        source: Source::Fixed(cell),
+        source,
+    }
+}
+
+/// The columns of a table with these parameters, in order.
+pub fn columns<'a>(parameters: impl IntoIterator<Item = &'a str>) -> Vec<Column> {
+    let point = count("point", "Index of the point in the sweep, from 0.", |row| {
+        Cell::Count(row.point as u64)
+    });
+    let parameters = parameters.into_iter().enumerate().map(|(index, name)| {
+        let source = Source::Parameter(index);
+        column(
+            name,
+            Kind::Number,
+            unit_of(name),
+            "Parameter of the point.",
+            source,
+        )
     });
     std::iter::once(point)
         .chain(parameters)
-        .chain(fixed)
+        .chain(endings())
+        .chain(probabilities())
+        .chain(work())
         .collect()
 }
 

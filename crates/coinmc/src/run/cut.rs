@@ -2,12 +2,12 @@
 //! nor a restart change what is counted.
 
 use super::Chunk;
-use crate::plan::{EngineChoice, Plan, Stop};
+use crate::plan::{EngineChoice, FIRST_LOOK, Plan, Stop, looks};
 use std::ops::Range;
 
 /// Fewest tosses of a chunk that is not the end of a point: some 30 ms of work in the plane, more in
 /// space, which hides what a file costs.
-const LEAST: u64 = 1 << 14;
+const LEAST: u64 = FIRST_LOOK;
 /// Most tosses of a chunk of a run of fixed length, unless there were to be too many chunks: a tenth of a
 /// second of work in the plane, up to some seconds in space.
 const LARGE: u64 = 1 << 17;
@@ -18,15 +18,6 @@ const ENOUGH_CHUNKS: u64 = 256;
 const MOST_CHUNKS: u64 = 8192;
 /// A stage after the first is cut into at most this many chunks.
 const CHUNKS_A_STAGE: u64 = 16;
-
-/// Toss counts at which a point that stops at a half width is looked at: 2^14, 2^15, … below
-/// `max_tosses`, then `max_tosses`.
-pub(crate) fn looks(max_tosses: u64) -> impl Iterator<Item = u64> {
-    let doubling = std::iter::successors(Some(LEAST), |n| n.checked_mul(2));
-    doubling
-        .take_while(move |&n| n < max_tosses)
-        .chain([max_tosses])
-}
 
 /// Tosses of a chunk where so many are made in all.
 fn fixed_size(total: u64, plan: &Plan) -> u64 {
@@ -219,13 +210,5 @@ mod tests {
         }
         let stepped = Cut::new(&plan_of("rapier", 2, "tosses = 5_000_000"));
         assert_eq!(stepped.size(0), 1 << 14);
-    }
-
-    #[test]
-    fn looks_double_and_end_at_the_largest_number() {
-        assert_eq!(looks(100).collect::<Vec<_>>(), [100]);
-        assert_eq!(looks(16_384).collect::<Vec<_>>(), [16_384]);
-        assert_eq!(looks(40_000).collect::<Vec<_>>(), [16_384, 32_768, 40_000]);
-        assert_eq!(looks(u64::MAX).last(), Some(u64::MAX));
     }
 }

@@ -53,7 +53,6 @@ mod workers;
 
 pub use chunk::{Chunk, run_chunk};
 pub use count::{Count, count};
-pub(crate) use cut::looks;
 pub use each::{Begin, Seen, for_each_end, for_each_outcome};
 pub use engines::{SettingsError, name as engine_name, stream, toss};
 pub(crate) use engines::{Task, law, with_engine};

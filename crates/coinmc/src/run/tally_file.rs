@@ -2,7 +2,7 @@
 
 use super::Chunk;
 use super::sealed::{seal, unseal};
-use coinmc_core::Tally;
+use coinmc_core::{Counter, CounterKind, Tally};
 use std::fmt::Write;
 use thiserror::Error;
 
@@ -54,10 +54,10 @@ pub(super) fn parse_name(file: &str) -> Option<(usize, u64)> {
         .then_some((point, start))
 }
 
-/// Whether the counter has a line even if it is 0. The others came later; left out when 0, they
-/// leave older files as they were.
-fn is_always_written(index: usize) -> bool {
-    index < Tally::FIRST_BREAK
+/// Whether the counter has a line even if it is 0: most laws never break down, and their files need
+/// no lines that say so.
+fn is_always_written(counter: &Counter) -> bool {
+    counter.kind != CounterKind::Breakdown
 }
 
 /// The file's content.
@@ -67,9 +67,9 @@ pub(super) fn encode(chunk: &Chunk, tally: &Tally, plan_hash: &str) -> String {
         "{TITLE} {FORMAT}\nplan {plan_hash}\npoint {point}\ntosses {} {}\n",
         tosses.start, tosses.end
     );
-    for (index, (name, count)) in Tally::COUNTERS.iter().zip(tally.to_array()).enumerate() {
-        if is_always_written(index) || count > 0 {
-            writeln!(text, "{name} {count}").expect("a String takes all text");
+    for (counter, count) in Tally::COUNTERS.iter().zip(tally.to_array()) {
+        if is_always_written(counter) || count > 0 {
+            writeln!(text, "{} {count}", counter.name).expect("a String takes all text");
         }
     }
     seal(text)
@@ -101,9 +101,9 @@ pub(super) fn decode(bytes: &[u8], chunk: &Chunk, plan_hash: &str) -> Result<Tal
     }
     let mut counts = [0; Tally::COUNTERS.len()];
     let mut line = lines.next();
-    for (index, (count, name)) in counts.iter_mut().zip(Tally::COUNTERS).enumerate() {
-        let value = line.and_then(|line| line.strip_prefix(name)?.strip_prefix(' '));
-        if value.is_none() && !is_always_written(index) {
+    for (count, counter) in counts.iter_mut().zip(&Tally::COUNTERS) {
+        let value = line.and_then(|line| line.strip_prefix(counter.name)?.strip_prefix(' '));
+        if value.is_none() && !is_always_written(counter) {
             continue;
         }
         *count = value
@@ -124,29 +124,23 @@ pub(super) fn decode(bytes: &[u8], chunk: &Chunk, plan_hash: &str) -> Result<Tal
 
 /// Whether `tosses` tosses can end in these counts.
 fn is_possible(tally: &Tally, tosses: u64) -> bool {
-    let ended = [
-        tally.heads,
-        tally.tails,
-        tally.side,
-        tally.time_limit,
-        tally.never_settles,
-        tally.impact_limit,
-        tally.failed,
-    ];
-    let sum = ended
-        .iter()
-        .try_fold(0_u64, |sum, &count| sum.checked_add(count));
-    // a toss counts its events in 32 bits
-    let most = tosses.saturating_mul(u64::from(u32::MAX));
-    sum == Some(tosses)
-        && tally.overruled <= tosses
-        && [tally.impacts, tally.contact_steps, tally.jams]
-            .iter()
-            .all(|&count| count <= most)
-        // at most once of each kind an impact
-        && tally.to_array()[Tally::FIRST_BREAK..]
-            .iter()
-            .all(|&count| count <= tally.impacts)
+    let most_events = tosses.saturating_mul(u64::from(u32::MAX));
+    let mut endings = Some(0_u64);
+    for (counter, count) in Tally::COUNTERS.iter().zip(tally.to_array()) {
+        let most = match counter.kind {
+            CounterKind::Ending => {
+                endings = endings.and_then(|sum| sum.checked_add(count));
+                tosses
+            }
+            CounterKind::Toss => tosses,
+            CounterKind::Event => most_events,
+            CounterKind::Breakdown => tally.impacts,
+        };
+        if count > most {
+            return false;
+        }
+    }
+    endings == Some(tosses)
 }
 
 #[cfg(test)]

@@ -49,8 +49,8 @@ const NUMBERS: &[Case] = &[
     ("law = 'moreau'", "tolerance = 0.5", &[(10, 13, "must be from 1e-12 to 0.01")]),
     ("law = 'moreau'", "max_impacts = 0", &[(10, 15, "a whole number from 1 to 4294967295, found `0`")]),
     ("law = 'moreau'", "decision = { energy_fraction = 1.0 }", &[(10, 32, "must be above 0 and below 1, found `1.0`")]),
-    ("0.3", "0.3\ncontour_m = -1e-9", &[(7, 13, "`surface.rolling_friction_m` must be from 0 to 1e6, found `-1e-9`")]),
-    ("0.3", "0.3\npivoting_m = 'none'", &[(7, 14, "`surface.pivoting_friction_m` must be a number")]),
+    ("0.3", "0.3\nrolling_friction_m = -1e-9", &[(7, 22, "`surface.rolling_friction_m` must be from 0 to 1e6, found `-1e-9`")]),
+    ("0.3", "0.3\npivoting_friction_m = 'none'", &[(7, 23, "`surface.pivoting_friction_m` must be a number")]),
     ("0.3", "0.3\nrestitution_threshold_m_s = inf", &[(7, 29, "must be finite, from 0 to 1e6")]),
     ("[stop]", "[environment]\nlinear_drag_per_s = -1\nangular_drag_per_s = nan\n[stop]", &[(12, 21, "`environment.linear_drag_per_s` must be from 0 to 1e6"), (13, 22, "`environment.angular_drag_per_s` must be finite")]),
     ("[stop]", "[environment]\ngyroscopic_torque = 0\n[stop]", &[(12, 21, "`environment.gyroscopic_torque` must be true or false, found an integer: `0`")]),
@@ -90,13 +90,13 @@ const NOT_FLAT: &[Case] = &[
     ("'moreau'", "{ half-sine = { time_s = 0 } }", &[(10, 32, "must be from 1e-12 to 1")]),
     ("'moreau'", "{ line-contact = { coin_young_pa = 1e9, surface_young_pa = 1e9, length_m = 0 } }", &[(10, 82, "`engine.flat.law.line-contact.length_m` must be from 1e-9")]),
     ("'moreau'", "'gaek-sukhov'", &[(10, 7, "{gaek-sukhov = …}")]),
-    ("0.3", "0.3\ncontour_m = 1e-4", &[(7, 13, "engine.flat models no rolling friction: `surface.rolling_friction_m` must be 0 remove `rolling_friction_m`, or toss in space with [engine.volumetric]")]),
-    ("0.3", "0.3\ncontour_m = [0, 1e-4]\npivoting_m = 1e-4", &[(7, 13, "rolling friction"), (8, 14, "engine.flat models no pivoting friction")]),
-    ("0.3", "0.3\npivoting_m = { from = 0, to = 1e-4, steps = 3 }", &[(7, 14, "pivoting friction")]),
+    ("0.3", "0.3\nrolling_friction_m = 1e-4", &[(7, 22, "engine.flat models no rolling friction: `surface.rolling_friction_m` must be 0 remove `rolling_friction_m`, or toss in space with [engine.volumetric]")]),
+    ("0.3", "0.3\nrolling_friction_m = [0, 1e-4]\npivoting_friction_m = 1e-4", &[(7, 22, "rolling friction"), (8, 14, "engine.flat models no pivoting friction")]),
+    ("0.3", "0.3\npivoting_friction_m = { from = 0, to = 1e-4, steps = 3 }", &[(7, 23, "pivoting friction")]),
     ("0.3", "0.3\nrestitution_threshold_m_s = 2", &[(7, 29, "engine.flat models no restitution threshold")]),
     ("[stop]", "[environment]\nlinear_drag_per_s = 1\nangular_drag_per_s = 0.05\ngyroscopic_torque = false\n[stop]", &[(12, 21, "engine.flat models no drag: `environment.linear_drag_per_s` must be 0"), (13, 22, "`environment.angular_drag_per_s` must be 0"), (14, 21, "`environment.gyroscopic_torque` must be true")]),
     // a launch out of the plane and a value out of range are told in the same go
-    ("0.3\n[launch]\npreset = 'robot'", "-1\ncontour_m = 1e-4\n[launch]\npreset = 'clean'", &[(6, 12, "from 0 to 1e6"), (7, 13, "rolling friction"), (9, 10, "leaves it")]),
+    ("0.3\n[launch]\npreset = 'robot'", "-1\nrolling_friction_m = 1e-4\n[launch]\npreset = 'clean'", &[(6, 12, "from 0 to 1e6"), (7, 22, "rolling friction"), (9, 10, "leaves it")]),
 ];
 
 #[rustfmt::skip]

@@ -72,7 +72,7 @@ fn engine() -> impl Strategy<Value = (String, String, String)> {
     let in_space = (contact, air, settings).prop_map(
         |((contour, pivoting, threshold), (linear, angular, torque), (law, stick, limit))| {
             let surface = format!(
-                "rolling_friction_m = {contour}\npivoting_m = {pivoting}\n\
+                "rolling_friction_m = {contour}\npivoting_friction_m = {pivoting}\n\
                  restitution_threshold_m_s = {threshold:?}\n"
             );
             let environment = format!(
@@ -80,7 +80,7 @@ fn engine() -> impl Strategy<Value = (String, String, String)> {
                  gyroscopic_torque = {torque}\n"
             );
             let engine = format!(
-                "[engine.volumetric]\nlaw = '{law}'\nstick = {stick}\ntime_limit = {limit:?}\n"
+                "[engine.volumetric]\nlaw = '{law}'\nstick_speed = {stick}\ntime_limit = {limit:?}\n"
             );
             (surface, environment, engine)
         },

@@ -175,7 +175,7 @@ fn cells_hold_what_their_names_say() {
 /// (e, μ) alone does not define a toss in space.
 #[test]
 fn every_result_names_the_law_and_all_that_defines_the_toss() {
-    let text = "[coin]\nratio = 1\n[surface]\nrestitution = 0.3\nfriction = 10\ncontour_m = 1e-4\n\
+    let text = "[coin]\nratio = 1\n[surface]\nrestitution = 0.3\nfriction = 10\nrolling_friction_m = 1e-4\n\
                 pivoting_friction_m = 2e-4\nrestitution_threshold_m_s = 2\n[environment]\n\
                 linear_drag_per_s = 1\nangular_drag_per_s = 0.05\ngyroscopic_torque = false\n\
                 [launch]\npreset = \"table1\"\n[engine.volumetric]\nlaw = \"stronge\"\n\
@@ -299,7 +299,8 @@ fn every_column_is_documented_as_it_is() {
 #[test]
 fn every_counter_is_documented() {
     let document = include_str!("../../../../docs/reference/formats.md");
-    for name in Tally::COUNTERS {
+    for counter in Tally::COUNTERS {
+        let name = counter.name;
         assert!(document.contains(&format!("`{name}`")), "{name}");
     }
 }

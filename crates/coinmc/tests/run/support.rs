@@ -36,7 +36,7 @@ pub(crate) fn plan_of(tables: &str) -> Plan {
 pub(crate) fn plan_in_space(law: &str, stop: &str) -> Plan {
     let text = format!(
         "seed = 7\n[coin]\nradius_m = 0.01\nratio = [0.85, 2.0]\n[surface]\nrestitution = 0.5\n\
-         friction = 0.3\ncontour_m = 1e-4\npivoting_m = 1e-4\n[launch]\npreset = \"clean\"\n\
+         friction = 0.3\nrolling_friction_m = 1e-4\npivoting_friction_m = 1e-4\n[launch]\npreset = \"clean\"\n\
          [engine.volumetric]\nlaw = \"{law}\"\n[stop]\n{stop}\n"
     );
     coinmc::config::parse("test", &text, &[]).unwrap_or_else(|problems| panic!("{problems}"))

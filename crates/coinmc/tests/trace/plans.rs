@@ -20,7 +20,7 @@ pub(crate) fn flat(law: &str, tosses: u64) -> Plan {
 /// In space, with all kinds of friction.
 pub(crate) fn space(law: &str, tosses: u64) -> Plan {
     let engine = format!(
-        "rolling_friction_m = 1e-4\npivoting_m = 1e-4\n[engine.volumetric]\nlaw = \"{law}\""
+        "rolling_friction_m = 1e-4\npivoting_friction_m = 1e-4\n[engine.volumetric]\nlaw = \"{law}\""
     );
     plan(&engine, "clean", tosses)
 }

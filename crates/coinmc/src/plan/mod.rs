@@ -5,10 +5,13 @@
 
 mod explain;
 mod sampling;
+mod stop;
 
 pub use coinmc_quadrature::{Goal, Integral, MOST_EVALUATIONS, Method};
 pub use explain::Explanation;
 pub use sampling::Sampling;
+pub use stop::Stop;
+pub(crate) use stop::{FIRST_LOOK, looks};
 
 use coinmc_analytic::Rule;
 use coinmc_core::{IntervalMethod, LaunchDistribution, Scene};
@@ -82,21 +85,6 @@ impl Plan {
         // MAX_POINTS · MAX_TOSSES lies beyond u64
         each.saturating_mul(self.points_tossed())
     }
-}
-
-/// When a point has enough tosses.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Stop {
-    /// After this many.
-    Tosses(u64),
-    /// When every face's interval is no wider than ± `half_width`, looked at only at toss counts
-    /// fixed beforehand (doubling), with the confidence shared out over all looks.
-    HalfWidth {
-        /// Longest arm allowed.
-        half_width: f64,
-        /// Tosses at which the point stops short of its target.
-        max_tosses: u64,
-    },
 }
 
 /// One point of a sweep.
