@@ -91,7 +91,7 @@ const NOT_FLAT: &[Case] = &[
     ("'moreau'", "{ line-contact = { coin_young_pa = 1e9, surface_young_pa = 1e9, length_m = 0 } }", &[(10, 82, "`engine.flat.law.line-contact.length_m` must be from 1e-9")]),
     ("'moreau'", "'gaek-sukhov'", &[(10, 7, "{gaek-sukhov = …}")]),
     ("0.3", "0.3\nrolling_friction_m = 1e-4", &[(7, 22, "engine.flat models no rolling friction: `surface.rolling_friction_m` must be 0 remove `rolling_friction_m`, or toss in space with [engine.volumetric]")]),
-    ("0.3", "0.3\nrolling_friction_m = [0, 1e-4]\npivoting_friction_m = 1e-4", &[(7, 22, "rolling friction"), (8, 14, "engine.flat models no pivoting friction")]),
+    ("0.3", "0.3\nrolling_friction_m = [0, 1e-4]\npivoting_friction_m = 1e-4", &[(7, 22, "rolling friction"), (8, 23, "engine.flat models no pivoting friction")]),
     ("0.3", "0.3\npivoting_friction_m = { from = 0, to = 1e-4, steps = 3 }", &[(7, 23, "pivoting friction")]),
     ("0.3", "0.3\nrestitution_threshold_m_s = 2", &[(7, 29, "engine.flat models no restitution threshold")]),
     ("[stop]", "[environment]\nlinear_drag_per_s = 1\nangular_drag_per_s = 0.05\ngyroscopic_torque = false\n[stop]", &[(12, 21, "engine.flat models no drag: `environment.linear_drag_per_s` must be 0"), (13, 22, "`environment.angular_drag_per_s` must be 0"), (14, 21, "`environment.gyroscopic_torque` must be true")]),
