@@ -22,7 +22,9 @@
 
 mod batch;
 mod beta;
+mod body;
 mod coin;
+mod decision;
 mod engine;
 mod estimate;
 mod launch;
@@ -33,8 +35,10 @@ mod surface;
 mod tally;
 
 pub use batch::TossBatch;
+pub use body::{Body, Units};
 pub use coin::{Coin, CoinError};
 pub use coinmc_lanes::Lanes;
+pub use decision::{Decided, DecisionRule, DecisionState};
 pub use engine::{Engine, Event, EventKind, State, run_tosses, toss_sequential};
 pub use estimate::{
     Estimate, IntervalMethod, relative_error, rule_of_thumb_relative_error, student_t_quantile,

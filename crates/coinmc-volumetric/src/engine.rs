@@ -8,10 +8,9 @@ use crate::impact::ImpactLaw;
 use crate::rest;
 use crate::settings::{Decision, Settings, SettingsError};
 use crate::toss::Toss;
-use crate::verdict::{Judge, Verdict};
 use coinmc_core::{
-    Breaks, Ended, Engine, Event, EventKind, Face, Landing, Launch, Observer, Outcome, Scene,
-    TossBatch, toss_sequential,
+    Breaks, Decided, DecisionRule, Ended, Engine, Event, EventKind, Landing, Launch, Observer,
+    Outcome, Scene, TossBatch, toss_sequential,
 };
 use coinmc_lanes::{Lanes, NoSuchLanes};
 use std::ops::ControlFlow;
@@ -39,7 +38,7 @@ pub struct VolumetricEngine<L> {
     pub(crate) settings: Settings,
     pub(crate) units: Units,
     pub(crate) contact: contact::Law,
-    pub(crate) judge: Judge,
+    pub(crate) rule: DecisionRule,
     /// [`Settings::tolerance`], in sqrt(g D).
     pub(crate) tolerance: f64,
     pub(crate) restitution: f64,
@@ -82,19 +81,9 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
             linear: scene.drag().linear_per_s() * units.time_s,
             angular: scene.drag().angular_per_s() * units.time_s,
         };
-        let axial_factor = if scene.has_gyroscopic_torque() {
-            body.ka / body.kt
-        } else {
-            1.0
-        };
-        let judge = Judge::new(
-            body,
-            &friction,
-            axial_factor,
-            drag.acts(),
-            settings.decision == Decision::Tilting,
-            rest::ROCKING * settings.zeno,
-        );
+        let axial_factor = body.axial_factor(scene.has_gyroscopic_torque());
+        let tilting = settings.decision == Decision::Tilting;
+        let rule = DecisionRule::new(scene, tilting, rest::ROCKING * settings.zeno);
         let restitution = scene.surface.restitution();
         let threshold = scene.surface.restitution_threshold_m_s() / units.speed_m_s();
         Ok(Self {
@@ -102,13 +91,13 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
             settings: *settings,
             units,
             contact: contact::Law::new(body, friction, drag, axial_factor, settings.smoothing_time),
-            judge,
+            rule,
             tolerance: (settings.tolerance * body.escape_speed()).max(LEAST_TOLERANCE),
             restitution,
             threshold,
             landing: scene.surface.landing(),
             lanes: Lanes::best(),
-            conserves: judge.conserves(restitution) && threshold == 0.0,
+            conserves: rule.loses_nothing(restitution) && threshold == 0.0,
         })
     }
 
@@ -165,8 +154,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
 
     /// Where a surface lets go of nothing.
     pub(crate) fn stuck(&self, toss: &Toss) -> Ended {
-        let side = self.judge.on_side(&toss.motion);
-        decided(if side { Verdict::Side } else { Verdict::Face }, toss)
+        toss.ended(self.rule.well(toss.motion.cos))
     }
 
     /// Impacts and sustained contact until the coin flies again (`Ok`) or the toss ends.
@@ -209,9 +197,9 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         }
         (toss.motion, toss.spin) = (struck.motion, struck.spin);
         self.notify(toss, EventKind::Impact, observer);
-        let verdict = self.judge.verdict(&toss.motion, &toss.spin);
-        if verdict != Verdict::Open {
-            return Onward::End(decided(verdict, toss));
+        let decided = self.decide(toss);
+        if decided != Decided::Open {
+            return Onward::End(toss.ended(decided));
         }
         let after = if struck.sustains {
             Onward::Sustain
@@ -291,7 +279,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
             _ => {}
         }
         Onward::End(match leave {
-            Leave::Settled(verdict) => decided(verdict, toss),
+            Leave::Decided(decided) => toss.ended(decided),
             Leave::NeverSettles => Ended::NeverSettles,
             Leave::Late => Ended::TimeLimit,
             _ => self.lost(toss),
@@ -307,6 +295,12 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         } else {
             Ended::Failed
         }
+    }
+
+    #[inline]
+    fn decide(&self, toss: &Toss) -> Decided {
+        let (motion, body) = (&toss.motion, &self.contact.body);
+        self.rule.decide(&motion.decision_state(body, &toss.spin))
     }
 
     fn notify<O: Observer>(&self, toss: &Toss, kind: EventKind, observer: &mut O) {
@@ -339,13 +333,13 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
     /// How a toss ends that is not followed at all.
     pub(crate) fn ends_at_launch(&self, toss: &Toss, launch: &Launch) -> Option<Ended> {
         let energy = toss.motion.energy(&self.contact.body, &toss.spin);
-        let verdict = self.judge.verdict(&toss.motion, &toss.spin);
+        let decided = self.decide(toss);
         if !(energy.is_finite() && is_finite(launch)) {
             Some(Ended::Failed)
         } else if self.landing == Landing::Adhesive {
             None
-        } else if verdict != Verdict::Open {
-            Some(decided(verdict, toss))
+        } else if decided != Decided::Open {
+            Some(toss.ended(decided))
         } else {
             self.conserves.then_some(Ended::NeverSettles)
         }
@@ -356,7 +350,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
     pub(crate) fn contact_of(&self, spent: Spent) -> Contact<'_> {
         Contact {
             law: &self.contact,
-            judge: &self.judge,
+            rule: &self.rule,
             settings: &self.settings,
             tolerance: self.tolerance,
             spent,
@@ -401,14 +395,6 @@ fn is_finite(launch: &Launch) -> bool {
 /// than rounding.
 fn approaches(up: f64, down: f64) -> bool {
     up - down < -1e-13 * (up.abs() + down.abs())
-}
-
-pub(crate) fn decided(verdict: Verdict, toss: &Toss) -> Ended {
-    Ended::Decided(if verdict == Verdict::Side {
-        Face::Side
-    } else {
-        toss.face()
-    })
 }
 
 impl<L: ImpactLaw> Engine for VolumetricEngine<L> {

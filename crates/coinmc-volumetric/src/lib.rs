@@ -10,17 +10,17 @@
 //! # Range
 //! Any ratio and moments of inertia, restitution 0 to 1, any friction and friction lengths, linear
 //! drag, with or without gyroscopic torque. Rigid bodies: elastic compliance and the flow of air
-//! are not modelled. What is never lost is never settled: a coin that passes from well to well for
+//! are not modelled. What is never lost is never decided: a coin that passes from well to well for
 //! ever (e = 1 without friction, rolling without friction lengths) ends as
 //! [`coinmc_core::Ended::NeverSettles`] where that can be told, else at a limit; both are counted.
 //!
 //! # Files
 //! `body` shape, friction, units · `motion` state and frame · `flight` orbit and first contact ·
 //! `aloft` the toss in flight · `impact` laws, friction lengths, tangential impact · `contact` on a
-//! rim point and on the side · `rest` lying, standing, tripping · `verdict` when the face is
-//! settled · `toss` one toss and its place in the laboratory · `strike` one impact · `engine` their
-//! order · `batch` many tosses side by side · `observer_adapter` what an observer is shown of contact ·
-//! `settings` choices · `series` elementary functions of the kernels.
+//! rim point and on the side · `rest` lying, standing, tripping · `toss` one toss and its place in
+//! the laboratory · `strike` one impact · `engine` their order · `batch` many tosses side by side ·
+//! `observer_adapter` what an observer is shown of contact · `settings` choices · `series` elementary
+//! functions of the kernels. When a face is decided is in [`coinmc_core::DecisionRule`].
 
 mod aloft;
 mod any;
@@ -39,7 +39,6 @@ mod series;
 mod settings;
 mod strike;
 mod toss;
-mod verdict;
 
 pub use any::AnyVolumetricEngine;
 pub use body::{Body, Friction};

@@ -18,6 +18,7 @@
 
 use crate::body::Body;
 use crate::impact::{Impulse, Touch};
+use coinmc_core::DecisionState;
 use coinmc_lanes::{Lane, Mask};
 
 /// Position and velocity in the folded frame; lengths in D, times in sqrt(D/g).
@@ -244,6 +245,20 @@ impl<L: Lane> Motion<L> {
     #[inline(always)]
     pub(crate) fn energy(&self, body: &Body, spin: &Spin<L>) -> L {
         self.kinetic(body, spin) + self.z
+    }
+
+    /// What the decision depends on.
+    #[inline(always)]
+    pub(crate) fn decision_state(&self, body: &Body, spin: &Spin<L>) -> DecisionState<L> {
+        DecisionState {
+            energy: self.energy(body, spin),
+            sin: self.sin,
+            cos: self.cos,
+            vx: self.vx,
+            vy: self.vy,
+            axial: spin.axial,
+            vertical: self.oz,
+        }
     }
 
     /// Takes back what rounding and truncation added to the energy since it was `before`: no

@@ -5,7 +5,7 @@ use crate::contact::FLAT;
 use crate::motion::{Motion, Spin};
 use crate::observer_adapter::ObserverAdapter;
 use crate::series::sin_cos;
-use coinmc_core::{Face, Launch, Observer, State};
+use coinmc_core::{Decided, Ended, Face, Launch, Observer, State};
 use nalgebra::{UnitVector3, Vector3};
 
 /// Where the folded frame lies in the laboratory. Kept up only for an observer.
@@ -178,6 +178,15 @@ impl Toss {
         } else {
             Face::Tails
         }
+    }
+
+    /// The end of a toss that is decided.
+    pub(crate) fn ended(&self, decided: Decided) -> Ended {
+        Ended::Decided(if decided == Decided::Side {
+            Face::Side
+        } else {
+            self.face()
+        })
     }
 
     /// Whether the coin is all but level.

@@ -11,7 +11,7 @@ use crate::engine::{Onward, VolumetricEngine};
 use crate::flight::{load, store};
 use crate::impact::ImpactLaw;
 use crate::settings::Settings;
-use crate::verdict::Judge;
+use coinmc_core::DecisionRule;
 use coinmc_lanes::Lanes;
 use coinmc_lanes::{Bits, Block, WIDTH, Wide, Work};
 
@@ -123,7 +123,7 @@ impl Station {
     pub(super) fn make<L: ImpactLaw>(&mut self, engine: &VolumetricEngine<L>, mode: Mode) {
         let terms = Terms {
             law: &engine.contact,
-            judge: &engine.judge,
+            rule: &engine.rule,
             settings: &engine.settings,
             tolerance: engine.tolerance,
         };
@@ -211,7 +211,7 @@ impl Rates<Block> {
 #[derive(Clone, Copy)]
 struct Terms<'a> {
     law: &'a Law,
-    judge: &'a Judge,
+    rule: &'a DecisionRule,
     settings: &'a Settings,
     tolerance: f64,
 }
@@ -252,7 +252,7 @@ impl<const STICKS: bool, const DRAGS: bool> Work for Make<'_, STICKS, DRAGS> {
         let law = terms.law.with_known_drag::<DRAGS>();
         let made = attempt.make(
             &law,
-            terms.judge,
+            terms.rule,
             terms.tolerance,
             settings.stick_speed,
             mode,
@@ -266,7 +266,7 @@ impl<const STICKS: bool, const DRAGS: bool> Work for Make<'_, STICKS, DRAGS> {
         let time = L::load(&station.time);
         let time = L::select(calm, time + made.length, time);
         let late = L::splat(settings.time_limit).lt(time);
-        let goes_on = calm & !made.settled & !late;
+        let goes_on = calm & !made.decided & !late;
 
         station.steps = steps.store();
         station.time = time.store();

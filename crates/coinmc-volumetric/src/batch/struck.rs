@@ -3,13 +3,13 @@
 use super::pool::Slot;
 use crate::aloft::land;
 use crate::contact::{FLAT, Law};
-use crate::engine::{Onward, VolumetricEngine, decided};
+use crate::engine::{Onward, VolumetricEngine};
 use crate::flight::{Departing, Leavers, MOTION, Searching};
 use crate::impact::ImpactLaw;
 use crate::motion::{Motion, Spin};
 use crate::rest;
 use crate::toss::Toss;
-use crate::verdict::Verdict;
+use coinmc_core::Decided;
 use coinmc_lanes::Lanes;
 use coinmc_lanes::{Bits, Block, Wide, Work};
 
@@ -31,7 +31,7 @@ pub(super) struct StruckTosses {
     again: Bits,
     sustains: Bits,
     parts: Bits,
-    settled: Bits,
+    decided: Bits,
     on_side: Bits,
     /// All but on its side or a face: what follows is decided alone.
     extreme: Bits,
@@ -92,7 +92,7 @@ impl StruckTosses {
 
     /// Coins that an impact sends into a flight like most.
     pub(super) fn flies(&self) -> Bits {
-        !(self.again | self.settled | self.sustains | self.parts | self.extreme)
+        !(self.again | self.decided | self.sustains | self.parts | self.extreme)
     }
 
     /// Hands a motion to its toss.
@@ -132,13 +132,13 @@ impl StruckTosses {
         slot: &mut Slot,
     ) -> Onward {
         let toss = &mut slot.toss;
-        if has(self.settled, lane) {
-            let verdict = if has(self.on_side, lane) {
-                Verdict::Side
+        if has(self.decided, lane) {
+            let well = if has(self.on_side, lane) {
+                Decided::Side
             } else {
-                Verdict::Face
+                Decided::Face
             };
-            return Onward::End(decided(verdict, toss));
+            return Onward::End(toss.ended(well));
         }
         let after = if has(self.sustains, lane) {
             Onward::Sustain
@@ -228,10 +228,11 @@ impl<I: ImpactLaw> Work for Strike<'_, I> {
         tosses.set(&kept, &Spin::select(struck.again, &falling, &struck.spin));
         tosses.sustains = L::bits(struck.sustains);
         tosses.parts = L::bits(struck.parts);
-        tosses.settled = L::bits(engine.judge.settles(motion, &struck.spin));
-        tosses.on_side = L::bits(engine.judge.on_side(motion));
-        let small = rest::ROCKING * engine.settings.zeno;
         let body = &engine.contact.body;
+        let state = motion.decision_state(body, &struck.spin);
+        tosses.decided = L::bits(engine.rule.is_decided(&state));
+        tosses.on_side = L::bits(engine.rule.on_side(motion.cos));
+        let small = rest::ROCKING * engine.settings.zeno;
         let lies = motion.cos.lt(L::splat(small * body.half));
         let stands = motion.sin.le(L::splat((small * body.radius).max(FLAT)));
         tosses.extreme = L::bits(lies | stands);

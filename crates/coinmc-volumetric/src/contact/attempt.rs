@@ -6,7 +6,7 @@ use super::integrator::{Trial, is_accepted, next_length, shorter, step};
 use super::rim::{Law, Mode, OMEGA_Y, Rates, RimFlow, RimState, SLIP_X, SLIP_Y, TILT};
 use super::state::place_below;
 use crate::motion::{Motion, Spin};
-use crate::verdict::Judge;
+use coinmc_core::DecisionRule;
 use coinmc_lanes::Lane;
 use std::f64::consts::FRAC_PI_2;
 
@@ -41,8 +41,8 @@ pub(crate) struct Attempted<L: Lane> {
     pub(crate) accepted: L::Mask,
     /// Accepted, and something does happen.
     pub(crate) eventful: L::Mask,
-    /// The face is settled after it.
-    pub(crate) settled: L::Mask,
+    /// The face is decided after it.
+    pub(crate) decided: L::Mask,
 }
 
 impl<L: Lane> Attempt<L> {
@@ -51,7 +51,7 @@ impl<L: Lane> Attempt<L> {
     pub(crate) fn make(
         &self,
         law: &Law,
-        judge: &Judge,
+        rule: &DecisionRule,
         tolerance: f64,
         stick_speed: f64,
         mode: Mode,
@@ -78,7 +78,7 @@ impl<L: Lane> Attempt<L> {
             now,
             state,
             accepted,
-            settled: judge.settles(&motion, &spin),
+            decided: rule.is_decided(&motion.decision_state(&law.body, &spin)),
         }
     }
 

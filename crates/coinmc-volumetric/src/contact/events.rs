@@ -5,7 +5,7 @@ use super::follow::{Contact, FLAT, Leave, Next, Phase, RESEED, SEED};
 use super::integrator::Trial;
 use super::rim::{Mode, OMEGA_Y, Rates, RimState, TILT};
 use super::state::change_slip;
-use crate::verdict::Verdict;
+use coinmc_core::Decided;
 use std::f64::consts::FRAC_PI_2;
 
 /// Turning points of the tilt after which a conserving motion is seen to repeat itself.
@@ -263,18 +263,18 @@ impl Contact<'_> {
     }
 
     /// The end of a motion that repeats itself. Between its extremes the tilt passes none beyond
-    /// them: with both in one well the coin stays there for ever, and that settles the face unless
+    /// them: with both in one well the coin stays there for ever, and that decides the face unless
     /// energy alone may.
     fn repeats(&self, phase: &Phase) -> Leave {
         // u_z is largest where the tilt is least
         let [highest, lowest] = phase.tilts.map(libm::cos);
         let half = self.law.body.half;
-        if !self.judge.tilts_only() {
+        if !self.rule.is_tilting() {
             Leave::NeverSettles
         } else if highest < half - CLOSE {
-            Leave::Settled(Verdict::Side)
+            Leave::Decided(Decided::Side)
         } else if lowest > half + CLOSE {
-            Leave::Settled(Verdict::Face)
+            Leave::Decided(Decided::Face)
         } else {
             Leave::NeverSettles
         }

@@ -16,8 +16,7 @@ use crate::impact::jam;
 use crate::motion::{Motion, Spin};
 use crate::observer_adapter::ObserverAdapter;
 use crate::settings::Settings;
-use crate::verdict::{Judge, Verdict};
-use coinmc_core::{EventKind, Observer};
+use coinmc_core::{Decided, DecisionRule, EventKind, Observer};
 use std::f64::consts::FRAC_PI_2;
 
 /// How sustained contact ends.
@@ -29,8 +28,8 @@ pub(crate) enum Leave {
     OtherRim,
     /// The tilt has vanished: the opposite point of the rim has come down.
     Upright,
-    /// The face is settled.
-    Settled(Verdict),
+    /// The face is decided.
+    Decided(Decided),
     /// The motion repeats itself without loss.
     NeverSettles,
     /// Out of time.
@@ -43,14 +42,14 @@ pub(crate) enum Leave {
 /// the rim before comes down on all of it.
 pub(crate) const FLAT: f64 = 1e-9;
 /// A contact that gives way starts to slide at this fraction of `stick_speed`: its direction then
-/// settles within a time of that order. One that slows down to `RESEED` of that starts anew.
+/// is decided within a time of that order. One that slows down to `RESEED` of that starts anew.
 pub(super) const SEED: f64 = 1.0;
 pub(super) const RESEED: f64 = 0.1;
 
 /// Contact of one toss: the laws in force, and what the toss has taken.
 pub(crate) struct Contact<'a> {
     pub(crate) law: &'a Law,
-    pub(crate) judge: &'a Judge,
+    pub(crate) rule: &'a DecisionRule,
     pub(crate) settings: &'a Settings,
     /// Error allowed per step, absolute and relative.
     pub(crate) tolerance: f64,
@@ -219,11 +218,17 @@ impl Contact<'_> {
         phase
     }
 
-    /// Whether the face is settled or the toss is to be given up.
+    #[inline]
+    pub(super) fn decide(&self, motion: &Motion<f64>, spin: &Spin<f64>) -> Decided {
+        self.rule
+            .decide(&motion.decision_state(&self.law.body, spin))
+    }
+
+    /// Whether the face is decided or the toss is to be given up.
     fn is_over(&self, motion: &Motion<f64>, spin: &Spin<f64>) -> Option<Leave> {
-        let verdict = self.judge.verdict(motion, spin);
-        if verdict != Verdict::Open {
-            Some(Leave::Settled(verdict))
+        let decided = self.decide(motion, spin);
+        if decided != Decided::Open {
+            Some(Leave::Decided(decided))
         } else if self.spent.steps >= self.settings.max_steps {
             Some(Leave::Lost)
         } else if self.spent.time > self.settings.time_limit {

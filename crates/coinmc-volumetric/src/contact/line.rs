@@ -13,7 +13,7 @@
 //! and sliding is the textbook's: a slip v_y + R ω_a decays at the rate μ(1 + R²/k_a), and ω_a of a
 //! rolling coin at ρ_c/(k_a + R²).
 //!
-//! It ends by the verdict of energy, by weight that holds both rims down for good (under the
+//! It ends by the decision rule, by weight that holds both rims down for good (under the
 //! tilting decision), by tipping, or, once no more than a creep is left besides straight rolling,
 //! by the rest of that in closed form.
 
@@ -22,8 +22,7 @@ use super::integrator::{LEAST_STEP, is_accepted, next_length, shorter, step};
 use super::rim::Law;
 use crate::motion::{Motion, Spin};
 use crate::observer_adapter::ObserverAdapter;
-use crate::verdict::Verdict;
-use coinmc_core::{EventKind, Observer};
+use coinmc_core::{Decided, EventKind, Observer};
 use std::f64::consts::FRAC_PI_2;
 
 /// v_x, v_y, ω_a, ω_z.
@@ -72,7 +71,7 @@ fn line_rates(law: &Law, state: &LineState, creep: f64) -> LineRates {
 }
 
 impl Contact<'_> {
-    /// Follows the coin on its side until its face is settled or it tips. `true`: onto the rim
+    /// Follows the coin on its side until its face is decided or it tips. `true`: onto the rim
     /// that is lowest for the frame of `motion`; `false`: onto the other. Rolling straight counts
     /// as sticking.
     pub(crate) fn lie<O: Observer>(
@@ -91,9 +90,9 @@ impl Contact<'_> {
         }
         loop {
             lay(self.law, &state, motion, spin);
-            let verdict = self.judge.verdict(motion, spin);
-            if verdict != Verdict::Open {
-                return Err(Leave::Settled(verdict));
+            let decided = self.decide(motion, spin);
+            if decided != Decided::Open {
+                return Err(Leave::Decided(decided));
             }
             let now = line_rates(self.law, &state, creep);
             // not a number tips neither way, and is found out by the integrator
@@ -101,8 +100,8 @@ impl Contact<'_> {
             if (this_rim || now.share <= 0.0) && self.tips(&state, this_rim) {
                 return Ok(this_rim);
             }
-            if self.judge.tilts_only() && self.lies_for_good(&state) {
-                return Err(Leave::Settled(Verdict::Side));
+            if self.rule.is_tilting() && self.lies_for_good(&state) {
+                return Err(Leave::Decided(Decided::Side));
             }
             if self.rolls_straight(&state) {
                 return Err(self.roll_out(&state, motion, spin, adapter));
@@ -202,7 +201,7 @@ impl Contact<'_> {
         if a == 0.0 {
             // drag alone never quite stops it; without either it goes on for ever
             return if b > 0.0 {
-                Leave::Settled(Verdict::Side)
+                Leave::Decided(Decided::Side)
             } else {
                 Leave::NeverSettles
             };
@@ -234,7 +233,7 @@ impl Contact<'_> {
             begun += 1.0;
         }
         lay(self.law, &[0.0; 4], motion, spin);
-        Leave::Settled(Verdict::Side)
+        Leave::Decided(Decided::Side)
     }
 }
 

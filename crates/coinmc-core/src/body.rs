@@ -1,0 +1,99 @@
+//! The coin in the units of the engines in space: lengths in D = sqrt(R² + H²/4), times in
+//! sqrt(D/g), masses in m (Froude scaling). Then g = 1, the energy barrier m g D between a face and
+//! the side is 1, and a coin of 1 cm and one of 1 m are the same computation.
+
+use crate::{Coin, Scene};
+
+/// The coin's shape and inertia per its mass m, in units of D = sqrt(R² + H²/4), the distance of
+/// the rim from the centre: radius² + half² = 1.
+///
+/// # Example
+/// ```
+/// use coinmc_core::{Body, Coin};
+/// let body = Body::new(&Coin::cylinder(1.5, 0.01)?);
+/// assert!((body.radius - 0.8).abs() < 1e-15 && (body.half - 0.6).abs() < 1e-15);
+/// // the coin's axis: I_a = m R²/2
+/// assert!((body.ka - 0.32).abs() < 1e-15);
+/// # Ok::<(), coinmc_core::CoinError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Body {
+    /// R/D.
+    pub radius: f64,
+    /// H/(2D).
+    pub half: f64,
+    /// I_t/(m D²), about a diameter through the centre.
+    pub kt: f64,
+    /// I_a/(m D²), about the coin's axis.
+    pub ka: f64,
+}
+
+impl Body {
+    /// The body of a coin.
+    pub fn new(coin: &Coin) -> Self {
+        let (radius, half) = coin.shape_by_rim_distance();
+        let r2 = coin.radius_m() * coin.radius_m();
+        Self {
+            radius,
+            half,
+            kt: coin.transverse_gyration_m2() / r2 * radius * radius,
+            ka: coin.axial_gyration_m2() / r2 * radius * radius,
+        }
+    }
+
+    /// Ω_a/ω_a with Ω = L/I_t, the rotation that a free flight keeps: I_a/I_t, or 1 without
+    /// gyroscopic torque, where a flight keeps ω itself.
+    pub fn axial_factor(&self, gyroscopic_torque: bool) -> f64 {
+        if gyroscopic_torque {
+            self.ka / self.kt
+        } else {
+            1.0
+        }
+    }
+
+    /// Depth, in m g D, of the shallower of the coin's two wells, on its side and on a face: the
+    /// energy that just carries it over its rim from rest. Thin coins have a shallow side.
+    pub fn shallower_well(&self) -> f64 {
+        1.0 - self.radius.max(self.half)
+    }
+
+    /// The speed, in sqrt(g D), that just carries the coin out of its shallower well:
+    /// sqrt(2 [`shallower_well`](Self::shallower_well)).
+    pub fn escape_speed(&self) -> f64 {
+        (2.0 * self.shallower_well()).sqrt()
+    }
+}
+
+/// One length and one time of these units in SI units.
+///
+/// # Example
+/// ```
+/// use coinmc_core::{Coin, Scene, Surface, Units};
+/// let scene = Scene::new(Coin::cylinder(1.5, 0.008)?, Surface::new(0.5, 0.3)?, 9.81)?;
+/// let units = Units::new(&scene);
+/// assert!((units.length_m - 0.01).abs() < 1e-15);
+/// assert!((units.speed_m_s() - (9.81_f64 * 0.01).sqrt()).abs() < 1e-15);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Units {
+    /// D, m.
+    pub length_m: f64,
+    /// sqrt(D/g), s.
+    pub time_s: f64,
+}
+
+impl Units {
+    /// The units of a scene.
+    pub fn new(scene: &Scene) -> Self {
+        Self {
+            length_m: scene.coin.rim_distance_m(),
+            time_s: scene.time_scale_s(),
+        }
+    }
+
+    /// One unit of speed, sqrt(g D), m/s.
+    pub fn speed_m_s(&self) -> f64 {
+        self.length_m / self.time_s
+    }
+}
