@@ -2,8 +2,8 @@
 
 use crate::commands::{Analytic, Check, Completions, Film, Merge, Robot, Run, Schema, Trace};
 use crate::exit::{Failure, Outcome};
-use crate::output::Console;
-use clap::{ColorChoice, Parser, Subcommand, ValueEnum};
+use crate::output::{Console, Format};
+use clap::{ColorChoice, CommandFactory, Parser, Subcommand};
 use std::process::ExitCode;
 
 const EXAMPLES: &str = "\
@@ -55,15 +55,6 @@ enum Command {
     Completions(Completions),
 }
 
-/// How results are written to standard output.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Format {
-    /// For people
-    Table,
-    /// One JSON document
-    Json,
-}
-
 impl Arguments {
     /// Does what was asked and says how it went.
     pub(crate) fn execute(self) -> ExitCode {
@@ -100,7 +91,7 @@ impl Command {
             Self::Analytic(analytic) => analytic.execute(console),
             Self::Robot(robot) => robot.execute(console),
             Self::Schema(schema) => schema.execute(),
-            Self::Completions(completions) => completions.execute(),
+            Self::Completions(completions) => completions.execute(Arguments::command()),
         }
     }
 }
@@ -108,7 +99,6 @@ impl Command {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::CommandFactory;
 
     #[test]
     fn the_arguments_are_consistent() {

@@ -1,7 +1,6 @@
 //! How the program ends: exit codes, and what is said about failures.
 
-use crate::arguments::Format;
-use crate::output::{self, Console};
+use crate::output::{self, Console, Format};
 use crate::terminal::Colors;
 use coinmc::config::Diagnostics;
 use coinmc::run::RunError;

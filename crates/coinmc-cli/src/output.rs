@@ -1,14 +1,22 @@
 //! Standard output holds results and nothing else; standard error the rest.
 
-use crate::arguments::Format;
 use crate::terminal::Style;
-use clap::ColorChoice;
+use clap::{ColorChoice, ValueEnum};
 use serde_json::Value;
 use std::io::{self, Write};
 
 /// Version of every JSON document printed. Fields may be added without a new one; none changes its
 /// meaning or goes without it.
 pub(crate) const FORMAT_VERSION: u32 = 1;
+
+/// How results are written to standard output.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// For people
+    Table,
+    /// One JSON document
+    Json,
+}
 
 /// Both streams, and how to write to them.
 #[derive(Debug, Clone, Copy)]

@@ -6,8 +6,8 @@
 //! probability Σ G(end) − G(start); a wide normal one has a Fourier series of a few terms. An azimuth is simpler: the axis ends on a circle, uniformly.
 
 use crate::axis::Turning;
-use crate::method::{Variable, rate, without};
 use crate::passage::{Passage, support};
+use crate::variable::{Variable, rate, without};
 use coinmc_core::{Launch, LaunchDistribution, Marginal, Orientation, Scene, UniformSource};
 use nalgebra::{UnitVector3, Vector3};
 use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};

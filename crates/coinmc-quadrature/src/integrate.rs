@@ -2,9 +2,10 @@
 
 use crate::conditional::Conditional;
 use crate::integral::{Integral, Share};
-use crate::method::{Method, upright};
+use crate::method::Method;
 use crate::replicates::{Goal, REPLICATES};
 use crate::sobol::{DIMENSIONS, Points, Sobol};
+use crate::variable::upright;
 use coinmc_analytic::Rule;
 use coinmc_core::{Engine, Face, LaunchDistribution, Scene, Stream, UniformSource, unit_interval};
 use std::ops::{ControlFlow, Range};

@@ -42,9 +42,11 @@ mod method;
 mod passage;
 mod replicates;
 mod sobol;
+mod variable;
 
 pub use integral::{Integral, Share};
 pub use integrate::integrate;
-pub use method::{Method, Variable};
+pub use method::Method;
 pub use replicates::{Goal, LEAST_EVALUATIONS, MOST_EVALUATIONS, REPLICATES};
 pub use sobol::{DIMENSIONS, Points, Sobol};
+pub use variable::Variable;

@@ -1,9 +1,8 @@
 //! `coinmc completions`: scripts that let a shell complete arguments.
 
-use crate::arguments::Arguments;
 use crate::exit::{Failure, Outcome};
 use crate::output;
-use clap::{Args, CommandFactory};
+use clap::Args;
 use clap_complete::Shell;
 
 const EXAMPLES: &str = "\
@@ -20,10 +19,11 @@ pub(crate) struct Completions {
 }
 
 impl Completions {
-    pub(crate) fn execute(&self) -> Result<Outcome, Failure> {
+    /// Prints the script that completes the arguments of `program`.
+    pub(crate) fn execute(&self, mut program: clap::Command) -> Result<Outcome, Failure> {
         // Into memory first: the generator panics where a pipe breaks.
         let mut script = Vec::new();
-        clap_complete::generate(self.shell, &mut Arguments::command(), "coinmc", &mut script);
+        clap_complete::generate(self.shell, &mut program, "coinmc", &mut script);
         let script = String::from_utf8_lossy(&script);
         output::print(&script).map_err(|error| Failure::Runtime(error.into()))?;
         Ok(Outcome::Done)

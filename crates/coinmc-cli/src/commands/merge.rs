@@ -1,9 +1,8 @@
 //! `coinmc merge`: the parts of a run become the whole.
 
 use super::run::present;
-use crate::arguments::Format;
 use crate::exit::{Failure, Outcome};
-use crate::output::Console;
+use crate::output::{Console, Format};
 use crate::terminal::progress::Progress;
 use clap::Args;
 use std::path::PathBuf;

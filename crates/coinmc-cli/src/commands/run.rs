@@ -1,9 +1,8 @@
 //! `coinmc run`: from a config to probabilities.
 
-use crate::arguments::Format;
 use crate::exit::{Failure, Outcome};
 use crate::interrupt;
-use crate::output::{self, Console, FORMAT_VERSION};
+use crate::output::{self, Console, FORMAT_VERSION, Format};
 use crate::terminal::progress::{Progress, with_prefix};
 use crate::terminal::summary::{FAIR, summary};
 use crate::terminal::{count, duration, grouped};

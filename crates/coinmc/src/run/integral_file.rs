@@ -1,7 +1,7 @@
 //! The file of one integrated point: a few lines of text with a checksum. See docs/reference/formats.md.
 
+use super::damage::Damage;
 use super::sealed::{seal, unseal};
-use super::tally_file::Damage;
 use coinmc_core::Face;
 use coinmc_quadrature::{Integral, LEAST_EVALUATIONS, MOST_EVALUATIONS, Method, Share};
 use std::fmt::Write;

@@ -33,6 +33,7 @@
 mod chunk;
 mod count;
 mod cut;
+mod damage;
 mod directory;
 mod each;
 mod engines;

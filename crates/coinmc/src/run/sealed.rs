@@ -1,6 +1,6 @@
 //! Short files of text that end with a checksum of all before it: those of tallies and integrals.
 
-use super::tally_file::Damage;
+use super::damage::Damage;
 use std::fmt::Write;
 
 const CHECKSUM: &str = "crc32 ";

@@ -1,11 +1,12 @@
 //! The directory of tally files: reading what is there, adding what is finished.
 
 use super::cut::Cut;
+use super::damage::Damage;
 use super::integral_file;
 use super::piece::{Piece, whole};
 use super::replace::{self, Replacement, TEMPORARY};
 use super::sealed::MAX_BYTES;
-use super::tally_file::{self, Damage};
+use super::tally_file;
 use super::{Chunk, RunError};
 use crate::plan::Plan;
 use std::fs;

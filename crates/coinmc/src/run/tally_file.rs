@@ -1,38 +1,15 @@
 //! The file of one finished chunk: a few lines of text with a checksum. See docs/reference/formats.md.
 
 use super::Chunk;
+use super::damage::Damage;
 use super::sealed::{seal, unseal};
 use coinmc_core::{Counter, CounterKind, Tally};
 use std::fmt::Write;
-use thiserror::Error;
 
 /// Version of the format.
 const FORMAT: u64 = 1;
 const TITLE: &str = "coinmc tally";
 const EXTENSION: &str = ".tally";
-
-/// Why a tally file is not believed.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub(super) enum Damage {
-    #[error("it is not a regular file")]
-    NotAFile,
-    #[error("it is longer than any tally file")]
-    TooLong,
-    #[error("its checksum does not match")]
-    Checksum,
-    #[error("it is of another version of the format")]
-    Version,
-    #[error("it belongs to another plan")]
-    OtherPlan,
-    #[error("it holds another chunk than its name says")]
-    OtherChunk,
-    #[error("the plan has no chunk of that name")]
-    NoSuchChunk,
-    #[error("its counts are impossible")]
-    Counts,
-    #[error("it is not in the form that this program writes")]
-    Form,
-}
 
 /// Name of the file of a chunk.
 pub(super) fn name(chunk: &Chunk) -> String {

@@ -3,9 +3,8 @@
 mod listing;
 mod tables;
 
-use crate::arguments::Format;
 use crate::exit::{Failure, Outcome};
-use crate::output::{self, Console};
+use crate::output::{self, Console, Format};
 use clap::{Args, ValueEnum};
 use coinmc_analytic::Rule;
 use coinmc_core::Scene;

@@ -2,9 +2,8 @@
 
 mod calibration;
 
-use crate::arguments::Format;
 use crate::exit::{Failure, Outcome};
-use crate::output::{self, Console, FORMAT_VERSION};
+use crate::output::{self, Console, FORMAT_VERSION, Format};
 use crate::terminal::progress::with_prefix;
 use crate::terminal::{Colors, Style, compact, count, duration, grouped, in_ascii, wrapped};
 use calibration::{Cost, PointCost};

@@ -4,9 +4,8 @@ use super::files::{Columns, must_be_new, write_new};
 use super::law::LawName;
 use super::report;
 use super::scene::SceneArguments;
-use crate::arguments::Format;
 use crate::exit::{Failure, Outcome};
-use crate::output::{self, Console};
+use crate::output::{self, Console, Format};
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
 use coinmc_film::{

@@ -8,9 +8,8 @@ mod report;
 mod scene;
 mod synthesise;
 
-use crate::arguments::Format;
 use crate::exit::{Failure, Outcome};
-use crate::output::Console;
+use crate::output::{Console, Format};
 use clap::{Args, Subcommand};
 use fit::Fit;
 use read::Read;

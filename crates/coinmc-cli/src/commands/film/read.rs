@@ -1,9 +1,8 @@
 //! `coinmc film read`: what was understood of a file.
 
 use super::files::Columns;
-use crate::arguments::Format;
 use crate::exit::{Failure, Outcome};
-use crate::output::{self, Console, FORMAT_VERSION};
+use crate::output::{self, Console, FORMAT_VERSION, Format};
 use clap::Args;
 use coinmc_film::Coordinate;
 use coinmc_film::text::Footage;

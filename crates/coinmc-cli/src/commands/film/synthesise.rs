@@ -3,9 +3,8 @@
 use super::files::{Direction, must_be_new, write_new};
 use super::law::LawName;
 use super::scene::SceneArguments;
-use crate::arguments::Format;
 use crate::exit::{Failure, Outcome};
-use crate::output::{self, Console, FORMAT_VERSION};
+use crate::output::{self, Console, FORMAT_VERSION, Format};
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
 use coinmc_film::Synthetic;

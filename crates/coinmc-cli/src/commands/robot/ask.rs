@@ -1,9 +1,8 @@
 //! `coinmc robot info`, `status` and `home`: one question to the robot.
 
 use super::{PortArgument, failure};
-use crate::arguments::Format;
 use crate::exit::{Failure, Outcome};
-use crate::output::{self, Console, FORMAT_VERSION};
+use crate::output::{self, Console, FORMAT_VERSION, Format};
 use anyhow::anyhow;
 use clap::Args;
 use coinmc_link::{Greeting, Reply, Request, State, axis, capability};

@@ -1,9 +1,8 @@
 //! `coinmc robot fairness`: is the robot fair, and how sure is that.
 
 use super::export::read;
-use crate::arguments::Format;
 use crate::exit::{Failure, Outcome};
-use crate::output::{self, Console, FORMAT_VERSION};
+use crate::output::{self, Console, FORMAT_VERSION, Format};
 use crate::terminal::table::{Column, Table};
 use crate::terminal::{Style, grouped};
 use anyhow::anyhow;

@@ -10,9 +10,8 @@ mod run;
 mod sim;
 mod throw;
 
-use crate::arguments::Format;
 use crate::exit::{Failure, Outcome};
-use crate::output::Console;
+use crate::output::{Console, Format};
 use anyhow::anyhow;
 use clap::{Args, Subcommand};
 use coinmc_robot::port::ConnectionError;

@@ -1,8 +1,7 @@
 //! `coinmc robot ports`: which serial ports there are.
 
-use crate::arguments::Format;
 use crate::exit::{Failure, Outcome};
-use crate::output::{self, Console, FORMAT_VERSION};
+use crate::output::{self, Console, FORMAT_VERSION, Format};
 use clap::Args;
 use coinmc_robot::port::{PortEntry, ports};
 use serde_json::json;

@@ -2,10 +2,9 @@
 
 use super::live::LiveLine;
 use super::{PortArgument, failure, sim};
-use crate::arguments::Format;
 use crate::exit::{Failure, Outcome};
 use crate::interrupt;
-use crate::output::{self, Console, FORMAT_VERSION};
+use crate::output::{self, Console, FORMAT_VERSION, Format};
 use crate::terminal::grouped;
 use anyhow::{Context, anyhow};
 use clap::Args;

@@ -5,10 +5,9 @@ mod recover;
 mod report;
 mod select;
 
-use crate::arguments::Format;
 use crate::exit::{Failure, Outcome};
 use crate::interrupt;
-use crate::output::Console;
+use crate::output::{Console, Format};
 use crate::terminal::progress::Progress;
 use anyhow::{Context, anyhow};
 use clap::{ArgGroup, Args, Subcommand};

@@ -1,8 +1,7 @@
 //! `coinmc trace recover`: what a crash has left of a recording.
 
-use crate::arguments::Format;
 use crate::exit::{Failure, Outcome};
-use crate::output::{self, Console, FORMAT_VERSION};
+use crate::output::{self, Console, FORMAT_VERSION, Format};
 use crate::terminal::count;
 use clap::Args;
 use coinmc_recording::Recovered;

@@ -2,9 +2,8 @@
 
 use super::Trace;
 use super::select::{Selected, Status};
-use crate::arguments::Format;
 use crate::exit::{Failure, Outcome};
-use crate::output::{self, Console, FORMAT_VERSION};
+use crate::output::{self, Console, FORMAT_VERSION, Format};
 use crate::terminal::events::events;
 use crate::terminal::table::{Column, Table};
 use crate::terminal::{Style, compact, grouped};

@@ -1,0 +1,95 @@
+//! The quantity of a launch that is integrated out in closed form.
+
+use crate::passage::is_constant;
+use coinmc_core::{LaunchDistribution, Marginal, Orientation, Spin};
+
+/// A random quantity that is integrated out in closed form.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Variable {
+    /// Azimuth of an isotropic axis about an angular velocity that does not depend on it.
+    Azimuth,
+    /// Tilt at launch, of a flat toss.
+    Tilt,
+    /// Rate of a spin of known direction.
+    Rate,
+    /// Vertical velocity at launch.
+    Velocity,
+    /// Height at launch.
+    Height,
+}
+
+impl Variable {
+    /// What it is, in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Azimuth => "the azimuth of the axis about the spin",
+            Self::Tilt => "the tilt",
+            Self::Rate => "the rate of spin",
+            Self::Velocity => "the vertical velocity",
+            Self::Height => "the height",
+        }
+    }
+}
+
+/// The random tilt of a coin that turns about the normal of the plane it is tilted in.
+pub(crate) fn planar_tilt(launches: &LaunchDistribution) -> Option<Marginal> {
+    match launches.orientation {
+        Orientation::Tilt(tilt) if launches.spin.is_planar() && !is_constant(&tilt) => Some(tilt),
+        _ => None,
+    }
+}
+
+/// The rate of a spin of which nothing else depends on the rate.
+pub(crate) fn rate(spin: &Spin) -> Option<Marginal> {
+    match *spin {
+        Spin::About { rate_rad_s, .. } | Spin::Precessing { rate_rad_s, .. } => Some(rate_rad_s),
+        Spin::Components(_) => None,
+    }
+}
+
+/// The quantity to integrate out. First those that go round: over a turn little else matters.
+pub(crate) fn variable(launches: &LaunchDistribution) -> Option<Variable> {
+    let random = |marginal: &Marginal| !is_constant(marginal);
+    let isotropic = launches.orientation == Orientation::Isotropic;
+    if isotropic && !matches!(launches.spin, Spin::Precessing { .. }) {
+        Some(Variable::Azimuth)
+    } else if planar_tilt(launches).is_some() {
+        Some(Variable::Tilt)
+    } else if rate(&launches.spin).is_some_and(|rate| random(&rate)) {
+        Some(Variable::Rate)
+    } else if random(&launches.velocity_m_s[2]) {
+        Some(Variable::Velocity)
+    } else if random(&launches.height_m) {
+        Some(Variable::Height)
+    } else {
+        None
+    }
+}
+
+/// The same launches with a quantity put to 1 (a rate) or 0: it is integrated out, and the rest
+/// does not depend on it.
+pub(crate) fn without(launches: &LaunchDistribution, variable: Variable) -> LaunchDistribution {
+    let mut rest = upright(launches);
+    let none = Marginal::Constant(0.0);
+    match variable {
+        Variable::Azimuth => {}
+        Variable::Tilt => rest.orientation = Orientation::Tilt(none),
+        Variable::Rate => match &mut rest.spin {
+            Spin::About { rate_rad_s, .. } | Spin::Precessing { rate_rad_s, .. } => {
+                *rate_rad_s = Marginal::Constant(1.0);
+            }
+            Spin::Components(_) => {}
+        },
+        Variable::Velocity => rest.velocity_m_s[2] = none,
+        Variable::Height => rest.height_m = none,
+    }
+    rest
+}
+
+/// The same launches without horizontal velocity: it moves the place of the first contact and
+/// nothing else.
+pub(crate) fn upright(launches: &LaunchDistribution) -> LaunchDistribution {
+    let mut upright = *launches;
+    upright.velocity_m_s[..2].fill(Marginal::Constant(0.0));
+    upright
+}
