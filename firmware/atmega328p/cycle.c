@@ -33,7 +33,7 @@ static bool journal_or_fail(uint8_t phase)
     return stored;
 }
 
-/* Journal first, then the motion. */
+/* Enters a state: writes the journal first, then starts the motion. */
 static void enter(uint8_t state, const motion *next, uint32_t now_ms)
 {
     cycle.state = state;
@@ -66,7 +66,7 @@ void cycle_boot(uint32_t now_ms)
     cycle.boot = (uint16_t)(last.boot + 1);
     cycle.silent = true;
     cycle.released = in_cycle(last.phase) && last.phase != COINMC_AIMING;
-    /* the phase stays in the journal: a second reset finds the same */
+    /* the phase stays in the journal, so that a second reset finds it again */
     bool stored = journal(last.phase);
     if (in_cycle(last.phase))
         fail((uint16_t)(COINMC_FAULT_RESET + last.phase));
@@ -93,11 +93,11 @@ static uint32_t limit_ms(uint8_t state)
     }
 }
 
-static void mind_silence(uint32_t now_ms)
+static void check_silence(uint32_t now_ms)
 {
     if (!cycle.silent && now_ms - cycle.heard_ms >= SILENCE_LIMIT_MS) {
         cycle.silent = true;
-        /* at the coin nothing moves: the host may come back and photograph */
+        /* at the coin nothing moves: the host may still come back and photograph it */
         if (in_cycle(cycle.state) && cycle.state != COINMC_AT_COIN)
             fail(COINMC_FAULT_SILENCE);
     }
@@ -105,8 +105,8 @@ static void mind_silence(uint32_t now_ms)
         hardware_motors_off();
 }
 
-/* The next phase, where the present one ends by itself; whether it does. */
-static bool go_on(const sensors *now, uint32_t now_ms)
+/* Enters the next phase if the present one ends without a request; whether it did. */
+static bool advance(const sensors *now, uint32_t now_ms)
 {
     switch (cycle.state) {
     case COINMC_BOOT:
@@ -137,16 +137,16 @@ static bool go_on(const sensors *now, uint32_t now_ms)
 
 void cycle_tick(uint32_t now_ms)
 {
-    mind_silence(now_ms);
+    check_silence(now_ms);
     sensors now;
     hardware_sense(&now);
     if (cycle.state == COINMC_FAULT)
-        return; /* nothing but ClearFault leads out */
+        return; /* only ClearFault leads out */
     uint32_t limit = limit_ms(cycle.state);
     if (now.failure != 0)
         fail((uint16_t)(COINMC_FAULT_HARDWARE + now.failure));
-    else if (now.settled && go_on(&now, now_ms))
-        return; /* one phase a tick */
+    else if (now.settled && advance(&now, now_ms))
+        return; /* at most one phase per tick */
     else if (limit != 0 && now_ms - cycle.since_ms >= limit)
         fail((uint16_t)(COINMC_FAULT_LIMIT + cycle.state));
 }
@@ -159,7 +159,7 @@ void cycle_heard(uint32_t now_ms)
 
 /* ---- requests ---- */
 
-static uint8_t only_idle(void)
+static uint8_t require_idle(void)
 {
     if (cycle.state == COINMC_IDLE)
         return CYCLE_DONE;
@@ -168,7 +168,7 @@ static uint8_t only_idle(void)
 
 uint8_t cycle_move(const coinmc_request *request, uint8_t kind)
 {
-    uint8_t nak = only_idle();
+    uint8_t nak = require_idle();
     if (nak == CYCLE_DONE) {
         motion next = {kind, request->axes, 0, 0, request->x_um, request->y_um};
         hardware_start(&next);
@@ -182,7 +182,7 @@ uint8_t cycle_throw(const coinmc_request *request, uint32_t now_ms)
         return CYCLE_DONE;
     if (request->throw_id < cycle.throw_id)
         return COINMC_NAK_WRONG_ID;
-    uint8_t nak = only_idle();
+    uint8_t nak = require_idle();
     if (nak != CYCLE_DONE)
         return nak;
     sensors now;
@@ -204,7 +204,7 @@ uint8_t cycle_collect(const coinmc_request *request, uint32_t now_ms)
     case COINMC_AT_COIN:
         enter_moving(COINMC_RETURNING, MOTION_RETURN, now_ms);
         return CYCLE_DONE;
-    case COINMC_RETURNING: /* asked again, because the first answer was lost with its session */
+    case COINMC_RETURNING: /* again: the first reply was lost with its session */
     case COINMC_IDLE:
         return CYCLE_DONE;
     default:
@@ -228,7 +228,7 @@ uint8_t cycle_clear_fault(const coinmc_request *request)
 
 uint8_t cycle_set_counter(const coinmc_request *request)
 {
-    uint8_t nak = only_idle();
+    uint8_t nak = require_idle();
     if (nak == CYCLE_DONE) {
         cycle.throw_id = request->throw_id;
         forget_release();

@@ -1,4 +1,4 @@
-/* The cycle of a throw: phases, their limits, the journal, and the silence of the host. */
+/* The cycle of a throw: its phases, their time limits, the journal, and silence of the host. */
 #ifndef CYCLE_H
 #define CYCLE_H
 
@@ -9,9 +9,9 @@ typedef struct {
     uint32_t throw_id;
     uint16_t boot, fault;
     uint32_t since_ms, heard_ms;
-    bool silent;   /* the host has been silent for too long, or was never heard */
+    bool silent;   /* the host has been silent for too long, or has never sent a valid frame */
     bool released; /* the coin may have been released */
-    bool measured; /* it was since the start, and this is how: */
+    bool measured; /* it was released since the start, with these measurements: */
     uint32_t release_ms;
     uint16_t release_spin, release_angle;
 } cycle_of_throw;
@@ -22,10 +22,10 @@ extern cycle_of_throw cycle;
 
 void cycle_boot(uint32_t now_ms);
 void cycle_tick(uint32_t now_ms);
-/* A valid frame arrived. */
+/* Notes that a valid frame arrived. */
 void cycle_heard(uint32_t now_ms);
 
-/* Requests: CYCLE_DONE or a coinmc_nak. */
+/* Requests; they return CYCLE_DONE or a coinmc_nak. */
 uint8_t cycle_move(const coinmc_request *request, uint8_t kind);
 uint8_t cycle_throw(const coinmc_request *request, uint32_t now_ms);
 uint8_t cycle_collect(const coinmc_request *request, uint32_t now_ms);

@@ -1,11 +1,12 @@
-/* REPLACE THIS FILE for a real robot: pins, motors and sensors instead of a plant that only takes
- * time, and less than a robot would. The contract is in hardware.h; the journal is ready to use. */
+/* REPLACE THIS FILE for a real robot. Instead of driving pins, motors and sensors, this stand-in only
+ * takes time, and less than a robot would. The contract is in hardware.h; the journal can be used
+ * as it is. */
 #include "clock.h"
 #include "journal.h"
 
 #include <avr/io.h>
 
-/* How long each motion takes here, ms; by motion_kind. */
+/* Duration of each motion, ms; by motion_kind. */
 static const uint16_t duration_ms[] = {80, 120, 130, 150, 200, 50};
 
 static motion last;
@@ -59,7 +60,7 @@ static void arrive(void)
         x_um = last.x_um;
         y_um = last.y_um;
     } else if (last.kind == MOTION_DRIVE_TO_COIN) {
-        /* the coin came to rest somewhere */
+        /* the coin has come to rest somewhere */
         x_um = (int32_t)(clock_ms() % 300) * 1000;
         y_um = (int32_t)(clock_ms() % 200) * 1000;
     } else if (last.kind == MOTION_RETURN || last.kind == MOTION_HOME) {

@@ -1,5 +1,5 @@
-/* What the robot is made of, as robot.c sees it: the same contract as the trait `Hardware` of the
- * crate coinmc-link. hardware.c is the place for pins and motors. Nothing here may wait, except that
+/* The interface between robot.c and the hardware: the same contract as the trait `Hardware` of the
+ * crate coinmc-link. hardware.c is the place for pins and motors. No function may block, except that
  * hardware_store returns only when the record is safe. */
 #ifndef HARDWARE_H
 #define HARDWARE_H
@@ -7,7 +7,7 @@
 #include "coinmc_link.h"
 
 typedef enum {
-    MOTION_AIM,           /* spin and angle; settled when the coin may be released */
+    MOTION_AIM,           /* spin and angle; settled when the coin can be released */
     MOTION_RELEASE,       /* settled when the coin lies still */
     MOTION_DRIVE_TO_COIN,
     MOTION_RETURN,
@@ -22,13 +22,13 @@ typedef struct {
 } motion;
 
 typedef struct {
-    bool settled; /* the motion begun last has reached its goal; at the start: ready */
+    bool settled; /* the last motion has reached its goal; before the first: ready */
     uint16_t spin_mrev_s, angle_cdeg;
     int32_t x_um, y_um;
-    uint8_t failure; /* 0: nothing is broken; else fault 300 + it */
+    uint8_t failure; /* 0: none; otherwise the fault code is 300 plus this */
 } sensors;
 
-/* What outlives a reset. */
+/* A journal record, which survives a reset. */
 typedef struct {
     uint32_t throw_id;
     uint16_t boot;
@@ -36,9 +36,10 @@ typedef struct {
 } record;
 
 void hardware_info(coinmc_info *info);
-/* The newest record stored whole; leaves `last` alone if there was never one. */
+/* Loads the newest completely stored record; leaves `last` unchanged if there is none. */
 void hardware_load(record *last);
-/* Whether it is safe now. One cut short by a loss of power leaves the one before it readable. */
+/* Stores a record; whether it is safe now. If a loss of power interrupts it, the previous record stays
+ * readable. */
 bool hardware_store(const record *next);
 void hardware_start(const motion *next);
 void hardware_motors_off(void);

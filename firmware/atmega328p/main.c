@@ -8,7 +8,7 @@
 #include <avr/sleep.h>
 #include <avr/wdt.h>
 
-/* After a reset by the watchdog it still runs, and at its shortest: stop it before anything else. */
+/* After a reset by the watchdog it still runs, with its shortest period: stop it first of all. */
 void stop_watchdog(void) __attribute__((naked, used, section(".init3")));
 void stop_watchdog(void)
 {

@@ -32,8 +32,8 @@ static bool far(int32_t um, int32_t limit)
     return um > limit || -um > limit;
 }
 
-/* Whether a request is beyond what this robot has or reaches. */
-static bool beyond(const coinmc_info *info, const coinmc_request *request)
+/* Whether a request exceeds this robot's capabilities or limits. */
+static bool exceeds_limits(const coinmc_info *info, const coinmc_request *request)
 {
     switch (request->kind) {
     case COINMC_REQUEST_THROW:
@@ -71,7 +71,7 @@ static void execute(const coinmc_request *request, uint32_t now_ms, coinmc_reply
     coinmc_info info;
     hardware_info(&info);
     uint8_t nak = CYCLE_DONE;
-    if (beyond(&info, request)) {
+    if (exceeds_limits(&info, request)) {
         nak = COINMC_NAK_BAD_RANGE;
     } else {
         switch (request->kind) {

@@ -10,11 +10,11 @@
 /* After power-on or reset. */
 void robot_boot(uint32_t now_ms);
 
-/* One byte from the line; what to send, of this length (0: nothing), when it ended a request. Valid
- * until the next call. */
+/* Takes one received byte. If it completed a request, points to the reply and returns its length,
+ * otherwise 0. Valid until the next call. */
 uint8_t robot_receive(uint8_t byte, uint32_t now_ms, const uint8_t **reply);
 
-/* At least every 10 ms or so: phases advance and limits hold only then. */
+/* Call it about every 10 ms or more often: only then do phases advance and limits apply. */
 void robot_tick(uint32_t now_ms);
 
 #endif

@@ -3,7 +3,8 @@
 #include <avr/interrupt.h>
 #include <avr/io.h>
 
-/* Two frames: what may arrive while the journal is written. Overflow is lost, and repeated. */
+/* Room for two frames, which may arrive while the journal is written. Bytes that do not fit are
+ * lost, and the host repeats its request. */
 #define RING 128
 
 static volatile uint8_t ring[RING], head, tail;
@@ -19,7 +20,7 @@ ISR(USART_RX_vect)
 
 void uart_begin(void)
 {
-    /* 16 MHz / 8 / (16 + 1) = 117647: 2.1 % fast, the best there is at 115200, and good enough */
+    /* 16 MHz / 8 / (16 + 1) = 117647: 2.1 % fast, the closest to 115200, and good enough */
     UBRR0 = 16;
     UCSR0A = _BV(U2X0);
     UCSR0B = _BV(RXCIE0) | _BV(RXEN0) | _BV(TXEN0);

@@ -6,9 +6,9 @@
 #include <stdint.h>
 
 void uart_begin(void);
-/* The next byte received; false: none waits. */
+/* Reads the next received byte; false if there is none. */
 bool uart_read(uint8_t *byte);
-/* Sends; returns when the last byte is on its way, below 6 ms. */
+/* Sends the bytes; returns within 6 ms, when the last byte is being sent. */
 void uart_write(const uint8_t *bytes, uint8_t length);
 
 #endif

@@ -1,4 +1,4 @@
-//! Tells the linker where `memory.x` is.
+//! Passes the location of `memory.x` to the linker.
 
 fn main() {
     let here = std::env::var("CARGO_MANIFEST_DIR").expect("cargo sets it");

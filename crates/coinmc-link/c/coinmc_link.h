@@ -1,8 +1,8 @@
 /* The robot's serial link for firmware in C: frames and messages, protocol 1.0.
  *
- * Plain C99, this file alone, no memory but what the caller gives, no library but <stdint.h>,
- * <stdbool.h>, <stddef.h> and <string.h>. Describes what docs/reference/robot-protocol.md describes, and is
- * checked against the same golden frames as the Rust crate beside it.
+ * Plain C99 in this one file. It allocates no memory and needs only <stdint.h>, <stdbool.h>,
+ * <stddef.h> and <string.h>. It implements docs/reference/robot-protocol.md and is tested against the same
+ * golden frames as the Rust crate coinmc-link.
  *
  * Licensed under MIT or Apache-2.0, at your option. */
 #ifndef COINMC_LINK_H
@@ -22,7 +22,7 @@
 #define COINMC_MAX_BODY (COINMC_MAX_PLAIN - 8)
 #define COINMC_MAX_WIRE (COINMC_MAX_PLAIN + 3)
 
-/* CRC-32/ISO-HDLC, that of zlib; begin with crc = 0. */
+/* CRC-32/ISO-HDLC, as in zlib; begin with crc = 0. */
 static inline uint32_t coinmc_crc32(uint32_t crc, const uint8_t *bytes, size_t length)
 {
     crc = ~crc;
@@ -34,7 +34,7 @@ static inline uint32_t coinmc_crc32(uint32_t crc, const uint8_t *bytes, size_t l
     return ~crc;
 }
 
-/* The frame of a message. Its length, or 0 if the body is too long. */
+/* Encodes the frame of a message. Returns its length, or 0 if the body is too long. */
 static inline uint8_t coinmc_frame(uint16_t session, uint16_t seq, const uint8_t *body,
                                    uint8_t length, uint8_t wire[COINMC_MAX_WIRE])
 {
@@ -54,7 +54,7 @@ static inline uint8_t coinmc_frame(uint16_t session, uint16_t seq, const uint8_t
     wire[at++] = 0;
     code = at++;
     for (uint8_t i = 0; i < size; i++) {
-        if (plain[i] == 0) { /* the block is closed: its length plus one goes before it */
+        if (plain[i] == 0) { /* ends the block: its length plus one goes before it */
             wire[code] = (uint8_t)(at - code);
             code = at++;
         } else {
@@ -66,10 +66,10 @@ static inline uint8_t coinmc_frame(uint16_t session, uint16_t seq, const uint8_t
     return at;
 }
 
-/* Takes bytes as they arrive. All zero at the beginning. */
+/* Decodes frames from bytes as they arrive. Initialise it to zero. */
 typedef struct {
     uint8_t plain[COINMC_MAX_PLAIN];
-    uint8_t length, left, place;
+    uint8_t length, left, position;
 } coinmc_decoder;
 
 typedef enum { COINMC_NOTHING, COINMC_FRAME, COINMC_REJECT } coinmc_pushed;
@@ -87,31 +87,31 @@ static inline void coinmc_keep(coinmc_decoder *decoder, uint8_t byte)
     if (decoder->length < COINMC_MAX_PLAIN)
         decoder->plain[decoder->length++] = byte;
     else
-        decoder->place = COINMC_OVERLONG;
+        decoder->position = COINMC_OVERLONG;
 }
 
-/* One byte: COINMC_FRAME fills in `frame`, COINMC_REJECT says that something arrived broken. */
+/* Takes one byte. COINMC_FRAME fills in `frame`; COINMC_REJECT reports a damaged frame. */
 static inline coinmc_pushed coinmc_push(coinmc_decoder *decoder, uint8_t byte,
                                         coinmc_received *frame)
 {
     if (byte != 0) {
-        if (decoder->place == COINMC_START) {
-            decoder->place = COINMC_INSIDE;
+        if (decoder->position == COINMC_START) {
+            decoder->position = COINMC_INSIDE;
             decoder->length = 0;
             decoder->left = (uint8_t)(byte - 1);
-        } else if (decoder->place == COINMC_INSIDE) {
+        } else if (decoder->position == COINMC_INSIDE) {
             bool code = decoder->left == 0;
             coinmc_keep(decoder, code ? 0 : byte);
             decoder->left = (uint8_t)(code ? byte - 1 : decoder->left - 1);
         }
         return COINMC_NOTHING;
     }
-    uint8_t place = decoder->place, left = decoder->left, length = decoder->length;
-    decoder->place = COINMC_START;
+    uint8_t position = decoder->position, left = decoder->left, length = decoder->length;
+    decoder->position = COINMC_START;
     decoder->left = 0;
-    if (place == COINMC_START)
+    if (position == COINMC_START)
         return COINMC_NOTHING;
-    if (place == COINMC_OVERLONG || left > 0 || length < 8)
+    if (position == COINMC_OVERLONG || left > 0 || length < 8)
         return COINMC_REJECT;
     const uint8_t *plain = decoder->plain, *end = plain + length - 4;
     uint32_t crc = end[0] | (uint32_t)end[1] << 8 | (uint32_t)end[2] << 16 | (uint32_t)end[3] << 24;
@@ -124,7 +124,7 @@ static inline coinmc_pushed coinmc_push(coinmc_decoder *decoder, uint8_t byte,
     return COINMC_FRAME;
 }
 
-/* ---- messages: number of the variant, then the fields in order ---- */
+/* ---- messages: the number of the variant, then the fields in order ---- */
 
 typedef enum {
     COINMC_REQUEST_HELLO,
@@ -168,11 +168,11 @@ typedef enum {
     COINMC_FAULT
 } coinmc_state;
 
-/* Bits of Home. */
+/* Bits of Home's axes. */
 enum { COINMC_AXIS_X = 1, COINMC_AXIS_Y = 2, COINMC_AXIS_LIFT = 4, COINMC_AXIS_SPINDLE = 8 };
 /* Bits of Info's capabilities. */
 enum { COINMC_HAS_LIGHT = 1, COINMC_HAS_CARRIAGE = 2 };
-/* Fault codes; the last three plus the number of the phase or of the failure. */
+/* Fault codes; the number of the phase or of the failure is added to the last three. */
 enum {
     COINMC_FAULT_STOPPED = 1,
     COINMC_FAULT_SILENCE = 2,
@@ -183,7 +183,7 @@ enum {
 };
 
 typedef struct {
-    uint8_t kind;          /* coinmc_request_kind; it says which fields mean something */
+    uint8_t kind;          /* coinmc_request_kind; determines which fields are used */
     uint8_t major, minor;  /* Hello */
     uint16_t session;      /* Hello */
     uint8_t axes;          /* Home */
@@ -220,7 +220,7 @@ typedef struct {
 } coinmc_status;
 
 typedef struct {
-    uint8_t kind; /* coinmc_reply_kind; it says which member means something */
+    uint8_t kind; /* coinmc_reply_kind; determines which member is used */
     union {
         coinmc_greeting hello;
         coinmc_info info;
@@ -233,14 +233,14 @@ typedef struct {
     } as;
 } coinmc_reply;
 
-/* A body being written; `good` turns false for good when it does not fit. */
+/* A body being written; `good` becomes false, permanently, when it does not fit. */
 typedef struct {
     uint8_t *bytes;
     uint8_t at;
     bool good;
 } coinmc_writer;
 
-/* A body being read; `good` turns false for good when it is none. */
+/* A body being read; `good` becomes false, permanently, when it is malformed. */
 typedef struct {
     const uint8_t *bytes;
     uint8_t length, at;
@@ -255,7 +255,7 @@ static inline void coinmc_put_u8(coinmc_writer *body, uint8_t value)
         body->good = false;
 }
 
-/* Seven bits a byte, lowest first; the eighth bit says that more follow. */
+/* Seven bits per byte, lowest first; the eighth bit is set if more bytes follow. */
 static inline void coinmc_put_u32(coinmc_writer *body, uint32_t value)
 {
     for (; value > 0x7F; value >>= 7)
@@ -278,7 +278,7 @@ static inline uint8_t coinmc_get_u8(coinmc_reader *body)
     return 0;
 }
 
-/* Only the shortest encoding is right, and only values up to `greatest`. */
+/* Accepts only the shortest encoding, and only values up to `greatest`. */
 static inline uint32_t coinmc_get_uint(coinmc_reader *body, uint32_t greatest)
 {
     uint32_t value = 0;
@@ -311,7 +311,7 @@ static inline int32_t coinmc_get_i32(coinmc_reader *body)
     return (int32_t)(zigzag >> 1) ^ -(int32_t)(zigzag & 1);
 }
 
-/* Whether the numbers of a request are within the protocol's ranges. */
+/* Whether all numbers of a request are within the protocol's ranges. */
 static inline bool coinmc_request_in_range(const coinmc_request *request)
 {
     const int32_t reach_um = 2000000;
@@ -335,7 +335,7 @@ static inline bool coinmc_request_in_range(const coinmc_request *request)
 
 typedef enum { COINMC_GOOD, COINMC_MALFORMED, COINMC_OUT_OF_RANGE } coinmc_read;
 
-/* Reads the body of a request. */
+/* Decodes the body of a request. */
 static inline coinmc_read coinmc_read_request(const uint8_t *bytes, uint8_t length,
                                               coinmc_request *request)
 {
@@ -382,7 +382,7 @@ static inline coinmc_read coinmc_read_request(const uint8_t *bytes, uint8_t leng
     return coinmc_request_in_range(request) ? COINMC_GOOD : COINMC_OUT_OF_RANGE;
 }
 
-/* Writes the body of a reply. Its length; every reply fits. */
+/* Encodes the body of a reply. Returns its length; every reply fits. */
 static inline uint8_t coinmc_write_reply(const coinmc_reply *reply, uint8_t bytes[COINMC_MAX_BODY])
 {
     coinmc_writer body = {bytes, 0, true};

@@ -1,31 +1,31 @@
 //! Frames: `0x00 | COBS( session u16 | seq u16 | body | CRC-32 ) | 0x00`, little-endian.
 //!
-//! Consistent overhead byte stuffing (Cheshire & Baker 1999, doi:10.1109/90.769765) takes the zero
-//! bytes out of the content, so that a zero always ends a frame: a receiver that lost its place
-//! finds it again at the next zero, whatever came before. The CRC is CRC-32/ISO-HDLC, that of zlib
-//! and PNG; no error of up to three bits and no burst of up to 32 bits escapes it at this length.
+//! Consistent overhead byte stuffing (COBS; Cheshire & Baker 1999, doi:10.1109/90.769765) removes
+//! zero bytes from the content, so that a zero always ends a frame and a receiver resynchronises at
+//! the next zero, whatever came before. The CRC is CRC-32/ISO-HDLC, as in zlib and PNG; at this
+//! length it detects every error of up to three bits and every burst of up to 32 bits.
 
 use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
 use thiserror::Error;
 
 /// Longest content of a frame before stuffing, bytes.
 pub const MAX_PLAIN: usize = 64;
-/// Longest message in a frame, bytes: the rest is header (4) and CRC (4).
+/// Longest message in a frame, bytes: what header (4) and CRC (4) leave.
 pub const MAX_BODY: usize = MAX_PLAIN - HEADER - CRC;
-/// Longest frame on the wire, bytes: both zeros and the one byte that stuffing adds.
+/// Longest frame on the wire, bytes: with both zeros and the one byte that stuffing adds.
 pub const MAX_WIRE: usize = MAX_PLAIN + 3;
 
 const HEADER: usize = 4;
 const CRC: usize = 4;
-/// Bit by bit: a table would be a kilobyte of flash for microseconds that a serial line never sees.
+/// Computed bit by bit: a table would cost a kilobyte of flash to save negligible time.
 const CHECKSUM: Crc<u32, NoTable> = Crc::<u32, NoTable>::new(&CRC_32_ISO_HDLC);
 
-/// Who a frame belongs to.
+/// The header of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Header {
     /// Session that the host chose in its Hello; never 0.
     pub session: u16,
-    /// Number of the request; its reply, and a repetition of either, carry the same.
+    /// Sequence number of the request; its reply and repetitions of either have the same.
     pub seq: u16,
 }
 
@@ -34,7 +34,7 @@ pub struct Header {
 #[error("a message of {0} bytes does not fit in a frame (at most {MAX_BODY})")]
 pub struct TooLong(pub usize);
 
-/// One frame as it goes over the wire.
+/// An encoded frame.
 ///
 /// # Example
 /// ```
@@ -74,8 +74,8 @@ impl Wire {
         plain.extend(&checksum.to_le_bytes());
         let mut wire = Buffer::<MAX_WIRE>::new();
         wire.push(0);
-        // Every block is the bytes up to a zero, led by its length plus one: below 255, because a
-        // frame is no longer than that.
+        // Every block is the bytes up to a zero, preceded by their number plus one: less than 255,
+        // because every frame is shorter.
         for block in plain.as_bytes().split(|byte| *byte == 0) {
             wire.push(
                 u8::try_from(block.len())
@@ -91,14 +91,14 @@ impl Wire {
         })
     }
 
-    /// What to send.
+    /// The bytes to send.
     pub fn as_bytes(&self) -> &[u8] {
         self.bytes.get(..self.len).unwrap_or_default()
     }
 }
 
 impl Default for Wire {
-    /// No frame: nothing to send.
+    /// An empty buffer: nothing to send.
     fn default() -> Self {
         Self {
             bytes: [0; MAX_WIRE],
@@ -107,100 +107,100 @@ impl Default for Wire {
     }
 }
 
-/// A frame that arrived whole.
+/// A frame that arrived intact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Frame<'a> {
-    /// Session and number.
+    /// Session and sequence number.
     pub header: Header,
     /// The encoded message, at most [`MAX_BODY`] bytes.
     pub body: &'a [u8],
 }
 
-/// Why what lay between two zeros is no frame.
+/// Why the bytes between two zeros are not a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum Reject {
-    /// More bytes than any frame has.
+    /// Longer than any frame.
     #[error("longer than any frame")]
     TooLong,
-    /// It ended within a block, or is shorter than header and CRC.
+    /// They end within a block, or are shorter than header and CRC.
     #[error("cut short")]
     Cut,
-    /// The bytes are not those that were sent.
+    /// Some bytes were changed.
     #[error("wrong CRC")]
     Checksum,
 }
 
-/// Takes bytes as they arrive and gives frames.
+/// Decodes frames from bytes as they arrive.
 ///
-/// It needs no more than its own memory, whatever arrives, and a zero byte always brings it back to
-/// the beginning of a frame.
+/// Its memory is fixed, whatever arrives, and a zero byte always brings it back to the beginning of
+/// a frame.
 #[derive(Debug, Clone)]
 pub struct Decoder {
     plain: Buffer<MAX_PLAIN>,
-    place: Place,
-    /// Bytes still to come in this block.
+    position: Position,
+    /// Bytes left in this block.
     left: u8,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Place {
+enum Position {
     /// After a zero.
     Start,
     /// Within a frame.
     Inside,
-    /// Within something too long to be one.
+    /// Within something longer than any frame.
     Overlong,
 }
 
 impl Decoder {
-    /// A decoder that has seen nothing.
+    /// A decoder at the beginning of a frame.
     pub const fn new() -> Self {
         Self {
             plain: Buffer::new(),
-            place: Place::Start,
+            position: Position::Start,
             left: 0,
         }
     }
 
-    /// Takes one byte. It gives something when the byte is the zero after a frame or after
-    /// something that is none; zeros in a row are nothing.
+    /// Takes one byte. The zero that ends a frame returns the frame or the reason to reject it;
+    /// additional zeros return nothing.
     pub fn push(&mut self, byte: u8) -> Option<Result<Frame<'_>, Reject>> {
         if byte == 0 {
             return self.end();
         }
-        match (self.place, self.left) {
-            (Place::Start, _) => {
+        match (self.position, self.left) {
+            (Position::Start, _) => {
                 self.plain.len = 0;
-                self.place = Place::Inside;
+                self.position = Position::Inside;
                 self.left = byte.saturating_sub(1);
             }
-            (Place::Inside, 0) => {
+            (Position::Inside, 0) => {
                 self.keep(0);
                 self.left = byte.saturating_sub(1);
             }
-            (Place::Inside, left) => {
+            (Position::Inside, left) => {
                 self.keep(byte);
                 self.left = left.saturating_sub(1);
             }
-            (Place::Overlong, _) => {}
+            (Position::Overlong, _) => {}
         }
         None
     }
 
     fn keep(&mut self, byte: u8) {
         if !self.plain.push(byte) {
-            self.place = Place::Overlong;
+            self.position = Position::Overlong;
         }
     }
 
     fn end(&mut self) -> Option<Result<Frame<'_>, Reject>> {
-        let place = core::mem::replace(&mut self.place, Place::Start);
+        let position = core::mem::replace(&mut self.position, Position::Start);
         let left = core::mem::take(&mut self.left);
-        match place {
-            Place::Start => None,
-            Place::Overlong => Some(Err(Reject::TooLong)),
-            Place::Inside if left > 0 => Some(Err(Reject::Cut)),
-            Place::Inside => Some(read(self.plain.as_bytes())),
+        match position {
+            Position::Start => None,
+            Position::Overlong => Some(Err(Reject::TooLong)),
+            Position::Inside if left > 0 => Some(Err(Reject::Cut)),
+            Position::Inside => Some(read(self.plain.as_bytes())),
         }
     }
 }
@@ -227,7 +227,7 @@ fn read(plain: &[u8]) -> Result<Frame<'_>, Reject> {
     })
 }
 
-/// Up to `N` bytes.
+/// A buffer of up to `N` bytes.
 #[derive(Debug, Clone)]
 struct Buffer<const N: usize> {
     bytes: [u8; N],
@@ -242,7 +242,7 @@ impl<const N: usize> Buffer<N> {
         }
     }
 
-    /// Whether there was room.
+    /// Appends a byte; `false` if the buffer is full.
     fn push(&mut self, byte: u8) -> bool {
         let Some(slot) = self.bytes.get_mut(self.len) else {
             return false;

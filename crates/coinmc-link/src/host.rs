@@ -1,50 +1,51 @@
-//! The host's side of the link: one request at a time, repeated until it is answered.
+//! The host's side of the link: one request at a time, repeated until the robot answers.
 
 use crate::frame::{Decoder, Header, Wire};
 use crate::message::{BadMessage, Greeting, Nak, PROTOCOL, Reply, Request, Version};
 use thiserror::Error;
 
-/// A request without an answer is repeated after this long, ms.
+/// A request without a reply is repeated after this time, ms.
 pub const REPLY_TIMEOUT_MS: u64 = 150;
-/// After this long without an answer the line is given up, ms.
+/// The connection counts as lost after this time without a reply, ms.
 pub const LOST_AFTER_MS: u64 = 3_000;
 
 /// The host's state machine.
 ///
-/// Open it whenever the port has been opened; then ask [`Host::poll`] what to do until it says
-/// [`Action::Wait`], and put in what arrives. A request is made after [`Action::Connected`] and
-/// answered by [`Action::Reply`]. After [`Action::Lost`] or [`Action::Refused`] it is closed.
+/// Open it whenever the port has been opened; then call [`Host::poll`] until it returns
+/// [`Action::Wait`], and pass it the bytes that arrive. A request can be made after
+/// [`Action::Connected`], and its reply is an [`Action::Reply`]. After [`Action::Lost`] or
+/// [`Action::Refused`] the host is closed.
 ///
-/// A request that is outstanding when the robot turns out to have been reset is dropped: the next
-/// event is [`Action::Connected`], and its greeting tells what to ask now. (Every request may be
-/// asked again: a throw by its id, the others because they set something absolutely.)
+/// If the robot turns out to have been reset, an outstanding request is dropped: the next action is
+/// [`Action::Connected`], and the caller decides from its greeting what to request. (Every request
+/// can be repeated safely: a throw has its id, and all others are idempotent.)
 ///
-/// Times are in ms from any origin and never go back.
+/// Times are in ms from any origin and never decrease.
 #[derive(Debug, Default)]
 pub struct Host {
     decoder: Decoder,
-    /// The frame last sent.
+    /// The last frame sent.
     wire: Wire,
     header: Option<Header>,
-    asking: Asking,
+    outstanding: Outstanding,
     since_ms: u64,
     due_ms: u64,
     boot: Option<u16>,
-    /// The robot answered that there is no session.
+    /// The robot replied that there is no session.
     interrupted: bool,
     event: Option<Event>,
     counters: Counters,
 }
 
-/// What is outstanding.
+/// The outstanding request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-enum Asking {
+enum Outstanding {
     /// The port is closed.
     #[default]
     Closed,
     Hello,
     Request,
-    /// Connected, and nothing is.
+    /// Connected, without an outstanding request.
     Nothing,
 }
 
@@ -60,57 +61,57 @@ enum Event {
 pub enum Action<'a> {
     /// Send these bytes, all of them.
     Transmit(&'a [u8]),
-    /// A session is open: requests may be made. Any request made before was dropped.
+    /// A session is open: requests can be made. Any earlier request was dropped.
     Connected {
-        /// What the robot said.
+        /// The robot's reply to Hello.
         greeting: Greeting,
         /// Whether it was reset since the last session.
         seen: Seen,
     },
-    /// The answer to the request.
+    /// The reply to the request.
     Reply(Reply),
-    /// The robot speaks another major version. Closed.
+    /// The robot has another major version. The host is closed.
     Refused {
         /// The robot's version.
         version: Version,
     },
-    /// No answer for [`LOST_AFTER_MS`]: close the port, wait, open it again. Closed; the
-    /// outstanding request, if any, may or may not have been carried out.
+    /// No reply for [`LOST_AFTER_MS`]: close the port, wait and open it again. The host is closed;
+    /// an outstanding request may or may not have been executed.
     Lost,
-    /// Nothing to do until something arrives, or until this time; `None`: until a request.
+    /// Nothing to do until bytes arrive or until this time; `None`: until the next request.
     Wait {
         /// When to poll again at the latest, ms.
         until_ms: Option<u64>,
     },
 }
 
-/// Whether the robot is the one of the last session, as its count of starts tells.
+/// Whether this is the robot of the last session, according to its count of starts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Seen {
     /// There was no session before.
     First,
-    /// It ran on since.
+    /// It was not reset.
     Same,
-    /// It was reset, or is another robot.
+    /// It was reset or is another robot.
     NewBoot,
-    /// It ran on, but had a session with another host: two programs use one robot.
+    /// It was not reset but had a session with another host: two programs use one robot.
     Taken,
 }
 
-/// What happened on the line so far.
+/// Statistics of the connection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counters {
-    /// Frames sent, repetitions included.
+    /// Frames sent, including repetitions.
     pub sent: u64,
     /// Repetitions.
     pub repeated: u64,
-    /// What arrived and was no frame.
+    /// Damaged frames received.
     pub rejected: u64,
-    /// Frames that answered nothing outstanding, or made no sense.
+    /// Frames received that were not the reply to the outstanding request, or not valid messages.
     pub ignored: u64,
 }
 
-/// Why a request cannot be made.
+/// Why a request cannot be sent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum RequestError {
     /// There is no session: wait for [`Action::Connected`].
@@ -130,8 +131,9 @@ impl Host {
         Self::default()
     }
 
-    /// The port has just been opened: says Hello. `session` tells this session from others, also
-    /// those of other programs: take it from the clock or from a random source (0 counts as 1).
+    /// Sends Hello; call it after opening the port. `session` distinguishes this session from
+    /// others, including those of other programs: take it from the clock or a random source (0
+    /// counts as 1).
     pub fn open(&mut self, session: u16, now_ms: u64) {
         self.decoder = Decoder::new();
         self.event = None;
@@ -139,33 +141,35 @@ impl Host {
         self.hello(session, now_ms);
     }
 
-    /// The port was closed.
+    /// Call it after closing the port.
     pub fn close(&mut self) {
         self.event = None;
-        self.asking = Asking::Closed;
+        self.outstanding = Outstanding::Closed;
     }
 
-    /// Makes a request.
+    /// Sends a request.
     ///
     /// # Errors
-    /// [`RequestError`]; nothing is sent then.
+    /// [`RequestError`]; nothing is sent.
     pub fn request(&mut self, request: &Request, now_ms: u64) -> Result<(), RequestError> {
         request.check()?;
-        match (self.asking, &self.event) {
-            (Asking::Nothing, None) => {}
-            (Asking::Closed | Asking::Hello, _) => return Err(RequestError::NotConnected),
-            (Asking::Request, _) | (_, Some(_)) => return Err(RequestError::Outstanding),
+        match (self.outstanding, &self.event) {
+            (Outstanding::Nothing, None) => {}
+            (Outstanding::Closed | Outstanding::Hello, _) => {
+                return Err(RequestError::NotConnected);
+            }
+            (Outstanding::Request, _) | (_, Some(_)) => return Err(RequestError::Outstanding),
         }
         let last = self.header.ok_or(RequestError::NotConnected)?;
         let header = Header {
             seq: last.seq.wrapping_add(1),
             ..last
         };
-        self.ask(Asking::Request, request, header, now_ms);
+        self.send(Outstanding::Request, request, header, now_ms);
         Ok(())
     }
 
-    /// Takes what arrived.
+    /// Takes bytes that arrived.
     pub fn receive(&mut self, bytes: &[u8], now_ms: u64) {
         for byte in bytes {
             let reply = match self.decoder.push(*byte) {
@@ -178,13 +182,13 @@ impl Host {
                 Some(Ok(_)) => Err(BadMessage::Malformed),
             };
             match reply {
-                Ok(reply) => self.answered(reply, now_ms),
+                Ok(reply) => self.take_reply(reply, now_ms),
                 Err(_) => count(&mut self.counters.ignored),
             }
         }
     }
 
-    /// What to do next. Call it until it says [`Action::Wait`].
+    /// What to do next. Call it until it returns [`Action::Wait`].
     pub fn poll(&mut self, now_ms: u64) -> Action<'_> {
         match self.event.take() {
             Some(Event::Connected { greeting, seen }) => {
@@ -194,12 +198,12 @@ impl Host {
             Some(Event::Refused { version }) => return Action::Refused { version },
             None => {}
         }
-        if matches!(self.asking, Asking::Closed | Asking::Nothing) {
+        if matches!(self.outstanding, Outstanding::Closed | Outstanding::Nothing) {
             return Action::Wait { until_ms: None };
         }
         let lost_ms = self.since_ms.saturating_add(LOST_AFTER_MS);
         if now_ms >= lost_ms {
-            self.asking = Asking::Closed;
+            self.outstanding = Outstanding::Closed;
             return Action::Lost;
         }
         if now_ms < self.due_ms {
@@ -214,12 +218,12 @@ impl Host {
         Action::Transmit(self.wire.as_bytes())
     }
 
-    /// Whether a request may be made now.
+    /// Whether a request can be sent now.
     pub fn is_ready(&self) -> bool {
-        self.asking == Asking::Nothing && self.event.is_none()
+        self.outstanding == Outstanding::Nothing && self.event.is_none()
     }
 
-    /// What happened on the line so far.
+    /// Statistics of the connection.
     pub fn counters(&self) -> Counters {
         self.counters
     }
@@ -234,37 +238,37 @@ impl Host {
             session,
             seq: self.header.map_or(0, |last| last.seq.wrapping_add(1)),
         };
-        self.ask(Asking::Hello, &hello, header, now_ms);
+        self.send(Outstanding::Hello, &hello, header, now_ms);
     }
 
-    fn ask(&mut self, asking: Asking, request: &Request, header: Header, now_ms: u64) {
-        // every request fits (tested); if one did not, nothing would be sent and the line lost
+    fn send(&mut self, outstanding: Outstanding, request: &Request, header: Header, now_ms: u64) {
+        // every request fits (tested); if one did not, nothing would be sent and the connection lost
         self.wire = request.to_wire(header).unwrap_or_default();
         self.header = Some(header);
-        self.asking = asking;
+        self.outstanding = outstanding;
         self.since_ms = now_ms;
         self.due_ms = now_ms;
     }
 
-    fn answered(&mut self, reply: Reply, now_ms: u64) {
-        match (self.asking, reply) {
-            (Asking::Hello, Reply::Hello(greeting)) => self.greeted(greeting),
-            (Asking::Request, Reply::Nak(Nak::NoSession)) => {
+    fn take_reply(&mut self, reply: Reply, now_ms: u64) {
+        match (self.outstanding, reply) {
+            (Outstanding::Hello, Reply::Hello(greeting)) => self.take_greeting(greeting),
+            (Outstanding::Request, Reply::Nak(Nak::NoSession)) => {
                 let session = self.header.map_or(0, |header| header.session);
                 self.interrupted = true;
                 self.hello(session.wrapping_add(1), now_ms);
             }
-            (Asking::Request, reply) => {
-                self.asking = Asking::Nothing;
+            (Outstanding::Request, reply) => {
+                self.outstanding = Outstanding::Nothing;
                 self.event = Some(Event::Reply(reply));
             }
             _ => count(&mut self.counters.ignored),
         }
     }
 
-    fn greeted(&mut self, greeting: Greeting) {
+    fn take_greeting(&mut self, greeting: Greeting) {
         if greeting.version.major != PROTOCOL.major {
-            self.asking = Asking::Closed;
+            self.outstanding = Outstanding::Closed;
             self.event = Some(Event::Refused {
                 version: greeting.version,
             });
@@ -278,7 +282,7 @@ impl Host {
         };
         self.interrupted = false;
         self.boot = Some(greeting.boot);
-        self.asking = Asking::Nothing;
+        self.outstanding = Outstanding::Nothing;
         self.event = Some(Event::Connected { greeting, seen });
     }
 }

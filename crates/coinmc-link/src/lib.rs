@@ -1,17 +1,17 @@
 #![doc = include_str!("../README.md")]
 //!
 //! # Contents
-//! The same code runs in the host program and in the robot's firmware. Nothing here reads a clock or
-//! a port: bytes and milliseconds are put in, bytes and events come out, so every behaviour can be
-//! tested, fuzzed and replayed. `docs/reference/robot-protocol.md` is the wire format for people who write
-//! firmware in another language.
+//! The same code runs in the host program and in the robot's firmware. It never reads a clock or a
+//! port: its input is bytes and milliseconds, its output bytes and events, so that every behaviour
+//! can be tested, fuzzed and replayed. `docs/reference/robot-protocol.md` describes the wire format
+//! for authors of firmware in other languages.
 //!
-//! * [`Wire`] and [`Decoder`]: one message a frame, COBS between zero bytes, CRC-32.
-//! * [`Request`] and [`Reply`]: what host and robot say.
-//! * [`Device`]: the robot's side, over a [`Hardware`] that turns motors and reads sensors.
-//! * [`Host`]: the other side: retransmission, handshake, loss of the line.
+//! * [`Wire`] and [`Decoder`]: frames of one message each, with COBS, zero bytes between and a CRC.
+//! * [`Request`] and [`Reply`]: the messages of host and robot.
+//! * [`Device`]: the robot's side, generic over a [`Hardware`] that drives motors and reads sensors.
+//! * [`Host`]: the host's side, with handshake, retransmission and detection of a lost connection.
 #![no_std]
-// A robot has nobody to restart it: nothing in this crate may panic, whatever arrives.
+// Nobody is there to restart a robot: nothing in this crate may panic, whatever arrives.
 #![cfg_attr(
     not(test),
     deny(

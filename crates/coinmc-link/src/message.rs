@@ -1,12 +1,12 @@
-//! Messages: what the host asks and what the robot answers.
+//! Messages: requests of the host and replies of the robot.
 //!
-//! Encoded with postcard (its wire format is stable and documented): the number of the variant,
+//! Encoded with postcard, whose wire format is stable and documented: the number of the variant,
 //! then the fields in order; integers wider than a byte as little-endian base-128 varints, signed
-//! ones zigzag-encoded first. Within a major version variants are only added, at the end, and no
-//! field ever changes; a robot sends nothing that the minor version of the host's Hello did not
-//! have. Frame, Hello and its reply stay for ever, so that two versions can always refuse each other.
+//! ones zigzag-encoded first. Within a major version, variants are only added at the end, and fields
+//! never change; a robot sends only messages known to the minor version in the host's Hello. The
+//! frame format, Hello and its reply never change, so that any two versions can reject each other.
 //!
-//! A body is accepted only if it is, byte for byte, what encoding its value gives.
+//! A body is accepted only if encoding its value gives exactly the same bytes.
 
 use crate::frame::{Header, MAX_BODY, TooLong, Wire};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
@@ -15,13 +15,13 @@ use thiserror::Error;
 /// A version of the protocol.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Version {
-    /// Differs: the two do not understand each other.
+    /// Versions with different majors are incompatible.
     pub major: u8,
-    /// Greater: knows more messages.
+    /// A version with a greater minor has more messages.
     pub minor: u8,
 }
 
-/// The version that this crate speaks.
+/// The version implemented by this crate.
 pub const PROTOCOL: Version = Version { major: 1, minor: 0 };
 
 /// Axes of [`Request::Home`], one bit each.
@@ -30,7 +30,7 @@ pub mod axis {
     pub const X: u8 = 1;
     /// The carriage, along y.
     pub const Y: u8 = 2;
-    /// The lift that carries the coin back up.
+    /// The lift that raises the coin again.
     pub const LIFT: u8 = 4;
     /// The spindle that gives the coin its spin.
     pub const SPINDLE: u8 = 8;
@@ -38,49 +38,49 @@ pub mod axis {
     pub const ALL: u8 = X | Y | LIFT | SPINDLE;
 }
 
-/// What a robot can do beyond throwing: bits of [`Info::capabilities`].
+/// Optional capabilities of a robot: bits of [`Info::capabilities`].
 pub mod capability {
-    /// It has a lamp: Light works.
+    /// It has a lamp and supports Light.
     pub const LIGHT: u32 = 1;
-    /// The carriage can be moved by hand: MoveCarriage works.
+    /// The host can move its carriage with MoveCarriage.
     pub const CARRIAGE: u32 = 2;
 }
 
-/// What the host asks for.
+/// Requests of the host.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Request {
     /// Opens a session. Allowed at any time; never answered from the reply cache.
     Hello {
         /// Version of the host.
         version: Version,
-        /// The new session: not 0, and the same as in the frame's header.
+        /// The new session: not 0 and the same as in the frame's header.
         session: u16,
     },
     /// Asks for [`Reply::Info`].
     Info,
     /// Asks for [`Reply::Status`].
     Status,
-    /// Motors off, at once. In the middle of a throw the robot goes to Fault.
+    /// Switches the motors off at once. During a throw the robot goes to Fault.
     Stop,
-    /// Finds the end stops of these axes. Idle only.
+    /// Moves these axes to their end stops. Idle only.
     Home {
         /// Bits of [`axis`], at least one.
         axes: u8,
     },
-    /// Throws the coin. An id that the robot already had is answered and not thrown again.
+    /// Throws the coin. An id that was accepted before is answered but not thrown again.
     Throw {
-        /// From 1 up; greater than any before, except to repeat the last.
+        /// At least 1 and greater than any before, except to repeat the last.
         throw_id: u32,
         /// Spin at release, 1/1000 rev/s, 0 to 5000.
         spin_mrev_s: u16,
         /// Angle at release, 1/100 degree, 0 to 18000.
         angle_cdeg: u16,
     },
-    /// Moves the carriage, from the home position. Idle only.
+    /// Moves the carriage to a position relative to home. Idle only.
     MoveCarriage {
-        /// Along x, µm, within ±2 m and the robot's own limit.
+        /// x coordinate, µm, within ±2 m and the robot's own limit.
         x_um: i32,
-        /// Along y, µm, within ±2 m and the robot's own limit.
+        /// y coordinate, µm, within ±2 m and the robot's own limit.
         y_um: i32,
     },
     /// Sets the lamp.
@@ -88,12 +88,12 @@ pub enum Request {
         /// Brightness, 1/1000 of full, 0 to 1000.
         permille: u16,
     },
-    /// The result of this throw is safe: lift the coin and return.
+    /// The result of this throw has been saved: lift the coin and return.
     Collect {
         /// The throw.
         throw_id: u32,
     },
-    /// Leaves Fault for Idle, if this is the fault.
+    /// Leaves Fault for Idle if the code is that of the present fault.
     ClearFault {
         /// The fault that the host saw.
         code: u16,
@@ -105,25 +105,25 @@ pub enum Request {
     },
 }
 
-/// What the robot answers: exactly one to every request that arrives whole.
-// Copied a few times a second; a box would need an allocator.
+/// Replies of the robot: exactly one to every request that arrives intact.
+// Copied a few times per second; a box would need an allocator.
 #[allow(clippy::large_enum_variant)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Reply {
-    /// To Hello. If the versions' majors differ, no session was opened.
+    /// Reply to Hello. If the major versions differ, no session was opened.
     Hello(Greeting),
-    /// To Info.
+    /// Reply to Info.
     Info(Info),
-    /// Done, or begun.
+    /// The request was executed or has begun.
     Ok {
         /// The last throw accepted.
         throw_id: u32,
         /// State after the request.
         state: State,
     },
-    /// Not done.
+    /// The request was rejected.
     Nak(Nak),
-    /// To Status.
+    /// Reply to Status.
     Status(Status),
 }
 
@@ -132,15 +132,15 @@ pub enum Reply {
 pub struct Greeting {
     /// Version of the robot.
     pub version: Version,
-    /// Counts the robot's starts: another number means that it was reset.
+    /// Number of the robot's starts: a different number means that it was reset.
     pub boot: u16,
-    /// The last throw accepted; 0: none ever.
+    /// The last throw accepted; 0 if there was none.
     pub throw_id: u32,
-    /// Where it is.
+    /// State.
     pub state: State,
 }
 
-/// What the robot is.
+/// Description of a robot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Info {
     /// Unique number of this robot.
@@ -149,7 +149,7 @@ pub struct Info {
     pub firmware: [u8; 3],
     /// Bits of [`capability`].
     pub capabilities: u32,
-    /// What it can reach.
+    /// Greatest values it accepts.
     pub limits: Limits,
 }
 
@@ -166,38 +166,38 @@ pub struct Limits {
     pub y_um: i32,
 }
 
-/// Why the robot did not do it.
+/// Why the robot rejected a request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, Error)]
 pub enum Nak {
-    /// It arrived whole, but means nothing to this robot.
+    /// It arrived intact, but this robot does not know the message.
     #[error("the robot does not know this message")]
     BadMessage,
     /// A number is out of range.
     #[error("a number is outside the robot's range")]
     BadRange,
-    /// Not in this state.
+    /// Not possible in the present state.
     #[error("not possible in the robot's present state")]
     WrongState,
-    /// Not this throw.
+    /// The id is not that of the present throw.
     #[error("the robot is at another throw")]
     WrongId,
-    /// The session is not open: the robot was reset, or another host came.
+    /// The session is not open: the robot was reset, or another host has opened one.
     #[error("the robot has no session with this host")]
     NoSession,
-    /// Not yet: it starts, or an axis is moving.
-    #[error("the robot is busy; ask again")]
+    /// Not yet possible: the robot is starting, or an axis is moving.
+    #[error("the robot is busy: try again")]
     Busy,
 }
 
-/// Where the robot is in its cycle: Boot → Idle → Aiming → Flying → Driving → `AtCoin` → Returning →
-/// Idle; from any to Fault.
+/// State of the robot in its cycle: Boot → Idle → Aiming → Flying → Driving → `AtCoin` → Returning →
+/// Idle; from any of them to Fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[repr(u8)]
 pub enum State {
     /// Starting.
     #[default]
     Boot = 0,
-    /// Ready for a throw.
+    /// Ready to throw.
     Idle = 1,
     /// Bringing the coin to its spin and angle.
     Aiming = 2,
@@ -205,11 +205,11 @@ pub enum State {
     Flying = 3,
     /// The carriage drives to the coin.
     Driving = 4,
-    /// The camera is above the coin: photograph, then Collect.
+    /// The camera is above the coin: the host photographs it, then sends Collect.
     AtCoin = 5,
     /// The coin is carried back.
     Returning = 6,
-    /// Motors off, until ClearFault.
+    /// Motors off until ClearFault.
     Fault = 7,
 }
 
@@ -245,56 +245,56 @@ impl State {
     }
 }
 
-/// Everything the robot knows.
+/// Complete status of the robot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Status {
-    /// Where it is.
+    /// State.
     pub state: State,
     /// The last throw accepted.
     pub throw_id: u32,
-    /// The coin of this throw was released (after a reset: may have been).
+    /// Whether the coin of this throw was released (after a reset: may have been released).
     pub released: bool,
-    /// Measured spin: at release once released, before it now. 1/1000 rev/s.
+    /// Measured spin, 1/1000 rev/s: present value before the release, then the value at release.
     pub meas_spin_mrev_s: u16,
-    /// Measured angle, likewise. 1/100 degree.
+    /// Measured angle, 1/100 degree, likewise.
     pub meas_angle_cdeg: u16,
-    /// Carriage along x, µm.
+    /// x coordinate of the carriage, µm.
     pub x_um: i32,
-    /// Carriage along y, µm.
+    /// y coordinate of the carriage, µm.
     pub y_um: i32,
     /// Time since the start, ms; wraps.
     pub t_ms: u32,
-    /// When the coin was released, likewise; 0 if it was not since the start.
+    /// Time of release since the start, ms; 0 if no coin was released since the start.
     pub t_release_ms: u32,
-    /// The fault, a code of [`fault`](crate::fault); 0: none.
+    /// The fault, a code of [`fault`](crate::fault); 0 if there is none.
     pub fault: u16,
-    /// Frames that did not arrive whole since the start.
+    /// Number of damaged frames received since the start.
     pub rx_bad: u16,
 }
 
-/// Why a body is no message.
+/// Why a body is not a valid message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum BadMessage {
-    /// No message of this version is encoded so.
+    /// It does not encode a message of this version.
     #[error("not a message of this version of the protocol")]
     Malformed,
-    /// It is one, but a number is out of range.
+    /// It encodes a message with a number out of range.
     #[error("a number is out of the protocol's range")]
     OutOfRange,
 }
 
 impl Request {
-    /// Reads a frame's body.
+    /// Decodes a frame's body.
     ///
     /// # Errors
-    /// [`BadMessage`] if it is no request, or one with a number out of range.
+    /// [`BadMessage`] if it is not a request or has a number out of range.
     pub fn decode(body: &[u8]) -> Result<Self, BadMessage> {
         let request: Self = decode(body)?;
         request.check()?;
         Ok(request)
     }
 
-    /// The frame that carries it.
+    /// The frame that carries this message.
     ///
     /// # Errors
     /// Never for a message of this version: all fit.
@@ -315,7 +315,7 @@ impl Request {
     /// ```
     pub fn check(&self) -> Result<(), BadMessage> {
         const REACH_UM: i32 = 2_000_000;
-        let fine = match *self {
+        let in_range = match *self {
             Self::Hello { session, .. } => session != 0,
             Self::Home { axes } => axes != 0 && axes & !axis::ALL == 0,
             Self::Throw {
@@ -335,7 +335,7 @@ impl Request {
             | Self::ClearFault { .. }
             | Self::SetCounter { .. } => true,
         };
-        if fine {
+        if in_range {
             Ok(())
         } else {
             Err(BadMessage::OutOfRange)
@@ -344,15 +344,15 @@ impl Request {
 }
 
 impl Reply {
-    /// Reads a frame's body.
+    /// Decodes a frame's body.
     ///
     /// # Errors
-    /// [`BadMessage::Malformed`] if it is no reply.
+    /// [`BadMessage::Malformed`] if it is not a reply.
     pub fn decode(body: &[u8]) -> Result<Self, BadMessage> {
         decode(body)
     }
 
-    /// The frame that carries it.
+    /// The frame that carries this message.
     ///
     /// # Errors
     /// Never for a message of this version: all fit.

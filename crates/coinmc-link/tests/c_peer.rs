@@ -1,5 +1,5 @@
-//! The firmware's state machine in C does what [`Device`] does: the same random scripts of bytes,
-//! times, sensor readings and resets, and the same motions, journal records and replies.
+//! The firmware's state machine in C behaves like [`Device`]: the same random scripts of bytes,
+//! times, sensor readings and resets give the same motions, journal records and replies.
 
 mod support;
 
@@ -33,7 +33,7 @@ fn the_firmware_in_c_behaves_like_this_crate() {
     let differing = ours.lines().zip(theirs.lines()).position(|(a, b)| a != b);
     assert_eq!(differing, None, "line of the log");
     assert_eq!(ours.lines().count(), theirs.lines().count());
-    // the scripts went everywhere
+    // the scripts have covered everything
     for motion in 0..6 {
         assert!(
             ours.contains(&format!("start {motion} ")),
@@ -72,7 +72,7 @@ fn run(program: &std::path::Path, script: &str) -> String {
     String::from_utf8(output.stdout).expect("text")
 }
 
-/// What [`Device`] does on the script, as peer.c prints it.
+/// Plays the script to a [`Device`] and logs what it does, in the format of peer.c.
 fn play(script: &str) -> String {
     let mut device: Option<Device<Logged>> = None;
     let mut hardware = Logged::default();
@@ -125,8 +125,8 @@ fn sensors(read: &[i64]) -> Sensors {
         settled: read[0] != 0,
         spin_mrev_s: u16::try_from(read[1]).expect("a spin"),
         angle_cdeg: u16::try_from(read[2]).expect("an angle"),
-        x_um: i32::try_from(read[3]).expect("a place"),
-        y_um: i32::try_from(read[4]).expect("a place"),
+        x_um: i32::try_from(read[3]).expect("a position"),
+        y_um: i32::try_from(read[4]).expect("a position"),
         failure: u8::try_from(read[5]).expect("a failure"),
     }
 }
@@ -195,7 +195,7 @@ impl Hardware for Logged {
     }
 }
 
-/// Writes scripts: mostly sense, some nonsense.
+/// Writes random scripts: mostly valid input, some invalid.
 struct Author {
     random: Random,
     now_ms: u32,
@@ -208,7 +208,7 @@ impl Author {
     fn new(seed: u64) -> Self {
         let mut random = Random(seed);
         Self {
-            // some scripts begin shortly before the clock wraps
+            // some scripts start shortly before the clock wraps
             now_ms: if random.chance(200) {
                 u32::MAX - 4000
             } else {
@@ -279,7 +279,7 @@ impl Author {
         }
     }
 
-    /// Arrives whole, and is rarely a request.
+    /// The body of an intact frame, rarely a valid request.
     fn odd_body(&mut self) -> Vec<u8> {
         self.header.seq = self.header.seq.wrapping_add(1);
         let mut body = vec![u8::try_from(self.random.below(12)).unwrap()];

@@ -1,7 +1,7 @@
-//! Whatever happens to bytes on the way, what is accepted is what was sent.
+//! Whatever happens to bytes in transit, only frames that were sent are accepted.
 //!
-//! A wrong frame passes its CRC once in 2^32: some 6000 cases with a wrong frame each make a false
-//! alarm once in 700,000 runs.
+//! A wrong frame passes its CRC once in 2^32: with some 6000 wrong frames per run, these tests fail
+//! by chance once in 700,000 runs.
 
 mod support;
 
@@ -12,9 +12,9 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use support::Bench;
 
-/// What one frame suffers.
+/// Damage to one frame.
 #[derive(Debug, Clone)]
-enum Harm {
+enum Damage {
     Flip { at: usize, bits: u8 },
     Drop { at: usize },
     Insert { at: usize, byte: u8 },
@@ -22,30 +22,30 @@ enum Harm {
     Truncate { at: usize },
 }
 
-fn harm() -> impl Strategy<Value = Harm> {
+fn damage() -> impl Strategy<Value = Damage> {
     let at = 0..MAX_WIRE;
     prop_oneof![
-        (at.clone(), 1..=u8::MAX).prop_map(|(at, bits)| Harm::Flip { at, bits }),
-        at.clone().prop_map(|at| Harm::Drop { at }),
-        (at.clone(), any::<u8>()).prop_map(|(at, byte)| Harm::Insert { at, byte }),
-        (at.clone(), 1..20_usize).prop_map(|(at, length)| Harm::Repeat { at, length }),
-        at.prop_map(|at| Harm::Truncate { at }),
+        (at.clone(), 1..=u8::MAX).prop_map(|(at, bits)| Damage::Flip { at, bits }),
+        at.clone().prop_map(|at| Damage::Drop { at }),
+        (at.clone(), any::<u8>()).prop_map(|(at, byte)| Damage::Insert { at, byte }),
+        (at.clone(), 1..20_usize).prop_map(|(at, length)| Damage::Repeat { at, length }),
+        at.prop_map(|at| Damage::Truncate { at }),
     ]
 }
 
-fn suffer(bytes: &mut Vec<u8>, harm: &Harm) {
+fn apply(bytes: &mut Vec<u8>, damage: &Damage) {
     let length = bytes.len().max(1);
-    match *harm {
+    match *damage {
         _ if bytes.is_empty() => {}
-        Harm::Flip { at, bits } => bytes[at % length] ^= bits,
-        Harm::Drop { at } => drop(bytes.remove(at % length)),
-        Harm::Insert { at, byte } => bytes.insert(at % length, byte),
-        Harm::Repeat { at, length: run } => {
+        Damage::Flip { at, bits } => bytes[at % length] ^= bits,
+        Damage::Drop { at } => drop(bytes.remove(at % length)),
+        Damage::Insert { at, byte } => bytes.insert(at % length, byte),
+        Damage::Repeat { at, length: run } => {
             let at = at % length;
             let run = bytes[at..length.min(at + run)].to_vec();
             bytes.splice(at..at, run);
         }
-        Harm::Truncate { at } => bytes.truncate(at % length),
+        Damage::Truncate { at } => bytes.truncate(at % length),
     }
 }
 
@@ -86,18 +86,18 @@ proptest! {
     }
 
     #[test]
-    fn harm_is_rejected_and_the_next_frame_is_whole(
-        sent in (header(), body()), next in (header(), body()), harms in vec(harm(), 1..4)
+    fn damage_is_rejected_and_the_next_frame_is_intact(
+        sent in (header(), body()), next in (header(), body()), harms in vec(damage(), 1..4)
     ) {
         let mut bytes = Wire::new(sent.0, &sent.1).unwrap().as_bytes().to_vec();
-        for harm in &harms {
-            suffer(&mut bytes, harm);
+        for damage in &harms {
+            apply(&mut bytes, damage);
         }
         let mut decoder = Decoder::new();
         for accepted in decode(&mut decoder, &bytes) {
             prop_assert_eq!(accepted, sent.clone());
         }
-        // the next frame begins with the zero that ends whatever came before
+        // the next frame begins with a zero, which ends whatever came before
         let wire = Wire::new(next.0, &next.1).unwrap();
         let accepted = decode(&mut decoder, wire.as_bytes());
         prop_assert_eq!(accepted.last(), Some(&next));
@@ -113,7 +113,7 @@ proptest! {
     }
 
     #[test]
-    fn a_body_is_one_message_or_none(body in vec(prop_oneof![0..12_u8, any::<u8>()], 0..=MAX_BODY)) {
+    fn a_body_decodes_to_at_most_one_message(body in vec(prop_oneof![0..12_u8, any::<u8>()], 0..=MAX_BODY)) {
         let header = Header { session: 1, seq: 1 };
         if let Ok(request) = Request::decode(&body) {
             let wire = request.to_wire(header).unwrap();
@@ -125,16 +125,16 @@ proptest! {
         }
     }
 
-    /// A line that echoes does not answer.
+    /// An echo is not taken for a reply.
     #[test]
-    fn no_request_reads_as_a_reply(body in vec(prop_oneof![0..12_u8, any::<u8>()], 0..16)) {
+    fn no_request_decodes_as_a_reply(body in vec(prop_oneof![0..12_u8, any::<u8>()], 0..16)) {
         if Request::decode(&body).is_ok() {
             prop_assert_eq!(Reply::decode(&body), Err(BadMessage::Malformed));
         }
     }
 
     #[test]
-    fn neither_side_minds_noise(bytes in vec(prop_oneof![Just(0), any::<u8>()], 0..600)) {
+    fn noise_panics_neither_side(bytes in vec(prop_oneof![Just(0), any::<u8>()], 0..600)) {
         let mut device = Device::boot(Bench::default(), 0);
         device.tick(1);
         for byte in &bytes {
@@ -149,9 +149,9 @@ proptest! {
     }
 }
 
-/// Every flip of one or two bits of a frame, one by one.
+/// Flips every single bit and every pair of bits of a frame.
 #[test]
-fn no_two_flipped_bits_escape() {
+fn one_or_two_flipped_bits_are_detected() {
     let header = Header {
         session: 0x00FF,
         seq: 7,

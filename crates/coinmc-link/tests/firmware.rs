@@ -1,9 +1,9 @@
-//! The firmware in a simulated microcontroller: an experiment over its pseudo-terminal, with spoiled
-//! bytes, resets and hosts that are killed. `scripts/firmware test` builds the firmware and runs
-//! this with:
+//! The firmware in a simulated microcontroller: an experiment over its pseudo-terminal, with damaged
+//! bytes, resets and killed hosts. `scripts/firmware test` builds the firmware and runs this test
+//! with:
 //!
 //! * `COINMC_SIMULATOR`: the command that starts the simulator. It prints the terminal's name
-//!   (`/dev/pts/…`) and obeys the line `system_reset` on its standard input.
+//!   (`/dev/pts/…`) and resets the board on the line `system_reset` on its standard input.
 //! * `COINMC_THROWS`, `COINMC_RESETS`, `COINMC_KILLS`: how many of each.
 #![cfg(target_os = "linux")]
 
@@ -36,17 +36,17 @@ fn an_experiment_on_a_simulated_microcontroller() {
         bench.campaign.count(End::Void),
     );
     assert_eq!(done + void, throws);
-    // a reset costs one throw at the most, and nothing else costs any
+    // a reset costs at most one throw, and nothing else costs any
     assert!(void <= resets, "{void} voids after {resets} resets");
     bench.round_trips.sort();
-    let of = |share: usize| bench.round_trips[bench.round_trips.len() * share / 100];
+    let percentile = |percent: usize| bench.round_trips[bench.round_trips.len() * percent / 100];
     println!(
         "{throws} throws in {:.1} s: {done} done, {void} void; {resets} resets, {kills} hosts \
-         killed, {} bytes spoiled; round trip {:.1} ms (median), {:.1} ms (95 %)",
+         killed, {} bytes damaged; round trip {:.1} ms (median), {:.1} ms (95 %)",
         bench.begun.elapsed().as_secs_f64(),
-        bench.noise.spoiled,
-        of(50).as_secs_f64() * 1e3,
-        of(95).as_secs_f64() * 1e3,
+        bench.noise.damaged,
+        percentile(50).as_secs_f64() * 1e3,
+        percentile(95).as_secs_f64() * 1e3,
     );
 }
 
@@ -85,7 +85,7 @@ impl Bench {
             noise: Noise {
                 random: Random(1),
                 per_mille: 10,
-                spoiled: 0,
+                damaged: 0,
             },
             campaign: Campaign::default(),
             begun: Instant::now(),
@@ -97,7 +97,7 @@ impl Bench {
         u64::try_from(self.begun.elapsed().as_millis()).expect("not so long")
     }
 
-    /// Resets and kills are spread over the throws.
+    /// Runs the throws, with resets and kills spread over them.
     fn run(&mut self, throws: usize, resets: usize, kills: usize) {
         let mut host = self.open(Host::new());
         let (mut reset, mut killed) = (0, 0);
@@ -130,7 +130,7 @@ impl Bench {
         host
     }
 
-    /// A request and its answer, or the beginning of a session.
+    /// One request and its reply, or the start of a session.
     fn step(&mut self, host: &mut Host) {
         if host.is_ready() {
             host.request(&Request::Status, self.now_ms()).unwrap();
@@ -170,7 +170,7 @@ impl Bench {
 struct Simulator(Child);
 
 impl Simulator {
-    /// The simulator and the name of its terminal.
+    /// Starts the simulator; also returns the name of its terminal.
     fn start(command: &str) -> (Self, String) {
         let mut words = command.split_whitespace();
         let mut child = Command::new(words.next().expect("a command"))
@@ -185,7 +185,7 @@ impl Simulator {
             let name = line.split_whitespace().find(|w| w.starts_with("/dev/"));
             name.map(str::to_owned)
         });
-        // what it says later must not fill its pipe
+        // keep reading, so that its pipe does not fill up
         std::thread::spawn(move || lines.map_while(Result::ok).for_each(drop));
         (Self(child), name.expect("the name of a terminal"))
     }
@@ -198,7 +198,7 @@ impl Simulator {
 
 impl Drop for Simulator {
     fn drop(&mut self) {
-        // the end of its input ends the one, the other needs more
+        // one simulator exits at the end of its input, the other must be killed
         drop(self.0.stdin.take());
         for _ in 0..20 {
             if self.0.try_wait().is_ok_and(|ended| ended.is_some()) {

@@ -1,5 +1,5 @@
-//! The wire format, pinned: every message as a frame, in docs/reference/robot-protocol/golden-frames.txt, as
-//! this crate writes and reads it and as the C header does.
+//! The wire format, pinned: docs/reference/robot-protocol/golden-frames.txt has every message as a
+//! frame, and this crate and the C header write and read exactly these frames.
 
 mod support;
 
@@ -21,7 +21,7 @@ fn golden_file() -> PathBuf {
 }
 
 #[test]
-fn the_golden_frames_are_what_this_crate_writes() {
+fn this_crate_writes_the_golden_frames() {
     let path = golden_file();
     let golden = std::fs::read_to_string(&path).unwrap_or_default();
     let golden: Vec<&str> = golden.lines().filter(|l| !l.starts_with('#')).collect();
@@ -218,7 +218,7 @@ const LONGEST: Status = Status {
     rx_bad: u16::MAX,
 };
 
-/// Frames that arrive whole and are no request.
+/// Bodies of intact frames that are not requests.
 fn bad_bodies() -> Vec<(&'static str, Vec<u8>, BadMessage)> {
     use BadMessage::{Malformed, OutOfRange};
     vec![
@@ -241,7 +241,7 @@ fn bad_bodies() -> Vec<(&'static str, Vec<u8>, BadMessage)> {
     ]
 }
 
-/// Bytes that hold no frame.
+/// Bytes that do not contain a frame.
 fn rejects() -> Vec<(&'static str, Vec<u8>)> {
     let good = Request::Status.to_wire(HEADER).unwrap();
     let good = good.as_bytes();

@@ -1,4 +1,4 @@
-//! The host's state machine on a line where every byte is known.
+//! The host's state machine, tested byte by byte.
 
 use coinmc_link::{
     Action, BadMessage, Decoder, Greeting, Header, Host, LOST_AFTER_MS, Nak, PROTOCOL,
@@ -65,7 +65,7 @@ fn a_request_is_repeated_until_it_is_answered() {
     assert_eq!(sent(&mut host, 1_150), first);
     answer(&mut host, first.0, DONE, 1_160);
     assert_eq!(host.poll(1_160), Action::Reply(DONE));
-    // the answer to the repetition comes late, and is not the next request's
+    // the reply to the repetition arrives late and is not taken for the next request's
     host.request(&Request::Status, 1_170).unwrap();
     let second = sent(&mut host, 1_170);
     assert_eq!(second.0.seq, first.0.seq.wrapping_add(1));
@@ -79,7 +79,7 @@ fn a_request_is_repeated_until_it_is_answered() {
 }
 
 #[test]
-fn a_silent_line_is_lost_and_opened_again() {
+fn a_silent_connection_is_lost_and_can_be_reopened() {
     let mut host = connected();
     host.request(&Request::Status, 0).unwrap();
     let mut sent = 0;
@@ -107,7 +107,7 @@ fn a_silent_line_is_lost_and_opened_again() {
 }
 
 #[test]
-fn a_reset_is_met_with_another_hello() {
+fn a_reset_is_followed_by_another_hello() {
     for (boot, expected) in [(4, Seen::NewBoot), (3, Seen::Taken)] {
         let mut host = connected();
         host.request(&Request::Status, 0).unwrap();
@@ -120,7 +120,7 @@ fn a_reset_is_met_with_another_hello() {
 }
 
 #[test]
-fn another_major_version_is_refused() {
+fn another_major_version_is_rejected() {
     let mut host = Host::new();
     host.open(9, 0);
     let (header, _) = sent(&mut host, 0);
@@ -135,7 +135,7 @@ fn another_major_version_is_refused() {
 }
 
 #[test]
-fn requests_out_of_turn_or_range_are_not_sent() {
+fn requests_out_of_order_or_range_are_not_sent() {
     let mut host = Host::new();
     assert_eq!(
         host.request(&Request::Stop, 0),

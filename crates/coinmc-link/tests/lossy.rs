@@ -1,5 +1,5 @@
-//! Host and device over a line that loses and spoils bytes, with resets, unpluggings and hosts that
-//! are killed: every throw is made at most once, and every one ends as done or void.
+//! Host and device over a connection that loses and damages bytes, with resets, unplugged cables and
+//! killed hosts: every throw is made at most once, and every throw ends as done or void.
 
 mod support;
 
@@ -9,7 +9,7 @@ use support::campaign::{Campaign, End, Noise};
 use support::{Bench, Random};
 
 const THROWS: usize = 25;
-/// Far more than any course takes.
+/// Far longer than any experiment here takes.
 const LIMIT_MS: u32 = 3_600_000;
 
 #[test]
@@ -31,7 +31,7 @@ fn every_throw_is_resolved_once() {
         }
         voids += world.campaign.count(End::Void);
     }
-    // resets cost throws, but not many
+    // resets cost some throws, but not many
     assert!((100..2_000).contains(&voids), "{voids} voids");
 }
 
@@ -41,7 +41,7 @@ fn noise_alone_costs_no_throw() {
         let mut world = World::new(seed, false);
         world.run();
         assert_eq!(world.campaign.count(End::Done), THROWS, "seed {seed}");
-        assert!(world.noise.spoiled > 0);
+        assert!(world.noise.damaged > 0);
     }
 }
 
@@ -49,13 +49,13 @@ struct World {
     now_ms: u32,
     device: Option<Device<Bench>>,
     host: Host,
-    /// The host looks again at this time.
+    /// Time of the host's next poll.
     rest_ms: u32,
     campaign: Campaign,
     to_device: VecDeque<u8>,
     to_host: VecDeque<u8>,
     noise: Noise,
-    /// Nothing passes before this time.
+    /// The cable is unplugged until this time.
     unplugged_until_ms: u32,
     calamities: bool,
 }
@@ -75,7 +75,7 @@ impl World {
             noise: Noise {
                 random: Random(seed),
                 per_mille: 10,
-                spoiled: 0,
+                damaged: 0,
             },
             unplugged_until_ms: 0,
             calamities,

@@ -1,4 +1,4 @@
-//! The six rules of the device (see `device/mod.rs`), one by one and all together.
+//! The six rules of the device (see `device/mod.rs`), each by itself and all at once.
 
 mod support;
 
@@ -8,29 +8,29 @@ use coinmc_link::{
 };
 use support::{Bench, Random};
 
-/// A device with its clock, and a host that never loses anything.
-struct Desk {
+/// A device, its clock, and a host on a perfect connection.
+struct TestBed {
     device: Device<Bench>,
     now_ms: u32,
     header: Header,
 }
 
-impl Desk {
+impl TestBed {
     fn new(bench: Bench) -> Self {
-        let mut desk = Self {
+        let mut bed = Self {
             device: Device::boot(bench, 0),
             now_ms: 0,
             header: Header { session: 7, seq: 0 },
         };
-        desk.pass(20);
-        desk
+        bed.pass(20);
+        bed
     }
 
-    /// A device that is idle and has greeted.
+    /// An idle device with an open session.
     fn ready() -> Self {
-        let mut desk = Self::new(Bench::default());
-        desk.hello(7);
-        desk
+        let mut bed = Self::new(Bench::default());
+        bed.hello(7);
+        bed
     }
 
     fn pass(&mut self, ms: u32) {
@@ -41,8 +41,8 @@ impl Desk {
         }
     }
 
-    /// Time passes, and the host keeps asking.
-    fn pass_asking(&mut self, ms: u32) {
+    /// Lets time pass while the host keeps requesting the status.
+    fn pass_with_requests(&mut self, ms: u32) {
         for _ in 0..ms.div_ceil(100) {
             self.status();
             self.pass(100);
@@ -67,43 +67,43 @@ impl Desk {
         reply
     }
 
-    /// The same frame as before, if `seq` is not advanced.
-    fn ask_again(&mut self, request: &Request) -> Option<Reply> {
+    /// Sends a request without advancing the sequence number.
+    fn repeat(&mut self, request: &Request) -> Option<Reply> {
         let wire = request.to_wire(self.header).unwrap();
         self.send(wire.as_bytes())
     }
 
-    fn ask(&mut self, request: &Request) -> Reply {
+    fn request(&mut self, request: &Request) -> Reply {
         self.header.seq = self.header.seq.wrapping_add(1);
-        self.ask_again(request).expect("a reply")
+        self.repeat(request).expect("a reply")
     }
 
     fn hello(&mut self, session: u16) -> Greeting {
         self.header.session = session;
         let version = PROTOCOL;
-        match self.ask(&Request::Hello { version, session }) {
+        match self.request(&Request::Hello { version, session }) {
             Reply::Hello(greeting) => greeting,
             other => panic!("{other:?}"),
         }
     }
 
     fn status(&mut self) -> Status {
-        match self.ask(&Request::Status) {
+        match self.request(&Request::Status) {
             Reply::Status(status) => status,
             other => panic!("{other:?}"),
         }
     }
 
     fn throw(&mut self, throw_id: u32) -> Reply {
-        self.ask(&throw(throw_id))
+        self.request(&throw(throw_id))
     }
 
-    /// From Idle to the state, by throw 1.
+    /// Brings the robot from Idle to the state, with throw 1.
     fn bring_to(&mut self, state: State) {
         assert_eq!(self.throw(1), ok(1, State::Aiming));
         if state == State::Returning {
             self.bring_on(State::AtCoin);
-            self.ask(&Request::Collect { throw_id: 1 });
+            self.request(&Request::Collect { throw_id: 1 });
         } else {
             self.bring_on(state);
         }
@@ -128,7 +128,7 @@ fn read(bytes: &[u8], header: Header) -> Reply {
     let mut decoder = Decoder::new();
     for byte in bytes {
         if let Some(frame) = decoder.push(*byte) {
-            let frame = frame.expect("a whole frame");
+            let frame = frame.expect("an intact frame");
             assert_eq!(frame.header, header);
             return Reply::decode(frame.body).expect("a reply");
         }
@@ -157,140 +157,146 @@ const CYCLE: [State; 5] = [
 ];
 
 #[test]
-fn a_throw_goes_its_way() {
-    let mut desk = Desk::ready();
-    desk.bring_to(State::AtCoin);
-    let status = desk.status();
+fn a_throw_passes_through_all_phases() {
+    let mut bed = TestBed::ready();
+    bed.bring_to(State::AtCoin);
+    let status = bed.status();
     assert!(status.released && status.t_release_ms > 0);
     assert_eq!(
         (status.meas_spin_mrev_s, status.meas_angle_cdeg),
         (3200, 9000)
     );
     assert_eq!(
-        desk.ask(&Request::Collect { throw_id: 1 }),
+        bed.request(&Request::Collect { throw_id: 1 }),
         ok(1, State::Returning)
     );
-    desk.bring_on(State::Idle);
-    assert_eq!(desk.releases(), [1]);
-    assert_eq!(desk.throw(2), ok(2, State::Aiming));
+    bed.bring_on(State::Idle);
+    assert_eq!(bed.releases(), [1]);
+    assert_eq!(bed.throw(2), ok(2, State::Aiming));
 }
 
 #[test]
-fn rule_1_a_repetition_is_answered_and_not_done() {
-    let mut desk = Desk::ready();
-    let reply = desk.throw(1);
-    desk.bring_on(State::Flying);
-    // still "Aiming": it is the old answer
-    assert_eq!(desk.ask_again(&throw(1)), Some(reply));
-    assert_eq!(desk.releases(), [1]);
+fn rule_1_a_repetition_is_answered_but_not_executed() {
+    let mut bed = TestBed::ready();
+    let reply = bed.throw(1);
+    bed.bring_on(State::Flying);
+    // still "Aiming": the cached reply
+    assert_eq!(bed.repeat(&throw(1)), Some(reply));
+    assert_eq!(bed.releases(), [1]);
 }
 
 #[test]
-fn rule_1_a_new_host_gets_no_stale_answer() {
-    let mut desk = Desk::ready();
-    desk.throw(1);
-    let seq = desk.header.seq;
-    // the new host's first number after Hello is by chance the old host's last, in any session
+fn rule_1_a_new_host_gets_no_stale_reply() {
+    let mut bed = TestBed::ready();
+    bed.throw(1);
+    let seq = bed.header.seq;
+    // the new host's first number after Hello happens to be the old host's last
     for session in [8, 7] {
-        desk.header.seq = seq.wrapping_sub(2);
-        desk.hello(session);
-        assert!(matches!(desk.ask(&Request::Status), Reply::Status(_)));
+        bed.header.seq = seq.wrapping_sub(2);
+        bed.hello(session);
+        assert!(matches!(bed.request(&Request::Status), Reply::Status(_)));
     }
 }
 
 #[test]
 fn rule_2_an_id_is_thrown_once() {
-    let mut desk = Desk::ready();
-    assert_eq!(desk.throw(5000), ok(5000, State::Aiming));
-    desk.bring_on(State::AtCoin);
-    desk.ask(&Request::Collect { throw_id: 5000 });
-    desk.bring_on(State::Idle);
-    assert_eq!(desk.throw(5000), ok(5000, State::Idle));
-    assert_eq!(desk.throw(4999), Reply::Nak(Nak::WrongId));
-    assert_eq!(desk.releases(), [5000]);
+    let mut bed = TestBed::ready();
+    assert_eq!(bed.throw(5000), ok(5000, State::Aiming));
+    bed.bring_on(State::AtCoin);
+    bed.request(&Request::Collect { throw_id: 5000 });
+    bed.bring_on(State::Idle);
+    assert_eq!(bed.throw(5000), ok(5000, State::Idle));
+    assert_eq!(bed.throw(4999), Reply::Nak(Nak::WrongId));
+    assert_eq!(bed.releases(), [5000]);
 }
 
 #[test]
-fn rule_3_a_reset_in_mid_cycle_ends_in_fault() {
+fn rule_3_a_reset_during_a_cycle_ends_in_fault() {
     for phase in CYCLE {
-        let mut desk = Desk::ready();
-        desk.bring_to(phase);
-        let released = desk.releases().len();
+        let mut bed = TestBed::ready();
+        bed.bring_to(phase);
+        let released = bed.releases().len();
         let code = fault::RESET + u16::from(phase.number());
-        // twice: the second start must find the same
+        // twice: the second start must find the same phase
         for boot in [2, 3] {
-            desk.reset();
-            let greeting = desk.hello(9);
+            bed.reset();
+            let greeting = bed.hello(9);
             assert_eq!((greeting.boot, greeting.throw_id), (boot, 1));
             assert_eq!(greeting.state, State::Fault);
-            let status = desk.status();
+            let status = bed.status();
             assert_eq!(
                 (status.fault, status.released),
                 (code, phase != State::Aiming)
             );
         }
-        assert_eq!(desk.throw(1), ok(1, State::Fault));
-        assert_eq!(desk.throw(2), Reply::Nak(Nak::WrongState));
+        assert_eq!(bed.throw(1), ok(1, State::Fault));
+        assert_eq!(bed.throw(2), Reply::Nak(Nak::WrongState));
         let wrong = Request::ClearFault { code: code + 1 };
-        assert_eq!(desk.ask(&wrong), Reply::Nak(Nak::WrongState));
-        assert_eq!(desk.ask(&Request::ClearFault { code }), ok(1, State::Idle));
-        assert_eq!(desk.releases().len(), released);
-        desk.reset();
-        assert_eq!(desk.hello(9).state, State::Idle);
+        assert_eq!(bed.request(&wrong), Reply::Nak(Nak::WrongState));
+        assert_eq!(
+            bed.request(&Request::ClearFault { code }),
+            ok(1, State::Idle)
+        );
+        assert_eq!(bed.releases().len(), released);
+        bed.reset();
+        assert_eq!(bed.hello(9).state, State::Idle);
     }
 }
 
 #[test]
 fn rule_3_nothing_is_released_without_a_journal() {
-    let mut desk = Desk::ready();
-    desk.throw(1);
-    desk.device.hardware_mut().store_works = false;
-    desk.pass(1_000);
-    let status = desk.status();
+    let mut bed = TestBed::ready();
+    bed.throw(1);
+    bed.device.hardware_mut().store_works = false;
+    bed.pass(1_000);
+    let status = bed.status();
     assert_eq!((status.state, status.fault), (State::Fault, fault::JOURNAL));
-    assert!(desk.releases().is_empty() && !desk.device.hardware().motors_on);
+    assert!(bed.releases().is_empty() && !bed.device.hardware().motors_on);
     // clearing needs the journal, too
     let code = fault::JOURNAL;
-    assert_eq!(desk.ask(&Request::ClearFault { code }), ok(1, State::Fault));
+    assert_eq!(
+        bed.request(&Request::ClearFault { code }),
+        ok(1, State::Fault)
+    );
 }
 
 #[test]
-fn rule_4_without_a_session_nothing_is_done() {
-    let mut desk = Desk::new(Bench::default());
-    desk.header.session = 0;
-    assert_eq!(desk.throw(1), Reply::Nak(Nak::NoSession));
-    desk.header.session = 7;
-    assert_eq!(desk.throw(1), Reply::Nak(Nak::NoSession));
-    desk.hello(7);
-    desk.header.session = 8;
-    assert_eq!(desk.throw(1), Reply::Nak(Nak::NoSession));
-    desk.header.session = 7;
-    desk.reset();
-    assert_eq!(desk.throw(1), Reply::Nak(Nak::NoSession));
-    assert_eq!(desk.device.hardware().stored.unwrap().throw_id, 0);
+fn rule_4_without_a_session_nothing_is_executed() {
+    let mut bed = TestBed::new(Bench::default());
+    bed.header.session = 0;
+    assert_eq!(bed.throw(1), Reply::Nak(Nak::NoSession));
+    bed.header.session = 7;
+    assert_eq!(bed.throw(1), Reply::Nak(Nak::NoSession));
+    bed.hello(7);
+    bed.header.session = 8;
+    assert_eq!(bed.throw(1), Reply::Nak(Nak::NoSession));
+    bed.header.session = 7;
+    bed.reset();
+    assert_eq!(bed.throw(1), Reply::Nak(Nak::NoSession));
+    assert_eq!(bed.device.hardware().stored.unwrap().throw_id, 0);
 }
 
 #[test]
 fn rule_4_another_major_version_gets_no_session() {
-    let mut desk = Desk::ready();
+    let mut bed = TestBed::ready();
     let version = Version { major: 2, minor: 0 };
-    desk.header.session = 9;
+    bed.header.session = 9;
     let session = 9;
-    let reply = desk.ask(&Request::Hello { version, session });
+    let reply = bed.request(&Request::Hello { version, session });
     assert!(matches!(reply, Reply::Hello(Greeting { version, .. }) if version == PROTOCOL));
-    assert_eq!(desk.throw(1), Reply::Nak(Nak::NoSession));
-    // and the session that was open stays so
-    desk.header.session = 7;
-    assert_eq!(desk.throw(1), ok(1, State::Aiming));
+    assert_eq!(bed.throw(1), Reply::Nak(Nak::NoSession));
+    // and the open session stays open
+    bed.header.session = 7;
+    assert_eq!(bed.throw(1), ok(1, State::Aiming));
 }
 
 #[test]
-fn rule_5_what_is_broken_gets_no_answer() {
-    let mut desk = Desk::ready();
-    let mut bytes = throw(1).to_wire(desk.header).unwrap().as_bytes().to_vec();
+fn rule_5_damaged_frames_get_no_reply() {
+    let mut bed = TestBed::ready();
+    let mut bytes = throw(1).to_wire(bed.header).unwrap().as_bytes().to_vec();
     bytes[4] ^= 0x40;
-    assert_eq!(desk.send(&bytes), None);
-    assert_eq!(desk.status().rx_bad, 1);
+    assert_eq!(bed.send(&bytes), None);
+    assert_eq!(bed.status().rx_bad, 1);
 }
 
 #[test]
@@ -307,94 +313,94 @@ fn rule_6_every_phase_has_a_limit() {
         (State::Returning, Some(Motion::Return), 5_000),
     ];
     for (phase, stuck, limit_ms) in phases {
-        let mut desk = Desk::ready();
-        desk.device.hardware_mut().stuck = stuck;
-        desk.bring_to(phase);
-        desk.pass_asking(limit_ms - 200);
-        assert_eq!(desk.device.state(), phase);
-        desk.pass_asking(300);
-        let status = desk.status();
+        let mut bed = TestBed::ready();
+        bed.device.hardware_mut().stuck = stuck;
+        bed.bring_to(phase);
+        bed.pass_with_requests(limit_ms - 200);
+        assert_eq!(bed.device.state(), phase);
+        bed.pass_with_requests(300);
+        let status = bed.status();
         assert_eq!(status.fault, fault::LIMIT + u16::from(phase.number()));
-        assert!(!desk.device.hardware().motors_on);
+        assert!(!bed.device.hardware().motors_on);
     }
 }
 
 #[test]
-fn rule_6_without_a_host_the_motors_go_off() {
+fn rule_6_without_a_host_the_motors_switch_off() {
     for phase in CYCLE {
-        let mut desk = Desk::ready();
-        desk.bring_to(phase);
-        // whatever had current: a holding brake at the coin, too
-        desk.device.hardware_mut().motors_on = true;
-        desk.pass(SILENCE_LIMIT_MS + 100);
-        assert!(!desk.device.hardware().motors_on, "{phase:?}");
+        let mut bed = TestBed::ready();
+        bed.bring_to(phase);
+        // any motor that had current, including a holding brake at the coin
+        bed.device.hardware_mut().motors_on = true;
+        bed.pass(SILENCE_LIMIT_MS + 100);
+        assert!(!bed.device.hardware().motors_on, "{phase:?}");
     }
-    let mut desk = Desk::ready();
-    desk.ask(&Request::Home { axes: 15 });
-    desk.pass(SILENCE_LIMIT_MS - 100);
-    assert!(desk.device.hardware().motors_on);
-    desk.pass(200);
-    assert!(!desk.device.hardware().motors_on);
-    assert_eq!(desk.device.state(), State::Idle);
+    let mut bed = TestBed::ready();
+    bed.request(&Request::Home { axes: 15 });
+    bed.pass(SILENCE_LIMIT_MS - 100);
+    assert!(bed.device.hardware().motors_on);
+    bed.pass(200);
+    assert!(!bed.device.hardware().motors_on);
+    assert_eq!(bed.device.state(), State::Idle);
 }
 
 #[test]
-fn at_the_coin_the_robot_waits_for_a_host_that_was_away() {
-    let mut desk = Desk::ready();
-    desk.bring_to(State::AtCoin);
-    desk.pass(AT_COIN_LIMIT_MS - 1_000);
-    assert_eq!(desk.hello(8).state, State::AtCoin);
+fn at_the_coin_the_robot_waits_for_an_absent_host() {
+    let mut bed = TestBed::ready();
+    bed.bring_to(State::AtCoin);
+    bed.pass(AT_COIN_LIMIT_MS - 1_000);
+    assert_eq!(bed.hello(8).state, State::AtCoin);
     assert_eq!(
-        desk.ask(&Request::Collect { throw_id: 1 }),
+        bed.request(&Request::Collect { throw_id: 1 }),
         ok(1, State::Returning)
     );
-    desk.bring_on(State::Idle);
+    bed.bring_on(State::Idle);
 }
 
 #[test]
-fn requests_out_of_place_are_refused() {
-    let mut desk = Desk::ready();
+fn requests_in_the_wrong_state_are_rejected() {
+    let mut bed = TestBed::ready();
     let collect = Request::Collect { throw_id: 1 };
-    assert_eq!(desk.ask(&collect), Reply::Nak(Nak::WrongId));
+    assert_eq!(bed.request(&collect), Reply::Nak(Nak::WrongId));
     let too_fast = Request::Throw {
         throw_id: 1,
         spin_mrev_s: 4501,
         angle_cdeg: 0,
     };
-    assert_eq!(desk.ask(&too_fast), Reply::Nak(Nak::BadRange));
+    assert_eq!(bed.request(&too_fast), Reply::Nak(Nak::BadRange));
     let too_far = Request::MoveCarriage {
         x_um: 0,
         y_um: -300_001,
     };
-    assert_eq!(desk.ask(&too_far), Reply::Nak(Nak::BadRange));
-    assert_eq!(desk.ask(&Request::Home { axes: 1 }), ok(0, State::Idle));
-    assert_eq!(desk.throw(1), Reply::Nak(Nak::Busy));
-    desk.pass(300);
-    desk.bring_to(State::Flying);
+    assert_eq!(bed.request(&too_far), Reply::Nak(Nak::BadRange));
+    assert_eq!(bed.request(&Request::Home { axes: 1 }), ok(0, State::Idle));
+    assert_eq!(bed.throw(1), Reply::Nak(Nak::Busy));
+    bed.pass(300);
+    bed.bring_to(State::Flying);
     assert_eq!(
-        desk.ask(&Request::Home { axes: 1 }),
+        bed.request(&Request::Home { axes: 1 }),
         Reply::Nak(Nak::WrongState)
     );
-    assert_eq!(desk.ask(&collect), Reply::Nak(Nak::WrongState));
+    assert_eq!(bed.request(&collect), Reply::Nak(Nak::WrongState));
     let counter = Request::SetCounter { throw_id: 0 };
-    assert_eq!(desk.ask(&counter), Reply::Nak(Nak::WrongState));
-    assert_eq!(desk.ask(&Request::Stop), ok(1, State::Fault));
-    assert_eq!(desk.status().fault, fault::STOPPED);
+    assert_eq!(bed.request(&counter), Reply::Nak(Nak::WrongState));
+    assert_eq!(bed.request(&Request::Stop), ok(1, State::Fault));
+    assert_eq!(bed.status().fault, fault::STOPPED);
 }
 
-/// Any course of requests, repetitions, breaks and resets.
+/// Random sequences of requests, repetitions, pauses and resets.
 #[test]
-fn no_course_of_events_breaks_a_rule() {
+fn no_sequence_of_events_breaks_a_rule() {
     for seed in 0..400 {
         let mut random = Random(seed);
-        let mut desk = Desk::ready();
+        let mut bed = TestBed::ready();
         let (mut id, mut heard_ms) = (0, 0);
         for _ in 0..400 {
-            let before = desk.device.hardware().clone();
-            let state = desk.device.state();
+            let before = bed.device.hardware().clone();
+            let state = bed.device.state();
             match random.below(20) {
                 0 => {
-                    desk.reset();
+                    bed.reset();
                     let phase = before
                         .stored
                         .map_or(State::Idle, |record: Record| record.phase);
@@ -404,45 +410,44 @@ fn no_course_of_events_breaks_a_rule() {
                         "{state:?} is not in the journal"
                     );
                     let expected = if caught { State::Fault } else { State::Idle };
-                    assert_eq!(desk.hello(7).state, expected);
-                    heard_ms = desk.now_ms;
+                    assert_eq!(bed.hello(7).state, expected);
+                    heard_ms = bed.now_ms;
                 }
-                1 => desk.pass(random.below(8_000)),
-                2..8 => desk.pass(random.below(250)),
+                1 => bed.pass(random.below(8_000)),
+                2..8 => bed.pass(random.below(250)),
                 _ => {
-                    let request = any_request(&mut random, &mut id, &mut desk);
-                    let reply = desk.ask(&request);
-                    let after = desk.device.hardware().releases.clone();
+                    let request = any_request(&mut random, &mut id, &mut bed);
+                    let reply = bed.request(&request);
+                    let after = bed.device.hardware().releases.clone();
                     if !matches!(request, Request::Hello { .. }) {
-                        assert_eq!(desk.ask_again(&request), Some(reply));
-                        assert_eq!(desk.releases(), after);
+                        assert_eq!(bed.repeat(&request), Some(reply));
+                        assert_eq!(bed.releases(), after);
                     }
                     if reply != Reply::Nak(Nak::NoSession) {
-                        heard_ms = desk.now_ms;
+                        heard_ms = bed.now_ms;
                     }
                 }
             }
-            let bench = desk.device.hardware();
+            let bench = bed.device.hardware();
             assert!(
                 bench.releases.is_sorted_by(|a, b| a < b),
                 "{:?}",
                 bench.releases
             );
-            if desk.now_ms - heard_ms > SILENCE_LIMIT_MS + 10 {
+            if bed.now_ms - heard_ms > SILENCE_LIMIT_MS + 10 {
                 assert!(!bench.motors_on);
             }
-            if bench.releases.len() > before.releases.len() && desk.device.state() == State::Flying
-            {
+            if bench.releases.len() > before.releases.len() && bed.device.state() == State::Flying {
                 assert_eq!(bench.stored.map(|record| record.phase), Some(State::Flying));
             }
         }
     }
 }
 
-fn any_request(random: &mut Random, id: &mut u32, desk: &mut Desk) -> Request {
+fn any_request(random: &mut Random, id: &mut u32, bed: &mut TestBed) -> Request {
     match random.below(12) {
         0 => {
-            desk.header.session = 7;
+            bed.header.session = 7;
             Request::Hello {
                 version: PROTOCOL,
                 session: 7,
@@ -457,7 +462,7 @@ fn any_request(random: &mut Random, id: &mut u32, desk: &mut Desk) -> Request {
         5 => throw(1 + id.saturating_sub(1)),
         6 | 7 => Request::Collect { throw_id: 1 + *id },
         8 | 9 => {
-            let code = desk.status_or_none().map_or(0, |status| status.fault);
+            let code = bed.status_or_none().map_or(0, |status| status.fault);
             Request::ClearFault { code }
         }
         10 => Request::Light { permille: 500 },
@@ -465,9 +470,9 @@ fn any_request(random: &mut Random, id: &mut u32, desk: &mut Desk) -> Request {
     }
 }
 
-impl Desk {
+impl TestBed {
     fn status_or_none(&mut self) -> Option<Status> {
-        match self.ask(&Request::Status) {
+        match self.request(&Request::Status) {
             Reply::Status(status) => Some(status),
             _ => None,
         }

@@ -1,10 +1,10 @@
-//! Messages on their way into a chunk.
+//! Chunks: messages and the definitions they need, written as one record.
 
 use crate::compression::Compression;
-use crate::wire::{Put, op, record};
+use crate::encode::{Put, op, record};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A message as the format has it.
+/// A message as MCAP stores it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RawMessage<'a> {
     pub(crate) channel: u16,
@@ -14,7 +14,7 @@ pub(crate) struct RawMessage<'a> {
     pub(crate) data: &'a [u8],
 }
 
-/// What a schema is.
+/// A schema as MCAP stores it, without its id.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub(crate) struct RawSchema {
     pub(crate) name: String,
@@ -22,10 +22,10 @@ pub(crate) struct RawSchema {
     pub(crate) data: Vec<u8>,
 }
 
-/// What a channel is.
+/// A channel as MCAP stores it, without its id.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub(crate) struct RawChannel {
-    /// 0 for none.
+    /// Id of its schema; 0 for none.
     pub(crate) schema: u16,
     pub(crate) topic: String,
     pub(crate) encoding: String,
@@ -55,20 +55,20 @@ impl RawChannel {
     }
 }
 
-/// A chunk being filled.
+/// A chunk that is being filled.
 #[derive(Debug, Default)]
 pub(crate) struct Chunk {
     records: Vec<u8>,
-    /// By channel: time and place of every message.
+    /// By channel: log time and offset of every message.
     index: BTreeMap<u16, Vec<(u64, u64)>>,
     schemas: BTreeSet<u16>,
     start: u64,
     end: u64,
 }
 
-/// Where a finished chunk's parts lie, counted from its first byte.
+/// Offsets and lengths of a finished chunk's parts, from its first byte.
 #[derive(Debug)]
-pub(crate) struct Layout {
+pub(crate) struct ChunkLayout {
     pub(crate) start: u64,
     pub(crate) end: u64,
     pub(crate) length: u64,
@@ -83,17 +83,17 @@ impl Chunk {
         self.records.is_empty()
     }
 
-    /// Bytes so far, uncompressed.
+    /// Number of uncompressed bytes so far.
     pub(crate) fn len(&self) -> usize {
         self.records.len()
     }
 
-    /// Whether the channel has been defined in this chunk.
-    pub(crate) fn knows(&self, channel: u16) -> bool {
+    /// Whether this chunk defines the channel.
+    pub(crate) fn defines(&self, channel: u16) -> bool {
         self.index.contains_key(&channel)
     }
 
-    /// Defines a channel here, so that the chunk can be read even if all others are lost.
+    /// Defines a channel in this chunk, so that it can be read even if all others are lost.
     pub(crate) fn define(&mut self, id: u16, channel: &RawChannel, schema: Option<&RawSchema>) {
         if let Some(schema) = schema
             && self.schemas.insert(channel.schema)
@@ -104,9 +104,9 @@ impl Chunk {
         self.index.insert(id, Vec::new());
     }
 
-    /// Adds a message of a channel that is defined here.
+    /// Adds a message on a channel that this chunk defines.
     pub(crate) fn push(&mut self, message: RawMessage<'_>) {
-        let place = self.records.len() as u64;
+        let offset = self.records.len() as u64;
         let first = self.index.values().all(Vec::is_empty);
         self.start = if first {
             message.log_time
@@ -117,7 +117,7 @@ impl Chunk {
         self.index
             .entry(message.channel)
             .or_default()
-            .push((message.log_time, place));
+            .push((message.log_time, offset));
         record(&mut self.records, op::MESSAGE, |bytes| {
             bytes.put_u16(message.channel);
             bytes.put_u32(message.sequence);
@@ -127,8 +127,8 @@ impl Chunk {
         });
     }
 
-    /// Appends the chunk and its message indexes to `bytes`, and is empty again.
-    pub(crate) fn finish(&mut self, compression: Compression, bytes: &mut Vec<u8>) -> Layout {
+    /// Appends the chunk and its message indexes to `bytes` and clears the chunk.
+    pub(crate) fn finish(&mut self, compression: Compression, bytes: &mut Vec<u8>) -> ChunkLayout {
         let base = bytes.len();
         let mut compressed = 0;
         record(bytes, op::CHUNK, |bytes| {
@@ -136,12 +136,12 @@ impl Chunk {
             bytes.put_u64(self.end);
             bytes.put_u64(self.records.len() as u64);
             bytes.put_u32(crc32fast::hash(&self.records));
-            bytes.put_str(compression.in_file());
-            let place = bytes.len();
+            bytes.put_str(compression.mcap_name());
+            let size_at = bytes.len();
             bytes.put_u64(0);
             compression.compress(&self.records, bytes);
-            compressed = (bytes.len() - place - 8) as u64;
-            bytes[place..place + 8].copy_from_slice(&compressed.to_le_bytes());
+            compressed = (bytes.len() - size_at - 8) as u64;
+            bytes[size_at..size_at + 8].copy_from_slice(&compressed.to_le_bytes());
         });
         let length = bytes.len() - base;
         let mut index_offsets = Vec::with_capacity(self.index.len());
@@ -149,14 +149,14 @@ impl Chunk {
             index_offsets.push((channel, (bytes.len() - base) as u64));
             record(bytes, op::MESSAGE_INDEX, |bytes| {
                 bytes.put_u16(channel);
-                bytes.put_u32(crate::wire::length(16 * entries.len()));
-                for &(time, place) in entries {
+                bytes.put_u32(crate::encode::length(16 * entries.len()));
+                for &(time, offset) in entries {
                     bytes.put_u64(time);
-                    bytes.put_u64(place);
+                    bytes.put_u64(offset);
                 }
             });
         }
-        let layout = Layout {
+        let layout = ChunkLayout {
             start: self.start,
             end: self.end,
             length: length as u64,
@@ -165,7 +165,7 @@ impl Chunk {
             compressed,
             uncompressed: self.records.len() as u64,
         };
-        // the buffer is kept
+        // clearing keeps the allocated buffer
         self.records.clear();
         self.index.clear();
         self.schemas.clear();

@@ -5,7 +5,7 @@ use std::fmt;
 use std::io::{Read, Write};
 use std::str::FromStr;
 
-/// How chunks are compressed.
+/// The compression of chunks.
 ///
 /// # Example
 /// ```
@@ -15,32 +15,32 @@ use std::str::FromStr;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Compression {
-    /// Not at all: any tool reads the messages.
+    /// Uncompressed: readable by any tool.
     #[default]
     None,
-    /// LZ4 frames, which every MCAP reader knows: JSON full of numbers shrinks to less than half.
+    /// LZ4 frames, which every MCAP reader supports: JSON full of numbers shrinks by more than half.
     Lz4,
 }
 
-/// A name that is no compression's.
+/// An unknown name of a compression.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("compression is `none` or `lz4`")]
 pub struct UnknownCompression;
 
 impl Compression {
-    /// The name in the file.
-    pub(crate) fn in_file(self) -> &'static str {
+    /// The name in MCAP files.
+    pub(crate) fn mcap_name(self) -> &'static str {
         match self {
             Self::None => "",
             Self::Lz4 => "lz4",
         }
     }
 
-    /// Of a name in a file.
-    pub(crate) fn of_file(name: &str) -> Option<Self> {
+    /// The compression of this name in an MCAP file.
+    pub(crate) fn from_mcap_name(name: &str) -> Option<Self> {
         [Self::None, Self::Lz4]
             .into_iter()
-            .find(|compression| compression.in_file() == name)
+            .find(|compression| compression.mcap_name() == name)
     }
 
     /// Appends `records`, compressed, to `out`.
@@ -52,23 +52,22 @@ impl Compression {
                     .block_mode(BlockMode::Linked)
                     .block_size(BlockSize::Max256KB);
                 let mut encoder = FrameEncoder::with_frame_info(frame, out);
-                // the only error is the sink's, and a vector takes all
+                // only writing to the sink can fail, and writing to a vector cannot
                 let _ = encoder.write_all(records);
                 let _ = encoder.finish();
             }
         }
     }
 
-    /// What `bytes` held before they were compressed, or as much of it as can be read: at most
-    /// `most` bytes.
-    pub(crate) fn expand(self, bytes: &[u8], most: usize) -> Vec<u8> {
+    /// Decompresses `bytes` as far as they are readable, to at most `limit` bytes.
+    pub(crate) fn decompress(self, bytes: &[u8], limit: usize) -> Vec<u8> {
         let mut records = Vec::new();
         match self {
-            Self::None => records.extend_from_slice(&bytes[..bytes.len().min(most)]),
+            Self::None => records.extend_from_slice(&bytes[..bytes.len().min(limit)]),
             Self::Lz4 => {
-                // what came before an error is kept; the chunk's checksum tells whether it is all
+                // keep what precedes an error; the chunk's checksum shows whether it is complete
                 let _ = FrameDecoder::new(bytes)
-                    .take(most as u64)
+                    .take(limit as u64)
                     .read_to_end(&mut records);
             }
         }
@@ -102,20 +101,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn both_ways_and_never_more_than_allowed() {
+    fn decompression_restores_the_bytes_and_respects_the_limit() {
         let records: Vec<u8> = (0..2_000_000_u32).map(|i| (i % 251) as u8).collect();
         for compression in [Compression::None, Compression::Lz4] {
             let mut packed = Vec::new();
             compression.compress(&records, &mut packed);
-            assert_eq!(compression.expand(&packed, records.len()), records);
-            assert_eq!(compression.expand(&packed, 1000), records[..1000]);
-            let half = compression.expand(&packed[..packed.len() / 2], records.len());
+            assert_eq!(compression.decompress(&packed, records.len()), records);
+            assert_eq!(compression.decompress(&packed, 1000), records[..1000]);
+            let half = compression.decompress(&packed[..packed.len() / 2], records.len());
             assert!(!half.is_empty() && records.starts_with(&half));
             assert_eq!(
-                Compression::of_file(compression.in_file()),
+                Compression::from_mcap_name(compression.mcap_name()),
                 Some(compression)
             );
         }
-        assert!(Compression::Lz4.expand(b"no frame at all", 100).is_empty());
+        assert!(Compression::Lz4.decompress(b"not a frame", 100).is_empty());
     }
 }

@@ -1,4 +1,4 @@
-//! Messages that MCAP viewers draw, by Foxglove's schemas (beside the sources, in `schemas/`).
+//! Messages that MCAP viewers draw, after Foxglove's schemas (in this crate's `schemas/`).
 //!
 //! Lengths are in metres, angles in radians, colours from 0 to 1.
 
@@ -9,12 +9,12 @@ use serde::Serialize;
 pub struct Time {
     /// Whole seconds.
     pub sec: u64,
-    /// Nanoseconds beyond them.
+    /// Nanoseconds after the whole second.
     pub nsec: u32,
 }
 
 impl Time {
-    /// So many nanoseconds from the beginning of time.
+    /// From nanoseconds since the epoch.
     ///
     /// # Example
     /// ```
@@ -32,7 +32,7 @@ impl Time {
     }
 }
 
-/// A vector, or a point.
+/// A vector or a point.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 #[allow(missing_docs)] // components
 pub struct Vector3 {
@@ -42,7 +42,7 @@ pub struct Vector3 {
 }
 
 impl Vector3 {
-    /// Of its components.
+    /// From its components.
     pub fn new(x: f64, y: f64, z: f64) -> Self {
         Self { x, y, z }
     }
@@ -68,17 +68,17 @@ impl Quaternion {
     };
 }
 
-/// A place and a rotation.
+/// A position and an orientation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Pose {
-    /// Where.
+    /// Position.
     pub position: Vector3,
-    /// How turned.
+    /// Orientation.
     pub orientation: Quaternion,
 }
 
 impl Pose {
-    /// There, not turned.
+    /// At a position, without rotation.
     pub fn at(position: Vector3) -> Self {
         Self {
             position,
@@ -98,61 +98,61 @@ pub struct Color {
 }
 
 impl Color {
-    /// Of red, green, blue and opacity, each from 0 to 1.
+    /// From red, green, blue and opacity, each from 0 to 1.
     pub fn new([r, g, b, a]: [f64; 4]) -> Self {
         Self { r, g, b, a }
     }
 }
 
-/// Where a frame of reference lies in another.
+/// Position and orientation of a frame of reference in another.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FrameTransform {
-    /// When.
+    /// Time.
     pub timestamp: Time,
-    /// The outer frame.
+    /// The parent frame.
     pub parent_frame_id: String,
-    /// The frame that lies in it.
+    /// The child frame.
     pub child_frame_id: String,
-    /// Its origin.
+    /// Origin of the child frame in the parent frame.
     pub translation: Vector3,
-    /// How it is turned.
+    /// Orientation of the child frame in the parent frame.
     pub rotation: Quaternion,
 }
 
-/// Things to be drawn, or drawn no more.
+/// Entities to add to or remove from the drawn scene.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct SceneUpdate {
-    /// Things to remove.
+    /// Entities to remove.
     pub deletions: Vec<SceneEntityDeletion>,
-    /// Things to add or replace.
+    /// Entities to add or replace.
     pub entities: Vec<SceneEntity>,
 }
 
-/// Which things to remove.
+/// Which entities to remove.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SceneEntityDeletion {
-    /// When; only what is older goes.
+    /// Time; only older entities are removed.
     pub timestamp: Time,
-    /// 0: the thing of this id; 1: all.
+    /// 0: the entity with this id; 1: all.
     pub r#type: u8,
-    /// Id of the thing.
+    /// Id of the entity.
     pub id: String,
 }
 
-/// A thing made of shapes in one frame.
+/// An object made of shapes in one frame.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SceneEntity {
-    /// Since when.
+    /// Time it appears.
     pub timestamp: Time,
-    /// Its frame of reference.
+    /// Frame of reference.
     pub frame_id: String,
-    /// Its name: a thing of the same name is replaced.
+    /// Id: an entity with the same id is replaced.
     pub id: String,
-    /// How long it stays; zero for ever.
+    /// How long it is shown; zero for ever.
     pub lifetime: Time,
     /// Whether it moves with its frame.
     pub frame_locked: bool,
-    /// Remarks.
+    /// Named values.
     pub metadata: Vec<KeyValuePair>,
     /// Cuboids.
     pub cubes: Vec<CubePrimitive>,
@@ -160,7 +160,7 @@ pub struct SceneEntity {
     pub spheres: Vec<SpherePrimitive>,
     /// Cylinders and cones.
     pub cylinders: Vec<CylinderPrimitive>,
-    /// Texts.
+    /// Text labels.
     pub texts: Vec<TextPrimitive>,
     arrows: [(); 0],
     lines: [(); 0],
@@ -169,7 +169,7 @@ pub struct SceneEntity {
 }
 
 impl SceneEntity {
-    /// A thing without shapes yet.
+    /// An entity without shapes.
     pub fn new(timestamp: Time, frame_id: &str, id: impl Into<String>) -> Self {
         Self {
             timestamp,
@@ -190,12 +190,12 @@ impl SceneEntity {
     }
 }
 
-/// A remark.
+/// A named value.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct KeyValuePair {
-    /// About what.
+    /// Name.
     pub key: String,
-    /// The remark.
+    /// Value.
     pub value: String,
 }
 
@@ -228,15 +228,15 @@ pub struct CylinderPrimitive {
     pub pose: Pose,
     /// Diameters along x and y, height along z.
     pub size: Vector3,
-    /// Diameter of the lower face over that given, 0 to 1.
+    /// Diameter of the lower face as a fraction of that in `size`, 0 to 1.
     pub bottom_scale: f64,
-    /// The same of the upper face.
+    /// The same for the upper face.
     pub top_scale: f64,
     /// Its colour.
     pub color: Color,
 }
 
-/// A text.
+/// A text label.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TextPrimitive {
     /// Its centre; +x is along the text.
@@ -245,17 +245,17 @@ pub struct TextPrimitive {
     pub billboard: bool,
     /// Height of its letters, m.
     pub font_size: f64,
-    /// Whether the height is one on the screen.
+    /// Whether the height is fixed on the screen.
     pub scale_invariant: bool,
     /// Its colour.
     pub color: Color,
-    /// What it says.
+    /// The text.
     pub text: String,
 }
 
-/// How much a [`Log`] message matters.
+/// Severity of a [`Log`] message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[allow(missing_docs)] // levels as every log has them
+#[allow(missing_docs)] // the usual levels
 pub enum LogLevel {
     Debug,
     Info,
@@ -276,31 +276,31 @@ impl Serialize for LogLevel {
     }
 }
 
-/// A line of a log.
+/// A log message.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Log {
-    /// When.
+    /// Time.
     pub timestamp: Time,
-    /// How much it matters.
+    /// Severity.
     pub level: LogLevel,
-    /// What it says.
+    /// Text.
     pub message: String,
-    /// Who says it.
+    /// Name of the program or part of it that logs.
     pub name: String,
     /// Source file; may be empty.
     pub file: String,
-    /// Its line; may be 0.
+    /// Line of the source file; may be 0.
     pub line: u32,
 }
 
-/// A picture in a file's format.
+/// An image in a compressed file format.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CompressedImage {
-    /// When it was taken.
+    /// Time it was taken.
     pub timestamp: Time,
     /// The camera's frame of reference.
     pub frame_id: String,
-    /// The file's bytes.
+    /// Bytes of the image file.
     pub data: Vec<u8>,
     /// `jpeg`, `png`, `webp` or `avif`.
     pub format: String,
@@ -318,7 +318,7 @@ impl Serialize for CompressedImage {
     }
 }
 
-/// Base64 (RFC 4648, with padding), as the schemas want bytes.
+/// Base64 (RFC 4648, with padding), in which the schemas expect bytes.
 fn base64(bytes: &[u8]) -> String {
     const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
@@ -342,7 +342,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn base64_is_that_of_the_rfc() {
+    fn base64_matches_the_test_vectors_of_rfc_4648() {
         for (plain, coded) in [
             ("", ""),
             ("f", "Zg=="),

@@ -1,31 +1,35 @@
 #![doc = include_str!("../README.md")]
 //!
 //! # Contents
-//! * [`Recorder`] writes. Messages are JSON, told by serde; chunks can be compressed by LZ4, in
-//!   Rust alone. What was flushed survives a crash.
-//! * [`recover()`] reads what can be read of a file that was cut off or damaged, and writes it anew.
-//! * [`foxglove`] has the messages that viewers draw.
-//! * [`NewFile`] is a file that is there as a whole or not at all.
+//! * [`Recorder`] writes. Messages are serialised to JSON by serde; chunks can be compressed with
+//!   LZ4, in pure Rust. Everything that was flushed survives a crash.
+//! * [`recover()`] copies what is readable in a truncated or damaged file to a new one.
+//! * [`foxglove`] holds the messages that viewers draw.
+//! * [`NewFile`] is a file that appears complete or not at all.
+//!
+//! The `mcap` crate reads these files in the tests but does not write them: it defines a channel
+//! only in the first chunk, so that losing this chunk loses the rest of the file; it has one
+//! compression per file, with a C library for LZ4; and its reader stops at the first damaged byte.
 
 mod chunk;
 mod compression;
+mod decode;
+mod encode;
 mod error;
-mod fields;
 pub mod foxglove;
-mod place;
+mod new_file;
 mod recorder;
 mod recover;
 mod schema;
 mod sink;
 mod summary;
-mod wire;
 mod writer;
 
 pub use compression::{Compression, UnknownCompression};
 pub use error::Error;
-pub use place::NewFile;
+pub use new_file::NewFile;
 pub use recorder::{Channel, Recorder};
 pub use recover::{Recovered, recover, salvage};
 pub use schema::Schema;
-pub use sink::{Passing, Sink};
+pub use sink::{Sink, Unsynced};
 pub use writer::{Attachment, Options};

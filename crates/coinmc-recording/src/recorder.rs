@@ -1,4 +1,4 @@
-//! Records messages that have a type.
+//! The typed recorder: serialises messages to JSON and writes them.
 
 use crate::chunk::{RawChannel, RawMessage, RawSchema};
 use crate::error::Error;
@@ -14,10 +14,9 @@ use std::path::{Path, PathBuf};
 
 /// Writes a recording.
 ///
-/// Messages wait in memory for their chunk (1 MiB) to be full; [`flush`](Self::flush) ends it at
-/// once, and what was written before survives whatever happens next. Every chunk can be read
-/// without the others. A recording that was never finished is read by
-/// [`recover`](crate::recover()).
+/// Messages are buffered until their chunk is full (1 MiB); [`flush`](Self::flush) ends the chunk
+/// early, and everything written before survives whatever happens next. Every chunk can be read
+/// without the others. [`recover`](crate::recover()) reads recordings that were never finished.
 ///
 /// # Example
 /// ```
@@ -46,12 +45,12 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub struct Recorder<S: Sink = BufWriter<File>> {
     writer: Writer<S>,
-    /// What errors call the sink.
+    /// Path of the sink, for errors.
     path: Option<PathBuf>,
     json: Vec<u8>,
 }
 
-/// A channel of messages of type `T`, of the recorder that gave it.
+/// A channel for messages of type `T`, valid for the recorder that created it.
 #[derive(Debug)]
 pub struct Channel<T> {
     id: u16,
@@ -62,11 +61,12 @@ impl Recorder {
     /// Begins a new file.
     ///
     /// # Errors
-    /// [`Error::Exists`] if there is one of that name, or the system's.
+    /// [`Error::Exists`] if a file of that name exists; system errors.
     pub fn create(path: &Path, options: &Options) -> Result<Self, Error> {
         let file = OpenOptions::new().write(true).create_new(true).open(path);
         let file = file.map_err(|error| Error::io("create", path, error))?;
-        let writer = Writer::new(BufWriter::new(file), options).map_err(|error| error.at(path))?;
+        let writer =
+            Writer::new(BufWriter::new(file), options).map_err(|error| error.with_path(path))?;
         Ok(Self {
             writer,
             path: Some(path.to_owned()),
@@ -79,7 +79,7 @@ impl<S: Sink> Recorder<S> {
     /// Records to any sink.
     ///
     /// # Errors
-    /// Those of the sink.
+    /// Errors of the sink.
     pub fn new(sink: S, options: &Options) -> Result<Self, Error> {
         Ok(Self {
             writer: Writer::new(sink, options)?,
@@ -88,7 +88,7 @@ impl<S: Sink> Recorder<S> {
         })
     }
 
-    /// A channel for messages of this type, in JSON. The same topic and schema are the same
+    /// Adds a channel for messages of this type, as JSON. The same topic and schema give the same
     /// channel.
     ///
     /// # Errors
@@ -115,13 +115,13 @@ impl<S: Sink> Recorder<S> {
         })
     }
 
-    /// Records a message at a time, ns. Times of a channel should not run backwards.
+    /// Records a message with its log time, ns. Times on a channel should not decrease.
     ///
     /// # Errors
-    /// [`Error::Message`] if it cannot be told as JSON; those of the sink.
+    /// [`Error::Message`] if the message cannot be serialised to JSON; errors of the sink.
     ///
     /// # Panics
-    /// If the channel is another recorder's.
+    /// If the channel belongs to another recorder.
     pub fn write<T: Serialize>(
         &mut self,
         channel: &Channel<T>,
@@ -133,7 +133,7 @@ impl<S: Sink> Recorder<S> {
             topic: self.writer.topic(channel.id).to_owned(),
             source,
         })?;
-        // the format counts in 32 bits, round and round
+        // sequence numbers of the format wrap at 32 bits
         #[allow(clippy::cast_possible_truncation)]
         let sequence = self.writer.count(channel.id) as u32;
         let written = self.writer.message(RawMessage {
@@ -143,57 +143,53 @@ impl<S: Sink> Recorder<S> {
             publish_time: time_ns,
             data: &self.json,
         });
-        self.named(written)
+        with_path(written, self.path.as_deref())
     }
 
-    /// Ends the chunk and brings everything to the disk: it survives from here on.
+    /// Ends the chunk and syncs everything so far to disk, so that it survives a crash.
     ///
     /// # Errors
-    /// Those of the sink.
+    /// Errors of the sink.
     pub fn flush(&mut self) -> Result<(), Error> {
         let flushed = self.writer.flush();
-        self.named(flushed)
+        with_path(flushed, self.path.as_deref())
     }
 
-    /// Adds names and values.
+    /// Adds a metadata record.
     ///
     /// # Errors
-    /// [`Error::TooLong`]; those of the sink.
+    /// [`Error::TooLong`]; errors of the sink.
     pub fn metadata(&mut self, name: &str, map: &BTreeMap<String, String>) -> Result<(), Error> {
         let written = self.writer.metadata(name, map);
-        self.named(written)
+        with_path(written, self.path.as_deref())
     }
 
-    /// Adds a piece of data that is no message.
+    /// Adds an attachment.
     ///
     /// # Errors
-    /// [`Error::TooLong`]; those of the sink.
+    /// [`Error::TooLong`]; errors of the sink.
     pub fn attachment(&mut self, attachment: &Attachment<'_>) -> Result<(), Error> {
         let written = self.writer.attachment(attachment);
-        self.named(written)
+        with_path(written, self.path.as_deref())
     }
 
-    /// Messages recorded so far.
+    /// Number of messages recorded so far.
     pub fn messages(&self) -> u64 {
         self.writer.messages()
     }
 
-    /// Writes the index that readers find their way by, and closes the recording.
+    /// Writes the index and closes the recording.
     ///
     /// # Errors
-    /// Those of the sink; what was flushed can be recovered.
+    /// Errors of the sink; everything flushed can still be recovered.
     pub fn finish(self) -> Result<S, Error> {
-        let path = self.path;
-        self.writer.finish().map_err(|error| match &path {
-            Some(path) => error.at(path),
-            None => error,
-        })
+        with_path(self.writer.finish(), self.path.as_deref())
     }
+}
 
-    fn named<T>(&self, result: Result<T, Error>) -> Result<T, Error> {
-        result.map_err(|error| match &self.path {
-            Some(path) => error.at(path),
-            None => error,
-        })
-    }
+fn with_path<T>(result: Result<T, Error>, path: Option<&Path>) -> Result<T, Error> {
+    result.map_err(|error| match path {
+        Some(path) => error.with_path(path),
+        None => error,
+    })
 }

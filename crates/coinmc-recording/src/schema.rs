@@ -1,8 +1,8 @@
-//! Schemas of messages.
+//! JSON schemas of messages.
 
 use std::borrow::Cow;
 
-/// What the messages of a channel look like: a name and a JSON Schema.
+/// A named JSON Schema that describes the messages of a channel.
 ///
 /// # Example
 /// ```
@@ -12,14 +12,14 @@ use std::borrow::Cow;
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Schema {
-    /// Its name; viewers know Foxglove's by theirs.
+    /// Name; viewers recognise Foxglove's schemas by it.
     pub name: Cow<'static, str>,
-    /// The JSON Schema's text.
+    /// Text of the JSON Schema.
     pub text: Cow<'static, str>,
 }
 
 impl Schema {
-    /// A schema of one's own.
+    /// A custom schema.
     pub fn new(name: impl Into<Cow<'static, str>>, text: impl Into<Cow<'static, str>>) -> Self {
         Self {
             name: name.into(),
@@ -34,22 +34,22 @@ impl Schema {
         }
     }
 
-    /// Of [`FrameTransform`](crate::foxglove::FrameTransform).
+    /// Schema of [`FrameTransform`](crate::foxglove::FrameTransform).
     pub const FRAME_TRANSFORM: Self = Self::foxglove(
         "foxglove.FrameTransform",
         include_str!("../schemas/FrameTransform.json"),
     );
 
-    /// Of [`SceneUpdate`](crate::foxglove::SceneUpdate).
+    /// Schema of [`SceneUpdate`](crate::foxglove::SceneUpdate).
     pub const SCENE_UPDATE: Self = Self::foxglove(
         "foxglove.SceneUpdate",
         include_str!("../schemas/SceneUpdate.json"),
     );
 
-    /// Of [`Log`](crate::foxglove::Log).
+    /// Schema of [`Log`](crate::foxglove::Log).
     pub const LOG: Self = Self::foxglove("foxglove.Log", include_str!("../schemas/Log.json"));
 
-    /// Of [`CompressedImage`](crate::foxglove::CompressedImage).
+    /// Schema of [`CompressedImage`](crate::foxglove::CompressedImage).
     pub const COMPRESSED_IMAGE: Self = Self::foxglove(
         "foxglove.CompressedImage",
         include_str!("../schemas/CompressedImage.json"),

@@ -1,15 +1,15 @@
-//! Where a recording goes.
+//! Output streams of recordings.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 
-/// A writer that can bring what it was given to a place that lasts.
+/// A writer that can make its data durable.
 pub trait Sink: Write {
-    /// Everything written so far survives a crash of the process and, where the system can, of the
-    /// machine.
+    /// Makes everything written so far survive a crash of the process and, where the system
+    /// supports it, a loss of power.
     ///
     /// # Errors
-    /// The system's.
+    /// System errors.
     fn sync(&mut self) -> io::Result<()>;
 }
 
@@ -26,12 +26,12 @@ impl<S: Sink> Sink for BufWriter<S> {
     }
 }
 
-/// A writer that nothing needs to last of before it is finished: memory, a file that is renamed
-/// into place.
+/// A writer whose data need not be durable before it is finished, such as memory or a file that is
+/// moved into place at the end: syncing only flushes it.
 #[derive(Debug)]
-pub struct Passing<W>(pub W);
+pub struct Unsynced<W>(pub W);
 
-impl<W: Write> Write for Passing<W> {
+impl<W: Write> Write for Unsynced<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.0.write(bytes)
     }
@@ -45,7 +45,7 @@ impl<W: Write> Write for Passing<W> {
     }
 }
 
-impl<W: Write> Sink for Passing<W> {
+impl<W: Write> Sink for Unsynced<W> {
     fn sync(&mut self) -> io::Result<()> {
         self.0.flush()
     }

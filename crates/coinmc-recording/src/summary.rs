@@ -1,21 +1,21 @@
-//! What the end of a file tells about the whole of it.
+//! The summary section: indexes and statistics at the end of a file.
 
-use crate::chunk::{Layout, RawChannel, RawSchema};
-use crate::wire::{MAGIC, Put, length, op, record};
+use crate::chunk::{ChunkLayout, RawChannel, RawSchema};
+use crate::encode::{MAGIC, Put, length, op, record};
 
-/// Places of everything written, for the summary section.
+/// Everything written so far, as the summary section lists it.
 #[derive(Debug, Default)]
 pub(crate) struct Summary {
-    chunks: Vec<(u64, Layout, &'static str)>,
-    attachments: Vec<AttachmentPlace>,
-    metadata: Vec<MetadataPlace>,
+    chunks: Vec<(u64, ChunkLayout, &'static str)>,
+    attachments: Vec<AttachmentIndex>,
+    metadata: Vec<MetadataIndex>,
     messages: u64,
     /// First and last log time.
     times: Option<(u64, u64)>,
 }
 
 #[derive(Debug)]
-pub(crate) struct AttachmentPlace {
+pub(crate) struct AttachmentIndex {
     pub(crate) offset: u64,
     pub(crate) length: u64,
     pub(crate) log_time: u64,
@@ -26,14 +26,14 @@ pub(crate) struct AttachmentPlace {
 }
 
 #[derive(Debug)]
-pub(crate) struct MetadataPlace {
+pub(crate) struct MetadataIndex {
     pub(crate) offset: u64,
     pub(crate) length: u64,
     pub(crate) name: String,
 }
 
-/// A channel and how many messages it has.
-pub(crate) struct Used<'a> {
+/// A channel that has messages, and how many.
+pub(crate) struct UsedChannel<'a> {
     pub(crate) id: u16,
     pub(crate) channel: &'a RawChannel,
     pub(crate) messages: u64,
@@ -46,32 +46,32 @@ impl Summary {
         self.times = Some((start.min(log_time), end.max(log_time)));
     }
 
-    pub(crate) fn chunk(&mut self, offset: u64, layout: Layout, compression: &'static str) {
+    pub(crate) fn chunk(&mut self, offset: u64, layout: ChunkLayout, compression: &'static str) {
         self.chunks.push((offset, layout, compression));
     }
 
-    pub(crate) fn attachment(&mut self, place: AttachmentPlace) {
-        self.attachments.push(place);
+    pub(crate) fn attachment(&mut self, index: AttachmentIndex) {
+        self.attachments.push(index);
     }
 
-    pub(crate) fn metadata(&mut self, place: MetadataPlace) {
-        self.metadata.push(place);
+    pub(crate) fn metadata(&mut self, index: MetadataIndex) {
+        self.metadata.push(index);
     }
 
-    /// The end of the file: summary, summary offsets, footer, magic. `start` is where it begins.
+    /// The end of the file from offset `start`: summary, summary offsets, footer and magic bytes.
     pub(crate) fn encode(
         &self,
         start: u64,
         schemas: &[(u16, &RawSchema)],
-        channels: &[Used<'_>],
+        channels: &[UsedChannel<'_>],
     ) -> Vec<u8> {
         let mut bytes = Vec::new();
         let mut groups = Vec::new();
-        let mut group = |bytes: &mut Vec<u8>, kind, fill: &mut dyn FnMut(&mut Vec<u8>)| {
+        let mut group = |bytes: &mut Vec<u8>, opcode, fill: &mut dyn FnMut(&mut Vec<u8>)| {
             let from = bytes.len();
             fill(bytes);
             if bytes.len() > from {
-                groups.push((kind, start + from as u64, (bytes.len() - from) as u64));
+                groups.push((opcode, start + from as u64, (bytes.len() - from) as u64));
             }
         };
         group(&mut bytes, op::SCHEMA, &mut |bytes| {
@@ -93,20 +93,20 @@ impl Summary {
                 .for_each(|(offset, layout, name)| put_chunk_index(bytes, *offset, layout, name));
         });
         group(&mut bytes, op::ATTACHMENT_INDEX, &mut |bytes| {
-            self.attachments.iter().for_each(|place| place.put(bytes));
+            self.attachments.iter().for_each(|index| index.put(bytes));
         });
         group(&mut bytes, op::METADATA_INDEX, &mut |bytes| {
-            self.metadata.iter().for_each(|place| place.put(bytes));
+            self.metadata.iter().for_each(|index| index.put(bytes));
         });
         let offsets = start + bytes.len() as u64;
-        for (kind, from, length) in groups {
+        for (opcode, from, length) in groups {
             record(&mut bytes, op::SUMMARY_OFFSET, |bytes| {
-                bytes.put_u8(kind);
+                bytes.put_u8(opcode);
                 bytes.put_u64(from);
                 bytes.put_u64(length);
             });
         }
-        // the checksum covers the footer as far as it goes before it
+        // the checksum covers the footer up to the checksum itself
         bytes.put_u8(op::FOOTER);
         bytes.put_u64(20);
         bytes.put_u64(start);
@@ -117,7 +117,7 @@ impl Summary {
         bytes
     }
 
-    fn put_statistics(&self, bytes: &mut Vec<u8>, schemas: usize, channels: &[Used<'_>]) {
+    fn put_statistics(&self, bytes: &mut Vec<u8>, schemas: usize, channels: &[UsedChannel<'_>]) {
         let (start, end) = self.times.unwrap_or_default();
         record(bytes, op::STATISTICS, |bytes| {
             bytes.put_u64(self.messages);
@@ -137,16 +137,16 @@ impl Summary {
     }
 }
 
-fn put_chunk_index(bytes: &mut Vec<u8>, offset: u64, layout: &Layout, compression: &str) {
+fn put_chunk_index(bytes: &mut Vec<u8>, offset: u64, layout: &ChunkLayout, compression: &str) {
     record(bytes, op::CHUNK_INDEX, |bytes| {
         bytes.put_u64(layout.start);
         bytes.put_u64(layout.end);
         bytes.put_u64(offset);
         bytes.put_u64(layout.length);
         bytes.put_u32(length(10 * layout.index_offsets.len()));
-        for &(channel, place) in &layout.index_offsets {
+        for &(channel, index_offset) in &layout.index_offsets {
             bytes.put_u16(channel);
-            bytes.put_u64(offset + place);
+            bytes.put_u64(offset + index_offset);
         }
         bytes.put_u64(layout.index_length);
         bytes.put_str(compression);
@@ -155,7 +155,7 @@ fn put_chunk_index(bytes: &mut Vec<u8>, offset: u64, layout: &Layout, compressio
     });
 }
 
-impl AttachmentPlace {
+impl AttachmentIndex {
     fn put(&self, bytes: &mut Vec<u8>) {
         record(bytes, op::ATTACHMENT_INDEX, |bytes| {
             bytes.put_u64(self.offset);
@@ -169,7 +169,7 @@ impl AttachmentPlace {
     }
 }
 
-impl MetadataPlace {
+impl MetadataIndex {
     fn put(&self, bytes: &mut Vec<u8>) {
         record(bytes, op::METADATA_INDEX, |bytes| {
             bytes.put_u64(self.offset);

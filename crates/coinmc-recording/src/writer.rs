@@ -1,50 +1,51 @@
-//! Writes records: everything below messages with a type.
+//! The untyped writer: schemas, channels, messages, metadata and attachments as MCAP records.
 
 use crate::chunk::{Chunk, RawChannel, RawMessage, RawSchema};
 use crate::compression::Compression;
+use crate::encode::{MAGIC, Put, op, record};
 use crate::error::Error;
 use crate::sink::Sink;
-use crate::summary::{AttachmentPlace, MetadataPlace, Summary, Used};
-use crate::wire::{MAGIC, Put, op, record};
+use crate::summary::{AttachmentIndex, MetadataIndex, Summary, UsedChannel};
 use std::collections::{BTreeMap, HashMap};
 use std::hash::Hash;
 use std::io;
 
-/// Longest record read back: what a damaged length can cost in memory. A chunk that is full but for
-/// a byte and takes up the longest message of a new channel is shorter.
+/// Longest record that is read back, which bounds what a damaged length can cost in memory. The
+/// longest chunk that is ever written is shorter: full but for one byte, plus the longest message
+/// with the definition of its channel.
 pub(crate) const MAX_RECORD: u64 = 256 << 20;
-/// Longest message, schema, channel, attachment or metadata.
+/// Longest message, schema, channel, attachment or metadata, bytes.
 const MAX_PIECE: u64 = 64 << 20;
-/// A chunk is ended when it holds this much, uncompressed.
+/// A chunk ends once it holds this many uncompressed bytes.
 const CHUNK: usize = 1 << 20;
 
-/// What a recording says of itself, and how it is packed.
+/// A recording's header and compression.
 #[derive(Debug, Clone, Default)]
 pub struct Options {
-    /// Of what kind the recording is, for readers that know the kind; may be empty.
+    /// The MCAP profile, a name for conventions that the recording follows; may be empty.
     pub profile: String,
-    /// The program that writes it, with its version.
+    /// The program that writes the recording, with its version.
     pub library: String,
-    /// Compression of its chunks.
+    /// Compression of the chunks.
     pub compression: Compression,
 }
 
-/// A piece of data that is no message: a config, a picture, a log.
+/// Data that is not a message, such as a config, an image or a log.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Attachment<'a> {
-    /// Its name, as a file's.
+    /// Name, like a file's.
     pub name: &'a str,
-    /// What it is, as `text/plain`.
+    /// Media type, such as `text/plain`.
     pub media_type: &'a str,
     /// When it was recorded, ns.
     pub log_time_ns: u64,
-    /// When it was made, ns; 0 if nobody knows.
+    /// When it was created, ns; 0 if unknown.
     pub create_time_ns: u64,
-    /// The piece itself.
+    /// The data.
     pub data: &'a [u8],
 }
 
-/// Values with ids: the same value is the same id.
+/// Values with ids; equal values share an id.
 #[derive(Debug)]
 struct Ids<T> {
     values: Vec<T>,
@@ -85,7 +86,7 @@ impl<T: Clone + Eq + Hash> Ids<T> {
     }
 }
 
-/// Writes an MCAP file to a sink, front to back.
+/// Writes an MCAP file sequentially to a sink.
 #[derive(Debug)]
 pub(crate) struct Writer<S> {
     out: S,
@@ -94,14 +95,14 @@ pub(crate) struct Writer<S> {
     compression: Compression,
     schemas: Ids<RawSchema>,
     channels: Ids<RawChannel>,
-    /// By channel.
+    /// Number of messages by channel.
     messages: Vec<u64>,
-    /// Bytes of schemas and channels.
+    /// Bytes of all schemas and channels.
     definitions: usize,
     chunk: Chunk,
     summary: Summary,
     scratch: Vec<u8>,
-    /// A write failed: what follows would not be readable.
+    /// A write failed, so that anything written after it would not be readable.
     broken: bool,
 }
 
@@ -121,7 +122,7 @@ impl<S: Sink> Writer<S> {
             scratch: Vec::new(),
             broken: false,
         };
-        fits("a name", options.profile.len() + options.library.len())?;
+        check_length("a name", options.profile.len() + options.library.len())?;
         writer.scratch.extend_from_slice(&MAGIC);
         record(&mut writer.scratch, op::HEADER, |bytes| {
             bytes.put_str(&options.profile);
@@ -131,17 +132,17 @@ impl<S: Sink> Writer<S> {
         Ok(writer)
     }
 
-    /// How the chunks that are not begun yet will be compressed.
+    /// Sets the compression of the current chunk and those after it.
     pub(crate) fn set_compression(&mut self, compression: Compression) {
         self.compression = compression;
     }
 
-    /// Number of messages of every kind.
+    /// Number of messages on all channels.
     pub(crate) fn messages(&self) -> u64 {
         self.messages.iter().sum()
     }
 
-    /// Number of channels with messages.
+    /// Number of channels that have messages.
     pub(crate) fn channels(&self) -> usize {
         self.messages.iter().filter(|&&n| n > 0).count()
     }
@@ -150,10 +151,10 @@ impl<S: Sink> Writer<S> {
         self.channels.get(channel).map_or("", |c| &c.topic)
     }
 
-    /// The id of a schema.
+    /// Adds a schema, unless it is known; its id.
     pub(crate) fn schema(&mut self, schema: RawSchema) -> Result<u16, Error> {
         let length = schema.name.len() + schema.encoding.len() + schema.data.len();
-        fits("a schema", length)?;
+        check_length("a schema", length)?;
         let known = self.schemas.values.len();
         let id = self.schemas.id(schema, "schemas")?;
         if self.schemas.values.len() > known {
@@ -162,10 +163,10 @@ impl<S: Sink> Writer<S> {
         Ok(id)
     }
 
-    /// The id of a channel.
+    /// Adds a channel, unless it is known; its id.
     pub(crate) fn channel(&mut self, channel: RawChannel) -> Result<u16, Error> {
         let length = channel.topic.len() + channel.encoding.len() + map_length(&channel.metadata);
-        fits("a channel", length)?;
+        check_length("a channel", length)?;
         let id = self.channels.id(channel, "channels")?;
         if self.channels.values.len() > self.messages.len() {
             self.messages.push(0);
@@ -174,17 +175,17 @@ impl<S: Sink> Writer<S> {
         Ok(id)
     }
 
-    /// Bytes of all schemas and channels, each counted once.
+    /// Bytes of all distinct schemas and channels.
     pub(crate) fn definitions(&self) -> usize {
         self.definitions
     }
 
-    /// Adds a message of a channel that [`channel`](Self::channel) has given.
+    /// Adds a message on a channel that was added by [`channel`](Self::channel).
     pub(crate) fn message(&mut self, message: RawMessage<'_>) -> Result<(), Error> {
-        self.must_be_whole()?;
-        fits("a message", message.data.len())?;
+        self.check_unbroken()?;
+        check_length("a message", message.data.len())?;
         let id = message.channel;
-        if !self.chunk.knows(id) {
+        if !self.chunk.defines(id) {
             let channel = self.channels.get(id).expect("ids come from `channel`");
             self.chunk
                 .define(id, channel, self.schemas.get(channel.schema));
@@ -198,7 +199,7 @@ impl<S: Sink> Writer<S> {
         Ok(())
     }
 
-    /// Messages of a channel so far.
+    /// Number of messages on a channel so far.
     pub(crate) fn count(&self, channel: u16) -> u64 {
         self.messages
             .get(usize::from(channel))
@@ -206,11 +207,11 @@ impl<S: Sink> Writer<S> {
             .unwrap_or(0)
     }
 
-    /// Ends the chunk and brings all to where it lasts.
+    /// Ends the chunk and makes everything so far durable.
     pub(crate) fn flush(&mut self) -> Result<(), Error> {
         self.end_chunk()?;
         let synced = self.out.sync();
-        self.noted(synced)
+        self.mark_if_broken(synced)
     }
 
     pub(crate) fn metadata(
@@ -218,25 +219,25 @@ impl<S: Sink> Writer<S> {
         name: &str,
         map: &BTreeMap<String, String>,
     ) -> Result<(), Error> {
-        fits("metadata", name.len() + map_length(map))?;
+        check_length("metadata", name.len() + map_length(map))?;
         self.end_chunk()?;
         let offset = self.position;
         record(&mut self.scratch, op::METADATA, |bytes| {
             bytes.put_str(name);
             bytes.put_map(map);
         });
-        let place = MetadataPlace {
+        let index = MetadataIndex {
             offset,
             length: self.emit()?,
             name: name.to_owned(),
         };
-        self.summary.metadata(place);
+        self.summary.metadata(index);
         Ok(())
     }
 
     pub(crate) fn attachment(&mut self, attachment: &Attachment<'_>) -> Result<(), Error> {
         let length = attachment.name.len() + attachment.media_type.len() + attachment.data.len();
-        fits("an attachment", length)?;
+        check_length("an attachment", length)?;
         self.end_chunk()?;
         let offset = self.position;
         record(&mut self.scratch, op::ATTACHMENT, |bytes| {
@@ -250,7 +251,7 @@ impl<S: Sink> Writer<S> {
             let crc = crc32fast::hash(&bytes[from..]);
             bytes.put_u32(crc);
         });
-        let place = AttachmentPlace {
+        let index = AttachmentIndex {
             offset,
             length: self.emit()?,
             log_time: attachment.log_time_ns,
@@ -259,22 +260,22 @@ impl<S: Sink> Writer<S> {
             name: attachment.name.to_owned(),
             media_type: attachment.media_type.to_owned(),
         };
-        self.summary.attachment(place);
+        self.summary.attachment(index);
         Ok(())
     }
 
-    /// Writes the end of the file and gives the sink back.
+    /// Writes the end of the file and returns the sink.
     pub(crate) fn finish(mut self) -> Result<S, Error> {
         self.end_chunk()?;
         let crc = self.crc.clone().finalize();
         record(&mut self.scratch, op::DATA_END, |bytes| bytes.put_u32(crc));
         self.emit()?;
-        let used: Vec<Used<'_>> = self
+        let used: Vec<UsedChannel<'_>> = self
             .channels
             .iter()
             .zip(&self.messages)
             .filter(|(_, messages)| **messages > 0)
-            .map(|((id, channel), &messages)| Used {
+            .map(|((id, channel), &messages)| UsedChannel {
                 id,
                 channel,
                 messages,
@@ -289,7 +290,7 @@ impl<S: Sink> Writer<S> {
     }
 
     fn end_chunk(&mut self) -> Result<(), Error> {
-        self.must_be_whole()?;
+        self.check_unbroken()?;
         if self.chunk.is_empty() {
             return Ok(());
         }
@@ -297,22 +298,22 @@ impl<S: Sink> Writer<S> {
         let layout = self.chunk.finish(self.compression, &mut self.scratch);
         self.emit()?;
         self.summary
-            .chunk(offset, layout, self.compression.in_file());
+            .chunk(offset, layout, self.compression.mcap_name());
         Ok(())
     }
 
-    /// Writes what has been gathered; how long it was.
+    /// Writes the scratch buffer; its length.
     fn emit(&mut self) -> Result<u64, Error> {
         let length = self.scratch.len() as u64;
         self.crc.update(&self.scratch);
         let written = self.out.write_all(&self.scratch);
         self.scratch.clear();
-        self.noted(written)?;
+        self.mark_if_broken(written)?;
         self.position += length;
         Ok(length)
     }
 
-    fn must_be_whole(&self) -> Result<(), Error> {
+    fn check_unbroken(&self) -> Result<(), Error> {
         if self.broken {
             Err(Error::Broken)
         } else {
@@ -320,7 +321,7 @@ impl<S: Sink> Writer<S> {
         }
     }
 
-    fn noted(&mut self, written: io::Result<()>) -> Result<(), Error> {
+    fn mark_if_broken(&mut self, written: io::Result<()>) -> Result<(), Error> {
         self.broken |= written.is_err();
         written.map_err(Error::Stream)
     }
@@ -330,12 +331,12 @@ fn map_length(map: &BTreeMap<String, String>) -> usize {
     map.iter().map(|(k, v)| 8 + k.len() + v.len()).sum()
 }
 
-/// Lengths are written in 32 bits; and what is written here must be read back there.
-fn fits(what: &'static str, length: usize) -> Result<(), Error> {
+/// Rejects what does not fit a 32-bit length or could not be read back by [`crate::recover()`].
+fn check_length(what: &'static str, length: usize) -> Result<(), Error> {
     if length as u64 > MAX_PIECE {
         return Err(Error::TooLong {
             what,
-            most: MAX_PIECE,
+            limit: MAX_PIECE,
         });
     }
     Ok(())

@@ -1,14 +1,14 @@
 /* A simulated ATmega328P board whose serial line is a pseudo-terminal: a test tool.
  *
- * It links libsimavr, which is under the GNU GPL 3: so is the program that comes out of compiling
- * this file. It is built for tests on the machine at hand and never distributed.
+ * It links libsimavr, which is under the GNU GPL 3, and so is the compiled program. It is built for
+ * tests on the local machine and never distributed.
  *
  *   board FIRMWARE.elf SPEED
  *
- * Prints "pty NAME", then obeys its standard input: `system_reset` resets the board (as it does in
- * QEMU's monitor), the end of input ends the program.
- * SPEED is simulated time over real time. At the end it says how long the firmware
- * took for a byte at the most, by the pins that it sets meanwhile. */
+ * Prints "pty NAME", then reads commands from standard input: `system_reset` resets the board (as in
+ * QEMU's monitor); the end of input ends the program. SPEED is simulated time over real time. At the
+ * end it prints the longest time that the firmware took for a byte, measured by the pins that the
+ * firmware sets meanwhile. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>
@@ -31,7 +31,7 @@
 static avr_t *avr;
 static int pty;
 static avr_irq_t *uart_input;
-static bool ready; /* the UART takes another byte */
+static bool ready; /* the UART accepts another byte */
 
 /* Cycles for which a pin was high. */
 typedef struct {
@@ -69,7 +69,7 @@ static void on_output(struct avr_irq_t *irq, uint32_t value, void *parameter)
     (void)irq;
     (void)parameter;
     uint8_t byte = (uint8_t)value;
-    /* nobody at the other end: like a cable that is not plugged in */
+    /* nobody at the other end: like an unplugged cable */
     if (write(pty, &byte, 1) < 0 && errno != EAGAIN && errno != EIO)
         perror("pty");
 }
@@ -100,7 +100,7 @@ static void open_pty(void)
     }
     cfmakeraw(&raw);
     tcsetattr(pty, TCSANOW, &raw);
-    /* held open here, so that it outlives its users */
+    /* kept open here, so that it outlives its users */
     if (open(ptsname(pty), O_RDWR | O_NOCTTY) < 0)
         perror("pty");
     printf("pty %s\n", ptsname(pty));
@@ -119,7 +119,7 @@ static void begin(const char *path)
         exit(1);
     avr_init(avr);
     avr_load_firmware(avr, &firmware);
-    /* no printing of what the UART sends, no sleeping of its own: both are done here */
+    /* simavr must neither print the UART's output nor sleep: both are done here */
     uint32_t flags = 0;
     avr_ioctl(avr, AVR_IOCTL_UART_SET_FLAGS('0'), &flags);
     uart_input = avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_INPUT);
@@ -139,8 +139,8 @@ static void no_sleep(avr_t *this_avr, avr_cycle_count_t cycles)
     (void)cycles;
 }
 
-/* Whether to go on. */
-static bool obey(void)
+/* Executes a command, if there is one; false at the end of input. */
+static bool execute_command(void)
 {
     struct pollfd input = {STDIN_FILENO, POLLIN, 0};
     char line[64];
@@ -155,7 +155,7 @@ static bool obey(void)
     return length > 0;
 }
 
-/* Simulated milliseconds begin at these real times. */
+/* Waits until the real time at which the next simulated millisecond is due. */
 static void keep_pace(double *due, double speed)
 {
     struct timespec now;
@@ -163,7 +163,7 @@ static void keep_pace(double *due, double speed)
     double seconds = (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
     *due += 0.001 / speed;
     if (*due < seconds - 0.1)
-        *due = seconds; /* too slow for this speed: no catching up */
+        *due = seconds; /* too slow for this speed: do not try to catch up */
     if (*due > seconds)
         usleep((useconds_t)((*due - seconds) * 1e6));
 }
@@ -179,7 +179,7 @@ int main(int count, char **arguments)
     avr->sleep = no_sleep;
     open_pty();
     ready = true;
-    while (obey()) {
+    while (execute_command()) {
         avr_cycle_count_t until = avr->cycle + HERTZ / 1000;
         while (avr->cycle < until) {
             uint8_t byte;
@@ -194,7 +194,7 @@ int main(int count, char **arguments)
         }
         keep_pace(&due, speed);
     }
-    fprintf(stderr, "longest: %llu cycles on a byte, %llu without the journal, %llu for a record\n",
+    fprintf(stderr, "longest: %llu cycles for a byte, %llu without the journal, %llu for a record\n",
             (unsigned long long)handling.longest, (unsigned long long)longest_without_journal,
             (unsigned long long)storing.longest);
     _exit(0);

@@ -1,4 +1,4 @@
-//! Milliseconds since the start, by the SysTick timer.
+//! Milliseconds since the start, counted by the SysTick timer.
 
 use core::sync::atomic::{AtomicU32, Ordering};
 use cortex_m::peripheral::{SYST, syst::SystClkSource};
@@ -25,7 +25,7 @@ impl Clock {
     }
 
     /// Milliseconds since the start; wraps.
-    #[allow(clippy::unused_self)] // who has one has started it
+    #[allow(clippy::unused_self)] // having a clock proves that it was started
     pub fn now_ms(self) -> u32 {
         ELAPSED_MS.load(Ordering::Relaxed)
     }

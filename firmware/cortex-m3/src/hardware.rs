@@ -1,5 +1,5 @@
-//! REPLACE THIS FILE for a real robot: pins, motors and sensors instead of a plant that only takes
-//! time, and less than a robot would. The contract is that of [`Hardware`].
+//! REPLACE THIS FILE for a real robot. Instead of driving pins, motors and sensors, this stand-in
+//! only takes time, and less than a robot would. The contract is that of [`Hardware`].
 
 use crate::clock::Clock;
 use crate::journal;
@@ -8,7 +8,7 @@ use coinmc_link::{Hardware, Info, Limits, Motion, Record, Sensors, capability};
 /// The stand-in.
 pub struct Robot {
     clock: Clock,
-    /// The motion begun last, and when it is done; none while the motors are off.
+    /// The last motion and when it will be complete; none while the motors are off.
     moving: Option<(Motion, u32)>,
     aim: (u16, u16),
     x_um: i32,
@@ -31,7 +31,7 @@ impl Robot {
         (self.x_um, self.y_um) = match motion {
             Motion::MoveCarriage { x_um, y_um } => (x_um, y_um),
             Motion::DriveToCoin => {
-                // the coin came to rest somewhere
+                // the coin has come to rest somewhere
                 let [x, y, ..] = now_ms.to_le_bytes();
                 (i32::from(x) * 1000, i32::from(y) * 1000)
             }
@@ -41,7 +41,7 @@ impl Robot {
     }
 }
 
-/// How long a motion takes here, ms.
+/// Duration of a motion, ms.
 fn duration_ms(motion: Motion) -> u32 {
     match motion {
         Motion::Aim { .. } => 80,

@@ -1,8 +1,8 @@
-//! The journal, in memory that a reset leaves alone.
+//! The journal, in memory that survives a reset.
 //!
-//! REPLACE THIS FILE for a real robot by EEPROM, FRAM or a log in flash: this one stands for it in
-//! the simulator, where a reset is all that can happen. Two records take turns, so that one always
-//! is whole.
+//! REPLACE THIS FILE for a real robot with EEPROM, FRAM or a log in flash: this stand-in is for the
+//! simulator, where there are resets but no loss of power. Two slots alternate, so that one record
+//! is always intact.
 
 use coinmc_link::{Record, State};
 use core::mem::MaybeUninit;
@@ -17,7 +17,7 @@ const CHECKSUM: Crc<u32, NoTable> = Crc::<u32, NoTable>::new(&CRC_32_ISO_HDLC);
 #[unsafe(link_section = ".uninit.journal")]
 static mut SLOTS: [MaybeUninit<Slot>; 2] = [MaybeUninit::uninit(); 2];
 
-/// The newest record that is whole.
+/// The newest intact record.
 pub fn load() -> Option<Record> {
     let [serial_phase, throw_id, boot, _] = newest()?;
     Some(Record {
@@ -50,7 +50,7 @@ fn newest() -> Option<Slot> {
     }
 }
 
-/// The slot, if it is whole.
+/// The content of the slot, if it is intact.
 fn read(odd: bool) -> Option<Slot> {
     // SAFETY: one core, no interrupt uses it; any bits are a valid array of numbers, and those of
     // memory after power-on do not pass the CRC.
@@ -73,6 +73,6 @@ fn checksum(content: [u32; 3]) -> u32 {
     for word in content {
         digest.update(&word.to_le_bytes());
     }
-    // all zeros are no record
+    // so that all zeros are not a valid record
     digest.finalize() ^ 0x636F_696E
 }

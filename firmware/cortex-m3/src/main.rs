@@ -1,4 +1,4 @@
-//! Firmware of the coin-tossing robot: `coinmc-link`'s device over this board's hardware.
+//! Firmware of the coin-tossing robot: `coinmc-link`'s device with this board's hardware.
 //!
 //! It cannot panic: the handler below does not link, so a build succeeds only if the optimiser has
 //! proved every panic in the program unreachable.
@@ -18,7 +18,7 @@ use uart::Uart;
 #[cortex_m_rt::entry]
 fn main() -> ! {
     let Some(core) = cortex_m::Peripherals::take() else {
-        // taken once, here: never
+        // they are taken only here: this never fails
         loop {
             cortex_m::asm::wfi();
         }
@@ -41,7 +41,7 @@ fn main() -> ! {
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo) -> ! {
     unsafe extern "C" {
-        /// Nowhere defined: whoever reads this in a linker's message has added a panic.
+        /// Not defined anywhere: a linker error about it means that a panic was added.
         fn the_firmware_must_not_panic() -> !;
     }
     // SAFETY: never linked, hence never called.

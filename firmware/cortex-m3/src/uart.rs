@@ -17,7 +17,7 @@ const PORT_A_DIGITAL: usize = 0x4000_451C;
 const RECEIVE_EMPTY: u32 = 1 << 4;
 const TRANSMIT_FULL: u32 = 1 << 5;
 
-/// The running UART. Its own queue of 16 bytes is 1.4 ms deep, and the main loop runs every
+/// The running UART. Its queue of 16 bytes takes 1.4 ms to fill, and the main loop runs every
 /// millisecond: no interrupt is needed.
 pub struct Uart(());
 
@@ -38,12 +38,12 @@ impl Uart {
     }
 
     /// The next byte received.
-    #[allow(clippy::unused_self)] // who has one has started it
+    #[allow(clippy::unused_self)] // having a UART proves that it was started
     pub fn read(&self) -> Option<u8> {
         (get(FLAGS) & RECEIVE_EMPTY == 0).then(|| get(DATA).to_le_bytes()[0])
     }
 
-    /// Sends; returns when the last byte is in the queue.
+    /// Sends the bytes; returns when the last byte is in the queue.
     #[allow(clippy::unused_self)]
     pub fn write(&self, bytes: &[u8]) {
         for byte in bytes {

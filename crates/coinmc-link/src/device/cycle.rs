@@ -1,30 +1,30 @@
-//! The cycle of a throw: phases, their limits, the journal, and the silence of the host.
+//! The cycle of a throw: its phases, their time limits, the journal, and silence of the host.
 
 use super::hardware::{Hardware, Motion, Record, Sensors};
 use crate::message::{Nak, Request, State, Status};
 
-/// How long the robot waits at the coin for Collect before it goes to Fault, ms.
+/// Time the robot waits at the coin for Collect before it goes to Fault, ms.
 pub const AT_COIN_LIMIT_MS: u32 = 60_000;
-/// Without a valid frame for this long no motor has current, ms.
+/// Time without a valid frame after which all motors are switched off, ms.
 pub const SILENCE_LIMIT_MS: u32 = 5_000;
 
-/// Codes of faults.
+/// Fault codes.
 pub mod fault {
-    /// Stop came in the middle of a throw.
+    /// The host sent Stop during a throw.
     pub const STOPPED: u16 = 1;
-    /// The host fell silent while something moved in a throw.
+    /// The host fell silent during a motion of a throw.
     pub const SILENCE: u16 = 2;
     /// The journal cannot be written.
     pub const JOURNAL: u16 = 3;
-    /// Plus the number of the phase: the robot was reset in it.
+    /// Plus the number of the phase during which the robot was reset.
     pub const RESET: u16 = 100;
-    /// Plus the number of the phase: it took longer than its limit.
+    /// Plus the number of the phase that exceeded its time limit.
     pub const LIMIT: u16 = 200;
-    /// Plus the firmware's own number: something is broken.
+    /// Plus the firmware's own number of a hardware failure.
     pub const HARDWARE: u16 = 300;
 }
 
-/// Where the robot is, and since when.
+/// The robot's state, and since when it is in it.
 #[derive(Debug)]
 pub(super) struct Cycle {
     pub(super) state: State,
@@ -33,14 +33,14 @@ pub(super) struct Cycle {
     fault: u16,
     since_ms: u32,
     heard_ms: u32,
-    /// The host has been silent for too long, or was never heard.
+    /// The host has been silent for too long, or has never sent a valid frame.
     silent: bool,
     release: Option<Release>,
-    /// The coin may have been released: true from release, and after a reset from the journal.
+    /// The coin may have been released: set at release, or after a reset from the journal.
     released: bool,
 }
 
-/// What was measured at release.
+/// Measurements at release.
 #[derive(Debug)]
 struct Release {
     at_ms: u32,
@@ -67,7 +67,7 @@ impl Cycle {
             release: None,
             released: last.phase.in_cycle() && last.phase != State::Aiming,
         };
-        // The phase stays in the journal: a second reset finds the same.
+        // The phase stays in the journal, so that a second reset finds it again.
         let stored = cycle.journal(hardware, last.phase);
         if last.phase.in_cycle() {
             let phase = u16::from(last.phase.number());
@@ -78,7 +78,7 @@ impl Cycle {
         cycle
     }
 
-    /// A valid frame arrived.
+    /// Notes that a valid frame arrived.
     pub(super) fn heard(&mut self, now_ms: u32) {
         self.heard_ms = now_ms;
         self.silent = false;
@@ -93,11 +93,11 @@ impl Cycle {
         match request {
             Request::Stop => self.stop(hardware),
             Request::Home { axes } => {
-                self.only_idle()?;
+                self.require_idle()?;
                 hardware.start(Motion::Home { axes });
             }
             Request::MoveCarriage { x_um, y_um } => {
-                self.only_idle()?;
+                self.require_idle()?;
                 hardware.start(Motion::MoveCarriage { x_um, y_um });
             }
             Request::Throw {
@@ -114,7 +114,7 @@ impl Cycle {
             Request::Collect { throw_id } => self.collect(hardware, throw_id, now_ms)?,
             Request::ClearFault { code } => self.clear(hardware, code)?,
             Request::SetCounter { throw_id } => {
-                self.only_idle()?;
+                self.require_idle()?;
                 self.throw_id = throw_id;
                 self.forget_release();
                 self.journal_or_fail(hardware, State::Idle);
@@ -124,17 +124,17 @@ impl Cycle {
         Ok(())
     }
 
-    /// Advances as far as the sensors allow, and no longer than the limits allow.
+    /// Advances to the next phase if the sensors allow it, and checks the time limits.
     pub(super) fn tick(&mut self, hardware: &mut impl Hardware, now_ms: u32) {
-        self.mind_silence(hardware, now_ms);
+        self.check_silence(hardware, now_ms);
         let sensors = hardware.sense();
         if self.state == State::Fault {
-            // nothing but ClearFault leads out
+            // only ClearFault leads out
         } else if sensors.failure != 0 {
             let code = fault::HARDWARE.saturating_add(u16::from(sensors.failure));
             self.fail(hardware, code);
-        } else if sensors.settled && self.go_on(hardware, &sensors, now_ms) {
-            // one phase a tick
+        } else if sensors.settled && self.advance(hardware, &sensors, now_ms) {
+            // at most one phase per tick
         } else if let Some(limit_ms) = limit_ms(self.state)
             && now_ms.wrapping_sub(self.since_ms) >= limit_ms
         {
@@ -166,7 +166,7 @@ impl Cycle {
         }
     }
 
-    fn only_idle(&self) -> Result<(), Nak> {
+    fn require_idle(&self) -> Result<(), Nak> {
         match self.state {
             State::Idle => Ok(()),
             State::Boot => Err(Nak::Busy),
@@ -187,7 +187,7 @@ impl Cycle {
         if throw_id < self.throw_id {
             return Err(Nak::WrongId);
         }
-        self.only_idle()?;
+        self.require_idle()?;
         if !hardware.sense().settled {
             return Err(Nak::Busy);
         }
@@ -211,7 +211,7 @@ impl Cycle {
                 self.enter(hardware, State::Returning, Some(Motion::Return), now_ms);
                 Ok(())
             }
-            // asked again, because the first answer was lost with its session
+            // requested again, because the first reply was lost with its session
             State::Returning | State::Idle => Ok(()),
             _ => Err(Nak::WrongState),
         }
@@ -239,10 +239,10 @@ impl Cycle {
         }
     }
 
-    fn mind_silence(&mut self, hardware: &mut impl Hardware, now_ms: u32) {
+    fn check_silence(&mut self, hardware: &mut impl Hardware, now_ms: u32) {
         if !self.silent && now_ms.wrapping_sub(self.heard_ms) >= SILENCE_LIMIT_MS {
             self.silent = true;
-            // At the coin nothing moves: the host may come back and photograph.
+            // At the coin nothing moves: the host may still come back and photograph it.
             if self.state.in_cycle() && self.state != State::AtCoin {
                 self.fail(hardware, fault::SILENCE);
             }
@@ -252,8 +252,8 @@ impl Cycle {
         }
     }
 
-    /// The next phase, where the present one ends by itself; whether it does.
-    fn go_on(&mut self, hardware: &mut impl Hardware, sensors: &Sensors, now_ms: u32) -> bool {
+    /// Enters the next phase if the present one ends without a request; whether it did.
+    fn advance(&mut self, hardware: &mut impl Hardware, sensors: &Sensors, now_ms: u32) -> bool {
         match self.state {
             State::Boot => self.state = State::Idle,
             State::Aiming => {
@@ -277,7 +277,7 @@ impl Cycle {
         true
     }
 
-    /// Journal first, then the motion.
+    /// Enters a state: writes the journal first, then starts the motion.
     fn enter(
         &mut self,
         hardware: &mut impl Hardware,
@@ -322,7 +322,7 @@ impl Cycle {
     }
 }
 
-/// How long a phase may last, ms.
+/// Time limit of a phase, ms.
 fn limit_ms(state: State) -> Option<u32> {
     match state {
         State::Aiming | State::Flying => Some(3_000),

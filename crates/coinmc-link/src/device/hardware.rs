@@ -1,91 +1,91 @@
-//! What a robot is made of, as the state machine sees it.
+//! The interface between the state machine and a robot's hardware.
 
 use crate::message::{Info, State};
 
-/// Motors, sensors and a few bytes that survive a loss of power.
+/// Motors, sensors and a few bytes of memory that survive a loss of power.
 ///
-/// Nothing here may wait, except that [`Hardware::store`] returns only when the record is safe (well
-/// below the 150 ms that the host waits for a reply).
+/// No method may block, except that [`Hardware::store`] returns only when the record is safe (well
+/// within the 150 ms that the host waits for a reply).
 pub trait Hardware {
-    /// What the robot is and can reach.
+    /// Description of the robot and its limits.
     fn info(&self) -> Info;
 
-    /// The newest record that was stored whole, if any was ever.
+    /// The newest completely stored record, if there is one.
     fn load(&mut self) -> Option<Record>;
 
-    /// Stores a record so that it survives a loss of power the moment this returns. Whether that
-    /// succeeded. A record cut short by a loss of power must leave the one before it readable.
+    /// Stores a record so that it survives a loss of power once this returns; whether that
+    /// succeeded. If a loss of power interrupts it, the previous record must stay readable.
     fn store(&mut self, record: &Record) -> bool;
 
-    /// Begins a motion; it replaces the one under way.
+    /// Begins a motion, which replaces the present one.
     fn start(&mut self, motion: Motion);
 
-    /// No current in any motor, now. Called again and again while it must stay so.
+    /// Switches off the current of all motors. Called repeatedly while they must stay off.
     fn motors_off(&mut self);
 
-    /// The lamp: 0 to 1000.
+    /// Sets the lamp: 0 to 1000.
     fn light(&mut self, permille: u16);
 
-    /// What the sensors say now.
+    /// Reads the sensors.
     fn sense(&mut self) -> Sensors;
 }
 
 /// A motion of the robot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Motion {
-    /// Bring the coin to this spin and angle; settled when it may be released.
+    /// Bring the coin to this spin and angle; settled when it can be released.
     Aim {
         /// Spin, 1/1000 rev/s.
         spin_mrev_s: u16,
         /// Angle at release, 1/100 degree.
         angle_cdeg: u16,
     },
-    /// Let go of the coin; settled when it lies still.
+    /// Release the coin; settled when it lies still.
     Release,
-    /// Drive the carriage over the coin.
+    /// Drive the carriage above the coin.
     DriveToCoin,
     /// Lift the coin and carry it back.
     Return,
-    /// Find the end stops of these axes.
+    /// Move these axes to their end stops.
     Home {
         /// Bits of [`axis`](crate::axis).
         axes: u8,
     },
     /// Move the carriage.
     MoveCarriage {
-        /// Along x from home, µm.
+        /// x coordinate from home, µm.
         x_um: i32,
-        /// Along y from home, µm.
+        /// y coordinate from home, µm.
         y_um: i32,
     },
 }
 
-/// What the sensors say.
+/// Readings of the sensors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Sensors {
-    /// The motion begun last has reached its goal; at the start: the robot is ready. From
-    /// [`Hardware::start`] on it must be false until that is so.
+    /// The last motion has reached its goal; before the first motion: the robot is ready. False from
+    /// [`Hardware::start`] until the goal is reached.
     pub settled: bool,
     /// Spin of the coin, 1/1000 rev/s.
     pub spin_mrev_s: u16,
     /// Angle of the coin, 1/100 degree.
     pub angle_cdeg: u16,
-    /// Carriage along x from home, µm.
+    /// x coordinate of the carriage from home, µm.
     pub x_um: i32,
-    /// Carriage along y from home, µm.
+    /// y coordinate of the carriage from home, µm.
     pub y_um: i32,
-    /// Something is broken: a number of the firmware's own (0: nothing), shown as fault
-    /// [`fault::HARDWARE`](crate::fault::HARDWARE) plus it.
+    /// The firmware's own number of a hardware failure (0: none); it is added to
+    /// [`fault::HARDWARE`](crate::fault::HARDWARE) to give the fault code.
     pub failure: u8,
 }
 
-/// What outlives a reset.
+/// A journal record, which survives a reset.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Record {
     /// The last throw accepted.
     pub throw_id: u32,
     /// Starts counted so far; wraps.
     pub boot: u16,
-    /// Idle, or the phase of the throw that was under way.
+    /// Idle, or the phase of the unfinished throw.
     pub phase: State,
 }

@@ -1,16 +1,16 @@
 //! The robot's side of the link: answers requests, runs the cycle of a throw, keeps its journal.
 //!
-//! The rules, each of which some failure of an earlier robot taught:
-//! 1. A repeated request (same session, same number) gets the same reply and does nothing. Hello is
-//!    never taken for a repetition: a new host may by chance begin with the number the last one ended
-//!    with.
-//! 2. A throw's id is accepted once. Any greater id will do: a robot with a blank memory must not
-//!    block an experiment that is at throw 5000.
+//! The rules, each learned from a failure of an earlier robot:
+//! 1. A repeated request (same session, same sequence number) gets the same reply and is not
+//!    executed again. Hello never counts as a repetition: a new host may happen to start with the
+//!    number at which the last one ended.
+//! 2. An id of a throw is accepted once. Any greater id is accepted: a robot with blank memory must
+//!    not block an experiment that is at throw 5000.
 //! 3. Every phase is in the journal before it begins, so that a coin that may have been released is
-//!    never thrown again: a start in mid-cycle ends in Fault 100 + phase.
-//! 4. After a start there is no session; every request is answered `NoSession` until the next Hello.
-//! 5. What does not arrive whole gets no answer: an answer could collide with another one's.
-//! 6. Every phase has a limit, and without a host for 5 s no motor has current.
+//!    never thrown again: a start during a cycle ends in Fault 100 + phase.
+//! 4. After a start there is no session; every request gets `NoSession` until the next Hello.
+//! 5. A damaged frame gets no reply, which could collide with another one.
+//! 6. Every phase has a time limit, and after 5 s without a host all motors are off.
 
 mod cycle;
 mod hardware;
@@ -24,10 +24,10 @@ use crate::message::{
 };
 use cycle::Cycle;
 
-/// The robot's state machine. Feed it every byte received, and call [`Device::tick`] at least every
-/// 10 ms or so: phases advance and limits hold only then.
+/// The robot's state machine. Pass it every byte received, and call [`Device::tick`] about every
+/// 10 ms or more often: only then do phases advance and limits apply.
 ///
-/// Times are in ms from any origin and may wrap; at least one tick in any 24 days is assumed.
+/// Times are in ms from any origin and may wrap; it assumes at least one tick every 24 days.
 #[derive(Debug)]
 pub struct Device<H> {
     hardware: H,
@@ -35,7 +35,7 @@ pub struct Device<H> {
     out: Wire,
     /// 0: none.
     session: u16,
-    /// The last request of this session, by number, and what was answered.
+    /// Sequence number of the last request in this session, and its reply.
     answered: Option<(u16, Reply)>,
     rx_bad: u16,
     started_ms: u32,
@@ -43,8 +43,8 @@ pub struct Device<H> {
 }
 
 impl<H: Hardware> Device<H> {
-    /// The robot after power-on or reset: motors off, no session; in Fault if the journal says that
-    /// a throw was under way.
+    /// The robot after power-on or reset: motors off, no session; in Fault if the journal contains
+    /// an unfinished throw.
     pub fn boot(mut hardware: H, now_ms: u32) -> Self {
         let cycle = Cycle::boot(&mut hardware, now_ms);
         Self {
@@ -59,7 +59,7 @@ impl<H: Hardware> Device<H> {
         }
     }
 
-    /// Takes one byte from the line; gives the bytes to send when it ended a request.
+    /// Takes one received byte; returns the bytes to send if it completed a request.
     pub fn receive(&mut self, byte: u8, now_ms: u32) -> Option<&[u8]> {
         let Ok(frame) = self.decoder.push(byte)? else {
             self.rx_bad = self.rx_bad.saturating_add(1);
@@ -67,17 +67,17 @@ impl<H: Hardware> Device<H> {
         };
         let (header, request) = (frame.header, Request::decode(frame.body));
         let reply = self.answer(header, request, now_ms);
-        // every reply fits (tested); if one did not, silence would be the right answer
+        // every reply fits (tested); if one did not, sending nothing would be right
         self.out = reply.to_wire(header).unwrap_or_default();
         Some(self.out.as_bytes())
     }
 
-    /// Advances the cycle and watches the limits.
+    /// Advances the cycle and checks the time limits.
     pub fn tick(&mut self, now_ms: u32) {
         self.cycle.tick(&mut self.hardware, now_ms);
     }
 
-    /// Where the robot is.
+    /// The robot's state.
     pub fn state(&self) -> State {
         self.cycle.state
     }
@@ -87,12 +87,12 @@ impl<H: Hardware> Device<H> {
         &self.hardware
     }
 
-    /// The hardware, to change.
+    /// The hardware, mutable.
     pub fn hardware_mut(&mut self) -> &mut H {
         &mut self.hardware
     }
 
-    /// What is left when the power goes: the hardware.
+    /// The hardware, which is all that survives a loss of power.
     pub fn into_hardware(self) -> H {
         self.hardware
     }
@@ -142,11 +142,11 @@ impl<H: Hardware> Device<H> {
     }
 
     fn execute(&mut self, request: Request, now_ms: u32) -> Reply {
-        if beyond(&self.hardware.info(), &request) {
+        if exceeds_limits(&self.hardware.info(), &request) {
             return Reply::Nak(Nak::BadRange);
         }
         let done = match request {
-            // a Hello has been answered before
+            // `answer` has handled Hello
             Request::Hello { .. } => Err(Nak::BadMessage),
             Request::Info => return Reply::Info(self.hardware.info()),
             Request::Status => return Reply::Status(self.status(now_ms)),
@@ -173,8 +173,8 @@ impl<H: Hardware> Device<H> {
     }
 }
 
-/// Whether a request is beyond what this robot has or reaches.
-fn beyond(info: &Info, request: &Request) -> bool {
+/// Whether a request exceeds this robot's capabilities or limits.
+fn exceeds_limits(info: &Info, request: &Request) -> bool {
     let lacks = |bit| info.capabilities & bit == 0;
     let far = |um: i32, limit: i32| i64::from(um).abs() > i64::from(limit);
     match *request {

@@ -129,7 +129,7 @@ static int check_request(const coinmc_received *frame, coinmc_read expected)
     coinmc_request request;
     char text[200];
     if (coinmc_read_request(frame->body, frame->length, &request) != expected)
-        return fail("read otherwise");
+        return fail("read differently");
     if (expected != COINMC_GOOD)
         return 0;
     request_text(text, sizeof text, frame, &request);
@@ -143,7 +143,7 @@ static int check_reply(const uint8_t *bytes, size_t length)
     parse_reply(&reply);
     uint8_t written = coinmc_frame((uint16_t)number("session"), (uint16_t)number("seq"), body,
                                    coinmc_write_reply(&reply, body), wire);
-    return written == length && memcmp(wire, bytes, length) == 0 ? 0 : fail("written otherwise");
+    return written == length && memcmp(wire, bytes, length) == 0 ? 0 : fail("written differently");
 }
 
 static int check(char *line)

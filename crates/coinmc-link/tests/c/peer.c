@@ -1,9 +1,9 @@
-/* The firmware's state machine on a script: reads orders, prints all that it does to its hardware.
+/* Runs the firmware's state machine on a script and prints everything it does to its hardware.
  *
  *   r                                      reset
- *   t MS                                   it is this time: tick
- *   b HEX                                  these bytes arrive
- *   s SETTLED SPIN ANGLE X Y FAILURE       what the sensors say
+ *   t MS                                   set the time and tick
+ *   b HEX                                  receive these bytes
+ *   s SETTLED SPIN ANGLE X Y FAILURE       set the sensors
  *   w WORKS                                whether the journal can be written */
 #include "robot.h"
 

@@ -1,4 +1,4 @@
-//! An experiment: throws one after the other, each of which ends as done or void.
+//! An experiment: a sequence of throws, each ending as done or void.
 
 use super::Random;
 use coinmc_link::{Request, State, Status};
@@ -9,14 +9,14 @@ pub enum End {
     Void,
 }
 
-/// What a host keeps on disk, and what it does next.
+/// The state that a host keeps on disk, and its next step.
 #[derive(Debug, Default)]
 pub struct Campaign {
-    /// In order of ids, from 1.
+    /// Ends of the throws, in order of their ids from 1.
     pub resolved: Vec<End>,
-    /// The result of the pending throw is safe.
+    /// The result of the pending throw has been saved.
     recorded: bool,
-    /// How far the pending throw was seen to be.
+    /// The furthest phase of the pending throw seen so far.
     seen: usize,
 }
 
@@ -29,7 +29,7 @@ impl Campaign {
         self.resolved.iter().filter(|other| **other == end).count()
     }
 
-    /// The next step, if the robot waits for one.
+    /// The next request, if the robot waits for one.
     pub fn next(&mut self, status: &Status) -> Option<Request> {
         let pending = self.pending();
         assert!(status.throw_id <= pending, "{status:?}");
@@ -68,7 +68,7 @@ impl Campaign {
         self.seen = 0;
     }
 
-    /// A throw made twice would be seen to begin again.
+    /// Fails if a throw seems to start again.
     fn assert_goes_forward(&mut self, status: &Status) {
         const ORDER: [State; 7] = [
             State::Aiming,
@@ -79,7 +79,7 @@ impl Campaign {
             State::Fault,
             State::Idle,
         ];
-        // while it starts, a robot is nowhere
+        // a robot that is starting has no phase
         if let Some(place) = ORDER.iter().position(|state| *state == status.state) {
             assert!(place >= self.seen, "went back: {status:?}");
             self.seen = place;
@@ -91,14 +91,14 @@ impl Campaign {
 #[derive(Debug)]
 pub struct Noise {
     pub random: Random,
-    /// Bytes spoiled, per thousand.
+    /// Damaged bytes per thousand.
     pub per_mille: u32,
-    /// Bytes spoiled so far.
-    pub spoiled: u32,
+    /// Bytes damaged so far.
+    pub damaged: u32,
 }
 
 impl Noise {
-    /// What arrives.
+    /// The bytes that arrive.
     pub fn pass(&mut self, bytes: &[u8]) -> Vec<u8> {
         let mut arrived = Vec::new();
         for byte in bytes {
@@ -106,7 +106,7 @@ impl Noise {
                 arrived.push(*byte);
                 continue;
             }
-            self.spoiled += 1;
+            self.damaged += 1;
             match self.random.below(3) {
                 0 => arrived.push(byte ^ (1 << self.random.below(8))),
                 1 => {}

@@ -1,4 +1,4 @@
-//! What several tests need.
+//! Shared by several tests.
 #![allow(dead_code, missing_docs, unreachable_pub)] // each test uses its part
 
 pub mod campaign;
@@ -19,14 +19,14 @@ pub const INFO: Info = Info {
     },
 };
 
-/// A robot of the imagination: motions take their time, and every release is counted.
+/// A simulated robot: motions take time, and every release is counted.
 #[derive(Debug, Clone)]
 pub struct Bench {
     pub now_ms: u32,
     done_ms: Option<u32>,
     pub stored: Option<Record>,
     pub store_works: bool,
-    /// The id in the journal when the coin was let go, release by release.
+    /// The id in the journal at each release.
     pub releases: Vec<u32>,
     pub motors_on: bool,
     /// This motion never ends.
@@ -101,13 +101,13 @@ impl Hardware for Bench {
     }
 }
 
-/// A C program and the folder it lies in.
+/// A compiled C program and its folder.
 pub struct Program {
     pub path: PathBuf,
     _folder: tempfile::TempDir,
 }
 
-/// Compiles C sources (paths from the crate's root); says why not if there is no C compiler.
+/// Compiles C sources (paths from the crate's root); prints a note if there is no C compiler.
 pub fn compile(name: &str, sources: &[&str]) -> Option<Program> {
     if Command::new("cc").arg("--version").output().is_err() {
         eprintln!("SKIPPED: no C compiler `cc`");
@@ -127,7 +127,7 @@ pub fn compile(name: &str, sources: &[&str]) -> Option<Program> {
             .output()
             .expect("the compiler runs")
     };
-    // some compilers come without the sanitizers' libraries
+    // some compilers lack the libraries of the sanitizers
     let sanitized = build(&["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]);
     if !sanitized.status.success() {
         let output = build(&[]);
@@ -140,7 +140,7 @@ pub fn compile(name: &str, sources: &[&str]) -> Option<Program> {
     })
 }
 
-/// Random numbers for scripts: SplitMix64 (Steele, Lea & Flood 2014).
+/// Random numbers: SplitMix64 (Steele, Lea & Flood 2014).
 #[derive(Debug, Clone)]
 pub struct Random(pub u64);
 

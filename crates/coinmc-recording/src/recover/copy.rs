@@ -1,19 +1,20 @@
-//! From records read to a new file.
+//! Copying readable records to a new file.
 
-use super::Recovered;
+use super::report::Recovered;
 use crate::chunk::{RawChannel, RawMessage, RawSchema};
 use crate::compression::Compression;
+use crate::decode::Fields;
+use crate::encode::op;
 use crate::error::Error;
-use crate::fields::Fields;
 use crate::sink::Sink;
-use crate::wire::op;
 use crate::writer::{Attachment, MAX_RECORD, Writer};
 use std::collections::HashMap;
 
-/// Most bytes of schemas and channels kept, all together.
-const MOST_DEFINITIONS: usize = 128 << 20;
+/// Greatest total length of schemas and channels that are kept, bytes: far more than a recording
+/// needs, and a malicious file cannot fill the memory.
+const MAX_DEFINITIONS: usize = 128 << 20;
 
-/// The new file, and how the old file's ids are called there.
+/// The new file, and the ids there of the old file's schemas and channels.
 pub(super) struct Copy<S> {
     writer: Writer<S>,
     schemas: HashMap<u16, u16>,
@@ -21,8 +22,8 @@ pub(super) struct Copy<S> {
     pub(super) report: Recovered,
 }
 
-/// A chunk's head and its records as they lie in the file.
-struct Packed<'a> {
+/// The header of a chunk and its records as stored.
+struct StoredChunk<'a> {
     size: u64,
     crc: u32,
     compression: Option<Compression>,
@@ -45,9 +46,9 @@ impl<S: Sink> Copy<S> {
         Ok((self.report, self.writer.finish()?))
     }
 
-    /// Takes over a record that is no chunk; whether it made sense.
-    pub(super) fn record(&mut self, kind: u8, content: &[u8]) -> Result<bool, Error> {
-        let taken = match kind {
+    /// Copies a record that is not a chunk; whether it was readable.
+    pub(super) fn record(&mut self, opcode: u8, content: &[u8]) -> Result<bool, Error> {
+        let copied = match opcode {
             op::SCHEMA => self.schema(content),
             op::CHANNEL => self.channel(content),
             op::MESSAGE => return self.message(content),
@@ -55,33 +56,33 @@ impl<S: Sink> Copy<S> {
             op::ATTACHMENT => return self.attachment(content),
             _ => Some(()),
         };
-        Ok(taken.is_some())
+        Ok(copied.is_some())
     }
 
-    /// Takes over the messages of a chunk, `content` being as much of it as is there; whether all
-    /// of it made sense.
+    /// Copies the messages of a chunk, which may be cut off by the end of the file (`is_torn`);
+    /// whether all of it was readable.
     pub(super) fn chunk(&mut self, content: &[u8], is_torn: bool) -> Result<bool, Error> {
-        let Some(packed) = packed(content) else {
+        let Some(stored) = stored_chunk(content) else {
             self.report.lost_chunks += 1;
             return Ok(false);
         };
-        let Some(compression) = packed.compression else {
+        let Some(compression) = stored.compression else {
             self.report.lost_chunks += 1;
             self.report.unknown_compression += 1;
             return Ok(false);
         };
-        let most = usize::try_from(packed.size.min(MAX_RECORD)).unwrap_or(usize::MAX);
-        let expanded;
+        let limit = usize::try_from(stored.size.min(MAX_RECORD)).unwrap_or(usize::MAX);
+        let decompressed;
         let records = match compression {
-            Compression::None => &packed.records[..packed.records.len().min(most)],
+            Compression::None => &stored.records[..stored.records.len().min(limit)],
             Compression::Lz4 => {
-                expanded = compression.expand(packed.records, most);
-                &expanded[..]
+                decompressed = compression.decompress(stored.records, limit);
+                &decompressed[..]
             }
         };
-        let intact = records.len() as u64 == packed.size
-            && (packed.crc == 0 || crc32fast::hash(records) == packed.crc);
-        // of a torn chunk what is there may be believed, of a damaged one nothing
+        let intact = records.len() as u64 == stored.size
+            && (stored.crc == 0 || crc32fast::hash(records) == stored.crc);
+        // the beginning of a torn chunk can be trusted, but nothing of a damaged one
         let whole = if intact || is_torn {
             self.writer.set_compression(compression);
             self.records(records)? && intact
@@ -92,15 +93,16 @@ impl<S: Sink> Copy<S> {
         Ok(whole)
     }
 
-    /// Takes over the records within a chunk as far as they make sense; whether they all do.
+    /// Copies the records of a chunk up to the first unreadable one; whether all were readable.
     fn records(&mut self, records: &[u8]) -> Result<bool, Error> {
         let mut fields = Fields::new(records);
         while !fields.rest().is_empty() {
-            let Some((kind, content)) = fields.record() else {
+            let Some((opcode, content)) = fields.record() else {
                 return Ok(false);
             };
-            let belongs = matches!(kind, op::SCHEMA | op::CHANNEL | op::MESSAGE) || kind >= 0x80;
-            if !belongs || !self.record(kind, content)? {
+            let is_allowed =
+                matches!(opcode, op::SCHEMA | op::CHANNEL | op::MESSAGE) || opcode >= 0x80;
+            if !is_allowed || !self.record(opcode, content)? {
                 return Ok(false);
             }
         }
@@ -115,7 +117,7 @@ impl<S: Sink> Copy<S> {
             encoding: fields.str()?.to_owned(),
             data: fields.bytes()?.to_vec(),
         };
-        self.may_keep(content)?;
+        self.check_definitions(content)?;
         self.schemas.insert(id, self.writer.schema(schema).ok()?);
         Some(())
     }
@@ -133,15 +135,14 @@ impl<S: Sink> Copy<S> {
             encoding: fields.str()?.to_owned(),
             metadata: fields.map()?,
         };
-        self.may_keep(content)?;
+        self.check_definitions(content)?;
         self.channels.insert(id, self.writer.channel(channel).ok()?);
         Some(())
     }
 
-    /// Whether there is room for another definition: far more than a recording defines, and a
-    /// malicious one cannot fill the memory.
-    fn may_keep(&self, content: &[u8]) -> Option<()> {
-        (self.writer.definitions() + content.len() <= MOST_DEFINITIONS).then_some(())
+    /// `None` if another definition would exceed the limit.
+    fn check_definitions(&self, content: &[u8]) -> Option<()> {
+        (self.writer.definitions() + content.len() <= MAX_DEFINITIONS).then_some(())
     }
 
     fn message(&mut self, content: &[u8]) -> Result<bool, Error> {
@@ -153,7 +154,7 @@ impl<S: Sink> Copy<S> {
             return Ok(true);
         };
         message.channel = channel;
-        let kept = self.fits(|writer| writer.message(message))?;
+        let kept = self.unless_too_long(|writer| writer.message(message))?;
         self.report.lost_messages += u64::from(!kept);
         Ok(true)
     }
@@ -163,7 +164,7 @@ impl<S: Sink> Copy<S> {
         let (Some(name), Some(map)) = (fields.str(), fields.map()) else {
             return Ok(false);
         };
-        let kept = self.fits(|writer| writer.metadata(name, &map))?;
+        let kept = self.unless_too_long(|writer| writer.metadata(name, &map))?;
         self.report.metadata += u64::from(kept);
         Ok(kept)
     }
@@ -175,13 +176,13 @@ impl<S: Sink> Copy<S> {
         if crc != 0 && crc32fast::hash(&content[..content.len() - 4]) != crc {
             return Ok(false);
         }
-        let kept = self.fits(|writer| writer.attachment(&attachment))?;
+        let kept = self.unless_too_long(|writer| writer.attachment(&attachment))?;
         self.report.attachments += u64::from(kept);
         Ok(kept)
     }
 
-    /// Writes a piece; another program's may be longer than this one writes them.
-    fn fits(
+    /// Writes a record unless it is too long: another program may have a greater limit.
+    fn unless_too_long(
         &mut self,
         write: impl FnOnce(&mut Writer<S>) -> Result<(), Error>,
     ) -> Result<bool, Error> {
@@ -192,13 +193,13 @@ impl<S: Sink> Copy<S> {
     }
 }
 
-fn packed(content: &[u8]) -> Option<Packed<'_>> {
+fn stored_chunk(content: &[u8]) -> Option<StoredChunk<'_>> {
     let mut fields = Fields::new(content);
     fields.take(16)?;
     let (size, crc) = (fields.u64()?, fields.u32()?);
-    let compression = fields.str().map(Compression::of_file)?;
+    let compression = fields.str().map(Compression::from_mcap_name)?;
     fields.u64()?;
-    Some(Packed {
+    Some(StoredChunk {
         size,
         crc,
         compression,

@@ -1,61 +1,33 @@
-//! Recordings that were cut off or damaged.
+//! Recovery of truncated and damaged recordings.
 //!
-//! A file is walked record by record, and nothing in it is believed: every length is checked
-//! against the file and against the other lengths of its record, chunks against their checksum.
-//! Where that fails, the walk looks on, byte by byte, for the next record that is consistent. What
-//! was read is written to a new file, with a new index.
+//! A file is read record by record, and nothing in it is trusted: every length is checked against
+//! the file and against the other lengths in its record, and chunks against their checksum. After a
+//! failed check, the next consistent record is searched for byte by byte. Everything readable is
+//! written to a new file with a new index.
 
 mod copy;
-mod shape;
+mod locate;
+mod report;
 mod source;
 mod walk;
 
 use crate::error::Error;
-use crate::place::NewFile;
-use crate::sink::{Passing, Sink};
+use crate::new_file::NewFile;
+use crate::sink::{Sink, Unsynced};
 use std::fs::File;
 use std::io::{Read, Seek};
 use std::path::Path;
 
-/// What was recovered, and what was not.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Recovered {
-    /// Messages in the new file.
-    pub messages: u64,
-    /// Channels that they belong to.
-    pub channels: usize,
-    /// Attachments in the new file.
-    pub attachments: u64,
-    /// Metadata records in the new file.
-    pub metadata: u64,
-    /// Bytes of the damaged file that made no sense, or not all of it.
-    pub lost_bytes: u64,
-    /// Chunks that could not be read, or not to their end.
-    pub lost_chunks: u64,
-    /// Of these, chunks in a compression that this crate does not know.
-    pub unknown_compression: u64,
-    /// Messages that were read and could not be kept: of no channel that is known.
-    pub lost_messages: u64,
-    /// Whether the file had its proper end.
-    pub had_end: bool,
-}
+pub use report::Recovered;
 
-impl Recovered {
-    /// Whether nothing was wrong with the file.
-    pub fn was_whole(&self) -> bool {
-        self.had_end && self.lost_bytes == 0 && self.lost_messages == 0
-    }
-}
-
-/// Writes what can be read of a damaged recording to a new file, which appears only when it is
+/// Writes what is readable in a damaged recording to a new file, which appears only when it is
 /// complete. The damaged file is only read. Chunks keep their compression.
 ///
-/// Memory: a few times the longest record, and at most a few times 256 MiB; longer records are
-/// left out.
+/// Memory: a few times the longest record, at most a few times 256 MiB; longer records are skipped.
 ///
 /// # Errors
-/// [`Error::NotMcap`] if the file was never a recording; [`Error::Exists`] if the new file exists;
-/// the system's.
+/// [`Error::NotMcap`] if the file is not a recording; [`Error::Exists`] if the new file exists;
+/// system errors.
 ///
 /// # Example
 /// ```
@@ -74,23 +46,23 @@ impl Recovered {
 /// ```
 pub fn recover(damaged: &Path, to: &Path) -> Result<Recovered, Error> {
     let file = File::open(damaged).map_err(|error| Error::io("open", damaged, error))?;
-    let place = NewFile::begin(to)?;
+    let new_file = NewFile::begin(to)?;
     let (recovered, written) =
-        walk::walk(file, Passing(place)).map_err(|failure| match failure {
+        walk::walk(file, Unsynced(new_file)).map_err(|failure| match failure {
             walk::Failure::NotMcap => Error::NotMcap {
                 path: damaged.to_owned(),
             },
             walk::Failure::Read(error) => Error::io("read", damaged, error),
-            walk::Failure::Write(error) => error.at(to),
+            walk::Failure::Write(error) => error.with_path(to),
         })?;
     written.0.finish()?;
     Ok(recovered)
 }
 
-/// [`recover()`] from any input to any output.
+/// Like [`recover()`], from any input to any output.
 ///
 /// # Errors
-/// Those of the input and the output, as [`Error::Stream`]; [`Error::NotMcap`] without a name.
+/// Errors of the input and the output, as [`Error::Stream`]; [`Error::NotMcap`], for `input`.
 pub fn salvage(input: impl Read + Seek, out: impl Sink) -> Result<Recovered, Error> {
     match walk::walk(input, out) {
         Ok((recovered, _)) => Ok(recovered),

@@ -1,8 +1,8 @@
-//! A damaged file, read here and there.
+//! Random access to a damaged file.
 
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 
-/// Bytes read at a time.
+/// Size of the read buffer, bytes.
 const BUFFER: usize = 64 << 10;
 
 /// An input of known length.
@@ -27,20 +27,20 @@ impl<R: Read + Seek> Source<R> {
         self.length
     }
 
-    /// Reads `bytes.len()` bytes at `at`; whether there are as many.
+    /// Fills `bytes` from the offset `at`; `false` if the input ends before.
     pub(super) fn fill(&mut self, at: u64, bytes: &mut [u8]) -> io::Result<bool> {
         if at > self.length || bytes.len() as u64 > self.length - at {
             return Ok(false);
         }
-        self.go_to(at)?;
+        self.seek_to(at)?;
         self.input.read_exact(bytes)?;
         self.position += bytes.len() as u64;
         Ok(true)
     }
 
-    /// `n` bytes at `at`, or as many as there are.
+    /// `n` bytes from the offset `at`, or fewer if the input ends before.
     pub(super) fn read(&mut self, at: u64, n: u64) -> io::Result<Vec<u8>> {
-        self.go_to(at.min(self.length))?;
+        self.seek_to(at.min(self.length))?;
         let mut bytes = Vec::new();
         (&mut self.input).take(n).read_to_end(&mut bytes)?;
         self.position += bytes.len() as u64;
@@ -61,8 +61,8 @@ impl<R: Read + Seek> Source<R> {
             .then(|| u64::from_le_bytes(bytes)))
     }
 
-    /// Near jumps stay within the buffer.
-    fn go_to(&mut self, at: u64) -> io::Result<()> {
+    /// Short jumps stay within the buffer.
+    fn seek_to(&mut self, at: u64) -> io::Result<()> {
         let jump = i128::from(at) - i128::from(self.position);
         match i64::try_from(jump) {
             Ok(jump) => self.input.seek_relative(jump)?,

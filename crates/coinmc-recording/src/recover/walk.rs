@@ -1,13 +1,13 @@
-//! The walk through a damaged file.
+//! Reading a damaged file record by record.
 
-use super::Recovered;
 use super::copy::Copy;
-use super::shape::{Place, find, place};
+use super::locate::{Location, find_record, record_at};
+use super::report::Recovered;
 use super::source::Source;
+use crate::decode::Fields;
+use crate::encode::{MAGIC, PREFIX, op};
 use crate::error::Error;
-use crate::fields::Fields;
 use crate::sink::Sink;
-use crate::wire::{MAGIC, PREFIX, op};
 use crate::writer::{MAX_RECORD, Options, Writer};
 use std::io::{self, Read, Seek};
 
@@ -24,37 +24,37 @@ impl From<io::Error> for Failure {
     }
 }
 
-/// Reads what can be read of `input` into `out`.
+/// Copies what is readable in `input` to `out`.
 pub(super) fn walk<R: Read + Seek, S: Sink>(input: R, out: S) -> Result<(Recovered, S), Failure> {
     let mut source = Source::new(input)?;
-    let (options, mut at, mut lost) = beginning(&mut source)?;
+    let (options, mut at, mut lost) = read_header(&mut source)?;
     let writer = Writer::new(out, &options).map_err(Failure::Write)?;
     let mut copy = Copy::new(writer);
     let mut had_end = false;
     while at < source.length() {
-        let Some(found) = place(&mut source, at)? else {
-            let next = find(&mut source, at + 1)?.map_or(source.length(), |next| next.at);
+        let Some(found) = record_at(&mut source, at)? else {
+            let next = find_record(&mut source, at + 1)?.map_or(source.length(), |next| next.at);
             lost += next - at;
             at = next;
             continue;
         };
-        match found.kind {
+        match found.opcode {
             op::DATA_END => {
-                had_end = ends_well(&mut source)?;
+                had_end = has_end_magic(&mut source)?;
                 break;
             }
             op::FOOTER => break,
             _ => {}
         }
         let end = found.end().min(source.length());
-        if is_free_form(found.kind) && !goes_on(&mut source, end)? {
-            // its length alone says where it ends, and that is wrong
-            let next = find(&mut source, at + 1)?.map_or(source.length(), |next| next.at);
+        if is_free_form(found.opcode) && !record_or_end_at(&mut source, end)? {
+            // only its length says where it ends, and the length is wrong
+            let next = find_record(&mut source, at + 1)?.map_or(source.length(), |next| next.at);
             lost += next - at;
             at = next;
             continue;
         }
-        if !take(&mut source, &mut copy, found)? {
+        if !copy_record(&mut source, &mut copy, found)? {
             lost += end - at;
         }
         at = end;
@@ -64,12 +64,12 @@ pub(super) fn walk<R: Read + Seek, S: Sink>(input: R, out: S) -> Result<(Recover
     copy.finish().map_err(Failure::Write)
 }
 
-/// What the file says of itself, where its records begin, and bytes lost so far.
-fn beginning<R: Read + Seek>(source: &mut Source<R>) -> Result<(Options, u64, u64), Failure> {
+/// Options from the header, the offset of the first record after it, and bytes lost so far.
+fn read_header<R: Read + Seek>(source: &mut Source<R>) -> Result<(Options, u64, u64), Failure> {
     let start = MAGIC.len() as u64;
     let mut magic = [0; MAGIC.len()];
     let has_magic = source.fill(0, &mut magic)? && magic == MAGIC;
-    let header = place(source, start)?.filter(|found| found.kind == op::HEADER);
+    let header = record_at(source, start)?.filter(|found| found.opcode == op::HEADER);
     let lost = if has_magic { 0 } else { start };
     let Some(header) = header else {
         if has_magic {
@@ -88,42 +88,42 @@ fn beginning<R: Read + Seek>(source: &mut Source<R>) -> Result<(Options, u64, u6
     Ok((options, header.end(), lost))
 }
 
-/// Copies a record; whether all of it made sense.
-fn take<R: Read + Seek, S: Sink>(
+/// Copies a record; whether all of it was readable.
+fn copy_record<R: Read + Seek, S: Sink>(
     source: &mut Source<R>,
     copy: &mut Copy<S>,
-    found: Place,
+    found: Location,
 ) -> Result<bool, Failure> {
     let is_torn = found.end() > source.length();
     let wanted = matches!(
-        found.kind,
+        found.opcode,
         op::SCHEMA | op::CHANNEL | op::MESSAGE | op::CHUNK | op::ATTACHMENT | op::METADATA
     );
     if !wanted {
-        // indexes are made anew; what others' own kinds hold is not kept
-        return Ok(found.kind < 0x80);
+        // the new file gets new indexes; private records are not copied
+        return Ok(found.opcode < 0x80);
     }
     if found.length > MAX_RECORD && !is_torn {
         return Ok(false);
     }
     let content = source.read(found.content(), found.length.min(MAX_RECORD))?;
-    let taken = if found.kind == op::CHUNK {
+    let copied = if found.opcode == op::CHUNK {
         copy.chunk(&content, is_torn)
     } else {
-        copy.record(found.kind, &content)
+        copy.record(found.opcode, &content)
     };
-    taken.map_err(Failure::Write)
+    copied.map_err(Failure::Write)
 }
 
-/// Records that can be of any length whatever they hold.
-fn is_free_form(kind: u8) -> bool {
-    kind == op::MESSAGE || kind >= 0x80
+/// Whether nothing in such a record confirms its length.
+fn is_free_form(opcode: u8) -> bool {
+    opcode == op::MESSAGE || opcode >= 0x80
 }
 
-/// Whether at `at` the file ends, or a record begins, be it one that was cut off.
-fn goes_on<R: Read + Seek>(source: &mut Source<R>, at: u64) -> io::Result<bool> {
+/// Whether the file ends at `at` or a record begins there, possibly one that is cut off.
+fn record_or_end_at<R: Read + Seek>(source: &mut Source<R>, at: u64) -> io::Result<bool> {
     let mut prefix = [0; PREFIX];
-    if !source.fill(at, &mut prefix)? || place(source, at)?.is_some() {
+    if !source.fill(at, &mut prefix)? || record_at(source, at)?.is_some() {
         return Ok(true);
     }
     let length = prefix[1..]
@@ -133,7 +133,7 @@ fn goes_on<R: Read + Seek>(source: &mut Source<R>, at: u64) -> io::Result<bool> 
     Ok(matches!(prefix[0], op::HEADER..=op::DATA_END) && length > left)
 }
 
-fn ends_well<R: Read + Seek>(source: &mut Source<R>) -> io::Result<bool> {
+fn has_end_magic<R: Read + Seek>(source: &mut Source<R>) -> io::Result<bool> {
     let mut magic = [0; MAGIC.len()];
     let at = source.length() - MAGIC.len() as u64;
     Ok(source.fill(at, &mut magic)? && magic == MAGIC)

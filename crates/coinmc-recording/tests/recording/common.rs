@@ -1,20 +1,20 @@
-//! A small recording and what is in it.
+//! A small recording with known content.
 
 use coinmc_recording::foxglove::{FrameTransform, Quaternion, Time, Vector3};
 use coinmc_recording::{
-    Attachment, Compression, Options, Passing, Recorder, Recovered, Schema, salvage,
+    Attachment, Compression, Options, Recorder, Recovered, Schema, Unsynced, salvage,
 };
 use serde_json::{Value, json};
 use std::io::Cursor;
 
-/// A message as any reader tells it: topic, log time, sequence, JSON.
-pub(crate) type Told = (String, u64, u32, Value);
+/// A message as a reader sees it: topic, log time, sequence number, JSON.
+pub(crate) type ReadMessage = (String, u64, u32, Value);
 
 /// Bytes of a recording.
 pub(crate) struct Recording {
     pub(crate) bytes: Vec<u8>,
-    pub(crate) messages: Vec<Told>,
-    /// After each flush: bytes and messages so far.
+    pub(crate) messages: Vec<ReadMessage>,
+    /// Bytes and messages so far, after each flush.
     pub(crate) flushes: Vec<(usize, usize)>,
 }
 
@@ -36,7 +36,7 @@ pub(crate) fn transform(time_ns: u64) -> FrameTransform {
     }
 }
 
-/// Bytes that another part of the test can count while they are written.
+/// A buffer whose length a test can read while a recorder writes to it.
 #[derive(Clone, Default)]
 pub(crate) struct Shared(std::rc::Rc<std::cell::RefCell<Vec<u8>>>);
 
@@ -61,10 +61,10 @@ impl Shared {
     }
 }
 
-/// Four chunks of messages of two channels, metadata and an attachment.
+/// Four chunks of messages on two channels, metadata and an attachment.
 pub(crate) fn recording(compression: Compression) -> Recording {
     let shared = Shared::default();
-    let mut recorder = Recorder::new(Passing(shared.clone()), &options(compression)).unwrap();
+    let mut recorder = Recorder::new(Unsynced(shared.clone()), &options(compression)).unwrap();
     let transforms = recorder
         .channel::<FrameTransform>("/tf", &Schema::FRAME_TRANSFORM)
         .unwrap();
@@ -81,9 +81,9 @@ pub(crate) fn recording(compression: Compression) -> Recording {
             if chunk % 2 == 0 {
                 let transform = transform(time);
                 recorder.write(&transforms, time, &transform).unwrap();
-                let told = serde_json::to_value(&transform).unwrap();
+                let json = serde_json::to_value(&transform).unwrap();
                 let sequence = chunk / 2 * 5 + i;
-                messages.push(("/tf".to_owned(), time, sequence, told));
+                messages.push(("/tf".to_owned(), time, sequence, json));
             }
         }
         recorder.flush().unwrap();
@@ -109,8 +109,8 @@ pub(crate) fn recording(compression: Compression) -> Recording {
     }
 }
 
-/// Messages as the crate `mcap` reads them, every checksum checked.
-pub(crate) fn read(bytes: &[u8]) -> Vec<Told> {
+/// Messages as the `mcap` crate reads them, with every checksum validated.
+pub(crate) fn read(bytes: &[u8]) -> Vec<ReadMessage> {
     use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
     let checks = LinearReaderOptions::default()
         .with_validate_chunk_crcs(true)
@@ -119,7 +119,7 @@ pub(crate) fn read(bytes: &[u8]) -> Vec<Told> {
     let mut reader = LinearReader::new_with_options(checks);
     let mut rest = bytes;
     while let Some(event) = reader.next_event() {
-        match event.expect("records that check") {
+        match event.expect("valid records") {
             LinearReadEvent::ReadRequest(n) => {
                 let n = n.min(rest.len());
                 reader.insert(n).copy_from_slice(&rest[..n]);
@@ -147,10 +147,10 @@ pub(crate) fn read(bytes: &[u8]) -> Vec<Told> {
         .collect()
 }
 
-/// Salvages bytes; what `mcap` reads of the result, if it was a recording at all.
+/// Salvages bytes: the report and the new recording, or `None` if the bytes are not a recording.
 pub(crate) fn salvaged(bytes: &[u8]) -> Option<(Recovered, Vec<u8>)> {
     let shared = Shared::default();
-    match salvage(Cursor::new(bytes), Passing(shared.clone())) {
+    match salvage(Cursor::new(bytes), Unsynced(shared.clone())) {
         Ok(recovered) => Some((recovered, shared.bytes())),
         Err(coinmc_recording::Error::NotMcap { .. }) => None,
         Err(error) => panic!("{error}"),

@@ -1,41 +1,41 @@
-//! Lengths that lie, disks that are full, files that are there.
+//! Wrong lengths, full disks, existing files and limits.
 
 use crate::common::{options, recording, salvaged, transform};
 use coinmc_recording::foxglove::FrameTransform;
-use coinmc_recording::{Compression, Error, Options, Passing, Recorder, Schema, recover};
+use coinmc_recording::{Compression, Error, Options, Recorder, Schema, Unsynced, recover};
 use serde_json::Value;
 use std::fs;
 
-/// A record with any length.
+/// A record that claims any length.
 fn record(kind: u8, length: u64, content: &[u8]) -> Vec<u8> {
     [&[kind][..], &length.to_le_bytes(), content].concat()
 }
 
 #[test]
-fn lengths_that_lie_cost_neither_memory_nor_the_rest() {
+fn wrong_lengths_cost_neither_memory_nor_other_records() {
     let recording = recording(Compression::None);
-    let (place, _) = recording.flushes[1];
+    let (at, _) = recording.flushes[1];
     for kind in 0..=255 {
         for length in [0, 1, 1 << 20, 1 << 40, u64::MAX - 8, u64::MAX] {
-            let lie = record(kind, length, b"");
+            let wrong = record(kind, length, b"");
             let mut bytes = recording.bytes.clone();
-            bytes.splice(place..place, lie);
+            bytes.splice(at..at, wrong);
             let (recovered, _) = salvaged(&bytes).unwrap();
-            // a record's end is the file's from here on, as far as anybody can tell
-            let believed = matches!(kind, 0x02 | 0x0f);
+            // nothing distinguishes these from the end of the file
+            let ends_file = matches!(kind, 0x02 | 0x0f);
             let found = usize::try_from(recovered.messages).unwrap();
             assert!(
-                found == recording.messages.len() || believed,
+                found == recording.messages.len() || ends_file,
                 "kind {kind:#x}, length {length}: {found}"
             );
         }
     }
 }
 
-/// A chunk that claims to unpack to an exabyte.
+/// The chunk claims to decompress to an exabyte.
 #[test]
-fn a_chunk_unpacks_to_no_more_than_is_allowed() {
-    let mut packed = lz4_frame_of_zeros();
+fn a_chunk_decompresses_to_no_more_than_the_limit() {
+    let mut packed = lz4_frame();
     let mut content = [0_u64, 0, u64::MAX >> 4]
         .iter()
         .flat_map(|x| x.to_le_bytes())
@@ -51,8 +51,8 @@ fn a_chunk_unpacks_to_no_more_than_is_allowed() {
     assert_eq!((recovered.messages, recovered.lost_chunks), (0, 1));
 }
 
-/// A frame of one stored block, then the end mark (LZ4 frame format 1.6).
-fn lz4_frame_of_zeros() -> Vec<u8> {
+/// The beginning of an LZ4 frame.
+fn lz4_frame() -> Vec<u8> {
     let recording = recording(Compression::Lz4);
     let start = recording
         .bytes
@@ -63,7 +63,7 @@ fn lz4_frame_of_zeros() -> Vec<u8> {
 }
 
 #[test]
-fn nothing_is_overwritten() {
+fn existing_files_are_not_overwritten() {
     let dir = tempfile::tempdir().unwrap();
     let (first, second) = (dir.path().join("a.mcap"), dir.path().join("b.mcap"));
     fs::write(&first, recording(Compression::None).bytes).unwrap();
@@ -85,10 +85,10 @@ fn nothing_is_overwritten() {
     assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 3);
 }
 
-/// A disk that fills up on the way.
-struct Small(usize);
+/// A disk with room for this many bytes.
+struct SmallDisk(usize);
 
-impl std::io::Write for Small {
+impl std::io::Write for SmallDisk {
     fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
         let left = self.0.checked_sub(bytes.len());
         self.0 = left.ok_or(std::io::ErrorKind::StorageFull)?;
@@ -102,10 +102,11 @@ impl std::io::Write for Small {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_full_disk_is_told_and_the_recorder_writes_no_more() {
+fn after_an_error_of_the_disk_the_recorder_writes_nothing_more() {
     let full = fs::File::options().write(true).open("/dev/full").unwrap();
     assert!(Recorder::new(full, &Options::default()).is_err());
-    let mut recorder = Recorder::new(Passing(Small(1000)), &options(Compression::None)).unwrap();
+    let mut recorder =
+        Recorder::new(Unsynced(SmallDisk(1000)), &options(Compression::None)).unwrap();
     let channel = recorder
         .channel::<FrameTransform>("/tf", &Schema::FRAME_TRANSFORM)
         .unwrap();
@@ -119,7 +120,7 @@ fn a_full_disk_is_told_and_the_recorder_writes_no_more() {
 }
 
 #[test]
-fn what_is_too_long_or_too_many_is_refused() {
+fn too_long_messages_and_too_many_channels_are_rejected() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.mcap");
     let mut recorder = Recorder::create(&path, &Options::default()).unwrap();
@@ -130,7 +131,7 @@ fn what_is_too_long_or_too_many_is_refused() {
         recorder.write(&channel, 0, &long),
         Err(Error::TooLong { .. })
     ));
-    // and the recording goes on
+    // the recording can continue
     recorder.write(&channel, 0, &Value::Null).unwrap();
     let full =
         (0..=u16::MAX).find_map(|i| recorder.channel::<Value>(&format!("/{i}"), &schema).err());

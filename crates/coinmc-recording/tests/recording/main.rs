@@ -1,4 +1,4 @@
-//! Recordings as other readers see them, and what is left of them after any damage.
+//! Recordings as another reader sees them, and their recovery after any damage.
 
 mod common;
 mod damage;

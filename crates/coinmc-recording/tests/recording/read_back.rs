@@ -1,4 +1,4 @@
-//! What is recorded is what others read.
+//! Another reader reads exactly what was recorded.
 
 use crate::common::{options, read, recording, salvaged, transform};
 use coinmc_recording::foxglove::FrameTransform;
@@ -6,13 +6,13 @@ use coinmc_recording::{Compression, Recorder, Schema};
 use std::fs;
 
 #[test]
-fn another_reader_finds_every_message_and_every_checksum_right() {
+fn another_reader_finds_every_message_and_no_wrong_checksum() {
     let recording = recording(Compression::None);
     assert_eq!(read(&recording.bytes), recording.messages);
 }
 
 #[test]
-fn the_summary_counts_and_points_right() {
+fn counts_and_offsets_in_the_summary_are_correct() {
     let recording = recording(Compression::None);
     let bytes = &recording.bytes;
     let summary = mcap::Summary::read(bytes).unwrap().expect("a summary");
@@ -34,14 +34,14 @@ fn the_summary_counts_and_points_right() {
         statistics.channel_message_counts.values().sum::<u64>(),
         statistics.message_count
     );
-    let mut told = 0;
+    let mut count = 0;
     for chunk in &summary.chunk_indexes {
         for message in summary.stream_chunk(bytes, chunk).unwrap() {
             let message = message.unwrap();
             assert!(
                 (chunk.message_start_time..=chunk.message_end_time).contains(&message.log_time)
             );
-            told += 1;
+            count += 1;
         }
         for (channel, entries) in summary.read_message_indexes(bytes, chunk).unwrap() {
             for entry in entries {
@@ -50,7 +50,7 @@ fn the_summary_counts_and_points_right() {
             }
         }
     }
-    assert_eq!(told, recording.messages.len());
+    assert_eq!(count, recording.messages.len());
     let attachment = mcap::read::attachment(bytes, &summary.attachment_indexes[0]).unwrap();
     assert_eq!(
         (&*attachment.data, attachment.log_time),
@@ -60,9 +60,9 @@ fn the_summary_counts_and_points_right() {
     assert_eq!(metadata.metadata["config"], "seed = 1");
 }
 
-/// Compressed chunks are read by the Python tests; here they only have to come back.
+/// The Python tests read compressed chunks with another reader; here they are only recovered.
 #[test]
-fn compression_changes_the_bytes_and_nothing_else() {
+fn compressed_messages_are_recovered() {
     let (plain, packed) = (recording(Compression::None), recording(Compression::Lz4));
     assert!(packed.bytes.len() < plain.bytes.len());
     let (recovered, _) = salvaged(&packed.bytes).unwrap();
@@ -78,7 +78,7 @@ fn the_same_messages_give_the_same_bytes() {
 }
 
 #[test]
-fn full_chunks_are_ended_without_being_told() {
+fn full_chunks_end_without_a_flush() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("long.mcap");
     let mut recorder = Recorder::create(&path, &options(Compression::None)).unwrap();
@@ -88,7 +88,7 @@ fn full_chunks_are_ended_without_being_told() {
     for i in 0..20_000 {
         recorder.write(&channel, i, &transform(i)).unwrap();
     }
-    // while it is being written, most of it can be recovered already
+    // most of it can be recovered while it is still being written
     let (recovered, _) = salvaged(&fs::read(&path).unwrap()).unwrap();
     assert!(!recovered.had_end && recovered.messages > 10_000);
     recorder.finish().unwrap();
@@ -96,7 +96,7 @@ fn full_chunks_are_ended_without_being_told() {
 }
 
 #[test]
-fn what_was_flushed_is_on_the_disk_while_the_recorder_lives() {
+fn flushed_messages_are_on_disk_while_the_recorder_is_open() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("session.mcap");
     let mut recorder = Recorder::create(&path, &options(Compression::Lz4)).unwrap();

@@ -8,7 +8,7 @@ use super::{FORMAT, Mode, Record, RecordKind, Trace, table, tell};
 use crate::plan::Plan;
 use coinmc_core::{EventKind, Scene, State};
 use coinmc_recording::foxglove::{FrameTransform, Quaternion, SceneUpdate, Time};
-use coinmc_recording::{Channel, Compression, Error, Options, Passing, Recorder, Schema};
+use coinmc_recording::{Channel, Compression, Error, Options, Recorder, Schema, Unsynced};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -42,7 +42,7 @@ pub fn write_mcap(
         library: format!("coinmc {}", env!("CARGO_PKG_VERSION")),
         compression,
     };
-    let mut recorder = Recorder::new(Passing(out), &options)?;
+    let mut recorder = Recorder::new(Unsynced(out), &options)?;
     recorder.metadata("coinmc", &about(plan))?;
     let channels = Channels::open(&mut recorder)?;
     let mut start = PAUSE_NS;
@@ -58,7 +58,7 @@ pub fn write_mcap(
 }
 
 impl Channels {
-    fn open<W: Write>(recorder: &mut Recorder<Passing<W>>) -> Result<Self, Error> {
+    fn open<W: Write>(recorder: &mut Recorder<Unsynced<W>>) -> Result<Self, Error> {
         let own = |name, text| Schema::new(name, text);
         Ok(Self {
             tosses: recorder.channel(
@@ -89,7 +89,7 @@ impl Channels {
 
 /// Writes a toss that begins at `start`, ns; when it ends.
 fn write_toss<W: Write>(
-    recorder: &mut Recorder<Passing<W>>,
+    recorder: &mut Recorder<Unsynced<W>>,
     channels: &Channels,
     plan: &Plan,
     trace: &Trace,

@@ -4,7 +4,7 @@ use crate::plans::{flat, space};
 use coinmc::plan::Plan;
 use coinmc::results::Kind;
 use coinmc::trace::{Trace, columns, replay, write_csv, write_jsonl, write_mcap, write_parquet};
-use coinmc_recording::{Compression, Passing, salvage};
+use coinmc_recording::{Compression, Unsynced, salvage};
 use serde_json::Value;
 use std::io::Cursor;
 
@@ -101,7 +101,7 @@ fn the_mcap_is_whole_and_has_all_records() {
     for compression in [Compression::None, Compression::Lz4] {
         let mut bytes = Vec::new();
         write_mcap(&plan, &traces, compression, &mut bytes).unwrap();
-        let recovered = salvage(Cursor::new(bytes), Passing(Vec::new())).unwrap();
+        let recovered = salvage(Cursor::new(bytes), Unsynced(Vec::new())).unwrap();
         assert!(recovered.was_whole());
         let records: usize = traces.iter().map(|trace| trace.records.len()).sum();
         // transform, state and energy of each

@@ -62,7 +62,7 @@ impl Files {
                 Kind::Jsonl => write_jsonl(plan, traces, out).map_err(Error::Stream),
                 Kind::Svg => picture(traces, out).map_err(Error::Stream),
             };
-            written.map_err(|error| error.at(&path))?;
+            written.map_err(|error| error.with_path(&path))?;
             file.finish()?;
             paths.push(path);
         }

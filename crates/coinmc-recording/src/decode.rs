@@ -1,8 +1,8 @@
-//! Reading the fields of records whose bytes nobody vouches for.
+//! Decoding the fields of records from untrusted bytes.
 
 use std::collections::BTreeMap;
 
-/// The fields of a record not read yet. Every read returns `None` where the bytes do not suffice.
+/// The unread fields of a record. Every read returns `None` if too few bytes are left.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Fields<'a> {
     bytes: &'a [u8],
@@ -13,7 +13,7 @@ impl<'a> Fields<'a> {
         Self { bytes }
     }
 
-    /// What is left.
+    /// The unread bytes.
     pub(crate) fn rest(self) -> &'a [u8] {
         self.bytes
     }
@@ -46,7 +46,7 @@ impl<'a> Fields<'a> {
         self.array().map(u64::from_le_bytes)
     }
 
-    /// Bytes after their 32-bit length.
+    /// Bytes that follow their 32-bit length.
     pub(crate) fn bytes(&mut self) -> Option<&'a [u8]> {
         let length = self.u32()?;
         self.take(usize::try_from(length).ok()?)
@@ -65,21 +65,21 @@ impl<'a> Fields<'a> {
         Some(map)
     }
 
-    /// The next record: its kind and content.
+    /// The next record: its opcode and content.
     pub(crate) fn record(&mut self) -> Option<(u8, &'a [u8])> {
-        let kind = self.u8()?;
+        let opcode = self.u8()?;
         let length = self.u64()?;
-        Some((kind, self.take(usize::try_from(length).ok()?)?))
+        Some((opcode, self.take(usize::try_from(length).ok()?)?))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::wire::{Put, record};
+    use crate::encode::{Put, record};
 
     #[test]
-    fn what_is_written_reads_back() {
+    fn encoded_fields_decode_to_the_same_values() {
         let map: BTreeMap<_, _> = [("a".to_owned(), "1".to_owned())].into();
         let mut bytes = Vec::new();
         record(&mut bytes, 7, |bytes| {
@@ -101,12 +101,12 @@ mod tests {
     }
 
     #[test]
-    fn lengths_that_lie_give_nothing() {
+    fn a_length_beyond_the_end_gives_none() {
         assert_eq!(Fields::new(&[255, 255, 255, 255, 1]).str(), None);
         assert_eq!(Fields::new(&[1, 0, 0, 0, 255]).str(), None);
         assert_eq!(Fields::new(&[4, 0, 0, 0, 1, 0, 0, 0]).map(), None);
-        let mut never_settles = vec![1];
-        never_settles.put_u64(u64::MAX);
-        assert_eq!(Fields::new(&never_settles).record(), None);
+        let mut endless = vec![1];
+        endless.put_u64(u64::MAX);
+        assert_eq!(Fields::new(&endless).record(), None);
     }
 }

@@ -1,14 +1,14 @@
-//! MCAP as bytes (<https://mcap.dev/spec>): magic, kinds of records, how fields are written.
+//! Encoding MCAP records (<https://mcap.dev/spec>): magic bytes, opcodes and fields.
 
 use std::collections::BTreeMap;
 
 /// First and last bytes of a file.
 pub(crate) const MAGIC: [u8; 8] = *b"\x89MCAP0\r\n";
 
-/// Bytes before a record's content: its kind and its length.
+/// Bytes before a record's content: its opcode and its length.
 pub(crate) const PREFIX: usize = 9;
 
-/// Kinds of records.
+/// Opcodes of records.
 pub(crate) mod op {
     pub(crate) const HEADER: u8 = 0x01;
     pub(crate) const FOOTER: u8 = 0x02;
@@ -27,15 +27,15 @@ pub(crate) mod op {
     pub(crate) const DATA_END: u8 = 0x0f;
 }
 
-/// Appends fields to bytes.
+/// Appends encoded fields.
 pub(crate) trait Put {
     fn put_u8(&mut self, x: u8);
     fn put_u16(&mut self, x: u16);
     fn put_u32(&mut self, x: u32);
     fn put_u64(&mut self, x: u64);
-    /// Text after its length.
+    /// The 32-bit length, then the text.
     fn put_str(&mut self, text: &str);
-    /// Bytes after their 32-bit length.
+    /// The 32-bit length, then the bytes.
     fn put_bytes(&mut self, bytes: &[u8]);
     fn put_map(&mut self, map: &BTreeMap<String, String>);
 }
@@ -76,17 +76,17 @@ impl Put for Vec<u8> {
     }
 }
 
-/// A length as the format has it. The writer refuses what is longer before it comes here.
+/// A 32-bit length. The writer rejects anything longer beforehand.
 pub(crate) fn length(n: usize) -> u32 {
     u32::try_from(n).expect("the writer has checked that it fits")
 }
 
-/// Appends a record: its kind, its length, and the content that `fill` appends.
-pub(crate) fn record(bytes: &mut Vec<u8>, kind: u8, fill: impl FnOnce(&mut Vec<u8>)) {
-    bytes.put_u8(kind);
-    let place = bytes.len();
+/// Appends a record: its opcode, its length, and the content that `fill` appends.
+pub(crate) fn record(bytes: &mut Vec<u8>, opcode: u8, fill: impl FnOnce(&mut Vec<u8>)) {
+    bytes.put_u8(opcode);
+    let length_at = bytes.len();
     bytes.put_u64(0);
     fill(bytes);
-    let length = (bytes.len() - place - 8) as u64;
-    bytes[place..place + 8].copy_from_slice(&length.to_le_bytes());
+    let length = (bytes.len() - length_at - 8) as u64;
+    bytes[length_at..length_at + 8].copy_from_slice(&length.to_le_bytes());
 }

@@ -1,12 +1,12 @@
-//! Files that are there as a whole or not at all, and never in another's place.
+//! Files that appear complete or not at all and never replace another.
 
 use crate::error::Error;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// A new file that takes its place only when all of it is on the disk, and only if nothing else
-/// stands there. Dropped before, it leaves nothing.
+/// A new file that appears under its name only once it is completely on disk, and only if no other
+/// file has that name. Dropping it before leaves nothing behind.
 ///
 /// # Example
 /// ```
@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 /// # let dir = tempfile::tempdir()?;
 /// # let path = dir.path().join("a.txt");
 /// let mut file = NewFile::begin(&path)?;
-/// file.write_all(b"all of it")?;
+/// file.write_all(b"content")?;
 /// assert!(!path.exists());
 /// file.finish()?;
 /// assert!(path.exists() && NewFile::begin(&path).is_err());
@@ -25,27 +25,26 @@ use std::path::{Path, PathBuf};
 /// ```
 #[derive(Debug)]
 pub struct NewFile {
-    place: PathBuf,
+    path: PathBuf,
     temporary: PathBuf,
     file: BufWriter<File>,
-    /// The file stands in its place.
-    is_placed: bool,
+    is_finished: bool,
 }
 
-/// Names tried for the temporary file: others may be a killed process's leftovers.
+/// Names tried for the temporary file: some may be left over from killed processes.
 const ATTEMPTS: u32 = 100;
 
 impl NewFile {
-    /// Begins a file that will stand at `place`.
+    /// Begins a file that will appear at `path`.
     ///
     /// # Errors
-    /// [`Error::Exists`] if something stands there, or the system's.
-    pub fn begin(place: &Path) -> Result<Self, Error> {
-        must_be_free(place)?;
+    /// [`Error::Exists`] if something exists there; system errors.
+    pub fn begin(path: &Path) -> Result<Self, Error> {
+        check_free(path)?;
         let mut attempt = 0;
         loop {
-            let temporary = temporary(place, attempt);
-            // `create_new` does not follow a link that somebody may have put there
+            let temporary = temporary(path, attempt);
+            // `create_new` does not follow a symbolic link
             let opened = OpenOptions::new()
                 .write(true)
                 .create_new(true)
@@ -53,10 +52,10 @@ impl NewFile {
             match opened {
                 Ok(file) => {
                     return Ok(Self {
-                        place: place.to_owned(),
+                        path: path.to_owned(),
                         temporary,
                         file: BufWriter::new(file),
-                        is_placed: false,
+                        is_finished: false,
                     });
                 }
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
@@ -65,39 +64,39 @@ impl NewFile {
                         return Err(Error::io("create", &temporary, error));
                     }
                 }
-                // the user knows the file by its own name
-                Err(error) => return Err(Error::io("create", place, error)),
+                // the user knows the final name, not the temporary one
+                Err(error) => return Err(Error::io("create", path, error)),
             }
         }
     }
 
-    /// Puts the file in its place, on the disk to stay.
+    /// Makes the file durable and gives it its name.
     ///
     /// # Errors
-    /// [`Error::Exists`] if something has come to stand there meanwhile, or the system's.
+    /// [`Error::Exists`] if a file of that name was created in the meantime; system errors.
     pub fn finish(mut self) -> Result<(), Error> {
         let file = &mut self.file;
         let flushed = file.flush().and_then(|()| file.get_ref().sync_all());
-        flushed.map_err(|error| Error::io("write", &self.place, error))?;
-        self.settle()?;
-        self.is_placed = true;
-        sync_directory(&self.place)
+        flushed.map_err(|error| Error::io("write", &self.path, error))?;
+        self.move_into_place()?;
+        self.is_finished = true;
+        sync_directory(&self.path)
     }
 
-    /// A link is made only where nothing stands, in one step; then the other name goes. File
-    /// systems without links are asked first whether the place is free.
-    fn settle(&self) -> Result<(), Error> {
-        let linked = fs::hard_link(&self.temporary, &self.place);
+    /// Creates a hard link, which atomically fails if the name is taken, then removes the temporary
+    /// name. On file systems without hard links the name is checked, then the file renamed.
+    fn move_into_place(&self) -> Result<(), Error> {
+        let linked = fs::hard_link(&self.temporary, &self.path);
         match linked {
             Ok(()) => fs::remove_file(&self.temporary)
                 .map_err(|error| Error::io("remove", &self.temporary, error)),
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => Err(Error::Exists {
-                path: self.place.clone(),
+                path: self.path.clone(),
             }),
             Err(_) => {
-                must_be_free(&self.place)?;
-                fs::rename(&self.temporary, &self.place)
-                    .map_err(|error| Error::io("put into place", &self.place, error))
+                check_free(&self.path)?;
+                fs::rename(&self.temporary, &self.path)
+                    .map_err(|error| Error::io("move into place", &self.path, error))
             }
         }
     }
@@ -115,34 +114,34 @@ impl Write for NewFile {
 
 impl Drop for NewFile {
     fn drop(&mut self) {
-        if !self.is_placed {
-            // A leftover does no harm: its name says what it is.
+        if !self.is_finished {
+            // Errors are ignored: a leftover does no harm, and its name says what it is.
             let _ = fs::remove_file(&self.temporary);
         }
     }
 }
 
-fn must_be_free(place: &Path) -> Result<(), Error> {
-    match fs::symlink_metadata(place) {
+fn check_free(path: &Path) -> Result<(), Error> {
+    match fs::symlink_metadata(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
-        Err(error) => Err(Error::io("create", place, error)),
+        Err(error) => Err(Error::io("create", path, error)),
         Ok(_) => Err(Error::Exists {
-            path: place.to_owned(),
+            path: path.to_owned(),
         }),
     }
 }
 
-fn temporary(place: &Path, attempt: u32) -> PathBuf {
-    let mut name = place.as_os_str().to_owned();
+fn temporary(path: &Path, attempt: u32) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
     name.push(format!(".{}-{attempt}.tmp", std::process::id()));
     name.into()
 }
 
-/// Makes the new name last through a loss of power.
-fn sync_directory(place: &Path) -> Result<(), Error> {
-    // Elsewhere a directory cannot be opened like a file, and names are journalled anyway.
+/// Makes the new name survive a loss of power.
+fn sync_directory(path: &Path) -> Result<(), Error> {
+    // Other systems cannot open a directory like a file, and journal names anyway.
     if cfg!(unix) {
-        let parent = match place.parent() {
+        let parent = match path.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
         };
@@ -157,28 +156,28 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_unfinished_file_leaves_nothing_and_a_place_taken_meanwhile_is_left_alone() {
+    fn an_unfinished_file_leaves_nothing_and_a_file_created_meanwhile_is_not_replaced() {
         let dir = tempfile::tempdir().unwrap();
-        let place = dir.path().join("a");
-        let mut begun = NewFile::begin(&place).unwrap();
+        let path = dir.path().join("a");
+        let mut begun = NewFile::begin(&path).unwrap();
         begun.write_all(b"half").unwrap();
         drop(begun);
         assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0);
 
-        let mut late = NewFile::begin(&place).unwrap();
+        let mut late = NewFile::begin(&path).unwrap();
         late.write_all(b"late").unwrap();
-        fs::write(&place, "first").unwrap();
+        fs::write(&path, "first").unwrap();
         assert!(matches!(late.finish(), Err(Error::Exists { .. })));
-        assert_eq!(fs::read_to_string(&place).unwrap(), "first");
+        assert_eq!(fs::read_to_string(&path).unwrap(), "first");
         assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
     }
 
     #[cfg(unix)]
     #[test]
-    fn a_link_is_not_written_through() {
+    fn a_symbolic_link_is_not_followed() {
         let dir = tempfile::tempdir().unwrap();
-        let place = dir.path().join("a");
-        std::os::unix::fs::symlink(dir.path().join("nothing"), &place).unwrap();
-        assert!(matches!(NewFile::begin(&place), Err(Error::Exists { .. })));
+        let path = dir.path().join("a");
+        std::os::unix::fs::symlink(dir.path().join("nothing"), &path).unwrap();
+        assert!(matches!(NewFile::begin(&path), Err(Error::Exists { .. })));
     }
 }

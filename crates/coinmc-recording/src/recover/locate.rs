@@ -1,19 +1,19 @@
-//! Is this a record? Told from a few fields, whatever the record's length.
+//! Locating records, by checks that read only a few fields however long a record is.
 
 use super::source::Source;
-use crate::wire::{PREFIX, op};
+use crate::encode::{PREFIX, op};
 use std::io::{self, Read, Seek};
 
-/// A record that looks like one.
+/// Where a plausible record lies in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Place {
+pub(super) struct Location {
     pub(super) at: u64,
-    pub(super) kind: u8,
-    /// Of its content.
+    pub(super) opcode: u8,
+    /// Length of its content.
     pub(super) length: u64,
 }
 
-impl Place {
+impl Location {
     /// Where its content begins.
     pub(super) fn content(self) -> u64 {
         self.at + PREFIX as u64
@@ -25,34 +25,37 @@ impl Place {
     }
 }
 
-/// Longest compression's name.
+/// Longest name of a compression, bytes.
 const LONGEST_NAME: u64 = 32;
 
-/// The record at `at`, if its kind is known and the lengths in it agree with its own. Only a chunk
-/// may reach beyond the file: it was being written when the file was cut off.
-pub(super) fn place<R: Read + Seek>(source: &mut Source<R>, at: u64) -> io::Result<Option<Place>> {
+/// The record at `at`, if its opcode is known and the lengths in it agree with its own. Only a
+/// chunk may extend beyond the file: one that was being written when the file was cut off.
+pub(super) fn record_at<R: Read + Seek>(
+    source: &mut Source<R>,
+    at: u64,
+) -> io::Result<Option<Location>> {
     let mut prefix = [0; PREFIX];
     if !source.fill(at, &mut prefix)? {
         return Ok(None);
     }
-    let [kind, length @ ..] = prefix;
+    let [opcode, length @ ..] = prefix;
     let length = u64::from_le_bytes(length);
     let left = source.length() - at - PREFIX as u64;
-    if length > left && kind != op::CHUNK {
+    if length > left && opcode != op::CHUNK {
         return Ok(None);
     }
-    // from here on no sum of lengths overflows
+    // so that no sum of lengths below overflows
     if length > i64::MAX as u64 {
         return Ok(None);
     }
-    let place = Place { at, kind, length };
-    Ok(has_shape(source, place)?.then_some(place))
+    let location = Location { at, opcode, length };
+    Ok(is_plausible(source, location)?.then_some(location))
 }
 
-fn has_shape<R: Read + Seek>(source: &mut Source<R>, place: Place) -> io::Result<bool> {
-    let length = place.length;
-    let content = place.content();
-    Ok(match place.kind {
+fn is_plausible<R: Read + Seek>(source: &mut Source<R>, location: Location) -> io::Result<bool> {
+    let length = location.length;
+    let content = location.content();
+    Ok(match location.opcode {
         op::HEADER | op::METADATA => {
             lengths_fill(source, content, content + length, &[Field::Short; 2])?
         }
@@ -78,21 +81,21 @@ fn has_shape<R: Read + Seek>(source: &mut Source<R>, place: Place) -> io::Result
         op::ATTACHMENT_INDEX => length >= 48,
         op::STATISTICS => length >= 46,
         op::METADATA_INDEX => length >= 20,
-        // of others' own kinds nothing more is known
-        kind => kind >= 0x80,
+        // nothing else is known about private records
+        opcode => opcode >= 0x80,
     })
 }
 
 /// A field that begins with its own length.
 #[derive(Clone, Copy)]
 enum Field {
-    /// Of 32 bits.
+    /// The length has 32 bits.
     Short,
-    /// Of 64 bits.
+    /// The length has 64 bits.
     Long,
 }
 
-/// Whether these fields, one after the other, reach from `at` to `end` exactly.
+/// Whether these consecutive fields exactly fill the range from `at` to `end`.
 fn lengths_fill<R: Read + Seek>(
     source: &mut Source<R>,
     mut at: u64,
@@ -124,13 +127,13 @@ fn is_chunk<R: Read + Seek>(source: &mut Source<R>, at: u64, length: u64) -> io:
     Ok(records.and_then(|records| records.checked_add(40 + name)) == Some(length))
 }
 
-/// The next record at `from` or later that is surely one: a long shape agrees, or a short one and
-/// those of the records after it.
-pub(super) fn find<R: Read + Seek>(
+/// The first record at `from` or later that is confirmed: by enough fields of its own, or by the
+/// records that follow it.
+pub(super) fn find_record<R: Read + Seek>(
     source: &mut Source<R>,
     mut from: u64,
-) -> io::Result<Option<Place>> {
-    /// Bytes looked through at a time.
+) -> io::Result<Option<Location>> {
+    /// Bytes searched at a time.
     const WINDOW: usize = 64 << 10;
     while from + (PREFIX as u64) < source.length() {
         let window = source.read(from, (WINDOW + PREFIX) as u64)?;
@@ -142,8 +145,8 @@ pub(super) fn find<R: Read + Seek>(
                 continue;
             }
             let at = from + i as u64;
-            if let Some(found) = place(source, at)?
-                && is_sure(source, found)?
+            if let Some(found) = record_at(source, at)?
+                && is_confirmed(source, found)?
             {
                 return Ok(Some(found));
             }
@@ -153,13 +156,13 @@ pub(super) fn find<R: Read + Seek>(
     Ok(None)
 }
 
-fn is_sure<R: Read + Seek>(source: &mut Source<R>, found: Place) -> io::Result<bool> {
-    Ok(match found.kind {
+fn is_confirmed<R: Read + Seek>(source: &mut Source<R>, found: Location) -> io::Result<bool> {
+    Ok(match found.opcode {
         op::CHUNK | op::ATTACHMENT => true,
         _ => {
-            let next = place(source, found.end())?;
+            let next = record_at(source, found.end())?;
             let Some(next) = next else { return Ok(false) };
-            next.kind == op::CHUNK || place(source, next.end())?.is_some()
+            next.opcode == op::CHUNK || record_at(source, next.end())?.is_some()
         }
     })
 }
