@@ -1,6 +1,10 @@
 //! What can be asked for on the command line.
 
-use crate::commands::{Analytic, Check, Completions, Film, Merge, Robot, Run, Schema, Trace};
+#[cfg(feature = "film")]
+use crate::commands::Film;
+#[cfg(feature = "robot")]
+use crate::commands::Robot;
+use crate::commands::{Analytic, Check, Completions, Merge, Run, Schema, Trace};
 use crate::exit::{Failure, Outcome};
 use crate::output::{Console, Format};
 use clap::{ColorChoice, CommandFactory, Parser, Subcommand};
@@ -12,7 +16,6 @@ Examples:
   coinmc run examples/flat-fair.toml              run it; the same command again resumes
   coinmc run toss.toml --set surface.friction=0.2 --format json
   coinmc analytic --fair                          fair ratios of the closed forms
-  coinmc film fit examples/drop-film.txt --ratio 1 --radius-m 0.01    a law, from film
   coinmc trace toss.toml --toss 42 --show          what happened in a toss
 
 Exit status:
@@ -48,8 +51,10 @@ enum Command {
     Check(Check),
     Merge(Merge),
     Trace(Box<Trace>),
+    #[cfg(feature = "film")]
     Film(Film),
     Analytic(Analytic),
+    #[cfg(feature = "robot")]
     Robot(Robot),
     Schema(Schema),
     Completions(Completions),
@@ -74,8 +79,10 @@ impl Command {
             Self::Check(check) => check.format(),
             Self::Merge(merge) => merge.format(),
             Self::Trace(trace) => trace.format(),
+            #[cfg(feature = "film")]
             Self::Film(film) => film.format(),
             Self::Analytic(analytic) => analytic.errors_as(),
+            #[cfg(feature = "robot")]
             Self::Robot(robot) => robot.format(),
             Self::Schema(_) | Self::Completions(_) => Format::Table,
         }
@@ -87,8 +94,10 @@ impl Command {
             Self::Check(check) => check.execute(console),
             Self::Merge(merge) => merge.execute(console),
             Self::Trace(trace) => trace.execute(console),
+            #[cfg(feature = "film")]
             Self::Film(film) => film.execute(console),
             Self::Analytic(analytic) => analytic.execute(console),
+            #[cfg(feature = "robot")]
             Self::Robot(robot) => robot.execute(console),
             Self::Schema(schema) => schema.execute(),
             Self::Completions(completions) => completions.execute(Arguments::command()),

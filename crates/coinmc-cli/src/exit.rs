@@ -5,6 +5,7 @@ use crate::terminal::Colors;
 use coinmc::config::Diagnostics;
 use coinmc::run::RunError;
 use coinmc::trace::TraceError;
+#[cfg(feature = "film")]
 use coinmc_film::text as film;
 use coinmc_recording::Error as RecordingError;
 use serde_json::{Value, json};
@@ -27,6 +28,7 @@ pub(crate) enum Failure {
     /// The config is wrong: every problem of it.
     Config(Diagnostics),
     /// Filmed drops are wrong: every problem of their files.
+    #[cfg(feature = "film")]
     Film(film::Diagnostics),
     /// An argument, or a directory it names, is wrong.
     Input(anyhow::Error),
@@ -121,7 +123,9 @@ impl Failure {
 
     fn code(&self) -> u8 {
         match self {
-            Self::Config(_) | Self::Film(_) | Self::Input(_) => BAD_INPUT,
+            Self::Config(_) | Self::Input(_) => BAD_INPUT,
+            #[cfg(feature = "film")]
+            Self::Film(_) => BAD_INPUT,
             Self::Runtime(_) => FAILED,
         }
     }
@@ -136,6 +140,7 @@ impl Failure {
                     if problems == 1 { "" } else { "s" }
                 ));
             }
+            #[cfg(feature = "film")]
             Self::Film(diagnostics) => {
                 output::note(&diagnostics.render(console.stderr().color));
                 let problems = diagnostics.problems().len();
@@ -164,6 +169,7 @@ impl Failure {
                     "help": problem.help,
                 })).collect::<Vec<_>>(),
             }),
+            #[cfg(feature = "film")]
             Self::Film(diagnostics) => json!({
                 "format_version": output::FORMAT_VERSION,
                 "kind": "problems",

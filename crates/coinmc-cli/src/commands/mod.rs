@@ -3,8 +3,10 @@
 mod analytic;
 mod check;
 mod completions;
+#[cfg(feature = "film")]
 mod film;
 mod merge;
+#[cfg(feature = "robot")]
 mod robot;
 mod run;
 mod schema;
@@ -13,8 +15,10 @@ mod trace;
 pub(crate) use analytic::Analytic;
 pub(crate) use check::Check;
 pub(crate) use completions::Completions;
+#[cfg(feature = "film")]
 pub(crate) use film::Film;
 pub(crate) use merge::Merge;
+#[cfg(feature = "robot")]
 pub(crate) use robot::Robot;
 pub(crate) use run::Run;
 pub(crate) use schema::Schema;
