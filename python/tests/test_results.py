@@ -155,10 +155,10 @@ def test_a_damaged_tally_is_told_and_not_used(scene, tmp_path):
     coinmc.run(scene, tmp_path / "run")
     [tally] = (tmp_path / "run" / "tallies").glob("*.tally")
     tally.write_bytes(tally.read_bytes()[:-3])
-    with pytest.warns(RuntimeWarning, match="is not used"):
+    with pytest.warns(RuntimeWarning, match="is rejected"):
         opened = coinmc.open(tmp_path / "run")
     assert opened.status == "interrupted"
-    with pytest.warns(RuntimeWarning, match="is not used"):
+    with pytest.warns(RuntimeWarning, match="is rejected"):
         again = coinmc.run(scene, tmp_path / "run")
     assert again.tosses == 3000
 

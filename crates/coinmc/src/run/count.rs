@@ -1,4 +1,4 @@
-//! A plan counted in memory, for who wants the numbers and no files.
+//! Counts a plan in memory, without files.
 
 use super::schedule::{Finished, Schedule};
 use super::{Part, ProgressSink, Report, RunError, one_a_core, report, workers};
@@ -13,15 +13,15 @@ pub struct Count<'a> {
     pub threads: Option<NonZeroUsize>,
     /// Set it (from another thread or a signal) to stop within about 0.1 s.
     pub cancel: &'a AtomicBool,
-    /// Who is told how it goes on.
+    /// Receives the progress.
     pub sink: &'a dyn ProgressSink,
 }
 
-/// Counts a plan: the same counts as a [`run`](super::run()) of it, and nothing is written. What was
-/// counted when it was told to stop is reported as such.
+/// Counts a plan: the same counts as a [`run`](super::run()), but nothing is written. If it is stopped
+/// early, the report holds the counts so far and says so.
 ///
 /// # Errors
-/// [`RunError::Settings`] if an engine refuses its settings, [`RunError::Thread`].
+/// [`RunError::Settings`] if an engine rejects its settings, [`RunError::Thread`].
 ///
 /// # Example
 /// ```
@@ -48,9 +48,9 @@ pub fn count(plan: &Plan, options: &Count<'_>) -> Result<Report, RunError> {
     let schedule = Schedule::new(plan, Part::WHOLE, Finished::new());
     sink.progress(&schedule.progress());
     // the schedule itself holds the counts
-    let keep = |_: &[_]| Ok(());
+    let store = |_: &[_]| Ok(());
     let threads = one_a_core(threads);
-    let schedule = workers::work_off(plan, schedule, &keep, threads, cancel, sink)?;
+    let schedule = workers::execute(plan, schedule, &store, threads, cancel, sink)?;
     sink.progress(&schedule.progress());
     Ok(report(plan, Part::WHOLE, &schedule))
 }

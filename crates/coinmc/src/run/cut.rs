@@ -5,21 +5,21 @@ use super::Chunk;
 use crate::plan::{EngineChoice, FIRST_LOOK, Plan, Stop, looks};
 use std::ops::Range;
 
-/// Fewest tosses of a chunk that is not the end of a point: some 30 ms of work in the plane, more in
-/// space, which hides what a file costs.
+/// Fewest tosses of a chunk, except the last of a point: some 30 ms of work in the plane, more in
+/// space, which hides the cost of a file.
 const LEAST: u64 = FIRST_LOOK;
-/// Most tosses of a chunk of a run of fixed length, unless there were to be too many chunks: a tenth of a
-/// second of work in the plane, up to some seconds in space.
+/// Most tosses of a chunk of a run of fixed length, unless that made too many chunks: a tenth of a
+/// second of work in the plane, up to a few seconds in space.
 const LARGE: u64 = 1 << 17;
 /// A run of fixed length has about this many chunks before they are made larger than [`LARGE`] …
 const ENOUGH_CHUNKS: u64 = 256;
-/// … and at most this many, beyond one a point. What is tossed in time steps takes so long that it has as
-/// many from the beginning.
+/// … and at most this many, or one per point. Time-stepped tosses are so slow that their runs have as
+/// many from the start.
 const MOST_CHUNKS: u64 = 8192;
-/// A stage after the first is cut into at most this many chunks.
+/// Most chunks of a stage after the first.
 const CHUNKS_A_STAGE: u64 = 16;
 
-/// Tosses of a chunk where so many are made in all.
+/// Tosses per chunk of a run that makes `total` tosses.
 fn fixed_size(total: u64, plan: &Plan) -> u64 {
     let of_at_most = |chunks: u64| {
         let size = total.div_ceil(chunks).checked_next_power_of_two();
@@ -34,8 +34,8 @@ fn fixed_size(total: u64, plan: &Plan) -> u64 {
 
 /// The cut of one plan.
 ///
-/// A point's tosses fall into stages, each ending where the point is looked at: one stage for a
-/// fixed number of tosses, one a look otherwise. A stage falls into chunks of equal size, the
+/// A point's tosses are divided into stages, each of which ends with a look at the point: one stage for
+/// a fixed number of tosses, otherwise one per look. A stage is divided into chunks of equal size; the
 /// last may be shorter.
 #[derive(Debug, Clone)]
 pub(super) struct Cut {
@@ -73,8 +73,8 @@ impl Cut {
         start..self.ends[stage]
     }
 
-    /// The chunks of a stage of a point, in order, one at a time: a long run has more of them
-    /// than memory.
+    /// The chunks of a stage of a point, in order. An iterator, as the chunks of a long run would not fit
+    /// into memory.
     pub(super) fn chunks(&self, point: usize, stage: usize) -> impl Iterator<Item = Chunk> + use<> {
         let Range { start, end } = self.stage(stage);
         let size = self.size(start);
@@ -102,11 +102,11 @@ impl Cut {
         })
     }
 
-    /// The chunk's number in the whole run, which decides the part that does it. Only a run of
-    /// fixed length has parts.
+    /// The chunk's number in the whole run, which decides the part that it belongs to. Only a run of fixed
+    /// length has parts.
     pub(super) fn number(&self, chunk: &Chunk) -> u64 {
         if chunk.tosses.is_empty() {
-            // integrated: one chunk a point, dealt out in turn
+            // integrated: one chunk per point
             return chunk.point as u64;
         }
         let size = self.size(0);

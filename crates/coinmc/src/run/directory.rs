@@ -1,4 +1,4 @@
-//! The run directory: claimed by one process, begun or gone on with, never another run's.
+//! The run directory: locked by one process, which starts a run in it or resumes the one it holds.
 
 use super::cut::Cut;
 use super::manifest::{self, Manifest};
@@ -14,27 +14,28 @@ use std::path::{Path, PathBuf};
 
 /// The config as understood.
 pub(super) const CONFIG: &str = "config.toml";
-/// How often, and how far apart, a held lock is tried again: a third of a second in all.
+/// How often, and at what interval, a lock that somebody holds is tried again: a third of a second in
+/// all.
 const LOCK_ATTEMPTS: u32 = 16;
 const LOCK_PAUSE: std::time::Duration = std::time::Duration::from_millis(20);
-/// Locked while a process runs here; always empty.
+/// Locked while a process runs here; an empty file.
 const LOCK: &str = "lock";
 const CSV: &str = "results.csv";
 const PARQUET: &str = "results.parquet";
-/// What an unfinished run has so far, under a name that says so.
+/// Results of an unfinished run.
 const PARTIAL: &str = "results.partial.csv";
 
-/// A run directory that this process holds the lock of.
+/// A run directory whose lock this process holds.
 #[derive(Debug)]
 pub(super) struct RunDirectory {
     path: PathBuf,
     tallies: Tallies,
-    /// Released when closed, also by a kill.
+    /// The system releases it when the process ends, even by a kill.
     _lock: File,
 }
 
 impl RunDirectory {
-    /// Begins a run in a new or empty directory, or goes on with the one that is there.
+    /// Starts a run in a new or empty directory, or resumes the run that the directory holds.
     pub(super) fn open(
         path: &Path,
         plan: &Plan,
@@ -44,14 +45,14 @@ impl RunDirectory {
         Self::open_with(path, plan, Manifest::new(plan, part), sink)
     }
 
-    /// [`open`](Self::open) with a manifest that may name more than this machine.
+    /// [`open`](Self::open) with a manifest that may name several machines.
     pub(super) fn open_with(
         path: &Path,
         plan: &Plan,
         mut ours: Manifest,
         sink: &dyn ProgressSink,
     ) -> Result<Self, RunError> {
-        // looked at before anything is touched, and again when nobody else can change it
+        // check before anything is touched, and again under the lock
         must_be_usable(path, &ours)?;
         fs::create_dir_all(path).map_err(|error| RunError::io("create", path, error))?;
         let lock = lock(path)?;
@@ -81,8 +82,8 @@ impl RunDirectory {
         &self.tallies
     }
 
-    /// What an earlier run finished. Its leftovers are removed, and what is not believed is set
-    /// aside.
+    /// The chunks that an earlier run finished. Removes its temporary files, and renames files that are
+    /// rejected.
     pub(super) fn finished(
         &self,
         plan: &Plan,
@@ -98,7 +99,7 @@ impl RunDirectory {
                 Entry::Damaged(path, damage) => {
                     let aside = tallies::reject(&path)?;
                     sink.warning(&format!(
-                        "{} is not used: {damage}. Its tosses are done again; it is now {}",
+                        "{} is rejected: {damage}. Its tosses are repeated; the file is now {}",
                         path.display(),
                         aside.display()
                     ));
@@ -109,7 +110,7 @@ impl RunDirectory {
         Ok(finished)
     }
 
-    /// Sets aside tallies, by point and first toss, that the finished run had no use for.
+    /// Renames tallies, given by point and first toss, that the finished run did not need.
     pub(super) fn set_aside(
         &self,
         unneeded: &[(usize, u64)],
@@ -120,7 +121,9 @@ impl RunDirectory {
             if replace::is_file(&path) {
                 let aside = tallies::reject(&path)?;
                 let (path, aside) = (path.display(), aside.display());
-                sink.warning(&format!("{path} is no part of this run; it is now {aside}"));
+                sink.warning(&format!(
+                    "{path} does not belong to this run; the file is now {aside}"
+                ));
             }
         }
         Ok(())
@@ -138,7 +141,7 @@ impl RunDirectory {
         replace::sync_directory(&self.path)
     }
 
-    /// Writes what an unfinished run has so far.
+    /// Writes the results of an unfinished run.
     pub(super) fn write_partial(&self, results: &Results) -> Result<(), RunError> {
         let mut file = Replacement::begin(&self.path.join(PARTIAL))?;
         let written = write_csv(results, &mut file.writer());
@@ -159,14 +162,14 @@ impl RunDirectory {
         if file.finish_if_new()? {
             let path = path.display();
             sink.warning(&format!(
-                "{path} was not what the tallies give and was replaced"
+                "{path} did not match the tallies and was replaced"
             ));
         }
         Ok(())
     }
 }
 
-/// Checks that `path` is absent, empty, just begun or the run that `ours` describes, and gives
+/// Checks that `path` is absent, empty, just started or the run that `ours` describes, and returns
 /// its manifest.
 fn must_be_usable(path: &Path, ours: &Manifest) -> Result<Option<Manifest>, RunError> {
     let not_a_run = |found: String| RunError::NotARunDirectory {
@@ -177,7 +180,7 @@ fn must_be_usable(path: &Path, ours: &Manifest) -> Result<Option<Manifest>, RunE
         Ok(entries) => entries,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
         Err(error) if error.kind() == io::ErrorKind::NotADirectory => {
-            return Err(not_a_run("a file, it is not a directory at all".to_owned()));
+            return Err(not_a_run("a file, not a directory".to_owned()));
         }
         Err(error) => return Err(RunError::io("list", path, error)),
     };
@@ -189,7 +192,7 @@ fn must_be_usable(path: &Path, ours: &Manifest) -> Result<Option<Manifest>, RunE
         let name = entry
             .map_err(|error| RunError::io("list", path, error))?
             .file_name();
-        // a run killed before it wrote its manifest leaves no more than these
+        // a run killed before it wrote its manifest leaves at most these files
         let just_begun = name.to_str().is_some_and(|name| {
             name == LOCK || name.strip_suffix(replace::TEMPORARY) == Some(manifest::FILE)
         });
@@ -219,8 +222,8 @@ fn lock(dir: &Path) -> Result<File, RunError> {
         .truncate(false)
         .open(&path);
     let file = file.map_err(|error| RunError::io("create", &path, error))?;
-    // A process that this one is just starting holds a copy of every open file until it runs its
-    // own program; a lock let go meanwhile is still held by that copy, for a moment.
+    // A child process that has been forked and not yet started its program holds copies of all open
+    // files. A lock released in the meantime stays held by such a copy for a moment.
     let mut attempts = LOCK_ATTEMPTS;
     let mut locked = file.try_lock();
     while attempts > 0 && matches!(locked, Err(TryLockError::WouldBlock)) {
@@ -233,8 +236,8 @@ fn lock(dir: &Path) -> Result<File, RunError> {
         Err(TryLockError::WouldBlock) => Err(RunError::Locked {
             dir: dir.to_owned(),
         }),
-        // Some network file systems know no locks. Two runs in one directory only do each
-        // other's work again there: files are replaced whole, by the same content.
+        // Some network file systems have no locks. Two runs in one directory then only repeat each
+        // other's work: files are replaced atomically, by the same content.
         Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => Ok(file),
         Err(TryLockError::Error(error)) => Err(RunError::io("lock", &path, error)),
     }
@@ -244,8 +247,8 @@ fn write_config(dir: &Path, plan: &Plan, sink: &dyn ProgressSink) -> Result<(), 
     let path = dir.join(CONFIG);
     let ours = plan.resolved_toml.as_bytes();
     if replace::is_file(&path) {
-        let there = replace::read_bounded(&path, ours.len());
-        if there
+        let existing = replace::read_bounded(&path, ours.len());
+        if existing
             .map_err(|error| RunError::io("read", &path, error))?
             .as_deref()
             == Some(ours)
@@ -254,7 +257,7 @@ fn write_config(dir: &Path, plan: &Plan, sink: &dyn ProgressSink) -> Result<(), 
         }
         let path = path.display();
         sink.warning(&format!(
-            "{path} was not the config of this run and was replaced"
+            "{path} did not match the config of this run and was replaced"
         ));
     }
     replace::replace(&path, ours)

@@ -1,4 +1,4 @@
-//! Parts put together again.
+//! Merges the parts of a run.
 
 use super::cut::Cut;
 use super::directory::RunDirectory;
@@ -14,11 +14,11 @@ use std::collections::{BTreeSet, HashMap};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A message names at most this many missing chunks.
+/// Most missing chunks that an error message names.
 const NAMED: usize = 20;
 
-/// Puts the parts of a run together in a run directory of their own, which is that of the whole
-/// run to the byte. The parts are only read; parts that overlap are welcome where they agree.
+/// Merges the parts of a run into a new run directory, byte-identical to that of the whole run. The
+/// parts are only read; they may overlap where they agree.
 ///
 /// Everything is checked before anything is written.
 ///
@@ -50,7 +50,7 @@ pub fn merge(inputs: &[PathBuf], out: &Path, sink: &dyn ProgressSink) -> Result<
     write(&plan, ours, collected, inputs, out, sink)
 }
 
-/// A piece and the run directory it came from.
+/// The result of a chunk and the run directory it came from.
 struct Found {
     chunk: Chunk,
     piece: Piece,
@@ -100,7 +100,7 @@ fn collect(
                 Ok(())
             }
             Entry::Damaged(path, damage) => {
-                sink.warning(&format!("{} is not used: {damage}", path.display()));
+                sink.warning(&format!("{} is rejected: {damage}", path.display()));
                 Ok(())
             }
             Entry::Leftover(_) => Ok(()),
@@ -109,7 +109,7 @@ fn collect(
     Ok(collected)
 }
 
-/// Plays the run through with what was collected: a chunk that would have to be done is missing.
+/// Schedules the run with the collected results: a chunk that the schedule still hands out is missing.
 fn must_be_whole(plan: &Plan, finished: Finished) -> Result<(), RunError> {
     let mut schedule = Schedule::new(plan, Part::WHOLE, finished);
     let (mut missing, mut total) = (Vec::<Chunk>::new(), 0);
@@ -139,13 +139,13 @@ fn write(
     out: &Path,
     sink: &dyn ProgressSink,
 ) -> Result<Report, RunError> {
-    /// Tallies stored together.
+    /// Tallies stored at once.
     const BATCH: usize = 256;
     let directory = RunDirectory::open_with(out, plan, manifest, sink)?;
-    let there = directory.finished(plan, sink)?;
+    let existing = directory.finished(plan, sink)?;
     let mut new = Vec::new();
     for (key, found) in &collected {
-        match there.get(key) {
+        match existing.get(key) {
             Some(piece) if *piece != found.piece => {
                 return Err(RunError::Conflict {
                     chunk: found.chunk.clone(),

@@ -1,14 +1,14 @@
-//! From a plan to results: chunks done on all cores, each kept in the run directory as soon as it
-//! is finished.
+//! From a plan to results: chunks are executed on all cores and stored in the run directory as they
+//! finish.
 //!
 //! ```text
 //! Plan ──cut──▶ chunks ──workers──▶ tallies/*.tally ──▶ results.csv, results.parquet
 //!                           ▲             │
-//!                           └── a later run takes them over
+//!                           └── a later run resumes from them
 //! ```
 //!
-//! What is counted depends on the plan alone: not on threads, parts, machine, order, or on how
-//! often the run was killed and started again. The files are described in docs/reference/formats.md.
+//! The counts depend on the plan alone: not on threads, parts, machine or order, nor on how often the
+//! run was killed and resumed. The files are described in docs/reference/formats.md.
 //!
 //! # Example
 //! ```no_run
@@ -73,58 +73,57 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::thread;
 
-/// How to run a plan. None of it changes what is counted.
+/// How to run a plan. None of it changes the counts.
 #[derive(Clone, Copy)]
 pub struct Options<'a> {
     /// The run directory: new, empty, or that of the same run.
     pub out: &'a Path,
     /// The share of the run to do.
     pub part: Part,
-    /// Threads that toss; `None` for one a core.
+    /// Threads that toss; `None` for one per core.
     pub threads: Option<NonZeroUsize>,
     /// Set it (from another thread or a signal) to stop within about 0.1 s.
     pub cancel: &'a AtomicBool,
-    /// Who is told how the run goes on.
+    /// Receives the progress.
     pub sink: &'a dyn ProgressSink,
 }
 
-/// What a run came to.
+/// The outcome of a run.
 #[derive(Debug, Clone)]
 pub struct Report {
-    /// All points; of an unfinished run, as far as they are counted.
+    /// All points; those of an unfinished run as far as they are counted.
     pub results: Results,
     /// Whether the run is finished.
     pub status: Status,
-    /// Chunks taken over from an earlier run.
+    /// Chunks reused from an earlier run.
     pub reused_chunks: u64,
-    /// All tosses counted, those of an earlier run included.
+    /// All tosses counted, including those of an earlier run.
     pub tosses: u64,
 }
 
 /// Whether a run is finished.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Status {
-    /// All is done, and every point meets the stop rule.
+    /// Every point meets the stop rule.
     Complete,
-    /// It was told to stop. Running it again goes on.
+    /// It was stopped; running it again resumes.
     Interrupted,
-    /// Its part is done; the parts wait to be merged.
+    /// Its part is complete; the parts can be merged.
     Part,
-    /// All is done, and some points had not reached the half width when they came to the largest
-    /// number of tosses.
+    /// Complete, but some points reached the largest number of tosses before the half width.
     ShortOfTarget {
         /// How many.
         points: usize,
     },
 }
 
-/// Runs a plan, or what is left of it, in a run directory.
+/// Runs a plan in a run directory, or resumes the run that the directory holds.
 ///
 /// Ends with `results.csv` and `results.parquet` in the directory if the whole run is finished,
 /// and with `results.partial.csv` if it was cancelled or only a part was asked for.
 ///
 /// # Errors
-/// [`RunError`]; finished chunks are kept and running again goes on.
+/// [`RunError`]; finished chunks are kept, and running again resumes.
 pub fn run(plan: &Plan, options: &Options<'_>) -> Result<Report, RunError> {
     if options.part != Part::WHOLE && !matches!(plan.stop, Stop::Tosses(_)) {
         return Err(RunError::PartsNeedFixedTosses);
@@ -139,13 +138,13 @@ pub fn run(plan: &Plan, options: &Options<'_>) -> Result<Report, RunError> {
     let directory = RunDirectory::open(out, plan, part, sink)?;
     let schedule = Schedule::new(plan, part, directory.finished(plan, sink)?);
     sink.progress(&schedule.progress());
-    let keep = |batch: &[_]| directory.tallies().store(batch);
+    let store = |batch: &[_]| directory.tallies().store(batch);
     let threads = one_a_core(threads);
-    let schedule = workers::work_off(plan, schedule, &keep, threads, cancel, sink)?;
+    let schedule = workers::execute(plan, schedule, &store, threads, cancel, sink)?;
     conclude(plan, part, schedule, &directory, sink)
 }
 
-/// The threads asked for, or one a core.
+/// The threads asked for, or one per core.
 fn one_a_core(threads: Option<NonZeroUsize>) -> NonZeroUsize {
     let threads = threads.or_else(|| thread::available_parallelism().ok());
     threads.unwrap_or(NonZeroUsize::MIN)
@@ -173,7 +172,7 @@ fn conclude(
     Ok(report)
 }
 
-/// What a schedule has come to.
+/// The report of a schedule.
 fn report(plan: &Plan, part: Part, schedule: &Schedule<'_>) -> Report {
     let points = schedule.points().iter().enumerate();
     let rows = points

@@ -1,9 +1,9 @@
-//! What a run tells while it goes on.
+//! Progress reports of a run.
 
-/// How far a run is. All of it is for the eye: none of it enters the results.
+/// How far a run is. For display only: none of it enters the results.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
-    /// Points with all the tosses they need (of this part).
+    /// Points that have all the tosses they need (of this part).
     pub points_done: usize,
     /// All points.
     pub points: usize,
@@ -14,20 +14,20 @@ pub struct Progress {
     pub tosses_planned: u64,
     /// Of `tosses_done`, those that an earlier run had counted.
     pub tosses_reused: u64,
-    /// Chunks taken over from an earlier run.
+    /// Chunks reused from an earlier run.
     pub reused_chunks: u64,
-    /// The longest arm of any face's interval at any point tossed so far (by Wilson's formula,
-    /// which is quick); `None` before the first toss.
+    /// The widest arm of any face's interval at any point so far, by Wilson's formula, which is quick;
+    /// `None` before the first toss.
     pub worst_half_width: Option<f64>,
 }
 
-/// Who follows a run. `()` ignores everything.
+/// Receives the progress and the warnings of a run. `()` ignores both.
 pub trait ProgressSink: Sync {
-    /// Called at the start, when what is left of an earlier run has been read, each time finished
-    /// chunks are on the disk, and at the end.
+    /// Called at the start, once the chunks of an earlier run have been read; each time finished chunks
+    /// are on the disk; and at the end.
     fn progress(&self, progress: &Progress);
 
-    /// Something was wrong and has been dealt with; the text says how.
+    /// Called when something was wrong and has been dealt with; the text says how.
     fn warning(&self, message: &str);
 }
 

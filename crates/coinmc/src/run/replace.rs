@@ -1,31 +1,31 @@
-//! Files that are there as a whole or not at all.
+//! Atomic files: present with all their content, or absent.
 
 use super::RunError;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
-/// Added to a file's name while it is being written.
+/// Appended to a file's name while it is being written.
 pub(super) const TEMPORARY: &str = ".tmp";
 
-/// A file that takes its place only when all of it is on the disk. Dropped before, it leaves
-/// nothing.
+/// A file that gets its final name only when all of its content is on the disk. If it is dropped
+/// before, nothing remains.
 #[derive(Debug)]
 pub(super) struct Replacement {
     place: PathBuf,
     temporary: PathBuf,
-    /// Gone once the file stands in its place.
+    /// `None` once the file has its final name.
     file: Option<BufWriter<File>>,
-    /// Nothing has been written since the last sync: another would wait for the disk all the same.
+    /// Nothing was written since the last sync: another sync would wait for the disk in vain.
     synced: bool,
 }
 
 impl Replacement {
-    /// Begins a file that will stand at `place`.
+    /// Begins a file that will be named `place`.
     pub(super) fn begin(place: &Path) -> Result<Self, RunError> {
         let temporary = temporary(place);
         remove(&temporary)?;
-        // `create_new` does not follow a link that somebody may have put there
+        // `create_new` follows no symbolic link
         let file = OpenOptions::new()
             .write(true)
             .create_new(true)
@@ -39,24 +39,24 @@ impl Replacement {
         })
     }
 
-    /// Where the content goes.
+    /// Writes the content.
     pub(super) fn writer(&mut self) -> impl Write + Send + '_ {
         self.synced = false;
         self.file.as_mut().expect("only `finish` takes the file")
     }
 
-    /// Sorts an error met while writing the content.
+    /// The [`RunError`] for an error met while writing the content.
     pub(super) fn error(&self, error: io::Error) -> RunError {
         RunError::io("write", &self.place, error)
     }
 
-    /// Hands all content to the system.
+    /// Flushes all content to the system.
     pub(super) fn hand_over(&mut self) -> Result<(), RunError> {
         let handed_over = self.writer().flush();
         handed_over.map_err(|error| self.error(error))
     }
 
-    /// Puts the content on the disk.
+    /// Syncs the content to the disk.
     pub(super) fn sync(&mut self) -> Result<(), RunError> {
         if self.synced {
             return Ok(());
@@ -69,7 +69,7 @@ impl Replacement {
         Ok(())
     }
 
-    /// Puts the file in its place, on the disk to stay (once the directory is synced too).
+    /// Syncs the file and gives it its final name, which is durable once the directory is synced too.
     pub(super) fn finish(mut self) -> Result<(), RunError> {
         self.sync()?;
         fs::rename(&self.temporary, &self.place)
@@ -78,23 +78,23 @@ impl Replacement {
         Ok(())
     }
 
-    /// Like [`finish`](Self::finish), but leaves a file with the same content alone. Whether
-    /// another content was replaced.
+    /// Like [`finish`](Self::finish), but keeps an existing file that has the same content. Returns
+    /// whether other content was replaced.
     pub(super) fn finish_if_new(mut self) -> Result<bool, RunError> {
         self.sync()?;
-        let there = is_file(&self.place);
-        if there && same_content(&self.temporary, &self.place).map_err(|e| self.error(e))? {
+        let existed = is_file(&self.place);
+        if existed && same_content(&self.temporary, &self.place).map_err(|e| self.error(e))? {
             return Ok(false);
         }
         self.finish()?;
-        Ok(there)
+        Ok(existed)
     }
 }
 
 impl Drop for Replacement {
     fn drop(&mut self) {
         if self.file.take().is_some() {
-            // A leftover does no harm: the next run in this directory removes it.
+            // A remaining temporary file does no harm: the next run in this directory removes it.
             let _ = fs::remove_file(&self.temporary);
         }
     }
@@ -109,7 +109,7 @@ pub(super) fn replace(place: &Path, content: &[u8]) -> Result<(), RunError> {
     file.finish()
 }
 
-/// Removes a file if it is there.
+/// Removes a file if it exists.
 pub(super) fn remove(path: &Path) -> Result<(), RunError> {
     match fs::remove_file(path) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => {
@@ -119,12 +119,12 @@ pub(super) fn remove(path: &Path) -> Result<(), RunError> {
     }
 }
 
-/// Removes what a killed run left of its attempt to write `place`.
+/// Removes the temporary file that a killed run may have left for `place`.
 pub(super) fn remove_leftover(place: &Path) -> Result<(), RunError> {
     remove(&temporary(place))
 }
 
-/// Makes renames in a directory last through a loss of power.
+/// Makes renames in a directory survive a loss of power.
 pub(super) fn sync_directory(path: &Path) -> Result<(), RunError> {
     // Elsewhere a directory cannot be opened like a file, and renames are journalled anyway.
     if cfg!(unix) {

@@ -1,4 +1,4 @@
-//! Which chunk comes next, and what the chunks of a point add up to.
+//! Which chunk comes next, and the sum of a point's chunks.
 
 use super::cut::Cut;
 use super::piece::{Piece, whole};
@@ -9,14 +9,14 @@ use coinmc_core::{Face, IntervalMethod, Tally};
 use coinmc_quadrature::Integral;
 use std::collections::HashMap;
 
-/// Pieces known beforehand, by point and first toss of their chunk.
+/// Results of chunks that an earlier run finished, by point and first toss.
 pub(super) type Finished = HashMap<(usize, u64), Piece>;
 
-/// Hands out chunks and takes what they came to back, in whatever order they arrive.
+/// Hands out chunks and collects their results, in whatever order they arrive.
 ///
 /// Points are opened in order, a stage at a time; the next stage of an open point comes before
-/// the next point. Nothing ever waits for all chunks of a stage but that stage's successor. What
-/// is held is one tally a point, not one a chunk.
+/// the next point. Only the next stage of the same point waits for all chunks of a stage. Memory
+/// holds one tally per point, not per chunk.
 #[derive(Debug)]
 pub(super) struct Schedule<'a> {
     plan: &'a Plan,
@@ -24,7 +24,7 @@ pub(super) struct Schedule<'a> {
     part: Part,
     finished: Finished,
     points: Vec<PointState>,
-    /// The first point no chunk of which was handed out.
+    /// The first point of which no chunk has been handed out.
     unopened: usize,
     /// Open points whose next stage can be handed out.
     ready: Vec<usize>,
@@ -32,7 +32,7 @@ pub(super) struct Schedule<'a> {
     current: Option<Stage>,
     in_flight: u64,
     progress: Progress,
-    /// The point with the longest arm so far.
+    /// The point with the widest interval so far.
     worst: Option<usize>,
 }
 
@@ -40,17 +40,17 @@ pub(super) struct Schedule<'a> {
 pub(super) struct PointState {
     /// All tosses so far.
     pub(super) tally: Tally,
-    /// What a point without tosses came to.
+    /// The result of a point without tosses.
     pub(super) integral: Option<Integral>,
     /// The stop rule is met.
     pub(super) reached: bool,
     stage: usize,
-    /// Chunks of the stage that were handed out and are not back.
+    /// Chunks of the stage that are handed out and not yet complete.
     outstanding: u64,
-    /// All chunks of the stage were handed out.
+    /// All chunks of the stage are handed out.
     handed_out: bool,
     half_width: f64,
-    /// Tosses that the point is thought to need.
+    /// Tosses that the point is expected to need.
     forecast: u64,
 }
 
@@ -67,30 +67,30 @@ impl std::fmt::Debug for Stage {
     }
 }
 
-/// What to do now.
+/// What a worker does next.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Next {
     /// This chunk.
     Chunk(Chunk),
-    /// Wait until a chunk comes back: only then is it known what is next.
+    /// Wait until a chunk is complete: it decides what is next.
     Wait,
-    /// Nothing; all is done.
+    /// Nothing: the run is complete.
     Done,
 }
 
 impl<'a> Schedule<'a> {
-    /// The schedule of a part of a plan, given what an earlier run finished.
+    /// The schedule of a part of a plan, given the chunks that an earlier run finished.
     pub(super) fn new(plan: &'a Plan, part: Part, finished: Finished) -> Self {
         let cut = Cut::new(plan);
         let forecast = if part == Part::WHOLE {
             cut.stage(0).end
         } else {
-            // what the other parts do is theirs to forecast
+            // the other parts forecast their own share
             cut.stage(0).end / u64::from(part.of())
         };
         let tossed = plan.points_tossed();
         let points = (0..plan.points.len()).map(|index| PointState {
-            // what was never planned must not be taken off again
+            // such a point adds nothing to the sum, so nothing may be subtracted for it later
             forecast: if plan.makes_tosses(index) {
                 forecast
             } else {
@@ -127,7 +127,7 @@ impl<'a> Schedule<'a> {
         }
     }
 
-    /// The next thing to do. Chunks known beforehand are counted in passing.
+    /// The next thing to do. Chunks that an earlier run finished are counted on the way.
     pub(super) fn next(&mut self) -> Next {
         loop {
             let Some(stage) = &mut self.current else {
@@ -159,7 +159,7 @@ impl<'a> Schedule<'a> {
         }
     }
 
-    /// Takes back a chunk that [`next`](Self::next) handed out.
+    /// Records the result of a chunk that [`next`](Self::next) handed out.
     pub(super) fn complete(&mut self, chunk: &Chunk, piece: &Piece) {
         let point = &mut self.points[chunk.point];
         match piece {
@@ -175,7 +175,7 @@ impl<'a> Schedule<'a> {
 
     /// How far the run is.
     pub(super) fn progress(&self) -> Progress {
-        // a forecast may lag behind
+        // a forecast may be out of date
         let tosses_planned = self.progress.tosses_planned.max(self.progress.tosses_done);
         Progress {
             tosses_planned,
@@ -183,7 +183,7 @@ impl<'a> Schedule<'a> {
         }
     }
 
-    /// Whether all is done.
+    /// Whether the run is complete.
     pub(super) fn is_done(&self) -> bool {
         self.unopened == self.points.len()
             && self.ready.is_empty()
@@ -196,7 +196,7 @@ impl<'a> Schedule<'a> {
         &self.points
     }
 
-    /// Takes out the pieces known beforehand that the run turned out not to need.
+    /// Removes and returns the results of an earlier run that this one did not need.
     pub(super) fn take_unneeded(&mut self) -> Vec<(usize, u64)> {
         let unneeded = std::mem::take(&mut self.finished);
         for piece in unneeded.values() {
@@ -243,7 +243,7 @@ impl<'a> Schedule<'a> {
             Piece::Integrated(integral) => point.integral = Some(integral),
             Piece::Tossed(tally) => {
                 let Some(sum) = point.tally.checked_merge(&tally) else {
-                    // only forged counts overflow: the chunk is done again
+                    // only forged counts overflow: repeat the chunk
                     self.forget_reused(&piece);
                     return false;
                 };
@@ -262,7 +262,7 @@ impl<'a> Schedule<'a> {
         point.handed_out = false;
         let last = self.plan.integrates(index) || point.stage + 1 == self.cut.stages();
         point.reached = match (self.plan.stop, &point.integral) {
-            // a point that is integrated is done by one part
+            // a single part integrates a point
             (Stop::Tosses(_), Some(_)) => true,
             (Stop::Tosses(_), None) => self.part == Part::WHOLE,
             (Stop::HalfWidth { half_width, .. }, Some(integral)) => {
@@ -285,7 +285,7 @@ impl<'a> Schedule<'a> {
         }
     }
 
-    /// Arms shorten like 1/√N: which of the looks to come will be the last?
+    /// Predicts which of the remaining looks will be the last, as intervals shrink like 1/√N.
     fn forecast(&mut self, index: usize) {
         let Stop::HalfWidth { half_width, .. } = self.plan.stop else {
             return;
@@ -316,7 +316,7 @@ impl<'a> Schedule<'a> {
             Some(worst) if worst != index && self.points[worst].half_width >= half_width => {
                 Some(worst)
             }
-            // the worst has improved: another may be worst now
+            // the widest interval has shrunk: another may now be the widest
             Some(worst) if worst == index => {
                 let arm = |&i: &usize| self.points[i].half_width;
                 (0..self.points.len()).max_by(|a, b| arm(a).total_cmp(&arm(b)))
@@ -327,7 +327,7 @@ impl<'a> Schedule<'a> {
     }
 }
 
-/// The longest arm of the three faces by Wilson's formula, good enough to show and to forecast.
+/// The widest arm of the three faces by Wilson's formula: good enough to display and to forecast.
 fn quick_half_width(plan: &Plan, tally: &Tally) -> f64 {
     let confidence = crate::results::look_confidence(plan);
     let (undecided, n) = (tally.undecided(), tally.tosses());

@@ -1,21 +1,21 @@
-//! Short files of text that end with a checksum of all before it: those of tallies and integrals.
+//! Short text files that end with a checksum of everything before it: tallies and integrals.
 
 use super::damage::Damage;
 use std::fmt::Write;
 
 const CHECKSUM: &str = "crc32 ";
-/// No such file is longer; what is longer is not read.
+/// Longest file, in bytes; longer ones are not read.
 pub(super) const MAX_BYTES: usize = 1024;
 
-/// The text with its checksum.
+/// Appends the checksum.
 pub(super) fn seal(mut text: String) -> String {
     let checksum = crc32fast::hash(text.as_bytes());
     writeln!(text, "{CHECKSUM}{checksum:08x}").expect("a String takes all text");
     text
 }
 
-/// The text of a file whose checksum is right. It is then as it was written: what it says may still
-/// be a stranger's.
+/// The text of a file whose checksum is right, without the checksum. It is then as it was written; its
+/// author is not known.
 pub(super) fn unseal(bytes: &[u8]) -> Result<&str, Damage> {
     if bytes.len() > MAX_BYTES {
         return Err(Damage::TooLong);

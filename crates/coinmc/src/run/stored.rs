@@ -1,4 +1,4 @@
-//! What a run directory is the run of and what it has counted, read back.
+//! Reads the plan and the counts of a run directory.
 
 use super::cut::Cut;
 use super::directory::CONFIG;
@@ -10,7 +10,7 @@ use crate::config;
 use crate::plan::Plan;
 use std::path::Path;
 
-/// The plan whose run a directory holds, for who wants to see its tosses again.
+/// The plan of the run that a directory holds: to replay its tosses, for example.
 ///
 /// # Errors
 /// [`RunError::NotARunDirectory`], [`RunError::BadConfig`]; [`RunError::OtherPlan`] if the config
@@ -22,9 +22,8 @@ pub fn stored_plan(dir: &Path) -> Result<Plan, RunError> {
     Ok(plan)
 }
 
-/// What a run directory holds: its plan and what is counted so far, finished or not, also while a
-/// run goes on in it. Nothing in the directory is touched; of tallies that are not believed the
-/// sink is told.
+/// The plan of a run directory and all that is counted so far, whether the run is finished, stopped or
+/// still in progress. Nothing in the directory is changed; the sink is warned of rejected tallies.
 ///
 /// # Errors
 /// Those of [`stored_plan`], and [`RunError::Io`]. A directory that holds a part of a run is read
@@ -39,14 +38,14 @@ pub fn stored_report(dir: &Path, sink: &dyn ProgressSink) -> Result<(Plan, Repor
                 finished.insert((chunk.point, chunk.tosses.start), piece);
             }
             Entry::Damaged(path, damage) => {
-                sink.warning(&format!("{} is not used: {damage}", path.display()));
+                sink.warning(&format!("{} is rejected: {damage}", path.display()));
             }
             Entry::Leftover(_) => {}
         }
         Ok(())
     })?;
     let mut schedule = Schedule::new(&plan, Part::WHOLE, finished);
-    // chunks that are not there stay handed out
+    // missing chunks stay handed out
     while let Next::Chunk(_) = schedule.next() {}
     let report = report(&plan, Part::WHOLE, &schedule);
     Ok((plan, report))

@@ -1,4 +1,4 @@
-//! The directory of tally files: reading what is there, adding what is finished.
+//! The directory of tally files: reads finished chunks, adds new ones.
 
 use super::cut::Cut;
 use super::damage::Damage;
@@ -15,25 +15,24 @@ use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
 use std::thread;
 
-/// Added to the name of a file that is not believed.
+/// Appended to the name of a rejected file.
 const REJECTED: &str = ".rejected";
 
-/// Where the tallies of one run directory lie.
+/// The tally files of one run directory.
 #[derive(Debug)]
 pub(super) struct Tallies {
     path: PathBuf,
     plan_hash: String,
 }
 
-/// One of the directory's files. Files with other names than this program gives are no concern
-/// of it.
+/// One of the directory's files. Files with names that this program never gives are ignored.
 #[derive(Debug)]
 pub(super) enum Entry {
-    /// A chunk that is finished.
+    /// A finished chunk.
     Finished(Chunk, Piece),
-    /// A file that is not believed.
+    /// A file that is rejected.
     Damaged(PathBuf, Damage),
-    /// What a killed run was writing.
+    /// The temporary file of a killed run.
     Leftover(PathBuf),
 }
 
@@ -48,7 +47,7 @@ impl Tallies {
         }
     }
 
-    /// Looks at every file once, in no particular order.
+    /// Visits every file once, in no particular order.
     pub(super) fn scan(
         &self,
         plan: &Plan,
@@ -99,7 +98,7 @@ impl Tallies {
         })
     }
 
-    /// Adds finished chunks, on the disk to stay.
+    /// Adds finished chunks durably: synced to the disk.
     pub(super) fn store(&self, batch: &[(Chunk, Piece)]) -> Result<(), RunError> {
         let mut files = Vec::with_capacity(batch.len());
         for (chunk, piece) in batch {
@@ -114,12 +113,12 @@ impl Tallies {
             written.map_err(|error| file.error(error))?;
             files.push(file);
         }
-        sync_together(&mut files)?;
+        sync_all(&mut files)?;
         files.into_iter().try_for_each(Replacement::finish)?;
         replace::sync_directory(&self.path)
     }
 
-    /// Where the file of the chunk of `point` that begins at toss `start` stands.
+    /// Path of the file of the chunk of `point` that begins at toss `start`.
     pub(super) fn place(&self, point: usize, start: u64) -> PathBuf {
         self.path.join(tally_file::name(&Chunk {
             point,
@@ -128,10 +127,10 @@ impl Tallies {
     }
 }
 
-/// Syncs files by several threads: a thread that waits for the disk sleeps, and wakes late while the
-/// workers keep all processors busy. (64 files after the other took 0.2 s there.) What one sync brings
-/// to the disk, those beside it need not: so all are with the system before the first begins.
-fn sync_together(files: &mut [Replacement]) -> Result<(), RunError> {
+/// Syncs files on several threads: a thread that waits for the disk sleeps, and wakes late while the
+/// workers keep all processors busy (64 files in sequence took 0.2 s). All content is handed to the
+/// system before the first sync, as one sync often writes what the next would.
+fn sync_all(files: &mut [Replacement]) -> Result<(), RunError> {
     const EACH: usize = 4;
     files.iter_mut().try_for_each(Replacement::hand_over)?;
     let sync = |files: &mut [Replacement]| files.iter_mut().try_for_each(Replacement::sync);
@@ -164,11 +163,11 @@ fn chunk_at(plan: &Plan, cut: &Cut, point: usize, start: u64) -> Option<Chunk> {
     }
 }
 
-/// Moves a file that is not believed out of the way; its new name.
+/// Renames a file that is rejected; returns its new name.
 pub(super) fn reject(path: &Path) -> Result<PathBuf, RunError> {
     let mut name = path.as_os_str().to_owned();
     name.push(REJECTED);
     let rejected = PathBuf::from(name);
-    fs::rename(path, &rejected).map_err(|error| RunError::io("set aside", path, error))?;
+    fs::rename(path, &rejected).map_err(|error| RunError::io("rename", path, error))?;
     Ok(rejected)
 }

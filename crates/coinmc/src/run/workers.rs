@@ -1,4 +1,4 @@
-//! Threads that do chunks, and the one that keeps what they finish.
+//! Threads that execute chunks, and the one that stores their results.
 
 use super::chunk::do_chunk_while;
 use super::piece::Piece;
@@ -12,46 +12,46 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-/// Finished chunks that may wait for the disk, and the most that are stored together.
+/// How many finished chunks may wait for the disk, and how many at most are stored at once.
 const BATCH: usize = 64;
-/// How long a worker without work sleeps before it looks whether it should stop.
-const NAP: Duration = Duration::from_millis(50);
+/// How long an idle worker waits before it checks whether it should stop.
+const IDLE_WAIT: Duration = Duration::from_millis(50);
 
 type Done = Result<(Chunk, Piece), RunError>;
 
-/// Where finished chunks are kept, a few at a time.
-pub(super) type Keep<'a> = &'a dyn Fn(&[(Chunk, Piece)]) -> Result<(), RunError>;
+/// Stores finished chunks, a few at a time.
+pub(super) type Store<'a> = &'a dyn Fn(&[(Chunk, Piece)]) -> Result<(), RunError>;
 
-/// What the threads share.
-struct Floor<'a, 'p> {
+/// State that the threads share.
+struct Shared<'a, 'p> {
     plan: &'p Plan,
     schedule: Mutex<Schedule<'p>>,
-    /// A chunk came back: there may be new work.
+    /// Signalled when a chunk is complete: there may be new work.
     changed: Condvar,
-    /// The user wants to stop.
+    /// Set when the user wants to stop.
     cancel: &'a AtomicBool,
-    /// Something went wrong: there is no use in going on.
+    /// Set when a thread failed: the others stop.
     broken: AtomicBool,
 }
 
-impl<'p> Floor<'_, 'p> {
-    fn go_on(&self) -> bool {
+impl<'p> Shared<'_, 'p> {
+    fn should_continue(&self) -> bool {
         !self.cancel.load(Relaxed) && !self.broken.load(Relaxed)
     }
 
-    /// Nothing panics while it holds the lock except where the whole run is lost anyway.
+    /// A poisoned lock is ignored: a panic under the lock ends the whole run anyway.
     fn schedule(&self) -> MutexGuard<'_, Schedule<'p>> {
         self.schedule.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn next_chunk(&self) -> Option<Chunk> {
         let mut schedule = self.schedule();
-        while self.go_on() {
+        while self.should_continue() {
             match schedule.next() {
                 Next::Chunk(chunk) => return Some(chunk),
                 Next::Done => return None,
                 Next::Wait => {
-                    let woken = self.changed.wait_timeout(schedule, NAP);
+                    let woken = self.changed.wait_timeout(schedule, IDLE_WAIT);
                     schedule = woken.unwrap_or_else(PoisonError::into_inner).0;
                 }
             }
@@ -60,10 +60,10 @@ impl<'p> Floor<'_, 'p> {
     }
 }
 
-/// Stops everybody when its thread panics, so that the panic is heard at once.
-struct Alarm<'a>(&'a AtomicBool);
+/// Stops all threads when its own thread panics, so that the panic is reported at once.
+struct StopOnPanic<'a>(&'a AtomicBool);
 
-impl Drop for Alarm<'_> {
+impl Drop for StopOnPanic<'_> {
     fn drop(&mut self) {
         if thread::panicking() {
             self.0.store(true, Relaxed);
@@ -71,17 +71,17 @@ impl Drop for Alarm<'_> {
     }
 }
 
-/// Does all chunks of the schedule, or those that are done before `cancel` is set, and gives the
-/// schedule back. Every piece it counts has been kept.
-pub(super) fn work_off<'p>(
+/// Executes all chunks of the schedule, or as many as are complete before `cancel` is set, and returns
+/// the schedule. Every result that it counts has been stored.
+pub(super) fn execute<'p>(
     plan: &'p Plan,
     schedule: Schedule<'p>,
-    keep: Keep<'_>,
+    store: Store<'_>,
     threads: NonZeroUsize,
     cancel: &AtomicBool,
     sink: &dyn ProgressSink,
 ) -> Result<Schedule<'p>, RunError> {
-    let floor = Floor {
+    let shared = Shared {
         plan,
         schedule: Mutex::new(schedule),
         changed: Condvar::new(),
@@ -89,38 +89,38 @@ pub(super) fn work_off<'p>(
         broken: AtomicBool::new(false),
     };
     thread::scope(|scope| {
-        let _alarm = Alarm(&floor.broken);
+        let _stop_on_panic = StopOnPanic(&shared.broken);
         let (sender, receiver) = sync_channel(BATCH);
         let mut started = Ok(());
         for _ in 0..threads.get() {
-            let (sender, floor) = (sender.clone(), &floor);
-            let worker = thread::Builder::new().spawn_scoped(scope, move || work(floor, &sender));
+            let (sender, shared) = (sender.clone(), &shared);
+            let worker = thread::Builder::new().spawn_scoped(scope, move || work(shared, &sender));
             if let Err(error) = worker {
-                floor.broken.store(true, Relaxed);
+                shared.broken.store(true, Relaxed);
                 started = Err(RunError::Thread(error));
                 break;
             }
         }
         drop(sender);
-        let stored = store(&floor, &receiver, keep, sink);
+        let stored = store_results(&shared, &receiver, store, sink);
         if stored.is_err() {
-            floor.broken.store(true, Relaxed);
+            shared.broken.store(true, Relaxed);
         }
         started.and(stored)
     })?;
-    Ok(floor
+    Ok(shared
         .schedule
         .into_inner()
         .unwrap_or_else(PoisonError::into_inner))
 }
 
-fn work(floor: &Floor<'_, '_>, sender: &SyncSender<Done>) {
-    let _alarm = Alarm(&floor.broken);
-    while let Some(chunk) = floor.next_chunk() {
-        let done = match do_chunk_while(floor.plan, &chunk, || floor.go_on()) {
+fn work(shared: &Shared<'_, '_>, sender: &SyncSender<Done>) {
+    let _stop_on_panic = StopOnPanic(&shared.broken);
+    while let Some(chunk) = shared.next_chunk() {
+        let done = match do_chunk_while(shared.plan, &chunk, || shared.should_continue()) {
             Ok(Some(piece)) => {
-                floor.schedule().complete(&chunk, &piece);
-                floor.changed.notify_all();
+                shared.schedule().complete(&chunk, &piece);
+                shared.changed.notify_all();
                 Ok((chunk, piece))
             }
             Ok(None) => return,
@@ -132,12 +132,12 @@ fn work(floor: &Floor<'_, '_>, sender: &SyncSender<Done>) {
     }
 }
 
-/// Stores what arrives until all workers are gone. Its own thread, so that no worker waits for
-/// the disk.
-fn store(
-    floor: &Floor<'_, '_>,
+/// Stores results as they arrive until all workers have ended. It has its own thread, so that no worker
+/// waits for the disk.
+fn store_results(
+    shared: &Shared<'_, '_>,
     receiver: &Receiver<Done>,
-    keep: Keep<'_>,
+    store: Store<'_>,
     sink: &dyn ProgressSink,
 ) -> Result<(), RunError> {
     while let Ok(first) = receiver.recv() {
@@ -151,11 +151,11 @@ fn store(
                 Err(error) => failed = failed.or(Some(error)),
             }
         }
-        keep(&stored)?;
+        store(&stored)?;
         if let Some(error) = failed {
             return Err(error);
         }
-        sink.progress(&floor.schedule().progress());
+        sink.progress(&shared.schedule().progress());
     }
     Ok(())
 }

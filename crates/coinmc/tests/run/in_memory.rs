@@ -81,7 +81,7 @@ fn a_damaged_tally_is_told_and_left_alone() {
     let [warning] = &ear.warnings()[..] else {
         panic!("{:?}", ear.warnings())
     };
-    assert!(warning.contains("is not used"), "{warning}");
+    assert!(warning.contains("is rejected"), "{warning}");
     assert!(path.exists());
 }
 
