@@ -19,9 +19,9 @@ struct Seated<'a> {
 }
 
 /// Follows one toss, alone.
-pub(crate) fn follow<W: World, O: Observer>(
+pub(crate) fn follow<O: Observer>(
     rules: &Rules,
-    world: &mut W,
+    world: &mut World,
     launch: &Launch,
     observer: O,
 ) -> Account {
@@ -36,15 +36,15 @@ pub(crate) fn follow<W: World, O: Observer>(
         world.step();
         course = rules.after_step(world, 0, &mut toss);
     };
-    world.leave(0);
+    world.clear(0);
     toss.end(end)
 }
 
 /// Follows the launches, several at a time, and hands on the account of each with its number, in any
 /// order, until `each` breaks off.
-pub(crate) fn toss_all_in_batch<W: World>(
+pub(crate) fn toss_all_in_batch(
     rules: &Rules,
-    world: &mut W,
+    world: &mut World,
     launches: impl Iterator<Item = Launch>,
     mut each: impl FnMut(usize, &Account) -> ControlFlow<()>,
 ) {
@@ -54,14 +54,14 @@ pub(crate) fn toss_all_in_batch<W: World>(
     seated.resize_with(seats, || None);
     let _ = run(rules, world, &mut seated, &mut launches, &mut each);
     for seat in 0..seats {
-        world.leave(seat);
+        world.clear(seat);
     }
 }
 
 /// Until there are no more launches and every seat is empty, or `each` breaks off.
-fn run<'a, W: World>(
+fn run<'a>(
     rules: &'a Rules,
-    world: &mut W,
+    world: &mut World,
     seated: &mut [Option<Seated<'a>>],
     launches: &mut impl Iterator<Item = (usize, Launch)>,
     each: &mut impl FnMut(usize, &Account) -> ControlFlow<()>,
@@ -87,9 +87,9 @@ fn run<'a, W: World>(
 }
 
 /// Makes the seat's toss ready for a step; one that ends gives way to the next launch.
-fn fill<'a, W: World>(
+fn fill<'a>(
     rules: &'a Rules,
-    world: &mut W,
+    world: &mut World,
     seat: usize,
     place: &mut Option<Seated<'a>>,
     launches: &mut impl Iterator<Item = (usize, Launch)>,
@@ -107,7 +107,7 @@ fn fill<'a, W: World>(
                 end @ ControlFlow::Break(_) => end,
             }
         } else {
-            world.leave(seat);
+            world.clear(seat);
             return ControlFlow::Continue(());
         };
         match course {

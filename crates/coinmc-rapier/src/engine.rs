@@ -4,7 +4,7 @@ use crate::account::Account;
 use crate::batch;
 use crate::rules::Rules;
 use crate::settings::{Settings, SettingsError};
-use crate::world::AnyWorld;
+use crate::world::World;
 use coinmc_core::{Engine, Launch, Observer, Outcome, Scene};
 use std::ops::ControlFlow;
 
@@ -28,36 +28,13 @@ use std::ops::ControlFlow;
 pub struct RapierEngine(Rules);
 
 /// A worker's world: a half-space and coins.
-pub struct Workspace(AnyWorld);
-
-/// Does something with the world of a workspace, in either precision.
-macro_rules! in_world {
-    ($workspace:ident, $world:ident => $body:expr) => {
-        match &mut $workspace.0 {
-            #[cfg(feature = "f64")]
-            AnyWorld::Double(world) => {
-                let $world = &mut **world;
-                $body
-            }
-            #[cfg(feature = "f32")]
-            AnyWorld::Single(world) => {
-                let $world = &mut **world;
-                $body
-            }
-            #[cfg(not(all(feature = "f64", feature = "f32")))]
-            AnyWorld::Absent(world) => {
-                let $world = world;
-                $body
-            }
-        }
-    };
-}
+pub struct Workspace(Box<World>);
 
 impl RapierEngine {
     /// An engine for this scene.
     ///
     /// # Errors
-    /// [`SettingsError`] if a setting is out of range or its precision was not built.
+    /// [`SettingsError`] if a setting is out of range or this build has no Rapier.
     pub fn new(scene: &Scene, settings: &Settings) -> Result<Self, SettingsError> {
         Rules::new(scene, settings).map(Self)
     }
@@ -69,7 +46,7 @@ impl RapierEngine {
         launch: &Launch,
         observer: &mut impl Observer,
     ) -> Account {
-        in_world!(workspace, world => batch::follow(&self.0, world, launch, observer))
+        batch::follow(&self.0, &mut workspace.0, launch, observer)
     }
 
     /// Follows many tosses, several at a time ([`Settings::tosses_at_once`]), and hands on the
@@ -82,7 +59,7 @@ impl RapierEngine {
         launches: impl Iterator<Item = Launch>,
         each: impl FnMut(usize, &Account) -> ControlFlow<()>,
     ) {
-        in_world!(workspace, world => batch::toss_all_in_batch(&self.0, world, launches, each));
+        batch::toss_all_in_batch(&self.0, &mut workspace.0, launches, each);
     }
 }
 
@@ -96,7 +73,7 @@ impl Engine for RapierEngine {
             step,
             ..
         } = &self.0;
-        Workspace(AnyWorld::new(settings.precision, scaled, settings, *step))
+        Workspace(Box::new(World::new(scaled, settings, *step)))
     }
 
     fn toss(

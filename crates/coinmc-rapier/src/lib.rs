@@ -11,8 +11,8 @@
 //! without gyroscopic torque; friction against rolling and pivoting as torques between Rapier's
 //! steps. A coin that tunnels through the plane, is sunk in it when its face is settled, gains energy
 //! or is no longer a number ends as [`coinmc_core::Ended::Failed`], with the [`Flaw`] in its
-//! [`Account`]. Rapier in double precision is the feature `f64` (on by default), in single precision
-//! `f32`.
+//! [`Account`]. Without the feature `rapier` (on by default) the crate has the settings alone and
+//! rejects every scene.
 //!
 //! # Files
 //! `settings` choices · `body` shape and frame · `motion` state · `flight` closed form, and how far it
@@ -21,10 +21,8 @@
 //! its observer · `rules` what is done before and after a step · `batch` one toss, and several in one
 //! world · `engine` what others see of it · `account` what a toss came to.
 
-// The settings alone are of use, too: to read a config that this build cannot run.
-#![cfg_attr(not(any(feature = "f64", feature = "f32")), allow(dead_code))]
-// One source for both precisions.
-#![allow(clippy::duplicate_mod)]
+// The settings alone are useful too: to read a config that this build cannot run.
+#![cfg_attr(not(feature = "rapier"), allow(dead_code))]
 
 mod account;
 mod batch;
@@ -43,5 +41,5 @@ mod world;
 pub use account::{Account, Flaw};
 pub use engine::{RapierEngine, Workspace};
 pub use settings::{
-    Decision, Flight, FrictionModel, Gyroscopic, Precision, Settings, SettingsError, Standing,
+    Decision, Flight, FrictionModel, Gyroscopic, Settings, SettingsError, Standing,
 };

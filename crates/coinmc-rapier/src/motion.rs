@@ -17,8 +17,8 @@ pub(crate) struct Motion {
 }
 
 impl Motion {
-    /// That of no coin: no number.
-    pub(crate) const NONE: Self = {
+    /// NaN placeholder: where there is no coin.
+    pub(crate) const NAN: Self = {
         let none = Vector3::new(f64::NAN, f64::NAN, f64::NAN);
         Self {
             position: none,

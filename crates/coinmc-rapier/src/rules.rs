@@ -58,9 +58,9 @@ impl Rules {
     }
 
     /// A toss that begins in this seat of the world, or that ends before its first step.
-    pub(crate) fn begin<'a, W: World, O: Observer>(
+    pub(crate) fn begin<'a, O: Observer>(
         &'a self,
-        world: &mut W,
+        world: &mut World,
         seat: usize,
         launch: &Launch,
         observer: O,
@@ -100,9 +100,9 @@ impl Rules {
     }
 
     /// What there is to do before the world's next step, unless the toss ends here.
-    pub(crate) fn before_step<W: World, O: Observer>(
+    pub(crate) fn before_step<O: Observer>(
         &self,
-        world: &mut W,
+        world: &mut World,
         seat: usize,
         toss: &mut Toss<'_, O>,
     ) -> ControlFlow<End> {
@@ -130,13 +130,13 @@ impl Rules {
     }
 
     /// Takes up what the world's step came to.
-    pub(crate) fn after_step<W: World, O: Observer>(
+    pub(crate) fn after_step<O: Observer>(
         &self,
-        world: &mut W,
+        world: &mut World,
         seat: usize,
         toss: &mut Toss<'_, O>,
     ) -> ControlFlow<End> {
-        let (mut after, push) = (world.motion(seat), world.impulse(seat));
+        let (mut after, push) = (world.motion(seat), world.normal_impulse(seat));
         let brakes = self.twists && push > 0.0;
         if brakes {
             resist::brake(&mut after, &self.scaled, push);

@@ -61,26 +61,6 @@ pub enum Decision {
     Rest,
 }
 
-/// Arithmetic of Rapier's steps. Everything else is in double precision.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Precision {
-    /// Double.
-    #[default]
-    F64,
-    /// Single, for comparison: needs the feature `f32`.
-    F32,
-}
-
-impl Precision {
-    /// Whether this build has it.
-    pub fn is_built(self) -> bool {
-        match self {
-            Self::F64 => cfg!(feature = "f64"),
-            Self::F32 => cfg!(feature = "f32"),
-        }
-    }
-}
-
 macro_rules! names {
     ($type:ident { $($variant:ident = $name:literal),+ }) => {
         impl $type {
@@ -100,7 +80,6 @@ macro_rules! names {
 names!(FrictionModel { Coulomb = "coulomb", Simplified = "simplified" });
 names!(Flight { Contact = "contact", Steps = "steps", Off = "off" });
 names!(Gyroscopic { Exact = "exact", Rapier = "rapier" });
-names!(Precision { F64 = "f64", F32 = "f32" });
 names!(Standing { Drag = "drag", Rapier = "rapier" });
 names!(Decision { Tilting = "tilting", Energy = "energy", Rest = "rest" });
 
@@ -141,8 +120,6 @@ pub struct Settings {
     pub tosses_at_once: u32,
     /// When a face counts as decided.
     pub decision: Decision,
-    /// Arithmetic of the steps.
-    pub precision: Precision,
     /// Rise of the energy above its value at launch, as a fraction of that, beyond which a toss has
     /// failed.
     pub max_gain: f64,
@@ -165,7 +142,6 @@ impl Default for Settings {
             standing: Standing::default(),
             tosses_at_once: 32,
             decision: Decision::default(),
-            precision: Precision::default(),
             max_gain: 0.5,
             max_steps: 1_000_000,
             time_limit: 1000.0,
@@ -185,12 +161,12 @@ pub enum SettingsError {
     /// prediction lies outside (0, 1].
     #[error("prediction must lie in (0, 1], not {0}")]
     Prediction(f64),
-    /// Rapier was not compiled in this precision.
+    /// Rapier was not compiled: the feature `rapier` is off.
     #[error(
-        "this build has no Rapier in {0}: build coinmc with the feature `{1}`, or toss with \
+        "this build has no Rapier: build coinmc with the feature `rapier`, or toss with \
          engine.volumetric"
     )]
-    NotBuilt(&'static str, &'static str),
+    NotBuilt,
     /// tosses_at_once lies outside 1 … 1000.
     #[error("tosses_at_once must lie in 1 … 1000, not {0}")]
     TossesAtOnce(u32),
@@ -224,12 +200,8 @@ impl Settings {
         if !(1..=1000).contains(&self.tosses_at_once) {
             return Err(SettingsError::TossesAtOnce(self.tosses_at_once));
         }
-        if !self.precision.is_built() {
-            let feature = match self.precision {
-                Precision::F64 => "rapier",
-                Precision::F32 => "rapier-f32",
-            };
-            return Err(SettingsError::NotBuilt(self.precision.name(), feature));
+        if !cfg!(feature = "rapier") {
+            return Err(SettingsError::NotBuilt);
         }
         if !is_positive(self.max_gain, f64::INFINITY) {
             return Err(SettingsError::MaxGain(self.max_gain));

@@ -23,7 +23,6 @@
 //!
 //! # Cargo features
 //! * `rapier`: the engine `[engine.rapier]`. Without it such a config is rejected.
-//! * `rapier-f32`: that engine in single precision, too, for comparison.
 
 pub mod config;
 pub mod plan;

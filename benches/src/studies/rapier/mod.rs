@@ -13,10 +13,9 @@ pub(crate) use speed::RapierSpeed;
 pub(crate) use step::RapierStep;
 pub(crate) use stress::RapierStress;
 
-use clap::builder::PossibleValuesParser;
 use coinmc_bench::Case;
 use coinmc_core::{Engine, Launch, Preset, Tally};
-use coinmc_rapier::{Account, Flaw, Precision, RapierEngine, Settings, Workspace};
+use coinmc_rapier::{Account, Flaw, RapierEngine, Settings, Workspace};
 use std::ops::{ControlFlow, Range};
 
 /// H/R of the scenes.
@@ -85,19 +84,6 @@ impl Tosser {
 fn launch(case: &Case, seed: u64, toss: u64) -> Launch {
     let mut uniforms = Case::stream(seed).toss(toss);
     case.launches().launch(&case.scene.coin, &mut uniforms)
-}
-
-/// The precisions, for the command line.
-fn precisions() -> PossibleValuesParser {
-    PossibleValuesParser::new(Precision::ALL.map(Precision::name))
-}
-
-/// The precision of this name.
-fn precision(name: &str) -> Precision {
-    let named = Precision::ALL
-        .into_iter()
-        .find(|precision| precision.name() == name);
-    named.unwrap_or_default()
 }
 
 /// How many tosses went wrong in which way, and how many had no end.

@@ -1,6 +1,6 @@
 //! Tosses a second with all skips, against the naive loop at the same step.
 
-use super::{RATIOS, Tosser, cases, precision, precisions};
+use super::{RATIOS, Tosser, cases};
 use crate::number;
 use crate::processor_time::Stopwatch;
 use crate::report::{Report, Table};
@@ -25,10 +25,6 @@ pub(crate) struct RapierSpeed {
     /// Step in the scene table1, s
     #[arg(long, default_value_t = 2e-2, value_name = "S")]
     table1_step: f64,
-
-    /// Arithmetic of the steps
-    #[arg(long, default_value = "f64", value_parser = precisions())]
-    precision: String,
 }
 
 /// What one way of making tosses came to.
@@ -89,8 +85,8 @@ impl RapierSpeed {
         ];
         let title = format!(
             "Tosses a second on one core: all skips against stepped flight and waiting for rest, {} \
-             tosses a scene, {}",
-            self.tosses, self.precision
+             tosses a scene",
+            self.tosses
         );
         let mut record = Table::new(title, &columns);
         let mut table1 = Vec::new();
@@ -133,7 +129,6 @@ impl RapierSpeed {
         let skips = Settings {
             step_s,
             standing,
-            precision: precision(&self.precision),
             ..Settings::default()
         };
         let naive = Settings {

@@ -8,7 +8,7 @@
 
 use super::super::survey;
 use super::trend::{self, Cell};
-use super::{Flaws, RATIOS, STEPS, Tosser, launch, precision, precisions};
+use super::{Flaws, RATIOS, STEPS, Tosser, launch};
 use crate::number;
 use crate::processor_time::Stopwatch;
 use crate::report::{Report, Table};
@@ -43,10 +43,6 @@ pub(crate) struct RapierStep {
     /// Substeps of a step
     #[arg(long, default_value_t = 4, value_name = "N")]
     substeps: u32,
-
-    /// Arithmetic of the steps
-    #[arg(long, default_value = "f64", value_parser = precisions())]
-    precision: String,
 }
 
 /// What a scene came to at one step.
@@ -92,8 +88,8 @@ impl RapierStep {
         ];
         columns.extend(Flaws::COLUMNS);
         let title = format!(
-            "Against the step, beside the event-driven engine; {} substeps, {}",
-            self.substeps, self.precision
+            "Against the step, beside the event-driven engine; {} substeps",
+            self.substeps
         );
         let mut record = Table::new(title, &columns);
         let mut cells = Vec::new();
@@ -131,7 +127,6 @@ impl RapierStep {
         let settings = Settings {
             step_s: step,
             substeps: self.substeps,
-            precision: precision(&self.precision),
             ..Settings::default()
         };
         let mut tosser = Tosser::new(case, &settings)?;

@@ -1,27 +1,32 @@
-//! In a precision that was not built.
+//! Stands in for the world in a build without Rapier, which rejects every scene: no method is ever
+//! called.
 
-use super::World;
+use crate::body::Scaled;
 use crate::motion::Motion;
+use crate::settings::Settings;
 
-/// A world without a coin. Settings that ask for it are refused, so that no engine has one.
-pub(crate) struct Nowhere;
+pub(crate) struct World;
 
-impl World for Nowhere {
-    fn place(&mut self, _: usize, _: &Motion) {}
-
-    fn leave(&mut self, _: usize) {}
-
-    fn set_restitution(&mut self, _: usize, _: f64) {}
-
-    fn set_velocities(&mut self, _: usize, _: &Motion) {}
-
-    fn step(&mut self) {}
-
-    fn motion(&self, _: usize) -> Motion {
-        Motion::NONE
+impl World {
+    pub(crate) fn new(_: &Scaled, _: &Settings, _: f64) -> Self {
+        Self
     }
 
-    fn impulse(&self, _: usize) -> f64 {
+    pub(crate) fn place(&mut self, _: usize, _: &Motion) {}
+
+    pub(crate) fn clear(&mut self, _: usize) {}
+
+    pub(crate) fn set_velocities(&mut self, _: usize, _: &Motion) {}
+
+    pub(crate) fn set_restitution(&mut self, _: usize, _: f64) {}
+
+    pub(crate) fn step(&mut self) {}
+
+    pub(crate) fn motion(&self, _: usize) -> Motion {
+        Motion::NAN
+    }
+
+    pub(crate) fn normal_impulse(&self, _: usize) -> f64 {
         0.0
     }
 }

@@ -6,8 +6,6 @@ mod determinism;
 mod hostile;
 mod limits;
 mod physics;
-#[cfg(feature = "f32")]
-mod single;
 mod skips;
 mod symmetry;
 mod watching;

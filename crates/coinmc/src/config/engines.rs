@@ -70,7 +70,7 @@ fn in_space(form: &Form, at: &At<'_>) -> Result<volumetric::Settings, Fault> {
 }
 
 fn in_steps(form: &Form, at: &At<'_>) -> Result<rapier::Settings, Fault> {
-    use rapier::{Decision, Flight, FrictionModel, Gyroscopic, Precision, Standing};
+    use rapier::{Decision, Flight, FrictionModel, Gyroscopic, Standing};
     let settings = rapier::Settings {
         step_s: at.required(form, "step_s")?,
         substeps: whole(form, "substeps")?,
@@ -87,7 +87,6 @@ fn in_steps(form: &Form, at: &At<'_>) -> Result<rapier::Settings, Fault> {
         standing: named(form, "standing", Standing::ALL, Standing::name)?,
         tosses_at_once: whole(form, "tosses_at_once")?,
         decision: named(form, "decision", Decision::ALL, Decision::name)?,
-        precision: named(form, "precision", Precision::ALL, Precision::name)?,
         max_gain: at.required(form, "max_gain")?,
         max_steps: whole(form, "max_steps")?,
         time_limit: at.required(form, "time_limit")?,

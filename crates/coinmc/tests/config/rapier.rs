@@ -3,7 +3,7 @@
 use crate::support::parse;
 use coinmc::plan::EngineChoice;
 use coinmc::run::{Chunk, run_chunk};
-use coinmc_rapier::{Decision, Flight, FrictionModel, Gyroscopic, Precision, Settings, Standing};
+use coinmc_rapier::{Decision, Flight, FrictionModel, Gyroscopic, Settings, Standing};
 use std::collections::HashSet;
 
 const IN_STEPS: &str = "
@@ -42,7 +42,7 @@ fn all_of_the_engine_can_be_chosen() {
     let sets = [
         "engine.rapier={step_s=5e-4, substeps=2, friction_model='simplified', \
                  prediction=0.01, ccd=true, gyroscopic='rapier', flight='steps', \
-                 standing='rapier', tosses_at_once=8, decision='energy', precision='f64', max_gain=0.1, \
+                 standing='rapier', tosses_at_once=8, decision='energy', max_gain=0.1, \
                  max_steps=9, time_limit=50}",
     ];
     let chosen = Settings {
@@ -56,7 +56,6 @@ fn all_of_the_engine_can_be_chosen() {
         standing: Standing::Rapier,
         tosses_at_once: 8,
         decision: Decision::Energy,
-        precision: Precision::F64,
         max_gain: 0.1,
         max_steps: 9,
         time_limit: 50.0,
@@ -80,24 +79,6 @@ fn a_step_can_be_swept() {
         })
         .collect();
     assert_eq!(steps.len(), 2);
-}
-
-#[test]
-fn what_this_build_does_not_have_is_refused() {
-    let problems = coinmc::config::parse(
-        "test",
-        IN_STEPS,
-        &["engine.rapier.precision='f32'".parse().unwrap()],
-    );
-    if Precision::F32.is_built() {
-        assert!(problems.is_ok());
-    } else {
-        let text = problems.unwrap_err().to_string();
-        assert!(
-            text.contains("no Rapier in f32") && text.contains("rapier-f32"),
-            "{text}"
-        );
-    }
 }
 
 /// Chunks of any cut come to the same tally.

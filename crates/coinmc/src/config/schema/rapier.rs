@@ -4,7 +4,7 @@ use super::Absent::Is;
 use super::engines::{DECISION, above_zero, count};
 use super::terms::{default, field, fields, number};
 use super::{Fallback, Field, Kind, TableKind, Whole, Word};
-use coinmc_rapier::{Decision, Flight, FrictionModel, Gyroscopic, Precision, Settings, Standing};
+use coinmc_rapier::{Decision, Flight, FrictionModel, Gyroscopic, Settings, Standing};
 
 /// The table `[engine.rapier]`.
 pub(super) fn settings() -> TableKind {
@@ -70,12 +70,6 @@ pub(super) fn settings() -> TableKind {
             DECISION,
             Decision::ALL.map(|decision| (decision.name(), decided(decision))),
             settings.decision.name(),
-        ),
-        choice(
-            "precision",
-            "Arithmetic of the steps.",
-            Precision::ALL.map(|precision| (precision.name(), arithmetic(precision))),
-            settings.precision.name(),
         ),
         number(
             "max_gain",
@@ -153,12 +147,5 @@ fn decided(decision: Decision) -> &'static str {
         Decision::Tilting => "when the energy that can still tilt the coin is too small",
         Decision::Energy => "when the whole energy is too small",
         Decision::Rest => "when the coin has come to rest",
-    }
-}
-
-fn arithmetic(precision: Precision) -> &'static str {
-    match precision {
-        Precision::F64 => "double",
-        Precision::F32 => "single: only in a build that has it",
     }
 }
