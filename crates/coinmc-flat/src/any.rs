@@ -115,8 +115,8 @@ impl AnyFlatEngine {
 
     fn batch(&self) -> Option<AnyBatch<'_>> {
         match self {
-            Self::Moreau(engine) => Batch::of(engine).map(AnyBatch::Moreau),
-            Self::ChatterjeeRuina(engine) => Batch::of(engine).map(AnyBatch::ChatterjeeRuina),
+            Self::Moreau(engine) => engine.batch().map(AnyBatch::Moreau),
+            Self::ChatterjeeRuina(engine) => engine.batch().map(AnyBatch::ChatterjeeRuina),
             // not side by side
             Self::GaekSukhov(_) | Self::HalfSine(_) | Self::LineContact(_) => None,
         }

@@ -1,4 +1,4 @@
-//! Sustained contact: the modes of a corner on the surface and what leads from one to the next.
+//! Sustained contact: the modes of a corner on the surface and the transitions between them.
 //!
 //! ```text
 //!            ┌── cone reached ──▶
@@ -9,240 +9,244 @@
 //! ```
 
 use crate::contact_matrix::ContactMatrix;
+use crate::counters::Counters;
+use crate::decision::decided_by_energy;
 use crate::motion::Motion;
 use crate::observer_adapter::ObserverAdapter;
-use crate::pivot::{PivotEnd, glide, stick, stuck_forces};
+use crate::pivot::{PivotEnd, slide_without_friction, stick, sticking_forces};
 use crate::shape::Shape;
-use crate::slide::{SlideEnd, SlidePhase, SlideTask};
+use crate::slide::{SlideEnd, SlidePhase, SlideStart};
 use coinmc_core::{EventKind, Observer};
 use coinmc_lanes::sin_cos;
 
-/// Where the friction needed only grazes the cone, sticking sees it reached and sliding sees it
-/// not left. A coin that gets nowhere this way is stuck for this angle, rad: the friction it needs
-/// exceeds the cone by less than GRAZE² meanwhile.
+/// Where the friction needed only grazes the cone, sticking finds the cone reached and sliding
+/// finds that it is not left. A coin that stalls between the two is held sticking over this angle,
+/// rad: meanwhile the friction it needs exceeds the cone by less than GRAZE².
 const GRAZE: f64 = 1e-6;
 
 /// How sustained contact ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Leave {
+pub(crate) enum ContactEnd {
     /// The contact force has vanished: flight.
     LiftOff,
-    /// The next corner has come down onto the surface, with this motion.
+    /// The next corner has come down onto the surface; the motion is that of this corner.
     NextCorner,
-    /// The face is certain.
-    Certain,
+    /// Energy decides the face.
+    Decided,
     /// The coin stands on its corner, balanced and at rest.
     Balanced,
-    /// Out of steps.
-    Lost,
+    OutOfSteps,
 }
 
-/// What sustained contact knows beside the motion.
+/// The state of sustained contact, beside the motion.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Hold {
-    /// Slip of the corner; 0: at rest, may stick.
+pub(crate) struct ContactState {
+    /// Slip velocity of the corner; at 0 it may stick.
     slip: f64,
-    /// It has got nowhere.
+    /// The last sliding phase began at rest and ended at rest almost at once.
     stalled: bool,
-    /// Angle before the mode, and whether the corner was at rest then.
-    delta: f64,
-    at_rest: bool,
+    /// Angle at which the present mode began.
+    start_delta: f64,
+    /// Whether the corner was at rest then.
+    started_at_rest: bool,
 }
 
-impl Hold {
-    /// The beginning, with this slip of the corner.
+impl ContactState {
+    /// Contact that begins with this slip of the corner.
     pub(crate) fn new(slip: f64) -> Self {
         Self {
             slip,
             stalled: false,
-            delta: 0.0,
-            at_rest: false,
+            start_delta: 0.0,
+            started_at_rest: false,
         }
     }
 }
 
-/// A corner that slides.
+/// A sliding phase, and the state of the contact at its start.
 #[derive(Debug, Clone)]
-pub(crate) struct Slider {
-    hold: Hold,
+pub(crate) struct SlidingContact {
+    state: ContactState,
     pub(crate) phase: SlidePhase,
 }
 
-/// What sustained contact has come to.
-pub(crate) enum Poised {
-    Slides(Hold),
-    Leaves(Leave),
+/// What sustained contact has led to.
+pub(crate) enum ContactStep {
+    /// A sliding phase begins.
+    Slide(ContactState),
+    End(ContactEnd),
 }
 
-/// The laws in force and the counters of one toss.
-pub(crate) struct Contact<'a> {
-    pub(crate) shape: &'a Shape,
-    pub(crate) mu: f64,
+/// The parameters of sustained contact.
+#[derive(Debug, Clone)]
+pub(crate) struct ContactParameters {
+    pub(crate) shape: Shape,
+    pub(crate) friction: f64,
     pub(crate) tolerance: f64,
     pub(crate) max_steps: u32,
-    pub(crate) steps: u32,
-    pub(crate) jams: u32,
 }
 
-impl Contact<'_> {
-    /// Whether energy alone settles the face: below m g D no balance over a corner is reached.
-    /// Without friction the energy of horizontal motion can never come back.
+impl ContactParameters {
+    /// Whether energy alone decides the face.
     #[inline]
-    pub(crate) fn is_certain(&self, motion: &Motion) -> bool {
-        let k = self.shape.k;
-        let energy = if self.mu == 0.0 {
-            motion.energy_without_sliding(k)
-        } else {
-            motion.energy(k)
-        };
-        energy < 1.0
+    pub(crate) fn is_decided(&self, motion: &Motion) -> bool {
+        let without_sliding = motion.energy_without_sliding(self.shape.k);
+        decided_by_energy(self.friction, without_sliding, motion.vx)
     }
 
-    /// Follows sustained contact at the lowest corner until it slides, or the contact ends. The time
-    /// of closed-form phases is filled in for an observer alone, who is told of every mode.
-    pub(crate) fn poise<O: Observer>(
-        &mut self,
+    /// Advances sustained contact at the lowest corner until it slides or ends. Only an observer
+    /// needs the time that the closed-form phases take, and is shown each mode.
+    pub(crate) fn advance<O: Observer>(
+        &self,
         motion: &mut Motion,
-        mut hold: Hold,
+        counters: &mut Counters,
+        mut state: ContactState,
         adapter: &mut ObserverAdapter<'_, O>,
-    ) -> Poised {
-        if self.is_certain(motion) {
-            return Poised::Leaves(Leave::Certain);
+    ) -> ContactStep {
+        if self.is_decided(motion) {
+            return ContactStep::End(ContactEnd::Decided);
         }
-        if self.steps >= self.max_steps {
-            return Poised::Leaves(Leave::Lost);
+        if counters.contact_steps >= self.max_steps {
+            return ContactStep::End(ContactEnd::OutOfSteps);
         }
-        self.steps += 1;
+        counters.contact_steps += 1;
         let (gap, at_end) = self.shape.gap(motion.quadrant, motion.delta);
         if gap <= 0.0 && motion.omega != 0.0 && (motion.omega > 0.0) == at_end {
-            return Poised::Leaves(self.next_corner(motion));
+            return ContactStep::End(self.next_corner(motion));
         }
-        (hold.delta, hold.at_rest) = (motion.delta, hold.slip == 0.0);
-        if self.mu == 0.0 || (hold.at_rest && self.can_stick(motion, hold.stalled)) {
-            if motion.omega == 0.0 && motion.delta == 0.0 {
-                return Poised::Leaves(Leave::Balanced);
-            }
-            match self.pivot(motion, hold.stalled, adapter) {
-                PivotEnd::Flat => return Poised::Leaves(self.next_corner(motion)),
-                PivotEnd::LiftsOff => return Poised::Leaves(Leave::LiftOff),
-                PivotEnd::Slips => {}
-            }
+        (state.start_delta, state.started_at_rest) = (motion.delta, state.slip == 0.0);
+        let sticks = || state.started_at_rest && self.can_stick(motion, state.stalled);
+        if (self.friction == 0.0 || sticks())
+            && let Some(end) = self.pivot(motion, state.stalled, adapter)
+        {
+            return ContactStep::End(end);
         }
-        if hold.slip == 0.0 {
+        if state.slip == 0.0 {
             match self.slip_direction(motion) {
-                Some(direction) => hold.slip = 0.0_f64.copysign(direction),
-                None => return Poised::Leaves(Leave::LiftOff),
+                Some(direction) => state.slip = 0.0_f64.copysign(direction),
+                None => return ContactStep::End(ContactEnd::LiftOff),
             }
         }
         adapter.event(EventKind::Sliding, motion);
-        Poised::Slides(hold)
+        ContactStep::Slide(state)
     }
 
-    /// What follows a sliding phase: contact goes on so (`Ok`) or ends.
-    pub(crate) fn slid(
-        &mut self,
+    /// The state after a sliding phase.
+    ///
+    /// # Errors
+    /// The end of the contact, if the phase has ended it.
+    pub(crate) fn after_sliding(
+        &self,
         motion: &mut Motion,
-        slider: &Slider,
+        counters: &mut Counters,
+        sliding: &SlidingContact,
         end: SlideEnd,
-    ) -> Result<Hold, Leave> {
-        let mut hold = slider.hold;
-        self.steps += slider.phase.steps;
-        hold.slip = slider.phase.slip(end);
+    ) -> Result<ContactState, ContactEnd> {
+        let mut state = sliding.state;
+        counters.contact_steps += sliding.phase.steps;
+        state.slip = sliding.phase.slip(end);
         match end {
             SlideEnd::Stops => {
-                let turned = (motion.delta - hold.delta).abs();
-                hold.stalled = hold.at_rest && turned < GRAZE;
+                let turned = (motion.delta - state.start_delta).abs();
+                state.stalled = state.started_at_rest && turned < GRAZE;
             }
-            SlideEnd::LiftsOff => return Err(Leave::LiftOff),
+            SlideEnd::LiftsOff => return Err(ContactEnd::LiftOff),
             SlideEnd::Flat => return Err(self.next_corner(motion)),
-            SlideEnd::Jams => hold.slip = self.jam(motion, hold.slip),
-            SlideEnd::Certain => return Err(Leave::Certain),
-            SlideEnd::Lost => return Err(Leave::Lost),
+            SlideEnd::Jams => {
+                counters.jams += 1;
+                self.stop_jammed(motion, state.slip);
+                state.slip = 0.0;
+            }
+            SlideEnd::Decided => return Err(ContactEnd::Decided),
+            SlideEnd::OutOfSteps => return Err(ContactEnd::OutOfSteps),
         }
-        Ok(hold)
+        Ok(state)
     }
 
-    /// A phase that conserves energy.
+    /// The sliding phase that begins here.
+    pub(crate) fn slide(
+        &self,
+        motion: &Motion,
+        counters: &Counters,
+        state: ContactState,
+    ) -> SlidingContact {
+        let start = SlideStart {
+            shape: &self.shape,
+            friction: self.friction,
+            slip: state.slip,
+            tolerance: self.tolerance,
+            max_steps: self.max_steps - counters.contact_steps,
+        };
+        SlidingContact {
+            state,
+            phase: SlidePhase::new(motion, &start),
+        }
+    }
+
+    /// Follows a phase that conserves energy; `None` if the contact then slides.
     fn pivot<O: Observer>(
         &self,
         motion: &mut Motion,
         stalled: bool,
         adapter: &mut ObserverAdapter<'_, O>,
-    ) -> PivotEnd {
+    ) -> Option<ContactEnd> {
+        if motion.omega == 0.0 && motion.delta == 0.0 {
+            return Some(ContactEnd::Balanced);
+        }
         let before = motion.energy(self.shape.k);
-        adapter.event(self.conserving_mode(), motion);
-        let end = if self.mu == 0.0 {
-            glide(motion, self.shape, adapter)
+        let end = if self.friction == 0.0 {
+            adapter.event(EventKind::Sliding, motion);
+            slide_without_friction(motion, &self.shape, adapter)
         } else {
-            let blind = if stalled { GRAZE } else { 0.0 };
-            stick(motion, self.shape, self.mu, blind, adapter)
+            adapter.event(EventKind::Sticking, motion);
+            let unchecked = if stalled { GRAZE } else { 0.0 };
+            stick(motion, &self.shape, self.friction, unchecked, adapter)
         };
         motion.cap_energy(self.shape.k, before);
-        end
-    }
-
-    fn conserving_mode(&self) -> EventKind {
-        if self.mu == 0.0 {
-            EventKind::Sliding
-        } else {
-            EventKind::Sticking
+        match end {
+            PivotEnd::Flat => Some(self.next_corner(motion)),
+            PivotEnd::LiftsOff => Some(ContactEnd::LiftOff),
+            PivotEnd::Slips => None,
         }
     }
 
     fn can_stick(&self, motion: &Motion, stalled: bool) -> bool {
         let (sin, cos) = sin_cos(motion.delta);
-        let (normal, friction) = stuck_forces(sin, cos, motion.omega, self.shape.k);
-        // the cone's edge belongs to sliding, lest both phases end at once
-        normal > 0.0 && (stalled || friction.abs() < self.mu * normal)
+        let (normal, friction) = sticking_forces(sin, cos, motion.omega, self.shape.k);
+        // the edge of the cone belongs to sliding, lest both phases end at once
+        normal > 0.0 && (stalled || friction.abs() < self.friction * normal)
     }
 
     /// The direction in which a corner at rest that cannot stick begins to slide: against the
     /// friction that sticking would need. `None` if nothing presses it down: the contact opens.
     ///
     /// Outside Painlevé's configurations exactly one of sticking, sliding either way and opening
-    /// is consistent, so this is the one; at the edge of the cone, where sliding begins with
-    /// zero acceleration, the sign of that acceleration would be rounding noise.
+    /// is consistent, so this is the one. The sign of the acceleration would not do: at the edge of
+    /// the cone sliding begins with zero acceleration, and its sign is rounding noise.
     fn slip_direction(&self, motion: &Motion) -> Option<f64> {
         let (sin, cos) = sin_cos(motion.delta);
         if motion.omega * motion.omega * cos >= 1.0 {
             return None;
         }
-        let (_, friction) = stuck_forces(sin, cos, motion.omega, self.shape.k);
+        let (_, friction) = sticking_forces(sin, cos, motion.omega, self.shape.k);
         Some(-1.0_f64.copysign(friction))
     }
 
-    /// The sliding phase that begins here.
-    pub(crate) fn slider(&self, motion: &Motion, hold: Hold) -> Slider {
-        let task = SlideTask {
-            shape: self.shape,
-            mu: self.mu,
-            slip: hold.slip,
-            tolerance: self.tolerance,
-            max_steps: self.max_steps - self.steps,
-        };
-        Slider {
-            hold,
-            phase: SlidePhase::new(motion, &task),
-        }
-    }
-
-    /// Painlevé's configuration: no finite force lets the corner go on sliding (A <= 0), so it is
-    /// stopped by an impulse, an impact without collision (Lecornu 1905; Génot & Brogliato 1999).
+    /// Painlevé's configuration: no finite force lets the corner keep sliding (A <= 0), so an
+    /// impulse stops it, an impact without collision (Lecornu 1905; Génot & Brogliato 1999).
     /// p = K⁻¹(−γ, 0) has p_z = K_xz γ/det K > 0 and needs the friction K_zz/|K_xz| <= μ, which
     /// is A <= 0 itself; it takes γ²/(2(K⁻¹)_xx) of energy.
-    fn jam(&mut self, motion: &mut Motion, slip: f64) -> f64 {
-        self.jams += 1;
+    fn stop_jammed(&self, motion: &mut Motion, slip: f64) {
         let (sin, cos) = sin_cos(motion.delta);
         let matrix = ContactMatrix::new(sin, cos, self.shape.k);
         let (x, z) = matrix.solve(-slip, 0.0);
         let omega = motion.omega + (sin * z - cos * x) / self.shape.k;
         motion.set_on_corner(sin, cos, omega, 0.0);
-        0.0
     }
 
-    fn next_corner(&self, motion: &mut Motion) -> Leave {
+    fn next_corner(&self, motion: &mut Motion) -> ContactEnd {
         let forwards = motion.delta > 0.0;
-        motion.cross_flat(self.shape, forwards);
-        Leave::NextCorner
+        motion.cross_flat(&self.shape, forwards);
+        ContactEnd::NextCorner
     }
 }

@@ -2,36 +2,36 @@
 //!
 //! Within a quadrant one corner is lowest, δ = δ₀ + ωt and z is a parabola, so
 //! f'' = −1 + ω² cos δ. As cos δ is concave there, it is nowhere below the smaller of its values
-//! at the two ends of what is left of the quadrant:
+//! now and at the end of the quadrant:
 //!
 //! f'' >= −M,  M = 1 − ω² min(cos δ, cos δ_end).
 //!
 //! Hence f(t + τ) >= f + f'τ − Mτ²/2, and stepping to the root of this lower bound never passes
 //! a root of f. Near a root the step is Newton's with a second-order correction: it converges
-//! quadratically, from the left. No bracket and no sampling is needed.
+//! quadratically, from the left. Neither a bracket nor sampling is needed.
 //!
-//! All of it is written over lanes: one flight, or eight side by side.
+//! All formulas are written over lanes: for one flight, or for one flight per lane.
 
 use crate::motion::Motion;
-use crate::shape::Shape;
+use crate::shape::{Shape, as_quadrant};
 use coinmc_lanes::{Lane, Mask, sin_cos};
 
-/// f at which the corner touches, in units of D: above the rounding noise of f (about 3e-16),
-/// below anything that matters (an energy of 1e-15 m g D).
+/// The corner touches where f is below this, in units of D: above the rounding noise of f (about
+/// 3e-16), and irrelevant to the motion (an energy of 1e-15 m g D).
 const TOUCH: f64 = 1e-15;
 /// Evaluations after which a flight is given up. The worst flight of the stress test needs fewer
 /// than a fifth.
 pub(crate) const MAX_EVALUATIONS: u32 = 2_000;
-/// Progress that a departing corner makes at first where every bound is zero to rounding: hops this
-/// short (in sqrt(D/g)) stay within `TOUCH` of the surface. Doubled each time: a corner that
-/// neither rises nor falls has no acceleration to speak of, and is left behind in a few steps
-/// instead of millions.
+/// The first step of a departing corner where every bound is zero to rounding: a coin that hops for
+/// so short a time (in sqrt(D/g)) stays within `TOUCH` of the surface. The step doubles each time,
+/// because a corner that neither rises nor falls has hardly any acceleration: a few steps instead of
+/// millions leave it behind.
 pub(crate) const LEAST_DEPARTURE: f64 = 1e-9;
 
-/// What is left of a quadrant, in flight.
+/// A flight from its present state to the end of the quadrant.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Arc<L> {
-    /// The quadrant, as a number.
+pub(crate) struct FlightSegment<L> {
+    /// The quadrant, as a floating-point number.
     pub(crate) quadrant: L,
     pub(crate) delta: L,
     pub(crate) omega: L,
@@ -43,67 +43,82 @@ pub(crate) struct Arc<L> {
     pub(crate) cos_end: L,
 }
 
-/// What the search sees at one instant.
-pub(crate) struct Look<L: Lane> {
+/// One evaluation of the search for contact.
+pub(crate) struct Evaluation<L: Lane> {
     /// The corner touches.
     pub(crate) touches: L::Mask,
     /// The centre is above 1, and the coin clear of the surface.
     pub(crate) high: L::Mask,
-    /// Where neither, the instant until which the coin does not touch.
+    /// Otherwise: the instant until which the coin does not touch.
     pub(crate) next: L,
 }
 
-/// Flies to the first contact and puts the lowest corner on the surface. `departing`: that corner
-/// has just been thrown back or lifted off, and approaches by rounding at most. `false` if the
-/// search was lost.
+/// Flies to the first contact and puts the lowest corner on the surface. `departing`: this corner
+/// has just rebounded or lifted off, so that it approaches by rounding at most. `false` if the search
+/// ran out of evaluations.
 #[inline]
 pub(crate) fn fly_to_contact(motion: &mut Motion, shape: &Shape, mut departing: bool) -> bool {
-    let mut arc = motion.arc(shape);
+    let mut flight = FlightSegment::of(motion, shape);
     let mut pass = |t: f64| {
         motion.x += motion.vx * t;
         motion.time += t;
     };
     let mut evaluations = MAX_EVALUATIONS;
-    let found = 'flight: loop {
-        if arc.z > 1.0 {
-            let skipped = arc.high_time();
+    let found = 'search: loop {
+        if flight.z > 1.0 {
+            let skipped = flight.high_time();
             pass(skipped);
-            arc = arc.skip_high(shape, skipped);
+            flight = flight.skip_high(shape, skipped);
         }
         let (mut t, mut least) = (0.0, LEAST_DEPARTURE);
         while evaluations > 0 {
             evaluations -= 1;
-            let look = arc.look(t, departing && t == 0.0, &mut least);
-            if look.touches || look.high {
+            let evaluation = flight.evaluate(t, departing && t == 0.0, &mut least);
+            if evaluation.touches || evaluation.high {
                 pass(t);
-                arc.advance(t);
+                flight.advance(t);
             }
-            if look.touches {
-                break 'flight true;
+            if evaluation.touches {
+                break 'search true;
             }
-            if look.high {
+            if evaluation.high {
                 departing = false;
-                continue 'flight;
+                continue 'search;
             }
-            t = look.next;
-            if t >= arc.end {
-                pass(arc.clear_time());
-                arc = arc.cross(shape);
+            t = evaluation.next;
+            if t >= flight.end {
+                pass(flight.time_to_end());
+                flight = flight.cross(shape);
                 departing = false;
-                continue 'flight;
+                continue 'search;
             }
         }
         break false;
     };
-    motion.set_flight(&arc);
+    flight.write_to(motion);
     found
 }
 
-impl<L: Lane> Arc<L> {
-    /// From here to the quadrant's end.
+impl FlightSegment<f64> {
+    #[inline]
+    pub(crate) fn of(motion: &Motion, shape: &Shape) -> Self {
+        let state = [motion.delta, motion.omega, motion.z, motion.vz];
+        Self::new(shape, f64::from(motion.quadrant), state)
+    }
+
+    /// Sets the motion to the segment's start, except for what is constant in flight.
+    #[inline]
+    pub(crate) fn write_to(&self, motion: &mut Motion) {
+        motion.quadrant = as_quadrant(self.quadrant);
+        (motion.delta, motion.z, motion.vz) = (self.delta, self.z, self.vz);
+    }
+}
+
+impl<L: Lane> FlightSegment<L> {
+    /// From this state (δ, ω, z, v_z) to the quadrant's end.
     #[inline(always)]
     pub(crate) fn new(shape: &Shape, quadrant: L, [delta, omega, z, vz]: [L; 4]) -> Self {
-        let (last, cos_end) = shape.last(quadrant, omega);
+        let (last, cos_end) = shape.quadrant_end(quadrant, omega);
         let still = omega.le(L::splat(0.0)) & L::splat(0.0).le(omega);
         let end = (last - delta) / omega;
         Self {
@@ -117,10 +132,11 @@ impl<L: Lane> Arc<L> {
         }
     }
 
-    /// One evaluation, a time `t` from the beginning. `departs`: the corner leaves the surface,
-    /// and approaches by rounding at most.
+    /// One evaluation of the search, at time `t` from the start of the segment. `departs`: the corner
+    /// leaves the surface, so that it approaches by rounding at most. `least` is the least step of a
+    /// departing corner.
     #[inline(always)]
-    pub(crate) fn look(&self, t: L, departs: L::Mask, least: &mut L) -> Look<L> {
+    pub(crate) fn evaluate(&self, t: L, departs: L::Mask, least: &mut L) -> Evaluation<L> {
         let (zero, touch) = (L::splat(0.0), L::splat(TOUCH));
         let delta = self.delta + self.omega * t;
         let (sin, cos) = sin_cos(delta);
@@ -132,7 +148,7 @@ impl<L: Lane> Arc<L> {
         let touches = near & falls;
         let high = L::splat(1.0).lt(z) & !touches;
         if !(!(touches | high)).any() {
-            return Look {
+            return Evaluation {
                 touches,
                 high,
                 next: t,
@@ -152,29 +168,29 @@ impl<L: Lane> Arc<L> {
         let next = t + step;
         // a step below the resolution of t cannot come nearer to the root
         let stuck = next.le(t) & t.le(next) & falls & !high;
-        Look {
+        Evaluation {
             touches: touches | stuck,
             high,
             next,
         }
     }
 
-    /// The first evaluation of a corner that has just been thrown back, whose sine and cosine are
-    /// known: how far it departs, as [`look`](Self::look) with a gap of zero.
+    /// The first step of a corner that has just rebounded, given sine and cosine of its angle: as
+    /// [`evaluate`](Self::evaluate) with a gap of zero.
     #[inline(always)]
-    pub(crate) fn depart(&self, sin: L, cos: L) -> L {
+    pub(crate) fn first_step(&self, sin: L, cos: L) -> L {
         let rate = (self.vz + self.omega * sin).max(L::splat(0.0));
         let away = departure(self.delta, self.omega, cos, rate, self.bound(cos));
         away.max(L::splat(2.0 * LEAST_DEPARTURE))
     }
 
-    /// M for what is left of the quadrant.
+    /// M for the rest of the quadrant.
     #[inline(always)]
     fn bound(&self, cos: L) -> L {
         L::splat(1.0) - self.omega * self.omega * cos.min(self.cos_end)
     }
 
-    /// Flight for `t`, within the quadrant; its end is not looked at again.
+    /// Flies for `t` within the quadrant. The time to its end is not updated.
     #[inline(always)]
     pub(crate) fn advance(&mut self, t: L) {
         self.z += t * (self.vz - L::splat(0.5) * t);
@@ -182,42 +198,43 @@ impl<L: Lane> Arc<L> {
         self.delta += self.omega * t;
     }
 
-    /// Time to the quadrant's end, if it has one.
+    /// Time to the quadrant's end.
     #[inline(always)]
-    pub(crate) fn clear_time(&self) -> L {
+    pub(crate) fn time_to_end(&self) -> L {
         self.end.max(L::splat(0.0))
     }
 
-    /// At the beginning of the next quadrant, with nothing touched in this one.
+    /// The segment that begins at the next quadrant, if nothing touches in this one.
     #[inline(always)]
     pub(crate) fn cross(&self, shape: &Shape) -> Self {
-        let t = self.clear_time();
+        let t = self.time_to_end();
         let z = self.z + t * (self.vz - L::splat(0.5) * t);
         let vz = self.vz - t;
-        let (last, _) = shape.last(self.quadrant, self.omega);
+        let (last, _) = shape.quadrant_end(self.quadrant, self.omega);
         let on = self.quadrant + L::splat(1.0).copysign(self.omega);
-        // it begins where the other ended, seen from its own corner
+        // the next quadrant begins where this one ends, measured from its own corner
         Self::new(shape, within_four(on), [-last, self.omega, z, vz])
     }
 
-    /// Above z = 1 nothing can touch: time to where the centre comes down to 1.
+    /// Time until the centre comes down to z = 1, above which nothing can touch.
     #[inline(always)]
     pub(crate) fn high_time(&self) -> L {
         let above = L::splat(2.0) * (self.z - L::splat(1.0));
         self.vz + (self.vz * self.vz + above).sqrt()
     }
 
-    /// Where the centre comes down to 1, after `t`: through any number of quadrants.
+    /// The segment that begins where the centre comes down to z = 1, after `t` and any number of
+    /// quadrants.
     #[inline(always)]
     pub(crate) fn skip_high(&self, shape: &Shape, t: L) -> Self {
-        let angle = self.delta + shape.first(self.quadrant) + self.omega * t;
+        let angle = self.delta + shape.first_span_lanes(self.quadrant) + self.omega * t;
         let (quadrant, delta) = shape.enter(self.quadrant, angle);
         let (z, vz) = (L::splat(1.0), self.vz - t);
         Self::new(shape, quadrant, [delta, self.omega, z, vz])
     }
 }
 
-/// A quadrant's number from −1 to 4, back among the four.
+/// A quadrant number from −1 to 4, reduced to 0 to 3.
 #[inline(always)]
 fn within_four<L: Lane>(quadrant: L) -> L {
     let (zero, four) = (L::splat(0.0), L::splat(4.0));
@@ -232,7 +249,7 @@ fn lower_bound_step<L: Lane>(gap: L, rate: L, bound: L) -> L {
     let discriminant = rate * rate + L::splat(2.0) * gap * bound;
     let root = discriminant.sqrt();
     let falls = rate.lt(zero);
-    // (√… + rate)/bound, for a corner that falls in the form that does not cancel
+    // (√… + rate)/bound; for a falling corner in the form without cancellation
     let over = L::select(falls, L::splat(2.0) * gap, rate + root);
     let under = L::select(falls, root - rate, bound);
     let none = falls & discriminant.lt(zero) | !falls & bound.le(zero);
@@ -241,9 +258,9 @@ fn lower_bound_step<L: Lane>(gap: L, rate: L, bound: L) -> L {
 
 /// A step away from the surface, for a corner that touches and moves up (or not at all).
 ///
-/// Three bounds hold together; the longest is taken. (1) The quadratic one with gap = 0.
+/// Each of three bounds on the step holds, so the longest is used. (1) The quadratic one with gap = 0.
 /// (2) While the coin turns towards its balance, cos δ exceeds its present value until the mirror
-/// image −δ is reached, so if f'' >= 0 now, f is convex until then. (3) |f'''| <= |ω|³, so
+/// image −δ is reached; so if f'' >= 0 now, f is convex until then. (3) |f'''| <= |ω|³, so
 /// f >= At²/2 − |ω|³t³/6 > 0 for t < 3A/|ω|³, A = f''.
 #[inline(always)]
 fn departure<L: Lane>(delta: L, omega: L, cos: L, rate: L, bound: L) -> L {

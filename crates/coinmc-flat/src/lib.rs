@@ -24,22 +24,28 @@
 
 mod any;
 mod batch;
-mod bounce;
 mod contact;
 mod contact_matrix;
+mod counters;
+mod decision;
 mod dormand_prince;
 mod engine;
 mod flight;
+mod impact;
 mod impact_law;
 mod laws;
 mod motion;
 mod observer_adapter;
+mod parameters;
 mod pivot;
+mod scalar;
 mod settings;
 mod shape;
 mod single;
 mod slide;
+mod toss;
 mod touching;
+mod transition;
 
 pub use any::AnyFlatEngine;
 pub use coinmc_lanes::{Lane, Lanes, NoSuchLanes};

@@ -1,6 +1,5 @@
-//! The state of the toss in units of D, sqrt(D/g) and m, and its flight.
+//! The state of the coin in units of D, sqrt(D/g) and m.
 
-use crate::flight::Arc;
 use crate::shape::{Quadrant, Shape, as_quadrant, next};
 use coinmc_core::{Launch, Scene, State};
 use coinmc_lanes::{Lane, Mask, sin_cos};
@@ -21,7 +20,7 @@ pub(crate) struct Motion {
     pub(crate) time: f64,
 }
 
-/// Units of a scene: what one dimensionless length, time, … is in SI.
+/// The units of a scene: one dimensionless length and time in SI.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Units {
     pub(crate) length_m: f64,
@@ -42,8 +41,8 @@ impl Units {
 }
 
 impl Motion {
-    /// The launch in dimensionless form; components out of the xz plane are not looked at. A coin
-    /// that would begin inside the surface is lifted until it touches.
+    /// The launch in dimensionless form. Components out of the xz plane are ignored. A coin that would
+    /// start inside the surface is lifted until it touches.
     pub(crate) fn new(launch: &Launch, units: &Units, shape: &Shape) -> Self {
         let (x, z) = (launch.axis.x, launch.axis.z);
         // θ = q·90° + φ with φ from the two magnitudes alone: u and −u give the same φ
@@ -76,7 +75,7 @@ impl Motion {
         self.energy_without_sliding(k) + 0.5 * self.vx * self.vx
     }
 
-    /// The same without the energy of horizontal motion.
+    /// Mechanical energy without that of horizontal motion.
     #[inline]
     pub(crate) fn energy_without_sliding(&self, k: f64) -> f64 {
         energy_without_sliding(k, [self.z, self.vz, self.omega])
@@ -96,7 +95,7 @@ impl Motion {
     #[inline]
     pub(crate) fn cross_flat(&mut self, shape: &Shape, forwards: bool) {
         self.quadrant = next(self.quadrant, forwards);
-        // it begins where the other ended, seen from its own corner
+        // the new quadrant begins where the old one ended, measured from its own corner
         self.delta = if forwards {
             -shape.first_span(self.quadrant)
         } else {
@@ -104,7 +103,7 @@ impl Motion {
         };
     }
 
-    /// Turns by any angle at once, into whatever quadrant that leads.
+    /// Turns by any angle, into any quadrant.
     pub(crate) fn turn(&mut self, shape: &Shape, by: f64) {
         let angle = self.delta + shape.first_span(self.quadrant) + by;
         if (0.0..=FRAC_PI_2).contains(&angle) {
@@ -132,21 +131,7 @@ impl Motion {
         (self.quadrant, self.delta) = (as_quadrant(quadrant), delta);
     }
 
-    /// What is left of the quadrant, in flight.
-    #[inline]
-    pub(crate) fn arc(&self, shape: &Shape) -> Arc<f64> {
-        let flight = [self.delta, self.omega, self.z, self.vz];
-        Arc::new(shape, f64::from(self.quadrant), flight)
-    }
-
-    /// The coin as it is in flight.
-    #[inline]
-    pub(crate) fn set_flight(&mut self, arc: &Arc<f64>) {
-        self.quadrant = as_quadrant(arc.quadrant);
-        (self.delta, self.z, self.vz) = (arc.delta, arc.z, arc.vz);
-    }
-
-    /// On the lowest corner with angular velocity `omega` while that corner slides at `slip`.
+    /// Sets the coin on its lowest corner with angular velocity `omega`, the corner sliding at `slip`.
     #[inline]
     pub(crate) fn set_on_corner(&mut self, sin: f64, cos: f64, omega: f64, slip: f64) {
         self.z = cos;
@@ -155,8 +140,8 @@ impl Motion {
         self.vz = -omega * sin;
     }
 
-    /// Takes back what rounding and truncation added to the energy since it was `before`: no
-    /// contact ever gains energy. Velocities shrink together, so every constraint on them holds.
+    /// Removes the energy that rounding and truncation have added since it was `before`: no contact
+    /// gains energy. All velocities shrink by one factor, so every constraint on them still holds.
     #[inline]
     pub(crate) fn cap_energy(&mut self, k: f64, before: f64) {
         if let Some(scale) = cap(self.z, self.energy(k), before) {
@@ -187,14 +172,14 @@ impl Motion {
     }
 }
 
-/// Energy at height `z` but for that of horizontal motion.
+/// Energy at height `z` without that of horizontal motion.
 #[inline(always)]
 pub(crate) fn energy_without_sliding<L: Lane>(k: f64, [z, vz, omega]: [L; 3]) -> L {
     L::splat(0.5) * (vz * vz + L::splat(k) * omega * omega) + z
 }
 
-/// By what all velocities shrink so that the energy `now`, at height `z`, is no more than `before`;
-/// `None` if they need not.
+/// The factor by which all velocities shrink so that the energy `now`, at height `z`, is at most
+/// `before`; `None` if no lane has gained energy.
 #[inline(always)]
 pub(crate) fn cap<L: Lane>(z: L, now: L, before: L) -> Option<L> {
     let gained = before.lt(now);

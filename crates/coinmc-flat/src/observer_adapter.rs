@@ -1,11 +1,11 @@
-//! What whoever watches a toss is shown: events, and the coin at the instants asked for between
-//! them. For an observer that is not active nothing of it is compiled.
+//! Shows a toss to an observer: its events, and the state of the coin at the requested instants
+//! between them. For an inactive observer all of this compiles to nothing.
 
 use crate::motion::{Motion, Units};
 use crate::shape::Shape;
 use coinmc_core::{Event, EventKind, Observer, sample_between};
 
-/// An observer, and what it takes to show it a motion.
+/// An observer, with the units and the shape that turn a [`Motion`] into a state in SI units.
 pub(crate) struct ObserverAdapter<'a, O> {
     pub(crate) observer: &'a mut O,
     pub(crate) units: &'a Units,
@@ -20,7 +20,7 @@ impl<O: Observer> ObserverAdapter<'_, O> {
         }
     }
 
-    /// The coin moved on from time `from` to `until`; `at` gives its motion any time after `from`.
+    /// The coin has moved from time `from` to `until`; `at` gives its motion a time after `from`.
     pub(crate) fn passed(&mut self, from: f64, until: f64, at: impl Fn(f64) -> Motion) {
         let Self { units, shape, .. } = *self;
         sample_between(
@@ -28,7 +28,7 @@ impl<O: Observer> ObserverAdapter<'_, O> {
             from * units.time_s,
             until * units.time_s,
             |time_s| {
-                // the two roundings of the unit may lead just beyond
+                // the two roundings of the unit may lead just outside the interval
                 let after = (time_s / units.time_s - from).clamp(0.0, until - from);
                 let mut state = at(after).state(units, shape);
                 state.time_s = time_s;

@@ -24,7 +24,7 @@ pub(crate) enum PivotEnd {
 
 /// Normal and friction force (in m g) of a stuck corner.
 #[inline]
-pub(crate) fn stuck_forces(sin: f64, cos: f64, omega: f64, k: f64) -> (f64, f64) {
+pub(crate) fn sticking_forces(sin: f64, cos: f64, omega: f64, k: f64) -> (f64, f64) {
     let w2 = omega * omega;
     let normal = 1.0 - sin * sin / (1.0 + k) - cos * w2;
     let friction = sin * cos / (1.0 + k) - sin * w2;
@@ -115,7 +115,7 @@ fn cone_step(q: f64, rate: f64) -> f64 {
 ///
 /// The contact force is positive while c² − 2Ec + 1 + k > 0, c = cos δ: it vanishes on the way up
 /// to the balance at c* = E − sqrt(E² − 1 − k) if that exists, and never on the way down.
-pub(crate) fn glide<O: Observer>(
+pub(crate) fn slide_without_friction<O: Observer>(
     motion: &mut Motion,
     shape: &Shape,
     adapter: &mut ObserverAdapter<'_, O>,

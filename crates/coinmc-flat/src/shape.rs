@@ -1,10 +1,11 @@
-//! The rectangle 2R × H in units of D, and where its corners are.
+//! The section of the coin, a rectangle 2R × H, in units of D.
 
 use coinmc_core::{Coin, Face};
 use coinmc_lanes::Lane;
 use std::f64::consts::FRAC_PI_2;
 
-/// Quarter turns: 0 begins heads up, 1 heads to the right, 2 tails up, 3 heads to the left.
+/// A quarter turn: 0 starts with heads up, 1 with heads to the right, 2 with tails up, 3 with heads to
+/// the left.
 pub(crate) type Quadrant = u8;
 
 /// The coin's section in units in which D = sqrt(R² + H²/4) = 1.
@@ -12,8 +13,8 @@ pub(crate) type Quadrant = u8;
 /// In quadrant q (θ from q·90° to (q+1)·90°, u = (sin θ, cos θ)) one corner is lowest. δ is the
 /// angle of the centre beyond the balance over that corner, so the centre is cos δ above it. The
 /// quadrant spans δ from −`span[q mod 2]` to +`span[1 − q mod 2]`, from one edge flat on the
-/// ground to the next. Only this pair (q, δ) describes how the coin is turned: heads and tails
-/// differ in q alone and are treated alike to the last bit.
+/// ground to the next. The pair (q, δ) alone describes the orientation: heads and tails differ only
+/// in q, so the results for them are bit-identical.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Shape {
     /// I_t/(m D²).
@@ -46,16 +47,16 @@ impl Shape {
         }
     }
 
-    /// δ at the quadrant's start (most negative).
+    /// Angle from the quadrant's start to its balance: −δ at the start.
     #[inline]
     pub(crate) fn first_span(&self, quadrant: Quadrant) -> f64 {
         self.span[start(quadrant)]
     }
 
     /// Angle from the start of a quadrant to its balance: [`first_span`](Self::first_span) over lanes,
-    /// with the quadrant as a number.
+    /// with the quadrant as a floating-point number.
     #[inline(always)]
-    pub(crate) fn first<L: Lane>(&self, quadrant: L) -> L {
+    pub(crate) fn first_span_lanes<L: Lane>(&self, quadrant: L) -> L {
         L::select(
             is_odd(quadrant),
             L::splat(self.span[1]),
@@ -63,10 +64,10 @@ impl Shape {
         )
     }
 
-    /// The quadrant's last δ, and the height of the centre there, for a coin that turns in the
-    /// direction of `omega`.
+    /// The quadrant's last δ and the height of the centre there, for a coin that turns in the
+    /// direction of `omega`: [`last_angle`](Self::last_angle) over lanes.
     #[inline(always)]
-    pub(crate) fn last<L: Lane>(&self, quadrant: L, omega: L) -> (L, L) {
+    pub(crate) fn quadrant_end<L: Lane>(&self, quadrant: L, omega: L) -> (L, L) {
         let (odd, forwards) = (is_odd(quadrant), L::splat(0.0).lt(omega));
         // flat on a face at the start of even quadrants and at the end of odd ones
         let on_face = (odd & forwards) | !(odd | forwards);
@@ -80,17 +81,17 @@ impl Shape {
     pub(crate) fn enter<L: Lane>(&self, quadrant: L, angle: L) -> (L, L) {
         let (zero, four, quarter) = (L::splat(0.0), L::splat(4.0), L::splat(FRAC_PI_2));
         let turned = (angle / quarter).floor();
-        // beyond all digits of the angle this is any quadrant, but one of the four
+        // an angle too large for its digits to tell the quadrant still gives one of the four
         let on = quadrant + (turned - (turned * L::splat(0.25)).floor() * four);
         let entered = L::select(four.le(on), on - four, on);
         let within = angle - turned * quarter;
-        // what is not a number stays so
+        // NaN stays NaN
         let within = L::select(within.lt(zero), zero, within);
         let within = L::select(quarter.lt(within), quarter, within);
-        (entered, within - self.first(entered))
+        (entered, within - self.first_span_lanes(entered))
     }
 
-    /// Angle left to the nearer flat position, and whether that is the quadrant's end.
+    /// Angle to the nearer flat position, and whether that is the quadrant's end.
     #[inline]
     pub(crate) fn gap(&self, quadrant: Quadrant, delta: f64) -> (f64, bool) {
         let to_start = delta + self.span[start(quadrant)];
@@ -112,8 +113,8 @@ impl Shape {
         (self.flat_height[edge], self.flat_height[1 - edge])
     }
 
-    /// The direction (of growing θ: +1) in which a coin in this quadrant turns to lie on a face, and
-    /// the angle left until it does.
+    /// The direction (+1: growing θ) in which a coin in this quadrant turns to lie on a face, and the
+    /// angle until it does.
     pub(crate) fn face_tilt(&self, quadrant: Quadrant, delta: f64) -> (f64, f64) {
         if quadrant & 1 == 0 {
             (-1.0, delta + self.span[0])
@@ -122,7 +123,7 @@ impl Shape {
         }
     }
 
-    /// What the coin shows if it settles in the well it is in: it topples to the edge on δ's side
+    /// The face on which the coin comes to rest in the well it is in: it falls to the edge on δ's side
     /// of the balance.
     #[inline]
     pub(crate) fn face(quadrant: Quadrant, delta: f64) -> Face {
@@ -140,10 +141,10 @@ impl Shape {
     }
 }
 
-/// A quadrant of its number.
+/// The quadrant with this number.
 #[inline]
 pub(crate) fn as_quadrant(number: f64) -> Quadrant {
-    // one of the four; the first for what is not a number
+    // NaN becomes quadrant 0
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     let quadrant = number as Quadrant;
     quadrant & 3
@@ -164,7 +165,7 @@ fn end(quadrant: Quadrant) -> usize {
     1 - start(quadrant)
 }
 
-/// The neighbouring quadrant in the direction of growing θ, or the other.
+/// The next quadrant in the direction of growing θ (`forwards`) or of falling θ.
 #[inline]
 pub(crate) fn next(quadrant: Quadrant, forwards: bool) -> Quadrant {
     (if forwards { quadrant + 1 } else { quadrant + 3 }) & 3

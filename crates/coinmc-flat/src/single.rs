@@ -4,6 +4,7 @@ use crate::any::AnyFlatEngine;
 use crate::engine::FlatEngine;
 use crate::impact_law::{ImpactLaw, Resolution};
 use crate::motion::Motion;
+use crate::parameters::Parameters;
 use coinmc_core::{Breaks, Launch, State};
 
 /// One impact: the coin just before and just after, and what happened between.
@@ -64,23 +65,28 @@ impl<L: ImpactLaw> FlatEngine<L> {
     /// The impact of a coin with this velocity, spin and tilt whose lowest corner has just touched;
     /// the launch's height is not looked at. No bounces are summed up: this is the law alone.
     pub fn impact_once(&self, launch: &Launch) -> SingleImpact {
-        let (units, shape) = (&self.units, &self.shape);
+        let Parameters {
+            units,
+            shape,
+            mass_kg,
+            ..
+        } = &self.parameters;
         let mut motion = Motion::new(launch, units, shape);
         motion.z = coinmc_lanes::sin_cos(motion.delta).1;
         let before = motion;
         let mut breaks = Breaks::default();
         let energy = before.energy(shape.k);
-        let (carried, record) = self.strike(&mut motion, &mut breaks);
+        let (resolution, record) = self.parameters.apply_law(&mut motion, &mut breaks);
         let gain = (motion.energy(shape.k) - energy).max(0.0);
-        if carried == Resolution::StaysInContact {
-            self.press(&mut motion, energy);
+        if resolution == Resolution::StaysInContact {
+            self.parameters.stop_normal_motion(&mut motion, energy);
         }
         motion.cap_energy(shape.k, energy);
-        let force = self.mass_kg * units.length_m / (units.time_s * units.time_s);
+        let force = mass_kg * units.length_m / (units.time_s * units.time_s);
         SingleImpact {
             before: before.state(units, shape),
             after: motion.state(units, shape),
-            stays: carried == Resolution::StaysInContact,
+            stays: resolution == Resolution::StaysInContact,
             peak_force_n: record.peak_force * force,
             steps: record.steps,
             imbalance_j: record.imbalance * force * units.length_m,

@@ -1,10 +1,10 @@
-//! A coin whose lowest corner is on the surface, and what an impulse there does to it: over lanes.
+//! A coin whose lowest corner is on the surface, and the effect of an impulse there: over lanes.
 
 use crate::contact_matrix::{ContactMatrix, Impulse};
 use crate::motion::{self, Motion};
 use coinmc_lanes::{Lane, sin_cos};
 
-/// The angle, by its sine and cosine, and the velocities; the centre is cos δ high.
+/// Sine and cosine of the angle, and the velocities. The centre is cos δ above the surface.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Touching<L> {
     pub(crate) sin: L,
@@ -39,27 +39,27 @@ impl<L: Lane> Touching<L> {
         ContactMatrix::new(self.sin, self.cos, k)
     }
 
-    /// Velocity of the corner, which does not leave.
+    /// Velocity of the corner, whose normal part is at most zero.
     #[inline(always)]
     pub(crate) fn approach(&self) -> (L, L) {
-        // a corner that is swapped in may leave already, by rounding
+        // a corner that has just become the lowest may already rise, by rounding
         let down = (self.vz + self.omega * self.sin).min(L::splat(0.0));
         (self.vx - self.omega * self.cos, down)
     }
 
     /// The angular velocity after an impulse.
     #[inline(always)]
-    pub(crate) fn turned(&self, p: &Impulse<L>, k: f64) -> L {
+    pub(crate) fn omega_after(&self, p: &Impulse<L>, k: f64) -> L {
         self.omega + (self.sin * p.z - self.cos * p.x) / L::splat(k)
     }
 
-    /// After an impulse.
+    /// The coin after an impulse.
     #[inline(always)]
-    pub(crate) fn pushed(&self, p: &Impulse<L>, k: f64) -> Self {
+    pub(crate) fn after(&self, p: &Impulse<L>, k: f64) -> Self {
         Self {
             vx: self.vx + p.x,
             vz: self.vz + p.z,
-            omega: self.turned(p, k),
+            omega: self.omega_after(p, k),
             ..*self
         }
     }
@@ -74,7 +74,7 @@ impl<L: Lane> Touching<L> {
         self.energy_without_sliding(k) + L::splat(0.5) * self.vx * self.vx
     }
 
-    /// With no more energy than `before`: see [`Motion::cap_energy`].
+    /// The same coin with no more energy than `before`: see [`Motion::cap_energy`].
     #[inline(always)]
     pub(crate) fn capped(self, k: f64, before: L) -> Self {
         motion::cap(self.cos, self.energy(k), before).map_or(self, |scale| Self {

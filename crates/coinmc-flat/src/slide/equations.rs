@@ -17,18 +17,18 @@ use std::f64::consts::FRAC_PI_2;
 pub(super) const JAM: f64 = 1e-2;
 
 /// (δ, ω, γ, x)
-pub(super) type Slide<L = f64> = [L; 4];
+pub(super) type SlideState<L = f64> = [L; 4];
 
-/// The end of a step: where, and how fast it goes on.
+/// A state and its rates of change.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Arrival<L = f64> {
-    pub(super) state: Slide<L>,
-    pub(super) rates: Slide<L>,
+pub(super) struct RatedState<L = f64> {
+    pub(super) state: SlideState<L>,
+    pub(super) rates: SlideState<L>,
     /// (sin δ, cos δ)
     pub(super) angle: (L, L),
 }
 
-/// The equations of motion for one direction of slip, of one corner or several side by side.
+/// The equations of motion for one direction of slip, of one corner or of one per lane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sliding<L = f64> {
     pub(super) k: f64,
@@ -36,23 +36,24 @@ pub(super) struct Sliding<L = f64> {
     pub(super) friction: L,
 }
 
-/// What came of the attempt at a step.
-pub(super) struct Attempt<L: Lane> {
+/// A step without the rates at its end.
+pub(super) struct SlideStep<L: Lane> {
     /// The state of order 5.
-    pub(super) state: Slide<L>,
+    pub(super) state: SlideState<L>,
     /// The error estimate but for the share of the seventh stage.
-    pub(super) partial: Slide<L>,
-    /// Whether it could be made at all.
+    pub(super) partial: SlideState<L>,
+    /// Whether the equations hold in all stages.
     pub(super) possible: L::Mask,
 }
 
-/// An attempt with the rates at its end.
+/// A step with the rates at its end.
 pub(super) struct WholeStep<L: Lane> {
-    pub(super) end: Arrival<L>,
+    pub(super) end: RatedState<L>,
     /// Largest relative error.
     pub(super) error: L,
-    /// Whether it could be made at all, and whether the motion goes on from its end.
+    /// Whether the equations hold in all stages.
     pub(super) possible: L::Mask,
+    /// Whether they hold at the end.
     pub(super) sound: L::Mask,
 }
 
@@ -63,10 +64,10 @@ impl<L: Lane> Sliding<L> {
         L::splat(1.0) + (sin + self.friction * cos) * sin / L::splat(self.k)
     }
 
-    /// A state with the right-hand side, and whether that is sound: not next to Painlevé's
-    /// configuration nor far out of range.
+    /// A state with its rates, and whether the equations hold there: away from Painlevé's
+    /// configuration and not far out of range.
     #[inline(always)]
-    pub(super) fn at(&self, state: &Slide<L>) -> (Arrival<L>, L::Mask) {
+    pub(super) fn at(&self, state: &SlideState<L>) -> (RatedState<L>, L::Mask) {
         let [delta, omega, slip, _] = *state;
         let one = L::splat(1.0);
         let inside = delta.abs().lt(L::splat(FRAC_PI_2));
@@ -74,7 +75,7 @@ impl<L: Lane> Sliding<L> {
         let w2 = omega * omega;
         let inverse_k = L::splat(1.0 / self.k);
         let a = one + (sin + self.friction * cos) * sin * inverse_k;
-        // what is not a number fails both
+        // NaN fails both comparisons
         let open = L::splat(0.5 * JAM).lt(a);
         let normal = (one - w2 * cos) / a;
         let lever = self.friction + (self.friction * cos + sin) * cos * inverse_k;
@@ -84,7 +85,7 @@ impl<L: Lane> Sliding<L> {
             w2 * sin - normal * lever,
             slip + omega * cos,
         ];
-        let at = Arrival {
+        let at = RatedState {
             state: *state,
             rates,
             angle: (sin, cos),
@@ -94,20 +95,20 @@ impl<L: Lane> Sliding<L> {
 
     /// One step of length `h`.
     #[inline(always)]
-    pub(super) fn step(&self, start: &Arrival<L>, h: L) -> Attempt<L> {
-        let mut flow = Sound {
+    pub(super) fn step(&self, start: &RatedState<L>, h: L) -> SlideStep<L> {
+        let mut flow = CheckedFlow {
             sliding: self,
             sound: L::Mask::splat(true),
         };
         let stages = stages(&mut flow, &start.state, &start.rates, h);
         let possible = flow.sound;
         match stages {
-            Some(stages) => Attempt {
+            Some(stages) => SlideStep {
                 state: stages.end,
                 partial: combine(&[L::splat(0.0); 4], h, stages.difference(&start.rates)),
                 possible,
             },
-            None => Attempt {
+            None => SlideStep {
                 state: start.state,
                 partial: start.state,
                 possible,
@@ -115,13 +116,13 @@ impl<L: Lane> Sliding<L> {
         }
     }
 
-    /// One step of length `h` with all that is asked of it.
+    /// One step of length `h`, with its error and the rates at its end.
     #[inline(always)]
-    pub(super) fn whole_step(&self, start: &Arrival<L>, h: L) -> WholeStep<L> {
-        let made = self.step(start, h);
-        let (end, sound) = self.at(&made.state);
-        let error = combine(&made.partial, h, [(LAST_DIFFERENCE, &end.rates)]);
-        // of all but the place
+    pub(super) fn whole_step(&self, start: &RatedState<L>, h: L) -> WholeStep<L> {
+        let step = self.step(start, h);
+        let (end, sound) = self.at(&step.state);
+        let error = combine(&step.partial, h, [(LAST_DIFFERENCE, &end.rates)]);
+        // of all components but the position
         let mut largest = L::splat(0.0);
         for (error, state) in error.iter().zip(&end.state).take(3) {
             largest = largest.max(error.abs() / (L::splat(1.0) + state.abs()));
@@ -129,21 +130,21 @@ impl<L: Lane> Sliding<L> {
         WholeStep {
             end,
             error: largest,
-            possible: made.possible,
+            possible: step.possible,
             sound,
         }
     }
 }
 
-/// The right-hand side where it is asked for, and whether it has been sound each time.
-struct Sound<'a, L: Lane> {
+/// The equations as the stages of a step evaluate them, and whether they have held each time.
+struct CheckedFlow<'a, L: Lane> {
     sliding: &'a Sliding<L>,
     sound: L::Mask,
 }
 
-impl<L: Lane> Flow<4, L> for &mut Sound<'_, L> {
+impl<L: Lane> Flow<4, L> for &mut CheckedFlow<'_, L> {
     #[inline(always)]
-    fn rates(&mut self, y: &Slide<L>) -> Option<Slide<L>> {
+    fn rates(&mut self, y: &SlideState<L>) -> Option<SlideState<L>> {
         let (at, sound) = self.sliding.at(y);
         self.sound = self.sound & sound;
         self.sound.any().then_some(at.rates)
@@ -154,7 +155,7 @@ impl<L: Lane> Flow<4, L> for &mut Sound<'_, L> {
 mod tests {
     use super::*;
 
-    fn integrate(steps: u32) -> Slide {
+    fn integrate(steps: u32) -> SlideState {
         let sliding = Sliding {
             k: 0.3,
             friction: 0.4,
@@ -168,8 +169,8 @@ mod tests {
         state
     }
 
-    /// Halving the step divides the error by 2⁵. Seen from three step lengths the order is within
-    /// 0.4 of that for the slowest component, and no less for any (symmetry raises some to 6).
+    /// Halving the step divides the error by 2⁵. Estimated from three step lengths, the order of the
+    /// slowest component is within 0.4 of 5; no component has a lower one (symmetry raises some to 6).
     #[test]
     fn converges_with_order_five() {
         let [a, b, c] = [32, 64, 128].map(integrate);
@@ -178,7 +179,7 @@ mod tests {
         assert!((slowest - 5.0).abs() < 0.4, "{slowest}");
     }
 
-    /// Friction takes the energy it dissipates and no other: E' = −μ N |γ|.
+    /// The energy falls by the work of friction and by nothing else: E' = −μ N |γ|.
     #[test]
     fn energy_changes_by_the_work_of_friction() {
         let sliding = Sliding {
@@ -186,7 +187,7 @@ mod tests {
             friction: -0.7,
         };
         let y = [0.2, -0.4, -0.5, 0.0];
-        let energy = |y: &Slide| {
+        let energy = |y: &SlideState| {
             let (s, c) = sin_cos(y[0]);
             let (vx, vz) = (y[2] + y[1] * c, -y[1] * s);
             0.5 * (vx * vx + vz * vz + sliding.k * y[1] * y[1]) + c

@@ -1,18 +1,34 @@
-//! What ends a sliding phase, and exactly when.
+//! The events that end a sliding phase, located exactly.
 
-use super::SlideEnd;
-use super::equations::{Arrival, Slide};
+use super::equations::{RatedState, SlideState};
 use crate::shape::{Quadrant, Shape};
 
-/// How near to its event a phase ends, in units of D, sqrt(D g) and m g.
+/// Margin within which an event counts as reached, in units of D, sqrt(D g) and m g.
 const EVENT: f64 = 1e-11;
-/// Slip this far backwards counts as zero, in sqrt(D g): a phase that begins at rest, perhaps with
-/// zero acceleration, is not ended by the rounding of its first step.
+/// Slip this far backwards counts as zero, in sqrt(D g), so that rounding in the first step does not
+/// end a phase that begins at rest, perhaps with zero acceleration.
 const REST: f64 = 1e-12;
 
+/// How a sliding phase ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum SlideEnd {
+    /// Slip has come to zero.
+    Stops,
+    /// The contact force has vanished.
+    LiftsOff,
+    /// The next corner has come down: flat on an edge.
+    Flat,
+    /// The force that sliding needs grows without bound: Painlevé's configuration.
+    Jams,
+    /// Energy has fallen below the barrier: the face is decided.
+    Decided,
+    OutOfSteps,
+}
+
+/// The ends that break a margin, in the order of the margins.
 const ENDS: [SlideEnd; 3] = [SlideEnd::Stops, SlideEnd::LiftsOff, SlideEnd::Flat];
 
-/// What must stay positive for the phase to go on: slip, contact force, distance to flat.
+/// The margins that must stay positive while the phase lasts: slip, contact force, angle to flat.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Margins {
     pub(super) shape: Shape,
@@ -23,7 +39,7 @@ pub(super) struct Margins {
 
 impl Margins {
     #[inline]
-    fn at(&self, y: &Slide, cos: f64) -> [f64; 3] {
+    fn at(&self, y: &SlideState, cos: f64) -> [f64; 3] {
         let [delta, omega, slip, _] = *y;
         [
             self.direction * slip + REST,
@@ -34,7 +50,7 @@ impl Margins {
 
     /// d/dt of the margins.
     #[inline]
-    fn slopes(&self, at: &Arrival) -> [f64; 3] {
+    fn slopes(&self, at: &RatedState) -> [f64; 3] {
         let [delta, omega, ..] = at.state;
         let (sin, cos) = at.angle;
         let to_end = self.shape.gap(self.quadrant, delta).1;
@@ -47,7 +63,7 @@ impl Margins {
 
     /// The margins over a step of length `h`.
     #[inline]
-    pub(super) fn over(&self, start: &Arrival, end: &Arrival, h: f64) -> Over {
+    pub(super) fn over_step(&self, start: &RatedState, end: &RatedState, h: f64) -> StepMargins {
         let before = self.at(&start.state, start.angle.1);
         let after = self.at(&end.state, end.angle.1);
         let (first, last) = (self.slopes(start), self.slopes(end));
@@ -55,38 +71,38 @@ impl Margins {
             let slopes = [first[which] * h, last[which] * h];
             Cubic::new([before[which], after[which]], slopes)
         };
-        Over {
+        StepMargins {
             after,
-            rising: std::array::from_fn(|which| first[which] * h < 0.0 && last[which] * h > 0.0),
+            turning: std::array::from_fn(|which| first[which] * h < 0.0 && last[which] * h > 0.0),
             curves: std::array::from_fn(curve),
         }
     }
 }
 
 /// The margins over a step, interpolated by cubics in its length.
-pub(super) struct Over {
+pub(super) struct StepMargins {
     after: [f64; 3],
-    /// Falls at the start and rises at the end.
-    rising: [bool; 3],
+    /// Whether each falls at the start and rises at the end.
+    turning: [bool; 3],
     curves: [Cubic; 3],
 }
 
-impl Over {
-    /// Where a margin that is positive at both ends of an accepted step dips below zero between
-    /// them: the share of the step at its lowest point, at which a shorter step should end.
+impl StepMargins {
+    /// Where a margin that is positive at both ends of a step dips below zero between them: its
+    /// lowest point, as a share of the step. A shorter step should end there.
     #[inline]
     pub(super) fn dip(&self) -> Option<f64> {
         (0..3).find_map(|which| {
-            let turns = self.rising[which] && self.after[which] >= 0.0;
+            let turns = self.turning[which] && self.after[which] >= 0.0;
             let (share, lowest) = turns.then(|| self.curves[which].lowest())?;
             (lowest < 0.0).then_some(share)
         })
     }
 
-    /// The search for the earliest event within the step, which begins at `start`; `None` if there
-    /// is no event.
+    /// The search for the earliest event within the step that begins at `start`; `None` if there is
+    /// no event.
     #[inline]
-    pub(super) fn search(&self, start: &Arrival) -> Option<EventSearch> {
+    pub(super) fn search(&self, start: &RatedState) -> Option<EventSearch> {
         if self.after.iter().all(|margin| *margin >= 0.0) {
             return None;
         }
@@ -96,7 +112,7 @@ impl Over {
             curves: self.curves,
             which,
             share,
-            inside: Inside {
+            last_inside: Trial {
                 share: 0.0,
                 state: start.state,
                 angle: start.angle,
@@ -107,7 +123,7 @@ impl Over {
     }
 }
 
-/// The margin that is broken first and the share of the step at which it is.
+/// The margin that is broken first, and where, as a share of the step.
 #[inline]
 fn earliest(curves: &[Cubic; 3], margins: &[f64; 3]) -> Option<(usize, f64)> {
     (0..3)
@@ -116,50 +132,55 @@ fn earliest(curves: &[Cubic; 3], margins: &[f64; 3]) -> Option<(usize, f64)> {
         .min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// A search for an event: each trial is a true step, as accurate as the step itself.
+/// A search for an event within a step. Each trial is a step of its own from the same start, as
+/// accurate as the whole step.
 ///
-/// The root of the broken margin's cubic is the first trial, Newton with the cubic's slope gives the
-/// next ones, a bisection where that leaves the bracket.
+/// The first trial is the root of the broken margin's cubic. Newton's method with the slope of the
+/// cubic gives the next ones, bisection where that leaves the bracket.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct EventSearch {
-    /// Where the step begins.
-    pub(super) start: Arrival,
+    pub(super) start: RatedState,
     curves: [Cubic; 3],
     /// The margin that is broken first.
     which: usize,
-    /// The next trial, as a share of the step.
+    /// Length of the next trial, as a share of the step.
     pub(super) share: f64,
-    pub(super) inside: Inside,
-    /// The first trial after the event.
+    /// The longest trial that ends before the event.
+    pub(super) last_inside: Trial,
+    /// Share of the shortest trial that ends after it.
     outside: f64,
     trials: u32,
 }
 
-/// The last trial before an event.
+/// A step of part of the length.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Inside {
+pub(super) struct Trial {
     pub(super) share: f64,
-    pub(super) state: Slide,
+    pub(super) state: SlideState,
     pub(super) angle: (f64, f64),
 }
 
 impl EventSearch {
-    /// What the event is.
+    /// How the event ends the phase.
     pub(super) fn end(&self) -> SlideEnd {
         ENDS[self.which]
     }
 
-    /// Takes up where the trial has led, with sine and cosine there, if it could be made; `true` if
-    /// the search is over.
-    pub(super) fn tried(&mut self, margins: &Margins, to: Option<(Slide, (f64, f64))>) -> bool {
-        const MOST_TRIALS: u32 = 100;
+    /// Records where a trial has led, with sine and cosine of the angle there (`None`: the equations
+    /// do not hold on the way); `true` if the search is over.
+    pub(super) fn record(
+        &mut self,
+        margins: &Margins,
+        to: Option<(SlideState, (f64, f64))>,
+    ) -> bool {
+        const MAX_TRIALS: u32 = 100;
         self.trials += 1;
         let Some((state, angle)) = to else {
             return true;
         };
         let at = margins.at(&state, angle.1);
         if at.iter().all(|margin| *margin >= 0.0) {
-            self.inside = Inside {
+            self.last_inside = Trial {
                 share: self.share,
                 state,
                 angle,
@@ -174,17 +195,17 @@ impl EventSearch {
                 self.which = first.map_or(self.which, |(which, _)| which);
             }
         }
-        if self.outside - self.inside.share <= EVENT || self.trials == MOST_TRIALS {
+        if self.outside - self.last_inside.share <= EVENT || self.trials == MAX_TRIALS {
             return true;
         }
-        // aims just inside the margin, so that the last trial can be kept
+        // aim just inside the margin, so that the last trial can be kept
         let slope = self.curves[self.which].slope(self.share);
         let newton = self.share - (at[self.which] - 0.5 * EVENT) / slope;
-        let bracketed = newton > self.inside.share && newton < self.outside;
+        let bracketed = newton > self.last_inside.share && newton < self.outside;
         self.share = if bracketed {
             newton
         } else {
-            f64::midpoint(self.inside.share, self.outside)
+            f64::midpoint(self.last_inside.share, self.outside)
         };
         false
     }
@@ -195,7 +216,7 @@ impl EventSearch {
 struct Cubic([f64; 4]);
 
 impl Cubic {
-    /// By its values and slopes at the ends (Hermite).
+    /// From its values and slopes at the ends (Hermite).
     fn new([v0, v1]: [f64; 2], [s0, s1]: [f64; 2]) -> Self {
         let rise = v1 - v0;
         Self([v0, s0, 3.0 * rise - 2.0 * s0 - s1, s0 + s1 - 2.0 * rise])
@@ -211,7 +232,7 @@ impl Cubic {
         c1 + t * (2.0 * c2 + t * 3.0 * c3)
     }
 
-    /// Where it is lowest and how low, given a slope that is negative at 0 and positive at 1.
+    /// Where it is lowest and its value there, given a slope that is negative at 0 and positive at 1.
     fn lowest(&self) -> (f64, f64) {
         let [_, c1, c2, c3] = self.0;
         // c1 < 0 < c1 + 2c2 + 3c3: the root of the slope at which it rises, without cancellation
@@ -219,8 +240,8 @@ impl Cubic {
         (t, self.value(t))
     }
 
-    /// A root, given values of at least zero at 0 and below zero at 1: a few halvings and a
-    /// Newton step, since it only starts what follows.
+    /// A root, given a value of at least zero at 0 and below zero at 1. A few halvings and a Newton
+    /// step are enough to start the search.
     fn root(&self) -> f64 {
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..6 {

@@ -1,0 +1,217 @@
+//! One impact of the lowest corner: the coin then flies, stays in contact, or is decided.
+
+use crate::contact_matrix::Impulse;
+use crate::impact_law::{Impact, ImpactLaw, ImpactRecord, Resolution};
+use crate::motion::Motion;
+use crate::parameters::Parameters;
+use crate::shape::Shape;
+use crate::toss::Toss;
+use crate::touching::Touching;
+use coinmc_core::{Breaks, Face};
+use coinmc_lanes::{Lane, sin_cos};
+
+/// What follows an impact.
+pub(crate) enum AfterImpact {
+    Flight,
+    /// Sustained contact, with this slip velocity of the corner.
+    Contact {
+        slip: f64,
+    },
+    Decided(Face),
+}
+
+impl<L: ImpactLaw> Parameters<L> {
+    /// The impact of the lowest corner.
+    #[inline(always)]
+    pub(crate) fn impact(&self, toss: &mut Toss) -> AfterImpact {
+        let motion = &mut toss.motion;
+        let touching = Touching::of(motion);
+        motion.z = touching.cos;
+        let k = self.shape.k;
+        let before = motion.energy(k);
+        if let Some(slip) = self.collapse_bounces(motion, &touching) {
+            motion.cap_energy(k, before);
+            return self.in_contact(motion, slip);
+        }
+        let (resolution, _) = self.apply_law(motion, &mut toss.counters.breaks);
+        if resolution == Resolution::StaysInContact {
+            let slip = self.stop_normal_motion(motion, before);
+            return self.in_contact(motion, slip);
+        }
+        motion.cap_energy(k, before);
+        if self.is_nearly_flat(motion) {
+            self.lay_flat(motion)
+        } else {
+            AfterImpact::Flight
+        }
+    }
+
+    /// Applies the law of impact to the lowest corner.
+    #[inline(always)]
+    pub(crate) fn apply_law(
+        &self,
+        motion: &mut Motion,
+        breaks: &mut Breaks,
+    ) -> (Resolution, ImpactRecord) {
+        let mut impact = self.at_touch(motion, breaks);
+        let resolution = self.law.resolve(&mut impact);
+        let record = impact.record;
+        if resolution == Resolution::UseImpulse {
+            let touching = Touching::of(motion);
+            let p = self.impulse(&touching, self.restitution);
+            let after = touching.after(&p, self.shape.k);
+            (motion.vx, motion.vz, motion.omega) = (after.vx, after.vz, after.omega);
+        }
+        (resolution, record)
+    }
+
+    /// The law's impulse with restitution `e`.
+    #[inline(always)]
+    pub(crate) fn impulse<N: Lane>(&self, touching: &Touching<N>, e: f64) -> Impulse<N> {
+        let (ux, uz) = touching.approach();
+        let matrix = touching.matrix(self.shape.k);
+        self.law.impulse(matrix, ux, uz, e, self.friction)
+    }
+
+    #[inline(always)]
+    fn at_touch<'a>(&'a self, motion: &'a mut Motion, breaks: &'a mut Breaks) -> Impact<'a> {
+        Impact {
+            motion,
+            shape: &self.shape,
+            restitution: self.restitution,
+            friction: self.friction,
+            tolerance: self.settings.tolerance,
+            breaks,
+            record: ImpactRecord::default(),
+        }
+    }
+
+    /// The motion a time `t` into an impact that lasts longer, for observers. The law resolves the
+    /// impact again, so that tosses without an observer store nothing.
+    pub(crate) fn motion_within_impact(&self, touching: Motion, t: f64) -> Motion {
+        let mut motion = touching;
+        motion.z = sin_cos(motion.delta).1;
+        let mut ignored = Breaks::default();
+        self.law
+            .resolve_until(&mut self.at_touch(&mut motion, &mut ignored), t);
+        motion
+    }
+
+    /// A corner that stays on the surface: sustained contact, unless the coin is nearly flat.
+    #[inline(always)]
+    fn in_contact(&self, motion: &mut Motion, slip: f64) -> AfterImpact {
+        if self.is_nearly_flat(motion) {
+            self.lay_flat(motion)
+        } else {
+            AfterImpact::Contact { slip }
+        }
+    }
+
+    /// Stops the normal motion of a corner that stays on the surface by an impact with e = 0;
+    /// returns its slip velocity.
+    pub(crate) fn stop_normal_motion(&self, motion: &mut Motion, before: f64) -> f64 {
+        let touching = Touching::of(motion);
+        let p = self.impulse(&touching, 0.0);
+        let slip = self.place_on_corner(motion, &touching, &p);
+        motion.cap_energy(self.shape.k, before);
+        // the cap may have slowed it down
+        if slip == 0.0 {
+            0.0
+        } else {
+            motion.vx - motion.omega * touching.cos
+        }
+    }
+
+    /// If all remaining bounces would be over before the coin has turned noticeably, replaces them
+    /// by one impact with e = 0; returns the slip velocity after it.
+    ///
+    /// Between impacts the corner falls with a = 1 − ω²cos δ (its acceleration without contact),
+    /// so the remaining bounces take 2 e v/(a(1 − e)), v the present normal speed.
+    #[inline(always)]
+    fn collapse_bounces(&self, motion: &mut Motion, touching: &Touching<f64>) -> Option<f64> {
+        if self.keeps_bouncing(touching) {
+            return None;
+        }
+        let e = self.law.effective_restitution(self.restitution);
+        let (_, uz) = touching.approach();
+        let p = self.impulse(touching, 0.0);
+        let omega = touching.omega_after(&p, self.shape.k);
+        let fall = 1.0 - omega * omega * touching.cos;
+        let rate = 1.0 + omega.abs() / self.half_short_edge;
+        if !(fall > 0.0 && -uz * 2.0 * e * rate < self.settings.zeno * (1.0 - e) * fall) {
+            return None;
+        }
+        Some(self.place_on_corner(motion, touching, &p))
+    }
+
+    /// Whether the remaining bounces take long, however the coin turns. The bounds a <= 1 and rate
+    /// of turning >= 1 are enough for most impacts.
+    #[inline(always)]
+    pub(crate) fn keeps_bouncing<N: Lane>(&self, touching: &Touching<N>) -> N::Mask {
+        let e = self.law.effective_restitution(self.restitution);
+        let (_, uz) = touching.approach();
+        let least = N::splat(self.settings.zeno * (1.0 - e));
+        least.le(-uz * N::splat(2.0) * N::splat(e))
+    }
+
+    /// Sets the motion after an impulse that leaves the corner on the surface; returns its slip
+    /// velocity.
+    #[inline]
+    fn place_on_corner(&self, motion: &mut Motion, from: &Touching<f64>, p: &Impulse) -> f64 {
+        let k = self.shape.k;
+        let slip = if p.sticks {
+            0.0
+        } else {
+            let matrix = from.matrix(k);
+            from.approach().0 + matrix.xx * p.x + matrix.xz * p.z
+        };
+        motion.set_on_corner(from.sin, from.cos, from.omega_after(p, k), slip);
+        slip
+    }
+
+    /// Whether a coin whose vertical velocity is `vz` may be [nearly flat](Self::is_nearly_flat).
+    #[inline(always)]
+    pub(crate) fn may_be_nearly_flat<N: Lane>(&self, vz: N) -> N::Mask {
+        // without friction, energy decides a coin this slow
+        let slowest = if self.friction == 0.0 {
+            f64::NAN
+        } else {
+            0.1 * self.settings.zeno
+        };
+        vz.abs().le(N::splat(slowest))
+    }
+
+    /// Whether the coin rocks on an edge so little that it may be laid flat: angular velocity,
+    /// vertical velocity and gap are all below zeno/10 of the edge, the energy of rocking below
+    /// (zeno/10)² of the barrier.
+    #[inline]
+    fn is_nearly_flat(&self, motion: &Motion) -> bool {
+        if !self.may_be_nearly_flat(motion.vz) {
+            return false;
+        }
+        let (gap, at_end) = self.shape.gap(motion.quadrant, motion.delta);
+        let small = 0.1 * self.settings.zeno * self.shape.base(motion.quadrant, at_end).1;
+        gap < small && motion.omega.abs() < small && motion.vz.abs() < small
+    }
+
+    /// Lays the coin flat: a plastic impact of the whole edge. The coin then slides. It never tips if
+    /// the torque of friction at the base is below that of the normal force, μ·height <= half width:
+    /// the face is decided. Otherwise it trips over its leading corner.
+    fn lay_flat(&self, motion: &mut Motion) -> AfterImpact {
+        let (gap, at_end) = self.shape.gap(motion.quadrant, motion.delta);
+        let (height, half_width) = self.shape.base(motion.quadrant, at_end);
+        motion.delta += if at_end { gap } else { -gap };
+        let braking = (self.friction * motion.vz.abs()).min(motion.vx.abs());
+        motion.vx -= braking.copysign(motion.vx);
+        (motion.z, motion.vz, motion.omega) = (height, 0.0, 0.0);
+        if self.friction * height <= half_width || motion.vx == 0.0 {
+            return AfterImpact::Decided(Shape::face(motion.quadrant, motion.delta));
+        }
+        // a coin that slides to +x trips forwards (ω > 0), from the start of a quadrant
+        let forwards = motion.vx > 0.0;
+        if forwards == at_end {
+            motion.cross_flat(&self.shape, forwards);
+        }
+        AfterImpact::Contact { slip: motion.vx }
+    }
+}
