@@ -1,19 +1,19 @@
 //! Quantiles of the beta distribution, accurate for any number of tosses.
 //!
-//! Written here because the general-purpose libraries lose digits where runs live: their
-//! continued fraction stops after a fixed number of terms and ln Γ(n) cancels, so that at
-//! n = 1e8 an interval misses its own estimate.
+//! Own code, because general-purpose libraries lose digits at the sample sizes of runs: their
+//! continued fraction stops after a fixed number of terms and ln Γ(n) cancels, so that at n = 1e8 an
+//! interval excludes its own estimate.
 
 /// The x at which the regularised incomplete beta function I_x(a, b) equals `tail`, for a, b >= ½;
-/// returned as (x, 1 − x), both with all their digits.
+/// returned as (x, 1 − x), both to full precision.
 ///
 /// In the variable w = ln(t/(1 − t)) the density is t^a (1 − t)^b dw: analytic, log-concave, its
 /// mode at t = p = a/(a + b). With d = w − ln(a/b) and q = 1 − p,
 ///
 /// ln(density/mode) = −a·log1p(q·expm1(−d)) − b·log1p(p·expm1(d)),
 ///
-/// in which no gamma function occurs and nothing large cancels: the two integrals, up to x and
-/// over all, need only be divided.
+/// which needs no gamma function and has no large cancellation: the result is the ratio of the integral
+/// up to x and the integral over the whole line.
 pub(crate) fn beta_quantile(a: f64, b: f64, tail: f64) -> (f64, f64) {
     let density = LogitDensity { a, b };
     let (low, high) = (density.edge(-1.0), density.edge(1.0));
@@ -44,7 +44,7 @@ pub(crate) fn beta_quantile(a: f64, b: f64, tail: f64) -> (f64, f64) {
 /// Panels of the composite quadrature: each a fraction of a standard deviation (or, in a tail
 /// that falls like e^d, about one e-fold) wide, so that eight nodes reach round-off.
 const PANELS: u32 = 128;
-/// ln of what is left out at either end, relative to the mode.
+/// Logarithm of the density at which either end is cut off, relative to the mode.
 const CUT: f64 = -60.0;
 
 struct LogitDensity {
@@ -69,7 +69,7 @@ impl LogitDensity {
         (odds(p, d), odds(q, -d))
     }
 
-    /// Where the density has fallen to the cut, or a little beyond, on one side.
+    /// The point on one side at, or a little beyond, which the density has fallen to the cut-off.
     fn edge(&self, side: f64) -> f64 {
         // the standard deviation of d
         let mut d = side / (self.a * self.b / (self.a + self.b)).sqrt();

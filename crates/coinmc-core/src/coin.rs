@@ -2,8 +2,7 @@
 
 use thiserror::Error;
 
-/// Mass of a coin whose mass nobody gave. No outcome depends on it: under gravity, contact and
-/// Coulomb friction the mass cancels.
+/// Default mass. No outcome depends on it: under gravity, contact and Coulomb friction the mass cancels.
 const DEFAULT_MASS_KG: f64 = 0.01;
 
 /// A cylinder of height H, radius R and mass m, symmetric about its axis.
@@ -48,7 +47,7 @@ pub enum CoinError {
         "axial moment {found:e} kg m² is impossible: a body inside the cylinder has 0 < I_a <= {most:e}"
     )]
     AxialMoment {
-        /// The moment asked for, kg m².
+        /// The requested moment, kg m².
         found: f64,
         /// m R², kg m².
         most: f64,
@@ -58,7 +57,7 @@ pub enum CoinError {
         "transverse moment {found:e} kg m² is impossible: with this axial moment a body inside the cylinder has {least:e} <= I_t <= {most:e}"
     )]
     TransverseMoment {
-        /// The moment asked for, kg m².
+        /// The requested moment, kg m².
         found: f64,
         /// I_a/2, kg m².
         least: f64,
@@ -169,8 +168,8 @@ impl Coin {
     }
 
     /// (R/D, H/2D) with D the [rim distance](Self::rim_distance_m): the coin's shape in units in which
-    /// its rim is 1 from the centre. From the ratio alone, so that the same coin at another scale has
-    /// the same to the last bit, and no ratio overflows.
+    /// its rim is at distance 1 from the centre. Computed from the ratio alone, so that a coin at another
+    /// scale has bit-identical values and no ratio overflows.
     pub fn shape_by_rim_distance(&self) -> (f64, f64) {
         let half = self.ratio / 2.0;
         if half <= 1.0 {

@@ -10,8 +10,8 @@ pub enum IntervalMethod {
     /// for a number of tosses fixed beforehand.
     #[default]
     Wilson,
-    /// Clopper & Pearson (1934): coverage never below nominal, longer. What sequential stopping
-    /// and rare faces need.
+    /// Clopper & Pearson (1934): coverage never below nominal, longer. Sequential stopping and rare
+    /// faces need it.
     ClopperPearson,
 }
 
@@ -28,8 +28,8 @@ impl IntervalMethod {
 /// An estimated probability: the share of tosses, and an interval that holds the true one with
 /// the stated confidence.
 ///
-/// Undecided tosses are counted in `n` and may have gone either way: `lo` takes none of them and
-/// `hi` all, so the interval is honest however they would have ended.
+/// Undecided tosses are counted in `n` and could have ended either way: `lo` counts none of them and
+/// `hi` all, so the interval is valid however they would have ended.
 ///
 /// # Example
 /// ```
@@ -90,7 +90,7 @@ impl Estimate {
         }
     }
 
-    /// The longer arm of the interval.
+    /// The longer of the two distances from `p` to the ends of the interval.
     pub fn half_width(&self) -> f64 {
         if self.n == 0 {
             1.0

@@ -1,8 +1,8 @@
-//! Who may watch a toss.
+//! Observers: receive the events and states of a toss.
 
 use crate::{Event, State};
 
-/// Watches a toss. `()` watches nothing and compiles away.
+/// Receives the events and states of a toss. `()` ignores them and compiles away.
 ///
 /// # Example
 /// ```
@@ -15,7 +15,7 @@ use crate::{Event, State};
 /// }
 /// ```
 pub trait Observer {
-    /// Whether events are wanted at all; engines build none for an observer that is not active.
+    /// Whether the observer wants events; engines create none for an inactive observer.
     const ACTIVE: bool = true;
 
     /// Called at every event, in order of time.
@@ -33,12 +33,12 @@ pub trait Observer {
     fn sample(&mut self, _: &State) {}
 }
 
-/// Shows an observer the coin at every instant it wants from `from_s` up to, and without,
-/// `until_s`: what an engine does for each piece of a toss, in order. `state_at` gives the coin at
+/// Shows an observer the coin at every instant it asks for from `from_s` up to, but not including,
+/// `until_s`. An engine calls this for each piece of a toss, in order. `state_at` gives the coin at
 /// an instant, s since launch, of that piece.
 ///
-/// An observer that wants what is past is shown nothing, and one that does not move on is not
-/// asked again, so that no observer can hold up a toss.
+/// An observer that asks for a past instant is shown nothing, and one that repeats its request is not
+/// asked again, so that no observer can block a toss.
 ///
 /// # Example
 /// ```
@@ -76,7 +76,7 @@ pub fn sample_between<O: Observer>(
         return;
     }
     let mut wanted = observer.wants_at_s();
-    // not a number is never reached
+    // NaN is never reached
     while from_s <= wanted && wanted < until_s {
         observer.sample(&state_at(wanted));
         let next = observer.wants_at_s();
@@ -109,8 +109,8 @@ impl<O: Observer> Observer for &mut O {
     }
 }
 
-/// Any active [`Observer`] behind a pointer: an engine that tells this one is compiled once for all of
-/// them. An event is worth many such calls.
+/// Any active [`Observer`] behind a pointer: an engine that uses it is compiled once for all observers.
+/// A dynamic call costs little beside an event.
 ///
 /// # Example
 /// ```
@@ -136,7 +136,7 @@ impl<O: Observer> Observer for &mut O {
 /// ```
 pub struct DynObserver<'a>(&'a mut dyn ErasedObserver);
 
-/// What of an [`Observer`] can be called through a pointer.
+/// The object-safe part of [`Observer`].
 trait ErasedObserver {
     fn see_event(&mut self, event: &Event);
     fn instant_s(&self) -> f64;
@@ -158,7 +158,7 @@ impl<O: Observer> ErasedObserver for O {
 }
 
 impl<'a> DynObserver<'a> {
-    /// Hands on to `observer`.
+    /// Forwards to `observer`.
     pub fn new<O: Observer>(observer: &'a mut O) -> Self {
         Self(observer)
     }

@@ -1,6 +1,6 @@
 //! How a toss ends.
 
-/// What shows when the coin rests.
+/// The face that is up when the coin is at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Face {
     /// The heads face shows: +u points up.
@@ -28,16 +28,16 @@ impl Face {
 /// Why the engine stopped following the toss.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Ended {
-    /// The face is certain (or decided by the stopping rule the user chose).
+    /// The face is decided, by the energy that is left or by the stopping rule that the user chose.
     Decided(Face),
     /// The toss was still undecided at the engine's limit of simulated time.
     TimeLimit,
-    /// It is proven that the coin never settles: it stands balanced on its rim, or rolls or bounces
+    /// The coin provably never comes to rest on a face: it stands balanced on its rim, or rolls or bounces
     /// for ever without loss.
     NeverSettles,
     /// The toss was still undecided at the engine's limit of impacts or contact phases.
     ImpactLimit,
-    /// The numbers went wrong (not finite). Counted, never classified.
+    /// A number became NaN or infinite. Counted, never classified.
     Failed,
 }
 
@@ -52,13 +52,13 @@ pub struct Outcome {
     pub contact_steps: u32,
     /// Tangential impacts in a Painlevé configuration (contact that admits no sliding force).
     pub jams: u32,
-    /// A stopping rule that is not certain decided, and the certain rule disagrees with it.
+    /// The user's stopping rule and the energy that is left decide differently.
     pub overruled: bool,
-    /// Impacts at which the law of impact broke and its fallback stood in.
+    /// Impacts at which the law of impact broke down and its fallback was used.
     pub breaks: Breaks,
 }
 
-/// Impacts, by kind, at which a law of impact broke down and its stated fallback stood in. All
+/// Impacts, by kind, at which a law of impact broke down and its documented fallback was used. All
 /// are zero for laws that hold everywhere.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Breaks {
@@ -68,14 +68,14 @@ pub struct Breaks {
     pub energy_gains: u32,
     /// The law's lever turned the coin the wrong way.
     pub wrong_levers: u32,
-    /// After the law's impact the corner would have gone on into the surface.
+    /// After the law's impact the corner would have continued into the surface.
     pub sinkings: u32,
     /// The integration of the contact was given up.
     pub unresolved: u32,
 }
 
 impl Outcome {
-    /// A decided toss that cost nothing: closed forms, tests.
+    /// A decided toss without impacts: closed forms, tests.
     pub fn decided(face: Face) -> Self {
         Self {
             ended: Ended::Decided(face),

@@ -75,21 +75,21 @@ tally! {
     tails: Ending, "Tosses that show tails.";
     side: Ending, "Tosses on the side.";
     time_limit: Ending, "Undecided at the limit of simulated time.";
-    never_settles: Ending, "Undecided for ever: proven never to settle.";
+    never_settles: Ending, "Undecided for ever: provably never at rest on a face.";
     impact_limit: Ending, "Undecided at the limit of impacts or of steps in contact.";
     failed: Ending, "Undecided because a number became NaN or infinite.";
     impacts: Event, "Impacts, in all tosses.";
     contact_steps: Event, "Steps in sustained contact, in all tosses.";
     jams: Event, "Tangential impacts in Painlevé configurations, in all tosses.";
-    overruled: Toss, "Tosses that the stopping rule chosen decides otherwise than energy.";
+    overruled: Toss, "Tosses that the chosen stopping rule decides otherwise than the energy rule.";
     negative_heights: Breakdown,
-        "Impacts at which the law of impact asked for a negative height of rebound, in all tosses.";
+        "Impacts at which the law of impact required a negative height of rebound, in all tosses.";
     energy_gains: Breakdown,
         "Impacts at which the law of impact would have gained energy, in all tosses.";
     wrong_levers: Breakdown,
         "Impacts at which the law's lever turned the coin the wrong way, in all tosses.";
     sinkings: Breakdown,
-        "Impacts after which the corner would have gone on into the surface, in all tosses.";
+        "Impacts after which the corner would have continued into the surface, in all tosses.";
     unresolved: Breakdown, "Impacts whose integration in time was given up, in all tosses.";
 }
 

@@ -1,11 +1,11 @@
-//! A launch as it is drawn: one, or several side by side.
+//! Drawing launches, one or several in lanes.
 
 use super::{Launch, Marginal};
 use crate::UniformSource;
 use coinmc_lanes::{Block, Lane, Wide};
 use nalgebra::UnitVector3;
 
-/// Uniform numbers of one toss, or of several side by side.
+/// Uniform numbers of one toss, or of several in lanes.
 pub(super) trait Uniforms<L> {
     /// The uniforms of this dimension, each in the open interval (0, 1).
     fn uniform(&mut self, dimension: u32) -> L;
@@ -18,7 +18,7 @@ impl<S: UniformSource> Uniforms<f64> for S {
     }
 }
 
-/// The numbers of a launch; `T` is one of them or several.
+/// The numbers of a launch; `T` is one number or one per lane.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(C, align(64))]
 pub(super) struct Draw<T> {
@@ -29,7 +29,7 @@ pub(super) struct Draw<T> {
 }
 
 impl<T> Draw<T> {
-    /// The launch of one number of each.
+    /// The launch that `pick` takes from each number.
     #[inline(always)]
     pub(super) fn launch(&self, one: impl Fn(&T) -> f64) -> Launch {
         Launch {

@@ -1,4 +1,4 @@
-//! One random quantity.
+//! The distribution of one random quantity.
 
 use super::LaunchError;
 use super::draw::Uniforms;
@@ -7,7 +7,7 @@ use coinmc_lanes::{Lane, Mask};
 /// The distribution of one number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Marginal {
-    /// Always this value.
+    /// A constant.
     Constant(f64),
     /// Uniform between two values.
     Uniform {
@@ -45,7 +45,7 @@ impl Marginal {
         }
     }
 
-    /// The value at quantile `p` in (0, 1), or the values at several: the inverse CDF.
+    /// The inverse CDF: the value at quantile `p` in (0, 1), in every lane.
     #[inline(always)]
     pub fn quantile<L: Lane>(&self, p: L) -> L {
         let k = L::splat;
@@ -57,7 +57,7 @@ impl Marginal {
         }
     }
 
-    /// A value from this source's `dimension`; a constant asks for no random number.
+    /// A value drawn from `dimension` of the source; a constant draws no random number.
     #[inline(always)]
     pub(super) fn sample<L: Lane>(&self, dimension: u32, uniforms: &mut impl Uniforms<L>) -> L {
         match *self {
@@ -83,11 +83,10 @@ pub fn inverse_normal_cdf(p: f64) -> f64 {
     inverse_normal(p)
 }
 
-/// How far from ½ the centre reaches, where 85 % of all p are.
+/// Half width of the central region about ½, which holds 85 % of all p.
 const CENTRE: f64 = 0.425;
 
-/// [`inverse_normal_cdf`], of one number or of several: the centre side by side, the tails one by
-/// one.
+/// [`inverse_normal_cdf`] in lanes: the central region for all lanes at once, the tails lane by lane.
 #[inline(always)]
 fn inverse_normal<L: Lane>(p: L) -> L {
     let k = L::splat;
@@ -102,7 +101,7 @@ fn inverse_normal<L: Lane>(p: L) -> L {
     L::select(central, centre, tails)
 }
 
-/// Beyond the centre.
+/// Beyond the central region.
 #[inline]
 fn tail(p: f64) -> f64 {
     let q = p - 0.5;

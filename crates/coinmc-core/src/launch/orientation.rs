@@ -1,4 +1,4 @@
-//! How the coin is turned when it is let go.
+//! Orientation of the coin at launch.
 
 use super::dimension::ORIENTATION;
 use super::draw::Uniforms;
@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 /// The distribution of the axis u.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Orientation {
-    /// Always this axis.
+    /// A fixed axis.
     Fixed(UnitVector3<f64>),
     /// Uniform on the sphere: c = u_z uniform in (−1, 1) (Archimedes), azimuth uniform.
     Isotropic,
@@ -42,7 +42,7 @@ impl Orientation {
         UnitVector3::new_unchecked(self.draw(uniforms).into())
     }
 
-    /// One axis, or several side by side.
+    /// The axis in every lane.
     #[inline(always)]
     pub(super) fn draw<L: Lane>(&self, uniforms: &mut impl Uniforms<L>) -> [L; 3] {
         let [a, b, c] = ORIENTATION;

@@ -1,4 +1,4 @@
-//! Launch distributions with a name and a source.
+//! Named launch distributions and their sources.
 
 use super::{LaunchDistribution, Marginal, Orientation, Spin};
 use nalgebra::Vector3;

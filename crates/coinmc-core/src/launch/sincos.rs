@@ -1,7 +1,7 @@
-//! libm's sine and cosine, of one number or of several side by side.
+//! Sine and cosine with the bits of libm, in lanes.
 //!
-//! Launches have been drawn with libm's since the first version, and a launch never changes its bits.
-//! The kernels' own ([`coinmc_lanes::sin_cos`]) rounds otherwise.
+//! Launches are drawn with libm's functions, and the bits of a launch never change. The kernels' own
+//! function ([`coinmc_lanes::sin_cos`]) rounds differently.
 
 use coinmc_lanes::{COSINE, Lane, Mask, SINE};
 
@@ -30,26 +30,26 @@ pub(super) fn sin_cos<L: Lane>(x: L) -> (L, L) {
     )
 }
 
-/// The number whose higher word this is and whose lower word is 0: libm compares higher words.
+/// The number with this high word and low word 0: libm compares high words.
 const fn word(higher: u64) -> f64 {
     f64::from_bits(higher << 32)
 }
 
-/// Where libm takes the next multiple of π/2 off: shortly beyond π/4, 3π/4, 5π/4 and 7π/4.
+/// Where libm starts to subtract the next multiple of π/2: just beyond π/4, 3π/4, 5π/4 and 7π/4.
 const ENDS: [f64; 4] = [
     word(0x3fe9_21fc),
     word(0x4002_d97d),
     word(0x400f_6a7b),
     word(0x4015_fdbd),
 ];
-/// Higher words of π/2, π, 3π/2 and 2π, near which it takes off more digits of them.
+/// High words of π/2, π, 3π/2 and 2π, near which libm subtracts them with more digits.
 const MULTIPLES: [u64; 4] = [0x3ff9_21fb, 0x4009_21fb, 0x4012_d97c, 0x4019_21fb];
-/// Below, the sine is its argument.
+/// Below this, the sine equals its argument.
 const TINY: f64 = word(0x3e46_a09e);
-/// Shortly beyond 9π/4: from there on libm divides.
+/// Just beyond 9π/4, from where libm divides.
 const LAST: f64 = word(0x401c_463c);
 
-/// How many times π/2 are taken off, 0 to 4, and whether libm does just that.
+/// How many times π/2 is subtracted, 0 to 4, and whether libm does exactly that.
 #[inline(always)]
 fn quadrant<L: Lane>(size: L) -> (L, L::Mask) {
     let (one, mut quadrant) = (L::splat(1.0), L::splat(0.0));
@@ -65,7 +65,7 @@ fn quadrant<L: Lane>(size: L) -> (L, L::Mask) {
     (quadrant, usual)
 }
 
-/// Sine and cosine of a number, 0 or more, from which `quadrant` times π/2 are taken off: FreeBSD's
+/// Sine and cosine of a number, 0 or more, from which `quadrant` times π/2 is subtracted: FreeBSD's
 /// msun, `e_rem_pio2.c`, `k_sin.c` and `k_cos.c` (Sun Microsystems 1993), operation by operation.
 #[inline(always)]
 fn reduced<L: Lane>(size: L, quadrant: L) -> (L, L) {
@@ -143,7 +143,7 @@ mod tests {
             let mut uniforms = stream.toss(toss);
             agree(std::array::from_fn(|i| {
                 let turns = 2.0 * uniforms.uniform(u32::try_from(i).expect("few lanes")) - 1.0;
-                // launches draw from one turn; four now and then
+                // launches draw from one turn, sometimes from up to four
                 TAU * turns * if toss % 4 == 0 { 4.0 } else { 1.0 }
             }));
         }

@@ -1,4 +1,4 @@
-//! How the coin spins when it is let go.
+//! Angular velocity of the coin at launch.
 
 use super::dimension::SPIN;
 use super::draw::{Uniforms, sample3};
@@ -62,7 +62,7 @@ impl Spin {
         self.draw(coin, [axis.x, axis.y, axis.z], uniforms).into()
     }
 
-    /// One angular velocity, or several side by side.
+    /// The angular velocity in every lane.
     #[inline(always)]
     pub(super) fn draw<L: Lane>(
         &self,

@@ -1,7 +1,7 @@
 //! Random numbers as input, not state.
 //!
 //! A counter-based generator maps (seed, domain, point, toss, draw) to a number, so any toss can
-//! be computed alone, anywhere, in any order: nothing is ever seeded, split or skipped.
+//! be computed by itself, anywhere, in any order: no generator is seeded, split or advanced.
 
 mod philox;
 mod stream;

@@ -1,4 +1,4 @@
-//! From the generator to the uniforms of one toss.
+//! The uniform random numbers of one toss.
 
 use super::Philox4x64;
 use coinmc_lanes::{Block, WIDTH};
@@ -13,7 +13,7 @@ pub enum Domain {
 }
 
 impl Domain {
-    /// The counter word; written into every result, so it never changes meaning.
+    /// The counter word. Every result depends on it, so its values never change.
     fn word(self) -> u64 {
         match self {
             Self::Launch => 0,
@@ -22,10 +22,10 @@ impl Domain {
     }
 }
 
-/// Uniform numbers, one a dimension of the launch.
+/// Uniform random numbers, one per dimension of the launch.
 ///
-/// Philox today; a low-discrepancy point set fits the same hole because a dimension, not a
-/// sequence position, is asked for.
+/// Random numbers and low-discrepancy points are interchangeable, because callers ask for a dimension,
+/// not for the next number of a sequence.
 pub trait UniformSource {
     /// The uniform of this dimension, in the open interval (0, 1).
     fn uniform(&mut self, dimension: u32) -> f64;
@@ -70,7 +70,7 @@ impl Stream {
         }
     }
 
-    /// The uniforms of eight tosses, of which `first` is the first.
+    /// The uniforms of eight tosses from number `first` on.
     pub(crate) fn tosses(&self, first: u64) -> EachUniforms {
         EachUniforms {
             philox: self.philox,
@@ -81,18 +81,18 @@ impl Stream {
     }
 }
 
-/// The uniforms of one toss, computed four at a time and only when asked for.
+/// The uniforms of one toss, computed four at a time and on demand.
 #[derive(Debug, Clone)]
 pub struct TossUniforms {
     philox: Philox4x64,
     counter: [u64; 4],
     block: [u64; 4],
-    /// Index of the block held; `u32::MAX` (no dimension lies there) when none is.
+    /// Index of the current block; `u32::MAX`, which belongs to no dimension, if there is none.
     cached: u32,
 }
 
 impl TossUniforms {
-    /// The random word of this dimension, 64 bits; [`UniformSource::uniform`] is made of it.
+    /// The 64-bit random word of this dimension, from which [`UniformSource::uniform`] is computed.
     #[inline]
     pub fn word(&mut self, dimension: u32) -> u64 {
         let index = dimension / 4;
@@ -112,13 +112,13 @@ impl UniformSource for TossUniforms {
     }
 }
 
-/// The uniforms of several tosses in turn, side by side: of each the same as alone.
+/// The uniforms of eight consecutive tosses in lanes, bit-identical to those of the scalar path.
 #[derive(Debug, Clone)]
 pub(crate) struct EachUniforms {
     philox: Philox4x64,
-    /// Of the first of them.
+    /// The stream of the first toss.
     counter: [u64; 4],
-    /// Of a word of the block held, that of every toss.
+    /// The current block: for each of its words, the word of every toss.
     blocks: [[u64; WIDTH]; 4],
     cached: u32,
 }

@@ -28,8 +28,7 @@ pub const MAX_POINTS: u64 = 1_000_000;
 /// Most tosses of a point.
 pub const MAX_TOSSES: u64 = 1_000_000_000_000_000;
 
-/// Version of what a resolved config means. It changes when the same text comes to mean other
-/// results.
+/// Version of the meaning of a resolved config. It changes when the same text gives other results.
 const PLAN_FORMAT: u32 = 2;
 
 /// Everything a run will do.
@@ -56,7 +55,7 @@ pub struct Plan {
     /// The config as understood: every default and preset spelled out, overrides applied. TOML
     /// that parses to this same plan.
     pub resolved_toml: String,
-    /// Remarks on the config that are no problems: what it gives in vain, what may surprise.
+    /// Remarks on the config that are not errors: keys without effect, possible surprises.
     pub notes: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! Which points are tossed, and which are answered without.
+//! Which points are tossed, and which are answered without tosses.
 
 use super::{EngineChoice, Plan, Point, Stop};
 use coinmc_quadrature::{Goal, Integral, LEAST_EVALUATIONS, MOST_EVALUATIONS, Method};
@@ -6,7 +6,8 @@ use coinmc_quadrature::{Goal, Integral, LEAST_EVALUATIONS, MOST_EVALUATIONS, Met
 /// How launches are drawn where the first contact decides. Elsewhere they are random.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Sampling {
-    /// Not at all, or at Sobol points, wherever that is sharper than at random: see [`Method`].
+    /// By a closed form or at Sobol points, wherever that is more precise than random tosses: see
+    /// [`Method`].
     #[default]
     Auto,
     /// Random tosses.

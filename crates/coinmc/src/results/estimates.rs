@@ -1,5 +1,5 @@
-//! From counts to probabilities with intervals, for points of fixed length and for points that
-//! stop when they are good enough.
+//! From counts to probabilities with intervals, for points with a fixed number of tosses and for points
+//! that stop at a half width.
 
 use crate::plan::{EngineChoice, Plan, Stop, looks};
 use coinmc_core::{Estimate, Face, IntervalMethod, Tally};
@@ -21,8 +21,8 @@ pub(super) const CLOSED_FORM: &str = "closed-form";
 /// A point that stops at a half width is looked at up to K times, at toss counts fixed
 /// beforehand. If each look's interval misses the truth with probability at most α/K, then the
 /// chance that any of them does is at most α, and so is that of the one it stops at, however the
-/// decision to stop depends on the data (Bonferroni). This takes an interval that keeps its
-/// promise at every p and n, hence Clopper and Pearson's whatever the plan says.
+/// decision to stop depends on the data (Bonferroni). This requires an interval with at least nominal
+/// coverage at every p and n: Clopper and Pearson's, whatever the plan says.
 pub(crate) fn estimates(plan: &Plan, index: usize, tally: &Tally) -> [Estimate; 3] {
     let point = &plan.points[index];
     if let EngineChoice::Analytic(rule) = point.engine {
@@ -78,7 +78,7 @@ pub(crate) fn look_confidence(plan: &Plan) -> f64 {
     }
 }
 
-/// How the intervals of a point came about, as results name it.
+/// Name of the interval method of a point, as results show it.
 pub(crate) fn interval_name(plan: &Plan, index: usize) -> &'static str {
     match (plan.points[index].engine, plan.stop) {
         (EngineChoice::Analytic(_), _) => EXACT,

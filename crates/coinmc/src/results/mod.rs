@@ -1,4 +1,4 @@
-//! What a run found out: one row a point, the same table as CSV, Parquet and JSON.
+//! The results of a run: one row per point, the same table as CSV, Parquet and JSON.
 
 pub(crate) mod csv;
 mod estimates;
@@ -28,11 +28,11 @@ pub struct Results {
     pub plan_hash: String,
     /// Version of the program that computed them.
     pub program_version: String,
-    /// The config as understood, TOML.
+    /// The resolved config, TOML.
     pub config: String,
     /// Names of the swept parameters; the first varies slowest.
     pub axes: Vec<String>,
-    /// Whether all points shared their random numbers: their errors then go together.
+    /// Whether all points shared their random numbers: their errors are then correlated.
     pub paired: bool,
     /// The points, in order.
     pub rows: Vec<Row>,
@@ -68,9 +68,9 @@ pub struct Row {
     pub sampling: &'static str,
     /// Evaluations of a point that was integrated, else 0.
     pub evaluations: u64,
-    /// The point has the tosses, or the half width, asked for.
+    /// Whether the point has the requested tosses or half width.
     pub reached_target: bool,
-    /// What was published for the same launch and ratio; no column of the table.
+    /// Published counts for the same launch and ratio; not a column of the table.
     pub published: Option<Published>,
 }
 
@@ -164,7 +164,7 @@ impl Row {
         }
     }
 
-    /// The longest arm of the three intervals: 0 for a closed form, 1 before the first toss.
+    /// The widest arm of the three intervals: 0 for a closed form, 1 before the first toss.
     pub fn half_width(&self) -> f64 {
         if self.interval == estimates::EXACT {
             // no tosses, and no length unless some launch has no face

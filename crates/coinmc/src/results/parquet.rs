@@ -13,7 +13,7 @@ use std::collections::HashMap;
 use std::io::{self, Write};
 use std::sync::Arc;
 
-/// Rows of a row group: what is held in memory at a time.
+/// Rows of a row group, which is the part held in memory.
 const GROUP: usize = 1 << 16;
 
 /// Writes the table. The same results give the same bytes: no time, host or path is in them.
@@ -40,8 +40,8 @@ pub fn write_parquet(results: &Results, out: &mut (dyn Write + Send)) -> io::Res
     writer.close().map(drop).map_err(into_io)
 }
 
-/// The table in memory, for who takes Arrow: the columns of the Parquet file, and its metadata in
-/// that of the schema.
+/// The table as an Arrow record batch: the columns of the Parquet file, with the file's metadata in the
+/// schema.
 ///
 /// # Errors
 /// [`ArrowError`] if the table is beyond what Arrow can hold.
@@ -144,7 +144,7 @@ pub(crate) fn array_of<'a>(kind: Kind, cells: impl Iterator<Item = Cell<'a>>) ->
     }
 }
 
-/// Hands the system's error through, so that a full disk is still known as one.
+/// Passes the system's error through, so that callers recognise a full disk.
 pub(crate) fn into_io(error: ParquetError) -> io::Error {
     match error {
         ParquetError::External(inner) => match inner.downcast::<io::Error>() {

@@ -15,7 +15,7 @@ pub enum Kind {
     Number,
     /// Text.
     Text,
-    /// Yes or no.
+    /// True or false.
     Flag,
 }
 
@@ -38,12 +38,12 @@ pub(crate) enum Cell<'a> {
     Number(f64),
     Text(&'a str),
     Flag(bool),
-    /// Not defined here: no tosses, or no such face among them.
+    /// Undefined: no tosses, or none with that face.
     Missing,
 }
 
 impl Cell<'_> {
-    /// A number, or nothing if it is not one.
+    /// A number; missing if it is not finite.
     pub(crate) fn finite(value: f64) -> Self {
         if value.is_finite() {
             Self::Number(value)
@@ -60,7 +60,7 @@ pub struct Column {
     pub name: String,
     /// What it holds.
     pub kind: Kind,
-    /// Unit; `1` for pure numbers, empty for what is no number.
+    /// Unit; `1` for pure numbers, empty for text and flags.
     pub unit: &'static str,
     /// What it means.
     pub doc: &'static str,
@@ -97,9 +97,7 @@ impl Column {
 /// What was computed, and the counts of how tosses ended.
 fn endings() -> Vec<Column> {
     vec![
-        text("engine", "Who followed the tosses.", |row| {
-            Cell::Text(row.engine)
-        }),
+        text("engine", "The engine.", |row| Cell::Text(row.engine)),
         text("law", "Law of impact, or the closed form.", |row| {
             Cell::Text(row.law)
         }),
@@ -200,7 +198,7 @@ fn work() -> Vec<Column> {
         counter("overruled"),
         flag(
             "reached_target",
-            "The point has the tosses, or the half width, asked for.",
+            "Whether the point has the requested tosses or half width.",
             |row| Cell::Flag(row.reached_target),
         ),
         counter("negative_heights"),
@@ -215,7 +213,7 @@ fn work() -> Vec<Column> {
         ),
         count(
             "evaluations",
-            "Evaluations of a point that was integrated; 0 where tosses were counted, and for a rule.",
+            "Evaluations of a point that was integrated; 0 for counted tosses and for closed forms.",
             |row| Cell::Count(row.evaluations),
         ),
     ]
@@ -313,7 +311,7 @@ fn unit_of(name: &str) -> &'static str {
         .map_or("1", |(_, unit)| unit)
 }
 
-/// A value that only counts of tosses have.
+/// A value that is defined for counted tosses only.
 fn counted(row: &Row, value: f64) -> Cell<'static> {
     if row.side.n == 0 || row.evaluations > 0 {
         Cell::Missing
