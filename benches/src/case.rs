@@ -1,7 +1,7 @@
 //! A scene and a launch distribution: all of a toss but its number and the seed.
 
 use coinmc_core::{
-    Coin, Domain, Drag, Landing, LaunchDistribution, Preset, Scene, Stream, Surface,
+    Coin, Domain, Drag, Landing, Launch, LaunchDistribution, Preset, Scene, Stream, Surface,
 };
 use coinmc_flat::{AnyFlatEngine, Settings};
 use std::fmt;
@@ -116,9 +116,33 @@ impl Case {
         self.preset.distribution()
     }
 
+    /// The launch of a toss: the same for every engine.
+    pub fn launch(&self, seed: u64, toss: u64) -> Launch {
+        let mut uniforms = Self::stream(seed).toss(toss);
+        self.launches().launch(&self.scene.coin, &mut uniforms)
+    }
+
     /// The random numbers of a seed.
     pub fn stream(seed: u64) -> Stream {
         Stream::new(seed, Domain::Launch, 0)
+    }
+
+    /// Titles of [`Case::cells`], followed by these.
+    pub fn columns(more: &[&'static str]) -> Vec<&'static str> {
+        let own = ["preset", "ratio", "restitution", "friction", "rho_over_r"];
+        own.iter().chain(more).copied().collect()
+    }
+
+    /// The cells that name the case in a table.
+    pub fn cells(&self) -> Vec<String> {
+        let (coin, surface) = (&self.scene.coin, &self.scene.surface);
+        vec![
+            self.preset.to_string(),
+            coin.ratio().to_string(),
+            surface.restitution().to_string(),
+            surface.friction().to_string(),
+            self.rho_over_r().to_string(),
+        ]
     }
 
     /// The flat engine.

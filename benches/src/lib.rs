@@ -1,7 +1,16 @@
-//! What the benchmarks and the studies have in common: named scenes and named pieces of work.
+//! What the benchmarks and the studies share: named scenes, named pieces of work, reports.
 
 mod case;
+pub mod number;
+mod output;
+pub mod rapier;
+mod report;
+pub mod runs;
+mod stopwatch;
 mod workload;
 
 pub use case::Case;
+pub use output::Output;
+pub use report::{Report, Table};
+pub use stopwatch::Stopwatch;
 pub use workload::{Workload, space_workloads, workloads};

@@ -1,14 +1,11 @@
-//! `coinmc-bench`: studies of accuracy, speed and robustness, one a subcommand.
+//! `coinmc-bench`: speed and memory, one study per subcommand.
 
 mod arguments;
-mod legs;
-mod number;
-mod processor_time;
-mod report;
+mod lanes;
+mod rapier_speed;
 mod run_apart;
-mod run_once;
-mod studies;
-mod worst;
+mod scaling;
+mod speed;
 
 use clap::Parser;
 

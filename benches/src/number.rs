@@ -4,7 +4,10 @@
 const MOST: f64 = 1e15;
 
 /// A count of at least one: `250000`, `250_000` or `2.5e5`.
-pub(crate) fn count(text: &str) -> Result<u64, String> {
+///
+/// # Errors
+/// If the text is not a whole number in range.
+pub fn count(text: &str) -> Result<u64, String> {
     match count_or_zero(text) {
         Ok(0) => Err("at least 1 is needed".to_owned()),
         other => other,
@@ -12,7 +15,10 @@ pub(crate) fn count(text: &str) -> Result<u64, String> {
 }
 
 /// A count that may be zero.
-pub(crate) fn count_or_zero(text: &str) -> Result<u64, String> {
+///
+/// # Errors
+/// If the text is not a whole number in range.
+pub fn count_or_zero(text: &str) -> Result<u64, String> {
     let value: f64 = text
         .replace('_', "")
         .parse()
@@ -27,17 +33,17 @@ pub(crate) fn count_or_zero(text: &str) -> Result<u64, String> {
 }
 
 /// A probability or a difference of two.
-pub(crate) fn probability(p: f64) -> String {
+pub fn probability(p: f64) -> String {
     format!("{p:.5}")
 }
 
 /// A difference, with its sign.
-pub(crate) fn difference(d: f64) -> String {
+pub fn difference(d: f64) -> String {
     format!("{d:+.5}")
 }
 
 /// Something tiny; zero is written as such.
-pub(crate) fn tiny(value: f64) -> String {
+pub fn tiny(value: f64) -> String {
     if value == 0.0 {
         "0".to_owned()
     } else {
@@ -46,7 +52,7 @@ pub(crate) fn tiny(value: f64) -> String {
 }
 
 /// The middle of the values; NaN without any.
-pub(crate) fn median(values: &[f64]) -> f64 {
+pub fn median(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     match sorted.len() {
@@ -54,6 +60,13 @@ pub(crate) fn median(values: &[f64]) -> f64 {
         n if n % 2 == 1 => sorted[n / 2],
         n => f64::midpoint(sorted[n / 2 - 1], sorted[n / 2]),
     }
+}
+
+/// Median, lowest and highest of the values.
+pub fn spread(values: &[f64]) -> [f64; 3] {
+    let lowest = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let highest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    [median(values), lowest, highest]
 }
 
 #[cfg(test)]

@@ -1,11 +1,11 @@
-//! What a study found: tables for people, and every row for a file.
+//! Results of a study: tables to read, and every row for a file.
 
 use std::fmt;
 use std::io::{self, BufWriter, Write};
 
 /// Rows of text under columns.
 #[derive(Debug, Clone)]
-pub(crate) struct Table {
+pub struct Table {
     title: String,
     columns: Vec<&'static str>,
     rows: Vec<Vec<String>>,
@@ -13,18 +13,18 @@ pub(crate) struct Table {
 
 /// The outcome of a study.
 #[derive(Debug, Clone)]
-pub(crate) struct Report {
+pub struct Report {
     /// Every row; what `--csv` writes.
     record: Table,
     /// What is printed instead of the record, where that is too long to read.
     shown: Vec<Table>,
-    /// What the numbers come to, a sentence each.
+    /// Conclusions, a sentence each.
     remarks: Vec<String>,
 }
 
 impl Table {
     /// An empty table.
-    pub(crate) fn new(title: impl Into<String>, columns: &[&'static str]) -> Self {
+    pub fn new(title: impl Into<String>, columns: &[&'static str]) -> Self {
         Self {
             title: title.into(),
             columns: columns.to_vec(),
@@ -32,14 +32,20 @@ impl Table {
         }
     }
 
-    /// Adds a row of as many cells as there are columns.
-    pub(crate) fn push(&mut self, cells: Vec<String>) {
+    /// Adds a row.
+    ///
+    /// # Panics
+    /// If there are not as many cells as columns.
+    pub fn push(&mut self, cells: Vec<String>) {
         assert_eq!(cells.len(), self.columns.len());
         self.rows.push(cells);
     }
 
-    /// The rows of these numbers under another title, in that order.
-    pub(crate) fn select(&self, title: &str, rows: impl IntoIterator<Item = usize>) -> Self {
+    /// The rows with these indices, in that order, under another title.
+    ///
+    /// # Panics
+    /// If a row does not exist.
+    pub fn select(&self, title: &str, rows: impl IntoIterator<Item = usize>) -> Self {
         Self {
             title: title.to_owned(),
             columns: self.columns.clone(),
@@ -61,7 +67,7 @@ impl Table {
 
 impl Report {
     /// A report that shows its record.
-    pub(crate) fn new(record: Table) -> Self {
+    pub fn new(record: Table) -> Self {
         Self {
             record,
             shown: Vec::new(),
@@ -69,18 +75,21 @@ impl Report {
         }
     }
 
-    /// Prints this table, and not the record.
-    pub(crate) fn show(&mut self, table: Table) {
+    /// Prints this table instead of the record.
+    pub fn show(&mut self, table: Table) {
         self.shown.push(table);
     }
 
     /// Adds a sentence.
-    pub(crate) fn remark(&mut self, text: impl Into<String>) {
+    pub fn remark(&mut self, text: impl Into<String>) {
         self.remarks.push(text.into());
     }
 
     /// Writes every row of the record as CSV (RFC 4180).
-    pub(crate) fn write_csv(&self, out: impl Write) -> io::Result<()> {
+    ///
+    /// # Errors
+    /// If `out` cannot be written to.
+    pub fn write_csv(&self, out: impl Write) -> io::Result<()> {
         let mut out = BufWriter::new(out);
         let line = |cells: Vec<String>| cells.join(",") + "\n";
         let columns = self.record.columns.iter();

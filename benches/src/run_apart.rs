@@ -1,8 +1,9 @@
 //! A run in a process of its own: how long it took, and its peak memory.
 
-use crate::run_once::{plan, run_once};
 use anyhow::{Context, anyhow, bail};
 use clap::{Args, ValueEnum};
+use coinmc_bench::number;
+use coinmc_bench::runs::{plan, run_once};
 use std::io::{self, Write};
 use std::num::NonZeroUsize;
 use std::process::Command;
@@ -22,7 +23,7 @@ pub(crate) enum Toss {
 pub(crate) struct RunApart {
     #[arg(long, value_enum)]
     pub(crate) toss: Toss,
-    #[arg(long, value_parser = crate::number::count)]
+    #[arg(long, value_parser = number::count)]
     pub(crate) tosses: u64,
     /// A thread a core without it
     #[arg(long)]

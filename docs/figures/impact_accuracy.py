@@ -1,6 +1,6 @@
 """Draws docs/figures/impact-accuracy.svg from the CSV of a study.
 
-coinmc-bench --csv impact-accuracy.csv impact-accuracy
+coinmc-studies --csv impact-accuracy.csv impact-accuracy
 python docs/figures/impact_accuracy.py impact-accuracy.csv docs/figures/impact-accuracy.svg
 """
 

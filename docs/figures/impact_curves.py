@@ -1,6 +1,6 @@
 """Draws docs/figures/impact-curves.svg from the CSV of a study.
 
-coinmc-bench --csv impact-curves.csv impact-curves
+coinmc-studies --csv impact-curves.csv impact-curves
 python docs/figures/impact_curves.py impact-curves.csv docs/figures/impact-curves.svg
 """
 

@@ -1,6 +1,6 @@
 """Draws docs/figures/rapier-step.svg: the bias of the engine in time steps against its cost.
 
-coinmc-bench --csv step.csv rapier-step --seconds 4.5 --reference 1e5 --shortest 5e-5
+coinmc-studies --csv step.csv rapier-step --seconds 4.5 --reference 1e5 --shortest 5e-5
 python docs/figures/rapier_step.py step.csv docs/figures/rapier-step.svg
 """
 

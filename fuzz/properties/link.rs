@@ -1,5 +1,5 @@
 //! What must hold for any bytes on the robot's link. Shared by the fuzz targets `link_decoder` and
-//! `link_device` and by `coinmc-bench link-fuzz`.
+//! `link_device` and by `coinmc-studies link-fuzz`.
 
 use coinmc_link::{
     Decoder, Device, Hardware, Header, Host, Info, Limits, MAX_WIRE, Motion, PROTOCOL, Record,

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-PEERS = Path(__file__).resolve().parents[2] / "benches" / "peers"
+PEERS = Path(__file__).resolve().parents[2] / "studies" / "peers"
 
 
 @pytest.fixture(autouse=True)

@@ -3,7 +3,7 @@
 //! Both follow the same launches, so what is compared is the difference toss by toss. Single tosses
 //! part at e > 0, where rounding grows with every bounce; their statistics must not. Bounds are
 //! 3 standard errors of the paired difference (false alarms with other seeds: 3e-3 a scene) and
-//! .002 for what the oracle's step costs. The long comparison is the study `oracle` of the benches.
+//! .002 for what the oracle's step costs. The study `oracle` makes the long comparison.
 
 use coinmc_core::{Coin, Domain, Engine, Face, Preset, Scene, Stream, Surface};
 use coinmc_oracle::{StepperSettings, TimeStepper};

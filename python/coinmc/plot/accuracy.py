@@ -30,7 +30,7 @@ def time_against_error(
     ----------
     table : table
         Columns `time`, `error` and, where known, the interval of the error; for instance the CSV
-        of a study of ``coinmc-bench``. Rows that are not positive have no place on logarithmic
+        of a study of ``coinmc-studies``. Rows that are not positive have no place on logarithmic
         axes and are left out.
     time, error : str
         Columns of the axes.

@@ -42,7 +42,7 @@ fn exact_film_gives_the_exact_truth() {
 }
 
 /// 16 films of one drop. With coverage 0.95 each, fewer than 12 of 16 hold the truth once in 1,100
-/// seeds; e and μ together: one false alarm in 500. (The study `film` of the benches measures it.)
+/// seeds; e and μ together: one false alarm in 500. (The study `film` measures it.)
 #[test]
 fn intervals_hold_the_truth_as_often_as_they_say() {
     let (mut restitution, mut friction) = (0, 0);

@@ -1,4 +1,4 @@
-//! The tosses out of 1e9 from a huge box of scenes that came closest to an error (`coinmc-bench
+//! The tosses out of 1e9 from a huge box of scenes that came closest to an error (`coinmc-studies
 //! stability`): largest residual, gain and depth.
 
 use coinmc_core::{Coin, Engine, Event, EventKind, Launch, Observer, Scene, Surface};

@@ -1,5 +1,5 @@
 //! Tosses out of 1e6 from a huge box of scenes that did, or came closest to, what none may
-//! (`coinmc-bench stability`).
+//! (`coinmc-studies stability`).
 
 use crate::common::Tosser;
 use coinmc_core::{Coin, Event, EventKind, Launch, Observer, Scene, Surface};

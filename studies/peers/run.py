@@ -1,0 +1,178 @@
+"""Tosses the same launches with coinmc and with whatever peers are installed, in one run.
+
+    python studies/peers/run.py examples/clean.toml --ratio 0.85 --seconds 20 > peers.jsonl
+
+One JSON line an engine and time step goes to standard output as it is measured, a table of ratios
+and of the time to reach an error to standard error at the end. Every engine runs on one core, and
+time is processor time of the tosses alone. See README.md beside this file.
+"""
+
+from __future__ import annotations
+
+import argparse
+import itertools
+import json
+import sys
+import time
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import engines
+import numpy as np
+import scene as scenes
+from errors import picture, table
+
+import coinmc
+
+FACES = ("heads", "tails", "side")
+# coinmc's tolerances: its defaults, as multiples of which it is measured.
+TOLERANCES = {
+    "volumetric": {"tolerance": 2e-4, "zeno": 2e-2, "stick_speed": 1e-2, "smoothing_time": 1e-2},
+    "flat": {"tolerance": 1e-6, "zeno": 1e-2},
+}
+TENFOLD = (1.0, 0.1, 0.01)
+
+
+@dataclass
+class Row:
+    """What one engine made of the launches at one step; the JSON lines have these names."""
+
+    engine: str
+    version: str
+    scene: str
+    ratio: float
+    step_s: float | None
+    tosses: int
+    heads: int
+    tails: int
+    side: int
+    undecided: int
+    seconds: float
+    tosses_per_s: float
+    p_side: float
+    p_side_error: float
+    bias: float | None = None
+    bias_error: float | None = None
+
+
+def row(engine, version, args, step, faces, seconds, **more) -> Row:
+    """Counts and rate of one measurement; errors are standard errors."""
+    counts = {face: int(np.count_nonzero(faces == face)) for face in FACES}
+    tosses = len(faces)
+    p = counts["side"] / tosses
+    return Row(
+        engine=engine,
+        version=version,
+        scene=args.config.stem,
+        ratio=args.ratio,
+        step_s=step,
+        tosses=tosses,
+        **counts,
+        undecided=tosses - sum(counts.values()),
+        seconds=seconds,
+        tosses_per_s=tosses / seconds,
+        p_side=p,
+        # add one toss of either kind: nothing is certain of a share that was 0
+        p_side_error=float(np.sqrt((p * (1 - p) + 1 / tosses) / tosses)),
+        **more,
+    )
+
+
+def names(face_codes: np.ndarray) -> np.ndarray:
+    """coinmc's codes as words."""
+    words = np.array(["heads", "tails", "side", "undecided"])
+    return words[np.minimum(face_codes, 3)]
+
+
+def ours(args, config: dict, launches: np.ndarray) -> list[Row]:
+    """coinmc's event-driven engine of the config, by default and with a tenth of its tolerances.
+
+    The bias of either is its difference from the same tosses done another ten times as tightly.
+    """
+    (engine,) = config["engine"]
+    tossed = []
+    for share in TENFOLD:
+        settings = {
+            f"engine.{engine}.{key}": share * value for key, value in TOLERANCES[engine].items()
+        }
+        begun = time.process_time()
+        codes = coinmc.toss(
+            config, launches=launches, threads=1, overrides=settings, faces_only=True
+        )
+        tossed.append((share, names(codes), time.process_time() - begun))
+    rows = []
+    for (share, faces, seconds), (_, reference, _) in itertools.pairwise(tossed):
+        difference = (faces == "side").astype(float) - (reference == "side")
+        name = f"coinmc {engine}" + (", tight" if share < 1.0 else "")
+        rows.append(
+            row(
+                name,
+                f"coinmc {coinmc.__version__}",
+                args,
+                None,
+                faces,
+                seconds,
+                bias=float(difference.mean()),
+                bias_error=float(difference.std() / np.sqrt(len(difference))),
+            )
+        )
+        show(rows[-1])
+    return rows
+
+
+def peer(args, name: str, scene: scenes.Scene, launches: np.ndarray) -> list[Row]:
+    """One peer at each of its steps, as many tosses as the time for each allows."""
+    module = engines.load(name)
+    if module is None:
+        print(f"{name}: not installed", file=sys.stderr)
+        return []
+    rows = []
+    for step in module.STEPS:
+        tosser = module.Tosser(scene, step)
+        faces: list[str] = []
+        begun = time.process_time()
+        while len(faces) < len(launches) and time.process_time() - begun < args.seconds:
+            (launch,) = scenes.scaled(launches[len(faces) : len(faces) + 1], scene)
+            faces.append(tosser.toss(launch) or "undecided")
+        seconds = time.process_time() - begun
+        rows.append(row(module.NAME, engines.version(module), args, step, np.array(faces), seconds))
+        show(rows[-1])
+    return rows
+
+
+def show(found: Row) -> None:
+    """A row as a JSON line."""
+    print(json.dumps(asdict(found)), flush=True)
+
+
+def arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("config", type=Path, help="a config without drag, as examples/clean.toml")
+    parser.add_argument("--ratio", type=float, default=0.85, help="H/R [0.85]")
+    parser.add_argument("--tosses", type=int, default=100_000, help="launches at most [100000]")
+    parser.add_argument("--seconds", type=float, default=20.0, help="for each peer and step [20]")
+    parser.add_argument(
+        "--peers", nargs="*", default=list(engines.MODULES), help="which [all that are installed]"
+    )
+    parser.add_argument("--plot", type=Path, help="draw run time against error to this file")
+    return parser.parse_args()
+
+
+def main() -> None:
+    args = arguments()
+    scene, config = scenes.read(args.config, args.ratio)
+    in_plane = "flat" in config["engine"]
+    launches = coinmc.launches(config, args.tosses)
+    rows = ours(args, config, launches)
+    for name in args.peers:
+        module = engines.load(name)
+        if module is None or module.in_plane == in_plane:
+            rows += peer(args, name, scene, launches)
+    found = [asdict(one) for one in rows]
+    print(table(found), file=sys.stderr)
+    if args.plot:
+        picture(found, args.plot)
+
+
+if __name__ == "__main__":
+    main()
