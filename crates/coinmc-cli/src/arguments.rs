@@ -1,4 +1,4 @@
-//! What can be asked for on the command line.
+//! The command line: global options and one subcommand per verb.
 
 #[cfg(feature = "film")]
 use crate::commands::Film;
@@ -22,7 +22,7 @@ Exit status:
   0    done
   1    failure at run time (disk full, file unreadable, …)
   2    bad input: arguments, config, or a directory that belongs to another run
-  3    stopped short of the target: max_tosses came before half_width, a search found too few
+  3    stopped short of the target: max_tosses came before half_width, a search found too few tosses
   130  stopped by Ctrl-C or SIGTERM; finished work is kept
 
 With --format json, standard output holds exactly one JSON document, whatever happens: the result,
@@ -32,7 +32,7 @@ or the problems that prevented it.";
 ///
 /// A coin of height H and radius R ("ratio" is always H/R) is tossed onto a surface, many times, by
 /// the laws of mechanics. A config (TOML) says which coins, which surfaces and how they are tossed;
-/// any number of it may be a list or a range, and becomes an axis of a sweep.
+/// any number in it may be a list or a range, which makes it an axis of a sweep.
 #[derive(Debug, Parser)]
 #[command(name = "coinmc", version, after_long_help = EXAMPLES, max_term_width = 100)]
 pub(crate) struct Arguments {
@@ -44,7 +44,7 @@ pub(crate) struct Arguments {
     command: Command,
 }
 
-/// Each verb is described where its arguments are.
+/// The file of each verb describes it and its arguments.
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(Run),
@@ -61,7 +61,7 @@ enum Command {
 }
 
 impl Arguments {
-    /// Does what was asked and says how it went.
+    /// Executes the command and reports failures; returns the exit status.
     pub(crate) fn execute(self) -> ExitCode {
         let format = self.command.format();
         let console = Console::new(self.color, format);

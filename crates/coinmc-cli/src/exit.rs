@@ -1,4 +1,4 @@
-//! How the program ends: exit codes, and what is said about failures.
+//! Exit codes, and how failures are reported.
 
 use crate::output::{self, Console, Format};
 use crate::terminal::Colors;
@@ -14,7 +14,7 @@ use std::process::ExitCode;
 /// Ways to end without a failure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Outcome {
-    /// All that was asked for.
+    /// Everything was done.
     Done,
     /// `max_tosses` came before `half_width` at some point.
     ShortOfTarget,
@@ -22,17 +22,17 @@ pub(crate) enum Outcome {
     Interrupted,
 }
 
-/// Why nothing was done, or not all.
+/// Why the command failed.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// The config is wrong: every problem of it.
+    /// The config has these problems.
     Config(Diagnostics),
-    /// Filmed drops are wrong: every problem of their files.
+    /// The files of filmed drops have these problems.
     #[cfg(feature = "film")]
     Film(film::Diagnostics),
     /// An argument, or a directory it names, is wrong.
     Input(anyhow::Error),
-    /// The input was right, the machine was not.
+    /// The input was right, but reading, writing or computing failed.
     Runtime(anyhow::Error),
 }
 
@@ -60,8 +60,7 @@ impl From<Diagnostics> for Failure {
 }
 
 impl From<RunError> for Failure {
-    /// A directory that holds something else, and parts that do not fit, are input as much as the
-    /// config is.
+    /// A directory that holds something else and parts that do not match are bad input, like a bad config.
     fn from(error: RunError) -> Self {
         match error {
             RunError::NotARunDirectory { .. }
@@ -81,7 +80,7 @@ impl From<RunError> for Failure {
 }
 
 impl From<TraceError> for Failure {
-    /// Which tosses there are, and which can be traced, follows from what was asked for.
+    /// Which tosses exist and can be traced follows from the arguments: always bad input.
     fn from(error: TraceError) -> Self {
         Self::Input(error.into())
     }
@@ -98,7 +97,7 @@ impl From<RecordingError> for Failure {
     }
 }
 
-/// An error and its causes, each said once: many errors quote their cause themselves.
+/// An error and its causes, without repetition: many errors quote their cause themselves.
 fn words(error: &anyhow::Error) -> String {
     let mut words = error.to_string();
     for cause in error.chain().skip(1) {
@@ -111,10 +110,10 @@ fn words(error: &anyhow::Error) -> String {
 }
 
 impl Failure {
-    /// Tells the user: people on standard error, programs on standard output.
+    /// Reports the failure: as text on standard error, or as JSON on standard output.
     pub(crate) fn report(&self, console: &Console) -> u8 {
         match console.format() {
-            // Standard output gone as well: the exit code still tells.
+            // if standard output is closed too, the exit code still reports the failure
             Format::Json => drop(output::print_json(&self.to_json())),
             Format::Table => self.explain(console),
         }

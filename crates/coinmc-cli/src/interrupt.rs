@@ -8,10 +8,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 static CANCEL: AtomicBool = AtomicBool::new(false);
 
 /// Starts listening and returns the flag that a signal sets. `on_first` is called once, at the
-/// first signal, on a thread of its own.
+/// first signal, on its own thread.
 ///
 /// Nothing is lost when the second signal ends the process at once: chunks are renamed into place,
-/// so each is there whole or not at all.
+/// so each file is complete or absent.
 pub(crate) fn listen(
     mut on_first: impl FnMut() + Send + 'static,
 ) -> Result<&'static AtomicBool, ctrlc::Error> {

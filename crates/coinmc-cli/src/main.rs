@@ -1,7 +1,7 @@
 //! The command `coinmc`: how likely does a tossed cylinder come to rest on heads, on tails or on
 //! its side?
 
-// Text for people: an allocation a line is nothing, and `write!` would add a result to drop.
+// An allocation per line of text costs nothing here, and `write!` would add a result to ignore.
 #![allow(clippy::format_push_string)]
 
 mod arguments;

@@ -1,12 +1,12 @@
-//! Standard output holds results and nothing else; standard error the rest.
+//! The output streams: results go to standard output, everything else to standard error.
 
 use crate::terminal::Style;
 use clap::{ColorChoice, ValueEnum};
 use serde_json::Value;
 use std::io::{self, Write};
 
-/// Version of every JSON document printed. Fields may be added without a new one; none changes its
-/// meaning or goes without it.
+/// Version of every JSON document printed. It stays when fields are added, and changes when a field
+/// changes its meaning or is removed.
 pub(crate) const FORMAT_VERSION: u32 = 1;
 
 /// How results are written to standard output.
@@ -49,7 +49,7 @@ impl Console {
     }
 }
 
-/// Writes to standard output. A reader that went away (`| head`) has seen enough: no error.
+/// Writes to standard output. A closed pipe (`| head`) is no error.
 pub(crate) fn print(text: &str) -> io::Result<()> {
     let mut stdout = io::stdout().lock();
     match stdout
@@ -66,7 +66,7 @@ pub(crate) fn print_json(document: &Value) -> io::Result<()> {
     print(&format!("{document:#}\n"))
 }
 
-/// Writes a line to standard error; nobody is left to hear it if that fails.
+/// Writes a line to standard error; a failure to do so cannot be reported anywhere.
 pub(crate) fn note(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{text}");
 }

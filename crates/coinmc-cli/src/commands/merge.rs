@@ -1,4 +1,4 @@
-//! `coinmc merge`: the parts of a run become the whole.
+//! `coinmc merge`: merges the parts of a run.
 
 use super::run::present;
 use crate::exit::{Failure, Outcome};
@@ -13,10 +13,10 @@ Example:
   coinmc run toss.toml --shard 2/2 --out part-2        on another
   coinmc merge part-1 part-2 --out whole               the same bytes as one run";
 
-/// Join the parts of a run that was shared out with `run --shard`
+/// Merge the parts of a run that `run --shard` divided
 ///
-/// The parts are only read. All of the run must be there, and all parts must be of the same plan
-/// and program version.
+/// The parts are only read. Together they must make up the whole run, with the same plan and program
+/// version.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Merge {

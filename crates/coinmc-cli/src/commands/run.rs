@@ -38,7 +38,7 @@ pub(crate) struct Run {
     config: PathBuf,
 
     /// Run directory: new, empty, or that of the same run
-    /// [default: runs/NAME-HASH, after the config's name and what it means]
+    /// [default: runs/NAME-HASH, from the config's file name and the hash of its meaning]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
@@ -46,7 +46,7 @@ pub(crate) struct Run {
     #[arg(long, value_name = "I/N", default_value_t = Part::WHOLE, hide_default_value = true)]
     shard: Part,
 
-    /// Threads that toss [default: one a core]
+    /// Number of threads [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
 
@@ -58,7 +58,7 @@ pub(crate) struct Run {
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 
-    /// No progress and no remarks; warnings and errors stay
+    /// Show no progress and no remarks, only warnings and errors
     #[arg(long, short)]
     quiet: bool,
 }
@@ -78,9 +78,10 @@ impl Run {
                 .for_each(|note| progress.note(&format!("note: {note}")));
         }
         let told = progress.clone();
-        let cancel = interrupt::listen(move || told.note("stopping; Ctrl-C again stops at once"))
-            .context("cannot listen for signals")
-            .map_err(Failure::Runtime)?;
+        let cancel =
+            interrupt::listen(move || told.note("stopping; press Ctrl-C again to stop at once"))
+                .context("cannot listen for signals")
+                .map_err(Failure::Runtime)?;
         let report = coinmc::run::run(
             &plan,
             &Options {
@@ -146,7 +147,7 @@ fn csv_name(status: Status) -> &'static str {
     }
 }
 
-/// What was done, in a line.
+/// What was done, in one line.
 fn closing_line(report: &Report, progress: &Progress) -> String {
     let points = count(report.results.rows.len() as u64, "point");
     let closed = report
@@ -164,7 +165,7 @@ fn closing_line(report: &Report, progress: &Progress) -> String {
     let (made, time) = progress.made(report.tosses);
     let earlier = report.tosses - made;
     if made == 0 && earlier > 0 && report.status != Status::Interrupted {
-        return format!("coinmc: finished earlier, nothing tossed again: {points}");
+        return format!("coinmc: already finished, nothing to toss: {points}");
     }
     let mut line = format!(
         "coinmc: {points}, {} tosses in {}",
@@ -187,7 +188,7 @@ fn integrated_line(report: &Report, evaluations: u64) -> String {
     let is_done = |row: &&Row| row.evaluations > 0 || row.interval == "exact";
     let done = rows.iter().filter(is_done).count();
     if report.reused_chunks == rows.len() as u64 {
-        return format!("coinmc: finished earlier, nothing integrated again: {points}");
+        return format!("coinmc: already finished, nothing to integrate: {points}");
     }
     let points = if done < rows.len() {
         format!("{} of {points}", grouped(done as u64))
@@ -200,12 +201,12 @@ fn integrated_line(report: &Report, evaluations: u64) -> String {
     );
     if report.reused_chunks > 0 {
         let reused = grouped(report.reused_chunks);
-        line += &format!(", {reused} taken over from an earlier run");
+        line += &format!(", {reused} reused from an earlier run");
     }
     line
 }
 
-/// What to do next, where something is left to do.
+/// What the user can do next, if the run is not complete.
 fn advice(report: &Report, out: &Path) -> Option<String> {
     match report.status {
         Status::Complete => None,
@@ -213,7 +214,7 @@ fn advice(report: &Report, out: &Path) -> Option<String> {
             let rows = &report.results.rows;
             let done = rows.iter().filter(|row| row.reached_target).count();
             Some(format!(
-                "coinmc: stopped with {done} of {} finished; all that was counted is kept in {}.\n\
+                "coinmc: stopped with {done} of {} finished; all counts are kept in {}.\n\
                  Go on with: {}",
                 count(rows.len() as u64, "point"),
                 out.display(),
@@ -221,7 +222,7 @@ fn advice(report: &Report, out: &Path) -> Option<String> {
             ))
         }
         Status::Part => Some(
-            "coinmc: this part is done; when all are, join them with \
+            "coinmc: this part is complete; when all are, merge them with \
              `coinmc merge PART… --out WHOLE`"
                 .to_owned(),
         ),
@@ -237,13 +238,13 @@ fn short_of_target(rows: &[Row], points: usize) -> String {
     let mut lines = vec![];
     if points > capped {
         lines.push(format!(
-            "coinmc: {} came to stop.max_tosses before stop.half_width: raise the one or the other",
+            "coinmc: {} reached stop.max_tosses before stop.half_width: raise one of them",
             count((points - capped) as u64, "point"),
         ));
     }
     if capped > 0 {
         lines.push(format!(
-            "coinmc: {} came to {} evaluations, the most of an integral, before stop.half_width: \
+            "coinmc: {} reached {} evaluations, the limit of an integral, before stop.half_width: \
              raise it, or toss with sampling.method = \"random\"",
             count(capped as u64, "point"),
             grouped(MOST_EVALUATIONS),

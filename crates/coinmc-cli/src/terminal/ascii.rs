@@ -1,6 +1,6 @@
-//! Formulas for terminals that know ASCII only.
+//! Formulas for terminals that show ASCII only.
 
-/// What our own texts use beyond ASCII, and how it is written without.
+/// Characters beyond ASCII in our texts, and their spelling in ASCII.
 const SPELLINGS: [(char, &str); 14] = [
     ('·', "*"),
     ('×', "x"),
@@ -18,7 +18,7 @@ const SPELLINGS: [(char, &str); 14] = [
     ('ω', "omega"),
 ];
 
-/// The text in ASCII; what has no spelling becomes a question mark.
+/// The text in ASCII; characters without a spelling become question marks.
 pub(crate) fn in_ascii(text: &str) -> String {
     let mut ascii = String::with_capacity(text.len());
     for c in text.chars() {

@@ -1,4 +1,4 @@
-//! What people see: tables, plots, progress, and the text of a finished run.
+//! Output for people: tables, plots, progress, and the summary of a run.
 
 mod ascii;
 pub(crate) mod events;

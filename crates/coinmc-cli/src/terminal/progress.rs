@@ -1,4 +1,4 @@
-//! How far a run is, on standard error.
+//! Progress bars on standard error.
 
 use super::{Style, compact, duration, grouped};
 use coinmc::run::{Progress as Counts, ProgressSink};
@@ -44,7 +44,7 @@ pub(crate) fn bar(style: Style, quiet: bool) -> ProgressBar {
 /// A line of text above a bar, on standard error.
 pub(crate) fn note_above(bar: &ProgressBar, text: &str) {
     bar.suspend(|| {
-        // Nobody is left to hear it if this fails.
+        // a failure to write cannot be reported anywhere
         let _ = writeln!(io::stderr().lock(), "{text}");
     });
 }
@@ -64,7 +64,7 @@ impl Progress {
         note_above(&self.bar, text);
     }
 
-    /// So many tosses of at most `limit` have been looked at.
+    /// Shows that so many tosses of at most `limit` have been searched.
     pub(crate) fn searched(&self, tosses: u64, limit: u64) {
         let start = self.start.get_or_init(|| Start {
             tosses: 0,
@@ -83,7 +83,7 @@ impl Progress {
         }
     }
 
-    /// Takes the bar away.
+    /// Removes the bar.
     pub(crate) fn finish(&self) {
         self.bar.finish_and_clear();
     }
@@ -125,7 +125,7 @@ fn message(counts: &Counts, made: u64, elapsed: Duration, style: &Style) -> Stri
         format!("{} tosses", grouped(counts.tosses_done)),
     ];
     let rate = made as f64 / elapsed.as_secs_f64();
-    // The first moments say nothing about the rest.
+    // the first moments predict nothing
     let settled = made > 0 && elapsed > Duration::from_millis(200);
     if settled {
         parts.push(format!("{}/s", with_prefix(rate)));

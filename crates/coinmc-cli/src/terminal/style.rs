@@ -1,4 +1,4 @@
-//! How wide, how colourful and with which characters text may be.
+//! Width, colours and characters of terminal output.
 
 use anstyle::{AnsiColor, Style as Ansi};
 use clap::ColorChoice;
@@ -6,13 +6,13 @@ use console::Term;
 use std::env;
 use std::io::IsTerminal;
 
-/// Columns when nobody says how many there are.
+/// Columns where the width is unknown.
 const DEFAULT_WIDTH: usize = 100;
-/// Nothing is laid out narrower than this; a narrower terminal wraps.
+/// Least width of a layout; a narrower terminal wraps lines.
 const MIN_WIDTH: usize = 60;
 const MAX_WIDTH: usize = 500;
 
-/// One colour a curve, told apart also on a terminal of 16 colours.
+/// One colour per curve, distinct also on a terminal of 16 colours.
 const CURVES: [AnsiColor; 6] = [
     AnsiColor::Cyan,
     AnsiColor::Yellow,
@@ -25,22 +25,22 @@ const CURVES: [AnsiColor; 6] = [
 /// What the terminal (or the file) behind a stream can show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Style {
-    /// Escape sequences are welcome.
+    /// Whether to use escape sequences.
     pub(crate) color: bool,
-    /// Characters beyond ASCII are welcome.
+    /// Whether to use characters beyond ASCII.
     pub(crate) unicode: bool,
     /// Columns.
     pub(crate) width: usize,
 }
 
-/// The roles colour plays.
+/// What a colour marks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Colors {
     /// Titles.
     Strong,
-    /// What matters less.
+    /// Secondary text.
     Faint,
-    /// What needs attention.
+    /// Warnings.
     Warning,
     /// The n-th curve of a plot.
     Curve(usize),
@@ -95,7 +95,7 @@ impl Style {
         format!("{ansi}{text}{ansi:#}")
     }
 
-    /// "± ": half the width of an interval follows.
+    /// "± ", the sign before half the width of an interval.
     pub(crate) fn plus_minus(&self) -> &'static str {
         if self.unicode { "±" } else { "+-" }
     }
@@ -115,7 +115,7 @@ fn wants_color(choice: ColorChoice, is_terminal: bool, no_color: bool, term: Opt
 }
 
 /// A locale that names another character set, or the bare C locale, gets ASCII; no locale at all
-/// (containers) gets Unicode, which every terminal of today shows.
+/// (containers) gets Unicode, which today's terminals show.
 fn speaks_unicode(locale: Option<&str>) -> bool {
     locale.is_none_or(|locale| {
         let locale = locale.to_ascii_lowercase();
@@ -125,7 +125,7 @@ fn speaks_unicode(locale: Option<&str>) -> bool {
 
 #[cfg(test)]
 impl Style {
-    /// What tests lay out for: no colour, Unicode.
+    /// A style for tests: no colour, Unicode.
     pub(crate) fn plain(width: usize) -> Self {
         Self {
             color: false,

@@ -5,14 +5,14 @@ use super::{Colors, Style, count};
 /// Blanks between two columns.
 const GAP: usize = 2;
 
-/// To which side a column's text is pushed.
+/// Alignment of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Align {
     Left,
     Right,
 }
 
-/// A column: what stands in its head and how much it matters.
+/// A column: its title, alignment and rank.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Column {
     title: String,
@@ -39,7 +39,7 @@ impl Column {
         }
     }
 
-    /// May be left out where space is short, those with the larger `rank` first.
+    /// May be left out where space is short; larger ranks first.
     pub(crate) fn droppable(self, rank: u8) -> Self {
         Self {
             droppable: rank,
@@ -58,11 +58,11 @@ pub(crate) struct Table {
 #[derive(Debug, Clone)]
 enum Line {
     Cells(Vec<String>),
-    /// What stands for rows that are left out.
+    /// Text in place of omitted rows.
     Note(String),
 }
 
-/// A table laid out, and the titles of the columns that found no place.
+/// A table as text, and the titles of the columns that did not fit.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Rendered {
     pub(crate) text: String,
@@ -84,12 +84,12 @@ impl Table {
         self.lines.push(Line::Cells(cells));
     }
 
-    /// Says here that `rows` rows are left out.
+    /// Marks that `rows` rows are omitted here.
     pub(crate) fn push_gap(&mut self, rows: u64) {
         self.push_note(&count(rows, "more row"));
     }
 
-    /// Says here what stands for rows that are left out.
+    /// Adds text in place of omitted rows.
     pub(crate) fn push_note(&mut self, what: &str) {
         self.lines.push(Line::Note(what.to_owned()));
     }
@@ -120,7 +120,7 @@ impl Table {
         }
     }
 
-    /// Which columns stay, in order, and which do not.
+    /// The columns that fit, in order, and those that do not.
     fn fit(&self, width: usize) -> (Vec<usize>, Vec<usize>) {
         let mut kept: Vec<usize> = (0..self.columns.len()).collect();
         let mut left_out = Vec::new();

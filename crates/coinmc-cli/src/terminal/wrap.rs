@@ -1,7 +1,7 @@
-//! Text on lines of a width.
+//! Word wrap.
 
-/// Words on lines of `width` characters, all but the first indented by so many blanks; ends in a
-/// line feed. A word longer than a line has a line to itself.
+/// Wraps words to lines of `width` characters, with all lines but the first indented; ends in a line
+/// feed. A word longer than a line has its own line.
 pub(crate) fn wrapped(text: &str, width: usize, indent: usize) -> String {
     let (mut lines, mut used) = (String::new(), 0);
     for word in text.split(' ') {

@@ -21,8 +21,8 @@ Examples:
 
 /// Tabulate the closed forms
 ///
-/// Each rests on assumptions (shown without options) and none knows of restitution or friction: they
-/// are what to compare tosses with.
+/// Each rests on assumptions (listed if no option is given), and none depends on restitution or friction:
+/// compare tosses with them.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 #[allow(clippy::doc_markdown)] // help text is not Markdown
@@ -36,7 +36,7 @@ pub(crate) struct Analytic {
     #[arg(long, conflicts_with = "ratio")]
     fair: bool,
 
-    /// What P(side) is to be [default: 1/3]
+    /// The target P(side) [default: 1/3]
     #[arg(long, value_name = "P", requires = "fair", value_parser = probability)]
     #[arg(allow_negative_numbers = true)]
     target: Option<f64>,
@@ -86,7 +86,7 @@ enum ListingFormat {
 }
 
 impl Analytic {
-    /// How failures are told.
+    /// The format of failures.
     pub(crate) fn errors_as(&self) -> Format {
         match self.format {
             ListingFormat::Json => Format::Json,

@@ -111,7 +111,7 @@ pub(super) fn precession_fair_ratios(psi_deg: &[f64], target: f64) -> Listing {
     listing
 }
 
-/// The thin precessing coin, caught in the hand.
+/// The thin precessing coin, caught by hand.
 pub(super) fn precession_thin(psi_deg: &[f64]) -> Listing {
     let fields = vec![
         Field::given("psi_deg", "ψ, deg"),

@@ -1,4 +1,4 @@
-//! What a plan will cost, from tossing some of its points for a moment.
+//! Forecasts the cost of a plan by tossing some of its points for a moment.
 
 mod integrals;
 
@@ -8,9 +8,9 @@ use coinmc_core::{Face, Tally, inverse_normal_cdf};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// At most so many points are tried, spread over the sweep.
+/// Most points that are tried, spread over the sweep.
 const POINTS: usize = 24;
-/// Time for all of them. A single toss may overrun it, nothing else does.
+/// Time for all of them; only a single long toss may overrun it.
 const BUDGET: Duration = Duration::from_millis(800);
 
 /// A forecast should be right within this factor.
@@ -26,13 +26,13 @@ pub(super) struct Cost {
     pub(super) tosses: u64,
     /// Speed of one thread.
     pub(super) tosses_per_s: f64,
-    /// Threads that a run uses unless told otherwise.
+    /// Threads that a run uses by default.
     pub(super) threads: usize,
     /// How long the run will take; `None` if nothing is tossed.
     pub(super) time: Option<Duration>,
-    /// The tosses tried took so different times that the run's may too.
+    /// Whether the times of the tried tosses varied so much that the forecast is unsure.
     pub(super) unsure: bool,
-    /// What each point costs that tosses, in the order of the sweep.
+    /// The cost of each tossed point, in the order of the sweep.
     pub(super) points: Vec<PointCost>,
 }
 
@@ -41,7 +41,7 @@ pub(super) struct Cost {
 pub(super) struct PointCost {
     pub(super) point: usize,
     pub(super) tosses: f64,
-    /// Of one thread.
+    /// Rate of one thread.
     pub(super) seconds: f64,
 }
 
@@ -88,8 +88,7 @@ pub(super) fn estimate(plan: &Plan) -> Result<Cost, RunError> {
     })
 }
 
-/// Whether two forecasts, each by tosses of its own, are further apart than a forecast should be from
-/// the run.
+/// Whether two forecasts from different tosses differ by more than a forecast may differ from the run.
 fn is_unsure([one, other]: [f64; 2]) -> bool {
     one.max(other) > SURE * one.min(other)
 }
@@ -142,9 +141,8 @@ struct Pace {
     before: f64,
 }
 
-/// The first tosses of a point, ever more of them until the time is up, and how long they took. The
-/// last half of them tells: the first are few, and an engine that follows many side by side has not
-/// got going with them.
+/// Tosses a point in growing batches until the time is up, and measures the last half of them: at first
+/// an engine that tosses in lanes has not filled its lanes.
 fn toss_for(plan: &Plan, point: usize, budget: Duration) -> Result<(Tally, Pace), RunError> {
     let start = Instant::now();
     let mut tally = Tally::default();
@@ -185,7 +183,7 @@ fn needed(plan: &Plan, tally: &Tally) -> u64 {
     };
     let n = tally.tosses() as f64;
     let variance = |face| {
-        // One more of each: a face that was not seen may still show.
+        // one more of each: a face that did not show yet may still do so
         let p = (tally.count(face) as f64 + 1.0) / (n + 2.0);
         p * (1.0 - p)
     };

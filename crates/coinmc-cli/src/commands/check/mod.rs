@@ -1,4 +1,4 @@
-//! `coinmc check`: what a config means, before it is run.
+//! `coinmc check`: explains a config before it is run.
 
 mod calibration;
 
@@ -22,9 +22,9 @@ Examples:
 
 /// The interval of a closed form.
 const EXACT: &str = "exact";
-/// A time that nobody notices.
+/// Shortest time worth a forecast.
 const INSTANT: Duration = Duration::from_millis(1);
-/// That of an integral.
+/// The interval of an integral.
 const STUDENT: &str = "student-t";
 /// Columns of the titles.
 const INDENT: usize = 10;
@@ -207,7 +207,7 @@ fn in_words(cost: &Cost) -> String {
     }
 }
 
-/// What the points of a sweep cost, if not all the same.
+/// The range of costs over the points of a sweep, if they differ.
 fn cheapest_and_dearest(plan: &Plan, cost: &Cost) -> Option<String> {
     let by_time = |a: &&PointCost, b: &&PointCost| a.seconds.total_cmp(&b.seconds);
     let (least, most) = (
@@ -218,9 +218,9 @@ fn cheapest_and_dearest(plan: &Plan, cost: &Cost) -> Option<String> {
         duration(Duration::try_from_secs_f64(point.seconds).unwrap_or(Duration::MAX))
     };
     let place = |point: &PointCost| {
-        let of = &plan.points[point.point];
+        let swept = &plan.points[point.point];
         let axes = plan.axes.iter().filter_map(|axis| {
-            let value = parameter(of, axis)?;
+            let value = parameter(swept, axis)?;
             Some(format!("{axis} {}", compact(value)))
         });
         axes.collect::<Vec<_>>().join(", ")

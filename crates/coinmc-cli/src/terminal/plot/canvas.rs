@@ -22,7 +22,7 @@ impl Canvas {
         self.columns
     }
 
-    /// Puts a character over whatever is there; what lies outside (`None`) is not drawn.
+    /// Draws a character over what is there; `None` lies outside and is not drawn.
     pub(super) fn set(
         &mut self,
         column: Option<usize>,

@@ -15,7 +15,7 @@ const MAX_COLUMNS: usize = 84;
 const MARGIN: usize = 7;
 /// Columns right of it, for half of the last label.
 const RIGHT_MARGIN: usize = 3;
-/// More curves than this cannot be told apart.
+/// Most curves that can be told apart.
 pub(crate) const MAX_CURVES: usize = 8;
 
 const UNICODE_MARKS: [char; MAX_CURVES] = ['●', '○', '■', '□', '▲', '△', '◆', '◇'];

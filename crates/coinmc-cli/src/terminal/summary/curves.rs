@@ -8,13 +8,12 @@ use std::collections::HashMap;
 
 /// A curve for each combination of the other axes, in the order in which they first appear.
 ///
-/// Where axes were swept side by side every point has values of its own; all points then make one
-/// curve.
+/// In a zipped sweep every point has its own values of the axes; all points then make one curve.
 pub(super) fn curves(results: &Results) -> Vec<Curve> {
     let others = others(results);
     let mut places = HashMap::new();
     let mut curves: Vec<Curve> = Vec::new();
-    // A point that an interrupted run did not come to has no place in a picture.
+    // a point that an interrupted run did not reach is not drawn
     for row in results.rows.iter().filter(|row| row.side.p.is_finite()) {
         let Some(x) = row.parameter(RATIO) else {
             continue;

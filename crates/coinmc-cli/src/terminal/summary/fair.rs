@@ -12,7 +12,7 @@ use std::collections::HashSet;
 /// More crossings than this are not listed; JSON has them all.
 const MOST: usize = 20;
 
-/// A row a crossing, and a line that tells of curves that never cross. `None` if the sweep has no
+/// One row per crossing, and a line about curves that never cross. `None` if the sweep does not have
 /// two ratios to interpolate between.
 pub(super) fn table(
     results: &Results,
@@ -30,7 +30,7 @@ pub(super) fn table(
         String::new()
     };
     if fair.is_empty() {
-        // Of points without a toss nothing can be said.
+        // points without a toss say nothing
         return tossed.then(|| format!("Fair ratio: none in this sweep, {never}\n"));
     }
     let mut columns: Vec<Column> = others(results).into_iter().map(Column::right).collect();
@@ -78,7 +78,7 @@ pub(super) fn table(
     Some(text)
 }
 
-/// What others say of the fair coin, tossed the way this engine tosses; nothing for a closed form.
+/// Published fair ratios of the kind of toss that this engine computes; none for a closed form.
 fn references(engine: &str, style: &Style) -> String {
     let Some(rule) = no_bounce(engine) else {
         return String::new();

@@ -1,5 +1,4 @@
-//! A finished run as text: table, plot, fair ratios, published counts, what was undecided, where the
-//! files are.
+//! The summary of a run as text: table, plot, fair ratios, published counts, undecided tosses, files.
 
 mod curves;
 mod fair;
@@ -19,7 +18,7 @@ pub(crate) const FAIR: f64 = 1.0 / 3.0;
 
 /// The parameter that plots are drawn over.
 const RATIO: &str = "ratio";
-/// A table of more points than this shows only its ends, `END` points each.
+/// Longer tables show only the first and last `END` points.
 const LONG: usize = 60;
 const END: usize = 20;
 
@@ -36,7 +35,7 @@ pub(crate) fn summary(results: &Results, fair: &[FairRatio], csv: &Path, style: 
     parts.join("\n")
 }
 
-/// One row a point.
+/// One row per point.
 fn table(results: &Results, csv: &Path, style: &Style) -> String {
     let shown = shown_parameters(results);
     let mut columns: Vec<Column> = shown.iter().map(|name| Column::right(*name)).collect();
@@ -96,7 +95,7 @@ fn cells(row: &Row, shown: &[&str], decimals: usize, style: &Style) -> Vec<Strin
     cells
 }
 
-/// Tosses, or the evaluations that stand for them.
+/// Tosses, or the evaluations of an integral.
 fn tosses(row: &Row) -> String {
     if row.evaluations > 0 {
         count(row.evaluations, "evaluation")
@@ -105,7 +104,7 @@ fn tosses(row: &Row) -> String {
     }
 }
 
-/// Two digits of the shortest interval's arm, so that no row loses any.
+/// Decimals that show two digits of the narrowest interval's arm.
 fn decimals(results: &Results) -> usize {
     let arms = results
         .rows
@@ -166,7 +165,7 @@ fn no_bounce(engine: &str) -> Option<Rule> {
     }
 }
 
-/// What was undecided, and where the results are.
+/// Undecided tosses, and the path of the results.
 fn closing(results: &Results, csv: &Path, style: &Style) -> String {
     let sum = |count: fn(&Row) -> u64| {
         results

@@ -66,7 +66,7 @@ fn theirs(row: &Row, published: &Published, decimals: usize) -> [String; 3] {
     ]
 }
 
-/// In what the scene is another one, if it is.
+/// The keys in which the scene differs, if any.
 fn differences(rows: &[(&Row, &Published)], style: &Style) -> String {
     let mut keys: Vec<&str> = Vec::new();
     for key in rows.iter().flat_map(|(_, published)| &published.differs) {
