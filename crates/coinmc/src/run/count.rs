@@ -1,7 +1,9 @@
 //! Counts a plan in memory, without files.
 
+use super::options::one_per_core;
+use super::report::{Report, report};
 use super::schedule::{Finished, Schedule};
-use super::{Part, ProgressSink, Report, RunError, one_a_core, report, workers};
+use super::{Part, ProgressSink, RunError, workers};
 use crate::plan::Plan;
 use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
@@ -49,7 +51,7 @@ pub fn count(plan: &Plan, options: &Count<'_>) -> Result<Report, RunError> {
     sink.progress(&schedule.progress());
     // the schedule itself holds the counts
     let store = |_: &[_]| Ok(());
-    let threads = one_a_core(threads);
+    let threads = one_per_core(threads);
     let schedule = workers::execute(plan, schedule, &store, threads, cancel, sink)?;
     sink.progress(&schedule.progress());
     Ok(report(plan, Part::WHOLE, &schedule))

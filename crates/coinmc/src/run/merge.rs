@@ -2,12 +2,13 @@
 
 use super::cut::Cut;
 use super::directory::RunDirectory;
+use super::in_directory::conclude;
 use super::manifest::Manifest;
 use super::piece::Piece;
 use super::schedule::{Finished, Next, Schedule};
 use super::stored::{read_manifest, read_plan};
 use super::tallies::{Entry, Tallies};
-use super::{Chunk, Part, ProgressSink, Report, RunError, conclude};
+use super::{Chunk, Part, ProgressSink, Report, RunError};
 use crate::plan::Plan;
 use std::collections::hash_map::Entry as Slot;
 use std::collections::{BTreeSet, HashMap};

@@ -3,9 +3,10 @@
 use super::cut::Cut;
 use super::directory::CONFIG;
 use super::manifest::{self, Manifest};
+use super::report::{Report, report};
 use super::schedule::{Finished, Next, Schedule};
 use super::tallies::{Entry, Tallies};
-use super::{Part, ProgressSink, Report, RunError, report};
+use super::{Part, ProgressSink, RunError};
 use crate::config;
 use crate::plan::Plan;
 use std::path::Path;
