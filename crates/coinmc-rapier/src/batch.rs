@@ -1,129 +1,108 @@
-//! Several tosses in one world.
+//! Many tosses in one world.
 //!
 //! A step of Rapier costs the same for one coin as for four: its solver works on four contacts at a
-//! time, in the lanes of one register, and what it does around the contacts is shared by all coins.
-//! The coins stand in one another's place and do not touch: a filter keeps their pairs out of the
-//! world. No operation mixes lanes, so that every toss is, to the last bit, what it is alone (tested).
+//! time, in the lanes of one register, and all coins share what it does around the contacts. The
+//! coins may overlap and do not touch: a filter keeps their pairs out of the world. No operation
+//! mixes lanes, so every toss is bit-identical to the scalar path ([`Driver::toss`]; tested).
 
 use crate::account::Account;
-use crate::rules::{End, Rules};
+use crate::driver::{Driver, End};
 use crate::toss::Toss;
 use crate::world::World;
-use coinmc_core::{Launch, Observer};
+use coinmc_core::Launch;
 use std::ops::ControlFlow;
 
-/// A toss on its way, and its number among the launches.
-struct Seated<'a> {
+/// A toss in flight and its number among the launches.
+struct Slot<'a> {
     number: usize,
     toss: Toss<'a, ()>,
 }
 
-/// Follows one toss, alone.
-pub(crate) fn follow<O: Observer>(
-    rules: &Rules,
-    world: &mut World,
-    launch: &Launch,
-    observer: O,
-) -> Account {
-    let (mut toss, mut course) = rules.begin(world, 0, launch, observer);
-    let end = loop {
-        if course.is_continue() {
-            course = rules.before_step(world, 0, &mut toss);
-        }
-        if let ControlFlow::Break(end) = course {
-            break end;
-        }
-        world.step();
-        course = rules.after_step(world, 0, &mut toss);
-    };
-    world.clear(0);
-    toss.end(end)
+/// The tosses in flight: slot i holds the toss whose coin is in slot i of the world.
+struct Batch<'a, L, F> {
+    driver: &'a Driver,
+    launches: L,
+    /// Takes the number and the account of a toss that has ended.
+    visit: F,
+    slots: Vec<Option<Slot<'a>>>,
 }
 
-/// Follows the launches, several at a time, and hands on the account of each with its number, in any
-/// order, until `each` breaks off.
+/// Follows the launches, several at a time, and calls `visit` with the number and the account of
+/// each, in any order, until `visit` breaks off.
 pub(crate) fn toss_all_in_batch(
-    rules: &Rules,
+    driver: &Driver,
     world: &mut World,
     launches: impl Iterator<Item = Launch>,
-    mut each: impl FnMut(usize, &Account) -> ControlFlow<()>,
+    visit: impl FnMut(usize, &Account) -> ControlFlow<()>,
 ) {
-    let seats = rules.settings.seats();
-    let mut launches = launches.enumerate();
-    let mut seated: Vec<Option<Seated<'_>>> = Vec::new();
-    seated.resize_with(seats, || None);
-    let _ = run(rules, world, &mut seated, &mut launches, &mut each);
-    for seat in 0..seats {
-        world.clear(seat);
+    let mut batch = Batch {
+        driver,
+        launches: launches.enumerate(),
+        visit,
+        slots: Vec::new(),
+    };
+    let slots = driver.settings.slots();
+    batch.slots.resize_with(slots, || None);
+    let _ = batch.run(world);
+    for slot in 0..slots {
+        world.clear(slot);
     }
 }
 
-/// Until there are no more launches and every seat is empty, or `each` breaks off.
-fn run<'a>(
-    rules: &'a Rules,
-    world: &mut World,
-    seated: &mut [Option<Seated<'a>>],
-    launches: &mut impl Iterator<Item = (usize, Launch)>,
-    each: &mut impl FnMut(usize, &Account) -> ControlFlow<()>,
-) -> ControlFlow<()> {
-    loop {
-        let mut occupied = false;
-        for (seat, place) in seated.iter_mut().enumerate() {
-            fill(rules, world, seat, place, launches, each)?;
-            occupied |= place.is_some();
-        }
-        if !occupied {
-            return ControlFlow::Continue(());
-        }
-        world.step();
-        for (seat, place) in seated.iter_mut().enumerate() {
-            if let Some(Seated { toss, .. }) = place
-                && let ControlFlow::Break(end) = rules.after_step(world, seat, toss)
-            {
-                hand_on(place, end, each)?;
+impl<L, F> Batch<'_, L, F>
+where
+    L: Iterator<Item = (usize, Launch)>,
+    F: FnMut(usize, &Account) -> ControlFlow<()>,
+{
+    /// Steps until there are no more launches and every slot is empty, or `visit` breaks off.
+    fn run(&mut self, world: &mut World) -> ControlFlow<()> {
+        loop {
+            for slot in 0..self.slots.len() {
+                self.prepare(world, slot)?;
+            }
+            if self.slots.iter().all(Option::is_none) {
+                return ControlFlow::Continue(());
+            }
+            world.step();
+            for slot in 0..self.slots.len() {
+                if let Some(Slot { toss, .. }) = &mut self.slots[slot]
+                    && let ControlFlow::Break(end) = self.driver.after_step(world, slot, toss)
+                {
+                    self.end(slot, end)?;
+                }
             }
         }
     }
-}
 
-/// Makes the seat's toss ready for a step; one that ends gives way to the next launch.
-fn fill<'a>(
-    rules: &'a Rules,
-    world: &mut World,
-    seat: usize,
-    place: &mut Option<Seated<'a>>,
-    launches: &mut impl Iterator<Item = (usize, Launch)>,
-    each: &mut impl FnMut(usize, &Account) -> ControlFlow<()>,
-) -> ControlFlow<()> {
-    loop {
-        let course = if let Some(Seated { toss, .. }) = place {
-            rules.before_step(world, seat, toss)
-        } else if let Some((number, launch)) = launches.next() {
-            let (toss, course) = rules.begin(world, seat, &launch, ());
-            *place = Some(Seated { number, toss });
-            match course {
-                // its first step is not yet prepared
-                ControlFlow::Continue(()) => continue,
-                end @ ControlFlow::Break(_) => end,
+    /// Prepares a slot's toss for the next step; a toss that ends gives way to the next launch.
+    fn prepare(&mut self, world: &mut World, slot: usize) -> ControlFlow<()> {
+        loop {
+            let next = if let Some(Slot { toss, .. }) = &mut self.slots[slot] {
+                self.driver.before_step(world, slot, toss)
+            } else if let Some((number, launch)) = self.launches.next() {
+                let (toss, next) = self.driver.launch(world, slot, &launch, ());
+                self.slots[slot] = Some(Slot { number, toss });
+                match next {
+                    // launched, but its first step is not yet prepared
+                    ControlFlow::Continue(()) => continue,
+                    end @ ControlFlow::Break(_) => end,
+                }
+            } else {
+                world.clear(slot);
+                return ControlFlow::Continue(());
+            };
+            match next {
+                ControlFlow::Continue(()) => return ControlFlow::Continue(()),
+                ControlFlow::Break(end) => self.end(slot, end)?,
             }
-        } else {
-            world.clear(seat);
-            return ControlFlow::Continue(());
-        };
-        match course {
-            ControlFlow::Continue(()) => return ControlFlow::Continue(()),
-            ControlFlow::Break(end) => hand_on(place, end, each)?,
         }
     }
-}
 
-fn hand_on(
-    place: &mut Option<Seated<'_>>,
-    end: End,
-    each: &mut impl FnMut(usize, &Account) -> ControlFlow<()>,
-) -> ControlFlow<()> {
-    match place.take() {
-        Some(Seated { number, toss }) => each(number, &toss.end(end)),
-        None => ControlFlow::Continue(()),
+    /// Ends the toss of a slot.
+    fn end(&mut self, slot: usize, end: End) -> ControlFlow<()> {
+        match self.slots[slot].take() {
+            Some(Slot { number, toss }) => (self.visit)(number, &toss.end(end)),
+            None => ControlFlow::Continue(()),
+        }
     }
 }

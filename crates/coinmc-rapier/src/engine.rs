@@ -1,8 +1,8 @@
-//! The engine: tosses one at a time, or several in one world.
+//! The engine: one toss at a time, or several in one world.
 
 use crate::account::Account;
 use crate::batch;
-use crate::rules::Rules;
+use crate::driver::Driver;
 use crate::settings::{Settings, SettingsError};
 use crate::world::World;
 use coinmc_core::{Engine, Launch, Observer, Outcome, Scene};
@@ -25,10 +25,10 @@ use std::ops::ControlFlow;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
-pub struct RapierEngine(Rules);
+pub struct RapierEngine(Driver);
 
 /// A worker's world: a half-space and coins.
-pub struct Workspace(Box<World>);
+pub struct Workspace(World);
 
 impl RapierEngine {
     /// An engine for this scene.
@@ -36,30 +36,31 @@ impl RapierEngine {
     /// # Errors
     /// [`SettingsError`] if a setting is out of range or this build has no Rapier.
     pub fn new(scene: &Scene, settings: &Settings) -> Result<Self, SettingsError> {
-        Rules::new(scene, settings).map(Self)
+        Driver::new(scene, settings).map(Self)
     }
 
-    /// Follows one toss and gives a full account of it.
+    /// Follows one toss and returns its full account.
     pub fn examine(
         &self,
         workspace: &mut Workspace,
         launch: &Launch,
         observer: &mut impl Observer,
     ) -> Account {
-        batch::follow(&self.0, &mut workspace.0, launch, observer)
+        self.0.toss(&mut workspace.0, launch, observer)
     }
 
-    /// Follows many tosses, several at a time ([`Settings::tosses_at_once`]), and hands on the
-    /// account of each with its number among the launches, in any order, until `each` breaks off.
+    /// Follows many tosses, several at a time ([`Settings::tosses_at_once`]), and calls `visit` with
+    /// the number of each among the launches and its account, in any order, until `visit` breaks
+    /// off.
     ///
-    /// Every account is that of [`RapierEngine::examine`].
+    /// Every account is bit-identical to that of [`RapierEngine::examine`].
     pub fn examine_all(
         &self,
         workspace: &mut Workspace,
         launches: impl Iterator<Item = Launch>,
-        each: impl FnMut(usize, &Account) -> ControlFlow<()>,
+        visit: impl FnMut(usize, &Account) -> ControlFlow<()>,
     ) {
-        batch::toss_all_in_batch(&self.0, &mut workspace.0, launches, each);
+        batch::toss_all_in_batch(&self.0, &mut workspace.0, launches, visit);
     }
 }
 
@@ -67,13 +68,13 @@ impl Engine for RapierEngine {
     type Workspace = Workspace;
 
     fn workspace(&self) -> Workspace {
-        let Rules {
+        let Driver {
             scaled,
             settings,
             step,
             ..
         } = &self.0;
-        Workspace(Box::new(World::new(scaled, settings, *step)))
+        Workspace(World::new(scaled, settings, *step))
     }
 
     fn toss(

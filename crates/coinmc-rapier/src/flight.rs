@@ -1,4 +1,4 @@
-//! Free flight in closed form, and how far it is proven free of contact.
+//! Free flight in closed form, and how far it is proven to be free of contact.
 //!
 //! # Closed form
 //! A free symmetric top turns about its angular momentum: u turns about the fixed Ω = L/I_t with the
@@ -9,21 +9,24 @@
 //!
 //! # No contact before
 //! The gap is f = z − max over the rims of (±h u_z + R s), h = H/2 and s the horizontal part of u.
-//! From any moment on the centre falls at most ½pτ², p = 1 + k·max(v_z, 0), and f stays above each of
+//! In the time τ from any moment the centre falls at most ½pτ² below its straight path, with
+//! p = 1 + k·max(v_z, 0), and f stays above each of
 //!
 //! * z + v_z τ − ½pτ² − (the highest the centre can be while the coin touches, over all tilts that u
-//!   reaches): most of a high flight;
-//! * f + (v_z − w)τ − ½pτ², w the rate at which u moves, as the lowest point is at the distance
+//!   reaches): for most of a high flight;
+//! * f + (v_z − w)τ − ½pτ², with w the rate at which u moves, as the lowest point is at the distance
 //!   D = 1 from the centre;
 //! * for either rim, f_b + f_b' τ − ½(p + h·swing + R·spread/s)τ² with swing >= |u_z''| and
-//!   spread >= ½|(s²)''|, as s <= √(s² + (s²)'τ + ½(s²)''τ²) and the root is concave: the one for a
-//!   coin that leaves the surface.
+//!   spread >= ½|(s²)''|, as s <= √(s² + (s²)'τ + ½(s²)''τ²) and the root is concave: for a coin
+//!   that leaves the surface.
 //!
-//! The flight goes on to the latest of their first roots, again and again. Every stop is proven to be
-//! clear; that the bounds are not sharp costs evaluations (some 30 ns each), never a contact.
+//! The flight advances to the latest of their first roots, again and again, and is proven to be free
+//! of contact up to each. Bounds that are not sharp cost evaluations (some 30 ns each), but never
+//! miss a contact.
 
-use crate::body::{Body, Scaled};
 use crate::motion::Motion;
+use crate::scaled::Scaled;
+use coinmc_core::Body;
 use nalgebra::Vector3;
 
 /// One flight.
@@ -35,15 +38,15 @@ pub(crate) struct Flight<'a> {
     a: Vector3<f64>,
     b: Vector3<f64>,
     d: Vector3<f64>,
-    /// |Ω|, and ω = Ω + `rest`·u.
+    /// |Ω|, and ω = Ω + `extra`·u.
     rate: f64,
     omega: Vector3<f64>,
-    rest: f64,
-    /// Bounds over the flight: of |u'|, of u_z'' and of ½(s²)''; and the height above which there is
-    /// no contact.
+    extra: f64,
+    /// Bounds over the flight: of |u'|, of u_z'' and of ½(s²)''.
     wander: f64,
     swing: f64,
     spread: f64,
+    /// Height of the centre above which there is no contact.
     clear: f64,
 }
 
@@ -58,13 +61,14 @@ pub(crate) struct Clear {
 /// What ends a proof.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Bound {
-    /// The coin touches.
+    /// The gap is below the one that counts as touching.
     Touch,
-    /// Its progress is below what was asked for.
+    /// Progress is below the one that counts as none.
     Grain,
+    /// The time asked for is reached.
     Horizon,
-    /// Enough was computed.
-    Spent,
+    /// The limit of evaluations is reached.
+    Evaluations,
 }
 
 impl<'a> Flight<'a> {
@@ -90,11 +94,11 @@ impl<'a> Flight<'a> {
             d,
             rate,
             omega,
-            rest: axial - turning,
+            extra: axial - turning,
             wander: rate * b.norm(),
             swing,
             spread: swing * (a.z.abs() + amplitude),
-            clear: highest(&scaled.body, a.z.abs(), amplitude),
+            clear: highest(scaled, a.z.abs(), amplitude),
         }
     }
 
@@ -103,31 +107,30 @@ impl<'a> Flight<'a> {
         let scaled = self.scaled;
         let (p, q) = decay(scaled.linear_drag * t);
         let (turned, _) = decay(scaled.angular_drag * t);
-        let slow = remains(scaled.linear_drag * t);
-        let left = remains(scaled.angular_drag * t);
+        let linear = remains(scaled.linear_drag * t);
+        let angular = remains(scaled.angular_drag * t);
         let (s, c) = libm::sincos(self.rate * t * turned);
         let axis = self.a + self.b * c + self.d * s;
-        // 1 but for rounding, which must not pile up over thousands of flights
+        // of length 1 but for rounding, which must not build up over thousands of flights
         let axis = axis * (1.5 - 0.5 * axis.norm_squared());
         let down = Vector3::new(0.0, 0.0, 1.0);
         Motion {
             position: self.start.position + self.start.velocity * (t * p) - down * (t * t * q),
-            velocity: self.start.velocity * slow - down * (t * p),
+            velocity: self.start.velocity * linear - down * (t * p),
             axis,
-            spin: (self.omega + axis * self.rest) * left,
+            spin: (self.omega + axis * self.extra) * angular,
         }
     }
 
-    /// The latest time, up to `horizon`, before which no contact is possible. Gives up progress
-    /// below `grain`, and stops where the gap is below `touch`.
+    /// The latest time, up to `horizon`, before which no contact is possible. Stops where progress
+    /// falls below `grain` or the gap below `touch`.
     pub(crate) fn clear_until(&self, horizon: f64, grain: f64, touch: f64) -> Clear {
-        /// Evaluations after which what is proven is enough.
-        const MOST: u32 = 400;
+        const MOST_EVALUATIONS: u32 = 400;
         let mut time = 0.0;
-        for _ in 0..MOST {
+        for _ in 0..MOST_EVALUATIONS {
             let now = self.at(time);
-            let step = self.safe(&now);
-            let end = if time > 0.0 && now.gap(&self.scaled.body) <= touch {
+            let step = self.safe_time(&now);
+            let end = if time > 0.0 && now.gap(self.scaled) <= touch {
                 Bound::Touch
             } else if step < grain || step.is_nan() {
                 Bound::Grain
@@ -142,28 +145,28 @@ impl<'a> Flight<'a> {
         }
         Clear {
             time,
-            end: Bound::Spent,
+            end: Bound::Evaluations,
         }
     }
 
-    /// No contact for this long from `now` on.
-    fn safe(&self, now: &Motion) -> f64 {
+    /// A time from `now` on in which no contact is possible.
+    fn safe_time(&self, now: &Motion) -> f64 {
         let Body { radius, half, .. } = self.scaled.body;
         let (z, vz, up) = (now.position.z, now.velocity.z, now.axis.z);
         let pull = 1.0 + self.scaled.linear_drag * vz.max(0.0);
-        let lean = now.lean();
-        let gap = z - (half * up.abs() + radius * lean);
+        let sine = now.tilt_sine();
+        let gap = z - (half * up.abs() + radius * sine);
         let high = first_root(z - self.clear, vz, pull);
         let coarse = first_root(gap, vz - self.wander, pull);
-        if lean == 0.0 {
+        if sine == 0.0 {
             return high.max(coarse);
         }
         let up_rate = now.spin.x * now.axis.y - now.spin.y * now.axis.x;
-        let slope = vz + radius * up * up_rate / lean;
-        let bend = pull + half * self.swing + radius * self.spread / lean;
+        let slope = vz + radius * up * up_rate / sine;
+        let bend = pull + half * self.swing + radius * self.spread / sine;
         let rim = |b: f64| {
             first_root(
-                z - (b * half * up + radius * lean),
+                z - (b * half * up + radius * sine),
                 slope - b * half * up_rate,
                 bend,
             )
@@ -172,13 +175,13 @@ impl<'a> Flight<'a> {
     }
 }
 
-/// The largest height at which the lowest point can touch while u_z stays within `amplitude` of
-/// ±`middle`: it grows up to |u_z| = h, where it is 1, and falls beyond.
-fn highest(body: &Body, middle: f64, amplitude: f64) -> f64 {
+/// The largest height of the centre at which the lowest point can touch while u_z stays within
+/// `amplitude` of ±`middle`: it grows up to |u_z| = h, where it is 1, and falls beyond.
+fn highest(scaled: &Scaled, middle: f64, amplitude: f64) -> f64 {
     let low = (middle - amplitude).max(0.0);
     let high = (middle + amplitude).min(1.0);
-    // stay above the rounding of either term
-    body.rest_height(body.half.max(low).min(high)) * (1.0 + 1e-15)
+    // a little more than the rounding of either term
+    scaled.rest_height(scaled.body.half.max(low).min(high)) * (1.0 + 1e-15)
 }
 
 /// The first root of gap + slope·t − ½ bend t² where it falls; 0 if it is below already.
@@ -193,14 +196,14 @@ fn first_root(gap: f64, slope: f64, bend: f64) -> f64 {
     }
 }
 
-/// p(x) and q(x) of the text above.
+/// p(x) and q(x) of the module's text.
 fn decay(x: f64) -> (f64, f64) {
     if x == 0.0 {
         return (1.0, 0.5);
     }
     let lost = -libm::expm1(-x);
     let p = lost / x;
-    // x − lost cancels where x is small
+    // for small x, x − lost loses its digits
     let q = if x < 1e-2 {
         0.5 - x * (1.0 / 6.0 - x * (1.0 / 24.0 - x * (1.0 / 120.0 - x * (1.0 / 720.0))))
     } else {

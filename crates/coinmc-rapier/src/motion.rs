@@ -1,13 +1,13 @@
-//! The coin's state in the engine's frame.
+//! How a coin moves, in the engine's units.
 
-use crate::body::{Body, Scaled, Units};
-use coinmc_core::{Launch, State};
+use crate::scaled::Scaled;
+use coinmc_core::{Body, DecisionState, Launch, State, Units};
 use nalgebra::{UnitVector3, Vector3};
 
 /// Position, velocity, axis and angular velocity; lengths in D, times in sqrt(D/g).
 ///
 /// The phase about the coin's own axis never matters, and heads and tails are alike: `axis` is the
-/// normal of the face that was up at launch, so u and −u give the same numbers to the last bit.
+/// normal of the face that was up at launch, so launches with u and −u are bit-identical.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Motion {
     pub(crate) position: Vector3<f64>,
@@ -19,23 +19,23 @@ pub(crate) struct Motion {
 impl Motion {
     /// NaN placeholder: where there is no coin.
     pub(crate) const NAN: Self = {
-        let none = Vector3::new(f64::NAN, f64::NAN, f64::NAN);
+        let nan = Vector3::new(f64::NAN, f64::NAN, f64::NAN);
         Self {
-            position: none,
-            velocity: none,
-            axis: none,
-            spin: none,
+            position: nan,
+            velocity: nan,
+            axis: nan,
+            spin: nan,
         }
     };
 
-    /// The launch, and whether `axis` is u (−u otherwise). A coin that would begin inside the
-    /// surface is lifted until it touches.
+    /// The motion at launch, and whether `axis` is u (−u otherwise). A coin that would begin inside
+    /// the surface is lifted until it touches.
     pub(crate) fn launched(launch: &Launch, scaled: &Scaled) -> (Self, bool) {
-        let Scaled { units, body, .. } = scaled;
+        let units = &scaled.units;
         let axis = launch.axis.into_inner();
         let heads_up = axis.z.is_sign_positive();
         let axis = if heads_up { axis } else { -axis };
-        let height = (launch.height_m / units.length_m).max(body.rest_height(axis.z));
+        let height = (launch.height_m / units.length_m).max(scaled.rest_height(axis.z));
         let motion = Self {
             position: Vector3::new(0.0, 0.0, height),
             velocity: launch.velocity_m_s / units.speed_m_s(),
@@ -50,8 +50,8 @@ impl Motion {
         self.spin.dot(&self.axis)
     }
 
-    /// Horizontal part of the axis: s.
-    pub(crate) fn lean(&self) -> f64 {
+    /// s, the sine of the axis' tilt from the vertical.
+    pub(crate) fn tilt_sine(&self) -> f64 {
         (self.axis.x * self.axis.x + self.axis.y * self.axis.y).sqrt()
     }
 
@@ -63,36 +63,60 @@ impl Motion {
             + self.position.z
     }
 
-    /// Height of the lowest point above the surface.
-    pub(crate) fn gap(&self, body: &Body) -> f64 {
-        self.position.z - body.rest_height(self.axis.z)
+    /// What the decision depends on, for the coin lifted by `depth` out of the surface.
+    pub(crate) fn decision_state(&self, scaled: &Scaled, depth: f64) -> DecisionState<f64> {
+        // of the two ends of the axis, the one that points up
+        let up = 1.0_f64.copysign(self.axis.z);
+        let [nx, ny] = self.lean_direction().map(|n| up * n);
+        let velocity = &self.velocity;
+        let axial = self.axial();
+        DecisionState {
+            energy: self.energy(&scaled.body) + depth,
+            sin: self.tilt_sine(),
+            cos: self.axis.z.abs(),
+            vx: velocity.x * nx + velocity.y * ny,
+            vy: velocity.y * nx - velocity.x * ny,
+            axial: up * axial,
+            // of Ω = L/I_t, which differs from ω along the axis only
+            vertical: self.spin.z + (scaled.axial_factor - 1.0) * axial * self.axis.z,
+        }
     }
 
-    /// From the centre to the lowest point. Of a coin exactly upright, some point of the rim.
+    /// Height of the lowest point above the surface.
+    pub(crate) fn gap(&self, scaled: &Scaled) -> f64 {
+        self.position.z - scaled.rest_height(self.axis.z)
+    }
+
+    /// Unit vector of the horizontal direction the axis leans to; x for an upright axis.
+    fn lean_direction(&self) -> [f64; 2] {
+        let sine = self.tilt_sine();
+        if sine > 0.0 {
+            [self.axis.x / sine, self.axis.y / sine]
+        } else {
+            [1.0, 0.0]
+        }
+    }
+
+    /// From the centre to the lowest point; with the axis exactly vertical, some point of the rim.
     pub(crate) fn lever(&self, body: &Body) -> Vector3<f64> {
         let (x, y, z) = (self.axis.x, self.axis.y, self.axis.z);
-        let lean = self.lean();
-        let (nx, ny) = if lean > 0.0 {
-            (x / lean, y / lean)
-        } else {
-            (1.0, 0.0)
-        };
+        let [nx, ny] = self.lean_direction();
         // e_θ = (c n, −s) with u = (s n, c); below is the rim on the side of −u if u points up
         let (across, along) = (body.radius * z, -body.half.copysign(z));
         Vector3::new(
             across * nx + along * x,
             across * ny + along * y,
-            -body.radius * lean + along * z,
+            -body.radius * self.tilt_sine() + along * z,
         )
     }
 
     /// Velocity of the lowest point.
-    pub(crate) fn touch_velocity(&self, body: &Body) -> Vector3<f64> {
+    pub(crate) fn contact_velocity(&self, body: &Body) -> Vector3<f64> {
         self.velocity + self.spin.cross(&self.lever(body))
     }
 
-    /// Turns the part of ω across the axis by `factor`·ω_a, as a free top's turns in its own frame:
-    /// energy and ω_a stay.
+    /// Turns the part of ω across the axis by `factor`·ω_a, as that of a free top turns in its own
+    /// frame: energy and ω_a stay.
     pub(crate) fn precess(&mut self, factor: f64) {
         let axial = self.axial();
         let across = self.spin - self.axis * axial;

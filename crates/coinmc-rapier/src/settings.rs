@@ -216,7 +216,7 @@ impl Settings {
     }
 
     /// Coins in one world.
-    pub(crate) fn seats(&self) -> usize {
+    pub(crate) fn slots(&self) -> usize {
         if self.ccd {
             1
         } else {

@@ -1,21 +1,21 @@
-//! One toss on its way: its state, its counters, and what an observer sees of it.
+//! One toss in flight: its state, its counters, and what an observer sees of it.
 
 use crate::account::{Account, Flaw};
-use crate::body::{Body, Scaled};
 use crate::flight::Flight;
 use crate::motion::Motion;
-use crate::standing::{Pause, Standing};
-use crate::verdict::Rest;
+use crate::rest::RestDetector;
+use crate::scaled::Scaled;
+use crate::standing::{StandingDetector, StandingSkip};
 use coinmc_core::{
-    Breaks, Ended, Event, EventKind, Face, Launch, Observer, Outcome, sample_between,
+    Body, Breaks, Decided, Ended, Event, EventKind, Face, Launch, Observer, Outcome, sample_between,
 };
 use nalgebra::Vector3;
 
-/// What the coin does between two steps, as far as events are concerned.
+/// What the coin does between two steps, for events.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Phase {
     Flying,
-    /// It touched in the last step, for the first time.
+    /// Contact began in the last step.
     Struck,
     Sticking,
     Sliding,
@@ -24,9 +24,9 @@ enum Phase {
 /// Slip, in sqrt(g D), above which sustained contact is called sliding in events.
 const SLIP: f64 = 1e-2;
 
-/// Where the world lies in the laboratory: the plane is the same everywhere and in all directions.
-/// The coin is set down in the world's middle before every contact, and does not turn while steps
-/// are left out.
+/// Where Rapier's world lies in the laboratory. The plane is the same everywhere and in all
+/// directions, so the coin is placed in the middle of the world before every contact, and the world
+/// turns with a standing coin while steps are skipped.
 #[derive(Debug, Clone, Copy)]
 struct Place {
     offset: Vector3<f64>,
@@ -70,23 +70,23 @@ pub(crate) struct Toss<'a, O> {
     /// Whether the motion's axis is u, −u otherwise.
     heads_up: bool,
     phase: Phase,
-    pub(crate) rest: Rest,
-    pub(crate) standing: Standing,
+    pub(crate) rest: RestDetector,
+    pub(crate) standing: StandingDetector,
     /// The surface pushed in the last step.
     pub(crate) pushed: bool,
-    launched: f64,
-    highest: f64,
+    launch_energy: f64,
+    highest_energy: f64,
     depth: f64,
-    pub(crate) impacts: u32,
+    impacts: u32,
     pub(crate) steps: u32,
-    pub(crate) jumps: u32,
+    jumps: u32,
 }
 
 impl<'a, O: Observer> Toss<'a, O> {
     pub(crate) fn new(launch: &Launch, scaled: &'a Scaled, observer: O) -> Self {
         let (motion, heads_up) = Motion::launched(launch, scaled);
         let energy = motion.energy(&scaled.body);
-        let toss = Self {
+        let mut toss = Self {
             scaled,
             observer,
             motion,
@@ -94,25 +94,21 @@ impl<'a, O: Observer> Toss<'a, O> {
                 offset: Vector3::zeros(),
                 heading: 0.0,
             },
-            standing: Standing::default(),
+            standing: StandingDetector::default(),
             pushed: false,
             time: 0.0,
             heads_up,
             phase: Phase::Flying,
-            rest: Rest::default(),
-            launched: energy,
-            highest: f64::NEG_INFINITY,
+            rest: RestDetector::default(),
+            launch_energy: energy,
+            highest_energy: f64::NEG_INFINITY,
             depth: 0.0,
             impacts: 0,
             steps: 0,
             jumps: 0,
         };
-        toss.begun()
-    }
-
-    fn begun(mut self) -> Self {
-        self.tell(EventKind::Launched);
-        self
+        toss.notify(EventKind::Launched);
+        toss
     }
 
     fn body(&self) -> &'a Body {
@@ -134,7 +130,7 @@ impl<'a, O: Observer> Toss<'a, O> {
                 place.motion(&motion).state(units, time_s, heads_up)
             };
             if self.phase != Phase::Flying && self.phase != Phase::Struck {
-                self.tell(EventKind::LiftOff);
+                self.notify(EventKind::LiftOff);
             }
             let (from, to) = (begin * units.time_s, until * units.time_s);
             sample_between(&mut self.observer, from, to, at);
@@ -145,18 +141,18 @@ impl<'a, O: Observer> Toss<'a, O> {
         self.jumps += 1;
     }
 
-    /// Moves the world's origin below the coin.
+    /// Moves the origin of the world below the coin.
     pub(crate) fn centre(&mut self) {
         let across = Vector3::new(self.motion.position.x, self.motion.position.y, 0.0);
         self.place.offset += self.place.turned(&across);
         self.motion.position -= across;
     }
 
-    /// Spins on, standing, while steps are left out.
-    pub(crate) fn pause(&mut self, pause: &Pause) {
-        let until = self.time + pause.duration;
+    /// Lets a standing coin spin on while steps are skipped.
+    pub(crate) fn spin_on(&mut self, skip: &StandingSkip) {
+        let until = self.time + skip.duration;
         let (motion, rate) = (self.motion, self.motion.spin.z);
-        let turned = |time: f64| -rate * libm::expm1(-pause.decay * time) / pause.decay;
+        let turned = |time: f64| -rate * libm::expm1(-skip.decay_rate * time) / skip.decay_rate;
         if O::ACTIVE {
             let (units, begin) = (&self.scaled.units, self.time);
             let (place, heads_up) = (self.place, self.heads_up);
@@ -164,20 +160,20 @@ impl<'a, O: Observer> Toss<'a, O> {
                 let time = time_s / units.time_s - begin;
                 let (mut place, mut now) = (place, motion);
                 place.turn(turned(time), &motion);
-                now.spin.z = rate * libm::exp(-pause.decay * time);
+                now.spin.z = rate * libm::exp(-skip.decay_rate * time);
                 place.motion(&now).state(units, time_s, heads_up)
             };
             let (from, to) = (begin * units.time_s, until * units.time_s);
             sample_between(&mut self.observer, from, to, at);
         }
-        self.place.turn(turned(pause.duration), &motion);
-        self.motion.spin.z *= pause.left;
+        self.place.turn(turned(skip.duration), &motion);
+        self.motion.spin.z *= skip.remaining;
         self.time = until;
         self.jumps += 1;
     }
 
-    /// Takes up what a step of the world came to.
-    pub(crate) fn stepped(&mut self, step: f64, after: &Motion, impulse: f64) {
+    /// Takes over the result of a step of the world.
+    pub(crate) fn take_step(&mut self, step: f64, after: &Motion, impulse: f64) {
         let before = self.motion;
         let begins = impulse > 0.0 && self.phase == Phase::Flying;
         self.impacts = self.impacts.saturating_add(u32::from(begins));
@@ -190,15 +186,15 @@ impl<'a, O: Observer> Toss<'a, O> {
         self.motion = *after;
         self.change_phase(impulse, begins);
         let energy = self.energy();
-        self.highest = self.highest.max(energy);
-        self.depth = self.depth.max(-after.gap(self.body()));
+        self.highest_energy = self.highest_energy.max(energy);
+        self.depth = self.depth.max(-after.gap(self.scaled));
     }
 
-    /// Before an impact, and the instants within the step that were wanted: whichever end of the
-    /// step is nearer stands for them.
+    /// Shows the state before an impact, and those within the step that the observer wants: the
+    /// state at the nearer end of the step.
     fn observe(&mut self, step: f64, before: &Motion, after: &Motion, begins: bool) {
         if begins {
-            self.tell(EventKind::Touching);
+            self.notify(EventKind::Touching);
         }
         let (units, begin) = (&self.scaled.units, self.time);
         let (place, heads_up) = (self.place, self.heads_up);
@@ -212,7 +208,7 @@ impl<'a, O: Observer> Toss<'a, O> {
     }
 
     fn change_phase(&mut self, impulse: f64, begins: bool) {
-        let slip = self.motion.touch_velocity(self.body());
+        let slip = self.motion.contact_velocity(self.body());
         let slides = (slip.x * slip.x + slip.y * slip.y).sqrt() > SLIP;
         let next = match self.phase {
             _ if begins => Phase::Struck,
@@ -222,17 +218,17 @@ impl<'a, O: Observer> Toss<'a, O> {
         };
         if O::ACTIVE && next != self.phase {
             match (self.phase, next) {
-                (_, Phase::Struck) => self.tell(EventKind::Impact),
-                (_, Phase::Sliding) => self.tell(EventKind::Sliding),
-                (_, Phase::Sticking) => self.tell(EventKind::Sticking),
+                (_, Phase::Struck) => self.notify(EventKind::Impact),
+                (_, Phase::Sliding) => self.notify(EventKind::Sliding),
+                (_, Phase::Sticking) => self.notify(EventKind::Sticking),
                 (Phase::Struck, Phase::Flying) => {}
-                (_, Phase::Flying) => self.tell(EventKind::LiftOff),
+                (_, Phase::Flying) => self.notify(EventKind::LiftOff),
             }
         }
         self.phase = next;
     }
 
-    /// What is wrong with the toss, if anything is.
+    /// What is wrong with the toss, if anything.
     pub(crate) fn flaw(&self, max_gain: f64) -> Option<Flaw> {
         if !self.motion.is_finite() {
             Some(Flaw::NotFinite)
@@ -245,13 +241,22 @@ impl<'a, O: Observer> Toss<'a, O> {
         }
     }
 
-    /// The most by which the energy was above its value at launch, as a fraction of that.
+    /// The largest excess of the energy over its value at launch, as a fraction of that.
     fn gain(&self) -> f64 {
-        (self.highest - self.launched) / self.launched
+        (self.highest_energy - self.launch_energy) / self.launch_energy
+    }
+
+    /// The end of a toss that is decided.
+    pub(crate) fn ended(&self, decided: Decided) -> Ended {
+        Ended::Decided(if decided == Decided::Side {
+            Face::Side
+        } else {
+            self.face()
+        })
     }
 
     /// The face that is up.
-    pub(crate) fn face(&self) -> Face {
+    fn face(&self) -> Face {
         if self.heads_up == (self.motion.axis.z >= 0.0) {
             Face::Heads
         } else {
@@ -259,7 +264,7 @@ impl<'a, O: Observer> Toss<'a, O> {
         }
     }
 
-    fn tell(&mut self, kind: EventKind) {
+    fn notify(&mut self, kind: EventKind) {
         if O::ACTIVE {
             let units = &self.scaled.units;
             let motion = self.place.motion(&self.motion);
@@ -270,7 +275,7 @@ impl<'a, O: Observer> Toss<'a, O> {
 
     /// The account of a toss that ends here.
     pub(crate) fn end(mut self, ended: Result<Ended, Flaw>) -> Account {
-        self.tell(EventKind::Ended);
+        self.notify(EventKind::Ended);
         Account {
             outcome: Outcome {
                 ended: ended.unwrap_or(Ended::Failed),

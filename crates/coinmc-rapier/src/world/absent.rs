@@ -1,8 +1,8 @@
 //! Stands in for the world in a build without Rapier, which rejects every scene: no method is ever
 //! called.
 
-use crate::body::Scaled;
 use crate::motion::Motion;
+use crate::scaled::Scaled;
 use crate::settings::Settings;
 
 pub(crate) struct World;

@@ -1,7 +1,7 @@
 //! The world, made with Rapier.
 
-use crate::body::Scaled;
 use crate::motion::Motion;
+use crate::scaled::Scaled;
 use crate::settings::{FrictionModel, Settings};
 use nalgebra::{Unit, Vector3};
 use rapier3d_f64::dynamics::{
@@ -17,7 +17,7 @@ use rapier3d_f64::pipeline::PhysicsWorld;
 
 /// A half-space, coins above it, and Rapier's pipeline.
 pub(crate) struct World {
-    world: PhysicsWorld,
+    physics: PhysicsWorld,
     body: RigidBodyBuilder,
     shape: ColliderBuilder,
     slots: Vec<Option<Coin>>,
@@ -43,19 +43,19 @@ impl World {
         let mut broad_phase =
             BroadPhaseBvh::with_optimization_strategy(BvhOptimizationStrategy::None);
         broad_phase.adaptive_change_detection_margin = true;
-        let mut world = PhysicsWorld {
+        let mut physics = PhysicsWorld {
             gravity: Vector::new(0.0, 0.0, -1.0),
             broad_phase,
             ..PhysicsWorld::default()
         };
-        set_parameters(&mut world.integration_parameters, settings, step);
+        set_parameters(&mut physics.integration_parameters, settings, step);
         let ground = ColliderBuilder::halfspace(Unit::new_unchecked(Vector::Z))
             .friction_combine_rule(CoefficientCombineRule::Max)
             .restitution_combine_rule(CoefficientCombineRule::Max)
             .collision_groups(groups(SURFACE, COINS))
             .friction(0.0)
             .restitution(0.0);
-        world.insert_collider(ground, None);
+        physics.insert_collider(ground, None);
         let body = &scaled.body;
         let shape = ColliderBuilder::cylinder(body.half, body.radius)
             .friction_combine_rule(CoefficientCombineRule::Max)
@@ -76,7 +76,7 @@ impl World {
             .ccd_enabled(settings.ccd)
             .can_sleep(false);
         Self {
-            world,
+            physics,
             body: coin,
             shape,
             slots: Vec::new(),
@@ -89,21 +89,21 @@ impl World {
         let mut coin = self.coin_or_new(slot);
         if coin.stepped {
             // Rapier keeps contacts by pairs of colliders: a new collider has none
-            self.world.remove_collider(coin.collider);
+            self.physics.remove_collider(coin.collider);
             let shape = self.shape.clone().restitution(coin.restitution);
-            coin.collider = self.world.insert_collider(shape, Some(coin.body));
+            coin.collider = self.physics.insert_collider(shape, Some(coin.body));
             coin.stepped = false;
             self.slots[slot] = Some(coin);
         }
         let pose = Pose::from_parts(to_rapier(&motion.position), rotation(&motion.axis));
-        self.world.bodies[coin.body].set_position(pose, true);
+        self.physics.bodies[coin.body].set_position(pose, true);
         self.set_velocities(slot, motion);
     }
 
     /// Removes the coin of a slot, if there is one.
     pub(crate) fn clear(&mut self, slot: usize) {
         if let Some(coin) = self.slots.get_mut(slot).and_then(Option::take) {
-            self.world.remove_body(coin.body);
+            self.physics.remove_body(coin.body);
         }
     }
 
@@ -111,7 +111,7 @@ impl World {
     pub(crate) fn set_velocities(&mut self, slot: usize, motion: &Motion) {
         if let Some(coin) = self.coin(slot) {
             let body = coin.body;
-            let body = &mut self.world.bodies[body];
+            let body = &mut self.physics.bodies[body];
             body.set_linvel(to_rapier(&motion.velocity), true);
             body.set_angvel(to_rapier(&motion.spin), true);
         }
@@ -123,13 +123,13 @@ impl World {
             && coin.restitution != restitution
         {
             coin.restitution = restitution;
-            self.world.colliders[coin.collider].set_restitution(restitution);
+            self.physics.colliders[coin.collider].set_restitution(restitution);
         }
     }
 
     /// Makes one step of all coins.
     pub(crate) fn step(&mut self) {
-        self.world.step();
+        self.physics.step();
         for coin in self.slots.iter_mut().flatten() {
             coin.stepped = true;
         }
@@ -140,7 +140,7 @@ impl World {
         let Some(coin) = self.coin(slot) else {
             return Motion::NAN;
         };
-        let body = &self.world.bodies[coin.body];
+        let body = &self.physics.bodies[coin.body];
         let axis = from_rapier(*body.rotation() * Vector::Y);
         Motion {
             position: from_rapier(body.translation()),
@@ -157,7 +157,7 @@ impl World {
             return 0.0;
         };
         // the coin's only contact pair is the one with the surface
-        let pairs = self.world.narrow_phase.contact_pairs_with(coin.collider);
+        let pairs = self.physics.narrow_phase.contact_pairs_with(coin.collider);
         let manifolds = pairs.flat_map(ContactPair::manifolds);
         let points = manifolds.flat_map(|manifold| &manifold.points);
         points.map(|point| point.data.impulse).sum()
@@ -173,10 +173,13 @@ impl World {
             self.slots.resize_with(slot + 1, || None);
         }
         let Self {
-            world, body, shape, ..
+            physics,
+            body,
+            shape,
+            ..
         } = self;
         *self.slots[slot].get_or_insert_with(|| {
-            let (body, collider) = world.insert(body.clone(), shape.clone());
+            let (body, collider) = physics.insert(body.clone(), shape.clone());
             Coin {
                 body,
                 collider,
