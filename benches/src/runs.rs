@@ -23,6 +23,7 @@ pub fn run_once(plan: &Plan, threads: Option<NonZeroUsize>) -> anyhow::Result<Re
     let directory = tempfile::tempdir().context("no directory for the run")?;
     let options = Options {
         out: directory.path(),
+        build: env!("CARGO_PKG_VERSION"),
         part: Part::WHOLE,
         threads,
         cancel: &AtomicBool::new(false),

@@ -36,7 +36,7 @@ from coinmc._config import Config, ConfigLike, Group, Scene, Stop, check
 from coinmc._errors import ConfigError, Error, FilmError, Problem, RunError, TraceError
 from coinmc._intervals import Estimate
 from coinmc._launches import LAUNCH, STATE, launches
-from coinmc._lib import __version__
+from coinmc._lib import __build__, __version__
 from coinmc._results import Crossing, Result, estimate, open, run
 from coinmc._tosses import Tosses, toss
 from coinmc._trace import EVENT, SAMPLE, Trace, trace
@@ -69,6 +69,7 @@ __all__ = [
     "Tosses",
     "Trace",
     "TraceError",
+    "__build__",
     "__version__",
     "analytic",
     "check",

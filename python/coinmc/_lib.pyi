@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 __version__: str
+__build__: str
 
 _Progress = Callable[[int, int], None] | None
 

@@ -46,6 +46,7 @@ pub(crate) fn run(
     let (report, warnings) = supervise(py, progress, |desk| {
         let options = Options {
             out: &out,
+            build: coinmc_build::BUILD,
             part: Part::WHOLE,
             threads,
             cancel: &desk.stop,

@@ -64,7 +64,7 @@ def test_stubs_are_the_module(package):
     classes = {node.name: node for node in stub.body if isinstance(node, ast.ClassDef)}
     public = {name for name in dir(_lib) if not name.startswith("_")}
     assert {*functions, *classes} == public
-    assert {"__version__", "_Progress"} == {
+    assert {"__build__", "__version__", "_Progress"} == {
         target.id
         for node in stub.body
         if isinstance(node, (ast.AnnAssign, ast.Assign))

@@ -8,6 +8,7 @@
 //! | `resume` | a run killed anywhere ends in the same bytes |
 //! | `parts` | parts, merged, and any number of threads make the same bytes |
 //! | `streams` | standard output holds results only; pipes may break |
+//! | `version` | `--version` names the commit, and run directories remember it |
 
 mod program;
 mod transcript;

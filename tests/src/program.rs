@@ -55,6 +55,9 @@ fn build() -> PathBuf {
             "--quiet",
             "--package",
             "coinmc-cli",
+            // asks for the features of the libraries that are built already
+            "--package",
+            "workspace-hack",
             "--bin",
             "coinmc",
         ])

@@ -34,7 +34,7 @@ or the problems that prevented it.";
 /// the laws of mechanics. A config (TOML) says which coins, which surfaces and how they are tossed;
 /// any number in it may be a list or a range, which makes it an axis of a sweep.
 #[derive(Debug, Parser)]
-#[command(name = "coinmc", version, after_long_help = EXAMPLES, max_term_width = 100)]
+#[command(name = "coinmc", version = coinmc_build::BUILD, after_long_help = EXAMPLES, max_term_width = 100)]
 pub(crate) struct Arguments {
     /// When to use colour; NO_COLOR is respected
     #[arg(long, global = true, value_enum, default_value_t = ColorChoice::Auto, value_name = "WHEN")]

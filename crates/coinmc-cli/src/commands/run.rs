@@ -86,6 +86,7 @@ impl Run {
             &plan,
             &Options {
                 out: &out,
+                build: coinmc_build::BUILD,
                 part: self.shard,
                 threads: self.threads.and_then(|n| NonZeroUsize::new(n.into())),
                 cancel,

@@ -40,12 +40,15 @@ impl RunDirectory {
         path: &Path,
         plan: &Plan,
         part: Part,
+        build: &str,
         sink: &dyn ProgressSink,
     ) -> Result<Self, RunError> {
-        Self::open_with(path, plan, Manifest::new(plan, part), sink)
+        let mut manifest = Manifest::new(plan, part);
+        manifest.builds.insert(build.to_owned());
+        Self::open_with(path, plan, manifest, sink)
     }
 
-    /// [`open`](Self::open) with a manifest that may name several machines.
+    /// [`open`](Self::open) with a manifest that may name several machines and builds.
     pub(super) fn open_with(
         path: &Path,
         plan: &Plan,
@@ -62,7 +65,11 @@ impl RunDirectory {
             replace::remove_leftover(&path.join(file))?;
         }
         if let Some(theirs) = &theirs {
+            if let Some(warning) = theirs.warning_of_other_builds(&ours, path) {
+                sink.warning(&warning);
+            }
             ours.targets.extend(theirs.targets.iter().cloned());
+            ours.builds.extend(theirs.builds.iter().cloned());
         }
         if theirs.as_ref() != Some(&ours) {
             ours.write(path)?;

@@ -20,12 +20,13 @@ pub fn run(plan: &Plan, options: &Options<'_>) -> Result<Report, RunError> {
     }
     let Options {
         out,
+        build,
         part,
         threads,
         cancel,
         sink,
     } = *options;
-    let directory = RunDirectory::open(out, plan, part, sink)?;
+    let directory = RunDirectory::open(out, plan, part, build, sink)?;
     let schedule = Schedule::new(plan, part, directory.finished(plan, sink)?);
     sink.progress(&schedule.progress());
     let store = |batch: &[_]| directory.tallies().store(batch);

@@ -20,6 +20,8 @@ pub(super) struct Manifest {
     pub(super) format: u64,
     pub(super) plan_hash: String,
     pub(super) program_version: String,
+    /// Builds of that version that worked on the run.
+    pub(super) builds: BTreeSet<String>,
     /// Engines that the points name.
     pub(super) engines: BTreeSet<String>,
     /// Kinds of machine that counted tosses.
@@ -43,6 +45,7 @@ impl Manifest {
             format: FORMAT,
             plan_hash: plan.hash(),
             program_version: env!("CARGO_PKG_VERSION").to_owned(),
+            builds: BTreeSet::new(),
             engines: engines.collect(),
             targets: [target()].into(),
             part: part.to_string(),
@@ -109,6 +112,22 @@ impl Manifest {
         Ok(())
     }
 
+    /// The warning if the run in `dir`, whose manifest this is, is resumed by builds that have not
+    /// worked on it yet. They may: builds of one version give the same counts, unless the program is
+    /// being changed.
+    pub(super) fn warning_of_other_builds(&self, ours: &Self, dir: &Path) -> Option<String> {
+        if ours.builds.is_subset(&self.builds) {
+            return None;
+        }
+        Some(format!(
+            "{} was begun by coinmc {} and is resumed by coinmc {}, another build of the same \
+             version. The counts should be the same; its manifest.json names both builds",
+            dir.display(),
+            listed(&self.builds),
+            listed(&ours.builds),
+        ))
+    }
+
     fn part(&self, dir: &Path) -> Result<Part, RunError> {
         let path = dir.join(FILE);
         self.part.parse().map_err(|e| RunError::BadManifest {
@@ -116,6 +135,11 @@ impl Manifest {
             reason: format!("{e}"),
         })
     }
+}
+
+fn listed(builds: &BTreeSet<String>) -> String {
+    let builds: Vec<&str> = builds.iter().map(String::as_str).collect();
+    builds.join(", ")
 }
 
 /// This machine's kind and the vector instructions this program was compiled to use.

@@ -39,6 +39,7 @@ pub fn merge(inputs: &[PathBuf], out: &Path, sink: &dyn ProgressSink) -> Result<
         let theirs = read_manifest(input)?;
         theirs.must_be_same_run(&ours, input)?;
         ours.targets.extend(theirs.targets);
+        ours.builds.extend(theirs.builds);
     }
     let collected = collect(&plan, &ours.plan_hash, inputs, sink)?;
     must_be_whole(

@@ -18,6 +18,7 @@
 //! let cancel = AtomicBool::new(false);
 //! let report = run(plan, &Options {
 //!     out: Path::new("runs/first"),
+//!     build: env!("CARGO_PKG_VERSION"),
 //!     part: Part::WHOLE,
 //!     threads: None,
 //!     cancel: &cancel,

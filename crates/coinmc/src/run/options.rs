@@ -11,6 +11,8 @@ use std::thread;
 pub struct Options<'a> {
     /// The run directory: new, empty, or that of the same run.
     pub out: &'a Path,
+    /// How the run directory names this build of the program: its version and commit.
+    pub build: &'a str,
     /// The share of the run to do.
     pub part: Part,
     /// Threads that toss; `None` for one per core.

@@ -1,7 +1,8 @@
 //! What is counted depends on the plan alone: threads, breaks and kills leave no trace.
 
 use crate::support::{
-    Ear, FIXED, HALF_WIDTH, assert_same, contents, plan, plan_in_space, run_whole, run_with,
+    Ear, FIXED, HALF_WIDTH, assert_same, contents, plan, plan_in_space, run_as_build, run_whole,
+    run_with,
 };
 use coinmc::results::Row;
 use coinmc::run::{Chunk, Part, Status, run_chunk};
@@ -221,4 +222,38 @@ fn kills_at_any_instant_change_nothing() {
         assert_same(&whole, &killed);
         std::fs::remove_dir_all(&killed).unwrap();
     }
+}
+
+#[test]
+fn another_build_continues_a_run_and_says_so() {
+    let (plan, dir) = (plan(FIXED), tempdir().unwrap());
+    let (whole, mixed) = (dir.path().join("whole"), dir.path().join("mixed"));
+    run_whole(&plan, &whole);
+    let run_by = |build: &str, ear: &Ear| {
+        let report = run_as_build(build, &plan, &mixed, Part::WHOLE, 2, ear).unwrap();
+        (report.status, ear.warnings())
+    };
+    let (old, new) = ("0.1.0 (1111111 2026-01-01)", "0.1.0 (2222222 2026-01-02)");
+    let begun = run_by(old, &Ear::that_cancels_at(2));
+    assert_eq!(begun, (Status::Interrupted, vec![]));
+
+    let (status, warnings) = run_by(new, &Ear::default());
+    assert_eq!(status, Status::Complete);
+    let [warning] = &warnings[..] else {
+        panic!("{warnings:?}")
+    };
+    assert!(warning.contains(old) && warning.contains(new), "{warning}");
+
+    let (mut whole, mut mixed_files) = (contents(&whole), contents(&mixed));
+    whole.remove("manifest.json");
+    let manifest = mixed_files.remove("manifest.json").unwrap();
+    let manifest = String::from_utf8(manifest).unwrap();
+    assert!(
+        manifest.contains(old) && manifest.contains(new),
+        "{manifest}"
+    );
+    assert_eq!(whole, mixed_files, "only the manifest names builds");
+
+    // both have worked on it by now
+    assert_eq!(run_by(old, &Ear::default()), (Status::Complete, vec![]));
 }

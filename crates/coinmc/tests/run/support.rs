@@ -55,11 +55,24 @@ pub(crate) fn run_with(
     threads: usize,
     ear: &Ear,
 ) -> Result<Report, RunError> {
+    run_as_build("0.1.0 (test)", plan, out, part, threads, ear)
+}
+
+/// [`run_with`] by this build of the program.
+pub(crate) fn run_as_build(
+    build: &str,
+    plan: &Plan,
+    out: &Path,
+    part: Part,
+    threads: usize,
+    ear: &Ear,
+) -> Result<Report, RunError> {
     let threads = NonZeroUsize::new(threads);
     run(
         plan,
         &Options {
             out,
+            build,
             part,
             threads,
             cancel: &ear.cancel,
