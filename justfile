@@ -20,6 +20,14 @@ kill-test kills="200":
     cargo build --release
     COINMC_KILLS={{kills}} cargo test -p coinmc-tests --test resume
 
+# The tables of docs/, from the CSV files under data/validation
+tables *arguments:
+    scripts/docs-tables {{arguments}}
+
 # The Python wheel, into target/wheels
 wheel:
     scripts/wheel
+
+# Everything of a release, into target/dist; or with --dry-run what that would be
+release *arguments:
+    scripts/release {{arguments}}

@@ -55,7 +55,8 @@ class Result:
 
     It is a table to anyone who speaks Arrow, without a copy: ``pyarrow.table(result)``,
     ``polars.DataFrame(result)``, ``duckdb.sql("select … from result")``;
-    ``pyarrow.table(result).to_pandas()`` for pandas. Columns are described in docs/reference/formats.md.
+    ``pyarrow.table(result).to_pandas()`` for pandas. Columns are described in
+    docs/reference/formats.md.
 
     Attributes
     ----------

@@ -27,7 +27,7 @@ def binary() -> Path:
     """The program: what COINMC_BIN names, else a release build."""
     if "COINMC_BIN" in os.environ:
         return Path(os.environ["COINMC_BIN"]).resolve()
-    cargo("build", "--quiet", "--release", "--package", "coinmc-cli")
+    cargo("build", "--quiet", "--release")
     metadata = json.loads(cargo("metadata", "--format-version", "1", "--no-deps"))
     return Path(metadata["target_directory"]) / "release" / "coinmc"
 
