@@ -1,7 +1,8 @@
 //! The engine of a law that is known at run time only.
 
 use crate::batch::Batch;
-use crate::engine::{Finished, VolumetricEngine};
+use crate::engine::VolumetricEngine;
+use crate::finished_toss::FinishedToss;
 use crate::impact::{ChatterjeeRuina, Moreau, Stronge};
 use crate::settings::{Law, Settings, SettingsError};
 use coinmc_core::{
@@ -74,18 +75,18 @@ impl AnyVolumetricEngine {
 // nothing of this is generic: so it is compiled here
 impl AnyVolumetricEngine {
     fn unobserved(&self, launch: &Launch) -> Outcome {
-        each_law!(self, engine => engine.run(launch, &mut ()).outcome)
+        each_law!(self, engine => engine.toss(&mut (), launch, &mut ()))
     }
 
     fn observed(&self, launch: &Launch, observer: &mut DynObserver) -> Outcome {
-        each_law!(self, engine => engine.run(launch, observer).outcome)
+        each_law!(self, engine => engine.toss(&mut (), launch, observer))
     }
 
     fn batch(&self) -> Option<AnyBatch<'_>> {
         Some(match self {
-            Self::Moreau(engine) => AnyBatch::Moreau(Batch::of(engine)?),
-            Self::ChatterjeeRuina(engine) => AnyBatch::ChatterjeeRuina(Batch::of(engine)?),
-            Self::Stronge(engine) => AnyBatch::Stronge(Batch::of(engine)?),
+            Self::Moreau(engine) => AnyBatch::Moreau(engine.batch()?),
+            Self::ChatterjeeRuina(engine) => AnyBatch::ChatterjeeRuina(engine.batch()?),
+            Self::Stronge(engine) => AnyBatch::Stronge(engine.batch()?),
         })
     }
 }
@@ -97,7 +98,7 @@ enum AnyBatch<'a> {
 }
 
 impl TossBatch for AnyBatch<'_> {
-    type End = Finished;
+    type End = FinishedToss;
 
     fn has_room(&self) -> bool {
         each_law!(self, batch => batch.has_room())
@@ -111,7 +112,7 @@ impl TossBatch for AnyBatch<'_> {
         each_law!(self, batch => batch.advance())
     }
 
-    fn ended(&mut self) -> &mut Vec<(u64, Finished)> {
+    fn ended(&mut self) -> &mut Vec<(u64, FinishedToss)> {
         each_law!(self, batch => batch.ended())
     }
 }

@@ -1,4 +1,4 @@
-//! Four lanes side by side, for tests: each must be to the bit what it is alone.
+//! Four lanes for tests, computed one by one: a reference for the lanes of the kernels.
 
 use coinmc_lanes::{Lane, Mask};
 use std::array::from_fn;

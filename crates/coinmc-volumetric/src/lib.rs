@@ -1,50 +1,68 @@
 #![doc = include_str!("../README.md")]
 //!
 //! # Model
-//! The coin flies in closed form to the first root of its gap, which is never missed, and is thrown
-//! back by an [`ImpactLaw`]. When the remaining bounces would be over before it has turned
-//! noticeably it goes on in sustained contact: on one point of a rim, sticking or sliding, with
-//! friction against rolling and pivoting, or along its side. The toss ends when the energy that
-//! can still tilt the coin is too small to carry it over its rim. Derivations: `docs/methods/space.md`.
+//! The coin flies in closed form to the first root of its gap, which is never missed, and bounces by an
+//! [`ImpactLaw`]. When all remaining bounces would be over before the coin has turned noticeably,
+//! sustained contact follows: on one point of a rim, sticking or slipping, with friction against
+//! rolling and pivoting, or on the side. The toss ends when the energy that can still tilt the coin is
+//! too small to carry it over its rim. Derivations: `docs/methods/space.md`.
 //!
 //! # Range
 //! Any ratio and moments of inertia, restitution 0 to 1, any friction and friction lengths, linear
-//! drag, with or without gyroscopic torque. Rigid bodies: elastic compliance and the flow of air
-//! are not modelled. What is never lost is never decided: a coin that passes from well to well for
-//! ever (e = 1 without friction, rolling without friction lengths) ends as
-//! [`coinmc_core::Ended::NeverSettles`] where that can be told, else at a limit; both are counted.
+//! drag, with or without gyroscopic torque. The bodies are rigid: elastic compliance and the flow of
+//! air are not modelled. Where no energy is lost, some tosses are never decided: a coin that moves from
+//! one face or side to another for ever (e = 1 without friction, rolling without friction lengths)
+//! ends as [`coinmc_core::Ended::NeverSettles`] where that is known, and otherwise at a limit. Both are
+//! counted.
 //!
-//! # Files
-//! `body` shape, friction, units · `motion` state and frame · `flight` orbit and first contact ·
-//! `aloft` the toss in flight · `impact` laws, friction lengths, tangential impact · `contact` on a
-//! rim point and on the side · `rest` lying, standing, tripping · `toss` one toss and its place in
-//! the laboratory · `strike` one impact · `engine` their order · `batch` many tosses side by side ·
-//! `observer_adapter` what an observer is shown of contact · `settings` choices · `series` elementary
-//! functions of the kernels. When a face is decided is in [`coinmc_core::DecisionRule`].
+//! # Modules
+//! Each line uses only the lines above it:
+//!
+//! - `series` elementary functions · `body`, `drag` the scene in the kernel's units · `settings`
+//! - `impact` impact laws · `motion` state and folded frame · `limits`
+//! - `place`, `observer_adapter` what an observer is shown
+//! - `flight` the orbit and its first contact · `contact` sustained contact
+//! - `toss` the state of one toss · `model` the constants of all tosses · `transition`,
+//!   `finished_toss`
+//! - `bounce` one impact · `ending` how a toss ends
+//! - `flight_phase`, `contact_phase`, `impact_phase` one toss through each phase
+//! - `scalar` one toss from launch to end · `batch` many tosses in lanes
+//! - `engine` the public engine
+//!
+//! The rule that decides a face is [`coinmc_core::DecisionRule`].
 
-mod aloft;
 mod any;
 mod batch;
 mod body;
+mod bounce;
 mod contact;
+mod contact_phase;
+mod drag;
+mod ending;
 mod engine;
+mod finished_toss;
 mod flight;
+mod flight_phase;
 #[cfg(test)]
 mod four;
 mod impact;
+mod impact_phase;
+mod limits;
+mod model;
 mod motion;
 mod observer_adapter;
-mod rest;
+mod place;
+mod scalar;
 mod series;
 mod settings;
-mod strike;
 mod toss;
+mod transition;
 
 pub use any::AnyVolumetricEngine;
 pub use body::{Body, Friction};
 pub use coinmc_lanes::{Lane, Lanes, Mask, NoSuchLanes};
 pub use engine::VolumetricEngine;
 pub use impact::{
-    ChatterjeeRuina, ContactMatrix, ImpactLaw, Impulse, Kick, Moreau, Stronge, Touch,
+    ChatterjeeRuina, ContactMatrix, ContactPoint, ImpactLaw, Impulse, Moreau, Stronge, VelocityJump,
 };
 pub use settings::{Decision, Law, Settings, SettingsError};

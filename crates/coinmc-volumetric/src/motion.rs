@@ -1,23 +1,24 @@
-//! The state of the toss and the frame it is held in.
+//! The motion of the coin, and the frame in which it is expressed.
 //!
 //! # The folded frame
-//! Heads and tails are mirror images, and so is a turn of the world about the vertical: the state
-//! is held in a frame that turns with the coin and is reflected so that u always points up.
-//! x is the horizontal direction u leans to, z is up, y = z × x:
+//! Heads and tails are mirror images of each other, and the physics does not depend on directions in
+//! the plane. So the motion is expressed in a frame that turns with the coin, and that is reflected
+//! so that u always points up. x is the horizontal direction in which u leans, z is up, y = z × x:
 //!
 //! u = (s, 0, c) with s, c >= 0,  e_θ = (c, 0, −s),  y.
 //!
-//! Whether +u itself is up is a flag beside the motion. The lowest point is then always
-//! r = R e_θ − h u (h = H/2), that is rx = c R − s h, rz = −c h − s R; no formula has a case for
-//! the other rim, and u → −u gives the same numbers to the last bit.
+//! A separate flag tells which face this u belongs to. The lowest point is then always
+//! r = R e_θ − h u (h = H/2), that is rx = c R − s h, rz = −c h − s R. No formula has a separate case
+//! for the other rim, and u → −u gives bit-identical numbers.
 //!
 //! # The rotation vector
-//! A free symmetric top turns about its fixed angular momentum: Ω = L/I_t, with the components
-//! Ω_a = ω_a I_a/I_t along u and Ω_t = ω_θ, Ω_y = ω_y across. Without gyroscopic torque it turns
-//! about its fixed ω. Both flights are "u turns about Ω"; they differ in Ω_a/ω_a alone.
+//! The axis of a free symmetric top turns about the fixed angular momentum, at the angular velocity
+//! Ω = L/I_t with the components Ω_a = ω_a I_a/I_t along u and Ω_t = ω_θ, Ω_y = ω_y across u. Without
+//! gyroscopic torque it turns about the fixed ω. In both cases u turns about Ω, and only Ω_a/ω_a
+//! differs.
 
 use crate::body::Body;
-use crate::impact::{Impulse, Touch};
+use crate::impact::{ContactPoint, Impulse};
 use coinmc_core::DecisionState;
 use coinmc_lanes::{Lane, Mask};
 
@@ -27,7 +28,7 @@ pub(crate) struct Motion<L> {
     /// s, c: sine and cosine of the tilt of u.
     pub(crate) sin: L,
     pub(crate) cos: L,
-    /// Ω, x component.
+    /// Ω, of the module's text.
     pub(crate) ox: L,
     pub(crate) oy: L,
     pub(crate) oz: L,
@@ -42,27 +43,34 @@ pub(crate) struct Motion<L> {
 /// Angular velocity in the triad (u, e_θ, y).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Spin<L> {
+    /// ω_a, about u.
     pub(crate) axial: L,
+    /// ω_θ, about e_θ: it turns u about the vertical.
     pub(crate) turn: L,
+    /// ω_y: it changes the tilt of u.
     pub(crate) tilt: L,
 }
 
-/// Least sine of the tilt: the frame needs a direction to lean to, and quotients by s stay finite.
+/// Smallest sine of the tilt: the frame needs a direction in which u leans, and quotients by s must
+/// stay finite.
 pub(crate) const LEAST_SIN: f64 = 1e-18;
+/// A coin tilted by less than this, in rad, is level: all points of its lower rim are at the surface.
+/// A coin in contact that does not roll round its rim before comes down on its face at this tilt.
+pub(crate) const FLAT: f64 = 1e-9;
 
 impl<T: Copy> Motion<T> {
-    /// All numbers, for memory.
+    /// The motion as an array, for memory.
     #[inline(always)]
-    pub(crate) fn numbers(&self) -> [T; 9] {
+    pub(crate) fn to_columns(&self) -> [T; 9] {
         [
             self.sin, self.cos, self.ox, self.oy, self.oz, self.vx, self.vy, self.vz, self.z,
         ]
     }
 
-    /// The motion of [`numbers`](Self::numbers).
+    /// The motion of [`to_columns`](Self::to_columns).
     #[inline(always)]
-    pub(crate) fn of(numbers: &[T; 9]) -> Self {
-        let [sin, cos, ox, oy, oz, vx, vy, vz, z] = *numbers;
+    pub(crate) fn from_columns(columns: &[T; 9]) -> Self {
+        let [sin, cos, ox, oy, oz, vx, vy, vz, z] = *columns;
         Self {
             sin,
             cos,
@@ -78,20 +86,20 @@ impl<T: Copy> Motion<T> {
 }
 
 impl<T: Copy> Spin<T> {
-    /// All numbers, for memory.
+    /// The angular velocity as an array, for memory.
     #[inline(always)]
-    pub(crate) fn numbers(&self) -> [T; 3] {
+    pub(crate) fn to_columns(&self) -> [T; 3] {
         [self.axial, self.turn, self.tilt]
     }
 
-    /// The angular velocity of [`numbers`](Self::numbers).
+    /// The angular velocity of [`to_columns`](Self::to_columns).
     #[inline(always)]
-    pub(crate) fn of(&[axial, turn, tilt]: &[T; 3]) -> Self {
+    pub(crate) fn from_columns(&[axial, turn, tilt]: &[T; 3]) -> Self {
         Self { axial, turn, tilt }
     }
 }
 
-/// [`Lane::select`] of several.
+/// [`Lane::select`] for each of several numbers.
 #[inline(always)]
 fn select_all<L: Lane, const N: usize>(mask: L::Mask, yes: &[L; N], no: &[L; N]) -> [L; N] {
     let mut chosen = *no;
@@ -105,7 +113,7 @@ impl<L: Lane> Spin<L> {
     /// `yes` where the mask is set, else `no`.
     #[inline(always)]
     pub(crate) fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self {
-        Self::of(&select_all(mask, &yes.numbers(), &no.numbers()))
+        Self::from_columns(&select_all(mask, &yes.to_columns(), &no.to_columns()))
     }
 
     pub(crate) fn still() -> Self {
@@ -122,7 +130,7 @@ impl<L: Lane> Motion<L> {
     /// `yes` where the mask is set, else `no`.
     #[inline(always)]
     pub(crate) fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self {
-        Self::of(&select_all(mask, &yes.numbers(), &no.numbers()))
+        Self::from_columns(&select_all(mask, &yes.to_columns(), &no.to_columns()))
     }
 
     pub(crate) fn still() -> Self {
@@ -146,34 +154,34 @@ impl<L: Lane> Motion<L> {
         self.cos = cos.max(L::splat(0.0));
     }
 
-    /// The tilt of a coin exactly on its side.
-    pub(crate) fn lay_down(&mut self) {
+    /// Sets the tilt of a coin that is exactly on its side.
+    pub(crate) fn lay_on_side(&mut self) {
         self.sin = L::splat(1.0);
         self.cos = L::splat(0.0);
     }
 
-    /// Half a turn of the frame about the vertical.
-    pub(crate) fn turn_frame(&mut self) {
+    /// Turns the frame about the vertical by half a turn.
+    pub(crate) fn reverse_frame(&mut self) {
         self.ox = -self.ox;
         self.oy = -self.oy;
         self.vx = -self.vx;
         self.vy = -self.vy;
     }
 
-    /// The horizontal axes turned so that x points along the unit vector (`nx`, `ny`).
+    /// Turns the frame about the vertical so that x points along the unit vector (`nx`, `ny`).
     #[inline(always)]
     pub(crate) fn align(&mut self, nx: L, ny: L) {
         (self.vx, self.vy) = (self.vx * nx + self.vy * ny, self.vy * nx - self.vx * ny);
         (self.ox, self.oy) = (self.ox * nx + self.oy * ny, self.oy * nx - self.ox * ny);
     }
 
-    /// Height of the centre when the lowest point touches.
+    /// The height of the centre at which the lowest point touches the surface.
     #[inline(always)]
     pub(crate) fn rest_height(&self, body: &Body) -> L {
         L::splat(body.half) * self.cos + L::splat(body.radius) * self.sin
     }
 
-    /// Angular velocity; `axial_factor` is Ω_a/ω_a.
+    /// The angular velocity; `axial_factor` is Ω_a/ω_a.
     #[inline(always)]
     pub(crate) fn spin(&self, axial_factor: f64) -> Spin<L> {
         Spin {
@@ -191,13 +199,13 @@ impl<L: Lane> Motion<L> {
         self.oy = spin.tilt;
     }
 
-    /// What an impact law sees of the lowest point.
+    /// The lowest point, as an impact law sees it.
     #[inline(always)]
-    pub(crate) fn touch(&self, body: &Body, spin: &Spin<L>) -> Touch<L> {
+    pub(crate) fn contact_point(&self, body: &Body, spin: &Spin<L>) -> ContactPoint<L> {
         let (radius, half) = (L::splat(body.radius), L::splat(body.half));
         let rx = radius * self.cos - half * self.sin;
         let rz = -(half * self.cos + radius * self.sin);
-        Touch {
+        ContactPoint {
             sin: self.sin,
             cos: self.cos,
             rx,
@@ -210,22 +218,22 @@ impl<L: Lane> Motion<L> {
         }
     }
 
-    /// Takes up an impulse at the lowest point.
+    /// Applies an impulse at the lowest point.
     #[inline(always)]
-    pub(crate) fn strike(
+    pub(crate) fn apply_impulse(
         &mut self,
         spin: &mut Spin<L>,
         body: &Body,
-        touch: &Touch<L>,
+        point: &ContactPoint<L>,
         p: Impulse<L>,
     ) {
-        let kick = p.kick(body, touch);
-        self.vx += kick.vx;
-        self.vy += kick.vy;
-        self.vz += kick.vz;
-        spin.tilt += kick.omega_y;
-        spin.axial += kick.spin;
-        spin.turn += kick.turn;
+        let jump = p.velocity_jump(body, point);
+        self.vx += jump.vx;
+        self.vy += jump.vy;
+        self.vz += jump.vz;
+        spin.tilt += jump.omega_y;
+        spin.axial += jump.spin;
+        spin.turn += jump.turn;
     }
 
     /// Kinetic energy per m g D.
@@ -241,13 +249,13 @@ impl<L: Lane> Motion<L> {
                 + ka * (spin.axial * spin.axial))
     }
 
-    /// Mechanical energy per m g D, potential zero at the surface.
+    /// Mechanical energy per m g D. The potential energy is zero at the surface.
     #[inline(always)]
     pub(crate) fn energy(&self, body: &Body, spin: &Spin<L>) -> L {
         self.kinetic(body, spin) + self.z
     }
 
-    /// What the decision depends on.
+    /// What the decision rule depends on.
     #[inline(always)]
     pub(crate) fn decision_state(&self, body: &Body, spin: &Spin<L>) -> DecisionState<L> {
         DecisionState {
@@ -261,8 +269,8 @@ impl<L: Lane> Motion<L> {
         }
     }
 
-    /// Takes back what rounding and truncation added to the energy since it was `before`: no
-    /// contact ever gains energy. Velocities shrink together, so every constraint on them holds.
+    /// Removes what rounding and truncation have added to the energy since it was `before`, so that no
+    /// contact gains energy. All velocities are scaled together, which keeps every constraint on them.
     #[inline(always)]
     pub(crate) fn cap_energy(&mut self, body: &Body, spin: &mut Spin<L>, before: L) {
         let kinetic = self.kinetic(body, spin);

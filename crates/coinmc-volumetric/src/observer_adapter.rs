@@ -1,12 +1,12 @@
-//! What whoever watches a toss is shown of sustained contact: modes, and the coin at the instants
-//! asked for within a step. For an observer that is not active nothing of it is compiled.
+//! Shows sustained contact to an observer: its modes, and the coin at the requested instants within
+//! a step. For an inactive observer all of this compiles to nothing.
 
 use crate::body::Units;
 use crate::motion::{Motion, Spin};
-use crate::toss::Place;
+use crate::place::Place;
 use coinmc_core::{Event, EventKind, Observer, sample_between};
 
-/// An observer, and what it takes to show it a motion in contact.
+/// An observer, with everything needed to show it a motion in contact.
 pub(crate) struct ObserverAdapter<'a, O> {
     pub(crate) observer: &'a mut O,
     pub(crate) place: &'a mut Place,
@@ -22,10 +22,10 @@ impl<O: Observer> ObserverAdapter<'_, O> {
         }
     }
 
-    /// The coin moved on for a time of `length`; `at` gives its motion any time into that.
-    pub(crate) fn passed(&mut self, length: f64, at: impl Fn(f64) -> (Motion<f64>, Spin<f64>)) {
-        // where the mode changes at once the rates of the one that is left may be no numbers (a jam, a
-        // slip of 0), and no time times these neither
+    /// Shows a step of `length`; `at` returns the motion at any time within the step.
+    pub(crate) fn step(&mut self, length: f64, at: impl Fn(f64) -> (Motion<f64>, Spin<f64>)) {
+        // A mode that ends at once may have rates that are NaN (a jam, a slip of 0), and so may then
+        // be any motion computed from them, even after no time.
         if !O::ACTIVE || length == 0.0 {
             return;
         }
@@ -36,7 +36,7 @@ impl<O: Observer> ObserverAdapter<'_, O> {
             start.time * units.time_s,
             self.place.time * units.time_s,
             |time_s| {
-                // the two roundings of the unit may lead just beyond
+                // converting to seconds and back may round to just outside the step
                 let after = (time_s / units.time_s - start.time).clamp(0.0, length);
                 let mut place = start;
                 place.follow(after, &at);
@@ -52,25 +52,26 @@ impl<O: Observer> ObserverAdapter<'_, O> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::toss::Toss;
     use coinmc_core::{Coin, Scene, Surface};
 
-    struct Nobody;
+    struct NullObserver;
 
-    impl Observer for Nobody {
+    impl Observer for NullObserver {
         fn event(&mut self, _: &Event) {}
     }
 
-    /// Of 1e6 tosses at high friction six were shown at places that were no numbers.
+    /// Regression: at high friction, 6 of 1e6 tosses were shown at NaN positions.
     #[test]
-    fn a_change_of_mode_at_once_is_not_looked_into() {
-        let coin = Coin::cylinder(1.0, 0.01).expect("a good coin");
-        let surface = Surface::new(0.5, 9.0).expect("a good surface");
-        let scene = Scene::new(coin, surface, 9.81).expect("good gravity");
-        let (units, mut toss, mut nobody) = (Units::new(&scene), Toss::still(), Nobody);
-        let (_, _, mut adapter) = toss.watched(&units, &mut nobody);
-        adapter.passed(0.0, |_| {
-            panic!("rates that may be no numbers were asked for")
-        });
+    fn a_step_without_duration_is_not_sampled() {
+        let coin = Coin::cylinder(1.0, 0.01).expect("a valid coin");
+        let surface = Surface::new(0.5, 9.0).expect("a valid surface");
+        let scene = Scene::new(coin, surface, 9.81).expect("valid gravity");
+        let mut adapter = ObserverAdapter {
+            observer: &mut NullObserver,
+            place: &mut Place::origin([1.0, 0.0]),
+            heads_up: true,
+            units: &Units::new(&scene),
+        };
+        adapter.step(0.0, |_| panic!("rates that may be NaN were asked for"));
     }
 }

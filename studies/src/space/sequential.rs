@@ -1,6 +1,6 @@
 //! Friction first, then the friction lengths: the law of impact of an earlier study.
 
-use coinmc_volumetric::{Body, Friction, ImpactLaw, Impulse, Lane, Moreau, Touch};
+use coinmc_volumetric::{Body, ContactPoint, Friction, ImpactLaw, Impulse, Lane, Moreau};
 
 /// Fraction of the friction cone within which a contact counts as sticking.
 const INSIDE: f64 = 1.0 - 1e-9;
@@ -35,7 +35,7 @@ impl ImpactLaw for Sequential {
         &self,
         body: &Body,
         friction: &Friction,
-        touch: &Touch<L>,
+        point: &ContactPoint<L>,
         e: L,
     ) -> Impulse<L> {
         let smooth = Friction {
@@ -43,7 +43,7 @@ impl ImpactLaw for Sequential {
             pivoting: 0.0,
             ..*friction
         };
-        let p = Moreau.impulse(body, &smooth, touch, e);
+        let p = Moreau.impulse(body, &smooth, point, e);
         let zero = L::splat(0.0);
         let mut parts = Parts {
             y: p.y,
@@ -55,9 +55,9 @@ impl ImpactLaw for Sequential {
         let sticks = size.lt(L::splat(INSIDE) * most);
         let room = (most * most - p.x * p.x).max(zero).sqrt();
         for _ in 0..self.sweeps {
-            parts.contour = contour(body, friction, touch, &parts, p.z);
-            parts.pivoting = pivoting(body, friction, touch, &parts, p.z);
-            let held = hold(body, touch, &parts);
+            parts.contour = contour(body, friction, point, &parts, p.z);
+            parts.pivoting = pivoting(body, friction, point, &parts, p.z);
+            let held = hold(body, point, &parts);
             let y = held.min(room).max(-room);
             // a contact that has once come to its cone slides from then on
             let size = (p.x * p.x + parts.y * parts.y).sqrt();
@@ -74,13 +74,13 @@ impl ImpactLaw for Sequential {
 }
 
 /// The rates after these parts of the impulse.
-fn after<L: Lane>(body: &Body, touch: &Touch<L>, parts: &Parts<L>) -> Rates<L> {
-    let (s, c) = (touch.sin, touch.cos);
+fn after<L: Lane>(body: &Body, point: &ContactPoint<L>, parts: &Parts<L>) -> Rates<L> {
+    let (s, c) = (point.sin, point.cos);
     let axial = L::splat(body.radius) * parts.y - parts.contour - c * parts.pivoting;
     let across = L::splat(body.half) * parts.y - parts.contour * c / s + s * parts.pivoting;
     Rates {
-        spin: touch.spin + axial / L::splat(body.ka),
-        turn: touch.turn + across / L::splat(body.kt),
+        spin: point.spin + axial / L::splat(body.ka),
+        turn: point.turn + across / L::splat(body.kt),
     }
 }
 
@@ -88,13 +88,13 @@ fn after<L: Lane>(body: &Body, touch: &Touch<L>, parts: &Parts<L>) -> Rates<L> {
 fn contour<L: Lane>(
     body: &Body,
     friction: &Friction,
-    touch: &Touch<L>,
+    point: &ContactPoint<L>,
     parts: &Parts<L>,
     z: L,
 ) -> L {
     let one = L::splat(1.0);
-    let cot = touch.cos / touch.sin;
-    let rates = after(body, touch, parts);
+    let cot = point.cos / point.sin;
+    let rates = after(body, point, parts);
     let inverse_mass = one / L::splat(body.ka) + cot * cot / L::splat(body.kt);
     let limit = L::splat(friction.contour) * z;
     let free = parts.contour + (rates.spin + rates.turn * cot) / inverse_mass;
@@ -105,12 +105,12 @@ fn contour<L: Lane>(
 fn pivoting<L: Lane>(
     body: &Body,
     friction: &Friction,
-    touch: &Touch<L>,
+    point: &ContactPoint<L>,
     parts: &Parts<L>,
     z: L,
 ) -> L {
-    let (s, c) = (touch.sin, touch.cos);
-    let rates = after(body, touch, parts);
+    let (s, c) = (point.sin, point.cos);
+    let rates = after(body, point, parts);
     let inverse_mass = c * c / L::splat(body.ka) + s * s / L::splat(body.kt);
     let limit = L::splat(friction.pivoting) * z;
     let free = parts.pivoting + (rates.spin * c - rates.turn * s) / inverse_mass;
@@ -118,16 +118,16 @@ fn pivoting<L: Lane>(
 }
 
 /// p_y that stops the slip along y.
-fn hold<L: Lane>(body: &Body, touch: &Touch<L>, parts: &Parts<L>) -> L {
+fn hold<L: Lane>(body: &Body, point: &ContactPoint<L>, parts: &Parts<L>) -> L {
     let free = Parts {
         y: L::splat(0.0),
         ..*parts
     };
-    let rates = after(body, touch, &free);
-    let slip = touch.slip_y
-        + L::splat(body.radius) * (rates.spin - touch.spin)
-        + L::splat(body.half) * (rates.turn - touch.turn);
-    -(slip / touch.matrix(body).yy)
+    let rates = after(body, point, &free);
+    let slip = point.slip_y
+        + L::splat(body.radius) * (rates.spin - point.spin)
+        + L::splat(body.half) * (rates.turn - point.turn);
+    -(slip / point.matrix(body).yy)
 }
 
 #[cfg(test)]
@@ -136,9 +136,9 @@ mod tests {
     use coinmc_core::{Coin, Scene, Surface};
 
     /// A coin that leans by 0.5 rad and touches with a small slip: it sticks.
-    fn touch(body: &Body) -> Touch<f64> {
+    fn point(body: &Body) -> ContactPoint<f64> {
         let (sin, cos) = libm::sincos(0.5);
-        Touch {
+        ContactPoint {
             sin,
             cos,
             rx: cos * body.radius - sin * body.half,
@@ -158,10 +158,10 @@ mod tests {
         let surface = surface.with_friction_lengths(5e-3, 5e-3).unwrap();
         let scene = Scene::new(coin, surface, 9.81).unwrap();
         let (body, friction) = (Body::new(&coin), Friction::new(&scene));
-        let touch = touch(&body);
-        let joint = Moreau.impulse(&body, &friction, &touch, 0.5);
+        let point = point(&body);
+        let joint = Moreau.impulse(&body, &friction, &point, 0.5);
         let error = |sweeps| {
-            let p = Sequential { sweeps }.impulse(&body, &friction, &touch, 0.5);
+            let p = Sequential { sweeps }.impulse(&body, &friction, &point, 0.5);
             (p.y - joint.y).abs() + (p.contour - joint.contour).abs()
         };
         assert!(error(1) > 1e-6, "{}", error(1));
@@ -175,10 +175,10 @@ mod tests {
         let surface = surface.with_friction_lengths(1e-3, 1e-3).unwrap();
         let scene = Scene::new(coin, surface, 9.81).unwrap();
         let (body, friction) = (Body::new(&coin), Friction::new(&scene));
-        let touch = touch(&body);
+        let point = point(&body);
         let works = (0..8).map(|sweeps| {
-            let p = Sequential { sweeps }.impulse(&body, &friction, &touch, 0.5);
-            p.work(&body, &touch)
+            let p = Sequential { sweeps }.impulse(&body, &friction, &point, 0.5);
+            p.work(&body, &point)
         });
         let works: Vec<f64> = works.collect();
         assert!(

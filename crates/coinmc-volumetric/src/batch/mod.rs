@@ -1,59 +1,66 @@
-//! Many tosses side by side: the same toss as [`engine`](crate::engine)'s, eight at a time.
+//! Many tosses in flight, eight at a time: bit-identical to the [scalar path](crate::scalar).
 //!
 //! ```text
-//! launches ─▶ departing ─▶ on search ─▶ landed ─▶ struck ─▶ on search
-//!                                                   │
-//!                         once more, for what was not the last bounce: struck
-//!                         sticking, slipping: departing, struck, ended
+//! launches ─▶ departing ─▶ flights ─▶ impact stage ─▶ flights
+//!                                          │
+//!                                          ├─▶ retrying (was not the last bounce) ─▶ impact stage
+//!                                          └─▶ sticking, slipping ─▶ departing, impact, ended
 //! ```
 //!
-//! A pool of tosses is in flight. Each is at one stage, and a stage is done for eight of them at
-//! once as soon as eight are there: lanes are full whatever the tosses have before them. On search
-//! and in contact a toss keeps its lane from step to step, and a lane that is done is given to the
-//! next toss. What is rare (a coin that lies, stands, jams, changes its mode of contact) is
-//! done alone by the code of the single toss, and so is all of it where lanes are
-//! [`Scalar`](Lanes::Scalar).
+//! A pool holds all tosses in flight, each at one stage. A stage works on eight tosses at once, as
+//! soon as eight are waiting for it: so the lanes are full although tosses take different paths. In
+//! flight and in contact a toss keeps its lane from step to step; a lane that becomes free is given to
+//! the next toss. Rare cases (a coin that lies, stands, jams, or changes its mode of contact) are
+//! handled one by one by the code of the scalar path. With [`Lanes::Scalar`] there is no batch.
 //!
-//! No lane sees another and every operation is IEEE 754's, so a toss has the same outcome to the
-//! last bit beside whatever others, and with any instruction set.
+//! No lane depends on another, and all operations are those of IEEE 754. So the outcome of a toss is
+//! bit-identical whatever other tosses are in flight and whatever the instruction set.
 
-mod contact;
+mod arrivals;
+mod columns;
+mod contact_stage;
+mod departures;
+mod flight_stage;
+mod flights;
+mod impact_stage;
 mod pool;
-mod struck;
 
 #[cfg(test)]
 mod tests;
 
-use crate::contact::rim::Mode;
-use crate::engine::{Finished, Onward, VolumetricEngine};
+use crate::contact::Mode;
+use crate::finished_toss::FinishedToss;
+use crate::flight::Departure;
 use crate::impact::ImpactLaw;
-use coinmc_core::{Ended, Landing, Launch, TossBatch};
-use coinmc_lanes::Lanes;
-use coinmc_lanes::{Bits, WIDTH, first, lanes_of};
+use crate::model::Model;
+use crate::transition::Transition;
+use coinmc_core::{Ended, Launch, TossBatch};
+use coinmc_lanes::{Bits, Lanes, WIDTH, first, lanes_of};
 use pool::{Pool, SLOTS};
 
-pub(crate) struct Batch<'a, L> {
-    engine: &'a VolumetricEngine<L>,
+pub(crate) struct Batch<'a, I> {
+    model: &'a Model<I>,
+    lanes: Lanes,
     pool: Pool,
     launched: u64,
-    /// Tosses that have ended and are yet to be told, by number.
-    ended: Vec<(u64, Finished)>,
+    /// Tosses that have ended and are not reported yet, with their numbers.
+    ended: Vec<(u64, FinishedToss)>,
 }
 
-impl<'a, L: ImpactLaw> Batch<'a, L> {
-    /// `None` for an engine whose tosses are followed one after the other.
-    pub(crate) fn of(engine: &'a VolumetricEngine<L>) -> Option<Self> {
-        (engine.lanes != Lanes::Scalar).then(|| Self {
-            engine,
+impl<'a, I: ImpactLaw> Batch<'a, I> {
+    pub(crate) fn new(model: &'a Model<I>, lanes: Lanes) -> Self {
+        Self {
+            model,
+            lanes,
             pool: Pool::new(),
             launched: 0,
             ended: Vec::with_capacity(2 * SLOTS),
-        })
+        }
     }
 }
 
-impl<L: ImpactLaw> TossBatch for Batch<'_, L> {
-    type End = Finished;
+impl<I: ImpactLaw> TossBatch for Batch<'_, I> {
+    type End = FinishedToss;
 
     fn has_room(&self) -> bool {
         !self.pool.free.is_empty() && self.ended.len() < SLOTS
@@ -62,242 +69,232 @@ impl<L: ImpactLaw> TossBatch for Batch<'_, L> {
     /// Launches a toss into a free slot.
     fn launch(&mut self, launch: &Launch) {
         let Some(slot) = self.pool.free.pop() else {
-            // never: whoever launches sees to the room first
+            // not reached: callers check `has_room` first
             return;
         };
-        let toss = self.engine.launched(launch);
-        self.pool.slots[slot].begin(self.launched, toss);
+        let toss = self.model.launch(launch);
+        self.pool.slots[slot].reset(self.launched, toss);
         self.launched += 1;
-        match self.engine.ends_at_launch(&toss, launch) {
+        match self.model.end_at_launch(&toss, launch) {
             Some(ended) => self.end(slot, ended),
             None => self.pool.departing.push(slot),
         }
     }
 
-    /// One piece of work: of eight tosses if eight are at any one stage, else of as many as there
-    /// are. `false` if nothing is left to do.
+    /// Runs one stage: one for which eight tosses wait, otherwise one for which any do. Returns
+    /// `false` if no toss is in flight.
     fn advance(&mut self) -> bool {
         let pool = &self.pool;
-        if pool.searching.landed() >= WIDTH {
-            self.bounce();
-        } else if pool.departing.len() >= WIDTH && pool.searching.vacant() >= WIDTH {
+        if pool.flights.finished() >= WIDTH {
+            self.land();
+        } else if pool.departing.len() >= WIDTH && pool.flights.vacant() >= WIDTH {
             self.depart();
-        } else if pool.again.len() >= WIDTH && pool.searching.vacant() >= WIDTH {
-            self.strike_again();
-        } else if pool.slips.with(&pool.slipping) >= WIDTH {
-            self.attempt(Mode::Slip);
-        } else if pool.sticks.with(&pool.sticking) >= WIDTH {
-            self.attempt(Mode::Stick);
-        } else if pool.searching.is_any() {
-            self.sweep();
-        } else if pool.searching.landed() > 0 {
-            self.bounce();
-        } else if !pool.again.is_empty() {
-            self.strike_again();
+        } else if pool.retrying.len() >= WIDTH && pool.flights.vacant() >= WIDTH {
+            self.retry_impacts();
+        } else if pool.slip_stage.load(&pool.slipping) >= WIDTH {
+            self.try_contact_steps(Mode::Slip);
+        } else if pool.stick_stage.load(&pool.sticking) >= WIDTH {
+            self.try_contact_steps(Mode::Stick);
+        } else if pool.flights.any_on_search() {
+            self.step_flights();
+        } else if pool.flights.finished() > 0 {
+            self.land();
+        } else if !pool.retrying.is_empty() {
+            self.retry_impacts();
         } else if !pool.departing.is_empty() {
             self.depart();
-        } else if pool.slips.with(&pool.slipping) > 0 {
-            self.attempt(Mode::Slip);
-        } else if pool.sticks.with(&pool.sticking) > 0 {
-            self.attempt(Mode::Stick);
+        } else if pool.slip_stage.load(&pool.slipping) > 0 {
+            self.try_contact_steps(Mode::Slip);
+        } else if pool.stick_stage.load(&pool.sticking) > 0 {
+            self.try_contact_steps(Mode::Stick);
         } else {
             return false;
         }
         true
     }
 
-    fn ended(&mut self) -> &mut Vec<(u64, Finished)> {
+    fn ended(&mut self) -> &mut Vec<(u64, FinishedToss)> {
         &mut self.ended
     }
 }
 
-impl<L: ImpactLaw> Batch<'_, L> {
+impl<I: ImpactLaw> Batch<'_, I> {
     fn end(&mut self, slot: usize, ended: Ended) {
-        let of = &self.pool.slots[slot];
-        let finished = Finished::new(ended, &of.toss, &of.spent);
-        self.ended.push((of.number, finished));
+        let state = &self.pool.slots[slot];
+        let finished = FinishedToss::new(ended, &state.toss, &state.usage);
+        self.ended.push((state.number, finished));
         self.pool.free.push(slot);
     }
 
-    /// Puts flights on search.
+    /// Begins flights.
     fn depart(&mut self) {
-        let (law, pool) = (&self.engine.contact, &mut self.pool);
+        let (dynamics, pool) = (&self.model.dynamics, &mut self.pool);
         let count = pool.departing.len().min(WIDTH);
         let from = pool.departing.len() - count;
-        let begin = &mut pool.begin;
-        (begin.launched, begin.parting) = (0, 0);
+        let departures = &mut pool.departures;
+        (departures.launched, departures.lifts_off) = (0, 0);
         for lane in 0..WIDTH {
-            // beyond the last, lanes do the same as the first, for nothing
-            let owner = pool.departing[from + if lane < count { lane } else { 0 }];
-            let slot = &pool.slots[owner];
-            begin.put(lane, owner, &slot.toss.motion, &slot.toss.spin);
-            begin.launched |= Bits::from(slot.launched) << lane;
-            begin.parting |= Bits::from(slot.parting) << lane;
+            // unused lanes repeat the first one; their results are ignored
+            let number = pool.departing[from + if lane < count { lane } else { 0 }];
+            let slot = &pool.slots[number];
+            departures.put(lane, number, &slot.toss.motion, &slot.toss.spin);
+            departures.set_kind(lane, slot.departure);
         }
         pool.departing.truncate(from);
-        let (lanes, flies) = (self.engine.lanes, first(count));
-        pool.searching
-            .depart(lanes, &law.body, law.drag, &pool.begin, flies);
+        let (body, drag) = (&dynamics.body, dynamics.drag);
+        pool.flights
+            .begin(self.lanes, body, drag, &pool.departures, first(count));
     }
 
-    /// One step of every flight on search.
-    fn sweep(&mut self) {
-        let law = &self.engine.contact;
-        let searching = &mut self.pool.searching;
-        searching.sweep(self.engine.lanes, &law.body, law.drag);
+    /// One step of every flight on the search for its first contact.
+    fn step_flights(&mut self) {
+        let dynamics = &self.model.dynamics;
+        let flights = &mut self.pool.flights;
+        flights.step(self.lanes, &dynamics.body, dynamics.drag);
     }
 
-    /// Lands flights and throws the coins back.
-    fn bounce(&mut self) {
-        let (engine, pool) = (self.engine, &mut self.pool);
-        let searching = &mut pool.searching;
-        let count = pool.struck.land(engine.lanes, &engine.contact, searching);
-        let mut aside = pool.struck.unusual();
+    /// Lands flights, and computes the impacts of those that land like most.
+    fn land(&mut self) {
+        let (model, pool) = (self.model, &mut self.pool);
+        let stage = &mut pool.impact_stage;
+        let count = stage.land(self.lanes, &model.dynamics, &mut pool.flights);
+        let mut by_scalar = stage.unusual();
         for lane in 0..count {
-            let slot = &mut pool.slots[pool.struck.owner(lane)];
-            pool.struck.bring_down(lane, slot);
-            let late = slot.spent.time > engine.settings.time_limit;
-            let last = slot.toss.impacts == engine.settings.max_impacts;
-            aside |= Bits::from(late | last) << lane;
+            let slot = &mut pool.slots[stage.slot(lane)];
+            stage.end_flight(lane, slot);
+            let late = model.limits.is_late(slot.usage.time);
+            let last = model.limits.no_impact_left(slot.toss.impacts);
+            by_scalar |= Bits::from(late | last) << lane;
         }
-        if !L::SIDE_BY_SIDE || engine.landing == Landing::Adhesive {
-            aside = Bits::MAX;
+        if !I::HAS_LANES || model.adhesive {
+            by_scalar = Bits::MAX;
         }
-        for lane in lanes_of(aside & first(count)) {
-            let onward = self.without_impact(lane);
-            self.go(self.pool.struck.owner(lane), onward);
+        for lane in lanes_of(by_scalar & first(count)) {
+            let next = self.after_landing(lane);
+            self.apply(self.pool.impact_stage.slot(lane), next);
         }
-        let open = first(count) & !aside;
-        if open != 0 {
-            self.strike(open, true);
+        let in_lanes = first(count) & !by_scalar;
+        if in_lanes != 0 {
+            self.bounce(in_lanes, true);
         }
     }
 
-    /// Throws back coins whose last bounce this was not.
-    fn strike_again(&mut self) {
-        let pool = &mut self.pool;
-        let count = pool.again.len().min(WIDTH);
-        let from = pool.again.len() - count;
-        for at in 0..WIDTH {
-            let owner = pool.again[from + if at < count { at } else { 0 }];
-            pool.struck.gather(at, owner, &pool.slots[owner].toss);
+    /// What follows the landing of a coin that is not handled in lanes.
+    fn after_landing(&mut self, lane: usize) -> Transition {
+        let (model, stage) = (self.model, &self.pool.impact_stage);
+        let slot = &mut self.pool.slots[stage.slot(lane)];
+        if stage.gave_up(lane) {
+            stage.copy_start(lane, &mut slot.toss, model.dynamics.axial_factor);
+            return Transition::End(model.end_given_up(&slot.toss));
         }
-        pool.again.truncate(from);
-        self.strike(first(count), false);
+        stage.copy_motion(lane, &mut slot.toss);
+        match model.end_at_landing(&slot.toss, slot.usage.time) {
+            Some(ended) => Transition::End(ended),
+            None => Transition::Impact,
+        }
     }
 
-    /// Throws coins back, those of `open`.
-    fn strike(&mut self, open: Bits, may_end: bool) {
-        let (engine, law) = (self.engine, &self.engine.contact);
+    /// Computes impacts again that were not the last bounce.
+    fn retry_impacts(&mut self) {
         let pool = &mut self.pool;
-        pool.struck.strike(engine, may_end);
-        let again = open & pool.struck.again();
+        let count = pool.retrying.len().min(WIDTH);
+        let from = pool.retrying.len() - count;
         for lane in 0..WIDTH {
-            // the last lanes may repeat the first, and are not open
-            let slot = &mut pool.slots[pool.struck.owner(lane)];
-            slot.toss.impacts += u32::from(((open & !again) >> lane) & 1);
+            let slot = pool.retrying[from + if lane < count { lane } else { 0 }];
+            pool.impact_stage.put(lane, slot, &pool.slots[slot].toss);
         }
-        for lane in lanes_of(again) {
-            let owner = pool.struck.owner(lane);
-            pool.struck.scatter(lane, &mut pool.slots[owner].toss);
-            pool.again.push(owner);
+        pool.retrying.truncate(from);
+        self.bounce(first(count), false);
+    }
+
+    /// Computes the impacts of the lanes of `open`, and sends each toss to its next stage.
+    fn bounce(&mut self, open: Bits, may_be_last: bool) {
+        let (model, pool) = (self.model, &mut self.pool);
+        pool.impact_stage.bounce(self.lanes, model, may_be_last);
+        let retry = open & pool.impact_stage.retry();
+        for lane in 0..WIDTH {
+            // unused lanes may repeat a slot, but they are not open
+            let slot = &mut pool.slots[pool.impact_stage.slot(lane)];
+            slot.toss.impacts += u32::from(((open & !retry) >> lane) & 1);
         }
-        let mut flies = open & pool.struck.flies();
-        for lane in lanes_of(open & !again & !flies) {
+        for lane in lanes_of(retry) {
+            let slot = pool.impact_stage.slot(lane);
+            pool.impact_stage
+                .copy_motion(lane, &mut pool.slots[slot].toss);
+            pool.retrying.push(slot);
+        }
+        let mut flies = open & pool.impact_stage.flies();
+        for lane in lanes_of(open & !retry & !flies) {
             let pool = &mut self.pool;
-            let owner = pool.struck.owner(lane);
-            match pool.struck.rebound(engine, lane, &mut pool.slots[owner]) {
-                Onward::Fly(false) => flies |= 1 << lane,
-                onward => self.go(owner, onward),
+            let slot = pool.impact_stage.slot(lane);
+            let state = &mut pool.slots[slot];
+            match pool.impact_stage.after_impact(model, lane, state) {
+                Transition::Flight(Departure::Rebound) => flies |= 1 << lane,
+                next => self.apply(slot, next),
             }
         }
         if flies == 0 {
             return;
         }
-        let (pool, lanes) = (&mut self.pool, engine.lanes);
-        let begin = &pool.struck.after;
-        pool.searching
-            .depart(lanes, &law.body, law.drag, begin, flies);
+        let (pool, dynamics) = (&mut self.pool, &model.dynamics);
+        let departures = &pool.impact_stage.after;
+        pool.flights
+            .begin(self.lanes, &dynamics.body, dynamics.drag, departures, flies);
     }
 
-    /// What a landed coin does instead of an impact of its own lane.
-    fn without_impact(&mut self, lane: usize) -> Onward {
-        let (engine, struck) = (self.engine, &self.pool.struck);
-        let slot = &mut self.pool.slots[struck.owner(lane)];
-        if struck.is_lost(lane) {
-            struck.restore(lane, &mut slot.toss, engine.contact.axial_factor);
-            return Onward::End(engine.lost(&slot.toss));
-        }
-        struck.scatter(lane, &mut slot.toss);
-        if slot.spent.time > engine.settings.time_limit {
-            Onward::End(Ended::TimeLimit)
-        } else if engine.landing == Landing::Adhesive {
-            Onward::End(engine.stuck(&slot.toss))
-        } else {
-            Onward::Strike
-        }
-    }
-
-    /// One attempt at a step of sustained contact.
-    fn attempt(&mut self, mode: Mode) {
-        let engine = self.engine;
-        let pool = &mut self.pool;
-        let (station, waiting) = match mode {
-            Mode::Slip => (&mut pool.slips, &mut pool.slipping),
-            Mode::Stick => (&mut pool.sticks, &mut pool.sticking),
-        };
-        for lane in lanes_of(!station.occupied) {
-            let Some(owner) = waiting.pop() else {
+    /// Tries one step of sustained contact in each lane of a mode.
+    fn try_contact_steps(&mut self, mode: Mode) {
+        let model = self.model;
+        let (stage, queue, slots) = self.pool.contact_stage(mode);
+        for lane in lanes_of(stage.free()) {
+            let Some(slot) = queue.pop() else {
                 break;
             };
-            station.put(lane, owner, &pool.slots[owner]);
+            stage.put(lane, slot, &slots[slot]);
         }
-        station.make(engine, mode);
-        let attention = station.attention;
+        stage.try_steps(self.lanes, model, mode);
+        let attention = stage.attention;
         for lane in lanes_of(attention) {
-            let pool = &mut self.pool;
-            let station = match mode {
-                Mode::Slip => &mut pool.slips,
-                Mode::Stick => &mut pool.sticks,
-            };
-            let owner = station.owner[lane];
-            match station.conclude(engine, lane, &mut pool.slots[owner]) {
-                None => pool.in_contact(owner),
-                Some(onward) => self.go(owner, onward),
+            let (stage, _, slots) = self.pool.contact_stage(mode);
+            let slot = stage.slot(lane);
+            match stage.take_out(model, lane, &mut slots[slot]) {
+                None => self.pool.queue_contact(slot),
+                Some(next) => self.apply(slot, next),
             }
         }
     }
 
-    /// Brings a toss to its next stage.
-    fn go(&mut self, slot: usize, mut onward: Onward) {
+    /// Brings a toss to its next stage, by the scalar path where that takes an impact or a change of
+    /// the mode of contact.
+    fn apply(&mut self, slot: usize, mut next: Transition) {
         loop {
-            let of = &mut self.pool.slots[slot];
-            let mut contact = self.engine.contact_of(of.spent);
-            onward = match onward {
-                Onward::Fly(parting) => {
-                    (of.parting, of.launched) = (parting, false);
+            let state = &mut self.pool.slots[slot];
+            let mut solver = self.model.contact_solver(state.usage);
+            next = match next {
+                Transition::Flight(departure) => {
+                    state.departure = departure;
                     self.pool.departing.push(slot);
                     return;
                 }
-                Onward::End(ended) => {
+                Transition::End(ended) => {
                     self.end(slot, ended);
                     return;
                 }
-                Onward::Strike => self.engine.impact(&mut of.toss, &mut contact, &mut ()),
-                Onward::Sustain => {
-                    let (motion, spin) = (&mut of.toss.motion, &mut of.toss.spin);
-                    of.phase = contact.start(motion, spin);
-                    match contact.poise(&mut of.phase, motion, spin) {
+                Transition::Impact => self.model.impact(&mut state.toss, &mut solver, &mut ()),
+                Transition::Contact => {
+                    let (motion, spin) = (&mut state.toss.motion, &mut state.toss.spin);
+                    state.phase = solver.enter(motion, spin);
+                    match solver.exit_before_step(&mut state.phase, motion, spin) {
                         None => {
-                            of.spent = contact.spent;
-                            self.pool.in_contact(slot);
+                            state.usage = solver.usage;
+                            self.pool.queue_contact(slot);
                             return;
                         }
-                        Some(leave) => self.engine.onward(&mut of.toss, leave),
+                        Some(exit) => self.model.after_contact(&mut state.toss, exit),
                     }
                 }
             };
-            of.spent = contact.spent;
+            state.usage = solver.usage;
         }
     }
 }

@@ -1,72 +1,71 @@
-//! The tosses that are on their way, and the stage each is at.
+//! All tosses in flight: their slots, and the queues between the stages.
 
-use super::contact::Station;
-use super::struck::StruckTosses;
-use crate::contact::rim::Mode;
-use crate::contact::{Phase, Reach, Spent};
-use crate::flight::{Departing, Searching};
+use super::contact_stage::ContactStage;
+use super::departures::Departures;
+use super::flights::Flights;
+use super::impact_stage::ImpactStage;
+use crate::contact::{Mode, Phase, TiltSearch, Usage};
+use crate::flight::Departure;
 use crate::toss::Toss;
 
-/// Tosses on their way: enough that eight are nearly always at one stage. From 64 to 256 the speed
-/// is the same within 5 %.
+/// Tosses in flight: enough that a stage nearly always finds eight. From 64 to 256 the speed is the
+/// same within 5 %.
 pub(super) const SLOTS: usize = 128;
 
-/// A toss. What a flight and an impact need of it is in one line of the cache, its first.
+/// The memory of one toss. What its flights and impacts need comes first, in one cache line.
 #[derive(Debug, Clone, Copy)]
 #[repr(C, align(64))]
 pub(super) struct Slot {
-    pub(super) spent: Spent,
-    /// Its number among the launches.
+    pub(super) usage: Usage,
+    /// The number of the launch.
     pub(super) number: u64,
-    /// How its next flight begins.
-    pub(super) launched: bool,
-    pub(super) parting: bool,
+    /// How the next flight begins.
+    pub(super) departure: Departure,
     pub(super) toss: Toss,
     pub(super) phase: Phase,
-    /// On the search for the end of contact.
-    pub(super) reach: Option<Reach>,
+    /// The search for the end of contact, while it is under way.
+    pub(super) tilt_search: Option<TiltSearch>,
 }
 
 impl Slot {
     fn empty() -> Self {
         Self {
-            spent: Spent::default(),
+            usage: Usage::default(),
             number: 0,
-            launched: true,
-            parting: false,
+            departure: Departure::Launched,
             toss: Toss::still(),
             phase: Phase::none(),
-            reach: None,
+            tilt_search: None,
         }
     }
 
-    /// Begins anew with a toss just launched. Its phase is set where contact begins.
+    /// Reuses the slot for a new toss. (`phase` is set when contact begins.)
     #[inline]
-    pub(super) fn begin(&mut self, number: u64, toss: Toss) {
+    pub(super) fn reset(&mut self, number: u64, toss: Toss) {
         (self.number, self.toss) = (number, toss);
-        self.spent = Spent::default();
-        (self.launched, self.parting) = (true, false);
-        self.reach = None;
+        self.usage = Usage::default();
+        self.departure = Departure::Launched;
+        self.tilt_search = None;
     }
 }
 
+/// Queues hold the numbers of slots.
 pub(super) struct Pool {
     pub(super) slots: Vec<Slot>,
     pub(super) free: Vec<usize>,
-    /// About to fly.
+    /// Tosses that are about to fly.
     pub(super) departing: Vec<usize>,
-    /// Flying, and come down.
-    pub(super) searching: Searching,
-    /// Landed, and to be thrown back: that was not the last bounce.
-    pub(super) again: Vec<usize>,
-    /// In contact, and about to be.
-    pub(super) sticks: Station,
-    pub(super) slips: Station,
+    pub(super) flights: Flights,
+    /// Landed tosses whose impact must be computed again: it was not the last bounce.
+    pub(super) retrying: Vec<usize>,
+    pub(super) stick_stage: ContactStage,
+    pub(super) slip_stage: ContactStage,
+    /// Tosses in contact that wait for a lane of one of these stages.
     pub(super) sticking: Vec<usize>,
     pub(super) slipping: Vec<usize>,
-    /// Tosses at hand.
-    pub(super) begin: Departing,
-    pub(super) struck: StruckTosses,
+    /// Working memory.
+    pub(super) departures: Departures,
+    pub(super) impact_stage: ImpactStage,
 }
 
 impl Pool {
@@ -75,22 +74,33 @@ impl Pool {
             slots: vec![Slot::empty(); SLOTS],
             free: (0..SLOTS).rev().collect(),
             departing: Vec::with_capacity(SLOTS),
-            searching: Searching::none(),
-            again: Vec::with_capacity(SLOTS),
-            sticks: Station::new(),
-            slips: Station::new(),
+            flights: Flights::none(),
+            retrying: Vec::with_capacity(SLOTS),
+            stick_stage: ContactStage::new(),
+            slip_stage: ContactStage::new(),
             sticking: Vec::with_capacity(SLOTS),
             slipping: Vec::with_capacity(SLOTS),
-            begin: Departing::default(),
-            struck: StruckTosses::default(),
+            departures: Departures::default(),
+            impact_stage: ImpactStage::default(),
         }
     }
 
-    /// Puts a toss where its next attempt at a step of contact is made.
-    pub(super) fn in_contact(&mut self, slot: usize) {
+    /// Queues a toss for its next try at a step of contact.
+    pub(super) fn queue_contact(&mut self, slot: usize) {
         match self.slots[slot].phase.mode {
             Mode::Stick => self.sticking.push(slot),
             Mode::Slip => self.slipping.push(slot),
+        }
+    }
+
+    /// The stage of a mode of contact, the queue before it, and the slots.
+    pub(super) fn contact_stage(
+        &mut self,
+        mode: Mode,
+    ) -> (&mut ContactStage, &mut Vec<usize>, &mut Vec<Slot>) {
+        match mode {
+            Mode::Slip => (&mut self.slip_stage, &mut self.slipping, &mut self.slots),
+            Mode::Stick => (&mut self.stick_stage, &mut self.sticking, &mut self.slots),
         }
     }
 }

@@ -1,7 +1,7 @@
-//! Tosses side by side end to the bit as they do alone.
+//! Tosses in a batch end bit-identically to the scalar path.
 
-use super::Batch;
-use crate::engine::{Finished, VolumetricEngine};
+use crate::engine::VolumetricEngine;
+use crate::finished_toss::FinishedToss;
 use crate::impact::{ChatterjeeRuina, ImpactLaw, Moreau, Stronge};
 use crate::settings::{Decision, Settings};
 use coinmc_core::{
@@ -11,15 +11,15 @@ use coinmc_lanes::Lanes;
 use std::ops::ControlFlow;
 
 fn surface(e: f64, mu: f64, rho: f64) -> Surface {
-    let surface = Surface::new(e, mu).expect("a good surface");
+    let surface = Surface::new(e, mu).expect("a valid surface");
     surface
         .with_friction_lengths(rho * 0.01, rho * 0.01)
-        .expect("a good surface")
+        .expect("a valid surface")
 }
 
 fn scene(ratio: f64, surface: Surface) -> Scene {
-    let coin = Coin::cylinder(ratio, 0.01).expect("a good coin");
-    Scene::new(coin, surface, 9.81).expect("a good scene")
+    let coin = Coin::cylinder(ratio, 0.01).expect("a valid coin");
+    Scene::new(coin, surface, 9.81).expect("a valid scene")
 }
 
 fn launches(scene: &Scene, preset: Preset, count: u64) -> Vec<Launch> {
@@ -29,44 +29,47 @@ fn launches(scene: &Scene, preset: Preset, count: u64) -> Vec<Launch> {
 }
 
 /// Every toss by its number.
-fn ends<L: ImpactLaw>(engine: &VolumetricEngine<L>, launches: &[Launch]) -> Vec<Finished> {
+fn ends<L: ImpactLaw>(engine: &VolumetricEngine<L>, launches: &[Launch]) -> Vec<FinishedToss> {
     let mut ends = vec![None; launches.len()];
-    let batch = Batch::of(engine).expect("lanes");
+    let batch = engine.batch().expect("lanes");
     batch.toss_all_in_batch(launches.iter().copied(), |number, end| {
         let index = usize::try_from(number).expect("a small number");
         assert!(ends[index].replace(*end).is_none(), "toss {number} twice");
         ControlFlow::Continue(())
     });
-    let ends: Option<Vec<Finished>> = ends.into_iter().collect();
+    let ends: Option<Vec<FinishedToss>> = ends.into_iter().collect();
     ends.expect("every toss ends")
 }
 
-fn same(end: &Finished, alone: &Finished) -> bool {
-    end.outcome == alone.outcome && end.time.to_bits() == alone.time.to_bits()
+fn same(end: &FinishedToss, expected: &FinishedToss) -> bool {
+    end.outcome == expected.outcome && end.time.to_bits() == expected.time.to_bits()
 }
 
-/// How many tosses are told of to one who breaks off after `enough`.
-fn told<L: ImpactLaw>(
+/// How many tosses are reported to a caller that stops after `enough`.
+fn reported<L: ImpactLaw>(
     engine: &VolumetricEngine<L>,
     launches: impl Iterator<Item = Launch>,
     enough: u64,
 ) -> u64 {
-    let mut told = 0;
+    let mut count = 0;
     engine.toss_all(&mut (), launches, |_, _| {
-        told += 1;
-        if told == enough {
+        count += 1;
+        if count == enough {
             ControlFlow::Break(())
         } else {
             ControlFlow::Continue(())
         }
     });
-    told
+    count
 }
 
-/// Compares every set of lanes with the single toss.
+/// Compares every set of lanes with the scalar path.
 fn agree<L: ImpactLaw>(scene: &Scene, settings: &Settings, law: L, launches: &[Launch]) {
-    let engine = VolumetricEngine::new(scene, settings, law).expect("good settings");
-    let alone: Vec<Finished> = launches.iter().map(|l| engine.run(l, &mut ())).collect();
+    let engine = VolumetricEngine::new(scene, settings, law).expect("valid settings");
+    let scalar: Vec<FinishedToss> = launches
+        .iter()
+        .map(|l| engine.model.run(l, &mut ()))
+        .collect();
     for lanes in Lanes::ALL
         .into_iter()
         .filter(|lanes| *lanes != Lanes::Scalar)
@@ -75,10 +78,10 @@ fn agree<L: ImpactLaw>(scene: &Scene, settings: &Settings, law: L, launches: &[L
             println!("SKIPPED: this processor has no {lanes}");
             continue;
         };
-        for (i, (end, alone)) in ends(&engine, launches).iter().zip(&alone).enumerate() {
+        for (i, (end, expected)) in ends(&engine, launches).iter().zip(&scalar).enumerate() {
             assert!(
-                same(end, alone),
-                "{lanes} toss {i} of {scene:?}: {end:?} instead of {alone:?}"
+                same(end, expected),
+                "{lanes} toss {i} of {scene:?}: {end:?} instead of {expected:?}"
             );
         }
     }
@@ -86,33 +89,33 @@ fn agree<L: ImpactLaw>(scene: &Scene, settings: &Settings, law: L, launches: &[L
 
 #[test]
 fn every_shape_surface_and_law() {
-    let mut turn = 0;
+    let mut case = 0;
     for ratio in [0.1, 0.25, 0.85, 2.0, 10.0] {
         for e in [0.0, 0.5, 0.8] {
             for (mu, rho) in [(0.0, 0.0), (0.0, 0.01), (0.3, 0.01), (0.3, 0.003)] {
                 let scene = scene(ratio, surface(e, mu, rho));
                 let launches = launches(&scene, Preset::Clean, 40);
                 let settings = Settings::default();
-                match turn % 4 {
+                match case % 4 {
                     0 => agree(&scene, &settings, ChatterjeeRuina, &launches),
                     1 => agree(&scene, &settings, Stronge, &launches[..12]),
                     _ => agree(&scene, &settings, Moreau, &launches),
                 }
-                turn += 1;
+                case += 1;
             }
         }
-        turn += 1;
+        case += 1;
     }
 }
 
 #[test]
-fn drag_thresholds_glue_high_friction_and_no_gyroscopic_torque() {
-    let drag = Drag::new(0.5, 0.3).expect("rates are positive");
+fn drag_threshold_adhesion_high_friction_and_no_gyroscopic_torque() {
+    let drag = Drag::new(0.5, 0.3).expect("valid rates");
     let threshold = surface(0.5, 0.3, 0.01).with_restitution_threshold(0.3);
     let scenes = [
         scene(0.85, surface(0.5, 0.3, 0.01)).with_drag(drag),
         scene(0.25, surface(0.8, 0.0, 0.0)).with_drag(drag),
-        scene(2.0, threshold.expect("a good surface")),
+        scene(2.0, threshold.expect("a valid surface")),
         scene(1.0, surface(0.5, 0.3, 0.0).with_landing(Landing::Adhesive)),
         scene(0.85, surface(0.3, 5.0, 0.01)),
         scene(3.0, surface(0.0, 2.0, 0.003)),
@@ -128,7 +131,7 @@ fn drag_thresholds_glue_high_friction_and_no_gyroscopic_torque() {
 }
 
 #[test]
-fn limits_are_met_in_the_same_place() {
+fn limits_end_the_same_tosses() {
     let scene = scene(0.85, surface(0.5, 0.3, 0.003));
     let launches = launches(&scene, Preset::Clean, 100);
     let limited = |change: fn(&mut Settings)| {
@@ -145,7 +148,7 @@ fn limits_are_met_in_the_same_place() {
 }
 
 #[test]
-fn launches_that_are_no_launches() {
+fn invalid_and_extreme_launches() {
     let scene = scene(0.85, surface(0.5, 0.3, 0.01));
     let mut launches = launches(&scene, Preset::Clean, 30);
     launches[3].velocity_m_s.x = f64::NAN;
@@ -154,16 +157,18 @@ fn launches_that_are_no_launches() {
     launches[17].velocity_m_s *= 1e6;
     launches[18].spin_rad_s *= 1e6;
     launches[19].height_m = -1.0;
-    let engine = VolumetricEngine::new(&scene, &Settings::default(), Moreau).expect("good");
+    let engine =
+        VolumetricEngine::new(&scene, &Settings::default(), Moreau).expect("valid settings");
     assert_eq!(ends(&engine, &launches)[3].outcome.ended, Ended::Failed);
     agree(&scene, &Settings::default(), Moreau, &launches);
 }
 
 #[test]
-fn neither_the_number_of_tosses_nor_a_cut_matters() {
+fn outcomes_do_not_depend_on_how_launches_are_split() {
     let scene = scene(0.85, surface(0.5, 0.3, 0.003));
     let launches = launches(&scene, Preset::Clean, 700);
-    let engine = VolumetricEngine::new(&scene, &Settings::default(), Moreau).expect("good");
+    let engine =
+        VolumetricEngine::new(&scene, &Settings::default(), Moreau).expect("valid settings");
     let whole = ends(&engine, &launches);
     for cut in [0, 1, 7, 8, 9, 63, 128, 300, 699] {
         let (head, tail) = launches.split_at(cut);
@@ -173,18 +178,23 @@ fn neither_the_number_of_tosses_nor_a_cut_matters() {
 }
 
 #[test]
-fn breaking_off_ends_it_at_once() {
+fn a_caller_can_stop_at_any_toss() {
     let scene = scene(0.85, surface(0.5, 0.3, 0.01));
     let launches = launches(&scene, Preset::Clean, 1000);
-    let engine = VolumetricEngine::new(&scene, &Settings::default(), Moreau).expect("good");
+    let engine =
+        VolumetricEngine::new(&scene, &Settings::default(), Moreau).expect("valid settings");
     for lanes in Lanes::ALL.into_iter().filter(|lanes| lanes.is_available()) {
-        let engine = engine.clone().with_lanes(lanes).expect("they are there");
-        assert_eq!(told(&engine, launches.iter().copied(), 300), 300, "{lanes}");
+        let engine = engine.clone().with_lanes(lanes).expect("available lanes");
+        assert_eq!(
+            reported(&engine, launches.iter().copied(), 300),
+            300,
+            "{lanes}"
+        );
     }
 }
 
 #[test]
-fn launches_that_end_at_once_are_told_while_others_go_on() {
+fn tosses_that_end_at_launch_are_reported_while_others_fly() {
     let scene = scene(0.85, surface(0.5, 0.3, 0.01));
     let flying = launches(&scene, Preset::Clean, 300);
     let resting = Launch {
@@ -196,11 +206,12 @@ fn launches_that_end_at_once_are_told_while_others_go_on() {
     let mixed = flying.iter().flat_map(|&fly| [resting, fly, resting]);
     let mixed: Vec<Launch> = mixed.collect();
     agree(&scene, &Settings::default(), Moreau, &mixed);
-    let engine = VolumetricEngine::new(&scene, &Settings::default(), Moreau).expect("good");
+    let engine =
+        VolumetricEngine::new(&scene, &Settings::default(), Moreau).expect("valid settings");
     for lanes in Lanes::ALL.into_iter().filter(|lanes| lanes.is_available()) {
-        let engine = engine.clone().with_lanes(lanes).expect("they are there");
-        // of an never_settles number of them, none may be kept until the others have ended
-        let never_settles = flying.iter().copied().chain(std::iter::repeat(resting));
-        assert_eq!(told(&engine, never_settles, 100_000), 100_000, "{lanes}");
+        let engine = engine.clone().with_lanes(lanes).expect("available lanes");
+        // an endless number of them must not be held back until the others have ended
+        let endless = flying.iter().copied().chain(std::iter::repeat(resting));
+        assert_eq!(reported(&engine, endless, 100_000), 100_000, "{lanes}");
     }
 }

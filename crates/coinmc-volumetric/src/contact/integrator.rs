@@ -1,10 +1,7 @@
 //! One step of an embedded Runge–Kutta pair: Dormand & Prince 5(4), J. Comput. Appl. Math. 6
-//! (1980) 19. The last stage of a step is the first of the next (six evaluations a step).
+//! (1980) 19. The last stage of a step is the first of the next, so a step takes six evaluations.
 
 use coinmc_lanes::Lane;
-
-/// Least length of a step, in sqrt(D/g): below it the integrator gives up.
-pub(crate) const LEAST_STEP: f64 = 1e-13;
 
 /// A trial step.
 #[derive(Debug, Clone, Copy)]
@@ -89,7 +86,7 @@ pub(crate) fn step<L: Lane, const N: usize>(
         (-1.0 / 40.0, &k7),
     ];
     let mut squares = L::splat(0.0);
-    // two components a quotient
+    // one quotient for two components
     for i in (0..N).step_by(2) {
         let one = allowed(state[i], end[i], tolerance);
         if i + 1 == N {
@@ -111,7 +108,7 @@ pub(crate) fn step<L: Lane, const N: usize>(
     }
 }
 
-/// The error allowed of a component.
+/// The error allowed for a component.
 #[inline(always)]
 fn allowed<L: Lane>(from: L, to: L, tolerance: f64) -> L {
     L::splat(tolerance) * (L::splat(1.0) + from.abs().max(to.abs()))
@@ -164,22 +161,22 @@ impl<L: Lane, const N: usize> Trial<L, N> {
     }
 }
 
-/// Whether a trial of this (squared) error may stand; not a number may not.
+/// Whether a trial step with this (squared) error is accepted. NaN is not.
 #[inline(always)]
 pub(crate) fn is_accepted<L: Lane>(error: L) -> L::Mask {
     error.le(L::splat(1.0))
 }
 
-/// The length of the next try after one of length `h` that failed.
+/// The length of the next try after a try of length `h` that was rejected.
 #[inline(always)]
 pub(crate) fn shorter<L: Lane>(h: L, error: L) -> L {
     let finite = error.lt(L::splat(f64::INFINITY));
     L::select(finite, next_length(h, error), L::splat(0.2) * h)
 }
 
-/// The length of the next step after one of length `h` with this (squared) error:
-/// h·0.9·error^(−1/4), changed at most fivefold. (The fifth root that theory asks for is not an
-/// IEEE operation; the fourth corrects a little more and keeps the order.)
+/// The length of the next step after a step of length `h` with this (squared) error:
+/// h·0.9·error^(−1/4), changed by a factor of at most 5. (The fifth root that theory asks for is not an
+/// IEEE 754 operation; the fourth root corrects a little more, and keeps the order.)
 #[inline(always)]
 pub(crate) fn next_length<L: Lane>(h: L, error: L) -> L {
     let factor = L::splat(0.9) / error.max(L::splat(1e-24)).sqrt().sqrt().sqrt();

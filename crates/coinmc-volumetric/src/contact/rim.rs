@@ -1,9 +1,9 @@
-//! Sustained contact of one rim point: the equations of motion.
+//! The equations of motion of a coin in sustained contact on one rim point.
 //!
 //! # State
-//! The tilt θ of u, ω in the triad (u, e_θ, y), and the slip γ of the contact point. The centre
-//! follows: v = (γx − ω_y rz, γy − R ω_a − h ω_θ, ω_y rx), h = H/2, because the contact point
-//! stays on the surface.
+//! The state is the tilt θ of u, ω in the triad (u, e_θ, y), and the slip velocity γ of the contact
+//! point. The velocity of the centre follows from it, because the contact point stays on the surface:
+//! v = (γx − ω_y rz, γy − R ω_a − h ω_θ, ω_y rx), h = H/2.
 //!
 //! # Derivation
 //! The triad turns with W = (φ'c, ω_θ, ω_y), where φ' = −ω_θ/s is the rate of the azimuth, so
@@ -14,7 +14,7 @@
 //! ω_θ' = ω_y(φ'c − Ω_a) + (h fy − N t_θ)/kt,
 //! t_a = ρ_c σ_c + ρ_p σ_p c,  t_θ = ρ_c σ_c c/s − ρ_p σ_p s,
 //!
-//! σ_c and σ_p being the signs of ψ' = ω_a + ω_θ c/s and ω_z = ω_a c − ω_θ s. With
+//! where σ_c and σ_p are the signs of ψ' = ω_a + ω_θ c/s and ω_z = ω_a c − ω_θ s. With
 //! rx' = rz ω_y and rz' = −rx ω_y, the accelerations of the contact point are
 //!
 //! γ' = K_h f + K_xz N + b,  0 = Kxz fx + Kzz N + bz,
@@ -22,14 +22,12 @@
 //! by = −φ'vx + h ω_y(φ'c − Ω_a) − N(R t_a/ka + h t_θ/kt),
 //! bz = −1 − rz ω_y² − rx G.
 //!
-//! Stick asks γ' = 0, slip f = −μ N γ/|γ|. Drag adds −k v to the centre's acceleration and −k_ω ω
-//! to ω'. Without gyroscopic torque Ω_a = ω_a. (Le Saux, Leine & Glocker, J. Nonlinear Sci. 15
-//! (2005) 27; contour and pivoting friction as in Leine, Arch. Appl. Mech. 79 (2009) 1063.)
+//! Sticking requires γ' = 0, slipping f = −μ N γ/|γ|. Drag adds −k v to the acceleration of the centre
+//! and −k_ω ω to ω'. Without gyroscopic torque Ω_a = ω_a. (Le Saux, Leine & Glocker, J. Nonlinear
+//! Sci. 15 (2005) 27; contour and pivoting friction as in Leine, Arch. Appl. Mech. 79 (2009) 1063.)
 
+use super::dynamics::Dynamics;
 use super::integrator::Flow;
-use crate::body::{Body, Friction};
-use crate::flight::Drag;
-use crate::motion::{Motion, Spin};
 use crate::series::sin_cos_tilt;
 use coinmc_lanes::Lane;
 
@@ -44,61 +42,41 @@ pub(crate) const SLIP_Y: usize = 5;
 /// (θ, ω_y, ω_a, ω_θ, γx, γy).
 pub(crate) type RimState<L> = [L; 6];
 
-/// The scene as contact sees it.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Law {
-    pub(crate) body: Body,
-    pub(crate) friction: Friction,
-    pub(crate) drag: Drag,
-    /// Ω_a/ω_a: I_a/I_t with gyroscopic torque, 1 without.
-    pub(crate) axial_factor: f64,
-    /// 1/k_t and 1/k_a.
-    inverse_kt: f64,
-    inverse_ka: f64,
-    /// K_yy and 1/K_yy, which no tilt changes.
-    kyy: f64,
-    inverse_kyy: f64,
-    /// 1/(K_xx K_zz − K_xz²), which none changes either: the rim is as far as ever.
-    inverse_det: f64,
-    /// 1/(ρ_c smoothing_time) and 1/(ρ_p smoothing_time), see [`smoothed_sign`].
-    contour_fade: f64,
-    pivoting_fade: f64,
-}
-
-/// Whether the contact point is held or slides.
+/// Whether the contact point sticks or slips.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Mode {
     Stick,
     Slip,
 }
 
-/// Forces and rates of a state.
+/// Forces and rates of change of a state.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Rates<L> {
     /// d/dt of the state.
     pub(crate) state: RimState<L>,
     /// Normal force, m g.
     pub(crate) normal: L,
-    /// Friction force needed (stick) or acting (slip), m g.
+    /// Friction force, m g: the force needed to stick, or the force that acts in slip.
     pub(crate) friction: [L; 2],
-    /// Acceleration with which the free contact point would press into the surface: −bz.
+    /// Acceleration at which the contact point would enter the surface if it were free: −bz.
     pub(crate) press: L,
-    /// Kzz − μ Kxz nx: where it is not positive no force lets the point go on sliding (Painlevé).
-    pub(crate) yields: L,
+    /// Kzz − μ Kxz nx. Where it is not positive, no normal force is consistent with slip (Painlevé):
+    /// the contact jams.
+    pub(crate) jam_margin: L,
 }
 
-/// The flow of a mode, which keeps the rates it gave last.
+/// The flow of a mode. It keeps the rates that it has returned last.
 pub(super) struct RimFlow<'a, L> {
-    pub(super) law: &'a Law,
+    pub(super) dynamics: &'a Dynamics,
     pub(super) mode: Mode,
     pub(super) last: &'a mut Rates<L>,
 }
 
-// not a closure: one that is called six times is not inlined
+// not a closure, because a closure that is called six times is not inlined
 impl<L: Lane> Flow<L, 6> for RimFlow<'_, L> {
     #[inline(always)]
     fn rates(&mut self, state: &RimState<L>) -> RimState<L> {
-        *self.last = self.law.rates(state, self.mode);
+        *self.last = self.dynamics.rates(state, self.mode);
         self.last.state
     }
 }
@@ -111,74 +89,19 @@ impl<L: Lane> Rates<L> {
             normal: zero,
             friction: [zero; 2],
             press: zero,
-            yields: zero,
+            jam_margin: zero,
         }
     }
 }
 
-/// sign(rate) of dry friction that slows `rate` down by b (per normal force), fading linearly to 0
-/// where it would stop within the time `smoothing_time`: the rate of the decay is 1/smoothing_time however light the
-/// part that turns. `share` is rate/(b smoothing_time).
-#[inline(always)]
-fn smoothed_sign<L: Lane>(share: L) -> L {
-    share.min(L::splat(1.0)).max(L::splat(-1.0))
-}
-
-/// Quotients that depend on the tilt alone.
-#[derive(Debug, Clone, Copy)]
-struct Quotients<L> {
-    /// 1/s.
-    sin: L,
-    /// 1/A and 1/G, A = s²/ka + c²/kt and G = c²/ka + s²/kt: how heavy the coin turns about the
-    /// horizontal x axis and the vertical.
-    along: L,
-    about: L,
-}
-
-impl Law {
-    pub(crate) fn new(
-        body: Body,
-        friction: Friction,
-        drag: Drag,
-        axial_factor: f64,
-        smoothing_time: f64,
-    ) -> Self {
-        let (inverse_kt, inverse_ka) = (1.0 / body.kt, 1.0 / body.ka);
-        let kyy = 1.0 + body.half * body.half * inverse_kt + body.radius * body.radius * inverse_ka;
-        // no length, no friction: then any finite quotient does
-        let inverse_smoothing =
-            |length: f64| 1.0 / (length * smoothing_time).max(f64::MIN_POSITIVE);
-        Self {
-            body,
-            friction,
-            drag,
-            axial_factor,
-            inverse_kt,
-            inverse_ka,
-            kyy,
-            inverse_kyy: 1.0 / kyy,
-            inverse_det: 1.0 / (1.0 + inverse_kt),
-            contour_fade: inverse_smoothing(friction.contour),
-            pivoting_fade: inverse_smoothing(friction.pivoting),
-        }
-    }
-
-    /// The same with drag of which the compiler knows whether it acts.
-    #[inline(always)]
-    pub(crate) fn with_known_drag<const ACTS: bool>(&self) -> Self {
-        Self {
-            drag: self.drag.known::<ACTS>(),
-            ..*self
-        }
-    }
-
-    /// Whether contact in this mode loses nothing.
+impl Dynamics {
+    /// Whether contact in this mode loses no energy.
     pub(super) fn conserves(&self, mode: Mode) -> bool {
         let smooth = mode == Mode::Stick || self.friction.mu == 0.0;
         smooth && !self.friction.twists() && !self.drag.acts()
     }
 
-    /// Rates and forces of `state`, in stick or slip.
+    /// Rates and forces of `state` in a mode.
     #[inline(always)]
     pub(crate) fn rates<L: Lane>(&self, state: &RimState<L>, mode: Mode) -> Rates<L> {
         let k = L::splat;
@@ -214,8 +137,8 @@ impl Law {
             bz -= linear * wy * rx;
         }
         let mu = k(self.friction.mu);
-        // sliding, both forces are of N/|γ| = −bz/(K_zz |γ| − μ K_xz γx): one quotient for all
-        let slip = Slip::of(mode, gx, gy);
+        // in slip, both forces contain N/|γ| = −bz/(K_zz |γ| − μ K_xz γx): one quotient for all
+        let slip = Slip::new(mode, gx, gy);
         let opposes = kzz * slip.speed - mu * kxz * slip.x;
         let (fx, normal, drive) = match mode {
             Mode::Stick => {
@@ -253,82 +176,15 @@ impl Law {
             normal,
             friction: [fx, fy],
             press: -bz,
-            yields: match mode {
+            jam_margin: match mode {
                 Mode::Stick => k(1.0),
                 Mode::Slip => opposes / slip.speed,
             },
         }
     }
-
-    /// The quotients of a tilt: one division for all three.
-    #[inline(always)]
-    fn quotients<L: Lane>(&self, s: L, c: L) -> Quotients<L> {
-        if !self.friction.twists() {
-            let none = L::splat(0.0);
-            return Quotients {
-                sin: L::splat(1.0) / s,
-                along: none,
-                about: none,
-            };
-        }
-        let (ikt, ika) = (L::splat(self.inverse_kt), L::splat(self.inverse_ka));
-        let along = s * s * ika + c * c * ikt;
-        let about = c * c * ika + s * s * ikt;
-        let both = along * about;
-        let inverse = L::splat(1.0) / (s * both);
-        let inverse_both = s * inverse;
-        Quotients {
-            sin: both * inverse,
-            along: about * inverse_both,
-            about: along * inverse_both,
-        }
-    }
-
-    /// (t_a, t_θ): torques of contour and pivoting friction per normal force.
-    #[inline(always)]
-    pub(crate) fn twist<L: Lane>(&self, s: L, c: L, wa: L, wt: L) -> (L, L) {
-        self.twist_at(s, c, &self.quotients(s, c), wa, wt)
-    }
-
-    #[inline(always)]
-    fn twist_at<L: Lane>(&self, s: L, c: L, inverse: &Quotients<L>, wa: L, wt: L) -> (L, L) {
-        if !self.friction.twists() {
-            return (L::splat(0.0), L::splat(0.0));
-        }
-        // ω_x = s ψ' and ω_z; friction takes ρ_c A/s and ρ_p G from them
-        let (along, about) = (wa * s + wt * c, wa * c - wt * s);
-        let along = along * s * inverse.along * L::splat(self.contour_fade);
-        let about = about * inverse.about * L::splat(self.pivoting_fade);
-        let contour = L::splat(self.friction.contour) * smoothed_sign(along);
-        let pivoting = L::splat(self.friction.pivoting) * smoothed_sign(about);
-        let cot = c * inverse.sin;
-        (contour + pivoting * c, contour * cot - pivoting * s)
-    }
-
-    /// ω_θ(Ω_a − φ'c): the gyroscopic part of ω_y', without drag.
-    #[inline(always)]
-    fn gyroscopic<L: Lane>(&self, m: &Motion<L>, spin: &Spin<L>) -> L {
-        let azimuth = -(spin.turn / m.sin);
-        spin.turn * (L::splat(self.axial_factor) * spin.axial - azimuth * m.cos)
-    }
-
-    /// The acceleration with which the contact point presses into the surface, were it free: −bz.
-    #[inline(always)]
-    pub(crate) fn press<L: Lane>(&self, m: &Motion<L>, spin: &Spin<L>) -> L {
-        let (radius, half) = (L::splat(self.body.radius), L::splat(self.body.half));
-        let rx = radius * m.cos - half * m.sin;
-        let rz = -(half * m.cos + radius * m.sin);
-        L::splat(1.0) + rz * spin.tilt * spin.tilt + rx * self.gyroscopic(m, spin)
-    }
-
-    /// How much more than 1 the press may be, as far as the motion before the impact tells.
-    #[inline(always)]
-    pub(crate) fn uplift<L: Lane>(&self, m: &Motion<L>, spin: &Spin<L>) -> L {
-        self.gyroscopic(m, spin).abs()
-    }
 }
 
-/// A slip, and how fast it is.
+/// A slip velocity and its size.
 struct Slip<L> {
     x: L,
     y: L,
@@ -336,9 +192,9 @@ struct Slip<L> {
 }
 
 impl<L: Lane> Slip<L> {
-    /// Of a contact that slides; along x at unit speed of one that does not.
+    /// The slip of a slipping point; unit speed along x for a point that sticks or does not move.
     #[inline(always)]
-    fn of(mode: Mode, x: L, y: L) -> Self {
+    fn new(mode: Mode, x: L, y: L) -> Self {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         if mode == Mode::Stick {
             return Self {
@@ -355,11 +211,4 @@ impl<L: Lane> Slip<L> {
             speed: L::select(none, one, speed),
         }
     }
-}
-
-/// The fastest rate of a coin in contact: of rolling, tilting, precessing, toppling.
-#[inline(always)]
-pub(crate) fn fastest<L: Lane>(m: &Motion<L>, spin: &Spin<L>) -> L {
-    let azimuth = spin.turn / m.sin;
-    (L::splat(1.0) + spin.axial * spin.axial + spin.tilt * spin.tilt + azimuth * azimuth).sqrt()
 }

@@ -1,14 +1,15 @@
 //! Free flight: closed form from contact to contact, and a first contact that is never missed.
 
+mod bounds;
+mod departure;
+mod gap;
 mod orbit;
 mod search;
-mod searching;
-mod station;
 
-pub(crate) use orbit::{Drag, Orbit};
-pub(crate) use search::{Departure, first_contact, least_time};
-pub(crate) use searching::Searching;
-pub(crate) use station::{Departing, Leavers, MOTION, load, store};
+pub(crate) use bounds::Extent;
+pub(crate) use departure::Departure;
+pub(crate) use orbit::{Orbit, OrbitState};
+pub(crate) use search::{MAX_EVALUATIONS, Search, first_contact, least_time};
 
 #[cfg(test)]
 mod tests;

@@ -1,6 +1,7 @@
 //! The algebraic law of Chatterjee and Ruina.
 
-use super::{Condensed, ImpactLaw, Impulse, Touch, twist::Limited};
+use super::contact_point::Condensed;
+use super::{ContactPoint, ImpactLaw, Impulse, friction_moments::FrictionMoments};
 use crate::body::{Body, Friction};
 use coinmc_lanes::Lane;
 
@@ -34,24 +35,24 @@ impl ImpactLaw for ChatterjeeRuina {
         &self,
         body: &Body,
         friction: &Friction,
-        touch: &Touch<L>,
+        point: &ContactPoint<L>,
         e: L,
     ) -> Impulse<L> {
-        let k = touch.matrix(body);
+        let k = point.matrix(body);
         let zero = L::splat(0.0);
         let Condensed {
             mass_z,
             coupling,
             alpha,
         } = k.condensed();
-        let smooth = (-touch.approach).max(zero) * mass_z;
+        let smooth = (-point.approach).max(zero) * mass_z;
         let base = (L::splat(1.0) + e) * smooth;
         let mut p = Impulse::none();
         p.z = base;
         if friction.mu > 0.0 {
             // what is left of the slip after p_I, and the impulse at constant u_z that stops it
-            let x = -(touch.slip_x + k.xz * smooth) / alpha;
-            let y = -touch.slip_y / k.yy;
+            let x = -(point.slip_x + k.xz * smooth) / alpha;
+            let y = -point.slip_y / k.yy;
             let z = -coupling * x;
             let mu = L::splat(friction.mu);
             let size = (x * x + y * y).sqrt();
@@ -65,8 +66,9 @@ impl ImpactLaw for ChatterjeeRuina {
             p.z = base - coupling * p.x;
         }
         if friction.twists() {
-            let (contour, pivoting) = Limited::new(body, friction, touch, k.yy).held(p.y, p.z);
-            p.contour = touch.sin * contour;
+            let (contour, pivoting) =
+                FrictionMoments::new(body, friction, point, k.yy).held(p.y, p.z);
+            p.contour = point.sin * contour;
             p.pivoting = pivoting;
         }
         p

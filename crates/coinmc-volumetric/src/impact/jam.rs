@@ -1,6 +1,7 @@
 //! Tangential impact: the contact jams although it does not approach.
 
-use super::{Condensed, Impulse, Touch, twist::Limited};
+use super::contact_point::Condensed;
+use super::{ContactPoint, Impulse, friction_moments::FrictionMoments};
 use crate::body::{Body, Friction};
 use coinmc_lanes::Lane;
 
@@ -18,38 +19,42 @@ use coinmc_lanes::Lane;
 /// In a jam the left side is at least |slip|, so q >= 1 holds where the equation does. If
 /// α <= K_yy then q < 1 for every σ: the contact sticks. Else q falls from α/K_yy to 1 as σ grows,
 /// and either q needs to be at least α/K_yy, then it sticks, or σ follows from q. So a solution
-/// exists; p of σ = 0 also serves a touch that rounding put just outside.
+/// exists; p of σ = 0 also serves a point that rounding put just outside.
 ///
 /// # Energy
 /// p·u⁻ + ½p·K p = p·u⁺ − ½p·K p with p·u⁺ = p_t·slip⁺ = −σ p_t² <= 0 as u_z⁺ = u_z⁻ = 0: it
 /// dissipates. The friction lengths follow so as to leave the least energy within |J| <= ρ p_z.
 #[inline(always)]
-pub(crate) fn jam<L: Lane>(body: &Body, friction: &Friction, touch: &Touch<L>) -> Impulse<L> {
-    let k = touch.matrix(body);
+pub(crate) fn jam_impulse<L: Lane>(
+    body: &Body,
+    friction: &Friction,
+    point: &ContactPoint<L>,
+) -> Impulse<L> {
+    let k = point.matrix(body);
     let zero = L::splat(0.0);
     let Condensed {
         coupling, alpha, ..
     } = k.condensed();
     let mu = L::splat(friction.mu);
 
-    let pull = mu * coupling * touch.slip_x;
-    let square = (pull * pull - touch.slip_x * touch.slip_x).max(zero);
-    let q = square.sqrt() / touch.slip_y.abs();
+    let pull = mu * coupling * point.slip_x;
+    let square = (pull * pull - point.slip_x * point.slip_x).max(zero);
+    let q = square.sqrt() / point.slip_y.abs();
     // q is infinite or not a number without slip_y: then the contact sticks
     let slides = L::splat(1.0).lt(q) & (q * k.yy).lt(alpha);
     let sigma = (alpha - q * k.yy) / (q - L::splat(1.0));
     let sigma = L::select(slides, sigma, zero);
 
-    let x = -touch.slip_x / (sigma + alpha);
+    let x = -point.slip_x / (sigma + alpha);
     let mut p = Impulse {
         x,
-        y: -touch.slip_y / (sigma + k.yy),
+        y: -point.slip_y / (sigma + k.yy),
         z: (-coupling * x).max(zero),
         ..Impulse::none()
     };
     if friction.twists() {
-        let (contour, pivoting) = Limited::new(body, friction, touch, k.yy).held(p.y, p.z);
-        p.contour = touch.sin * contour;
+        let (contour, pivoting) = FrictionMoments::new(body, friction, point, k.yy).held(p.y, p.z);
+        p.contour = point.sin * contour;
         p.pivoting = pivoting;
     }
     p
@@ -61,7 +66,7 @@ mod tests {
     use coinmc_core::{Coin, Domain, Stream, UniformSource};
 
     /// Random jams: the coin leans over its contact, μ is high, the slip drives it in.
-    fn each(mut check: impl FnMut(&Body, &Friction, &Touch<f64>, &Impulse<f64>)) -> u32 {
+    fn each(mut check: impl FnMut(&Body, &Friction, &ContactPoint<f64>, &Impulse<f64>)) -> u32 {
         let mut jams = 0;
         for trial in 0..200_000 {
             let mut uniforms = Stream::new(71, Domain::Launch, 0).toss(trial);
@@ -70,7 +75,7 @@ mod tests {
             let body = Body::new(&coin);
             let sin = at(1, 1e-6, 1.0);
             let cos = (1.0 - sin * sin).sqrt();
-            let touch = Touch {
+            let point = ContactPoint {
                 sin,
                 cos,
                 rx: cos * body.radius - sin * body.half,
@@ -90,13 +95,18 @@ mod tests {
                 contour: at(7, -0.1, 0.1).max(0.0),
                 pivoting: at(8, -0.1, 0.1).max(0.0),
             };
-            let k = touch.matrix(&body);
-            let n = touch.slip_x / libm::hypot(touch.slip_x, touch.slip_y);
+            let k = point.matrix(&body);
+            let n = point.slip_x / libm::hypot(point.slip_x, point.slip_y);
             if k.zz > friction.mu * k.xz * n {
                 continue;
             }
             jams += 1;
-            check(&body, &friction, &touch, &jam(&body, &friction, &touch));
+            check(
+                &body,
+                &friction,
+                &point,
+                &jam_impulse(&body, &friction, &point),
+            );
         }
         jams
     }
@@ -104,8 +114,8 @@ mod tests {
     #[test]
     fn a_jam_stops_or_slows_the_slip_inside_the_cone() {
         let (mut stuck, mut slid) = (0, 0);
-        let jams = each(|body, friction, touch, p| {
-            let k = touch.matrix(body);
+        let jams = each(|body, friction, point, p| {
+            let k = point.matrix(body);
             assert!(
                 p.z > 0.0 && (k.xz * p.x + k.zz * p.z).abs() <= 1e-14,
                 "{p:?}"
@@ -113,8 +123,8 @@ mod tests {
             let tangential = libm::hypot(p.x, p.y);
             assert!(tangential <= friction.mu * p.z * (1.0 + 1e-10), "{p:?}");
             let after = (
-                touch.slip_x + k.xx * p.x + k.xz * p.z,
-                touch.slip_y + k.yy * p.y,
+                point.slip_x + k.xx * p.x + k.xz * p.z,
+                point.slip_y + k.yy * p.y,
             );
             let speed = libm::hypot(after.0, after.1);
             if speed <= 1e-12 {
@@ -125,7 +135,7 @@ mod tests {
                 assert!((along + speed * tangential).abs() <= 1e-9 * speed * tangential);
                 assert!((tangential - friction.mu * p.z).abs() <= 1e-9 * tangential);
             }
-            assert!(p.work(body, touch) < 0.0, "{p:?}");
+            assert!(p.work(body, point) < 0.0, "{p:?}");
         });
         assert!(jams > 2_000 && stuck > 0, "{jams} {stuck} {slid}");
     }

@@ -1,7 +1,8 @@
 //! Newton restitution with Coulomb friction against the final slip.
 
-use super::twist::{Limited, Twisted};
-use super::{ChatterjeeRuina, Condensed, ContactMatrix, ImpactLaw, Impulse, Touch};
+use super::contact_point::Condensed;
+use super::friction_moments::{FrictionMoments, JointSolution};
+use super::{ChatterjeeRuina, ContactMatrix, ContactPoint, ImpactLaw, Impulse};
 use crate::body::{Body, Friction};
 use coinmc_lanes::{Lane, Mask};
 
@@ -48,23 +49,23 @@ impl ImpactLaw for Moreau {
         &self,
         body: &Body,
         friction: &Friction,
-        touch: &Touch<L>,
+        point: &ContactPoint<L>,
         e: L,
     ) -> Impulse<L> {
         if friction.mu == 0.0 {
             // nothing to solve, and exactly the impulse of the other law
-            return ChatterjeeRuina.impulse(body, friction, touch, e);
+            return ChatterjeeRuina.impulse(body, friction, point, e);
         }
-        let k = touch.matrix(body);
+        let k = point.matrix(body);
         let p = if friction.twists() {
-            let limited = Limited::new(body, friction, touch, k.yy);
-            Problem::new(friction, touch, &k, e, Some(limited)).solve(touch.sin)
+            let limited = FrictionMoments::new(body, friction, point, k.yy);
+            Problem::new(friction, point, &k, e, Some(limited)).solve(point.sin)
         } else {
-            Problem::new(friction, touch, &k, e, None).solve(touch.sin)
+            Problem::new(friction, point, &k, e, None).solve(point.sin)
         };
-        let sound = p.work(body, touch).le(L::splat(0.0)) & L::splat(0.0).le(p.z);
+        let sound = p.work(body, point).le(L::splat(0.0)) & L::splat(0.0).le(p.z);
         if (!sound).any() {
-            let guard = ChatterjeeRuina.impulse(body, friction, touch, e);
+            let guard = ChatterjeeRuina.impulse(body, friction, point, e);
             return Impulse::select(sound, p, guard);
         }
         p
@@ -83,7 +84,7 @@ struct Problem<L> {
     alpha: L,
     yy: L,
     coupling: L,
-    twist: Option<Limited<L>>,
+    twist: Option<FrictionMoments<L>>,
 }
 
 /// One σ, and the quotients of it that friction needs.
@@ -110,22 +111,22 @@ impl<L: Lane> Problem<L> {
     #[inline(always)]
     fn new(
         friction: &Friction,
-        touch: &Touch<L>,
+        point: &ContactPoint<L>,
         k: &ContactMatrix<L>,
         e: L,
-        twist: Option<Limited<L>>,
+        twist: Option<FrictionMoments<L>>,
     ) -> Self {
         let Condensed {
             mass_z,
             coupling,
             alpha,
         } = k.condensed();
-        let base = (L::splat(1.0) + e) * (-touch.approach).max(L::splat(0.0)) * mass_z;
+        let base = (L::splat(1.0) + e) * (-point.approach).max(L::splat(0.0)) * mass_z;
         Self {
             mu: L::splat(friction.mu),
             base,
-            slip_x: touch.slip_x + k.xz * base,
-            slip_y: touch.slip_y,
+            slip_x: point.slip_x + k.xz * base,
+            slip_y: point.slip_y,
             alpha,
             yy: k.yy,
             coupling,
@@ -150,10 +151,10 @@ impl<L: Lane> Problem<L> {
 
     /// The sideways slip that p_y has to oppose, with the friction lengths' share.
     #[inline(always)]
-    fn sideways(&self, at: &Trial<L>) -> Twisted<L> {
+    fn sideways(&self, at: &Trial<L>) -> JointSolution<L> {
         let zero = L::splat(0.0);
         match &self.twist {
-            None => Twisted {
+            None => JointSolution {
                 contour: zero,
                 pivoting: zero,
                 slip_y: self.slip_y,
@@ -261,7 +262,7 @@ impl<L: Lane> Problem<L> {
     }
 
     #[inline(always)]
-    fn impulse(&self, at: &Trial<L>, side: &Twisted<L>, sin: L) -> Impulse<L> {
+    fn impulse(&self, at: &Trial<L>, side: &JointSolution<L>, sin: L) -> Impulse<L> {
         let x = -(self.slip_x * at.x);
         Impulse {
             x,

@@ -2,7 +2,7 @@
 
 use coinmc_core::{Coin, Domain, Stream, TossUniforms, UniformSource};
 use coinmc_volumetric::{Body, ChatterjeeRuina, Friction, ImpactLaw, Impulse, Law, Moreau};
-use coinmc_volumetric::{Lane, Stronge, Touch};
+use coinmc_volumetric::{ContactPoint, Lane, Stronge};
 use nalgebra::Vector3;
 
 /// Random numbers of one trial, taken one after the other.
@@ -42,7 +42,7 @@ impl Dice {
 pub(crate) struct Case {
     pub(crate) body: Body,
     pub(crate) friction: Friction,
-    pub(crate) touch: Touch<f64>,
+    pub(crate) point: ContactPoint<f64>,
     pub(crate) e: f64,
 }
 
@@ -50,10 +50,10 @@ pub(crate) fn body(ratio: f64) -> Body {
     Body::new(&Coin::cylinder(ratio, 0.01).expect("a good coin"))
 }
 
-/// A touch at the tilt of this sine, with the velocities given.
-pub(crate) fn touch(body: &Body, sin: f64, slip: [f64; 3], spins: [f64; 2]) -> Touch<f64> {
+/// A point at the tilt of this sine, with the velocities given.
+pub(crate) fn point(body: &Body, sin: f64, slip: [f64; 3], spins: [f64; 2]) -> ContactPoint<f64> {
     let cos = (1.0 - sin * sin).sqrt();
-    Touch {
+    ContactPoint {
         sin,
         cos,
         rx: cos * body.radius - sin * body.half,
@@ -105,7 +105,7 @@ pub(crate) fn case(seed: u64, trial: u64) -> Case {
             contour,
             pivoting,
         },
-        touch: touch(&body, sin, [slip[0], slip[1], approach], spins),
+        point: point(&body, sin, [slip[0], slip[1], approach], spins),
         e,
     }
 }
@@ -114,24 +114,24 @@ pub(crate) fn impulse<L: Lane>(
     law: Law,
     body: &Body,
     friction: &Friction,
-    touch: &Touch<L>,
+    point: &ContactPoint<L>,
     e: L,
 ) -> Impulse<L> {
     match law {
-        Law::Moreau => Moreau.impulse(body, friction, touch, e),
-        Law::ChatterjeeRuina => ChatterjeeRuina.impulse(body, friction, touch, e),
-        Law::Stronge => Stronge.impulse(body, friction, touch, e),
+        Law::Moreau => Moreau.impulse(body, friction, point, e),
+        Law::ChatterjeeRuina => ChatterjeeRuina.impulse(body, friction, point, e),
+        Law::Stronge => Stronge.impulse(body, friction, point, e),
     }
 }
 
 impl Case {
     pub(crate) fn impulse(&self, law: Law) -> Impulse<f64> {
-        impulse(law, &self.body, &self.friction, &self.touch, self.e)
+        impulse(law, &self.body, &self.friction, &self.point, self.e)
     }
 
     /// The size of the velocities.
     pub(crate) fn size(&self) -> f64 {
-        let t = &self.touch;
+        let t = &self.point;
         t.slip_x.abs() + t.slip_y.abs() + t.approach.abs()
     }
 }
@@ -153,7 +153,7 @@ pub(crate) struct Motion {
 /// The motion before and after, by vectors: forces at the contact point, torques about the
 /// vertical and about the line through the contact point along which it runs on the rim.
 pub(crate) fn motions(case: &Case, p: &Impulse<f64>) -> (Motion, Motion) {
-    let (b, t) = (&case.body, &case.touch);
+    let (b, t) = (&case.body, &case.point);
     let axis = Vector3::new(t.sin, 0.0, t.cos);
     let across = Vector3::new(t.cos, 0.0, -t.sin);
     let up = Vector3::z();

@@ -24,9 +24,9 @@ fn newton_restitution_is_exact() {
         each(11, law, |case, p| {
             let (_, after) = motions(case, p);
             let parts = p.x.abs() + p.z.abs() + case.size();
-            let off = (after.slip.z + case.e * case.touch.approach).abs();
+            let off = (after.slip.z + case.e * case.point.approach).abs();
             // the spins, of thousandfold size, and ω_y enter the test's own velocities
-            let spins = case.touch.spin.abs() + case.touch.turn.abs();
+            let spins = case.point.spin.abs() + case.point.turn.abs();
             assert!(
                 off <= 1e-14 * (parts + spins + 1.0),
                 "{law:?} {off:e} {case:?} {p:?}"
@@ -45,7 +45,7 @@ fn no_law_gains_energy() {
             worst = worst.max(gain);
             assert!(gain <= 1e-12, "{law:?} {gain:e} {case:?} {p:?}");
             // the kernel's own account agrees
-            let work = p.work(&case.body, &case.touch);
+            let work = p.work(&case.body, &case.point);
             let off = (work - (after.energy - before.energy)).abs() / before.energy;
             assert!(off <= 1e-12, "{law:?} {off:e} {case:?} {p:?}");
         });
@@ -92,7 +92,7 @@ fn moreau_opposes_the_final_slip() {
             return;
         }
         let (_, after) = motions(case, p);
-        let size = case.size() + case.touch.spin.abs() + case.touch.turn.abs() + p.z;
+        let size = case.size() + case.point.spin.abs() + case.point.turn.abs() + p.z;
         let slip = libm::hypot(after.slip.x, after.slip.y);
         if slip > 1e-10 * size {
             let friction = libm::hypot(p.x, p.y);
@@ -126,9 +126,9 @@ fn mirror_images_are_exact() {
         for trial in 0..50_000 {
             let mut case = case(15, trial);
             let p = case.impulse(law);
-            case.touch.slip_y = -case.touch.slip_y;
-            case.touch.spin = -case.touch.spin;
-            case.touch.turn = -case.touch.turn;
+            case.point.slip_y = -case.point.slip_y;
+            case.point.spin = -case.point.spin;
+            case.point.turn = -case.point.turn;
             let q = case.impulse(law);
             assert_eq!(
                 [p.x, -p.y, p.z, -p.contour, -p.pivoting],
@@ -147,15 +147,15 @@ fn velocities_scale() {
             let mut case = case(16, trial);
             let p = case.impulse(law);
             for factor in [0.0625, 1024.0] {
-                let t = case.touch;
-                case.touch.slip_x *= factor;
-                case.touch.slip_y *= factor;
-                case.touch.approach *= factor;
-                case.touch.spin *= factor;
-                case.touch.turn *= factor;
+                let t = case.point;
+                case.point.slip_x *= factor;
+                case.point.slip_y *= factor;
+                case.point.approach *= factor;
+                case.point.spin *= factor;
+                case.point.turn *= factor;
                 let q = case.impulse(law);
                 assert_eq!(parts(&p).map(|part| part * factor), parts(&q), "{law:?}");
-                case.touch = t;
+                case.point = t;
             }
         }
     }

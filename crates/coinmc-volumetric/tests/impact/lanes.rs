@@ -1,7 +1,7 @@
 //! Four lanes side by side: each is to the bit what it is alone.
 
 use crate::common::{case, impulse, parts};
-use coinmc_volumetric::{Impulse, Law, Touch};
+use coinmc_volumetric::{ContactPoint, Impulse, Law};
 use std::array::from_fn;
 
 #[path = "../../src/four.rs"]
@@ -17,12 +17,12 @@ fn lane(p: &Impulse<Four>, i: usize) -> [f64; 5] {
 fn a_lane_does_not_see_the_others() {
     for law in Law::ALL {
         for trial in 0..25_000 {
-            // body and friction are a scene's; the touch and e are a lane's
+            // body and friction are a scene's; the point and e are a lane's
             let cases: [_; 4] = from_fn(|i| {
                 let scene = case(21, 4 * trial);
                 let mut other = case(21, 4 * trial + i as u64);
-                let t = &other.touch;
-                other.touch = crate::common::touch(
+                let t = &other.point;
+                other.point = crate::common::point(
                     &scene.body,
                     t.sin,
                     [t.slip_x, t.slip_y, t.approach],
@@ -32,8 +32,8 @@ fn a_lane_does_not_see_the_others() {
                 other.friction = scene.friction;
                 other
             });
-            let of = |part: fn(&Touch<f64>) -> f64| Four(from_fn(|i| part(&cases[i].touch)));
-            let touch = Touch {
+            let of = |part: fn(&ContactPoint<f64>) -> f64| Four(from_fn(|i| part(&cases[i].point)));
+            let point = ContactPoint {
                 sin: of(|t| t.sin),
                 cos: of(|t| t.cos),
                 rx: of(|t| t.rx),
@@ -45,7 +45,7 @@ fn a_lane_does_not_see_the_others() {
                 turn: of(|t| t.turn),
             };
             let e = Four(from_fn(|i| cases[i].e));
-            let together = impulse(law, &cases[0].body, &cases[0].friction, &touch, e);
+            let together = impulse(law, &cases[0].body, &cases[0].friction, &point, e);
             for (i, case) in cases.iter().enumerate() {
                 let alone = parts(&case.impulse(law));
                 assert_eq!(

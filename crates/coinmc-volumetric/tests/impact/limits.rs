@@ -1,6 +1,6 @@
 //! Limits with known answers.
 
-use crate::common::{Case, body, case, motions, parts, touch};
+use crate::common::{Case, body, case, motions, parts, point};
 use coinmc_volumetric::{Friction, Law};
 
 #[test]
@@ -12,8 +12,8 @@ fn without_friction_every_law_is_newtons() {
             contour: 0.0,
             pivoting: 0.0,
         };
-        let k = case.touch.matrix(&case.body);
-        let z = (1.0 + case.e) * -case.touch.approach / k.zz;
+        let k = case.point.matrix(&case.body);
+        let z = (1.0 + case.e) * -case.point.approach / k.zz;
         for law in Law::ALL {
             let p = case.impulse(law);
             assert_eq!([p.x, p.y, p.contour, p.pivoting], [0.0; 4], "{law:?}");
@@ -31,8 +31,8 @@ fn little_friction_changes_little() {
         case.friction.pivoting = 0.0;
         for mu in [1e-3, 1e-6, 1e-12, 1e-100] {
             case.friction.mu = mu;
-            let k = case.touch.matrix(&case.body);
-            let z = (1.0 + case.e) * -case.touch.approach / k.zz;
+            let k = case.point.matrix(&case.body);
+            let z = (1.0 + case.e) * -case.point.approach / k.zz;
             for law in Law::ALL {
                 let p = case.impulse(law);
                 // K_xz/K_zz <= 2; Stronge's rebound follows the slope of u_z, and is right to 1e-9
@@ -60,7 +60,7 @@ fn much_friction_sticks() {
         let sticks = |law: Law, case: &Case| {
             let p = case.impulse(law);
             let (_, after) = motions(case, &p);
-            let size = case.size() + case.touch.spin.abs() + case.touch.turn.abs();
+            let size = case.size() + case.point.spin.abs() + case.point.turn.abs();
             // without pressure there is nothing to stick with
             p.z <= 1e-6 * case.size() || after.slip.norm() <= 1e-6 * size
         };
@@ -80,7 +80,7 @@ fn long_friction_lengths_stop_the_turning() {
             case.friction.pivoting = 1e12;
             let p = case.impulse(law);
             let (_, after) = motions(&case, &p);
-            let size = case.size() + case.touch.spin.abs() + case.touch.turn.abs();
+            let size = case.size() + case.point.spin.abs() + case.point.turn.abs();
             let off = after.omega_x.abs() + after.omega_z.abs();
             assert!(off <= 1e-9 * size, "{law:?} {off:e} {case:?} {p:?}");
         }
@@ -101,7 +101,7 @@ fn thin_and_thick() {
             let case = Case {
                 body,
                 friction,
-                touch: touch(&body, sin, [0.0, 0.0, -1.0], [0.0, 0.0]),
+                point: point(&body, sin, [0.0, 0.0, -1.0], [0.0, 0.0]),
                 e: 0.5,
             };
             // the centre is over the contact: a ball's bounce, to the order of the overhang
@@ -113,7 +113,7 @@ fn thin_and_thick() {
         let case = Case {
             body,
             friction,
-            touch: touch(&body, 1e-9, [0.0, 0.0, -1.0], [0.0, 0.0]),
+            point: point(&body, 1e-9, [0.0, 0.0, -1.0], [0.0, 0.0]),
             e: 0.5,
         };
         let p = case.impulse(law);
@@ -128,8 +128,8 @@ fn almost_flat() {
         for sin in [1e-6, 1e-9, 1e-12, 1e-15] {
             for trial in 0..2_000 {
                 let mut case = case(45, trial);
-                let t = case.touch;
-                case.touch = touch(
+                let t = case.point;
+                case.point = point(
                     &case.body,
                     sin,
                     [t.slip_x, t.slip_y, t.approach],
@@ -151,7 +151,7 @@ fn almost_flat() {
 fn without_approach_no_impulse() {
     for law in Law::ALL {
         let mut case = case(46, 0);
-        case.touch.approach = 0.0;
+        case.point.approach = 0.0;
         assert_eq!(parts(&case.impulse(law)), [0.0; 5], "{law:?}");
     }
 }

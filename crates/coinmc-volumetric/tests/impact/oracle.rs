@@ -13,7 +13,7 @@ fn delassus(case: &Case) -> (Matrix, [f64; 5]) {
             x: p[0],
             y: p[1],
             z: p[2],
-            contour: p[3] * case.touch.sin,
+            contour: p[3] * case.point.sin,
             pivoting: p[4],
         };
         let (_, after) = motions(case, &p);
@@ -43,7 +43,7 @@ fn delassus(case: &Case) -> (Matrix, [f64; 5]) {
 fn gauss_seidel(case: &Case) -> Option<[f64; 5]> {
     let (g, free) = delassus(case);
     let f = &case.friction;
-    let wanted = -case.e * case.touch.approach;
+    let wanted = -case.e * case.point.approach;
     let mut p = [0.0; 5];
     for _ in 0..200_000 {
         let old = p;
@@ -53,7 +53,7 @@ fn gauss_seidel(case: &Case) -> Option<[f64; 5]> {
         let (x, y) = (p[0] - step * rate(&p, 0), p[1] - step * rate(&p, 1));
         let shrink = (f.mu * p[2] / libm::hypot(x, y)).min(1.0);
         (p[0], p[1]) = (x * shrink, y * shrink);
-        let limit = f.contour / case.touch.sin * p[2];
+        let limit = f.contour / case.point.sin * p[2];
         p[3] = (p[3] - rate(&p, 3) / g[3][3]).clamp(-limit, limit);
         let limit = f.pivoting * p[2];
         p[4] = (p[4] - rate(&p, 4) / g[4][4]).clamp(-limit, limit);
@@ -75,7 +75,7 @@ fn moreau_is_what_gauss_seidel_settles_on() {
         let mut case = case(51, trial);
         case.friction.mu = case.friction.mu.min(0.5 * case.friction.mu / 10.0 + 0.2);
         let ratio = case.body.half / case.body.radius;
-        if case.friction.mu == 0.0 || !(0.02..50.0).contains(&ratio) || case.touch.sin < 1e-3 {
+        if case.friction.mu == 0.0 || !(0.02..50.0).contains(&ratio) || case.point.sin < 1e-3 {
             continue;
         }
         let p = case.impulse(Law::Moreau);
@@ -87,7 +87,7 @@ fn moreau_is_what_gauss_seidel_settles_on() {
             skipped += 1;
             continue;
         };
-        let p = [p.x, p.y, p.z, p.contour / case.touch.sin, p.pivoting];
+        let p = [p.x, p.y, p.z, p.contour / case.point.sin, p.pivoting];
         let scale = q.iter().fold(case.size(), |sum, part| sum + part.abs());
         for i in 0..5 {
             assert!(

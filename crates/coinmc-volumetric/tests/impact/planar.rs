@@ -1,6 +1,6 @@
 //! A coin without sideways slip nor spin: the laws in the plane, and Stronge's in closed form.
 
-use crate::common::{Case, case, parts, touch};
+use crate::common::{Case, case, parts, point};
 use coinmc_flat as flat;
 use coinmc_flat::ImpactLaw as _;
 use coinmc_volumetric::Law;
@@ -8,8 +8,8 @@ use coinmc_volumetric::Law;
 /// In the plane, no friction lengths.
 fn planar(seed: u64, trial: u64) -> Case {
     let mut case = case(seed, trial);
-    let t = case.touch;
-    case.touch = touch(&case.body, t.sin, [t.slip_x, 0.0, t.approach], [0.0, 0.0]);
+    let t = case.point;
+    case.point = point(&case.body, t.sin, [t.slip_x, 0.0, t.approach], [0.0, 0.0]);
     case.friction.contour = 0.0;
     case.friction.pivoting = 0.0;
     case
@@ -19,13 +19,13 @@ fn planar(seed: u64, trial: u64) -> Case {
 fn agrees_with_the_flat_laws() {
     for trial in 0..100_000 {
         let case = planar(31, trial);
-        let k = case.touch.matrix(&case.body);
+        let k = case.point.matrix(&case.body);
         let k = flat::ContactMatrix {
             xx: k.xx,
             xz: k.xz,
             zz: k.zz,
         };
-        let (x, z) = (case.touch.slip_x, case.touch.approach);
+        let (x, z) = (case.point.slip_x, case.point.approach);
         let mu = case.friction.mu;
         for (law, p) in [
             (Law::Moreau, flat::Moreau.impulse(k, x, z, case.e, mu)),
@@ -43,9 +43,9 @@ fn agrees_with_the_flat_laws() {
 
 /// Stronge's solution in the plane: u_z(τ) is a broken line whose corner is where the slip stops.
 fn broken_line(case: &Case) -> [f64; 2] {
-    let k = case.touch.matrix(&case.body);
+    let k = case.point.matrix(&case.body);
     let (mu, e) = (case.friction.mu, case.e);
-    let (slip, u0) = (case.touch.slip_x, case.touch.approach);
+    let (slip, u0) = (case.point.slip_x, case.point.approach);
     let n = slip.signum();
     let first = k.zz - mu * k.xz * n;
     let slowing = mu * k.xx - k.xz * n;
@@ -93,9 +93,9 @@ fn stronge_is_the_broken_line() {
             "{off:e} {case:?} {:?}",
             parts(&p)
         );
-        let k = case.touch.matrix(&case.body);
+        let k = case.point.matrix(&case.body);
         stopped += u32::from(p.x.abs() < case.friction.mu * p.z * (1.0 - 1e-9));
-        jammed += u32::from(k.zz < case.friction.mu * k.xz * case.touch.slip_x.signum());
+        jammed += u32::from(k.zz < case.friction.mu * k.xz * case.point.slip_x.signum());
     }
     // the cases that make the law what it is are among them
     assert!(stopped > 10_000 && jammed > 500, "{stopped} {jammed}");

@@ -6,7 +6,7 @@ use coinmc_volumetric::{Friction, Law};
 /// Implicit steps of `1/steps` of the frictionless compression: each solves Coulomb's law and the
 /// friction lengths against the rates at its end. First order.
 fn stepped(case: &Case, steps: u32) -> [f64; 5] {
-    let (b, t, f) = (&case.body, &case.touch, &case.friction);
+    let (b, t, f) = (&case.body, &case.point, &case.friction);
     let (s, c) = (t.sin, t.cos);
     let k = t.matrix(b);
     let (roll_y, pivot_y) = (
@@ -80,7 +80,7 @@ fn stepped(case: &Case, steps: u32) -> [f64; 5] {
 /// Slips of the size of the approach, where the path turns, stops and resumes.
 fn turning(trial: u64) -> Case {
     let mut case = case(61, trial);
-    let t = &mut case.touch;
+    let t = &mut case.point;
     let size = (t.slip_x.abs() + t.slip_y.abs() + 1e-3) / -t.approach;
     t.slip_x /= size;
     t.slip_y /= size;
@@ -101,7 +101,7 @@ fn steps_converge_to_it() {
     for trial in 0..600 {
         let case = turning(trial);
         let ratio = case.body.half / case.body.radius;
-        if !(0.02..50.0).contains(&ratio) || case.touch.sin < 1e-2 {
+        if !(0.02..50.0).contains(&ratio) || case.point.sin < 1e-2 {
             continue;
         }
         let p = parts(&case.impulse(Law::Stronge));
@@ -133,9 +133,9 @@ fn elastic_without_friction_keeps_the_energy() {
             pivoting: 0.0,
         };
         let p = case.impulse(Law::Stronge);
-        let lost = p.work(&case.body, &case.touch).abs();
+        let lost = p.work(&case.body, &case.point).abs();
         assert!(
-            lost <= 1e-14 * case.touch.approach * case.touch.approach,
+            lost <= 1e-14 * case.point.approach * case.point.approach,
             "{lost:e}"
         );
     }
@@ -149,7 +149,7 @@ fn plastic_impacts_end_without_rebound() {
         case.e = 0.0;
         let p = case.impulse(Law::Stronge);
         let (_, after) = crate::common::motions(&case, &p);
-        let size = case.size() + case.touch.spin.abs() + case.touch.turn.abs() + p.z;
+        let size = case.size() + case.point.spin.abs() + case.point.turn.abs() + p.z;
         assert!(after.slip.z.abs() <= 1e-13 * size, "{case:?} {p:?}");
     }
 }

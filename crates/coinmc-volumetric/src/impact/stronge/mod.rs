@@ -5,7 +5,7 @@ mod modes;
 mod path;
 mod sweep;
 
-use super::{ChatterjeeRuina, ImpactLaw, Impulse, Touch};
+use super::{ChatterjeeRuina, ContactPoint, ImpactLaw, Impulse};
 use crate::body::{Body, Friction};
 use coinmc_lanes::Lane;
 use sweep::Sweep;
@@ -48,27 +48,27 @@ pub struct Stronge;
 const MAX_PIECES: u32 = 2000;
 
 impl ImpactLaw for Stronge {
-    const SIDE_BY_SIDE: bool = false;
+    const HAS_LANES: bool = false;
 
-    /// One touch after the other.
+    /// One point after the other.
     #[inline]
     fn impulse<L: Lane>(
         &self,
         body: &Body,
         friction: &Friction,
-        touch: &Touch<L>,
+        point: &ContactPoint<L>,
         e: L,
     ) -> Impulse<L> {
         (0..L::COUNT).fold(Impulse::none(), |all, i| {
-            all.with_lane(i, alone(body, friction, &touch.lane(i), e.lane(i)))
+            all.with_lane(i, alone(body, friction, &point.lane(i), e.lane(i)))
         })
     }
 }
 
-/// The impulse of one touch.
-fn alone(body: &Body, friction: &Friction, touch: &Touch<f64>, e: f64) -> Impulse<f64> {
-    let mut sweep = Sweep::new(body, friction, touch, e);
-    let mut goes_on = touch.approach < 0.0;
+/// The impulse of one point.
+fn alone(body: &Body, friction: &Friction, point: &ContactPoint<f64>, e: f64) -> Impulse<f64> {
+    let mut sweep = Sweep::new(body, friction, point, e);
+    let mut goes_on = point.approach < 0.0;
     for _ in 0..MAX_PIECES {
         if !goes_on {
             break;
@@ -76,8 +76,8 @@ fn alone(body: &Body, friction: &Friction, touch: &Touch<f64>, e: f64) -> Impuls
         goes_on = sweep.advance();
     }
     if goes_on {
-        ChatterjeeRuina.impulse(body, friction, touch, e)
+        ChatterjeeRuina.impulse(body, friction, point, e)
     } else {
-        sweep.impulse(touch.sin)
+        sweep.impulse(point.sin)
     }
 }

@@ -1,6 +1,6 @@
 //! What friction does at one moment: sliding or sticking, turning against its limit or held.
 
-use super::super::twist::{Limits, Reduced, Twist};
+use super::super::friction_moments::{BoxProblem, Limits, RimRates};
 
 /// Contour or pivoting friction: its rate runs with a sign, or is 0.
 #[derive(Clone, Copy)]
@@ -84,7 +84,7 @@ pub(super) struct Still {
 /// Constants of the impact that the modes need.
 #[derive(Clone, Copy)]
 pub(super) struct Couplings {
-    pub(super) twist: Twist<f64>,
+    pub(super) twist: RimRates<f64>,
     pub(super) xx: f64,
     pub(super) xz: f64,
     pub(super) yy: f64,
@@ -97,7 +97,7 @@ impl Rates {
     /// The friction of both rates beside a given f_y; decides which rates are held.
     pub(super) fn beside(&mut self, k: &Couplings, y: f64) -> (Torque, Torque) {
         let t = &k.twist;
-        let reduced = Reduced {
+        let reduced = BoxProblem {
             roll: t.roll_y * y,
             pivot: t.pivot_y * y,
             roll_pivot: t.roll_pivot,
@@ -144,7 +144,7 @@ impl Rates {
         let t = &k.twist;
         let inverse = 1.0 / (sigma + k.yy);
         let (roll_y, pivot_y) = (t.roll_y * inverse, t.pivot_y * inverse);
-        let reduced = Reduced {
+        let reduced = BoxProblem {
             roll: 0.0,
             pivot: 0.0,
             roll_pivot: t.roll_pivot - roll_y * t.pivot_y,

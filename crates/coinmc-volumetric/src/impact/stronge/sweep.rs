@@ -1,7 +1,7 @@
 //! One impact, piece by piece.
 
-use super::super::twist::Twist;
-use super::super::{ContactMatrix, Impulse, Touch};
+use super::super::friction_moments::RimRates;
+use super::super::{ContactMatrix, ContactPoint, Impulse};
 use super::events::{Cut, Event};
 use super::modes::{Couplings, Rate, Rates, Torque};
 use super::path::{Drive, Line, Normal, Path, Step};
@@ -21,7 +21,7 @@ const STEADY: f64 = 1e-11;
 pub(super) struct Sweep {
     k: ContactMatrix<f64>,
     couplings: Couplings,
-    touch: Touch<f64>,
+    point: ContactPoint<f64>,
     /// The size of the velocities.
     size: f64,
     /// e².
@@ -79,9 +79,9 @@ struct Piece {
 }
 
 impl Sweep {
-    pub(super) fn new(body: &Body, friction: &Friction, touch: &Touch<f64>, e: f64) -> Self {
-        let k = touch.matrix(body);
-        let twist = Twist::rates(body, touch);
+    pub(super) fn new(body: &Body, friction: &Friction, point: &ContactPoint<f64>, e: f64) -> Self {
+        let k = point.matrix(body);
+        let twist = RimRates::rates(body, point);
         Self {
             k,
             couplings: Couplings {
@@ -89,12 +89,12 @@ impl Sweep {
                 xx: k.xx,
                 xz: k.xz,
                 yy: k.yy,
-                rx: touch.rx,
-                rz: touch.rz,
+                rx: point.rx,
+                rz: point.rz,
                 mu: friction.mu,
             },
-            touch: *touch,
-            size: touch.slip_x.abs() + touch.slip_y.abs() + touch.approach.abs(),
+            point: *point,
+            size: point.slip_x.abs() + point.slip_y.abs() + point.approach.abs(),
             returned: e * e,
             twists: friction.twists(),
             x: 0.0,
@@ -105,7 +105,7 @@ impl Sweep {
             least: 0.0,
             back: 0.0,
             rates: Rates {
-                roll: Rate::new(twist.roll, friction.contour / touch.sin),
+                roll: Rate::new(twist.roll, friction.contour / point.sin),
                 pivot: Rate::new(twist.pivot, friction.pivoting),
             },
             still: false,
@@ -125,12 +125,12 @@ impl Sweep {
 
     fn now(&self) -> Now {
         let (k, t) = (&self.k, &self.couplings.twist);
-        let slip_x = self.touch.slip_x + k.xx * self.x + k.xz * self.z;
-        let slip_y = self.touch.slip_y + k.yy * self.y - t.slip_y(self.contour, self.pivoting);
+        let slip_x = self.point.slip_x + k.xx * self.x + k.xz * self.z;
+        let slip_y = self.point.slip_y + k.yy * self.y - t.slip_y(self.contour, self.pivoting);
         Now {
             slip_x,
             slip_y,
-            normal: self.touch.approach + k.xz * self.x + k.zz * self.z,
+            normal: self.point.approach + k.xz * self.x + k.zz * self.z,
             speed: (slip_x * slip_x + slip_y * slip_y).sqrt(),
         }
     }

@@ -22,13 +22,13 @@
 //! makes ω_x⁺ monotone in C, C then only wants clamping, and P follows from C. The box contains 0,
 //! so the energy never grows.
 
-use super::Touch;
+use super::ContactPoint;
 use crate::body::{Body, Friction};
 use coinmc_lanes::Lane;
 
 /// Rates that the friction lengths work against, and their inverse masses.
 #[derive(Clone, Copy)]
-pub(super) struct Twist<L> {
+pub(super) struct RimRates<L> {
     /// ω_x = s ψ'.
     pub(super) roll: L,
     /// ω_z.
@@ -43,8 +43,8 @@ pub(super) struct Twist<L> {
 
 /// The limits of friction, per unit normal impulse, and what the free solution needs.
 #[derive(Clone, Copy)]
-pub(super) struct Limited<L> {
-    rates: Twist<L>,
+pub(super) struct FrictionMoments<L> {
+    rates: RimRates<L>,
     /// ρ_c/s.
     contour: L,
     /// ρ_p.
@@ -60,7 +60,7 @@ pub(super) struct Limited<L> {
 
 /// C = J_c/s, P = J_p and what belongs to them.
 #[derive(Clone, Copy)]
-pub(super) struct Twisted<L> {
+pub(super) struct JointSolution<L> {
     pub(super) contour: L,
     pub(super) pivoting: L,
     /// slip_y without p_y but with C and P: p_y = −slip_y/(σ + K_yy).
@@ -71,7 +71,7 @@ pub(super) struct Twisted<L> {
 
 /// A 2 × 2 problem: rates before and inverse masses, with p_y eliminated or held, and the least of
 /// its quadratic function over P if nothing had a limit.
-pub(super) struct Reduced<L> {
+pub(super) struct BoxProblem<L> {
     pub(super) roll: L,
     pub(super) pivot: L,
     pub(super) roll_pivot: L,
@@ -103,7 +103,7 @@ impl<L: Lane> Limits<L> {
     }
 }
 
-impl<L: Lane> Reduced<L> {
+impl<L: Lane> BoxProblem<L> {
     /// The least of the quadratic function over a box: see the module's text.
     #[inline(always)]
     pub(super) fn least(&self, contour: Limits<L>, pivoting: Limits<L>) -> (L, L) {
@@ -114,18 +114,18 @@ impl<L: Lane> Reduced<L> {
     }
 }
 
-impl<L: Lane> Twist<L> {
+impl<L: Lane> RimRates<L> {
     #[inline(always)]
-    pub(super) fn rates(body: &Body, touch: &Touch<L>) -> Self {
-        let (s, c) = (touch.sin, touch.cos);
+    pub(super) fn rates(body: &Body, point: &ContactPoint<L>) -> Self {
+        let (s, c) = (point.sin, point.cos);
         let (axial, across) = (L::splat(1.0 / body.ka), L::splat(1.0 / body.kt));
         let (radius, half) = (
             L::splat(body.radius / body.ka),
             L::splat(body.half / body.kt),
         );
         Self {
-            roll: s * touch.spin + c * touch.turn,
-            pivot: c * touch.spin - s * touch.turn,
+            roll: s * point.spin + c * point.turn,
+            pivot: c * point.spin - s * point.turn,
             roll_y: s * radius + c * half,
             pivot_y: c * radius - s * half,
             roll_roll: s * s * axial + c * c * across,
@@ -154,23 +154,23 @@ impl<L: Lane> Twist<L> {
     }
 }
 
-impl<L: Lane> Limited<L> {
+impl<L: Lane> FrictionMoments<L> {
     #[inline(always)]
-    pub(super) fn new(body: &Body, friction: &Friction, touch: &Touch<L>, yy: L) -> Self {
+    pub(super) fn new(body: &Body, friction: &Friction, point: &ContactPoint<L>, yy: L) -> Self {
         let (axial, across) = (
-            L::splat(body.ka) * touch.spin,
-            L::splat(body.kt) * touch.turn,
+            L::splat(body.ka) * point.spin,
+            L::splat(body.kt) * point.turn,
         );
         Self {
-            rates: Twist::rates(body, touch),
-            contour: L::splat(friction.contour) / touch.sin,
+            rates: RimRates::rates(body, point),
+            contour: L::splat(friction.contour) / point.sin,
             pivoting: L::splat(friction.pivoting),
-            momentum: touch.cos * axial - touch.sin * across,
-            rx: touch.rx,
-            slip_y: touch.slip_y,
-            centre: touch.slip_y
-                - L::splat(body.radius) * touch.spin
-                - L::splat(body.half) * touch.turn,
+            momentum: point.cos * axial - point.sin * across,
+            rx: point.rx,
+            slip_y: point.slip_y,
+            centre: point.slip_y
+                - L::splat(body.radius) * point.spin
+                - L::splat(body.half) * point.turn,
             yy,
         }
     }
@@ -180,7 +180,7 @@ impl<L: Lane> Limited<L> {
     pub(super) fn held(&self, y: L, z: L) -> (L, L) {
         let r = &self.rates;
         let one = L::splat(1.0);
-        let reduced = Reduced {
+        let reduced = BoxProblem {
             roll: r.roll + r.roll_y * y,
             pivot: r.pivot + r.pivot_y * y,
             roll_pivot: r.roll_pivot,
@@ -195,7 +195,7 @@ impl<L: Lane> Limited<L> {
     /// C and P jointly with p_y = −slip_y⁺/σ, and the derivative by σ; `dz` is that of z, `inverse`
     /// is 1/(σ + K_yy) and `rigid` 1/(1 + σ).
     #[inline(always)]
-    pub(super) fn joint(&self, sigma: L, inverse: L, rigid: L, z: L, dz: L) -> Twisted<L> {
+    pub(super) fn joint(&self, sigma: L, inverse: L, rigid: L, z: L, dz: L) -> JointSolution<L> {
         let r = &self.rates;
         let (roll_y, pivot_y) = (r.roll_y * inverse, r.pivot_y * inverse);
         // both inverse masses times σ + K_yy, and one quotient for both
@@ -205,7 +205,7 @@ impl<L: Lane> Limited<L> {
         let share = reach / (roll * pivot);
         // without limits the coin stops turning and the centre moves on with −σ p_y
         let drift = self.centre * rigid;
-        let reduced = Reduced {
+        let reduced = BoxProblem {
             roll: r.roll - roll_y * self.slip_y,
             pivot: r.pivot - pivot_y * self.slip_y,
             roll_pivot: r.roll_pivot - roll_y * r.pivot_y,
@@ -229,7 +229,7 @@ impl<L: Lane> Limited<L> {
         let dc = L::select(free_c, dc * reduced.roll_mass, at_c);
         let dp = -(pivot_y * y) - reduced.roll_pivot * dc;
         let dp = L::select(free_p, dp * reduced.pivot_mass, at_p);
-        Twisted {
+        JointSolution {
             contour,
             pivoting,
             slip_y,
@@ -238,7 +238,7 @@ impl<L: Lane> Limited<L> {
     }
 
     #[inline(always)]
-    fn least(&self, reduced: &Reduced<L>, z: L) -> (L, L) {
+    fn least(&self, reduced: &BoxProblem<L>, z: L) -> (L, L) {
         reduced.least(
             Limits::within(self.contour * z),
             Limits::within(self.pivoting * z),

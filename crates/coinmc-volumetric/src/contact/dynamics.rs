@@ -1,0 +1,170 @@
+//! The constants of a scene in contact, and friction against rolling and pivoting.
+
+use crate::body::{Body, Friction};
+use crate::drag::Drag;
+use crate::motion::{Motion, Spin};
+use coinmc_lanes::Lane;
+
+/// The body, friction and drag of a scene, with the constants derived from them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Dynamics {
+    pub(crate) body: Body,
+    pub(crate) friction: Friction,
+    pub(crate) drag: Drag,
+    /// Ω_a/ω_a: I_a/I_t with gyroscopic torque, 1 without.
+    pub(crate) axial_factor: f64,
+    /// 1/k_t and 1/k_a.
+    pub(super) inverse_kt: f64,
+    pub(super) inverse_ka: f64,
+    /// K_yy and 1/K_yy, which do not depend on the tilt.
+    pub(super) kyy: f64,
+    pub(super) inverse_kyy: f64,
+    /// 1/(K_xx K_zz − K_xz²). It does not depend on the tilt either, as the distance of the rim from
+    /// the centre is constant.
+    pub(super) inverse_det: f64,
+    /// 1/(ρ_c smoothing_time) and 1/(ρ_p smoothing_time), see [`smoothed_sign`].
+    contour_smoothing: f64,
+    pivoting_smoothing: f64,
+}
+
+/// The smoothed sign of a rate in dry friction.
+///
+/// Friction slows the rate down by b per normal force. Where it would stop the rate within
+/// `smoothing_time`, the sign is replaced by a linear function through 0, so that the rate decays
+/// exponentially at 1/`smoothing_time` whatever the inertia. `share` is rate/(b `smoothing_time`).
+#[inline(always)]
+fn smoothed_sign<L: Lane>(share: L) -> L {
+    share.min(L::splat(1.0)).max(L::splat(-1.0))
+}
+
+/// Quotients that depend on the tilt only.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Quotients<L> {
+    /// 1/s.
+    pub(super) sin: L,
+    /// 1/A and 1/G, A = s²/ka + c²/kt and G = c²/ka + s²/kt: the inertia of the coin about the
+    /// horizontal x axis and about the vertical.
+    along: L,
+    about: L,
+}
+
+impl Dynamics {
+    pub(crate) fn new(
+        body: Body,
+        friction: Friction,
+        drag: Drag,
+        axial_factor: f64,
+        smoothing_time: f64,
+    ) -> Self {
+        let (inverse_kt, inverse_ka) = (1.0 / body.kt, 1.0 / body.ka);
+        let kyy = 1.0 + body.half * body.half * inverse_kt + body.radius * body.radius * inverse_ka;
+        // without a friction length the quotient is not used, but must be finite
+        let inverse_smoothing =
+            |length: f64| 1.0 / (length * smoothing_time).max(f64::MIN_POSITIVE);
+        Self {
+            body,
+            friction,
+            drag,
+            axial_factor,
+            inverse_kt,
+            inverse_ka,
+            kyy,
+            inverse_kyy: 1.0 / kyy,
+            inverse_det: 1.0 / (1.0 + inverse_kt),
+            contour_smoothing: inverse_smoothing(friction.contour),
+            pivoting_smoothing: inverse_smoothing(friction.pivoting),
+        }
+    }
+
+    /// The same dynamics, with the case "no drag" known to the compiler.
+    #[inline(always)]
+    pub(crate) fn with_known_drag<const ACTS: bool>(&self) -> Self {
+        Self {
+            drag: self.drag.known::<ACTS>(),
+            ..*self
+        }
+    }
+
+    /// The quotients of a tilt, by one division for all three.
+    #[inline(always)]
+    pub(super) fn quotients<L: Lane>(&self, s: L, c: L) -> Quotients<L> {
+        if !self.friction.twists() {
+            let none = L::splat(0.0);
+            return Quotients {
+                sin: L::splat(1.0) / s,
+                along: none,
+                about: none,
+            };
+        }
+        let (ikt, ika) = (L::splat(self.inverse_kt), L::splat(self.inverse_ka));
+        let along = s * s * ika + c * c * ikt;
+        let about = c * c * ika + s * s * ikt;
+        let both = along * about;
+        let inverse = L::splat(1.0) / (s * both);
+        let inverse_both = s * inverse;
+        Quotients {
+            sin: both * inverse,
+            along: about * inverse_both,
+            about: along * inverse_both,
+        }
+    }
+
+    /// (t_a, t_θ): torques of contour and pivoting friction per normal force.
+    #[inline(always)]
+    pub(crate) fn twist<L: Lane>(&self, s: L, c: L, wa: L, wt: L) -> (L, L) {
+        self.twist_at(s, c, &self.quotients(s, c), wa, wt)
+    }
+
+    /// The same, with the quotients of the tilt given.
+    #[inline(always)]
+    pub(super) fn twist_at<L: Lane>(
+        &self,
+        s: L,
+        c: L,
+        inverse: &Quotients<L>,
+        wa: L,
+        wt: L,
+    ) -> (L, L) {
+        if !self.friction.twists() {
+            return (L::splat(0.0), L::splat(0.0));
+        }
+        // ω_x = s ψ' and ω_z; friction slows them down at ρ_c A/s and ρ_p G
+        let (along, about) = (wa * s + wt * c, wa * c - wt * s);
+        let along = along * s * inverse.along * L::splat(self.contour_smoothing);
+        let about = about * inverse.about * L::splat(self.pivoting_smoothing);
+        let contour = L::splat(self.friction.contour) * smoothed_sign(along);
+        let pivoting = L::splat(self.friction.pivoting) * smoothed_sign(about);
+        let cot = c * inverse.sin;
+        (contour + pivoting * c, contour * cot - pivoting * s)
+    }
+
+    /// ω_θ(Ω_a − φ'c): the gyroscopic part of ω_y', without drag.
+    #[inline(always)]
+    fn gyroscopic<L: Lane>(&self, m: &Motion<L>, spin: &Spin<L>) -> L {
+        let azimuth = -(spin.turn / m.sin);
+        spin.turn * (L::splat(self.axial_factor) * spin.axial - azimuth * m.cos)
+    }
+
+    /// The acceleration at which the contact point would enter the surface if it were free: −bz.
+    #[inline(always)]
+    pub(crate) fn press<L: Lane>(&self, m: &Motion<L>, spin: &Spin<L>) -> L {
+        let (radius, half) = (L::splat(self.body.radius), L::splat(self.body.half));
+        let rx = radius * m.cos - half * m.sin;
+        let rz = -(half * m.cos + radius * m.sin);
+        L::splat(1.0) + rz * spin.tilt * spin.tilt + rx * self.gyroscopic(m, spin)
+    }
+
+    /// An estimate from the motion before an impact of by how much [`press`](Self::press) may exceed 1
+    /// after it.
+    #[inline(always)]
+    pub(crate) fn uplift<L: Lane>(&self, m: &Motion<L>, spin: &Spin<L>) -> L {
+        self.gyroscopic(m, spin).abs()
+    }
+}
+
+/// The fastest rate of a coin in contact: of rolling, tilting, precessing, toppling.
+#[inline(always)]
+pub(crate) fn fastest_rate<L: Lane>(m: &Motion<L>, spin: &Spin<L>) -> L {
+    let azimuth = spin.turn / m.sin;
+    (L::splat(1.0) + spin.axial * spin.axial + spin.tilt * spin.tilt + azimuth * azimuth).sqrt()
+}

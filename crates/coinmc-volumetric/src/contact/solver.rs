@@ -1,0 +1,250 @@
+//! The state machine of contact on one rim point: entering, leaving and changing phases.
+
+use super::dynamics::Dynamics;
+use super::integrator::{Trial, step};
+use super::phase::{Exit, Phase, PhaseTransition};
+use super::rim::{Mode, OMEGA_Y, Rates, RimFlow, RimState, TILT};
+use super::state::{after_impulse, change_slip, place_below, rim_state};
+use super::step::{LEAST_JAM_MARGIN, can_stick, slip_speed};
+use crate::impact::jam_impulse;
+use crate::limits::Limits;
+use crate::motion::{FLAT, Motion, Spin};
+use coinmc_core::{Decided, DecisionRule};
+
+/// A contact point that starts to slip does so at this fraction of `stick_speed`; the direction of
+/// slip then settles within a time of that order.
+pub(super) const INITIAL_SLIP: f64 = 1.0;
+/// A slip that slows down to this fraction of the initial slip starts anew.
+pub(super) const RESTART_SLIP: f64 = 0.1;
+
+/// What governs sustained contact.
+#[derive(Clone, Copy)]
+pub(crate) struct ContactRules<'a> {
+    pub(crate) dynamics: &'a Dynamics,
+    pub(crate) rule: &'a DecisionRule,
+    pub(crate) limits: &'a Limits,
+    /// Slip below which a contact point may stick.
+    pub(crate) stick_speed: f64,
+    /// Error allowed per step, absolute and relative.
+    pub(crate) tolerance: f64,
+}
+
+impl ContactRules<'_> {
+    /// Which face is decided by the motion now.
+    #[inline]
+    pub(super) fn decide(&self, motion: &Motion<f64>, spin: &Spin<f64>) -> Decided {
+        let body = &self.dynamics.body;
+        self.rule.decide(&motion.decision_state(body, spin))
+    }
+}
+
+/// The contact of one toss.
+pub(crate) struct ContactSolver<'a> {
+    pub(crate) rules: ContactRules<'a>,
+    pub(crate) usage: Usage,
+}
+
+/// What a toss has used so far.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Usage {
+    /// Tries at steps of contact.
+    pub(crate) steps: u32,
+    pub(crate) jams: u32,
+    /// Time since the launch, in flight and in contact.
+    pub(crate) time: f64,
+}
+
+impl ContactSolver<'_> {
+    /// From `motion` to its first phase.
+    pub(crate) fn enter(&self, motion: &mut Motion<f64>, spin: &mut Spin<f64>) -> Phase {
+        let mut phase = self.choose_phase(rim_state(self.rules.dynamics, motion, spin));
+        let rate = (1.0 + spin.tilt * spin.tilt + spin.axial * spin.axial).sqrt();
+        phase.length = 0.1 / rate;
+        self.move_to_start(&mut phase, motion, spin);
+        phase
+    }
+
+    /// From a phase to where its next step starts, through all transitions that take no time;
+    /// `Some` if contact ends before.
+    pub(crate) fn exit_before_step(
+        &mut self,
+        phase: &mut Phase,
+        motion: &mut Motion<f64>,
+        spin: &mut Spin<f64>,
+    ) -> Option<Exit> {
+        loop {
+            if let Some(exit) = self.exit_now(motion, spin) {
+                return Some(exit);
+            }
+            let next = self.immediate_transition(phase)?;
+            self.move_to_phase(phase, 0.0, motion, spin);
+            if let Some(exit) = self.apply(next, phase, motion, spin) {
+                return Some(exit);
+            }
+        }
+    }
+
+    /// The exit of a phase whose face is decided or whose toss has reached a limit.
+    pub(super) fn exit_now(&self, motion: &Motion<f64>, spin: &Spin<f64>) -> Option<Exit> {
+        let decided = self.rules.decide(motion, spin);
+        if decided != Decided::Open {
+            Some(Exit::Decided(decided))
+        } else if self.rules.limits.no_step_left(self.usage.steps) {
+            Some(Exit::GivenUp)
+        } else if self.rules.limits.is_late(self.usage.time) {
+            Some(Exit::TimeLimit)
+        } else {
+            None
+        }
+    }
+
+    /// The transition of a phase whose state allows no step.
+    pub(super) fn immediate_transition(&mut self, phase: &mut Phase) -> Option<PhaseTransition> {
+        if phase.state[TILT] <= FLAT && phase.state[OMEGA_Y] < 0.0 {
+            Some(PhaseTransition::Leave(Exit::Level))
+        } else if phase.now.press <= 0.0 {
+            Some(PhaseTransition::Leave(Exit::LiftOff))
+        } else if phase.mode == Mode::Slip && phase.now.jam_margin < LEAST_JAM_MARGIN {
+            Some(self.resolve_jam(phase))
+        } else {
+            None
+        }
+    }
+
+    /// Carries out a transition; `Some` if contact ends with it.
+    pub(crate) fn apply(
+        &self,
+        next: PhaseTransition,
+        phase: &mut Phase,
+        motion: &mut Motion<f64>,
+        spin: &mut Spin<f64>,
+    ) -> Option<Exit> {
+        match next {
+            PhaseTransition::Stay => None,
+            PhaseTransition::ChangeMode => {
+                self.change_mode(phase, motion, spin);
+                None
+            }
+            PhaseTransition::Leave(exit) => Some(exit),
+        }
+    }
+
+    /// From a phase whose mode no longer holds to the next phase.
+    fn change_mode(&self, phase: &mut Phase, motion: &mut Motion<f64>, spin: &mut Spin<f64>) {
+        let length = phase.length;
+        *phase = self.choose_phase(phase.state);
+        phase.length = length;
+        self.move_to_start(phase, motion, spin);
+    }
+
+    /// A jam (Painlevé's configuration): an impulse at the contact point, without approach, ends the
+    /// slip.
+    pub(super) fn resolve_jam(&mut self, phase: &mut Phase) -> PhaseTransition {
+        self.usage.jams += 1;
+        self.usage.steps += 1;
+        let dynamics = self.rules.dynamics;
+        phase.state = after_impulse(dynamics, &phase.state, |point| {
+            jam_impulse(&dynamics.body, &dynamics.friction, point)
+        });
+        PhaseTransition::ChangeMode
+    }
+
+    /// What follows a step that the limits do not allow.
+    pub(crate) fn give_up(
+        &mut self,
+        phase: &mut Phase,
+        motion: &mut Motion<f64>,
+        spin: &mut Spin<f64>,
+    ) -> PhaseTransition {
+        self.move_to_phase(phase, 0.0, motion, spin);
+        PhaseTransition::Leave(Exit::GivenUp)
+    }
+
+    /// Tries a step of this length: the state and the rates at its end.
+    pub(super) fn try_step(&self, phase: &Phase, length: f64) -> (Trial<f64, 6>, Rates<f64>) {
+        let mut last = phase.now;
+        let flow = RimFlow {
+            dynamics: self.rules.dynamics,
+            mode: phase.mode,
+            last: &mut last,
+        };
+        let rates = &phase.now.state;
+        let trial = step(&phase.state, rates, length, self.rules.tolerance, flow);
+        (trial, last)
+    }
+
+    /// Moves `motion` to the state of `phase`, which a step of this length has led to.
+    #[inline]
+    pub(crate) fn move_to_phase(
+        &mut self,
+        phase: &mut Phase,
+        length: f64,
+        motion: &mut Motion<f64>,
+        spin: &mut Spin<f64>,
+    ) {
+        self.usage.time += length;
+        let ceiling = phase.ceiling;
+        place_below(self.rules.dynamics, &mut phase.state, motion, spin, ceiling);
+    }
+
+    /// Moves `motion` to the start of a new phase, with no more energy than it has.
+    fn move_to_start(&self, phase: &mut Phase, motion: &mut Motion<f64>, spin: &mut Spin<f64>) {
+        let dynamics = self.rules.dynamics;
+        let before = motion.energy(&dynamics.body, spin);
+        place_below(dynamics, &mut phase.state, motion, spin, before);
+        phase.ceiling = motion.energy(&dynamics.body, spin).min(before);
+    }
+
+    /// The phase of a state: it sticks if the slip is below `stick_speed` and friction can hold the
+    /// point, otherwise it slips.
+    fn choose_phase(&self, state: RimState<f64>) -> Phase {
+        let dynamics = self.rules.dynamics;
+        let slip = slip_speed(&state);
+        if dynamics.friction.mu == 0.0 || slip > self.rules.stick_speed {
+            return self.phase(state, Mode::Slip);
+        }
+        let sticking = self.phase(change_slip(dynamics, &state, 0.0, 0.0), Mode::Stick);
+        if can_stick(dynamics, &sticking.now) {
+            return sticking;
+        }
+        let [fx, fy] = sticking.now.friction;
+        let needed = (fx * fx + fy * fy).sqrt();
+        let initial = INITIAL_SLIP * self.rules.stick_speed;
+        if slip < RESTART_SLIP * initial && needed > 0.0 {
+            self.start_slipping(&state, [fx, fy], -initial / needed)
+        } else {
+            self.phase(state, Mode::Slip)
+        }
+    }
+
+    /// The phase of a point that starts to slip, against the friction that would have to hold it.
+    /// `scale` times this friction is the slip.
+    fn start_slipping(&self, state: &RimState<f64>, [fx, fy]: [f64; 2], scale: f64) -> Phase {
+        let slipping = |gx, gy| {
+            let state = change_slip(self.rules.dynamics, state, gx, gy);
+            self.phase(state, Mode::Slip)
+        };
+        let against = slipping(scale * fx, scale * fy);
+        // at high friction, slip in one direction may jam while slip in the other does not
+        if against.now.jam_margin < LEAST_JAM_MARGIN {
+            slipping(-scale * fx, scale * fy)
+        } else {
+            against
+        }
+    }
+
+    fn phase(&self, state: RimState<f64>, mode: Mode) -> Phase {
+        Phase {
+            state,
+            mode,
+            now: self.rules.dynamics.rates(&state, mode),
+            ..Phase::none()
+        }
+    }
+
+    /// Whether a coin in contact in this state presses on the surface and tilts away from its side.
+    pub(super) fn tilts_from_side(&self, state: RimState<f64>) -> bool {
+        let now = self.choose_phase(state).now;
+        now.press > 0.0 && now.state[OMEGA_Y] < 0.0
+    }
+}

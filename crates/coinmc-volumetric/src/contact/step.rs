@@ -1,0 +1,206 @@
+//! One try of a contact step, for one toss or several at once: how long it may be, and what lies
+//! within it.
+
+use super::dynamics::Dynamics;
+use super::integrator::{Trial, is_accepted, next_length, shorter, step};
+use super::rim::{Mode, OMEGA_Y, Rates, RimFlow, RimState, SLIP_X, SLIP_Y, TILT};
+use super::solver::ContactRules;
+use super::state::place_below;
+use crate::motion::{FLAT, Motion, Spin};
+use coinmc_lanes::Lane;
+use std::f64::consts::FRAC_PI_2;
+
+/// The other rim counts as touching within this angle, rad; the difference is an energy of 1e-12 at
+/// most.
+pub(super) const SIDE_ANGLE: f64 = 1e-12;
+/// In one step a slip is slowed down to this fraction of itself at most.
+const MOST_BRAKING: f64 = 0.05;
+/// Painlevé: K_zz − μ K_xz n_x below this counts as 0. (Without friction it is 1 + rx²/kt.)
+pub(super) const LEAST_JAM_MARGIN: f64 = 1e-3;
+
+/// A step to try.
+pub(crate) struct StepTrial<L: Lane> {
+    pub(crate) state: RimState<L>,
+    pub(crate) rates: RimState<L>,
+    /// Length wanted for the step; where `retry`, the length of the try.
+    pub(crate) length: L,
+    pub(crate) ceiling: L,
+    /// A try of this step has failed.
+    pub(crate) retry: L::Mask,
+}
+
+/// What a try found.
+pub(crate) struct Tried<L: Lane> {
+    /// Length of the try.
+    pub(crate) length: L,
+    /// Length wanted next: for the next step, or for the next try of this one.
+    pub(crate) wanted: L,
+    pub(crate) trial: Trial<L, 6>,
+    pub(crate) now: Rates<L>,
+    /// The state at the end of the step, valid if the step is accepted and has no event.
+    pub(crate) state: RimState<L>,
+    pub(crate) accepted: L::Mask,
+    /// The step is accepted, and an event lies within it.
+    pub(crate) eventful: L::Mask,
+    /// The face is decided after the step.
+    pub(crate) decided: L::Mask,
+}
+
+impl<L: Lane> StepTrial<L> {
+    /// Tries the step. `dynamics` are those of `rules`, with drag known to the compiler.
+    #[inline(always)]
+    pub(crate) fn run(
+        &self,
+        dynamics: &Dynamics,
+        rules: &ContactRules<'_>,
+        mode: Mode,
+    ) -> Tried<L> {
+        let limited = step_limit(dynamics, mode, &self.state, &self.rates, self.length);
+        let length = L::select(self.retry, self.length, limited);
+        let mut now = Rates::none();
+        let flow = RimFlow {
+            dynamics,
+            mode,
+            last: &mut now,
+        };
+        let trial = step(&self.state, &self.rates, length, rules.tolerance, flow);
+        let accepted = is_accepted(trial.error);
+        let after_accepted = wanted_length(length, trial.error, self.retry);
+        let wanted = L::select(accepted, after_accepted, shorter(length, trial.error));
+        let mut state = trial.state;
+        let (mut motion, mut spin) = (Motion::still(), Spin::still());
+        place_below(dynamics, &mut state, &mut motion, &mut spin, self.ceiling);
+        let stick_speed = rules.stick_speed;
+        let eventful = self.has_event(dynamics, stick_speed, mode, length, &trial.state, &now);
+        Tried {
+            length,
+            wanted,
+            eventful: accepted & eventful,
+            trial,
+            now,
+            state,
+            accepted,
+            decided: rules
+                .rule
+                .is_decided(&motion.decision_state(&dynamics.body, &spin)),
+        }
+    }
+
+    /// Whether a step to `state` passes an event, or may change the mode.
+    #[inline(always)]
+    fn has_event(
+        &self,
+        dynamics: &Dynamics,
+        stick_speed: f64,
+        mode: Mode,
+        length: L,
+        state: &RimState<L>,
+        now: &Rates<L>,
+    ) -> L::Mask {
+        let (zero, flat) = (L::splat(0.0), L::splat(FLAT));
+        let tilt = state[TILT];
+        let on_side = L::splat(FRAC_PI_2 - SIDE_ANGLE).lt(tilt) & zero.lt(state[OMEGA_Y]);
+        let beyond = L::splat(FRAC_PI_2 + SIDE_ANGLE).lt(tilt);
+        // about to become level, or level already: no step may start from here
+        let level = tilt.le(flat);
+        let (before, after) = (self.state[OMEGA_Y], state[OMEGA_Y]);
+        let over = may_reach_side(self.state[TILT], before, after, length);
+        let mut happens = on_side | beyond | over | level | !holds(dynamics, mode, now);
+        if dynamics.conserves(mode) {
+            happens = happens | (state[OMEGA_Y] * self.state[OMEGA_Y]).lt(zero);
+        }
+        if mode == Mode::Slip && dynamics.friction.mu > 0.0 {
+            let slows = state[SLIP_X] * now.state[SLIP_X] + state[SLIP_Y] * now.state[SLIP_Y];
+            happens = happens | (slip_speed(state).le(L::splat(stick_speed)) & slows.lt(zero));
+        }
+        happens
+    }
+}
+
+/// Whether the tilt, which grows at the rate `before` at the start of a step and falls at its end,
+/// may have reached the side in between. The rate decreases on the way; the factor of 2 leaves room
+/// for a rate that increases first.
+#[inline(always)]
+pub(super) fn may_reach_side<L: Lane>(tilt: L, before: L, after: L, length: L) -> L::Mask {
+    let zero = L::splat(0.0);
+    let reach = tilt + L::splat(2.0) * before * length;
+    zero.lt(before) & after.lt(zero) & L::splat(FRAC_PI_2).lt(reach)
+}
+
+/// The length of a step, given the wanted length: limited by what the state allows.
+#[inline(always)]
+pub(super) fn step_limit<L: Lane>(
+    dynamics: &Dynamics,
+    mode: Mode,
+    state: &RimState<L>,
+    rates: &RimState<L>,
+    wanted: L,
+) -> L {
+    let braking = match mode {
+        Mode::Slip if dynamics.friction.mu > 0.0 => braking_limit(state, rates),
+        _ => L::splat(f64::INFINITY),
+    };
+    wanted.min(braking).min(flattening_limit(state))
+}
+
+/// No step passes the end of a slip: its direction would reverse within the step.
+#[inline(always)]
+fn braking_limit<L: Lane>(state: &RimState<L>, rates: &RimState<L>) -> L {
+    let [.., gx, gy] = *state;
+    let braking = -(gx * rates[SLIP_X] + gy * rates[SLIP_Y]);
+    let most = L::splat(1.0 - MOST_BRAKING) * (gx * gx + gy * gy) / braking;
+    L::select(braking.le(L::splat(0.0)), L::splat(f64::INFINITY), most)
+}
+
+/// No step of a falling coin reaches the tilt where it would be level: the rates grow like 1/θ there.
+#[inline(always)]
+fn flattening_limit<L: Lane>(state: &RimState<L>) -> L {
+    let (tilt, falls) = (state[TILT], state[OMEGA_Y].lt(L::splat(0.0)));
+    let most = L::splat(-0.5) * tilt.max(L::splat(2.0 * FLAT)) / state[OMEGA_Y];
+    L::select(falls, most, L::splat(f64::INFINITY))
+}
+
+/// The length wanted after an accepted step of this length; `retry` if it was not its first try.
+#[inline(always)]
+pub(super) fn wanted_length<L: Lane>(length: L, error: L, retry: L::Mask) -> L {
+    let next = next_length(length, error);
+    // what made the first try fail is likely still ahead
+    L::select(retry, length.min(next), next)
+}
+
+/// Whether the mode is consistent with its forces.
+#[inline(always)]
+pub(super) fn holds<L: Lane>(dynamics: &Dynamics, mode: Mode, now: &Rates<L>) -> L::Mask {
+    let presses = !now.press.le(L::splat(0.0));
+    presses
+        & match mode {
+            Mode::Slip => L::splat(LEAST_JAM_MARGIN).le(now.jam_margin),
+            Mode::Stick => can_stick(dynamics, now),
+        }
+}
+
+/// By how much the mode is consistent: a continuous measure, negative where it is not.
+pub(super) fn margin(dynamics: &Dynamics, mode: Mode, now: &Rates<f64>) -> f64 {
+    let consistent = match mode {
+        Mode::Slip => now.jam_margin - LEAST_JAM_MARGIN,
+        Mode::Stick => {
+            let [fx, fy] = now.friction;
+            dynamics.friction.mu * now.normal - (fx * fx + fy * fy).sqrt()
+        }
+    };
+    now.press.min(consistent)
+}
+
+/// Whether the forces that hold a sticking contact point lie in the friction cone.
+#[inline(always)]
+pub(super) fn can_stick<L: Lane>(dynamics: &Dynamics, sticking: &Rates<L>) -> L::Mask {
+    let [fx, fy] = sticking.friction;
+    let most = L::splat(dynamics.friction.mu) * sticking.normal;
+    L::splat(0.0).lt(sticking.normal) & (fx * fx + fy * fy).lt(most * most)
+}
+
+#[inline(always)]
+pub(super) fn slip_speed<L: Lane>(state: &RimState<L>) -> L {
+    let [.., gx, gy] = *state;
+    (gx * gx + gy * gy).sqrt()
+}

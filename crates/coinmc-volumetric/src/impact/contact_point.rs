@@ -1,0 +1,100 @@
+//! The contact point just before an impact, and its inertia.
+
+use crate::body::Body;
+use coinmc_lanes::Lane;
+
+/// The inverse mass of the contact point: its velocity changes by K p.
+#[derive(Debug, Clone, Copy)]
+pub struct ContactMatrix<L> {
+    /// 1 + rz²/kt.
+    pub xx: L,
+    /// −rx rz/kt.
+    pub xz: L,
+    /// 1 + h²/kt + R²/ka.
+    pub yy: L,
+    /// 1 + rx²/kt.
+    pub zz: L,
+}
+
+/// The contact at constant normal velocity.
+#[derive(Clone, Copy)]
+pub(crate) struct Condensed<L> {
+    /// 1/K_zz.
+    pub(crate) mass_z: L,
+    /// K_xz/K_zz: p_x takes −coupling·p_x of normal impulse along.
+    pub(crate) coupling: L,
+    /// α = K_xx − K_xz²/K_zz, the inverse mass along x.
+    pub(crate) alpha: L,
+}
+
+impl<L: Lane> ContactMatrix<L> {
+    /// K is the unit matrix and a rank-one part in the xz plane, so its determinant there is
+    /// K_xx + K_zz − 1: nothing cancels.
+    #[inline(always)]
+    pub(crate) fn condensed(&self) -> Condensed<L> {
+        let mass_z = L::splat(1.0) / self.zz;
+        Condensed {
+            mass_z,
+            coupling: self.xz * mass_z,
+            alpha: (self.xx + self.zz - L::splat(1.0)) * mass_z,
+        }
+    }
+}
+
+/// A coin that touches, just before the impact: lengths in D = sqrt(R² + H²/4), times in
+/// sqrt(D/g), in the frame whose z points up and whose x along the horizontal part of the axis u.
+#[derive(Debug, Clone, Copy)]
+pub struct ContactPoint<L> {
+    /// s = sin of the tilt of u from the vertical, > 0.
+    pub sin: L,
+    /// c = cos of that tilt, >= 0: the frame is chosen so that u points up.
+    pub cos: L,
+    /// Contact point from the centre, x: c R − s h.
+    pub rx: L,
+    /// Contact point from the centre, z: −c h − s R.
+    pub rz: L,
+    /// Velocity of the contact point, x.
+    pub slip_x: L,
+    /// Velocity of the contact point, y.
+    pub slip_y: L,
+    /// Velocity of the contact point, z: negative when it approaches.
+    pub approach: L,
+    /// Angular velocity about u.
+    pub spin: L,
+    /// Angular velocity about e_θ.
+    pub turn: L,
+}
+
+impl<L: Lane> ContactPoint<L> {
+    /// The inverse mass of this contact.
+    #[inline(always)]
+    pub fn matrix(&self, body: &Body) -> ContactMatrix<L> {
+        let one = L::splat(1.0);
+        let inverse_kt = L::splat(1.0 / body.kt);
+        let (x, z) = (self.rx * inverse_kt, self.rz * inverse_kt);
+        ContactMatrix {
+            xx: one + self.rz * z,
+            xz: -(self.rx * z),
+            yy: L::splat(
+                1.0 + body.half * body.half / body.kt + body.radius * body.radius / body.ka,
+            ),
+            zz: one + self.rx * x,
+        }
+    }
+
+    /// The point in one lane.
+    #[inline(always)]
+    pub(crate) fn lane(&self, index: usize) -> ContactPoint<f64> {
+        ContactPoint {
+            sin: self.sin.lane(index),
+            cos: self.cos.lane(index),
+            rx: self.rx.lane(index),
+            rz: self.rz.lane(index),
+            slip_x: self.slip_x.lane(index),
+            slip_y: self.slip_y.lane(index),
+            approach: self.approach.lane(index),
+            spin: self.spin.lane(index),
+            turn: self.turn.lane(index),
+        }
+    }
+}

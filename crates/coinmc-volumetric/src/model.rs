@@ -1,0 +1,119 @@
+//! The constants of all tosses of one scene: what the scalar path and the batch both work with.
+
+use crate::body::{Body, Friction, Units};
+use crate::contact::{ContactRules, ContactSolver, Dynamics, Usage};
+use crate::drag::Drag;
+use crate::limits::Limits;
+use crate::settings::{Decision, Settings, SettingsError};
+use crate::toss::Toss;
+use coinmc_core::{DecisionRule, Event, EventKind, Landing, Launch, Observer, Scene};
+
+/// Smallest error that the contact integrator may be asked for: its rounding.
+const LEAST_TOLERANCE: f64 = 1e-13;
+/// Rocking counts as negligible below this fraction of [`Settings::zeno`], in angle, speed and
+/// angular velocity.
+const NEGLIGIBLE_ROCKING: f64 = 0.1;
+
+/// A scene, an impact law and settings, in the kernel's units.
+#[derive(Debug, Clone)]
+pub(crate) struct Model<L> {
+    pub(crate) impact: L,
+    pub(crate) dynamics: Dynamics,
+    pub(crate) units: Units,
+    pub(crate) limits: Limits,
+    pub(crate) rule: DecisionRule,
+    pub(crate) restitution: f64,
+    /// Approach speed below which e = 0, in sqrt(g D).
+    pub(crate) threshold: f64,
+    /// Whether the coin sticks where it first lands.
+    pub(crate) adhesive: bool,
+    /// Whether no toss ever loses energy.
+    pub(crate) conserves: bool,
+    /// [`Settings::zeno`].
+    pub(crate) zeno: f64,
+    /// Angle, rad, below which rocking is negligible; also a fraction of other quantities.
+    pub(crate) negligible_rocking: f64,
+    /// [`Settings::stick_speed`].
+    stick_speed: f64,
+    /// [`Settings::tolerance`] in sqrt(g D).
+    tolerance: f64,
+}
+
+impl<L> Model<L> {
+    /// The model of a scene. `settings.law` is not used: `impact` is the law.
+    ///
+    /// # Errors
+    /// [`SettingsError`] if a setting is out of range.
+    pub(crate) fn new(
+        scene: &Scene,
+        settings: &Settings,
+        impact: L,
+    ) -> Result<Self, SettingsError> {
+        settings.validate()?;
+        let units = Units::new(scene);
+        let body = Body::new(&scene.coin);
+        let friction = Friction::new(scene);
+        let drag = Drag {
+            linear: scene.drag().linear_per_s() * units.time_s,
+            angular: scene.drag().angular_per_s() * units.time_s,
+        };
+        let axial_factor = body.axial_factor(scene.has_gyroscopic_torque());
+        let negligible_rocking = NEGLIGIBLE_ROCKING * settings.zeno;
+        let tilting = settings.decision == Decision::Tilting;
+        let rule = DecisionRule::new(scene, tilting, negligible_rocking);
+        let restitution = scene.surface.restitution();
+        let threshold = scene.surface.restitution_threshold_m_s() / units.speed_m_s();
+        Ok(Self {
+            impact,
+            dynamics: Dynamics::new(body, friction, drag, axial_factor, settings.smoothing_time),
+            units,
+            limits: Limits::new(settings),
+            rule,
+            restitution,
+            threshold,
+            adhesive: scene.surface.landing() == Landing::Adhesive,
+            conserves: rule.loses_nothing(restitution) && threshold == 0.0,
+            zeno: settings.zeno,
+            negligible_rocking,
+            stick_speed: settings.stick_speed,
+            tolerance: (settings.tolerance * body.escape_speed()).max(LEAST_TOLERANCE),
+        })
+    }
+
+    /// A toss at its launch.
+    pub(crate) fn launch(&self, launch: &Launch) -> Toss {
+        let dynamics = &self.dynamics;
+        Toss::new(launch, &self.units, &dynamics.body, dynamics.axial_factor)
+    }
+
+    /// What governs sustained contact.
+    #[inline]
+    pub(crate) fn contact_rules(&self) -> ContactRules<'_> {
+        ContactRules {
+            dynamics: &self.dynamics,
+            rule: &self.rule,
+            limits: &self.limits,
+            stick_speed: self.stick_speed,
+            tolerance: self.tolerance,
+        }
+    }
+
+    /// A solver for the contact of a toss that has used this much so far.
+    #[inline]
+    pub(crate) fn contact_solver(&self, usage: Usage) -> ContactSolver<'_> {
+        ContactSolver {
+            rules: self.contact_rules(),
+            usage,
+        }
+    }
+
+    /// Reports an event to an observer.
+    pub(crate) fn notify<O: Observer>(&self, toss: &Toss, kind: EventKind, observer: &mut O) {
+        if O::ACTIVE {
+            observer.event(&Event {
+                kind,
+                state: toss.state(&self.units),
+            });
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! The scalar path: one toss from launch to end. The batch reproduces it bit for bit.
+
+use crate::contact::{ContactSolver, Usage};
+use crate::finished_toss::FinishedToss;
+use crate::flight::Departure;
+use crate::impact::ImpactLaw;
+use crate::model::Model;
+use crate::toss::Toss;
+use crate::transition::Transition;
+use coinmc_core::{Ended, EventKind, Launch, Observer};
+
+impl<L: ImpactLaw> Model<L> {
+    /// Simulates one toss.
+    pub(crate) fn run<O: Observer>(&self, launch: &Launch, observer: &mut O) -> FinishedToss {
+        let mut toss = self.launch(launch);
+        let mut solver = self.contact_solver(Usage::default());
+        self.notify(&toss, EventKind::Launched, observer);
+        let ended = match self.end_at_launch(&toss, launch) {
+            Some(ended) => ended,
+            None => self.follow(&mut toss, &mut solver, observer),
+        };
+        self.notify(&toss, EventKind::Ended, observer);
+        FinishedToss::new(ended, &toss, &solver.usage)
+    }
+
+    /// Alternates flight and contact with the surface until the toss ends.
+    fn follow<O: Observer>(
+        &self,
+        toss: &mut Toss,
+        solver: &mut ContactSolver<'_>,
+        observer: &mut O,
+    ) -> Ended {
+        let mut departure = Departure::Launched;
+        loop {
+            if !self.fly(toss, &mut solver.usage, departure, observer) {
+                return self.end_given_up(toss);
+            }
+            if let Some(ended) = self.end_at_landing(toss, solver.usage.time) {
+                return ended;
+            }
+            match self.on_surface(toss, solver, observer) {
+                Ok(next) => departure = next,
+                Err(ended) => return ended,
+            }
+        }
+    }
+
+    /// Impacts and sustained contact until the coin departs again, or the toss ends.
+    fn on_surface<O: Observer>(
+        &self,
+        toss: &mut Toss,
+        solver: &mut ContactSolver<'_>,
+        observer: &mut O,
+    ) -> Result<Departure, Ended> {
+        toss.rim_changes = 0;
+        loop {
+            let mut next = self.impact(toss, solver, observer);
+            if next == Transition::Contact {
+                next = self.follow_contact(toss, solver, observer);
+            }
+            match next {
+                Transition::Flight(departure) => return Ok(departure),
+                Transition::Impact | Transition::Contact => {}
+                Transition::End(ended) => return Err(ended),
+            }
+        }
+    }
+}
