@@ -1,7 +1,6 @@
 //! Eight flights at the end of their search: Newton's method closes in on the first contact.
 
-use super::columns::{START, SlotNumbers, load, start_of_flight};
-use super::flight_stage::{ORBIT, SEARCH};
+use super::columns::{ORBIT, SEARCH, START, SlotNumbers, load, start_of_flight};
 use crate::body::Body;
 use crate::drag::Drag;
 use crate::flight::{MAX_EVALUATIONS, Orbit, Search};

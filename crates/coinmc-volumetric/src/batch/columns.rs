@@ -1,8 +1,13 @@
 //! Columns of lanes in memory: each number of a stage is a block of eight, one for each lane.
 
+use crate::flight::OrbitState;
 use crate::motion::{Motion, Spin};
 use coinmc_lanes::{Bits, Block, Route, Wide};
 
+/// Columns of an orbit.
+pub(super) const ORBIT: usize = OrbitState::<f64>::COLUMNS;
+/// Columns of a search: time, smallest step, evaluations.
+pub(super) const SEARCH: usize = 3;
 /// Columns of the motion at the start of a flight: those of [`Motion`], and the axial angular
 /// velocity.
 pub(super) const START: usize = 10;

@@ -2,7 +2,7 @@
 //! the scalar path.
 
 use super::columns::{has, load, store};
-use super::pool::Slot;
+use super::slot::Slot;
 use crate::contact::{
     ContactRules, ContactSolver, Mode, PhaseTransition, Rates, StepTrial, TiltSearch, Trial, place,
 };

@@ -6,17 +6,14 @@
 //! flights have been collected (see [`Arrivals::close_in`]).
 
 use super::arrivals::Arrivals;
-use super::columns::{START, SlotNumbers, load, store};
+use super::columns::{ORBIT, SEARCH, START, SlotNumbers, load, store};
 use super::departures::Departures;
 use crate::body::Body;
 use crate::drag::Drag;
-use crate::flight::{Extent, MAX_EVALUATIONS, Orbit, OrbitState, Search, least_time};
+use crate::flight::{Extent, MAX_EVALUATIONS, Orbit, Search, least_time};
 use coinmc_lanes::{Bits, Block, Mask, Route, Wide};
 
-/// Columns of the search: time, least progress, evaluations.
-pub(super) const SEARCH: usize = 3;
-/// Columns of an orbit and of its extent.
-pub(super) const ORBIT: usize = OrbitState::<f64>::COLUMNS;
+/// Columns of an extent.
 const EXTENT: usize = Extent::<f64>::COLUMNS;
 
 /// One flight in each lane.

@@ -4,7 +4,7 @@ use super::arrivals::Arrivals;
 use super::columns::has;
 use super::departures::Departures;
 use super::flights::Flights;
-use super::pool::Slot;
+use super::slot::Slot;
 use crate::contact::Dynamics;
 use crate::flight_phase::land;
 use crate::impact::ImpactLaw;

@@ -24,6 +24,7 @@ mod flight_stage;
 mod flights;
 mod impact_stage;
 mod pool;
+mod slot;
 
 #[cfg(test)]
 mod tests;

@@ -1,55 +1,17 @@
-//! All tosses in flight: their slots, and the queues between the stages.
+//! All tosses in flight: their slots, the stages, and the queues between them.
 
 use super::contact_stage::ContactStage;
 use super::departures::Departures;
 use super::flights::Flights;
 use super::impact_stage::ImpactStage;
-use crate::contact::{Mode, Phase, TiltSearch, Usage};
-use crate::flight::Departure;
-use crate::toss::Toss;
+use super::slot::Slot;
+use crate::contact::Mode;
 
 /// Tosses in flight: enough that a stage nearly always finds eight. From 64 to 256 the speed is the
 /// same within 5 %.
 pub(super) const SLOTS: usize = 128;
 
-/// The memory of one toss. What its flights and impacts need comes first, in one cache line.
-#[derive(Debug, Clone, Copy)]
-#[repr(C, align(64))]
-pub(super) struct Slot {
-    pub(super) usage: Usage,
-    /// The number of the launch.
-    pub(super) number: u64,
-    /// How the next flight begins.
-    pub(super) departure: Departure,
-    pub(super) toss: Toss,
-    pub(super) phase: Phase,
-    /// The search for the end of contact, while it is under way.
-    pub(super) tilt_search: Option<TiltSearch>,
-}
-
-impl Slot {
-    fn empty() -> Self {
-        Self {
-            usage: Usage::default(),
-            number: 0,
-            departure: Departure::Launched,
-            toss: Toss::still(),
-            phase: Phase::none(),
-            tilt_search: None,
-        }
-    }
-
-    /// Reuses the slot for a new toss. (`phase` is set when contact begins.)
-    #[inline]
-    pub(super) fn reset(&mut self, number: u64, toss: Toss) {
-        (self.number, self.toss) = (number, toss);
-        self.usage = Usage::default();
-        self.departure = Departure::Launched;
-        self.tilt_search = None;
-    }
-}
-
-/// Queues hold the numbers of slots.
+/// All slots, the stages, and the queues between them. Queues hold numbers of slots.
 pub(super) struct Pool {
     pub(super) slots: Vec<Slot>,
     pub(super) free: Vec<usize>,

@@ -1,46 +1,43 @@
 //! Sustained contact: on one rim point, and on the side.
 //!
 //! # The state machine of a rim point
-//! A toss in contact on one rim point is in a [`Phase`]: it sticks or it slips ([`Mode`]). A phase is
-//! integrated step by step. Each step, or the mere state at the start of one, leads to a
-//! [`PhaseTransition`]: stay in the phase, change the mode, or leave contact by an [`Exit`].
+//! A toss in contact on one rim point is in a [`Phase`], in one of two modes: it sticks or it slips
+//! ([`Mode`]). A phase is integrated step by step. The state at the start of a step and the step itself
+//! lead to a [`PhaseTransition`]: stay in the phase, change the mode, or leave contact by an [`Exit`].
 //!
 //! ```text
-//! motion ── enter ──▶ phase in the mode that it can be in
+//!               ┌── friction cannot hold the point ──▶
+//!    STICKING ──┤                                      SLIPPING ──┐ jam (Painlevé): a tangential
+//!               ◀── slip vanishes, friction holds it ──┘    ◀─────┘ impulse changes the slip
 //!
-//!              ┌──── friction needed exceeds the cone ────▶┐
-//!      STICKING                                            SLIPPING ◀─┐ jam (Painlevé):
-//!              └◀─ slip below stick_speed, and can stick ──┘ └────────┘ tangential impact
-//!
-//! either ── exit_now ──────────────▶ Decided, TimeLimit, GivenUp (step limit)
-//! either ── immediate_transition ──▶ Level, LiftOff; change of mode after a jam
-//! either ── try_step, accept ──────▶ stay; change of mode; Exit:
-//!           normal force vanishes       LiftOff     ▶ flight
-//!           the other rim touches       OtherRim    ▶ impact there
-//!           the tilt vanishes           Level       ▶ impact of the opposite rim point
-//!           motion repeats for ever     Decided or NeverSettles
+//!    either ── the normal force vanishes ─────▶ Exit::LiftOff      ▶ flight
+//!    either ── the other rim touches ─────────▶ Exit::OtherRim     ▶ impact of that rim
+//!    either ── the tilt vanishes ─────────────▶ Exit::Level        ▶ impact of the opposite point
+//!    either ── the face is decided ───────────▶ Exit::Decided      ▶ end
+//!    either ── the motion repeats itself ─────▶ Exit::NeverSettles ▶ end
+//!    either ── a limit is reached ────────────▶ Exit::TimeLimit, Exit::GivenUp ▶ end
 //! ```
 //!
 //! | function | from | to |
 //! |---|---|---|
 //! | `enter` | a motion | its first phase |
-//! | `change_mode` | a phase that no longer holds | the next phase |
 //! | `exit_now` | a phase before a step | an exit, if the face is decided or a limit is reached |
 //! | `immediate_transition` | a phase before a step | a transition that takes no time, if there is one |
-//! | `exit_before_step` | a phase | where its next step starts, or an exit |
-//! | `try_step` | the start of a step | its end, which may be rejected |
-//! | `accept` | an accepted step | its end, or the first event within it |
-//! | `apply` | a transition | the phase after it, or the exit |
+//! | `exit_before_step` | a phase | an exit, or where its next step starts (after both of the above) |
+//! | `try_step` | the start of a step | its end, which may be rejected as inaccurate |
+//! | `accept` | an accurate step | its end, or the first event within it, and the transition there |
+//! | `apply` | a transition | the same phase, the next phase, or the exit |
+//! | `change_mode` | a phase whose mode no longer holds | the next phase |
 //!
-//! The scalar path ([`ContactSolver::follow`]) and the batch drive this machine; they share all of
-//! its functions.
+//! The scalar path (`follow`) and the batch both drive this machine.
 //!
 //! # Modules
-//! `dynamics` constants and friction moments · `rim` equations of motion · `state` from motion to
-//! state and back · `integrator` Runge–Kutta step · `step` one try of a step · `phase` phase, mode,
-//! exits · `solver` the state machine · `tilt_search`, `margin_search` and `events` where in a step
-//! something happens · `follow` the scalar path · `line`, `on_side`, `rolling_stop` the coin on its
-//! side.
+//! - `dynamics` constants and friction moments · `rim` equations of motion · `state` from motion to
+//!   state and back · `integrator` Runge–Kutta step
+//! - `rules` what governs contact · `phase` phase and exits · `step` one try of a step
+//! - `solver` the state machine · `tilt_search`, `margin_search`, `events` where in a step an event lies
+//! - `follow` the scalar path
+//! - `line`, `rolling_stop`, `on_side` the coin on its side
 
 mod dynamics;
 mod events;
@@ -52,6 +49,7 @@ mod on_side;
 mod phase;
 mod rim;
 mod rolling_stop;
+mod rules;
 mod solver;
 mod state;
 mod step;
@@ -62,7 +60,8 @@ pub(crate) use integrator::Trial;
 pub(crate) use on_side::SideExit;
 pub(crate) use phase::{Exit, Phase, PhaseTransition};
 pub(crate) use rim::{Mode, Rates};
-pub(crate) use solver::{ContactRules, ContactSolver, Usage};
+pub(crate) use rules::{ContactRules, Usage};
+pub(crate) use solver::ContactSolver;
 pub(crate) use state::place;
 pub(crate) use step::StepTrial;
 pub(crate) use tilt_search::TiltSearch;

@@ -1,15 +1,14 @@
 //! The state machine of contact on one rim point: entering, leaving and changing phases.
 
-use super::dynamics::Dynamics;
 use super::integrator::{Trial, step};
 use super::phase::{Exit, Phase, PhaseTransition};
 use super::rim::{Mode, OMEGA_Y, Rates, RimFlow, RimState, TILT};
+use super::rules::{ContactRules, Usage};
 use super::state::{after_impulse, change_slip, place_below, rim_state};
 use super::step::{LEAST_JAM_MARGIN, can_stick, slip_speed};
 use crate::impact::jam_impulse;
-use crate::limits::Limits;
 use crate::motion::{FLAT, Motion, Spin};
-use coinmc_core::{Decided, DecisionRule};
+use coinmc_core::Decided;
 
 /// A contact point that starts to slip does so at this fraction of `stick_speed`; the direction of
 /// slip then settles within a time of that order.
@@ -17,41 +16,10 @@ pub(super) const INITIAL_SLIP: f64 = 1.0;
 /// A slip that slows down to this fraction of the initial slip starts anew.
 pub(super) const RESTART_SLIP: f64 = 0.1;
 
-/// What governs sustained contact.
-#[derive(Clone, Copy)]
-pub(crate) struct ContactRules<'a> {
-    pub(crate) dynamics: &'a Dynamics,
-    pub(crate) rule: &'a DecisionRule,
-    pub(crate) limits: &'a Limits,
-    /// Slip below which a contact point may stick.
-    pub(crate) stick_speed: f64,
-    /// Error allowed per step, absolute and relative.
-    pub(crate) tolerance: f64,
-}
-
-impl ContactRules<'_> {
-    /// Which face is decided by the motion now.
-    #[inline]
-    pub(super) fn decide(&self, motion: &Motion<f64>, spin: &Spin<f64>) -> Decided {
-        let body = &self.dynamics.body;
-        self.rule.decide(&motion.decision_state(body, spin))
-    }
-}
-
 /// The contact of one toss.
 pub(crate) struct ContactSolver<'a> {
     pub(crate) rules: ContactRules<'a>,
     pub(crate) usage: Usage,
-}
-
-/// What a toss has used so far.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Usage {
-    /// Tries at steps of contact.
-    pub(crate) steps: u32,
-    pub(crate) jams: u32,
-    /// Time since the launch, in flight and in contact.
-    pub(crate) time: f64,
 }
 
 impl ContactSolver<'_> {

@@ -4,7 +4,7 @@
 use super::dynamics::Dynamics;
 use super::integrator::{Trial, is_accepted, next_length, shorter, step};
 use super::rim::{Mode, OMEGA_Y, Rates, RimFlow, RimState, SLIP_X, SLIP_Y, TILT};
-use super::solver::ContactRules;
+use super::rules::ContactRules;
 use super::state::place_below;
 use crate::motion::{FLAT, Motion, Spin};
 use coinmc_lanes::Lane;

@@ -8,24 +8,24 @@ use coinmc_lanes::Lane;
 /// Chatterjee & Ruina, "A new algebraic rigid-body collision law", J. Appl. Mech. 65 (1998) 939,
 /// with tangential restitution 0: p = (1 + e)p_I + κ(p_II − p_I).
 ///
-/// p_I is the frictionless plastic impulse, p_II = −K⁻¹u⁻ stops the contact point altogether, κ is
-/// the largest value up to 1 that keeps p inside the friction cone; u_z⁺ = −e u_z⁻.
+/// p_I is the frictionless plastic impulse, p_II = −K⁻¹u⁻ stops the contact point, and κ is the largest
+/// value up to 1 that keeps p inside the friction cone. u_z⁺ = −e u_z⁻.
 ///
 /// # Energy
-/// d = p_II − p_I leaves the normal velocity alone, (K d)_z = 0, while p_I is normal: p_I·K d = 0,
-/// they are orthogonal in the energy metric. With u⁻ = −K p_II the energy changes by
+/// d = p_II − p_I does not change the normal velocity, (K d)_z = 0, while p_I is normal. So p_I·K d = 0:
+/// the two are orthogonal in the energy metric. With u⁻ = −K p_II the energy changes by
 ///
 /// p·u⁻ + ½ p·K p = −½(1 − e²) u_z²/K_zz − κ(1 − κ/2) d·K d <= 0     (0 <= e <= 1, 0 <= κ <= 1).
 ///
-/// The friction lengths act after p, within |J_c| <= ρ_c p_z and |J_p| <= ρ_p p_z, so as to leave
-/// the least energy: J = 0 is among the choices, so they dissipate too.
+/// The friction lengths act after p: within |J_c| <= ρ_c p_z and |J_p| <= ρ_p p_z, they leave the least
+/// energy. As J = 0 is one of the choices, they dissipate too.
 ///
-/// # Against the other laws
-/// Friction opposes the slip of the middle of the impact, −d_t, not that of its end: after a
-/// sliding impact the slip need not be antiparallel to the friction, and with e > 0 an impact that
-/// could stick leaves the contact point with a slip of e times what a plastic impact's p_I causes
-/// ([`Moreau`](super::Moreau) stops it). Friction and the friction lengths do not share in the
-/// sideways slip: J comes after p_y, not jointly with it.
+/// # Compared with the other laws
+/// Friction opposes the slip at the middle of the impact, −d_t, and not the slip at its end. So after
+/// a sliding impact the slip need not be antiparallel to the friction. With e > 0 an impact that could
+/// stick leaves the contact point with e times the slip that p_I of a plastic impact causes
+/// ([`Moreau`](super::Moreau) stops it). Friction and the friction lengths are not solved jointly: J
+/// follows after p_y.
 #[derive(Debug, Clone, Copy)]
 pub struct ChatterjeeRuina;
 
@@ -50,7 +50,7 @@ impl ImpactLaw for ChatterjeeRuina {
         let mut p = Impulse::none();
         p.z = base;
         if friction.mu > 0.0 {
-            // what is left of the slip after p_I, and the impulse at constant u_z that stops it
+            // the impulse at constant u_z that stops the slip left after p_I
             let x = -(point.slip_x + k.xz * smooth) / alpha;
             let y = -point.slip_y / k.yy;
             let z = -coupling * x;
@@ -58,11 +58,11 @@ impl ImpactLaw for ChatterjeeRuina {
             let size = (x * x + y * y).sqrt();
             let excess = size - mu * z;
             let limit = mu * base;
-            // inside: size <= μ (base + z); else excess > μ base >= 0 and the quotient is below 1
+            // inside the cone size <= μ (base + z); outside excess > μ base >= 0, and κ < 1
             let kappa = L::select(excess.le(limit), L::splat(1.0), limit / excess);
             p.x = kappa * x;
             p.y = kappa * y;
-            // from the normal condition, not base + κ z: u_z⁺ = −e u_z⁻ to the last bits
+            // from the normal condition instead of base + κ z: this makes u_z⁺ = −e u_z⁻ most exact
             p.z = base - coupling * p.x;
         }
         if friction.twists() {

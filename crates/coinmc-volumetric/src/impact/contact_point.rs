@@ -3,7 +3,7 @@
 use crate::body::Body;
 use coinmc_lanes::Lane;
 
-/// The inverse mass of the contact point: its velocity changes by K p.
+/// The inverse mass K of the contact point: an impulse p changes its velocity by K p.
 #[derive(Debug, Clone, Copy)]
 pub struct ContactMatrix<L> {
     /// 1 + rz²/kt.
@@ -16,20 +16,20 @@ pub struct ContactMatrix<L> {
     pub zz: L,
 }
 
-/// The contact at constant normal velocity.
+/// The contact matrix reduced to constant normal velocity.
 #[derive(Clone, Copy)]
 pub(crate) struct Condensed<L> {
     /// 1/K_zz.
     pub(crate) mass_z: L,
-    /// K_xz/K_zz: p_x takes −coupling·p_x of normal impulse along.
+    /// K_xz/K_zz: a friction impulse p_x goes with a normal impulse of −coupling·p_x.
     pub(crate) coupling: L,
     /// α = K_xx − K_xz²/K_zz, the inverse mass along x.
     pub(crate) alpha: L,
 }
 
 impl<L: Lane> ContactMatrix<L> {
-    /// K is the unit matrix and a rank-one part in the xz plane, so its determinant there is
-    /// K_xx + K_zz − 1: nothing cancels.
+    /// In the xz plane K is the unit matrix plus a matrix of rank one, so its determinant there is
+    /// K_xx + K_zz − 1, in which no digits cancel.
     #[inline(always)]
     pub(crate) fn condensed(&self) -> Condensed<L> {
         let mass_z = L::splat(1.0) / self.zz;
@@ -41,17 +41,18 @@ impl<L: Lane> ContactMatrix<L> {
     }
 }
 
-/// A coin that touches, just before the impact: lengths in D = sqrt(R² + H²/4), times in
-/// sqrt(D/g), in the frame whose z points up and whose x along the horizontal part of the axis u.
+/// The contact point of a coin just before an impact. Lengths in D = sqrt(R² + H²/4), times in
+/// sqrt(D/g), in the frame whose z axis points up and whose x axis points along the horizontal part of
+/// the axis u.
 #[derive(Debug, Clone, Copy)]
 pub struct ContactPoint<L> {
     /// s = sin of the tilt of u from the vertical, > 0.
     pub sin: L,
     /// c = cos of that tilt, >= 0: the frame is chosen so that u points up.
     pub cos: L,
-    /// Contact point from the centre, x: c R − s h.
+    /// Position relative to the centre, x: c R − s h.
     pub rx: L,
-    /// Contact point from the centre, z: −c h − s R.
+    /// Position relative to the centre, z: −c h − s R.
     pub rz: L,
     /// Velocity of the contact point, x.
     pub slip_x: L,
@@ -66,7 +67,7 @@ pub struct ContactPoint<L> {
 }
 
 impl<L: Lane> ContactPoint<L> {
-    /// The inverse mass of this contact.
+    /// The inverse mass of this contact point.
     #[inline(always)]
     pub fn matrix(&self, body: &Body) -> ContactMatrix<L> {
         let one = L::splat(1.0);

@@ -1,10 +1,11 @@
-//! The friction lengths in an impact: contour and pivoting friction against the final rates.
+//! The friction lengths in an impact: contour and pivoting friction against the final angular
+//! velocities.
 //!
-//! Contour friction acts on ψ' = ω_a + ω_θ c/s, the rate at which the contact runs along the rim,
-//! and |J_c| <= ρ_c p_z. With s small ψ' and its inverse mass are huge, so the kernel uses the
-//! horizontal angular velocity ω_x = s ψ' = s ω_a + c ω_θ and C = J_c/s, |C| <= (ρ_c/s) p_z. With
-//! pivoting friction's ω_z = c ω_a − s ω_θ and P = J_p this is the rotation of (ω_a, ω_θ) to the
-//! horizontal and the vertical, and the rates obey
+//! Contour friction opposes ψ' = ω_a + ω_θ c/s, the rate at which the contact point rolls along the rim,
+//! with |J_c| <= ρ_c p_z. For small s, ψ' and its inverse mass are huge. So the kernel uses the
+//! horizontal angular velocity ω_x = s ψ' = s ω_a + c ω_θ and C = J_c/s, |C| <= (ρ_c/s) p_z. Pivoting
+//! friction opposes ω_z = c ω_a − s ω_θ with P = J_p, |P| <= ρ_p p_z. (ω_x, ω_z) is (ω_a, ω_θ) turned to
+//! the horizontal and the vertical, and
 //!
 //! slip_y⁺ = slip_y + K_yy p_y − a C − b P      a = sR/ka + ch/kt    b = cR/ka − sh/kt
 //! ω_x⁺ = ω_x + a p_y − A C − F P               A = s²/ka + c²/kt    F = sc(1/ka − 1/kt)
@@ -12,21 +13,21 @@
 //!
 //! Neither C nor P acts on ω_y, hence not on the normal velocity nor on slip_x.
 //!
-//! # The box
-//! The set-valued laws (C at its limit with the sign of ω_x⁺, or inside with ω_x⁺ = 0; P and ω_z⁺
-//! alike) are the conditions for the least of a strictly convex quadratic function, the kinetic
-//! energy after, over the box |C| <= C_m, |P| <= P_m. In two dimensions three clamps solve it
-//! exactly. Let P* belong to the least without any limit. For the least over P alone in its limit
-//! and C free, P = clamp(P*): where P* > P_m, the C that makes ω_x⁺ = 0 with P = P_m leaves the
-//! unlimited P above P_m by the factor 1 − F²/(AG) > 0, so P = P_m is right. As the least along P
-//! makes ω_x⁺ monotone in C, C then only wants clamping, and P follows from C. The box contains 0,
-//! so the energy never grows.
+//! # The minimum over a box
+//! The set-valued laws (C is at its limit with the sign of ω_x⁺, or inside with ω_x⁺ = 0; P and ω_z⁺
+//! likewise) are the conditions for a minimum: of the kinetic energy after the impact, a strictly convex
+//! quadratic function, over the box |C| <= C_m, |P| <= P_m. In two dimensions three clamps find it
+//! exactly. Let P* be the P of the minimum without limits. If only P is limited, its minimum has
+//! P = clamp(P*): where P* > P_m, with P = P_m and the C that makes ω_x⁺ = 0, the distance of the
+//! optimal P from P_m shrinks by the factor 1 − F²/(AG) > 0 but keeps its sign, so P = P_m is right.
+//! With P minimal for each C, ω_x⁺ is monotone in C, so C only needs to be clamped; then P follows from
+//! C. The box contains 0, so the energy never increases.
 
 use super::ContactPoint;
 use crate::body::{Body, Friction};
 use coinmc_lanes::Lane;
 
-/// Rates that the friction lengths work against, and their inverse masses.
+/// The angular velocities that contour and pivoting friction oppose, and their inverse masses.
 #[derive(Clone, Copy)]
 pub(super) struct RimRates<L> {
     /// ω_x = s ψ'.
@@ -41,7 +42,8 @@ pub(super) struct RimRates<L> {
     pub(super) pivot_pivot: L,
 }
 
-/// The limits of friction, per unit normal impulse, and what the free solution needs.
+/// The limits of contour and pivoting friction per unit normal impulse, and the constants that their
+/// solution needs.
 #[derive(Clone, Copy)]
 pub(super) struct FrictionMoments<L> {
     rates: RimRates<L>,
@@ -58,30 +60,30 @@ pub(super) struct FrictionMoments<L> {
     yy: L,
 }
 
-/// C = J_c/s, P = J_p and what belongs to them.
+/// C = J_c/s and P = J_p, solved jointly with p_y.
 #[derive(Clone, Copy)]
 pub(super) struct JointSolution<L> {
     pub(super) contour: L,
     pub(super) pivoting: L,
-    /// slip_y without p_y but with C and P: p_y = −slip_y/(σ + K_yy).
+    /// slip_y with C and P but without p_y: p_y = −slip_y/(σ + K_yy).
     pub(super) slip_y: L,
-    /// Its derivative by σ.
+    /// Its derivative with respect to σ.
     pub(super) slope: L,
 }
 
-/// A 2 × 2 problem: rates before and inverse masses, with p_y eliminated or held, and the least of
-/// its quadratic function over P if nothing had a limit.
+/// The minimum over a box, in two dimensions: angular velocities before and inverse masses, with p_y
+/// eliminated or given, and the P of the minimum without limits.
 pub(super) struct BoxProblem<L> {
     pub(super) roll: L,
     pub(super) pivot: L,
     pub(super) roll_pivot: L,
-    /// 1/A and 1/G, p_y eliminated or not.
+    /// 1/A and 1/G, with p_y eliminated or given.
     pub(super) roll_mass: L,
     pub(super) pivot_mass: L,
     pub(super) free: L,
 }
 
-/// An interval; of length 0 where a part of friction is given.
+/// An interval; of length 0 where the friction is given.
 #[derive(Clone, Copy)]
 pub(super) struct Limits<L> {
     pub(super) low: L,
@@ -104,7 +106,7 @@ impl<L: Lane> Limits<L> {
 }
 
 impl<L: Lane> BoxProblem<L> {
-    /// The least of the quadratic function over a box: see the module's text.
+    /// (C, P) of the minimum over a box: see the module's text.
     #[inline(always)]
     pub(super) fn least(&self, contour: Limits<L>, pivoting: Limits<L>) -> (L, L) {
         let p = pivoting.clamp(self.free);
@@ -134,13 +136,13 @@ impl<L: Lane> RimRates<L> {
         }
     }
 
-    /// What C and P take off slip_y.
+    /// By how much C and P reduce slip_y.
     #[inline(always)]
     pub(super) fn slip_y(&self, contour: L, pivoting: L) -> L {
         self.roll_y * contour + self.pivot_y * pivoting
     }
 
-    /// Twice the energy that C and P add beside p_y.
+    /// Twice the energy that C and P add to that of p_y.
     #[inline(always)]
     pub(super) fn work(&self, y: L, contour: L, pivoting: L) -> L {
         let two = L::splat(2.0);
@@ -175,7 +177,7 @@ impl<L: Lane> FrictionMoments<L> {
         }
     }
 
-    /// C and P beside a given p_y: the least energy over their box.
+    /// C and P for a given p_y: the least energy within their limits.
     #[inline(always)]
     pub(super) fn held(&self, y: L, z: L) -> (L, L) {
         let r = &self.rates;
@@ -186,19 +188,19 @@ impl<L: Lane> FrictionMoments<L> {
             roll_pivot: r.roll_pivot,
             roll_mass: one / r.roll_roll,
             pivot_mass: one / r.pivot_pivot,
-            // without limits both rates end at 0 and so does the angular momentum about z
+            // without limits both angular velocities end at 0, and so does the angular momentum about z
             free: self.momentum + self.rx * y,
         };
         self.least(&reduced, z.max(L::splat(0.0)))
     }
 
-    /// C and P jointly with p_y = −slip_y⁺/σ, and the derivative by σ; `dz` is that of z, `inverse`
-    /// is 1/(σ + K_yy) and `rigid` 1/(1 + σ).
+    /// C and P jointly with p_y = −slip_y⁺/σ, and the derivative with respect to σ. `dz` is the
+    /// derivative of z, `inverse` is 1/(σ + K_yy) and `rigid` is 1/(1 + σ).
     #[inline(always)]
     pub(super) fn joint(&self, sigma: L, inverse: L, rigid: L, z: L, dz: L) -> JointSolution<L> {
         let r = &self.rates;
         let (roll_y, pivot_y) = (r.roll_y * inverse, r.pivot_y * inverse);
-        // both inverse masses times σ + K_yy, and one quotient for both
+        // both inverse masses times σ + K_yy, with one quotient for both
         let reach = sigma + self.yy;
         let roll = r.roll_roll * reach - r.roll_y * r.roll_y;
         let pivot = r.pivot_pivot * reach - r.pivot_y * r.pivot_y;
@@ -217,11 +219,11 @@ impl<L: Lane> FrictionMoments<L> {
         let (contour, pivoting) = self.least(&reduced, positive);
         let slip_y = self.slip_y - r.slip_y(contour, pivoting);
 
-        // the same three steps, differentiated: a part at its limit follows z
+        // the derivatives of the same three clamps: an impulse at its limit is proportional to z
         let (limit_c, limit_p) = (self.contour * positive, self.pivoting * positive);
         let (free_c, free_p) = (contour.abs().lt(limit_c), pivoting.abs().lt(limit_p));
         let dz = L::select(L::splat(0.0).lt(z), dz, L::splat(0.0));
-        let side = |of: L| L::splat(1.0).copysign(of) * dz;
+        let side = |moment: L| L::splat(1.0).copysign(moment) * dz;
         let (at_c, at_p) = (self.contour * side(contour), self.pivoting * side(pivoting));
         let y = -slip_y * inverse;
         let dp = L::select(free_p, self.rx * drift * rigid, at_p);

@@ -5,7 +5,7 @@ use super::friction_moments::RimRates;
 use crate::body::Body;
 use coinmc_lanes::{Lane, Mask};
 
-/// An impulse per unit mass, in sqrt(g D); contour and pivoting are moments, in D sqrt(g D).
+/// An impulse per unit mass, in sqrt(g D); `contour` and `pivoting` are moments, in D sqrt(g D).
 #[derive(Debug, Clone, Copy)]
 pub struct Impulse<L> {
     /// x part.
@@ -14,9 +14,9 @@ pub struct Impulse<L> {
     pub y: L,
     /// Normal part, not negative.
     pub z: L,
-    /// J_c, contour friction's.
+    /// J_c, of contour (rolling) friction.
     pub contour: L,
-    /// J_p, pivoting friction's.
+    /// J_p, of pivoting friction.
     pub pivoting: L,
 }
 
@@ -33,7 +33,7 @@ impl<L: Lane> Impulse<L> {
         }
     }
 
-    /// The same but for one lane.
+    /// The impulse with one lane replaced.
     #[inline(always)]
     pub(crate) fn with_lane(self, index: usize, one: Impulse<f64>) -> Self {
         Self {
@@ -58,11 +58,11 @@ impl<L: Lane> Impulse<L> {
         }
     }
 
-    /// What the impulse changes.
+    /// The change of velocities by the impulse.
     #[inline(always)]
     pub fn velocity_jump(self, body: &Body, point: &ContactPoint<L>) -> VelocityJump<L> {
         let (inverse_kt, inverse_ka) = (L::splat(1.0 / body.kt), L::splat(1.0 / body.ka));
-        // J_c/s first: with J_c <= ρ_c p_z the quotient is what stays finite as s → 0
+        // J_c/s first: as J_c <= ρ_c p_z, this quotient stays finite as s → 0
         let rim = self.contour / point.sin;
         VelocityJump {
             vx: self.x,
@@ -83,12 +83,11 @@ impl<L: Lane> Impulse<L> {
         let two = L::splat(2.0);
         let mut slip_y = two * point.slip_y + k.yy * self.y;
         let mut twist = L::splat(0.0);
-        let idle = self.contour.abs() + self.pivoting.abs();
-        if L::splat(0.0).lt(idle).any() {
+        let moments = self.contour.abs() + self.pivoting.abs();
+        if L::splat(0.0).lt(moments).any() {
             let rates = RimRates::rates(body, point);
             let (contour, pivoting) = (self.contour / point.sin, self.pivoting);
-            let back = rates.slip_y(contour, pivoting);
-            slip_y -= back;
+            slip_y -= rates.slip_y(contour, pivoting);
             twist = rates.work(self.y, contour, pivoting);
         }
         let slip_x = two * point.slip_x + k.xx * self.x + k.xz * self.z;
@@ -97,7 +96,7 @@ impl<L: Lane> Impulse<L> {
     }
 }
 
-/// The change of motion by an impulse: velocities in sqrt(g D), rates in sqrt(g/D).
+/// The change of motion by an impulse: velocities in sqrt(g D), angular velocities in sqrt(g/D).
 #[derive(Debug, Clone, Copy)]
 pub struct VelocityJump<L> {
     /// Of the centre's velocity, x.

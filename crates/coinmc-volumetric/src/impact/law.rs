@@ -5,17 +5,17 @@ use super::impulse::Impulse;
 use crate::body::{Body, Friction};
 use coinmc_lanes::Lane;
 
-/// A law of impact.
+/// An impact law.
 ///
-/// A law is an own type with its citation and the argument why it never gains energy. To add one:
-/// implement this trait, add a variant to [`Law`](crate::Law) and an arm where the engine is built.
+/// Each law is a type of its own, documented with its citation and the argument why it never gains
+/// energy. `docs/developer/add-a-law.md` shows how to add one.
 pub trait ImpactLaw: Copy + Sync {
-    /// Whether the engine does impacts side by side; the results are the same one after the other.
-    /// `false` suits a law whose impacts each take their own path through many cases.
+    /// Whether a batch computes impacts in lanes. The results are bit-identical either way. `false`
+    /// suits a law whose impacts take different paths through many cases.
     const HAS_LANES: bool = true;
 
-    /// The impulse of an impact with coefficient of restitution `e`, 0 to 1, of a contact that does
-    /// not leave (`point.approach` <= 0). It adds no energy: [`Impulse::work`] <= 0 but for
+    /// The impulse of an impact with coefficient of restitution `e`, 0 to 1, at a contact point that
+    /// does not recede (`point.approach` <= 0). It adds no energy: [`Impulse::work`] <= 0 but for
     /// rounding.
     fn impulse<L: Lane>(
         &self,

@@ -13,31 +13,31 @@ use coinmc_lanes::{Lane, Mask};
 ///
 /// p_x(σ + K_xx) + K_xz p_z = −slip_x,  K_xz p_x + K_zz p_z = (1 + e)|u_z|,  p_y(σ + K_yy) = −slip_y,
 ///
-/// and the contact sticks (σ = 0) if that impulse lies in the friction cone, else σ is the root of
-/// |p_t| = μ p_z. The friction lengths join in: J_c and J_p at their limits against the final ψ'
-/// and ω_z, or stopping them, solved exactly together with p_y for each σ (they move neither
-/// slip_x nor u_z).
+/// and the contact sticks (σ = 0) if that impulse lies in the friction cone. Otherwise σ is the root of
+/// |p_t| = μ p_z. The friction lengths obey the same kind of law: J_c and J_p are at their limits
+/// against the final ψ' and ω_z, or stop them. They are solved exactly together with p_y for each σ
+/// (they change neither slip_x nor u_z).
 ///
 /// # Energy
-/// An impulse adds ½p·(u⁻ + u⁺) = p·u⁺ − ½p·K p (J being parts of p). All friction has p·u⁺ <= 0
-/// by definition, so what it adds is at most e|u_z|p_z − ½p·K p: plastic impacts (e = 0) always
-/// dissipate. With e > 0 the sum may come out positive at high friction; there, and where no root
-/// exists, the impulse is [`ChatterjeeRuina`]'s, which dissipates.
+/// An impulse adds the energy ½p·(u⁻ + u⁺) = p·u⁺ − ½p·K p (with J as part of p). Friction has p·u⁺ <= 0
+/// by definition, so the energy added is at most e|u_z|p_z − ½p·K p: plastic impacts (e = 0) always
+/// dissipate. With e > 0 this may be positive at high friction. There, and where no root exists, the
+/// impulse is that of [`ChatterjeeRuina`], which dissipates.
 ///
-/// # Against the other laws
-/// It is the law that time-stepping in the manner of Moreau and Jean solves. It stops the contact
-/// point where it can whatever e; [`ChatterjeeRuina`] then lets it rebound sideways, and
-/// [`Stronge`](super::Stronge) relates e to work, not velocity: u_z⁺ differs where the slip
-/// changes direction during the impact.
+/// # Compared with the other laws
+/// It is the law that Moreau–Jean time stepping solves. Where it can, it stops the slip of the contact
+/// point for any e; [`ChatterjeeRuina`] then lets the point rebound sideways. [`Stronge`](super::Stronge)
+/// relates e to work instead of velocity: u_z⁺ differs where the slip changes direction during the
+/// impact.
 #[derive(Debug, Clone, Copy)]
 pub struct Moreau;
 
-/// Newton converges quadratically on a smooth function, and φ is nearly linear: a step from below
-/// this leaves less than 1e-11.
+/// Newton's method converges quadratically on a smooth function, and φ is nearly linear: a step from a
+/// relative error below this leaves less than 1e-11.
 const LAST: f64 = 1e-6;
 
-/// With friction lengths φ has kinks where one of them takes hold. One in 1e8 final steps meets
-/// one, and is then wrong by no more than itself.
+/// With friction lengths φ has kinks where one of their limits is reached. One in 1e8 final steps
+/// passes a kink, and then has an error no larger than the step.
 const LAST_WITH_KINKS: f64 = 1e-8;
 
 /// Bisection alone needs 60 halvings of the bracket for full precision.
@@ -53,7 +53,7 @@ impl ImpactLaw for Moreau {
         e: L,
     ) -> Impulse<L> {
         if friction.mu == 0.0 {
-            // nothing to solve, and exactly the impulse of the other law
+            // nothing to solve: the impulse is exactly that of the other law
             return ChatterjeeRuina.impulse(body, friction, point, e);
         }
         let k = point.matrix(body);
@@ -87,7 +87,7 @@ struct Problem<L> {
     twist: Option<FrictionMoments<L>>,
 }
 
-/// One σ, and the quotients of it that friction needs.
+/// One σ, and the quotients of it that are needed.
 struct Trial<L> {
     sigma: L,
     /// 1/(σ + α), 1/(σ + K_yy) and 1/(1 + σ).
@@ -134,8 +134,8 @@ impl<L: Lane> Problem<L> {
         }
     }
 
-    /// A σ with its quotients: one division for two. (One for all three would leave the range of
-    /// numbers where friction is next to nothing and σ beyond 1e100.)
+    /// σ with its quotients, two of them by one division. (One division for all three would overflow at
+    /// very low friction, where σ exceeds 1e100.)
     #[inline(always)]
     fn at(&self, sigma: L) -> Trial<L> {
         let one = L::splat(1.0);
@@ -149,7 +149,7 @@ impl<L: Lane> Problem<L> {
         }
     }
 
-    /// The sideways slip that p_y has to oppose, with the friction lengths' share.
+    /// The sideways slip that p_y opposes, including the part of the friction lengths.
     #[inline(always)]
     fn sideways(&self, at: &Trial<L>) -> JointSolution<L> {
         let zero = L::splat(0.0);
@@ -167,8 +167,8 @@ impl<L: Lane> Problem<L> {
         }
     }
 
-    /// φ times (σ + α)/(σ + α): numerator and denominator then stay of the size of the velocities,
-    /// and φ is linear in σ but for the ratio q = (σ + α)/(σ + K_yy), which changes little.
+    /// φ expanded by (σ + α): numerator and denominator are then of the size of the velocities, and φ
+    /// is linear in σ but for the ratio q = (σ + α)/(σ + K_yy), which changes little.
     #[inline(always)]
     fn cone(&self, sigma: L) -> Cone<L> {
         let at = self.at(sigma);
@@ -190,8 +190,8 @@ impl<L: Lane> Problem<L> {
         }
     }
 
-    /// σ if the ratio q were what it is where it would be 1 (its limit for little friction): nearly
-    /// exact without friction lengths.
+    /// A first guess: σ for the ratio q at the root that q = 1 (its limit for low friction) would give.
+    /// Nearly exact without friction lengths.
     #[inline(always)]
     fn guess(&self) -> L {
         let inverse = L::splat(1.0) / (self.mu * self.base);
@@ -205,7 +205,7 @@ impl<L: Lane> Problem<L> {
     fn sigma(&self, cross: L, inverse: L) -> L {
         let size = (self.slip_x * self.slip_x + cross * cross).sqrt();
         let reach = (size - self.mu * self.coupling * self.slip_x) * inverse;
-        // bounded, so that a friction too small for its root to be a number stays finite
+        // bounded, so that friction too low for its root to be representable stays finite
         (reach - self.alpha).max(L::splat(0.0)).min(L::splat(1e150))
     }
 
@@ -244,7 +244,7 @@ impl<L: Lane> Problem<L> {
             high = L::select(active & !below, sigma, high);
             let newton = sigma - cone.step / cone.over;
             let inside = low.le(newton) & newton.le(high) & zero.lt(cone.over);
-            // without an upper end yet the bracket grows, else it is halved
+            // until it has an upper end the bracket grows; then it is halved
             let open = two * (sigma + self.alpha);
             let half = low + (high - low) * L::splat(0.5);
             let fallback = L::select(high.lt(L::splat(f64::INFINITY)), half, open);

@@ -2,31 +2,32 @@
 
 use super::path::{Path, Step};
 
-/// What ended a piece of path.
+/// What ends a piece of path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Event {
-    /// Only its length.
-    End,
-    /// u_z = 0: compression is over.
-    Turn,
-    /// All the work that comes back has come back.
-    Over,
-    /// ω_x = 0, or what holds it there has reached its limit.
+    /// Its length.
+    Length,
+    /// u_z = 0: the end of compression.
+    EndOfCompression,
+    /// All work that is returned has been returned: the end of the impact.
+    EndOfImpact,
+    /// ω_x has come to 0, or the friction that keeps it at 0 has reached its limit.
     Roll,
-    /// ω_z = 0, or what holds it there has reached its limit.
+    /// ω_z has come to 0, or the friction that keeps it at 0 has reached its limit.
     Pivot,
 }
 
-/// The end of a piece, cut by one event after another.
+/// The first event on a piece of path, found by shortening the piece for each kind of event.
 pub(super) struct Cut<'a> {
     path: &'a Path,
     at: f64,
-    /// What the piece adds up to here.
+    /// What the piece adds up to `at`.
     pub(super) step: Step,
     pub(super) event: Event,
 }
 
-/// Evaluations of the bracketing secant; a third of them halve, which alone would be enough.
+/// Most evaluations of the bracketing secant method. A third of them are bisections, which alone would
+/// be enough.
 const MAX_STEPS: u32 = 200;
 
 impl<'a> Cut<'a> {
@@ -35,11 +36,11 @@ impl<'a> Cut<'a> {
             path,
             at: path.end,
             step: path.step(path.end),
-            event: Event::End,
+            event: Event::Length,
         }
     }
 
-    /// Cuts the piece where `distance`, after a step along it, falls below 0.
+    /// Shortens the piece to where `distance`, a function of the step along it, falls below 0.
     pub(super) fn by(&mut self, event: Event, distance: impl Fn(&Step) -> f64) {
         let end = distance(&self.step);
         if end < 0.0 {
@@ -47,7 +48,8 @@ impl<'a> Cut<'a> {
         }
     }
 
-    /// As [`Cut::by`], for a distance that may come back within the piece: looks halfway first.
+    /// As [`Cut::by`], for a distance that may be positive again at the end of the piece: looks at the
+    /// middle first.
     pub(super) fn by_bent(&mut self, event: Event, distance: impl Fn(&Step) -> f64) {
         let half = self.at * 0.5;
         let there = distance(&self.path.step(half));
@@ -59,7 +61,7 @@ impl<'a> Cut<'a> {
     }
 
     /// Ends the piece at the root below `high`, where `distance` is `end` < 0.
-    // rarer than the looks for it, and there are six
+    // called more rarely than its six callers look for an event
     #[inline(never)]
     fn shorten(&mut self, event: Event, high: f64, end: f64, distance: impl Fn(&Step) -> f64) {
         self.at = first_root(self.path, high, end, distance);
@@ -69,7 +71,7 @@ impl<'a> Cut<'a> {
 }
 
 /// A root of `distance` between 0 and `high`, where it is `end` < 0: regula falsi with the Illinois
-/// modification, halving where that does not shrink the bracket.
+/// modification, and bisection where that does not shrink the bracket.
 fn first_root(path: &Path, mut high: f64, end: f64, distance: impl Fn(&Step) -> f64) -> f64 {
     let mut low = 0.0;
     let mut at_low = distance(&path.step(low));
@@ -81,7 +83,7 @@ fn first_root(path: &Path, mut high: f64, end: f64, distance: impl Fn(&Step) -> 
     for count in 0..MAX_STEPS {
         let width = high - low;
         let secant = low + width * (at_low / (at_low - at_high));
-        // every third step halves, so that the bracket shrinks whatever the function
+        // every third step is a bisection, so that the bracket shrinks for any function
         let halves = count % 3 == 2;
         root = if !halves && low < secant && secant < high {
             secant
@@ -92,7 +94,7 @@ fn first_root(path: &Path, mut high: f64, end: f64, distance: impl Fn(&Step) -> 
         if value == 0.0 || width <= 2.0 * f64::EPSILON * high {
             break;
         }
-        // the end that stays counts half, so that the next secant overshoots
+        // the value at the end that stays is halved, so that the next secant overshoots
         if 0.0 < value {
             (low, at_low) = (root, value);
             at_high *= 0.5;

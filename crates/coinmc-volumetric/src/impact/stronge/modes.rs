@@ -1,11 +1,12 @@
-//! What friction does at one moment: sliding or sticking, turning against its limit or held.
+//! The modes of friction at one moment: the contact point slips or sticks, and each of the two angular
+//! velocities runs or is held at 0.
 
 use super::super::friction_moments::{BoxProblem, Limits, RimRates};
 
-/// Contour or pivoting friction: its rate runs with a sign, or is 0.
+/// The angular velocity that contour or pivoting friction opposes: it has a sign, or is 0.
 #[derive(Clone, Copy)]
 pub(super) struct Rate {
-    /// The rate is 0: friction holds it if it can.
+    /// The rate is 0: friction keeps it at 0 if it can.
     pub(super) zero: bool,
     /// Its sign if not.
     pub(super) sign: f64,
@@ -33,8 +34,8 @@ impl Rate {
         }
     }
 
-    /// The rate stays 0 where `friction` is inside its limit, else it leaves with that sign.
-    fn settle(&mut self, friction: f64) {
+    /// A rate of 0 remains 0 if `friction` is inside its limit, and otherwise takes its sign.
+    fn hold_or_release(&mut self, friction: f64) {
         if self.zero {
             self.zero = friction.abs() < self.limit;
             if !self.zero {
@@ -43,7 +44,7 @@ impl Rate {
         }
     }
 
-    /// Reached 0 where it ran, or the limit where it was held.
+    /// Changes the mode: the rate has come to 0, or the friction that kept it at 0 has reached its limit.
     pub(super) fn switch(&mut self, friction: f64) {
         if self.zero {
             self.sign = 1_f64.copysign(friction);
@@ -52,8 +53,7 @@ impl Rate {
     }
 }
 
-/// Contour or pivoting friction per unit normal impulse, as far as it follows f_y:
-/// t = by_y·f_y + rest.
+/// Contour or pivoting friction per unit normal impulse, as a function of f_y: t = by_y·f_y + rest.
 #[derive(Clone, Copy)]
 pub(super) struct Torque {
     pub(super) by_y: f64,
@@ -74,14 +74,14 @@ pub(super) struct Rates {
     pub(super) pivot: Rate,
 }
 
-/// The contact point at rest: the friction that keeps it so, or that with which it starts to slip.
+/// A contact point without slip: the friction that makes it stick, or with which it starts to slip.
 pub(super) struct Still {
     pub(super) x: f64,
     pub(super) y: f64,
     pub(super) sticks: bool,
 }
 
-/// Constants of the impact that the modes need.
+/// The constants of an impact that the modes depend on.
 #[derive(Clone, Copy)]
 pub(super) struct Couplings {
     pub(super) twist: RimRates<f64>,
@@ -94,7 +94,7 @@ pub(super) struct Couplings {
 }
 
 impl Rates {
-    /// The friction of both rates beside a given f_y; decides which rates are held.
+    /// The friction against both rates for a given f_y; determines which rates are kept at 0.
     pub(super) fn beside(&mut self, k: &Couplings, y: f64) -> (Torque, Torque) {
         let t = &k.twist;
         let reduced = BoxProblem {
@@ -106,40 +106,40 @@ impl Rates {
             free: k.rx * y,
         };
         let (c, p) = reduced.least(self.roll.limits(), self.pivot.limits());
-        self.roll.settle(c);
-        self.pivot.settle(p);
+        self.roll.hold_or_release(c);
+        self.pivot.hold_or_release(p);
         self.torques(k, c, p)
     }
 
-    /// How the torques follow f_y while the modes last.
+    /// The torques as functions of f_y while the modes last.
     fn torques(&self, k: &Couplings, c: f64, p: f64) -> (Torque, Torque) {
         let t = &k.twist;
-        let alone = |rest| Torque { by_y: 0.0, rest };
+        let constant = |rest| Torque { by_y: 0.0, rest };
         match (self.roll.zero, self.pivot.zero) {
-            // the coin does not turn about u nor e_θ: the torques are those of f_y
+            // the coin turns neither about u nor about e_θ: the torques balance f_y
             (true, true) => {
-                let of_y = |by_y| Torque { by_y, rest: 0.0 };
-                (of_y(-k.rz), of_y(k.rx))
+                let proportional = |by_y| Torque { by_y, rest: 0.0 };
+                (proportional(-k.rz), proportional(k.rx))
             }
             (true, false) => {
                 let contour = Torque {
                     by_y: t.roll_y / t.roll_roll,
                     rest: -(t.roll_pivot * p) / t.roll_roll,
                 };
-                (contour, alone(p))
+                (contour, constant(p))
             }
             (false, true) => {
                 let pivoting = Torque {
                     by_y: t.pivot_y / t.pivot_pivot,
                     rest: -(t.roll_pivot * c) / t.pivot_pivot,
                 };
-                (alone(c), pivoting)
+                (constant(c), pivoting)
             }
-            (false, false) => (alone(c), alone(p)),
+            (false, false) => (constant(c), constant(p)),
         }
     }
 
-    /// f_y of a contact point at rest whose slip would change by −σ f.
+    /// f_y at a contact point without slip whose slip changes by −σ f.
     fn sideways(&self, k: &Couplings, sigma: f64) -> f64 {
         let t = &k.twist;
         let inverse = 1.0 / (sigma + k.yy);
@@ -156,8 +156,8 @@ impl Rates {
         roll_y * c + pivot_y * p
     }
 
-    /// The friction of a contact point at rest: σ = 0 if that is inside the cone, else σ > 0 with
-    /// |f| = μ, and slip starts along −f.
+    /// The friction at a contact point without slip: σ = 0 if its f is inside the cone; otherwise σ > 0
+    /// with |f| = μ, and slip starts along −f.
     pub(super) fn still(&self, k: &Couplings, twists: bool) -> Still {
         let sideways = |sigma| {
             if twists { self.sideways(k, sigma) } else { 0.0 }
@@ -182,7 +182,7 @@ impl Rates {
     }
 }
 
-/// The root of a falling function above `low`, where it is not negative.
+/// The root of a decreasing function above `low`, where it is not negative.
 fn bisect(mut low: f64, function: impl Fn(f64) -> f64) -> f64 {
     let is_below = |at| 0.0 < function(at);
     let mut high = low + 1.0;

@@ -1,12 +1,12 @@
-//! A piece of the path: the impulses as functions of a parameter.
+//! A piece of the path of an impact: the impulses as functions of a parameter.
 
 /// Order of the Taylor series.
 const ORDER: usize = 18;
 
-/// Truncation error of a piece, relative to the slip it starts from.
+/// Truncation error of a piece, relative to the slip at its start.
 const TRUNCATION: f64 = 1e-11;
 
-/// The drive of the slip: slip' = (K_xx f_x + b_x, K_yy f_y + b_y) with f = −μ slip/|slip|.
+/// What drives the slip: slip' = (K_xx f_x + b_x, K_yy f_y + b_y) with f = −μ slip/|slip|.
 pub(super) struct Drive {
     pub(super) mu: f64,
     pub(super) xx: f64,
@@ -15,30 +15,30 @@ pub(super) struct Drive {
     pub(super) by: f64,
 }
 
-/// How u_z follows the impulses: its value, and by z and by x.
+/// How u_z depends on the impulses: its value, and its derivatives with respect to z and x.
 pub(super) struct Normal {
     pub(super) now: f64,
     pub(super) zz: f64,
     pub(super) xz: f64,
 }
 
-/// What a piece adds.
+/// What a piece adds to the impulses.
 #[derive(Clone, Copy)]
 pub(super) struct Step {
     pub(super) x: f64,
     pub(super) y: f64,
     pub(super) z: f64,
-    /// Of ∫u_z dτ.
+    /// To W = ∫u_z dτ.
     pub(super) work: f64,
 }
 
-/// A piece of the path over a parameter from 0 to `end`.
+/// A piece of the path, over a parameter from 0 to `end`.
 pub(super) struct Path {
     pub(super) end: f64,
     shape: Shape,
 }
 
-// One of them lives at a time, and briefly.
+// Only one exists at a time, briefly.
 #[expect(clippy::large_enum_variant)]
 enum Shape {
     Line(Line),
@@ -54,8 +54,9 @@ pub(super) struct Line {
     pub(super) half_gain: f64,
 }
 
-/// Series in ξ, where dτ = |slip| ds and s = ξ·scale: the terms of ξ, ξ², … By s the slip obeys
-/// slip' = −μ diag(K_xx, K_yy) slip + b|slip|, smooth even where slip nearly vanishes.
+/// A piece with a slip that turns. Series in ξ, where dτ = |slip| ds and s = ξ·scale: the terms of
+/// ξ, ξ², … As a function of s the slip obeys slip' = −μ diag(K_xx, K_yy) slip + b|slip|, which is smooth
+/// even where the slip nearly vanishes.
 struct Curve([Step; ORDER]);
 
 /// One term of the series of the slip and of its size.
@@ -87,8 +88,8 @@ impl Line {
 }
 
 impl Curve {
-    /// The series from slip (gx, gy) on and the largest ξ at which it is accurate; where `length`
-    /// is a number, τ goes little beyond it.
+    /// The series that starts at the slip (gx, gy), and the largest ξ at which it is accurate. Unless
+    /// `length` is NaN, τ goes little beyond it.
     fn new(drive: &Drive, normal: &Normal, gx: f64, gy: f64, length: f64) -> (Self, f64) {
         let mut terms = [Step::NONE; ORDER];
         let mut slips = [Slip::default(); ORDER + 1];
@@ -102,7 +103,7 @@ impl Curve {
         normals[0] = normal.now;
         let over = 1.0 / first;
         let (ax, ay) = (drive.mu * drive.xx, drive.mu * drive.yy);
-        // |slip'| <= speed·|slip|: the series converge up to about that time
+        // |slip'| <= speed·|slip|: the series converge up to about 1/speed
         let speed = ax.max(ay) + (drive.bx * drive.bx + drive.by * drive.by).sqrt();
         let mut scale = 2.0 / speed;
         let needed = length * over;
@@ -144,7 +145,7 @@ impl Curve {
         (Self(terms), reach(last, TRUNCATION * first))
     }
 
-    /// By Horner's rule.
+    /// Evaluated by Horner's rule.
     fn step(&self, at: f64) -> Step {
         let Self(terms) = self;
         let mut sum = terms[ORDER - 1];
@@ -165,7 +166,7 @@ impl Curve {
     }
 }
 
-/// The largest of 1, .8, .64, … at which a last term of size `term` at 1 is below `allowed`.
+/// The largest of 1, .8, .64, … at which the last term is below `allowed`; its size at 1 is `term`.
 fn reach(mut term: f64, allowed: f64) -> f64 {
     const SHRINK: f64 = 0.8;
     // SHRINK^(ORDER − 1)
@@ -181,7 +182,7 @@ fn reach(mut term: f64, allowed: f64) -> f64 {
 }
 
 impl Path {
-    /// A constant friction up to a normal impulse of `length`.
+    /// A piece with a constant friction, up to a normal impulse of `length`.
     pub(super) fn straight(line: Line, length: f64) -> Self {
         Self {
             end: length,
@@ -189,7 +190,8 @@ impl Path {
         }
     }
 
-    /// A slip that turns, from (gx, gy) on; as far as it is accurate, or little beyond `length`.
+    /// A piece with a slip that turns, from (gx, gy) on: as long as it is accurate, or little beyond
+    /// `length`.
     pub(super) fn turning(
         drive: &Drive,
         normal: &Normal,
@@ -216,7 +218,7 @@ impl Path {
 mod tests {
     use super::*;
 
-    /// Follows a slip for a given s in equal pieces; the slip, τ and ∫u dτ at the end.
+    /// Follows a slip for a given s in equal pieces. Returns the slip, τ and ∫u dτ at the end.
     fn follow(pieces: u32, total: f64) -> [f64; 4] {
         let (xx, xz, zz, yy, mu) = (2.7, 1.1, 1.9, 3.6, 0.8);
         let drive = Drive {
@@ -249,8 +251,8 @@ mod tests {
         [x, y, tau, work]
     }
 
-    /// Halving the pieces divides the error by 2^ORDER: seen between where the series just
-    /// converge and where rounding takes over.
+    /// Halving the pieces divides the error by 2^ORDER. This is visible between where the series just
+    /// converges and where rounding dominates.
     #[test]
     fn the_error_falls_with_the_order_of_the_series() {
         let exact = follow(64, 1.0);
@@ -265,9 +267,9 @@ mod tests {
         assert!((order - ORDER as f64).abs() < 3.0, "{order}");
     }
 
-    /// The allowed truncation is what a piece of the reach it allows loses.
+    /// A piece of the length that is allowed has no more than the allowed truncation error.
     #[test]
-    fn a_piece_within_its_reach_is_right() {
+    fn a_piece_within_its_reach_is_accurate() {
         let normal = Normal {
             now: -1.0,
             zz: 1.9,

@@ -1,4 +1,4 @@
-//! One impact, piece by piece.
+//! One impact, followed piece by piece.
 
 use super::super::friction_moments::RimRates;
 use super::super::{ContactMatrix, ContactPoint, Impulse};
@@ -7,17 +7,17 @@ use super::modes::{Couplings, Rate, Rates, Torque};
 use super::path::{Drive, Line, Normal, Path, Step};
 use crate::body::{Body, Friction};
 
-/// Slip, and the rates of rolling and pivoting, below this share of the velocities are none.
+/// Slip, and the rates of rolling and pivoting, below this fraction of the velocities count as 0.
 const REST: f64 = 1e-13;
 
-/// A slip that turns so little before it stops, in path length over the velocities, goes straight.
+/// A slip that turns less than this before it stops (path length over the velocities) counts as straight.
 const STRAIGHT: f64 = 1e-13;
 
-/// A growing slip that drifts sideways by less than this share of what friction could do keeps its
-/// direction. (Where sticking just fails the slip grows so slowly that its path is all isocline.)
+/// A growing slip keeps its direction if it drifts sideways by less than this fraction of what friction
+/// could cause. (Where sticking just fails, the slip grows so slowly that it stays on the isocline.)
 const STEADY: f64 = 1e-11;
 
-/// The impulses so far and the modes of friction.
+/// The impulses so far, and the modes of friction.
 pub(super) struct Sweep {
     k: ContactMatrix<f64>,
     couplings: Couplings,
@@ -32,12 +32,12 @@ pub(super) struct Sweep {
     z: f64,
     contour: f64,
     pivoting: f64,
-    /// The least ∫u_z dτ so far.
+    /// The minimum of W = ∫u_z dτ so far.
     least: f64,
-    /// What has come back since: apart, or a small e would drown in the digits of the whole.
+    /// The work returned since. It is kept apart because with a small e it would lose its digits.
     back: f64,
     rates: Rates,
-    /// The contact point is at rest.
+    /// The contact point sticks.
     still: bool,
     /// u_z >= 0.
     opening: bool,
@@ -52,26 +52,26 @@ struct Now {
     speed: f64,
 }
 
-/// How a piece goes on.
+/// How the slip behaves during a piece.
 #[derive(Clone, Copy)]
 enum Course {
-    /// f turns with the slip.
+    /// It turns, and f turns with it.
     Turns,
-    /// f stays as it is.
+    /// It keeps its direction, and f is constant.
     Keeps,
-    /// This constant f brings the slip to 0 within a normal impulse of `length`.
+    /// This constant f brings it to 0 within a normal impulse of `length`.
     Stops { x: f64, y: f64, length: f64 },
 }
 
 /// The friction of one piece.
 struct Piece {
     course: Course,
-    /// f where it is constant.
+    /// f, if it is constant.
     x: f64,
     y: f64,
-    /// The normal impulse it takes at most; where f turns, about that.
+    /// The largest normal impulse of the piece; where f turns, approximately.
     length: f64,
-    /// The contact point stays at rest.
+    /// The contact point sticks.
     still: bool,
     drive: Drive,
     contour: Torque,
@@ -135,17 +135,17 @@ impl Sweep {
         }
     }
 
-    /// One piece of path; whether the impact goes on after it.
+    /// Follows one piece of path. Returns whether the impact goes on after it.
     pub(super) fn advance(&mut self) -> bool {
         let now = self.now();
         let piece = self.piece(&now);
         let path = self.path(&piece, &now);
         let cut = self.cut(&path, &piece, &now);
-        self.take(&cut.step, &piece);
+        self.add(&cut.step, &piece);
         self.switch(cut.event, &piece)
     }
 
-    /// The modes of friction for what comes next.
+    /// The friction of the next piece.
     fn piece(&mut self, now: &Now) -> Piece {
         let mu = self.couplings.mu;
         let rests = self.still || now.speed <= REST * self.size;
@@ -194,19 +194,20 @@ impl Sweep {
         }
     }
 
-    /// With a constant f of this x part the work is back at 0, its end for e = 1, no later than
-    /// here.
+    /// The normal impulse at which, with a constant f of this x component, the work has returned to 0:
+    /// the end of the impact for e = 1, and no piece is longer.
     fn longest(&self, now: &Now, x: f64) -> f64 {
         let gain = self.k.zz + self.k.xz * x;
         let root = (now.normal * now.normal - 2.0 * gain * (self.least + self.back)).sqrt();
         (root - now.normal) / gain * (1.0 + 1e-6)
     }
 
-    /// How a slip goes on that starts with this f. It stops straight if it turns too little on its
-    /// way for this to differ from the path, with the constant f, |f| = μ, that brings it to 0.
+    /// How a slip behaves that starts with this f. If it turns so little before it stops that its path
+    /// is straight to the given precision, it is followed with the constant f, |f| = μ, that brings it
+    /// to 0.
     ///
-    /// Over the path the mean of f is (−slip/τ − b)/K; its length falls short of μ by the order of
-    /// the square of the angle between slip and slip'.
+    /// Along its path the mean of f is (−slip/τ − b)/K. The length of this mean is below μ by the order
+    /// of the square of the angle between slip and slip'.
     fn course(&self, drive: &Drive, now: &Now, fx: f64, fy: f64) -> Course {
         let (dx, dy) = (drive.xx * fx + drive.bx, drive.yy * fy + drive.by);
         let along = dx * now.slip_x + dy * now.slip_y;
@@ -230,7 +231,7 @@ impl Sweep {
         let mixed = gx * bx + gy * by;
         let rest = drive.mu * drive.mu - (bx * bx + by * by);
         let root = mixed * mixed + square * rest;
-        // 1/τ, the larger root: the first stop; not a number where there is none
+        // 1/τ, the larger root: the first stop; NaN if the slip does not stop
         let rate = (root.sqrt() - mixed) / square;
         if 0.0 < rate {
             Course::Stops {
@@ -273,9 +274,11 @@ impl Sweep {
         let mut cut = Cut::new(path);
         if self.opening {
             let missing = -(self.returned * self.least) - self.back;
-            cut.by(Event::Over, |s| missing - s.work);
+            cut.by(Event::EndOfImpact, |s| missing - s.work);
         } else {
-            cut.by(Event::Turn, |s| -(now.normal + k.zz * s.z + k.xz * s.x));
+            cut.by(Event::EndOfCompression, |s| {
+                -(now.normal + k.zz * s.z + k.xz * s.x)
+            });
         }
         if self.twists {
             self.cut_by_rates(&mut cut, piece, now);
@@ -283,7 +286,7 @@ impl Sweep {
         cut
     }
 
-    /// Where a rate that friction works against comes to 0 or leaves it.
+    /// Shortens the piece to where an angular velocity that friction opposes comes to 0 or leaves it.
     fn cut_by_rates(&self, cut: &mut Cut, piece: &Piece, now: &Now) {
         let t = &self.couplings.twist;
         let (c, p) = (&piece.contour, &piece.pivoting);
@@ -301,7 +304,7 @@ impl Sweep {
             let y = now.slip_y + piece.drive.yy * s.y + piece.drive.by * s.z;
             -(self.couplings.mu * y / (x * x + y * y).sqrt())
         };
-        // a rate that has just left 0 has the sign of rounding
+        // the sign of a rate that has just left 0 may be that of rounding
         let none = REST * (self.size + t.roll.abs() + t.pivot.abs());
         let Rates { roll, pivot } = &self.rates;
         if roll.limit > 0.0 && !roll.zero {
@@ -326,8 +329,8 @@ impl Sweep {
         }
     }
 
-    /// Adds a piece.
-    fn take(&mut self, step: &Step, piece: &Piece) {
+    /// Adds a piece to the impulses.
+    fn add(&mut self, step: &Step, piece: &Piece) {
         let (c, p) = (&piece.contour, &piece.pivoting);
         self.x += step.x;
         self.y += step.y;
@@ -341,28 +344,28 @@ impl Sweep {
         }
     }
 
-    /// The modes after the event that ended the piece; whether the impact goes on.
+    /// Changes the modes at the event that ends the piece. Returns whether the impact goes on.
     fn switch(&mut self, event: Event, piece: &Piece) -> bool {
-        let stopped = matches!(piece.course, Course::Stops { .. }) && event == Event::End;
+        let stopped = matches!(piece.course, Course::Stops { .. }) && event == Event::Length;
         self.still = stopped || piece.still;
         let now = self.now();
-        // f_y of a slip that turns
+        // f_y, if the slip turns
         let y = -(self.couplings.mu * now.slip_y) / now.speed;
         let (c, p) = (&piece.contour, &piece.pivoting);
         match event {
             Event::Roll => self.rates.roll.switch(c.by_y * y + c.rest),
             Event::Pivot => self.rates.pivot.switch(p.by_y * y + p.rest),
-            Event::End | Event::Turn | Event::Over => {}
+            Event::Length | Event::EndOfCompression | Event::EndOfImpact => {}
         }
-        if event == Event::Turn {
+        if event == Event::EndOfCompression {
             self.opening = true;
-            // with e = 0 nothing comes back
+            // with e = 0 no work is returned
             return self.returned > 0.0;
         }
         if now.normal < 0.0 {
             // friction drives the point back into the surface
             self.opening = false;
         }
-        event != Event::Over
+        event != Event::EndOfImpact
     }
 }

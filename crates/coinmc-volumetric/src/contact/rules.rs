@@ -1,0 +1,37 @@
+//! What governs sustained contact, and what a toss has used.
+
+use super::dynamics::Dynamics;
+use crate::limits::Limits;
+use crate::motion::{Motion, Spin};
+use coinmc_core::{Decided, DecisionRule};
+
+/// What governs sustained contact.
+#[derive(Clone, Copy)]
+pub(crate) struct ContactRules<'a> {
+    pub(crate) dynamics: &'a Dynamics,
+    pub(crate) rule: &'a DecisionRule,
+    pub(crate) limits: &'a Limits,
+    /// Slip below which a contact point may stick.
+    pub(crate) stick_speed: f64,
+    /// Error allowed per step, absolute and relative.
+    pub(crate) tolerance: f64,
+}
+
+impl ContactRules<'_> {
+    /// Which face is decided by the motion now.
+    #[inline]
+    pub(super) fn decide(&self, motion: &Motion<f64>, spin: &Spin<f64>) -> Decided {
+        let body = &self.dynamics.body;
+        self.rule.decide(&motion.decision_state(body, spin))
+    }
+}
+
+/// What a toss has used so far.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Usage {
+    /// Tries at steps of contact.
+    pub(crate) steps: u32,
+    pub(crate) jams: u32,
+    /// Time since the launch, in flight and in contact.
+    pub(crate) time: f64,
+}
