@@ -38,6 +38,13 @@ def test_a_wrong_digit_is_noticed(script, tables):
     assert script.written(wrong, tables) == page
 
 
+def test_a_wrong_default_of_a_key_is_noticed(script, tables):
+    page = (ROOT / "docs/reference/config.md").read_text(encoding="utf-8")
+    wrong = page.replace("| `0.01` |", "| `0.02` |", 1)
+    assert wrong != page
+    assert script.written(wrong, tables) == page
+
+
 def test_every_table_of_measurements_is_generated():
     """Under docs/validation and in docs/performance.md no table is typed by hand."""
     pages = [*(ROOT / "docs/validation").glob("*.md"), ROOT / "docs/performance.md"]
