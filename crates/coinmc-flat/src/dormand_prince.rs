@@ -10,9 +10,9 @@ pub(crate) trait System<const N: usize> {
     fn rates(&self, y: &[f64; N]) -> [f64; N];
 }
 
-/// f, where there may be none: as the stages of a step ask for it.
+/// A system whose f need not be defined everywhere.
 pub(crate) trait Flow<const N: usize, L> {
-    /// f(y), or `None`.
+    /// f(y), or `None` where it is not defined.
     fn rates(&mut self, y: &[L; N]) -> Option<[L; N]>;
 }
 
@@ -23,7 +23,7 @@ impl<const N: usize, L, F: FnMut(&[L; N]) -> Option<[L; N]>> Flow<N, L> for F {
     }
 }
 
-/// A step taken.
+/// A completed step.
 pub(crate) struct Step<const N: usize> {
     start: [f64; N],
     pub(crate) end: [f64; N],
@@ -66,7 +66,7 @@ impl<const N: usize> Step<N> {
         }
     }
 
-    /// The state at this share of the step, 0 to 1.
+    /// The state at a share of the step, 0 to 1.
     pub(crate) fn at(&self, share: f64) -> [f64; N] {
         let rest = 1.0 - share;
         let [r3, r4, r5] = &self.inner;
@@ -77,15 +77,15 @@ impl<const N: usize> Step<N> {
     }
 }
 
-/// The stages of a step that later ones or its end are made of, and its end.
+/// The end of a step, and the stages from which its error is computed.
 pub(crate) struct Stages<const N: usize, L = f64> {
-    /// The third to the sixth; the second serves the others only.
+    /// The third to the sixth; the second is used only in later stages.
     inner: [[L; N]; 4],
-    /// The state of order 5.
+    /// The state at the end, of order 5.
     pub(crate) end: [L; N],
 }
 
-/// The stages of a step of length `h` from `y`, where f is `k1`; `None` if f is, at any of them.
+/// The stages of a step of length `h` from `y`, where f is `k1`; `None` if f is undefined in any.
 #[inline(always)]
 pub(crate) fn stages<const N: usize, L: Lane>(
     mut flow: impl Flow<N, L>,
@@ -125,11 +125,11 @@ pub(crate) fn stages<const N: usize, L: Lane>(
     })
 }
 
-/// Weight in the difference of the two orders of f at the step's end, the seventh stage.
+/// Weight of the seventh stage, f at the end of the step, in the difference of the two orders.
 pub(crate) const LAST_DIFFERENCE: f64 = -1.0 / 40.0;
 
 impl<const N: usize, L: Lane> Stages<N, L> {
-    /// The difference of the two orders but for the share of the seventh stage.
+    /// The terms of the difference of the two orders, without the seventh stage.
     #[inline(always)]
     pub(crate) fn difference<'a>(&'a self, k1: &'a [L; N]) -> [(f64, &'a [L; N]); 5] {
         let [k3, k4, k5, k6] = &self.inner;
@@ -143,7 +143,7 @@ impl<const N: usize, L: Lane> Stages<N, L> {
     }
 }
 
-/// By how much the next step may be longer, `error` in units of what is allowed.
+/// The factor by which the next step may be longer, `error` in units of the allowed error.
 pub(crate) fn growth(error: f64) -> f64 {
     (0.9 * libm::pow(error.max(1e-30), -0.2)).clamp(0.1, 5.0)
 }

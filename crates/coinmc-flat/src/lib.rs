@@ -38,6 +38,7 @@ mod motion;
 mod observer_adapter;
 mod parameters;
 mod pivot;
+mod pivot_time;
 mod scalar;
 mod settings;
 mod shape;

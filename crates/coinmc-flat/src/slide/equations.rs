@@ -40,7 +40,7 @@ pub(super) struct Sliding<L = f64> {
 pub(super) struct SlideStep<L: Lane> {
     /// The state of order 5.
     pub(super) state: SlideState<L>,
-    /// The error estimate but for the share of the seventh stage.
+    /// The error estimate without the seventh stage.
     pub(super) partial: SlideState<L>,
     /// Whether the equations hold in all stages.
     pub(super) possible: L::Mask,

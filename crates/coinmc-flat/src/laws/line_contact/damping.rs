@@ -1,4 +1,4 @@
-//! How much damping gives a wanted restitution.
+//! The damping that gives a wanted restitution.
 //!
 //! Hunt & Crossley, J. Appl. Mech. 42 (1975) 440: N = K δⁿ (1 + c δ'). Along a line, with v = δ' and
 //! mass M, M v dv/(1 + c v) = −K δⁿ dδ, so that F(v) = v/c − ln(1 + c v)/c² is the same at the
@@ -10,7 +10,7 @@
 //! whose mass along the normal stays the same while it is down: without friction, or while it slides
 //! one way. Elsewhere the restitution that results is measured, see docs/methods/impact-laws.md.
 
-/// Below this restitution an impact is not resolved in time: it gives nothing back.
+/// Below this restitution an impact is not resolved in time: nothing rebounds.
 pub(crate) const LEAST_RESTITUTION: f64 = 1e-3;
 
 /// d for a restitution from [`LEAST_RESTITUTION`] to 1.
@@ -41,7 +41,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn its_ends_are_the_known_ones() {
+    fn matches_the_limits_of_restitution() {
         assert_eq!(strength(1.0), 0.0);
         for e in [0.999, 0.99] {
             // the next term is of relative order 1 − e
@@ -58,7 +58,7 @@ mod tests {
 
     /// Integrated with 10⁵ steps of order 2: error 1e-6.
     #[test]
-    fn a_mass_on_it_rebounds_as_wanted() {
+    fn a_damped_mass_rebounds_with_the_wanted_restitution() {
         for e in [0.2, 0.5, 0.9] {
             let c = strength(e);
             let force = |depth: f64, v: f64| -crate::laws::palmgren::power(depth) * (1.0 + c * v);

@@ -1,37 +1,38 @@
-//! The coin on compliant corners: where they are, what pushes them, and what must not change sign.
+//! The coin on compliant corners: positions, forces, and the margins that events break.
 //!
-//! Units of m, D and sqrt(D/g). Everything is counted from the instant of touch, so that nothing is
-//! lost to rounding however stiff the contact. Corner i is r_i from the centre; turning by φ moves it
+//! Units of m, D and sqrt(D/g). Displacements and times start at the touch, so that rounding does
+//! no harm however stiff the contact. Corner i is r_i from the centre; turning by φ moves it
 //! by r_i(φ) − r_i = (r_z, −r_x) sin φ − 2 r sin²(φ/2), and its velocity is (v_x + ω r_z, v_z − ω r_x).
 //!
 //! * **Normal force** N = K δⁿ (1 + c δ') of Hunt & Crossley, never a pull.
 //! * **Friction** F = −k_t s, s a spring between corner and surface: it follows the corner, s' = u_x,
 //!   as long as |k_t s| < μN, and slides at that bound otherwise. A spring in series with a dry
-//!   slider: it takes F·(u_x − s') >= 0 and gives back ½ k_t s². k_t is constant in an impact, for a
-//!   stiffness that changes with the load would make energy of nothing.
+//!   slider: it takes F·(u_x − s') >= 0 and gives back ½ k_t s². k_t is constant in an impact, because
+//!   a stiffness that changes with the load would create energy.
 
 use crate::dormand_prince::System;
 use crate::laws::palmgren::{EXPONENT, ninth_root, power};
 use coinmc_lanes::sin_cos;
 use std::f64::consts::FRAC_PI_2;
 
-/// x, z, φ since the touch; v_x, v_z, ω; the four springs s; what damping and friction have taken.
+/// x, z, φ since the touch; v_x, v_z, ω; the four springs s; the energy that damping and friction have
+/// taken.
 pub(super) type State = [f64; 11];
 
 pub(super) const CORNERS: usize = 4;
 const SPRING: usize = 6;
 pub(super) const LOST: usize = 10;
 
-/// What a corner does.
+/// How a corner touches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Grip {
-    /// Is clear of the surface.
+    /// Clear of the surface.
     Apart,
     /// Touches, without friction.
     Smooth,
     /// Slides in this direction, ±1.
     Slides(f64),
-    /// Pulls its spring along.
+    /// Stretches its spring.
     Sticks,
 }
 
@@ -44,11 +45,11 @@ pub(super) struct Corner {
     /// Height above the surface at the touch.
     pub(super) gap: f64,
     pub(super) grip: Grip,
-    /// c of the damping: set when the corner touches.
+    /// c of the damping, set when the corner touches.
     pub(super) damping: f64,
 }
 
-/// The coin, its corners and what holds in this impact.
+/// The coin, its corners and the parameters of this impact.
 pub(super) struct Body {
     /// I/mD².
     pub(super) inertia: f64,
@@ -65,7 +66,7 @@ pub(super) struct Body {
 pub(super) struct Place {
     pub(super) rx: f64,
     pub(super) rz: f64,
-    /// δ: how far it is in the surface.
+    /// δ, the depth below the surface.
     pub(super) depth: f64,
     /// δ'.
     pub(super) rate: f64,
@@ -73,7 +74,7 @@ pub(super) struct Place {
     pub(super) slip: f64,
 }
 
-/// sin φ and 1 − cos φ of any angle, without loss for small ones.
+/// sin φ and 1 − cos φ of any angle, without cancellation for small ones.
 #[inline]
 fn turned(angle: f64) -> (f64, f64) {
     let half = 0.5 * angle;
@@ -108,7 +109,7 @@ impl Body {
         }
     }
 
-    /// What a corner weighs along the normal: the inverse of K_zz.
+    /// The effective mass of a corner along the normal: the inverse of K_zz.
     pub(super) fn mass(&self, at: &Place) -> f64 {
         1.0 / (1.0 + at.rx * at.rx / self.inertia)
     }
@@ -119,7 +120,7 @@ impl Body {
         self.stiffness * power(at.depth) * self.damped(which, at)
     }
 
-    /// 1 + c δ', and never a pull.
+    /// 1 + c δ', at least zero.
     #[inline]
     fn damped(&self, which: usize, at: &Place) -> f64 {
         (1.0 + self.corners[which].damping * at.rate).max(0.0)
@@ -140,7 +141,7 @@ impl Body {
         }
     }
 
-    /// How far the spring of a corner is stretched.
+    /// The stretch of the spring of a corner.
     pub(super) fn spring(y: &mut State, which: usize) -> &mut f64 {
         &mut y[SPRING + which]
     }
@@ -158,7 +159,8 @@ impl Body {
         self.stiffness * (spring + power(at.depth) * c * closing)
     }
 
-    /// What is positive as long as a corner goes on doing what it does: its height or its depth.
+    /// The margin of the normal direction, positive while the corner stays clear (its height) or in
+    /// touch (its depth).
     pub(super) fn clearance(&self, y: &State, which: usize) -> f64 {
         let depth = self.place(y, which).depth;
         match self.corners[which].grip {
@@ -167,8 +169,8 @@ impl Body {
         }
     }
 
-    /// The same for friction: the rate at which a corner slides against its spring, or what friction
-    /// still holds.
+    /// The margin of friction, positive while the corner keeps sliding (its speed relative to the
+    /// spring) or sticking (the friction to spare).
     pub(super) fn hold(&self, y: &State, which: usize) -> f64 {
         match self.corners[which].grip {
             Grip::Apart | Grip::Smooth => f64::INFINITY,

@@ -1,16 +1,16 @@
-//! What happens on the way through an impact: corners touch and leave, begin to slide and stop.
+//! The events within an impact: corners touch and leave, begin to slide and stop.
 
 use super::equations::{Body, CORNERS, Grip, State};
-use super::passage::Passage;
+use super::impact_state::ImpactState;
 use super::scale::Scale;
 use crate::dormand_prince::Step;
 
-/// A margin of friction this far below zero, in its own unit, is broken; nearer, it is rounding.
+/// A margin of friction is broken this far below zero, in its own unit; nearer, it is rounding.
 const BROKEN: f64 = 1e-12;
 
-impl Passage {
-    /// The first margin that breaks in a step, and after which share of it: on its far side, so
-    /// that what follows begins beyond it.
+impl ImpactState {
+    /// The first margin that breaks in a step, and the share of the step after which it does: just
+    /// beyond the event, so that the next step begins behind it.
     pub(super) fn first_event(&self, step: &Step<11>) -> Option<(f64, usize)> {
         let mut first: Option<(f64, usize)> = None;
         for which in 0..2 * CORNERS {
@@ -25,15 +25,15 @@ impl Passage {
         first
     }
 
-    /// The false position with Illinois's halving and some bisections, to the far end of the
-    /// bracket.
+    /// Where a margin breaks, as the far end of the bracket: by false position in the Illinois
+    /// variant, with some bisections.
     fn crossing(&self, step: &Step<11>, which: usize, end: f64) -> f64 {
         let (mut near, mut far) = (0.0, 1.0);
         let mut low = self.margin(&step.at(0.0), which).max(f64::MIN_POSITIVE);
         let mut high = end;
         for round in 0..60 {
             let cut = far - high * (far - near) / (high - low);
-            // every third time a halving, lest a curved margin creeps
+            // every third cut is a bisection, lest a curved margin slows convergence
             let share = if round % 3 == 2 || !(cut > near && cut < far) {
                 f64::midpoint(near, far)
             } else {
@@ -57,7 +57,7 @@ impl Passage {
         far
     }
 
-    /// A margin without unit: of clearance for the first numbers, of friction for the others.
+    /// A dimensionless margin: clearance of each corner first, then friction of each corner.
     fn margin(&self, y: &State, which: usize) -> f64 {
         if which < CORNERS {
             return self.body.clearance(y, which) / self.scale.length;
@@ -70,7 +70,7 @@ impl Passage {
         self.body.hold(y, which) / unit + BROKEN
     }
 
-    /// A corner changes what it does.
+    /// Changes the grip of the corner whose margin has broken.
     pub(super) fn change(&mut self, margin: usize) {
         let which = margin % CORNERS;
         match (self.body.corners[which].grip, margin < CORNERS) {
@@ -92,10 +92,11 @@ impl Passage {
         }
     }
 
+    /// A corner begins to touch.
     pub(super) fn touch(&mut self, which: usize) {
         let at = self.body.place(&self.y, which);
-        // a corner that comes down faster than the first sets the scale: in units of a graze, its
-        // impact would be resolved a thousand times too finely
+        // a corner that comes down faster than the first sets the scale: on the scale of a grazing
+        // touch, its impact would be resolved a thousand times too finely
         if at.rate > self.scale.speed {
             self.scale = Scale::new(self.body.stiffness, self.body.mass(&at), at.rate);
         }

@@ -12,7 +12,9 @@
 mod damping;
 mod equations;
 mod events;
-mod passage;
+mod impact_state;
+mod integrate;
+mod release;
 mod scale;
 
 use crate::contact_matrix::{ContactMatrix, Impulse};
@@ -26,7 +28,8 @@ use coinmc_core::Scene;
 use coinmc_lanes::{Lane, sin_cos};
 use damping::{LEAST_RESTITUTION, strength};
 use equations::{Body, CORNERS, Corner, Grip};
-use passage::{Passage, Release};
+use impact_state::ImpactState;
+use release::Release;
 
 /// A corner this near to the surface touches it, in D.
 const TOUCH: f64 = 1e-15;
@@ -90,13 +93,13 @@ impl LineContactImpact {
         })
     }
 
-    /// The impact from the touch on.
-    fn passage(&self, impact: &Impact<'_>) -> Passage {
+    /// The impact at the touch.
+    fn at_touch(&self, impact: &Impact<'_>) -> ImpactState {
         let (shape, motion) = (impact.shape, &*impact.motion);
         let (sin, cos) = sin_cos(motion.delta);
         let matrix = ContactMatrix::new(sin, cos, shape.k);
         let approach = (-(motion.vz + motion.omega * sin)).max(0.0);
-        Passage::new(
+        ImpactState::new(
             self.body(motion, shape, impact.friction),
             [motion.vx, motion.vz, motion.omega],
             (approach, 1.0 / matrix.zz),
@@ -152,17 +155,17 @@ impl ImpactLaw for LineContactImpact {
         if impact.restitution < LEAST_RESTITUTION {
             return Resolution::UseImpulse;
         }
-        let mut passage = self.passage(impact);
-        let release = passage.follow(f64::INFINITY);
-        impact.record = passage.record;
-        impact.record.imbalance = passage.imbalance();
+        let mut state = self.at_touch(impact);
+        let release = state.integrate(f64::INFINITY);
+        impact.record = state.record;
+        impact.record.imbalance = state.imbalance();
         let Some(release) = release.filter(|release| *release != Release::GivenUp) else {
             impact.breaks.unresolved += 1;
             return Resolution::UseImpulse;
         };
         let (shape, motion) = (impact.shape, &mut *impact.motion);
         let touched = *motion;
-        move_on(motion, shape, &passage);
+        apply(motion, shape, &state);
         // what touches is on the surface, be it to rounding or to the depth of a bound corner
         motion.z = motion.z.max(sin_cos(motion.delta).1);
         if release == Release::Apart {
@@ -176,16 +179,16 @@ impl ImpactLaw for LineContactImpact {
     }
 
     fn resolve_until(&self, impact: &mut Impact<'_>, time: f64) {
-        let mut passage = self.passage(impact);
-        passage.follow(time);
-        move_on(impact.motion, impact.shape, &passage);
+        let mut state = self.at_touch(impact);
+        state.integrate(time);
+        apply(impact.motion, impact.shape, &state);
     }
 }
 
-/// From the touch to where a passage is.
-fn move_on(motion: &mut Motion, shape: &Shape, passage: &Passage) {
-    let [x, z, turned, vx, vz, omega, ..] = passage.y;
-    motion.time += passage.time;
+/// Moves the coin from the touch to the state of the impact.
+fn apply(motion: &mut Motion, shape: &Shape, state: &ImpactState) {
+    let [x, z, turned, vx, vz, omega, ..] = state.y;
+    motion.time += state.time;
     motion.x += x;
     motion.z += z;
     motion.turn(shape, turned);

@@ -1,25 +1,25 @@
-//! How large things are in an impact.
+//! The scales of an impact.
 
 use crate::laws::palmgren::{deepest, duration};
 
-/// What errors are measured against: the compression of one corner without losses.
+/// The units of errors: the lossless compression of one corner.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Scale {
-    /// How deep it gets.
+    /// Greatest depth.
     pub(super) length: f64,
-    /// How fast it begins.
+    /// Initial speed.
     pub(super) speed: f64,
-    /// How long it lasts.
+    /// Duration.
     pub(super) time: f64,
-    /// How hard it presses.
+    /// Greatest force.
     pub(super) force: f64,
 }
 
 impl Scale {
-    /// A corner touches at `approach`, with this mass along the normal.
+    /// A corner with this effective mass touches at the speed `approach`.
     pub(super) fn new(stiffness: f64, mass: f64, approach: f64) -> Self {
-        // static depth under the own weight, and the speed at which a fall by it ends: slower
-        // impacts are no impacts but a loading
+        // static depth under the own weight, and the speed after a fall by that depth: anything slower
+        // is a loading, not an impact
         let resting = libm::pow(1.0 / stiffness, 0.9);
         let speed = approach.max(resting.sqrt());
         let length = deepest(stiffness, mass, speed).max(resting);
