@@ -1,4 +1,5 @@
-//! Cross-section rule: every part of the outline of the axial section is as likely as it is long.
+//! Cross-section rule: the probability is proportional to the share of the outline of the axial
+//! section.
 //!
 //! # Derivation
 //!
@@ -7,15 +8,15 @@
 //!
 //! > P(side) = 2H/(2H + 4R) = x/(2 + x),  1 − P(side) = 2/(2 + x).
 //!
-//! It is [`surface_area`](crate::surface_area) in the plane: how likely a random straight line in
-//! the plane of a flat spin enters the section through its side. No mechanics stands behind it.
+//! It is [`surface_area`](crate::surface_area) in the plane: the probability that a random straight
+//! line in the plane of a flat spin enters the section through its side. It has no basis in mechanics.
 //!
-//! A square section, `x = 2`, gives each of its four edges a quarter and so the side one half. The
-//! folklore that a coin as high as it is wide is fair forgets that two of those edges are the side.
+//! In a square section, `x = 2`, each of the four edges has a quarter, so the side has one half. The
+//! folklore that a coin as high as it is wide is fair forgets that two of the edges are the side.
 //!
 //! **Small and large coins.** `x/2` as `x → 0`; `1 − 2/x` as `x → ∞`.
 //!
-//! **Source.** Folklore, without a first author known to us.
+//! **Source.** Folklore, first author unknown.
 
 use crate::FaceProbabilities;
 use crate::geometry::{checked_ratio, is_probability};

@@ -1,5 +1,5 @@
-//! Lengths (in radii) and angles of the coin, free of cancellation and with their limits at 0 and
-//! ∞, and the domains that all rules share.
+//! Lengths (in radii) and angles of the coin without cancellation and with their limits at 0 and ∞,
+//! and the domains that all rules share.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -28,8 +28,8 @@ pub(crate) fn face_angle_rad(ratio: f64) -> f64 {
     libm::atan(2.0 / ratio)
 }
 
-/// `sin α = x/sqrt(x² + 4)`. Above 2 both are divided by `x` first: the quotient of two large and
-/// nearly equal numbers, each rounded, may fall short of the 1 that is meant, and of ∞ is none.
+/// `sin α = x/sqrt(x² + 4)`. Above 2 both are divided by `x` first, because the
+/// quotient of two large, nearly equal, rounded numbers may fall short of 1, and ∞/∞ is NaN.
 pub(crate) fn sin_alpha(ratio: f64) -> f64 {
     if ratio < 2.0 {
         ratio / libm::hypot(ratio, 2.0)

@@ -15,15 +15,15 @@
 //! starts with its centre one radius `R` above the floor and lands there without a bounce, touching
 //! when its centre is at `R|sin ωt|`. Before `T` the centre is higher than `R` and the rim cannot
 //! touch. After `T` it is lower than `R`, so the coin touches before it could stand upright, where
-//! `|sin ωt| = 1`: between `T` and the contact the angle passes no odd quarter turn, and the face
-//! is that of `T`.
+//! `|sin ωt| = 1`: between `T` and the contact the angle passes no odd quarter turn, so the face is
+//! the same as at `T`.
 //!
 //! # Why a toss is fair
 //!
 //! In the plane of `u` and ω the bands are strips between hyperbolas, equally wide for heads and
 //! tails and ever narrower towards large `uω`. [`p_heads_in_window`] is exact for a window of
-//! half-turns however small, and [`bias_bound`] says how fast any preference fades: as one over
-//! twice its width.
+//! half-turns of any width, and [`bias_bound`] says how fast any preference fades: as one over
+//! twice the width.
 //!
 //! **Source.** J. B. Keller, "The probability of heads", Amer. Math. Monthly 93, 191 (1986). A
 //! typical toss (u = 2.4 m/s, ω = 238.6 rad/s) makes about 37 half-turns.
@@ -32,8 +32,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Number of half-turns `2uω/(πg)` up to the return to the starting height.
 ///
-/// The upward speed in metres a second is not negative, gravity in metres a second squared is
-/// positive; the spin in radians a second may have either sign. NaN otherwise.
+/// The upward speed in metres per second is not negative, gravity in metres per second squared is
+/// positive; the spin in radians per second may have either sign. NaN otherwise.
 ///
 /// ```
 /// use coinmc_analytic::keller::half_turns;
@@ -63,20 +63,20 @@ pub fn is_heads(half_turns: f64) -> bool {
 /// The spins between which a toss of a given speed shows heads after `n` whole turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeadsBand {
-    /// Slowest spin of the band in radians a second; 0 for the band of no turn.
+    /// Slowest spin of the band in radians per second; 0 for the band of no turn.
     pub slowest_rad_s: f64,
-    /// Fastest spin of the band in radians a second.
+    /// Fastest spin of the band in radians per second.
     pub fastest_rad_s: f64,
 }
 
 impl HeadsBand {
-    /// The band of `n` whole turns for an upward speed in metres a second, not negative, and a
-    /// gravity in metres a second squared, positive; both edges are NaN otherwise.
+    /// The band of `n` whole turns for an upward speed in metres per second, not negative, and a
+    /// gravity in metres per second squared, positive; both edges are NaN otherwise.
     ///
     /// ```
     /// use coinmc_analytic::keller::HeadsBand;
     /// let band = HeadsBand::after_turns(19, 2.4, 9.81);
-    /// assert!(238.6 < band.slowest_rad_s); // a typical toss has not got that far: tails
+    /// assert!(238.6 < band.slowest_rad_s); // a typical toss turns less: tails
     /// assert_eq!(HeadsBand::after_turns(0, 2.4, 9.81).slowest_rad_s, 0.0);
     /// ```
     pub fn after_turns(n: u32, upward_speed_m_s: f64, gravity_m_s2: f64) -> Self {
@@ -96,10 +96,10 @@ impl HeadsBand {
 
 /// Probability of heads if the number of half-turns is uniform between two finite numbers.
 ///
-/// As `h` is proportional to the spin and to the speed, this is a window in either with the other
-/// fixed. Let `q(h)` be the surplus of heads, `∫(heads − ½)dh` from 0: a triangle wave between ±¼
+/// As `h` is proportional to the spin and to the speed, this is a window in one of them with the
+/// other fixed. Let `q(h)` be the surplus of heads, `∫(heads − ½)dh` from 0: a triangle wave between ±¼
 /// of period 2. Then P = ½ + (q(to) − q(from))/(to − from). A window of no width gives 1 or 0, one
-/// turned round gives NaN.
+/// with its ends swapped gives NaN.
 ///
 /// ```
 /// use coinmc_analytic::keller::p_heads_in_window;
@@ -138,7 +138,7 @@ pub fn bias_bound(width_half_turns: f64) -> f64 {
     }
 }
 
-/// Half-turns past the nearest whole turn, in `[−1, 1]`. Exact: no step of it rounds.
+/// Half-turns past the nearest whole turn, in `[−1, 1]`. Exact: no operation rounds.
 fn from_whole_turn(half_turns: f64) -> f64 {
     half_turns - 2.0 * (0.5 * half_turns).round()
 }

@@ -1,10 +1,10 @@
 #![doc = include_str!("../README.md")]
 //!
-//! # Words
+//! # Terms
 //!
 //! The coin is a cylinder of height `H` and radius `R`, its mass spread evenly.
 //!
-//! | word | meaning |
+//! | term | meaning |
 //! |---|---|
 //! | ratio `x` | `H/R`, from 0 (a disc without thickness) to +∞ (a rod) |
 //! | `l` | `sqrt(R² + H²/4)`, from the centre to any point of either rim |
@@ -13,13 +13,13 @@
 //! | heads | the heads face shows: `u` points up when the coin lies |
 //! | side | the coin rests on its curved surface |
 //! | fair | `P(side) = 1/3`, so that all three outcomes are equally likely |
-//! | adhesive | the point that touches first holds, and the coin tips about it to its rest |
+//! | adhesive | the point that touches first sticks, and the coin tips about it until it rests |
 //!
 //! # What an adhesive landing decides
 //!
 //! A tilted coin touches the floor with one point of a rim. Tipping about that point under gravity,
 //! it falls to the side of the pivot on which its centre lies, so it comes to rest on the part of
-//! its surface that the vertical through its centre pierces. That vertical makes the angle `acos
+//! its surface that the vertical line through its centre crosses. That vertical makes the angle `acos
 //! |u_z|` with the axis of the coin, and the rim is seen from the centre at `π/2 − α` from the
 //! axis. Therefore
 //!
@@ -39,12 +39,12 @@
 //! | [`well_depth::solid`] | wells, depth × solid angle; a heuristic | 1.3545 | (bouncing) |
 //!
 //! A coin that starts heads up and precesses is in [`precession`]: its outcome also depends on the
-//! angle ψ between its normal and its angular momentum, so it is no [`Rule`]. A coin whose spin and
-//! speed are known, not random, is in [`keller`].
+//! angle ψ between its normal and its angular momentum, so it is not a [`Rule`]. For a coin whose spin
+//! and speed are known instead of random, see [`keller`].
 //!
 //! # Numbers
 //!
-//! Every function is total: outside its domain it returns NaN and nothing panics. A ratio of 0 and
+//! Every function is total: outside its domain it returns NaN, and it never panics. A ratio of 0 and
 //! a ratio of +∞ give the limits. Within ratios of 1e-12 to 1e12 the probability of the side *and*
 //! that of the faces are each correct to a few units in the last place: neither is computed as one
 //! minus the other. All elementary functions come from the crate `libm`, so that every platform

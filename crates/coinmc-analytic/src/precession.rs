@@ -9,19 +9,19 @@
 //!
 //! > `u_z = cos²ψ + sin²ψ·cos φ`.
 //!
-//! ψ = 90° is the clean flip about a diameter; ψ = 0 a coin thrown flat like a discus. If ψ < 45°
+//! ψ = 90° is the clean flip about a diameter; ψ = 0 is a coin thrown flat like a discus. If ψ < 45°
 //! or ψ > 135° the heads face never looks down, although the coin may seem to tumble. Nothing
-//! depends on the sense of `L`, so ψ and π − ψ answer alike. [`thin`] asks only for the sign of
-//! `u_z`; [`thick`] puts `u_z` to the test of an adhesive landing (see the crate's overview).
+//! depends on the sense of `L`, so ψ and π − ψ give the same result. [`thin`] needs only the sign of
+//! `u_z`; [`thick`] applies the test of an adhesive landing to `u_z` (see the crate's overview).
 //!
 //! # What is assumed
 //!
 //! * The coin starts with heads up and level. Without that `L` may point anywhere.
 //! * φ is uniform on the circle when the coin lands: it has circled many times, and the number of
-//!   times is not controlled. For a thick coin also: the distribution of φ at first contact is not
-//!   distorted by the contact itself, that is, the coin falls by its own size while it hardly turns
-//!   (or is caught).
-//! * ψ is known. Where it is spread, average these probabilities over its distribution.
+//!   times is not controlled. For a thick coin also: the contact itself does not distort the
+//!   distribution of φ, that is, the coin hardly turns while it falls by its own size (or it is
+//!   caught).
+//! * ψ is known. If it has a distribution, average these probabilities over it.
 //!
 //! **Source.** P. Diaconis, S. Holmes and R. Montgomery, "Dynamical bias in the coin toss", SIAM
 //! Review 49, 211 (2007), for the thin coin; the thick one joins it to the landing of E. H. Yong

@@ -1,8 +1,8 @@
-//! The answer of every rule: one probability a face.
+//! The result of every rule: one probability per face.
 
 /// Probabilities of the three outcomes of one toss.
 ///
-/// They are computed side by side, none as one minus the others, so that each keeps its relative
+/// Each is computed separately, none as one minus the others, so that each keeps its relative
 /// precision however small it is. All three are NaN outside the domain of the rule that made them.
 ///
 /// ```
@@ -22,7 +22,7 @@ pub struct FaceProbabilities {
 }
 
 impl FaceProbabilities {
-    /// What a rule answers outside its domain.
+    /// The result of a rule outside its domain.
     ///
     /// ```
     /// use coinmc_analytic::FaceProbabilities;
@@ -45,7 +45,7 @@ impl FaceProbabilities {
         self.heads + self.tails
     }
 
-    /// A coin that does not tell heads from tails; `side + faces` is 1.
+    /// Equal probabilities of heads and tails; `side + faces` is 1.
     pub(crate) fn symmetric(side: f64, faces: f64) -> Self {
         Self {
             heads: 0.5 * faces,
@@ -54,7 +54,7 @@ impl FaceProbabilities {
         }
     }
 
-    /// The same from relative weights, the side's possibly infinite.
+    /// The same from relative weights; that of the side may be infinite.
     pub(crate) fn from_weights(side: f64, faces: f64) -> Self {
         if side == f64::INFINITY {
             return Self::symmetric(1.0, 0.0);

@@ -1,4 +1,5 @@
-//! The closed forms in the ratio alone, under the names that configs and command lines use.
+//! The closed forms that depend on the ratio alone, under their names in configs and on the command
+//! line.
 
 use crate::{FaceProbabilities, arc, cross_section, surface_area, well_depth, zone};
 use std::{error, fmt, str};
@@ -78,7 +79,7 @@ impl Rule {
         }
     }
 
-    /// What the rule takes for granted, in one line.
+    /// The assumption of the rule, in one line.
     ///
     /// ```
     /// use coinmc_analytic::Rule;
@@ -95,7 +96,7 @@ impl Rule {
         }
     }
 
-    /// Whom to cite.
+    /// The source to cite.
     ///
     /// ```
     /// use coinmc_analytic::Rule;
@@ -141,7 +142,7 @@ impl Rule {
 
     /// Ratio `H/R` at which P(side) is `target`, in `[0, 1]` (a third makes all three outcomes
     /// equally likely); NaN elsewhere. Each rule rises strictly from 0 to 1, so there is exactly
-    /// one.
+    /// one solution.
     ///
     /// ```
     /// use coinmc_analytic::Rule;
@@ -178,7 +179,7 @@ impl str::FromStr for Rule {
     }
 }
 
-/// No rule has this name. The message names those that there are.
+/// No rule has this name. The message lists the known names.
 ///
 /// ```
 /// use coinmc_analytic::Rule;

@@ -1,4 +1,4 @@
-//! Surface-area rule: every part of the surface is as likely as its area is large.
+//! Surface-area rule: the probability is proportional to the area.
 //!
 //! # Derivation
 //!
@@ -6,14 +6,14 @@
 //!
 //! > P(side) = 2πRH/(2πRH + 2πR²) = x/(1 + x),  1 − P(side) = 1/(1 + x).
 //!
-//! No mechanics stands behind it: by Cauchy's formula it is how likely a straight line of random
-//! direction and position enters the coin through its side. It is kept as the guess that a theory
-//! has to beat; published tosses refute it.
+//! It has no basis in mechanics: by Cauchy's formula it is the probability that a straight line of
+//! random direction and position enters the coin through its side. It is kept as the guess that a
+//! theory has to beat; published tosses refute it.
 //!
 //! **Small and large coins.** `x` as `x → 0`; `1 − 1/x` as `x → ∞`.
 //!
-//! **Source.** Folklore, without a first author known to us; discussed as the equal-area argument
-//! wherever a fair thick coin is.
+//! **Source.** Folklore, first author unknown; discussed as the equal-area argument wherever a fair
+//! thick coin is.
 
 use crate::FaceProbabilities;
 use crate::geometry::{checked_ratio, is_probability};

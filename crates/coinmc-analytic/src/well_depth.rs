@@ -14,8 +14,7 @@
 //! | [`flat`] | its angle: `α` for the side, `π/2 − α` for the faces | published |
 //! | [`solid`] | its solid angle: `sin α` and `1 − sin α` | a heuristic, unpublished |
 //!
-//! Each of the two functions below is in units of the radius; times `m·g·R` it is an energy in
-//! joules.
+//! The two functions below are in units of the radius; times `m·g·R` they are energies in joules.
 
 use crate::geometry;
 

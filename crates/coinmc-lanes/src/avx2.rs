@@ -1,7 +1,7 @@
-//! Eight lanes in two registers of AVX2: while one waits for a root or a quotient, the other works.
+//! Eight lanes in two registers of AVX2: one works while the other waits for a root or a quotient.
 //!
 //! # Safety
-//! As in `avx512`: values are made only inside [`enter`], which asks the processor first.
+//! As in `avx512`: values exist only inside [`enter`], which checks the processor first.
 #![allow(unsafe_code)]
 
 use crate::operators::{by_permutation, operators};
@@ -20,11 +20,11 @@ use std::sync::LazyLock;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Eight(__m256d, __m256d);
 
-/// All bits of a lane set, or none.
+/// All bits of a lane set, or none of them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct EightBits(__m256d, __m256d);
 
-/// Whether the processor has all that [`enter`] makes use of: every one with AVX2 of Intel's and AMD's
+/// Whether the processor has all features that [`enter`] uses, as every one by Intel or AMD with AVX2
 /// does.
 #[inline]
 pub(crate) fn is_available() -> bool {
@@ -38,10 +38,10 @@ pub(crate) fn is_available() -> bool {
     *IS_AVAILABLE
 }
 
-/// Does the work with these lanes; `Err` gives it back where the processor lacks them.
+/// Runs the work with these lanes; `Err` returns it if the processor does not support them.
 #[inline]
 pub(crate) fn enter<W: Work>(work: W) -> Result<W::Output, W> {
-    // beside the lanes' own AVX2, what the compiler makes faster code of
+    // beside AVX2 itself, features with which the compiler makes faster code
     #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
     fn inside<W: Work>(work: W) -> W::Output {
         work.run::<Eight>()
@@ -53,12 +53,12 @@ pub(crate) fn enter<W: Work>(work: W) -> Result<W::Output, W> {
     Ok(unsafe { inside(work) })
 }
 
-/// Methods of one instruction a half.
+/// Methods of one instruction per half.
 macro_rules! instructions {
     ($($method:ident($($other:ident),*) $instruction:ident;)*) => {$(
         #[inline(always)]
         fn $method(self $(, $other: Self)*) -> Self {
-            // SAFETY: the module's text.
+            // SAFETY: see the module documentation.
             unsafe { Self($instruction(self.0 $(, $other.0)*), $instruction(self.1 $(, $other.1)*)) }
         }
     )*};
@@ -73,7 +73,7 @@ impl Eight {
         bits_and(other) _mm256_and_pd;
         bits_or(other) _mm256_or_pd;
         bits_xor(other) _mm256_xor_pd;
-        // the bits of the second that the first has not
+        // the bits of the second operand that the first does not have
         bits_not_in(other) _mm256_andnot_pd;
     }
 
@@ -101,13 +101,13 @@ operators!(Eight, EightBits);
 impl Mask for EightBits {
     #[inline(always)]
     fn splat(value: bool) -> Self {
-        // SAFETY: the module's text.
+        // SAFETY: see the module documentation.
         let half = unsafe { _mm256_castsi256_pd(_mm256_set1_epi64x(-i64::from(value))) };
         Self(half, half)
     }
     #[inline(always)]
     fn any(self) -> bool {
-        // SAFETY: the module's text.
+        // SAFETY: see the module documentation.
         unsafe { _mm256_movemask_pd(_mm256_or_pd(self.0, self.1)) != 0 }
     }
 }
@@ -119,14 +119,14 @@ impl Lane for Eight {
 
     instructions! {
         sqrt() _mm256_sqrt_pd;
-        // of equal numbers, and where one is not a number, the second: as the selects are
+        // of equal numbers, and where one is NaN, the second operand: as the selects do
         min(other) _mm256_min_pd;
         max(other) _mm256_max_pd;
     }
 
     #[inline(always)]
     fn splat(value: f64) -> Self {
-        // SAFETY: the module's text.
+        // SAFETY: see the module documentation.
         let half = unsafe { _mm256_set1_pd(value) };
         Self(half, half)
     }
@@ -154,7 +154,7 @@ impl Lane for Eight {
     }
     #[inline(always)]
     fn lt(self, other: Self) -> EightBits {
-        // SAFETY: the module's text.
+        // SAFETY: see the module documentation.
         unsafe {
             EightBits(
                 _mm256_cmp_pd::<_CMP_LT_OQ>(self.0, other.0),
@@ -164,7 +164,7 @@ impl Lane for Eight {
     }
     #[inline(always)]
     fn le(self, other: Self) -> EightBits {
-        // SAFETY: the module's text.
+        // SAFETY: see the module documentation.
         unsafe {
             EightBits(
                 _mm256_cmp_pd::<_CMP_LE_OQ>(self.0, other.0),
@@ -174,7 +174,7 @@ impl Lane for Eight {
     }
     #[inline(always)]
     fn select(mask: EightBits, yes: Self, no: Self) -> Self {
-        // SAFETY: the module's text.
+        // SAFETY: see the module documentation.
         unsafe {
             Self(
                 _mm256_blendv_pd(no.0, yes.0, mask.0),
@@ -188,7 +188,7 @@ impl Wide for Eight {
     #[inline(always)]
     fn load(block: &Block) -> Self {
         let (low, high) = block.split_at(4);
-        // SAFETY: the module's text; each half is four numbers, at any address.
+        // SAFETY: see the module documentation; each half is four numbers, at any address.
         unsafe {
             Self(
                 _mm256_loadu_pd(low.as_ptr()),
@@ -209,14 +209,14 @@ impl Wide for Eight {
     }
     #[inline(always)]
     fn bits(mask: EightBits) -> Bits {
-        // SAFETY: the module's text.
+        // SAFETY: see the module documentation.
         let (low, high) = unsafe { (_mm256_movemask_pd(mask.0), _mm256_movemask_pd(mask.1)) };
         // four bits each
         (low | high << 4).to_le_bytes()[0]
     }
     #[inline(always)]
     fn mask(bits: Bits) -> EightBits {
-        // SAFETY: the module's text.
+        // SAFETY: see the module documentation.
         let half = |bits: i64| unsafe {
             let places = _mm256_set_epi64x(8, 4, 2, 1);
             let set = _mm256_and_si256(_mm256_set1_epi64x(bits), places);
@@ -228,7 +228,7 @@ impl Wide for Eight {
     by_permutation!(Picks);
 }
 
-/// What a route does with both registers.
+/// The permutation of both registers along a route.
 #[derive(Clone, Copy)]
 struct Picks {
     low: Half,
@@ -257,12 +257,12 @@ impl Picks {
     }
 }
 
-/// Where the numbers of one half come from.
+/// The sources of the numbers of one half.
 #[derive(Debug, Clone, Copy)]
 struct Half {
-    /// In the half they are in; of both words that a number is made of.
+    /// Positions within their half, of both 32-bit words of a number.
     words: __m256i,
-    /// From the higher half.
+    /// Whether they come from the higher half.
     high: __m256d,
 }
 
@@ -273,7 +273,7 @@ impl Half {
         let place = |lane: i32| 2 * (lane & 3);
         let half = |lane: i32| -i64::from((lane >> 2) & 1);
         let [p, q, r, s] = [place(a), place(b), place(c), place(d)];
-        // SAFETY: the module's text.
+        // SAFETY: see the module documentation.
         unsafe {
             Self {
                 words: _mm256_setr_epi32(p, p + 1, q, q + 1, r, r + 1, s, s + 1),
@@ -284,7 +284,7 @@ impl Half {
 
     #[inline(always)]
     fn pick(self, from: Eight) -> __m256d {
-        // SAFETY: the module's text.
+        // SAFETY: see the module documentation.
         unsafe {
             let low = _mm256_permutevar8x32_ps(_mm256_castpd_ps(from.0), self.words);
             let high = _mm256_permutevar8x32_ps(_mm256_castpd_ps(from.1), self.words);

@@ -1,8 +1,8 @@
 //! Eight lanes in one register of AVX-512.
 //!
 //! # Safety
-//! Every method calls instructions that the processor must have. The type is private to the crate,
-//! and values of it are made only inside [`enter`], which asks first.
+//! Every method uses instructions that the processor must have. The type is private to the crate, and
+//! its values exist only inside [`enter`], which checks the processor first.
 #![allow(unsafe_code)]
 
 use crate::operators::{by_permutation, operators};
@@ -24,8 +24,8 @@ pub(crate) struct Eight(__m512d);
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct EightBits(__mmask8);
 
-/// Whether the processor has all that [`enter`] makes use of: every one with AVX-512 since Skylake-SP
-/// does.
+/// Whether the processor has all features that [`enter`] uses, as every one with AVX-512 since
+/// Skylake-SP does.
 #[inline]
 pub(crate) fn is_available() -> bool {
     static IS_AVAILABLE: LazyLock<bool> = LazyLock::new(|| {
@@ -41,10 +41,10 @@ pub(crate) fn is_available() -> bool {
     *IS_AVAILABLE
 }
 
-/// Does the work with these lanes; `Err` gives it back where the processor lacks them.
+/// Runs the work with these lanes; `Err` returns it if the processor does not support them.
 #[inline]
 pub(crate) fn enter<W: Work>(work: W) -> Result<W::Output, W> {
-    // beside the lanes' own AVX-512F, what the compiler makes faster code of
+    // beside AVX-512F itself, features with which the compiler makes faster code
     #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,bmi1,bmi2,lzcnt,popcnt")]
     fn inside<W: Work>(work: W) -> W::Output {
         work.run::<Eight>()
@@ -61,7 +61,7 @@ macro_rules! instructions {
     ($($method:ident($($other:ident),*) $instruction:ident;)*) => {$(
         #[inline(always)]
         fn $method(self $(, $other: Self)*) -> Self {
-            // SAFETY: the module's text.
+            // SAFETY: see the module documentation.
             Self(unsafe { $instruction(self.0 $(, $other.0)*) })
         }
     )*};
@@ -77,7 +77,7 @@ impl Eight {
 
     #[inline(always)]
     fn neg(self) -> Self {
-        // SAFETY: the module's text.
+        // SAFETY: see the module documentation.
         Self(unsafe {
             let sign = _mm512_castpd_si512(_mm512_set1_pd(-0.0));
             _mm512_castsi512_pd(_mm512_xor_si512(_mm512_castpd_si512(self.0), sign))
@@ -121,14 +121,14 @@ impl Lane for Eight {
     instructions! {
         sqrt() _mm512_sqrt_pd;
         abs() _mm512_abs_pd;
-        // of equal numbers, and where one is not a number, the second: as the selects are
+        // of equal numbers, and where one is NaN, the second operand: as the selects do
         min(other) _mm512_min_pd;
         max(other) _mm512_max_pd;
     }
 
     #[inline(always)]
     fn splat(value: f64) -> Self {
-        // SAFETY: the module's text.
+        // SAFETY: see the module documentation.
         Self(unsafe { _mm512_set1_pd(value) })
     }
     #[inline(always)]
@@ -147,7 +147,7 @@ impl Lane for Eight {
     }
     #[inline(always)]
     fn copysign(self, sign: Self) -> Self {
-        // SAFETY: the module's text.
+        // SAFETY: see the module documentation.
         Self(unsafe {
             let bit = _mm512_castpd_si512(_mm512_set1_pd(-0.0));
             let size = _mm512_andnot_si512(bit, _mm512_castpd_si512(self.0));
@@ -157,17 +157,17 @@ impl Lane for Eight {
     }
     #[inline(always)]
     fn lt(self, other: Self) -> EightBits {
-        // SAFETY: the module's text.
+        // SAFETY: see the module documentation.
         EightBits(unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0) })
     }
     #[inline(always)]
     fn le(self, other: Self) -> EightBits {
-        // SAFETY: the module's text.
+        // SAFETY: see the module documentation.
         EightBits(unsafe { _mm512_cmp_pd_mask::<_CMP_LE_OQ>(self.0, other.0) })
     }
     #[inline(always)]
     fn select(mask: EightBits, yes: Self, no: Self) -> Self {
-        // SAFETY: the module's text.
+        // SAFETY: see the module documentation.
         Self(unsafe { _mm512_mask_blend_pd(mask.0, no.0, yes.0) })
     }
 }
@@ -175,7 +175,7 @@ impl Lane for Eight {
 impl Wide for Eight {
     #[inline(always)]
     fn load(block: &Block) -> Self {
-        // SAFETY: the module's text; a block is eight numbers, at any address.
+        // SAFETY: see the module documentation; a block is eight numbers, at any address.
         Self(unsafe { _mm512_loadu_pd(block.as_ptr()) })
     }
     #[inline(always)]
@@ -197,7 +197,7 @@ impl Wide for Eight {
     by_permutation!(Picks);
 }
 
-/// What a route does with a register.
+/// The permutation of a register along a route.
 #[derive(Clone, Copy)]
 struct Picks {
     sources: __m512i,
@@ -209,7 +209,7 @@ impl Picks {
     fn of(route: &Route) -> Self {
         let sources = i64::from_le_bytes(route.sources());
         Self {
-            // SAFETY: the module's text.
+            // SAFETY: see the module documentation.
             sources: unsafe { _mm512_cvtepu8_epi64(_mm_cvtsi64_si128(sources)) },
             goals: EightBits(route.to()),
         }
@@ -217,7 +217,7 @@ impl Picks {
 
     #[inline(always)]
     fn pick(self, from: Eight, to: Eight) -> Eight {
-        // SAFETY: the module's text.
+        // SAFETY: see the module documentation.
         let picked = Eight(unsafe { _mm512_permutexvar_pd(self.sources, from.0) });
         Eight::select(self.goals, picked, to)
     }

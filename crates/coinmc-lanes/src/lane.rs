@@ -1,15 +1,15 @@
-//! The arithmetic of the kernels: one number, or several side by side.
+//! The arithmetic of the kernels: one number, or one per lane.
 //!
 //! Flight, impact and contact are written once, over [`Lane`]. A lane offers only what IEEE 754
 //! fixes to the last bit (no fused operations, no library functions), and a choice made by a
 //! comparison is a [`select`](Lane::select): so the number of lanes changes the speed and nothing
-//! else. With `f64` as the lane, masks are `bool` and selects compile to moves or branches; with
-//! one of the [`Wide`](crate::Wide) kinds, eight tosses go side by side.
+//! else. With `f64` as the lane, masks are `bool` and selects compile to moves or branches; a
+//! [`Wide`](crate::Wide) type holds eight lanes.
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, MulAssign, Neg, Not, Sub, SubAssign};
 
-/// One or several `f64`.
+/// One `f64`, or one per lane.
 pub trait Lane:
     Copy
     + Debug
@@ -25,18 +25,16 @@ pub trait Lane:
     /// The result of a comparison, lane by lane.
     type Mask: Mask;
 
-    /// How many lanes.
+    /// The number of lanes.
     const COUNT: usize;
 
     /// The same number in every lane.
     fn splat(value: f64) -> Self;
-    /// The number in one lane, 0 to [`COUNT`](Self::COUNT) − 1: for what has to be done number
-    /// by number.
+    /// The number in one lane, 0 to [`COUNT`](Self::COUNT) − 1, for scalar code.
     fn lane(self, index: usize) -> f64;
-    /// The same but for one lane, 0 to [`COUNT`](Self::COUNT) − 1.
+    /// The same with another number in one lane, 0 to [`COUNT`](Self::COUNT) − 1.
     fn with_lane(self, index: usize, value: f64) -> Self;
-    /// What `each` makes of every number in a lane of the mask, the others as they are: for what
-    /// has to be done number by number in some lanes.
+    /// Applies scalar code, `each`, to the lanes of the mask and leaves the others unchanged.
     fn map_where(self, mask: Self::Mask, each: impl Fn(f64) -> f64) -> Self;
     /// Square root.
     fn sqrt(self) -> Self;
@@ -44,9 +42,9 @@ pub trait Lane:
     fn abs(self) -> Self;
     /// The magnitude of `self` with the sign of `sign`.
     fn copysign(self, sign: Self) -> Self;
-    /// self < other; false where either is not a number.
+    /// self < other; false where either is NaN.
     fn lt(self, other: Self) -> Self::Mask;
-    /// self <= other; false where either is not a number.
+    /// self <= other; false where either is NaN.
     fn le(self, other: Self) -> Self::Mask;
     /// `yes` where the mask is set, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
@@ -54,18 +52,18 @@ pub trait Lane:
     /// The nearest integer, ties to even.
     #[inline(always)]
     fn round(self) -> Self {
-        // Adding 3·2^51 leaves no digits after the point; exact for |self| < 2^51, and without
-        // SSE 4.1 much faster than a call of the library's round.
+        // Adding 3·2^51 leaves no digits after the binary point. Exact for |self| < 2^51, and without
+        // SSE 4.1 much faster than the library's round.
         const SHIFT: f64 = 6_755_399_441_055_744.0;
         let shift = Self::splat(SHIFT);
         let near = self.abs().lt(Self::splat(2_251_799_813_685_248.0));
         Self::select(near, (self + shift) - shift, self)
     }
 
-    /// The greatest integer that is not above.
+    /// The largest integer that is at most `self`.
     #[inline(always)]
     fn floor(self) -> Self {
-        // from 2^52 on all numbers are integers, so that adding it leaves no digits after the point
+        // from 2^52 on all numbers are integers, so adding 2^52 leaves no digits after the binary point
         let shift = Self::splat(4_503_599_627_370_496.0);
         let size = self.abs();
         let near = ((size + shift) - shift).copysign(self);
@@ -73,20 +71,20 @@ pub trait Lane:
         Self::select(self.lt(near), near - Self::splat(1.0), near)
     }
 
-    /// The smaller; `other` where `self` is not a number.
+    /// The smaller of the two; `other` where `self` is NaN.
     #[inline(always)]
     fn min(self, other: Self) -> Self {
         Self::select(self.lt(other), self, other)
     }
 
-    /// The larger; `other` where `self` is not a number.
+    /// The larger of the two; `other` where `self` is NaN.
     #[inline(always)]
     fn max(self, other: Self) -> Self {
         Self::select(other.lt(self), self, other)
     }
 }
 
-/// One or several truth values.
+/// One truth value, or one per lane.
 pub trait Mask:
     Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self>
 {
@@ -162,7 +160,7 @@ mod tests {
     use crate::{Block, Lanes, WIDTH, Wide, Work};
 
     #[test]
-    fn rounds_down() {
+    fn floor_rounds_down() {
         for x in [
             -7.0, -2.5, -0.3, 0.0, 0.3, 0.5, 1.0, 1.5, 6.999, 1e12, -1e18,
         ] {
@@ -171,7 +169,7 @@ mod tests {
         assert!(Lane::floor(f64::NAN).is_nan());
     }
 
-    /// Puts a number of its own into every lane, the last lane first.
+    /// Writes another number into each lane, the last lane first.
     struct Numbered;
 
     impl Work for Numbered {
@@ -183,7 +181,10 @@ mod tests {
             let filled = (0..L::COUNT).rev().fold(L::splat(-1.0), |lanes, i| {
                 let lanes = lanes.with_lane(i, 0.5 + i as f64);
                 assert_eq!(lanes.lane(i), 0.5 + i as f64);
-                assert!(i == 0 || lanes.lane(i - 1) == -1.0, "lane {i} spilt");
+                assert!(
+                    i == 0 || lanes.lane(i - 1) == -1.0,
+                    "lane {i} changed another"
+                );
                 lanes
             });
             let block = filled.store();
@@ -194,7 +195,7 @@ mod tests {
         }
     }
 
-    /// Doubles what is above 3.
+    /// Doubles numbers above 3.
     struct Doubled(Block);
 
     impl Work for Doubled {
@@ -209,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn lanes_of_a_mask_are_mapped() {
+    fn map_where_changes_the_lanes_of_the_mask() {
         let numbers = [1.0, 4.0, 2.0, 3.0, 5.0, 3.5, 0.0, 8.0];
         for lanes in Lanes::ALL.into_iter().filter(|lanes| lanes.is_available()) {
             let block = lanes.enter(Doubled(numbers));
@@ -220,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn every_lane_is_read_and_set_alone() {
+    fn every_lane_is_read_and_written_separately() {
         for lanes in Lanes::ALL.into_iter().filter(|lanes| lanes.is_available()) {
             let block = lanes.enter(Numbered);
             assert_eq!(block, [0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5], "{lanes}");

@@ -1,4 +1,4 @@
-//! Which lanes there are, and which are used.
+//! The kinds of lanes, and which of them a processor has.
 
 use crate::portable;
 use crate::wide::Work;
@@ -7,8 +7,8 @@ use crate::{avx2, avx512};
 use std::fmt;
 use thiserror::Error;
 
-/// How many tosses are followed side by side, and with which instructions. The outcome of every
-/// toss is the same to the last bit with any of them.
+/// How many numbers are computed at once, and with which instructions. The results are bit-identical
+/// with all of them.
 ///
 /// # Example
 /// ```
@@ -18,27 +18,26 @@ use thiserror::Error;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Lanes {
-    /// One toss after the other.
+    /// One at a time.
     Scalar,
-    /// Eight side by side, with the vector instructions that every processor of the architecture
-    /// has.
+    /// Eight at once, with the vector instructions that every processor of the architecture has.
     Portable,
-    /// Eight side by side, in pairs of registers of AVX2.
+    /// Eight at once, in two registers of AVX2.
     Avx2,
-    /// Eight side by side, in registers of AVX-512.
+    /// Eight at once, in one register of AVX-512.
     Avx512,
 }
 
 /// The processor lacks the instructions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-#[error("this processor has no {0}; Lanes::best() names what it has")]
+#[error("this processor does not support {0} lanes; Lanes::best() names the best it supports")]
 pub struct NoSuchLanes(pub Lanes);
 
 impl Lanes {
-    /// All of them, whether this processor has them or not.
+    /// All kinds, whether this processor has them or not.
     pub const ALL: [Self; 4] = [Self::Scalar, Self::Portable, Self::Avx2, Self::Avx512];
 
-    /// The fastest on this processor.
+    /// The fastest lanes of this processor.
     pub fn best() -> Self {
         let vectors = [Self::Avx512, Self::Avx2];
         let best = vectors.into_iter().find(|lanes| lanes.is_available());
@@ -70,7 +69,7 @@ impl Lanes {
         }
     }
 
-    /// Their name in tables.
+    /// The name in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Scalar => "scalar",
@@ -80,7 +79,7 @@ impl Lanes {
         }
     }
 
-    /// Does the work with these lanes, or with the portable ones where they are not to be had.
+    /// Runs the work with these lanes, or with portable ones if this processor does not have them.
     #[inline]
     pub fn enter<W: Work>(self, work: W) -> W::Output {
         #[cfg(target_arch = "x86_64")]

@@ -1,9 +1,9 @@
 #![doc = include_str!("../README.md")]
 //!
 //! # How it works
-//! A kernel is written once over [`Lane`] and is run on the lanes that the processor has: with
-//! [`Lanes::enter`] on eight at a time, or plainly on `f64`. A lane offers only what IEEE 754 fixes
-//! to the last bit, so how many there are changes the speed and nothing else.
+//! A kernel is written once, generic over [`Lane`]. It runs on one `f64`, or with [`Lanes::enter`] on
+//! eight lanes of the instruction set that the processor has. A lane offers only operations whose
+//! results IEEE 754 fixes to the last bit, so the number of lanes changes the speed and nothing else.
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;

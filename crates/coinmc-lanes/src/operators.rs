@@ -1,6 +1,6 @@
-//! What kinds of lanes derive from their own methods: operators, and routes by permutation.
+//! Operators and routes that lane types derive from their own methods.
 
-/// Binary operators of a lane type by its methods of the same name, and those that assign.
+/// Implements the operators of a lane type by its methods of the same names.
 macro_rules! operators {
     ($lane:ident, $mask:ident) => {
         operators!(@binary $lane: Add add AddAssign add_assign, Sub sub SubAssign sub_assign,
@@ -54,8 +54,8 @@ macro_rules! operators {
     )*};
 }
 
-/// The methods of [`Wide`](crate::Wide) that follow a route, for lanes whose registers a `$picks` of the
-/// route permutes.
+/// Implements the route methods of [`Wide`](crate::Wide) for lane types whose registers are permuted by
+/// a `$picks` of the route.
 #[cfg(target_arch = "x86_64")]
 macro_rules! by_permutation {
     ($picks:ident) => {

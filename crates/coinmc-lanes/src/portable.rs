@@ -1,5 +1,5 @@
-//! Eight lanes as plain arrays: whatever vector instructions the compiler may count on, it makes
-//! of these loops (NEON on AArch64).
+//! Eight lanes as plain arrays. The compiler turns these loops into the vector instructions that it may
+//! assume (NEON on AArch64).
 
 use crate::operators::operators;
 use crate::wide::{Bits, Block, WIDTH, Wide, map_where};
@@ -9,11 +9,11 @@ use std::array::from_fn;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Eight(Block);
 
-/// All bits of a lane set, or none.
+/// All bits of a lane set, or none of them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct EightBits([u64; WIDTH]);
 
-/// Methods that do the same in every lane.
+/// Methods that apply a scalar function to every lane.
 macro_rules! lane_by_lane {
     ($($method:ident($($other:ident),*) $each:expr;)*) => {$(
         #[inline(always)]

@@ -1,8 +1,8 @@
-//! From lanes of one block to lanes of another.
+//! Copying lanes of one block to lanes of another.
 
 use crate::wide::{Bits, WIDTH, lanes_of};
 
-/// Which lanes of some blocks go to which of others.
+/// Which lanes of one block are copied to which lanes of another.
 ///
 /// # Example
 /// ```
@@ -28,21 +28,21 @@ use crate::wide::{Bits, WIDTH, lanes_of};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Route {
-    /// By the lane that it goes to.
+    /// The source of each target lane.
     sources: [u8; WIDTH],
     from: Bits,
     to: Bits,
 }
 
 impl Route {
-    /// From the first lane of `from` to the first of `to`, and so on until either has no more.
+    /// From the first lane of `from` to the first of `to`, and so on until either runs out.
     #[inline(always)]
     pub fn between(from: Bits, to: Bits) -> Self {
         let count = from.count_ones().min(to.count_ones()) as usize;
         let from = FIRST[usize::from(from)][count];
         let to = FIRST[usize::from(to)][count];
         let places = u64::from_le_bytes(PLACES[usize::from(from)]);
-        // without branches, as how many lanes go is not to be foreseen
+        // without branches, because the number of lanes is unpredictable
         let (mut sources, mut rank) = (0, 0);
         for lane in 0..WIDTH {
             sources |= ((places >> (8 * rank)) & 7) << (8 * lane);
@@ -66,30 +66,30 @@ impl Route {
         }
     }
 
-    /// The lanes that go.
+    /// The lanes that are copied.
     pub fn from(&self) -> Bits {
         self.from
     }
 
-    /// The lanes they go to.
+    /// The lanes they are copied to.
     pub fn to(&self) -> Bits {
         self.to
     }
 
-    /// Lane by lane: which goes, and where it goes to.
+    /// Source and target of each copied lane.
     #[inline(always)]
     pub(crate) fn pairs(&self) -> impl Iterator<Item = (usize, usize)> {
         let sources = self.sources;
         lanes_of(self.to).map(move |to| (usize::from(sources[to]), to))
     }
 
-    /// Where the lanes of `to` come from; of others, any.
+    /// The source of each lane of `to`; arbitrary for the others.
     pub(crate) fn sources(&self) -> [u8; WIDTH] {
         self.sources
     }
 }
 
-/// Of any lanes, the first so many.
+/// The first `count` lanes of a set, by the set and `count`.
 static FIRST: [[Bits; WIDTH + 1]; 256] = {
     let mut first = [[0; WIDTH + 1]; 256];
     let mut bits = 0;
@@ -108,7 +108,7 @@ static FIRST: [[Bits; WIDTH + 1]; 256] = {
     first
 };
 
-/// Of any lanes, where they are, in rising order.
+/// The lanes of a set in rising order, by the set.
 static PLACES: [[u8; WIDTH]; 256] = {
     let mut places = [[0; WIDTH]; 256];
     let mut bits = 0;
@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn every_lane_goes_where_its_rank_says_with_all_lanes() {
+    fn each_lane_is_copied_to_the_lane_of_its_rank() {
         let from_numbers = [0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5];
         let to_numbers = from_numbers.map(|number| -number);
         let (from_bits, to_bits) = (0b1011_0010, 0b0110_1010);

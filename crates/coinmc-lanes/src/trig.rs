@@ -1,7 +1,8 @@
-//! Sine and cosine for the kernels: one implementation, the same bits in every lane and on every
+//! Sine and cosine for the kernels: one implementation, bit-identical in every lane and on every
 //! machine.
 //!
-//! Made of additions and multiplications only (no fused ones, no tables, no branches on the value).
+//! It uses additions and multiplications only: no fused operations, no tables, no branches on the
+//! value.
 
 use crate::Lane;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
@@ -9,8 +10,8 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 /// π/2 − FRAC_PI_2, the part of π/2 that an f64 cannot hold.
 pub const PI_2_TAIL: f64 = 6.123_233_995_736_766e-17;
 
-/// Of sin y = y + y³ times a polynomial in y²: the minimax polynomial of FreeBSD's msun (`k_sin.c`)
-/// for |y| <= π/4, from the constant term up.
+/// The polynomial P of sin y = y + y³ P(y²): the minimax polynomial of FreeBSD's msun (`k_sin.c`) for
+/// |y| <= π/4, from the constant term up.
 pub const SINE: [f64; 6] = [
     -1.666_666_666_666_663_2e-1,
     8.333_333_333_322_49e-3,
@@ -20,7 +21,7 @@ pub const SINE: [f64; 6] = [
     1.589_690_995_211_55e-10,
 ];
 
-/// The same of cos y = 1 − y²/2 + y⁴ times a polynomial in y² (`k_cos.c`).
+/// The polynomial P of cos y = 1 − y²/2 + y⁴ P(y²), likewise (`k_cos.c`).
 pub const COSINE: [f64; 6] = [
     4.166_666_666_666_66e-2,
     -1.388_888_888_887_411e-3,
@@ -63,7 +64,7 @@ pub fn sin_cos_near_zero<L: Lane>(y: L) -> (L, L) {
         z * (k(c1) + z * (k(c2) + z * k(c3))) + w * w * (k(c4) + z * (k(c5) + z * k(c6)));
     let half = k(0.5) * z;
     let head = k(1.0) - half;
-    // (1 − head) − half is the rounding error of head, put back
+    // (1 − head) − half is the rounding error of head, added back
     (sine, head + (((k(1.0) - head) - half) + z * cosine_tail))
 }
 
@@ -76,8 +77,8 @@ mod tests {
         (a - b).abs() / (b.abs() * f64::EPSILON).max(f64::MIN_POSITIVE)
     }
 
-    /// libm's sin and cos are within 1 ulp; 1.5 of ours on top leaves 2.5 (in units of EPSILON·|b|,
-    /// at least half an ulp each: 2.5 covers both).
+    /// libm's sin and cos are within 1 ulp and these within 1.5, together 2.5. The unit here,
+    /// EPSILON·|b|, is at least half an ulp.
     #[test]
     fn agrees_with_libm_on_its_whole_domain() {
         let n = 2_000_000;
@@ -103,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn has_the_bits_of_the_plain_one_in_every_lane() {
+    fn every_lane_is_bit_identical_to_the_scalar_path() {
         let n = 300_000;
         let at = |i: usize| FRAC_PI_2 * (2.0 * i as f64 / f64::from(n) - 1.0);
         for lanes in Lanes::ALL.into_iter().filter(|lanes| lanes.is_available()) {
@@ -121,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn is_exact_at_the_landmarks_and_odd() {
+    fn is_exact_at_zero_and_a_right_angle_and_odd() {
         assert_eq!(sin_cos(0.0), (0.0, 1.0));
         let (s, c) = sin_cos(FRAC_PI_2);
         assert_eq!(s, 1.0);

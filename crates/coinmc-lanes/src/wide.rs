@@ -1,29 +1,29 @@
-//! Lanes of a fixed number, as the batch of tosses uses them: to and from memory, and masks as bits.
+//! Eight lanes, as batches of tosses use them: to and from memory, and masks as bits.
 
 use crate::{Lane, Route};
 
-/// Tosses side by side, whatever the instruction set: one register of AVX-512, two of AVX2.
+/// The number of wide lanes with any instruction set: one register of AVX-512, two of AVX2.
 pub const WIDTH: usize = 8;
 
-/// One number of each of them.
+/// One number per lane.
 pub type Block = [f64; WIDTH];
 
-/// One truth value of each, the first in the lowest bit.
+/// One truth value per lane, the first in the lowest bit.
 pub type Bits = u8;
 
 /// [`WIDTH`] lanes.
 pub trait Wide: Lane {
-    /// The lanes that memory holds.
+    /// Reads the lanes from memory.
     fn load(block: &Block) -> Self;
-    /// The lanes, for memory.
+    /// The lanes as memory holds them.
     fn store(self) -> Block;
-    /// Set bits of a mask.
+    /// The mask as bits.
     fn bits(mask: Self::Mask) -> Bits;
-    /// The mask of set bits.
+    /// The mask with these bits set.
     fn mask(bits: Bits) -> Self::Mask;
-    /// Puts the lanes of `from` that go along a route into those of `to`, in every block.
+    /// Copies lanes of `from` along a route into lanes of `to`, in every block.
     fn follow<const N: usize>(route: &Route, from: &[Block; N], to: &mut [Block; N]);
-    /// The same of one truth value a lane: `to`, with those of `from` that go.
+    /// The same for one truth value per lane: `to`, with the copied ones of `from`.
     fn follow_bits(route: &Route, from: Bits, to: Bits) -> Bits;
 }
 
@@ -37,17 +37,17 @@ pub(crate) fn map_where<L: Wide>(lanes: L, mask: L::Mask, each: impl Fn(f64) -> 
     L::load(&block)
 }
 
-/// Something that is done on lanes of any kind. Its `run` and all that this calls are to be
-/// inlined: only then are they compiled for the instruction set they run on.
+/// Work to do on lanes of any kind. `run` and all that it calls must be inlined: only then is it
+/// compiled for the instruction set it runs on.
 pub trait Work {
-    /// What comes of it.
+    /// Its result.
     type Output;
 
-    /// Does it.
+    /// Does the work.
     fn run<L: Wide>(self) -> Self::Output;
 }
 
-/// Where the lanes of `bits` are, in rising order.
+/// The lanes whose bits are set, in rising order.
 pub fn lanes_of(mut bits: Bits) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         (bits != 0).then(|| {

@@ -13,7 +13,7 @@ pub(crate) struct Turning {
 }
 
 impl Turning {
-    /// Of a launch.
+    /// The turning of a launch.
     ///
     /// u turns about Ω = ω + (I_a/I_t − 1)(ω·u)u, the angular momentum over I_t, or without
     /// gyroscopic torque about ω. With e = Ω/|Ω|, c = e·u:
@@ -43,8 +43,8 @@ impl Turning {
     }
 }
 
-/// I_a/I_t, or 1 where the gyroscopic torque is switched off: a coin of equal moments turns about
-/// its angular velocity.
+/// I_a/I_t, or 1 without gyroscopic torque: the coin then turns about its angular velocity, as one with
+/// equal moments does.
 pub(crate) fn axial_factor(scene: &Scene) -> f64 {
     if scene.has_gyroscopic_torque() {
         scene.coin.axial_gyration_m2() / scene.coin.transverse_gyration_m2()

@@ -1,9 +1,10 @@
-//! The probabilities of the faces for a launch of which one quantity is random: closed form.
+//! The probabilities of the faces if one quantity of a launch is random, in closed form.
 //!
 //! The phase Φ at the passage is monotone in that quantity, so its distribution function G is that
-//! of the quantity at the value that leads to Φ. Heads shows for cos Φ > (sin α − A)/B, a stretch
-//! about each whole turn; tails for cos Φ < −(sin α + A)/B, one about each half turn. Each has the
-//! probability Σ G(end) − G(start); a wide normal one has a Fourier series of a few terms. An azimuth is simpler: the axis ends on a circle, uniformly.
+//! of the quantity at the value that leads to Φ. Heads shows for cos Φ > (sin α − A)/B, an interval
+//! about each whole turn; tails for cos Φ < −(sin α + A)/B, an interval about each half turn. Each has
+//! the probability Σ G(end) − G(start); a wide normal distribution has a Fourier series of a few terms.
+//! An azimuth is simpler: the axis ends uniformly on a circle.
 
 use crate::axis::Turning;
 use crate::passage::{Passage, support};
@@ -12,12 +13,12 @@ use coinmc_core::{Launch, LaunchDistribution, Marginal, Orientation, Scene, Unif
 use nalgebra::{UnitVector3, Vector3};
 use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 
-/// Turns over which the quantity may spread the phase; a launch beyond them draws the quantity.
-const MOST_TURNS: f64 = 256.0;
-/// Phases, rad, that have no digits left for such a sum.
-const FARTHEST: f64 = 1e9;
+/// Turns over which the quantity may spread the phase; beyond them the quantity is drawn.
+const MAX_TURNS: f64 = 256.0;
+/// Largest phase, rad, with enough digits left for the sum.
+const MAX_PHASE: f64 = 1e9;
 
-/// A scene with everything but one quantity of its launches given.
+/// A scene whose launches are given except for one quantity.
 #[derive(Debug)]
 pub(crate) struct Conditional<'a> {
     scene: &'a Scene,
@@ -35,12 +36,12 @@ pub(crate) struct Conditional<'a> {
 pub(crate) struct Faces {
     /// P(heads), P(tails), P(side).
     pub(crate) p: [f64; 3],
-    /// The quantity was drawn, not integrated out: one of them is 1.
+    /// The quantity was drawn, not integrated out: one probability is 1.
     pub(crate) drawn: bool,
 }
 
 impl Faces {
-    fn followed(p: [f64; 3]) -> Self {
+    fn integrated(p: [f64; 3]) -> Self {
         Self { p, drawn: false }
     }
 }
@@ -50,7 +51,7 @@ struct Phases<'a> {
     conditional: &'a Conditional<'a>,
     launch: Launch,
     turning: Turning,
-    /// Where the phase stands at value 0 of tilt or rate, at time 0 of velocity or height.
+    /// The phase at value 0 of tilt or rate, or at time 0 for velocity or height.
     origin: f64,
     /// Change of the phase with tilt or rate.
     slope: f64,
@@ -75,13 +76,13 @@ impl<'a> Conditional<'a> {
         }
     }
 
-    /// P(heads), P(tails), P(side) with the rest of the launch as these uniforms have it.
-    /// `drawn` is a uniform for the quantity itself, where it leads round too often to be followed.
-    /// Nothing where numbers leave their range.
+    /// P(heads), P(tails), P(side), with the other quantities of the launch drawn from `uniforms`.
+    /// `drawn` is a uniform for the quantity itself, in case it spreads the phase over too many turns.
+    /// All are zero where numbers leave their range.
     pub(crate) fn faces(&self, uniforms: &mut impl UniformSource, drawn: f64) -> Faces {
         let launch = self.rest.launch(&self.scene.coin, uniforms);
         if self.variable == Variable::Azimuth {
-            return Faces::followed(self.round_the_spin(&launch));
+            return Faces::integrated(self.over_azimuth(&launch));
         }
         let phases = Phases::new(self, launch);
         let Turning { along, across, .. } = phases.turning;
@@ -89,13 +90,13 @@ impl<'a> Conditional<'a> {
         if let Some(normal) = phases.wide_normal() {
             let heads = normal.within(0.0, half_width(heads, across));
             let tails = normal.within(PI, half_width(tails, across));
-            return Faces::followed([heads, tails, (1.0 - heads - tails).max(0.0)]);
+            return Faces::integrated([heads, tails, (1.0 - heads - tails).max(0.0)]);
         }
         let (from, to) = phases.range();
         if !(to - from).is_finite() {
-            return Faces::followed([0.0; 3]);
+            return Faces::integrated([0.0; 3]);
         }
-        if to - from > MOST_TURNS * TAU || from.abs().max(to.abs()) > FARTHEST {
+        if to - from > MAX_TURNS * TAU || from.abs().max(to.abs()) > MAX_PHASE {
             let phase = phases.at(self.marginal.quantile(drawn));
             let cos = across * libm::cos(phase);
             let heads = f64::from(u8::from(cos > heads));
@@ -107,30 +108,30 @@ impl<'a> Conditional<'a> {
         }
         let heads = phases.within(0.0, half_width(heads, across));
         let tails = phases.within(PI, half_width(tails, across));
-        // rounding may leave less than nothing
-        Faces::followed([heads, tails, (1.0 - heads - tails).max(0.0)])
+        // rounding may make it negative
+        Faces::integrated([heads, tails, (1.0 - heads - tails).max(0.0)])
     }
 
-    /// Whether the quantity can be integrated out for a launch of which nothing else is random: it
-    /// does not lead round too often.
-    pub(crate) fn is_followed(&self) -> bool {
-        struct Nothing;
-        impl UniformSource for Nothing {
+    /// Whether the quantity can be integrated out if nothing else is random: it does not spread the
+    /// phase over too many turns.
+    pub(crate) fn is_integrable(&self) -> bool {
+        struct Constant;
+        impl UniformSource for Constant {
             fn uniform(&mut self, _: u32) -> f64 {
                 0.5
             }
         }
-        !self.faces(&mut Nothing, 0.5).drawn
+        !self.faces(&mut Constant, 0.5).drawn
     }
 
-    /// With the angular velocity ω given, an isotropic axis has a uniform component along ω and a
-    /// uniform azimuth about it. Another azimuth turns the whole flight about ω, so that the axis
-    /// ends uniformly on a circle about ω.
-    fn round_the_spin(&self, launch: &Launch) -> [f64; 3] {
+    /// The probabilities over the azimuth. With the angular velocity ω given, an isotropic axis has a
+    /// uniform component along ω and a uniform azimuth about it. Another azimuth turns the whole flight
+    /// about ω, so the axis ends uniformly on a circle about ω.
+    fn over_azimuth(&self, launch: &Launch) -> [f64; 3] {
         let along = launch.axis.z;
         let rate = launch.spin_rad_s.norm();
-        // the same flight seen with ω upwards
-        let seen = Launch {
+        // the same flight turned so that ω points up
+        let upright = Launch {
             axis: UnitVector3::new_unchecked(Vector3::new(
                 (1.0 - along * along).sqrt(),
                 0.0,
@@ -139,7 +140,7 @@ impl<'a> Conditional<'a> {
             spin_rad_s: Vector3::new(0.0, 0.0, rate),
             ..*launch
         };
-        let turning = Turning::of(&seen, self.scene);
+        let turning = Turning::of(&upright, self.scene);
         let time = self.passage.time(launch.height_m, launch.velocity_m_s.z);
         let phase = turning.phase + turning.rate * self.passage.turning_time(time);
         if !phase.is_finite() {
@@ -163,16 +164,15 @@ struct WideNormal {
 }
 
 impl WideNormal {
-    /// The probability of a phase within `half` of `centre` or of a whole number of turns from it:
-    /// the Fourier series of that stretch, each term damped by the normal's characteristic
-    /// function e^(−k²σ²/2).
+    /// The probability of a phase within `half` of `centre`, modulo whole turns: the Fourier series of
+    /// that interval, each term damped by the characteristic function e^(−k²σ²/2) of the normal.
     fn within(&self, centre: f64, half: f64) -> f64 {
         // e^(−40) is below rounding; eight terms at σ = 1
-        const LEAST: f64 = -40.0;
+        const SMALLEST: f64 = -40.0;
         let (mut sum, mut k) = (half / PI, 1.0);
         loop {
             let damping = -0.5 * (k * self.sd) * (k * self.sd);
-            if damping < LEAST {
+            if damping < SMALLEST {
                 return sum.clamp(0.0, 1.0);
             }
             let wave = libm::sin(k * half) * libm::cos(k * (self.mean - centre));
@@ -182,15 +182,14 @@ impl WideNormal {
     }
 }
 
-/// The borders of heads and tails on a circle about `along` of half diameter `across`, and the
-/// shares of the circle beyond them.
+/// The shares of heads, tails and side on a circle about `along` of radius `across`.
 fn shares_of_circle(border: f64, along: f64, across: f64) -> [f64; 3] {
     let heads = half_width(border - along, across) / PI;
     let tails = half_width(border + along, across) / PI;
     [heads, tails, (1.0 - heads - tails).max(0.0)]
 }
 
-/// Half the length of the stretch on which across·cos exceeds a level.
+/// Half the length of the interval on which across·cos exceeds a level.
 fn half_width(level: f64, across: f64) -> f64 {
     if level >= across {
         0.0
@@ -218,7 +217,7 @@ impl<'a> Phases<'a> {
         };
         match conditional.variable {
             Variable::Tilt => {
-                // u_z = cos(tilt + ω τ), whichever way it turns
+                // u_z = cos(tilt + ω τ), in either sense of rotation
                 let spin = launch.spin_rad_s.y;
                 phases.turning = Turning {
                     along: 0.0,
@@ -235,8 +234,8 @@ impl<'a> Phases<'a> {
         phases
     }
 
-    /// The distribution of the phase if it is linear in a normal quantity and spreads by a radian or
-    /// more: from there on the series is shorter than the sum over turns.
+    /// The distribution of the phase, if it is linear in a normal quantity and has a standard deviation
+    /// of a radian or more: the series is then shorter than the sum over turns.
     fn wide_normal(&self) -> Option<WideNormal> {
         let Conditional { marginal, .. } = self.conditional;
         let Marginal::Normal { mean, sd } = *marginal else {
@@ -247,7 +246,7 @@ impl<'a> Phases<'a> {
             sd: self.slope * sd,
         };
         let linear = matches!(self.conditional.variable, Variable::Tilt | Variable::Rate);
-        let fits = normal.sd >= 1.0 && normal.sd.is_finite() && normal.mean.abs() < FARTHEST;
+        let fits = normal.sd >= 1.0 && normal.sd.is_finite() && normal.mean.abs() < MAX_PHASE;
         (linear && fits).then_some(normal)
     }
 
@@ -304,7 +303,7 @@ impl<'a> Phases<'a> {
         distribution(marginal, value)
     }
 
-    /// The probability of a phase within `half` of `centre` or of a whole number of turns from it.
+    /// The probability of a phase within `half` of `centre`, modulo whole turns.
     fn within(&self, centre: f64, half: f64) -> f64 {
         if half <= 0.0 {
             return 0.0;

@@ -1,4 +1,4 @@
-//! What an integration finds.
+//! The result of an integration.
 
 use crate::method::Method;
 
@@ -14,12 +14,12 @@ pub struct Share {
 }
 
 impl Share {
-    /// A probability known to rounding.
+    /// A probability that is exact to rounding.
     pub(crate) fn exact(p: f64) -> Self {
         Self { p, lo: p, hi: p }
     }
 
-    /// The longer arm of the interval.
+    /// The larger distance from the probability to an end of the interval.
     pub fn half_width(&self) -> f64 {
         (self.hi - self.p).max(self.p - self.lo)
     }
@@ -32,9 +32,9 @@ pub struct Integral {
     pub method: Method,
     /// Heads, tails, side.
     pub faces: [Share; 3],
-    /// Evaluations of the integrand: 0 for a rule, 1 where a single one decides.
+    /// Evaluations of the integrand: 0 for a rule, 1 if nothing is left to integrate over.
     pub evaluations: u64,
-    /// The probabilities are exact (to rounding); else their intervals are Student's.
+    /// The probabilities are exact to rounding; otherwise their intervals are Student's.
     pub exact: bool,
 }
 
@@ -44,7 +44,7 @@ impl Integral {
         &self.faces[2]
     }
 
-    /// The longest arm of the three intervals.
+    /// The largest half width of the three intervals.
     pub fn half_width(&self) -> f64 {
         self.faces.iter().map(Share::half_width).fold(0.0, f64::max)
     }

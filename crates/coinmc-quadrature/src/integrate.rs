@@ -10,25 +10,25 @@ use coinmc_analytic::Rule;
 use coinmc_core::{Engine, Face, LaunchDistribution, Scene, Stream, UniformSource, unit_interval};
 use std::ops::{ControlFlow, Range};
 
-/// Evaluations between two questions whether to go on: at most milliseconds.
+/// Evaluations between two calls of `keep_going`: at most milliseconds.
 const BATCH: u64 = 256;
 
 /// Sums of heads, tails and side.
 type Sums = [f64; 3];
 
-/// What a sample comes to.
-struct Seen {
+/// The sums over a sample.
+struct SampleSums {
     sums: Sums,
-    /// Some evaluations were one face or none, and no fraction of them.
-    whole: bool,
+    /// Some evaluations gave one face or none instead of probabilities.
+    counts: bool,
 }
 
-/// Finds the probabilities of the faces of a scene with adhesive landing by a method that is
-/// [`Method::of`] it, or by [`Method::Tossed`]. `None` if `go_on`, asked every now and then, says
-/// no.
+/// Finds the probabilities of the faces of a scene with adhesive landing by the scene's
+/// [`Method::of`], or by [`Method::Tossed`]. `None` if `keep_going`, called every few hundred
+/// evaluations, returns false.
 ///
-/// Ends when every interval is within the goal's half width, or at its evaluations. The result
-/// depends on the arguments alone. `engine` is asked only by [`Method::Tossed`].
+/// It ends when every interval is within the goal's half width, or at the goal's evaluations. The
+/// result depends on the arguments alone. Only [`Method::Tossed`] uses `engine`.
 pub fn integrate<E: Engine>(
     method: Method,
     scene: &Scene,
@@ -36,7 +36,7 @@ pub fn integrate<E: Engine>(
     engine: &E,
     scrambles: &Stream,
     goal: &Goal,
-    go_on: impl Fn() -> bool,
+    keep_going: impl Fn() -> bool,
 ) -> Option<Integral> {
     let dimensions = method.dimensions(launches);
     match method {
@@ -44,7 +44,7 @@ pub fn integrate<E: Engine>(
         Method::Over(variable) => {
             let conditional = Conditional::new(scene, launches, variable);
             replicated(method, &dimensions, scrambles, goal, |sample| {
-                in_closed_form(&conditional, sample, &go_on)
+                in_closed_form(&conditional, sample, &keep_going)
             })
         }
         Method::Tossed => {
@@ -52,15 +52,15 @@ pub fn integrate<E: Engine>(
             let mut workspace = engine.workspace();
             replicated(method, &dimensions, scrambles, goal, |sample| {
                 let tosses = sample.map(|mut at| launches.launch(&scene.coin, &mut at));
-                tossed(engine, &mut workspace, tosses, &go_on)
+                tossed(engine, &mut workspace, tosses, &keep_going)
             })
         }
     }
 }
 
 impl Method {
-    /// The probabilities of the faces of a scene that this method is of, if a rule gives them: exact,
-    /// and of no cost.
+    /// The probabilities of the faces of a scene with this method, if a rule gives them: exact and at no
+    /// cost.
     ///
     /// # Example
     /// ```
@@ -86,34 +86,34 @@ impl Method {
 fn in_closed_form(
     conditional: &Conditional<'_>,
     sample: Sample<'_>,
-    go_on: impl Fn() -> bool,
-) -> Option<Seen> {
-    let mut seen = Seen {
+    keep_going: impl Fn() -> bool,
+) -> Option<SampleSums> {
+    let mut total = SampleSums {
         sums: [0.0; 3],
-        whole: false,
+        counts: false,
     };
     for (number, mut at) in (0_u64..).zip(sample) {
-        if number.is_multiple_of(BATCH) && !go_on() {
+        if number.is_multiple_of(BATCH) && !keep_going() {
             return None;
         }
         let drawn = at.last();
         let faces = conditional.faces(&mut at, drawn);
-        let sums = seen.sums.iter_mut().zip(faces.p);
+        let sums = total.sums.iter_mut().zip(faces.p);
         sums.for_each(|(sum, p)| *sum += p);
-        seen.whole |= faces.drawn;
+        total.counts |= faces.drawn;
     }
-    Some(seen)
+    Some(total)
 }
 
 fn tossed<E: Engine>(
     engine: &E,
     workspace: &mut E::Workspace,
     launches: impl Iterator<Item = coinmc_core::Launch>,
-    go_on: impl Fn() -> bool,
-) -> Option<Seen> {
+    keep_going: impl Fn() -> bool,
+) -> Option<SampleSums> {
     let (mut sums, mut tosses) = ([0.0; 3], 0_u64);
-    let mut going = go_on();
-    if !going {
+    let mut running = keep_going();
+    if !running {
         return None;
     }
     engine.toss_all(workspace, launches, |_, outcome| {
@@ -121,14 +121,14 @@ fn tossed<E: Engine>(
             *sum += f64::from(u8::from(outcome.face() == Some(face)));
         }
         tosses += 1;
-        going = !tosses.is_multiple_of(BATCH) || go_on();
-        if going {
+        running = !tosses.is_multiple_of(BATCH) || keep_going();
+        if running {
             ControlFlow::Continue(())
         } else {
             ControlFlow::Break(())
         }
     });
-    going.then_some(Seen { sums, whole: true })
+    running.then_some(SampleSums { sums, counts: true })
 }
 
 fn exact(method: Method, faces: [f64; 3], evaluations: u64) -> Integral {
@@ -140,14 +140,14 @@ fn exact(method: Method, faces: [f64; 3], evaluations: u64) -> Integral {
     }
 }
 
-/// Sums over a sample at each look until the goal is reached; the sample of no dimension is one
-/// point.
+/// Sums over samples, with a look at each doubling, until the goal is reached. Without dimensions the
+/// sample is one point.
 fn replicated(
     method: Method,
     dimensions: &[u32],
     scrambles: &Stream,
     goal: &Goal,
-    mut sums_of: impl FnMut(Sample<'_>) -> Option<Seen>,
+    mut sums_of: impl FnMut(Sample<'_>) -> Option<SampleSums>,
 ) -> Option<Integral> {
     if dimensions.is_empty() {
         let sobol = Sobol::plain(1);
@@ -159,7 +159,7 @@ fn replicated(
         }
         return Some(found);
     }
-    // the last coordinate is for the quantity that is integrated out
+    // the last coordinate is for the quantity that is integrated out, in case it is drawn
     let scramble = |replicate: u32| {
         let words = &mut scrambles.toss(u64::from(replicate));
         Sobol::scrambled(dimensions.len() + 1, words)
@@ -168,17 +168,17 @@ fn replicated(
     let mut sums = [[0.0; 3]; REPLICATES as usize];
     let mut found = exact(method, [0.0; 3], 0);
     found.exact = false;
-    let (mut done, mut whole) = (0, false);
+    let (mut done, mut counts) = (0, false);
     for points in goal.looks() {
         for (sums, sobol) in sums.iter_mut().zip(&replicates) {
             let more = sums_of(Sample::new(sobol, dimensions, done..points))?;
-            whole |= more.whole;
+            counts |= more.counts;
             sums.iter_mut()
                 .zip(more.sums)
                 .for_each(|(sum, more)| *sum += more);
         }
         done = points;
-        found.faces = goal.shares(&sums, points, whole);
+        found.faces = goal.shares(&sums, points, counts);
         found.evaluations = points * u64::from(REPLICATES);
         if found.half_width() <= goal.half_width {
             break;
@@ -187,17 +187,17 @@ fn replicated(
     Some(found)
 }
 
-/// Points of a replicate, as uniforms of a launch.
+/// Points of a replicate, as uniforms of launches.
 struct Sample<'a> {
     points: Points<'a>,
     /// The coordinate of each launch dimension.
     places: [usize; DIMENSIONS],
-    /// The coordinate beyond them.
+    /// The coordinate after them.
     last: usize,
 }
 
 /// The uniforms of one launch.
-struct At {
+struct SobolUniforms {
     words: [u64; DIMENSIONS],
     places: [usize; DIMENSIONS],
     last: usize,
@@ -218,13 +218,13 @@ impl<'a> Sample<'a> {
 }
 
 impl Iterator for Sample<'_> {
-    type Item = At;
+    type Item = SobolUniforms;
 
     #[inline]
-    fn next(&mut self) -> Option<At> {
+    fn next(&mut self) -> Option<SobolUniforms> {
         let words = self.points.next()?;
         let (places, last) = (self.places, self.last);
-        Some(At {
+        Some(SobolUniforms {
             words,
             places,
             last,
@@ -232,13 +232,13 @@ impl Iterator for Sample<'_> {
     }
 }
 
-impl At {
+impl SobolUniforms {
     fn last(&self) -> f64 {
         unit_interval(self.words[self.last])
     }
 }
 
-impl UniformSource for At {
+impl UniformSource for SobolUniforms {
     #[inline]
     fn uniform(&mut self, dimension: u32) -> f64 {
         unit_interval(self.words[self.places[dimension as usize]])

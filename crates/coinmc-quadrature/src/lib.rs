@@ -7,32 +7,32 @@
 //! side and a face (see [`coinmc_analytic`]). Below D the axis cannot cross that border without
 //! having touched before. Hence
 //!
-//! > the face is that of the axis **at the moment when the centre passes D on its way down**:
-//! > side ⇔ `|u_z| < sin α` there,
+//! > the axis **at the moment when the centre passes D on its way down** decides the face:
+//! > side ⇔ `|u_z| < sin α` at that moment,
 //!
-//! for any spin, drag or not, if the coin is let go at or above D. No first contact is searched.
-//! Until then u turns about the fixed direction of its angular momentum (without gyroscopic torque:
-//! of its angular velocity), `u_z = A + B cos(φ₀ + wτ)`, and the moment follows from height and
-//! vertical velocity alone.
+//! for any spin, with or without drag, if the coin is released at or above D. No search for the first
+//! contact is needed. Until then u turns about the fixed direction of its angular momentum (without
+//! gyroscopic torque: of its angular velocity), `u_z = A + B cos(φ₀ + wτ)`, and the moment follows
+//! from height and vertical velocity alone.
 //!
-//! # What is done with it
-//! * [`Method::Zone`]: the joint law of axis and spin knows no direction, so the axis is isotropic
-//!   at that moment too: P(side) = sin α, exact.
-//! * [`Method::Arc`]: a flat toss whose tilt is uniform over whole turns: P(side) = 2α/π, exact.
-//! * [`Method::Over`]: one random quantity (the azimuth of an isotropic axis, or one that the phase
-//!   is monotone in: tilt, rate of spin, vertical velocity, height) is integrated out in closed form; the rest, if anything is left,
-//!   by scrambled Sobol points.
-//! * [`Method::Tossed`]: where none of this holds and few numbers are random, tosses of the engine
-//!   at scrambled Sobol points.
+//! # Methods
+//! * [`Method::Zone`]: the joint distribution of axis and spin is invariant under rotation, so the axis
+//!   is isotropic at that moment too: P(side) = sin α, exact.
+//! * [`Method::Arc`]: a planar toss whose tilt is uniform over whole turns: P(side) = 2α/π, exact.
+//! * [`Method::Over`]: one random quantity (the azimuth of an isotropic axis, or one in which the phase
+//!   is monotone: tilt, rate of spin, vertical velocity, height) is integrated out in closed form, the
+//!   other random quantities by scrambled Sobol points.
+//! * [`Method::Tossed`]: where none of these applies and few quantities are random, the engine tosses at
+//!   scrambled Sobol points.
 //!
-//! Where nothing is left of that, random tosses are as good.
+//! In all other cases random tosses are as good.
 //!
 //! Sixteen independent scrambles give a Student interval: see [`integrate`].
 //!
 //! # Files
-//! `passage` when the centre passes D · `axis` how the axis turns until then · `method` what can be
-//! integrated in closed form · `conditional` that closed form · `sobol` the points · `replicates`
-//! scrambles, interval, when to stop · `integrate` one scene.
+//! `passage` when the centre passes D · `axis` how the axis turns until then · `variable` the quantity
+//! integrated out · `method` which method a scene has · `conditional` the closed form · `sobol` the
+//! points · `replicates` scrambles, interval, stopping · `integrate` one scene.
 
 mod axis;
 mod conditional;
@@ -47,6 +47,6 @@ mod variable;
 pub use integral::{Integral, Share};
 pub use integrate::integrate;
 pub use method::Method;
-pub use replicates::{Goal, LEAST_EVALUATIONS, MOST_EVALUATIONS, REPLICATES};
+pub use replicates::{Goal, MAX_EVALUATIONS, MIN_EVALUATIONS, REPLICATES};
 pub use sobol::{DIMENSIONS, Points, Sobol};
 pub use variable::Variable;

@@ -1,4 +1,4 @@
-//! What of a scene can be integrated in closed form.
+//! The methods, and which of them a scene has.
 
 use crate::axis::axial_factor;
 use crate::conditional::Conditional;
@@ -11,10 +11,10 @@ use std::f64::consts::TAU;
 /// The launch dimension of an isotropic axis's azimuth.
 const AZIMUTH: u32 = 1;
 
-/// Most random numbers of a launch with which tosses at Sobol points beat random ones: the face is a
-/// step function of them, and the gain of a step falls with its dimensions (measured in
-/// docs/methods/sampling.md: some 30 fold with two that matter, at most 5 fold with four).
-const MOST_TOSSED: usize = 3;
+/// The largest number of random dimensions of a launch for which tosses at Sobol points beat random
+/// tosses. The face is a step function of them, and the gain for a step falls with the dimensions
+/// (measured in docs/methods/sampling.md: about 30 fold with two that matter, at most 5 fold with four).
+const MAX_TOSSED_DIMENSIONS: usize = 3;
 
 /// How the probabilities of an adhesive scene are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -23,7 +23,7 @@ pub enum Method {
     Zone,
     /// The arc rule: the tilt is uniform over whole turns when the centre passes D. Exact.
     Arc,
-    /// One quantity is integrated out in closed form, what is left by Sobol points.
+    /// One quantity is integrated out in closed form, the others by Sobol points.
     Over(Variable),
     /// Tosses at Sobol points.
     Tossed,
@@ -56,29 +56,28 @@ impl Method {
         }
     }
 
-    /// How many random numbers of a launch are left to Sobol points; with none the result is exact.
+    /// The number of launch dimensions that Sobol points integrate; with 0 the result is exact.
     pub fn dimensions_left(self, launches: &LaunchDistribution) -> usize {
         self.dimensions(launches).len()
     }
 
-    /// The best method for a scene; `None` where random tosses are as good, as wherever a coin
-    /// bounces.
-    /// `time_limit_s` is the simulated time, s, after which its engine gives a toss up.
+    /// The best method for a scene; `None` where random tosses are as good, as for every coin that
+    /// bounces. `time_limit_s` is the simulated time, s, at which the engine gives up a toss.
     pub fn of(scene: &Scene, launches: &LaunchDistribution, time_limit_s: f64) -> Option<Self> {
         if scene.surface.landing() != Landing::Adhesive {
             return None;
         }
-        let tossed = Self::Tossed.dimensions_left(launches) <= MOST_TOSSED;
+        let tossed = Self::Tossed.dimensions_left(launches) <= MAX_TOSSED_DIMENSIONS;
         let tossed = tossed.then_some(Self::Tossed);
         let passage = Passage::new(scene);
         if time_limit_s != f64::INFINITY && !passage.ends_before(time_limit_s, launches) {
-            // tosses without a face are counted by their reason
+            // tosses without a face have to be counted by reason
             return None;
         }
-        if !passage.is_certain(launches) {
+        if !passage.is_always_reached(launches) {
             return tossed;
         }
-        if knows_no_direction(scene, launches) {
+        if is_rotation_invariant(scene, launches) {
             return Some(Self::Zone);
         }
         if is_whole_turns(launches) {
@@ -88,33 +87,33 @@ impl Method {
             return tossed;
         };
         let over = Self::Over(variable);
-        let alone = over.dimensions_left(launches) == 0;
-        if alone && !Conditional::new(scene, launches, variable).is_followed() {
-            // drawn after all, and nothing is left to integrate over
+        let last = over.dimensions_left(launches) == 0;
+        if last && !Conditional::new(scene, launches, variable).is_integrable() {
+            // the quantity would be drawn, and nothing would be left to integrate over
             return tossed;
         }
         Some(over)
     }
 
-    /// Launch dimensions that are left to Sobol points.
+    /// The launch dimensions that Sobol points integrate.
     pub(crate) fn dimensions(self, launches: &LaunchDistribution) -> Vec<u32> {
         match self {
             Self::Zone | Self::Arc => vec![],
             Self::Over(variable) => {
-                let mut asked = asked(&without(launches, variable));
-                // an isotropic axis asks for its height on the sphere first
-                asked.retain(|&dimension| variable != Variable::Azimuth || dimension != AZIMUTH);
-                asked
+                let mut used = dimensions_used(&without(launches, variable));
+                // an isotropic axis takes its height on the sphere from the dimension before
+                used.retain(|&dimension| variable != Variable::Azimuth || dimension != AZIMUTH);
+                used
             }
-            Self::Tossed => asked(&upright(launches)),
+            Self::Tossed => dimensions_used(&upright(launches)),
         }
     }
 }
 
-/// Whether the law of axis and spin together stays the same under every rotation, or the coin turns
-/// by a rotation that does not depend on its isotropic axis: either way the axis is isotropic at
-/// any time.
-fn knows_no_direction(scene: &Scene, launches: &LaunchDistribution) -> bool {
+/// Whether the joint distribution of axis and spin is invariant under rotation, or the coin turns by a
+/// rotation that does not depend on its isotropic axis: in both cases the axis is isotropic at any
+/// time.
+fn is_rotation_invariant(scene: &Scene, launches: &LaunchDistribution) -> bool {
     if launches.orientation != Orientation::Isotropic {
         return false;
     }
@@ -128,8 +127,8 @@ fn knows_no_direction(scene: &Scene, launches: &LaunchDistribution) -> bool {
     }
 }
 
-/// Whether a vector of these components knows no direction: equal normal ones about 0 (and no
-/// others that are independent: Maxwell 1860), or none at all.
+/// Whether a vector of these components is isotropic: equal normal components about 0 (no other
+/// independent ones are: Maxwell 1860), or zero.
 fn is_isotropic(components: &[Marginal; 3]) -> bool {
     let [x, y, z] = components;
     let centred = match x {
@@ -142,7 +141,7 @@ fn is_isotropic(components: &[Marginal; 3]) -> bool {
 
 /// Whether the coin turns in the plane from a tilt that is uniform over whole turns.
 fn is_whole_turns(launches: &LaunchDistribution) -> bool {
-    // 360 degrees are whole turns to rounding
+    // 360 degrees are a whole turn to rounding
     const ROUNDING: f64 = 1e-13;
     let Some(Marginal::Uniform { from, to }) = planar_tilt(launches) else {
         return false;
@@ -151,21 +150,21 @@ fn is_whole_turns(launches: &LaunchDistribution) -> bool {
     turns >= 1.0 - ROUNDING && (turns - turns.round()).abs() <= ROUNDING * turns
 }
 
-/// The dimensions that launches of a distribution ask for.
-fn asked(launches: &LaunchDistribution) -> Vec<u32> {
-    struct Asked(Vec<u32>);
-    impl UniformSource for Asked {
+/// The dimensions that launches of a distribution use.
+fn dimensions_used(launches: &LaunchDistribution) -> Vec<u32> {
+    struct Recorder(Vec<u32>);
+    impl UniformSource for Recorder {
         fn uniform(&mut self, dimension: u32) -> f64 {
             self.0.push(dimension);
             0.5
         }
     }
-    // what a distribution asks for does not depend on the coin
+    // the dimensions do not depend on the coin
     let coin = coinmc_core::Coin::cylinder(1.0, 1.0).expect("a coin");
-    let mut asked = Asked(vec![]);
-    launches.launch(&coin, &mut asked);
-    assert!(asked.0.len() <= DIMENSIONS);
-    asked.0
+    let mut used = Recorder(vec![]);
+    launches.launch(&coin, &mut used);
+    assert!(used.0.len() <= DIMENSIONS);
+    used.0
 }
 
 #[cfg(test)]
@@ -185,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn every_preset_has_its_method() {
+    fn every_preset_has_the_expected_method() {
         let expected = [
             (Preset::Robot, Method::Over(Variable::Tilt), 1),
             (Preset::Table1, Method::Over(Variable::Velocity), 6),
@@ -205,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn a_law_that_knows_a_direction_is_not_the_zone() {
+    fn an_anisotropic_spin_is_not_the_zone_rule() {
         let clean = Preset::Clean.distribution();
         let normal = |mean, sd| Marginal::Normal { mean, sd };
         let spins = [
@@ -223,7 +222,7 @@ mod tests {
                 ..clean
             };
             assert_eq!(of(&launches), Some(Method::Over(Variable::Azimuth)));
-            // a coin that turns about a fixed axis takes every one of them
+            // without gyroscopic torque every one of them is isotropic
             let fixed = scene().with_gyroscopic_torque(false);
             assert_eq!(
                 Method::of(&fixed, &launches, f64::INFINITY),
@@ -242,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn low_launches_are_tossed_and_short_limits_are_met_at_random() {
+    fn low_launches_are_tossed_and_short_time_limits_have_no_method() {
         let mut launches = Preset::Robot.distribution();
         assert_eq!(Method::of(&scene(), &launches, 0.1), None);
         launches.height_m = Marginal::Uniform {
@@ -255,7 +254,7 @@ mod tests {
             to: 0.5,
         };
         assert_eq!(of(&launches), Some(Method::Over(Variable::Tilt)));
-        // a coin that no toss brings down within the limit, though its centre passes D
+        // a coin whose centre passes D within the limit, but that does not touch
         let slow = LaunchDistribution {
             height_m: Marginal::Constant(0.012),
             velocity_m_s: [Marginal::Constant(0.0); 3],
@@ -266,7 +265,7 @@ mod tests {
             None,
             "D after 13 ms, the ground after 49 ms"
         );
-        // seven random numbers: a step in seven dimensions
+        // a step function of seven random numbers
         let low = LaunchDistribution {
             height_m: Marginal::Constant(0.001),
             ..Preset::Table1.distribution()
@@ -274,9 +273,9 @@ mod tests {
         assert_eq!(of(&low), None);
     }
 
-    /// A single random quantity that leads round too often to be followed is not one that is known.
+    /// A single random quantity that spreads the phase over too many turns cannot be integrated out.
     #[test]
-    fn one_quantity_of_many_turns_is_tossed() {
+    fn a_quantity_of_many_turns_is_tossed() {
         let uniform = |from, to| Marginal::Uniform { from, to };
         let still = [Marginal::Constant(0.0); 3];
         let of = |rate_rad_s, height_m, up| {
@@ -311,7 +310,7 @@ mod tests {
     }
 
     #[test]
-    fn half_turns_are_not_whole_ones() {
+    fn half_turns_are_not_whole_turns() {
         let mut launches = Preset::CleanFlat.distribution();
         for (turns, whole) in [(0.5, false), (1.0, true), (1.5, false), (3.0, true)] {
             let to = 1.0 + turns * TAU;

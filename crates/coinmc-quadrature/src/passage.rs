@@ -1,4 +1,4 @@
-//! When the centre of the coin passes the height D on its way down, and the reverse: which launch
+//! When the centre of the coin passes the height D on its way down, and the inverse: which launch
 //! passes it at a given time.
 //!
 //! With linear drag k, z(t) = h + v τ(t) − g σ(t), where τ = (1 − e^(−kt))/k and
@@ -7,16 +7,16 @@
 
 use coinmc_core::{LaunchDistribution, Marginal, Scene};
 
-/// Standard deviations beyond which no launch lies: an inverse CDF of 52 binary digits ends at 8.2.
-const FARTHEST: f64 = 8.5;
-/// Products of drag and time below which the first term of a series tells the size of its effect.
-const LITTLE: f64 = 1e-3;
-/// Those that change no digit.
-const NOTHING: f64 = 1e-17;
-/// Steps of a search that needs about six.
-const MOST_STEPS: u32 = 200;
+/// Standard deviations within which every launch lies: an inverse CDF of 52 binary digits ends at 8.2.
+const MAX_DEVIATIONS: f64 = 8.5;
+/// Products of drag and time below which the first term of a series bounds their effect.
+const SMALL: f64 = 1e-3;
+/// Products of drag and time that change no digit.
+const NEGLIGIBLE: f64 = 1e-17;
+/// Limit of the steps of a search that needs about six.
+const MAX_STEPS: u32 = 200;
 
-/// The fall to D of a scene, SI units.
+/// The fall to the height D in a scene, SI units.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Passage {
     distance: f64,
@@ -35,8 +35,8 @@ impl Passage {
         }
     }
 
-    /// Whether every launch begins at D or above, and so passes it.
-    pub(crate) fn is_certain(&self, launches: &LaunchDistribution) -> bool {
+    /// Whether every launch starts at D or above, so that its centre passes D.
+    pub(crate) fn is_always_reached(&self, launches: &LaunchDistribution) -> bool {
         support(&launches.height_m).0 >= self.distance
     }
 
@@ -49,16 +49,16 @@ impl Passage {
             distance: 0.0,
             ..*self
         };
-        // a coin that would begin in the surface is lifted, at most to D
+        // a coin that would start inside the surface is lifted, at most to D
         surface.time(high.max(self.distance), fastest) < time_limit_s
     }
 
-    /// When the centre, let go at height h >= D with vertical velocity v, passes D, s.
+    /// The time, s, at which a centre that starts at height h >= D with vertical velocity v passes D.
     pub(crate) fn time(&self, h: f64, v: f64) -> f64 {
         let (above, g, k) = (h - self.distance, self.gravity, self.linear);
         let end = (v * v + 2.0 * g * above).sqrt();
         let free = if v < 0.0 {
-            // the root by its other form: a fast throw downwards would cancel
+            // the other form of the root: for a fast throw downwards this one would cancel
             2.0 * above / (end - v)
         } else {
             (end + v).max(0.0) / g
@@ -66,20 +66,20 @@ impl Passage {
         if k == 0.0 {
             return free;
         }
-        // So little drag changes the time by some of that part of it: twice the time is above. Else
-        // e^(−kt) > 0 bounds it. The height is concave in time, so that Newton's steps from there
-        // come down to the root and never pass it; from 1/k alone, each would but halve the way.
-        let mut time = if k * free < LITTLE {
+        // A start above the root: little drag changes the time by a small share, so twice the free time
+        // is above; otherwise e^(−kt) > 0 gives a bound. The height is concave in time, so Newton's steps
+        // come down to the root and never pass it. From 1/k alone each step would only halve the way.
+        let mut time = if k * free < SMALL {
             2.0 * free
         } else {
             (k * above + (v + g / k).max(0.0)) / g
         };
-        for _ in 0..MOST_STEPS {
-            let tau = undamped(k, time);
+        for _ in 0..MAX_STEPS {
+            let tau = equivalent_time(k, time);
             let height = above + v * tau - g * self.sag(time);
             let rate = v * (1.0 - k * tau) - g * tau;
             let next = (time - height / rate).max(0.0);
-            // at the root, or not a number
+            // at the root, or NaN
             if next >= time || next.is_nan() {
                 break;
             }
@@ -88,15 +88,16 @@ impl Passage {
         time
     }
 
-    /// How long an undamped spin would have turned the coin as far as it has after `time`, s.
+    /// The time, s, in which an undamped spin would turn the coin as far as the damped one has after
+    /// `time`.
     pub(crate) fn turning_time(&self, time: f64) -> f64 {
-        undamped(self.angular, time)
+        equivalent_time(self.angular, time)
     }
 
     /// The time at which [`turning_time`](Self::turning_time) is `turned`; infinity if never.
     pub(crate) fn time_of_turning(&self, turned: f64) -> f64 {
         let k = self.angular;
-        if k * turned < NOTHING {
+        if k * turned < NEGLIGIBLE {
             turned
         } else if k * turned < 1.0 {
             -libm::log1p(-k * turned) / k
@@ -105,17 +106,17 @@ impl Passage {
         }
     }
 
-    /// The vertical velocity with which a centre let go at h passes D at `time`, m/s; it rises with
-    /// the time.
+    /// The vertical velocity, m/s, with which a centre that starts at height h passes D at `time`; it
+    /// rises with the time.
     pub(crate) fn velocity(&self, h: f64, time: f64) -> f64 {
-        let tau = undamped(self.linear, time);
+        let tau = equivalent_time(self.linear, time);
         (self.distance - h + self.gravity * self.sag(time)) / tau
     }
 
-    /// The height from which a centre let go at vertical velocity v passes D at `time`, m; where it
-    /// is D at least it rises with the time.
+    /// The height, m, from which a centre that starts with vertical velocity v passes D at `time`; where
+    /// it is at least D it rises with the time.
     pub(crate) fn height(&self, v: f64, time: f64) -> f64 {
-        self.distance - v * undamped(self.linear, time) + self.gravity * self.sag(time)
+        self.distance - v * equivalent_time(self.linear, time) + self.gravity * self.sag(time)
     }
 
     /// σ.
@@ -127,30 +128,30 @@ impl Passage {
             let series = terms.iter().rev().fold(0.0, |sum, n| (1.0 - x * sum) / n);
             t * t * series
         } else {
-            (t - undamped(self.linear, t)) / self.linear
+            (t - equivalent_time(self.linear, t)) / self.linear
         }
     }
 }
 
 /// (1 − e^(−kt))/k.
-fn undamped(k: f64, t: f64) -> f64 {
-    if k * t < NOTHING {
+fn equivalent_time(k: f64, t: f64) -> f64 {
+    if k * t < NEGLIGIBLE {
         t
     } else {
         -libm::expm1(-k * t) / k
     }
 }
 
-/// The least and the largest value that a marginal can take.
+/// The smallest and the largest value of a marginal.
 pub(crate) fn support(marginal: &Marginal) -> (f64, f64) {
     match *marginal {
         Marginal::Constant(x) => (x, x),
         Marginal::Uniform { from, to } => (from, to),
-        Marginal::Normal { mean, sd } => (mean - FARTHEST * sd, mean + FARTHEST * sd),
+        Marginal::Normal { mean, sd } => (mean - MAX_DEVIATIONS * sd, mean + MAX_DEVIATIONS * sd),
     }
 }
 
-/// Whether a marginal has one value only.
+/// Whether a marginal has only one value.
 pub(crate) fn is_constant(marginal: &Marginal) -> bool {
     let (low, high) = support(marginal);
     low == high
@@ -167,8 +168,8 @@ mod tests {
         Passage::new(&scene.with_drag(Drag::new(linear, angular).unwrap()))
     }
 
-    /// Times, velocities and heights are each other's inverses to 1e-11, from no drag through the
-    /// change of formula to drag that stops the coin at once.
+    /// Times, velocities and heights are inverse to each other to 1e-11, from no drag through the change
+    /// of formula to drag that stops the coin at once.
     #[test]
     fn the_passage_and_its_inverses_agree() {
         for k in [0.0, 1e-9, 1e-3, 0.05, 0.3, 2.0, 100.0] {
@@ -194,9 +195,9 @@ mod tests {
         }
     }
 
-    /// Drag of 1e-12/s and less moves nothing by more than some 1e-12, down to the least number.
+    /// Drag of 1e-12/s and less changes nothing by more than about 1e-12, down to the smallest number.
     #[test]
-    fn drag_may_be_as_little_as_it_likes() {
+    fn tiny_drag_changes_nothing() {
         for (h, v) in [(1.0, 0.0), (5.0, 20.0), (0.5, -3.0)] {
             let none = passage(0.0, 0.0).time(h, v);
             for k in [1e-12, 1e-30, 1e-61, 1e-100, 1e-300, 1e-310, 5e-324] {
@@ -210,8 +211,8 @@ mod tests {
         }
     }
 
-    /// Thrown downwards, the coin needs above/|v| less what gravity saves: a share of
-    /// g·above/(2v²), here 5e-12 and less.
+    /// Thrown downwards, the coin needs above/|v| minus what gravity saves, a share of g·above/(2v²):
+    /// here 5e-12 or less.
     #[test]
     fn a_throw_downwards_keeps_its_digits() {
         let passage = passage(0.0, 0.0);
@@ -222,7 +223,7 @@ mod tests {
         }
     }
 
-    /// Drag of 1e-9/s moves nothing by more than some 1e-9.
+    /// Drag of 1e-9/s changes nothing by more than about 1e-9.
     #[test]
     fn the_limit_without_drag_is_smooth() {
         for (h, v) in [(1.0, 0.0), (5.0, 20.0)] {

@@ -1,46 +1,45 @@
 //! Independent scrambles of a point set, and the interval of their mean.
 //!
-//! Each replicate's mean is unbiased, and the sixteen are independent, so their mean has Student's
-//! interval with fifteen degrees of freedom up to the shape of their distribution: the plain
-//! Student interval is the one that P. L'Ecuyer, M. Nakayama, A. Owen & B. Tuffin (Winter Simulation
-//! Conference 2023) found reliable. Its coverage for this use is tested.
+//! Each replicate's mean is unbiased, and the sixteen are independent, so their mean has a Student
+//! interval with fifteen degrees of freedom, up to the shape of their distribution. P. L'Ecuyer,
+//! M. Nakayama, A. Owen & B. Tuffin (Winter Simulation Conference 2023) found this plain interval
+//! reliable; its coverage for this use is tested.
 //!
-//! The replicates are looked at when they have 64, 128, 256, … points. With K looks possible each
-//! takes the confidence 1 − (1 − c)/K (Bonferroni), so that the one that is stopped at keeps c.
+//! There is a look at the replicates when they have 64, 128, 256, … points. With K possible looks each
+//! has the confidence 1 − (1 − c)/K (Bonferroni), so that the look that stops keeps c.
 
 use coinmc_core::{Estimate, IntervalMethod, student_t_quantile};
 
 use crate::integral::Share;
 
-/// Independent scrambles.
+/// The number of independent scrambles.
 pub const REPLICATES: u32 = 16;
 /// Points of a replicate at its first look.
 const FIRST: u64 = 64;
 /// Evaluations before the first look at an integral.
-pub const LEAST_EVALUATIONS: u64 = FIRST * REPLICATES as u64;
-/// Evaluations at which an integral ends in any case: seconds of work.
-pub const MOST_EVALUATIONS: u64 = 1 << 22;
-/// Error of a mean beside chance: rounding, and what lies beyond the ends of a normal law.
+pub const MIN_EVALUATIONS: u64 = FIRST * REPLICATES as u64;
+/// Evaluations at which every integral ends: seconds of work.
+pub const MAX_EVALUATIONS: u64 = 1 << 22;
+/// Error of a mean that is not random: rounding, and the tails cut off a normal distribution.
 const ROUNDING: f64 = 1e-12;
-/// Occurrences below which the share of a face is that of a rare event.
+/// Occurrences below which a face is a rare event.
 const RARE: u64 = 64;
 
-/// What an integration is to reach.
+/// The goal of an integration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Goal {
     /// Confidence of the intervals, in (0, 1).
     pub confidence: f64,
-    /// Longest arm of an interval.
+    /// Largest allowed half width of an interval.
     pub half_width: f64,
-    /// Evaluations at most; not below [`LEAST_EVALUATIONS`], not above [`MOST_EVALUATIONS`].
+    /// Largest number of evaluations, clamped to [`MIN_EVALUATIONS`] … [`MAX_EVALUATIONS`].
     pub evaluations: u64,
 }
 
 impl Goal {
     /// Points of a replicate at each look.
     pub(crate) fn looks(&self) -> Vec<u64> {
-        let most =
-            self.evaluations.clamp(LEAST_EVALUATIONS, MOST_EVALUATIONS) / u64::from(REPLICATES);
+        let most = self.evaluations.clamp(MIN_EVALUATIONS, MAX_EVALUATIONS) / u64::from(REPLICATES);
         let doubling = std::iter::successors(Some(FIRST), |points| points.checked_mul(2));
         doubling.take_while(|&points| points <= most).collect()
     }
@@ -51,30 +50,30 @@ impl Goal {
     }
 
     /// The intervals after `points` points of each replicate, given its sums of heads, tails and
-    /// side. `whole`: some evaluations are one face or none, and no fraction of them.
-    pub(crate) fn shares(&self, sums: &[[f64; 3]], points: u64, whole: bool) -> [Share; 3] {
+    /// side. `counts`: some evaluations give one face or none instead of probabilities.
+    pub(crate) fn shares(&self, sums: &[[f64; 3]], points: u64, counts: bool) -> [Share; 3] {
         let t = student_t_quantile(REPLICATES - 1, (1.0 - self.look_confidence()) / 2.0);
         let mean = |sum: f64| sum / points as f64;
-        // a replicate can only count: in one dimension that matters, all sixteen may count the same
-        // number next to the true share, which lies less than half a point off (chance 2^-16)
-        let grain = if whole { 0.5 / points as f64 } else { 0.0 };
-        let beside = grain + ROUNDING;
+        // counts have a grain: if only one dimension matters, all sixteen replicates may count the same
+        // number next to the true share, less than half a point away (probability 2^-16)
+        let grain = if counts { 0.5 / points as f64 } else { 0.0 };
+        let systematic = grain + ROUNDING;
         let decided: Vec<f64> = sums.iter().map(|sum| mean(sum.iter().sum())).collect();
         [0, 1, 2].map(|face| {
             let least: Vec<f64> = sums.iter().map(|sum| mean(sum[face])).collect();
-            // those without a face may have been this one
+            // evaluations without a face may have been this face
             let most = least
                 .iter()
                 .zip(&decided)
                 .map(|(p, decided)| p + (1.0 - decided));
             let most: Vec<f64> = most.collect();
-            let ((p, below), (upper, above)) = (arm(&least, t), arm(&most, t));
+            let ((p, below), (upper, above)) = (student(&least, t), student(&most, t));
             let share = Share {
                 p,
-                lo: p - below - beside,
-                hi: upper + above + beside,
+                lo: p - below - systematic,
+                hi: upper + above + systematic,
             };
-            let share = self.with_rare(share, upper, points, whole);
+            let share = self.widen_if_rare(share, upper, points, counts);
             Share {
                 p,
                 lo: share.lo.max(0.0),
@@ -83,10 +82,10 @@ impl Goal {
         })
     }
 
-    /// Widens the interval of an event that few evaluations saw, or few did not: the spread of
-    /// sixteen small counts is no guide. A replicate's count is less spread than a binomial one, so
-    /// Clopper and Pearson's interval holds.
-    fn with_rare(&self, share: Share, upper: f64, points: u64, whole: bool) -> Share {
+    /// Widens the interval of a face that few evaluations had, or all but few, because the spread of
+    /// sixteen small counts says little. A replicate's count spreads less than a binomial one, so Clopper
+    /// and Pearson's interval holds.
+    fn widen_if_rare(&self, share: Share, upper: f64, points: u64, counts: bool) -> Share {
         let n = points * u64::from(REPLICATES);
         // both lie in [0, n]
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
@@ -94,7 +93,7 @@ impl Goal {
         let (successes, most) = (count(share.p), count(upper).min(n));
         let rare = |count: u64| count.min(n - count) < RARE;
         let never = share.p == 0.0 || upper == 1.0;
-        if !(never || whole && (rare(successes) || rare(most))) {
+        if !(never || counts && (rare(successes) || rare(most))) {
             return share;
         }
         let undecided = most.saturating_sub(successes);
@@ -108,8 +107,8 @@ impl Goal {
     }
 }
 
-/// Mean of the replicates, and the arm of its Student interval.
-fn arm(means: &[f64], t: f64) -> (f64, f64) {
+/// Mean of the replicates, and the half width of its Student interval.
+fn student(means: &[f64], t: f64) -> (f64, f64) {
     let n = means.len() as f64;
     let mean = means.iter().sum::<f64>() / n;
     let square: f64 = means.iter().map(|x| (x - mean) * (x - mean)).sum();
@@ -141,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn a_face_never_seen_may_still_show() {
+    fn a_face_never_seen_has_an_upper_bound() {
         let sums = [[32.0, 32.0, 0.0]; 16];
         let [heads, _, side] = GOAL.shares(&sums, 64, true);
         assert_eq!((heads.p, side.p, side.lo), (0.5, 0.0, 0.0));
@@ -157,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn the_undecided_may_have_gone_either_way() {
+    fn undecided_evaluations_widen_every_interval() {
         let [heads, tails, side] = GOAL.shares(&[[16.0, 16.0, 16.0]; 16], 64, false);
         for share in [heads, tails, side] {
             assert!((share.p - 0.25).abs() < 1e-15);

@@ -6,15 +6,15 @@
 //! digital shift, J. Complexity 14 (1998) 527: every scrambled point is uniform, and every prefix
 //! of 2^m points keeps the equidistribution of the plain ones.
 //!
-//! All 52 digits that a uniform number has are used, so that neither 2^16 nor 2^32 points exhaust
+//! All 52 binary digits of a uniform number are used, so that neither 2^16 nor 2^32 points exhaust
 //! them.
 
 use coinmc_core::TossUniforms;
 
-/// Most dimensions of a point: those of a launch.
+/// The largest number of dimensions of a point: the dimensions of a launch.
 pub const DIMENSIONS: usize = 10;
 
-/// Binary digits of a coordinate; no more than 2^DIGITS points differ.
+/// Binary digits of a coordinate; at most 2^DIGITS points are distinct.
 const DIGITS: usize = 52;
 
 /// Degree s and inner coefficients a of a primitive polynomial over GF(2), and initial numbers m
@@ -34,7 +34,7 @@ const POLYNOMIALS: [Polynomial; DIMENSIONS - 1] = [
     (5, 7, &[1, 1, 7, 11, 19]),
 ];
 
-/// Direction numbers of one dimension, the first binary digit on top.
+/// Direction numbers of one dimension, the first binary digit in the highest bit.
 type Directions = [u64; DIGITS];
 
 /// A Sobol sequence in some number of dimensions, scrambled or not.
@@ -52,7 +52,7 @@ pub struct Sobol {
 }
 
 impl Sobol {
-    /// The plain sequence, which begins at the origin.
+    /// The plain sequence, which starts at the origin.
     ///
     /// # Panics
     /// If there are more than [`DIMENSIONS`].
@@ -63,7 +63,7 @@ impl Sobol {
         }
     }
 
-    /// The sequence under the scramble of these random words.
+    /// The sequence with a scramble made of these random words.
     ///
     /// # Panics
     /// If there are more than [`DIMENSIONS`].
@@ -116,7 +116,7 @@ impl Iterator for Points<'_> {
     fn next(&mut self) -> Option<Self::Item> {
         let index = self.range.next()?;
         let point = self.words;
-        // beyond the last digit the sequence would begin anew
+        // after the last digit the sequence repeats
         let digit = ((index + 1).trailing_zeros() as usize).min(DIGITS - 1);
         for (word, directions) in self.words.iter_mut().zip(&self.sobol.directions) {
             *word ^= directions[digit];
@@ -125,7 +125,7 @@ impl Iterator for Points<'_> {
     }
 }
 
-/// The direction numbers of a dimension, counted from 0.
+/// The direction numbers of a dimension, numbered from 0.
 fn directions(dimension: usize) -> Directions {
     let mut m = [1_u64; DIGITS];
     if dimension > 0 {
@@ -139,7 +139,7 @@ fn directions(dimension: usize) -> Directions {
             }
         }
     }
-    // m_k is odd and below 2^k: its k digits stand after the point
+    // m_k is odd and below 2^k: its k digits follow the binary point
     std::array::from_fn(|k| m[k] << (63 - k))
 }
 

@@ -8,7 +8,7 @@ use coinmc_core::{LaunchDistribution, Marginal, Orientation, Spin};
 pub enum Variable {
     /// Azimuth of an isotropic axis about an angular velocity that does not depend on it.
     Azimuth,
-    /// Tilt at launch, of a flat toss.
+    /// Tilt at launch of a planar toss.
     Tilt,
     /// Rate of a spin of known direction.
     Rate,
@@ -19,8 +19,8 @@ pub enum Variable {
 }
 
 impl Variable {
-    /// What it is, in words.
-    pub fn words(self) -> &'static str {
+    /// A description for messages.
+    pub fn description(self) -> &'static str {
         match self {
             Self::Azimuth => "the azimuth of the axis about the spin",
             Self::Tilt => "the tilt",
@@ -31,7 +31,7 @@ impl Variable {
     }
 }
 
-/// The random tilt of a coin that turns about the normal of the plane it is tilted in.
+/// The random tilt of a coin that turns in the plane of its tilt.
 pub(crate) fn planar_tilt(launches: &LaunchDistribution) -> Option<Marginal> {
     match launches.orientation {
         Orientation::Tilt(tilt) if launches.spin.is_planar() && !is_constant(&tilt) => Some(tilt),
@@ -39,7 +39,7 @@ pub(crate) fn planar_tilt(launches: &LaunchDistribution) -> Option<Marginal> {
     }
 }
 
-/// The rate of a spin of which nothing else depends on the rate.
+/// The rate of a spin whose direction does not depend on the rate.
 pub(crate) fn rate(spin: &Spin) -> Option<Marginal> {
     match *spin {
         Spin::About { rate_rad_s, .. } | Spin::Precessing { rate_rad_s, .. } => Some(rate_rad_s),
@@ -47,7 +47,7 @@ pub(crate) fn rate(spin: &Spin) -> Option<Marginal> {
     }
 }
 
-/// The quantity to integrate out. First those that go round: over a turn little else matters.
+/// The quantity to integrate out. Angles come first: over a whole turn the others hardly matter.
 pub(crate) fn variable(launches: &LaunchDistribution) -> Option<Variable> {
     let random = |marginal: &Marginal| !is_constant(marginal);
     let isotropic = launches.orientation == Orientation::Isotropic;
@@ -66,8 +66,8 @@ pub(crate) fn variable(launches: &LaunchDistribution) -> Option<Variable> {
     }
 }
 
-/// The same launches with a quantity put to 1 (a rate) or 0: it is integrated out, and the rest
-/// does not depend on it.
+/// The same launches with the quantity set to 1 (a rate) or 0: it is integrated out, and the others do
+/// not depend on it.
 pub(crate) fn without(launches: &LaunchDistribution, variable: Variable) -> LaunchDistribution {
     let mut rest = upright(launches);
     let none = Marginal::Constant(0.0);
@@ -86,8 +86,7 @@ pub(crate) fn without(launches: &LaunchDistribution, variable: Variable) -> Laun
     rest
 }
 
-/// The same launches without horizontal velocity: it moves the place of the first contact and
-/// nothing else.
+/// The same launches without horizontal velocity, which changes only the place of the first contact.
 pub(crate) fn upright(launches: &LaunchDistribution) -> LaunchDistribution {
     let mut upright = *launches;
     upright.velocity_m_s[..2].fill(Marginal::Constant(0.0));

@@ -4,8 +4,7 @@
 //!
 //! With `s = sin α` and `C = cos 2ψ`, the coin rests on heads if `u_z > s` and on tails if `u_z <
 //! −s`, where `u_z = cos²ψ + sin²ψ·cos φ` (see [`precession`](super), also for what is assumed:
-//! heads up and level at the start, `L` fixed, φ uniform). So, with both arguments clipped to `[−1,
-//! 1]`,
+//! heads up and level at the start, `L` fixed, φ uniform). With both arguments clipped to `[−1, 1]`,
 //!
 //! > P(heads) = (1/π)·acos((s − cos²ψ)/sin²ψ),  P(tails) = 1 − (1/π)·acos((−s − cos²ψ)/sin²ψ).
 //!
@@ -134,7 +133,7 @@ fn ratio_without_tails(precession: &Precession, sin: f64, cos: f64) -> f64 {
     ratio_of_alpha(s, one_minus_s * (1.0 + s))
 }
 
-/// Functions of ψ, each correct to round-off by itself.
+/// Functions of ψ, each correct to rounding.
 struct Precession {
     sin_squared: f64,
     cos_squared: f64,
@@ -180,8 +179,8 @@ struct Reach {
 }
 
 impl Reach {
-    /// `s ∓ C` are differences of numbers that near ±1 have lost what sets them apart; there they
-    /// are taken from `1 − s` and `sin²ψ` or `cos²ψ`.
+    /// The differences `s ∓ C` cancel near ±1; there they are computed from `1 − s` and `sin²ψ` or
+    /// `cos²ψ`.
     fn of(ratio: f64, precession: &Precession) -> Self {
         let (s, one_minus_s) = (sin_alpha(ratio), one_minus_sin_alpha(ratio));
         let Precession {

@@ -51,8 +51,9 @@ pub fn p_other_side(psi_rad: f64) -> f64 {
 }
 
 /// The angle ψ, in `[π/4, π/2]`, at which the coin shows the face it started with at probability
-/// `p_same_side`, in `[½, 1]`: `cot²ψ = sin(π(p − ½))`. At probability 1 every ψ ≤ π/4 will do and
-/// π/4 is returned; below ½ there is none (NaN): precession favours the face it started with.
+/// `p_same_side`, in `[½, 1]`: `cot²ψ = sin(π(p − ½))`. At probability 1 every ψ ≤ π/4 is a
+/// solution and π/4 is returned; below ½ there is none (NaN), because precession favours the face
+/// that was up.
 ///
 /// ```
 /// use coinmc_analytic::precession::thin::psi_rad;
@@ -68,7 +69,7 @@ pub fn psi_rad(p_same_side: f64) -> f64 {
     FRAC_PI_2 - libm::atan(cot_squared.sqrt())
 }
 
-/// `sqrt(−cos 2ψ)`, or 0 where the heads face never looks down; `None` for no angle.
+/// `sqrt(−cos 2ψ)`, or 0 where the heads face never looks down; `None` outside the domain.
 fn root_of_minus_cos_2psi(psi_rad: f64) -> Option<f64> {
     is_angle(psi_rad).then(|| (-libm::cos(2.0 * psi_rad)).max(0.0).sqrt())
 }

@@ -7,8 +7,8 @@
 //!
 //! > P(side)/P(faces) = [(l − R)/(l − H/2)]·[α/(π/2 − α)].
 //!
-//! The weight is an assumption, not a theorem: it answers for a coin that tips over its edges many
-//! times while it loses energy slowly (bouncy or grippy surfaces); its authors found real dice
+//! The weight is an assumption, not a theorem. It describes a coin that tips over its edges many
+//! times while it loses energy slowly (bouncy or rough surfaces); its authors found real dice
 //! nearer to even odds. The odds at `4/x` are the inverse of those at `x`: the section turned by a
 //! right angle.
 //!
@@ -64,7 +64,7 @@ pub fn fair_ratio(target: f64) -> f64 {
         return f64::NAN;
     }
     let target_odds = target / (1.0 - target);
-    // x³/(8π) and πx³/8, the two ends of the rule.
+    // the limits of the rule, x³/(8π) and πx³/8
     let guess = if target <= 0.5 {
         libm::cbrt(8.0 * PI * target_odds)
     } else {

@@ -1,4 +1,4 @@
-//! The ratio at which the odds of the side against the faces have a given value.
+//! The ratio at which the odds of the side have a given value.
 
 /// Odds of the side at one ratio, and how steeply they rise there.
 pub(super) struct Odds {
@@ -8,17 +8,18 @@ pub(super) struct Odds {
     pub(super) log_slope: f64,
 }
 
-/// Below this guess a rule equals its leading power of `x` to round-off; going on would only meet
-/// numbers too small to hold all their digits.
+/// Below this guess a rule equals its leading power of `x` to rounding; Newton's method would only
+/// meet subnormal numbers.
 const LEADING_POWER_IS_EXACT: f64 = 1e-20;
 
-/// A step of Newton's method squares the error, so after one this short nothing is left to gain.
+/// A step of Newton's method squares the error, so a step this short is the last.
 const LAST_STEP: f64 = 1e-8;
 
-/// Never reached: from the asymptotic guesses four or five steps do.
+/// Never reached: from the asymptotic guesses four or five steps are enough.
 const MAX_STEPS: usize = 40;
 
-/// Solves `odds(x).value = target` for a rule whose odds rise like powers of `x`, 3 to 4.24.
+/// Solves `odds(x).value = target` for a rule whose odds rise like a power of `x` between 3 and
+/// 4.24.
 ///
 /// Newton's method on logarithms. With `f` = ln odds as a function of ln x and `e` the error, one
 /// step leaves `e·(1 − f'(ξ)/f'(x))` for some ξ between. The slopes of the rules lie within a

@@ -8,8 +8,8 @@
 //!
 //! > P(side) = s(l − R)/[s(l − R) + (1 − s)(l − H/2)].
 //!
-//! No one has derived this weight or compared it with tosses in print. Take it as an interpolation
-//! that has the right limits, not as a result.
+//! Nobody has derived this weight or published a comparison with tosses. It is an interpolation with
+//! the right limits, not a result.
 //!
 //! **Small and large coins.** `x³/16` as `x → 0`; `1 − 4/x⁴` as `x → ∞`.
 //!
@@ -59,7 +59,7 @@ pub fn fair_ratio(target: f64) -> f64 {
         return f64::NAN;
     }
     let target_odds = target / (1.0 - target);
-    // x³/16 and x⁴/4, the two ends of the rule.
+    // the limits of the rule, x³/16 and x⁴/4
     let guess = if target <= 0.5 {
         libm::cbrt(16.0 * target_odds)
     } else {

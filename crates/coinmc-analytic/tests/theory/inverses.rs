@@ -1,4 +1,4 @@
-//! `fair_ratio` undoes `p_side`, from vanishing targets to the largest below 1.
+//! `fair_ratio` inverts `p_side`, from vanishing targets to the largest below 1.
 
 use coinmc_analytic::precession::{thick, thin};
 use coinmc_analytic::{FaceProbabilities, Rule};
@@ -20,8 +20,8 @@ fn odds_error(found: &FaceProbabilities, target: f64) -> f64 {
 
 #[test]
 fn every_rule_round_trips() {
-    // The last rounding of the ratio counts by the power with which the odds depend on it (1 to 4);
-    // then come those of the rule itself (see `accuracy`), twice for the two it is compared with.
+    // The last rounding of the ratio counts with the power in which the odds depend on it (1 to 4),
+    // plus the roundings of the rule itself (see `accuracy`), twice because two are compared.
     let allowed = [6.0, 6.0, 4.0, 4.0, 12.0, 14.0];
     for (rule, bound) in Rule::ALL.into_iter().zip(allowed) {
         let worst = targets()
@@ -34,7 +34,7 @@ fn every_rule_round_trips() {
 
 #[test]
 fn odds_of_the_wells_rise_with_powers_within_a_factor_of_two() {
-    // What the convergence of the inverse rests on.
+    // The convergence of the inverse depends on this.
     for rule in [Rule::WellDepthFlat, Rule::WellDepthSolid] {
         for k in -240..=240 {
             let ratio = libm::exp10(f64::from(k) / 20.0);
@@ -54,8 +54,8 @@ fn odds_of_the_wells_rise_with_powers_within_a_factor_of_two() {
 }
 
 /// Error of the round trip in units of 2⁻⁵², in P(side) or, above one half, in 1 − P(side), over
-/// what a rounding of the ratio alone would cost: the way back is conditioned by `x·dP/dx`, taken
-/// here as a difference quotient.
+/// the error that a rounding of the ratio alone would cause: its condition is `x·dP/dx`, taken here as a
+/// difference quotient.
 fn precessing_round_trip(target: f64, psi: f64) -> f64 {
     let ratio = thick::fair_ratio(target, psi);
     let smaller = |x: f64| {
@@ -78,7 +78,7 @@ fn precessing_coin_round_trips_at_every_angle() {
         for target in evenly.chain((2..=53).map(|k| 1.0 - 0.5f64.powi(k))) {
             let error = precessing_round_trip(target, psi);
             worst = worst.max(error);
-            // A dozen roundings of half a unit, seldom in step.
+            // A dozen roundings of half a unit, rarely all of one sign.
             assert!(error <= 8.0, "{psi} {target}: {error:.1} units");
         }
     }

@@ -1,4 +1,4 @@
-//! Keller's bands against a toss that is followed until its rim touches the floor.
+//! Keller's bands against a toss simulated until its rim touches the floor.
 
 use crate::random::SplitMix;
 use coinmc_analytic::keller::{HeadsBand, bias_bound, half_turns, is_heads, p_heads_in_window};
@@ -9,7 +9,7 @@ const GRAVITY: f64 = 9.81;
 /// Whether heads shows when the coin, its centre starting one radius above the floor, first
 /// touches.
 fn lands_heads(speed: f64, spin: f64, radius: f64) -> bool {
-    // A hundredth of a radian a step, and no fewer than a thousand steps a flight.
+    // At most a hundredth of a radian per step, and at least a thousand steps per flight.
     let step = (0.01 / spin).min(2e-3 * speed / GRAVITY);
     let gap =
         |t: f64| speed * t - 0.5 * GRAVITY * t * t + radius * (1.0 - libm::sin(spin * t).abs());
@@ -21,14 +21,14 @@ fn lands_heads(speed: f64, spin: f64, radius: f64) -> bool {
 }
 
 #[test]
-fn face_is_that_of_the_followed_toss_for_any_radius() {
+fn face_is_that_of_the_simulated_toss_for_any_radius() {
     let mut random = SplitMix(3);
     let (mut heads, mut tested) = (0, 0);
     while tested < 500 {
         let (speed, spin) = (random.uniform(0.5, 4.0), random.uniform(5.0, 120.0));
         let radius = random.uniform(1e-4, 0.05);
         let h = half_turns(speed, spin, GRAVITY);
-        // One step turns by 0.01/π half-turns: nearer than that to an edge the step decides, not
+        // One step turns by 0.01/π half-turns: nearer than that to an edge the step length decides, not
         // the toss.
         if (libm::cos(PI * h)).abs() < 0.02 {
             continue;
@@ -83,7 +83,7 @@ fn windows_are_averages_of_the_face() {
             .filter(|&i| libm::cos(PI * middle(i)) > 0.0)
             .count();
         let average = heads as f64 / f64::from(points);
-        // Each of the at most width + 2 edges inside may misplace one point.
+        // Each of at most width + 2 edges may misplace one point.
         let tolerance = (to - from + 2.0) / f64::from(points);
         let p = p_heads_in_window(from, to);
         assert!(
@@ -109,7 +109,7 @@ fn bias_bound_holds_and_is_reached() {
         assert!(bias <= bias_bound(width) + 1e-9, "{from} {width}");
     }
     for turns in 0..20 {
-        // Both ends in heads: one band more of heads than of tails.
+        // Both ends in heads: one more band of heads than of tails.
         let to = 2.0 * f64::from(turns) + 0.5;
         assert!((p_heads_in_window(-0.5, to) - 0.5 - bias_bound(to + 0.5)).abs() < 1e-15);
     }

@@ -16,7 +16,7 @@ fn arc_rule_is_the_share_of_landing_angles_that_tip_to_each_face() {
             angles.iter().map(|(a, b)| b - a).sum::<f64>() / TAU
         };
         let p = arc::probabilities(ratio);
-        // Up to four ends, each off by rounding of an angle below 2π: 4·1e-15/2π, taken tenfold.
+        // Up to four ends, each with the rounding of an angle below 2π: 4·1e-15/2π, times ten.
         for (face, expected) in [
             (Rest::Heads, p.heads),
             (Rest::Tails, p.tails),
@@ -55,7 +55,7 @@ fn zone_rule_is_the_share_of_the_sphere_that_tips_to_each_face() {
 }
 
 #[test]
-fn zone_rule_is_what_random_orientations_do() {
+fn zone_rule_is_the_share_of_random_orientations() {
     let mut random = SplitMix(1);
     for ratio in RATIOS {
         let p = zone::probabilities(ratio);
@@ -119,7 +119,7 @@ fn zone_area_over_the_sphere_is_the_zone_rule() {
 
 #[test]
 fn published_figures_of_a_nickel() {
-    // 1.95 mm high, 21.21 mm wide; to the integers in which they are quoted.
+    // 1.95 mm high, 21.21 mm wide; published as integers.
     let nickel = 1.95 / (0.5 * 21.21);
     let odds = |p: f64| (1.0 / p).round();
     assert_eq!(odds(arc::p_side(nickel)), 17.0);

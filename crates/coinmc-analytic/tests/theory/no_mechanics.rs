@@ -1,4 +1,4 @@
-//! The two rules of shares as what random straight lines hit (Cauchy and Crofton).
+//! The surface-area and cross-section rules as shares of random straight lines (Cauchy and Crofton).
 
 use crate::measure::simpson;
 use crate::random::{SplitMix, assert_share};
@@ -28,15 +28,15 @@ fn enters_through_side(h: f64, at: [f64; 3], way: [f64; 3]) -> Option<bool> {
 }
 
 #[test]
-fn surface_area_rule_is_where_random_lines_enter() {
+fn surface_area_rule_is_the_share_of_lines_that_enter_there() {
     let mut random = SplitMix(2);
     for ratio in RATIOS {
         let (mut side, mut hits) = (0, 0);
         let reach = (1.0 + 0.25 * ratio * ratio).sqrt();
         while hits < 100_000 {
             let way = random.direction();
-            // Uniform in a disc across the line, wide enough for the coin: a random direction less
-            // its part along the line has a random azimuth, and the square of the distance is
+            // Uniform in a disc across the line that is wide enough for the coin: a random direction
+            // minus its part along the line has a random azimuth, and the square of the distance is
             // uniform.
             let any = random.direction();
             let along: f64 = (0..3).map(|i| any[i] * way[i]).sum();
@@ -61,7 +61,7 @@ fn surface_area_rule_is_where_random_lines_enter() {
 #[test]
 fn surface_area_rule_is_the_mean_projected_area() {
     for ratio in RATIOS {
-        // Seen at the angle t to the axis the side shows 2RH sin t and a face πR² cos t.
+        // Seen at the angle t to the axis, the side has the area 2RH sin t and a face πR² cos t.
         let mean =
             |shown: fn(f64) -> f64| simpson(0.0, FRAC_PI_2, 2000, |t| shown(t) * libm::sin(t));
         let side = 2.0 * ratio * mean(libm::sin);

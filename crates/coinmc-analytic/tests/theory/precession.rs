@@ -1,4 +1,4 @@
-//! The precessing coin: free motion of the rigid body, then its landing phase by phase.
+//! The precessing coin: free motion of the rigid body, then its landing at every phase.
 
 use crate::measure::intervals;
 use crate::tipping::{Rest, rest};
@@ -40,7 +40,7 @@ struct State {
 }
 
 impl State {
-    /// Euler's equations without torque, and the axes carried round.
+    /// Euler's equations without torque, and the rotation of the axes.
     fn rate(&self, inertia: Vector) -> Self {
         let w = self.spin;
         let momentum = std::array::from_fn(|i| inertia[i] * w[i]);
@@ -98,7 +98,7 @@ fn free_coin_circles_its_angular_momentum_at_a_constant_rate() {
 }
 
 /// Shares of one circle of the normal that come to rest on each face.
-fn circled(ratio: f64, psi: f64) -> FaceProbabilities {
+fn shares_of_circle(ratio: f64, psi: f64) -> FaceProbabilities {
     let share = |face| {
         let phases = intervals(0.0, TAU, 20_000, |phase| {
             rest(ratio, normal(psi, phase)) == face
@@ -129,11 +129,11 @@ fn thick_coin_is_the_time_average_over_one_circle() {
             5.0f64, 20.0, 40.0, 47.0, 60.0, 70.0, 85.0, 90.0, 100.0, 130.0, 150.0,
         ] {
             let psi = psi_deg.to_radians();
-            // Ends are where u_z, rounded to 4e-16, crosses at a slope of at least 1e-4 (no case
+            // At the ends u_z, rounded to 4e-16, crosses with a slope of at least 1e-4 (no case
             // grazes).
             let what = format!("{ratio} {psi_deg}");
             assert_close(
-                circled(ratio, psi),
+                shares_of_circle(ratio, psi),
                 thick::probabilities(ratio, psi),
                 1e-11,
                 &what,

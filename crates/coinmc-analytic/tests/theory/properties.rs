@@ -1,10 +1,10 @@
-//! What holds for every coin, on random ratios over 24 decades.
+//! Properties of every coin, at random ratios over 24 decades.
 
 use coinmc_analytic::precession::thick;
 use coinmc_analytic::{FaceProbabilities, Rule};
 use proptest::prelude::*;
 
-/// Of a probability near 1: a few units in the last place.
+/// Rounding of a probability near 1: a few units in the last place.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 fn ratio() -> impl Strategy<Value = f64> {
@@ -19,7 +19,7 @@ fn psi() -> impl Strategy<Value = f64> {
     0.0..std::f64::consts::PI
 }
 
-/// Each in `[0, 1]` and in all 1, up to the rounding of three of them.
+/// Each in `[0, 1]` and the sum 1, up to the rounding of three numbers.
 fn is_distribution(p: &FaceProbabilities) -> bool {
     let each = [p.heads, p.tails, p.side];
     each.iter().all(|p| (0.0..=1.0).contains(p))
@@ -30,8 +30,8 @@ proptest! {
     #[test]
     fn thicker_coins_rest_on_their_side(rule in rule(), x in ratio(), step in 1e-9f64..5.0) {
         let (thin, thick) = (rule.probabilities(x), rule.probabilities(x * libm::exp(step)));
-        // A relative step of 1e-9 moves the smaller of the two by 1e-9 of half of itself, far above
-        // round-off. The larger may stand still; it may not go back by more than its rounding.
+        // A relative step of 1e-9 changes the smaller of the two by at least half of 1e-9 of itself, far
+        // above rounding. The larger may stay the same or go back by no more than its rounding.
         if thin.side < 0.5 {
             prop_assert!(thin.side < thick.side);
         } else {
@@ -63,7 +63,7 @@ proptest! {
     fn precession_gives_a_distribution_that_favours_the_start(x in ratio(), psi in psi()) {
         let p = thick::probabilities(x, psi);
         prop_assert!(is_distribution(&p));
-        // Equal at ψ = π/2, where either may round; the distance to it is conditioned away by 1e-7.
+        // Equal at ψ = π/2 up to rounding.
         prop_assert!(p.heads >= p.tails * (1.0 - 1e-12));
     }
 
@@ -73,17 +73,17 @@ proptest! {
     ) {
         let thin = thick::probabilities(x, psi);
         let thick = thick::probabilities(x * libm::exp(step), psi);
-        // Clipped outcomes stand still; no other may go back by more than its rounding.
+        // Clipped outcomes stay the same; the others may go back by no more than their rounding.
         prop_assert!(thin.side <= thick.side + ROUNDING);
         prop_assert!(thin.heads >= thick.heads - ROUNDING);
         prop_assert!(thin.tails >= thick.tails - ROUNDING);
-        // 1e-6 more thickness moves the side by 1e-6 of itself or more until it nears 1.
+        // 1e-6 more thickness raises P(side) by at least 1e-6 of itself until it nears 1.
         prop_assert!(thin.side == 0.0 || thin.side > 0.5 || thin.side < thick.side);
     }
 
     #[test]
     fn the_sense_of_the_angular_momentum_does_not_matter(x in ratio(), psi in 0.1f64..1.5) {
-        // π − ψ is rounded to 2e-16; away from clipping the result moves in proportion.
+        // π − ψ is rounded to 2e-16; away from clipping the result changes in proportion.
         let opposite = std::f64::consts::PI - psi;
         let (a, b) = (thick::probabilities(x, psi), thick::probabilities(x, opposite));
         prop_assert!((a.heads - b.heads).abs() < 1e-7 && (a.side - b.side).abs() < 1e-7);

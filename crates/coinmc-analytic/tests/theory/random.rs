@@ -16,7 +16,7 @@ impl SplitMix {
         from + (to - from) * ((self.next() >> 11) as f64 / (1u64 << 53) as f64)
     }
 
-    /// Uniform on the unit sphere: a point of the cube that falls in the ball, scaled.
+    /// Uniform on the unit sphere: a point of the cube that lies in the ball, scaled.
     pub(crate) fn direction(&mut self) -> [f64; 3] {
         loop {
             let v: [f64; 3] = std::array::from_fn(|_| self.uniform(-1.0, 1.0));

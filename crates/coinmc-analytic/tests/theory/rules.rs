@@ -1,4 +1,4 @@
-//! The rules under their names: published fair coins, limits, domain, parsing.
+//! The rules by name: published fair coins, limits, domain, parsing.
 
 use coinmc_analytic::Rule;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI};
 fn fair_coins_are_the_published_ones() {
     let fair = [1.1547, FRAC_1_SQRT_2, 0.5, 1.0, 1.6570, 1.3545];
     for (rule, expected) in Rule::ALL.into_iter().zip(fair) {
-        // Quoted to four decimals.
+        // Published to four decimals.
         assert!(
             (rule.fair_ratio(1.0 / 3.0) - expected).abs() < 5.001e-5,
             "{rule}"
@@ -100,7 +100,7 @@ fn no_finite_ratio_overflows() {
 }
 
 #[test]
-fn names_read_back_and_texts_are_there() {
+fn names_parse_back_and_descriptions_exist() {
     for rule in Rule::ALL {
         assert_eq!(rule.name().parse(), Ok(rule));
         assert_eq!(format!("{rule:>20}"), format!("{:>20}", rule.name()));

@@ -7,9 +7,9 @@ pub(crate) enum Rest {
     Side,
 }
 
-/// Where a coin of `R = 1` and the given height comes to rest that touches the floor with its
-/// normal along the unit vector `u` (z up): it tips about its lowest point, towards the horizontal
-/// side of that point on which its centre lies.
+/// The rest of a coin of `R = 1` and the given height that touches the floor with its normal along the
+/// unit vector `u` (z up): it tips about its lowest point, to the side of that point on which its
+/// centre lies.
 pub(crate) fn rest(height: f64, u: [f64; 3]) -> Rest {
     let lower_face = if u[2] > 0.0 {
         -0.5 * height
@@ -17,7 +17,7 @@ pub(crate) fn rest(height: f64, u: [f64; 3]) -> Rest {
         0.5 * height
     };
     let face_centre = u.map(|c| lower_face * c);
-    // Steepest way down within the plane of the face.
+    // The steepest direction downwards in the plane of the face.
     let down = [u[0] * u[2], u[1] * u[2], u[2] * u[2] - 1.0];
     let length = down.iter().map(|c| c * c).sum::<f64>().sqrt();
     if length == 0.0 {

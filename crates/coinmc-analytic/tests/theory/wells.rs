@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 const RATIOS: [f64; 9] = [0.05, 0.184, 0.5, 1.0, 1.3545, 1.657, 2.0, 3.0, 20.0];
 
-/// Height of the centre above the floor at the tilt `theta`: how far the lowest corner is below it.
+/// Height of the centre above the floor at the tilt `theta`: the depth of the lowest corner below it.
 fn centre_height(ratio: f64, theta: f64) -> f64 {
     let (sin, cos) = (libm::sin(theta), libm::cos(theta));
     [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
@@ -19,7 +19,7 @@ fn centre_height(ratio: f64, theta: f64) -> f64 {
 /// Depths of a face's well and of the side's, in radii.
 fn depths(ratio: f64) -> (f64, f64) {
     let barrier = -minimum(0.0, FRAC_PI_2, |theta| -centre_height(ratio, theta));
-    // Less than a right angle round each minimum, with no second one inside.
+    // A small interval about each minimum, with no second one inside.
     let face = minimum(-0.01, 0.01, |theta| centre_height(ratio, theta));
     let side = minimum(FRAC_PI_2 - 0.01, FRAC_PI_2 + 0.01, |theta| {
         centre_height(ratio, theta)
@@ -37,7 +37,7 @@ fn side_tilts(ratio: f64) -> (f64, f64) {
 }
 
 #[test]
-fn depths_are_barrier_less_minimum() {
+fn depths_are_barrier_minus_minimum() {
     for ratio in RATIOS {
         let (face, side) = depths(ratio);
         // Heights up to l are rounded to l·2e-16, l ≤ 10.1 here.

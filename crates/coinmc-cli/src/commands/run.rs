@@ -9,7 +9,7 @@ use crate::terminal::{count, duration, grouped};
 use anyhow::Context;
 use clap::Args;
 use coinmc::config::{self, Override};
-use coinmc::plan::{MOST_EVALUATIONS, Plan};
+use coinmc::plan::{MAX_EVALUATIONS, Plan};
 use coinmc::published::TABLE1_SOURCE;
 use coinmc::results::{FairRatio, Row, fair_ratios};
 use coinmc::run::{Options, Part, Report, Status};
@@ -234,7 +234,7 @@ fn advice(report: &Report, out: &Path) -> Option<String> {
 /// What to do about points that stopped short of the half width. An integral has a limit of its own
 /// that no `max_tosses` raises.
 fn short_of_target(rows: &[Row], points: usize) -> String {
-    let is_capped = |row: &&Row| !row.reached_target && row.evaluations == MOST_EVALUATIONS;
+    let is_capped = |row: &&Row| !row.reached_target && row.evaluations == MAX_EVALUATIONS;
     let capped = rows.iter().filter(is_capped).count();
     let mut lines = vec![];
     if points > capped {
@@ -248,7 +248,7 @@ fn short_of_target(rows: &[Row], points: usize) -> String {
             "coinmc: {} reached {} evaluations, the limit of an integral, before stop.half_width: \
              raise it, or toss with sampling.method = \"random\"",
             count(capped as u64, "point"),
-            grouped(MOST_EVALUATIONS),
+            grouped(MAX_EVALUATIONS),
         ));
     }
     lines.join("\n")
@@ -362,7 +362,7 @@ mod tests {
             .collect();
         let text = short_of_target(&rows, 2);
         assert!(text.contains("2 points came to stop.max_tosses"), "{text}");
-        rows[1].evaluations = MOST_EVALUATIONS;
+        rows[1].evaluations = MAX_EVALUATIONS;
         let text = short_of_target(&rows, 2);
         assert!(text.contains("1 point came to stop.max_tosses"), "{text}");
         assert!(

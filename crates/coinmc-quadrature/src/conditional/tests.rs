@@ -48,7 +48,7 @@ fn launches() -> Vec<LaunchDistribution> {
     ]
 }
 
-/// The face of the axis at the passage, with every quantity as drawn.
+/// The face of the axis at the passage, with every quantity given.
 fn at_passage(scene: &Scene, launch: &Launch) -> Face {
     let given = LaunchDistribution {
         height_m: Marginal::Constant(launch.height_m),
@@ -61,28 +61,32 @@ fn at_passage(scene: &Scene, launch: &Launch) -> Face {
     for variable in [Variable::Velocity, Variable::Height] {
         let conditional = Conditional::new(scene, &given, variable);
         let faces = conditional.faces(&mut stream, 0.5).p;
-        let sure = Face::ALL.into_iter().zip(faces).find(|(_, p)| *p > 0.5);
-        found.push(sure.unwrap().0);
+        let decided = Face::ALL.into_iter().zip(faces).find(|(_, p)| *p > 0.5);
+        found.push(decided.unwrap().0);
     }
     assert_eq!(found[0], found[1]);
     found[0]
 }
 
-/// Tosses are what the axis at the passage says.
-fn is_decided(engine: &impl Engine<Workspace = ()>, scene: &Scene, launches: &LaunchDistribution) {
+/// Every toss ends on the face of the axis at the passage.
+fn assert_tosses_agree(
+    engine: &impl Engine<Workspace = ()>,
+    scene: &Scene,
+    launches: &LaunchDistribution,
+) {
     let stream = Stream::new(7, Domain::Launch, 0);
     for toss in 0..TOSSES {
         let launch = launches.launch(&scene.coin, &mut stream.toss(toss));
         let tossed = engine.toss(&mut (), &launch, &mut ()).face();
-        let said = at_passage(scene, &launch);
-        assert_eq!(tossed, Some(said), "{scene:?} {launches:?} {toss}");
+        let expected = at_passage(scene, &launch);
+        assert_eq!(tossed, Some(expected), "{scene:?} {launches:?} {toss}");
     }
 }
 
-/// The theorem of the crate's overview, toss by toss against the search for the first contact:
-/// 9600 tosses, and none differs. One that passes within 1e-9 of a border might.
+/// The theorem of the crate's overview, toss by toss against the search for the first contact: none
+/// of 9600 tosses differs. A toss within 1e-9 of a border might.
 #[test]
-fn the_axis_at_the_passage_decides_every_toss_in_space() {
+fn the_axis_at_the_passage_decides_spatial_tosses() {
     for launches in launches() {
         for (ratio, drag, gyroscopic) in [
             (0.2, 0.0, true),
@@ -99,13 +103,13 @@ fn the_axis_at_the_passage_decides_every_toss_in_space() {
                 coinmc_volumetric::Moreau,
             )
             .unwrap();
-            is_decided(&engine, &scene, &launches);
+            assert_tosses_agree(&engine, &scene, &launches);
         }
     }
 }
 
 #[test]
-fn the_axis_at_the_passage_decides_every_toss_in_the_plane() {
+fn the_axis_at_the_passage_decides_planar_tosses() {
     for preset in [Preset::Robot, Preset::CleanFlat] {
         for ratio in [0.1, 1.0, 3.0] {
             let scene = scene(ratio, 0.0, true);
@@ -118,13 +122,13 @@ fn the_axis_at_the_passage_decides_every_toss_in_the_plane() {
                 },
                 ..preset.distribution()
             };
-            is_decided(&engine, &scene, &launches);
+            assert_tosses_agree(&engine, &scene, &launches);
         }
     }
 }
 
-/// The closed form over a quantity is the share of its values that land so: 4000 midpoints,
-/// each stretch of values is wrong by one at either end.
+/// The closed form over a quantity is the share of its values that land on each face. With 4000
+/// midpoints, each interval of values is wrong by one at either end.
 #[test]
 fn the_closed_form_is_the_mean_over_the_quantity() {
     let scene = scene(1.0, 0.3, true);
@@ -181,9 +185,9 @@ fn the_closed_form_is_the_mean_over_the_quantity() {
     }
 }
 
-/// The series and the sum over turns agree to rounding where both are taken.
+/// The series and the sum over turns agree to rounding where both apply.
 #[test]
-fn the_series_is_the_sum_over_turns() {
+fn the_series_agrees_with_the_sum_over_turns() {
     for (mean, sd) in [(0.3, 1.0), (-7.0, 1.7), (1000.0, 4.0), (2.0, 40.0)] {
         let marginal = Marginal::Normal { mean, sd };
         for (centre, half) in [(0.0, 0.4), (PI, 1.3), (PI, 3.1)] {
@@ -198,7 +202,7 @@ fn the_series_is_the_sum_over_turns() {
     }
 }
 
-/// A toss's uniforms with that of one quantity replaced.
+/// The uniforms of a toss, with that of one quantity replaced.
 struct Overridden<'a> {
     stream: &'a mut coinmc_core::TossUniforms,
     variable: Variable,
@@ -207,13 +211,13 @@ struct Overridden<'a> {
 
 impl UniformSource for Overridden<'_> {
     fn uniform(&mut self, dimension: u32) -> f64 {
-        let mine = match self.variable {
+        let own = match self.variable {
             Variable::Tilt | Variable::Azimuth => 0,
             Variable::Rate => 3,
             Variable::Velocity => 9,
             Variable::Height => 6,
         };
-        if dimension == mine {
+        if dimension == own {
             self.p
         } else {
             self.stream.uniform(dimension)

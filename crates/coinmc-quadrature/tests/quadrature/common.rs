@@ -1,4 +1,4 @@
-//! Scenes to integrate.
+//! Scenes and goals of the tests.
 
 use coinmc_core::{
     Coin, Domain, Landing, LaunchDistribution, Marginal, Preset, Scene, Spin, Stream, Surface,
@@ -6,7 +6,7 @@ use coinmc_core::{
 use coinmc_quadrature::{Goal, Integral, Method, integrate};
 use coinmc_volumetric::{Moreau, Settings, VolumetricEngine};
 
-/// A coin of 10 mm radius over a surface that it sticks to.
+/// A coin of 10 mm radius above an adhesive surface.
 pub(crate) fn scene(ratio: f64) -> Scene {
     let surface = Surface::new(0.0, 0.0)
         .unwrap()
@@ -18,7 +18,7 @@ pub(crate) fn engine(scene: &Scene) -> VolumetricEngine<Moreau> {
     VolumetricEngine::new(scene, &Settings::default(), Moreau).unwrap()
 }
 
-/// `clean` with a spin that is faster about the vertical, so that no rule holds.
+/// The preset `clean` with a faster spin about the vertical, so that no rule holds.
 pub(crate) fn uneven() -> LaunchDistribution {
     let normal = |sd| Marginal::Normal { mean: 5.0, sd };
     LaunchDistribution {

@@ -1,4 +1,4 @@
-//! Intervals that hold the truth as often as they say.
+//! The coverage of the intervals.
 
 use crate::common::{found, goal, scene, uneven};
 use coinmc_core::{LaunchDistribution, Marginal, Orientation, Preset};
@@ -6,9 +6,8 @@ use coinmc_quadrature::{Method, Variable};
 
 /// Scrambles of each case.
 const SCRAMBLES: u64 = 400;
-/// Misses allowed of 5 %: more than 36 of 400 have the chance 4e-4, were each interval to miss as
-/// often as it may.
-const MOST_MISSES: usize = 36;
+/// Allowed misses of 95 % intervals: more than 36 of 400 have the probability 4e-4.
+const MAX_MISSES: usize = 36;
 
 /// Counts the intervals that miss, face by face.
 fn misses(
@@ -19,7 +18,7 @@ fn misses(
     half_width: f64,
 ) -> [usize; 3] {
     let scene = scene(ratio);
-    // a hundred times sharper than what is tested
+    // a hundred times more precise than the tested intervals
     let better = Method::of(&scene, launches, f64::INFINITY).unwrap();
     let truth = found(better, &scene, launches, u64::MAX, &goal(1e-9, 1 << 17));
     let mut misses = [0; 3];
@@ -39,19 +38,19 @@ fn misses(
 }
 
 #[test]
-fn tosses_at_sobol_points_keep_their_confidence() {
+fn tosses_at_sobol_points_have_the_stated_coverage() {
     for (launches, ratio) in [(Preset::Clean.distribution(), 1.0), (uneven(), 0.5)] {
-        // at a fixed number, and where the width decides when to stop
+        // stopped at a fixed number, and by the width
         for (evaluations, half_width) in [(1 << 11, 1e-9), (1 << 13, 0.015)] {
             let misses = misses(Method::Tossed, &launches, ratio, evaluations, half_width);
-            assert!(misses.iter().all(|&n| n <= MOST_MISSES), "{misses:?}");
+            assert!(misses.iter().all(|&n| n <= MAX_MISSES), "{misses:?}");
         }
     }
 }
 
-/// A face of probability 5e-4: a dozen of 16 replicates never see it at the first looks.
+/// A face of probability 5e-4: at the first looks a dozen of the 16 replicates have not had it.
 #[test]
-fn rare_faces_keep_their_confidence() {
+fn rare_faces_have_the_stated_coverage() {
     let misses = misses(
         Method::Tossed,
         &Preset::Clean.distribution(),
@@ -59,11 +58,11 @@ fn rare_faces_keep_their_confidence() {
         1 << 12,
         1e-9,
     );
-    assert!(misses.iter().all(|&n| n <= MOST_MISSES), "{misses:?}");
+    assert!(misses.iter().all(|&n| n <= MAX_MISSES), "{misses:?}");
 }
 
 #[test]
-fn closed_forms_over_a_quantity_keep_their_confidence() {
+fn closed_forms_have_the_stated_coverage() {
     let slow = LaunchDistribution {
         velocity_m_s: [
             Marginal::Constant(0.0),
@@ -81,7 +80,7 @@ fn closed_forms_over_a_quantity_keep_their_confidence() {
     ] {
         let misses = misses(Method::Over(variable), &launches, 1.0, 1 << 10, 1e-9);
         assert!(
-            misses.iter().all(|&n| n <= MOST_MISSES),
+            misses.iter().all(|&n| n <= MAX_MISSES),
             "{variable:?} {misses:?}"
         );
     }

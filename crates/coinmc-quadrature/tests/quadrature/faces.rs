@@ -1,4 +1,4 @@
-//! Probabilities against closed forms and against sampling.
+//! Probabilities compared with closed forms and with sampling.
 
 use crate::common::{engine, found, goal, scene, uneven};
 use coinmc_core::{
@@ -8,7 +8,7 @@ use coinmc_core::{
 use coinmc_quadrature::{Method, Variable};
 use nalgebra::Vector3;
 
-/// Half widths, in standard errors, beyond which Monte Carlo disagrees: 1 in 15 000 each.
+/// Standard errors beyond which Monte Carlo disagrees: 1 in 15 000 comparisons by chance.
 const SIGMAS: f64 = 4.0;
 
 /// 2e5 tosses against the integral; 15 comparisons.
@@ -48,7 +48,7 @@ fn integrals_agree_with_sampling() {
     }
 }
 
-/// Tosses at Sobol points know nothing of the closed forms, and find them within their intervals.
+/// Tosses at Sobol points do not use the closed forms, and find them within their intervals.
 #[test]
 fn closed_forms_are_recovered_by_tosses() {
     for (preset, method, rule) in [
@@ -64,12 +64,12 @@ fn closed_forms_are_recovered_by_tosses() {
                 (rule.p_side(ratio), 0.0)
             );
             assert_eq!((exact.evaluations, exact.exact), (0, true));
-            // one interval in 1e4 misses
-            let sure = coinmc_quadrature::Goal {
+            // one interval in 10,000 misses
+            let precise = coinmc_quadrature::Goal {
                 confidence: 0.9999,
                 ..goal(1e-4, 1 << 16)
             };
-            let tossed = found(Method::Tossed, &scene, &launches, 1, &sure);
+            let tossed = found(Method::Tossed, &scene, &launches, 1, &precise);
             for (tossed, exact) in tossed.faces.iter().zip(exact.faces) {
                 assert!(
                     (tossed.p - exact.p).abs() <= tossed.half_width(),
@@ -81,8 +81,8 @@ fn closed_forms_are_recovered_by_tosses() {
     }
 }
 
-/// A tilt over half a turn shows the side as often as over whole ones; heads by symmetry with tails
-/// where the spin has no sign.
+/// A tilt uniform over half a turn gives the same P(side) as one over whole turns; heads and tails are
+/// equal by symmetry if the spin has no preferred sign.
 #[test]
 fn the_robot_lands_on_its_side_by_the_arc_rule() {
     for ratio in [0.1, 1.0, 5.0] {
@@ -98,8 +98,8 @@ fn the_robot_lands_on_its_side_by_the_arc_rule() {
     }
 }
 
-/// A coin let go heads up with its angular momentum at ψ to its axis, often turned: the thick coin's
-/// closed form is the limit of a spread of the phase by many turns.
+/// A coin that starts heads up with its angular momentum at ψ to its axis and turns often: the closed
+/// form of the thick coin is the limit of a phase that spreads over many turns.
 #[test]
 fn precession_with_a_wide_spread_of_turns_is_its_closed_form() {
     let psi = 1.2;
@@ -117,7 +117,7 @@ fn precession_with_a_wide_spread_of_turns_is_its_closed_form() {
     let method = Method::of(&scene, &launches, f64::INFINITY).unwrap();
     let integral = found(method, &scene, &launches, 1, &goal(1e-6, 1 << 16));
     let exact = coinmc_analytic::precession::thick::probabilities(1.0, psi);
-    // some 60 turns: the ends of the spread weigh less than one of them
+    // about 60 turns: the ends of the range weigh less than one of them
     assert!(
         (integral.side().p - exact.side).abs() < 0.01,
         "{integral:?} {exact:?}"
@@ -126,7 +126,7 @@ fn precession_with_a_wide_spread_of_turns_is_its_closed_form() {
 }
 
 #[test]
-fn a_scene_without_chance_is_one_evaluation() {
+fn a_scene_without_randomness_is_one_evaluation() {
     let launches = LaunchDistribution {
         orientation: Orientation::Tilt(Marginal::Constant(0.3)),
         spin: Spin::About {
@@ -143,7 +143,7 @@ fn a_scene_without_chance_is_one_evaluation() {
         (Method::Tossed, 1, true)
     );
     assert_eq!(integral.faces.map(|share| share.p).iter().sum::<f64>(), 1.0);
-    // with a spread of the rate alone: one evaluation of its closed form
+    // with only the rate random: one evaluation of its closed form
     let spread = LaunchDistribution {
         spin: Spin::About {
             axis: Vector3::y_axis(),
@@ -156,10 +156,10 @@ fn a_scene_without_chance_is_one_evaluation() {
     assert_eq!((integral.evaluations, integral.half_width()), (1, 0.0));
 }
 
-/// A quantity that is drawn after all counts faces, as tosses do: no interval is shorter than what
-/// counts of so many evaluations can tell.
+/// A quantity that is drawn gives counts of faces, as tosses do: no interval is shorter than counts of
+/// as many evaluations allow.
 #[test]
-fn what_is_drawn_has_the_interval_of_counts() {
+fn a_drawn_quantity_has_the_interval_of_counts() {
     let launches = LaunchDistribution {
         height_m: Marginal::Uniform { from: 1.0, to: 2.0 },
         velocity_m_s: [Marginal::Constant(0.0); 3],
@@ -172,7 +172,7 @@ fn what_is_drawn_has_the_interval_of_counts() {
             },
         },
     };
-    // a side that about one evaluation in 1600 sees
+    // about one evaluation in 1600 lands on its side
     let scene = scene(0.001);
     let method = Method::Over(Variable::Rate);
     assert_eq!(Method::of(&scene, &launches, f64::INFINITY), Some(method));
@@ -181,8 +181,8 @@ fn what_is_drawn_has_the_interval_of_counts() {
         let found = found(method, &scene, &launches, seed, &goal(1e-6, evaluations));
         let counted = found.side();
         assert!(!found.exact && counted.hi - counted.p > 1.5 / evaluations as f64);
-        // Clopper and Pearson at 1 - 0.05/5: one in 100 at most; none of twenty fails by chance
-        // but in 18 % of all sets of seeds, and this one is fixed
+        // Clopper and Pearson at 1 - 0.05/5: at most one in 100 misses; with other seeds one of the
+        // twenty would miss in 18 % of all cases
         assert!(
             counted.lo <= side && side <= counted.hi,
             "{seed} {counted:?} {side}"
@@ -191,22 +191,22 @@ fn what_is_drawn_has_the_interval_of_counts() {
 }
 
 #[test]
-fn it_stops_when_told_to() {
+fn it_stops_when_keep_going_is_false() {
     use std::cell::Cell;
     let scene = scene(1.0);
     let launches = uneven();
-    let asked = Cell::new(0);
-    let go_on = || {
-        asked.set(asked.get() + 1);
-        asked.get() < 5
+    let calls = Cell::new(0);
+    let keep_going = || {
+        calls.set(calls.get() + 1);
+        calls.get() < 5
     };
     let scrambles = crate::common::scrambles(1);
     let engine = engine(&scene);
     let goal = goal(1e-9, 1 << 22);
     for method in [Method::Tossed, Method::Over(Variable::Azimuth)] {
-        asked.set(0);
+        calls.set(0);
         let found = coinmc_quadrature::integrate(
-            method, &scene, &launches, &engine, &scrambles, &goal, go_on,
+            method, &scene, &launches, &engine, &scrambles, &goal, keep_going,
         );
         assert!(found.is_none(), "{method:?}");
     }

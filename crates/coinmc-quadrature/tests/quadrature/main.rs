@@ -1,4 +1,4 @@
-//! Points, closed forms and intervals, against published ones and against sampling.
+//! Sobol points, closed forms and intervals, compared with published values and with sampling.
 
 mod common;
 mod coverage;

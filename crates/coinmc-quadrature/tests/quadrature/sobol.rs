@@ -1,11 +1,11 @@
-//! The points.
+//! The Sobol points.
 
 use crate::common::scrambles;
 use coinmc_quadrature::{DIMENSIONS, Sobol};
 use std::collections::HashSet;
 
 /// Points of new-joe-kuo-6.21201 as `scipy.stats.qmc.Sobol(10, scramble=False, bits=30)` of SciPy
-/// 1.17.1 gives them, times 2^30; by their number, on both sides of 2^16.
+/// 1.17.1 gives them, times 2^30, by number, on both sides of 2^16.
 const PUBLISHED: [(u64, [u64; DIMENSIONS]); 11] = [
     (
         1,
@@ -175,12 +175,12 @@ const PUBLISHED: [(u64, [u64; DIMENSIONS]); 11] = [
 ];
 
 #[test]
-fn points_are_the_published_ones() {
+fn points_agree_with_published_ones() {
     for (number, expected) in PUBLISHED {
         let sobol = Sobol::plain(DIMENSIONS);
         let point = sobol.points(number..number + 1).next().unwrap();
         assert_eq!(point.map(|word| word >> 34), expected, "{number}");
-        // reached one by one
+        // and by stepping through the points before
         let walked = sobol.points(number / 2..number + 1).last().unwrap();
         assert_eq!(walked, point);
     }
@@ -232,14 +232,14 @@ fn pairs_of_dimensions_are_nets() {
 }
 
 #[test]
-fn no_two_of_many_points_agree() {
+fn points_are_distinct() {
     let sobol = Sobol::scrambled(1, &mut scrambles(5).toss(1));
     let seen: HashSet<u64> = sobol.points(0..1 << 18).map(|point| point[0]).collect();
     assert_eq!(seen.len(), 1 << 18);
 }
 
 #[test]
-fn scrambles_differ_and_are_fixed() {
+fn scrambles_differ_and_are_reproducible() {
     let first = |seed, replicate| {
         let sobol = Sobol::scrambled(4, &mut scrambles(seed).toss(replicate));
         sobol.points(0..1).next().unwrap()

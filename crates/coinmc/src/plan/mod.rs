@@ -7,7 +7,7 @@ mod explain;
 mod sampling;
 mod stop;
 
-pub use coinmc_quadrature::{Goal, Integral, MOST_EVALUATIONS, Method};
+pub use coinmc_quadrature::{Goal, Integral, MAX_EVALUATIONS, Method};
 pub use explain::Explanation;
 pub use sampling::Sampling;
 pub use stop::Stop;

@@ -1,7 +1,7 @@
 //! Which points are tossed, and which are answered without tosses.
 
 use super::{EngineChoice, Plan, Point, Stop};
-use coinmc_quadrature::{Goal, Integral, LEAST_EVALUATIONS, MOST_EVALUATIONS, Method};
+use coinmc_quadrature::{Goal, Integral, MAX_EVALUATIONS, MIN_EVALUATIONS, Method};
 
 /// How launches are drawn where the first contact decides. Elsewhere they are random.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -81,7 +81,7 @@ impl Plan {
         Goal {
             confidence: self.confidence,
             half_width,
-            evaluations: evaluations.clamp(LEAST_EVALUATIONS, MOST_EVALUATIONS),
+            evaluations: evaluations.clamp(MIN_EVALUATIONS, MAX_EVALUATIONS),
         }
     }
 }

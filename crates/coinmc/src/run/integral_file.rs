@@ -3,7 +3,7 @@
 use super::damage::Damage;
 use super::sealed::{seal, unseal};
 use coinmc_core::Face;
-use coinmc_quadrature::{Integral, LEAST_EVALUATIONS, MOST_EVALUATIONS, Method, Share};
+use coinmc_quadrature::{Integral, MAX_EVALUATIONS, MIN_EVALUATIONS, Method, Share};
 use std::fmt::Write;
 
 /// Version of the format.
@@ -95,8 +95,7 @@ fn is_possible(integral: &Integral) -> bool {
     let counted = if integral.exact {
         evaluations == 1
     } else {
-        evaluations.is_power_of_two()
-            && (LEAST_EVALUATIONS..=MOST_EVALUATIONS).contains(&evaluations)
+        evaluations.is_power_of_two() && (MIN_EVALUATIONS..=MAX_EVALUATIONS).contains(&evaluations)
     };
     let exact = |share: &Share| !integral.exact || share.lo == share.p;
     counted

@@ -19,12 +19,15 @@ pub(super) fn computed(method: Method, left: usize) -> String {
         (Method::Zone, _) => rule(Rule::Zone),
         (Method::Arc, _) => rule(Rule::Arc),
         (Method::Over(variable), 0) => {
-            format!("closed form over {}, exact ({DECIDES})", variable.words())
+            format!(
+                "closed form over {}, exact ({DECIDES})",
+                variable.description()
+            )
         }
         (Method::Over(variable), left) => format!(
             "quadrature: {} in closed form ({DECIDES}), {} at {REPLICATES} independently scrambled \
              sets of Sobol points, with a Student interval",
-            variable.words(),
+            variable.description(),
             others(left)
         ),
         (Method::Tossed, 0) => "one toss: nothing is random".to_owned(),
