@@ -1,4 +1,4 @@
-//! Scenes, random numbers, launches and the recorder that the tests share.
+//! Scenes, random numbers, launches and observers that the tests share.
 
 use coinmc_core::{
     Coin, Domain, Engine, Event, EventKind, Face, Launch, Observer, Outcome, Preset, Scene, State,
@@ -9,17 +9,17 @@ use nalgebra::{UnitVector3, Vector3};
 
 /// R = 1 cm, g = 9.81 m/s².
 pub(crate) fn scene(ratio: f64, restitution: f64, friction: f64) -> Scene {
-    let coin = Coin::cylinder(ratio, 0.01).expect("a good coin");
-    let surface = Surface::new(restitution, friction).expect("a good surface");
-    Scene::new(coin, surface, Scene::STANDARD_GRAVITY_M_S2).expect("good gravity")
+    let coin = Coin::cylinder(ratio, 0.01).expect("a valid coin");
+    let surface = Surface::new(restitution, friction).expect("a valid surface");
+    Scene::new(coin, surface, Scene::STANDARD_GRAVITY_M_S2).expect("valid gravity")
 }
 
 pub(crate) fn engine(scene: &Scene) -> FlatEngine<Moreau> {
-    FlatEngine::new(scene, &Settings::default(), Moreau).expect("good settings")
+    FlatEngine::new(scene, &Settings::default(), Moreau).expect("valid settings")
 }
 
 pub(crate) fn engine_with(scene: &Scene, settings: Settings) -> FlatEngine<Moreau> {
-    FlatEngine::new(scene, &settings, Moreau).expect("good settings")
+    FlatEngine::new(scene, &settings, Moreau).expect("valid settings")
 }
 
 pub(crate) fn stream(seed: u64) -> Stream {
@@ -65,8 +65,8 @@ impl Dice {
     }
 }
 
-/// A flat launch in units of D and sqrt(D/g): height of the centre, velocity, angle θ of u from
-/// the vertical, spin θ'.
+/// A planar launch in units of D and sqrt(D/g): height of the centre, velocity, angle θ of u from the
+/// vertical, angular velocity θ'.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Start {
     pub(crate) z: f64,
@@ -77,7 +77,7 @@ pub(crate) struct Start {
 }
 
 impl Start {
-    /// A toss low and lively enough for a few impacts at any e: some end on each face.
+    /// A low toss with enough energy for a few impacts at any e: each face occurs.
     pub(crate) fn lively(dice: &mut Dice) -> Self {
         Self {
             z: dice.between(1.5, 4.0),
@@ -196,7 +196,7 @@ pub(crate) fn moment(scene: &Scene, kind: EventKind, state: &State) -> Moment {
     }
 }
 
-/// The section as four points in the coin's own frame (across, along u), in units of D, and k.
+/// The section of the coin as four corners in its own frame (across, along u), in units of D, and k.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Section {
     pub(crate) radius: f64,
@@ -214,7 +214,7 @@ impl Section {
         }
     }
 
-    /// The corners seen from the centre for u = (sin θ, cos θ).
+    /// The corners relative to the centre for u = (sin θ, cos θ).
     pub(crate) fn corners(&self, theta: f64) -> [(f64, f64); 4] {
         let (sin, cos) = libm::sincos(theta);
         [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)].map(|(a, b)| {
@@ -223,13 +223,13 @@ impl Section {
         })
     }
 
-    /// How far the lowest corner lies below the centre.
+    /// Depth of the lowest corner below the centre.
     pub(crate) fn reach(&self, theta: f64) -> f64 {
         let (sin, cos) = libm::sincos(theta);
         self.radius * sin.abs() + self.half_height * cos.abs()
     }
 
-    /// What shows when the coin settles in the well of this angle.
+    /// The face on which the coin comes to rest from the well of this angle.
     pub(crate) fn face(&self, theta: f64) -> Face {
         let cos = libm::cos(theta);
         if cos.abs() <= self.half_height {

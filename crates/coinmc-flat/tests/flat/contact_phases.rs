@@ -1,9 +1,9 @@
 //! Sustained contact against Newton and Euler's equations in world coordinates.
 //!
-//! The reference knows three degrees of freedom, the corner in contact and the contact force,
-//! which it solves from a 3 × 3 system at every evaluation: F, N and the angular acceleration
-//! α with a_x = F, a_z = N − 1, kα = r_z F − r_x N. Classical Runge–Kutta in steps of 1/2000:
-//! error (ω h)⁴/120 of what is left, below 1e-12 at ω = 2.
+//! The reference has three degrees of freedom and one corner in contact. At every evaluation it solves
+//! a 3 × 3 system for F, N and the angular acceleration α with a_x = F, a_z = N − 1,
+//! kα = r_z F − r_x N. Classical Runge–Kutta in steps of 1/2000: relative error (ω h)⁴/120, below 1e-12
+//! at ω = 2.
 
 use crate::common::{Dice, Moment, Section, Start, engine_with, record, scene};
 use coinmc_core::EventKind;
@@ -13,11 +13,11 @@ use nalgebra::{Matrix3, SVector, Vector3};
 /// (x, z, θ, v_x, v_z, ω)
 pub(crate) type World = SVector<f64, 6>;
 
-/// What the corner does.
+/// The mode of the corner.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Mode {
     Stuck,
-    /// Friction −μ n N, this being μ n.
+    /// Friction −μ n N; the value is μ n.
     Slides(f64),
 }
 
@@ -58,26 +58,26 @@ impl Body {
         World::from([y[3], y[4], y[5], f[0], f[1] - 1.0, f[2]])
     }
 
-    pub(crate) fn follow(
+    pub(crate) fn integrate(
         &self,
         mut y: World,
         mode: Mode,
         time: f64,
-        mut adapter: impl FnMut(&World),
+        mut visit: impl FnMut(&World),
     ) -> World {
         // a nonnegative time of a few units: a few thousand steps
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let steps = (time * 2000.0).ceil().max(1.0) as u32;
         let h = time / f64::from(steps);
         for _ in 0..steps {
-            adapter(&y);
+            visit(&y);
             let a = self.rates(&y, mode);
             let b = self.rates(&(y + a * (h / 2.0)), mode);
             let c = self.rates(&(y + b * (h / 2.0)), mode);
             let d = self.rates(&(y + c * h), mode);
             y += (a + (b + c) * 2.0 + d) * (h / 6.0);
         }
-        adapter(&y);
+        visit(&y);
         y
     }
 
@@ -86,8 +86,9 @@ impl Body {
     }
 }
 
+/// Counts of phases and transitions, and the largest difference.
 #[derive(Default, Debug)]
-struct Seen {
+struct PhaseCounts {
     tolerance: f64,
     stuck: u32,
     slid: u32,
@@ -103,7 +104,7 @@ pub(crate) fn world(m: &Moment) -> World {
     World::from([m.x, m.z, m.theta, m.vx, m.vz, m.omega])
 }
 
-/// The corner of the phase between two observed moments, and what it does.
+/// The corner of the phase between two observed moments, and its mode.
 pub(crate) fn phase(section: &Section, mu: f64, from: &Moment, to: &Moment) -> (Body, Mode) {
     let start = world(from);
     let lowest = |theta: f64| {
@@ -112,7 +113,7 @@ pub(crate) fn phase(section: &Section, mu: f64, from: &Moment, to: &Moment) -> (
             .min_by(|a, b| corners[*a].1.total_cmp(&corners[*b].1))
             .expect("four corners")
     };
-    // at a flat start two corners are lowest: the one that stays down decides
+    // at a flat start two corners are lowest: the one that stays down counts
     let which = lowest(from.theta + (from.omega * 1e-6).clamp(-1e-6, 1e-6));
     let signs = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)][which];
     let body = Body {
@@ -124,7 +125,7 @@ pub(crate) fn phase(section: &Section, mu: f64, from: &Moment, to: &Moment) -> (
         assert!(slip.abs() < 1e-10, "sticks while it slips: {from:?}");
         Mode::Stuck
     } else {
-        // a slide that begins at rest shows its direction by where the corner gets
+        // a slide that begins at rest has the direction in which the corner has moved
         let moved = to.x + body.arm(to.theta).0 - from.x - body.arm(from.theta).0;
         let direction = if slip.abs() > 1e-10 { slip } else { moved };
         Mode::Slides(mu.copysign(direction))
@@ -133,14 +134,14 @@ pub(crate) fn phase(section: &Section, mu: f64, from: &Moment, to: &Moment) -> (
 }
 
 /// Checks the phase between two observed moments.
-fn check_phase(section: &Section, mu: f64, from: &Moment, to: &Moment, seen: &mut Seen) {
+fn check_phase(section: &Section, mu: f64, from: &Moment, to: &Moment, seen: &mut PhaseCounts) {
     let start = world(from);
     let time = to.time - from.time;
     let (body, mode) = phase(section, mu, from, to);
     let stuck = from.kind == EventKind::Sticking;
     let mut least = [f64::INFINITY; 2];
     let mut at_end = [0.0; 2];
-    let end = body.follow(start, mode, time, |y| {
+    let end = body.integrate(start, mode, time, |y| {
         let f = body.forces(y, mode);
         let spare = match mode {
             Mode::Stuck => mu * f[1] - f[0].abs(),
@@ -152,7 +153,6 @@ fn check_phase(section: &Section, mu: f64, from: &Moment, to: &Moment, seen: &mu
     let turned = (end[2] - to.theta + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU)
         - std::f64::consts::PI;
     let found = world(to);
-    // a slide that lasts meets its end in the engine's own time
     for (i, difference) in [
         (0, end[0] - found[0]),
         (1, end[1] - found[1]),
@@ -213,8 +213,8 @@ fn check_phase(section: &Section, mu: f64, from: &Moment, to: &Moment, seen: &mu
     }
 }
 
-/// On its corner, which slides and neither approaches nor leaves, and turning almost fast enough
-/// to fly (ω²cos δ from 0.5 to 1).
+/// A coin on its corner, which slides and neither approaches nor leaves, that turns almost fast enough
+/// to lift off (ω²cos δ from 0.5 to 1).
 fn touching(section: &Section, dice: &mut Dice) -> Start {
     let theta = dice.between(0.0, std::f64::consts::TAU);
     let corners = section.corners(theta);
@@ -233,12 +233,12 @@ fn touching(section: &Section, dice: &mut Dice) -> Start {
     }
 }
 
-/// Events are met to 1e-11 in their margins and slides integrated to 1e-12 a step, some tens of
-/// them: 1e-9 leaves room for what the motion itself amplifies.
+/// Events are located to 1e-11 in their margins and slides integrated to 1e-12 per step, with some tens
+/// of steps: 1e-9 leaves room for the amplification by the motion itself.
 #[test]
 fn phases_follow_newton_and_euler() {
-    let seen = follow(1e-12, 1e-9);
-    let Seen {
+    let seen = check_tosses(1e-12, 1e-9);
+    let PhaseCounts {
         stuck,
         slid,
         smooth,
@@ -256,22 +256,22 @@ fn phases_follow_newton_and_euler() {
     }
 }
 
-/// The same at the default tolerance of 1e-7 a step: some tens of steps, and slides that dwell at
-/// the balance amplify by as much again.
+/// The same at the default tolerance, with some tens of steps; slides that stay near the balance amplify
+/// the error by as much again.
 #[test]
-fn phases_at_the_default_tolerance_follow_too() {
-    follow(Settings::default().tolerance, 1e-4);
+fn phases_at_the_default_tolerance_follow_newton_and_euler() {
+    check_tosses(Settings::default().tolerance, 1e-4);
 }
 
-/// Checks all phases of a few thousand tosses with these settings, to `allowed`.
-fn follow(tolerance: f64, allowed: f64) -> Seen {
+/// Checks all phases of a few thousand tosses at this tolerance, to `allowed`.
+fn check_tosses(tolerance: f64, allowed: f64) -> PhaseCounts {
     let settings = Settings {
         tolerance,
         ..Settings::default()
     };
-    let mut seen = Seen {
+    let mut seen = PhaseCounts {
         tolerance: allowed,
-        ..Seen::default()
+        ..PhaseCounts::default()
     };
     for (ratio, mu) in [
         (1.0, 0.3),

@@ -1,4 +1,4 @@
-//! The rule of a fixed energy fraction beside the certain decision.
+//! The decision by an energy fraction compared with the decision by energy alone.
 
 use crate::common::{Section, engine, engine_with, preset, record, scene};
 use coinmc_core::{Ended, Engine, EventKind, Preset};
@@ -11,9 +11,9 @@ fn with_fraction(fraction: f64) -> Settings {
     }
 }
 
-/// The early face is that of the well in which the coin is when, after an impact or a contact
-/// phase, its energy is first seen at or below the fraction; it is overruled where the certain
-/// engine, which runs the same toss on, says otherwise.
+/// The early face is that of the well in which the coin is when its energy, after an impact or a
+/// contact phase, is first at or below the fraction. It is overruled where the engine that decides by
+/// energy alone ends the same toss on another face.
 #[test]
 fn the_early_face_is_the_well_at_that_time() {
     let mut overruled = 0;
@@ -27,28 +27,28 @@ fn the_early_face_is_the_well_at_that_time() {
         let section = Section::new(&scene);
         for fraction in [0.3, 0.05] {
             let early = engine_with(&scene, with_fraction(fraction));
-            let certain = engine(&scene);
+            let by_energy = engine(&scene);
             for toss in 0..2_000 {
                 let launch = preset(Preset::CleanFlat, &scene, 110, toss);
                 let (outcome, moments) = record(&early, &scene, &launch);
-                let reference = certain.toss(&mut (), &launch, &mut ());
+                let reference = by_energy.toss(&mut (), &launch, &mut ());
                 let below = fraction * moments[0].energy(section.k);
-                // an energy within rounding of the threshold proves nothing
+                // a toss whose energy is within rounding of the threshold proves nothing
                 if moments
                     .iter()
                     .any(|m| (m.energy(section.k) / below - 1.0).abs() < 1e-9)
                 {
                     continue;
                 }
-                let seen = moments.iter().find(|m| {
-                    let looked_at = !matches!(
+                let first_below = moments.iter().find(|m| {
+                    let is_checked = !matches!(
                         m.kind,
                         EventKind::Launched | EventKind::Sticking | EventKind::Sliding
                     );
-                    looked_at && m.energy(section.k) <= below
+                    is_checked && m.energy(section.k) <= below
                 });
                 let expected =
-                    seen.map_or(reference.ended, |m| Ended::Decided(section.face(m.theta)));
+                    first_below.map_or(reference.ended, |m| Ended::Decided(section.face(m.theta)));
                 assert_eq!(
                     outcome.ended, expected,
                     "{ratio} {restitution} {fraction} {toss}"
@@ -62,8 +62,8 @@ fn the_early_face_is_the_well_at_that_time() {
     assert!(overruled > 100, "{overruled}");
 }
 
-/// From 1 m the energy is over 70 m g D: a fraction of 0.002 of up to 500 m g D lies below the
-/// barrier, where the face is certain already.
+/// From 1 m the energy is over 70 m g D. A fraction of 0.002 of up to 500 m g D lies below the barrier,
+/// where energy alone has already decided the face.
 #[test]
 fn a_small_fraction_is_never_overruled() {
     for friction in [0.0, 0.3] {

@@ -1,9 +1,9 @@
-//! The same launch gives the same outcome: alone, in a batch, watched or not.
+//! The same launch gives the same outcome: scalar, in a batch, observed or not.
 
 use crate::common::{Recorder, engine, preset, scene, stream};
 use coinmc_core::{Engine, Preset, Tally, run_tosses};
 
-/// Every kind of contact: rocking, sliding, pivoting, frictionless, grazing, thin, thick.
+/// All kinds of contact: rocking, sliding, pivoting, frictionless, grazing, thin, thick.
 const SCENES: [(f64, f64, f64); 8] = [
     (1.0, 0.0, 0.3),
     (0.2, 0.0, 1.0),
@@ -23,9 +23,12 @@ fn an_observer_changes_nothing() {
         for toss in 0..6_500 {
             let launch = preset(Preset::CleanFlat, &scene, 90, toss);
             let mut recorder = Recorder::default();
-            let watched = engine.toss(&mut (), &launch, &mut recorder);
-            let alone = engine.toss(&mut (), &launch, &mut ());
-            assert_eq!(watched, alone, "{ratio} {restitution} {friction} {toss}");
+            let observed = engine.toss(&mut (), &launch, &mut recorder);
+            let unobserved = engine.toss(&mut (), &launch, &mut ());
+            assert_eq!(
+                observed, unobserved,
+                "{ratio} {restitution} {friction} {toss}"
+            );
             assert!(recorder.0.len() >= 2);
         }
     }
@@ -40,7 +43,7 @@ fn a_toss_does_not_depend_on_its_batch() {
         let run = |range| run_tosses(&engine, &mut (), &scene, &launches, &stream(91), range);
         let whole = run(0..2000);
         let mut merged = Tally::default();
-        // backwards and uneven
+        // in reverse order and in chunks of unequal length
         for range in [1999..2000, 700..1999, 1..700, 0..1] {
             merged.merge(&run(range));
         }

@@ -1,15 +1,15 @@
-//! Flight: no contact is missed, energy is kept, contacts are met exactly.
+//! Flight: no contact is missed, energy is conserved, contacts are located exactly.
 
 use crate::common::{Moment, Section, engine, preset, record, scene};
 use coinmc_core::{EventKind, Preset};
 
-/// The lowest point's height after `t` of flight.
+/// Height of the lowest point after a flight of `t`.
 fn gap(from: &Moment, section: &Section, t: f64) -> f64 {
     from.z + t * (from.vz - 0.5 * t) - section.reach(from.theta + from.omega * t)
 }
 
-/// The lowest gap between `begin` and `end`: 400 samples and a ternary search about each one that
-/// is lower than its neighbours and near the surface.
+/// The lowest gap between `begin` and `end`: 400 samples, and a ternary search about each sample that is
+/// lower than its neighbours and near the surface.
 fn lowest_gap(from: &Moment, section: &Section, begin: f64, end: f64) -> f64 {
     const SAMPLES: u32 = 400;
     let at = |i: u32| begin + (end - begin) * f64::from(i) / f64::from(SAMPLES);
@@ -38,11 +38,11 @@ fn lowest_gap(from: &Moment, section: &Section, begin: f64, end: f64) -> f64 {
     lowest
 }
 
-/// Times are kept to an ulp (a few 1e-14 of them late in a toss) and corners move at up to 15
-/// sqrt(gD): a gap is known to some 1e-13, so 1e-12 cannot be noise, and a contact missed by more
-/// is seen. Energy likewise: ulps of a height of 100 D against an energy of 100.
+/// Times are known to an ulp (a few 1e-14 late in a toss) and corners move at up to 15 sqrt(gD), so a
+/// gap is known to about 1e-13: 1e-12 is not noise, and a contact missed by more is detected. Energy
+/// likewise: ulps of a height of 100 D compared with an energy of 100.
 #[test]
-fn no_contact_is_missed_and_energy_is_kept() {
+fn no_contact_is_missed_and_energy_is_conserved() {
     let mut flights = 0;
     let (mut worst_gap, mut worst_energy, mut worst_touch) = (0.0_f64, 0.0_f64, 0.0_f64);
     for (number, (ratio, restitution, friction)) in [
@@ -74,7 +74,7 @@ fn no_contact_is_missed_and_energy_is_kept() {
                 }
                 flights += 1;
                 let t = to.time - from.time;
-                // above 1 nothing can touch: the samples are spent where it falls below for good
+                // above 1 nothing can touch: sample only where the centre falls below 1 for good
                 let fall = (from.vz * from.vz + 2.0 * (from.z - 1.0)).max(0.0).sqrt();
                 let rises = from.vz - fall > 0.0;
                 let begin = if rises {

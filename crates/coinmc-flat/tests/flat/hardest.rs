@@ -94,8 +94,8 @@ fn scene_and_launch(numbers: &[f64; 8]) -> (Scene, Launch) {
     (scene, launch)
 }
 
-/// Largest gain of energy beyond flight, and distance from the surface at a touch, in D, over what
-/// rounding explains of it.
+/// Largest gain of energy outside flight, and largest distance from the surface at a touch, in D, in
+/// units of what rounding explains.
 struct Worst<'a> {
     scene: &'a Scene,
     last: Option<(EventKind, f64)>,
@@ -131,11 +131,11 @@ impl Observer for Worst<'_> {
     }
 }
 
-/// A phase ωt of up to 1e6 radians a unit of time and a height of up to 1e6 D are known to ε of
-/// themselves, by the rounding of ω, t, the velocity and what is made of them, some eight roundings:
-/// that is the residual. The energy has no such excuse.
+/// A phase ωt of up to 1e6 radians per unit of time and a height of up to 1e6 D have a relative error
+/// of about eight roundings of ε, from ω, t, the velocity and their products: this is the residual. The
+/// energy has no such error.
 #[test]
-fn they_gain_nothing_and_touch_the_surface() {
+fn the_hardest_tosses_gain_no_energy_and_touch_the_surface() {
     for numbers in &HARDEST {
         let (scene, launch) = scene_and_launch(numbers);
         let settings = Settings {
@@ -150,7 +150,7 @@ fn they_gain_nothing_and_touch_the_surface() {
             last_time_s: 0.0,
             residual: 0.0,
         };
-        let alone = engine.toss(&mut (), &launch, &mut worst);
+        let scalar = engine.toss(&mut (), &launch, &mut worst);
         assert!(worst.gain < 1e-14, "{numbers:?}: {:e}", worst.gain);
         assert!(worst.residual < 8.0, "{numbers:?}: {:e}", worst.residual);
         for lanes in Lanes::ALL {
@@ -162,7 +162,7 @@ fn they_gain_nothing_and_touch_the_surface() {
                 ends.push(*outcome);
                 ControlFlow::Continue(())
             });
-            assert_eq!(ends, [alone; 9], "{lanes} {numbers:?}");
+            assert_eq!(ends, [scalar; 9], "{lanes} {numbers:?}");
         }
     }
 }

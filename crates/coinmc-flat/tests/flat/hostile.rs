@@ -1,4 +1,4 @@
-//! Any launch at all ends in bounded time, without a panic, under the right count.
+//! Every launch, however extreme, ends in bounded time, without a panic and under the right count.
 
 use crate::common::{Dice, Start, engine, engine_with, scene};
 use coinmc_core::{Ended, Engine, Launch};
@@ -7,13 +7,13 @@ use nalgebra::{UnitVector3, Vector3};
 use std::sync::mpsc;
 use std::time::Duration;
 
-/// Runs `work` on a thread of its own and fails if it has not come back in time, so that a hang
-/// is a failure and not a stuck test. Each of these takes a few seconds at most.
+/// Runs `work` on a thread of its own and fails if it does not return in time, so that a hang is a
+/// failure and not a stuck test. Each of these takes a few seconds at most.
 fn within_two_minutes(work: impl FnOnce() + Send + 'static) {
     let (done, wait) = mpsc::channel();
     let worker = std::thread::spawn(move || {
         work();
-        // nobody listens any more only when the time is up already
+        // the receiver is gone only if the time is already up
         let _ = done.send(());
     });
     match wait.recv_timeout(Duration::from_mins(2)) {
@@ -42,9 +42,9 @@ const VALUES: [f64; 17] = [
     f64::NAN,
 ];
 
-fn outrageous(dice: &mut Dice) -> Launch {
+fn extreme(dice: &mut Dice) -> Launch {
     let tame = [0.01, 0.1, 1.0, 10.0];
-    // two of the four quantities are wild, lest everything ends at once
+    // only two of the four quantities are extreme, so that not everything ends at once
     let mut numbers = [(); 4].map(|()| dice.pick(&tame));
     for _ in 0..2 {
         let which = dice.pick(&[0, 1, 2, 3]);
@@ -69,7 +69,7 @@ fn is_finite(launch: &Launch) -> bool {
 }
 
 #[test]
-fn outrageous_launches_end_and_what_is_no_number_fails() {
+fn extreme_launches_end_and_nan_fails() {
     within_two_minutes(|| {
         let settings = Settings {
             max_impacts: 1000,
@@ -82,7 +82,7 @@ fn outrageous_launches_end_and_what_is_no_number_fails() {
             let restitution = dice.pick(&[0.0, 0.5, 0.99, 1.0]);
             let friction = dice.pick(&[0.0, 0.3, 2.0, 10.0, 1e4, f64::MAX]);
             let engine = engine_with(&scene(ratio, restitution, friction), settings);
-            let launch = outrageous(&mut dice);
+            let launch = extreme(&mut dice);
             let outcome = engine.toss(&mut (), &launch, &mut ());
             let end = match outcome.ended {
                 Ended::Decided(_) => 0,
@@ -96,14 +96,14 @@ fn outrageous_launches_end_and_what_is_no_number_fails() {
             }
             assert!(outcome.impacts <= settings.max_impacts, "{trial}");
         }
-        // the trials reach every count but the balanced coin's
+        // the trials reach every count except that of the balanced coin
         assert!(ends[0] > 1000 && ends[2] > 0 && ends[3] > 1000, "{ends:?}");
     });
 }
 
-/// An axis that is no direction has no face.
+/// A NaN axis has no face.
 #[test]
-fn an_axis_that_is_no_number_fails() {
+fn a_nan_axis_fails() {
     for (height_m, restitution) in [(0.0, 0.5), (0.005, 0.5), (1.0, 0.5), (1.0, 0.0)] {
         let launch = Launch {
             height_m,
@@ -116,9 +116,9 @@ fn an_axis_that_is_no_number_fails() {
     }
 }
 
-/// Friction without bound: the cone's edge is then ill-conditioned, not the toss.
+/// Very large friction makes the edge of the cone ill-conditioned, but not the toss.
 #[test]
-fn great_friction_ends() {
+fn tosses_with_very_large_friction_end() {
     within_two_minutes(|| {
         for friction in [1e2, 1e3, 1e4, 1e6, 1e10, 1e100] {
             for (ratio, restitution) in [(0.1, 0.0), (1.0, 0.0), (1.0, 0.5), (3.0, 0.5)] {
@@ -137,7 +137,8 @@ fn great_friction_ends() {
     });
 }
 
-/// From high up, very fast, or let go inside the surface: lifted until it touches, and decided.
+/// Launches from high up, very fast, or inside the surface (these are lifted until they touch) are
+/// decided.
 #[test]
 fn high_fast_and_sunken_launches_are_decided() {
     let scene = scene(1.0, 0.5, 0.3);

@@ -1,4 +1,4 @@
-//! The laws of impact against what defines them, at random contacts.
+//! The laws of impact against their definitions, at random contacts.
 
 use crate::common::Dice;
 use coinmc_flat::{ChatterjeeRuina, ContactMatrix, ImpactLaw, Impulse, Moreau};
@@ -41,7 +41,7 @@ impl Contact {
         (self.ux + m.xx * x + m.xz * z, self.uz + m.xz * x + m.zz * z)
     }
 
-    /// The largest term in u⁺: what its rounding is measured by.
+    /// The largest term in u⁺, the scale of its rounding.
     fn size(&self, p: &Impulse) -> f64 {
         let m = self.matrix;
         let terms = [
@@ -85,9 +85,9 @@ impl Contact {
     }
 }
 
-/// Rounding: 1e-12 of the largest term (some ten operations of 1e-16, and K's condition of up to
-/// 1e3 in the solution for a stop).
-fn obeys_what_every_law_must(law: impl ImpactLaw) {
+/// Checks what every law must obey. Rounding: 1e-12 of the largest term (about ten operations of 1e-16,
+/// and a condition number of K of up to 1e3 in the impulse that stops the contact).
+fn check_requirements(law: impl ImpactLaw) {
     let mut worst = [0.0_f64; 3];
     for trial in 0..200_000 {
         let contact = Contact::random(50, trial);
@@ -123,18 +123,18 @@ fn obeys_what_every_law_must(law: impl ImpactLaw) {
 }
 
 #[test]
-fn moreau_obeys_what_every_law_must() {
-    obeys_what_every_law_must(Moreau);
+fn moreau_meets_the_requirements_of_every_law() {
+    check_requirements(Moreau);
 }
 
 #[test]
-fn chatterjee_ruina_obeys_what_every_law_must() {
-    obeys_what_every_law_must(ChatterjeeRuina);
+fn chatterjee_ruina_meets_the_requirements_of_every_law() {
+    check_requirements(ChatterjeeRuina);
 }
 
 /// All solutions of Moreau's implicit law, by brute force: for the slip σ = |u_x⁺|/(μ p_z) >= 0,
-/// p_x(σ + K_xx) + K_xz p_z = −u_x and K_xz p_x + K_zz p_z = −(1 + e)u_z, of which those with
-/// |p_x| = μ p_z slide, and the one of σ = 0 sticks if it lies within the cone.
+/// p_x(σ + K_xx) + K_xz p_z = −u_x and K_xz p_x + K_zz p_z = −(1 + e)u_z. Solutions with |p_x| = μ p_z
+/// slide; the one at σ = 0 sticks if it lies within the cone.
 fn solutions(contact: &Contact) -> Vec<(f64, f64)> {
     const POINTS: u32 = 2000;
     let m = contact.matrix;
@@ -172,10 +172,10 @@ fn solutions(contact: &Contact) -> Vec<(f64, f64)> {
     found
 }
 
-/// Moreau's impulse is one of the solutions found by brute force, slides against its friction,
-/// and gives way to Chatterjee–Ruina only where no solution exists or one gains energy. The root
-/// is found to 1e-15 of σ: 1e-9 leaves room for its condition. Contacts within 1e-6 of the cone's
-/// edge or of no gain, where either answer is right, are left out (1e-5 of them).
+/// Moreau's impulse is one of the solutions found by brute force and slides against its friction.
+/// Chatterjee–Ruina replaces it only where no solution exists or one gains energy. The root is found to
+/// 1e-15 of σ; 1e-9 leaves room for its condition. Contacts within 1e-6 of the cone's edge or of zero
+/// gain, where both answers are correct, are excluded (1e-5 of them).
 #[test]
 fn moreau_solves_the_implicit_law() {
     let (mut slides, mut sticks, mut guarded) = (0, 0, 0);
@@ -225,11 +225,11 @@ fn moreau_solves_the_implicit_law() {
     assert!(slides > 4000 && sticks > 2000 && guarded > 20);
 }
 
-/// Chatterjee & Ruina's energy balance: with p_I the frictionless plastic impulse, p_II the one
-/// that stops the contact and κ the largest share in [0, 1] within the cone (here by halving),
+/// Chatterjee & Ruina's energy balance: with p_I the frictionless plastic impulse, p_II the impulse
+/// that stops the contact and κ the largest share in [0, 1] within the cone (here by bisection),
 /// ΔE = −½(1 − e²) u_z²/K_zz − κ(1 − κ/2) |p_II − p_I|²_K.
 #[test]
-fn chatterjee_ruina_dissipates_what_it_says() {
+fn chatterjee_ruina_dissipates_the_derived_energy() {
     for trial in 0..50_000 {
         let contact = Contact::random(52, trial);
         let m = contact.matrix;

@@ -1,7 +1,8 @@
-//! Independent verification of the flat engine: each module checks one promise against something
-//! the engine does not contain. Every tolerance is derived where it stands. Seeds are fixed, so
-//! no test fails by chance; "false alarms" says how often one would under another seed.
+//! Independent verification of the planar engine: each module checks one promise against a reference
+//! that the engine does not contain. Every tolerance is derived beside it. Seeds are fixed, so no test
+//! fails by chance; "false alarms" says how often one would with another seed.
 
+mod batch;
 mod common;
 mod contact_phases;
 mod convergence;
@@ -18,5 +19,4 @@ mod oracle_friction;
 mod oracle_smooth;
 mod regressions;
 mod sampling;
-mod side_by_side;
 mod symmetry;

@@ -1,17 +1,17 @@
-//! Oracle for tosses without friction: four corners in world coordinates, the whole angle, small
-//! steps with halving at a contact. Nothing is shared with the engine but the launch.
+//! Oracle for tosses without friction: four corners in world coordinates, the full angle, small steps
+//! with bisection at a contact. It shares only the launch with the engine.
 //!
-//! Contact that lasts is a train of tiny elastic hops: a corner that would leave slower than
-//! `HOP` leaves at `HOP`. They add at most HOP²/2 = 5e-6 m g D, and end when the coin has turned
-//! enough for the surface to fall away from the corner.
+//! Sustained contact is a sequence of tiny elastic hops: a corner that would leave slower than `HOP`
+//! leaves at `HOP`. The hops add at most HOP²/2 = 5e-6 m g D, and end when the coin has turned so far
+//! that the corner leaves the surface.
 
 use crate::common::{Dice, Section, Start, engine, scene};
 use coinmc_core::{Engine, Face};
 
 /// sqrt(gD)
 const HOP: f64 = 3e-3;
-/// Longest step next to the surface, sqrt(D/g): a corner passes under the surface and out again
-/// unseen only within |f''| (STEP/2)²/2 = 1e-5 D at ω = 9.
+/// Longest step near the surface, sqrt(D/g): a corner can dip below the surface between two steps by at
+/// most |f''| (STEP/2)²/2 = 1e-5 D at ω = 9.
 const STEP: f64 = 1e-3;
 
 struct Toss {
@@ -35,7 +35,7 @@ impl Toss {
         let mut t = 0.0;
         let mut step;
         loop {
-            // no corner comes down faster than this within a time of 1
+            // no corner comes down faster within a time of 1
             let fastest = (self.vz - t).abs() + self.omega.abs() + 1.0;
             step = (self.gap(t) / fastest).clamp(STEP.min(self.hop / 2.0), 1.0);
             if self.gap(t + step) < 0.0 {
@@ -63,7 +63,7 @@ impl Toss {
         let velocity = |(rx, _): &(f64, f64)| self.vz - self.omega * rx;
         let mut corners = self.section.corners(self.theta);
         corners.sort_by(|a, b| a.1.total_cmp(&b.1));
-        // flat on an edge two touch: the one that approaches faster
+        // flat on an edge two corners touch: the one that approaches faster counts
         let second =
             corners[1].1 - corners[0].1 < 1e-10 && velocity(&corners[1]) < velocity(&corners[0]);
         let corner = corners[usize::from(second)];
@@ -78,7 +78,7 @@ impl Toss {
         self.impacts += 1;
     }
 
-    /// To the certain face: horizontal motion never comes back without friction.
+    /// To the decision by energy: without friction the energy of horizontal motion cannot come back.
     fn run(mut self) -> (Face, u32) {
         loop {
             let k = self.section.k;
@@ -113,12 +113,12 @@ fn toss(section: Section, e: f64, hop: f64, start: &Start) -> (Face, u32) {
     .run()
 }
 
-/// P(side) agrees within 3 standard errors of the paired difference (false alarms: 3e-3 a scene).
-/// At e = 0 the hops cost .0009 of P at most, in proportion to their speed (measured at ratio 1:
-/// .0015, .0009, .0005, .0002 at 2, 1, 1/2, 1/4 of `HOP`), so .0015 is allowed there. Where both
-/// count two impacts at most, before errors have grown, single tosses agree: all but 1 in 1000,
-/// whose corner grazes (see `STEP`).
-fn agrees(restitution: f64, ratio: f64, hop: f64, tosses: u64) {
+/// P(side) agrees within 3 standard errors of the paired difference (false alarms: 3e-3 per scene).
+/// At e = 0 the hops change P by at most .0009, in proportion to their speed (measured at ratio 1:
+/// .0015, .0009, .0005, .0002 at 2, 1, 1/2, 1/4 of `HOP`), so .0015 is allowed there. Where both have at
+/// most two impacts, before errors have grown, single tosses agree, except for 1 in 1000 whose corner
+/// grazes (see `STEP`).
+fn assert_agrees(restitution: f64, ratio: f64, hop: f64, tosses: u64) {
     let scene = scene(ratio, restitution, 0.0);
     let (engine, section) = (engine(&scene), Section::new(&scene));
     let (mut up, mut down, mut sides) = (0_u32, 0_u32, 0_u32);
@@ -164,22 +164,22 @@ fn bouncing_coins_agree() {
         (0.7, 1.0),
         (0.7, 1.5),
     ] {
-        agrees(restitution, ratio, HOP, 20_000);
+        assert_agrees(restitution, ratio, HOP, 20_000);
     }
 }
 
 #[test]
 fn coins_that_do_not_bounce_agree() {
     for ratio in [0.5, 1.0, 1.5] {
-        agrees(0.0, ratio, HOP, 20_000);
+        assert_agrees(0.0, ratio, HOP, 20_000);
     }
 }
 
-/// What `HOP` costs: not part of every run.
+/// The error that `HOP` causes: not part of every run.
 #[test]
-#[ignore = "minutes: run by hand after a change of the oracle"]
+#[ignore = "takes minutes: run by hand after a change of the oracle"]
 fn the_hops_are_low_enough() {
     for hop in [2.0 * HOP, HOP, HOP / 2.0, HOP / 4.0] {
-        agrees(0.0, 1.0, hop, 20_000);
+        assert_agrees(0.0, 1.0, hop, 20_000);
     }
 }

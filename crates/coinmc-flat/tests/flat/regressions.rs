@@ -14,7 +14,7 @@ fn is_decided(preset: Preset, (ratio, e, mu): (f64, f64, f64), point: u64, toss:
 
 /// With e = 0 and ω²cos δ = 1 to five digits the corner neither rises nor falls after the impact.
 #[test]
-fn a_corner_that_hovers_after_an_impact_is_left_behind() {
+fn a_corner_that_hovers_after_an_impact_does_not_stall() {
     for (scene, toss) in [
         ((1.0, 0.0, 0.0), 28_275),
         ((10.0, 0.0, 0.1), 469_505),
@@ -32,7 +32,7 @@ fn a_corner_that_hovers_after_an_impact_is_left_behind() {
     }
 }
 
-/// The friction that sticking needs touches the cone and falls back.
+/// The friction that sticking needs touches the cone and falls again.
 #[test]
 fn friction_that_grazes_the_cone_does_not_stall() {
     assert!(is_decided(Preset::Robot, (2.0, 0.3, 0.3), 91, 17_473));

@@ -1,4 +1,4 @@
-//! The coin between events: where the laws of motion put it, and without a trace in the toss.
+//! The coin between events obeys the laws of motion, and sampling does not change the toss.
 
 use crate::common::{
     Dice, Moment, Recorder, Sampler, Section, Start, engine, engine_with, moment, preset, scene,
@@ -7,7 +7,7 @@ use crate::contact_phases::{phase, world};
 use coinmc_core::{Engine, Event, EventKind, Launch, Observer, Outcome, Preset, Scene, State};
 use coinmc_flat::{FlatEngine, Moreau, Settings};
 
-/// Every kind of motion: rocking, sliding, pivoting, frictionless, bouncing, thin, thick.
+/// All kinds of motion: rocking, sliding, pivoting, frictionless, bouncing, thin, thick.
 const SCENES: [(f64, f64, f64); 6] = [
     (1.0, 0.0, 0.3),
     (0.2, 0.0, 1.0),
@@ -65,7 +65,7 @@ fn a_sample_does_not_depend_on_the_others() {
     }
 }
 
-/// The pieces of a toss: from an event, through samples, to the next event.
+/// The pieces of a toss: an event, the samples after it, the next event.
 fn pieces(scene: &Scene, sampler: &Sampler) -> Vec<(Moment, Vec<Moment>, Moment)> {
     let moments = |events: &[Event]| -> Vec<Moment> {
         events
@@ -87,13 +87,14 @@ fn pieces(scene: &Scene, sampler: &Sampler) -> Vec<(Moment, Vec<Moment>, Moment)
         .collect()
 }
 
-fn off(a: f64, b: f64) -> f64 {
+/// The difference of two angles, in [−π, π).
+fn angle_between(a: f64, b: f64) -> f64 {
     let turn = std::f64::consts::TAU;
     (a - b + turn / 2.0).rem_euclid(turn) - turn / 2.0
 }
 
-/// Flights are parabolas with an even turn. A toss lasts some 20 sqrt(D/g), in which angle and
-/// height are known to some 1e-14: 1e-12 is a hundred times that.
+/// Flights are parabolas with constant spin. A toss lasts about 20 sqrt(D/g), in which angle and height
+/// are known to about 1e-14: 1e-12 is a hundred times that.
 #[test]
 fn flights_are_parabolas() {
     let (mut seen, mut worst, mut worst_energy) = (0, 0.0_f64, 0.0_f64);
@@ -116,7 +117,7 @@ fn flights_are_parabolas() {
                         m.z - (from.z + t * (from.vz - 0.5 * t)),
                         m.vz - (from.vz - t),
                         m.vx - from.vx,
-                        off(m.theta, from.theta + from.omega * t),
+                        angle_between(m.theta, from.theta + from.omega * t),
                         m.omega - from.omega,
                     ] {
                         worst = worst
@@ -180,9 +181,9 @@ fn contacts(tolerance: f64) -> Contacts {
         seen.stuck > 500 && seen.slid > 500 && seen.smooth > 500,
         "{seen:?}"
     );
-    // heights are sums of doubles of the size of the coin
+    // heights are sums of numbers of the size of the coin
     assert!(seen.rim_m < 1e-16, "{seen:?}");
-    // a part of a step and the whole of it err by themselves: within the tolerance, if it is coarse
+    // a part of a step and the whole step have separate errors within the tolerance
     assert!(seen.rise < 1e-11, "{seen:?}");
     seen
 }
@@ -198,12 +199,12 @@ fn contact(
     let (body, mode) = phase(section, mu, from, to);
     let (mut y, mut time, mut energy) = (world(from), from.time, from.energy(section.k));
     for m in within {
-        y = body.follow(y, mode, m.time - time, |_| {});
+        y = body.integrate(y, mode, m.time - time, |_| {});
         time = m.time;
         let found = world(m);
         for i in 0..6 {
             let error = if i == 2 {
-                off(y[2], found[2])
+                angle_between(y[2], found[2])
             } else {
                 y[i] - found[i]
             };
@@ -220,17 +221,17 @@ fn contact(
     }
 }
 
-/// The reference is good to 1e-12, an angle's time is inverted to 1e-10, and slides are integrated
-/// to 1e-12 a step: 1e-9 leaves room for what the motion amplifies.
+/// The reference is accurate to 1e-12, the angle at a time to 1e-10, and slides are integrated to 1e-12
+/// per step: 1e-9 leaves room for the amplification by the motion.
 #[test]
 fn contact_follows_newton_and_euler() {
     let seen = contacts(1e-12);
     assert!(seen.worst < 1e-9, "{seen:?}");
 }
 
-/// As in the test of the phases' ends.
+/// As in the test of whole phases.
 #[test]
-fn contact_at_the_default_tolerance_follows_too() {
+fn contact_at_the_default_tolerance_follows_newton_and_euler() {
     let seen = contacts(Settings::default().tolerance);
     assert!(seen.worst < 1e-4, "{seen:?}");
 }
@@ -255,8 +256,8 @@ impl Observer for Instants {
     }
 }
 
-/// A nanosecond from an event the coin is where the event has it, but for its motion in that time
-/// and the error of the step that led there: 1e-10 of a unit.
+/// A nanosecond from an event the coin is where it is at the event, up to its motion in that time and
+/// the error of the step: 1e-10 of a unit.
 #[test]
 fn samples_join_the_events() {
     const NEAR: f64 = 1e-9;
@@ -302,7 +303,7 @@ fn samples_join_the_events() {
                 for (difference, rate) in [
                     (a.x - b.x, speed),
                     (a.z - b.z, speed),
-                    (off(a.theta, b.theta), speed),
+                    (angle_between(a.theta, b.theta), speed),
                     // contact accelerates by some (1 + ω²)(1 + μ)/k
                     (a.vx - b.vx, 100.0 * speed * speed),
                     (a.omega - b.omega, 100.0 * speed * speed),

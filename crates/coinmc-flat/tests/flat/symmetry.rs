@@ -14,7 +14,7 @@ const SCENES: [(f64, f64, f64); 7] = [
     (10.0, 0.0, 0.0),
 ];
 
-fn turned(face: Option<Face>) -> Option<Face> {
+fn flipped_face(face: Option<Face>) -> Option<Face> {
     face.map(|face| match face {
         Face::Heads => Face::Tails,
         Face::Tails => Face::Heads,
@@ -22,7 +22,7 @@ fn turned(face: Option<Face>) -> Option<Face> {
     })
 }
 
-/// The coin's two faces are alike to the last bit, so everything but the name agrees.
+/// The computation is bit-identical for the two faces, so only the name of the face differs.
 #[test]
 fn heads_and_tails_exchange_exactly() {
     for (ratio, restitution, friction) in SCENES {
@@ -36,7 +36,11 @@ fn heads_and_tails_exchange_exactly() {
             };
             let a = engine.toss(&mut (), &launch, &mut ());
             let b = engine.toss(&mut (), &flipped, &mut ());
-            assert_eq!(turned(a.face()), b.face(), "{ratio} {restitution} {toss}");
+            assert_eq!(
+                flipped_face(a.face()),
+                b.face(),
+                "{ratio} {restitution} {toss}"
+            );
             let counts = |o: &Outcome| (o.impacts, o.contact_steps, o.jams);
             assert_eq!(counts(&a), counts(&b));
         }
@@ -55,10 +59,10 @@ fn paired(differences: &[f64]) -> (f64, f64) {
     (mean, (square / n).sqrt())
 }
 
-/// Left and right differ in rounding (1e-16), which an impact amplifies less than a
-/// thousandfold: tosses of up to three impacts without sliding agree (1e-16·1e9 against launches
-/// that come within 1e-7 of a change, of which 2000 hold 2e-4). The rest agrees on average: 4
-/// standard errors, false alarms 6e-5 a scene.
+/// Left and right differ in rounding (1e-16), which an impact amplifies less than a thousandfold. So
+/// tosses of up to three impacts without sliding agree: 1e-16·1e9 compared with launches within 1e-7 of
+/// a change, of which 2000 contain 2e-4. The others agree on average: 4 standard errors, false alarms
+/// 6e-5 per scene.
 #[test]
 fn left_and_right_are_alike() {
     for (ratio, restitution, friction) in SCENES {
@@ -107,22 +111,22 @@ fn scaled(launch: &Launch, length: f64, time: f64) -> Launch {
     }
 }
 
-/// Lengths × 4 with times × 2, gravity × 4 with times / 2, and any mass: powers of two (and a
-/// mass that cancels) change no bit of the dimensionless toss.
+/// Lengths × 4 with times × 2, gravity × 4 with times / 2, and any mass: powers of two, and a mass that
+/// cancels, leave the dimensionless toss bit-identical.
 #[test]
 fn size_gravity_and_mass_do_not_matter() {
     let surface = Surface::new(0.5, 0.3).unwrap();
-    let of = |radius_m, gravity, mass_kg| {
+    let scene_of = |radius_m, gravity, mass_kg| {
         let coin = Coin::cylinder(1.3, radius_m).unwrap();
         let coin = coin.with_mass(mass_kg).unwrap();
         Scene::new(coin, surface, gravity).unwrap()
     };
-    let base = of(0.01, 9.81, 0.01);
+    let base = scene_of(0.01, 9.81, 0.01);
     let others = [
-        (of(0.04, 9.81, 0.01), 4.0, 2.0),
-        (of(0.01, 4.0 * 9.81, 0.01), 1.0, 0.5),
-        (of(0.01, 9.81, 7.3), 1.0, 1.0),
-        (of(0.0025, 9.81, 0.3), 0.25, 0.5),
+        (scene_of(0.04, 9.81, 0.01), 4.0, 2.0),
+        (scene_of(0.01, 4.0 * 9.81, 0.01), 1.0, 0.5),
+        (scene_of(0.01, 9.81, 7.3), 1.0, 1.0),
+        (scene_of(0.0025, 9.81, 0.3), 0.25, 0.5),
     ];
     let reference = engine(&base);
     for (other, length, time) in others {
@@ -136,8 +140,8 @@ fn size_gravity_and_mass_do_not_matter() {
     }
 }
 
-/// Lengths × 3: rounding differs, and changes the face only of launches that come within some
-/// 1e-12 of a change: none of 20,000 at e = 0 (three would say that something else differs).
+/// Lengths × 3: rounding differs, and changes the face only of launches within about 1e-12 of a change:
+/// none of 20,000 at e = 0 (three would mean that something else differs).
 #[test]
 fn an_odd_scale_does_not_matter() {
     let small = scene(1.3, 0.0, 0.3);

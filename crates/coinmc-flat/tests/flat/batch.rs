@@ -1,4 +1,4 @@
-//! Tosses side by side end to the bit as they do one after the other.
+//! Batches of tosses are bit-identical to the scalar path.
 
 use crate::common::{Dice, Start, preset, scene};
 use coinmc_core::{Ended, Engine, Face, Landing, Launch, Outcome, Preset, Scene};
@@ -14,8 +14,8 @@ fn launches(scene: &Scene, named: Preset, count: u64) -> Vec<Launch> {
         .collect()
 }
 
-/// Low starts with sideways velocity: many begin below the height from which they can touch, and
-/// they slide and rock.
+/// Low launches with horizontal velocity: many start below the height at which contact is possible,
+/// and they slide and rock.
 fn lively(scene: &Scene, count: u64) -> Vec<Launch> {
     let start = |toss| {
         let dice = &mut Dice::new(701, toss);
@@ -33,14 +33,14 @@ fn engine(scene: &Scene, settings: &Settings) -> AnyFlatEngine {
     AnyFlatEngine::new(scene, settings).expect("good settings")
 }
 
-/// Every toss by its number.
-fn together(engine: &AnyFlatEngine, launches: &[Launch]) -> Vec<Outcome> {
+/// The outcomes of a batch, by the number of the toss.
+fn batch_outcomes(engine: &AnyFlatEngine, launches: &[Launch]) -> Vec<Outcome> {
     let mut outcomes = vec![None; launches.len()];
     engine.toss_all(&mut (), launches.iter().copied(), |number, outcome| {
         let index = usize::try_from(number).expect("a small number");
         assert!(
             outcomes[index].replace(*outcome).is_none(),
-            "toss {number} twice"
+            "toss {number} reported twice"
         );
         ControlFlow::Continue(())
     });
@@ -48,43 +48,43 @@ fn together(engine: &AnyFlatEngine, launches: &[Launch]) -> Vec<Outcome> {
     outcomes.expect("every toss ends")
 }
 
-/// How many tosses are told of to one who breaks off after `enough`.
-fn told(engine: &AnyFlatEngine, launches: impl Iterator<Item = Launch>, enough: u64) -> u64 {
-    let mut told = 0;
+/// The number of tosses that are reported if the caller stops after `enough`.
+fn reported(engine: &AnyFlatEngine, launches: impl Iterator<Item = Launch>, enough: u64) -> u64 {
+    let mut reported = 0;
     engine.toss_all(&mut (), launches, |_, _| {
-        told += 1;
-        if told == enough {
+        reported += 1;
+        if reported == enough {
             ControlFlow::Break(())
         } else {
             ControlFlow::Continue(())
         }
     });
-    told
+    reported
 }
 
-/// Compares every kind of lanes with the single toss.
-fn agree(scene: &Scene, settings: &Settings, launches: &[Launch]) -> Vec<Outcome> {
+/// Compares every kind of lanes with the scalar path; returns the outcomes.
+fn assert_lanes_agree(scene: &Scene, settings: &Settings, launches: &[Launch]) -> Vec<Outcome> {
     let engine = engine(scene, settings);
-    let single = |launch| engine.toss(&mut (), launch, &mut ());
-    let alone: Vec<Outcome> = launches.iter().map(single).collect();
+    let scalar_toss = |launch| engine.toss(&mut (), launch, &mut ());
+    let scalar: Vec<Outcome> = launches.iter().map(scalar_toss).collect();
     for lanes in Lanes::ALL {
         let Ok(engine) = engine.clone().with_lanes(lanes) else {
-            println!("SKIPPED: this processor has no {lanes}");
+            println!("SKIPPED: this processor does not support {lanes} lanes");
             continue;
         };
-        let outcomes = together(&engine, launches);
-        for (i, (outcome, alone)) in outcomes.iter().zip(&alone).enumerate() {
+        let outcomes = batch_outcomes(&engine, launches);
+        for (i, (outcome, scalar)) in outcomes.iter().zip(&scalar).enumerate() {
             assert_eq!(
-                outcome, alone,
+                outcome, scalar,
                 "{lanes} toss {i} of {scene:?}: {:?}",
                 launches[i]
             );
         }
     }
-    alone
+    scalar
 }
 
-/// Without losses a toss never ends by itself.
+/// Without losses a toss never ends by itself, so the impacts are limited.
 fn bounded(law: Law) -> Settings {
     Settings {
         law,
@@ -102,9 +102,13 @@ fn every_shape_and_surface() {
                 let scene = scene(ratio, e, mu);
                 for law in Law::RIGID {
                     let settings = bounded(law);
-                    let mut outcomes = agree(&scene, &settings, &lively(&scene, 50));
+                    let mut outcomes = assert_lanes_agree(&scene, &settings, &lively(&scene, 50));
                     for preset in [Preset::CleanFlat, Preset::Robot] {
-                        outcomes.extend(agree(&scene, &settings, &launches(&scene, preset, 25)));
+                        outcomes.extend(assert_lanes_agree(
+                            &scene,
+                            &settings,
+                            &launches(&scene, preset, 25),
+                        ));
                     }
                     let side = Ended::Decided(Face::Side);
                     sides += outcomes.iter().filter(|o| o.ended == side).count();
@@ -113,12 +117,12 @@ fn every_shape_and_surface() {
             }
         }
     }
-    // all kinds of histories are among them
+    // all kinds of motion are among them
     assert!(sides > 1000 && steps > 10_000, "{sides} {steps}");
 }
 
 #[test]
-fn laws_that_are_more_than_an_impulse() {
+fn laws_with_a_duration() {
     let materials = Materials {
         coin_young_pa: 1e8,
         coin_poisson: 0.3,
@@ -142,7 +146,7 @@ fn laws_that_are_more_than_an_impulse() {
     ];
     let scene = scene(1.2, 0.5, 0.0);
     for law in laws {
-        agree(&scene, &bounded(law), &launches(&scene, Preset::Robot, 60));
+        assert_lanes_agree(&scene, &bounded(law), &launches(&scene, Preset::Robot, 60));
     }
 }
 
@@ -153,15 +157,15 @@ fn adhesive_landings() {
         scene.surface = scene.surface.with_landing(Landing::Adhesive);
         for preset in [Preset::CleanFlat, Preset::Robot] {
             let launches = launches(&scene, preset, 2000);
-            let outcomes = agree(&scene, &Settings::default(), &launches);
+            let outcomes = assert_lanes_agree(&scene, &Settings::default(), &launches);
             assert!(outcomes.iter().all(|outcome| outcome.face().is_some()));
         }
-        agree(&scene, &Settings::default(), &lively(&scene, 1000));
+        assert_lanes_agree(&scene, &Settings::default(), &lively(&scene, 1000));
     }
 }
 
 #[test]
-fn few_impacts_and_a_share_of_the_energy() {
+fn impact_limits_and_energy_fractions() {
     let scene = scene(1.2, 0.8, 0.3);
     let launches = launches(&scene, Preset::CleanFlat, 300);
     for max_impacts in [1, 2, 5] {
@@ -169,7 +173,7 @@ fn few_impacts_and_a_share_of_the_energy() {
             max_impacts,
             ..Settings::default()
         };
-        let outcomes = agree(&scene, &settings, &launches);
+        let outcomes = assert_lanes_agree(&scene, &settings, &launches);
         let given_up = |outcome: &&Outcome| outcome.ended == Ended::ImpactLimit;
         assert!(outcomes.iter().filter(given_up).count() > 100);
     }
@@ -177,13 +181,13 @@ fn few_impacts_and_a_share_of_the_energy() {
         decision: Decision::EnergyFraction(0.05),
         ..Settings::default()
     };
-    agree(&scene, &settings, &launches);
+    assert_lanes_agree(&scene, &settings, &launches);
 }
 
 #[test]
-fn launches_that_no_one_would_make() {
+fn extreme_launches() {
     let scene = scene(1.2, 0.5, 0.3);
-    let odd = [
+    let extreme = [
         0.0,
         -0.0,
         1.0,
@@ -196,8 +200,8 @@ fn launches_that_no_one_would_make() {
         f64::NAN,
     ];
     let mut launches = Vec::new();
-    for a in odd {
-        for b in odd {
+    for a in extreme {
+        for b in extreme {
             let start = Start {
                 z: 1.5,
                 vx: 0.5,
@@ -230,26 +234,30 @@ fn launches_that_no_one_would_make() {
             launches.extend(starts.map(|start| start.launch(&scene)));
         }
     }
-    agree(&scene, &bounded(Law::Moreau), &launches);
+    assert_lanes_agree(&scene, &bounded(Law::Moreau), &launches);
 }
 
 #[test]
-fn breaking_off_and_fewer_tosses_than_lanes() {
+fn early_stops_and_fewer_tosses_than_lanes() {
     let scene = scene(1.2, 0.5, 0.3);
     let launches = launches(&scene, Preset::Robot, 1000);
     for count in [0, 1, 3, 70] {
-        agree(&scene, &Settings::default(), &launches[..count]);
+        assert_lanes_agree(&scene, &Settings::default(), &launches[..count]);
     }
     for lanes in Lanes::ALL {
         let Ok(engine) = engine(&scene, &Settings::default()).with_lanes(lanes) else {
             continue;
         };
-        assert_eq!(told(&engine, launches.iter().copied(), 300), 300, "{lanes}");
+        assert_eq!(
+            reported(&engine, launches.iter().copied(), 300),
+            300,
+            "{lanes}"
+        );
     }
 }
 
 #[test]
-fn launches_that_end_at_once_are_told_while_others_go_on() {
+fn launches_that_end_at_once_are_reported_while_others_fly() {
     let scene = scene(1.2, 0.5, 0.3);
     let mut resting = preset(Preset::Robot, &scene, 700, 0);
     resting.height_m = 0.0;
@@ -259,14 +267,14 @@ fn launches_that_end_at_once_are_told_while_others_go_on() {
         .iter()
         .flat_map(|&fly| [resting, fly, resting])
         .collect();
-    let outcomes = agree(&scene, &Settings::default(), &mixed);
+    let outcomes = assert_lanes_agree(&scene, &Settings::default(), &mixed);
     assert!(outcomes[0].impacts == 0 && outcomes[0].face().is_some());
     for lanes in Lanes::ALL {
         let Ok(engine) = engine(&scene, &Settings::default()).with_lanes(lanes) else {
             continue;
         };
-        // of an never_settles number of them, none may be kept until the others have ended
-        let never_settles = flying.iter().copied().chain(std::iter::repeat(resting));
-        assert_eq!(told(&engine, never_settles, 100_000), 100_000, "{lanes}");
+        // without end: none may be held back until the others have ended
+        let endless = flying.iter().copied().chain(std::iter::repeat(resting));
+        assert_eq!(reported(&engine, endless, 100_000), 100_000, "{lanes}");
     }
 }
