@@ -1,4 +1,4 @@
-//! A robot that speaks another version of the protocol is refused, with what to do about it.
+//! A robot with another version of the protocol is rejected with a remedy.
 #![cfg(unix)]
 
 use coinmc_link::{Decoder, Greeting, Reply, Request, State, Version};
@@ -9,7 +9,7 @@ use std::fs::{File, OpenOptions};
 use std::io::{Read, Write};
 use std::thread;
 
-/// Answers every Hello as a robot of protocol 9.1 does, until nobody holds the line.
+/// Replies to every Hello like a robot with protocol 9.1, until the host closes the port.
 fn answer(mut line: File) {
     let mut decoder = Decoder::new();
     let mut bytes = [0; 64];
@@ -35,13 +35,13 @@ fn answer(mut line: File) {
 }
 
 #[test]
-fn a_robot_of_another_protocol_version_is_refused() {
+fn a_robot_of_another_protocol_version_is_rejected() {
     let line = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).expect("a pseudo-terminal");
     grantpt(&line).expect("it is ours");
     unlockpt(&line).expect("it is ours");
     let name = ptsname(&line, Vec::new()).expect("it has a name");
     let name = name.into_string().expect("in ASCII");
-    // held, so that the line is there before the host and until it has gone
+    // kept open, so that the port exists as long as the host
     let port = OpenOptions::new().read(true).write(true).open(&name);
     let port = port.expect("it opens");
     let mut settings = tcgetattr(&port).expect("a terminal");

@@ -1,5 +1,5 @@
-//! A simulated robot and its host as processes: noise, resets, unpluggings and kills, and every bad
-//! input that a person can give.
+//! A simulated robot and its host as processes: noise, resets, disconnections and kills, and every
+//! kind of bad input.
 #![cfg(unix)]
 
 use coinmc_core::Face;
@@ -15,17 +15,17 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
-/// How long anything may take before the test gives up.
-const PATIENCE: Duration = Duration::from_mins(1);
+/// Time limit of every step.
+const TIMEOUT: Duration = Duration::from_mins(1);
 
-/// A simulated robot; it ends with this.
+/// A simulated robot, which ends when dropped.
 struct Robot {
     child: Child,
     input: ChildStdin,
 }
 
 impl Robot {
-    fn tell(&mut self, command: &str) {
+    fn send(&mut self, command: &str) {
         writeln!(self.input, "{command}").expect("the robot listens");
     }
 }
@@ -141,17 +141,17 @@ impl Bench {
                 host.try_wait().expect("a child").is_none(),
                 "the host ended before {throw}"
             );
-            assert!(begun.elapsed() < PATIENCE, "throw {throw} never comes");
+            assert!(begun.elapsed() < TIMEOUT, "throw {throw} never comes");
             sleep(Duration::from_millis(2));
         }
     }
 
-    /// The journal against what happened; how many are done, and how many void.
+    /// Compares the journal with the true outcomes; returns the number of done and of void throws.
     fn audit(&self, out: &str) -> (u32, u32) {
         let directory = Directory::at(&self.path(out));
         let experiment: Experiment = directory.experiment().expect("a config");
         let (_, history) = Journal::read(&directory.journal()).expect("a journal");
-        let truths = read_truths(&self.path("truth.jsonl")).expect("the side file");
+        let truths = read_truths(&self.path("truth.jsonl")).expect("the truth file");
         assert_eq!(history.throws().len(), self.throws as usize);
         let (mut done, mut void) = (0, 0);
         for (number, throw) in (0..).zip(history.throws()) {
@@ -180,12 +180,12 @@ impl Bench {
     }
 }
 
-/// Output of a process that ends by itself.
+/// Output of a process once it has ended.
 fn finish(mut command: Command) -> Output {
     let mut child = command.spawn().expect("it starts");
     let begun = Instant::now();
     while child.try_wait().expect("a child").is_none() {
-        if begun.elapsed() > PATIENCE {
+        if begun.elapsed() > TIMEOUT {
             let _ = child.kill();
             panic!("it does not end: {:?}", child.wait_with_output());
         }
@@ -199,7 +199,7 @@ fn text(output: &Output) -> String {
     String::from_utf8_lossy(&both).into_owned()
 }
 
-fn refused(command: Command, words: &[&str]) {
+fn assert_rejected(command: Command, words: &[&str]) {
     let output = finish(command);
     let text = text(&output);
     assert_eq!(output.status.code(), Some(2), "{text}");
@@ -209,7 +209,7 @@ fn refused(command: Command, words: &[&str]) {
 }
 
 #[test]
-fn nothing_is_lost_or_doubled_through_noise_resets_unpluggings_and_kills() {
+fn noise_resets_disconnections_and_kills_lose_or_double_no_throw() {
     let bench = Bench::new(40);
     let mut robot = bench.robot(&["--noise", "0.01", "--seed", "3"]);
     let quiet = ["--quiet", "--most-voids", "40"];
@@ -232,13 +232,13 @@ fn nothing_is_lost_or_doubled_through_noise_resets_unpluggings_and_kills() {
             host.wait().expect("a child");
             host = bench.resume("day", &quiet).spawn().expect("it starts");
         } else {
-            robot.tell(mishap);
+            robot.send(mishap);
         }
     }
     let output = host.wait_with_output().expect("its output");
     assert!(output.status.success(), "{}", text(&output));
     let (done, void) = bench.audit("day");
-    // at most one throw for each of the ten mishaps
+    // each of the ten faults costs at most one throw
     assert!(done >= 30 && done + void == 40, "{done} done, {void} void");
     // again: nothing is left to do
     let output = finish(bench.resume("day", &[]));
@@ -248,7 +248,7 @@ fn nothing_is_lost_or_doubled_through_noise_resets_unpluggings_and_kills() {
         text(&output)
     );
 
-    // tables come from the journal: the same as for simulated runs, and a row a throw
+    // tables from the journal: the same as for simulated runs, and one row per throw
     let mut export = command(bench.dir.path());
     export.args(["robot", "export", "day"]);
     assert!(export.output().expect("it starts").status.success());
@@ -268,7 +268,7 @@ fn nothing_is_lost_or_doubled_through_noise_resets_unpluggings_and_kills() {
 }
 
 #[test]
-fn a_camera_that_hangs_dies_and_sees_nothing_holds_nothing_up() {
+fn a_camera_that_hangs_ends_or_reads_nothing_does_not_block_the_experiment() {
     let bench = Bench::new(12);
     let _robot = bench.robot(&[]);
     let camera = Bench::camera("--hang 0.1 --die 0.15 --unread 0.2");
@@ -288,10 +288,10 @@ fn a_camera_that_hangs_dies_and_sees_nothing_holds_nothing_up() {
 }
 
 #[test]
-fn a_photo_that_comes_too_late_is_not_the_next_throws() {
+fn a_late_photo_is_not_taken_for_the_next_throw() {
     let bench = Bench::new(8);
     let mut robot = bench.robot(&[]);
-    // every request takes 0.15 s to reach the camera: a photo is under way when the robot is reset
+    // every request takes 0.15 s to reach the camera: a photo is pending when the robot is reset
     let camera = format!(
         "while read -r line; do sleep 0.15; echo \"$line\"; done | ({})",
         Bench::camera("")
@@ -303,7 +303,7 @@ fn a_photo_that_comes_too_late_is_not_the_next_throws() {
     for throw in [2, 5] {
         bench.wait_for(throw, &mut host);
         sleep(Duration::from_millis(120));
-        robot.tell("reset");
+        robot.send("reset");
     }
     let output = host.wait_with_output().expect("its output");
     assert!(output.status.success(), "{}", text(&output));
@@ -312,9 +312,9 @@ fn a_photo_that_comes_too_late_is_not_the_next_throws() {
 }
 
 #[test]
-fn strangers_are_refused_with_what_to_do() {
+fn bad_input_is_rejected_with_a_remedy() {
     let bench = Bench::new(4);
-    refused(bench.run("day", &[]), &["no port", "coinmc robot ports"]);
+    assert_rejected(bench.run("day", &[]), &["no port", "coinmc robot ports"]);
     let mut robot = bench.robot(&[]);
 
     // out of range
@@ -323,45 +323,45 @@ fn strangers_are_refused_with_what_to_do() {
         "robot", "throw", "--port", "port", "--spin", "5.1", "--angle", "90",
     ]);
     throw.stdout(Stdio::piped()).stderr(Stdio::piped());
-    refused(throw, &["5.1 rev/s", "0 to 5"]);
+    assert_rejected(throw, &["5.1 rev/s", "0 to 5"]);
     let spin = "launch.spin={about={axis=[0,1,0], rate_rad_s={uniform={from=0, to=40}}}}";
-    refused(
+    assert_rejected(
         bench.run("wide", &["--set", spin]),
         &["launch.spin", "5 rev/s"],
     );
 
-    // a robot that was used for something else
+    // a robot that was used for another experiment
     let mut throw = command(bench.dir.path());
     throw.args([
         "robot", "throw", "--port", "port", "--spin", "1", "--angle", "90",
     ]);
     assert!(throw.output().expect("it starts").status.success());
-    refused(
+    assert_rejected(
         bench.run("day", &[]),
-        &["counted 1 throws, this journal 0", "--adopt"],
+        &["counted 1 throws and this journal 0", "--adopt"],
     );
     let output = finish(bench.resume("day", &["--adopt"]));
     assert!(output.status.success(), "{}", text(&output));
 
     // another experiment's journal
-    refused(
+    assert_rejected(
         bench.run("day", &["--set", "seed=9"]),
         &["another experiment", "--out"],
     );
 
-    // damage that is not at the end
+    // damage before the end
     let journal = bench.path("day/journal.txt");
     let whole = fs::read_to_string(&journal).expect("a journal");
     fs::write(&journal, whole.replacen("I 2 ", "I 3 ", 1)).expect("writable");
-    refused(
+    assert_rejected(
         bench.resume("day", &[]),
         &["line 3 is damaged", "head -n 2"],
     );
-    // and one that is
+    // and at the end
     fs::write(&journal, &whole[..whole.len() - 5]).expect("writable");
     let output = finish(bench.resume("day", &[]));
     assert!(
-        output.status.success() && text(&output).contains("cut off"),
+        output.status.success() && text(&output).contains("incomplete"),
         "{}",
         text(&output)
     );
@@ -371,17 +371,17 @@ fn strangers_are_refused_with_what_to_do() {
     let longer = ["--set", "stop.tosses=1000", "--adopt"];
     let mut host = bench.run("long", &longer).spawn().expect("it starts");
     bench.wait_for(8, &mut host);
-    refused(
+    assert_rejected(
         bench.run("other", &["--adopt"]),
         &["in use by another program"],
     );
     let _ = host.kill();
     let _ = host.wait();
-    robot.tell("quit");
+    robot.send("quit");
 }
 
 #[test]
-fn a_full_disk_stops_the_host_before_the_throw_and_it_goes_on_later() {
+fn a_full_disk_stops_the_host_before_the_throw_and_it_can_resume() {
     let bench = Bench::new(12);
     let _robot = bench.robot(&[]);
     let script = "trap '' XFSZ; ulimit -f 1; exec \"$0\" \"$@\"";
@@ -407,14 +407,14 @@ fn a_full_disk_stops_the_host_before_the_throw_and_it_goes_on_later() {
     assert_eq!(done + void, 12);
 }
 
-/// Whether a file is there that ends as the format says.
+/// Whether the file exists and has the end of a finished recording.
 fn is_whole_recording(path: &Path) -> bool {
     fs::read(path)
         .is_ok_and(|bytes| bytes.starts_with(b"\x89MCAP0\r\n") && bytes.ends_with(b"\x89MCAP0\r\n"))
 }
 
 #[test]
-fn sessions_are_recorded_one_file_each() {
+fn every_session_is_recorded_in_a_file_of_its_own() {
     let bench = Bench::new(3);
     let _robot = bench.robot(&[]);
     assert!(finish(bench.run("day", &[])).status.success());

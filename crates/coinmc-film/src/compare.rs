@@ -1,29 +1,29 @@
-//! Which law describes the drops best.
+//! Ranking laws by how well they describe the drops.
 
 use crate::fit::Fit;
 
-/// One law among several.
+/// A law in the ranking.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ranked {
     /// Index of the fit.
     pub fit: usize,
-    /// Akaike's criterion.
+    /// Akaike information criterion.
     pub aic: f64,
-    /// Schwarz's criterion.
+    /// Bayesian (Schwarz) information criterion.
     pub bic: f64,
-    /// By how much AIC exceeds the least.
+    /// Difference of AIC from the smallest.
     pub delta_aic: f64,
-    /// By how much BIC exceeds the least.
+    /// Difference of BIC from the smallest.
     pub delta_bic: f64,
-    /// Akaike weight: exp(−Δ/2), all of them together 1.
+    /// Akaike weight: exp(−Δ/2), normalised so that all weights sum to 1.
     pub weight: f64,
 }
 
 /// Ranks fits of the same points ([`fit_all`](crate::fit_all)) by AIC, the best first.
 ///
-/// Differences below 2 tell nothing, above 10 they decide (Burnham & Anderson 2002) — between laws
-/// that both leave noise alone. Where even the best leaves correlated residuals, it is only the
-/// least wrong.
+/// Between laws that both leave only noise, differences below 2 mean nothing and differences above
+/// 10 are decisive (Burnham & Anderson 2002). If even the best law leaves correlated residuals, it
+/// is only the least wrong.
 pub fn compare(fits: &[Fit]) -> Vec<Ranked> {
     let least = |of: fn(&Fit) -> f64| fits.iter().map(of).fold(f64::INFINITY, f64::min);
     let (least_aic, least_bic) = (least(Fit::aic), least(Fit::bic));

@@ -1,6 +1,6 @@
-//! A drop as it was filmed.
+//! A filmed drop.
 
-/// Most frames of a drop.
+/// Greatest number of frames of a drop.
 pub const MAX_FRAMES: usize = 100_000;
 
 /// A filmed quantity.
@@ -18,7 +18,7 @@ impl Coordinate {
     /// All coordinates, in the order of every table.
     pub const ALL: [Self; 3] = [Self::X, Self::Z, Self::Theta];
 
-    /// The name used in results; it carries the unit.
+    /// The name used in results, with the unit.
     pub fn name(self) -> &'static str {
         match self {
             Self::X => "x_m",
@@ -32,26 +32,27 @@ impl Coordinate {
     }
 }
 
-/// One frame; `None` is a point that was not marked.
+/// One frame; `None` for an unmarked point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
-    /// Time, s, from whatever zero the film has.
+    /// Time, s, from the film's own origin.
     pub time_s: f64,
-    /// x and z of the centre, m, and θ, rad (up to whole turns), as [`Coordinate::ALL`] orders them.
+    /// x and z of the centre, m, and θ, rad (up to whole turns), as [`Coordinate::ALL`] orders
+    /// them.
     pub seen: [Option<f64>; 3],
 }
 
-/// The frames of one drop, in order of time.
+/// The frames of one drop in order of time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FilmedDrop {
-    /// What messages and tables call it.
+    /// Name in messages and tables.
     pub name: String,
     /// The frames.
     pub frames: Vec<Frame>,
 }
 
 impl FilmedDrop {
-    /// Frames a second: the median step between frames, inverted. 0 for fewer than two frames.
+    /// Frame rate, 1/s: the inverse of the median time between frames. 0 for fewer than two frames.
     pub fn rate_hz(&self) -> f64 {
         let mut steps: Vec<f64> = self
             .frames
@@ -62,13 +63,13 @@ impl FilmedDrop {
     }
 }
 
-/// The middle of the values, which it sorts; of an even number the lower one.
+/// The median of the values, which it sorts; the lower one of the two in the middle.
 pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
     values.sort_by(f64::total_cmp);
     values.get(values.len().saturating_sub(1) / 2).copied()
 }
 
-/// An angle less whole turns: in [−π, π].
+/// An angle without whole turns, in [−π, π].
 pub(crate) fn wrapped(angle: f64) -> f64 {
     libm::remainder(angle, std::f64::consts::TAU)
 }

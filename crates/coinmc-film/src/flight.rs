@@ -1,15 +1,15 @@
-//! The flight before the first impact: where a fit begins, from the film alone.
+//! The flight before the first impact, which gives a fit's initial states from the film alone.
 
 use crate::drop::{Coordinate, FilmedDrop, median, wrapped};
 use crate::path::Start;
 
-/// Frames before the first impact that a fit needs.
-pub const LEAST_FLIGHT: usize = 5;
+/// Number of frames before the first impact that a fit needs.
+pub const MIN_FLIGHT: usize = 5;
 
-/// Noise taken for granted, m and rad: what is written with fewer digits than this has more.
-const LEAST_NOISE: [f64; 3] = [1e-6, 1e-6, 1e-5];
+/// Smallest noise assumed, m and rad.
+const MIN_NOISE: [f64; 3] = [1e-6, 1e-6, 1e-5];
 
-/// A frame further than this from the parabola is beyond the impact, in standard deviations.
+/// A frame further than this from the parabola is after the impact, in standard deviations.
 const FAR: f64 = 6.0;
 
 /// The flight before the first impact.
@@ -17,17 +17,17 @@ const FAR: f64 = 6.0;
 pub(crate) struct Flight {
     /// Number of frames.
     pub(crate) frames: usize,
-    /// The state at the first of them.
+    /// The state at the first frame.
     pub(crate) start: Start,
 }
 
-/// Standard deviation of each coordinate, by its third differences.
+/// Standard deviation of the noise of each coordinate, from third differences.
 ///
-/// In flight those of x, z and θ vanish, and a few impacts do not move a median: for white noise
-/// the difference y₀ − 3y₁ + 3y₂ − y₃ has the variance 20σ², and the median of |·| is 0.6745 of its
-/// standard deviation.
+/// In flight the third differences of x, z and θ vanish, and a few impacts do not affect a median.
+/// For white noise the difference y₀ − 3y₁ + 3y₂ − y₃ has the variance 20σ², and the median of its
+/// absolute value is 0.6745 standard deviations.
 pub(crate) fn noise(drops: &[FilmedDrop]) -> [f64; 3] {
-    let mut noise = LEAST_NOISE;
+    let mut noise = MIN_NOISE;
     for coordinate in Coordinate::ALL {
         let c = coordinate.index();
         let mut third: Vec<f64> = drops
@@ -50,7 +50,7 @@ pub(crate) fn noise(drops: &[FilmedDrop]) -> [f64; 3] {
     noise
 }
 
-/// Finds the flight: the frames up to where z leaves its parabola. `None` if it is too short.
+/// Finds the flight: the frames before z leaves its parabola. `None` if it is too short.
 pub(crate) fn flight(drop: &FilmedDrop, gravity: f64, noise: &[f64; 3]) -> Option<Flight> {
     let origin = drop.frames.first()?.time_s;
     let marked: Vec<(usize, f64, f64)> = drop
@@ -59,7 +59,7 @@ pub(crate) fn flight(drop: &FilmedDrop, gravity: f64, noise: &[f64; 3]) -> Optio
         .enumerate()
         .filter_map(|(i, frame)| {
             let t = frame.time_s - origin;
-            // free fall taken out: what is left is a straight line
+            // without free fall, a straight line remains
             Some((i, t, frame.seen[1]? + 0.5 * gravity * t * t))
         })
         .collect();
@@ -70,28 +70,28 @@ pub(crate) fn flight(drop: &FilmedDrop, gravity: f64, noise: &[f64; 3]) -> Optio
             (z - line.at(t)).abs() > FAR * noise[1] * (1.0 + line.leverage(t)).sqrt()
         };
         let next_too = marked.get(k + 1).is_none_or(|&(_, t, z)| far(t, z));
-        if k >= LEAST_FLIGHT && far(t, z) && next_too {
+        if k >= MIN_FLIGHT && far(t, z) && next_too {
             break;
         }
         line.add(t, z);
         last = Some((k, i));
     }
     let (k, frame) = last?;
-    if k + 1 < LEAST_FLIGHT {
+    if k + 1 < MIN_FLIGHT {
         return None;
     }
     let frames = frame + 1;
     let (z, vz) = line.coefficients();
-    let (x, vx) = straight(drop, frames, Coordinate::X).unwrap_or((0.0, 0.0));
-    let (theta, omega) = straight(drop, frames, Coordinate::Theta)?;
+    let (x, vx) = linear(drop, frames, Coordinate::X).unwrap_or((0.0, 0.0));
+    let (theta, omega) = linear(drop, frames, Coordinate::Theta)?;
     Some(Flight {
         frames,
         start: [x, vx, z, vz, theta, omega],
     })
 }
 
-/// Value at the first frame, and rate, of a coordinate that moves evenly.
-fn straight(drop: &FilmedDrop, frames: usize, coordinate: Coordinate) -> Option<(f64, f64)> {
+/// Value at the first frame and rate of a coordinate that changes linearly.
+fn linear(drop: &FilmedDrop, frames: usize, coordinate: Coordinate) -> Option<(f64, f64)> {
     let origin = drop.frames.first()?.time_s;
     let points: Vec<(f64, f64)> = drop.frames[..frames]
         .iter()
@@ -109,7 +109,7 @@ fn straight(drop: &FilmedDrop, frames: usize, coordinate: Coordinate) -> Option<
     for &(t, y) in &points {
         turned = match coordinate {
             Coordinate::X | Coordinate::Z => y,
-            // whole turns are told apart by the rate
+            // remove whole turns with the help of the rate
             Coordinate::Theta => {
                 let expected = turned + rate * (t - before.0);
                 expected + wrapped(y - expected)
@@ -121,7 +121,7 @@ fn straight(drop: &FilmedDrop, frames: usize, coordinate: Coordinate) -> Option<
     Some(line.coefficients())
 }
 
-/// Least-squares line through points, added one by one.
+/// A least-squares line through points, updated point by point.
 #[derive(Debug, Default)]
 struct Line {
     n: f64,

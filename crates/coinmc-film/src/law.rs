@@ -1,28 +1,29 @@
-//! What is known about the drops beforehand: the law, the coin and gravity.
+//! The model of the drops: law, coin and gravity.
 //!
-//! A law that joins the flat engine is one more arm in [`parameters`](crate::parameters) and where
-//! [`Shared`] takes its numbers; a number of its own is one more [`Parameter`](crate::Parameter).
+//! A new law of the flat engine needs an arm in [`parameters`](crate::parameters) and where
+//! [`Shared`] takes its parameters; each new parameter is a variant of
+//! [`Parameter`](crate::Parameter).
 
 use crate::parameter::Shared;
 use coinmc_core::{Coin, Engine, Launch, Observer, Outcome, Scene, Surface};
 use coinmc_flat::{AnyFlatEngine, Law, Settings, SettingsError};
 
-/// What is known about the drops beforehand.
+/// The model of the drops.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Model {
-    /// The law of impact, with the numbers of its own that a fit begins with or keeps.
+    /// The impact law, with the initial or fixed values of its own parameters.
     pub law: Law,
-    /// What was dropped. Its mass matters for laws that name forces.
+    /// The coin. Its mass matters for laws that involve forces.
     pub coin: Coin,
     /// Acceleration of gravity, m/s².
     pub gravity_m_s2: f64,
 }
 
 impl Model {
-    /// Checks the numbers of the law.
+    /// Checks the parameters of the law.
     ///
     /// # Errors
-    /// [`SettingsError`] if one is out of its range.
+    /// [`SettingsError`] if one is out of range.
     pub fn validate(&self) -> Result<(), SettingsError> {
         let settings = Settings {
             law: self.law,
@@ -31,8 +32,8 @@ impl Model {
         settings.validate()
     }
 
-    /// Follows one drop; `None` where the numbers are beyond every range.
-    pub(crate) fn follow(
+    /// Simulates one drop; `None` if the values are far out of range.
+    pub(crate) fn simulate(
         &self,
         shared: &Shared,
         launch: &Launch,
@@ -48,9 +49,9 @@ impl Model {
         Some(engine.toss(&mut (), launch, observer))
     }
 
-    /// Finer than the default: derivatives are taken by differences, and what the engine cuts off
-    /// must stay below them. (An impact resolved in time errs by less than its tolerance: 1e-9 is
-    /// the 1e-4th part of what the differences step.)
+    /// Finer than the default: derivatives are computed from differences, so the engine's
+    /// truncation must be much smaller. (The error of an impact resolved in time is less than its
+    /// tolerance: 1e-9 is 1e-4 of the step of the differences.)
     fn settings(&self, shared: &Shared) -> Settings {
         let tolerance = match self.law {
             Law::LineContact(_) => 1e-9,
@@ -65,7 +66,7 @@ impl Model {
         }
     }
 
-    /// Whether its impacts cost a hundred times those of the others.
+    /// Whether its impacts cost a hundred times as much as those of other laws.
     pub(crate) fn is_costly(&self) -> bool {
         matches!(self.law, Law::LineContact(_))
     }

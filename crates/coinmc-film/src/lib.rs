@@ -1,17 +1,16 @@
 #![doc = include_str!("../README.md")]
 //!
 //! # How it works
-//! A camera sees a coin fall, turn and bounce in a vertical plane; somebody marks its centre and its
-//! angle frame by frame in Tracker (Open Source Physics). This crate reads what Tracker exports
-//! ([`text`]), and fits the laws of the flat engine to it ([`fit`]): restitution and friction, which
-//! all drops share, with intervals that cover, and each drop's own first state; with residuals, and
-//! criteria that say which law describes the drops best ([`compare`]).
+//! A camera films a coin that falls, turns and bounces in a vertical plane, and its centre and angle
+//! are marked frame by frame in Tracker (Open Source Physics). This crate reads Tracker's exports
+//! ([`text`]) and fits the laws of the flat engine to them ([`fit`]): restitution and friction,
+//! shared by all drops, with confidence intervals, and an initial state for each drop. Residuals and
+//! information criteria show which law describes the drops best ([`compare`]).
 //!
 //! # Files
-//! `text` Tracker's text · `drop` frames · `law` the model · `parameter` what is fitted · `path`
-//! prediction · `flight`
-//! the film before the first impact · `fit` the fit · `compare` several laws · `plot` and `table`
-//! residuals · `synthetic` drops filmed in the computer.
+//! `text` Tracker's text · `drop` frames · `law` the model · `parameter` fitted parameters · `path`
+//! prediction · `flight` the frames before the first impact · `fit` the fit · `compare` ranking of
+//! laws · `plot` and `table` residuals · `synthetic` simulated films.
 
 mod compare;
 mod drop;
@@ -34,7 +33,7 @@ pub use fit::{
     Estimated, Fit, FitError, FittedDrop, Loss, MAX_DROPS, Noise, Options, Remark, Residual, fit,
     fit_all,
 };
-pub use flight::LEAST_FLIGHT;
+pub use flight::MIN_FLIGHT;
 pub use law::Model;
 pub use parameter::{Parameter, Shared, parameters};
 pub use plot::residuals_svg;

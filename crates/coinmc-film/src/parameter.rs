@@ -1,24 +1,25 @@
-//! The numbers that all drops of a fit share.
+//! The parameters shared by all drops of a fit.
 
 use coinmc_core::Coin;
 use coinmc_flat::{Law, LineContact, Materials, PulseTime};
 
-/// A number that all drops of a fit share.
+/// A parameter shared by all drops of a fit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Parameter {
-    /// Coefficient of restitution e; of Gaek & Sukhov's law √k.
+    /// Coefficient of restitution e; √k of Gaek & Sukhov's law.
     Restitution,
     /// Coefficient of Coulomb friction μ.
     Friction,
     /// η of Gaek & Sukhov's law, N s.
     Eta,
-    /// Length τ of the half sine, s.
+    /// Duration τ of the half sine, s.
     PulseTime,
-    /// Its height N_max, N, where the law has one.
+    /// Peak N_max of the half sine, N, if the law has one.
     Peak,
-    /// Stiffness K of the line contact over that of the materials given.
+    /// Stiffness K of the line contact relative to that of the given materials.
     Stiffness,
-    /// Height of the surface in the film's coordinates, m: nobody places the origin exactly.
+    /// Height of the surface in the film's coordinates, m, because the origin is never placed
+    /// exactly.
     Floor,
 }
 
@@ -47,11 +48,11 @@ impl Parameter {
         }
     }
 
-    /// The values it may take.
+    /// The range of its values.
     pub fn range(self) -> (f64, f64) {
         match self {
             Self::Restitution => (0.0, 1.0),
-            // beyond this no impact of a coin slides
+            // above this no impact of a coin slides
             Self::Friction => (0.0, 10.0),
             Self::Eta => (0.0, 1e6),
             Self::PulseTime => (1e-7, 1.0),
@@ -61,7 +62,7 @@ impl Parameter {
         }
     }
 
-    /// Where a search begins, in units of its scale; empty: at the value given.
+    /// Initial values of a search, in units of the scale; empty: the given value.
     pub(crate) fn grid(self) -> &'static [f64] {
         match self {
             Self::Restitution => &[0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9],
@@ -75,7 +76,7 @@ impl Parameter {
         }
     }
 
-    /// What a change by one means: the unit of the search.
+    /// The unit of the search.
     pub(crate) fn scale(self, coin: &Coin, gravity_m_s2: f64) -> f64 {
         let (mass, d) = (coin.mass_kg(), coin.rim_distance_m());
         match self {
@@ -88,7 +89,7 @@ impl Parameter {
     }
 }
 
-/// The parameters a law depends on, and the floor on which all do.
+/// The parameters of a law, including the floor, which all laws have.
 pub fn parameters(law: Law) -> &'static [Parameter] {
     use Parameter::{Eta, Floor, Friction, Peak, Restitution, Stiffness};
     match law {
@@ -107,8 +108,8 @@ pub fn parameters(law: Law) -> &'static [Parameter] {
     }
 }
 
-/// A value for every parameter. A fit begins with a law's own numbers (η, τ, N_max, K) as its model
-/// has them; those of other laws mean nothing.
+/// A value for every parameter. A law's own parameters (η, τ, N_max, K) start from the values of
+/// its model; those of other laws are ignored.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shared {
     /// Coefficient of restitution e.
@@ -119,11 +120,11 @@ pub struct Shared {
     pub floor_m: f64,
     /// η of Gaek & Sukhov's law, N s.
     pub eta_n_s: f64,
-    /// Length of the half sine, s.
+    /// Duration of the half sine, s.
     pub time_s: f64,
-    /// Height of the half sine, N.
+    /// Peak of the half sine, N.
     pub peak_n: f64,
-    /// Stiffness of the contact over that of the materials given.
+    /// Stiffness of the contact relative to that of the given materials.
     pub stiffness: f64,
 }
 
@@ -149,7 +150,7 @@ impl Shared {
         *shared.slot(parameter)
     }
 
-    /// The same with another value of a parameter.
+    /// A copy with another value of a parameter.
     pub fn with(mut self, parameter: Parameter, value: f64) -> Self {
         *self.slot(parameter) = value;
         self
@@ -167,7 +168,7 @@ impl Shared {
         }
     }
 
-    /// The same with every parameter within its range.
+    /// A copy with every parameter clamped to its range.
     pub(crate) fn clamped(self) -> Self {
         Parameter::ALL.into_iter().fold(self, |shared, parameter| {
             let (low, high) = parameter.range();
@@ -175,7 +176,7 @@ impl Shared {
         })
     }
 
-    /// The same with the law's own numbers.
+    /// A copy with the law's own parameters.
     pub(crate) fn of(mut self, law: Law) -> Self {
         self.stiffness = 1.0;
         match law {
@@ -191,10 +192,10 @@ impl Shared {
         self
     }
 
-    /// The law with these numbers as its own.
+    /// The law with its own parameters replaced by these.
     pub(crate) fn applied(&self, law: Law) -> Law {
         let stiffer = |materials: Materials| Materials {
-            // K is proportional to the modulus that both of them make
+            // K is proportional to the combined modulus of both materials
             coin_young_pa: materials.coin_young_pa * self.stiffness,
             surface_young_pa: materials.surface_young_pa * self.stiffness,
             ..materials

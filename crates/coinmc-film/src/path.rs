@@ -1,4 +1,4 @@
-//! What a law predicts for the frames of a drop.
+//! A law's prediction for the frames of a drop.
 
 use crate::drop::wrapped;
 use crate::law::Model;
@@ -9,26 +9,26 @@ use nalgebra::{UnitVector3, Vector3};
 /// The state at the first frame: x, x', z above the surface, z', θ, θ' (m, m/s, rad, rad/s).
 pub(crate) type Start = [f64; 6];
 
-/// How far each number of a [`Start`] moves when "one" is added to it in the search.
+/// The unit of the search for each component of a [`Start`].
 pub(crate) fn start_scales(model: &Model) -> Start {
     let d = model.coin.rim_distance_m();
     let rate = (model.gravity_m_s2 / d).sqrt();
     [d, d * rate, d, d * rate, 1.0, rate]
 }
 
-/// The predicted frames and what happened between them.
+/// The predicted frames and impacts.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Path {
-    /// x, z, θ at every frame, in the film's coordinates.
+    /// x, z and θ at every frame, in the film's coordinates.
     pub(crate) seen: Vec<[f64; 3]>,
     /// Time of every impact since the first frame, s.
     pub(crate) impacts_s: Vec<f64>,
-    /// Frames for which the prediction is mechanics: beyond, the toss is decided and the flight
-    /// after its last impact is over.
+    /// Number of frames with a physical prediction: the remaining ones are after the toss was
+    /// decided and the flight after its last impact has ended.
     pub(crate) valid: usize,
 }
 
-/// Follows a drop and looks at it `at` these times since its first frame.
+/// Simulates a drop and samples it at these times since its first frame.
 pub(crate) fn path(model: &Model, shared: &Shared, start: &Start, at: &[f64]) -> Option<Path> {
     let shared = shared.clamped();
     let (sin, cos) = libm::sincos(start[4]);
@@ -43,10 +43,10 @@ pub(crate) fn path(model: &Model, shared: &Shared, start: &Start, at: &[f64]) ->
         path: Path::default(),
         last: None,
     };
-    model.follow(&shared, &launch, &mut recorder)?;
+    model.simulate(&shared, &launch, &mut recorder)?;
     let PathRecorder { mut path, last, .. } = recorder;
     path.valid = path.seen.len();
-    fly_on(&mut path, &last?, model, at);
+    continue_flight(&mut path, &last?, model, at);
     for [x, z, _] in &mut path.seen {
         *x += start[0];
         *z += shared.floor_m;
@@ -54,9 +54,9 @@ pub(crate) fn path(model: &Model, shared: &Shared, start: &Start, at: &[f64]) ->
     Some(path)
 }
 
-/// The engine stops when the face is certain; the flight after that goes on in closed form, and is
-/// what happens until the coin touches again.
-fn fly_on(path: &mut Path, last: &State, model: &Model, at: &[f64]) {
+/// The engine stops once the face is decided; until the coin's next contact, the last flight
+/// continues in closed form.
+fn continue_flight(path: &mut Path, last: &State, model: &Model, at: &[f64]) {
     let [x, z, theta] = seen(last);
     let mut aloft = true;
     for time in &at[path.seen.len()..] {

@@ -1,4 +1,4 @@
-//! Residuals as a picture: SVG written as text.
+//! A plot of the residuals, as SVG.
 
 use crate::drop::Coordinate;
 use crate::fit::{Fit, Residual};
@@ -10,15 +10,15 @@ const LEFT: f64 = 64.0;
 const RIGHT: f64 = 16.0;
 const TOP: f64 = 28.0;
 const BOTTOM: f64 = 40.0;
-/// Of the axis, in standard deviations; what lies beyond stands at its edge.
-const REACH: f64 = 5.0;
-/// One colour a drop, told apart also by the colour-blind (Okabe & Ito).
+/// Range of the axis, in standard deviations; points beyond are drawn at its edge.
+const RANGE: f64 = 5.0;
+/// One colour per drop, distinguishable by colour-blind readers too (Okabe & Ito).
 const COLORS: [&str; 7] = [
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000",
 ];
 
-/// The standardised residuals of a fit against time: a row a coordinate, a colour a drop, with the
-/// times of the impacts and the band of two standard deviations.
+/// The standardised residuals of a fit against time: one row per coordinate, one colour per drop,
+/// with the times of the impacts and a band of two standard deviations.
 pub fn residuals_svg(fit: &Fit) -> String {
     let rows: Vec<Coordinate> = fit.noise.iter().map(|noise| noise.coordinate).collect();
     let height = TOP + ROW * rows.len() as f64 + BOTTOM;
@@ -36,7 +36,7 @@ pub fn residuals_svg(fit: &Fit) -> String {
     );
     for (row, coordinate) in rows.iter().enumerate() {
         let middle = TOP + ROW * (row as f64 + 0.5);
-        let y = |r: f64| middle - r.clamp(-REACH, REACH) / REACH * (0.5 * ROW - 8.0);
+        let y = |r: f64| middle - r.clamp(-RANGE, RANGE) / RANGE * (0.5 * ROW - 8.0);
         frame(&mut svg, *coordinate, middle, &y);
         impacts(&mut svg, fit, middle, &x);
         for residual in fit.residuals.iter().filter(|r| r.coordinate == *coordinate) {
@@ -109,7 +109,7 @@ fn impacts(svg: &mut String, fit: &Fit, middle: f64, x: &impl Fn(f64) -> f64) {
 }
 
 fn point(svg: &mut String, fit: &Fit, residual: &Residual, x: f64, y: f64) {
-    let beyond = if residual.standardised.abs() > REACH {
+    let beyond = if residual.standardised.abs() > RANGE {
         format!(
             "<title>{} frame {}: {:.1}</title>",
             escaped(&fit.drops[residual.drop].name),
@@ -145,7 +145,7 @@ fn axis(svg: &mut String, (first, last): (f64, f64), height: f64, x: &impl Fn(f6
     );
 }
 
-/// Text that XML takes.
+/// Escapes text for XML.
 fn escaped(text: &str) -> String {
     let kept: String = text.chars().filter(|c| !c.is_control()).collect();
     kept.replace('&', "&amp;")

@@ -1,4 +1,4 @@
-//! Drops filmed in the computer: to try the reader and the fit with, and to measure both.
+//! Simulated films, for trying and measuring the reader and the fit.
 
 use crate::drop::{FilmedDrop, Frame, wrapped};
 use crate::law::Model;
@@ -6,17 +6,17 @@ use crate::parameter::Shared;
 use crate::path::{Start, path};
 use coinmc_core::{Philox4x64, inverse_normal_cdf, unit_interval};
 
-/// A drop and how it is filmed. Everything not fixed here is drawn from the seed.
+/// A drop and how it is filmed. All noise is drawn from the seed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Synthetic {
-    /// Key of the random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
-    /// The surface. A law's own numbers are those of its model.
+    /// The surface. A law's own parameters are those of its model.
     pub shared: Shared,
     /// State at the first frame: x, x', z above the surface, z', θ, θ' (m, m/s, m, m/s, rad,
     /// rad/s).
     pub start: [f64; 6],
-    /// Frames a second.
+    /// Frame rate, 1/s.
     pub rate_hz: f64,
     /// Length of the film, s.
     pub duration_s: f64,
@@ -24,13 +24,13 @@ pub struct Synthetic {
     pub position_noise_m: f64,
     /// Standard deviation of a marked angle, rad.
     pub angle_noise_rad: f64,
-    /// Share of points that are not marked.
+    /// Fraction of unmarked points.
     pub missing: f64,
 }
 
 impl Default for Synthetic {
-    /// 20 cm high, tilted and turning, e = 0.5, μ = 0.2; 240 frames/s for 0.6 s, with 0.5 mm and
-    /// 0.5° of noise, every point marked.
+    /// From 20 cm, tilted and turning, e = 0.5, μ = 0.2; 240 frames/s for 0.6 s, with noise of 0.5
+    /// mm and 0.5°, every point marked.
     fn default() -> Self {
         Self {
             seed: 1,
@@ -56,10 +56,10 @@ impl Default for Synthetic {
 }
 
 impl Synthetic {
-    /// The film, of what the law predicts: up to the end of the toss and of the flight that follows
-    /// it. `None` if the numbers are beyond every range.
+    /// The film of the motion that the law predicts, up to the end of the toss and the flight that
+    /// follows it. `None` if the values are far out of range.
     pub fn film(&self, model: &Model) -> Option<FilmedDrop> {
-        // at least one frame; and a bound for foreign numbers
+        // at least one frame, and a bound against wrong input
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let frames = (self.duration_s * self.rate_hz).clamp(0.0, 99_999.0) as usize + 1;
         let times: Vec<f64> = (0..frames).map(|i| i as f64 / self.rate_hz).collect();
@@ -95,5 +95,5 @@ impl Synthetic {
     }
 }
 
-/// Second word of the key: keeps films apart from tosses of the same seed.
+/// Second word of the key, which separates films from tosses with the same seed.
 const FILM: u64 = 0x6669_6c6d;

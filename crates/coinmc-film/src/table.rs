@@ -3,7 +3,7 @@
 use crate::fit::Fit;
 use std::fmt::Write as _;
 
-/// Every residual of every fit as CSV: law, drop, frame (from 0), time, coordinate, value seen,
+/// Every residual of every fit as CSV: law, drop, frame (from 0), time, coordinate, observed value,
 /// residual (m or rad), and the residual in standard deviations.
 pub fn residuals_csv(fits: &[Fit]) -> String {
     let mut text = String::from("law,drop,frame,time_s,coordinate,seen,residual,standardised\n");
@@ -27,7 +27,7 @@ pub fn residuals_csv(fits: &[Fit]) -> String {
     text
 }
 
-/// A cell of CSV, in quotes where it needs them.
+/// A CSV cell, in quotes if necessary.
 fn quoted(cell: &str) -> String {
     if cell.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", cell.replace('"', "\"\""))

@@ -242,7 +242,8 @@ impl Host {
     }
 
     fn send(&mut self, outstanding: Outstanding, request: &Request, header: Header, now_ms: u64) {
-        // every request fits (tested); if one did not, nothing would be sent and the connection lost
+        // every request fits (tested); if one did not, nothing would be sent and the connection
+        // lost
         self.wire = request.to_wire(header).unwrap_or_default();
         self.header = Some(header);
         self.outstanding = outstanding;

@@ -8,7 +8,8 @@
 //!
 //! * [`Wire`] and [`Decoder`]: frames of one message each, with COBS, zero bytes between and a CRC.
 //! * [`Request`] and [`Reply`]: the messages of host and robot.
-//! * [`Device`]: the robot's side, generic over a [`Hardware`] that drives motors and reads sensors.
+//! * [`Device`]: the robot's side, generic over a [`Hardware`] that drives motors and reads
+//!   sensors.
 //! * [`Host`]: the host's side, with handshake, retransmission and detection of a lost connection.
 #![no_std]
 // Nobody is there to restart a robot: nothing in this crate may panic, whatever arrives.

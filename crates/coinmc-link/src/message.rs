@@ -2,9 +2,10 @@
 //!
 //! Encoded with postcard, whose wire format is stable and documented: the number of the variant,
 //! then the fields in order; integers wider than a byte as little-endian base-128 varints, signed
-//! ones zigzag-encoded first. Within a major version, variants are only added at the end, and fields
-//! never change; a robot sends only messages known to the minor version in the host's Hello. The
-//! frame format, Hello and its reply never change, so that any two versions can reject each other.
+//! ones zigzag-encoded first. Within a major version, variants are only added at the end, and
+//! fields never change; a robot sends only messages known to the minor version in the host's Hello.
+//! The frame format, Hello and its reply never change, so that any two versions can reject each
+//! other.
 //!
 //! A body is accepted only if encoding its value gives exactly the same bytes.
 
@@ -189,8 +190,8 @@ pub enum Nak {
     Busy,
 }
 
-/// State of the robot in its cycle: Boot → Idle → Aiming → Flying → Driving → `AtCoin` → Returning →
-/// Idle; from any of them to Fault.
+/// State of the robot in its cycle: Boot → Idle → Aiming → Flying → Driving → `AtCoin` → Returning
+/// → Idle; from any of them to Fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[repr(u8)]
 pub enum State {

@@ -1,6 +1,6 @@
-//! The firmware in a simulated microcontroller: an experiment over its pseudo-terminal, with damaged
-//! bytes, resets and killed hosts. `scripts/firmware test` builds the firmware and runs this test
-//! with:
+//! The firmware in a simulated microcontroller: an experiment over its pseudo-terminal, with
+//! damaged bytes, resets and killed hosts. `scripts/firmware test` builds the firmware and runs
+//! this test with:
 //!
 //! * `COINMC_SIMULATOR`: the command that starts the simulator. It prints the terminal's name
 //!   (`/dev/pts/…`) and resets the board on the line `system_reset` on its standard input.

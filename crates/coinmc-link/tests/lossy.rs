@@ -1,5 +1,5 @@
-//! Host and device over a connection that loses and damages bytes, with resets, unplugged cables and
-//! killed hosts: every throw is made at most once, and every throw ends as done or void.
+//! Host and device over a connection that loses and damages bytes, with resets, unplugged cables
+//! and killed hosts: every throw is made at most once, and every throw ends as done or void.
 
 mod support;
 

@@ -18,7 +18,8 @@ pub enum Compression {
     /// Uncompressed: readable by any tool.
     #[default]
     None,
-    /// LZ4 frames, which every MCAP reader supports: JSON full of numbers shrinks by more than half.
+    /// LZ4 frames, which every MCAP reader supports: JSON full of numbers shrinks by more than
+    /// half.
     Lz4,
 }
 

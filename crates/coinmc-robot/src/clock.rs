@@ -1,8 +1,8 @@
-//! Time as the link sees it: that of the wall, or faster for a simulated robot.
+//! The clock of the link: wall time, or faster for a simulated robot.
 
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-/// A clock that never goes back.
+/// A clock that never goes backwards.
 #[derive(Debug, Clone, Copy)]
 pub struct Clock {
     origin: Instant,
@@ -10,7 +10,7 @@ pub struct Clock {
 }
 
 impl Clock {
-    /// A clock that begins at 0 and runs `speed` (at least 1) times as fast as the wall's.
+    /// A clock that starts at 0 and runs `speed` (at least 1) times as fast as wall time.
     pub fn new(speed: f64) -> Self {
         Self {
             origin: Instant::now(),
@@ -18,20 +18,20 @@ impl Clock {
         }
     }
 
-    /// Milliseconds since it began.
+    /// Milliseconds since its start.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     pub fn now_ms(&self) -> u64 {
-        // beyond 2^53 ms lie 285 000 years
+        // 2^53 ms are 285 000 years
         (self.origin.elapsed().as_secs_f64() * 1e3 * self.speed) as u64
     }
 
-    /// How long the wall's clock takes for so much of this one.
+    /// Wall time that corresponds to a time of this clock.
     pub fn wall(&self, time: Duration) -> Duration {
         time.div_f64(self.speed)
     }
 }
 
-/// The time of day, milliseconds since 1970; 0 on a machine whose clock stands before that.
+/// System time, milliseconds since 1970; 0 if the system's clock is set before that.
 pub fn unix_ms() -> u64 {
     let since = SystemTime::now().duration_since(UNIX_EPOCH);
     since.map_or(0, |d| u64::try_from(d.as_millis()).unwrap_or(u64::MAX))

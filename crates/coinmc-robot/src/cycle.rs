@@ -1,19 +1,19 @@
-//! The next step of an experiment, from the journal, the robot's last word and the camera's.
+//! The next step of an experiment, from the journal and the latest messages of robot and camera.
 //!
-//! No input, no output, no clock. The step depends on the state alone and not on how it came to be,
-//! so a host that begins anew after a crash takes the very step that the crashed one would have:
+//! No I/O and no clock. The step depends only on the present state, not on its history, so a host
+//! that restarts after a crash takes exactly the step that the crashed one would have taken:
 //!
 //! | journal | robot | step |
 //! |---|---|---|
 //! | nothing open | Idle | announce the next throw (`I`) |
-//! | `I p` | counter < p, Idle | send the throw, the same again |
+//! | `I p` | counter < p, Idle | send the throw (again) |
 //! | `I p` | counter = p, moving | wait |
-//! | `I p` | counter = p, AtCoin | photograph; face read: `R`; no face after all tries: `V unread` |
+//! | `I p` | counter = p, AtCoin | photograph; face read: `R`; no face in any photo: `V unread` |
 //! | `I p` | counter = p, Fault | `V fault-N` |
 //! | `I p` | counter = p, Idle | `V lost` |
 //! | `R p` | AtCoin | collect |
 //! | `R p` | Idle or Fault | `D` |
-//! | any | counter ahead | ask the person, or `A` after `--adopt` |
+//! | any | counter ahead | ask the user, or `A` after `--adopt` |
 //! | nothing open | AtCoin, Fault | collect, clear the fault |
 
 use crate::journal::{Entry, History, ImageName, Measured, Pending, Reading, VoidReason};
@@ -21,28 +21,28 @@ use crate::{Face, Setting};
 use coinmc_link::{Greeting, Nak, Reply, Request, State, Status};
 use thiserror::Error;
 
-/// Attempts to clear a fault before a person is asked.
-const MOST_CLEARS: u32 = 20;
+/// Attempts to clear a fault before the user is asked.
+const MAX_CLEARS: u32 = 20;
 
-/// What does not change during a session.
+/// Settings that do not change during a session.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Rules {
     /// Throws planned.
     pub throws: u32,
-    /// Photos of one throw before it is void.
-    pub most_photos: u32,
-    /// Void throws in a row before a person is asked.
-    pub most_voids: u32,
-    /// Go on behind the robot's counter where it is ahead.
+    /// Photos of one throw without a face before the throw is void.
+    pub max_photos: u32,
+    /// Consecutive void throws before the user is asked.
+    pub max_voids: u32,
+    /// If the robot's counter is ahead of the journal, continue from the counter.
     pub adopt: bool,
 }
 
 /// What to do next.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Step {
-    /// Ask the robot this, now.
-    Ask(Request),
-    /// Nothing to do: ask for the status after the polling interval.
+    /// Send this request to the robot now.
+    Request(Request),
+    /// Nothing to do: request the status after the polling interval.
     Wait,
     /// Announce throw number `throw` of the plan under this id: `I`.
     Announce {
@@ -51,29 +51,29 @@ pub enum Step {
         /// Number on the link.
         id: u32,
     },
-    /// Write this.
+    /// Write this entry.
     Write(Entry),
     /// Photograph the coin of this throw; the attempts count from 1.
     Photograph {
         /// The throw.
         id: u32,
-        /// Which photo of it.
+        /// Number of the photo of this throw.
         attempt: u32,
     },
-    /// All throws are resolved, or it was told to stop and none is open.
+    /// All throws are resolved, or the cycle was stopped and no throw is open.
     Finished,
-    /// A person must decide.
+    /// The user must decide.
     Halt(Halt),
 }
 
-/// Why a person must decide.
+/// Why the user must decide.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum Halt {
     /// The robot was used for something else.
     #[error(
-        "the robot has counted {robot} throws, this journal {journal}: the robot was used with \
-         another journal. If that is right, go on behind its counter with --adopt; if it is not, \
-         find the journal that it was used with"
+        "the robot has counted {robot} throws and this journal {journal}: the robot was used with \
+         another journal. If that is intended, continue from its counter with --adopt; if not, \
+         use the journal that it was used with"
     )]
     Ahead {
         /// The robot's counter.
@@ -83,62 +83,62 @@ pub enum Halt {
     },
     /// The robot's own limits are narrower than the protocol's.
     #[error(
-        "the robot refuses {} rev/s from {} degrees: its own range is narrower (`coinmc robot \
-         info` shows it). Narrow the config's launch and begin another experiment",
+        "the robot rejects {} rev/s from {} degrees: its own range is narrower (`coinmc robot \
+         info` shows it). Narrow the config's launch and start another experiment",
         setting.spin_rev_s(), setting.angle_deg()
     )]
     OutOfRange {
-        /// What it was told.
+        /// The rejected setting.
         setting: Setting,
     },
-    /// The robot does not know a message it must know.
-    #[error("the robot does not understand this program: bring its firmware up to date")]
+    /// The robot does not know a required message.
+    #[error("the robot does not understand this program: update its firmware")]
     Misunderstood,
     /// A fault that cannot be cleared.
-    #[error("the robot stays in fault {code}: look after it, then resume")]
+    #[error("the robot stays in fault {code}: check it, then resume")]
     FaultStays {
         /// The fault.
         code: u16,
     },
-    /// Something is wrong with robot or camera.
+    /// Probably something is wrong with robot or camera.
     #[error(
-        "{count} throws in a row have no result (the last: {last}): look after robot and camera, \
-         then resume"
+        "{count} consecutive throws have no result (the last: {last}): check robot and camera, then \
+         resume"
     )]
     TooManyVoids {
-        /// How many.
+        /// Number of void throws.
         count: u32,
-        /// Why the last one has none.
+        /// Why the last one has no result.
         last: VoidReason,
     },
-    /// The link has no number left.
+    /// No id is left on the link.
     #[error(
-        "the numbers of the link are used up: clear the robot's memory and begin another experiment"
+        "the ids of the link are used up: clear the robot's memory and start another experiment"
     )]
     NoNumberLeft,
 }
 
-/// What the camera said about one photo.
+/// The result of one photo.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Photo {
     /// The throw.
     pub id: u32,
-    /// Which photo of it.
+    /// Number of the photo of this throw.
     pub attempt: u32,
-    /// The face and the photo, synced to the disk; `None` if no face could be read.
+    /// The face and the photo, which is synced to disk; `None` if no face could be read.
     pub read: Option<(Face, ImageName)>,
 }
 
-/// What is known beyond the journal.
+/// The state beyond the journal: the latest messages of robot and camera.
 #[derive(Debug, Clone)]
 pub struct Cycle {
     rules: Rules,
     status: Option<Status>,
-    /// What was measured of the throw last seen in mid-cycle, and in which boot: a reset forgets it.
+    /// Id, measurements and boot number of the last released throw; a reset clears it.
     release: Option<(u32, Measured, u16)>,
     boot: u16,
-    /// The robot said no; let it come to itself before it is asked again.
-    refused: bool,
+    /// The robot rejected a request: wait before sending it again.
+    rejected: bool,
     camera: Camera,
     stopping: bool,
     clears: u32,
@@ -146,7 +146,7 @@ pub struct Cycle {
     halt: Option<Halt>,
 }
 
-/// What the camera does.
+/// State of the camera.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Camera {
     Idle,
@@ -166,14 +166,14 @@ enum Camera {
 }
 
 impl Cycle {
-    /// A session that knows nothing yet of its robot.
+    /// A cycle before the first message of robot or camera.
     pub fn new(rules: Rules) -> Self {
         Self {
             rules,
             status: None,
             release: None,
             boot: 0,
-            refused: false,
+            rejected: false,
             camera: Camera::Idle,
             stopping: false,
             clears: 0,
@@ -182,16 +182,16 @@ impl Cycle {
         }
     }
 
-    /// A session with the robot was opened, or opened again: what it said before is stale.
+    /// Notes that a session with the robot was opened (again): earlier messages are stale.
     pub fn connected(&mut self, greeting: &Greeting) {
         self.boot = greeting.boot;
         self.status = None;
     }
 
-    /// The robot answered.
+    /// Notes a reply of the robot.
     pub fn replied(&mut self, request: &Request, reply: &Reply) {
         self.status = None;
-        self.refused = false;
+        self.rejected = false;
         match reply {
             Reply::Status(status) => {
                 if status.state == State::Idle {
@@ -206,13 +206,13 @@ impl Cycle {
                 }
                 self.status = Some(*status);
             }
-            Reply::Nak(nak) => self.refused_with(request, *nak),
+            Reply::Nak(nak) => self.note_rejection(request, *nak),
             Reply::Ok { .. } | Reply::Hello(_) | Reply::Info(_) => {}
         }
     }
 
-    fn refused_with(&mut self, request: &Request, nak: Nak) {
-        self.refused = true;
+    fn note_rejection(&mut self, request: &Request, nak: Nak) {
+        self.rejected = true;
         match (nak, request) {
             (
                 Nak::BadRange,
@@ -227,27 +227,27 @@ impl Cycle {
                     .map(|setting| Halt::OutOfRange { setting });
             }
             (Nak::BadMessage | Nak::BadRange, _) => self.halt = Some(Halt::Misunderstood),
-            // the next status tells
+            // the next status shows it
             (Nak::WrongState | Nak::WrongId | Nak::NoSession | Nak::Busy, _) => {}
         }
     }
 
-    /// The polling interval is over: the status is stale.
+    /// Notes that the polling interval is over: the status is stale.
     pub fn waited(&mut self) {
         self.status = None;
-        self.refused = false;
+        self.rejected = false;
     }
 
-    /// A photo was begun.
+    /// Notes that a photo was started.
     pub fn photographing(&mut self, id: u32, attempt: u32) {
         self.camera = Camera::Busy { id, attempt };
     }
 
-    /// A photo came back.
+    /// Notes the result of a photo.
     pub fn photographed(&mut self, photo: Photo) {
         let Photo { id, attempt, read } = photo;
         if self.camera != (Camera::Busy { id, attempt }) {
-            return; // of a throw that is resolved
+            return; // its throw is resolved already
         }
         self.camera = match read {
             Some((face, image)) => Camera::Read { id, face, image },
@@ -255,13 +255,13 @@ impl Cycle {
         };
     }
 
-    /// An entry is on the disk.
+    /// Notes that an entry is on disk.
     pub fn written(&mut self, entry: &Entry) {
         match entry {
             Entry::Void { reason, .. } => {
                 self.camera = Camera::Idle;
                 self.voids += 1;
-                if self.voids >= self.rules.most_voids {
+                if self.voids >= self.rules.max_voids {
                     self.halt = Some(Halt::TooManyVoids {
                         count: self.voids,
                         last: *reason,
@@ -276,32 +276,32 @@ impl Cycle {
         }
     }
 
-    /// Finish the open throw, and begin no other.
+    /// Finishes the open throw and starts no other.
     pub fn stop(&mut self) {
         self.stopping = true;
     }
 
-    /// The status that the next step is decided on, if it is fresh.
+    /// The present status, unless it is stale.
     pub fn status(&self) -> Option<&Status> {
         self.status.as_ref()
     }
 
-    /// The next step. `now_ms` is the time that entries get.
+    /// The next step. `now_ms` is the timestamp for entries.
     pub fn step(&mut self, history: &History, now_ms: u64) -> Step {
         if let Some(halt) = self.halt {
             return Step::Halt(halt);
         }
-        if self.refused {
+        if self.rejected {
             return Step::Wait;
         }
         let Some(status) = self.status else {
-            return Step::Ask(Request::Status);
+            return Step::Request(Request::Status);
         };
         let pending = history.pending();
         if let Pending::Read { id } = pending
             && (status.throw_id != id || !status.state.in_cycle() && status.state != State::Boot)
         {
-            // a reading stands, whatever became of the robot since
+            // a reading is valid whatever has happened to the robot since
             return Step::Write(Entry::Done { id });
         }
         if status.throw_id > history.last_id() {
@@ -313,7 +313,7 @@ impl Cycle {
                 self.not_thrown_yet(&status, id, setting)
             }
             Pending::Announced { id, .. } => self.thrown(&status, id, now_ms),
-            Pending::Read { .. } => self.put_away(&status),
+            Pending::Read { .. } => self.bring_to_idle(&status),
         }
     }
 
@@ -336,7 +336,7 @@ impl Cycle {
     fn nothing_open(&mut self, status: &Status, history: &History) -> Step {
         let throw = history.announced();
         if status.state != State::Idle {
-            return self.put_away(status);
+            return self.bring_to_idle(status);
         }
         if self.stopping || throw >= self.rules.throws {
             return Step::Finished;
@@ -351,16 +351,17 @@ impl Cycle {
 
     fn not_thrown_yet(&mut self, status: &Status, id: u32, setting: Setting) -> Step {
         if status.state != State::Idle {
-            return self.put_away(status);
+            return self.bring_to_idle(status);
         }
-        Step::Ask(Request::Throw {
+        Step::Request(Request::Throw {
             throw_id: id,
             spin_mrev_s: setting.spin_mrev_s(),
             angle_cdeg: setting.angle_cdeg(),
         })
     }
 
-    /// The robot has the open throw, and the journal no reading of it.
+    /// The next step when the robot has accepted the open throw and the journal has no reading of
+    /// it.
     fn thrown(&self, status: &Status, id: u32, at_ms: u64) -> Step {
         let void = |reason| Step::Write(Entry::Void { id, reason });
         if let (
@@ -385,7 +386,7 @@ impl Cycle {
             State::AtCoin => match self.camera {
                 Camera::Busy { id: of, .. } if of == id => Step::Wait,
                 Camera::Failed { id: of, attempt } if of == id => {
-                    if attempt >= self.rules.most_photos {
+                    if attempt >= self.rules.max_photos {
                         void(VoidReason::Unread)
                     } else {
                         let attempt = attempt + 1;
@@ -402,19 +403,19 @@ impl Cycle {
         }
     }
 
-    /// Brings the robot towards Idle.
-    fn put_away(&mut self, status: &Status) -> Step {
+    /// The next step that brings the robot to Idle.
+    fn bring_to_idle(&mut self, status: &Status) -> Step {
         match status.state {
-            State::AtCoin => Step::Ask(Request::Collect {
+            State::AtCoin => Step::Request(Request::Collect {
                 throw_id: status.throw_id,
             }),
             State::Fault => {
                 self.clears += 1;
-                if self.clears > MOST_CLEARS {
+                if self.clears > MAX_CLEARS {
                     let code = status.fault;
                     return Step::Halt(Halt::FaultStays { code });
                 }
-                Step::Ask(Request::ClearFault { code: status.fault })
+                Step::Request(Request::ClearFault { code: status.fault })
             }
             _ => Step::Wait,
         }

@@ -4,10 +4,10 @@
 //! DIR/
 //!   experiment.toml     the config as understood
 //!   setup.json          port and camera, for `resume`
-//!   journal.txt         the truth; see `journal`
-//!   photos/             one file a photo
-//!   sessions/           recordings (MCAP), one or more a session
-//!   camera.log          what the camera said on standard error
+//!   journal.txt         the source of truth; see `journal`
+//!   photos/             one file per photo
+//!   sessions/           recordings (MCAP), one or more per session
+//!   camera.log          standard error of the camera program
 //! ```
 
 use crate::Experiment;
@@ -26,18 +26,18 @@ const PHOTOS: &str = "photos";
 const SESSIONS: &str = "sessions";
 const CAMERA_LOG: &str = "camera.log";
 
-/// Longest setup read, bytes.
+/// Greatest length of the setup file, bytes.
 const SETUP_BYTES: u64 = 1 << 16;
 
-/// Robot and camera of an experiment: what `resume` needs to know beyond the plan.
+/// Robot and camera of an experiment, which `resume` needs in addition to the plan.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Setup {
-    /// The serial port, by a name that stays.
+    /// The serial port, by its stable name.
     pub port: PathBuf,
-    /// The camera: a command of the shell.
+    /// The camera: a shell command.
     pub camera: String,
-    /// How much faster than life a simulated robot is; 1 for a real one.
+    /// Speed of a simulated robot relative to real time; 1 for a real robot.
     pub speed: f64,
 }
 
@@ -51,18 +51,18 @@ pub struct Directory {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum DirectoryError {
-    /// It holds something else.
-    #[error("{} holds {found} and no {JOURNAL}: it is no experiment. Give a new directory", path.display())]
+    /// It contains something else.
+    #[error("{} contains {found} but no {JOURNAL}: it is not an experiment. Give a new directory", path.display())]
     NotAnExperiment {
         /// The directory.
         path: PathBuf,
-        /// The first strange entry.
+        /// The first unexpected file.
         found: String,
     },
     /// There is no experiment.
-    #[error("{} holds no experiment: `coinmc robot run CONFIG --out DIR` begins one", .0.display())]
+    #[error("{} contains no experiment: `coinmc robot run CONFIG --out DIR` starts one", .0.display())]
     Missing(PathBuf),
-    /// Its own config does not read back.
+    /// Its saved config cannot be read.
     #[error("{} is damaged: {problem}. Give the config again: `coinmc robot run CONFIG --out DIR`", path.display())]
     Damaged {
         /// The file.
@@ -73,20 +73,20 @@ pub enum DirectoryError {
     /// The journal.
     #[error(transparent)]
     Journal(#[from] JournalError),
-    /// The system refuses.
+    /// A system error.
     #[error("cannot {action} {}: {error}", path.display())]
     Io {
-        /// What was tried.
+        /// The failed action.
         action: &'static str,
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         error: io::Error,
     },
 }
 
 impl Directory {
-    /// The directory at a path; nothing is looked at yet.
+    /// The directory at a path; nothing is read yet.
     pub fn at(path: &Path) -> Self {
         Self {
             path: path.to_owned(),
@@ -98,22 +98,22 @@ impl Directory {
         &self.path
     }
 
-    /// Where photos go.
+    /// Folder of the photos.
     pub fn photos(&self) -> PathBuf {
         self.path.join(PHOTOS)
     }
 
-    /// Where recordings go.
+    /// Folder of the recordings.
     pub fn sessions(&self) -> PathBuf {
         self.path.join(SESSIONS)
     }
 
-    /// Where the camera's standard error goes.
+    /// File for the camera's standard error.
     pub fn camera_log(&self) -> PathBuf {
         self.path.join(CAMERA_LOG)
     }
 
-    /// Where the journal is.
+    /// Path of the journal.
     pub fn journal(&self) -> PathBuf {
         self.path.join(JOURNAL)
     }
@@ -126,11 +126,12 @@ impl Directory {
         }
     }
 
-    /// Begins an experiment here, or goes on with it, and keeps port and camera for the next time.
-    /// Says how many bytes of a torn last line were cut off the journal.
+    /// Starts an experiment here or continues it, and saves port and camera for the next session.
+    /// Also returns the number of bytes of an incomplete last line that were removed from the
+    /// journal.
     ///
     /// # Errors
-    /// [`DirectoryError`] if it belongs to something else, or is in use.
+    /// [`DirectoryError`] if the directory contains something else or is in use.
     pub fn open(
         &self,
         experiment: &Experiment,
@@ -140,23 +141,23 @@ impl Directory {
         let journal = self.journal();
         if journal.exists() {
             let opened = Journal::open(&journal, &header)?;
-            self.keep(setup)?;
+            self.save_setup(setup)?;
             return Ok(opened);
         }
-        self.must_be_free()?;
+        self.check_free()?;
         for folder in [self.path.clone(), self.photos(), self.sessions()] {
             fs::create_dir_all(&folder).map_err(|e| io_error("create", &folder, e))?;
         }
         self.write(CONFIG, experiment.plan().resolved_toml.as_bytes())?;
-        // before the journal, so that whatever has one can be resumed
-        self.keep(setup)?;
+        // before the journal, so that every directory with a journal can be resumed
+        self.save_setup(setup)?;
         Ok((Journal::create(&journal, &header)?, 0))
     }
 
-    /// The experiment that was begun here.
+    /// The experiment in this directory.
     ///
     /// # Errors
-    /// [`DirectoryError`] if there is none, or its config does not read back.
+    /// [`DirectoryError`] if there is none or its saved config cannot be read.
     pub fn experiment(&self) -> Result<Experiment, DirectoryError> {
         let path = self.path.join(CONFIG);
         if !path.exists() {
@@ -170,7 +171,7 @@ impl Directory {
         Experiment::new(plan).map_err(|problems| damaged(problems.to_string()))
     }
 
-    /// Port and camera that the experiment was last run with, if they read back.
+    /// Port and camera of the last session, if they can be read.
     pub fn setup(&self) -> Option<Setup> {
         let mut text = String::new();
         let file = File::open(self.path.join(SETUP)).ok()?;
@@ -178,16 +179,17 @@ impl Directory {
         serde_json::from_str(&text).ok()
     }
 
-    /// Keeps port and camera.
-    fn keep(&self, setup: &Setup) -> Result<(), DirectoryError> {
+    /// Saves port and camera.
+    fn save_setup(&self, setup: &Setup) -> Result<(), DirectoryError> {
         let mut text = serde_json::to_string_pretty(setup)
             .map_err(|e| io_error("write", &self.path.join(SETUP), e.into()))?;
         text.push('\n');
         self.write(SETUP, text.as_bytes())
     }
 
-    /// Absent, empty, or as a crash at the very beginning leaves it.
-    fn must_be_free(&self) -> Result<(), DirectoryError> {
+    /// Checks that the directory is absent, empty, or contains only what a crash at the start
+    /// leaves.
+    fn check_free(&self) -> Result<(), DirectoryError> {
         let entries = match fs::read_dir(&self.path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
             entries => entries.map_err(|e| io_error("list", &self.path, e))?,
@@ -197,8 +199,8 @@ impl Directory {
                 .map_err(|e| io_error("list", &self.path, e))?
                 .file_name();
             let ours = [CONFIG, SETUP, PHOTOS, SESSIONS];
-            let begun = |name: &str| ours.contains(&name.strip_suffix(".tmp").unwrap_or(name));
-            if !name.to_str().is_some_and(begun) {
+            let is_ours = |name: &str| ours.contains(&name.strip_suffix(".tmp").unwrap_or(name));
+            if !name.to_str().is_some_and(is_ours) {
                 return Err(DirectoryError::NotAnExperiment {
                     path: self.path.clone(),
                     found: name.display().to_string(),
@@ -208,7 +210,7 @@ impl Directory {
         Ok(())
     }
 
-    /// Writes a file that is there as a whole or not at all.
+    /// Writes a file atomically.
     fn write(&self, name: &str, content: &[u8]) -> Result<(), DirectoryError> {
         let (place, next) = (self.path.join(name), self.path.join(format!("{name}.tmp")));
         let mut options = OpenOptions::new();

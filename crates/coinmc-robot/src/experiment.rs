@@ -1,4 +1,4 @@
-//! A planned experiment: the config of a run, read as orders to a robot.
+//! A planned experiment: the config of a run, interpreted as commands to a robot.
 
 use crate::{Face, Setting};
 use coinmc::plan::{EngineChoice, Plan, Point, Stop};
@@ -7,15 +7,14 @@ use coinmc_core::{Domain, Launch, Marginal, Orientation, Outcome, Spin, Stream};
 use std::f64::consts::{PI, TAU};
 use std::fmt;
 
-/// Most throws of an experiment: a thousand years of a robot's work, and well within the link's
-/// 32-bit numbers.
+/// Greatest number of throws of an experiment: a thousand years of a robot's work, and well within
+/// the link's 32-bit ids.
 pub const MAX_THROWS: u64 = 1_000_000_000;
 
-/// How many throws, and which: all that is fixed before the first.
+/// The number of throws and their settings, all fixed before the first throw.
 ///
-/// Throw k (from 0) is toss k of the plan's only point, its spin and angle rounded to the units of
-/// the link. It depends on the config's seed and k alone, so it is never drawn a second time to
-/// another effect.
+/// Throw k (from 0) is toss k of the plan's only point, with spin and angle rounded to the units of
+/// the link. It depends only on the config's seed and k, so drawing it again gives the same throw.
 ///
 /// # Example
 /// ```
@@ -42,14 +41,14 @@ pub struct Experiment {
     throws: u32,
 }
 
-/// Everything that keeps a config from being an experiment.
+/// Why a config does not describe an experiment.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct NoExperiment {
-    /// A sentence each, with what to do.
+pub struct UnsuitablePlan {
+    /// One sentence per problem, with its remedy.
     pub problems: Vec<String>,
 }
 
-impl fmt::Display for NoExperiment {
+impl fmt::Display for UnsuitablePlan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "the robot cannot throw what this config describes:")?;
         self.problems
@@ -58,16 +57,15 @@ impl fmt::Display for NoExperiment {
     }
 }
 
-impl std::error::Error for NoExperiment {}
+impl std::error::Error for UnsuitablePlan {}
 
 impl Experiment {
     /// The experiment of a plan.
     ///
     /// # Errors
-    /// [`NoExperiment`] with every reason at once: more than one point, an engine that tosses
-    /// nothing, a stop rule that fixes no number of throws, launches that can leave the robot's
-    /// range.
-    pub fn new(plan: Plan) -> Result<Self, NoExperiment> {
+    /// [`UnsuitablePlan`] with all problems: more than one point, an engine without tosses, a stop
+    /// rule that does not fix the number of throws, launches outside the robot's range.
+    pub fn new(plan: Plan) -> Result<Self, UnsuitablePlan> {
         let mut problems = Vec::new();
         if !plan.axes.is_empty() || plan.points.len() != 1 {
             problems.push(format!(
@@ -84,11 +82,11 @@ impl Experiment {
         if problems.is_empty() {
             Ok(Self { plan, throws })
         } else {
-            Err(NoExperiment { problems })
+            Err(UnsuitablePlan { problems })
         }
     }
 
-    /// The plan it came from.
+    /// The plan of the experiment.
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
@@ -101,32 +99,32 @@ impl Experiment {
     /// Spin and angle of throw number `throw`, from 0.
     ///
     /// # Panics
-    /// Never for the plans that [`new`](Self::new) lets through.
+    /// Never for plans that [`new`](Self::new) accepts.
     pub fn setting(&self, throw: u32) -> Setting {
         Setting::of_launch(&self.drawn(throw)).expect("launches were checked to be in range")
     }
 
-    /// What the engine of the config says about a throw with this setting: the simulated robot's
-    /// coin, and the model beside a measured face.
+    /// Simulates a throw with this setting by the config's engine: for the simulated robot, and for
+    /// comparison with a measured face.
     ///
-    /// All that the robot does not set (height, velocity) is that of toss `throw` of the plan.
+    /// Quantities that the robot does not set (height, velocity) are those of toss `throw` of the
+    /// plan.
     ///
     /// # Errors
-    /// [`SettingsError`] if the engine refuses its settings.
+    /// [`SettingsError`] if the engine rejects its settings.
     pub fn simulate(&self, throw: u32, setting: Setting) -> Result<Outcome, SettingsError> {
         toss(self.point(), &setting.applied_to(&self.drawn(throw)))
     }
 
-    /// The face that [`simulate`](Self::simulate) gives; `None` for an undecided toss.
+    /// The face of [`simulate`](Self::simulate); `None` for an undecided toss.
     ///
     /// # Errors
-    /// [`SettingsError`] if the engine refuses its settings.
+    /// [`SettingsError`] if the engine rejects its settings.
     pub fn model_face(&self, throw: u32, setting: Setting) -> Result<Option<Face>, SettingsError> {
         Ok(self.simulate(throw, setting)?.face())
     }
 
-    /// The distribution of the spin, rev/s, and of the start angle, degrees, that throws are drawn
-    /// from.
+    /// The distributions of the spin, rev/s, and of the start angle, degrees.
     pub fn marginals(&self) -> (Marginal, Marginal) {
         let launches = &self.point().launches;
         let spin = spin_about_y(&launches.spin).unwrap_or(Marginal::Constant(0.0));
@@ -155,8 +153,8 @@ fn throws(plan: &Plan, problems: &mut Vec<String>) -> u32 {
         .is_some_and(|point| matches!(point.engine, EngineChoice::Analytic(_)));
     if no_tosses {
         problems.push(
-            "[engine.analytic] tosses nothing: name the model that the experiment is compared \
-             with, [engine.flat] or [engine.volumetric]"
+            "[engine.analytic] does not toss coins: give the model to compare the experiment with, \
+             [engine.flat] or [engine.volumetric]"
                 .to_owned(),
         );
         return 0;
@@ -173,8 +171,8 @@ fn throws(plan: &Plan, problems: &mut Vec<String>) -> u32 {
         }
         Stop::HalfWidth { .. } => {
             problems.push(
-                "stop.half_width fixes no number of throws: give stop.tosses (1000 throws pin a \
-                 probability of 1/2 down to +- 0.03)"
+                "stop.half_width does not fix the number of throws: give stop.tosses (1000 throws \
+                 determine a probability of 1/2 to +- 0.03)"
                     .to_owned(),
             );
             0
@@ -211,8 +209,8 @@ fn check_launches(point: &Point, problems: &mut Vec<String>) {
     }
 }
 
-/// Refuses a marginal that can leave 0 to `most`.
-fn check_range(what: &str, of: Marginal, (most, unit): (f64, &str), problems: &mut Vec<String>) {
+/// Reports a marginal that can leave the range from 0 to `max`.
+fn check_range(what: &str, of: Marginal, (max, unit): (f64, &str), problems: &mut Vec<String>) {
     const SLACK: f64 = 1e-9;
     let range = match of {
         Marginal::Constant(value) => Some((value, value)),
@@ -222,18 +220,18 @@ fn check_range(what: &str, of: Marginal, (most, unit): (f64, &str), problems: &m
     };
     match range {
         None => problems.push(format!(
-            "{what} is normal and so has no bounds, the robot's range is 0 to {most} {unit}: give \
+            "{what} is normal and so has no bounds, but the robot's range is 0 to {max} {unit}: give \
              a constant or a uniform distribution within it"
         )),
-        Some((from, to)) if from < -SLACK || to > most + SLACK => problems.push(format!(
-            "{what} goes from {from} to {to} {unit}, the robot's range is 0 to {most} {unit}: \
+        Some((from, to)) if from < -SLACK || to > max + SLACK => problems.push(format!(
+            "{what} extends from {from} to {to} {unit}, but the robot's range is 0 to {max} {unit}: \
              narrow it"
         )),
         Some(_) => {}
     }
 }
 
-/// The tilt in the xz plane, rad, if the orientation is one.
+/// The tilt in the xz plane, rad, if the orientation is a tilt.
 fn tilt(orientation: &Orientation) -> Option<Marginal> {
     match orientation {
         Orientation::Tilt(angle) => Some(*angle),
@@ -244,7 +242,7 @@ fn tilt(orientation: &Orientation) -> Option<Marginal> {
     }
 }
 
-/// The spin about y, rad/s, if the spin is about nothing else.
+/// The spin about y, rad/s, if the spin is only about y.
 fn spin_about_y(spin: &Spin) -> Option<Marginal> {
     if !spin.is_planar() {
         return None;
@@ -256,7 +254,7 @@ fn spin_about_y(spin: &Spin) -> Option<Marginal> {
     }
 }
 
-/// The marginal of the same quantity in other units (or, with a negative factor, the other way).
+/// The marginal of the quantity times a factor, which may be negative.
 fn scaled(marginal: Marginal, by: f64) -> Marginal {
     match marginal {
         Marginal::Constant(value) => Marginal::Constant(value * by),
@@ -279,13 +277,13 @@ mod tests {
     const CONFIG: &str = "seed = 3\n[coin]\nratio = 1.0\n[surface]\nrestitution = 0.5\n\
         friction = 0.3\n[launch]\npreset = 'robot'\n[engine.flat]\n[stop]\ntosses = 100\n";
 
-    fn experiment(overrides: &[&str]) -> Result<Experiment, NoExperiment> {
+    fn experiment(overrides: &[&str]) -> Result<Experiment, UnsuitablePlan> {
         let overrides: Vec<Override> = overrides.iter().map(|o| o.parse().unwrap()).collect();
         Experiment::new(parse("test", CONFIG, &overrides).unwrap())
     }
 
     #[test]
-    fn a_throw_is_the_same_whenever_it_is_asked_for() {
+    fn a_throw_is_always_the_same() {
         let one = experiment(&[]).unwrap();
         let again = experiment(&["stop.tosses=7"]).unwrap();
         let settings: Vec<_> = (0..7).map(|throw| one.setting(throw)).collect();
@@ -308,7 +306,7 @@ mod tests {
     }
 
     #[test]
-    fn every_problem_is_said_at_once() {
+    fn all_problems_are_reported_at_once() {
         let error = experiment(&[
             "coin.ratio=[1, 2]",
             "stop={half_width=0.01, max_tosses=1000}",
@@ -329,7 +327,7 @@ mod tests {
     }
 
     #[test]
-    fn launches_in_space_and_engines_without_tosses_are_refused() {
+    fn launches_in_space_and_engines_without_tosses_are_rejected() {
         let space = "coin.ratio = 1\nsurface = { restitution = 0.5, friction = 0.3 }\n\
             launch.preset = 'clean'\nengine.volumetric = {}\nstop.tosses = 10";
         let error = Experiment::new(parse("test", space, &[]).unwrap()).unwrap_err();
@@ -340,7 +338,7 @@ mod tests {
     }
 
     #[test]
-    fn simulated_faces_follow_from_setting_and_number() {
+    fn simulated_faces_depend_on_setting_and_number() {
         let experiment = experiment(&[]).unwrap();
         let face = |throw| {
             let setting = experiment.setting(throw);
@@ -349,7 +347,7 @@ mod tests {
         let faces: Vec<_> = (0..50).map(face).collect();
         assert_eq!(faces, (0..50).map(face).collect::<Vec<_>>());
         assert!(Face::ALL.iter().all(|face| faces.contains(&Some(*face))));
-        // another setting for the same throw is another toss
+        // another setting gives another toss
         let other = Setting::new(4321, 1234).unwrap();
         let others: Vec<_> = (0..50)
             .map(|t| experiment.model_face(t, other).unwrap())

@@ -9,14 +9,15 @@
 //!                    robot, or sim
 //! ```
 //!
-//! * An [`Experiment`] is the plan of a run, read as orders to a robot: throw k is fixed by the
-//!   seed and k.
-//! * The [`journal`] is the one truth: each entry on the disk before the step that follows from it.
-//! * [`cycle`] decides the next step from the journal, the robot's last word and the camera's; it
-//!   has no memory of its own that a crash could take.
-//! * [`port`] is a serial port with the link's state machine on it, through any loss of the line.
+//! * An [`Experiment`] is the plan of a run, interpreted as commands to a robot: throw k depends
+//!   only on the seed and k.
+//! * The [`journal`] is the single source of truth: each entry is on disk before the step that
+//!   follows from it.
+//! * [`cycle`] decides the next step from the journal and the latest messages of robot and camera;
+//!   it has no state of its own that a crash could lose.
+//! * [`port`] is a serial port that runs the link's state machine and reconnects after any loss.
 //! * [`camera`] is any program that speaks a few lines of JSON.
-//! * [`sim`] is a robot where there is none.
+//! * [`sim`] is a simulated robot.
 //! * [`export`] and [`fairness`] read the journal.
 
 pub mod camera;
@@ -37,9 +38,9 @@ pub mod sim;
 pub use clock::{Clock, unix_ms};
 pub use coinmc_core::Face;
 pub use directory::{Directory, DirectoryError, Setup};
-pub use experiment::{Experiment, MAX_THROWS, NoExperiment};
+pub use experiment::{Experiment, MAX_THROWS, UnsuitablePlan};
 pub use session::{
-    Live, POLL, ProgressSink, RoundTrips, SessionError, SessionOptions, SessionReport, fault, name,
-    run_session,
+    POLL, Progress, ProgressSink, RoundTrips, SessionError, SessionOptions, SessionReport,
+    fault_text, run_session, state_name,
 };
 pub use setting::{MAX_ANGLE_CDEG, MAX_SPIN_MREV_S, Setting, SettingError};

@@ -1,4 +1,4 @@
-//! Locks on open files, which end with their process however it ends.
+//! Locks on open files, which the system releases when the process ends for any reason.
 
 use rustix::fs::{FlockOperation, flock};
 use rustix::io::Errno;
@@ -7,18 +7,18 @@ use std::os::fd::AsFd;
 use std::thread;
 use std::time::Duration;
 
-/// How often, and how far apart, a held lock is tried again: a third of a second in all.
+/// Attempts to take a held lock, and the pause between them: a third of a second in all.
 const ATTEMPTS: u32 = 16;
 const PAUSE: Duration = Duration::from_millis(20);
 
-/// Locks a file for this process alone.
+/// Locks a file exclusively for this process.
 ///
-/// A process that another one is just starting holds a copy of its open files until it runs its own
-/// program; a lock that was let go meanwhile is still held by that copy, for a moment: so a held
-/// lock is tried again. Where files know no locks this succeeds.
+/// While a process starts another one, the new process briefly has a copy of all open files, and a
+/// lock that was released meanwhile is still held by that copy. Therefore a held lock is tried
+/// again. On file systems without locks this succeeds.
 ///
 /// # Errors
-/// [`io::ErrorKind::WouldBlock`] if another process holds it; others of the system.
+/// [`io::ErrorKind::WouldBlock`] if another process holds the lock; other system errors.
 pub(crate) fn lock(file: &impl AsFd) -> io::Result<()> {
     let mut left = ATTEMPTS;
     loop {

@@ -1,4 +1,4 @@
-//! A session as an MCAP recording: what was said, what the robot did, photos, results, the log.
+//! Recording of a session as MCAP: commands, replies, status, photos, results and the log.
 
 use crate::journal::{Resolution, Throw};
 use coinmc_link::{Reply, Request, Status};
@@ -10,17 +10,17 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// A file is ended after this long, or when it holds about this much.
+/// A new file is started after this time or about this many bytes.
 const ROTATE_AFTER: Duration = Duration::from_hours(1);
 const ROTATE_BYTES: u64 = 256 << 20;
-/// What a message takes up, roughly.
+/// Approximate size of a message, bytes.
 const MESSAGE_BYTES: u64 = 200;
 /// Largest photo that goes into a recording.
-const MOST_IMAGE_BYTES: u64 = 32 << 20;
-/// A status that tells nothing new is recorded this seldom.
+const MAX_IMAGE_BYTES: u64 = 32 << 20;
+/// An unchanged status is recorded again after this time.
 const SAME_STATUS: Duration = Duration::from_secs(1);
 
-/// Records a session, file after file: `session-0003-01.mcap`, ….
+/// Records a session in a sequence of files: `session-0003-01.mcap`, ….
 #[derive(Debug)]
 pub(crate) struct SessionRecorder {
     folder: PathBuf,
@@ -34,14 +34,14 @@ pub(crate) struct SessionRecorder {
 struct OpenFile {
     recorder: Recorder,
     channels: Channels,
-    begun: Instant,
+    started: Instant,
     bytes: u64,
 }
 
 #[derive(Debug)]
 struct Channels {
     command: Channel<Command>,
-    reply: Channel<Answered>,
+    reply: Channel<ReplyMessage>,
     status: Channel<Status>,
     image: Channel<CompressedImage>,
     result: Channel<ThrowResult>,
@@ -56,7 +56,7 @@ struct Command {
 
 /// `/robot/reply`.
 #[derive(Debug, Serialize)]
-struct Answered {
+struct ReplyMessage {
     reply: Reply,
     took_ms: f64,
 }
@@ -72,7 +72,7 @@ struct ThrowResult {
     measured_spin_rev_s: Option<f64>,
     measured_angle_deg: Option<f64>,
     image: Option<String>,
-    /// Why it has no result.
+    /// Why the throw has no result.
     void: Option<String>,
 }
 
@@ -97,7 +97,7 @@ impl SessionRecorder {
     /// Begins the next session in a folder.
     ///
     /// # Errors
-    /// Those of the system.
+    /// System errors.
     pub(crate) fn begin(folder: &Path) -> Result<Self, Error> {
         let last = last_session(folder).map_err(|source| Error::Io {
             action: "list",
@@ -129,15 +129,15 @@ impl SessionRecorder {
         Ok(self.file.insert(OpenFile {
             recorder,
             channels,
-            begun: Instant::now(),
+            started: Instant::now(),
             bytes: 0,
         }))
     }
 
-    /// The open file, or the next where it is full.
+    /// The open file, or a new one if it is full.
     fn file(&mut self) -> Result<&mut OpenFile, Error> {
         let full =
-            |file: &OpenFile| file.begun.elapsed() > ROTATE_AFTER || file.bytes > ROTATE_BYTES;
+            |file: &OpenFile| file.started.elapsed() > ROTATE_AFTER || file.bytes > ROTATE_BYTES;
         if self.file.as_ref().is_some_and(full)
             && let Some(file) = self.file.take()
         {
@@ -151,10 +151,10 @@ impl SessionRecorder {
         Ok(file)
     }
 
-    /// A request and its answer. Of statuses only those that tell something new.
+    /// Records a request and its reply; a status only if it has changed or some time has passed.
     ///
     /// # Errors
-    /// Those of the system.
+    /// System errors.
     pub(crate) fn exchange(
         &mut self,
         request: &Request,
@@ -169,12 +169,11 @@ impl SessionRecorder {
         let command = Command { request: *request };
         file.recorder
             .write(&file.channels.command, time_ns, &command)?;
-        let answered = Answered {
+        let reply = ReplyMessage {
             reply: *reply,
             took_ms: took.as_secs_f64() * 1e3,
         };
-        file.recorder
-            .write(&file.channels.reply, time_ns, &answered)
+        file.recorder.write(&file.channels.reply, time_ns, &reply)
     }
 
     fn status(&mut self, status: &Status, time_ns: u64) -> Result<(), Error> {
@@ -196,17 +195,17 @@ impl SessionRecorder {
         Ok(())
     }
 
-    /// A photo that lies in a file.
+    /// Records a photo from its file.
     ///
     /// # Errors
-    /// Those of the system.
+    /// System errors.
     pub(crate) fn photo(&mut self, path: &Path, time_ns: u64) -> Result<(), Error> {
         let io = |source| Error::Io {
             action: "read",
             path: path.to_owned(),
             source,
         };
-        if fs::metadata(path).map_err(io)?.len() > MOST_IMAGE_BYTES {
+        if fs::metadata(path).map_err(io)?.len() > MAX_IMAGE_BYTES {
             return self.log(LogLevel::Warning, "a photo is too large to record", time_ns);
         }
         let data = fs::read(path).map_err(io)?;
@@ -226,10 +225,10 @@ impl SessionRecorder {
         file.recorder.write(&file.channels.image, time_ns, &message)
     }
 
-    /// A throw that is resolved. All so far is on the disk when this returns.
+    /// Records a resolved throw. Everything recorded so far is on disk when this returns.
     ///
     /// # Errors
-    /// Those of the system.
+    /// System errors.
     pub(crate) fn result(&mut self, throw: &Throw, time_ns: u64) -> Result<(), Error> {
         let reading = throw.reading.as_ref().map(|(reading, _)| reading);
         let result = ThrowResult {
@@ -251,10 +250,10 @@ impl SessionRecorder {
         file.recorder.flush()
     }
 
-    /// A line of the log.
+    /// Records a log message.
     ///
     /// # Errors
-    /// Those of the system.
+    /// System errors.
     pub(crate) fn log(
         &mut self,
         level: LogLevel,
@@ -276,7 +275,7 @@ impl SessionRecorder {
     /// Ends the recording.
     ///
     /// # Errors
-    /// Those of the system.
+    /// System errors.
     pub(crate) fn finish(mut self) -> Result<(), Error> {
         match self.file.take() {
             Some(file) => file.recorder.finish().map(drop),
@@ -302,7 +301,7 @@ impl Channels {
     }
 }
 
-/// The greatest number of a session recorded in a folder; 0 if there is none.
+/// The greatest session number recorded in a folder; 0 if there is none.
 fn last_session(folder: &Path) -> io::Result<u32> {
     let mut last = 0;
     for entry in fs::read_dir(folder)? {

@@ -1,11 +1,11 @@
-//! One session of an experiment: robot, camera, journal and recording, until all throws are made or
-//! somebody says stop.
+//! One session of an experiment: runs robot, camera, journal and recording until all throws are
+//! made or the session is cancelled.
 
-use crate::camera::{Camera, CameraError, CameraOptions, Taken};
+use crate::camera::{Camera, CameraError, CameraOptions, PhotoResult};
 use crate::clock::{Clock, unix_ms};
 use crate::cycle::{Cycle, Halt, Photo, Rules, Step};
 use crate::journal::{Entry, Journal, JournalError, Resolution, VoidReason};
-use crate::port::{Answer, Connection, ConnectionError, LinkEvent};
+use crate::port::{Connection, ConnectionError, LinkEvent, RequestOutcome};
 use crate::recording::SessionRecorder;
 use crate::{Directory, Experiment, Face};
 use coinmc_link::{Counters, Request, Seen, State, Status};
@@ -17,51 +17,51 @@ use std::thread;
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
-/// How often the robot is asked where it is, in its time.
+/// Polling interval of the robot's status, in the robot's time.
 pub const POLL: Duration = Duration::from_millis(100);
 
-/// The link's own times shrink no further than this: below 5 ms for an answer a busy computer looks
-/// like a lost line.
+/// Greatest speed of the link's clock: with less than 5 ms for a reply, a busy computer would look
+/// like a lost connection.
 const FASTEST_LINK: f64 = 30.0;
 
-/// Shortest time between two questions, wall time.
+/// Shortest polling interval, wall time.
 const SHORTEST_POLL: Duration = Duration::from_millis(1);
 
-/// How long a robot that does not answer may keep a session from ending.
-const PATIENCE: Duration = Duration::from_secs(30);
+/// A cancelled session waits at most this long for a robot that does not reply.
+const CANCEL_TIMEOUT: Duration = Duration::from_secs(30);
 
-/// What a session needs beyond its experiment.
+/// Options of a session.
 pub struct SessionOptions<'a> {
     /// The serial port.
     pub port: &'a Path,
     /// The camera.
     pub camera: CameraOptions,
-    /// What does not change.
+    /// Rules of the cycle.
     pub rules: Rules,
-    /// How much faster than life a simulated robot is; 1 for a real one.
+    /// Speed of a simulated robot relative to real time; 1 for a real robot.
     pub speed: f64,
     /// Whether to record the session.
     pub record: bool,
     /// Set it to finish the open throw and stop.
     pub cancel: &'a AtomicBool,
-    /// Who is told.
+    /// Receives progress, notes and warnings.
     pub sink: &'a dyn ProgressSink,
 }
 
-/// Told how a session goes.
+/// Receives the progress of a session.
 pub trait ProgressSink {
-    /// Something changed.
-    fn live(&self, live: &Live);
-    /// Something happened that a person may want to know.
+    /// The progress changed.
+    fn progress(&self, progress: &Progress);
+    /// Information for the user.
     fn note(&self, text: &str);
-    /// Something happened that a person should know.
+    /// A warning for the user.
     fn warning(&self, text: &str);
 }
 
-/// A session at a moment.
+/// Progress of a session.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Live {
-    /// What the robot said last; `None` while it cannot be asked.
+pub struct Progress {
+    /// The robot's last status; `None` while it is disconnected.
     pub status: Option<Status>,
     /// Throws planned.
     pub planned: u32,
@@ -70,64 +70,64 @@ pub struct Live {
     /// Void throws.
     pub voids: u32,
     /// Throws resolved in this session.
-    pub here: u32,
-    /// Losses of the line in this session.
+    pub this_session: u32,
+    /// Losses of the connection in this session.
     pub losses: u32,
 }
 
-impl Live {
+impl Progress {
     /// Throws resolved.
     pub fn resolved(&self) -> u32 {
         self.faces.iter().sum::<u32>() + self.voids
     }
 }
 
-/// What a session came to.
+/// Result of a session.
 #[derive(Debug, Clone)]
 pub struct SessionReport {
-    /// All planned throws are resolved.
+    /// Whether all planned throws are resolved.
     pub complete: bool,
-    /// How it stands.
-    pub live: Live,
-    /// What happened on the line.
+    /// Progress at the end.
+    pub progress: Progress,
+    /// Statistics of the connection.
     pub counters: Counters,
-    /// Round trips of requests, wall time: number, mean, longest.
+    /// Round-trip times of requests.
     pub round_trips: RoundTrips,
 }
 
-/// How long the robot takes to answer.
+/// Statistics of round-trip times, wall time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct RoundTrips {
-    /// Requests answered.
+    /// Number of requests with a reply.
     pub count: u64,
-    /// All of them together.
+    /// Sum of their times.
     pub sum: Duration,
-    /// The longest.
+    /// The longest time.
     pub longest: Duration,
 }
 
-/// Why a session ended early. The journal is right in any case.
+/// Why a session ended early. The journal is correct in any case.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SessionError {
     /// The journal cannot be written.
     #[error(transparent)]
     Journal(#[from] JournalError),
-    /// The robot cannot be talked to.
+    /// No communication with the robot is possible.
     #[error(transparent)]
     Connection(#[from] ConnectionError),
-    /// The camera cannot be started at all.
+    /// The camera cannot be started.
     #[error(transparent)]
     Camera(#[from] CameraError),
-    /// A person must decide.
+    /// The user must decide.
     #[error(transparent)]
     Halt(#[from] Halt),
-    /// The recording cannot be begun.
+    /// The recording cannot be started.
     #[error("cannot record the session: {0}")]
     Recording(coinmc_recording::Error),
 }
 
-/// Goes on with an experiment until it is complete, or told to stop.
+/// Continues an experiment until it is complete or cancelled.
 ///
 /// # Errors
 /// [`SessionError`]
@@ -140,8 +140,8 @@ pub fn run_session(
     let clock = Clock::new(options.speed.min(FASTEST_LINK));
     let connection = Connection::open(options.port, clock).map_err(ConnectionError::Port)?;
     let recorder = if options.record {
-        let begun = SessionRecorder::begin(&directory.sessions());
-        Some(begun.map_err(SessionError::Recording)?)
+        let recorder = SessionRecorder::begin(&directory.sessions());
+        Some(recorder.map_err(SessionError::Recording)?)
     } else {
         None
     };
@@ -153,11 +153,11 @@ pub fn run_session(
         cycle: Cycle::new(options.rules),
         connection,
         camera: Camera::start(options.camera.clone())?,
-        photos_under_way: 0,
-        notes: Notes {
+        pending_photos: 0,
+        reporter: Reporter {
             sink: options.sink,
             recorder,
-            live: Live::default(),
+            progress: Progress::default(),
             round_trips: RoundTrips::default(),
         },
         cancelled_at: Cell::new(None),
@@ -167,9 +167,9 @@ pub fn run_session(
     let complete = ended?;
     Ok(SessionReport {
         complete,
-        live: session.notes.live.clone(),
+        progress: session.reporter.progress.clone(),
         counters: session.connection.counters(),
-        round_trips: session.notes.round_trips,
+        round_trips: session.reporter.round_trips,
     })
 }
 
@@ -181,24 +181,24 @@ struct Session<'a> {
     cycle: Cycle,
     connection: Connection,
     camera: Camera,
-    /// Photos asked for and not yet back. The last may be of a throw that is void by then, and the
-    /// next one's photo comes behind it.
-    photos_under_way: u32,
-    notes: Notes<'a>,
+    /// Photos requested and not yet finished. The last may belong to a throw that has become void,
+    /// with the next throw's photo queued behind it.
+    pending_photos: u32,
+    reporter: Reporter<'a>,
     cancelled_at: Cell<Option<Instant>>,
 }
 
 impl Session<'_> {
     fn run(&mut self) -> Result<bool, SessionError> {
-        self.notes.live = live(&self.journal, self.options.rules.throws);
-        self.options.sink.live(&self.notes.live);
+        self.reporter.progress = journal_progress(&self.journal, self.options.rules.throws);
+        self.options.sink.progress(&self.reporter.progress);
         loop {
             if self.options.cancel.load(Ordering::Relaxed) {
                 self.cycle.stop();
             }
             match self.cycle.step(self.journal.history(), unix_ms()) {
-                Step::Ask(request) => {
-                    if !self.ask(&request)? {
+                Step::Request(request) => {
+                    if !self.request(&request)? {
                         return Ok(false);
                     }
                 }
@@ -212,7 +212,7 @@ impl Session<'_> {
                 Step::Photograph { id, attempt } => {
                     self.camera.take(id, attempt);
                     self.cycle.photographing(id, attempt);
-                    self.photos_under_way += 1;
+                    self.pending_photos += 1;
                 }
                 Step::Finished => {
                     let announced = self.journal.history().announced();
@@ -223,8 +223,8 @@ impl Session<'_> {
         }
     }
 
-    /// Whether the session goes on.
-    fn ask(&mut self, request: &Request) -> Result<bool, SessionError> {
+    /// Sends a request; whether the session continues.
+    fn request(&mut self, request: &Request) -> Result<bool, SessionError> {
         let (cancel, since) = (self.options.cancel, &self.cancelled_at);
         let given_up = || {
             if !cancel.load(Ordering::Relaxed) {
@@ -233,32 +233,32 @@ impl Session<'_> {
             let now = Instant::now();
             let first = since.get().unwrap_or(now);
             since.set(Some(first));
-            now - first > PATIENCE
+            now - first > CANCEL_TIMEOUT
         };
-        let notes = &mut self.notes;
-        let answer = self
+        let reporter = &mut self.reporter;
+        let outcome = self
             .connection
-            .ask(request, &given_up, &mut |event| notes.heard(event))?;
-        match answer {
-            Answer::Reply(reply) => {
+            .request(request, &given_up, &mut |event| reporter.link_event(event))?;
+        match outcome {
+            RequestOutcome::Reply(reply) => {
                 self.cycle.replied(request, &reply);
                 let status = self.cycle.status().copied();
-                if status.is_some() && self.notes.live.status != status {
-                    self.notes.live.status = status;
-                    self.options.sink.live(&self.notes.live);
+                if status.is_some() && self.reporter.progress.status != status {
+                    self.reporter.progress.status = status;
+                    self.options.sink.progress(&self.reporter.progress);
                 }
             }
-            Answer::Connected { greeting, .. } => self.cycle.connected(&greeting),
-            Answer::GivenUp => return Ok(false),
+            RequestOutcome::Connected { greeting, .. } => self.cycle.connected(&greeting),
+            RequestOutcome::GivenUp => return Ok(false),
         }
         Ok(true)
     }
 
-    /// The polling interval, or less if a photo comes back before.
+    /// Waits for the polling interval, or until a photo is finished.
     fn wait(&mut self) {
         let interval = POLL.div_f64(self.options.speed).max(SHORTEST_POLL);
-        if self.photos_under_way > 0 {
-            if let Some(taken) = self.camera.taken(interval) {
+        if self.pending_photos > 0 {
+            if let Some(taken) = self.camera.finished_photo(interval) {
                 self.photographed(taken);
             }
         } else {
@@ -267,9 +267,9 @@ impl Session<'_> {
         self.cycle.waited();
     }
 
-    fn photographed(&mut self, taken: Taken) {
-        self.photos_under_way = self.photos_under_way.saturating_sub(1);
-        let Taken {
+    fn photographed(&mut self, taken: PhotoResult) {
+        self.pending_photos = self.pending_photos.saturating_sub(1);
+        let PhotoResult {
             id,
             attempt,
             result,
@@ -277,11 +277,11 @@ impl Session<'_> {
         let read = match result {
             Ok((face, image)) => {
                 let path = self.photos.join(image.as_str());
-                self.notes.record(|to, now| to.photo(&path, now));
+                self.reporter.record(|to, now| to.photo(&path, now));
                 Some((face, image))
             }
             Err(error) => {
-                self.notes
+                self.reporter
                     .note(&format!("throw {id}, photo {attempt}: {error}"));
                 None
             }
@@ -294,8 +294,8 @@ impl Session<'_> {
         self.cycle.written(entry);
         match entry {
             Entry::Done { .. } | Entry::Void { .. } => self.resolved(),
-            Entry::Adopted { counter } => self.notes.warning(&format!(
-                "the robot's counter is adopted: throws go on with number {}",
+            Entry::Adopted { counter } => self.reporter.warning(&format!(
+                "the robot's counter is adopted: throws continue with number {}",
                 u64::from(*counter) + 1
             )),
             Entry::Announced { .. } | Entry::Read { .. } => {}
@@ -308,36 +308,36 @@ impl Session<'_> {
             return;
         };
         if let Some(Resolution::Void(reason)) = throw.resolution {
-            self.notes.live.voids += 1;
-            let text = format!("throw {} is void: {}", throw.id, why(reason));
-            self.notes.note(&text);
+            self.reporter.progress.voids += 1;
+            let text = format!("throw {} is void: {}", throw.id, void_text(reason));
+            self.reporter.note(&text);
         } else if let Some((reading, _)) = &throw.reading {
-            self.notes.live.faces[index(reading.face)] += 1;
+            self.reporter.progress.faces[index(reading.face)] += 1;
         }
-        self.notes.live.here += 1;
-        self.notes.record(|to, now| to.result(throw, now));
-        self.options.sink.live(&self.notes.live);
+        self.reporter.progress.this_session += 1;
+        self.reporter.record(|to, now| to.result(throw, now));
+        self.options.sink.progress(&self.reporter.progress);
     }
 
     fn finish(&mut self) {
-        if let Some(recorder) = self.notes.recorder.take()
+        if let Some(recorder) = self.reporter.recorder.take()
             && let Err(error) = recorder.finish()
         {
-            self.notes
+            self.reporter
                 .warning(&format!("the recording cannot be finished: {error}"));
         }
     }
 }
 
-/// Display, log and recording together.
-struct Notes<'a> {
+/// Reports to the sink, the log and the recording.
+struct Reporter<'a> {
     sink: &'a dyn ProgressSink,
     recorder: Option<SessionRecorder>,
-    live: Live,
+    progress: Progress,
     round_trips: RoundTrips,
 }
 
-impl Notes<'_> {
+impl Reporter<'_> {
     fn note(&mut self, text: &str) {
         self.sink.note(text);
         self.record(|to, now| to.log(LogLevel::Info, text, now));
@@ -348,7 +348,8 @@ impl Notes<'_> {
         self.record(|to, now| to.log(LogLevel::Warning, text, now));
     }
 
-    /// Records, until it fails: the journal holds the truth, and throws go on without a recording.
+    /// Records until recording fails; throws then continue without, because the journal is what
+    /// counts.
     fn record(
         &mut self,
         what: impl FnOnce(&mut SessionRecorder, u64) -> Result<(), coinmc_recording::Error>,
@@ -359,12 +360,12 @@ impl Notes<'_> {
         if let Err(error) = what(recorder, unix_ms().saturating_mul(1_000_000)) {
             self.recorder = None;
             self.sink.warning(&format!(
-                "{error}. This session is not recorded any further; the journal is"
+                "{error}. The session continues without a recording; the journal is complete"
             ));
         }
     }
 
-    fn heard(&mut self, event: &LinkEvent<'_>) {
+    fn link_event(&mut self, event: &LinkEvent<'_>) {
         match event {
             LinkEvent::Exchanged {
                 request,
@@ -376,25 +377,25 @@ impl Notes<'_> {
             }
             LinkEvent::Opened(_) => {}
             LinkEvent::Lost { why, .. } => {
-                // every attempt that fails is one more; people hear of the first
-                if self.live.status.take().is_some() {
-                    self.live.losses += 1;
+                // every failed attempt to reconnect is another event; report only the first
+                if self.progress.status.take().is_some() {
+                    self.progress.losses += 1;
                     self.note(&format!(
-                        "the line to the robot is lost ({why}); trying again"
+                        "the connection to the robot is lost ({why}); trying again"
                     ));
-                    self.sink.live(&self.live);
+                    self.sink.progress(&self.progress);
                 }
             }
             LinkEvent::Connected { greeting, seen } => {
-                let state = format!("boot {}, {}", greeting.boot, name(greeting.state));
+                let state = format!("boot {}, {}", greeting.boot, state_name(greeting.state));
                 match seen {
                     Seen::First => self.note(&format!("connected to the robot ({state})")),
-                    Seen::Same => self.note(&format!("connected again ({state})")),
+                    Seen::Same => self.note(&format!("reconnected ({state})")),
                     Seen::NewBoot => {
-                        self.note(&format!("connected again; the robot was reset ({state})"));
+                        self.note(&format!("reconnected; the robot was reset ({state})"));
                     }
                     Seen::Taken => {
-                        self.warning("another program talks to the same robot; end it");
+                        self.warning("another program uses the same robot; end it");
                     }
                 }
             }
@@ -409,20 +410,22 @@ impl Notes<'_> {
     }
 }
 
-/// The journal's throws, counted.
-fn live(journal: &Journal, planned: u32) -> Live {
-    let mut live = Live {
+/// Progress according to the journal.
+fn journal_progress(journal: &Journal, planned: u32) -> Progress {
+    let mut progress = Progress {
         planned,
-        ..Live::default()
+        ..Progress::default()
     };
     for throw in journal.history().throws() {
         match (throw.resolution, &throw.reading) {
-            (Some(Resolution::Void(_)), _) => live.voids += 1,
-            (Some(Resolution::Done), Some((reading, _))) => live.faces[index(reading.face)] += 1,
+            (Some(Resolution::Void(_)), _) => progress.voids += 1,
+            (Some(Resolution::Done), Some((reading, _))) => {
+                progress.faces[index(reading.face)] += 1
+            }
             _ => {}
         }
     }
-    live
+    progress
 }
 
 fn index(face: Face) -> usize {
@@ -433,18 +436,18 @@ fn index(face: Face) -> usize {
     }
 }
 
-/// A void throw's reason, for people.
-fn why(reason: VoidReason) -> String {
+/// Describes the reason of a void throw.
+fn void_text(reason: VoidReason) -> String {
     match reason {
         VoidReason::Unread => "no photo showed a face".to_owned(),
-        VoidReason::Fault(code) => format!("the robot stopped with {}", fault(code)),
-        VoidReason::Lost => "the coin was put away unread".to_owned(),
-        VoidReason::Superseded => "the robot counts beyond it".to_owned(),
+        VoidReason::Fault(code) => format!("the robot stopped with {}", fault_text(code)),
+        VoidReason::Lost => "the coin was collected before its face was read".to_owned(),
+        VoidReason::Superseded => "the robot's counter is ahead of it".to_owned(),
     }
 }
 
-/// A state's name, for people.
-pub fn name(state: State) -> &'static str {
+/// Describes a state.
+pub fn state_name(state: State) -> &'static str {
     match state {
         State::Boot => "starting",
         State::Idle => "ready",
@@ -457,20 +460,20 @@ pub fn name(state: State) -> &'static str {
     }
 }
 
-/// A fault, for people.
-pub fn fault(code: u16) -> String {
+/// Describes a fault.
+pub fn fault_text(code: u16) -> String {
     use coinmc_link::fault::{HARDWARE, JOURNAL, LIMIT, RESET, SILENCE, STOPPED};
     let phase = |base: u16| {
         u8::try_from(code - base)
             .ok()
             .and_then(State::from_number)
-            .map_or("an unknown phase", name)
+            .map_or("an unknown phase", state_name)
     };
     let text = match code {
         STOPPED => "stopped".to_owned(),
-        SILENCE => "the host fell silent".to_owned(),
+        SILENCE => "the host was silent".to_owned(),
         JOURNAL => "its memory cannot be written".to_owned(),
-        _ if code >= HARDWARE => format!("something is broken, number {}", code - HARDWARE),
+        _ if code >= HARDWARE => format!("hardware failure {}", code - HARDWARE),
         _ if code >= LIMIT => format!("{} took too long", phase(LIMIT)),
         _ if code >= RESET => format!("reset while {}", phase(RESET)),
         _ => "unknown".to_owned(),

@@ -1,20 +1,20 @@
-//! What the robot is told: spin and start angle in the units of the link.
+//! Settings of a throw: spin and start angle in the units of the link.
 
 use coinmc_core::Launch;
 use nalgebra::{UnitVector3, Vector3};
 use std::f64::consts::{PI, TAU};
 use thiserror::Error;
 
-/// Largest spin the robot knows, thousandths of a turn a second.
+/// Greatest spin of the protocol, 1/1000 rev/s.
 pub const MAX_SPIN_MREV_S: u16 = 5000;
 
-/// Largest start angle, hundredths of a degree.
+/// Greatest start angle, 1/100 degree.
 pub const MAX_ANGLE_CDEG: u16 = 18_000;
 
-/// Rounding in a config's own numbers that is no excess of a limit, in the units of the link.
+/// Rounding error in a config's numbers that does not count as exceeding a limit, in link units.
 const SLACK: f64 = 1e-6;
 
-/// Spin and start angle of one throw, as they go over the wire.
+/// Spin and start angle of one throw, as transmitted.
 ///
 /// The robot turns the coin about a horizontal axis. The **start angle** is the tilt of the coin's
 /// axis u (the outward normal of heads) from the vertical: 0° is heads up, 90° is on edge, 180° is
@@ -25,7 +25,7 @@ const SLACK: f64 = 1e-6;
 /// # Example
 /// ```
 /// use coinmc_robot::Setting;
-/// let setting = Setting::new(3200, 9000)?;            // 3.2 turns a second, from on edge
+/// let setting = Setting::new(3200, 9000)?;            // 3.2 rev/s, starting on edge
 /// assert_eq!(setting.spin_rev_s(), 3.2);
 /// assert_eq!(setting.angle_deg(), 90.0);
 /// assert!(Setting::new(5001, 0).is_err());
@@ -37,7 +37,7 @@ pub struct Setting {
     angle_cdeg: u16,
 }
 
-/// Why the robot cannot be told this.
+/// Why a setting is invalid.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum SettingError {
     /// The spin.
@@ -52,7 +52,7 @@ impl Setting {
     /// A setting in the units of the link.
     ///
     /// # Errors
-    /// [`SettingError`] outside 0 to 5000 mrev/s and 0 to 18 000 hundredths of a degree.
+    /// [`SettingError`] outside 0 to 5000 mrev/s and 0 to 18 000 cdeg.
     pub fn new(spin_mrev_s: u16, angle_cdeg: u16) -> Result<Self, SettingError> {
         Self::nearest(f64::from(spin_mrev_s) / 1e3, f64::from(angle_cdeg) / 1e2)
     }
@@ -79,17 +79,17 @@ impl Setting {
         Self::nearest(launch.spin_rad_s.y / TAU, angle * (180.0 / PI))
     }
 
-    /// Spin, thousandths of a turn a second.
+    /// Spin, 1/1000 rev/s.
     pub fn spin_mrev_s(self) -> u16 {
         self.spin_mrev_s
     }
 
-    /// Start angle, hundredths of a degree.
+    /// Start angle, 1/100 degree.
     pub fn angle_cdeg(self) -> u16 {
         self.angle_cdeg
     }
 
-    /// Spin, turns a second.
+    /// Spin, rev/s.
     pub fn spin_rev_s(self) -> f64 {
         f64::from(self.spin_mrev_s) / 1e3
     }
@@ -110,12 +110,12 @@ impl Setting {
     }
 }
 
-/// A number of whole steps from 0 to `most`.
+/// Rounds to a whole number of steps from 0 to `max`.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-fn steps(value: f64, most: u16) -> Option<u16> {
-    let inside = value >= -SLACK && value <= f64::from(most) + SLACK;
-    // the cast saturates, and what it gets is within the range to a rounding
-    inside.then(|| (libm::round(value).max(0.0) as u16).min(most))
+fn steps(value: f64, max: u16) -> Option<u16> {
+    let inside = value >= -SLACK && value <= f64::from(max) + SLACK;
+    // the cast saturates, and the value is within the range except for rounding
+    inside.then(|| (libm::round(value).max(0.0) as u16).min(max))
 }
 
 #[cfg(test)]
@@ -125,9 +125,9 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn the_ends_of_the_range_are_reached_and_not_passed() {
-        let most = Setting::nearest(5.0 + 1e-12, 180.0 + 1e-12).unwrap();
-        assert_eq!((most.spin_mrev_s(), most.angle_cdeg()), (5000, 18_000));
+    fn the_ends_of_the_range_are_included() {
+        let max = Setting::nearest(5.0 + 1e-12, 180.0 + 1e-12).unwrap();
+        assert_eq!((max.spin_mrev_s(), max.angle_cdeg()), (5000, 18_000));
         let least = Setting::nearest(-1e-12, -0.0).unwrap();
         assert_eq!((least.spin_mrev_s(), least.angle_cdeg()), (0, 0));
         for bad in [-0.001, 5.001, f64::NAN, f64::INFINITY] {
@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn launches_of_the_preset_become_settings_to_half_a_step() {
+    fn launches_of_the_preset_are_rounded_to_the_nearest_step() {
         let (coin, stream) = (
             Coin::cylinder(1.0, 0.01).unwrap(),
             Stream::new(5, Domain::Launch, 0),
@@ -164,7 +164,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn settings_survive_their_own_launch(spin in 0..=MAX_SPIN_MREV_S, angle in 0..=MAX_ANGLE_CDEG) {
+        fn a_setting_applied_to_a_launch_reads_back(spin in 0..=MAX_SPIN_MREV_S, angle in 0..=MAX_ANGLE_CDEG) {
             let setting = Setting::new(spin, angle).unwrap();
             prop_assert_eq!((setting.spin_mrev_s(), setting.angle_cdeg()), (spin, angle));
             let launch = Preset::Robot.distribution().launch(

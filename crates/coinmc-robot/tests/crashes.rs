@@ -1,25 +1,27 @@
-//! The cycle against the link's own device, with crashes, resets and losses at every point: whatever
-//! happens, every planned throw ends as exactly one of done and void, none is thrown twice, and
-//! every reading is of the coin that lay there.
+//! The cycle with the link's device state machine, with crashes, resets and losses at every point:
+//! every planned throw ends as either done or void, none is thrown twice, and every reading is that
+//! of the coin that was thrown.
 
 use coinmc_link::{
     Action, Device, Greeting, Hardware, Host, Info, Limits, Motion, Record, Reply, Request, Sensors,
 };
 use coinmc_robot::cycle::{Cycle, Halt, Photo, Rules, Step};
-use coinmc_robot::journal::{Entry, Header, History, Pending, Resolution, Seal, VoidReason, parse};
+use coinmc_robot::journal::{
+    Entry, Header, History, LineChecksum, Pending, Resolution, VoidReason, parse,
+};
 use coinmc_robot::{Face, Setting};
 use proptest::prelude::*;
 
 const THROWS: u32 = 6;
 
-/// What the simulated robot's motors and memory are made of.
+/// The simulated robot's motors and memory.
 #[derive(Default)]
 struct Bench {
     memory: Option<Record>,
     aim: (u16, u16),
-    /// Every release: the throw, and what it was thrown with.
+    /// Every release: the throw and its setting.
     releases: Vec<(u32, u16, u16)>,
-    /// Looks at the sensors until the motion ends.
+    /// Number of sensor readings until the motion ends.
     left: u32,
 }
 
@@ -70,8 +72,8 @@ impl Hardware for Bench {
     }
 }
 
-/// The face of the coin that was released last.
-fn lies(bench: &Bench) -> Face {
+/// The face of the last released coin.
+fn true_face(bench: &Bench) -> Face {
     let last = bench.releases.last().map_or(0, |release| release.0);
     Face::ALL[(last % 3) as usize]
 }
@@ -81,13 +83,13 @@ fn setting(throw: u32) -> Setting {
     Setting::new(100 * throw, 1000 + throw).unwrap()
 }
 
-/// One byte of fate for every moment at which something can go wrong; harmless when used up.
-struct Fate {
+/// One byte for every moment at which something can go wrong; no faults once they are used up.
+struct Faults {
     bytes: Vec<u8>,
     next: usize,
 }
 
-impl Fate {
+impl Faults {
     fn draw(&mut self) -> u8 {
         let byte = self.bytes.get(self.next).copied().unwrap_or(255);
         self.next += 1;
@@ -100,11 +102,11 @@ struct World {
     now_ms: u32,
     /// The journal's file.
     file: Vec<u8>,
-    fate: Fate,
+    faults: Faults,
     session: u16,
 }
 
-/// The host is gone.
+/// The host has crashed.
 struct Crashed;
 
 enum End {
@@ -115,8 +117,8 @@ enum End {
 fn rules(adopt: bool) -> Rules {
     Rules {
         throws: THROWS,
-        most_photos: 2,
-        most_voids: u32::MAX,
+        max_photos: 2,
+        max_voids: u32::MAX,
         adopt,
     }
 }
@@ -129,13 +131,13 @@ fn header() -> Header {
 }
 
 impl World {
-    fn new(fate: Vec<u8>) -> Self {
+    fn new(faults: Vec<u8>) -> Self {
         Self {
             device: Some(Device::boot(Bench::default(), 0)),
             now_ms: 0,
-            file: Seal::header(&header()).0.into_bytes(),
-            fate: Fate {
-                bytes: fate,
+            file: LineChecksum::header(&header()).0.into_bytes(),
+            faults: Faults {
+                bytes: faults,
                 next: 0,
             },
             session: 1,
@@ -146,14 +148,14 @@ impl World {
         self.device.as_mut().unwrap()
     }
 
-    /// Time goes by, and now and then the robot is reset.
-    fn live(&mut self, ms: u32) {
+    /// Lets time pass; sometimes the robot is reset.
+    fn pass(&mut self, ms: u32) {
         for _ in 0..ms / 10 {
             self.now_ms += 10;
             let now = self.now_ms;
             self.device().tick(now);
         }
-        if self.fate.draw() < 8 {
+        if self.faults.draw() < 8 {
             let bench = self.device.take().unwrap().into_hardware();
             let now = self.now_ms;
             self.device = Some(Device::boot(bench, now));
@@ -161,8 +163,9 @@ impl World {
         }
     }
 
-    /// Asks over a line that loses frames; what comes back is a reply or a new session's greeting.
-    fn ask(&mut self, host: &mut Host, request: Option<&Request>) -> Result<Reply, Greeting> {
+    /// Sends a request over a connection that loses frames; returns the reply or the greeting of a
+    /// new session.
+    fn request(&mut self, host: &mut Host, request: Option<&Request>) -> Result<Reply, Greeting> {
         if let Some(request) = request {
             host.request(request, u64::from(self.now_ms)).unwrap();
         }
@@ -172,7 +175,7 @@ impl World {
                 Action::Reply(reply) => return Ok(reply),
                 Action::Connected { greeting, .. } => return Err(greeting),
                 Action::Wait { .. } => {
-                    self.live(50);
+                    self.pass(50);
                     continue;
                 }
                 Action::Lost => {
@@ -182,7 +185,7 @@ impl World {
                 }
                 Action::Refused { .. } => panic!("the versions are the same"),
             };
-            if self.fate.draw() < 20 {
+            if self.faults.draw() < 20 {
                 continue; // the request is lost
             }
             let now = self.now_ms;
@@ -192,56 +195,56 @@ impl World {
                     answer.extend_from_slice(bytes);
                 }
             }
-            if self.fate.draw() >= 20 {
+            if self.faults.draw() >= 20 {
                 host.receive(&answer, u64::from(now));
             }
         }
     }
 
-    /// Appends to the journal; a crash leaves any part of the line.
+    /// Appends to the journal; a crash leaves any beginning of the line.
     fn append(
         &mut self,
         history: &mut History,
-        seal: &mut Seal,
+        checksum: &mut LineChecksum,
         entry: &Entry,
     ) -> Result<(), Crashed> {
-        let (line, next) = seal.line(&entry.to_string());
-        let fate = self.fate.draw();
-        if fate < 20 {
-            let part = line.len() * usize::from(fate) / 19;
+        let (line, next) = checksum.line(&entry.to_string());
+        let faults = self.faults.draw();
+        if faults < 20 {
+            let part = line.len() * usize::from(faults) / 19;
             self.file.extend_from_slice(&line.as_bytes()[..part]);
             return Err(Crashed);
         }
         self.file.extend_from_slice(line.as_bytes());
         history.add(entry).unwrap();
-        *seal = next;
+        *checksum = next;
         Ok(())
     }
 
-    /// One host's life, until it ends or crashes.
+    /// Runs one host until it ends or crashes.
     fn host(&mut self, adopt: bool) -> Result<End, Crashed> {
         let parsed = parse(&self.file).unwrap();
         self.file.truncate(parsed.whole);
-        let (mut history, mut seal) = (parsed.history, parsed.seal);
+        let (mut history, mut checksum) = (parsed.history, parsed.checksum);
         let mut cycle = Cycle::new(rules(adopt));
         let mut host = Host::new();
         self.session += 1;
         host.open(self.session, u64::from(self.now_ms));
         let mut photo = None;
         loop {
-            if self.fate.draw() < 6 {
+            if self.faults.draw() < 6 {
                 return Err(Crashed);
             }
             match cycle.step(&history, u64::from(self.now_ms)) {
-                Step::Ask(request) => {
+                Step::Request(request) => {
                     let ready = host.is_ready();
-                    match self.ask(&mut host, ready.then_some(&request)) {
+                    match self.request(&mut host, ready.then_some(&request)) {
                         Ok(reply) => cycle.replied(&request, &reply),
                         Err(greeting) => cycle.connected(&greeting),
                     }
                 }
                 Step::Wait => {
-                    self.live(100);
+                    self.pass(100);
                     if let Some(photo) = photo.take() {
                         cycle.photographed(photo);
                     }
@@ -250,17 +253,17 @@ impl World {
                 Step::Announce { throw, id } => {
                     let (setting, at_ms) = (setting(throw), 7);
                     let entry = Entry::Announced { id, setting, at_ms };
-                    self.append(&mut history, &mut seal, &entry)?;
+                    self.append(&mut history, &mut checksum, &entry)?;
                     cycle.written(&entry);
                 }
                 Step::Write(entry) => {
-                    self.append(&mut history, &mut seal, &entry)?;
+                    self.append(&mut history, &mut checksum, &entry)?;
                     cycle.written(&entry);
                 }
                 Step::Photograph { id, attempt } => {
-                    let face = lies(self.device().hardware());
+                    let face = true_face(self.device().hardware());
                     let name = format!("{id:06}-{attempt}.png").parse().unwrap();
-                    let read = (self.fate.draw() >= 40).then_some((face, name));
+                    let read = (self.faults.draw() >= 40).then_some((face, name));
                     cycle.photographing(id, attempt);
                     photo = Some(Photo { id, attempt, read });
                 }
@@ -270,21 +273,21 @@ impl World {
         }
     }
 
-    /// Host after host, until one finishes.
+    /// Runs hosts until one of them finishes.
     fn run(&mut self, adopt: bool) -> End {
         for _ in 0..10_000 {
             if let Ok(end) = self.host(adopt) {
                 return end;
             }
         }
-        panic!("no host came to an end");
+        panic!("no host has finished");
     }
 
     fn history(&self) -> History {
         parse(&self.file).unwrap().history
     }
 
-    /// Everything that must be true of a finished experiment.
+    /// Checks everything that must be true of a finished experiment.
     fn audit(&mut self) {
         let history = self.history();
         let releases = self.device().hardware().releases.clone();
@@ -321,7 +324,7 @@ impl World {
 }
 
 #[test]
-fn without_mishaps_every_throw_is_done() {
+fn without_faults_every_throw_is_done() {
     let mut world = World::new(Vec::new());
     assert!(matches!(world.run(false), End::Finished));
     world.audit();
@@ -335,7 +338,7 @@ fn without_mishaps_every_throw_is_done() {
 }
 
 #[test]
-fn a_camera_that_reads_nothing_voids_and_nothing_is_thrown_again() {
+fn unread_throws_are_void_and_not_repeated() {
     let mut world = World::new(Vec::new());
     let mut cycle = Cycle::new(rules(false));
     let mut history = History::default();
@@ -345,15 +348,15 @@ fn a_camera_that_reads_nothing_voids_and_nothing_is_thrown_again() {
         && step != Step::Finished
     {
         match step {
-            Step::Ask(request) => {
+            Step::Request(request) => {
                 let ready = host.is_ready();
-                match world.ask(&mut host, ready.then_some(&request)) {
+                match world.request(&mut host, ready.then_some(&request)) {
                     Ok(reply) => cycle.replied(&request, &reply),
                     Err(greeting) => cycle.connected(&greeting),
                 }
             }
             Step::Wait => {
-                world.live(100);
+                world.pass(100);
                 cycle.waited();
             }
             Step::Announce { throw, id } => {
@@ -392,13 +395,13 @@ fn a_camera_that_reads_nothing_voids_and_nothing_is_thrown_again() {
 }
 
 #[test]
-fn a_counter_ahead_is_a_question_and_adopted_on_demand() {
+fn a_counter_ahead_halts_and_is_adopted_on_demand() {
     let mut world = World::new(Vec::new());
     let mut host = Host::new();
     host.open(1, 0);
-    assert!(world.ask(&mut host, None).is_err());
-    world.live(100);
-    let reply = world.ask(&mut host, Some(&Request::SetCounter { throw_id: 500 }));
+    assert!(world.request(&mut host, None).is_err());
+    world.pass(100);
+    let reply = world.request(&mut host, Some(&Request::SetCounter { throw_id: 500 }));
     assert!(matches!(reply, Ok(Reply::Ok { throw_id: 500, .. })));
     let ahead = Halt::Ahead {
         robot: 500,
@@ -421,8 +424,8 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 3000, ..ProptestConfig::default() })]
 
     #[test]
-    fn whatever_happens_every_throw_is_resolved_once(fate in prop::collection::vec(any::<u8>(), 0..900)) {
-        let mut world = World::new(fate);
+    fn with_any_faults_every_throw_is_resolved_once(faults in prop::collection::vec(any::<u8>(), 0..900)) {
+        let mut world = World::new(faults);
         prop_assert!(matches!(world.run(false), End::Finished));
         world.audit();
     }

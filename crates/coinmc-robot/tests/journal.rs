@@ -1,8 +1,8 @@
-//! The journal's file: torn, damaged, another's, in use, on a full disk.
+//! The journal's file: incomplete, damaged, of another experiment, in use, on a full disk.
 
 use coinmc_robot::journal::{
-    Damage, Entry, Header, History, Journal, JournalError, Measured, Reading, Resolution, Seal,
-    VoidReason, parse,
+    Damage, Entry, Header, History, Journal, JournalError, LineChecksum, Measured, Reading,
+    Resolution, VoidReason, parse,
 };
 use coinmc_robot::{Face, Setting};
 use proptest::prelude::*;
@@ -68,7 +68,7 @@ fn damage(path: &Path) -> Damage {
 }
 
 #[test]
-fn what_is_written_is_read_and_looks_as_documented() {
+fn the_journal_reads_back_and_has_the_documented_format() {
     let dir = tempfile::tempdir().unwrap();
     let path = written(&dir);
     let text = fs::read_to_string(&path).unwrap();
@@ -87,9 +87,9 @@ fn what_is_written_is_read_and_looks_as_documented() {
             "V 2 fault-103",
         ]
     );
-    // the seal is the CRC-32 of all bodies so far, one behind the other
-    let seal = format!("{:08x}", crc32fast::hash(bodies[..2].concat().as_bytes()));
-    assert!(text.lines().nth(1).unwrap().ends_with(&seal));
+    // the checksum is the CRC-32 of all bodies so far, concatenated
+    let checksum = format!("{:08x}", crc32fast::hash(bodies[..2].concat().as_bytes()));
+    assert!(text.lines().nth(1).unwrap().ends_with(&checksum));
     let (journal, torn) = Journal::open(&path, &header()).unwrap();
     assert_eq!(torn, 0);
     let throws = journal.history().throws();
@@ -101,7 +101,7 @@ fn what_is_written_is_read_and_looks_as_documented() {
 }
 
 #[test]
-fn a_torn_last_line_is_cut_off_wherever_it_tears() {
+fn an_incomplete_last_line_is_removed() {
     let dir = tempfile::tempdir().unwrap();
     let path = written(&dir);
     let whole = fs::read(&path).unwrap();
@@ -119,10 +119,10 @@ fn a_torn_last_line_is_cut_off_wherever_it_tears() {
         drop(journal);
         assert_eq!(fs::read(&path).unwrap(), whole, "torn at {length}");
     }
-    // what a file system makes of a lost block
+    // file systems can fill a lost block with zeros
     fs::write(&path, [&whole[..last], &[0; 4096]].concat()).unwrap();
     assert_eq!(Journal::open(&path, &header()).unwrap().1, 4096);
-    // not even a first line: nothing was thrown
+    // without a first line nothing was thrown
     fs::write(&path, &whole[..30]).unwrap();
     assert_eq!(
         Journal::open(&path, &header()).unwrap().0.history(),
@@ -131,7 +131,7 @@ fn a_torn_last_line_is_cut_off_wherever_it_tears() {
 }
 
 #[test]
-fn damage_before_the_last_line_is_refused_with_its_line_and_a_remedy() {
+fn damage_before_the_last_line_is_rejected_with_its_line_and_a_remedy() {
     let dir = tempfile::tempdir().unwrap();
     let path = written(&dir);
     let text = fs::read_to_string(&path).unwrap();
@@ -146,7 +146,7 @@ fn damage_before_the_last_line_is_refused_with_its_line_and_a_remedy() {
         message.contains("line 3") && message.contains("head -n 2"),
         "{message}"
     );
-    // a line that is missing, or stands twice, or was swapped
+    // a missing, repeated or swapped line
     write(&[lines[0], lines[1], lines[3], lines[4]]);
     assert_eq!(damage(&path), Damage::Line(3));
     write(&[lines[0], lines[1], lines[1], lines[2]]);
@@ -160,19 +160,19 @@ fn damage_before_the_last_line_is_refused_with_its_line_and_a_remedy() {
 }
 
 #[test]
-fn whole_lines_that_cannot_be_true_are_refused() {
-    let (mut text, mut seal) = Seal::header(&header());
+fn contradictory_lines_are_rejected() {
+    let (mut text, mut checksum) = LineChecksum::header(&header());
     for body in ["I 1 0 0 5", "D 1"] {
-        let (line, next) = seal.line(body);
+        let (line, next) = checksum.line(body);
         text.push_str(&line);
-        seal = next;
+        checksum = next;
     }
     let error = parse(text.as_bytes()).unwrap_err();
     assert!(matches!(error, Damage::Order { line: 3, .. }), "{error}");
 }
 
 #[test]
-fn another_experiments_journal_and_one_in_use_are_refused() {
+fn a_journal_of_another_experiment_or_in_use_is_rejected() {
     let dir = tempfile::tempdir().unwrap();
     let path = written(&dir);
     let other = Header {
@@ -215,19 +215,19 @@ fn entries_out_of_order_change_nothing() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 2000, ..ProptestConfig::default() })]
 
-    /// Any damage is refused, or cuts off no more than the last line.
+    /// Any damage is rejected, or removes at most the last line.
     #[test]
-    fn no_damage_changes_what_is_believed(
+    fn no_damage_changes_the_throws(
         place in any::<prop::sample::Index>(),
         flip in 1..=u8::MAX,
         cut in any::<bool>(),
     ) {
-        let (mut text, mut seal) = Seal::header(&header());
+        let (mut text, mut checksum) = LineChecksum::header(&header());
         let mut histories = vec![History::default()];
         for entry in entries() {
-            let (line, next) = seal.line(&entry.to_string());
+            let (line, next) = checksum.line(&entry.to_string());
             text.push_str(&line);
-            seal = next;
+            checksum = next;
             let mut history = histories[histories.len() - 1].clone();
             history.add(&entry).unwrap();
             histories.push(history);

@@ -1,4 +1,4 @@
-//! Why drops cannot be fitted.
+//! Errors of fits.
 
 use thiserror::Error;
 
@@ -16,22 +16,22 @@ pub enum FitError {
     #[error("restitution must lie from 0 to 1 and friction from 0 to 10")]
     OutOfRange,
     /// A drop has too many frames.
-    #[error("{name}: {frames} frames are too many, {most} is the most: export fewer")]
+    #[error("{name}: {frames} frames are too many, at most {max} are allowed: export fewer")]
     TooLong {
         /// The drop.
         name: String,
-        /// Its frames.
+        /// Its number of frames.
         frames: usize,
-        /// Allowed.
-        most: usize,
+        /// The greatest number allowed.
+        max: usize,
     },
-    /// All drops together are too much for memory.
+    /// All drops together need too much memory.
     #[error("{frames} frames are too many for one fit: fit fewer drops, or fewer frames of each")]
     TooLarge {
-        /// Frames of all drops.
+        /// Number of frames of all drops.
         frames: usize,
     },
-    /// The film does not begin with a flight.
+    /// The film does not begin with a flight that is long enough.
     #[error(
         "{name}: the film must begin with at least {least} frames of free flight in which y and θ \
          are marked"
@@ -39,16 +39,16 @@ pub enum FitError {
     NoFlight {
         /// The drop.
         name: String,
-        /// Frames needed.
+        /// Number of frames needed.
         least: usize,
     },
-    /// No start led to a minimum.
-    #[error("no motion under the law {law} resembles the film: are coin, units and angle right?")]
+    /// The search found no minimum.
+    #[error("no motion under the law {law} resembles the film: check coin, units and angle")]
     NothingFound {
         /// The law.
         law: &'static str,
     },
-    /// The numbers went wrong at the minimum.
-    #[error("the fit was lost: are coin, units and angle right?")]
+    /// The computation failed at the minimum.
+    #[error("the fit failed: check coin, units and angle")]
     Lost,
 }

@@ -1,18 +1,18 @@
-//! How residuals count: squares, or Huber's loss where points may be wrong.
+//! Loss functions: squares, or Huber's loss for films with outliers.
 
-/// What a residual costs.
+/// The loss of a residual r, in standard deviations.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Loss {
     /// Normal noise: r²/2.
     #[default]
     Square,
-    /// Huber (1964): r²/2 up to 1.345 standard deviations, straight beyond. The negative logarithm
-    /// of a density that is normal in the middle and has exponential tails; 95 % as efficient as
-    /// squares where the noise is normal.
+    /// Huber (1964): r²/2 up to 1.345 standard deviations, linear beyond. The negative logarithm of
+    /// a density that is normal in the middle and has exponential tails; 95 % as efficient as
+    /// squares if the noise is normal.
     Huber,
 }
 
-/// Where Huber's loss turns straight.
+/// Where Huber's loss becomes linear.
 const KNEE: f64 = 1.345;
 
 impl Loss {
@@ -32,12 +32,13 @@ impl Loss {
         }
     }
 
-    /// Whether r lies where ψ' = 1.
+    /// Whether ψ'(r) = 1.
     pub(crate) fn is_inner(self, r: f64) -> bool {
         self == Self::Square || r.abs() <= KNEE
     }
 
-    /// The residual whose half square is ρ(r), and its derivative by r: what least squares needs.
+    /// The residual whose half square is ρ(r) and its derivative with respect to r, for least
+    /// squares.
     pub(crate) fn folded(self, r: f64) -> (f64, f64) {
         if self.is_inner(r) {
             return (r, 1.0);
@@ -46,7 +47,7 @@ impl Loss {
         (folded, self.psi(r) / folded)
     }
 
-    /// ln of the integral of exp(−ρ): what makes it a density.
+    /// ln of the integral of exp(−ρ), which normalises the density.
     pub(crate) fn log_normaliser(self) -> f64 {
         use std::f64::consts::{SQRT_2, TAU};
         let integral = match self {
@@ -58,10 +59,10 @@ impl Loss {
         libm::log(integral)
     }
 
-    /// The scale σ at which Σ ψ(r/σ)·r/σ is `degrees`: for squares sqrt(Σr²/degrees). 0 if no
-    /// residual differs from 0.
+    /// The scale σ at which Σ ψ(r/σ)·r/σ equals `degrees`: for squares sqrt(Σr²/degrees). 0 if all
+    /// residuals are 0.
     ///
-    /// The left side falls as σ grows, so bisection finds it.
+    /// The left side decreases with σ, so bisection finds it.
     pub(crate) fn scale(self, residuals: &[f64], degrees: f64) -> f64 {
         let squares = residuals.iter().map(|r| r * r).sum::<f64>();
         let least_squares = (squares / degrees).sqrt();
@@ -90,7 +91,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_folded_residual_squares_to_the_loss_and_has_its_slope() {
+    fn the_folded_residual_has_the_value_and_slope_of_the_loss() {
         for loss in [Loss::Square, Loss::Huber] {
             for r in [-7.0, -1.3, 0.0, 0.4, 1.4, 30.0] {
                 let (folded, slope) = loss.folded(r);
@@ -112,10 +113,10 @@ mod tests {
         }
     }
 
-    /// Σψ·r/σ = n with two points of 50 and 80 among 200 of variance .37: 202 σ² = 73 + 1.345·130 σ,
-    /// σ = 1.17, twice what it is without them; by squares it is eleven times.
+    /// Σψ·r/σ = n with two points of 50 and 80 among 200 of variance .37: 202 σ² = 73 + 1.345·130
+    /// σ, σ = 1.17, twice the value without them; least squares gives eleven times.
     #[test]
-    fn a_few_wild_points_move_hubers_scale_far_less_than_that_of_squares() {
+    fn a_few_outliers_affect_hubers_scale_far_less_than_that_of_squares() {
         let mut residuals: Vec<f64> = (0..200).map(|i| f64::from(i % 21 - 10) / 10.0).collect();
         let clean = Loss::Huber.scale(&residuals, 200.0);
         residuals.extend([50.0, -80.0]);

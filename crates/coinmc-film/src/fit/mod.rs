@@ -1,12 +1,12 @@
 //! Fitting a law to drops.
 //!
 //! ```text
-//! drops ─▶ flight, noise ─▶ grid and growing film ─▶ minimum ⇄ σ of each coordinate
+//! drops ─▶ flight, noise ─▶ grid, growing window ─▶ minimum ⇄ σ of each coordinate
 //!                                                      └─▶ intervals, criteria, residuals
 //! ```
-//! Every drop has its own first state; the law's parameters are shared. x, z and θ each have their
-//! own noise, which is estimated along: the residuals are weighed by it, fitted again, and so on
-//! until it stays.
+//! Every drop has its own initial state; the law's parameters are shared. x, z and θ each have their
+//! own noise σ, which is estimated too: the residuals are weighted by it and fitted again until it
+//! converges.
 
 mod covariance;
 mod error;
@@ -24,52 +24,53 @@ pub use remark::Remark;
 pub use result::{Estimated, Fit, FittedDrop, Noise, Residual};
 
 use crate::drop::{FilmedDrop, MAX_FRAMES};
-use crate::flight::{Flight, LEAST_FLIGHT, flight, noise};
+use crate::flight::{Flight, MIN_FLIGHT, flight, noise};
 use crate::law::Model;
 use crate::parameter::{Parameter, Shared, parameters};
 use covariance::{Spread, scales, spread};
 use problem::{Problem, Task};
-use profile::{Around, End};
+use profile::{End, Profile};
 use search::{Window, elsewhere, search};
 
-/// Most drops of a fit.
+/// Greatest number of drops of a fit.
 pub const MAX_DROPS: usize = 64;
-/// Most numbers in the matrix of derivatives.
+/// Greatest number of elements in the Jacobian.
 const MAX_CELLS: usize = 40_000_000;
-/// Rounds in which σ is estimated and the fit repeated.
+/// Greatest number of rounds of estimating σ and repeating the fit.
 const ROUNDS: usize = 6;
-/// σ that changes by less than this share stays.
-const STAYS: f64 = 1e-4;
-/// Random steps about a minimum, and their size in standard errors.
+/// Relative change of σ below which it has converged.
+const CONVERGED: f64 = 1e-4;
+/// Number of random steps around a minimum, and their size in standard errors.
 const HOPS: u64 = 16;
 const HOP: f64 = 1.5;
-/// Searches elsewhere, led back along a growing film, and steps of the optimiser at each length.
+/// Number of searches for distant minima along a growing window, and optimiser steps per length.
 const ELSEWHERE: u64 = 12;
 const PATIENCE: usize = 12;
-/// How often a better minimum may be found while intervals are made.
+/// Greatest number of better minima found while computing intervals.
 const RESTARTS: usize = 5;
 
-/// What a fit is asked to do.
+/// Options of a fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
-    /// Parameters to fit, as far as a law has them; the others keep their value of `shared`, or
-    /// of the law.
+    /// Parameters to fit, if the law has them; the others keep their value in `shared` or in the
+    /// law.
     pub free: Vec<Parameter>,
-    /// Values of the parameters that are not fitted. A law's own numbers are those of its model.
+    /// Values of the parameters that are not fitted. A law's own parameters are those of its model.
     pub shared: Shared,
-    /// The film counts up to the bounce after this many. Impacts within four frames of each other
-    /// are one bounce.
+    /// Number of bounces to fit: frames count up to the next bounce after these. Impacts within
+    /// four frames of each other are one bounce.
     pub bounces: usize,
-    /// And no longer than this after its first frame, s.
+    /// Greatest time since the first frame to fit, s.
     pub until_s: f64,
-    /// What residuals cost.
+    /// Loss of the residuals.
     pub loss: Loss,
-    /// Of every interval, in (0, 1).
+    /// Confidence of every interval, in (0, 1).
     pub confidence: f64,
 }
 
 impl Default for Options {
-    /// Restitution, friction and η from the first two bounces, normal noise, 95 %.
+    /// Restitution, friction and η from the first two bounces, with normal noise and 95 %
+    /// confidence.
     fn default() -> Self {
         Self {
             free: vec![Parameter::Restitution, Parameter::Friction, Parameter::Eta],
@@ -85,7 +86,7 @@ impl Default for Options {
 /// Fits one law to drops.
 ///
 /// # Errors
-/// [`FitError`] if the drops do not allow a fit, or none is found.
+/// [`FitError`] if the drops do not allow a fit or none is found.
 ///
 /// # Example
 /// ```
@@ -107,11 +108,11 @@ pub fn fit(model: &Model, drops: &[FilmedDrop], options: &Options) -> Result<Fit
     Ok(fit_all(&[*model], drops, options)?.remove(0))
 }
 
-/// Fits several laws to the same frames of the same drops, so that they can be compared: frames
-/// count as long as every law has something to say of them.
+/// Fits several laws to the same frames of the same drops, so that they can be compared: only
+/// frames for which every law has a prediction count.
 ///
 /// # Errors
-/// [`FitError`] if the drops do not allow a fit, or none is found for a law.
+/// [`FitError`] if the drops do not allow a fit or none is found for a law.
 pub fn fit_all(
     models: &[Model],
     drops: &[FilmedDrop],
@@ -181,8 +182,8 @@ fn check(task: &Task, options: &Options) -> Result<(), FitError> {
     for drop in drops {
         let frames = drop.frames.len();
         if frames > MAX_FRAMES {
-            let (name, most) = (drop.name.clone(), MAX_FRAMES);
-            return Err(FitError::TooLong { name, frames, most });
+            let (name, max) = (drop.name.clone(), MAX_FRAMES);
+            return Err(FitError::TooLong { name, frames, max });
         }
     }
     let frames: usize = drops.iter().map(|drop| drop.frames.len()).sum();
@@ -197,16 +198,16 @@ fn flights(task: &Task, noise: &[f64; 3]) -> Result<Vec<Flight>, FitError> {
     let found = task.drops.iter().map(|drop| {
         flight(drop, task.model.gravity_m_s2, noise).ok_or_else(|| FitError::NoFlight {
             name: drop.name.clone(),
-            least: LEAST_FLIGHT,
+            least: MIN_FLIGHT,
         })
     });
     found.collect()
 }
 
-/// σ, intervals and all else that is reported; `None` if the numbers went wrong.
+/// Computes σ, intervals and everything else that is reported; `None` if the computation fails.
 fn finish(mut minimum: Problem<'_>, options: &Options) -> Option<Fit> {
     for restart in 0.. {
-        let (settled, around) = settle_noise(hop(minimum)?)?;
+        let (settled, around) = converge_noise(hop(minimum)?)?;
         match intervals(&settled, &around, options, restart < RESTARTS) {
             Ok(ends) => return result::report(&settled, &around, &ends, options),
             Err(better) => minimum = better.minimise(40),
@@ -215,8 +216,8 @@ fn finish(mut minimum: Problem<'_>, options: &Options) -> Option<Fit> {
     None
 }
 
-/// Looks for a better minimum near by, by random steps as large as the errors, and where the first
-/// impact leaves room for one.
+/// Looks for a better minimum nearby, by random steps of the size of the errors, and wherever the
+/// frames up to the first impact allow one.
 fn hop(mut minimum: Problem<'_>) -> Option<Problem<'_>> {
     let around = spread(&minimum)?;
     for number in 0..minimum.tries(HOPS) {
@@ -237,15 +238,15 @@ fn hop(mut minimum: Problem<'_>) -> Option<Problem<'_>> {
     Some(minimum)
 }
 
-/// Weighs the residuals by their own scatter until that stays.
-fn settle_noise(mut minimum: Problem<'_>) -> Option<(Problem<'_>, Spread)> {
+/// Weights the residuals by their own noise until it converges.
+fn converge_noise(mut minimum: Problem<'_>) -> Option<(Problem<'_>, Spread)> {
     let mut around = spread(&minimum)?;
     for _ in 0..ROUNDS {
         let sigma = scales(&minimum, &around.taken)?;
         let stays = sigma
             .iter()
             .zip(&minimum.weighing.sigma)
-            .all(|(now, before)| (now / before - 1.0).abs() < STAYS);
+            .all(|(now, before)| (now / before - 1.0).abs() < CONVERGED);
         minimum.weighing.sigma = sigma;
         minimum = minimum.minimise(40);
         around = spread(&minimum)?;
@@ -256,7 +257,7 @@ fn settle_noise(mut minimum: Problem<'_>) -> Option<(Problem<'_>, Spread)> {
     Some((minimum, around))
 }
 
-/// The interval of each shared parameter in the order of the unknowns: its ends, open where `None`.
+/// Ends of the interval of each shared parameter in the order of the unknowns; `None`: open.
 type Ends = Vec<(Option<f64>, Option<f64>)>;
 
 fn intervals<'a>(
@@ -265,7 +266,7 @@ fn intervals<'a>(
     options: &Options,
     may_restart: bool,
 ) -> Result<Ends, Box<Problem<'a>>> {
-    let around = Around {
+    let around = Profile {
         best: minimum,
         spread,
         t: student::quantile(options.confidence, spread.degrees()),
@@ -274,10 +275,10 @@ fn intervals<'a>(
     for j in 0..spread.valleys.len() {
         let mut sides = [None, None];
         for (side, direction) in sides.iter_mut().zip([-1.0, 1.0]) {
-            match around.walk(j, direction) {
+            match around.end(j, direction) {
                 End::At(value) => *side = Some(value),
                 End::Better(better) if may_restart => return Err(better),
-                // open, or the minimum is not to be had: no end can be stated
+                // open, or there is no stable minimum: no end can be stated
                 End::Open | End::Better(_) => {}
             }
         }

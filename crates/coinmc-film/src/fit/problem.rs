@@ -1,4 +1,4 @@
-//! The least-squares problem: from shared parameters and first states to weighted residuals.
+//! The least-squares problem: from shared parameters and initial states to weighted residuals.
 
 use super::loss::Loss;
 use crate::drop::{Coordinate, FilmedDrop, wrapped};
@@ -9,21 +9,20 @@ use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra_lm::storage::Owned;
 use nalgebra_lm::{DMatrix, DMatrixViewMut, DVector, Dyn};
 
-/// Step of the central differences, in the units of the search: the cube root of the rounding in a
-/// path, where truncation and rounding are alike.
+/// Step of the central differences, in units of the search: the cube root of a path's rounding
+/// error, where truncation and rounding errors are about equal.
 const STEP: f64 = 1e-5;
 
-/// Where the squared derivatives to one side exceed those to the other by this factor, they are none:
-/// the path jumps there. (Over a step of this size a derivative changes by its 1e-4th part, at rest
-/// or in the wildest drop.)
+/// If the squared derivatives to one side exceed those to the other by this factor, the path is
+/// discontinuous on that side. (Over a step of this size a derivative normally changes by 1e-4.)
 const JUMP: f64 = 4.0;
 
-/// Everything that is fixed while a law is fitted.
+/// The data that are fixed while a law is fitted.
 #[derive(Debug, Clone)]
 pub(crate) struct Task<'a> {
     pub(crate) model: Model,
     pub(crate) drops: &'a [FilmedDrop],
-    /// Times of the frames since the first, drop by drop.
+    /// Times of the frames since the first, per drop.
     pub(crate) times: Vec<Vec<f64>>,
     pub(crate) loss: Loss,
 }
@@ -50,51 +49,51 @@ impl<'a> Task<'a> {
         path(&self.model, &point.shared, &point.starts[drop], at)
     }
 
-    /// Whether a drop's x was marked at all; without it its position has no meaning.
+    /// Whether a drop's x was marked at all; otherwise its x position is undetermined.
     fn has_x(&self, drop: usize) -> bool {
         let x = Coordinate::X.index();
         self.drops[drop].frames.iter().any(|f| f.seen[x].is_some())
     }
 }
 
-/// Where the search is.
+/// A point of the search: shared parameters and initial states.
 #[derive(Debug, Clone)]
 pub(crate) struct Point {
     pub(crate) shared: Shared,
     pub(crate) starts: Vec<Start>,
 }
 
-/// Which frames count, and how much.
+/// The frames that count and their weights.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Weighing {
-    /// Frames of each drop that count.
+    /// Number of frames of each drop that count.
     pub(crate) frames: Vec<usize>,
-    /// Standard deviations by coordinate.
+    /// Standard deviation of each coordinate.
     pub(crate) sigma: [f64; 3],
 }
 
-/// A number that is fitted.
+/// A fitted number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Unknown {
     Shared(Parameter),
-    /// Drop and place in its [`Start`].
+    /// Index of the drop and index in its [`Start`].
     Start(usize, usize),
 }
 
-/// A task at a point, as the optimiser sees it.
+/// A task at a point, for the optimiser.
 #[derive(Debug, Clone)]
 pub(crate) struct Problem<'a> {
     pub(crate) task: &'a Task<'a>,
     pub(crate) weighing: Weighing,
     pub(crate) unknowns: Vec<Unknown>,
     pub(crate) point: Point,
-    /// Worth looking around at length: a path costs little, and the law may be the film's.
+    /// Whether a long search is worthwhile: a path is cheap, and the law may be the right one.
     pub(crate) thorough: bool,
 }
 
-/// One residual: where it belongs, and what was seen less what was predicted.
+/// One residual: its position, and the observed minus the predicted value.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Miss {
+pub(crate) struct Deviation {
     pub(crate) drop: usize,
     pub(crate) frame: usize,
     pub(crate) coordinate: Coordinate,
@@ -103,7 +102,7 @@ pub(crate) struct Miss {
 }
 
 impl<'a> Problem<'a> {
-    /// With these shared parameters unknown, and every first state.
+    /// The problem with these shared parameters and all initial states unknown.
     pub(crate) fn new(
         task: &'a Task<'a>,
         weighing: Weighing,
@@ -124,7 +123,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// How often to try where one would like to try so often.
+    /// Number of attempts, given the usual number.
     pub(crate) fn tries(&self, usual: u64) -> u64 {
         if self.thorough {
             usual
@@ -133,30 +132,35 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Half the sum of the folded residuals' squares: Σρ. Infinite where nothing can be predicted.
+    /// Half the sum of the folded residuals' squares: Σρ. Infinite if there is no prediction.
     pub(crate) fn cost(&self) -> f64 {
-        self.misses().map_or(f64::INFINITY, |misses| {
-            misses
+        self.deviations().map_or(f64::INFINITY, |deviations| {
+            deviations
                 .iter()
-                .map(|miss| self.task.loss.rho(self.weighed(miss)))
+                .map(|deviation| self.task.loss.rho(self.weighted(deviation)))
                 .sum()
         })
     }
 
-    pub(crate) fn weighed(&self, miss: &Miss) -> f64 {
-        miss.by / self.weighing.sigma[miss.coordinate.index()]
+    pub(crate) fn weighted(&self, deviation: &Deviation) -> f64 {
+        deviation.by / self.weighing.sigma[deviation.coordinate.index()]
     }
 
-    /// Every residual, drop by drop and frame by frame.
-    pub(crate) fn misses(&self) -> Option<Vec<Miss>> {
-        let mut misses = Vec::new();
+    /// All residuals, ordered by drop and frame.
+    pub(crate) fn deviations(&self) -> Option<Vec<Deviation>> {
+        let mut deviations = Vec::new();
         for drop in 0..self.task.drops.len() {
-            self.misses_of(drop, &self.point, &mut misses)?;
+            self.deviations_of(drop, &self.point, &mut deviations)?;
         }
-        Some(misses)
+        Some(deviations)
     }
 
-    fn misses_of(&self, drop: usize, point: &Point, misses: &mut Vec<Miss>) -> Option<()> {
+    fn deviations_of(
+        &self,
+        drop: usize,
+        point: &Point,
+        deviations: &mut Vec<Deviation>,
+    ) -> Option<()> {
         let frames = self.weighing.frames[drop];
         let path = self.task.path(drop, point, frames)?;
         let filmed = &self.task.drops[drop].frames[..frames];
@@ -164,25 +168,25 @@ impl<'a> Problem<'a> {
             for coordinate in Coordinate::ALL {
                 let c = coordinate.index();
                 let Some(value) = seen.seen[c] else { continue };
-                let miss = match coordinate {
+                let deviation = match coordinate {
                     Coordinate::Theta => wrapped(value - predicted[c]),
                     Coordinate::X | Coordinate::Z => value - predicted[c],
                 };
-                if !miss.is_finite() {
+                if !deviation.is_finite() {
                     return None;
                 }
-                misses.push(Miss {
+                deviations.push(Deviation {
                     drop,
                     frame,
                     coordinate,
-                    by: miss,
+                    by: deviation,
                 });
             }
         }
         Some(())
     }
 
-    /// What "one" means to the search.
+    /// The unit of the search for an unknown.
     pub(crate) fn scale(&self, unknown: Unknown) -> f64 {
         match unknown {
             Unknown::Shared(parameter) => {
@@ -202,7 +206,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// A point with one number moved by this much of its scale, kept in range.
+    /// A point with one unknown changed by this multiple of its unit, clamped to its range.
     fn moved(&self, unknown: Unknown, by: f64) -> (Point, f64) {
         let (before, scale) = (self.value(unknown), self.scale(unknown));
         let mut point = self.point.clone();
@@ -212,7 +216,7 @@ impl<'a> Problem<'a> {
         (point, (after - before) / scale)
     }
 
-    /// Moves every unknown by a multiple of a direction given in units of the search.
+    /// Changes all unknowns by a multiple of a direction in units of the search.
     pub(crate) fn shift(&mut self, direction: &[f64], by: f64) {
         for (i, unknown) in self.unknowns.clone().into_iter().enumerate() {
             let value = self.value(unknown) + by * direction[i] * self.scale(unknown);
@@ -221,15 +225,15 @@ impl<'a> Problem<'a> {
         self.point.shared = self.point.shared.clamped();
     }
 
-    /// Derivatives of the weighed residuals by the unknowns (in units of their scales), by differences:
-    /// see [`slope`]. A first state moves its own drop alone.
+    /// Derivatives of the weighted residuals with respect to the unknowns (in units of the search),
+    /// by differences: see [`slope`]. An initial state affects only its own drop.
     pub(crate) fn derivatives(&self) -> Option<DMatrix<f64>> {
-        let base = self.misses()?;
+        let base = self.deviations()?;
         let mut matrix = DMatrix::zeros(base.len(), self.unknowns.len());
         let mut rows = Vec::with_capacity(self.task.drops.len() + 1);
         rows.push(0);
         for drop in 0..self.task.drops.len() {
-            rows.push(base.partition_point(|miss| miss.drop <= drop));
+            rows.push(base.partition_point(|deviation| deviation.drop <= drop));
         }
         let (mut above, mut below) = (Vec::new(), Vec::new());
         for (column, unknown) in self.unknowns.iter().enumerate() {
@@ -242,10 +246,10 @@ impl<'a> Problem<'a> {
             for drop in drops {
                 above.clear();
                 below.clear();
-                self.misses_of(drop, &up, &mut above)?;
-                self.misses_of(drop, &down, &mut below)?;
+                self.deviations_of(drop, &up, &mut above)?;
+                self.deviations_of(drop, &down, &mut below)?;
                 let here = &base[rows[drop]..rows[drop + 1]];
-                let changes = |moved: &[Miss]| -> Vec<f64> {
+                let changes = |moved: &[Deviation]| -> Vec<f64> {
                     let pairs = moved.iter().zip(here);
                     pairs
                         .map(|(moved, here)| self.change(moved, here))
@@ -262,8 +266,8 @@ impl<'a> Problem<'a> {
         Some(matrix)
     }
 
-    /// From one residual to another of the same point, weighed.
-    fn change(&self, to: &Miss, from: &Miss) -> f64 {
+    /// The weighted difference between two residuals of the same observation.
+    fn change(&self, to: &Deviation, from: &Deviation) -> f64 {
         let change = match to.coordinate {
             Coordinate::Theta => wrapped(to.by - from.by),
             Coordinate::X | Coordinate::Z => to.by - from.by,
@@ -282,7 +286,7 @@ impl<'a> Problem<'a> {
         let before = self.clone();
         let (mut after, _) = solver.minimize(self);
         after.point.shared = after.point.shared.clamped();
-        // the last step tried need not be a step taken
+        // the last step may have been rejected
         if after.cost() <= before.cost() {
             after
         } else {
@@ -291,8 +295,8 @@ impl<'a> Problem<'a> {
     }
 }
 
-/// Derivatives from the changes that a step up and a step down make: central ones, unless one of the
-/// steps leads over a jump, where the order of impacts changes; then those of the other.
+/// Derivatives from a step up and a step down: central differences, unless one of the steps crosses
+/// a discontinuity where the order of impacts changes; then the one-sided difference of the other.
 fn slope(
     (up, by_up): (&[f64], f64),
     (down, by_down): (&[f64], f64),
@@ -353,18 +357,18 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
-        let misses = self.misses()?;
-        let folded = misses
+        let deviations = self.deviations()?;
+        let folded = deviations
             .iter()
-            .map(|m| self.task.loss.folded(self.weighed(m)).0);
-        Some(DVector::from_iterator(misses.len(), folded))
+            .map(|m| self.task.loss.folded(self.weighted(m)).0);
+        Some(DVector::from_iterator(deviations.len(), folded))
     }
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
         let mut matrix = self.derivatives()?;
         if self.task.loss == Loss::Huber {
-            for (row, miss) in self.misses()?.iter().enumerate() {
-                let slope = self.task.loss.folded(self.weighed(miss)).1;
+            for (row, deviation) in self.deviations()?.iter().enumerate() {
+                let slope = self.task.loss.folded(self.weighted(deviation)).1;
                 matrix.row_mut(row).scale_mut(slope);
             }
         }

@@ -1,40 +1,41 @@
-//! Intervals by the profile of the likelihood.
+//! Profile-likelihood intervals.
 //!
-//! A parameter is held at a value, everything else is fitted again, and the value lies within the
-//! interval while twice the rise of the cost stays below t², t the two-sided quantile of Student's
-//! distribution. Where the model is linear this is the interval value ± t·standard error; where a
-//! law is flat in a parameter (no impact slides: friction does nothing) it is open to that side,
-//! as it ought to be, and linear theory could not tell.
+//! A parameter is held at a value and everything else is fitted again; the value lies within the
+//! interval if twice the increase of the cost is below t², with t the two-sided quantile of
+//! Student's distribution. For a linear model this is the interval value ± t·standard error. If the
+//! cost does not depend on the parameter to one side (friction, if no impact slides), the interval
+//! is open on that side, which linear theory cannot show.
 
 use super::covariance::Spread;
 use super::problem::{Problem, Unknown};
 use super::search::elsewhere;
 use crate::parameter::Parameter;
 
-/// Steps of the optimiser at one value.
+/// Optimiser steps per value.
 const PATIENCE: usize = 12;
 /// Values tried on one side.
 const TRIES: usize = 24;
-/// Relative accuracy of the end of an interval, as a share of t.
+/// Accuracy of the end of an interval, relative to t.
 const CLOSE: f64 = 0.005;
-/// Random steps from which a value that seems to lie outside is tried again: between minima that
-/// the order of impacts, or sticking and sliding, keeps apart the optimiser sees no way.
+/// Number of random steps from which a value that seems to lie outside is tried again: the
+/// optimiser cannot move between minima with different orders of impacts or with sticking and
+/// sliding.
 const HOPS: u64 = 6;
-/// A cost lower than the minimum's by this is another minimum, not a rounding.
+/// A cost that is lower than the minimum's by this is another minimum, not a rounding error.
 const LOWER: f64 = 0.02;
 
-/// What a walk to one side found.
+/// The end of an interval on one side.
 pub(crate) enum End<'a> {
     /// The interval ends here.
     At(f64),
-    /// It reaches to the end of the parameter's range.
+    /// The interval extends to the end of the parameter's range.
     Open,
-    /// A better minimum came to light.
+    /// A better minimum was found.
     Better(Box<Problem<'a>>),
 }
 
-/// What a walk needs to know of the minimum.
-pub(crate) struct Around<'a, 'b> {
+/// The profile around a minimum.
+pub(crate) struct Profile<'a, 'b> {
     /// The minimum.
     pub(crate) best: &'b Problem<'a>,
     /// Its standard errors and valleys.
@@ -43,10 +44,10 @@ pub(crate) struct Around<'a, 'b> {
     pub(crate) t: f64,
 }
 
-impl<'a> Around<'a, '_> {
-    /// Walks from the minimum to one side (`direction` ±1) of the shared parameter that is the
-    /// j-th unknown, until twice the cost has risen by t².
-    pub(crate) fn walk(&self, j: usize, direction: f64) -> End<'a> {
+impl<'a> Profile<'a, '_> {
+    /// Finds the end of the interval of the j-th unknown, a shared parameter, in one direction
+    /// (±1): where twice the cost has increased by t².
+    pub(crate) fn end(&self, j: usize, direction: f64) -> End<'a> {
         let Unknown::Shared(parameter) = self.best.unknowns[j] else {
             return End::Open;
         };
@@ -66,7 +67,7 @@ impl<'a> Around<'a, '_> {
             if rise < -LOWER {
                 return End::Better(Box::new(trial));
             }
-            // proportional to the distance where the model is linear
+            // proportional to the distance if the model is linear
             let root = (2.0 * rise.max(0.0) / self.factor(j)).sqrt() / self.t;
             if (root - 1.0).abs() < CLOSE {
                 return End::At(next);
@@ -90,7 +91,7 @@ impl<'a> Around<'a, '_> {
                 None => value + (inside.0 - value) * (1.2 / inside.1).clamp(1.2, 2.5),
             };
         }
-        // the cost jumps: the order of impacts changes
+        // the cost is discontinuous: the order of impacts changes
         End::At(outside.map_or(inside.0, |outside| outside.0))
     }
 
@@ -99,13 +100,13 @@ impl<'a> Around<'a, '_> {
         2.0 * rise < self.t * self.t * self.factor(j)
     }
 
-    /// Squared error over that which the rise of the cost tells.
+    /// Squared error relative to that from the increase of the cost.
     fn factor(&self, j: usize) -> f64 {
         self.spread.factor * self.spread.inflation[j]
     }
 
-    /// The best fit with the parameter held: from the last one inside, moved along the valley, and
-    /// from there without that move.
+    /// The best fit with the parameter held, starting from the last fit inside with and without a
+    /// shift along the valley.
     fn held(&self, j: usize, parameter: Parameter, at: f64, warm: &Problem<'a>) -> Problem<'a> {
         let held = warm.unknowns[j];
         let by = (at - warm.value(held)) / warm.scale(held);
@@ -159,7 +160,8 @@ impl<'a> Around<'a, '_> {
     }
 }
 
-/// Where a straight line between two points is 1, kept off both ends so that a jump is bracketed.
+/// Where a line through two points equals 1, kept away from both ends so that a discontinuity stays
+/// bracketed.
 fn between(inside: (f64, f64), outside: (f64, f64)) -> f64 {
     let share = if outside.1.is_finite() {
         ((1.0 - inside.1) / (outside.1 - inside.1)).clamp(0.1, 0.9)

@@ -1,33 +1,33 @@
-//! What a reader of a fit ought to know.
+//! Remarks on a fit.
 
 use crate::drop::Coordinate;
 use crate::parameter::Parameter;
 use std::fmt;
 
-/// Something that a fit cannot tell, or that speaks against it.
+/// Something that a fit cannot determine, or that casts doubt on it.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Remark {
-    /// Nothing hits the surface within the frames that count.
+    /// There is no impact within the frames that count.
     NoImpact {
         /// The drop.
         drop: String,
     },
-    /// The film fixes a parameter from one side only, or not at all.
+    /// The film bounds a parameter on one side only, or not at all.
     Undetermined(Parameter),
-    /// The estimate stands at the end of what is possible.
+    /// The estimate is at the end of its range.
     AtTheEnd(Parameter),
-    /// Successive residuals resemble each other: the law, the coin or the calibration is not the
-    /// film's, and the intervals are too short.
+    /// Successive residuals are correlated: the law, the coin or the calibration is wrong, and the
+    /// intervals are too short.
     Correlated {
-        /// Of which coordinate.
+        /// The coordinate.
         coordinate: Coordinate,
-        /// Correlation of one frame with the next.
+        /// Correlation between successive frames.
         correlation: f64,
     },
-    /// Residuals that normal noise does not make.
+    /// There are outliers that normal noise does not explain.
     Outliers {
-        /// How many are beyond five standard deviations.
+        /// Number of residuals beyond five standard deviations.
         count: usize,
     },
 }
@@ -37,7 +37,7 @@ impl fmt::Display for Remark {
         match self {
             Self::NoImpact { drop } => write!(
                 f,
-                "{drop}: no impact among the frames that count, so it says nothing about the law"
+                "{drop}: no impact among the frames that count, so it does not test the law"
             ),
             Self::Undetermined(Parameter::Friction) => f.write_str(
                 "friction is not fixed from both sides: where every impact stops the slip (or none \
@@ -45,12 +45,12 @@ impl fmt::Display for Remark {
             ),
             Self::Undetermined(parameter) => write!(
                 f,
-                "{} is not fixed from both sides by these drops",
+                "{} is not bounded on both sides by these drops",
                 parameter.name()
             ),
             Self::AtTheEnd(parameter) => write!(
                 f,
-                "{} stands at the end of its range: the law may be the wrong one",
+                "{} is at the end of its range: the law may be wrong",
                 parameter.name()
             ),
             Self::Correlated {
@@ -58,8 +58,8 @@ impl fmt::Display for Remark {
                 correlation,
             } => write!(
                 f,
-                "residuals of {} go together from frame to frame (correlation {correlation:.2}): \
-                 law, coin or calibration are not the film's, and the intervals are too short",
+                "residuals of {} are correlated from frame to frame ({correlation:.2}): the \
+                 law, the coin or the calibration is wrong, and the intervals are too short",
                 coordinate.name()
             ),
             Self::Outliers { count } => write!(

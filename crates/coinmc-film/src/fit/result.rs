@@ -1,7 +1,7 @@
-//! What a fit found.
+//! The result of a fit.
 
 use super::covariance::{Spread, of};
-use super::problem::{Miss, Problem, Unknown};
+use super::problem::{Deviation, Problem, Unknown};
 use super::search::early;
 use super::student::quantile;
 use super::{Loss, Options, Remark};
@@ -9,53 +9,52 @@ use crate::drop::Coordinate;
 use crate::law::Model;
 use crate::parameter::{Parameter, Shared};
 
-/// A shared parameter as fitted.
+/// A fitted shared parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Estimated {
-    /// Which.
+    /// The parameter.
     pub parameter: Parameter,
-    /// The best value. Where an end of the interval is open, any value beyond the other end is as
-    /// good.
+    /// The best value. If one end of the interval is open, all values beyond the other end fit
+    /// equally well.
     pub value: f64,
     /// Standard error by linear theory, if there is one.
     pub std_error: Option<f64>,
-    /// Lower end of the interval by the profile of the likelihood; `None`: open.
+    /// Lower end of the profile-likelihood interval; `None`: open.
     pub lo: Option<f64>,
     /// Upper end.
     pub hi: Option<f64>,
 }
 
 impl Estimated {
-    /// Whether the film fixes it from both sides.
+    /// Whether the film bounds it on both sides.
     pub fn is_determined(&self) -> bool {
         self.lo.is_some() && self.hi.is_some()
     }
 }
 
-/// A drop as fitted.
+/// A fitted drop.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FittedDrop {
     /// Its name.
     pub name: String,
     /// x, x', z above the surface, z', θ, θ' at the first frame: m, m/s, rad, rad/s.
     pub start: [f64; 6],
-    /// Half the width of the interval of each, by linear theory; `None` where the film says
-    /// nothing.
+    /// Half the width of each interval, by linear theory; `None` if the film does not determine it.
     pub half_width: [Option<f64>; 6],
-    /// Frames that count.
+    /// Number of frames that count.
     pub frames: usize,
-    /// Frames there are.
+    /// Number of all frames.
     pub of_frames: usize,
-    /// Times of the impacts among them since the first frame, s.
+    /// Times of the impacts within the frames that count, since the first frame, s.
     pub impacts_s: Vec<f64>,
 }
 
-/// Scatter of one coordinate.
+/// Noise of one coordinate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Noise {
-    /// Which.
+    /// The coordinate.
     pub coordinate: Coordinate,
-    /// Points of it.
+    /// Number of points.
     pub n: usize,
     /// Standard deviation, m or rad.
     pub sigma: f64,
@@ -70,13 +69,13 @@ pub struct Residual {
     pub drop: usize,
     /// Index of the frame.
     pub frame: usize,
-    /// Time as in the film, s.
+    /// Time in the film, s.
     pub time_s: f64,
-    /// Which coordinate.
+    /// The coordinate.
     pub coordinate: Coordinate,
-    /// As marked, m or rad.
+    /// Marked value, m or rad.
     pub seen: f64,
-    /// Seen less predicted, m or rad (an angle without whole turns).
+    /// Observed minus predicted value, m or rad (angles without whole turns).
     pub residual: f64,
     /// The same in standard deviations.
     pub standardised: f64,
@@ -93,17 +92,17 @@ pub struct Fit {
     pub shared: Shared,
     /// The drops.
     pub drops: Vec<FittedDrop>,
-    /// The scatter of each coordinate that was marked.
+    /// The noise of each marked coordinate.
     pub noise: Vec<Noise>,
-    /// Points that count.
+    /// Number of points that count.
     pub n: usize,
-    /// Fitted numbers: parameters, first states, scatters.
+    /// Number of fitted numbers: parameters, initial states and noise.
     pub fitted: usize,
-    /// Logarithm of the greatest likelihood.
+    /// Logarithm of the maximum likelihood.
     pub log_likelihood: f64,
     /// Confidence of the intervals.
     pub confidence: f64,
-    /// What a reader ought to know.
+    /// Remarks for the reader.
     pub remarks: Vec<Remark>,
     /// Every residual.
     pub residuals: Vec<Residual>,
@@ -115,38 +114,38 @@ impl Fit {
         self.parameters.iter().find(|e| e.parameter == parameter)
     }
 
-    /// Akaike's criterion 2k − 2 ln L.
+    /// Akaike information criterion 2k − 2 ln L.
     pub fn aic(&self) -> f64 {
         2.0 * (self.fitted as f64 - self.log_likelihood)
     }
 
-    /// Schwarz's criterion k ln n − 2 ln L.
+    /// Bayesian information criterion k ln n − 2 ln L.
     pub fn bic(&self) -> f64 {
         self.fitted as f64 * libm::log(self.n as f64) - 2.0 * self.log_likelihood
     }
 }
 
-/// Puts the report together; `None` if the numbers went wrong.
+/// Assembles the result; `None` if the computation fails.
 pub(super) fn report(
     problem: &Problem,
     spread: &Spread,
     ends: &[(Option<f64>, Option<f64>)],
     options: &Options,
 ) -> Option<Fit> {
-    let misses = problem.misses()?;
-    let noise = noise(problem, &misses);
+    let deviations = problem.deviations()?;
+    let noise = noise(problem, &deviations);
     let mut fit = Fit {
         model: problem.task.model,
         parameters: estimates(problem, spread, ends),
         shared: problem.point.shared,
         drops: drops(problem, spread, options)?,
-        log_likelihood: log_likelihood(problem.task.loss, &misses),
-        n: misses.len(),
+        log_likelihood: log_likelihood(problem.task.loss, &deviations),
+        n: deviations.len(),
         fitted: problem.unknowns.len() + noise.len(),
         noise,
         confidence: options.confidence,
         remarks: Vec::new(),
-        residuals: residuals(problem, &misses),
+        residuals: residuals(problem, &deviations),
     };
     fit.remarks = remarks(&fit, problem.task.loss);
     Some(fit)
@@ -208,23 +207,23 @@ fn drops(problem: &Problem, spread: &Spread, options: &Options) -> Option<Vec<Fi
     Some(drops)
 }
 
-/// The standard error of a first state. Each impact multiplies what sets two starts apart, so that
-/// soon a path is near the film along a narrow, winding valley only: linear theory sees its width
-/// and not its length. Where the frames long after the first impact seem to narrow a number much,
-/// what the ones before tell is taken.
+/// The standard error of an initial state. Each impact amplifies the difference between two starts,
+/// so after some impacts only starts in a narrow, winding valley fit the film: linear theory sees
+/// its width but not its length. If frames long after the first impact seem to reduce an error
+/// much, the error from the earlier frames is used instead.
 fn trusted(error: f64, early: Option<f64>) -> f64 {
-    /// By how much they may.
+    /// The greatest reduction that is trusted.
     const NARROWED: f64 = 0.7;
     early
         .filter(|early| error < NARROWED * early)
         .unwrap_or(error)
 }
 
-/// ln of the density of the residuals at the scatter that makes it greatest.
-fn log_likelihood(loss: Loss, misses: &[Miss]) -> f64 {
+/// ln of the density of the residuals at the noise that maximises it.
+fn log_likelihood(loss: Loss, deviations: &[Deviation]) -> f64 {
     let mut sum = 0.0;
     for coordinate in Coordinate::ALL {
-        let residuals = of(misses, coordinate);
+        let residuals = of(deviations, coordinate);
         let n = residuals.len() as f64;
         if residuals.is_empty() {
             continue;
@@ -236,24 +235,24 @@ fn log_likelihood(loss: Loss, misses: &[Miss]) -> f64 {
     sum
 }
 
-fn noise(problem: &Problem, misses: &[Miss]) -> Vec<Noise> {
+fn noise(problem: &Problem, deviations: &[Deviation]) -> Vec<Noise> {
     Coordinate::ALL
         .into_iter()
         .filter_map(|coordinate| {
-            let n = of(misses, coordinate).len();
+            let n = of(deviations, coordinate).len();
             (n > 0).then(|| Noise {
                 coordinate,
                 n,
                 sigma: problem.weighing.sigma[coordinate.index()],
-                correlation: correlation(misses, coordinate),
+                correlation: correlation(deviations, coordinate),
             })
         })
         .collect()
 }
 
-/// Correlation of the residuals of a coordinate in successive frames.
-fn correlation(misses: &[Miss], coordinate: Coordinate) -> f64 {
-    let of_it: Vec<&Miss> = misses
+/// Correlation of a coordinate's residuals in successive frames.
+fn correlation(deviations: &[Deviation], coordinate: Coordinate) -> f64 {
+    let of_it: Vec<&Deviation> = deviations
         .iter()
         .filter(|m| m.coordinate == coordinate)
         .collect();
@@ -270,28 +269,28 @@ fn correlation(misses: &[Miss], coordinate: Coordinate) -> f64 {
     }
 }
 
-fn residuals(problem: &Problem, misses: &[Miss]) -> Vec<Residual> {
-    misses
+fn residuals(problem: &Problem, deviations: &[Deviation]) -> Vec<Residual> {
+    deviations
         .iter()
-        .filter_map(|miss| {
-            let frame = &problem.task.drops[miss.drop].frames[miss.frame];
+        .filter_map(|deviation| {
+            let frame = &problem.task.drops[deviation.drop].frames[deviation.frame];
             Some(Residual {
-                drop: miss.drop,
-                frame: miss.frame,
+                drop: deviation.drop,
+                frame: deviation.frame,
                 time_s: frame.time_s,
-                coordinate: miss.coordinate,
-                seen: frame.seen[miss.coordinate.index()]?,
-                residual: miss.by,
-                standardised: problem.weighed(miss),
+                coordinate: deviation.coordinate,
+                seen: frame.seen[deviation.coordinate.index()]?,
+                residual: deviation.by,
+                standardised: problem.weighted(deviation),
             })
         })
         .collect()
 }
 
 fn remarks(fit: &Fit, loss: Loss) -> Vec<Remark> {
-    /// False alarms of normal, independent noise: one in 15,000 a coordinate.
+    /// Threshold; normal, independent noise exceeds it once in 15,000 per coordinate.
     const CORRELATED: f64 = 4.0;
-    /// False alarms: six in ten million residuals.
+    /// Threshold; normal noise exceeds it in six of ten million residuals.
     const OUTLYING: f64 = 5.0;
     let mut remarks = Vec::new();
     for drop in &fit.drops {

@@ -1,10 +1,10 @@
-//! From the film to the right minimum.
+//! The global search for the minimum.
 //!
-//! The residuals are smooth in the parameters as long as the order of impacts stays, and jump where
-//! it changes: one start is not enough. So the search begins on a grid of the law's parameters with
-//! the states of the flight before the first impact, looks at a few frames after that impact, keeps
-//! the better starts, and lengthens the film step by step: the further an impact lies behind, the
-//! more it tells of the parameters and the more minima there are that are not it.
+//! The residuals are smooth functions of the parameters only while the order of impacts stays the
+//! same, so a single start is not enough. The search starts on a grid of the law's parameters with
+//! the states of the flight before the first impact, fits a few frames after that impact, keeps the
+//! better starts, and lengthens the window step by step: later frames determine the parameters
+//! better, but also create more false minima.
 
 use super::covariance::{Spread, spread};
 use super::problem::{Point, Problem, Task, Unknown, Weighing};
@@ -13,33 +13,34 @@ use crate::law::Model;
 use crate::parameter::{Parameter, Shared};
 
 /// Impacts within this many frames of each other are one bounce: the flight between them is too
-/// short to tell them apart.
+/// short to distinguish them.
 const TOGETHER: f64 = 4.0;
-/// Steps of the optimiser in a stage.
+/// Optimiser steps per stage.
 const PATIENCE: usize = 8;
-/// Steps of the optimiser at the end.
+/// Optimiser steps at the end.
 const LAST_PATIENCE: usize = 40;
-/// Starts nearer to each other than this, in units of the search, are one.
+/// Candidates closer to each other than this, in units of the search, are the same.
 const SAME: f64 = 1e-4;
-/// A fit whose scatter exceeds the film's own by this factor is not the best there is, or the law
-/// is wrong: worth a wider search.
+/// If the residuals exceed the film's own noise by this factor, there is a better minimum or the
+/// law is wrong, and a wider search is worthwhile.
 const POOR: f64 = 1.15;
-/// Random steps from a poor minimum, and their sizes in standard errors.
-const WANDER: u64 = 60;
+/// Number of random steps from a poor minimum, and their sizes in standard errors.
+const FAR_STEPS: u64 = 60;
 const STRIDES: [f64; 3] = [2.0, 6.0, 20.0];
 
-/// Shares of the frames after the first impact over which a stray start is led back to a minimum.
+/// Fractions of the frames after the first impact, along which a distant start is moved to a
+/// minimum.
 const STAGES: [f64; 4] = [0.1, 0.25, 0.5, 1.0];
 
-/// How hard to look.
+/// Effort of a search.
 struct Effort {
-    /// Frames after the first impact that are looked at first.
+    /// Number of frames after the first impact in the first window.
     look: usize,
-    /// Starts kept after the grid.
+    /// Number of candidates kept after the grid.
     first: usize,
-    /// Starts kept to the end.
+    /// Number of candidates kept to the end.
     last: usize,
-    /// By what the film grows from stage to stage.
+    /// Factor by which the window grows per stage.
     growth: f64,
 }
 
@@ -64,16 +65,16 @@ const EFFORTS: [Effort; 3] = [
     },
 ];
 
-/// How much of the film counts.
+/// The part of the film that counts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Window {
-    /// Bounces.
+    /// Number of bounces.
     pub(crate) bounces: usize,
     /// Time since the first frame, s.
     pub(crate) until_s: f64,
 }
 
-/// The best minimum found, over all frames of the window; `None` if no start leads anywhere.
+/// The best minimum over all frames of the window; `None` if none is found.
 pub(crate) fn search<'a>(
     task: &'a Task<'a>,
     flights: &[Flight],
@@ -99,7 +100,7 @@ pub(crate) fn search<'a>(
         })
         .collect();
     let mut found: Vec<Problem> = Vec::new();
-    // the first finds most; where a path costs much the others would take hours
+    // the first effort finds most minima; for costly laws the others would take hours
     let efforts = if task.model.is_costly() {
         &EFFORTS[..1]
     } else {
@@ -115,20 +116,20 @@ pub(crate) fn search<'a>(
             break;
         }
     }
-    let mut minimum = wander(found.into_iter().next()?);
+    let mut minimum = search_further(found.into_iter().next()?);
     minimum.thorough &= poorness(&minimum) < POOR * POOR;
     Some(minimum)
 }
 
-/// Looks further around a minimum that leaves more than noise.
-fn wander(mut minimum: Problem<'_>) -> Problem<'_> {
+/// Searches further around a minimum that leaves more than noise.
+fn search_further(mut minimum: Problem<'_>) -> Problem<'_> {
     if poorness(&minimum) < POOR * POOR {
         return minimum;
     }
     let Some(around) = spread(&minimum) else {
         return minimum;
     };
-    for (number, stride) in (0..minimum.tries(WANDER)).zip(STRIDES.into_iter().cycle()) {
+    for (number, stride) in (0..minimum.tries(FAR_STEPS)).zip(STRIDES.into_iter().cycle()) {
         let mut trial = minimum.clone();
         trial.shift(&around.draw(number), stride);
         let trial = trial.minimise(PATIENCE);
@@ -139,10 +140,10 @@ fn wander(mut minimum: Problem<'_>) -> Problem<'_> {
     minimum.minimise(LAST_PATIENCE)
 }
 
-/// A minimum that lies elsewhere, if the film up to soon after the first impact leaves room for it:
-/// a random step within that room (the same for the same number), then the film again, longer and
-/// longer. Along the whole film the way there leads over mountains, for every impact multiplies
-/// what sets two starts apart.
+/// Searches for a distant minimum that is compatible with the frames up to soon after the first
+/// impact: takes a random step within their errors (the same number gives the same step), then fits
+/// windows of increasing length. A direct search over the whole window would be blocked by high
+/// costs in between, because every impact amplifies the difference between two starts.
 pub(super) fn elsewhere<'a>(
     from: &Problem<'a>,
     number: u64,
@@ -160,14 +161,14 @@ pub(super) fn elsewhere<'a>(
     Some(trial)
 }
 
-/// What the film tells up to soon after the first impact: where linear theory still holds.
+/// Linear theory for the frames up to soon after the first impact, where it still holds.
 pub(super) fn early(problem: &Problem) -> Option<Spread> {
     let mut early = problem.clone();
     early.weighing.frames = lengths(problem)?.into_iter().next()?;
     spread(&early)
 }
 
-/// Frames of each drop, at each of the stages.
+/// Number of frames of each drop at each stage.
 fn lengths(problem: &Problem) -> Option<[Vec<usize>; STAGES.len()]> {
     let mut lengths = STAGES.map(|_| Vec::new());
     for (d, &all) in problem.weighing.frames.iter().enumerate() {
@@ -176,7 +177,7 @@ fn lengths(problem: &Problem) -> Option<[Vec<usize>; STAGES.len()]> {
         let first = path.impacts_s.first().copied().unwrap_or(f64::INFINITY);
         let touch = times.partition_point(|t| *t < first).min(all);
         for (share, frames) in STAGES.into_iter().zip(&mut lengths) {
-            // a share of frames there are
+            // a fraction of the existing frames
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
             let more = (share * (all - touch) as f64).ceil() as usize;
             frames.push(touch + more);
@@ -185,9 +186,11 @@ fn lengths(problem: &Problem) -> Option<[Vec<usize>; STAGES.len()]> {
     Some(lengths)
 }
 
-/// Mean square of the weighed residuals: 1 where the law leaves nothing but noise.
+/// Mean square of the weighted residuals: 1 if the law leaves only noise.
 fn poorness(problem: &Problem) -> f64 {
-    let residuals = problem.misses().map_or(0, |misses| misses.len());
+    let residuals = problem
+        .deviations()
+        .map_or(0, |deviations| deviations.len());
     2.0 * problem.cost() / residuals.max(1) as f64
 }
 
@@ -228,7 +231,7 @@ fn grow<'a>(
         if frames == horizon || wanted == all {
             break;
         }
-        // a growth beyond 1 makes at least one frame
+        // a growth factor above 1 adds at least one frame
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let longer = (look as f64 * effort.growth) as usize;
         look = longer.max(look + 1);
@@ -237,12 +240,12 @@ fn grow<'a>(
     candidates
         .into_iter()
         .next()
-        .map(|candidate| settle(candidate, window))
+        .map(|candidate| fit_window(candidate, window))
 }
 
-/// Fits all frames of the window: it ends where the path says that led there, and before anything
-/// of which the law says nothing.
-fn settle(mut problem: Problem<'_>, window: Window) -> Problem<'_> {
+/// Fits all frames of the window, whose end depends on the path, as far as the law has a
+/// prediction.
+fn fit_window(mut problem: Problem<'_>, window: Window) -> Problem<'_> {
     let mut frames = horizon(&problem, window);
     for _ in 0..4 {
         problem.weighing.frames.clone_from(&frames);
@@ -261,7 +264,7 @@ fn settle(mut problem: Problem<'_>, window: Window) -> Problem<'_> {
     problem
 }
 
-/// Frames of each drop that lie in the window and in what the law can predict.
+/// Number of frames of each drop within the window and the law's prediction.
 fn horizon(problem: &Problem, window: Window) -> Vec<usize> {
     let task = problem.task;
     (0..task.drops.len())
@@ -279,14 +282,14 @@ fn horizon(problem: &Problem, window: Window) -> Vec<usize> {
         .collect()
 }
 
-/// When the bounce number `n`, from 0, begins; infinite if there is none.
+/// Time of bounce number `n`, from 0; infinite if there is none.
 fn bounce(impacts_s: &[f64], n: usize, together_s: f64) -> f64 {
     let begins = |i: &usize| *i == 0 || impacts_s[*i] - impacts_s[*i - 1] > together_s;
     let mut bounces = (0..impacts_s.len()).filter(begins);
     bounces.nth(n).map_or(f64::INFINITY, |i| impacts_s[i])
 }
 
-/// Those with the lowest cost over these frames, the best first.
+/// The candidates with the lowest cost over these frames, the best first.
 fn best<'a>(candidates: Vec<Problem<'a>>, frames: &[usize], keep: usize) -> Vec<Problem<'a>> {
     let mut costs: Vec<(f64, Problem)> = candidates
         .into_iter()
@@ -296,13 +299,13 @@ fn best<'a>(candidates: Vec<Problem<'a>>, frames: &[usize], keep: usize) -> Vec<
         })
         .filter(|(cost, _)| cost.is_finite())
         .collect();
-    // stable: equals stay in the order of the grid
+    // a stable sort keeps equal ones in the order of the grid
     costs.sort_by(|a, b| a.0.total_cmp(&b.0));
     costs.truncate(keep);
     costs.into_iter().map(|(_, candidate)| candidate).collect()
 }
 
-/// Without those that have come to the same place as a better one.
+/// Removes candidates that have reached the same point as a better one.
 fn distinct(candidates: Vec<Problem<'_>>) -> Vec<Problem<'_>> {
     let mut kept: Vec<Problem> = Vec::new();
     for candidate in candidates {
@@ -319,8 +322,8 @@ fn distinct(candidates: Vec<Problem<'_>>) -> Vec<Problem<'_>> {
     kept
 }
 
-/// A candidate with each shared parameter in turn at each value of its grid: what an early impact
-/// left open the next one may tell.
+/// Copies of a candidate with one shared parameter replaced by each value of its grid: a later
+/// impact may determine what an earlier one left open.
 fn replaced<'a>(candidate: &Problem<'a>) -> Vec<Problem<'a>> {
     let mut all = Vec::new();
     for unknown in &candidate.unknowns {
@@ -337,7 +340,7 @@ fn replaced<'a>(candidate: &Problem<'a>) -> Vec<Problem<'a>> {
     all
 }
 
-/// Every combination of the free parameters' grids; the others stay.
+/// All combinations of the free parameters' grids; the others keep their values.
 fn grid(model: &Model, shared: &Shared, free: &[Parameter]) -> Vec<Shared> {
     let mut points = vec![*shared];
     for parameter in free {

@@ -2,11 +2,11 @@
 
 use coinmc_core::inverse_normal_cdf;
 
-/// The t beyond which lies (1 − `confidence`)/2 of Student's distribution with ν degrees of
-/// freedom.
+/// The two-sided quantile of Student's distribution with ν degrees of freedom: the value exceeded
+/// with probability (1 − `confidence`)/2.
 ///
-/// Expansion in 1/ν of Abramowitz & Stegun 26.7.5: within 1e-5 of the quantile of 0.975 from ν = 10
-/// on, and no fit here has fewer.
+/// Expansion in 1/ν of Abramowitz & Stegun 26.7.5: accurate to 1e-5 for the quantile 0.975 from
+/// ν = 10, and every fit here has more.
 pub(crate) fn quantile(confidence: f64, degrees: f64) -> f64 {
     let z = inverse_normal_cdf(0.5 + 0.5 * confidence);
     let (z2, v) = (z * z, 1.0 / degrees);
@@ -23,7 +23,7 @@ mod tests {
 
     /// Abramowitz & Stegun, table 26.10, rounded to three decimals there.
     #[test]
-    fn the_printed_table_is_met() {
+    fn the_printed_table_is_reproduced() {
         for (confidence, degrees, t) in [
             (0.95, 10.0, 2.228),
             (0.95, 30.0, 2.042),

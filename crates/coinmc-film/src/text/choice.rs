@@ -1,24 +1,24 @@
-//! Which columns mean what, and in which units.
+//! Meaning and units of the columns.
 
 use super::diagnostics::{Problems, quoted};
 use super::header::{Column, Header};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// What the marked angle is the direction of.
+/// The direction that the marked angle measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum AngleOf {
-    /// Of a line along the heads face, anticlockwise from the right: 0 while the coin lies heads
-    /// up. What a line or a protractor laid on the coin's edge in Tracker shows.
+    /// That of a line along the heads face, anticlockwise from the right: 0 if the coin lies heads
+    /// up. A line or protractor along the coin's edge in Tracker shows this angle.
     #[default]
     Face,
-    /// Of the coin's axis (out of the heads face), anticlockwise from the right.
+    /// That of the coin's axis (outwards from the heads face), anticlockwise from the right.
     Axis,
-    /// Of the axis, clockwise from the vertical: θ as coinmc has it.
+    /// That of the axis, clockwise from the vertical: coinmc's θ.
     Tilt,
 }
 
 impl AngleOf {
-    /// θ of the marked angle, both rad.
+    /// θ for a marked angle, both rad.
     pub(super) fn theta(self, marked: f64) -> f64 {
         match self {
             Self::Face => -marked,
@@ -27,15 +27,15 @@ impl AngleOf {
         }
     }
 
-    /// The angle to mark for θ: each of these is its own inverse.
+    /// The marked angle for θ: each conversion is its own inverse.
     pub(super) fn marked(self, theta: f64) -> f64 {
         self.theta(theta)
     }
 }
 
-/// What the reader is told of a file. What is not told is found by the columns' names: `x`, `y`,
-/// `θ` (or theta, angle, rotation, phi); the unit in brackets behind a name counts, else metres,
-/// seconds and degrees, which are Tracker's.
+/// The columns and units to read. Those not given are found by the columns' names: `x`, `y`, `θ`
+/// (or theta, angle, rotation, phi); units are taken from brackets after a name, or else are
+/// metres, seconds and degrees, like Tracker's.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Choice {
     /// Column of x, as `name` or `track.name`.
@@ -44,18 +44,18 @@ pub struct Choice {
     pub y: Option<String>,
     /// Column of the angle.
     pub angle: Option<String>,
-    /// Two tracks instead: points of the coin on either side of its centre, equally far. The centre
-    /// is between them, and the marked angle is the direction from the first to the second.
+    /// Two tracks instead: points of the coin at equal distances on either side of its centre. The
+    /// marked angle is the direction from the first to the second.
     pub ends: Option<(String, String)>,
-    /// One length of the file, m.
+    /// Unit of lengths, m.
     pub length_m: Option<f64>,
-    /// One unit of angle of the file, rad.
+    /// Unit of angles, rad.
     pub angle_rad: Option<f64>,
     /// What the angle is the direction of.
     pub angle_of: AngleOf,
 }
 
-/// A column and what one of its numbers is in SI.
+/// A column and its unit in SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Picked {
     pub(super) index: usize,
@@ -65,13 +65,13 @@ pub(super) struct Picked {
 /// The columns of a drop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Layout {
-    /// x (which may be missing), y, angle.
+    /// x (optional), y and angle.
     Centre(Option<Picked>, Picked, Picked),
     /// x and y of two points.
     Ends([[Picked; 2]; 2]),
 }
 
-/// Names and their unit's size in SI.
+/// Names of units and their size in SI.
 type Units = &'static [(&'static str, f64)];
 const LENGTHS: Units = &[
     ("m", 1.0),
@@ -91,7 +91,7 @@ const ANGLES: Units = &[
 ];
 const TIMES: Units = &[("s", 1.0), ("ms", 1e-3), ("min", 60.0)];
 
-/// Picks columns from a header.
+/// Finds the columns in a header.
 pub(super) struct Picker<'a, 'b, 'c> {
     pub(super) header: &'a Header,
     pub(super) choice: &'a Choice,
@@ -99,7 +99,7 @@ pub(super) struct Picker<'a, 'b, 'c> {
 }
 
 impl Picker<'_, '_, '_> {
-    /// The layout, and the time's unit; `None` after problems.
+    /// The layout and the unit of time; `None` if there are problems.
     pub(super) fn layout(&mut self) -> Option<(Layout, f64)> {
         let time = self.unit(self.header.time, TIMES, None)?;
         let layout = if let Some((first, second)) = &self.choice.ends {
@@ -116,7 +116,7 @@ impl Picker<'_, '_, '_> {
             Some(name) => self.named(name),
             None => self.first("y", |column| column.is_named("y")),
         };
-        // x and the angle of the same track, if it has them
+        // prefer x and angle of the same track
         let track = y.map(|y| self.header.columns[y].0.track.clone());
         let near = |wanted: &dyn Fn(&Column) -> bool| {
             let columns = || self.header.columns.iter();
@@ -156,7 +156,7 @@ impl Picker<'_, '_, '_> {
         };
         let (Some(x), Some(y)) = (of("x"), of("y")) else {
             let message = format!("no track {} with columns x and y", quoted(track));
-            self.complain(message);
+            self.report(message);
             return None;
         };
         let length = self.choice.length_m;
@@ -172,7 +172,7 @@ impl Picker<'_, '_, '_> {
             .iter()
             .position(|(column, _)| same_track(&column.full_name(), name) || column.is_named(name));
         if found.is_none() {
-            self.complain(format!("there is no column {}", quoted(name)));
+            self.report(format!("there is no column {}", quoted(name)));
         }
         found
     }
@@ -180,38 +180,38 @@ impl Picker<'_, '_, '_> {
     fn first(&mut self, what: &str, wanted: impl Fn(&Column) -> bool) -> Option<usize> {
         let found = self.header.columns.iter().position(|(c, _)| wanted(c));
         if found.is_none() {
-            self.complain(format!("no column is that of {what}"));
+            self.report(format!("there is no column for {what}"));
         }
         found
     }
 
-    fn picked(&mut self, index: usize, units: Units, told: Option<f64>) -> Option<Picked> {
-        let unit = self.unit(index, units, told)?;
+    fn picked(&mut self, index: usize, units: Units, given: Option<f64>) -> Option<Picked> {
+        let unit = self.unit(index, units, given)?;
         Some(Picked { index, unit })
     }
 
-    fn unit(&mut self, index: usize, units: Units, told: Option<f64>) -> Option<f64> {
+    fn unit(&mut self, index: usize, units: Units, given: Option<f64>) -> Option<f64> {
         let (column, place) = &self.header.columns[index];
         let Some(name) = &column.unit else {
-            return Some(told.unwrap_or(units[0].1));
+            return Some(given.unwrap_or(units[0].1));
         };
         let known = units
             .iter()
             .find(|(unit, _)| unit.eq_ignore_ascii_case(name));
         if let Some((_, size)) = known {
-            return Some(told.unwrap_or(*size));
+            return Some(given.unwrap_or(*size));
         }
-        if told.is_some() {
-            return told;
+        if given.is_some() {
+            return given;
         }
         let allowed: Vec<&str> = units.iter().map(|(unit, _)| *unit).collect();
         let message = format!(
-            "the unit {} is not known here; {} are",
+            "the unit {} is not known; known units are {}",
             quoted(name),
             allowed.join(", ")
         );
         let help = name.to_lowercase().starts_with('p').then(|| {
-            "lengths in pixels mean that the film has no scale: place a calibration stick in \
+            "lengths in pixels mean that the film is not calibrated: place a calibration stick in \
              Tracker"
                 .to_owned()
         });
@@ -220,8 +220,8 @@ impl Picker<'_, '_, '_> {
         None
     }
 
-    /// A problem of the header, with the columns there are.
-    fn complain(&mut self, message: String) {
+    /// Reports a problem with the header and lists its columns.
+    fn report(&mut self, message: String) {
         let names: Vec<String> = self
             .header
             .columns
@@ -230,13 +230,13 @@ impl Picker<'_, '_, '_> {
             .map(|(column, _)| quoted(&column.full_name()))
             .collect();
         let end = self.header.columns.last().map_or(0, |(_, place)| place.end);
-        let help = format!("the columns are {}; choose by name", names.join(", "));
+        let help = format!("the columns are {}: choose one by name", names.join(", "));
         self.problems
             .add(self.header.line, 0..end, message, Some(help));
     }
 }
 
-/// Tracker writes `mass A` as `mass_A` in some places.
+/// Tracker sometimes writes `mass A` as `mass_A`.
 fn same_track(a: &str, b: &str) -> bool {
     a.replace('_', " ")
         .eq_ignore_ascii_case(&b.replace('_', " "))

@@ -1,14 +1,15 @@
-//! Everything that is wrong with a file, said at once.
+//! All problems of a file, reported together.
 
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Level, Origin, Renderer, Snippet};
 use std::fmt::{self, Write as _};
 use std::ops::Range;
 
-/// Problems kept; a file with more is not repaired by reading on.
-const KEPT: usize = 50;
-/// Longest line quoted, in characters; of longer ones the surroundings of the mark are shown.
-const QUOTED: usize = 160;
+/// Greatest number of problems kept.
+const MAX_PROBLEMS: usize = 50;
+/// Greatest length of a quoted line, in characters; of longer lines, the part around the mark is
+/// shown.
+const MAX_QUOTE: usize = 160;
 
 /// One problem of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -16,19 +17,19 @@ const QUOTED: usize = 160;
 pub struct Problem {
     /// The file.
     pub file: String,
-    /// Line, from 1; 0 if the problem has no place in the text.
+    /// Line, from 1; 0 if the problem concerns the whole file.
     pub line: usize,
-    /// Column in characters, from 1; 0 like `line`.
+    /// Column in characters, from 1; 0 if the problem concerns the whole file.
     pub column: usize,
-    /// What was found and what is allowed.
+    /// The problem.
     pub message: String,
-    /// How to mend it.
+    /// The remedy.
     pub help: Option<String>,
-    /// The line, and the bytes of it to mark.
+    /// The line and its bytes to mark.
     quote: Option<(String, Range<usize>)>,
 }
 
-/// All problems of a file, in the order of their places.
+/// All problems of a file in the order of their positions.
 ///
 /// # Example
 /// ```
@@ -43,7 +44,7 @@ pub struct Diagnostics {
 }
 
 impl Diagnostics {
-    /// A problem of a file as a whole.
+    /// A problem with a file as a whole.
     pub fn of_file(file: &str, message: impl Into<String>, help: Option<String>) -> Self {
         let problem = Problem {
             file: printable(file),
@@ -70,7 +71,7 @@ impl Diagnostics {
         self.dropped += other.dropped;
     }
 
-    /// The messages as a person reads them, with or without colour (ANSI escapes).
+    /// The messages as text, with or without colour (ANSI escapes).
     pub fn render(&self, color: bool) -> String {
         let renderer = if color {
             Renderer::styled()
@@ -118,7 +119,7 @@ impl Problem {
     }
 }
 
-/// Gathers the problems of one file.
+/// Collects the problems of one file.
 #[derive(Debug)]
 pub(super) struct Problems<'a> {
     file: String,
@@ -137,7 +138,7 @@ impl<'a> Problems<'a> {
         }
     }
 
-    /// A problem of some bytes of a line, counted from 0.
+    /// Adds a problem with some bytes of a line, counted from 0.
     pub(super) fn add(
         &mut self,
         line: usize,
@@ -145,7 +146,7 @@ impl<'a> Problems<'a> {
         message: String,
         help: Option<String>,
     ) {
-        if self.found.len() == KEPT {
+        if self.found.len() == MAX_PROBLEMS {
             self.dropped += 1;
             return;
         }
@@ -179,18 +180,18 @@ impl<'a> Problems<'a> {
     }
 }
 
-/// A line made printable, and where the mark is in it; a long line is cut around the mark.
+/// A printable excerpt of a line around the mark, and the position of the mark in it.
 fn excerpt(text: &str, start: usize, end: usize) -> (String, Range<usize>) {
     let mut from = 0;
-    if text[..start].chars().count() > QUOTED / 2 {
+    if text[..start].chars().count() > MAX_QUOTE / 2 {
         from = text[..start]
             .char_indices()
-            .nth_back(QUOTED / 2)
+            .nth_back(MAX_QUOTE / 2)
             .map_or(0, |(i, _)| i);
     }
     let to = text[start..]
         .char_indices()
-        .nth(QUOTED / 2)
+        .nth(MAX_QUOTE / 2)
         .map_or(text.len(), |(i, _)| start + i);
     let clean = |part: &str| part.replace(|c: char| c.is_control(), " ");
     let (before, marked, after) = (
@@ -202,7 +203,7 @@ fn excerpt(text: &str, start: usize, end: usize) -> (String, Range<usize>) {
     (before + &marked + &after, range)
 }
 
-/// A file name without what would steer a terminal.
+/// A file name without control characters.
 fn printable(name: &str) -> String {
     name.chars()
         .flat_map(|c| match c {
@@ -212,15 +213,15 @@ fn printable(name: &str) -> String {
         .collect()
 }
 
-/// Foreign text for a message: printable, of bounded length, in backquotes.
+/// Untrusted text for a message: printable, of bounded length, in backquotes.
 pub(super) fn quoted(text: &str) -> String {
-    const LONGEST: usize = 40;
+    const MAX_CHARS: usize = 40;
     let shown: String = text
         .chars()
-        .take(LONGEST)
+        .take(MAX_CHARS)
         .flat_map(char::escape_debug)
         .collect();
-    let more = if text.chars().nth(LONGEST).is_some() {
+    let more = if text.chars().nth(MAX_CHARS).is_some() {
         "…"
     } else {
         ""

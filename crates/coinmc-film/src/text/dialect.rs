@@ -1,8 +1,8 @@
-//! The ways in which the same table is written.
+//! Dialects of the text format.
 
 use super::Encoding;
 
-/// What stands between two cells.
+/// The separator between cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Delimiter {
     /// A tab: Tracker's default.
@@ -12,7 +12,7 @@ pub enum Delimiter {
     Semicolon,
     /// A comma.
     Comma,
-    /// One blank or more; cells cannot be empty then.
+    /// One or more spaces; cells cannot be empty then.
     Blank,
 }
 
@@ -37,15 +37,15 @@ impl Delimiter {
         }
     }
 
-    /// The delimiter of a table, by the line with the names of its columns: the first of tab,
-    /// semicolon, comma, blank that occurs.
+    /// The delimiter of a table, from the line with its column names: the first of tab, semicolon,
+    /// comma and space that occurs.
     pub(super) fn of(header: &str) -> Option<Self> {
         let all = [Self::Tab, Self::Semicolon, Self::Comma, Self::Blank];
         let header = header.trim();
         all.into_iter().find(|d| header.contains(d.character()))
     }
 
-    /// The cells of a line with their places in bytes, blanks around them left out.
+    /// The cells of a line with their byte positions, without spaces around them.
     pub(super) fn cells(self, line: &str) -> Vec<(usize, &str)> {
         let mut cells = Vec::new();
         let mut start = 0;
@@ -61,33 +61,33 @@ impl Delimiter {
     }
 }
 
-/// How a table is written. Read files have one, written files get one.
+/// The dialect of a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Dialect {
-    /// Between cells.
+    /// Separator between cells.
     pub delimiter: Delimiter,
-    /// `,` where decimals stand behind a comma, else `.`.
+    /// Decimal mark: `,` if true, else `.`.
     pub decimal_comma: bool,
     /// Lines end with carriage return and line feed.
     pub crlf: bool,
-    /// Characters.
+    /// Encoding of characters.
     pub encoding: Encoding,
 }
 
-/// What a cell holds.
+/// Content of a cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Cell {
-    /// Nothing was marked.
+    /// Empty: the point was not marked.
     Empty,
-    /// A number, and whether a degree sign stood behind it.
+    /// A number, and whether a degree sign follows it.
     Number(f64, bool),
-    /// No number.
+    /// Not a number.
     Wrong,
     /// A number with the other decimal mark.
     OtherMark,
 }
 
-/// Reads a cell. Java writes 1.25E-3, and NaN or the replacement character where there is no value.
+/// Parses a cell. Java writes 1.25E-3, and NaN or the replacement character for missing values.
 pub(super) fn cell(text: &str, decimal_comma: bool) -> Cell {
     let text = text.trim_matches('"').trim();
     if text.is_empty() || text.eq_ignore_ascii_case("nan") || text == "\u{FFFD}" {

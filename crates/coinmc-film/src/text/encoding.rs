@@ -1,14 +1,14 @@
-//! Bytes to text: UTF-8 with or without its mark, or Latin-1.
+//! Text encodings: UTF-8 with or without byte order mark, and Latin-1.
 
-/// How a file's characters were written.
+/// The encoding of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Encoding {
-    /// UTF-8, what Tracker writes.
+    /// UTF-8, as Tracker writes.
     #[default]
     Utf8,
-    /// UTF-8 behind a byte order mark, as spreadsheets save it.
+    /// UTF-8 with a byte order mark, as spreadsheets save it.
     Utf8Mark,
-    /// ISO 8859-1: what is not UTF-8 is taken for it.
+    /// ISO 8859-1, assumed for everything that is not UTF-8.
     Latin1,
 }
 
@@ -26,9 +26,9 @@ impl Encoding {
 /// The byte order mark of UTF-8.
 pub(super) const MARK: &[u8] = b"\xEF\xBB\xBF";
 
-/// Text of the bytes; `None` for UTF-16, and for bytes that no text has.
+/// Decodes bytes; `None` for UTF-16 and binary data.
 pub(super) fn decoded(bytes: &[u8]) -> Option<(String, Encoding)> {
-    // UTF-16 has zeros in it, whatever its order; no text file has
+    // UTF-16 contains zero bytes in either order; other text files do not
     if bytes.contains(&0) {
         return None;
     }
@@ -45,7 +45,7 @@ pub(super) fn decoded(bytes: &[u8]) -> Option<(String, Encoding)> {
     })
 }
 
-/// Bytes of a text; what Latin-1 does not have becomes a question mark.
+/// Encodes text; characters that Latin-1 lacks become question marks.
 pub(super) fn encoded(text: &str, encoding: Encoding) -> Vec<u8> {
     match encoding {
         Encoding::Utf8 => text.as_bytes().to_vec(),

@@ -1,20 +1,20 @@
-//! The lines above the numbers: tracks, columns, units.
+//! The header above the numbers: tracks, columns and units.
 
 use super::dialect::Delimiter;
 
-/// A column: its track, its name, its unit.
+/// A column: track, name and unit.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Column {
-    /// The track (Tracker: point mass, protractor, …) it belongs to; empty where none is named.
+    /// Its track (in Tracker a point mass, protractor, …); empty if none is named.
     pub track: String,
     /// The name without the unit.
     pub name: String,
-    /// What stands in brackets behind the name.
+    /// The unit in brackets after the name.
     pub unit: Option<String>,
 }
 
 impl Column {
-    /// `track.name`, or the name alone where there is no track.
+    /// `track.name`, or only the name if there is no track.
     pub fn full_name(&self) -> String {
         if self.track.is_empty() {
             self.name.clone()
@@ -28,7 +28,7 @@ impl Column {
             .contains(&self.name.to_lowercase().as_str())
     }
 
-    /// Whether the name is that of a turned body's angle. θ_{r} is not: Tracker's name for the
+    /// Whether the name is that of a body's angle. θ_{r} is not: it is Tracker's name for the
     /// direction of the position.
     pub(super) fn is_angle(&self) -> bool {
         [
@@ -48,21 +48,21 @@ pub(super) struct Header {
     pub(super) delimiter: Delimiter,
     /// Index of the line with the names of the columns.
     pub(super) line: usize,
-    /// Columns with the places of their names in that line.
+    /// Columns with the byte positions of their names in that line.
     pub(super) columns: Vec<(Column, std::ops::Range<usize>)>,
-    /// Index of the time.
+    /// Index of the time column.
     pub(super) time: usize,
 }
 
-/// A line that says nothing: blank, or a remark. Tracker's `#multi:` begins like one.
+/// Whether a line is blank or a comment. Tracker's `#multi:` begins like a comment.
 pub(super) fn is_idle(line: &str) -> bool {
     let line = line.trim();
     line.is_empty() || line.starts_with('#')
 }
 
-/// Finds the header: the first line that has a column of time. Lines before it name tracks.
+/// Finds the header: the first line with a time column. Lines before it name tracks.
 pub(super) fn header(lines: &[&str]) -> Option<Header> {
-    /// Header lines beyond this are none.
+    /// Only this many lines are searched for the header.
     const SEARCHED: usize = 50;
     let mut before: Option<&str> = None;
     for (number, line) in lines.iter().enumerate().take(SEARCHED) {
@@ -92,7 +92,8 @@ pub(super) fn header(lines: &[&str]) -> Option<Header> {
 }
 
 impl Header {
-    /// A single name belongs to all columns; several stand above the first column of each track.
+    /// Assigns names of tracks: a single name applies to all columns; several are above the first
+    /// column of each track.
     fn name_tracks(&mut self, line: &str) {
         let names = self.delimiter.cells(line);
         let given = names.iter().filter(|(_, name)| !name.is_empty()).count();
@@ -112,7 +113,7 @@ impl Header {
     }
 }
 
-/// `y (cm)`, `y [cm]`, `y`; quotes of spreadsheets are left out.
+/// Parses `y (cm)`, `y [cm]` or `y`, without a spreadsheet's quotes.
 fn column(text: &str) -> Column {
     let text = text.trim_matches('"').trim();
     let bracket = |open: char, close: char| {

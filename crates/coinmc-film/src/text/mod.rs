@@ -1,13 +1,13 @@
-//! What Tracker (Open Source Physics, Brown & Cox) exports, read and written.
+//! Reading and writing the text that Tracker (Open Source Physics, Brown & Cox) exports.
 //!
 //! ```text
-//! mass_A                       the track; or `#multi:` and a line of names, one a track
-//! t       x       y       θ    names, with units in brackets at most
-//! 0.000   0.000   0.201   12.3 numbers; an empty cell is a point that was not marked
+//! mass_A                       the track; or `#multi:` and a line of names, one per track
+//! t       x       y       θ    names, optionally with units in brackets
+//! 0.000   0.000   0.201   12.3 numbers; an empty cell is an unmarked point
 //! ```
-//! Tabs, semicolons, commas or blanks between cells; decimals behind a point or a comma; lines with
-//! `#` and blank lines mean nothing. All problems of a file are reported at once, each with its
-//! place. The formats are described in docs/guide/film.md.
+//! Cells are separated by tabs, semicolons, commas or spaces; the decimal mark is a point or a comma;
+//! blank lines and lines with `#` are ignored. All problems of a file are reported at once, each with
+//! its position. The formats are described in docs/guide/film.md.
 
 mod choice;
 mod diagnostics;

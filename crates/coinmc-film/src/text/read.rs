@@ -1,4 +1,4 @@
-//! From bytes to a drop.
+//! Parsing a file into a drop.
 
 use super::choice::{Choice, Layout, Picked, Picker};
 use super::diagnostics::{Diagnostics, Problems, quoted};
@@ -11,28 +11,28 @@ use crate::drop::{FilmedDrop, Frame, MAX_FRAMES, wrapped};
 pub const MAX_BYTES: usize = 16 << 20;
 /// Longest line, bytes.
 pub const MAX_LINE: usize = 20_000;
-/// Most columns.
+/// Greatest number of columns.
 pub const MAX_COLUMNS: usize = 500;
 
-/// A file as it was understood.
+/// The interpretation of a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Footage {
     /// The drop.
     pub drop: FilmedDrop,
-    /// How the file was written.
+    /// The dialect of the file.
     pub dialect: Dialect,
     /// Every column of the file, in order.
     pub columns: Vec<Column>,
-    /// The columns taken for x, y and the angle (two points: for their x and y).
+    /// The columns used for x, y and the angle (of two points: their x and y).
     pub used: Vec<String>,
-    /// Frames in which x, z or θ is not marked.
+    /// Numbers of frames in which x, z and θ are not marked.
     pub missing: [usize; 3],
 }
 
-/// Reads a file that messages call `name`.
+/// Parses a file, which messages call `name`.
 ///
 /// # Errors
-/// Every problem found, up to a bound.
+/// All problems, up to a limit.
 ///
 /// # Example
 /// ```
@@ -49,10 +49,10 @@ pub fn read(name: &str, bytes: &[u8], choice: &Choice) -> Result<Footage, Diagno
     };
     if bytes.len() > MAX_BYTES {
         let message = format!("a file has at most {MAX_BYTES} bytes");
-        return refuse(message, "export the frames of one drop alone");
+        return refuse(message, "export only the frames of one drop");
     }
     let Some((text, encoding)) = decoded(bytes) else {
-        let message = "this is no text in UTF-8 or Latin-1".to_owned();
+        let message = "this is not text in UTF-8 or Latin-1".to_owned();
         return refuse(
             message,
             "export it from Tracker as text, or save it as UTF-8",
@@ -67,7 +67,7 @@ pub fn read(name: &str, bytes: &[u8], choice: &Choice) -> Result<Footage, Diagno
         return Err(problems.finish());
     }
     let Some(header) = header(&lines) else {
-        let message = "no line names columns with a time `t` among them".to_owned();
+        let message = "no line names columns that include a time `t`".to_owned();
         return refuse(
             message,
             "in Tracker: File > Export > Data File, all cells, with the columns t, x, y and an angle",
@@ -99,7 +99,7 @@ pub fn read(name: &str, bytes: &[u8], choice: &Choice) -> Result<Footage, Diagno
     };
     let frames = rows.read(&lines);
     if frames.len() < 2 && problems.is_empty() {
-        let message = "there are no numbers below the names of the columns".to_owned();
+        let message = "there are no numbers below the column names".to_owned();
         problems.add(header.line, 0..0, message, None);
     }
     if !problems.is_empty() {
@@ -128,7 +128,7 @@ pub fn read(name: &str, bytes: &[u8], choice: &Choice) -> Result<Footage, Diagno
     })
 }
 
-/// The columns that are read, the time first.
+/// The columns to read, the time first.
 fn wanted(header: &Header, layout: &Layout) -> Vec<usize> {
     let mut wanted = vec![header.time];
     match layout {
@@ -140,7 +140,7 @@ fn wanted(header: &Header, layout: &Layout) -> Vec<usize> {
     wanted
 }
 
-/// Whether more of the cells that are read have a comma than a point.
+/// Whether more of the cells to read have a comma than a point.
 fn has_decimal_comma(lines: &[&str], header: &Header, wanted: &[usize]) -> bool {
     if header.delimiter == Delimiter::Comma {
         return false;
@@ -160,7 +160,7 @@ fn has_decimal_comma(lines: &[&str], header: &Header, wanted: &[usize]) -> bool 
     commas > points
 }
 
-/// Reads the lines below the header.
+/// Parses the lines below the header.
 struct Rows<'a, 'b, 'c> {
     header: &'a Header,
     choice: &'a Choice,
@@ -188,7 +188,7 @@ impl Rows<'_, '_, '_> {
             };
             if let Some(before) = frames.last().filter(|last| frame.time_s <= last.time_s) {
                 let message = format!(
-                    "times must grow from line to line, and the one before is {}",
+                    "times must increase from line to line, but the one before is {}",
                     before.time_s / self.time_unit
                 );
                 self.problems.add(number, 0..line.len(), message, None);
@@ -196,7 +196,7 @@ impl Rows<'_, '_, '_> {
             }
             frames.push(frame);
         }
-        // before the first mark and after the last nothing was seen
+        // skip the frames before the first mark and after the last
         while frames.last().is_some_and(is_blank) {
             frames.pop();
         }
@@ -221,7 +221,7 @@ impl Rows<'_, '_, '_> {
                 cells.len()
             );
             let help = (self.header.delimiter == Delimiter::Comma).then(|| {
-                "commas between cells and within numbers cannot be told apart: export with \
+                "commas between cells and within numbers cannot be distinguished: export with \
                  semicolons or tabs"
                     .to_owned()
             });
@@ -234,7 +234,7 @@ impl Rows<'_, '_, '_> {
                 "this line has {} cells, but {columns} columns are named",
                 cells.len()
             );
-            let help = "blanks do not show which point was not marked: export with tabs".to_owned();
+            let help = "spaces do not show which point was not marked: export with tabs".to_owned();
             self.problems
                 .add(number, 0..line.len(), message, Some(help));
             return None;
@@ -289,7 +289,7 @@ impl Rows<'_, '_, '_> {
         let time_s = time * self.time_unit;
         let finite = time_s.is_finite() && seen.iter().flatten().all(|value| value.is_finite());
         if !finite {
-            let message = "these numbers are beyond every film".to_owned();
+            let message = "these numbers are far out of range".to_owned();
             self.problems.add(number, 0..line.len(), message, None);
             return None;
         }
@@ -304,7 +304,7 @@ impl Rows<'_, '_, '_> {
                 ("comma", "point")
             };
             let message = format!(
-                "a decimal {here} in {}, in a file with the decimal {there}",
+                "a decimal {here} in {}, but this file uses the decimal {there}",
                 quoted(text)
             );
             return (
@@ -312,8 +312,8 @@ impl Rows<'_, '_, '_> {
                 Some(format!("write the decimal {there} throughout")),
             );
         }
-        let message = format!("{} is no number", quoted(text));
-        let help = "an empty cell is a point that was not marked".to_owned();
+        let message = format!("{} is not a number", quoted(text));
+        let help = "leave the cell empty if the point was not marked".to_owned();
         (message, Some(help))
     }
 }

@@ -1,15 +1,14 @@
-//! A drop written as Tracker writes it.
+//! Writing a drop like Tracker.
 
 use super::choice::AngleOf;
 use super::dialect::{Delimiter, Dialect};
 use super::encoding::encoded;
 use crate::drop::FilmedDrop;
 
-/// The bytes of a drop in a dialect: one track of this name with the columns t, x, y in s and m, and
-/// θ in degrees. A point that was not marked is an empty cell (behind blanks: NaN).
+/// Writes a drop in a dialect: one track of this name with the columns t, x, y in s and m, and θ in
+/// degrees. An unmarked point is an empty cell (with spaces as delimiter: NaN).
 ///
-/// Numbers have the digits that `decimals` says: of seconds and metres, and two fewer of degrees;
-/// `None` writes all there are.
+/// Seconds and metres have `decimals` digits, and degrees two fewer; `None` writes all digits.
 ///
 /// # Example
 /// ```

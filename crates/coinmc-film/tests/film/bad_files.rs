@@ -1,4 +1,4 @@
-//! Bad files: all problems at once, each at its place, never a panic.
+//! Bad files: all problems are reported at once, each with its position, and nothing panics.
 
 use coinmc_film::text::{Choice, MAX_BYTES, MAX_LINE, Problem, read};
 
@@ -9,15 +9,15 @@ fn problems(bytes: &[u8]) -> Vec<Problem> {
 }
 
 #[test]
-fn every_problem_is_reported_with_its_place() {
+fn every_problem_is_reported_with_its_position() {
     let text = "coin\nt\ty\t\u{3b8}\n0\t0.2\t1\n0.1\tO.19\t2\n\n# remark\n0.1\t0.18\t3\n\
                 0.05\t0.17\t4\n0.3\t0.16\t5\t6\n\t0.15\t7\n0.4\t0,14\t8\n";
     let found = problems(text.as_bytes());
     let places: Vec<_> = found.iter().map(|p| (p.line, p.column)).collect();
     assert_eq!(places, [(4, 5), (8, 1), (9, 12), (10, 1), (11, 5)]);
     let says = |i: usize, what: &str| assert!(found[i].message.contains(what), "{:?}", found[i]);
-    says(0, "`O.19` is no number");
-    says(1, "times must grow");
+    says(0, "`O.19` is not a number");
+    says(1, "times must increase");
     says(2, "4 cells, but 3 columns");
     says(3, "the time is missing");
     says(4, "a decimal comma");
@@ -28,7 +28,7 @@ fn headers_are_explained() {
     for (text, what) in [
         ("", "no line names columns"),
         ("1\t2\t3\n", "no line names columns"),
-        ("t\tx\n0\t1\n", "no column is that of y"),
+        ("t\tx\n0\t1\n", "there is no column for y"),
         (
             "t\ty (pixel)\t\u{3b8}\n0\t1\t2\n",
             "the unit `pixel` is not known",
@@ -61,7 +61,7 @@ fn sizes_are_bounded_and_foreign_bytes_are_harmless() {
             .contains("bytes")
     );
     let utf16: Vec<u8> = "t\ty".encode_utf16().flat_map(u16::to_le_bytes).collect();
-    assert!(problems(&utf16)[0].message.contains("no text"));
+    assert!(problems(&utf16)[0].message.contains("not text"));
     let many = ["t\ty\tangle\n", &"x\ty\tz\n".repeat(1000)].concat();
     assert_eq!(problems(many.as_bytes()).len(), 50);
     problems("t\ty\tangle\n0\t1e999\t1\n".as_bytes());

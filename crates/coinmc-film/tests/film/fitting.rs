@@ -1,4 +1,4 @@
-//! Fits against known truths.
+//! Fits of simulated films with known parameters.
 
 use coinmc_core::Coin;
 use coinmc_film::{
@@ -23,9 +23,9 @@ fn film(seed: u64) -> FilmedDrop {
     .unwrap()
 }
 
-/// Without noise the truth is found to the digits that differences leave.
+/// Without noise the true values are found to the accuracy of the differences.
 #[test]
-fn exact_film_gives_the_exact_truth() {
+fn an_exact_film_gives_the_exact_parameters() {
     let exact = Synthetic {
         position_noise_m: 0.0,
         angle_noise_rad: 0.0,
@@ -41,10 +41,10 @@ fn exact_film_gives_the_exact_truth() {
     assert!((fit.shared.friction - 0.2).abs() < 1e-4, "{:?}", fit.shared);
 }
 
-/// 16 films of one drop. With coverage 0.95 each, fewer than 12 of 16 hold the truth once in 1,100
-/// seeds; e and μ together: one false alarm in 500. (The study `film` measures it.)
+/// 16 films of one drop. With coverage 0.95 each, fewer than 12 of 16 intervals contain the truth
+/// for one of 1,100 seeds, and for e and μ together for one of 500. (The study `film` measures it.)
 #[test]
-fn intervals_hold_the_truth_as_often_as_they_say() {
+fn intervals_have_the_stated_coverage() {
     let (mut restitution, mut friction) = (0, 0);
     for seed in 1..=16 {
         let fit = fit(&model(Law::Moreau), &[film(seed)], &Options::default()).unwrap();
@@ -61,7 +61,7 @@ fn intervals_hold_the_truth_as_often_as_they_say() {
     );
 }
 
-/// The scatter is found within 4 standard errors, 1/sqrt(2n) of it each.
+/// The noise is found within 4 standard errors of 1/sqrt(2n) each.
 #[test]
 fn noise_is_estimated() {
     let fit = fit(&model(Law::Moreau), &[film(1)], &Options::default()).unwrap();
@@ -73,7 +73,7 @@ fn noise_is_estimated() {
     assert!(fit.remarks.is_empty(), "{:?}", fit.remarks);
 }
 
-/// Two drops share the law's parameters, keep their own first states, and fix them better.
+/// Two drops share the law's parameters, which they determine better than one.
 #[test]
 fn several_drops_are_fitted_together() {
     let other = Synthetic {
@@ -94,7 +94,7 @@ fn several_drops_are_fitted_together() {
     assert!((both.drops[1].start[5] + 6.0).abs() < 0.2);
 }
 
-/// The floor can be fitted along.
+/// The height of the floor can be fitted too.
 #[test]
 fn a_wrong_origin_is_found() {
     let lifted = Synthetic {
@@ -111,7 +111,7 @@ fn a_wrong_origin_is_found() {
     };
     let fit = fit(&model(Law::Moreau), &[drop], &options).unwrap();
     let floor = fit.estimate(Parameter::Floor).unwrap();
-    // three times the interval: one false alarm in ten million
+    // three times the interval: fails by chance once in ten million
     let arm = floor.hi.unwrap() - floor.lo.unwrap();
     assert!(
         (floor.value - 2e-3).abs() < 1.5 * arm && arm < 2e-3,
@@ -119,9 +119,9 @@ fn a_wrong_origin_is_found() {
     );
 }
 
-/// A coin that sticks at every impact says nothing about how much friction there was beyond.
+/// A coin that sticks at every impact gives only a lower bound of friction.
 #[test]
-fn friction_without_slip_is_bounded_from_below_alone() {
+fn friction_without_slip_is_bounded_only_from_below() {
     let sticky = Synthetic {
         shared: Shared {
             friction: 2.0,
@@ -142,7 +142,7 @@ fn friction_without_slip_is_bounded_from_below_alone() {
     );
 }
 
-/// Film of one law, fitted with both: the right one wins by far.
+/// A film of one law, fitted with both: the right one wins by far.
 #[test]
 fn the_law_that_made_the_film_describes_it_best() {
     for truth in Law::RIGID {
@@ -172,9 +172,9 @@ fn the_law_that_made_the_film_describes_it_best() {
     }
 }
 
-/// Five wild points of 400: Huber's loss keeps the truth, within three times its interval.
+/// Five outliers among 400 points: Huber's loss still finds the truth, within three intervals.
 #[test]
-fn wild_points_are_borne_by_hubers_loss() {
+fn hubers_loss_tolerates_outliers() {
     let mut drop = film(4);
     for (i, frame) in [10, 25, 40, 61, 70].into_iter().enumerate() {
         drop.frames[frame].seen[1] = drop.frames[frame].seen[1].map(|z| z + 0.02 + 0.01 * i as f64);
@@ -194,7 +194,7 @@ fn wild_points_are_borne_by_hubers_loss() {
 }
 
 #[test]
-fn what_cannot_be_fitted_is_said() {
+fn drops_that_cannot_be_fitted_are_rejected() {
     let model = model(Law::Moreau);
     assert_eq!(
         fit(&model, &[], &Options::default()),
@@ -222,7 +222,7 @@ fn what_cannot_be_fitted_is_said() {
 }
 
 #[test]
-fn residuals_are_written_whole_and_the_same_every_time() {
+fn residuals_are_written_completely_and_reproducibly() {
     let of = || fit(&model(Law::Moreau), &[film(6)], &Options::default()).unwrap();
     let (first, second) = (of(), of());
     assert_eq!(first, second);

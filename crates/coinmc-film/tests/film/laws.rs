@@ -1,4 +1,4 @@
-//! Fits of the laws that have numbers of their own.
+//! Fits of laws with parameters of their own.
 
 use coinmc_core::Coin;
 use coinmc_film::{
@@ -42,7 +42,7 @@ fn line() -> Law {
     })
 }
 
-/// A tilted coin that turns, seen until after its first bounce.
+/// A film of a tilted, turning coin until after its first bounce.
 fn film(law: Law) -> FilmedDrop {
     let drop = Synthetic {
         start: [0.0, 0.3, 0.1, 0.0, 0.9, -2.0],
@@ -59,7 +59,7 @@ fn one_bounce() -> Options {
     }
 }
 
-/// Within twice the interval of 95 %: one false alarm in ten thousand.
+/// Within twice the 95 % interval: fails by chance once in ten thousand.
 fn is_found(fit: &Fit, parameter: Parameter, truth: f64) -> bool {
     let found = fit.estimate(parameter).unwrap();
     let (lo, hi) = (found.lo.unwrap(), found.hi.unwrap());
@@ -68,9 +68,9 @@ fn is_found(fit: &Fit, parameter: Parameter, truth: f64) -> bool {
 }
 
 #[test]
-fn restitution_and_eta_of_the_paper_s_law_are_found() {
+fn restitution_and_eta_of_gaek_and_sukhovs_law_are_found() {
     let drop = film(gaek_sukhov(2e-3));
-    // from a wrong η, which is searched
+    // from a wrong initial η
     let fit = fit(&model(gaek_sukhov(1e-3)), &[drop], &one_bounce()).unwrap();
     let names: Vec<_> = fit.parameters.iter().map(|e| e.parameter).collect();
     assert_eq!(names, [Parameter::Restitution, Parameter::Eta]);
@@ -82,9 +82,9 @@ fn restitution_and_eta_of_the_paper_s_law_are_found() {
     );
 }
 
-/// η is kept where it is not asked for.
+/// η is kept if it is not fitted.
 #[test]
-fn numbers_of_a_law_stay_where_they_are_not_fitted() {
+fn parameters_that_are_not_fitted_keep_their_values() {
     let drop = film(gaek_sukhov(2e-3));
     let options = Options {
         free: vec![Parameter::Restitution, Parameter::Friction],
@@ -96,7 +96,7 @@ fn numbers_of_a_law_stay_where_they_are_not_fitted() {
     assert!(is_found(&fit, Parameter::Restitution, 0.5));
 }
 
-/// A pulse of 5 ms, longer than a frame, is seen for what it is.
+/// The duration of a pulse of 5 ms, longer than a frame, is found.
 #[test]
 fn the_length_of_a_half_sine_is_found() {
     let drop = film(pulse(5e-3));
@@ -115,7 +115,7 @@ fn the_length_of_a_half_sine_is_found() {
     assert!(hi - lo < 5e-3, "{found:?}");
 }
 
-/// The line contact from its own drop. (Stiff contact is one that a film cannot tell from stiffer.)
+/// The line contact from its own film. (A film cannot distinguish stiff contact from stiffer.)
 #[test]
 fn restitution_of_a_line_contact_is_found() {
     let drop = film(line());
@@ -131,7 +131,7 @@ fn restitution_of_a_line_contact_is_found() {
     assert!(is_found(&fit, Parameter::Restitution, 0.5));
 }
 
-/// Each drop is described best by the law that made it, by a margin that decides.
+/// Each drop is described best by the law that made it, by a decisive margin.
 #[test]
 fn the_law_that_made_the_drop_is_preferred() {
     for [truth, other] in [[gaek_sukhov(2e-3), Law::Moreau], [pulse(5e-3), Law::Moreau]] {

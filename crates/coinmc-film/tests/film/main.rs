@@ -1,4 +1,4 @@
-//! The reader against every dialect and every kind of bad file; the fit against known truths.
+//! Tests of the reader with every dialect and bad files, and of the fit with known parameters.
 
 mod bad_files;
 mod fitting;

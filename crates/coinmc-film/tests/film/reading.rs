@@ -15,7 +15,7 @@ fn z(footage: &Footage) -> Vec<Option<f64>> {
         .collect()
 }
 
-/// The layout that Tracker 4 and 5 export for one point mass, numbers as in Java.
+/// The layout that Tracker 4 and 5 export for one point mass, with Java's number format.
 #[test]
 fn one_track_with_javas_numbers() {
     let text = "mass_A\nt\tx\ty\t\u{3b8}\n0.0\t-1.25E-3\t2.0E-1\t0.0\n4.0E-3\t0\t1.9E-1\t1.5\n";
@@ -60,7 +60,7 @@ fn two_points_make_a_centre_and_an_angle() {
     assert_eq!(
         footage.drop.frames.len(),
         2,
-        "frames without a mark at the end are left out"
+        "frames without a mark at the end are skipped"
     );
 }
 
@@ -114,17 +114,17 @@ fn units_come_from_the_header_or_from_the_choice() {
     );
 }
 
-/// Excerpt of a public student project's export (tests/data/README.md names it): five decimals, tabs,
-/// no angle.
+/// Excerpt of a public student project's export (tests/data/README.md names it): five decimals,
+/// tabs, no angle.
 #[test]
-fn a_real_export_without_an_angle_is_refused_for_that_alone() {
+fn a_real_export_without_an_angle_is_rejected_only_for_that() {
     let bytes = include_bytes!("../data/tracker-mass-a.txt");
     let problems = read("real", bytes, &Choice::default()).unwrap_err();
     assert_eq!(problems.problems().len(), 1);
     assert!(
         problems.problems()[0]
             .message
-            .contains("no column is that of the angle")
+            .contains("there is no column for the angle")
     );
     let choice = Choice {
         angle: Some("x".into()),

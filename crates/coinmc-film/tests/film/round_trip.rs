@@ -1,4 +1,4 @@
-//! What is written in any dialect reads the same.
+//! Files written in any dialect read back the same.
 
 use coinmc_film::text::{AngleOf, Choice, Delimiter, Dialect, Encoding, read, write};
 use coinmc_film::{FilmedDrop, Frame};
@@ -23,7 +23,7 @@ fn dialects() -> impl Strategy<Value = Dialect> {
     )
 }
 
-/// Numbers with fractions, so that the decimal mark is there to be seen.
+/// Numbers with fractions, so that the decimal mark can be recognised.
 fn drops() -> impl Strategy<Value = FilmedDrop> {
     let value = |range| prop::option::weighted(0.8, range);
     let frame = (value(-9.5..9.5), value(-9.5..9.5), value(-3.1..3.1));
@@ -45,7 +45,7 @@ fn drops() -> impl Strategy<Value = FilmedDrop> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 
-    /// Times and positions to the last bit; angles, which are turned and converted, to rounding.
+    /// Times and positions are bit-identical; angles, which are converted, agree to rounding.
     #[test]
     fn written_drops_read_the_same(
         drop in drops(),
@@ -76,7 +76,7 @@ proptest! {
         let _ = read("test", &bytes, &Choice::default());
     }
 
-    /// Text near to a table reaches deeper than random bytes.
+    /// Text that resembles a table reaches deeper into the parser than random bytes.
     #[test]
     fn no_table_makes_the_reader_panic(rest in "[t,;\t #xyθ0-9.,eE°\\-\n]{0,200}") {
         let text = format!("t\tx\ty\tθ\n{rest}");

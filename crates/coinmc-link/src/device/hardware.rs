@@ -63,8 +63,8 @@ pub enum Motion {
 /// Readings of the sensors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Sensors {
-    /// The last motion has reached its goal; before the first motion: the robot is ready. False from
-    /// [`Hardware::start`] until the goal is reached.
+    /// The last motion has reached its goal; before the first motion: the robot is ready. False
+    /// from [`Hardware::start`] until the goal is reached.
     pub settled: bool,
     /// Spin of the coin, 1/1000 rev/s.
     pub spin_mrev_s: u16,

@@ -1,6 +1,6 @@
-//! One camera process: started, asked, ended.
+//! One camera process: starting it, sending requests, ending it.
 
-use super::protocol::{Answer, LONGEST_LINE, Request};
+use super::protocol::{CameraReply, LONGEST_LINE, Request};
 use rustix::process::{Pid, Signal, kill_process_group};
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Write};
@@ -18,27 +18,27 @@ pub enum CameraError {
     /// It cannot be started.
     #[error("the camera cannot be started: {0}")]
     Start(io::Error),
-    /// It does not answer.
-    #[error("the camera has not answered within {} s", .0.as_secs_f64())]
+    /// It did not reply in time.
+    #[error("the camera has not replied within {} s", .0.as_secs_f64())]
     Silent(Duration),
     /// It ended.
     #[error("the camera program ended")]
     Ended,
-    /// Its line has no end.
+    /// Its line is too long.
     #[error("the camera sent a line of more than {LONGEST_LINE} bytes")]
     TooLong,
-    /// It says something else.
+    /// It sent something else than a valid reply.
     #[error("the camera sent {0}")]
-    Answer(String),
-    /// It shows no face.
+    CameraReply(String),
+    /// The photo shows no face.
     #[error("no face can be read in the photo")]
     NoFace,
-    /// The photo is not there, or not a file, or cannot be brought to the disk.
-    #[error("the photo {name}: {error}")]
+    /// The photo does not exist, is not a file or cannot be synced to disk.
+    #[error("photo {name}: {error}")]
     Photo {
         /// Its name.
         name: String,
-        /// What the system said.
+        /// The system's error.
         error: io::Error,
     },
 }
@@ -52,14 +52,14 @@ pub(super) struct CameraChild {
 }
 
 impl CameraChild {
-    /// Starts a command of the shell. What it says on standard error goes to `log`.
+    /// Starts a shell command, with its standard error redirected to `log`.
     pub(super) fn start(command: &str, log: Option<File>) -> Result<Self, CameraError> {
         let mut child = Command::new("sh")
             .args(["-c", command])
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(log.map_or_else(Stdio::null, Stdio::from))
-            // Ctrl-C is for the host, which ends the camera when the throw is finished
+            // only the host handles Ctrl-C: it ends the camera once the throw is finished
             .process_group(0)
             .spawn()
             .map_err(CameraError::Start)?;
@@ -75,28 +75,28 @@ impl CameraChild {
         })
     }
 
-    /// Asks and waits for the answer.
-    pub(super) fn ask(
+    /// Sends a request and waits for the reply.
+    pub(super) fn request(
         &mut self,
         request: &Request,
         timeout: Duration,
-    ) -> Result<Answer, CameraError> {
-        // A line sent unasked would be taken for the answer, and every later one be one too late.
+    ) -> Result<CameraReply, CameraError> {
+        // An unsolicited line would be taken for the reply, and all replies would be one too late.
         if let Ok(line) = self.lines.try_recv() {
             line?;
-            return Err(CameraError::Answer(
-                "a line that nobody asked for".to_owned(),
+            return Err(CameraError::CameraReply(
+                "a line without a request".to_owned(),
             ));
         }
         let mut line = serde_json::to_vec(request)
-            .map_err(|error| CameraError::Answer(format!("nothing: {error}")))?;
+            .map_err(|error| CameraError::CameraReply(format!("nothing: {error}")))?;
         line.push(b'\n');
         self.input
             .write_all(&line)
             .and_then(|()| self.input.flush())
             .map_err(|_| CameraError::Ended)?;
         match self.lines.recv_timeout(timeout) {
-            Ok(line) => Answer::read(&line?).map_err(CameraError::Answer),
+            Ok(line) => CameraReply::read(&line?).map_err(CameraError::CameraReply),
             Err(RecvTimeoutError::Timeout) => Err(CameraError::Silent(timeout)),
             Err(RecvTimeoutError::Disconnected) => Err(CameraError::Ended),
         }
@@ -104,19 +104,19 @@ impl CameraChild {
 }
 
 impl Drop for CameraChild {
-    /// The whole group: a shell's child would live on otherwise, with the camera in its hands.
+    /// Kills the whole process group, because otherwise a child of the shell would keep the camera.
     fn drop(&mut self) {
         let group = i32::try_from(self.child.id()).ok().and_then(Pid::from_raw);
         if let Some(group) = group {
-            // gone already: all the better
+            // it may have ended already
             let _ = kill_process_group(group, Signal::KILL);
         }
         let _ = self.child.wait();
     }
 }
 
-/// Hands on line after line, until the output ends or nobody listens.
-fn read_lines(output: ChildStdout, mut hand_on: impl FnMut(Result<Vec<u8>, CameraError>) -> bool) {
+/// Passes on lines until the output ends or the receiver is gone.
+fn read_lines(output: ChildStdout, mut send: impl FnMut(Result<Vec<u8>, CameraError>) -> bool) {
     let mut output = BufReader::new(output);
     loop {
         let mut line = Vec::new();
@@ -130,7 +130,7 @@ fn read_lines(output: ChildStdout, mut hand_on: impl FnMut(Result<Vec<u8>, Camer
             Ok(LONGEST_LINE) => Err(CameraError::TooLong),
             Ok(_) => return,
         };
-        if !hand_on(line) {
+        if !send(line) {
             return;
         }
     }

@@ -1,11 +1,11 @@
-//! The simulated camera's pictures: one for every face, as small PNG files (ISO/IEC 15948).
+//! Pictures of the simulated camera: one for every face, as small PNG files (ISO/IEC 15948).
 
 use crate::Face;
 
-/// Pixels a side.
+/// Width and height, pixels.
 const SIDE: u8 = 48;
 
-/// The picture of a coin that shows `face`; `None` for one that cannot be made out.
+/// The picture of a coin that shows `face`; `None` for an unreadable picture.
 pub(super) fn picture(face: Option<Face>) -> Vec<u8> {
     let mut rows = Vec::new();
     for y in 0..SIDE {
@@ -15,15 +15,15 @@ pub(super) fn picture(face: Option<Face>) -> Vec<u8> {
     png(SIDE.into(), SIDE.into(), &rows)
 }
 
-/// What a picture of [`picture`] shows; `None` for any other.
+/// The face in a picture made by [`picture`]; `None` for any other.
 pub(super) fn shown(bytes: &[u8]) -> Option<Face> {
     Face::ALL
         .into_iter()
         .find(|face| bytes == picture(Some(*face)))
 }
 
-/// From black to white on a dark table: a bright disc for heads, one with a hole for tails, a bar
-/// for the side.
+/// Grey value of a pixel, on a dark table: a bright disc for heads, one with a hole for tails, a
+/// bar for the side.
 fn grey(face: Option<Face>, x: u8, y: u8) -> u8 {
     const TABLE: u8 = 40;
     let centre = i32::from(SIDE) / 2;
@@ -38,7 +38,7 @@ fn grey(face: Option<Face>, x: u8, y: u8) -> u8 {
     if coin { 220 } else { TABLE }
 }
 
-/// A greyscale PNG whose data are stored, not compressed.
+/// A greyscale PNG with uncompressed data.
 fn png(width: u32, height: u32, rows: &[u8]) -> Vec<u8> {
     let mut file = b"\x89PNG\r\n\x1a\n".to_vec();
     let mut header = [width.to_be_bytes(), height.to_be_bytes()].concat();
@@ -83,7 +83,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_face_is_read_back_and_nothing_else_is_a_face() {
+    fn every_face_is_recognised_and_nothing_else_is() {
         for face in Face::ALL {
             assert_eq!(shown(&picture(Some(face))), Some(face));
         }
@@ -92,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn checksums_are_those_of_the_standards() {
+    fn checksums_match_known_values() {
         assert_eq!(adler32(b"Wikipedia"), 0x11E6_0398);
         // the end chunk of every PNG file
         assert!(picture(None).ends_with(b"\0\0\0\0IEND\xae\x42\x60\x82"));

@@ -1,4 +1,4 @@
-//! The lines that pass between host and camera.
+//! The lines exchanged between host and camera.
 
 use crate::Face;
 use crate::journal::ImageName;
@@ -8,48 +8,48 @@ use std::path::{Path, PathBuf};
 /// Longest line that a camera may send, bytes.
 pub const LONGEST_LINE: usize = 1 << 16;
 
-/// What the host asks.
+/// Requests of the host.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Request {
     /// Take a photo.
     Take(Take),
-    /// Say what the photo in this file shows.
+    /// Classify the photo in this file.
     Classify(PathBuf),
 }
 
-/// Which photo, and where it goes.
+/// A photo to take, and where to save it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Take {
-    /// Number of the throw on the link.
+    /// Id of the throw on the link.
     #[serde(rename = "throw")]
     pub throw_id: u32,
-    /// Which photo of it, from 1.
+    /// Number of the photo of this throw, from 1.
     pub attempt: u32,
-    /// The folder that the photo goes into; absolute.
+    /// Folder for the photo; absolute.
     pub folder: PathBuf,
-    /// The name that it gets there, without an ending.
+    /// File name, without an extension.
     pub name: String,
 }
 
-/// An answer; what else is in it is the camera's own business.
+/// A reply; other fields are ignored.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Deserialize)]
-pub(super) struct Answer {
+pub(super) struct CameraReply {
     image: Option<PathBuf>,
     face: Option<String>,
     error: Option<String>,
 }
 
-/// What a photo shows.
+/// The content of a photo.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Shown {
     Face(Face),
-    /// No face that the camera would swear to.
+    /// No face that the camera can read with confidence.
     Nothing,
 }
 
-impl Answer {
-    /// Reads a line.
+impl CameraReply {
+    /// Parses a line.
     pub(super) fn read(line: &[u8]) -> Result<Self, String> {
         let answer: Self = serde_json::from_slice(line).map_err(|error| error.to_string())?;
         match answer.error {
@@ -58,26 +58,26 @@ impl Answer {
         }
     }
 
-    /// The photo's name, if it lies in the folder it was meant for.
+    /// The photo's name, if it is in the requested folder.
     pub(super) fn image(&self, folder: &Path) -> Result<ImageName, String> {
-        let image = self.image.as_ref().ok_or("no `image` in its answer")?;
+        let image = self.image.as_ref().ok_or("no `image` in its reply")?;
         let name = image.strip_prefix(folder).unwrap_or(image);
-        let name = name.to_str().ok_or("an image's name that is no text")?;
+        let name = name.to_str().ok_or("an image's name that is not text")?;
         name.parse().map_err(|_| {
             format!(
-                "the image `{}`, which is no plain name in the folder given",
+                "the image `{}`, which is not a file name in the given folder",
                 name.escape_debug()
             )
         })
     }
 
     pub(super) fn shown(&self) -> Result<Shown, String> {
-        let face = self.face.as_deref().ok_or("no `face` in its answer")?;
+        let face = self.face.as_deref().ok_or("no `face` in its reply")?;
         let known = Face::ALL.into_iter().find(|known| known.name() == face);
         match (known, face) {
             (Some(face), _) => Ok(Shown::Face(face)),
             (None, "none") => Ok(Shown::Nothing),
-            _ => Err("a face other than heads, tails, side and none".to_owned()),
+            _ => Err("a face other than heads, tails, side or none".to_owned()),
         }
     }
 }
@@ -102,8 +102,8 @@ mod tests {
     }
 
     #[test]
-    fn images_stay_in_their_folder_and_none_is_no_face() {
-        let answer = |text: &str| Answer::read(text.as_bytes()).unwrap();
+    fn images_stay_in_their_folder_and_none_means_no_face() {
+        let answer = |text: &str| CameraReply::read(text.as_bytes()).unwrap();
         let folder = Path::new("/data/photos");
         for good in [
             r#"{"image":"a-1.png"}"#,
@@ -133,9 +133,9 @@ mod tests {
             assert!(answer(bad).shown().is_err(), "{bad}");
         }
         assert_eq!(
-            Answer::read(br#"{"error":"too dark"}"#),
+            CameraReply::read(br#"{"error":"too dark"}"#),
             Err("too dark".to_owned())
         );
-        assert!(Answer::read(b"heads").is_err());
+        assert!(CameraReply::read(b"heads").is_err());
     }
 }

@@ -1,4 +1,4 @@
-//! The camera of the simulated robot: sees what its side file of truth says.
+//! The camera of the simulated robot, which reads the coin's face from the robot's truth file.
 
 use super::picture::{picture, shown};
 use super::protocol::{LONGEST_LINE, Request, Take};
@@ -9,23 +9,23 @@ use std::fs::{self, File};
 use std::io::{self, BufRead, Read, Write};
 use std::path::Path;
 
-/// What goes wrong with photos.
+/// Random faults of the camera.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CameraFaults {
-    /// Share of photos in which another face is read.
+    /// Fraction of photos in which a wrong face is read.
     pub misread: f64,
-    /// Share of photos in which no face is read.
+    /// Fraction of photos in which no face is read.
     pub unread: f64,
-    /// Share of photos after which the program hangs.
+    /// Fraction of photos after which the program hangs.
     pub hang: f64,
-    /// Share of photos after which the program ends.
+    /// Fraction of photos after which the program ends.
     pub die: f64,
 }
 
-/// Answers requests until they end. `truth` is the side file of the simulated robot.
+/// Replies to requests until they end. `truth` is the truth file of the simulated robot.
 ///
 /// # Errors
-/// Those of the two streams.
+/// Errors of the two streams.
 pub fn simulate_camera(
     truth: &Path,
     faults: &CameraFaults,
@@ -33,7 +33,7 @@ pub fn simulate_camera(
     input: impl BufRead,
     mut output: impl Write,
 ) -> io::Result<()> {
-    // A camera that is started again must not do the same again: it would die for ever.
+    // A restarted camera must not repeat the same faults: it would fail for ever.
     let mut dice = Dice::new(seed, u64::from(std::process::id()) + 16);
     let mut input = input;
     loop {
@@ -64,7 +64,7 @@ pub fn simulate_camera(
     }
 }
 
-/// Until somebody ends the process.
+/// Waits until the process is killed.
 fn hang() -> ! {
     loop {
         std::thread::park();

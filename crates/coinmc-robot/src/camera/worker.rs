@@ -1,5 +1,4 @@
-//! The camera beside the robot: photos are taken on a thread of their own, so that the robot is
-//! watched meanwhile.
+//! The camera's thread: photos are taken in the background, while the host keeps polling the robot.
 
 use super::child::{CameraChild, CameraError};
 use super::protocol::{Request, Shown, Take};
@@ -12,35 +11,35 @@ use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread;
 use std::time::Duration;
 
-/// How the camera is used.
+/// Options of the camera.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CameraOptions {
-    /// A command of the shell.
+    /// A shell command.
     pub command: String,
-    /// Where photos go; absolute.
+    /// Folder for photos; absolute.
     pub folder: PathBuf,
-    /// Where the camera's standard error goes.
+    /// File for the camera's standard error.
     pub log: Option<PathBuf>,
-    /// How long a photo, and how long its classification, may take.
+    /// Time limit of a photo and of its classification.
     pub timeout: Duration,
 }
 
-/// A photo that was asked for.
+/// The result of a requested photo.
 #[derive(Debug)]
-pub struct Taken {
+pub struct PhotoResult {
     /// The throw.
     pub id: u32,
-    /// Which photo of it.
+    /// Number of the photo of this throw.
     pub attempt: u32,
-    /// The face and the photo, which is on the disk; or why there is none.
+    /// The face and the photo, which is on disk; or why there is none.
     pub result: Result<(Face, ImageName), CameraError>,
 }
 
-/// A camera at work. Dropped, it is ended.
+/// A running camera, which ends when dropped.
 #[derive(Debug)]
 pub struct Camera {
     jobs: Sender<(u32, u32)>,
-    taken: Receiver<Taken>,
+    taken: Receiver<PhotoResult>,
 }
 
 impl Camera {
@@ -59,7 +58,7 @@ impl Camera {
         thread::spawn(move || {
             for (id, attempt) in wanted {
                 let result = worker.photo(id, attempt);
-                let taken = Taken {
+                let taken = PhotoResult {
                     id,
                     attempt,
                     result,
@@ -72,14 +71,14 @@ impl Camera {
         Ok(Self { jobs, taken })
     }
 
-    /// Begins a photo.
+    /// Starts taking a photo.
     pub fn take(&self, id: u32, attempt: u32) {
         // the worker lives as long as this sender
         let _ = self.jobs.send((id, attempt));
     }
 
-    /// A photo that is finished, if there is one within this time.
-    pub fn taken(&self, within: Duration) -> Option<Taken> {
+    /// A finished photo, if there is one within this time.
+    pub fn finished_photo(&self, within: Duration) -> Option<PhotoResult> {
         self.taken.recv_timeout(within).ok()
     }
 }
@@ -100,8 +99,8 @@ impl Worker {
         Ok(self.child.insert(child))
     }
 
-    /// Takes a photo and reads it. A camera that failed in any way but honestly is ended, and a
-    /// fresh one is asked the next time.
+    /// Takes and classifies a photo. After any failure other than one that the camera reports
+    /// itself, the camera is ended and started again for the next photo.
     fn photo(&mut self, id: u32, attempt: u32) -> Result<(Face, ImageName), CameraError> {
         let result = self.try_photo(id, attempt);
         if !matches!(result, Ok(_) | Err(CameraError::NoFace)) {
@@ -122,24 +121,24 @@ impl Worker {
             folder: folder.clone(),
             name: format!("{id:06}-{attempt}"),
         });
-        let image = child.ask(&take, timeout)?.image(&folder);
-        let image = image.map_err(CameraError::Answer)?;
+        let image = child.request(&take, timeout)?.image(&folder);
+        let image = image.map_err(CameraError::CameraReply)?;
         let path = folder.join(image.as_str());
         sync(&path).map_err(|error| CameraError::Photo {
             name: image.as_str().to_owned(),
             error,
         })?;
-        let shown = child.ask(&Request::Classify(path), timeout)?.shown();
-        match shown.map_err(CameraError::Answer)? {
+        let shown = child.request(&Request::Classify(path), timeout)?.shown();
+        match shown.map_err(CameraError::CameraReply)? {
             Shown::Face(face) => Ok((face, image)),
             Shown::Nothing => Err(CameraError::NoFace),
         }
     }
 }
 
-/// Brings a photo and its name to the disk.
+/// Syncs a photo and its directory entry to disk.
 fn sync(path: &PathBuf) -> io::Result<()> {
-    // a link could lead out of the folder, and its target is not what would be synced
+    // a symbolic link could lead out of the folder, and its target would not be synced
     if !fs::symlink_metadata(path)?.is_file() {
         return Err(io::Error::other("not a file"));
     }

@@ -1,4 +1,4 @@
-//! Tables from the journal: one row a throw, and the results of a run.
+//! Tables from the journal: one row per throw, and the results in the format of a run.
 
 mod results;
 mod throws;

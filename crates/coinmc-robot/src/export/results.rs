@@ -1,19 +1,19 @@
-//! An experiment in the schema of a simulated run, so that both go into one plot.
+//! Results of an experiment in the schema of a simulated run, so that both fit into one plot.
 
 use crate::Experiment;
 use crate::journal::{History, Resolution};
 use coinmc::results::{Results, Row};
 use coinmc_core::{Breaks, Ended, Outcome, Tally};
 
-/// The engine's name of what nature did.
+/// Name in the column of engines.
 const ENGINE: &str = "robot";
-/// Its law.
+/// Name in the column of laws.
 const LAW: &str = "experiment";
 
-/// The results of an experiment, as far as it is.
+/// The results of an experiment so far.
 ///
 /// Void throws have no face: they count as undecided (in the column `failed`), so that the
-/// intervals allow for whatever they would have shown.
+/// intervals allow for any face they might have shown.
 pub fn results(experiment: &Experiment, history: &History) -> Results {
     let mut tally = Tally::default();
     for throw in history.throws() {

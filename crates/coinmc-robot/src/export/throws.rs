@@ -1,4 +1,4 @@
-//! One row a throw.
+//! The table of throws: one row per throw.
 
 use crate::Experiment;
 use crate::journal::{History, Resolution, Throw};
@@ -12,24 +12,24 @@ use parquet::file::properties::WriterProperties;
 use std::io::{self, Write};
 use std::sync::Arc;
 
-/// Version of the table.
+/// Version of the table's format.
 const FORMAT: u32 = 1;
 
-/// A throw, as tables show it.
+/// A row of the table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ThrowRow {
-    /// Its number in the plan, from 0.
+    /// Number of the throw in the plan, from 0.
     pub number: u64,
-    /// What the journal says.
+    /// The throw according to the journal.
     pub throw: Throw,
-    /// The face that the config's engine gives for the same setting; `None` if undecided.
+    /// The face that the config's engine predicts for the same setting; `None` if undecided.
     pub model_face: Option<&'static str>,
 }
 
 /// The rows of all throws that are resolved.
 ///
 /// # Errors
-/// [`SettingsError`] if the engine refuses its settings.
+/// [`SettingsError`] if the engine rejects its settings.
 pub fn rows(experiment: &Experiment, history: &History) -> Result<Vec<ThrowRow>, SettingsError> {
     let resolved = (0..).zip(history.throws());
     let resolved = resolved.filter(|(_, throw)| throw.resolution.is_some());
@@ -45,7 +45,7 @@ pub fn rows(experiment: &Experiment, history: &History) -> Result<Vec<ThrowRow>,
         .collect()
 }
 
-/// A column: name, unit, what it means, and its cells.
+/// A column: name, unit, description and cells.
 struct Column {
     name: &'static str,
     unit: &'static str,
@@ -59,7 +59,7 @@ enum Cells {
     Text(fn(&ThrowRow) -> Option<String>),
 }
 
-/// The one definition of the table; CSV, Parquet and docs/guide/robot.md follow it.
+/// The only definition of the table; CSV, Parquet and docs/guide/robot.md follow it.
 const COLUMNS: [Column; 13] = [
     Column {
         name: "throw",
@@ -76,13 +76,13 @@ const COLUMNS: [Column; 13] = [
     Column {
         name: "spin_rev_s",
         unit: "rev/s",
-        doc: "Spin the robot was told.",
+        doc: "Requested spin.",
         cell: Cells::Number(|row| Some(row.throw.setting.spin_rev_s())),
     },
     Column {
         name: "angle_deg",
         unit: "deg",
-        doc: "Start angle the robot was told.",
+        doc: "Requested start angle.",
         cell: Cells::Number(|row| Some(row.throw.setting.angle_deg())),
     },
     Column {
@@ -156,10 +156,10 @@ const COLUMNS: [Column; 13] = [
     },
 ];
 
-/// Writes the table as CSV with a line of names first; what is missing is an empty cell.
+/// Writes the table as CSV with a header line; missing values are empty cells.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_throws_csv(rows: &[ThrowRow], mut out: impl Write) -> io::Result<()> {
     let names: Vec<&str> = COLUMNS.iter().map(|column| column.name).collect();
     writeln!(out, "{}", names.join(","))?;
@@ -169,7 +169,7 @@ pub fn write_throws_csv(rows: &[ThrowRow], mut out: impl Write) -> io::Result<()
             .map(|column| match column.cell {
                 Cells::Count(cell) => cell(row).map(|count| count.to_string()),
                 Cells::Number(cell) => cell(row).map(|number| number.to_string()),
-                // names of faces, reasons and photos: none has a comma or a quote
+                // names of faces, reasons and photos never contain a comma or a quote
                 Cells::Text(cell) => cell(row),
             })
             .map(Option::unwrap_or_default)
@@ -182,7 +182,7 @@ pub fn write_throws_csv(rows: &[ThrowRow], mut out: impl Write) -> io::Result<()
 /// Writes the table as Parquet, with units, descriptions and the config in its metadata.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_throws_parquet(
     rows: &[ThrowRow],
     experiment: &Experiment,

@@ -1,9 +1,9 @@
 //! The exact binomial test and its power.
 
-/// How many successes n trials of probability p give.
+/// The distribution of the number of successes in n trials of probability p.
 ///
-/// Probabilities come from the ratios of neighbours, outwards from the mode, and are divided by
-/// their sum: no gamma function, nothing that cancels.
+/// Probabilities are computed from the ratios of neighbours, outwards from the mode, and divided by
+/// their sum, which avoids gamma functions and cancellation.
 ///
 /// # Example
 /// ```
@@ -13,7 +13,7 @@
 /// ```
 #[derive(Debug, Clone)]
 pub struct Binomial {
-    /// Number of successes of the first probability.
+    /// Number of successes for the first probability.
     first: u64,
     probabilities: Vec<f64>,
 }
@@ -21,10 +21,10 @@ pub struct Binomial {
 /// Relative probability below which a tail is cut.
 const CUT: f64 = 1e-30;
 
-/// Two probabilities this close are the same: what rounding makes of symmetry.
+/// Probabilities within this factor count as equal, because of rounding.
 const SAME: f64 = 1.0 + 1e-7;
 
-/// The smallest bias that a test reveals.
+/// The smallest bias that a test detects.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Power {
     /// With a probability of 80 %.
@@ -58,7 +58,7 @@ impl Binomial {
         }
         let first = mode - down.len() as u64;
         let mut probabilities: Vec<f64> = down.into_iter().rev().chain(up).collect();
-        // from the small ends inwards
+        // sum from the small ends inwards
         let sum: f64 = sum(&probabilities);
         for value in &mut probabilities {
             *value /= sum;
@@ -69,7 +69,7 @@ impl Binomial {
         }
     }
 
-    /// Probability of `k` successes (0 where it is below 1e-30 of the largest).
+    /// Probability of `k` successes (0 if it is below 1e-30 of the largest).
     pub fn probability(&self, k: u64) -> f64 {
         k.checked_sub(self.first)
             .and_then(|index| self.probabilities.get(usize::try_from(index).ok()?))
@@ -83,7 +83,7 @@ impl Binomial {
         sum(self.probabilities.get(skip..).unwrap_or(&[])).min(1.0)
     }
 
-    /// Probability of anything no more probable than `k` successes: the two-sided p-value.
+    /// Two-sided p-value: the probability of all outcomes that are at max as probable as `k`.
     pub fn two_sided_p_value(&self, k: u64) -> f64 {
         let limit = self.probability(k) * SAME;
         let tails: Vec<f64> = self
@@ -95,13 +95,13 @@ impl Binomial {
         sum(&tails).min(1.0)
     }
 
-    /// The successes that the two-sided test at this significance lets pass: from, to.
+    /// The range of counts (first, last) that the two-sided test accepts at this significance.
     fn accepted(&self, significance: f64) -> (u64, u64) {
         let p = &self.probabilities;
         let (mut low, mut high, mut rejected) = (0, p.len() - 1, 0.0);
         while low < high {
             let (a, b) = (p[low], p[high]);
-            // both ends together where they are equally probable
+            // reject both ends together if they are equally probable
             let (step, more) = if a > b * SAME {
                 ((0, 1), b)
             } else if b > a * SAME {
@@ -119,8 +119,8 @@ impl Binomial {
         (self.first + low as u64, self.first + high as u64)
     }
 
-    /// The smallest distance from `p`, to the worse side, that the two-sided test of so many trials
-    /// against `p`, at this significance, reveals.
+    /// The smallest distance from `p`, on the less sensitive side, that the two-sided test of `n`
+    /// trials against `p` detects at this significance.
     pub fn power(n: u64, p: f64, significance: f64) -> Power {
         let accepted = Self::new(n, p).accepted(significance);
         let least = |power: f64| {
@@ -135,18 +135,18 @@ impl Binomial {
     }
 }
 
-/// Probability of a count outside the accepted ones.
+/// Probability of a count outside the accepted range.
 fn reveals(n: u64, p: f64, (from, to): (u64, u64)) -> f64 {
     let binomial = Binomial::new(n, p.clamp(0.0, 1.0));
     1.0 - binomial.at_least(from) + binomial.at_least(to + 1)
 }
 
-/// The smallest shift, up to `most`, from which on something is true; infinite if it never is.
-pub(super) fn least_shift(most: f64, is_enough: impl Fn(f64) -> bool) -> f64 {
-    if !is_enough(most) {
+/// The smallest shift up to `max` for which a condition holds; infinite if it never does.
+pub(super) fn least_shift(max: f64, is_enough: impl Fn(f64) -> bool) -> f64 {
+    if !is_enough(max) {
         return f64::INFINITY;
     }
-    let (mut not, mut enough) = (0.0, most);
+    let (mut not, mut enough) = (0.0, max);
     for _ in 0..40 {
         let middle = f64::midpoint(not, enough);
         *(if is_enough(middle) {
@@ -158,7 +158,7 @@ pub(super) fn least_shift(most: f64, is_enough: impl Fn(f64) -> bool) -> f64 {
     enough
 }
 
-/// Adds from both ends inwards, so that small ones are not lost in large ones.
+/// Sums from both ends inwards, so that small values are not lost.
 fn sum(values: &[f64]) -> f64 {
     let half = values.len() / 2;
     values[..half].iter().sum::<f64>() + values[half..].iter().rev().sum::<f64>()
@@ -170,7 +170,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn p_values_are_those_of_another_implementation() {
+    fn p_values_match_scipy() {
         // scipy 1.17: scipy.stats.binomtest(k, n, p).pvalue
         for (k, n, p, value) in [
             (5067, 10_000, 0.5, 0.183_515_463_762_703_2),
@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn sure_things_and_large_numbers() {
+    fn certain_outcomes_and_large_numbers() {
         assert_eq!(Binomial::new(7, 0.0).probability(0), 1.0);
         assert_eq!(Binomial::new(7, 1.0).probability(7), 1.0);
         let many = Binomial::new(10_000_000, 0.5);
@@ -194,17 +194,17 @@ mod tests {
     }
 
     #[test]
-    fn a_thousand_throws_reveal_a_bias_of_four_to_six_per_cent() {
+    fn a_thousand_throws_detect_a_bias_of_four_to_six_per_cent() {
         let power = Binomial::power(1000, 0.5, SIGNIFICANCE);
         // normal theory: (1.960 + 0.842)/(2 sqrt(1000)) = 0.0443, (1.960 + 1.645)/… = 0.0570
         assert!((power.at_80 - 0.0443).abs() < 0.0015, "{power:?}");
         assert!((power.at_95 - 0.0570).abs() < 0.0015, "{power:?}");
-        // too few to reveal anything: even 4 heads of 4 have p = 1/8
+        // too few to detect anything: even 4 heads of 4 have p = 1/8
         assert_eq!(Binomial::power(4, 0.5, SIGNIFICANCE).at_80, f64::INFINITY);
     }
 
     #[test]
-    fn the_test_errs_no_more_often_than_it_says() {
+    fn the_type_i_error_is_at_most_the_significance() {
         for (n, p) in [(17, 0.5), (100, 1.0 / 6.0), (1000, 0.5), (999, 2.0 / 3.0)] {
             let binomial = Binomial::new(n, p);
             let error = reveals(n, p, binomial.accepted(SIGNIFICANCE));

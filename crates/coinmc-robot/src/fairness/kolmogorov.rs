@@ -3,10 +3,11 @@
 use super::SIGNIFICANCE;
 use super::binomial::{Binomial, Power, least_shift};
 
-/// Samples up to this size get the exact distribution; beyond, the corrected limit is as good.
+/// Samples up to this size use the exact distribution; beyond, the corrected limit is as accurate.
 const EXACT: u64 = 500;
 
-/// D, the largest distance between the shares of a sample and a distribution function.
+/// D, the largest distance between the empirical distribution function of a sample and a
+/// distribution function.
 ///
 /// # Example
 /// ```
@@ -24,12 +25,13 @@ pub fn distance(sample: &mut [f64], cdf: impl Fn(f64) -> f64) -> f64 {
     sample.iter().enumerate().map(at).fold(0.0, f64::max)
 }
 
-/// The probability that a sample of `n` from the distribution itself is at least so far from it.
+/// The p-value of a distance: the probability that a sample of `n` values from the distribution
+/// itself has at least the distance `d`.
 ///
-/// Marsaglia, Tsang & Wang, "Evaluating Kolmogorov's distribution", J. Stat. Softw. 8 (2003) 18:
-/// exact to 13 digits up to 500 throws, except in the far tail, to 7 digits there. Beyond, the limit
+/// Up to 500 values: Marsaglia, Tsang & Wang, "Evaluating Kolmogorov's distribution", J. Stat.
+/// Softw. 8 (2003) 18, accurate to 13 digits, and to 7 digits in the far tail. Beyond: the limit
 /// distribution at d sqrt(n) + 1/(6 sqrt(n)) + (d sqrt(n) − 1)/(4n) (Vrbik, Pioneer J. Theor. Appl.
-/// Stat. 15 (2018) 15): to 1e-5.
+/// Stat. 15 (2018) 15), accurate to 1e-5.
 pub fn kolmogorov_p_value(n: u64, d: f64) -> f64 {
     let root = (n as f64).sqrt();
     let s = d * d * n as f64;
@@ -132,7 +134,7 @@ impl Matrix {
         product
     }
 
-    /// The n-th power and a power of ten that it is to be multiplied with.
+    /// The n-th power, as a matrix and a power of ten to multiply it by.
     fn power(&self, n: u64) -> (Self, i32) {
         let mut result = Self::new(self.m, |i, j| if i == j { 1.0 } else { 0.0 });
         let (mut result_ten, mut square, mut square_ten) = (0, self.clone(), 0);
@@ -140,17 +142,17 @@ impl Matrix {
         while left > 0 {
             if left % 2 == 1 {
                 result = result.times(&square);
-                result_ten += square_ten + result.tame();
+                result_ten += square_ten + result.rescale();
             }
             square = square.times(&square);
-            square_ten = 2 * square_ten + square.tame();
+            square_ten = 2 * square_ten + square.rescale();
             left /= 2;
         }
         (result, result_ten)
     }
 
-    /// Divides by 10^140 where the middle grows beyond it, and gives that exponent.
-    fn tame(&mut self) -> i32 {
+    /// Divides by 10^140 if the middle element exceeds it; returns the exponent.
+    fn rescale(&mut self) -> i32 {
         let middle = self.m / 2;
         if *self.at(middle, middle) < 1e140 {
             return 0;
@@ -160,9 +162,9 @@ impl Matrix {
     }
 }
 
-/// A bound from above on the smallest distance between a distribution and the one tested that the
-/// test reveals: where they are furthest apart the sample's share is binomial, and it alone need
-/// exceed the critical distance; a share near a half varies most.
+/// An upper bound on the smallest distance between a distribution and the one tested that the test
+/// detects: where the two are furthest apart, the sample's fraction is binomial, and it suffices
+/// that this fraction exceeds the critical distance; a fraction near a half varies most.
 pub(super) fn power(n: u64) -> Power {
     let critical = least_shift(1.0, |d| kolmogorov_p_value(n, d) <= SIGNIFICANCE);
     // positive, and at most 2 n
@@ -184,7 +186,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn p_values_are_those_of_another_implementation() {
+    fn p_values_match_scipy() {
         for (n, d, value, tolerance) in SCIPY {
             let ours = kolmogorov_p_value(n, d);
             assert!((ours / value - 1.0).abs() < tolerance, "{n}, {d}: {ours}");
@@ -205,7 +207,7 @@ mod tests {
     ];
 
     #[test]
-    fn the_two_ways_meet() {
+    fn the_two_methods_agree_where_they_meet() {
         for d in [0.02, 0.04, 0.06, 0.08] {
             let (below, above) = (
                 kolmogorov_p_value(EXACT, d),

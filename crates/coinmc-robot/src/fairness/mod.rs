@@ -1,9 +1,9 @@
-//! Is the robot fair, and how sure is that: exact tests, each with the bias it could have revealed.
+//! Is the robot fair? Exact tests, each with the smallest bias that it could have detected.
 //!
-//! The checks of Gaek & Sukhov (arXiv 2401.03557) on their robot: a coin shows heads half of the
-//! time, a die every face a sixth of it, and achieved spins and angles are uniform. A test that
-//! finds nothing says little without its power, so each comes with the smallest bias that as many
-//! throws reveal with a probability of 80 % and of 95 %.
+//! The checks that Gaek & Sukhov (arXiv 2401.03557) made of their robot: a coin shows heads half of
+//! the time, a die shows every face a sixth of the time, and measured spins and angles are uniform.
+//! A test that finds nothing means little without its power, so each comes with the smallest bias
+//! that the same number of throws detects with a probability of 80 % and of 95 %.
 
 mod binomial;
 mod kolmogorov;
@@ -13,5 +13,5 @@ pub use binomial::{Binomial, Power};
 pub use kolmogorov::{distance, kolmogorov_p_value};
 pub use report::{Check, FairnessReport, Interval, die_check, fairness};
 
-/// Below this p-value a test speaks up; what power is stated for.
+/// Significance level of the tests, for which their power is stated.
 pub const SIGNIFICANCE: f64 = 0.05;

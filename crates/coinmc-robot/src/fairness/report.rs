@@ -15,13 +15,13 @@ const CONFIDENCE: f64 = 0.95;
 pub struct FairnessReport {
     /// Throws with a result.
     pub done: u64,
-    /// Throws without one; they belong to no check, and bias all if they are not few.
+    /// Throws without a result; they are in no check, and bias all checks unless they are few.
     pub voids: u64,
-    /// Share of void throws, with its interval.
+    /// Fraction of void throws, with its interval.
     pub void_share: Interval,
     /// The checks.
     pub checks: Vec<Check>,
-    /// What was not checked, and why.
+    /// Checks that were not made, and why.
     pub remarks: Vec<String>,
 }
 
@@ -39,25 +39,25 @@ pub struct Interval {
 /// One check.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Check {
-    /// What is checked.
+    /// Name of the check.
     pub name: String,
-    /// The test.
+    /// Name of the test.
     pub test: &'static str,
-    /// Throws it looks at.
+    /// Number of throws.
     pub n: u64,
-    /// What a fair robot gives.
+    /// Value for a fair robot.
     pub expected: f64,
-    /// What was found: a share with its interval (Clopper–Pearson), or the distance D of
-    /// Kolmogorov and Smirnov with what 95 % of fair samples do not exceed.
+    /// Measured value: a fraction with its interval (Clopper–Pearson), or the Kolmogorov–Smirnov
+    /// distance D with the value that 95 % of fair samples do not exceed.
     pub found: Interval,
-    /// How often a fair robot is so far off or further.
+    /// Probability that a fair robot deviates at least as much.
     pub p_value: f64,
-    /// The smallest bias that so many throws reveal.
+    /// The smallest bias that this number of throws detects.
     pub power: Power,
 }
 
-/// Checks an experiment: a coin, or with `die` a body whose heads and tails are two of six faces
-/// and whose side the other four.
+/// Checks an experiment with a coin, or with `die` one with a cube, whose heads and tails are two
+/// of its six faces and whose side is the other four.
 pub fn fairness(experiment: &Experiment, history: &History, die: bool) -> FairnessReport {
     let done: Vec<&Throw> = history
         .throws()
@@ -101,8 +101,8 @@ pub fn fairness(experiment: &Experiment, history: &History, die: bool) -> Fairne
     }
 }
 
-/// Checks the counts of a die's faces: each against its share, and all together (the smallest
-/// p-value times their number: Bonferroni).
+/// Checks the counts of a die's faces: each by itself, and all together by the smallest p-value
+/// times their number (Bonferroni).
 ///
 /// # Example
 /// ```
@@ -125,7 +125,7 @@ pub fn die_check(counts: &[u64]) -> Vec<Check> {
     if let Some(furthest) = furthest {
         let faces = counts.len() as f64;
         checks.push(Check {
-            name: format!("the furthest of {faces} faces"),
+            name: format!("most extreme of {faces} faces"),
             test: "Bonferroni",
             p_value: (furthest.p_value * faces).min(1.0),
             power: Binomial::power(n, p, SIGNIFICANCE / faces),
@@ -147,15 +147,15 @@ fn share(name: &str, count: u64, n: u64, p: f64) -> Check {
     }
 }
 
-/// Heads less tails as a share of all throws: given how many there are of both together, heads are
-/// binomial, so test and interval are those of heads among them, in other units.
+/// Heads minus tails as a fraction of all throws. Given the total of both, the number of heads is
+/// binomial, so test and interval are those of heads among both, in other units.
 fn difference(heads: u64, tails: u64, n: u64) -> Check {
     let both = heads + tails;
     let share = share("", heads, both, 0.5);
     let scale = both as f64 / n as f64;
     let found = |p: f64| (2.0 * p - 1.0) * scale;
     Check {
-        name: "heads less tails, of all throws".to_owned(),
+        name: "heads minus tails, of all throws".to_owned(),
         test: "exact conditional",
         n,
         expected: 0.0,

@@ -1,37 +1,37 @@
-//! What a line of the journal says.
+//! Entries of the journal.
 
 use crate::{Face, Setting};
 use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
 
-/// One entry. `at_ms` is the time of the host's clock, milliseconds since 1970.
+/// One entry. `at_ms` is the time of the host's clock in milliseconds since 1970.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Entry {
-    /// The robot had counted to `counter` for somebody else; ids go on after it.
+    /// The robot's counter was ahead, at `counter`; ids continue after it.
     Adopted {
         /// The robot's counter.
         counter: u32,
     },
-    /// The robot is about to be told this throw.
+    /// A throw is about to be sent to the robot.
     Announced {
         /// Number of the throw on the link.
         id: u32,
-        /// What the robot is told.
+        /// Setting of the throw.
         setting: Setting,
-        /// When.
+        /// Time.
         at_ms: u64,
     },
-    /// A photo showed how the coin lies, and the photo is on the disk.
+    /// A photo shows how the coin lies, and the photo is on disk.
     Read {
         /// Number of the throw.
         id: u32,
-        /// What was read.
+        /// The reading.
         reading: Reading,
-        /// When.
+        /// Time.
         at_ms: u64,
     },
-    /// The robot is ready again; the reading stands.
+    /// The robot is ready again, and the reading is final.
     Done {
         /// Number of the throw.
         id: u32,
@@ -40,7 +40,7 @@ pub enum Entry {
     Void {
         /// Number of the throw.
         id: u32,
-        /// Why.
+        /// The reason.
         reason: VoidReason,
     },
 }
@@ -48,23 +48,23 @@ pub enum Entry {
 /// The result of a throw.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Reading {
-    /// How the coin lies.
+    /// Face of the coin.
     pub face: Face,
-    /// Spin and start angle as the robot measured them.
+    /// Spin and start angle measured by the robot.
     pub measured: Measured,
-    /// The robot's boot number, which changes when it was reset.
+    /// The robot's boot number, which changes with every reset.
     pub boot: u16,
     /// The photo.
     pub image: ImageName,
 }
 
-/// Spin and start angle at release, as the robot measured them: they may lie a little outside what
-/// it can be told.
+/// Spin and start angle at release, measured by the robot: they may lie slightly outside the range
+/// of settings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Measured {
-    /// Thousandths of a turn a second.
+    /// Spin, 1/1000 rev/s.
     pub spin_mrev_s: u16,
-    /// Hundredths of a degree.
+    /// Start angle, 1/100 degree.
     pub angle_cdeg: u16,
 }
 
@@ -73,22 +73,24 @@ pub struct Measured {
 pub enum VoidReason {
     /// No photo showed a face.
     Unread,
-    /// The robot stopped with this fault: 100 + phase after a reset in mid-cycle.
+    /// The robot stopped with this fault: 100 + phase after a reset during the throw.
     Fault(u16),
-    /// The robot is ready and the coin was put away before a photo was read.
+    /// The robot is ready: the coin was collected before a photo was read.
     Lost,
-    /// The robot counts beyond this throw, and its counter was adopted.
+    /// The robot's counter was ahead of this throw and was adopted.
     Superseded,
 }
 
-/// The name of a photo's file: letters, digits, `-`, `_` and `.`, at most 100, not beginning with
-/// a dot. Such a name stays in its folder and in its line of the journal.
+/// File name of a photo: at most 100 letters, digits, `-`, `_` and `.`, not beginning with a dot.
+/// Such a name cannot lead out of its folder or break its line of the journal.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ImageName(String);
 
-/// Not the name of a photo's file.
+/// Not a valid file name of a photo.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-#[error("a photo's name has 1 to 100 letters, digits, `-`, `_` and `.`, and begins with no dot")]
+#[error(
+    "a photo's name has 1 to 100 letters, digits, `-`, `_` and `.`, and does not begin with a dot"
+)]
 pub struct ImageNameError;
 
 impl ImageName {
@@ -162,7 +164,7 @@ impl fmt::Display for Entry {
 }
 
 impl Entry {
-    /// The number of the throw that the entry is about; none for an adopted counter.
+    /// Id of the entry's throw; none for an adopted counter.
     pub fn id(&self) -> Option<u32> {
         match *self {
             Self::Adopted { .. } => None,
@@ -173,7 +175,7 @@ impl Entry {
         }
     }
 
-    /// Reads what [`Display`](fmt::Display) writes, to the letter; `None` for anything else.
+    /// Parses exactly the format of [`Display`](fmt::Display); `None` for anything else.
     pub fn read(text: &str) -> Option<Self> {
         let words: Vec<&str> = text.split(' ').collect();
         Some(match *words.as_slice() {
@@ -212,7 +214,7 @@ fn setting(spin: &str, angle: &str) -> Option<Setting> {
     Setting::new(number(spin)?, number(angle)?).ok()
 }
 
-/// A decimal number written the one way: no sign, no leading zeros.
+/// A decimal number in canonical form: no sign, no leading zeros.
 pub(super) fn number<T: FromStr>(text: &str) -> Option<T> {
     let plain = text.bytes().all(|byte| byte.is_ascii_digit());
     let shortest = text == "0" || !text.starts_with('0');

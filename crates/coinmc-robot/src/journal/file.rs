@@ -1,26 +1,26 @@
-//! The journal's file: locked, appended to, brought to the disk line by line.
+//! The journal's file: locked, append-only, and synced to disk line by line.
 
-use super::text::LONGEST;
-use super::{Damage, Entry, Header, History, Order, Parsed, Seal, parse};
+use super::text::MAX_LINE;
+use super::{Damage, Entry, Header, History, LineChecksum, OrderError, Parsed, parse};
 use crate::lock::lock;
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Longest journal read: 4 million throws, three years of a robot's work.
+/// Greatest length of a journal, bytes: 4 million throws, three years of a robot's work.
 const MAX_BYTES: u64 = 1 << 30;
 
-/// A journal that this process alone appends to.
+/// A journal that is locked for appending by this process.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
     file: File,
     history: History,
-    seal: Seal,
-    /// Length of the whole lines.
+    checksum: LineChecksum,
+    /// Length of the complete lines, bytes.
     whole: u64,
-    /// A line could not be written, and what there is of it could not be taken back.
+    /// A line could not be written, and its beginning could not be removed.
     broken: bool,
 }
 
@@ -28,7 +28,7 @@ pub struct Journal {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum JournalError {
-    /// It cannot be believed.
+    /// It is damaged.
     #[error("{} {damage}. {}", path.display(), remedy(damage, path))]
     Damaged {
         /// The file.
@@ -39,57 +39,57 @@ pub enum JournalError {
     /// It belongs to another experiment.
     #[error(
         "{} is the journal of another experiment (plan {}…, {} throws; this one: plan {}…, {} \
-         throws). Give another directory with --out, or the config it was begun with",
+         throws). Give another directory with --out, or the config it was started with",
         path.display(), short(&theirs.plan_hash), theirs.throws, short(&ours.plan_hash), ours.throws
     )]
     OtherExperiment {
         /// The file.
         path: PathBuf,
-        /// What its first line says.
+        /// Its first line.
         theirs: Header,
-        /// What was asked for.
+        /// The first line expected for this experiment.
         ours: Header,
     },
     /// Another process appends to it.
-    #[error("{} is in use: another process runs this experiment. Let it, or end it first", path.display())]
+    #[error("{} is in use: another process runs this experiment. Let it finish or end it first", path.display())]
     Locked {
         /// The file.
         path: PathBuf,
     },
-    /// It is longer than any robot could make it.
-    #[error("{} has more than {MAX_BYTES} bytes: this is no journal of a robot", path.display())]
+    /// It is longer than any experiment could make it.
+    #[error("{} has more than {MAX_BYTES} bytes: it is not a journal of a robot", path.display())]
     TooLong {
         /// The file.
         path: PathBuf,
     },
-    /// The disk is full. Nothing was thrown that is not in the journal.
+    /// The disk is full. Every throw that was made is in the journal.
     #[error(
-        "no room for {}: {error}. Nothing is lost; make room and resume",
+        "no space left for {}: {error}. Nothing is lost; free some space and resume",
         path.display()
     )]
     OutOfSpace {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         error: io::Error,
     },
-    /// Another failure of the system.
+    /// Another system error.
     #[error("cannot {action} {}: {error}", path.display())]
     Io {
-        /// What was tried.
+        /// The failed action.
         action: &'static str,
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         error: io::Error,
     },
-    /// An entry that contradicts the journal: a fault of this program.
+    /// An entry that contradicts the journal: a bug in this program.
     #[error("{} cannot take an entry: {order}", path.display())]
     Order {
         /// The file.
         path: PathBuf,
-        /// Why.
-        order: Order,
+        /// The contradiction.
+        order: OrderError,
     },
 }
 
@@ -97,26 +97,26 @@ fn short(hash: &str) -> &str {
     hash.get(..8).unwrap_or(hash)
 }
 
-/// What to do about damage.
+/// The remedy for damage.
 fn remedy(damage: &Damage, path: &Path) -> String {
     match damage {
         Damage::Line(line) | Damage::Order { line, .. } if *line > 1 => format!(
-            "Bring back a copy of the file from before the damage; or keep a copy of it, cut it \
-             before that line (`head -n {} {}`), and resume with --adopt: the throws behind are \
-             lost then",
+            "Restore a copy of the file from before the damage; or keep a copy of it, truncate it \
+             before that line (`head -n {} {}`) and resume with --adopt, which loses the throws after \
+             it",
             line - 1,
             path.display()
         ),
         Damage::Newer(_) => String::new(),
-        _ => "Move the directory away, or give another one with --out".to_owned(),
+        _ => "Move the directory away or give another one with --out".to_owned(),
     }
 }
 
 impl Journal {
-    /// Begins a journal in a new file.
+    /// Creates a journal in a new file.
     ///
     /// # Errors
-    /// [`JournalError`], also if the file exists.
+    /// [`JournalError`], including if the file exists.
     pub fn create(path: &Path, header: &Header) -> Result<Self, JournalError> {
         let file = OpenOptions::new()
             .read(true)
@@ -124,14 +124,15 @@ impl Journal {
             .create_new(true)
             .open(path)
             .map_err(|error| io_error("create", path, error))?;
-        lock_alone(&file, path)?;
+        lock_journal(&file, path)?;
         let mut journal = Self::new(path, file, Parsed::default());
         journal.begin(header)?;
         Ok(journal)
     }
 
-    /// Opens a journal to go on with it, and says how many bytes of a torn last line were cut off.
-    /// One without a whole first line is begun anew: nothing was thrown yet.
+    /// Opens a journal to continue it; also returns the number of bytes of an incomplete last line
+    /// that were removed. A journal without a complete first line is started again, because nothing
+    /// was thrown yet.
     ///
     /// # Errors
     /// [`JournalError`] if it is damaged, of another experiment, or in use.
@@ -141,12 +142,12 @@ impl Journal {
             .write(true)
             .open(path)
             .map_err(|error| io_error("open", path, error))?;
-        lock_alone(&file, path)?;
+        lock_journal(&file, path)?;
         let bytes = read_bounded(&mut file, path)?;
         let parsed = match parse(&bytes) {
             Err(Damage::Empty) => {
                 let mut journal = Self::new(path, file, Parsed::default());
-                journal.cut()?;
+                journal.truncate()?;
                 journal.begin(header)?;
                 return Ok((journal, bytes.len()));
             }
@@ -165,12 +166,12 @@ impl Journal {
         let torn = parsed.torn;
         let mut journal = Self::new(path, file, parsed);
         if torn > 0 {
-            journal.cut()?;
+            journal.truncate()?;
         }
         Ok((journal, torn))
     }
 
-    /// Reads a journal that somebody else may be appending to.
+    /// Reads a journal that another process may be appending to.
     ///
     /// # Errors
     /// [`JournalError`] if it is damaged.
@@ -189,42 +190,42 @@ impl Journal {
             path: path.to_owned(),
             file,
             history: parsed.history,
-            seal: parsed.seal,
+            checksum: parsed.checksum,
             whole: parsed.whole as u64,
             broken: false,
         }
     }
 
-    /// All that it says.
+    /// The throws so far.
     pub fn history(&self) -> &History {
         &self.history
     }
 
-    /// Appends an entry and returns when it is on the disk.
+    /// Appends an entry and returns once it is on disk.
     ///
     /// # Errors
-    /// [`JournalError`]; the entry is then not in the journal.
+    /// [`JournalError`]; the entry is not in the journal then.
     pub fn append(&mut self, entry: &Entry) -> Result<(), JournalError> {
-        let (line, seal) = self.seal.line(&entry.to_string());
-        debug_assert!(line.len() <= LONGEST);
+        let (line, checksum) = self.checksum.line(&entry.to_string());
+        debug_assert!(line.len() <= MAX_LINE);
         let path = self.path.clone();
         let order = |order| JournalError::Order { path, order };
         if let Err(error) = self.history.check(entry) {
             return Err(order(error));
         }
-        self.write(&line, seal)?;
+        self.write(&line, checksum)?;
         self.history.add(entry).map_err(order)
     }
 
     fn begin(&mut self, header: &Header) -> Result<(), JournalError> {
-        let (line, seal) = Seal::header(header);
-        self.write(&line, seal)?;
+        let (line, checksum) = LineChecksum::header(header);
+        self.write(&line, checksum)?;
         sync_folder(&self.path).map_err(|error| io_error("sync", &self.path, error))
     }
 
-    fn write(&mut self, line: &str, seal: Seal) -> Result<(), JournalError> {
+    fn write(&mut self, line: &str, checksum: LineChecksum) -> Result<(), JournalError> {
         if self.broken {
-            let error = io::Error::other("an earlier line could not be taken back");
+            let error = io::Error::other("an incomplete line could not be removed");
             return Err(io_error("append to", &self.path, error));
         }
         let written = self
@@ -233,28 +234,28 @@ impl Journal {
             .and_then(|_| self.file.write_all(line.as_bytes()))
             .and_then(|()| self.file.sync_data());
         if let Err(error) = written {
-            // What is there of the line must not be taken for one; the process ends anyway, and
-            // where the cut fails the next one makes it.
+            // Remove the incomplete line. If that fails, the next process removes it: this one ends
+            // anyway.
             self.broken = true;
             let _ = self.file.set_len(self.whole);
             return Err(io_error("append to", &self.path, error));
         }
         self.whole += line.len() as u64;
-        self.seal = seal;
+        self.checksum = checksum;
         Ok(())
     }
 
-    /// Takes off all that stands behind the whole lines.
-    fn cut(&mut self) -> Result<(), JournalError> {
+    /// Removes everything after the complete lines.
+    fn truncate(&mut self) -> Result<(), JournalError> {
         self.file
             .set_len(self.whole)
             .and_then(|()| self.file.sync_all())
-            .map_err(|error| io_error("cut the torn last line off", &self.path, error))
+            .map_err(|error| io_error("remove the incomplete last line of", &self.path, error))
     }
 }
 
-/// The robot's port is locked as well, where a network file system knows no locks.
-fn lock_alone(file: &File, path: &Path) -> Result<(), JournalError> {
+/// On network file systems without locks, the lock on the robot's port protects the experiment.
+fn lock_journal(file: &File, path: &Path) -> Result<(), JournalError> {
     lock(file).map_err(|error| match error.kind() {
         io::ErrorKind::WouldBlock => JournalError::Locked {
             path: path.to_owned(),

@@ -1,19 +1,19 @@
-//! What the entries of a journal come to, and which entry may follow which.
+//! The throws that a journal's entries describe, and the valid order of entries.
 
 use super::{Entry, Reading, VoidReason};
 use crate::Setting;
 use thiserror::Error;
 
-/// One throw as the journal knows it.
+/// One throw according to the journal.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Throw {
-    /// Its number on the link.
+    /// Id on the link.
     pub id: u32,
-    /// What the robot was told.
+    /// Setting of the throw.
     pub setting: Setting,
-    /// When it was announced, ms since 1970.
+    /// Time of the announcement, ms since 1970.
     pub announced_ms: u64,
-    /// What was read, and when.
+    /// The reading and its time.
     pub reading: Option<(Reading, u64)>,
     /// How it ended.
     pub resolution: Option<Resolution>,
@@ -22,64 +22,64 @@ pub struct Throw {
 /// How a throw ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Resolution {
-    /// With its reading.
+    /// With a reading.
     Done,
     /// Without a result.
     Void(VoidReason),
 }
 
-/// How far the last throw is.
+/// State of the last throw.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pending {
     /// All throws are resolved.
     Nothing,
-    /// Announced; whether it was thrown only the robot knows.
+    /// Announced; only the robot knows whether it was thrown.
     Announced {
-        /// Its number.
+        /// Its id.
         id: u32,
-        /// What the robot was or is to be told.
+        /// Setting of the throw.
         setting: Setting,
     },
-    /// Read; whether the coin was collected only the robot knows.
+    /// Read; only the robot knows whether the coin was collected.
     Read {
-        /// Its number.
+        /// Its id.
         id: u32,
     },
 }
 
-/// All throws so far, in order: throw k of the plan is the k-th.
+/// All throws so far, in the order of the plan.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct History {
     throws: Vec<Throw>,
-    /// The last number that is taken.
+    /// The last id in use.
     last_id: u32,
 }
 
-/// An entry that cannot follow what was written before.
+/// Why an entry cannot follow the ones before.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-pub enum Order {
+pub enum OrderError {
     /// A throw is announced while another is open.
     #[error("a throw is announced while throw {0} is unresolved")]
     StillOpen(u32),
-    /// Numbers go up by one.
-    #[error("throw {found} is announced where {expected} is next")]
+    /// Ids increase by one.
+    #[error("throw {found} is announced, but {expected} is next")]
     WrongNumber {
-        /// The number in the entry.
+        /// The id in the entry.
         found: u32,
-        /// The next number.
+        /// The next id.
         expected: u32,
     },
-    /// An entry about a throw that is not the open one.
-    #[error("throw {0} is resolved or read, and it is not open")]
+    /// An entry for a throw that is not open.
+    #[error("throw {0} is read or resolved, but it is not open")]
     NotOpen(u32),
     /// A second reading, or a void after a reading.
     #[error("throw {0} has a reading already")]
     AlreadyRead(u32),
     /// Done without a reading.
-    #[error("throw {0} is done without a reading")]
+    #[error("throw {0} is done but has no reading")]
     Unread(u32),
-    /// A counter that is not ahead.
-    #[error("a counter of {0} is adopted, and it is not ahead")]
+    /// An adopted counter that is not ahead.
+    #[error("a counter of {0} is adopted, but it is not ahead")]
     NotAhead(u32),
 }
 
@@ -89,17 +89,17 @@ impl History {
         &self.throws
     }
 
-    /// Throws announced so far: the number, from 0, of the next in the plan.
+    /// Number of throws announced so far, which is also the number of the next throw in the plan.
     pub fn announced(&self) -> u32 {
         u32::try_from(self.throws.len()).unwrap_or(u32::MAX)
     }
 
-    /// The last number on the link that is taken; 0 before the first throw.
+    /// The last id in use on the link; 0 before the first throw.
     pub fn last_id(&self) -> u32 {
         self.last_id
     }
 
-    /// How far the last throw is.
+    /// State of the last throw.
     pub fn pending(&self) -> Pending {
         match self.throws.last() {
             Some(throw) if throw.resolution.is_none() => match throw.reading {
@@ -113,48 +113,50 @@ impl History {
         }
     }
 
-    /// Void throws at the end, without a done one between.
-    pub fn voids_in_a_row(&self) -> usize {
+    /// Number of consecutive void throws at the end.
+    pub fn consecutive_voids(&self) -> usize {
         let resolved = self.throws.iter().rev().filter_map(|t| t.resolution);
         resolved.take_while(|how| *how != Resolution::Done).count()
     }
 
-    /// Whether an entry can follow.
+    /// Checks whether an entry can follow.
     ///
     /// # Errors
-    /// [`Order`] if it cannot.
-    pub fn check(&self, entry: &Entry) -> Result<(), Order> {
+    /// [`OrderError`] if it cannot.
+    pub fn check(&self, entry: &Entry) -> Result<(), OrderError> {
         let open = self.open();
         match entry {
             Entry::Adopted { counter } if *counter <= self.last_id => {
-                Err(Order::NotAhead(*counter))
+                Err(OrderError::NotAhead(*counter))
             }
             Entry::Announced { id, .. } if open.is_none() && Some(*id) != self.next_id() => {
-                Err(Order::WrongNumber {
+                Err(OrderError::WrongNumber {
                     found: *id,
                     expected: self.next_id().unwrap_or(u32::MAX),
                 })
             }
             Entry::Adopted { .. } | Entry::Announced { .. } => {
-                open.map_or(Ok(()), |open| Err(Order::StillOpen(open.id)))
+                open.map_or(Ok(()), |open| Err(OrderError::StillOpen(open.id)))
             }
             Entry::Read { id, .. } | Entry::Done { id } | Entry::Void { id, .. } => {
                 let open = open.filter(|open| open.id == *id);
-                let read = open.ok_or(Order::NotOpen(*id))?.reading.is_some();
+                let read = open.ok_or(OrderError::NotOpen(*id))?.reading.is_some();
                 match (entry, read) {
-                    (Entry::Done { .. }, false) => Err(Order::Unread(*id)),
-                    (Entry::Read { .. } | Entry::Void { .. }, true) => Err(Order::AlreadyRead(*id)),
+                    (Entry::Done { .. }, false) => Err(OrderError::Unread(*id)),
+                    (Entry::Read { .. } | Entry::Void { .. }, true) => {
+                        Err(OrderError::AlreadyRead(*id))
+                    }
                     _ => Ok(()),
                 }
             }
         }
     }
 
-    /// Takes an entry in.
+    /// Adds an entry.
     ///
     /// # Errors
-    /// [`Order`] if it cannot follow; nothing is changed then.
-    pub fn add(&mut self, entry: &Entry) -> Result<(), Order> {
+    /// [`OrderError`] if it cannot follow; nothing is changed then.
+    pub fn add(&mut self, entry: &Entry) -> Result<(), OrderError> {
         self.check(entry)?;
         match entry {
             Entry::Adopted { counter } => self.last_id = *counter,
@@ -179,7 +181,7 @@ impl History {
         Ok(())
     }
 
-    /// The number of the next throw, if the link has one left.
+    /// Id of the next throw, if the link has one left.
     pub fn next_id(&self) -> Option<u32> {
         self.last_id.checked_add(1)
     }

@@ -1,19 +1,18 @@
-//! The journal: the one truth about an experiment, from which all else is derived.
+//! The journal: the single source of truth of an experiment, from which everything else is derived.
 //!
-//! An append-only text, one entry a line, each line sealed by a CRC-32 that continues that of the
-//! line before, each on the disk before the step that cannot be taken back:
+//! An append-only text with one entry per line. Each line ends with a CRC-32 that continues that of
+//! the line before, and is on disk before the step that cannot be undone:
 //!
 //! ```text
 //! coinmc-robot-journal 1 <plan hash> <throws> <crc>
-//! I 1 3204 9017 1795281733123 <crc>            announced, before the robot is told to throw
+//! I 1 3204 9017 1795281733123 <crc>            announced, before the throw is sent to the robot
 //! R 1 heads 3201 9011 4 000001-1.png 1795281741008 <crc>   read, before the coin is collected
-//! D 1 <crc>                                    done, when the robot is ready again
+//! D 1 <crc>                                    done, once the robot is ready again
 //! I 2 …
 //! V 2 fault-102 <crc>                          void, with the reason
 //! ```
 //!
-//! Every announced throw ends as exactly one of done and void. docs/guide/robot.md describes every
-//! field.
+//! Every announced throw ends as either done or void. docs/guide/robot.md describes every field.
 
 mod entry;
 mod file;
@@ -22,5 +21,5 @@ mod text;
 
 pub use entry::{Entry, ImageName, ImageNameError, Measured, Reading, VoidReason};
 pub use file::{Journal, JournalError};
-pub use history::{History, Order, Pending, Resolution, Throw};
-pub use text::{Damage, FORMAT, Header, Parsed, Seal, parse};
+pub use history::{History, OrderError, Pending, Resolution, Throw};
+pub use text::{Damage, FORMAT, Header, LineChecksum, Parsed, parse};

@@ -1,19 +1,20 @@
-//! The journal as text: sealing lines, reading them back, telling a torn tail from damage.
+//! The journal as text: writing lines with checksums, parsing them, and distinguishing an
+//! incomplete last line from damage.
 
 use super::entry::number;
-use super::{Entry, History, Order};
+use super::{Entry, History, OrderError};
 use thiserror::Error;
 
-/// Version of the journal.
+/// Version of the journal's format.
 pub const FORMAT: u32 = 1;
 
 /// First word of the first line.
 const MAGIC: &str = "coinmc-robot-journal";
 
-/// Longest line, its end included, bytes.
-pub(super) const LONGEST: usize = 256;
+/// Longest line, including its end, bytes.
+pub(super) const MAX_LINE: usize = 256;
 
-/// What a journal belongs to.
+/// The first line of a journal: the experiment that it belongs to.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Header {
     /// Hash of the plan.
@@ -22,13 +23,13 @@ pub struct Header {
     pub throws: u32,
 }
 
-/// The CRC-32 of all lines so far, which the next line continues: a line that is missing,
-/// repeated or out of its place shows.
+/// The CRC-32 of all lines so far, which the next line continues: it reveals missing, repeated and
+/// misplaced lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Seal(u32);
+pub struct LineChecksum(u32);
 
-impl Seal {
-    /// The line that says `body`, sealed, and the seal after it.
+impl LineChecksum {
+    /// The line with this body and its checksum, and the checksum to continue from.
     #[must_use]
     pub fn line(self, body: &str) -> (String, Self) {
         let next = self.after(body.as_bytes());
@@ -48,7 +49,7 @@ impl Seal {
         Self(hasher.finalize())
     }
 
-    /// The body of a line without its end, if its seal is right.
+    /// The body of a line (given without its end), if its checksum is correct.
     fn open(self, line: &str) -> Option<(&str, Self)> {
         let (body, crc) = line.rsplit_once(' ')?;
         let next = self.after(body.as_bytes());
@@ -56,56 +57,56 @@ impl Seal {
     }
 }
 
-/// A journal read back.
+/// A parsed journal.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Parsed {
-    /// What it belongs to.
+    /// The experiment that it belongs to.
     pub header: Header,
-    /// All that it says.
+    /// The throws.
     pub history: History,
-    /// What the next line continues.
-    pub seal: Seal,
-    /// Length of the lines that are whole, bytes.
+    /// The checksum that the next line continues.
+    pub checksum: LineChecksum,
+    /// Length of the complete lines, bytes.
     pub whole: usize,
-    /// Bytes behind them: the line that was being written when the power went.
+    /// Bytes after them: a line whose writing was interrupted.
     pub torn: usize,
 }
 
-/// Why a journal cannot be gone on with.
+/// Why a journal cannot be continued.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum Damage {
-    /// Not even the first line is whole: nothing was thrown yet.
-    #[error("has no whole first line")]
+    /// Not even the first line is complete: nothing was thrown yet.
+    #[error("has no complete first line")]
     Empty,
     /// Another kind of file.
-    #[error("is no journal of a robot")]
+    #[error("is not a journal of a robot")]
     NotAJournal,
-    /// Written by a later program.
-    #[error("has format {0}, this program knows {FORMAT}: use the program that wrote it")]
+    /// Written by a newer program.
+    #[error("has format {0}, but this program supports {FORMAT}: use the program that wrote it")]
     Newer(u32),
-    /// A line that has its end does not read back.
+    /// A complete line has a wrong checksum or content.
     #[error("line {0} is damaged")]
     Line(usize),
-    /// A line is whole and says what cannot be.
-    #[error("line {line} is whole and cannot be true: {order}")]
+    /// A line has a correct checksum but contradicts the lines before.
+    #[error("line {line} contradicts the lines before: {order}")]
     Order {
         /// Number of the line, from 1.
         line: usize,
-        /// What is wrong with it.
-        order: Order,
+        /// The contradiction.
+        order: OrderError,
     },
 }
 
-/// Reads a journal.
+/// Parses a journal.
 ///
-/// Only a last line without its end may be damaged: an append that was cut off. It is not believed,
-/// and `torn` says how long it is.
+/// Only the last line may be damaged, if it has no end: its writing was interrupted. It is ignored,
+/// and `torn` is its length.
 ///
 /// # Errors
-/// [`Damage`] for anything else that does not read back.
+/// [`Damage`] for any other damage.
 pub fn parse(bytes: &[u8]) -> Result<Parsed, Damage> {
     let mut lines = Lines { bytes, place: 0 };
-    let (header, mut seal) = match lines.next_line() {
+    let (header, mut checksum) = match lines.next_line() {
         Some(line) => read_header(line)?,
         None if MAGIC
             .as_bytes()
@@ -119,25 +120,27 @@ pub fn parse(bytes: &[u8]) -> Result<Parsed, Damage> {
     let (mut whole, mut number) = (lines.place, 1);
     while let Some(line) = lines.next_line() {
         number += 1;
-        let opened = std::str::from_utf8(line).ok().and_then(|l| seal.open(l));
+        let opened = std::str::from_utf8(line)
+            .ok()
+            .and_then(|l| checksum.open(l));
         let (body, next) = opened.ok_or(Damage::Line(number))?;
         let entry = Entry::read(body).ok_or(Damage::Line(number))?;
         history.add(&entry).map_err(|order| Damage::Order {
             line: number,
             order,
         })?;
-        (seal, whole) = (next, lines.place);
+        (checksum, whole) = (next, lines.place);
     }
     Ok(Parsed {
         header,
         history,
-        seal,
+        checksum,
         whole,
         torn: bytes.len() - whole,
     })
 }
 
-fn read_header(line: &[u8]) -> Result<(Header, Seal), Damage> {
+fn read_header(line: &[u8]) -> Result<(Header, LineChecksum), Damage> {
     let line = std::str::from_utf8(line).map_err(|_| Damage::NotAJournal)?;
     let mut words = line.split(' ');
     if words.next() != Some(MAGIC) {
@@ -147,7 +150,7 @@ fn read_header(line: &[u8]) -> Result<(Header, Seal), Damage> {
     if format > FORMAT {
         return Err(Damage::Newer(format));
     }
-    let (body, seal) = Seal::default().open(line).ok_or(Damage::Line(1))?;
+    let (body, checksum) = LineChecksum::default().open(line).ok_or(Damage::Line(1))?;
     let words: Vec<&str> = body.split(' ').collect();
     let [_, _, plan_hash, throws] = words[..] else {
         return Err(Damage::Line(1));
@@ -156,23 +159,23 @@ fn read_header(line: &[u8]) -> Result<(Header, Seal), Damage> {
         plan_hash: plan_hash.to_owned(),
         throws: number(throws).ok_or(Damage::Line(1))?,
     };
-    Ok((header, seal))
+    Ok((header, checksum))
 }
 
-/// Whole lines, without their ends.
+/// Iterates over complete lines, without their ends.
 struct Lines<'a> {
     bytes: &'a [u8],
-    /// Where the next line begins.
+    /// Offset of the next line.
     place: usize,
 }
 
 impl<'a> Lines<'a> {
-    /// The next line; `None` at the end, and for a rest that has no line's end.
+    /// The next line; `None` at the end, or if the rest has no line end.
     fn next_line(&mut self) -> Option<&'a [u8]> {
         let rest = &self.bytes[self.place..];
         let end = rest.iter().position(|byte| *byte == b'\n')?;
         self.place += end + 1;
-        // what is too long for a line is none: nothing has the seal of nothing
-        Some(if end < LONGEST { &rest[..end] } else { &[] })
+        // treat a line that is too long as empty: an empty line is never valid
+        Some(if end < MAX_LINE { &rest[..end] } else { &[] })
     }
 }

@@ -1,4 +1,4 @@
-//! A robot at the other end of a port: asked one thing at a time, through any loss of the line.
+//! The connection to a robot: one request at a time, with reconnection after any loss.
 
 use super::{PortError, open};
 use crate::clock::{Clock, unix_ms};
@@ -12,65 +12,64 @@ use std::thread;
 use std::time::Duration;
 use thiserror::Error;
 
-/// The first pause before a lost port is opened again, and the longest; each is twice the last.
+/// First and longest pause before a lost port is opened again; each pause doubles the last.
 const FIRST_PAUSE: Duration = Duration::from_millis(200);
 const LONGEST_PAUSE: Duration = Duration::from_secs(5);
 
-/// Longest sleep between two looks at whether to give up.
-const NAP: Duration = Duration::from_millis(50);
+/// Longest wait before checking again whether to give up.
+const MAX_WAIT: Duration = Duration::from_millis(50);
 
-/// Sessions taken over by somebody else, within this long, that make it certain.
-const MOST_TAKEN: usize = 5;
+/// If other hosts take over this many sessions within this time, the robot is shared.
+const MAX_TAKEN: usize = 5;
 const TAKEN_WITHIN_MS: u64 = 60_000;
 
-/// What comes of asking.
+/// The outcome of a request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Answer {
-    /// The robot's answer.
+pub enum RequestOutcome {
+    /// The robot's reply.
     Reply(Reply),
-    /// The session was opened anew, and the request dropped: it may or may not have been carried
-    /// out.
+    /// The session was opened again and the request dropped: it may or may not have been executed.
     Connected {
-        /// What the robot said.
+        /// The robot's reply to Hello.
         greeting: Greeting,
-        /// Whether it was reset since.
+        /// Whether the robot was reset since the last session.
         seen: Seen,
     },
-    /// The caller gave up before the robot answered.
+    /// The caller gave up before the robot replied.
     GivenUp,
 }
 
-/// What happens on the line, for logs and displays.
+/// Events of the connection, for logs and displays.
 #[derive(Debug)]
 pub enum LinkEvent<'a> {
     /// The port was opened.
     Opened(&'a Path),
-    /// The line is lost; it is tried again after this pause.
+    /// The connection is lost, and will be tried again after this pause.
     Lost {
-        /// What was seen, for people.
+        /// The cause, for the user.
         why: String,
         /// The pause.
         pause: Duration,
     },
     /// A session is open.
     Connected {
-        /// What the robot said.
+        /// The robot's reply to Hello.
         greeting: Greeting,
-        /// Whether it was reset since.
+        /// Whether the robot was reset since the last session.
         seen: Seen,
     },
-    /// A request went out and was answered.
+    /// A request was sent and got a reply.
     Exchanged {
         /// The request.
         request: Request,
-        /// The answer.
+        /// The reply.
         reply: Reply,
-        /// From the first transmission to the answer, wall time.
+        /// Time from the first transmission to the reply, wall time.
         took: Duration,
     },
 }
 
-/// Why a robot cannot be talked to, ever.
+/// Why communication with a robot is impossible.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ConnectionError {
@@ -80,19 +79,19 @@ pub enum ConnectionError {
     /// Another major version of the protocol.
     #[error(
         "the robot speaks version {}.{} of the protocol, this program {}.{}: use the program that \
-         belongs to its firmware, or bring the firmware up to date",
+         belongs to its firmware, or update the firmware",
         .0.major, .0.minor, PROTOCOL.major, PROTOCOL.minor
     )]
     OtherVersion(Version),
-    /// Two hosts at one robot, through different ports.
-    #[error("another program talks to the same robot: end it first")]
+    /// Two hosts use one robot, through different ports.
+    #[error("another program uses the same robot: end it first")]
     Shared,
     /// A request that the protocol does not allow.
     #[error(transparent)]
     Request(#[from] RequestError),
 }
 
-/// A port, the link's state machine on it, and what to do when either is gone.
+/// A port with the link's state machine, which reconnects when the port or the robot is lost.
 #[derive(Debug)]
 pub struct Connection {
     path: PathBuf,
@@ -100,20 +99,20 @@ pub struct Connection {
     host: Host,
     port: Option<SerialPort>,
     pause: Duration,
-    /// When sessions were taken over, ms of the clock.
+    /// Times at which other hosts took over sessions, ms of the clock.
     taken: Vec<u64>,
     session: u16,
 }
 
 impl Connection {
-    /// Opens the port and says hello.
+    /// Opens the port and sends Hello.
     ///
     /// # Errors
-    /// [`PortError`] if the port cannot be opened *now*: a typing error shows at once. Later losses
-    /// are no errors.
+    /// [`PortError`] if the port cannot be opened *now*, so that a mistyped name is reported at once.
+    /// Later losses are not errors.
     pub fn open(path: &Path, clock: Clock) -> Result<Self, PortError> {
         let port = open(path)?;
-        // two hosts, and two sessions of one, differ in all likelihood
+        // the sessions of any two hosts, and any two of one host, almost certainly differ
         #[allow(clippy::cast_possible_truncation)]
         let session = (unix_ms() ^ u64::from(std::process::id()) << 3) as u16;
         let mut connection = Self {
@@ -129,81 +128,81 @@ impl Connection {
         Ok(connection)
     }
 
-    /// What happened on the line so far.
+    /// Statistics of the connection.
     pub fn counters(&self) -> Counters {
         self.host.counters()
     }
 
-    /// Waits until a session is open, for as long as it takes.
+    /// Waits until a session is open, without a time limit.
     ///
     /// # Errors
     /// [`ConnectionError`]
     pub fn connect(
         &mut self,
         given_up: &dyn Fn() -> bool,
-        watch: &mut dyn FnMut(&LinkEvent<'_>),
-    ) -> Result<Answer, ConnectionError> {
-        self.drive(None, given_up, watch)
+        on_event: &mut dyn FnMut(&LinkEvent<'_>),
+    ) -> Result<RequestOutcome, ConnectionError> {
+        self.drive(None, given_up, on_event)
     }
 
-    /// Asks the robot and waits for its answer, for as long as it takes.
+    /// Sends a request and waits for the reply, without a time limit.
     ///
     /// # Errors
     /// [`ConnectionError`]
-    pub fn ask(
+    pub fn request(
         &mut self,
         request: &Request,
         given_up: &dyn Fn() -> bool,
-        watch: &mut dyn FnMut(&LinkEvent<'_>),
-    ) -> Result<Answer, ConnectionError> {
+        on_event: &mut dyn FnMut(&LinkEvent<'_>),
+    ) -> Result<RequestOutcome, ConnectionError> {
         if self.port.is_some() && self.host.is_ready() {
             self.host.request(request, self.clock.now_ms())?;
         } else {
-            // the session's greeting comes first; the caller asks again
+            // the session must be opened first; the caller repeats the request then
             request.check().map_err(RequestError::from)?;
         }
-        self.drive(Some(request), given_up, watch)
+        self.drive(Some(request), given_up, on_event)
     }
 
     fn drive(
         &mut self,
         request: Option<&Request>,
         given_up: &dyn Fn() -> bool,
-        watch: &mut dyn FnMut(&LinkEvent<'_>),
-    ) -> Result<Answer, ConnectionError> {
+        on_event: &mut dyn FnMut(&LinkEvent<'_>),
+    ) -> Result<RequestOutcome, ConnectionError> {
         let asked = std::time::Instant::now();
         loop {
             if given_up() {
-                return Ok(Answer::GivenUp);
+                return Ok(RequestOutcome::GivenUp);
             }
             let Some(port) = &mut self.port else {
-                self.open_again(given_up, watch);
+                self.open_again(given_up, on_event);
                 continue;
             };
             match advance(&mut self.host, port, &self.clock) {
-                Ok(Progress::Nothing) => {}
-                Ok(Progress::Reply(reply)) => {
+                Ok(StepResult::Nothing) => {}
+                Ok(StepResult::Reply(reply)) => {
                     if let Some(&request) = request {
-                        watch(&LinkEvent::Exchanged {
+                        on_event(&LinkEvent::Exchanged {
                             request,
                             reply,
                             took: asked.elapsed(),
                         });
                     }
-                    return Ok(Answer::Reply(reply));
+                    return Ok(RequestOutcome::Reply(reply));
                 }
-                Ok(Progress::Connected { greeting, seen }) => {
+                Ok(StepResult::Connected { greeting, seen }) => {
                     self.pause = FIRST_PAUSE;
-                    watch(&LinkEvent::Connected { greeting, seen });
-                    self.mind_others(seen)?;
-                    return Ok(Answer::Connected { greeting, seen });
+                    on_event(&LinkEvent::Connected { greeting, seen });
+                    self.check_other_hosts(seen)?;
+                    return Ok(RequestOutcome::Connected { greeting, seen });
                 }
-                Ok(Progress::Refused(version)) => {
+                Ok(StepResult::Refused(version)) => {
                     return Err(ConnectionError::OtherVersion(version));
                 }
-                Ok(Progress::Lost) => self.lose("no answer".to_owned(), watch),
-                // unplugged: EIO, ENXIO, or the end of the file
-                Err(error) => self.lose(error.to_string(), watch),
+                Ok(StepResult::Lost) => self.lose("no reply".to_owned(), on_event),
+                // unplugged: EIO, ENXIO or end of file
+                Err(error) => self.lose(error.to_string(), on_event),
             }
         }
     }
@@ -214,40 +213,45 @@ impl Connection {
         self.port = Some(port);
     }
 
-    fn lose(&mut self, why: String, watch: &mut dyn FnMut(&LinkEvent<'_>)) {
+    fn lose(&mut self, why: String, on_event: &mut dyn FnMut(&LinkEvent<'_>)) {
         self.port = None;
         self.host.close();
         let pause = self.pause;
-        watch(&LinkEvent::Lost { why, pause });
+        on_event(&LinkEvent::Lost { why, pause });
     }
 
-    /// One attempt, after a pause.
-    fn open_again(&mut self, given_up: &dyn Fn() -> bool, watch: &mut dyn FnMut(&LinkEvent<'_>)) {
+    /// Tries once to reopen the port, after a pause.
+    fn open_again(
+        &mut self,
+        given_up: &dyn Fn() -> bool,
+        on_event: &mut dyn FnMut(&LinkEvent<'_>),
+    ) {
         let mut left = self.clock.wall(self.pause);
         while !left.is_zero() && !given_up() {
-            thread::sleep(left.min(NAP));
-            left = left.saturating_sub(NAP);
+            thread::sleep(left.min(MAX_WAIT));
+            left = left.saturating_sub(MAX_WAIT);
         }
         self.pause = (self.pause * 2).min(LONGEST_PAUSE);
         match open(&self.path) {
             Ok(port) => {
-                watch(&LinkEvent::Opened(&self.path));
+                on_event(&LinkEvent::Opened(&self.path));
                 self.begin(port);
             }
             Err(error) => {
                 let (why, pause) = (error.to_string(), self.pause);
-                watch(&LinkEvent::Lost { why, pause });
+                on_event(&LinkEvent::Lost { why, pause });
             }
         }
     }
 
-    /// A session may be lost to an old frame that was still on its way; not again and again.
-    fn mind_others(&mut self, seen: Seen) -> Result<(), ConnectionError> {
+    /// An old frame in transit can take over a session once, but only another host does so
+    /// repeatedly.
+    fn check_other_hosts(&mut self, seen: Seen) -> Result<(), ConnectionError> {
         if seen == Seen::Taken {
             let now = self.clock.now_ms();
             self.taken.retain(|at| now - at < TAKEN_WITHIN_MS);
             self.taken.push(now);
-            if self.taken.len() >= MOST_TAKEN {
+            if self.taken.len() >= MAX_TAKEN {
                 return Err(ConnectionError::Shared);
             }
         }
@@ -255,7 +259,7 @@ impl Connection {
     }
 }
 
-enum Progress {
+enum StepResult {
     Nothing,
     Reply(Reply),
     Connected { greeting: Greeting, seen: Seen },
@@ -263,38 +267,40 @@ enum Progress {
     Lost,
 }
 
-/// One turn of the state machine: send what it wants sent, or wait for what it waits for.
-fn advance(host: &mut Host, port: &mut SerialPort, clock: &Clock) -> io::Result<Progress> {
+/// One step of the state machine: sends what it asks to send, or waits for bytes.
+fn advance(host: &mut Host, port: &mut SerialPort, clock: &Clock) -> io::Result<StepResult> {
     let until_ms = match host.poll(clock.now_ms()) {
         Action::Transmit(bytes) => {
             port.write_all(bytes)?;
-            return Ok(Progress::Nothing);
+            return Ok(StepResult::Nothing);
         }
-        Action::Connected { greeting, seen } => return Ok(Progress::Connected { greeting, seen }),
-        Action::Reply(reply) => return Ok(Progress::Reply(reply)),
-        Action::Refused { version } => return Ok(Progress::Refused(version)),
-        Action::Lost => return Ok(Progress::Lost),
+        Action::Connected { greeting, seen } => {
+            return Ok(StepResult::Connected { greeting, seen });
+        }
+        Action::Reply(reply) => return Ok(StepResult::Reply(reply)),
+        Action::Refused { version } => return Ok(StepResult::Refused(version)),
+        Action::Lost => return Ok(StepResult::Lost),
         Action::Wait { until_ms } => until_ms,
     };
     let mut bytes = [0; 512];
-    let wait = until_ms.map_or(NAP, |until| {
+    let wait = until_ms.map_or(MAX_WAIT, |until| {
         clock.wall(Duration::from_millis(until.saturating_sub(clock.now_ms())))
     });
-    // below a millisecond the system's clock turns waiting into asking
-    port.set_read_timeout(wait.clamp(Duration::from_millis(1), NAP))?;
+    // with less than a millisecond the system would not wait at all
+    port.set_read_timeout(wait.clamp(Duration::from_millis(1), MAX_WAIT))?;
     match port.read(&mut bytes) {
         Ok(0) => Err(io::ErrorKind::UnexpectedEof.into()),
         Ok(count) => {
             host.receive(&bytes[..count], clock.now_ms());
-            Ok(Progress::Nothing)
+            Ok(StepResult::Nothing)
         }
-        Err(error) if patient(&error) => Ok(Progress::Nothing),
+        Err(error) if is_timeout(&error) => Ok(StepResult::Nothing),
         Err(error) => Err(error),
     }
 }
 
-/// Nothing arrived, and nothing is wrong.
-fn patient(error: &io::Error) -> bool {
+/// Whether nothing arrived but nothing is wrong.
+fn is_timeout(error: &io::Error) -> bool {
     use io::ErrorKind::{Interrupted, TimedOut, WouldBlock};
     matches!(error.kind(), TimedOut | WouldBlock | Interrupted)
 }

@@ -1,28 +1,28 @@
-//! Which serial ports there are.
+//! The list of serial ports.
 
 use serial2::SerialPort;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Where Linux keeps names that follow a device from socket to socket.
+/// Where Linux keeps names that stay with a device whichever socket it is plugged into.
 const BY_ID: &str = "/dev/serial/by-id";
 
 /// A serial port.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct PortEntry {
-    /// The name to use: one that stays with the device if there is one.
+    /// The name to use: the stable one, if there is one.
     pub path: PathBuf,
-    /// The device that it stands for now.
+    /// The device that the name refers to now.
     pub device: PathBuf,
-    /// Whether the name stays with the device when it is unplugged, or plugged in elsewhere.
+    /// Whether the name stays the same when the device is plugged in elsewhere.
     pub stable: bool,
 }
 
 /// All serial ports of this machine, those with stable names first.
 ///
 /// # Errors
-/// Those of the system.
+/// System errors.
 pub fn ports() -> io::Result<Vec<PortEntry>> {
     let mut found = stable(Path::new(BY_ID))?;
     for path in SerialPort::available_ports()? {
@@ -48,7 +48,7 @@ fn stable(folder: &Path) -> io::Result<Vec<PortEntry>> {
     let mut found = Vec::new();
     for entry in entries {
         let path = entry?.path();
-        // a link whose device has just gone is no port
+        // skip links whose device has just disappeared
         if let Ok(device) = fs::canonicalize(&path) {
             let stable = true;
             found.push(PortEntry {
@@ -67,7 +67,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn stable_names_lead_to_their_devices() {
+    fn stable_names_resolve_to_their_devices() {
         let dir = tempfile::tempdir().unwrap();
         let device = dir.path().join("ttyUSB7");
         fs::write(&device, "").unwrap();

@@ -1,9 +1,9 @@
-//! Serial ports: finding them by a name that stays, and holding one alone.
+//! Serial ports: listing them by stable names, and opening one exclusively.
 
 mod connection;
 mod list;
 
-pub use connection::{Answer, Connection, ConnectionError, LinkEvent};
+pub use connection::{Connection, ConnectionError, LinkEvent, RequestOutcome};
 pub use list::{PortEntry, ports};
 
 use crate::lock::lock;
@@ -13,50 +13,50 @@ use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Bits a second of the link.
+/// Baud rate of the link, bits per second.
 const BAUD: u32 = 115_200;
 
 /// Why a port cannot be used.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PortError {
-    /// There is none of this name.
-    #[error("there is no port {}: is the robot plugged in? `coinmc robot ports` lists the ports that are there", path.display())]
+    /// There is no port of this name.
+    #[error("there is no port {}: is the robot plugged in? `coinmc robot ports` lists all ports", path.display())]
     Missing {
         /// The port.
         path: PathBuf,
     },
     /// Another program holds it.
-    #[error("{} is in use by another program: only one may talk to a robot. End the other one first", path.display())]
+    #[error("{} is in use by another program: only one can use a robot at a time. End the other one first", path.display())]
     Busy {
         /// The port.
         path: PathBuf,
     },
-    /// This user may not.
+    /// The user has no permission.
     #[error("no permission to use {}: join the group that owns it (on most systems `dialout`) and log in again", path.display())]
     Forbidden {
         /// The port.
         path: PathBuf,
     },
-    /// The system refuses otherwise.
+    /// Another system error.
     #[error("cannot use {} as a serial port: {error}", path.display())]
     Io {
         /// The port.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         error: io::Error,
     },
 }
 
-/// Opens a port for this process alone.
+/// Opens a port exclusively for this process.
 fn open(path: &Path) -> Result<SerialPort, PortError> {
     let sort = |error: io::Error| sorted(path, error);
     let port = SerialPort::open(path, BAUD).map_err(sort)?;
-    // Twice, since neither is enough: the exclusive mode does not bind the superuser, and the lock
-    // does not bind programs that take none. Both end with the process, however it ends.
+    // Neither is enough alone: the exclusive mode does not apply to the superuser, and the lock
+    // does not apply to programs that take none. The system releases both when the process ends.
     lock(&port).map_err(sort)?;
     ioctl_tiocexcl(&port).map_err(|error| sorted(path, error.into()))?;
-    // What an earlier host left unread is none of ours.
+    // Discard what an earlier host left unread.
     port.discard_buffers().map_err(sort)?;
     Ok(port)
 }

@@ -1,8 +1,8 @@
-//! Chance for faults: repeatable by seed.
+//! Random numbers for faults, reproducible by seed.
 
 use coinmc_core::{Philox4x64, unit_interval};
 
-/// A sequence of random numbers that depends on its seed and purpose alone.
+/// A sequence of random numbers that depends only on its seed and purpose.
 #[derive(Debug, Clone)]
 pub struct Dice {
     philox: Philox4x64,
@@ -11,10 +11,10 @@ pub struct Dice {
 }
 
 impl Dice {
-    /// The sequence of a seed; those of different purposes are independent.
+    /// The sequence of a seed and purpose; different purposes are independent.
     pub fn new(seed: u64, purpose: u64) -> Self {
         Self {
-            // the high key word keeps them apart from the launches of the same seed
+            // the high word of the key separates them from the launches of the same seed
             philox: Philox4x64::new([seed, purpose.wrapping_add(1)]),
             block: [0; 4],
             next: 0,
@@ -38,11 +38,11 @@ impl Dice {
 
     /// True with this probability.
     pub fn chance(&mut self, p: f64) -> bool {
-        // no number is drawn for what never happens
+        // an impossible event draws no number
         p > 0.0 && self.uniform() < p
     }
 
-    /// Waiting time of events that come on average every `mean`: exponential.
+    /// Exponential waiting time with this mean.
     pub fn wait(&mut self, mean: f64) -> f64 {
         -mean * libm::log(self.uniform())
     }

@@ -1,8 +1,9 @@
-//! A bad cable.
+//! Noise on the serial line.
 
 use super::Dice;
 
-/// Flips a bit of, drops or doubles up a share of the bytes that pass, a third each.
+/// Damages a fraction of the bytes: a third each get a flipped bit, are dropped, or are followed by
+/// a random byte.
 #[derive(Debug, Clone)]
 pub struct Noise {
     share: f64,
@@ -10,7 +11,7 @@ pub struct Noise {
 }
 
 impl Noise {
-    /// Noise on this share of bytes, 0 to 1.
+    /// Noise on this fraction of bytes, 0 to 1.
     pub fn new(share: f64, seed: u64, purpose: u64) -> Self {
         Self {
             share,
@@ -18,7 +19,7 @@ impl Noise {
         }
     }
 
-    /// What arrives of these bytes.
+    /// Appends the bytes that arrive.
     pub fn pass(&mut self, bytes: &[u8], arrived: &mut Vec<u8>) {
         for &byte in bytes {
             if !self.dice.chance(self.share) {
@@ -29,7 +30,7 @@ impl Noise {
             match word % 3 {
                 0 => arrived.push(byte ^ (1 << (word >> 8 & 7))),
                 1 => {}
-                // an inserted byte is anything
+                // insert a random byte
                 _ => arrived.extend([byte, word.to_le_bytes()[2]]),
             }
         }
@@ -41,12 +42,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_share_of_damage_is_as_asked() {
+    fn the_fraction_of_damaged_bytes_is_as_requested() {
         let sent: Vec<u8> = (0..=255).cycle().take(100_000).collect();
         let mut arrived = Vec::new();
         Noise::new(0.0, 1, 0).pass(&sent, &mut arrived);
         assert_eq!(arrived, sent);
-        // pieces of ten bytes stay whole with 0.99^10 = 0.904, ± 5 standard errors of 10 000
+        // ten bytes arrive intact with probability 0.99^10 = 0.904, ± 5 standard errors of 10 000
         let mut noise = Noise::new(0.01, 1, 0);
         let whole = sent.chunks(10).filter(|piece| {
             let mut arrived = Vec::new();

@@ -1,4 +1,4 @@
-//! The robot's EEPROM: in memory, or in a file that outlives the simulation.
+//! The simulated robot's EEPROM: in memory, or in a file that outlives the simulation.
 
 use coinmc_link::{Record, State};
 use std::fs;
@@ -13,7 +13,7 @@ pub(super) struct Memory {
 }
 
 impl Memory {
-    /// Memory that is a file, or one that ends with the process.
+    /// Memory in a file, or in this process if there is none.
     pub(super) fn new(file: Option<PathBuf>) -> io::Result<Self> {
         let mut record = None;
         if let Some(path) = &file {

@@ -1,10 +1,10 @@
-//! A simulated robot: the link's own device over a simulated plant, on a pseudo-terminal, with
-//! faults on demand.
+//! A simulated robot: the link's device state machine with simulated hardware, on a
+//! pseudo-terminal, with faults on demand.
 //!
-//! Its coin falls as a coinmc engine says for the very spin and angle it was told, so a simulated
-//! day can be analysed like a real one. Motions take as long as those of the real robot, divided by
-//! the speed; the robot's own limits (phases, silence of the host) stay in real time, so that a busy
-//! computer is not taken for a silent host.
+//! A coinmc engine simulates its coin with the given spin and angle, so a simulated day can be
+//! analysed like a real one. Motions take as long as those of the real robot, divided by the speed;
+//! the robot's own limits (phases, silence of the host) stay in real time, so that a busy computer
+//! does not look like a silent host.
 
 mod dice;
 mod line;

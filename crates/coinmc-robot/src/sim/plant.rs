@@ -7,7 +7,7 @@ use crate::{Experiment, Setting};
 use coinmc_link::{Hardware, Info, Limits, Motion, Record, Sensors, capability};
 use std::time::{Duration, Instant};
 
-/// What is in the simulated robot's name plate.
+/// The simulated robot's description.
 const INFO: Info = Info {
     uid: *b"coin-sim",
     firmware: [1, 0, 0],
@@ -20,10 +20,10 @@ const INFO: Info = Info {
     },
 };
 
-/// How far the coin rolls at most, µm.
-const ROLLS_UM: f64 = 200_000.0;
+/// Greatest distance that the coin rolls, µm.
+const MAX_ROLL_UM: f64 = 200_000.0;
 
-/// Everything of the robot that is not its program.
+/// The simulated robot's hardware.
 #[derive(Debug)]
 pub(super) struct Plant {
     experiment: Experiment,
@@ -31,16 +31,16 @@ pub(super) struct Plant {
     truth: TruthFile,
     dice: Dice,
     speed: f64,
-    /// Share of motions that never end.
+    /// Fraction of motions that never end.
     stuck: f64,
     /// The next motion never ends.
     stick_next: bool,
-    /// When the motion under way ends; `None`: nothing moves.
+    /// When the present motion ends; `None`: nothing moves.
     busy: Option<Until>,
-    /// What the spindle was told last.
+    /// The last setting of the spindle.
     aim: Setting,
     sensors: Sensors,
-    /// Why the truth could not be written: the simulation is worth nothing then.
+    /// Why the truth file could not be written, which makes the simulation worthless.
     failed: Option<std::io::Error>,
 }
 
@@ -77,17 +77,17 @@ impl Plant {
         plant
     }
 
-    /// The time of starting; whatever moved stands still.
+    /// Starts up, which takes some time and ends all motion.
     pub(super) fn power_on(&mut self) {
         self.busy = Some(Until::Then(Instant::now() + self.duration(1.0)));
     }
 
-    /// The next motion will not end.
+    /// Makes the next motion never end.
     pub(super) fn stick(&mut self) {
         self.stick_next = true;
     }
 
-    /// When something will happen by itself, if it will.
+    /// Time of the next event, if there is one.
     pub(super) fn next_event(&self) -> Option<Instant> {
         match self.busy {
             Some(Until::Then(at)) => Some(at),
@@ -95,22 +95,22 @@ impl Plant {
         }
     }
 
-    /// What went wrong with the side file, once.
+    /// The error of the truth file, once.
     pub(super) fn take_failure(&mut self) -> Option<std::io::Error> {
         self.failed.take()
     }
 
-    /// About so many seconds of the robot's time, in the wall's.
+    /// Wall time for about this many seconds of the robot's time.
     fn duration(&mut self, seconds: f64) -> Duration {
         let varied = seconds * (0.85 + 0.3 * self.dice.uniform());
         Duration::from_secs_f64(varied / self.speed)
     }
 
-    /// The coin falls. What the link calls a throw is what the memory was last told.
+    /// Releases the coin. The id of the throw is the one last stored in memory.
     fn release(&mut self) {
         let throw_id = self.memory.load().map_or(0, |record| record.throw_id);
         let throw = throw_id.saturating_sub(1);
-        // settings were checked when the simulation began, and no throw fails for others
+        // settings were checked when the simulation started, and throws fail for no other reason
         let face = self.experiment.model_face(throw, self.aim).ok().flatten();
         let truth = Truth {
             throw_id,
@@ -123,7 +123,7 @@ impl Plant {
         }
     }
 
-    /// A measurement: the truth and a little more or less.
+    /// A measurement: the true value plus noise.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     fn measured(&mut self, value: u16, spread: f64) -> u16 {
         let error = libm::round((self.dice.uniform() - 0.5) * 2.0 * spread);
@@ -133,7 +133,7 @@ impl Plant {
 
     #[allow(clippy::cast_possible_truncation)]
     fn somewhere(&mut self) -> i32 {
-        ((self.dice.uniform() - 0.5) * 2.0 * ROLLS_UM) as i32
+        ((self.dice.uniform() - 0.5) * 2.0 * MAX_ROLL_UM) as i32
     }
 }
 
@@ -170,12 +170,12 @@ impl Hardware for Plant {
                 spin_mrev_s,
                 angle_cdeg,
             } => {
-                // the link lets nothing else through
+                // the link accepts nothing else
                 self.aim = Setting::new(spin_mrev_s, angle_cdeg).unwrap_or_default();
                 self.sensors.spin_mrev_s = self.measured(spin_mrev_s, 3.0);
                 self.sensors.angle_cdeg = self.measured(angle_cdeg, 5.0);
             }
-            // Stuck or not, the clamp is open: a coin let go falls.
+            // Even if the motion is stuck, the clamp is open and the coin falls.
             Motion::Release => self.release(),
             Motion::DriveToCoin => {
                 (self.sensors.x_um, self.sensors.y_um) = (self.somewhere(), self.somewhere());

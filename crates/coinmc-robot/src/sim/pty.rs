@@ -1,4 +1,4 @@
-//! The end of a pseudo-terminal that a simulated robot holds.
+//! The simulated robot's end of a pseudo-terminal.
 
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::{OFlags, fcntl_getfl, fcntl_setfl};
@@ -12,11 +12,11 @@ use std::os::unix::fs::{OpenOptionsExt, symlink};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// A pseudo-terminal; closing it is what unplugging a robot looks like to a host.
+/// A pseudo-terminal; to a host, closing it looks like unplugging the robot.
 #[derive(Debug)]
 pub(super) struct Pty {
     master: File,
-    /// Held so that reading does not fail while no host is there.
+    /// Kept open so that reading does not fail while there is no host.
     _slave: File,
     path: PathBuf,
 }
@@ -50,7 +50,7 @@ impl Pty {
         &self.path
     }
 
-    /// What has arrived, after waiting for it for at most so long; 0 for nothing.
+    /// Reads bytes that have arrived, waiting at most this time; 0 if there are none.
     pub(super) fn read(&mut self, bytes: &mut [u8], wait: Duration) -> io::Result<usize> {
         let wait = Timespec {
             tv_sec: wait.as_secs().try_into().unwrap_or(1),
@@ -68,7 +68,7 @@ impl Pty {
         }
     }
 
-    /// Sends what fits; a host that does not read loses the rest, as with a real line.
+    /// Sends what fits; a host that does not read loses the rest, as on a real line.
     pub(super) fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
         match self.master.write(bytes) {
             Err(error) if error.kind() != io::ErrorKind::WouldBlock => Err(error),
@@ -77,13 +77,13 @@ impl Pty {
     }
 }
 
-/// A name that stays while the robot is unplugged and plugged in: what `/dev/serial/by-id` has for
-/// real ones. Removed at the end.
+/// A symbolic link whose name stays the same when the robot is unplugged and plugged in again, like
+/// those in `/dev/serial/by-id` for real robots. Removed when dropped.
 #[derive(Debug)]
 pub(super) struct StableName(PathBuf);
 
 impl StableName {
-    /// Claims a name that is free, or a link that a simulation left behind.
+    /// Claims a name that is free or a link left over from another simulation.
     pub(super) fn claim(path: &Path) -> io::Result<Self> {
         match fs::symlink_metadata(path) {
             Ok(found) if !found.file_type().is_symlink() => {
@@ -93,15 +93,15 @@ impl StableName {
         }
     }
 
-    /// Points it to a device.
+    /// Points the link to a device.
     pub(super) fn point_to(&self, device: &Path) -> io::Result<()> {
         self.remove();
         symlink(device, &self.0)
     }
 
-    /// The robot is unplugged.
+    /// Removes the link: the robot is unplugged.
     pub(super) fn remove(&self) {
-        // if it stays, it leads nowhere, and the next claim takes it
+        // if it stays, it leads nowhere, and the next simulation claims it
         let _ = fs::remove_file(&self.0);
     }
 }

@@ -1,4 +1,4 @@
-//! The simulated robot's life.
+//! The main loop of the simulated robot.
 
 use super::dice::Dice;
 use super::line::Noise;
@@ -19,49 +19,49 @@ use thiserror::Error;
 /// Longest time between two ticks of the device.
 const TICK: Duration = Duration::from_millis(5);
 
-/// Chance that a robot loses its power with the cable.
+/// Probability that the robot loses power when the cable is unplugged.
 const POWERED_BY_CABLE: f64 = 0.5;
 
-/// A simulated robot.
+/// Options of a simulated robot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SimOptions {
-    /// A name that stays through unpluggings; a link that is made and removed.
+    /// A stable name for the port: a symbolic link that the simulation creates and removes.
     pub name: Option<PathBuf>,
-    /// The side file of truth; see [`Truth`](super::Truth).
+    /// The truth file; see [`Truth`](super::Truth).
     pub truth: Option<PathBuf>,
-    /// The robot's memory of its counter; without one it begins blank.
+    /// File for the robot's counter; without one it starts at zero.
     pub memory: Option<PathBuf>,
-    /// How much faster than life everything moves.
+    /// Speed relative to real time.
     pub speed: f64,
-    /// What goes wrong.
+    /// Random faults.
     pub faults: Faults,
-    /// Key of all chance.
+    /// Seed of all random numbers.
     pub seed: u64,
 }
 
-/// What goes wrong by chance.
+/// Random faults.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Faults {
-    /// Share of bytes that are flipped, dropped or followed by another.
+    /// Fraction of bytes that are damaged, dropped or followed by a random byte.
     pub noise: f64,
-    /// Mean time between resets, s of the robot's time; `None`: never.
+    /// Mean time between resets, s in the robot's time; `None`: never.
     pub reset_every_s: Option<f64>,
-    /// Mean time between unpluggings, likewise.
+    /// Mean time between disconnections, likewise.
     pub unplug_every_s: Option<f64>,
-    /// Share of motions that never end.
+    /// Fraction of motions that never end.
     pub stuck: f64,
 }
 
-/// What goes wrong on demand.
+/// Commands to the simulation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Command {
-    /// The robot is reset.
+    /// Reset the robot.
     Reset,
-    /// The cable is pulled for so long, s of the robot's time.
+    /// Unplug the cable for this time, s in the robot's time.
     Unplug(f64),
-    /// The next motion never ends.
+    /// Make the next motion never end.
     Stick,
-    /// The simulation ends.
+    /// End the simulation.
     Quit,
 }
 
@@ -89,33 +89,33 @@ impl FromStr for Command {
     }
 }
 
-/// How long a cable is out, s.
+/// Default time for which the cable is unplugged, s.
 const UNPLUGGED_S: f64 = 2.0;
 
 /// Why a simulation ends.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SimError {
-    /// Something other than a link has the name.
-    #[error("{} exists and is no link of a simulated robot: choose another name", .0.display())]
+    /// The name belongs to something other than a symbolic link.
+    #[error("{} exists and is not a link of a simulated robot: choose another name", .0.display())]
     NameTaken(PathBuf),
-    /// The system refuses.
+    /// A system error.
     #[error("cannot {action}: {error}")]
     Io {
-        /// What was tried.
+        /// The failed action.
         action: String,
-        /// What the system said.
+        /// The system's error.
         error: io::Error,
     },
 }
 
-fn doing(action: impl Into<String>) -> impl FnOnce(io::Error) -> SimError {
+fn cannot(action: impl Into<String>) -> impl FnOnce(io::Error) -> SimError {
     let action = action.into();
     move |error| SimError::Io { action, error }
 }
 
-/// Lives a robot's life until it is told to quit or `ended` says so. `ready` is called once, with
-/// the path that a host opens.
+/// Simulates a robot until a command or `ended` ends it. `ready` is called once, with the path of
+/// the port for the host.
 ///
 /// # Errors
 /// [`SimError`]
@@ -131,11 +131,11 @@ pub fn simulate(
     while !ended() {
         match commands.try_recv() {
             Ok(Command::Quit) => break,
-            Ok(command) => robot.obey(command)?,
+            Ok(command) => robot.execute(command)?,
             Err(TryRecvError::Empty | TryRecvError::Disconnected) => {}
         }
-        robot.suffer()?;
-        robot.live()?;
+        robot.apply_faults()?;
+        robot.step()?;
     }
     Ok(())
 }
@@ -153,7 +153,7 @@ struct Robot {
     unplugs: Schedule,
 }
 
-/// Events that come by chance.
+/// The schedule of a random event.
 struct Schedule {
     mean: Option<Duration>,
     next: Option<Instant>,
@@ -174,7 +174,7 @@ impl Schedule {
         });
     }
 
-    /// Whether one is due; the next is drawn then.
+    /// Whether an event is due; if so, draws the time of the next.
     fn is_due(&mut self, dice: &mut Dice) -> bool {
         let due = self.next.is_some_and(|next| Instant::now() >= next);
         if due {
@@ -192,11 +192,11 @@ impl Robot {
             seed,
             ..
         } = *options;
-        let memory = Memory::new(options.memory.clone()).map_err(doing("read the memory"))?;
+        let memory = Memory::new(options.memory.clone()).map_err(cannot("read the memory"))?;
         let truth =
-            TruthFile::open(options.truth.as_deref()).map_err(doing("open the side file"))?;
+            TruthFile::open(options.truth.as_deref()).map_err(cannot("open the truth file"))?;
         let plant = Plant::new(experiment, memory, truth, speed, faults.stuck, seed);
-        let pty = Pty::open().map_err(doing("open a pseudo-terminal"))?;
+        let pty = Pty::open().map_err(cannot("open a pseudo-terminal"))?;
         let claimed = options
             .name
             .as_deref()
@@ -215,20 +215,20 @@ impl Robot {
             unplugs: Schedule::new(faults.unplug_every_s, speed, &mut dice),
             dice,
         };
-        robot.point()?;
+        robot.update_link()?;
         Ok(robot)
     }
 
-    fn point(&self) -> Result<(), SimError> {
+    fn update_link(&self) -> Result<(), SimError> {
         match &self.name {
             Some(name) => name
                 .point_to(self.pty.path())
-                .map_err(doing("make the link to the pseudo-terminal")),
+                .map_err(cannot("make the link to the pseudo-terminal")),
             None => Ok(()),
         }
     }
 
-    /// Wraps after 49 days, as a microcontroller's does.
+    /// Milliseconds since the start; wraps after 49 days, like a microcontroller's clock.
     #[allow(clippy::cast_possible_truncation)]
     fn now_ms(&self) -> u32 {
         self.origin.elapsed().as_millis() as u32
@@ -238,7 +238,7 @@ impl Robot {
         self.device.as_mut().expect("only a reset takes the device")
     }
 
-    fn obey(&mut self, command: Command) -> Result<(), SimError> {
+    fn execute(&mut self, command: Command) -> Result<(), SimError> {
         match command {
             Command::Reset => self.reset(),
             Command::Unplug(seconds) => self.unplug(seconds)?,
@@ -248,8 +248,8 @@ impl Robot {
         Ok(())
     }
 
-    /// What chance has in store.
-    fn suffer(&mut self) -> Result<(), SimError> {
+    /// Applies the random faults that are due.
+    fn apply_faults(&mut self) -> Result<(), SimError> {
         if self.resets.is_due(&mut self.dice) {
             self.reset();
         }
@@ -272,8 +272,8 @@ impl Robot {
         if let Some(name) = &self.name {
             name.remove();
         }
-        // the host's end hangs up when the last descriptor of this one closes
-        let next = Pty::open().map_err(doing("open a pseudo-terminal"))?;
+        // the host's end hangs up when the last descriptor of this end closes
+        let next = Pty::open().map_err(cannot("open a pseudo-terminal"))?;
         drop(std::mem::replace(&mut self.pty, next));
         let powered = !self.dice.chance(POWERED_BY_CABLE);
         let back = Instant::now() + Duration::from_secs_f64(seconds / self.speed);
@@ -287,37 +287,37 @@ impl Robot {
         if !powered {
             self.reset();
         }
-        self.point()
+        self.update_link()
     }
 
-    /// One turn: listen, answer, move.
-    fn live(&mut self) -> Result<(), SimError> {
+    /// One step: receives bytes, ticks the device and sends replies.
+    fn step(&mut self) -> Result<(), SimError> {
         let next = self.device().hardware().next_event();
         let wait = next.map_or(TICK, |at| at.saturating_duration_since(Instant::now()));
         let mut bytes = [0; 512];
         let count = self
             .pty
             .read(&mut bytes, wait.min(TICK))
-            .map_err(doing("read from the pseudo-terminal"))?;
+            .map_err(cannot("read from the pseudo-terminal"))?;
         let mut arrived = Vec::new();
         self.into.pass(&bytes[..count], &mut arrived);
         let now = self.now_ms();
         self.device().tick(now);
-        let mut answers = Vec::new();
+        let mut replies = Vec::new();
         for byte in arrived {
-            if let Some(answer) = self.device().receive(byte, now) {
-                answers.extend_from_slice(answer);
+            if let Some(reply) = self.device().receive(byte, now) {
+                replies.extend_from_slice(reply);
             }
         }
         let mut sent = Vec::new();
-        self.out.pass(&answers, &mut sent);
+        self.out.pass(&replies, &mut sent);
         if !sent.is_empty() {
             self.pty
                 .write(&sent)
-                .map_err(doing("write to the pseudo-terminal"))?;
+                .map_err(cannot("write to the pseudo-terminal"))?;
         }
         match self.device().hardware_mut().take_failure() {
-            Some(error) => Err(doing("write the side file")(error)),
+            Some(error) => Err(cannot("write the truth file")(error)),
             None => Ok(()),
         }
     }

@@ -1,5 +1,5 @@
-//! What really happened: a side file of the simulated robot that no host ever sees. The simulated
-//! camera looks at it in place of a coin, and tests compare it with the journal.
+//! The truth file: a log of every release by the simulated robot, hidden from the host. The
+//! simulated camera reads it instead of a coin, and tests compare it with the journal.
 
 use crate::Face;
 use serde::{Deserialize, Serialize};
@@ -7,16 +7,16 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
-/// One release of the coin: every line of the file.
+/// One release of the coin: a line of the file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Truth {
-    /// The throw it was released for.
+    /// The throw.
     pub throw_id: u32,
-    /// Spin, thousandths of a turn a second.
+    /// Spin, 1/1000 rev/s.
     pub spin_mrev_s: u16,
-    /// Start angle, hundredths of a degree.
+    /// Start angle, 1/100 degree.
     pub angle_cdeg: u16,
-    /// How it came to lie; `None` if the engine did not decide.
+    /// Face on which it landed; `None` if undecided.
     pub face: Option<String>,
 }
 
@@ -24,7 +24,7 @@ pub struct Truth {
 const LONGEST: u64 = 512;
 
 impl Truth {
-    /// The face, if it is one.
+    /// The face, if its name is valid.
     pub fn face(&self) -> Option<Face> {
         let name = self.face.as_deref()?;
         Face::ALL.into_iter().find(|face| face.name() == name)
@@ -54,7 +54,7 @@ impl TruthFile {
 /// The last release in the file; `None` before the first.
 ///
 /// # Errors
-/// Those of the system, and a last line that is none of ours.
+/// System errors, and an invalid last line.
 pub fn last_truth(path: &Path) -> io::Result<Option<Truth>> {
     let mut file = match File::open(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
@@ -64,7 +64,7 @@ pub fn last_truth(path: &Path) -> io::Result<Option<Truth>> {
     file.seek(SeekFrom::Start(length.saturating_sub(LONGEST)))?;
     let mut text = String::new();
     file.take(LONGEST).read_to_string(&mut text)?;
-    // what has no end yet is still being written
+    // a line without its end is still being written
     let whole = text.rfind('\n').map_or("", |end| &text[..end]);
     let last = whole.lines().next_back();
     Ok(last.map(serde_json::from_str).transpose()?)
@@ -73,7 +73,7 @@ pub fn last_truth(path: &Path) -> io::Result<Option<Truth>> {
 /// All releases in the file.
 ///
 /// # Errors
-/// Those of the system, and any line that is none of ours.
+/// System errors, and any invalid line.
 pub fn read_truths(path: &Path) -> io::Result<Vec<Truth>> {
     let lines = BufReader::new(File::open(path)?).lines();
     lines

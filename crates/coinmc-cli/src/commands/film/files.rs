@@ -1,4 +1,4 @@
-//! Files in and out: what their columns mean, bounded reading, new files only.
+//! Input and output files: meaning of columns, bounded reading, new files only.
 
 use crate::exit::Failure;
 use anyhow::anyhow;
@@ -8,7 +8,7 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
-/// Which columns mean what.
+/// Meaning and units of the columns.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Columns")]
 pub(super) struct Columns {
@@ -24,12 +24,13 @@ pub(super) struct Columns {
     #[arg(long, value_name = "NAME")]
     angle: Option<String>,
 
-    /// Two tracks instead, points of the coin equally far from its centre on either side: FIRST,SECOND
+    /// Two tracks instead, points of the coin at equal distances on either side of its centre:
+    /// FIRST,SECOND
     #[arg(long, value_name = "TRACK,TRACK", value_parser = two_tracks)]
     #[arg(conflicts_with_all = ["x", "y", "angle"])]
     ends: Option<(String, String)>,
 
-    /// What the angle is the direction of
+    /// The direction that the angle measures
     #[arg(long, value_enum, default_value_t = Direction::Face)]
     angle_of: Direction,
 
@@ -44,11 +45,11 @@ pub(super) struct Columns {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Direction {
-    /// Of a line along the heads face, anticlockwise from the right: 0 lies heads up
+    /// That of a line along the heads face, anticlockwise from the right: 0 lies heads up
     Face,
-    /// Of the axis out of the heads face, anticlockwise from the right
+    /// That of the axis outwards from the heads face, anticlockwise from the right
     Axis,
-    /// Of that axis, clockwise from the vertical, as coinmc has θ
+    /// That of the axis, clockwise from the vertical: coinmc's θ
     Tilt,
 }
 
@@ -95,7 +96,7 @@ impl Columns {
         }
     }
 
-    /// Reads every file, or says what is wrong with all of them.
+    /// Reads all files, or reports the problems of all of them.
     pub(super) fn read(&self, paths: &[PathBuf]) -> Result<Vec<Footage>, Failure> {
         let choice = self.choice();
         let mut footage = Vec::new();
@@ -129,7 +130,7 @@ fn read(path: &Path, choice: &Choice) -> Result<Footage, Diagnostics> {
     text::read(&name, &bytes, choice)
 }
 
-/// One byte more than allowed at most, so that too long a file is seen and never held.
+/// Reads at most one byte more than allowed, which shows that a file is too long.
 fn bytes(path: &Path) -> io::Result<Vec<u8>> {
     let file = File::open(path)?;
     if file.metadata()?.is_dir() {
@@ -140,13 +141,13 @@ fn bytes(path: &Path) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Writes a file that is not there yet.
+/// Writes a new file.
 pub(super) fn write_new(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let failed = |error: io::Error| {
         let path = path.display();
         match error.kind() {
             ErrorKind::AlreadyExists => Failure::Input(anyhow!(
-                "{path} is there already and is not overwritten: remove it or choose another name"
+                "{path} exists already and is not overwritten: remove it or choose another name"
             )),
             _ => Failure::Runtime(anyhow!("cannot write {path}: {error}")),
         }
@@ -159,13 +160,13 @@ pub(super) fn write_new(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     file.write_all(bytes).map_err(failed)
 }
 
-/// Refuses before the work what could not be written after it.
-pub(super) fn must_be_new<'a>(paths: impl IntoIterator<Item = &'a PathBuf>) -> Result<(), Failure> {
+/// Rejects existing output files before the work begins.
+pub(super) fn check_new<'a>(paths: impl IntoIterator<Item = &'a PathBuf>) -> Result<(), Failure> {
     let mut seen: Vec<&PathBuf> = Vec::new();
     for path in paths {
         if path.exists() || seen.contains(&path) {
             return Err(Failure::Input(anyhow!(
-                "{} is there already and is not overwritten: remove it or choose another name",
+                "{} exists already and is not overwritten: remove it or choose another name",
                 path.display()
             )));
         }
@@ -179,6 +180,6 @@ fn two_tracks(text: &str) -> Result<(String, String), String> {
         Some((first, second)) if !first.trim().is_empty() && !second.trim().is_empty() => {
             Ok((first.trim().to_owned(), second.trim().to_owned()))
         }
-        _ => Err("give two tracks with a comma between: A,B".to_owned()),
+        _ => Err("give two tracks separated by a comma: A,B".to_owned()),
     }
 }

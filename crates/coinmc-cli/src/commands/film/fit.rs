@@ -1,6 +1,6 @@
-//! `coinmc film fit`: laws fitted to drops.
+//! `coinmc film fit`: fitting laws to drops.
 
-use super::files::{Columns, must_be_new, write_new};
+use super::files::{Columns, check_new, write_new};
 use super::law::LawName;
 use super::report;
 use super::scene::SceneArguments;
@@ -13,13 +13,13 @@ use coinmc_film::{
 };
 use std::path::PathBuf;
 
-/// Fit laws of impact to filmed drops, and say which describes them best
+/// Fit impact laws to filmed drops and rank them
 ///
-/// All drops share restitution and friction; each has its own first state. Intervals and criteria
+/// All drops share restitution and friction; each has its own initial state. Intervals and criteria
 /// are explained in docs/guide/film.md.
 #[derive(Debug, Args)]
 pub(super) struct Fit {
-    /// Files of text that Tracker exported, one drop each
+    /// Text files exported by Tracker, one drop each
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
 
@@ -29,26 +29,26 @@ pub(super) struct Fit {
     #[command(flatten)]
     columns: Columns,
 
-    /// Laws to fit; several with commas [default: moreau,chatterjee-ruina]
+    /// Laws to fit, separated by commas [default: moreau,chatterjee-ruina]
     #[arg(long = "law", value_enum, value_name = "NAME", value_delimiter = ',')]
     #[arg(help_heading = "Fit")]
     laws: Vec<LawName>,
 
-    /// Parameters to fit, of laws that have them; several with commas
+    /// Parameters to fit, if a law has them, separated by commas
     #[arg(long = "fit", value_enum, value_name = "NAME", value_delimiter = ',')]
     #[arg(default_values_t = [Name::Restitution, Name::Friction, Name::Eta], help_heading = "Fit")]
     free: Vec<Name>,
 
-    /// The film counts up to the bounce after this many
+    /// Number of bounces to fit: frames count up to the next bounce after these
     #[arg(long, value_name = "N", default_value_t = 2, help_heading = "Fit")]
     #[arg(value_parser = clap::value_parser!(u8).range(1..=20))]
     bounces: u8,
 
-    /// And no longer than this after its first frame, s
+    /// Greatest time since the first frame to fit, s
     #[arg(long, value_name = "S", help_heading = "Fit")]
     until: Option<f64>,
 
-    /// What residuals cost
+    /// Loss of the residuals
     #[arg(long, value_enum, default_value_t = LossName::Square, help_heading = "Fit")]
     loss: LossName,
 
@@ -56,15 +56,15 @@ pub(super) struct Fit {
     #[arg(long, value_name = "P", default_value_t = 0.95, help_heading = "Fit")]
     confidence: f64,
 
-    /// New file to write the fit to, as JSON
+    /// New file for the fit, as JSON
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
 
-    /// New file to write the residuals to: .csv of all laws, .svg of the best; repeatable
+    /// New file for the residuals: .csv of all laws, .svg of the best; repeatable
     #[arg(long, value_name = "FILE")]
     residuals: Vec<PathBuf>,
 
-    /// How to write the result
+    /// Format of the result
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 }
@@ -75,11 +75,11 @@ enum Name {
     Friction,
     /// η of Gaek & Sukhov's law
     Eta,
-    /// Length of the half sine
+    /// Duration of the half sine
     Time,
-    /// Height of the half sine, where --peak-n gives one
+    /// Peak of the half sine, if --peak-n gives one
     Peak,
-    /// Stiffness of the contact, over that of its materials
+    /// Stiffness of the contact relative to that of its materials
     Stiffness,
     /// Height of the surface in the film
     Floor,
@@ -89,7 +89,7 @@ enum Name {
 enum LossName {
     /// Squares, for normal noise
     Square,
-    /// Huber's, where points may be marked wrongly
+    /// Huber's, for films with outliers
     Huber,
 }
 
@@ -107,7 +107,7 @@ impl Fit {
                 )));
             }
         }
-        must_be_new(self.out.iter().chain(&self.residuals))?;
+        check_new(self.out.iter().chain(&self.residuals))?;
         let (models, options) = self.task()?;
         let footage = self.columns.read(&self.files)?;
         let drops: Vec<_> = footage.into_iter().map(|footage| footage.drop).collect();
@@ -125,7 +125,7 @@ impl Fit {
     fn task(&self) -> Result<(Vec<Model>, Options), Failure> {
         let mut laws: Vec<LawName> = Vec::new();
         let asked = if self.laws.is_empty() {
-            &LawName::USUAL[..]
+            &LawName::DEFAULT[..]
         } else {
             &self.laws
         };

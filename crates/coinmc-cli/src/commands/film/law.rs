@@ -1,4 +1,4 @@
-//! The laws of impact, with the numbers of their own.
+//! Impact laws with their parameters.
 
 use clap::{Args, ValueEnum};
 use coinmc::plan::EngineChoice;
@@ -10,43 +10,43 @@ const COIN_YOUNG_PA: f64 = 3e9;
 const SURFACE_YOUNG_PA: f64 = 1e10;
 const POISSON: f64 = 0.35;
 
-/// A law by its name.
+/// The name of a law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum LawName {
-    /// Newton's restitution, Coulomb friction against the final slip
+    /// Newton's restitution, Coulomb friction opposing the final slip
     Moreau,
-    /// Chatterjee and Ruina's, tangential restitution 0
+    /// Chatterjee and Ruina's law with tangential restitution 0
     ChatterjeeRuina,
-    /// Gaek and Sukhov's: restitution is √k, no friction, and --eta
+    /// Gaek and Sukhov's law: restitution √k, no friction, and --eta
     GaekSukhov,
-    /// A force that is half a sine in time: --pulse-s, --peak-n
+    /// A half-sine force pulse: --pulse-s, --peak-n
     HalfSine,
     /// Elastic line contact resolved in time: --coin-young-pa, --surface-young-pa. Takes minutes
     LineContact,
 }
 
 impl LawName {
-    /// Those that are fitted where none is named: two that need nothing but e and μ.
-    pub(super) const USUAL: [Self; 2] = [Self::Moreau, Self::ChatterjeeRuina];
+    /// The laws fitted by default: two that need only e and μ.
+    pub(super) const DEFAULT: [Self; 2] = [Self::Moreau, Self::ChatterjeeRuina];
 }
 
-/// The numbers of the laws that have some.
+/// Parameters of the laws that have some.
 #[derive(Debug, Args)]
-#[command(next_help_heading = "Numbers of the laws")]
+#[command(next_help_heading = "Parameters of the laws")]
 pub(super) struct LawArguments {
-    /// η of Gaek & Sukhov's law, N s: where its search begins, if fitted [default: 0.001]
+    /// η of Gaek & Sukhov's law, N s; the initial value if it is fitted [default: 0.001]
     #[arg(long, value_name = "NS")]
     eta: Option<f64>,
 
-    /// Its lever [default: height]
+    /// Lever of Gaek & Sukhov's law [default: height]
     #[arg(long, value_enum, value_name = "NAME")]
     lever: Option<LeverName>,
 
-    /// How long the half sine lasts, s [default: 0.001]
+    /// Duration of the half sine, s [default: 0.001]
     #[arg(long, value_name = "S")]
     pulse_s: Option<f64>,
 
-    /// Its height, N [default: what restitution asks for]
+    /// Peak of the half sine, N [default: determined by the restitution]
     #[arg(long, value_name = "N")]
     peak_n: Option<f64>,
 
@@ -65,13 +65,13 @@ enum LeverName {
     Height,
     /// 2R cos θ
     Diameter,
-    /// That of the corner that touches
+    /// That of the touching corner
     Corner,
 }
 
 impl LawArguments {
-    /// The law of this name: its numbers from the arguments, else from a config that has the same
-    /// law, else the usual ones.
+    /// The law of this name, with its parameters from the arguments, or from a config with the same
+    /// law, or else the default ones.
     pub(super) fn law(&self, name: LawName, coin: &Coin, configured: Option<EngineChoice>) -> Law {
         let configured = match configured {
             Some(EngineChoice::Flat(settings)) => Some(settings.law),

@@ -1,4 +1,4 @@
-//! `coinmc film`: drops on film.
+//! `coinmc film`: filmed drops.
 
 mod files;
 mod fit;
@@ -17,15 +17,15 @@ use synthesise::Synthesise;
 
 const EXAMPLES: &str = "\
 Examples:
-  coinmc film read examples/drop-film.txt                      what was understood of a file
+  coinmc film read examples/drop-film.txt                      show how a file is interpreted
   coinmc film fit examples/drop-film.txt --ratio 1 --radius-m 0.01
   coinmc film fit a.txt b.txt --config toss.toml --law moreau,chatterjee-ruina -o fit.json
   coinmc film synthesise drop.txt --ratio 1 --radius-m 0.01    a drop filmed in the computer";
 
-/// Fit the laws of impact to coins that were filmed
+/// Fit impact laws to filmed coins
 ///
 /// Reads the text that Tracker (Open Source Physics) exports: a time, x and y of the coin's centre
-/// and an angle, frame by frame. docs/guide/film.md leads from a video to a fitted law.
+/// and an angle for each frame. docs/guide/film.md leads from a video to a fitted law.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, arg_required_else_help = true)]
 pub(crate) struct Film {
@@ -33,7 +33,7 @@ pub(crate) struct Film {
     verb: Verb,
 }
 
-/// Each verb is described where its arguments are.
+/// The help of each verb is with its arguments.
 #[derive(Debug, Subcommand)]
 enum Verb {
     Read(Read),

@@ -1,4 +1,4 @@
-//! `coinmc film read`: what was understood of a file.
+//! `coinmc film read`: the interpretation of a file.
 
 use super::files::Columns;
 use crate::exit::{Failure, Outcome};
@@ -9,17 +9,17 @@ use coinmc_film::text::Footage;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// Show what is understood of Tracker's files
+/// Show how Tracker's files are interpreted
 #[derive(Debug, Args)]
 pub(super) struct Read {
-    /// Files of text that Tracker exported
+    /// Text files exported by Tracker
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
 
     #[command(flatten)]
     columns: Columns,
 
-    /// How to write the result
+    /// Format of the result
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 }
@@ -68,7 +68,7 @@ fn to_text(footage: &Footage) -> String {
         "point"
     };
     let mut text = format!(
-        "{}: {} frames, {first:.3} to {last:.3} s, {:.1} a second\n  {}, {} between cells, decimal {mark}\n  \
+        "{}: {} frames, {first:.3} to {last:.3} s, {:.1} frames/s\n  {}, {} between cells, decimal {mark}\n  \
          columns {}\n  read {}\n",
         footage.drop.name,
         footage.drop.frames.len(),

@@ -6,7 +6,7 @@ use crate::terminal::{Colors, Style, decimals_for};
 use coinmc_film::{Coordinate, Estimated, Fit, Ranked, compare, parameters};
 use serde_json::{Map, Value, json};
 
-/// For people: the laws in order, then the best one in detail.
+/// The text report: the ranking of the laws, then the best one in detail.
 pub(super) fn to_text(fits: &[Fit], style: &Style) -> String {
     let ranking = compare(fits);
     let mut text = String::new();
@@ -82,7 +82,7 @@ fn one(fit: &Fit, style: &Style) -> String {
     text
 }
 
-/// `0.5012 (0.4998 to 0.5027)`, or what there is of it.
+/// `0.5012 (0.4998 to 0.5027)`, or the known end of the interval.
 fn value(estimate: &Estimated) -> String {
     let ends = [estimate.lo, estimate.hi].into_iter().flatten();
     let arm = ends
@@ -100,7 +100,7 @@ fn value(estimate: &Estimated) -> String {
     }
 }
 
-/// For programs: every fit, the best first.
+/// The JSON report: all fits, the best first.
 pub(super) fn to_json(fits: &[Fit]) -> Value {
     let ranking = compare(fits);
     json!({

@@ -1,4 +1,4 @@
-//! What was dropped, and the values that are not fitted.
+//! The coin, and the parameters that are not fitted.
 
 use super::law::{LawArguments, LawName};
 use crate::exit::Failure;
@@ -9,11 +9,11 @@ use coinmc_core::{Coin, Scene};
 use coinmc_film::{Model, Options, Shared};
 use std::path::PathBuf;
 
-/// The coin, and where the parameters start or stay.
+/// The coin, and initial or fixed values of the parameters.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Coin and surface")]
 pub(super) struct SceneArguments {
-    /// A config: its first point says coin, gravity, restitution and friction
+    /// A config whose first point gives coin, gravity, restitution and friction
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
 
@@ -25,7 +25,7 @@ pub(super) struct SceneArguments {
     #[arg(long, value_name = "M", required_unless_present = "config")]
     radius_m: Option<f64>,
 
-    /// Mass of the coin, kg: for laws that name forces [default: 0.01]
+    /// Mass of the coin, kg, for laws that involve forces [default: 0.01]
     #[arg(long, value_name = "KG")]
     mass_kg: Option<f64>,
 
@@ -33,15 +33,15 @@ pub(super) struct SceneArguments {
     #[arg(long, value_name = "M/S2")]
     gravity: Option<f64>,
 
-    /// Restitution, where it is not fitted [default: 0.5]
+    /// Restitution, if it is not fitted [default: 0.5]
     #[arg(long, value_name = "E")]
     restitution: Option<f64>,
 
-    /// Friction, where it is not fitted [default: 0.3]
+    /// Friction, if it is not fitted [default: 0.3]
     #[arg(long, value_name = "MU")]
     friction: Option<f64>,
 
-    /// Height of the surface in the film, m, where it is not fitted
+    /// Height of the surface in the film, m, if it is not fitted
     #[arg(
         long,
         value_name = "M",
@@ -77,8 +77,8 @@ impl SceneArguments {
         let law = self.laws.law(name, &coin, point.map(|point| point.engine));
         let usual = Options::default().shared;
         let surface = scene.map(|scene| scene.surface);
-        let given = |told: Option<f64>, in_config: Option<f64>, usual: f64| {
-            told.or(in_config).unwrap_or(usual)
+        let given = |argument: Option<f64>, in_config: Option<f64>, usual: f64| {
+            argument.or(in_config).unwrap_or(usual)
         };
         let shared = Shared {
             restitution: given(

@@ -1,6 +1,6 @@
-//! `coinmc film synthesise`: a drop filmed in the computer, in Tracker's text.
+//! `coinmc film synthesise`: a simulated film, in Tracker's text format.
 
-use super::files::{Direction, must_be_new, write_new};
+use super::files::{Direction, check_new, write_new};
 use super::law::LawName;
 use super::scene::SceneArguments;
 use crate::exit::{Failure, Outcome};
@@ -14,27 +14,27 @@ use std::path::PathBuf;
 
 /// Write the film of a simulated drop, as Tracker would export it
 ///
-/// To try reading and fitting with, and to plan an experiment: how well would such a film fix the
-/// parameters? The truth is what the arguments say.
+/// For trying `read` and `fit`, and for planning an experiment: how well would such a film
+/// determine the parameters? The arguments are the true values.
 #[derive(Debug, Args)]
 pub(super) struct Synthesise {
-    /// New file to write
+    /// The new file
     #[arg(value_name = "FILE")]
     file: PathBuf,
 
     #[command(flatten)]
     scene: SceneArguments,
 
-    /// The law of impact
+    /// The impact law
     #[arg(long, value_enum, value_name = "NAME", default_value_t = LawName::Moreau)]
     law: LawName,
 
-    /// First state: x, x', z, z', θ, θ' in m, m/s, m, m/s, degrees, degrees/s
+    /// Initial state: x, x', z, z', θ, θ' in m, m/s, m, m/s, degrees, degrees/s
     #[arg(long, value_name = "NUMBERS", num_args = 6, value_delimiter = ',')]
     #[arg(default_values_t = [0.0, 0.1, 0.2, 0.0, 23.0, 170.0], allow_negative_numbers = true)]
     start: Vec<f64>,
 
-    /// Frames a second
+    /// Frame rate, 1/s
     #[arg(long, value_name = "HZ", default_value_t = 240.0)]
     rate: f64,
 
@@ -50,27 +50,27 @@ pub(super) struct Synthesise {
     #[arg(long, value_name = "DEG", default_value_t = 0.5)]
     noise_deg: f64,
 
-    /// Share of points that are not marked
+    /// Fraction of unmarked points
     #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
     missing: f64,
 
-    /// Key of the noise
+    /// Seed of the noise
     #[arg(long, default_value_t = 1)]
     seed: u64,
 
-    /// What the angle is the direction of
+    /// The direction that the angle measures
     #[arg(long, value_enum, default_value_t = Direction::Face)]
     angle_of: Direction,
 
-    /// Between cells
+    /// Separator between cells
     #[arg(long, value_enum, default_value_t = Between::Tab)]
     delimiter: Between,
 
-    /// Write decimals behind a comma
+    /// Write a comma as the decimal mark
     #[arg(long)]
     decimal_comma: bool,
 
-    /// How to write the result
+    /// Format of the result
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 }
@@ -88,7 +88,7 @@ impl Synthesise {
     }
 
     pub(super) fn execute(&self, _: &Console) -> Result<Outcome, Failure> {
-        must_be_new([&self.file])?;
+        check_new([&self.file])?;
         self.check()?;
         let (model, shared) = self.scene.model(self.law)?;
         let mut start = [0.0; 6];
@@ -105,7 +105,7 @@ impl Synthesise {
             missing: self.missing,
         };
         let drop = film.film(&model).ok_or_else(|| {
-            Failure::Input(anyhow!("such a drop cannot be followed: check --start"))
+            Failure::Input(anyhow!("such a drop cannot be simulated: check --start"))
         })?;
         let dialect = Dialect {
             delimiter: match self.delimiter {
@@ -151,7 +151,7 @@ impl Synthesise {
             return refuse("--missing must lie from 0 to below 1");
         }
         if self.delimiter == Between::Comma && self.decimal_comma {
-            return refuse("commas between cells and decimal commas cannot be told apart");
+            return refuse("commas between cells and decimal commas cannot be distinguished");
         }
         Ok(())
     }

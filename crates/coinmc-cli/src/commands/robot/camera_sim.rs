@@ -1,39 +1,39 @@
 //! `coinmc robot camera-sim`: the camera of the simulated robot.
 
-use super::sim::share;
+use super::sim::fraction;
 use crate::exit::{Failure, Outcome};
 use clap::Args;
 use coinmc_robot::camera::{CameraFaults, simulate_camera};
 use std::io;
 use std::path::PathBuf;
 
-/// Be the camera of a simulated robot: JSON lines on standard input and output
+/// Simulate the camera of a simulated robot: JSON lines on standard input and output
 ///
-/// For `--camera` of `coinmc robot run`. It photographs what the simulated robot's side file says,
-/// and can be told to fail.
+/// For `--camera` of `coinmc robot run`. It photographs the coin described in the simulated robot's
+/// truth file, with random faults on demand.
 #[derive(Debug, Args)]
 pub(super) struct CameraSim {
-    /// The side file that `coinmc robot sim --truth` writes
+    /// The truth file that `coinmc robot sim --truth` writes
     #[arg(long, value_name = "FILE")]
     truth: PathBuf,
 
-    /// Share of photos in which another face is read
-    #[arg(long, value_name = "SHARE", default_value_t = 0.0, value_parser = share)]
+    /// Fraction of photos in which a wrong face is read
+    #[arg(long, value_name = "FRACTION", default_value_t = 0.0, value_parser = fraction)]
     misread: f64,
 
-    /// Share of photos in which no face is read
-    #[arg(long, value_name = "SHARE", default_value_t = 0.0, value_parser = share)]
+    /// Fraction of photos in which no face is read
+    #[arg(long, value_name = "FRACTION", default_value_t = 0.0, value_parser = fraction)]
     unread: f64,
 
-    /// Share of photos at which the program hangs
-    #[arg(long, value_name = "SHARE", default_value_t = 0.0, value_parser = share)]
+    /// Fraction of photos at which the program hangs
+    #[arg(long, value_name = "FRACTION", default_value_t = 0.0, value_parser = fraction)]
     hang: f64,
 
-    /// Share of photos at which the program ends
-    #[arg(long, value_name = "SHARE", default_value_t = 0.0, value_parser = share)]
+    /// Fraction of photos at which the program ends
+    #[arg(long, value_name = "FRACTION", default_value_t = 0.0, value_parser = fraction)]
     die: f64,
 
-    /// Key of all chance
+    /// Seed of all random numbers
     #[arg(long, default_value_t = 1)]
     seed: u64,
 }

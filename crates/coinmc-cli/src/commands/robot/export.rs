@@ -15,16 +15,16 @@ use std::path::{Path, PathBuf};
 
 /// Write the throws and the results of an experiment as CSV and Parquet
 ///
-/// throws.csv and throws.parquet have a row a throw; results.csv and results.parquet are the table
-/// that `coinmc run` writes, so that experiment and simulation go into one plot. The journal is only
-/// read: the experiment may go on meanwhile.
+/// throws.csv and throws.parquet have one row per throw; results.csv and results.parquet are tables
+/// like those of `coinmc run`, so that experiment and simulation fit into one plot. The journal is
+/// only read: the experiment can continue meanwhile.
 #[derive(Debug, Args)]
 pub(super) struct Export {
     /// Directory of the experiment
     #[arg(value_name = "DIR")]
     directory: PathBuf,
 
-    /// Where the tables go [default: DIR/export, whose tables are written anew]
+    /// Directory for the tables [default: DIR/export, whose tables are replaced]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
@@ -38,7 +38,7 @@ impl Export {
             .unwrap_or_else(|| self.directory.join("export"));
         if self.out.is_some() && out.exists() {
             return Err(Failure::Input(anyhow!(
-                "{} exists: give a new directory, or none to write the tables of {} anew",
+                "{} exists: give a new directory, or none to replace the tables in {}",
                 out.display(),
                 self.directory.display()
             )));
@@ -66,7 +66,7 @@ impl Export {
     }
 }
 
-/// The experiment in a directory, and its journal; a run may be going on.
+/// The experiment in a directory and its journal, even while it is running.
 pub(super) fn read(path: &Path) -> Result<(Experiment, History), Failure> {
     let directory = Directory::at(path);
     let experiment = directory.experiment().map_err(failure)?;
@@ -81,7 +81,7 @@ pub(super) fn read(path: &Path) -> Result<(Experiment, History), Failure> {
     Ok((experiment, history))
 }
 
-/// Writes a table that is there as a whole or not at all.
+/// Writes a table atomically.
 fn write(
     folder: &Path,
     name: &str,

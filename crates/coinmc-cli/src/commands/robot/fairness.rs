@@ -1,4 +1,4 @@
-//! `coinmc robot fairness`: is the robot fair, and how sure is that.
+//! `coinmc robot fairness`: is the robot fair?
 
 use super::export::read;
 use crate::exit::{Failure, Outcome};
@@ -14,10 +14,10 @@ use std::path::PathBuf;
 const EXAMPLES: &str = "\
 Examples:
   coinmc robot fairness day
-  coinmc robot fairness --counts 170,160,171,158,172,169     a die, read by hand
+  coinmc robot fairness --counts 170,160,171,158,172,169     a die, counted by hand
 
-`reveals` is the smallest bias that as many throws reveal with a probability of 80 % and 95 %: what a
-test that found nothing can be trusted to have ruled out.";
+`reveals` is the smallest bias that this number of throws detects with a probability of 80 % and 95 %:
+a test that finds nothing rules out larger biases.";
 
 /// Check the robot: a fair coin, a fair die, uniform spins and angles; exact tests with their power
 #[derive(Debug, Args)]
@@ -35,11 +35,11 @@ pub(super) struct Fairness {
     #[arg(long, requires = "directory")]
     die: bool,
 
-    /// How often each face of a die showed, in place of an experiment
+    /// Counts of each face of a die, instead of an experiment
     #[arg(long, value_name = "N,N,…", value_delimiter = ',')]
     counts: Option<Vec<u64>>,
 
-    /// How to write the report
+    /// Format of the report
     #[arg(long, value_enum, default_value_t = Format::Table)]
     pub(super) format: Format,
 }
@@ -73,13 +73,13 @@ impl Fairness {
 
 /// Checks of counts that were given on the command line.
 fn die(counts: &[u64]) -> Result<Vec<Check>, Failure> {
-    const MOST: u64 = 1_000_000_000;
+    const MAX: u64 = 1_000_000_000;
     let sum = counts.iter().try_fold(0, |sum: u64, n| sum.checked_add(*n));
-    if (2..=100).contains(&counts.len()) && sum.is_some_and(|sum| (1..=MOST).contains(&sum)) {
+    if (2..=100).contains(&counts.len()) && sum.is_some_and(|sum| (1..=MAX).contains(&sum)) {
         Ok(die_check(counts))
     } else {
         Err(Failure::Input(anyhow!(
-            "--counts takes a count for each of 2 to 100 faces, of 1 to {MOST} throws together"
+            "--counts takes one count per face, for 2 to 100 faces and 1 to {MAX} throws in total"
         )))
     }
 }
@@ -87,8 +87,8 @@ fn die(counts: &[u64]) -> Result<Vec<Check>, Failure> {
 fn remarks(report: &FairnessReport) -> Vec<String> {
     let share = &report.void_share;
     let mut remarks = vec![format!(
-        "{} throws with a result, {} void ({:.2} %, at most {:.2} %): void throws may hide a bias \
-         as large as their share",
+        "{} throws with a result, {} void ({:.2} %, at most {:.2} %): void throws can hide a bias \
+         as large as their fraction",
         grouped(report.done),
         grouped(report.voids),
         100.0 * share.value,
@@ -139,7 +139,7 @@ fn table(checks: &[Check], remarks: &[String], style: &Style) -> String {
     let starred = checks.iter().filter(|c| c.p_value <= SIGNIFICANCE).count();
     text += &match starred {
         0 => format!(
-            "No check found a bias at the {:.0} % level; smaller ones than `reveals` may be there.\n",
+            "No check found a bias at the {:.0} % level; there may be biases smaller than `reveals`.\n",
             100.0 * SIGNIFICANCE
         ),
         _ => format!(
@@ -153,7 +153,7 @@ fn table(checks: &[Check], remarks: &[String], style: &Style) -> String {
     text
 }
 
-/// A bias that so many throws reveal, if there is one.
+/// The detectable bias, if there is one.
 fn bias(shift: f64, style: &Style) -> String {
     if shift.is_finite() {
         format!("{}{shift:.4}", style.plus_minus())

@@ -1,11 +1,11 @@
 //! `coinmc robot …`: the coin-tossing robot, real or simulated.
 
-mod ask;
 mod camera_sim;
 mod export;
 mod fairness;
-mod live;
 mod ports;
+mod progress_line;
+mod query;
 mod run;
 mod sim;
 mod throw;
@@ -20,14 +20,14 @@ use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
-  coinmc robot ports                              which serial ports there are
-  coinmc robot throw --spin 3.2 --angle 90        one throw, outside any experiment
+  coinmc robot ports                              list the serial ports
+  coinmc robot throw --spin 3.2 --angle 90        throw once, outside any experiment
   coinmc robot run examples/robot.toml --out day --camera 'my-camera --usb 0'
-  coinmc robot resume day                         go on after whatever happened
-  coinmc robot export day                         throws and results as CSV and Parquet
-  coinmc robot fairness day                       is the robot fair, and how sure is that
+  coinmc robot resume day                         continue after any interruption
+  coinmc robot export day                         write throws and results as CSV and Parquet
+  coinmc robot fairness day                       test whether the robot is fair
 
-A simulated robot to try it with: see `coinmc robot sim --help`, and docs/guide/robot.md.";
+To try it with a simulated robot, see `coinmc robot sim --help` and docs/guide/robot.md.";
 
 /// Throw real coins: run the coin-tossing robot, or a simulated one
 #[derive(Debug, Args)]
@@ -37,13 +37,13 @@ pub(crate) struct Robot {
     command: Command,
 }
 
-/// Each is described where its arguments are.
+/// The help of each is with its arguments.
 #[derive(Debug, Subcommand)]
 enum Command {
     Ports(ports::Ports),
-    Info(ask::Info),
-    Status(ask::Status),
-    Home(ask::Home),
+    Info(query::Info),
+    Status(query::Status),
+    Home(query::Home),
     Throw(throw::Throw),
     Run(run::Run),
     Resume(run::Resume),
@@ -57,8 +57,8 @@ impl Robot {
     pub(crate) fn format(&self) -> Format {
         match &self.command {
             Command::Ports(ports) => ports.format,
-            Command::Info(info) => info.at.format,
-            Command::Status(status) => status.at.format,
+            Command::Info(info) => info.target.format,
+            Command::Status(status) => status.target.format,
             Command::Run(run) => run.session.format,
             Command::Resume(resume) => resume.session.format,
             Command::Fairness(fairness) => fairness.format,
@@ -87,7 +87,7 @@ impl Robot {
     }
 }
 
-/// Which robot.
+/// The robot's port.
 #[derive(Debug, Args)]
 struct PortArgument {
     /// The robot's serial port [default: the only one with a stable name]
@@ -96,7 +96,7 @@ struct PortArgument {
 }
 
 impl PortArgument {
-    /// The port that was named, or the only one that can be meant.
+    /// The port that was given, or the only one with a stable name.
     fn port(&self) -> Result<PathBuf, Failure> {
         if let Some(port) = &self.port {
             return Ok(port.clone());
@@ -110,14 +110,14 @@ impl PortArgument {
                  (`coinmc robot ports` lists all), or start `coinmc robot sim`"
             ))),
             _ => Err(Failure::Input(anyhow!(
-                "several serial ports are there: say which one with --port (`coinmc robot ports` \
-                 lists them)"
+                "there are several serial ports with stable names: choose one with --port (`coinmc \
+                 robot ports` lists them)"
             ))),
         }
     }
 }
 
-/// What a person gave wrongly is input; what a machine did is not.
+/// Classifies an error: wrong input by the user, or a failure at run time.
 fn failure(error: impl Into<anyhow::Error>) -> Failure {
     use coinmc_robot::cycle::Halt;
     use coinmc_robot::journal::JournalError as Journal;

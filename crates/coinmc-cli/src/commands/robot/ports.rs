@@ -1,4 +1,4 @@
-//! `coinmc robot ports`: which serial ports there are.
+//! `coinmc robot ports`: the list of serial ports.
 
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, FORMAT_VERSION, Format};
@@ -8,11 +8,11 @@ use serde_json::json;
 
 /// List the serial ports of this machine
 ///
-/// Use a name that stays with the device (marked `stable`): it leads to the robot wherever it is
-/// plugged in.
+/// Use a stable name (marked `stable`): it belongs to the robot whichever socket it is plugged
+/// into.
 #[derive(Debug, Args)]
 pub(super) struct Ports {
-    /// How to write the list
+    /// Format of the list
     #[arg(long, value_enum, default_value_t = Format::Table)]
     pub(super) format: Format,
 }

@@ -1,6 +1,6 @@
-//! `coinmc robot run` and `resume`: an experiment.
+//! `coinmc robot run` and `resume`: running an experiment.
 
-use super::live::LiveLine;
+use super::progress_line::ProgressLine;
 use super::{PortArgument, failure, sim};
 use crate::exit::{Failure, Outcome};
 use crate::interrupt;
@@ -24,14 +24,14 @@ Examples:
   coinmc robot run examples/robot.toml --out day --camera './my-camera'
   coinmc robot resume day
 
-The same command again, or `resume`, goes on where the last one stopped, whatever stopped it. Ctrl-C
-finishes the open throw first; a second one stops at once, and loses nothing either.";
+The same command again, or `resume`, continues where the last one stopped, whatever stopped it. Ctrl-C
+finishes the open throw first; a second one stops at once without losing anything.";
 
-/// Throw what a config describes, photograph, and keep a journal
+/// Run the experiment that a config describes: throw, photograph and keep a journal
 ///
 /// The config is that of `coinmc run`: the coin, the surface, the distribution of spin and start
-/// angle, the engine that the outcome is compared with, and stop.tosses. docs/guide/robot.md describes
-/// the journal and the camera's side.
+/// angle, the engine that the outcome is compared with, and stop.tosses. docs/guide/robot.md
+/// describes the journal and the camera's side.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Run {
@@ -51,9 +51,9 @@ pub(super) struct Run {
     pub(super) session: Session,
 }
 
-/// Go on with an experiment
+/// Continue an experiment
 ///
-/// Port and camera are those of the last time unless others are given.
+/// Port and camera are those of the last session unless given.
 #[derive(Debug, Args)]
 pub(super) struct Resume {
     /// Directory of the experiment
@@ -64,36 +64,36 @@ pub(super) struct Resume {
     pub(super) session: Session,
 }
 
-/// What both have in common.
+/// Arguments of both.
 #[derive(Debug, Args)]
 pub(super) struct Session {
     #[command(flatten)]
     port: PortArgument,
 
-    /// The camera: a command of the shell that speaks JSON lines (docs/guide/robot.md)
+    /// The camera: a shell command that speaks JSON lines (docs/guide/robot.md)
     #[arg(long, value_name = "COMMAND")]
     camera: Option<String>,
 
-    /// How long the camera may take for a photo, seconds
+    /// Time limit for a photo, seconds
     #[arg(long, value_name = "S", default_value_t = 8,
           value_parser = clap::value_parser!(u64).range(1..=3600))]
     camera_timeout: u64,
 
-    /// Photos of one throw before it is void
+    /// Photos of one throw without a face before the throw is void
     #[arg(long, value_name = "N", default_value_t = 3,
           value_parser = clap::value_parser!(u32).range(1..=100))]
     photos: u32,
 
-    /// Void throws in a row before the experiment stops for a person
+    /// Consecutive void throws before the experiment stops
     #[arg(long, value_name = "N", default_value_t = 10,
           value_parser = clap::value_parser!(u32).range(1..))]
-    most_voids: u32,
+    max_voids: u32,
 
-    /// Go on behind the robot's counter where it is ahead of the journal
+    /// If the robot's counter is ahead of the journal, continue from the counter
     #[arg(long)]
     adopt: bool,
 
-    /// How much faster than life a simulated robot is
+    /// Speed of a simulated robot relative to real time
     #[arg(long, value_name = "FACTOR", value_parser = sim::speed)]
     speed: Option<f64>,
 
@@ -101,11 +101,11 @@ pub(super) struct Session {
     #[arg(long)]
     no_recording: bool,
 
-    /// How to write the result
+    /// Format of the result
     #[arg(long, value_enum, default_value_t = Format::Table)]
     pub(super) format: Format,
 
-    /// No status line and no remarks; warnings and errors stay
+    /// Hide the status line and notes; warnings and errors are still shown
     #[arg(long, short)]
     quiet: bool,
 }
@@ -143,11 +143,11 @@ impl Session {
         console: &Console,
     ) -> Result<Outcome, Failure> {
         let setup = self.setup(directory.setup())?;
-        let line = LiveLine::new(*console.stderr(), self.quiet);
+        let line = ProgressLine::new(*console.stderr(), self.quiet);
         let (journal, torn) = directory.open(experiment, &setup).map_err(failure)?;
         if torn > 0 {
-            line.say(&format!(
-                "the last line of {} was cut off in the middle ({torn} bytes) and is taken away",
+            line.print(&format!(
+                "the last line of {} was incomplete ({torn} bytes) and has been removed",
                 directory.journal().display()
             ));
         }
@@ -171,8 +171,8 @@ impl Session {
                 },
                 rules: Rules {
                     throws: experiment.throws(),
-                    most_photos: self.photos,
-                    most_voids: self.most_voids,
+                    max_photos: self.photos,
+                    max_voids: self.max_voids,
                     adopt: self.adopt,
                 },
                 speed: setup.speed,
@@ -192,7 +192,7 @@ impl Session {
         })
     }
 
-    /// Port and camera: as given, else as the last time.
+    /// Port and camera: as given, otherwise those of the last session.
     fn setup(&self, last: Option<Setup>) -> Result<Setup, Failure> {
         let camera = self
             .camera
@@ -201,7 +201,7 @@ impl Session {
         let camera = camera.ok_or_else(|| {
             Failure::Input(anyhow!(
                 "no camera: give the command that takes and reads photos with --camera \
-                 (docs/guide/robot.md says what it must speak)"
+                 (docs/guide/robot.md describes its protocol)"
             ))
         })?;
         let port = match (&self.port.port, &last) {
@@ -222,22 +222,22 @@ impl Session {
         directory: &Directory,
         console: &Console,
     ) -> std::io::Result<()> {
-        let (live, trips) = (&report.live, &report.round_trips);
+        let (progress, trips) = (&report.progress, &report.round_trips);
         let mean_ms = trips.sum.as_secs_f64() * 1e3 / (trips.count.max(1) as f64);
         let longest_ms = trips.longest.as_secs_f64() * 1e3;
-        let faces = Face::ALL.iter().zip(live.faces);
+        let faces = Face::ALL.iter().zip(progress.faces);
         if console.format() == Format::Json {
             return output::print_json(&json!({
                 "format_version": FORMAT_VERSION,
                 "kind": "robot-run",
                 "complete": report.complete,
                 "out": directory.path().to_string_lossy(),
-                "planned": live.planned,
-                "heads": live.faces[0],
-                "tails": live.faces[1],
-                "side": live.faces[2],
-                "void": live.voids,
-                "losses_of_the_line": live.losses,
+                "planned": progress.planned,
+                "heads": progress.faces[0],
+                "tails": progress.faces[1],
+                "side": progress.faces[2],
+                "void": progress.voids,
+                "losses_of_the_line": progress.losses,
                 "round_trip_ms": { "mean": mean_ms, "longest": longest_ms, "count": trips.count },
                 "frames": {
                     "sent": report.counters.sent,
@@ -252,22 +252,22 @@ impl Session {
             .collect();
         output::print(&format!(
             "{} of {} throws: {}, {} void\n",
-            grouped(u64::from(live.resolved())),
-            grouped(u64::from(live.planned)),
+            grouped(u64::from(progress.resolved())),
+            grouped(u64::from(progress.planned)),
             counts.join(", "),
-            grouped(u64::from(live.voids)),
+            grouped(u64::from(progress.voids)),
         ))?;
         if !self.quiet {
             output::note(&format!(
-                "coinmc: {} here; answers took {mean_ms:.1} ms on average, {longest_ms:.0} ms at \
-                 most",
-                grouped(u64::from(live.here))
+                "coinmc: {} throws in this session; replies took {mean_ms:.1} ms on average, \
+                 {longest_ms:.0} ms at most",
+                grouped(u64::from(progress.this_session))
             ));
             let dir = directory.path().display();
             output::note(&if report.complete {
                 format!("Next: coinmc robot export {dir}; coinmc robot fairness {dir}")
             } else {
-                format!("Go on with: coinmc robot resume {dir}")
+                format!("Continue with: coinmc robot resume {dir}")
             });
         }
         Ok(())

@@ -1,4 +1,4 @@
-//! `coinmc robot sim`: a robot where there is none.
+//! `coinmc robot sim`: a simulated robot.
 
 use crate::exit::{Failure, Outcome};
 use crate::interrupt;
@@ -24,8 +24,8 @@ While it runs it obeys lines on standard input: reset, unplug [SECONDS], stick, 
 
 /// Simulate a robot on a pseudo-terminal, with faults on demand
 ///
-/// The first line on standard output is the path to give as --port. The coin falls as the config's
-/// engine says for the spin and angle of each throw.
+/// The first line on standard output is the path to give as --port. The config's engine simulates
+/// the coin with the spin and angle of each throw.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Sim {
@@ -36,39 +36,40 @@ pub(super) struct Sim {
     #[arg(long = "set", value_name = "KEY=VALUE")]
     overrides: Vec<Override>,
 
-    /// A name for the port that stays when the robot is unplugged; a link made here
+    /// A stable name for the port: a symbolic link to create, which stays the same when the robot
+    /// is unplugged
     #[arg(long, value_name = "PATH")]
     name: Option<PathBuf>,
 
-    /// Append what really happened to this file; `camera-sim` looks at it
+    /// Append the true outcomes to this file, for `camera-sim`
     #[arg(long, value_name = "FILE")]
     truth: Option<PathBuf>,
 
-    /// Keep the robot's memory of its counter in this file [default: none, it begins blank]
+    /// Keep the robot's counter in this file [default: none, the counter starts at 0]
     #[arg(long, value_name = "FILE")]
     memory: Option<PathBuf>,
 
-    /// How much faster than life everything moves
+    /// Speed relative to real time
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = speed)]
     speed: f64,
 
-    /// Share of bytes, each way, that are flipped, dropped or followed by another
-    #[arg(long, value_name = "SHARE", default_value_t = 0.0, value_parser = share)]
+    /// Fraction of bytes, each way, that are damaged, dropped or followed by a random byte
+    #[arg(long, value_name = "FRACTION", default_value_t = 0.0, value_parser = fraction)]
     noise: f64,
 
-    /// Share of motions that never end
-    #[arg(long, value_name = "SHARE", default_value_t = 0.0, value_parser = share)]
+    /// Fraction of motions that never end
+    #[arg(long, value_name = "FRACTION", default_value_t = 0.0, value_parser = fraction)]
     stuck: f64,
 
-    /// Mean time between resets, seconds of the robot's time
+    /// Mean time between resets, seconds in the robot's time
     #[arg(long, value_name = "S", value_parser = seconds)]
     reset_every: Option<f64>,
 
-    /// Mean time between unpluggings, seconds of the robot's time
+    /// Mean time between disconnections, seconds in the robot's time
     #[arg(long, value_name = "S", value_parser = seconds)]
     unplug_every: Option<f64>,
 
-    /// Key of all chance
+    /// Seed of all random numbers
     #[arg(long, default_value_t = 1)]
     seed: u64,
 }
@@ -81,7 +82,7 @@ impl Sim {
             .context("cannot listen for signals")
             .map_err(Failure::Runtime)?;
         let (sender, commands) = mpsc::channel();
-        thread::spawn(move || obey(&sender));
+        thread::spawn(move || read_commands(&sender));
         let options = SimOptions {
             name: self.name.clone(),
             truth: self.truth.clone(),
@@ -96,7 +97,7 @@ impl Sim {
             seed: self.seed,
         };
         let ready = |path: &std::path::Path| {
-            // nobody to tell: the host finds the port by its name
+            // ignore a closed output: the host finds the port by its name
             let _ = output::print(&format!("{}\n", path.display()));
         };
         let ended = || cancel.load(Ordering::Relaxed);
@@ -108,8 +109,8 @@ impl Sim {
     }
 }
 
-/// Hands on commands from standard input, as long as there are any.
-fn obey(to: &Sender<Command>) {
+/// Passes on commands from standard input until it ends.
+fn read_commands(to: &Sender<Command>) {
     for line in io::stdin().lines() {
         let Ok(line) = line else { return };
         match line.parse() {
@@ -123,17 +124,17 @@ fn obey(to: &Sender<Command>) {
     }
 }
 
-pub(super) fn share(text: &str) -> Result<f64, String> {
+pub(super) fn fraction(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(share) if (0.0..=1.0).contains(&share) => Ok(share),
-        _ => Err("a share is a number from 0 to 1".to_owned()),
+        _ => Err("a fraction is a number from 0 to 1".to_owned()),
     }
 }
 
 pub(super) fn speed(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(speed) if (1.0..=10_000.0).contains(&speed) => Ok(speed),
-        _ => Err("a speed is a number from 1 (life) to 10000".to_owned()),
+        _ => Err("a speed is a number from 1 (real time) to 10000".to_owned()),
     }
 }
 

@@ -1,7 +1,7 @@
-//! `coinmc robot throw`: one throw by hand.
+//! `coinmc robot throw`: a single throw.
 
 use super::PortArgument;
-use super::ask::{Robot, out_of_turn};
+use super::query::{Robot, wrong_reply};
 use crate::exit::{Failure, Outcome};
 use crate::output;
 use anyhow::anyhow;
@@ -12,11 +12,11 @@ use std::thread;
 
 /// Throw once, outside any experiment
 ///
-/// The robot counts the throw, so an experiment whose journal it ran ahead of asks before it goes
-/// on (`--adopt`). The coin is brought back afterwards.
+/// The robot counts the throw, so an experiment with a journal then has to be continued with
+/// `--adopt`. The coin is collected afterwards.
 #[derive(Debug, Args)]
 pub(super) struct Throw {
-    /// Spin, turns a second, 0 to 5
+    /// Spin, rev/s, 0 to 5
     #[arg(long, value_name = "REV_S", allow_negative_numbers = true)]
     spin: f64,
 
@@ -37,7 +37,7 @@ impl Throw {
         if status.state != State::Idle {
             return Err(Failure::Runtime(anyhow!(
                 "the robot is not ready: {} at throw {}. Let it finish, or resume its experiment",
-                coinmc_robot::name(status.state),
+                coinmc_robot::state_name(status.state),
                 status.throw_id
             )));
         }
@@ -47,10 +47,10 @@ impl Throw {
             spin_mrev_s: setting.spin_mrev_s(),
             angle_cdeg: setting.angle_cdeg(),
         };
-        if let Reply::Nak(nak) = robot.ask(&request)? {
+        if let Reply::Nak(nak) = robot.request(&request)? {
             return Err(Failure::Runtime(anyhow!("the robot does not throw: {nak}")));
         }
-        let at_coin = follow(&mut robot, throw_id, State::AtCoin)?;
+        let at_coin = wait_for(&mut robot, throw_id, State::AtCoin)?;
         output::note(&format!(
             "throw {throw_id}: released with {} rev/s from {} degrees; the coin lies at {} by {} mm",
             f64::from(at_coin.meas_spin_mrev_s) / 1e3,
@@ -58,22 +58,22 @@ impl Throw {
             at_coin.x_um / 1000,
             at_coin.y_um / 1000,
         ));
-        match robot.ask(&Request::Collect { throw_id })? {
+        match robot.request(&Request::Collect { throw_id })? {
             Reply::Ok { .. } => {}
             Reply::Nak(nak) => {
                 return Err(Failure::Runtime(anyhow!(
                     "the coin is not collected: {nak}"
                 )));
             }
-            _ => return Err(out_of_turn()),
+            _ => return Err(wrong_reply()),
         }
-        follow(&mut robot, throw_id, State::Idle)?;
+        wait_for(&mut robot, throw_id, State::Idle)?;
         Ok(Outcome::Done)
     }
 }
 
-/// Waits until the robot is somewhere; a fault on the way ends it.
-fn follow(robot: &mut Robot, throw_id: u32, goal: State) -> Result<coinmc_link::Status, Failure> {
+/// Waits until the robot is in a state; fails if it goes to Fault or abandons the throw.
+fn wait_for(robot: &mut Robot, throw_id: u32, goal: State) -> Result<coinmc_link::Status, Failure> {
     loop {
         let status = robot.status()?;
         if status.throw_id != throw_id {
@@ -89,9 +89,9 @@ fn follow(robot: &mut Robot, throw_id: u32, goal: State) -> Result<coinmc_link::
             return Err(Failure::Runtime(anyhow!(
                 "throw {throw_id} failed: {}",
                 if status.state == State::Fault {
-                    coinmc_robot::fault(status.fault)
+                    coinmc_robot::fault_text(status.fault)
                 } else {
-                    "the robot gave it up".to_owned()
+                    "the robot abandoned it".to_owned()
                 }
             )));
         }

@@ -1,4 +1,4 @@
-//! `coinmc robot info`, `status` and `home`: one question to the robot.
+//! `coinmc robot info`, `status` and `home`: single requests to the robot.
 
 use super::{PortArgument, failure};
 use crate::exit::{Failure, Outcome};
@@ -7,38 +7,38 @@ use anyhow::anyhow;
 use clap::Args;
 use coinmc_link::{Greeting, Reply, Request, State, axis, capability};
 use coinmc_robot::Clock;
-use coinmc_robot::port::{Answer, Connection};
+use coinmc_robot::port::{Connection, RequestOutcome};
 use serde_json::json;
 use std::time::{Duration, Instant};
 
-/// How long a robot is waited for.
-const PATIENCE: Duration = Duration::from_secs(10);
+/// Time limit for a reply of the robot.
+const REPLY_TIMEOUT: Duration = Duration::from_secs(10);
 
 #[derive(Debug, Args)]
-pub(super) struct At {
+pub(super) struct PortAndFormat {
     #[command(flatten)]
     port: PortArgument,
 
-    /// How to write the answer
+    /// Format of the output
     #[arg(long, value_enum, default_value_t = Format::Table)]
     pub(super) format: Format,
 }
 
-/// Show what the robot is and can reach
+/// Show the robot's version, limits and capabilities
 #[derive(Debug, Args)]
 pub(super) struct Info {
     #[command(flatten)]
-    pub(super) at: At,
+    pub(super) target: PortAndFormat,
 }
 
-/// Show where the robot is
+/// Show the robot's state
 #[derive(Debug, Args)]
 pub(super) struct Status {
     #[command(flatten)]
-    pub(super) at: At,
+    pub(super) target: PortAndFormat,
 }
 
-/// Let all axes find their end stops
+/// Move all axes to their end stops
 #[derive(Debug, Args)]
 pub(super) struct Home {
     #[command(flatten)]
@@ -47,9 +47,9 @@ pub(super) struct Home {
 
 impl Info {
     pub(super) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
-        let mut robot = Robot::connect(&self.at.port)?;
-        let Reply::Info(info) = robot.ask(&Request::Info)? else {
-            return Err(out_of_turn());
+        let mut robot = Robot::connect(&self.target.port)?;
+        let Reply::Info(info) = robot.request(&Request::Info)? else {
+            return Err(wrong_reply());
         };
         let uid = format!("{:016x}", u64::from_be_bytes(info.uid));
         let [major, minor, patch] = info.firmware;
@@ -78,7 +78,7 @@ impl Info {
                  firmware  {major}.{minor}.{patch}, protocol {}.{}\n\
                  reaches   spin 0 to {spin} rev/s, angle 0 to {angle} degrees, \
                  carriage ±{} by ±{} mm\n\
-                 has       lamp: {}, carriage by hand: {}\n",
+                 has       lamp: {}, movable carriage: {}\n",
                 version.major,
                 version.minor,
                 limits.x_um / 1000,
@@ -94,7 +94,7 @@ impl Info {
 
 impl Status {
     pub(super) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
-        let mut robot = Robot::connect(&self.at.port)?;
+        let mut robot = Robot::connect(&self.target.port)?;
         let status = robot.status()?;
         let (spin, angle) = (
             f64::from(status.meas_spin_mrev_s) / 1e3,
@@ -104,7 +104,7 @@ impl Status {
             Format::Json => output::print_json(&json!({
                 "format_version": FORMAT_VERSION,
                 "kind": "robot-status",
-                "state": coinmc_robot::name(status.state),
+                "state": coinmc_robot::state_name(status.state),
                 "throw_id": status.throw_id,
                 "released": status.released,
                 "boot": robot.greeting.boot,
@@ -120,9 +120,9 @@ impl Status {
                 "state     {}\nthrow     {}{}\nmeasured  {spin} rev/s, {angle} degrees\n\
                  carriage  {} by {} mm\nrunning   {:.1} s since start {}, {} bad frames\n",
                 if status.state == State::Fault {
-                    coinmc_robot::fault(status.fault)
+                    coinmc_robot::fault_text(status.fault)
                 } else {
-                    coinmc_robot::name(status.state).to_owned()
+                    coinmc_robot::state_name(status.state).to_owned()
                 },
                 status.throw_id,
                 if status.released {
@@ -145,22 +145,22 @@ impl Status {
 impl Home {
     pub(super) fn execute(&self) -> Result<Outcome, Failure> {
         let mut robot = Robot::connect(&self.port)?;
-        match robot.ask(&Request::Home { axes: axis::ALL })? {
-            Reply::Ok { .. } => output::note("the robot finds its end stops"),
+        match robot.request(&Request::Home { axes: axis::ALL })? {
+            Reply::Ok { .. } => output::note("the robot is moving to its end stops"),
             Reply::Nak(nak) => {
                 let state = robot.status()?.state;
                 return Err(Failure::Runtime(anyhow!(
-                    "the robot does not go home: {nak} (it is {})",
-                    coinmc_robot::name(state)
+                    "the robot does not move to its end stops: {nak} (its state: {})",
+                    coinmc_robot::state_name(state)
                 )));
             }
-            _ => return Err(out_of_turn()),
+            _ => return Err(wrong_reply()),
         }
         Ok(Outcome::Done)
     }
 }
 
-/// A robot that is asked a few things.
+/// A connection for a few requests.
 pub(super) struct Robot {
     connection: Connection,
     greeting: Greeting,
@@ -172,49 +172,47 @@ impl Robot {
         let opened = Connection::open(&path, Clock::new(1.0));
         let mut connection =
             opened.map_err(|error| failure(coinmc_robot::port::ConnectionError::Port(error)))?;
-        let begun = Instant::now();
-        let late = || begun.elapsed() > PATIENCE;
+        let started = Instant::now();
+        let late = || started.elapsed() > REPLY_TIMEOUT;
         match connection.connect(&late, &mut |_| {}).map_err(failure)? {
-            Answer::Connected { greeting, .. } => Ok(Self {
+            RequestOutcome::Connected { greeting, .. } => Ok(Self {
                 connection,
                 greeting,
             }),
-            _ => Err(silent()),
+            _ => Err(no_reply()),
         }
     }
 
-    /// Asks, again if the session was opened anew.
-    pub(super) fn ask(&mut self, request: &Request) -> Result<Reply, Failure> {
-        let begun = Instant::now();
-        let late = || begun.elapsed() > PATIENCE;
+    /// Sends a request, again if the session was opened again.
+    pub(super) fn request(&mut self, request: &Request) -> Result<Reply, Failure> {
+        let started = Instant::now();
+        let late = || started.elapsed() > REPLY_TIMEOUT;
         loop {
-            let answer = self.connection.ask(request, &late, &mut |_| {});
-            match answer.map_err(failure)? {
-                Answer::Reply(reply) => return Ok(reply),
-                Answer::Connected { greeting, .. } => self.greeting = greeting,
-                Answer::GivenUp => return Err(silent()),
+            let outcome = self.connection.request(request, &late, &mut |_| {});
+            match outcome.map_err(failure)? {
+                RequestOutcome::Reply(reply) => return Ok(reply),
+                RequestOutcome::Connected { greeting, .. } => self.greeting = greeting,
+                RequestOutcome::GivenUp => return Err(no_reply()),
             }
         }
     }
 
     pub(super) fn status(&mut self) -> Result<coinmc_link::Status, Failure> {
-        match self.ask(&Request::Status)? {
+        match self.request(&Request::Status)? {
             Reply::Status(status) => Ok(status),
-            _ => Err(out_of_turn()),
+            _ => Err(wrong_reply()),
         }
     }
 }
 
-fn silent() -> Failure {
+fn no_reply() -> Failure {
     Failure::Runtime(anyhow!(
-        "the robot does not answer: is it switched on, and is this its port?"
+        "the robot does not reply: is it switched on, and is this its port?"
     ))
 }
 
-pub(super) fn out_of_turn() -> Failure {
-    Failure::Runtime(anyhow!(
-        "the robot answered another question than was asked"
-    ))
+pub(super) fn wrong_reply() -> Failure {
+    Failure::Runtime(anyhow!("the robot's reply does not belong to the request"))
 }
 
 fn yes(yes: bool) -> &'static str {
