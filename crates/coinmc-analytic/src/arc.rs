@@ -3,17 +3,18 @@
 //! # Derivation
 //!
 //! Seen along the spin axis the coin is a rectangle, `2R` by `H`. An adhesive landing (see the
-//! crate's overview) puts it on the edge that the vertical line through the centre crosses. From the
-//! centre each of the two edges of the side is seen under `2α` and each face under `π − 2α`. With
-//! the landing angle uniform on the circle,
+//! crate's overview) puts it on the edge that the vertical line through the centre crosses. From
+//! the centre each of the two edges of the side is seen under `2α` and each face under `π − 2α`.
+//! With the landing angle uniform on the circle,
 //!
 //! > P(side) = 2·2α/(2π) = (2/π)·atan(x/2),  1 − P(side) = (2/π)·atan(2/x).
 //!
-//! The angle that matters is the one at the moment when the centre comes down to `l`: nothing touches
-//! before, and afterwards the coin cannot pass a balance over a rim without touching first. This angle
-//! is uniform if the angle at launch is uniform over whole turns, whatever the spin, and in the limit
-//! of a vigorous toss, in which the coin turns often and the number of turns is not controlled. (The angle *at
-//! contact* is not uniform for a coin that turns fast while it falls slowly; the face is the same.)
+//! The angle that matters is the one at the moment when the centre comes down to `l`: nothing
+//! touches before, and afterwards the coin cannot pass a balance over a rim without touching first.
+//! This angle is uniform if the angle at launch is uniform over whole turns, whatever the spin, and
+//! in the limit of a vigorous toss, in which the coin turns often and the number of turns is not
+//! controlled. (The angle *at contact* is not uniform for a coin that turns fast while it falls
+//! slowly; the face is the same.)
 //!
 //! **Small and large coins.** `x/π` as `x → 0`; `1 − 4/(πx)` as `x → ∞`.
 //!

@@ -9,10 +9,12 @@
 //! > P(side) = 2H/(2H + 4R) = x/(2 + x),  1 − P(side) = 2/(2 + x).
 //!
 //! It is [`surface_area`](crate::surface_area) in the plane: the probability that a random straight
-//! line in the plane of a flat spin enters the section through its side. It has no basis in mechanics.
+//! line in the plane of a flat spin enters the section through its side. It has no basis in
+//! mechanics.
 //!
-//! In a square section, `x = 2`, each of the four edges has a quarter, so the side has one half. The
-//! folklore that a coin as high as it is wide is fair forgets that two of the edges are the side.
+//! In a square section, `x = 2`, each of the four edges has a quarter, so the side has one half.
+//! The folklore that a coin as high as it is wide is fair forgets that two of the edges are the
+//! side.
 //!
 //! **Small and large coins.** `x/2` as `x → 0`; `1 − 2/x` as `x → ∞`.
 //!

@@ -97,9 +97,9 @@ impl HeadsBand {
 /// Probability of heads if the number of half-turns is uniform between two finite numbers.
 ///
 /// As `h` is proportional to the spin and to the speed, this is a window in one of them with the
-/// other fixed. Let `q(h)` be the surplus of heads, `∫(heads − ½)dh` from 0: a triangle wave between ±¼
-/// of period 2. Then P = ½ + (q(to) − q(from))/(to − from). A window of no width gives 1 or 0, one
-/// with its ends swapped gives NaN.
+/// other fixed. Let `q(h)` be the surplus of heads, `∫(heads − ½)dh` from 0: a triangle wave
+/// between ±¼ of period 2. Then P = ½ + (q(to) − q(from))/(to − from). A window of no width gives 1
+/// or 0, one with its ends swapped gives NaN.
 ///
 /// ```
 /// use coinmc_analytic::keller::p_heads_in_window;

@@ -19,9 +19,9 @@
 //!
 //! A tilted coin touches the floor with one point of a rim. Tipping about that point under gravity,
 //! it falls to the side of the pivot on which its centre lies, so it comes to rest on the part of
-//! its surface that the vertical line through its centre crosses. That vertical makes the angle `acos
-//! |u_z|` with the axis of the coin, and the rim is seen from the centre at `π/2 − α` from the
-//! axis. Therefore
+//! its surface that the vertical line through its centre crosses. That vertical makes the angle
+//! `acos |u_z|` with the axis of the coin, and the rim is seen from the centre at `π/2 − α` from
+//! the axis. Therefore
 //!
 //! > side ⇔ `|u_z| < sin α`,  heads ⇔ `u_z > sin α`,  tails ⇔ `u_z < −sin α`.
 //!
@@ -39,16 +39,16 @@
 //! | [`well_depth::solid`] | wells, depth × solid angle; a heuristic | 1.3545 | (bouncing) |
 //!
 //! A coin that starts heads up and precesses is in [`precession`]: its outcome also depends on the
-//! angle ψ between its normal and its angular momentum, so it is not a [`Rule`]. For a coin whose spin
-//! and speed are known instead of random, see [`keller`].
+//! angle ψ between its normal and its angular momentum, so it is not a [`Rule`]. For a coin whose
+//! spin and speed are known instead of random, see [`keller`].
 //!
 //! # Numbers
 //!
-//! Every function is total: outside its domain it returns NaN, and it never panics. A ratio of 0 and
-//! a ratio of +∞ give the limits. Within ratios of 1e-12 to 1e12 the probability of the side *and*
-//! that of the faces are each correct to a few units in the last place: neither is computed as one
-//! minus the other. All elementary functions come from the crate `libm`, so that every platform
-//! returns the same bits.
+//! Every function is total: outside its domain it returns NaN, and it never panics. A ratio of 0
+//! and a ratio of +∞ give the limits. Within ratios of 1e-12 to 1e12 the probability of the side
+//! *and* that of the faces are each correct to a few units in the last place: neither is computed
+//! as one minus the other. All elementary functions come from the crate `libm`, so that every
+//! platform returns the same bits.
 
 pub mod arc;
 pub mod cross_section;

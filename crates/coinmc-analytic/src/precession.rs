@@ -9,10 +9,11 @@
 //!
 //! > `u_z = cos²ψ + sin²ψ·cos φ`.
 //!
-//! ψ = 90° is the clean flip about a diameter; ψ = 0 is a coin thrown flat like a discus. If ψ < 45°
-//! or ψ > 135° the heads face never looks down, although the coin may seem to tumble. Nothing
-//! depends on the sense of `L`, so ψ and π − ψ give the same result. [`thin`] needs only the sign of
-//! `u_z`; [`thick`] applies the test of an adhesive landing to `u_z` (see the crate's overview).
+//! ψ = 90° is the clean flip about a diameter; ψ = 0 is a coin thrown flat like a discus. If
+//! ψ < 45° or ψ > 135° the heads face never looks down, although the coin may seem to tumble.
+//! Nothing depends on the sense of `L`, so ψ and π − ψ give the same result. [`thin`] needs only
+//! the sign of `u_z`; [`thick`] applies the test of an adhesive landing to `u_z` (see the crate's
+//! overview).
 //!
 //! # What is assumed
 //!

@@ -24,8 +24,8 @@ pub(crate) struct Eight(__m256d, __m256d);
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct EightBits(__m256d, __m256d);
 
-/// Whether the processor has all features that [`enter`] uses, as every one by Intel or AMD with AVX2
-/// does.
+/// Whether the processor has all features that [`enter`] uses, as every one by Intel or AMD with
+/// AVX2 does.
 #[inline]
 pub(crate) fn is_available() -> bool {
     static IS_AVAILABLE: LazyLock<bool> = LazyLock::new(|| {

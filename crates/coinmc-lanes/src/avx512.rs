@@ -1,8 +1,8 @@
 //! Eight lanes in one register of AVX-512.
 //!
 //! # Safety
-//! Every method uses instructions that the processor must have. The type is private to the crate, and
-//! its values exist only inside [`enter`], which checks the processor first.
+//! Every method uses instructions that the processor must have. The type is private to the crate,
+//! and its values exist only inside [`enter`], which checks the processor first.
 #![allow(unsafe_code)]
 
 use crate::operators::{by_permutation, operators};

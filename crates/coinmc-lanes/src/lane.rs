@@ -52,8 +52,8 @@ pub trait Lane:
     /// The nearest integer, ties to even.
     #[inline(always)]
     fn round(self) -> Self {
-        // Adding 3·2^51 leaves no digits after the binary point. Exact for |self| < 2^51, and without
-        // SSE 4.1 much faster than the library's round.
+        // Adding 3·2^51 leaves no digits after the binary point. Exact for |self| < 2^51, and
+        // without SSE 4.1 much faster than the library's round.
         const SHIFT: f64 = 6_755_399_441_055_744.0;
         let shift = Self::splat(SHIFT);
         let near = self.abs().lt(Self::splat(2_251_799_813_685_248.0));
@@ -63,7 +63,8 @@ pub trait Lane:
     /// The largest integer that is at most `self`.
     #[inline(always)]
     fn floor(self) -> Self {
-        // from 2^52 on all numbers are integers, so adding 2^52 leaves no digits after the binary point
+        // from 2^52 on all numbers are integers, so adding 2^52 leaves no digits after the binary
+        // point
         let shift = Self::splat(4_503_599_627_370_496.0);
         let size = self.abs();
         let near = ((size + shift) - shift).copysign(self);

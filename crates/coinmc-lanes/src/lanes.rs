@@ -7,8 +7,8 @@ use crate::{avx2, avx512};
 use std::fmt;
 use thiserror::Error;
 
-/// How many numbers are computed at once, and with which instructions. The results are bit-identical
-/// with all of them.
+/// How many numbers are computed at once, and with which instructions. The results are
+/// bit-identical with all of them.
 ///
 /// # Example
 /// ```

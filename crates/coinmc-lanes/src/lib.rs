@@ -1,9 +1,10 @@
 #![doc = include_str!("../README.md")]
 //!
 //! # How it works
-//! A kernel is written once, generic over [`Lane`]. It runs on one `f64`, or with [`Lanes::enter`] on
-//! eight lanes of the instruction set that the processor has. A lane offers only operations whose
-//! results IEEE 754 fixes to the last bit, so the number of lanes changes the speed and nothing else.
+//! A kernel is written once, generic over [`Lane`]. It runs on one `f64`, or with [`Lanes::enter`]
+//! on eight lanes of the instruction set that the processor has. A lane offers only operations
+//! whose results IEEE 754 fixes to the last bit, so the number of lanes changes the speed and
+//! nothing else.
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;

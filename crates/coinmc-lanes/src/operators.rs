@@ -54,8 +54,8 @@ macro_rules! operators {
     )*};
 }
 
-/// Implements the route methods of [`Wide`](crate::Wide) for lane types whose registers are permuted by
-/// a `$picks` of the route.
+/// Implements the route methods of [`Wide`](crate::Wide) for lane types whose registers are
+/// permuted by a `$picks` of the route.
 #[cfg(target_arch = "x86_64")]
 macro_rules! by_permutation {
     ($picks:ident) => {

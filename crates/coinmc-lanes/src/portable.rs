@@ -1,5 +1,5 @@
-//! Eight lanes as plain arrays. The compiler turns these loops into the vector instructions that it may
-//! assume (NEON on AArch64).
+//! Eight lanes as plain arrays. The compiler turns these loops into the vector instructions that it
+//! may assume (NEON on AArch64).
 
 use crate::operators::operators;
 use crate::wide::{Bits, Block, WIDTH, Wide, map_where};

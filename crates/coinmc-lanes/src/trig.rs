@@ -10,8 +10,8 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 /// π/2 − FRAC_PI_2, the part of π/2 that an f64 cannot hold.
 pub const PI_2_TAIL: f64 = 6.123_233_995_736_766e-17;
 
-/// The polynomial P of sin y = y + y³ P(y²): the minimax polynomial of FreeBSD's msun (`k_sin.c`) for
-/// |y| <= π/4, from the constant term up.
+/// The polynomial P of sin y = y + y³ P(y²): the minimax polynomial of FreeBSD's msun (`k_sin.c`)
+/// for |y| <= π/4, from the constant term up.
 pub const SINE: [f64; 6] = [
     -1.666_666_666_666_663_2e-1,
     8.333_333_333_322_49e-3,

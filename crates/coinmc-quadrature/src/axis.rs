@@ -43,8 +43,8 @@ impl Turning {
     }
 }
 
-/// I_a/I_t, or 1 without gyroscopic torque: the coin then turns about its angular velocity, as one with
-/// equal moments does.
+/// I_a/I_t, or 1 without gyroscopic torque: the coin then turns about its angular velocity, as one
+/// with equal moments does.
 pub(crate) fn axial_factor(scene: &Scene) -> f64 {
     if scene.has_gyroscopic_torque() {
         scene.coin.axial_gyration_m2() / scene.coin.transverse_gyration_m2()

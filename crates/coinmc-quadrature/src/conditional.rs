@@ -2,9 +2,9 @@
 //!
 //! The phase Φ at the passage is monotone in that quantity, so its distribution function G is that
 //! of the quantity at the value that leads to Φ. Heads shows for cos Φ > (sin α − A)/B, an interval
-//! about each whole turn; tails for cos Φ < −(sin α + A)/B, an interval about each half turn. Each has
-//! the probability Σ G(end) − G(start); a wide normal distribution has a Fourier series of a few terms.
-//! An azimuth is simpler: the axis ends uniformly on a circle.
+//! about each whole turn; tails for cos Φ < −(sin α + A)/B, an interval about each half turn. Each
+//! has the probability Σ G(end) − G(start); a wide normal distribution has a Fourier series of a
+//! few terms. An azimuth is simpler: the axis ends uniformly on a circle.
 
 use crate::axis::Turning;
 use crate::passage::{Passage, support};
@@ -77,8 +77,8 @@ impl<'a> Conditional<'a> {
     }
 
     /// P(heads), P(tails), P(side), with the other quantities of the launch drawn from `uniforms`.
-    /// `drawn` is a uniform for the quantity itself, in case it spreads the phase over too many turns.
-    /// All are zero where numbers leave their range.
+    /// `drawn` is a uniform for the quantity itself, in case it spreads the phase over too many
+    /// turns. All are zero where numbers leave their range.
     pub(crate) fn faces(&self, uniforms: &mut impl UniformSource, drawn: f64) -> Faces {
         let launch = self.rest.launch(&self.scene.coin, uniforms);
         if self.variable == Variable::Azimuth {
@@ -124,9 +124,9 @@ impl<'a> Conditional<'a> {
         !self.faces(&mut Constant, 0.5).drawn
     }
 
-    /// The probabilities over the azimuth. With the angular velocity ω given, an isotropic axis has a
-    /// uniform component along ω and a uniform azimuth about it. Another azimuth turns the whole flight
-    /// about ω, so the axis ends uniformly on a circle about ω.
+    /// The probabilities over the azimuth. With the angular velocity ω given, an isotropic axis has
+    /// a uniform component along ω and a uniform azimuth about it. Another azimuth turns the whole
+    /// flight about ω, so the axis ends uniformly on a circle about ω.
     fn over_azimuth(&self, launch: &Launch) -> [f64; 3] {
         let along = launch.axis.z;
         let rate = launch.spin_rad_s.norm();
@@ -164,8 +164,8 @@ struct WideNormal {
 }
 
 impl WideNormal {
-    /// The probability of a phase within `half` of `centre`, modulo whole turns: the Fourier series of
-    /// that interval, each term damped by the characteristic function e^(−k²σ²/2) of the normal.
+    /// The probability of a phase within `half` of `centre`, modulo whole turns: the Fourier series
+    /// of that interval, each term damped by the characteristic function e^(−k²σ²/2) of the normal.
     fn within(&self, centre: f64, half: f64) -> f64 {
         // e^(−40) is below rounding; eight terms at σ = 1
         const SMALLEST: f64 = -40.0;
@@ -234,8 +234,8 @@ impl<'a> Phases<'a> {
         phases
     }
 
-    /// The distribution of the phase, if it is linear in a normal quantity and has a standard deviation
-    /// of a radian or more: the series is then shorter than the sum over turns.
+    /// The distribution of the phase, if it is linear in a normal quantity and has a standard
+    /// deviation of a radian or more: the series is then shorter than the sum over turns.
     fn wide_normal(&self) -> Option<WideNormal> {
         let Conditional { marginal, .. } = self.conditional;
         let Marginal::Normal { mean, sd } = *marginal else {

@@ -59,8 +59,8 @@ pub fn integrate<E: Engine>(
 }
 
 impl Method {
-    /// The probabilities of the faces of a scene with this method, if a rule gives them: exact and at no
-    /// cost.
+    /// The probabilities of the faces of a scene with this method, if a rule gives them: exact and
+    /// at no cost.
     ///
     /// # Example
     /// ```
@@ -140,8 +140,8 @@ fn exact(method: Method, faces: [f64; 3], evaluations: u64) -> Integral {
     }
 }
 
-/// Sums over samples, with a look at each doubling, until the goal is reached. Without dimensions the
-/// sample is one point.
+/// Sums over samples, with a look at each doubling, until the goal is reached. Without dimensions
+/// the sample is one point.
 fn replicated(
     method: Method,
     dimensions: &[u32],
@@ -150,14 +150,7 @@ fn replicated(
     mut sums_of: impl FnMut(Sample<'_>) -> Option<SampleSums>,
 ) -> Option<Integral> {
     if dimensions.is_empty() {
-        let sobol = Sobol::plain(1);
-        let faces = sums_of(Sample::new(&sobol, dimensions, 1..2))?.sums;
-        let undecided = 1.0 - faces.iter().sum::<f64>();
-        let mut found = exact(method, faces, 1);
-        for share in &mut found.faces {
-            share.hi = (share.p + undecided).min(1.0);
-        }
-        return Some(found);
+        return single_point(method, sums_of);
     }
     // the last coordinate is for the quantity that is integrated out, in case it is drawn
     let scramble = |replicate: u32| {
@@ -183,6 +176,22 @@ fn replicated(
         if found.half_width() <= goal.half_width {
             break;
         }
+    }
+    Some(found)
+}
+
+/// The integral where nothing is left to integrate over: one evaluation. The probability of no face
+/// widens the interval of every face.
+fn single_point(
+    method: Method,
+    mut sums_of: impl FnMut(Sample<'_>) -> Option<SampleSums>,
+) -> Option<Integral> {
+    let sobol = Sobol::plain(1);
+    let faces = sums_of(Sample::new(&sobol, &[], 1..2))?.sums;
+    let undecided = 1.0 - faces.iter().sum::<f64>();
+    let mut found = exact(method, faces, 1);
+    for share in &mut found.faces {
+        share.hi = (share.p + undecided).min(1.0);
     }
     Some(found)
 }

@@ -10,29 +10,29 @@
 //! > the axis **at the moment when the centre passes D on its way down** decides the face:
 //! > side ⇔ `|u_z| < sin α` at that moment,
 //!
-//! for any spin, with or without drag, if the coin is released at or above D. No search for the first
-//! contact is needed. Until then u turns about the fixed direction of its angular momentum (without
-//! gyroscopic torque: of its angular velocity), `u_z = A + B cos(φ₀ + wτ)`, and the moment follows
-//! from height and vertical velocity alone.
+//! for any spin, with or without drag, if the coin is released at or above D. No search for the
+//! first contact is needed. Until then u turns about the fixed direction of its angular momentum
+//! (without gyroscopic torque: of its angular velocity), `u_z = A + B cos(φ₀ + wτ)`, and the moment
+//! follows from height and vertical velocity alone.
 //!
 //! # Methods
-//! * [`Method::Zone`]: the joint distribution of axis and spin is invariant under rotation, so the axis
-//!   is isotropic at that moment too: P(side) = sin α, exact.
+//! * [`Method::Zone`]: the joint distribution of axis and spin is invariant under rotation, so the
+//!   axis is isotropic at that moment too: P(side) = sin α, exact.
 //! * [`Method::Arc`]: a planar toss whose tilt is uniform over whole turns: P(side) = 2α/π, exact.
-//! * [`Method::Over`]: one random quantity (the azimuth of an isotropic axis, or one in which the phase
-//!   is monotone: tilt, rate of spin, vertical velocity, height) is integrated out in closed form, the
-//!   other random quantities by scrambled Sobol points.
-//! * [`Method::Tossed`]: where none of these applies and few quantities are random, the engine tosses at
-//!   scrambled Sobol points.
+//! * [`Method::Over`]: one random quantity (the azimuth of an isotropic axis, or one in which the
+//!   phase is monotone: tilt, rate of spin, vertical velocity, height) is integrated out in closed
+//!   form, the other random quantities by scrambled Sobol points.
+//! * [`Method::Tossed`]: where none of these applies and few quantities are random, the engine
+//!   tosses at scrambled Sobol points.
 //!
 //! In all other cases random tosses are as good.
 //!
 //! Sixteen independent scrambles give a Student interval: see [`integrate`].
 //!
 //! # Files
-//! `passage` when the centre passes D · `axis` how the axis turns until then · `variable` the quantity
-//! integrated out · `method` which method a scene has · `conditional` the closed form · `sobol` the
-//! points · `replicates` scrambles, interval, stopping · `integrate` one scene.
+//! `passage` when the centre passes D · `axis` how the axis turns until then · `variable` the
+//! quantity integrated out · `method` which method a scene has · `conditional` the closed form ·
+//! `sobol` the points · `replicates` scrambles, interval, stopping · `integrate` one scene.
 
 mod axis;
 mod conditional;

@@ -13,7 +13,8 @@ const AZIMUTH: u32 = 1;
 
 /// The largest number of random dimensions of a launch for which tosses at Sobol points beat random
 /// tosses. The face is a step function of them, and the gain for a step falls with the dimensions
-/// (measured in docs/methods/sampling.md: about 30 fold with two that matter, at most 5 fold with four).
+/// (measured in docs/methods/sampling.md: about 30 fold with two that matter, at most 5 fold with
+/// four).
 const MAX_TOSSED_DIMENSIONS: usize = 3;
 
 /// How the probabilities of an adhesive scene are found.
@@ -110,9 +111,9 @@ impl Method {
     }
 }
 
-/// Whether the joint distribution of axis and spin is invariant under rotation, or the coin turns by a
-/// rotation that does not depend on its isotropic axis: in both cases the axis is isotropic at any
-/// time.
+/// Whether the joint distribution of axis and spin is invariant under rotation, or the coin turns
+/// by a rotation that does not depend on its isotropic axis: in both cases the axis is isotropic at
+/// any time.
 fn is_rotation_invariant(scene: &Scene, launches: &LaunchDistribution) -> bool {
     if launches.orientation != Orientation::Isotropic {
         return false;
@@ -273,7 +274,8 @@ mod tests {
         assert_eq!(of(&low), None);
     }
 
-    /// A single random quantity that spreads the phase over too many turns cannot be integrated out.
+    /// A single random quantity that spreads the phase over too many turns cannot be integrated
+    /// out.
     #[test]
     fn a_quantity_of_many_turns_is_tossed() {
         let uniform = |from, to| Marginal::Uniform { from, to };

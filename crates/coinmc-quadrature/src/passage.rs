@@ -7,7 +7,8 @@
 
 use coinmc_core::{LaunchDistribution, Marginal, Scene};
 
-/// Standard deviations within which every launch lies: an inverse CDF of 52 binary digits ends at 8.2.
+/// Standard deviations within which every launch lies: an inverse CDF of 52 binary digits ends at
+/// 8.2.
 const MAX_DEVIATIONS: f64 = 8.5;
 /// Products of drag and time below which the first term of a series bounds their effect.
 const SMALL: f64 = 1e-3;
@@ -53,7 +54,8 @@ impl Passage {
         surface.time(high.max(self.distance), fastest) < time_limit_s
     }
 
-    /// The time, s, at which a centre that starts at height h >= D with vertical velocity v passes D.
+    /// The time, s, at which a centre that starts at height h >= D with vertical velocity v passes
+    /// D.
     pub(crate) fn time(&self, h: f64, v: f64) -> f64 {
         let (above, g, k) = (h - self.distance, self.gravity, self.linear);
         let end = (v * v + 2.0 * g * above).sqrt();
@@ -66,9 +68,10 @@ impl Passage {
         if k == 0.0 {
             return free;
         }
-        // A start above the root: little drag changes the time by a small share, so twice the free time
-        // is above; otherwise e^(−kt) > 0 gives a bound. The height is concave in time, so Newton's steps
-        // come down to the root and never pass it. From 1/k alone each step would only halve the way.
+        // A start above the root: little drag changes the time by a small share, so twice the free
+        // time is above; otherwise e^(−kt) > 0 gives a bound. The height is concave in time, so
+        // Newton's steps come down to the root and never pass it. From 1/k alone each step would
+        // only halve the way.
         let mut time = if k * free < SMALL {
             2.0 * free
         } else {
@@ -88,8 +91,8 @@ impl Passage {
         time
     }
 
-    /// The time, s, in which an undamped spin would turn the coin as far as the damped one has after
-    /// `time`.
+    /// The time, s, in which an undamped spin would turn the coin as far as the damped one has
+    /// after `time`.
     pub(crate) fn turning_time(&self, time: f64) -> f64 {
         equivalent_time(self.angular, time)
     }
@@ -106,15 +109,15 @@ impl Passage {
         }
     }
 
-    /// The vertical velocity, m/s, with which a centre that starts at height h passes D at `time`; it
-    /// rises with the time.
+    /// The vertical velocity, m/s, with which a centre that starts at height h passes D at `time`;
+    /// it rises with the time.
     pub(crate) fn velocity(&self, h: f64, time: f64) -> f64 {
         let tau = equivalent_time(self.linear, time);
         (self.distance - h + self.gravity * self.sag(time)) / tau
     }
 
-    /// The height, m, from which a centre that starts with vertical velocity v passes D at `time`; where
-    /// it is at least D it rises with the time.
+    /// The height, m, from which a centre that starts with vertical velocity v passes D at `time`;
+    /// where it is at least D it rises with the time.
     pub(crate) fn height(&self, v: f64, time: f64) -> f64 {
         self.distance - v * equivalent_time(self.linear, time) + self.gravity * self.sag(time)
     }
@@ -168,8 +171,8 @@ mod tests {
         Passage::new(&scene.with_drag(Drag::new(linear, angular).unwrap()))
     }
 
-    /// Times, velocities and heights are inverse to each other to 1e-11, from no drag through the change
-    /// of formula to drag that stops the coin at once.
+    /// Times, velocities and heights are inverse to each other to 1e-11, from no drag through the
+    /// change of formula to drag that stops the coin at once.
     #[test]
     fn the_passage_and_its_inverses_agree() {
         for k in [0.0, 1e-9, 1e-3, 0.05, 0.3, 2.0, 100.0] {
@@ -195,7 +198,8 @@ mod tests {
         }
     }
 
-    /// Drag of 1e-12/s and less changes nothing by more than about 1e-12, down to the smallest number.
+    /// Drag of 1e-12/s and less changes nothing by more than about 1e-12, down to the smallest
+    /// number.
     #[test]
     fn tiny_drag_changes_nothing() {
         for (h, v) in [(1.0, 0.0), (5.0, 20.0), (0.5, -3.0)] {
@@ -211,8 +215,8 @@ mod tests {
         }
     }
 
-    /// Thrown downwards, the coin needs above/|v| minus what gravity saves, a share of g·above/(2v²):
-    /// here 5e-12 or less.
+    /// Thrown downwards, the coin needs above/|v| minus what gravity saves, a share of
+    /// g·above/(2v²): here 5e-12 or less.
     #[test]
     fn a_throw_downwards_keeps_its_digits() {
         let passage = passage(0.0, 0.0);

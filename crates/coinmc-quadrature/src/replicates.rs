@@ -5,8 +5,8 @@
 //! M. Nakayama, A. Owen & B. Tuffin (Winter Simulation Conference 2023) found this plain interval
 //! reliable; its coverage for this use is tested.
 //!
-//! There is a look at the replicates when they have 64, 128, 256, … points. With K possible looks each
-//! has the confidence 1 − (1 − c)/K (Bonferroni), so that the look that stops keeps c.
+//! There is a look at the replicates when they have 64, 128, 256, … points. With K possible looks
+//! each has the confidence 1 − (1 − c)/K (Bonferroni), so that the look that stops keeps c.
 
 use coinmc_core::{Estimate, IntervalMethod, student_t_quantile};
 
@@ -54,8 +54,8 @@ impl Goal {
     pub(crate) fn shares(&self, sums: &[[f64; 3]], points: u64, counts: bool) -> [Share; 3] {
         let t = student_t_quantile(REPLICATES - 1, (1.0 - self.look_confidence()) / 2.0);
         let mean = |sum: f64| sum / points as f64;
-        // counts have a grain: if only one dimension matters, all sixteen replicates may count the same
-        // number next to the true share, less than half a point away (probability 2^-16)
+        // counts have a grain: if only one dimension matters, all sixteen replicates may count the
+        // same number next to the true share, less than half a point away (probability 2^-16)
         let grain = if counts { 0.5 / points as f64 } else { 0.0 };
         let systematic = grain + ROUNDING;
         let decided: Vec<f64> = sums.iter().map(|sum| mean(sum.iter().sum())).collect();
@@ -82,9 +82,9 @@ impl Goal {
         })
     }
 
-    /// Widens the interval of a face that few evaluations had, or all but few, because the spread of
-    /// sixteen small counts says little. A replicate's count spreads less than a binomial one, so Clopper
-    /// and Pearson's interval holds.
+    /// Widens the interval of a face that few evaluations had, or all but few, because the spread
+    /// of sixteen small counts says little. A replicate's count spreads less than a binomial one,
+    /// so Clopper and Pearson's interval holds.
     fn widen_if_rare(&self, share: Share, upper: f64, points: u64, counts: bool) -> Share {
         let n = points * u64::from(REPLICATES);
         // both lie in [0, n]

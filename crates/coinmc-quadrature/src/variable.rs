@@ -66,8 +66,8 @@ pub(crate) fn variable(launches: &LaunchDistribution) -> Option<Variable> {
     }
 }
 
-/// The same launches with the quantity set to 1 (a rate) or 0: it is integrated out, and the others do
-/// not depend on it.
+/// The same launches with the quantity set to 1 (a rate) or 0: it is integrated out, and the others
+/// do not depend on it.
 pub(crate) fn without(launches: &LaunchDistribution, variable: Variable) -> LaunchDistribution {
     let mut rest = upright(launches);
     let none = Marginal::Constant(0.0);
@@ -86,7 +86,8 @@ pub(crate) fn without(launches: &LaunchDistribution, variable: Variable) -> Laun
     rest
 }
 
-/// The same launches without horizontal velocity, which changes only the place of the first contact.
+/// The same launches without horizontal velocity, which changes only the place of the first
+/// contact.
 pub(crate) fn upright(launches: &LaunchDistribution) -> LaunchDistribution {
     let mut upright = *launches;
     upright.velocity_m_s[..2].fill(Marginal::Constant(0.0));

@@ -2,9 +2,10 @@
 //!
 //! # Derivation
 //!
-//! With `s = sin α` and `C = cos 2ψ`, the coin rests on heads if `u_z > s` and on tails if `u_z <
-//! −s`, where `u_z = cos²ψ + sin²ψ·cos φ` (see [`precession`](super), also for what is assumed:
-//! heads up and level at the start, `L` fixed, φ uniform). With both arguments clipped to `[−1, 1]`,
+//! With `s = sin α` and `C = cos 2ψ`, the coin rests on heads if `u_z > s` and on tails if
+//! `u_z < −s`, where `u_z = cos²ψ + sin²ψ·cos φ` (see [`precession`](super), also for what is
+//! assumed: heads up and level at the start, `L` fixed, φ uniform). With both arguments clipped to
+//! `[−1, 1]`,
 //!
 //! > P(heads) = (1/π)·acos((s − cos²ψ)/sin²ψ),  P(tails) = 1 − (1/π)·acos((−s − cos²ψ)/sin²ψ).
 //!

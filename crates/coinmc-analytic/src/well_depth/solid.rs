@@ -8,8 +8,8 @@
 //!
 //! > P(side) = s(l − R)/[s(l − R) + (1 − s)(l − H/2)].
 //!
-//! Nobody has derived this weight or published a comparison with tosses. It is an interpolation with
-//! the right limits, not a result.
+//! Nobody has derived this weight or published a comparison with tosses. It is an interpolation
+//! with the right limits, not a result.
 //!
 //! **Small and large coins.** `x³/16` as `x → 0`; `1 − 4/x⁴` as `x → ∞`.
 //!

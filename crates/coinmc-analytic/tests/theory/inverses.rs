@@ -54,8 +54,8 @@ fn odds_of_the_wells_rise_with_powers_within_a_factor_of_two() {
 }
 
 /// Error of the round trip in units of 2⁻⁵², in P(side) or, above one half, in 1 − P(side), over
-/// the error that a rounding of the ratio alone would cause: its condition is `x·dP/dx`, taken here as a
-/// difference quotient.
+/// the error that a rounding of the ratio alone would cause: its condition is `x·dP/dx`, taken here
+/// as a difference quotient.
 fn precessing_round_trip(target: f64, psi: f64) -> f64 {
     let ratio = thick::fair_ratio(target, psi);
     let smaller = |x: f64| {

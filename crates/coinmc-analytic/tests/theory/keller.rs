@@ -28,8 +28,8 @@ fn face_is_that_of_the_simulated_toss_for_any_radius() {
         let (speed, spin) = (random.uniform(0.5, 4.0), random.uniform(5.0, 120.0));
         let radius = random.uniform(1e-4, 0.05);
         let h = half_turns(speed, spin, GRAVITY);
-        // One step turns by 0.01/π half-turns: nearer than that to an edge the step length decides, not
-        // the toss.
+        // One step turns by 0.01/π half-turns: nearer than that to an edge the step length decides,
+        // not the toss.
         if (libm::cos(PI * h)).abs() < 0.02 {
             continue;
         }

@@ -1,5 +1,5 @@
-//! Every closed form against an independent computation: the mechanics of the landing, wells found by
-//! minimisation, rigid-body motion integrated step by step, sampling, and 80-digit references.
+//! Every closed form against an independent computation: the mechanics of the landing, wells found
+//! by minimisation, rigid-body motion integrated step by step, sampling, and 80-digit references.
 
 mod accuracy;
 mod inverses;

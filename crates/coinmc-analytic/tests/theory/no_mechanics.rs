@@ -1,4 +1,5 @@
-//! The surface-area and cross-section rules as shares of random straight lines (Cauchy and Crofton).
+//! The surface-area and cross-section rules as shares of random straight lines (Cauchy and
+//! Crofton).
 
 use crate::measure::simpson;
 use crate::random::{SplitMix, assert_share};
@@ -35,9 +36,9 @@ fn surface_area_rule_is_the_share_of_lines_that_enter_there() {
         let reach = (1.0 + 0.25 * ratio * ratio).sqrt();
         while hits < 100_000 {
             let way = random.direction();
-            // Uniform in a disc across the line that is wide enough for the coin: a random direction
-            // minus its part along the line has a random azimuth, and the square of the distance is
-            // uniform.
+            // Uniform in a disc across the line that is wide enough for the coin: a random
+            // direction minus its part along the line has a random azimuth, and the square of the
+            // distance is uniform.
             let any = random.direction();
             let along: f64 = (0..3).map(|i| any[i] * way[i]).sum();
             let across: [f64; 3] = std::array::from_fn(|i| any[i] - along * way[i]);

@@ -30,8 +30,9 @@ proptest! {
     #[test]
     fn thicker_coins_rest_on_their_side(rule in rule(), x in ratio(), step in 1e-9f64..5.0) {
         let (thin, thick) = (rule.probabilities(x), rule.probabilities(x * libm::exp(step)));
-        // A relative step of 1e-9 changes the smaller of the two by at least half of 1e-9 of itself, far
-        // above rounding. The larger may stay the same or go back by no more than its rounding.
+        // A relative step of 1e-9 changes the smaller of the two by at least half of 1e-9 of
+        // itself, far above rounding. The larger may stay the same or go back by no more than its
+        // rounding.
         if thin.side < 0.5 {
             prop_assert!(thin.side < thick.side);
         } else {

@@ -7,9 +7,9 @@ pub(crate) enum Rest {
     Side,
 }
 
-/// The rest of a coin of `R = 1` and the given height that touches the floor with its normal along the
-/// unit vector `u` (z up): it tips about its lowest point, to the side of that point on which its
-/// centre lies.
+/// The rest of a coin of `R = 1` and the given height that touches the floor with its normal along
+/// the unit vector `u` (z up): it tips about its lowest point, to the side of that point on which
+/// its centre lies.
 pub(crate) fn rest(height: f64, u: [f64; 3]) -> Rest {
     let lower_face = if u[2] > 0.0 {
         -0.5 * height

@@ -7,7 +7,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 const RATIOS: [f64; 9] = [0.05, 0.184, 0.5, 1.0, 1.3545, 1.657, 2.0, 3.0, 20.0];
 
-/// Height of the centre above the floor at the tilt `theta`: the depth of the lowest corner below it.
+/// Height of the centre above the floor at the tilt `theta`: the depth of the lowest corner below
+/// it.
 fn centre_height(ratio: f64, theta: f64) -> f64 {
     let (sin, cos) = (libm::sin(theta), libm::cos(theta));
     [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]

@@ -81,8 +81,8 @@ fn closed_forms_are_recovered_by_tosses() {
     }
 }
 
-/// A tilt uniform over half a turn gives the same P(side) as one over whole turns; heads and tails are
-/// equal by symmetry if the spin has no preferred sign.
+/// A tilt uniform over half a turn gives the same P(side) as one over whole turns; heads and tails
+/// are equal by symmetry if the spin has no preferred sign.
 #[test]
 fn the_robot_lands_on_its_side_by_the_arc_rule() {
     for ratio in [0.1, 1.0, 5.0] {
@@ -98,8 +98,8 @@ fn the_robot_lands_on_its_side_by_the_arc_rule() {
     }
 }
 
-/// A coin that starts heads up with its angular momentum at ψ to its axis and turns often: the closed
-/// form of the thick coin is the limit of a phase that spreads over many turns.
+/// A coin that starts heads up with its angular momentum at ψ to its axis and turns often: the
+/// closed form of the thick coin is the limit of a phase that spreads over many turns.
 #[test]
 fn precession_with_a_wide_spread_of_turns_is_its_closed_form() {
     let psi = 1.2;
@@ -156,8 +156,8 @@ fn a_scene_without_randomness_is_one_evaluation() {
     assert_eq!((integral.evaluations, integral.half_width()), (1, 0.0));
 }
 
-/// A quantity that is drawn gives counts of faces, as tosses do: no interval is shorter than counts of
-/// as many evaluations allow.
+/// A quantity that is drawn gives counts of faces, as tosses do: no interval is shorter than counts
+/// of as many evaluations allow.
 #[test]
 fn a_drawn_quantity_has_the_interval_of_counts() {
     let launches = LaunchDistribution {

@@ -17,8 +17,8 @@ fn error(method: Method, launches: &LaunchDistribution, evaluations: u64, truth:
     (square / SCRAMBLES as f64).sqrt()
 }
 
-/// The exponent of the error between 2^10 and 2^15 evaluations; with 24 scrambles it is known within
-/// 0.09.
+/// The exponent of the error between 2^10 and 2^15 evaluations; with 24 scrambles it is known
+/// within 0.09.
 fn exponent(method: Method, launches: &LaunchDistribution, truth: f64) -> f64 {
     let errors = [1 << 10, 1 << 15].map(|n| error(method, launches, n, truth));
     libm::log2(errors[1] / errors[0]) / 5.0
