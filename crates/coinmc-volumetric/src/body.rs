@@ -29,7 +29,7 @@ impl Friction {
     }
 
     /// Whether either friction length acts.
-    pub fn twists(&self) -> bool {
+    pub fn has_lengths(&self) -> bool {
         self.contour > 0.0 || self.pivoting > 0.0
     }
 }

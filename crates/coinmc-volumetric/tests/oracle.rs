@@ -1,8 +1,8 @@
-//! Whole tosses against the time-stepping oracle: another formulation, other code, the same laws.
+//! Whole tosses against the time-stepping oracle: the same laws in another formulation and other code.
 //!
-//! Both follow the same launches, so what is compared is the difference toss by toss. Single tosses
-//! part at e > 0, where rounding grows with every bounce; their statistics must not. Bounds are
-//! 3 standard errors of the paired difference (false alarms with other seeds: 3e-3 a scene) and
+//! Both simulate the same launches, so the differences are paired. Single tosses diverge at e > 0, where
+//! rounding grows with every bounce; their statistics must not. The bounds are 3 standard errors of the
+//! paired difference (false alarms with other seeds: 3e-3 per scene), plus
 //! .002 for what the oracle's step costs. The study `oracle` makes the long comparison.
 
 use coinmc_core::{Coin, Domain, Engine, Face, Preset, Scene, Stream, Surface};
@@ -14,26 +14,25 @@ fn scene(ratio: f64, e: f64, rho: f64) -> Scene {
     let radius = 0.01;
     let surface = Surface::new(e, 0.3)
         .and_then(|surface| surface.with_friction_lengths(rho * radius, rho * radius))
-        .expect("a good surface");
-    let coin = Coin::cylinder(ratio, radius).expect("a good coin");
-    Scene::new(coin, surface, Scene::STANDARD_GRAVITY_M_S2).expect("good gravity")
+        .expect("a valid surface");
+    let coin = Coin::cylinder(ratio, radius).expect("a valid coin");
+    Scene::new(coin, surface, Scene::STANDARD_GRAVITY_M_S2).expect("valid gravity")
 }
 
-/// Tosses on which the two disagree.
+/// Tosses on which the engine and the oracle disagree.
 #[derive(Debug, Default)]
 struct Differences {
-    /// On the side with the engine only, and with the oracle only.
+    /// On the side according to the engine only, and to the oracle only.
     engine_side: u32,
     oracle_side: u32,
-    /// Tosses that the engine decides within two impacts, and those of them on which the two do
-    /// not name the same face.
+    /// Tosses that the engine decides within two impacts, and those of them with different faces.
     short: u32,
     short_differ: u32,
     undecided: u32,
 }
 
 fn compare(scene: &Scene, tosses: u64) -> Differences {
-    let engine = VolumetricEngine::new(scene, &Settings::default(), Moreau).expect("good settings");
+    let engine = VolumetricEngine::new(scene, &Settings::default(), Moreau).expect("valid settings");
     let mut oracle = TimeStepper::new(scene, StepperSettings::default());
     let stream = Stream::new(41, Domain::Launch, 0);
     let launches = Preset::Clean.distribution();
@@ -74,8 +73,8 @@ fn bouncing_coins_agree() {
     agrees(0.25, 0.5, 0.01, 3000);
 }
 
-/// Tosses decided within two impacts do not amplify: they agree one by one, but for those that
-/// come as near to a balance as the step's error (2 in 900 or so).
+/// Tosses decided within two impacts do not amplify errors: they agree one by one, except those that
+/// come as close to a balance as the error of the oracle's step (about 2 in 900).
 #[test]
 fn coins_that_do_not_bounce_agree_toss_by_toss() {
     for (ratio, rho) in [(0.85, 0.01), (2.0, 0.01)] {

@@ -88,7 +88,7 @@ impl Dynamics {
     /// The quotients of a tilt, by one division for all three.
     #[inline(always)]
     pub(super) fn quotients<L: Lane>(&self, s: L, c: L) -> Quotients<L> {
-        if !self.friction.twists() {
+        if !self.friction.has_lengths() {
             let none = L::splat(0.0);
             return Quotients {
                 sin: L::splat(1.0) / s,
@@ -111,13 +111,13 @@ impl Dynamics {
 
     /// (t_a, t_θ): torques of contour and pivoting friction per normal force.
     #[inline(always)]
-    pub(crate) fn twist<L: Lane>(&self, s: L, c: L, wa: L, wt: L) -> (L, L) {
-        self.twist_at(s, c, &self.quotients(s, c), wa, wt)
+    pub(crate) fn friction_torques<L: Lane>(&self, s: L, c: L, wa: L, wt: L) -> (L, L) {
+        self.friction_torques_at(s, c, &self.quotients(s, c), wa, wt)
     }
 
     /// The same, with the quotients of the tilt given.
     #[inline(always)]
-    pub(super) fn twist_at<L: Lane>(
+    pub(super) fn friction_torques_at<L: Lane>(
         &self,
         s: L,
         c: L,
@@ -125,7 +125,7 @@ impl Dynamics {
         wa: L,
         wt: L,
     ) -> (L, L) {
-        if !self.friction.twists() {
+        if !self.friction.has_lengths() {
             return (L::splat(0.0), L::splat(0.0));
         }
         // ω_x = s ψ' and ω_z; friction slows them down at ρ_c A/s and ρ_p G

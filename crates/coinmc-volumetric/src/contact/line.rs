@@ -48,7 +48,7 @@ pub(super) fn line_rates(dynamics: &Dynamics, state: &LineState, creep: f64) -> 
         first * y1 + second * y2,
         second * y2 - first * y1,
     );
-    let (contour, pivoting) = dynamics.twist(1.0, 0.0, wa, -wz);
+    let (contour, pivoting) = dynamics.friction_torques(1.0, 0.0, wa, -wz);
     let (linear, angular) = (dynamics.drag.linear, dynamics.drag.angular);
     LineRates {
         rates: [

@@ -98,7 +98,7 @@ impl Dynamics {
     /// Whether contact in this mode loses no energy.
     pub(super) fn conserves(&self, mode: Mode) -> bool {
         let smooth = mode == Mode::Stick || self.friction.mu == 0.0;
-        smooth && !self.friction.twists() && !self.drag.acts()
+        smooth && !self.friction.has_lengths() && !self.drag.acts()
     }
 
     /// Rates and forces of `state` in a mode.
@@ -154,8 +154,8 @@ impl Dynamics {
                 (mu * drive * slip.x, -(drive * slip.speed), drive)
             }
         };
-        let (twist_a, twist_t) = self.twist_at(s, c, &inverse, wa, wt);
-        by -= normal * (radius * twist_a * ika + half * twist_t * ikt);
+        let (torque_a, torque_t) = self.friction_torques_at(s, c, &inverse, wa, wt);
+        by -= normal * (radius * torque_a * ika + half * torque_t * ikt);
         let fy = match mode {
             Mode::Stick => -(by * k(self.inverse_kyy)),
             Mode::Slip => mu * drive * slip.y,
@@ -168,8 +168,8 @@ impl Dynamics {
             state: [
                 wy,
                 gyro_y + (rz * fx - rx * normal) * ikt,
-                (radius * fy - normal * twist_a) * ika - slows_a,
-                (half * fy - normal * twist_t) * ikt - wy * excess - slows_t,
+                (radius * fy - normal * torque_a) * ika - slows_a,
+                (half * fy - normal * torque_t) * ikt - wy * excess - slows_t,
                 slide_x,
                 slide_y,
             ],

@@ -370,7 +370,7 @@ fn power(dynamics: &Dynamics, state: &RimState<f64>, mode: Mode) -> f64 {
     let [tilt, wy, wa, wt, gx, gy] = *state;
     let (s, c) = libm::sincos(tilt);
     let now = dynamics.rates(state, mode);
-    let (twist_a, twist_t) = dynamics.twist(s, c, wa, wt);
+    let (torque_a, torque_t) = dynamics.friction_torques(s, c, wa, wt);
     let (radius, half) = (dynamics.body.radius, dynamics.body.half);
     let v = [
         gx + wy * (half * c + radius * s),
@@ -378,7 +378,7 @@ fn power(dynamics: &Dynamics, state: &RimState<f64>, mode: Mode) -> f64 {
         wy * (radius * c - half * s),
     ];
     let turning = dynamics.body.kt * (wy * wy + wt * wt) + dynamics.body.ka * wa * wa;
-    now.normal * (twist_a * wa + twist_t * wt) - now.friction[0] * gx - now.friction[1] * gy
+    now.normal * (torque_a * wa + torque_t * wt) - now.friction[0] * gx - now.friction[1] * gy
         + dynamics.drag.linear * v.iter().map(|v| v * v).sum::<f64>()
         + dynamics.drag.angular * turning
 }

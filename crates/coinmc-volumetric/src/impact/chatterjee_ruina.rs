@@ -65,7 +65,7 @@ impl ImpactLaw for ChatterjeeRuina {
             // from the normal condition instead of base + κ z: this makes u_z⁺ = −e u_z⁻ most exact
             p.z = base - coupling * p.x;
         }
-        if friction.twists() {
+        if friction.has_lengths() {
             let (contour, pivoting) =
                 FrictionMoments::new(body, friction, point, k.yy).held(p.y, p.z);
             p.contour = point.sin * contour;

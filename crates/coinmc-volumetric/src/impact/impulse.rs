@@ -82,17 +82,17 @@ impl<L: Lane> Impulse<L> {
         let k = point.matrix(body);
         let two = L::splat(2.0);
         let mut slip_y = two * point.slip_y + k.yy * self.y;
-        let mut twist = L::splat(0.0);
+        let mut moment_work = L::splat(0.0);
         let moments = self.contour.abs() + self.pivoting.abs();
         if L::splat(0.0).lt(moments).any() {
             let rates = RimRates::rates(body, point);
             let (contour, pivoting) = (self.contour / point.sin, self.pivoting);
             slip_y -= rates.slip_y(contour, pivoting);
-            twist = rates.work(self.y, contour, pivoting);
+            moment_work = rates.work(self.y, contour, pivoting);
         }
         let slip_x = two * point.slip_x + k.xx * self.x + k.xz * self.z;
         let normal = two * point.approach + k.xz * self.x + k.zz * self.z;
-        L::splat(0.5) * (self.x * slip_x + self.y * slip_y + self.z * normal + twist)
+        L::splat(0.5) * (self.x * slip_x + self.y * slip_y + self.z * normal + moment_work)
     }
 }
 

@@ -52,7 +52,7 @@ pub(crate) fn jam_impulse<L: Lane>(
         z: (-coupling * x).max(zero),
         ..Impulse::none()
     };
-    if friction.twists() {
+    if friction.has_lengths() {
         let (contour, pivoting) = FrictionMoments::new(body, friction, point, k.yy).held(p.y, p.z);
         p.contour = point.sin * contour;
         p.pivoting = pivoting;

@@ -57,7 +57,7 @@ impl ImpactLaw for Moreau {
             return ChatterjeeRuina.impulse(body, friction, point, e);
         }
         let k = point.matrix(body);
-        let p = if friction.twists() {
+        let p = if friction.has_lengths() {
             let limited = FrictionMoments::new(body, friction, point, k.yy);
             Problem::new(friction, point, &k, e, Some(limited)).solve(point.sin)
         } else {
@@ -84,7 +84,7 @@ struct Problem<L> {
     alpha: L,
     yy: L,
     coupling: L,
-    twist: Option<FrictionMoments<L>>,
+    moments: Option<FrictionMoments<L>>,
 }
 
 /// One σ, and the quotients of it that are needed.
@@ -114,7 +114,7 @@ impl<L: Lane> Problem<L> {
         point: &ContactPoint<L>,
         k: &ContactMatrix<L>,
         e: L,
-        twist: Option<FrictionMoments<L>>,
+        moments: Option<FrictionMoments<L>>,
     ) -> Self {
         let Condensed {
             mass_z,
@@ -130,7 +130,7 @@ impl<L: Lane> Problem<L> {
             alpha,
             yy: k.yy,
             coupling,
-            twist,
+            moments,
         }
     }
 
@@ -153,7 +153,7 @@ impl<L: Lane> Problem<L> {
     #[inline(always)]
     fn sideways(&self, at: &Trial<L>) -> JointSolution<L> {
         let zero = L::splat(0.0);
-        match &self.twist {
+        match &self.moments {
             None => JointSolution {
                 contour: zero,
                 pivoting: zero,
@@ -230,7 +230,7 @@ impl<L: Lane> Problem<L> {
     #[inline(always)]
     fn root(&self, guess: L, mut active: L::Mask) -> L {
         let (zero, two) = (L::splat(0.0), L::splat(2.0));
-        let close = L::splat(if self.twist.is_some() {
+        let close = L::splat(if self.moments.is_some() {
             LAST_WITH_KINKS
         } else {
             LAST

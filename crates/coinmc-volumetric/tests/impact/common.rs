@@ -47,7 +47,7 @@ pub(crate) struct Case {
 }
 
 pub(crate) fn body(ratio: f64) -> Body {
-    Body::new(&Coin::cylinder(ratio, 0.01).expect("a good coin"))
+    Body::new(&Coin::cylinder(ratio, 0.01).expect("a valid coin"))
 }
 
 /// A point at the tilt of this sine, with the velocities given.

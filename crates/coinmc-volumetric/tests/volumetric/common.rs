@@ -11,11 +11,11 @@ use nalgebra::{UnitVector3, Vector3};
 /// R = 1 cm, g = 9.81 m/s², both friction lengths `rho` radii.
 pub(crate) fn scene(ratio: f64, restitution: f64, friction: f64, rho: f64) -> Scene {
     let radius = 0.01;
-    let coin = Coin::cylinder(ratio, radius).expect("a good coin");
+    let coin = Coin::cylinder(ratio, radius).expect("a valid coin");
     let surface = Surface::new(restitution, friction)
         .and_then(|surface| surface.with_friction_lengths(rho * radius, rho * radius))
-        .expect("a good surface");
-    Scene::new(coin, surface, Scene::STANDARD_GRAVITY_M_S2).expect("good gravity")
+        .expect("a valid surface");
+    Scene::new(coin, surface, Scene::STANDARD_GRAVITY_M_S2).expect("valid gravity")
 }
 
 /// An engine of any law.
@@ -36,14 +36,14 @@ impl Tosser {
     }
 
     pub(crate) fn with(scene: &Scene, settings: &Settings) -> Self {
-        Self(AnyVolumetricEngine::new(scene, settings).expect("good settings"))
+        Self(AnyVolumetricEngine::new(scene, settings).expect("valid settings"))
     }
 
     pub(crate) fn toss(&self, launch: &Launch) -> Outcome {
-        self.adapter(launch, &mut ())
+        self.observe(launch, &mut ())
     }
 
-    pub(crate) fn adapter(&self, launch: &Launch, observer: &mut impl Observer) -> Outcome {
+    pub(crate) fn observe(&self, launch: &Launch, observer: &mut impl Observer) -> Outcome {
         match &self.0 {
             AnyVolumetricEngine::Moreau(engine) => engine.toss(&mut (), launch, observer),
             AnyVolumetricEngine::ChatterjeeRuina(engine) => engine.toss(&mut (), launch, observer),
@@ -54,7 +54,7 @@ impl Tosser {
     /// The toss and its events.
     pub(crate) fn record(&self, scene: &Scene, launch: &Launch) -> (Outcome, Vec<Moment>) {
         let mut recorder = Recorder::default();
-        let outcome = self.adapter(launch, &mut recorder);
+        let outcome = self.observe(launch, &mut recorder);
         let moments = recorder.0.iter().map(|event| moment(scene, event));
         (outcome, moments.collect())
     }

@@ -1,12 +1,12 @@
-//! The rules of decision beside each other.
+//! The decision rules compared.
 
 use crate::common::{Tosser, paired, preset, scene, side, stream};
 use coinmc_core::{Ended, Engine, Face, LaunchDistribution, Marginal, Preset, Scene, Spin};
 use coinmc_volumetric::{AnyVolumetricEngine, Decision, Settings};
 use std::ops::ControlFlow;
 
-/// Leaving out what cannot become tilt changes the side's share by less than .001 and 5 standard
-/// errors of the paired difference; heads and tails are not exchanged.
+/// The tilting rule, which leaves out energy that cannot become tilt, changes the probability of the side
+/// by less than .001 plus 5 standard errors of the paired difference. Heads and tails are not exchanged.
 #[test]
 fn tilting_agrees_with_energy() {
     for (ratio, e, rho) in [(0.85, 0.5, 0.01), (0.85, 0.0, 0.01), (2.0, 0.0, 0.03)] {
@@ -34,12 +34,12 @@ fn tilting_agrees_with_energy() {
     }
 }
 
-/// The same where it is hardest, side by side; as many tosses of 20,000 as are said may be on the side
-/// by one rule only. In brackets how many are if straight rolling is left out whole, or, in the
-/// last, sliding of a flat coin. Of 400,000 tosses with another seed .8 of 10,000 were at most: 15
-/// of 20,000 or more are less than one seed in 1e9.
+/// The same in the hardest scenes. At most the given number of 20,000 tosses may be on the side by one
+/// rule only. In brackets: the number if all energy of straight rolling is left out, or (last scene) of
+/// the sliding of a flat coin. Of 400,000 tosses with another seed at most .8 in 10,000 differed; 15 or
+/// more of 20,000 occur with less than one seed in 1e9.
 #[test]
-fn what_cannot_become_tilt_is_not_overestimated() {
+fn energy_that_cannot_become_tilt_is_not_overestimated() {
     let clean = Preset::Clean.distribution();
     let mut hand = Preset::Hand.distribution();
     hand.spin = Spin::Precessing {
@@ -47,12 +47,12 @@ fn what_cannot_become_tilt_is_not_overestimated() {
         psi_rad: Marginal::Constant(75.0_f64.to_radians()),
     };
     for (scene, launches, differ_at_most) in [
-        // rolls longest, and turns while it does (66, 38)
+        // rolls longest, and turns while it rolls (66, 38)
         (scene(0.85, 0.0, 0.3, 0.003), &clean, 14),
         (scene(0.85, 0.5, 0.3, 0.003), &clean, 14),
-        // spins fast: what holds it up leaning is gyroscopic (328)
+        // spins fast: a gyroscopic torque keeps it leaning (328)
         (scene(1.2, 0.5, 0.3, 0.005), &hand, 14),
-        // slides flat on a face, tall enough for friction to help it over (8)
+        // slides flat on a face, and is tall enough for friction to tip it (8)
         (scene(2.0, 0.8, 0.3, 0.03), &clean, 1),
     ] {
         let sides = |decision| {
@@ -69,11 +69,11 @@ fn what_cannot_become_tilt_is_not_overestimated() {
     }
 }
 
-/// Without friction lengths two of five coins roll for ever, most of them within one well, which
-/// settles their face. What energy decides stays as it is. Of 5000 other tosses 5 % were never_settles
-/// instead of 39 %.
+/// Without friction lengths, two of five coins roll for ever, most of them on one face or on the side,
+/// which decides the face. Faces that energy decides do not change. Of 5000 other tosses 5 % ended as
+/// `NeverSettles` instead of 39 %.
 #[test]
-fn a_coin_that_rolls_for_ever_in_one_well_is_settled_there() {
+fn a_coin_that_rolls_for_ever_without_passing_a_balance_is_decided() {
     let scene = scene(0.85, 0.5, 0.3, 0.0);
     let energy = Settings {
         decision: Decision::Energy,
@@ -89,20 +89,20 @@ fn a_coin_that_rolls_for_ever_in_one_well_is_settled_there() {
         differ += u32::from(other.face().is_some() && one.face() != other.face());
         assert!(one.contact_steps <= other.contact_steps, "{toss}");
     }
-    println!("{never_settles} and {open} of 1000 never_settles, {differ} differ");
+    println!("{never_settles} and {open} of 1000 never settle, {differ} differ");
     // 6 standard errors of the share
     assert!(never_settles < 92 && open > 300, "{never_settles} {open}");
     assert!(differ <= 3, "{differ}");
 }
 
-/// Which tosses end on the side; all of them are decided.
+/// For each toss, whether it ends on the side. All tosses are decided.
 fn sides(
     scene: &Scene,
     settings: &Settings,
     launches: &LaunchDistribution,
     tosses: u64,
 ) -> Vec<bool> {
-    let engine = AnyVolumetricEngine::new(scene, settings).expect("good settings");
+    let engine = AnyVolumetricEngine::new(scene, settings).expect("valid settings");
     let mut sides = Vec::new();
     let launches = launches.launches(&scene.coin, &stream(251), 0..tosses, engine.lanes());
     engine.toss_all(&mut (), launches, |number, outcome| {

@@ -1,4 +1,4 @@
-//! Flight: closed form, without loss, and no contact missed.
+//! Flight: it agrees with its equations, conserves what it should, and misses no contact.
 
 use crate::common::{Dice, Moment, Start, Tosser, flights};
 use coinmc_core::{Coin, Drag, EventKind, Scene, Surface};
@@ -6,14 +6,14 @@ use coinmc_oracle::{Model, Motion};
 use coinmc_volumetric::Settings;
 use nalgebra::Vector3;
 
-/// Highest rate of turning, and where the coin can touch.
+/// The highest angular velocity during a flight.
 fn turning(model: &Model, motion: &Motion) -> f64 {
     let momentum = model.inertia(&motion.axis) * motion.spin;
     motion.spin.norm().max(momentum.norm() / model.transverse)
 }
 
-/// Moments at which a flight is looked at: 400 over all of it, and where the coin is low enough to
-/// touch at least every 20th of a radian (2000 at most).
+/// Times at which a flight is examined: 400 over the whole flight, and where the coin is low enough to
+/// touch, at least one per 1/20 rad of rotation (2000 at most).
 fn looks(model: &Model, from: &Moment, time: f64) -> Vec<f64> {
     let evenly = |from: f64, to: f64, n: u32| {
         (1..n).map(move |i| from + (to - from) * f64::from(i) / f64::from(n))
@@ -25,7 +25,7 @@ fn looks(model: &Model, from: &Moment, time: f64) -> Vec<f64> {
     };
     let all: Vec<f64> = evenly(0.0, time, 400).collect();
     let mut looks = all.clone();
-    // a nonnegative number of looks, a few thousand at most
+    // a nonnegative number, a few thousand at most
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     let fine = (20.0 * turning(model, &from.motion) * time / 400.0).min(2000.0) as u32;
     let lows: Vec<f64> = all.into_iter().filter(|t| low(*t)).collect();
@@ -49,14 +49,14 @@ struct Seen {
     drift: f64,
 }
 
-/// Looks for contacts within the flight. Rounding puts the gap off by 1e-16 of the phase and of
-/// the height gone through.
+/// Searches for contacts within the flight. Rounding changes the gap by 1e-16 of the phase and of the
+/// height covered.
 fn scan(model: &Model, from: &Moment, to: &Moment, seen: &mut Seen, what: &dyn Fn() -> String) {
     seen.flights += 1;
     let time = to.time - from.time;
     let phase = turning(model, &from.motion) * time;
     let speed = from.motion.velocity.z.abs() + time;
-    // time itself is known to 1e-16 of the toss
+    // the time is known to 1e-16 of the duration of the toss
     let blur = 1e-12 + 1e-15 * (phase + speed * time + (speed + phase / time) * to.time);
     for t in looks(model, from, time) {
         let mut motion = from.motion;
@@ -68,7 +68,7 @@ fn scan(model: &Model, from: &Moment, to: &Moment, seen: &mut Seen, what: &dyn F
     let rim = to.motion.gap(model).abs();
     seen.rim = seen.rim.max(rim);
     assert!(rim <= 1e-12, "{rim:e} off the surface: {to:?} {}", what());
-    // where both closed forms arrive
+    // where both closed forms end
     let mut motion = from.motion;
     motion.fly(model, time);
     let drift = (motion.axis - to.motion.axis)
@@ -80,9 +80,9 @@ fn scan(model: &Model, from: &Moment, to: &Moment, seen: &mut Seen, what: &dyn F
     assert!(drift <= 1e3 * blur, "{drift:e}: {from:?} {to:?} {}", what());
 }
 
-/// Without torque and drag nothing but height changes the energy, and the angular momentum and
-/// the horizontal velocity stay. The axial spin is L·u/I_a: rounding of u, 1e-16, counts I_t/I_a
-/// times a flight, which matters for rods.
+/// Without torque and drag the energy, the angular momentum and the horizontal velocity are conserved.
+/// The axial spin is L·u/I_a: the rounding of u, 1e-16, is multiplied by I_t/I_a in each flight, which
+/// matters for rods.
 fn conserves(model: &Model, from: &Motion, to: &Motion, seen: &mut Seen) {
     let (before, after) = (from.energy(model), to.energy(model));
     let energy = (after / before - 1.0).abs();
@@ -98,7 +98,7 @@ fn conserves(model: &Model, from: &Motion, to: &Motion, seen: &mut Seen) {
     assert!(pushed <= 1e-12 * (1.0 + from.velocity.norm()), "{pushed:e}");
 }
 
-/// A scene and a launch of one kind, at random.
+/// A random scene and launch of one kind.
 fn case(seed: u64, trial: u64, spin: f64, dragged: bool, gyroscopic: bool) -> (Scene, Start) {
     let mut dice = Dice::new(seed, trial);
     let ratio = match trial % 4 {
@@ -167,8 +167,8 @@ fn no_contact_is_missed_without_gyroscopic_torque() {
 }
 
 /// v' = −kv − ẑ, u' = ω × u and L' = −k'L (or, without gyroscopic torque, ω' = −k'ω), by the
-/// classical Runge–Kutta method in steps of a 200th of the fastest rate: each is off by
-/// (1/200)⁵/120, 1e-10 in a phase of 100.
+/// classical Runge–Kutta method in steps of 1/200 of the fastest time scale. The error of a step is
+/// (1/200)⁵/120: 1e-10 in a phase of 100.
 fn integrated(model: &Model, from: &Motion, time: f64) -> Motion {
     let spin = |axis: &Vector3<f64>, turning: &Vector3<f64>| {
         if model.gyroscopic {
@@ -192,7 +192,7 @@ fn integrated(model: &Model, from: &Motion, time: f64) -> Motion {
     };
     let mut y = [from.position, from.velocity, from.axis, turning];
     let fastest = 1.0 + from.spin.norm() + model.linear_drag;
-    // a nonnegative number of steps, some thousands
+    // a nonnegative number of steps, a few thousand
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     let steps = (200.0 * fastest * time).ceil() as u32;
     let h = time / f64::from(steps);

@@ -1,4 +1,4 @@
-//! Tosses out of 1e6 from a huge box of scenes that did, or came closest to, what none may
+//! The tosses, out of 1e6 from a huge range of scenes, that violated a limit or came closest to it
 //! (`coinmc-studies stability`).
 
 use crate::common::Tosser;
@@ -7,8 +7,8 @@ use nalgebra::{UnitVector3, Vector3};
 
 /// H/R, R m, e, μ, contour m, pivoting m, height m, u, spin rad/s.
 const HARDEST: [[f64; 13]; 3] = [
-    // came down on its side within a step of contact in which friction also changed its mode: the
-    // coin was put back onto its side with an energy 3e-7 and 4e-6 above what it had
+    // came down on its side within a step of contact in which the mode also changed: the coin was put
+    // back on its side with an energy 3e-7 and 4e-6 above its own
     [
         4.933_186_921_488_359,
         1.373_440_006_995_429_1,
@@ -39,8 +39,9 @@ const HARDEST: [[f64; 13]; 3] = [
         3_218.541_138_563_664,
         1_268.360_476_945_465_5,
     ],
-    // a long rod whose other rim came down just as the last step of a search passed the horizontal:
-    // found 1.5e-6 D too late and put back onto the surface, it gained 6e-8 in flight
+    // a long rod whose other rim touched just as the last step of a search passed the horizontal: the
+    // contact was found 1.5e-6 D too late, and putting the coin back on the surface added an energy of
+    // 6e-8
     [
         2_891.208_573_163_485_7,
         0.092_606_066_326_694_49,
@@ -70,11 +71,11 @@ fn scene_and_launch(numbers: &[f64; 13]) -> (Scene, Launch) {
         vectors @ ..,
     ] = *numbers;
     let [axis, spin] = [0, 3].map(|from| Vector3::from_column_slice(&vectors[from..from + 3]));
-    let coin = Coin::cylinder(ratio, radius).expect("a good coin");
+    let coin = Coin::cylinder(ratio, radius).expect("a valid coin");
     let surface = Surface::new(e, mu)
         .and_then(|surface| surface.with_friction_lengths(contour, pivoting))
-        .expect("a good surface");
-    let scene = Scene::new(coin, surface, Scene::STANDARD_GRAVITY_M_S2).expect("good gravity");
+        .expect("a valid surface");
+    let scene = Scene::new(coin, surface, Scene::STANDARD_GRAVITY_M_S2).expect("valid gravity");
     let launch = Launch {
         height_m,
         velocity_m_s: Vector3::zeros(),
@@ -84,8 +85,8 @@ fn scene_and_launch(numbers: &[f64; 13]) -> (Scene, Launch) {
     (scene, launch)
 }
 
-/// Largest gain of energy beyond flight, relative; change of energy in flight, relative; and
-/// distance of the lowest point from the surface in contact, in D.
+/// The largest relative gain of energy outside flight, the largest relative change of energy in flight,
+/// and the largest distance of the lowest point from the surface in contact, in D.
 struct Worst<'a> {
     scene: &'a Scene,
     last: Option<(EventKind, f64)>,
@@ -121,8 +122,8 @@ impl Observer for Worst<'_> {
     }
 }
 
-/// Energies are sums of terms up to a thousand times as large as what passes in an event: 1e-12; in
-/// flight the state at the contact is turned by the phase of all of it as well: 1e-11.
+/// Energies are sums of terms up to 1000 times as large as the energy that changes in an event, hence
+/// 1e-12. In flight the phase of the whole flight adds its rounding, hence 1e-11.
 #[test]
 fn they_gain_nothing_and_stay_on_the_surface() {
     for numbers in &HARDEST {
@@ -134,7 +135,7 @@ fn they_gain_nothing_and_stay_on_the_surface() {
             drift: 0.0,
             residual: 0.0,
         };
-        Tosser::new(&scene).adapter(&launch, &mut worst);
+        Tosser::new(&scene).observe(&launch, &mut worst);
         assert!(worst.gain < 1e-12, "{numbers:?}: {:e}", worst.gain);
         assert!(worst.drift < 1e-11, "{numbers:?}: {:e}", worst.drift);
         assert!(worst.residual < 1e-12, "{numbers:?}: {:e}", worst.residual);

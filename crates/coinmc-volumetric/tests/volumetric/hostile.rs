@@ -1,4 +1,4 @@
-//! Any launch at all ends in bounded time, without a panic, under the right count.
+//! Every launch ends in bounded time, without a panic, and is counted correctly.
 
 use crate::common::{Dice, Tosser, scene};
 use coinmc_core::{Coin, Ended, Launch, Scene, Surface};
@@ -7,13 +7,13 @@ use nalgebra::{UnitVector3, Vector3};
 use std::sync::mpsc;
 use std::time::Duration;
 
-/// Runs `work` on a thread of its own and fails if it has not come back in time, so that a hang
-/// is a failure and not a stuck test. Each of these takes some ten seconds at most.
+/// Runs `work` on a thread of its own and fails if it does not return in time, so that a toss that never
+/// ends is a failure and not a test that never ends. Each of these takes about ten seconds at most.
 fn within_two_minutes(work: impl FnOnce() + Send + 'static) {
     let (done, wait) = mpsc::channel();
     let worker = std::thread::spawn(move || {
         work();
-        // nobody listens any more only when the time is up already
+        // the receiver is gone only if the time is already up
         let _ = done.send(());
     });
     match wait.recv_timeout(Duration::from_mins(2)) {
@@ -22,12 +22,12 @@ fn within_two_minutes(work: impl FnOnce() + Send + 'static) {
     }
 }
 
-/// One toss anywhere in the box: ratio 1e-4 to 1e4, radius 1e-6 to 1e3 m, spin to 1e5 rad/s, from
-/// heights to 1e3 R; e, μ and ρ at and between their ends. Where nothing takes energy from a
-/// rolling or from a bouncing coin is left out: there some tosses have no end.
+/// A random toss: ratio 1e-4 to 1e4, radius 1e-6 to 1e3 m, spin up to 1e5 rad/s, heights up to 1e3 R; e,
+/// μ and ρ at and between the ends of their ranges. Scenes in which a rolling or bouncing coin loses no
+/// energy are left out, because some of their tosses never end.
 ///
-/// `tame` keeps to tosses whose contact can be followed to its end: a coin that turns n times as
-/// fast as it topples needs of the order of n²/μ or n²R/ρ steps until friction has slowed it down.
+/// `tame` restricts them to tosses whose contact can be followed to its end: a coin that turns n times as
+/// fast as it topples needs about n²/μ or n²R/ρ steps until friction has slowed it down.
 fn stress(trial: u64, tame: bool) -> (Scene, Launch, Law) {
     let mut dice = Dice::new(130, trial);
     let radius = dice.scale(1e-6, 1e3);
@@ -51,11 +51,11 @@ fn stress(trial: u64, tame: bool) -> (Scene, Launch, Law) {
     let least = if tame { 1e-2 } else { 1e-4 };
     let mut length = || radius * dice.pick(&[0.1, least, 1e-2]) * dice.between(0.1, 1.0);
     let (contour, pivoting) = (length(), length());
-    let coin = Coin::cylinder(ratio, radius).expect("a good coin");
+    let coin = Coin::cylinder(ratio, radius).expect("a valid coin");
     let surface = Surface::new(e, mu)
         .and_then(|surface| surface.with_friction_lengths(contour, pivoting))
-        .expect("a good surface");
-    let scene = Scene::new(coin, surface, Scene::STANDARD_GRAVITY_M_S2).expect("good gravity");
+        .expect("a valid surface");
+    let scene = Scene::new(coin, surface, Scene::STANDARD_GRAVITY_M_S2).expect("valid gravity");
     let height = match dice.pick(&[0, 1, 2]) {
         0 => 0.0,
         _ if tame => radius * dice.scale(1e-3, 30.0),
@@ -92,7 +92,7 @@ fn stress(trial: u64, tame: bool) -> (Scene, Launch, Law) {
 }
 
 #[test]
-fn tame_tosses_of_the_box_are_all_decided() {
+fn all_tame_tosses_are_decided() {
     within_two_minutes(|| {
         let mut undecided = Vec::new();
         for trial in 0..5_000 {
@@ -107,7 +107,7 @@ fn tame_tosses_of_the_box_are_all_decided() {
 }
 
 #[test]
-fn the_whole_box_ends_and_is_counted() {
+fn all_tosses_end_and_are_counted() {
     within_two_minutes(|| {
         let (mut limited, mut jams) = (0_u64, 0_u64);
         for trial in 0..1_000 {
@@ -126,7 +126,7 @@ fn the_whole_box_ends_and_is_counted() {
                 "{trial} {law:?} {outcome:?}"
             );
         }
-        // what the tame tosses leave out: huge spins and next to no friction
+        // what the tame tosses leave out: huge spins and very low friction
         assert!(limited < 400, "{limited}");
         assert!(jams > 0, "no Painlevé configuration in the sample");
     });
@@ -152,9 +152,9 @@ const VALUES: [f64; 17] = [
     f64::NAN,
 ];
 
-fn outrageous(dice: &mut Dice) -> Launch {
+fn extreme(dice: &mut Dice) -> Launch {
     let tame = [0.01, 0.1, 1.0, 10.0];
-    // two of the quantities are wild, lest everything ends at once
+    // only two of the quantities are extreme, otherwise every toss would end at once
     let mut numbers = [(); 7].map(|()| dice.pick(&tame));
     for _ in 0..2 {
         let which = dice.pick(&[0, 1, 2, 3, 4, 5, 6]);
@@ -182,7 +182,7 @@ fn is_finite(launch: &Launch) -> bool {
 }
 
 #[test]
-fn outrageous_launches_end_and_what_is_no_number_fails() {
+fn extreme_launches_end_and_launches_with_nan_fail() {
     within_two_minutes(|| {
         let mut ends = [0_u32; 5];
         for trial in 0..20_000 {
@@ -198,7 +198,7 @@ fn outrageous_launches_end_and_what_is_no_number_fails() {
                 ..Settings::default()
             };
             let engine = Tosser::with(&scene(ratio, restitution, friction, rho), &settings);
-            let launch = outrageous(&mut dice);
+            let launch = extreme(&mut dice);
             let outcome = engine.toss(&launch);
             let end = match outcome.ended {
                 Ended::Decided(_) => 0,
@@ -218,9 +218,9 @@ fn outrageous_launches_end_and_what_is_no_number_fails() {
     });
 }
 
-/// An axis that is no direction has no face.
+/// Without a direction of the axis there is no face.
 #[test]
-fn an_axis_that_is_no_number_fails() {
+fn an_axis_with_nan_fails() {
     for (height_m, restitution) in [(0.0, 0.5), (0.005, 0.5), (1.0, 0.5), (1.0, 0.0)] {
         for axis in [
             Vector3::new(f64::NAN, 0.0, f64::NAN),

@@ -6,7 +6,7 @@ use coinmc_oracle::{Model, Motion};
 use coinmc_volumetric::Law;
 use nalgebra::Vector3;
 
-/// Velocity of the lowest rim point, by vectors of the laboratory.
+/// Velocity of the lowest rim point, by vectors in the laboratory frame.
 fn lowest_velocity(model: &Model, motion: &Motion) -> Vector3<f64> {
     let u = &motion.axis;
     let across = (u * u.z - Vector3::z()) / motion.sine();
@@ -23,11 +23,12 @@ fn impacts(moments: &[Moment]) -> impl Iterator<Item = (&Moment, &Moment, &Momen
     })
 }
 
-/// The normal velocity is thrown back by e (under Stronge's law too where nothing rubs), or it is
-/// taken out and contact follows: no flight to another contact may. Rounding: 1e-12 of the velocities, magnified where the lowest point of a
-/// flat coin is ill-defined (left out below a sine of 1e-4).
+/// The normal velocity is reversed by e (also under Stronge's law if there is no friction); or it becomes
+/// 0, and sustained contact follows instead of flight to another contact. Rounding: 1e-12 of the
+/// velocities, and more where the lowest point of a flat coin is ill-defined (left out below a sine of
+/// 1e-4).
 #[test]
-fn the_approach_is_thrown_back_by_e() {
+fn impacts_reverse_the_approach_by_e() {
     let (mut bounced, mut stopped) = (0, 0);
     for law in Law::ALL {
         for (ratio, e, mu, rho) in [
@@ -68,11 +69,11 @@ fn the_approach_is_thrown_back_by_e() {
             }
         }
     }
-    println!("{bounced} thrown back, {stopped} stopped");
+    println!("{bounced} bounced, {stopped} stopped");
     assert!(bounced > 10_000 && stopped > 500, "{bounced} {stopped}");
 }
 
-/// Below the threshold nothing is thrown back, above it all is as without one.
+/// Below the threshold an impact does not bounce; above it an impact is the same as without a threshold.
 #[test]
 fn slow_impacts_below_the_threshold_do_not_bounce() {
     let base = scene(0.85, 0.6, 0.3, 0.01);
@@ -106,8 +107,8 @@ fn slow_impacts_below_the_threshold_do_not_bounce() {
     assert!(slow > 1000 && fast > 1000, "{slow} {fast}");
 }
 
-/// No impact, no flight and no phase of contact ends with more energy than it began with, over
-/// the box of ratios, e, μ and friction lengths.
+/// No impact, flight or phase of contact ends with more energy than at its start, for all ratios, e, μ
+/// and friction lengths.
 #[test]
 fn no_event_gains_energy() {
     let mut worst = [0.0_f64; 3];
@@ -145,7 +146,7 @@ fn no_event_gains_energy() {
             };
             worst[which] = worst[which].max(gain);
             events += 1;
-            // in flight, the rounding of u counts I_t/I_a times (rods)
+            // in flight, the rounding of u is multiplied by I_t/I_a (rods)
             let flight = if which == 2 {
                 1e-15 * model.transverse / model.axial
             } else {

@@ -1,4 +1,4 @@
-//! Limits with a known answer.
+//! Limiting cases with a known answer.
 
 use crate::common::{Dice, Start, Tosser, preset, scene, stream, well};
 use coinmc_analytic::{precession, zone};
@@ -13,14 +13,14 @@ fn adhesive(ratio: f64) -> Scene {
     scene
 }
 
-/// Standard errors from the expected share.
+/// Deviation from the expected share, in standard errors.
 fn deviation(count: u32, tosses: u32, p: f64) -> f64 {
     let n = f64::from(tosses);
     (f64::from(count) - n * p) / (n * p * (1.0 - p)).sqrt()
 }
 
-/// Without spin and with uniform orientation the coin sticks as it fell: the zone rule. 4.9
-/// standard errors: false alarms 1e-6 an assertion.
+/// Without spin and with uniform orientation, the coin sticks in the orientation in which it fell: the
+/// zone rule. 4.9 standard errors: false alarms 1e-6 per assertion.
 #[test]
 fn adhesive_without_spin_is_the_zone_rule() {
     let tosses = 50_000;
@@ -47,8 +47,7 @@ fn adhesive_without_spin_is_the_zone_rule() {
     }
 }
 
-/// First contact by marching in steps of 1/2000 (of a unit turn, where the coin turns faster) and
-/// halving.
+/// First contact, found by steps of 1/2000 (or 1/2000 rad of rotation, if that is shorter) and bisection.
 fn marched(model: &Model, start: &Motion) -> Motion {
     let step = 5e-4 / start.spin.norm().max(1.0);
     let at = |t: f64| {
@@ -72,11 +71,11 @@ fn marched(model: &Model, start: &Motion) -> Motion {
     at(low)
 }
 
-/// With spin the face is that of the well in which the first contact finds the coin. A launch
-/// whose contact comes within 1e-6 of a balance proves nothing (1e-6 of them); one that grazes
-/// the surface by less than a step's dip, 1e-7, may be missed by the march: at most 1 in 400.
+/// With spin, the face is the one towards which the coin leans at first contact. A launch whose contact
+/// comes within 1e-6 of a balance proves nothing (a fraction of 1e-6). The steps may miss a contact
+/// that enters the surface by less than 1e-7: at most 1 in 400.
 #[test]
-fn adhesive_with_spin_is_the_well_at_first_contact() {
+fn adhesive_with_spin_decides_at_first_contact() {
     let mut wrong = 0;
     for ratio in [0.1, 1.0, 3.0] {
         let scene = adhesive(ratio);
@@ -91,10 +90,10 @@ fn adhesive_with_spin_is_the_well_at_first_contact() {
     assert!(wrong <= 3, "{wrong}");
 }
 
-/// Heads up and level, the angular momentum ψ from the vertical, thrown down so fast that the
-/// coin falls by its own size while u goes round by 1e-4 rad: φ at the contact is that of the
-/// landing plane, uniform as the rate is, and the shares are the closed form's. 4.9 standard
-/// errors, false alarms 1e-6 an assertion; 1e-4 rad shift a share by less than half of one.
+/// Heads up and level, with the angular momentum at an angle ψ from the vertical, thrown down so fast
+/// that the coin falls by its own size while u turns by 1e-4 rad. So the phase φ at first contact is
+/// that at the surface, which is uniform, and the shares are those of the closed form. 4.9 standard
+/// errors: false alarms 1e-6 per assertion. 1e-4 rad change a share by less than half a standard error.
 #[test]
 fn a_precessing_coin_is_the_closed_form() {
     let tosses = 30_000;
@@ -138,9 +137,9 @@ fn a_precessing_coin_is_the_closed_form() {
     }
 }
 
-/// A sheet never stands on its side and a rod never on an end. By the zone rule, which bounces can
-/// only lower, the rare faces number 1000·5e-5 (sheet) and far fewer (rod): two or more come
-/// once in a thousand runs.
+/// A sheet never ends on its side, and a rod never on an end. By the zone rule the expected number of
+/// rare faces is 1000·5e-5 (sheet) and far less (rod), and bounces only lower it. Two or more occur in one
+/// of a thousand runs.
 #[test]
 fn sheets_and_rods() {
     for (ratio, e) in [(1e-4, 0.0), (1e-4, 0.5), (1e4, 0.0), (1e4, 0.5)] {
@@ -160,7 +159,7 @@ fn sheets_and_rods() {
     }
 }
 
-/// With loss every toss of everyday scenes ends with a face.
+/// If energy is lost, every toss of an ordinary scene is decided.
 #[test]
 fn tosses_that_lose_energy_are_decided() {
     for e in [0.0, 0.3, 0.5, 0.8, 0.95] {
@@ -180,10 +179,10 @@ fn tosses_that_lose_energy_are_decided() {
     }
 }
 
-/// Nothing takes energy at e = 1 without friction: decided at launch, by the rule that is exact
-/// without friction, or never_settles.
+/// At e = 1 without friction no energy is lost: a toss is decided at its launch, by the rule that is
+/// exact without friction, or it never settles.
 #[test]
-fn without_loss_a_toss_is_settled_at_its_launch_or_never() {
+fn without_loss_a_toss_is_decided_at_its_launch_or_never() {
     for ratio in [0.1, 1.0, 5.0] {
         let scene = scene(ratio, 1.0, 0.0, 0.0);
         let engine = Tosser::new(&scene);
@@ -211,8 +210,8 @@ fn without_loss_a_toss_is_settled_at_its_launch_or_never() {
     }
 }
 
-/// A level coin that does not spin comes down on the face it was held on. On its side it does so
-/// where both rims can take the blow in turn (H/R > 1.2247: a blow at one does not lift the other).
+/// A level coin without spin lands on the face on which it was held. A coin on its side does so if its
+/// rims can be struck one after another (H/R > 1.2247: an impact at one does not lift the other).
 #[test]
 fn level_coins_without_spin_land_level() {
     for ratio in [0.01, 0.5, 2.0] {

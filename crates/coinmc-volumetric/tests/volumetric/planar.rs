@@ -1,4 +1,4 @@
-//! A toss in the plane, without friction, is the flat engine's.
+//! A toss in the plane without friction agrees with the flat engine.
 
 use crate::common::{Dice, Start, Tosser, paired, scene, side};
 use coinmc_core::{Engine, Event, EventKind, Launch, Observer, Outcome, Scene};
@@ -38,7 +38,7 @@ impl Both {
     fn new(scene: &Scene) -> Self {
         Self {
             space: Tosser::new(scene),
-            flat: FlatEngine::new(scene, &Settings::default(), Moreau).expect("good settings"),
+            flat: FlatEngine::new(scene, &Settings::default(), Moreau).expect("valid settings"),
         }
     }
 
@@ -46,7 +46,7 @@ impl Both {
         let mut seen = [Impacts::default(), Impacts::default()];
         let [a, b] = &mut seen;
         let outcomes = [
-            self.space.adapter(launch, a),
+            self.space.observe(launch, a),
             self.flat.toss(&mut (), launch, b),
         ];
         let [a, b] = seen;
@@ -54,13 +54,12 @@ impl Both {
     }
 }
 
-/// The first three impacts agree in time and speed to 1e-9 of their units (rounding, amplified by
-/// up to a thousand an impact; an approach slower than zeno begins contact instead). Faces agree
-/// on all but the tosses that two engines, each with its own bounds for when bounces become
-/// contact, may decide differently: paired shares of the side within 5 standard errors (false
-/// alarms 6e-7 a scene) and 0.003.
+/// The first three impacts agree in time and speed to 1e-9 of their units (rounding, amplified by up to
+/// 1000 per impact; an approach slower than zeno starts contact instead). Faces may differ only where
+/// the engines have different bounds for when bounces become contact: the paired probabilities of the
+/// side agree within 5 standard errors (false alarms 6e-7 per scene) plus 0.003.
 #[test]
-fn it_is_the_flat_engine() {
+fn planar_tosses_agree_with_the_flat_engine() {
     for e in [0.0, 0.3, 0.7] {
         for ratio in [0.3, 1.0, 1.5, 3.0] {
             let scene = scene(ratio, e, 0.0, 0.0);
@@ -76,7 +75,7 @@ fn it_is_the_flat_engine() {
                         .abs()
                         .max((va - vb).abs() * time / length);
                     if e == 0.0 && compared > 0 && off > 1e-9 {
-                        // contact lies between: followed with an error of its own
+                        // contact came between, which is integrated with an error of its own
                         break;
                     }
                     compared += 1;

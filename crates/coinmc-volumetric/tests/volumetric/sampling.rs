@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 /// Every kind of motion: bouncing, rocking, sliding, rolling on the rim and along the side, thin,
 /// thick, through air, without friction and without gyroscopic torque.
 fn scenes() -> Vec<Scene> {
-    let air = |scene: Scene| scene.with_drag(Drag::new(0.5, 2.0).expect("good rates"));
+    let air = |scene: Scene| scene.with_drag(Drag::new(0.5, 2.0).expect("valid rates"));
     vec![
         scene(0.85, 0.5, 0.3, 0.01),
         scene(0.85, 0.0, 0.3, 0.01),
@@ -24,7 +24,7 @@ fn scenes() -> Vec<Scene> {
 
 fn sampled(tosser: &Tosser, launch: &Launch, rate: f64) -> (Outcome, Sampler) {
     let mut sampler = Sampler::new(rate);
-    let outcome = tosser.adapter(launch, &mut sampler);
+    let outcome = tosser.observe(launch, &mut sampler);
     (outcome, sampler)
 }
 
@@ -37,7 +37,7 @@ fn sampling_changes_nothing() {
             let launch = preset(Preset::Clean, &scene, 400, toss);
             let alone = tosser.toss(&launch);
             let mut recorder = Recorder::default();
-            tosser.adapter(&launch, &mut recorder);
+            tosser.observe(&launch, &mut recorder);
             for rate in [7.0, 100.0, 1000.0] {
                 let (outcome, sampler) = sampled(&tosser, &launch, rate);
                 assert_eq!(outcome, alone);
@@ -253,7 +253,7 @@ fn contact_at_the_default_tolerance_follows_too() {
 fn a_coin_that_rolls_out_is_shown_to_the_end() {
     for drag in [0.0, 0.5] {
         let scene =
-            scene(1.0, 0.0, 0.3, 0.01).with_drag(Drag::new(drag, 0.0).expect("a good rate"));
+            scene(1.0, 0.0, 0.3, 0.01).with_drag(Drag::new(drag, 0.0).expect("a valid rate"));
         let model = Model::new(&scene);
         let (radius, r2) = (model.radius, model.radius * model.radius);
         let inertia = model.axial + r2;
@@ -337,7 +337,7 @@ fn samples_join_the_events() {
         for toss in 0..40 {
             let launch = preset(Preset::Clean, &scene, 404, toss);
             let mut recorder = Recorder::default();
-            tosser.adapter(&launch, &mut recorder);
+            tosser.observe(&launch, &mut recorder);
             let pairs: Vec<(Event, Event)> = recorder
                 .0
                 .windows(2)
@@ -354,7 +354,7 @@ fn samples_join_the_events() {
                 wanted,
                 seen: Vec::new(),
             };
-            tosser.adapter(&launch, &mut instants);
+            tosser.observe(&launch, &mut instants);
             assert_eq!(instants.seen.len(), 2 * pairs.len());
             let events = pairs.iter().flat_map(|(from, to)| [from, to]);
             for (event, sample) in events.zip(&instants.seen) {

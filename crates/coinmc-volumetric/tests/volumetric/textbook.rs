@@ -6,7 +6,7 @@ use coinmc_oracle::{Model, Motion, textbook};
 use coinmc_volumetric::{Decision, Settings};
 use nalgebra::Vector3;
 
-/// Follows contact to 1e-10 and decides by energy alone.
+/// Integrates contact to 1e-10 and decides by energy only.
 fn tight() -> Settings {
     Settings {
         decision: Decision::Energy,
@@ -28,8 +28,8 @@ fn begin(scene: &Scene, motion: &Motion, settings: &Settings) -> (Ended, Vec<Mom
     (outcome.ended, moments)
 }
 
-/// Steady precession stays: when contour friction of 1e-7 R (or the limit of time) ends the toss,
-/// or the motion is seen to repeat itself, the tilt and the circle are those of the start.
+/// Steady precession persists: when the time limit ends the toss, or the motion is found to repeat
+/// itself, the tilt is that of the start.
 #[test]
 fn steady_precession_stays_steady() {
     let mut checked = 0;
@@ -47,7 +47,7 @@ fn steady_precession_stays_steady() {
         if motion.energy(&model) < 1.05 {
             continue;
         }
-        // some of these motions are unstable: rounding grows to 1e-6 within some 30 units of time
+        // some of these motions are unstable: rounding grows to 1e-6 within about 30 units of time
         let settings = Settings {
             time_limit: 10.0,
             ..tight()
@@ -79,10 +79,10 @@ fn lying(model: &Model, velocity: f64, spin: f64) -> Motion {
     }
 }
 
-/// Slides, then rolls, with 1/(1 + k) of the speed (two thirds) for ever. Sticking is a creep of
-/// less than `stick_speed`, 1e-6.
+/// Slides, then rolls for ever with 1/(1 + k) of the speed (two thirds). Instead of sticking it creeps
+/// more slowly than `stick_speed`, 1e-6.
 #[test]
-fn a_sliding_cylinder_comes_to_roll() {
+fn a_sliding_cylinder_starts_to_roll() {
     for (ratio, mu) in [(1.0, 0.3), (3.0, 0.1), (10.0, 1.0)] {
         let scene = scene(ratio, 0.0, mu, 0.0);
         let model = Model::new(&scene);
@@ -92,10 +92,10 @@ fn a_sliding_cylinder_comes_to_roll() {
         let (time, speed) = textbook::slide_to_rolling(&model, 5.0);
         assert!((last.motion.velocity.y - speed).abs() < 1e-5, "{last:?}");
         assert!((last.motion.spin.x * model.radius + speed).abs() < 1e-5);
-        // the last of the slip fades in a few times stick/μ
+        // the last of the slip decays within a few times stick_speed/μ
         let late = last.time - time;
         assert!(late > -1e-5 && late < 1e-3, "{} {time}", last.time);
-        // μ/2 of the square of the time short of a start at full speed
+        // it is μ/2 of the square of the time behind a coin that keeps its first speed
         let way = 5.0 * time - 0.5 * mu * time * time + speed * (last.time - time);
         assert!(
             (last.motion.position.y - way).abs() < 1e-3,
@@ -104,7 +104,7 @@ fn a_sliding_cylinder_comes_to_roll() {
     }
 }
 
-/// Rolling, contour friction stops it like a wheel, after v/(R·rate).
+/// Contour friction stops a rolling cylinder like a wheel, after v/(R·rate).
 #[test]
 fn a_rolling_cylinder_stops_like_a_wheel() {
     for ratio in [1.0, 3.0] {
@@ -119,7 +119,7 @@ fn a_rolling_cylinder_stops_like_a_wheel() {
     }
 }
 
-/// A rod stood on end that spins about its axis neither tips nor leaves the surface.
+/// A rod that stands on its end and spins about its axis neither tips nor leaves the surface.
 #[test]
 fn a_rod_spun_on_end_stays_there() {
     let scene = scene(3.0, 0.0, 0.3, 0.01);

@@ -84,7 +84,7 @@ pub(super) struct Still {
 /// The constants of an impact that the modes depend on.
 #[derive(Clone, Copy)]
 pub(super) struct Couplings {
-    pub(super) twist: RimRates<f64>,
+    pub(super) rates: RimRates<f64>,
     pub(super) xx: f64,
     pub(super) xz: f64,
     pub(super) yy: f64,
@@ -96,7 +96,7 @@ pub(super) struct Couplings {
 impl Rates {
     /// The friction against both rates for a given f_y; determines which rates are kept at 0.
     pub(super) fn beside(&mut self, k: &Couplings, y: f64) -> (Torque, Torque) {
-        let t = &k.twist;
+        let t = &k.rates;
         let reduced = BoxProblem {
             roll: t.roll_y * y,
             pivot: t.pivot_y * y,
@@ -113,7 +113,7 @@ impl Rates {
 
     /// The torques as functions of f_y while the modes last.
     fn torques(&self, k: &Couplings, c: f64, p: f64) -> (Torque, Torque) {
-        let t = &k.twist;
+        let t = &k.rates;
         let constant = |rest| Torque { by_y: 0.0, rest };
         match (self.roll.zero, self.pivot.zero) {
             // the coin turns neither about u nor about e_θ: the torques balance f_y
@@ -141,7 +141,7 @@ impl Rates {
 
     /// f_y at a contact point without slip whose slip changes by −σ f.
     fn sideways(&self, k: &Couplings, sigma: f64) -> f64 {
-        let t = &k.twist;
+        let t = &k.rates;
         let inverse = 1.0 / (sigma + k.yy);
         let (roll_y, pivot_y) = (t.roll_y * inverse, t.pivot_y * inverse);
         let reduced = BoxProblem {
@@ -158,9 +158,9 @@ impl Rates {
 
     /// The friction at a contact point without slip: σ = 0 if its f is inside the cone; otherwise σ > 0
     /// with |f| = μ, and slip starts along −f.
-    pub(super) fn still(&self, k: &Couplings, twists: bool) -> Still {
+    pub(super) fn still(&self, k: &Couplings, has_lengths: bool) -> Still {
         let sideways = |sigma| {
-            if twists { self.sideways(k, sigma) } else { 0.0 }
+            if has_lengths { self.sideways(k, sigma) } else { 0.0 }
         };
         let excess = |sigma: f64| {
             let (x, y) = (k.xz / (sigma + k.xx), sideways(sigma));
@@ -169,7 +169,7 @@ impl Rates {
         let sticks = excess(0.0) <= 0.0;
         // the root without friction lengths
         let plain = (k.xz.abs() / k.mu - k.xx).max(0.0);
-        let sigma = match (sticks, twists) {
+        let sigma = match (sticks, has_lengths) {
             (true, _) => 0.0,
             (false, true) => bisect(plain, excess),
             (false, false) => plain,

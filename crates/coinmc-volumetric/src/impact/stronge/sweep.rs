@@ -26,7 +26,7 @@ pub(super) struct Sweep {
     size: f64,
     /// e².
     returned: f64,
-    twists: bool,
+    has_lengths: bool,
     x: f64,
     y: f64,
     z: f64,
@@ -81,11 +81,11 @@ struct Piece {
 impl Sweep {
     pub(super) fn new(body: &Body, friction: &Friction, point: &ContactPoint<f64>, e: f64) -> Self {
         let k = point.matrix(body);
-        let twist = RimRates::rates(body, point);
+        let rim_rates = RimRates::rates(body, point);
         Self {
             k,
             couplings: Couplings {
-                twist,
+                rates: rim_rates,
                 xx: k.xx,
                 xz: k.xz,
                 yy: k.yy,
@@ -96,7 +96,7 @@ impl Sweep {
             point: *point,
             size: point.slip_x.abs() + point.slip_y.abs() + point.approach.abs(),
             returned: e * e,
-            twists: friction.twists(),
+            has_lengths: friction.has_lengths(),
             x: 0.0,
             y: 0.0,
             z: 0.0,
@@ -105,8 +105,8 @@ impl Sweep {
             least: 0.0,
             back: 0.0,
             rates: Rates {
-                roll: Rate::new(twist.roll, friction.contour / point.sin),
-                pivot: Rate::new(twist.pivot, friction.pivoting),
+                roll: Rate::new(rim_rates.roll, friction.contour / point.sin),
+                pivot: Rate::new(rim_rates.pivot, friction.pivoting),
             },
             still: false,
             opening: false,
@@ -124,7 +124,7 @@ impl Sweep {
     }
 
     fn now(&self) -> Now {
-        let (k, t) = (&self.k, &self.couplings.twist);
+        let (k, t) = (&self.k, &self.couplings.rates);
         let slip_x = self.point.slip_x + k.xx * self.x + k.xz * self.z;
         let slip_y = self.point.slip_y + k.yy * self.y - t.slip_y(self.contour, self.pivoting);
         Now {
@@ -153,19 +153,19 @@ impl Sweep {
         let (x, y) = if mu <= 0.0 {
             (0.0, 0.0)
         } else if rests {
-            let rest = self.rates.still(&self.couplings, self.twists);
+            let rest = self.rates.still(&self.couplings, self.has_lengths);
             still = rest.sticks;
             (rest.x, rest.y)
         } else {
             let over = mu / now.speed;
             (-(now.slip_x * over), -(now.slip_y * over))
         };
-        let (contour, pivoting) = if self.twists {
+        let (contour, pivoting) = if self.has_lengths {
             self.rates.beside(&self.couplings, y)
         } else {
             (Torque::NONE, Torque::NONE)
         };
-        let t = &self.couplings.twist;
+        let t = &self.couplings.rates;
         let drive = Drive {
             mu,
             xx: self.k.xx,
@@ -280,7 +280,7 @@ impl Sweep {
                 -(now.normal + k.zz * s.z + k.xz * s.x)
             });
         }
-        if self.twists {
+        if self.has_lengths {
             self.cut_by_rates(&mut cut, piece, now);
         }
         cut
@@ -288,7 +288,7 @@ impl Sweep {
 
     /// Shortens the piece to where an angular velocity that friction opposes comes to 0 or leaves it.
     fn cut_by_rates(&self, cut: &mut Cut, piece: &Piece, now: &Now) {
-        let t = &self.couplings.twist;
+        let t = &self.couplings.rates;
         let (c, p) = (&piece.contour, &piece.pivoting);
         let turns = matches!(piece.course, Course::Turns);
         let impulses = |s: &Step| {
