@@ -61,13 +61,13 @@ pub(crate) const FLAT: f64 = 1e-9;
 impl<T: Copy> Motion<T> {
     /// The motion as an array, for memory.
     #[inline(always)]
-    pub(crate) fn to_columns(&self) -> [T; 9] {
+    pub(crate) fn columns(&self) -> [T; 9] {
         [
             self.sin, self.cos, self.ox, self.oy, self.oz, self.vx, self.vy, self.vz, self.z,
         ]
     }
 
-    /// The motion of [`to_columns`](Self::to_columns).
+    /// The motion of [`columns`](Self::columns).
     #[inline(always)]
     pub(crate) fn from_columns(columns: &[T; 9]) -> Self {
         let [sin, cos, ox, oy, oz, vx, vy, vz, z] = *columns;
@@ -88,11 +88,11 @@ impl<T: Copy> Motion<T> {
 impl<T: Copy> Spin<T> {
     /// The angular velocity as an array, for memory.
     #[inline(always)]
-    pub(crate) fn to_columns(&self) -> [T; 3] {
+    pub(crate) fn columns(&self) -> [T; 3] {
         [self.axial, self.turn, self.tilt]
     }
 
-    /// The angular velocity of [`to_columns`](Self::to_columns).
+    /// The angular velocity of [`columns`](Self::columns).
     #[inline(always)]
     pub(crate) fn from_columns(&[axial, turn, tilt]: &[T; 3]) -> Self {
         Self { axial, turn, tilt }
@@ -113,7 +113,7 @@ impl<L: Lane> Spin<L> {
     /// `yes` where the mask is set, else `no`.
     #[inline(always)]
     pub(crate) fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self {
-        Self::from_columns(&select_all(mask, &yes.to_columns(), &no.to_columns()))
+        Self::from_columns(&select_all(mask, &yes.columns(), &no.columns()))
     }
 
     pub(crate) fn still() -> Self {
@@ -130,7 +130,7 @@ impl<L: Lane> Motion<L> {
     /// `yes` where the mask is set, else `no`.
     #[inline(always)]
     pub(crate) fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self {
-        Self::from_columns(&select_all(mask, &yes.to_columns(), &no.to_columns()))
+        Self::from_columns(&select_all(mask, &yes.columns(), &no.columns()))
     }
 
     pub(crate) fn still() -> Self {

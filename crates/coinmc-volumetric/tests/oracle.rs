@@ -32,7 +32,8 @@ struct Differences {
 }
 
 fn compare(scene: &Scene, tosses: u64) -> Differences {
-    let engine = VolumetricEngine::new(scene, &Settings::default(), Moreau).expect("valid settings");
+    let engine =
+        VolumetricEngine::new(scene, &Settings::default(), Moreau).expect("valid settings");
     let mut oracle = TimeStepper::new(scene, StepperSettings::default());
     let stream = Stream::new(41, Domain::Launch, 0);
     let launches = Preset::Clean.distribution();

@@ -47,7 +47,7 @@ pub(super) fn put_start(
     spin: &Spin<f64>,
 ) {
     let [blocks @ .., axial] = columns;
-    for (block, number) in blocks.iter_mut().zip(motion.to_columns()) {
+    for (block, number) in blocks.iter_mut().zip(motion.columns()) {
         block[lane] = number;
     }
     axial[lane] = spin.axial;

@@ -61,8 +61,8 @@ impl FlightStage {
             L::select(goes_on, search.least, first.least),
             L::select(goes_on, L::splat(1.0), L::splat(0.0)),
         ];
-        store(&mut self.orbit, &orbit.state.to_columns());
-        store(&mut self.extent, &extent.to_columns());
+        store(&mut self.orbit, &orbit.state.columns());
+        store(&mut self.extent, &extent.columns());
         store(&mut self.search, &columns);
         self.departs = L::bits(first.departs);
         self.launched = departures.launched;

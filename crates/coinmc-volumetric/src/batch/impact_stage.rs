@@ -162,7 +162,7 @@ impl ImpactStage {
     #[inline(always)]
     fn store_motion<L: Wide>(&mut self, motion: &Motion<L>, spin: &Spin<L>) {
         let [blocks @ .., axial] = &mut self.after.start;
-        for (block, lanes) in blocks.iter_mut().zip(motion.to_columns()) {
+        for (block, lanes) in blocks.iter_mut().zip(motion.columns()) {
             *block = lanes.store();
         }
         *axial = spin.axial.store();

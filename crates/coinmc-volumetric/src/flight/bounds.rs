@@ -24,11 +24,11 @@ impl<T: Copy> Extent<T> {
 
     /// The extent as an array, for memory.
     #[inline(always)]
-    pub(crate) fn to_columns(&self) -> [T; 3] {
+    pub(crate) fn columns(&self) -> [T; 3] {
         [self.amplitude, self.clear, self.reach]
     }
 
-    /// The extent of [`to_columns`](Self::to_columns).
+    /// The extent of [`columns`](Self::columns).
     #[inline(always)]
     pub(crate) fn from_columns(&[amplitude, clear, reach]: &[T; 3]) -> Self {
         Self {

@@ -38,7 +38,7 @@ impl<T: Copy> OrbitState<T> {
 
     /// The state as an array, for memory.
     #[inline(always)]
-    pub(crate) fn to_columns(&self) -> [T; 15] {
+    pub(crate) fn columns(&self) -> [T; 15] {
         let fall = [self.z, self.vz, self.elapsed];
         let rates = [self.rate, self.across, self.horizontal];
         let triples = [self.a, self.b, self.d, fall, rates];
@@ -49,7 +49,7 @@ impl<T: Copy> OrbitState<T> {
         columns
     }
 
-    /// The state of [`to_columns`](Self::to_columns).
+    /// The state of [`columns`](Self::columns).
     #[inline(always)]
     pub(crate) fn from_columns(columns: &[T; 15]) -> Self {
         let c = columns;

@@ -1,4 +1,4 @@
-//! Random touches, and the motion before and after an impact from first principles.
+//! Random contact points, and the motion before and after an impact from first principles.
 
 use coinmc_core::{Coin, Domain, Stream, TossUniforms, UniformSource};
 use coinmc_volumetric::{Body, ChatterjeeRuina, Friction, ImpactLaw, Impulse, Law, Moreau};
@@ -37,7 +37,7 @@ impl Dice {
     }
 }
 
-/// Everything an impact is made of.
+/// Everything on which an impact depends.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Case {
     pub(crate) body: Body,
@@ -50,7 +50,7 @@ pub(crate) fn body(ratio: f64) -> Body {
     Body::new(&Coin::cylinder(ratio, 0.01).expect("a valid coin"))
 }
 
-/// A point at the tilt of this sine, with the velocities given.
+/// A contact point at the tilt with this sine, with the given velocities.
 pub(crate) fn point(body: &Body, sin: f64, slip: [f64; 3], spins: [f64; 2]) -> ContactPoint<f64> {
     let cos = (1.0 - sin * sin).sqrt();
     ContactPoint {
@@ -66,8 +66,8 @@ pub(crate) fn point(body: &Body, sin: f64, slip: [f64; 3], spins: [f64; 2]) -> C
     }
 }
 
-/// The whole box: ratios 1e-3 to 1e3, e 0 to 1, μ 0 to 10, ρ 0 to R/10, flat to upright tilts,
-/// slips 1e-3 to 1e3 of the approach.
+/// A random impact over all ranges: ratios 1e-3 to 1e3, e 0 to 1, μ 0 to 10, ρ 0 to R/10, tilts from flat
+/// to upright, slips of 1e-3 to 1e3 of the approach.
 pub(crate) fn case(seed: u64, trial: u64) -> Case {
     let mut dice = Dice::new(seed, trial);
     let body = body(dice.scale(1e-3, 1e3));

@@ -1,4 +1,4 @@
-//! What each law promises, on 2e5 random impacts of the whole box.
+//! What each law guarantees, on 2e5 random impacts over all ranges.
 
 use crate::common::{Case, case, motions, parts};
 use coinmc_volumetric::{Impulse, Law};
@@ -17,7 +17,8 @@ fn each(seed: u64, law: Law, mut check: impl FnMut(&Case, &Impulse<f64>)) {
     }
 }
 
-/// K p loses digits by the size of its largest product, 6 at most of |p| <= 10 × the velocities.
+/// K p loses digits according to its largest product: a factor of at most 6, with |p| <= 10 × the
+/// velocities.
 #[test]
 fn newton_restitution_is_exact() {
     for law in [Law::Moreau, Law::ChatterjeeRuina] {
@@ -25,7 +26,7 @@ fn newton_restitution_is_exact() {
             let (_, after) = motions(case, p);
             let parts = p.x.abs() + p.z.abs() + case.size();
             let off = (after.slip.z + case.e * case.point.approach).abs();
-            // the spins, of thousandfold size, and ω_y enter the test's own velocities
+            // the spins, up to 1000 times as large, and ω_y enter the velocities that this test computes
             let spins = case.point.spin.abs() + case.point.turn.abs();
             assert!(
                 off <= 1e-14 * (parts + spins + 1.0),
@@ -44,7 +45,7 @@ fn no_law_gains_energy() {
             let gain = (after.energy - before.energy) / before.energy;
             worst = worst.max(gain);
             assert!(gain <= 1e-12, "{law:?} {gain:e} {case:?} {p:?}");
-            // the kernel's own account agrees
+            // the work that the kernel computes agrees
             let work = p.work(&case.body, &case.point);
             let off = (work - (after.energy - before.energy)).abs() / before.energy;
             assert!(off <= 1e-12, "{law:?} {off:e} {case:?} {p:?}");
@@ -71,7 +72,8 @@ fn every_part_keeps_its_limit() {
     }
 }
 
-/// One of Moreau's set-valued laws: inside its limit the rate is 0, at it they are opposed.
+/// One of Moreau's set-valued laws: inside its limit the rate is 0; at its limit the friction opposes the
+/// rate.
 fn opposes(part: f64, limit: f64, rate: f64, size: f64) -> bool {
     let small = 1e-10 * size;
     if limit == 0.0 {
@@ -118,8 +120,8 @@ fn moreau_opposes_the_final_slip() {
     assert!(guarded < TRIALS / 10);
 }
 
-/// Mirrored in the xz plane the y velocities and all angular velocities but that about y change
-/// sign, and so do p_y, J_c and J_p.
+/// A reflection in the xz plane changes the sign of the y velocities and of all angular velocities except
+/// that about y, and so of p_y, J_c and J_p.
 #[test]
 fn mirror_images_are_exact() {
     for law in Law::ALL {
@@ -139,7 +141,7 @@ fn mirror_images_are_exact() {
     }
 }
 
-/// Velocities times a power of 2: the impulse too, to the bit.
+/// If velocities are multiplied by a power of 2, so is the impulse, bit by bit.
 #[test]
 fn velocities_scale() {
     for law in Law::ALL {

@@ -1,4 +1,4 @@
-//! Four lanes side by side: each is to the bit what it is alone.
+//! Impacts in four lanes: each lane is bit-identical to the scalar path.
 
 use crate::common::{case, impulse, parts};
 use coinmc_volumetric::{ContactPoint, Impulse, Law};
@@ -14,10 +14,10 @@ fn lane(p: &Impulse<Four>, i: usize) -> [f64; 5] {
 }
 
 #[test]
-fn a_lane_does_not_see_the_others() {
+fn lanes_are_independent() {
     for law in Law::ALL {
         for trial in 0..25_000 {
-            // body and friction are a scene's; the point and e are a lane's
+            // body and friction are common to all lanes; the contact point and e are not
             let cases: [_; 4] = from_fn(|i| {
                 let scene = case(21, 4 * trial);
                 let mut other = case(21, 4 * trial + i as u64);
@@ -32,25 +32,26 @@ fn a_lane_does_not_see_the_others() {
                 other.friction = scene.friction;
                 other
             });
-            let of = |part: fn(&ContactPoint<f64>) -> f64| Four(from_fn(|i| part(&cases[i].point)));
+            let lanes =
+                |part: fn(&ContactPoint<f64>) -> f64| Four(from_fn(|i| part(&cases[i].point)));
             let point = ContactPoint {
-                sin: of(|t| t.sin),
-                cos: of(|t| t.cos),
-                rx: of(|t| t.rx),
-                rz: of(|t| t.rz),
-                slip_x: of(|t| t.slip_x),
-                slip_y: of(|t| t.slip_y),
-                approach: of(|t| t.approach),
-                spin: of(|t| t.spin),
-                turn: of(|t| t.turn),
+                sin: lanes(|t| t.sin),
+                cos: lanes(|t| t.cos),
+                rx: lanes(|t| t.rx),
+                rz: lanes(|t| t.rz),
+                slip_x: lanes(|t| t.slip_x),
+                slip_y: lanes(|t| t.slip_y),
+                approach: lanes(|t| t.approach),
+                spin: lanes(|t| t.spin),
+                turn: lanes(|t| t.turn),
             };
             let e = Four(from_fn(|i| cases[i].e));
-            let together = impulse(law, &cases[0].body, &cases[0].friction, &point, e);
+            let in_lanes = impulse(law, &cases[0].body, &cases[0].friction, &point, e);
             for (i, case) in cases.iter().enumerate() {
-                let alone = parts(&case.impulse(law));
+                let scalar = parts(&case.impulse(law));
                 assert_eq!(
-                    alone.map(f64::to_bits),
-                    lane(&together, i).map(f64::to_bits),
+                    scalar.map(f64::to_bits),
+                    lane(&in_lanes, i).map(f64::to_bits),
                     "{law:?} trial {trial} lane {i} {case:?}"
                 );
             }

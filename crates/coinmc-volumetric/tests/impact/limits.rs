@@ -1,10 +1,10 @@
-//! Limits with known answers.
+//! Limiting cases with known answers.
 
 use crate::common::{Case, body, case, motions, parts, point};
 use coinmc_volumetric::{Friction, Law};
 
 #[test]
-fn without_friction_every_law_is_newtons() {
+fn without_friction_all_laws_agree_with_newton() {
     for trial in 0..20_000 {
         let mut case = case(41, trial);
         case.friction = Friction {
@@ -22,9 +22,9 @@ fn without_friction_every_law_is_newtons() {
     }
 }
 
-/// The friction impulse is at most μ p_z: the impulse departs by O(μ).
+/// The friction impulse is at most μ p_z, so it changes the impulse by O(μ).
 #[test]
-fn little_friction_changes_little() {
+fn low_friction_changes_little() {
     for trial in 0..20_000 {
         let mut case = case(42, trial);
         case.friction.contour = 0.0;
@@ -35,7 +35,7 @@ fn little_friction_changes_little() {
             let z = (1.0 + case.e) * -case.point.approach / k.zz;
             for law in Law::ALL {
                 let p = case.impulse(law);
-                // K_xz/K_zz <= 2; Stronge's rebound follows the slope of u_z, and is right to 1e-9
+                // K_xz/K_zz <= 2; the error of Stronge's law is below 1e-9
                 assert!(
                     (p.z - z).abs() <= 10.0 * (mu + 1e-10) * z,
                     "{law:?} {case:?}"
@@ -46,9 +46,9 @@ fn little_friction_changes_little() {
     }
 }
 
-/// Friction without end stops the contact point; as Moreau's impact then may gain energy, e = 0.
+/// Very high friction stops the contact point. With e > 0 Moreau's impact might gain energy, so e = 0.
 #[test]
-fn much_friction_sticks() {
+fn high_friction_sticks() {
     for trial in 0..20_000 {
         let mut case = case(43, trial);
         case.e = 0.0;
@@ -61,7 +61,7 @@ fn much_friction_sticks() {
             let p = case.impulse(law);
             let (_, after) = motions(case, &p);
             let size = case.size() + case.point.spin.abs() + case.point.turn.abs();
-            // without pressure there is nothing to stick with
+            // without a normal impulse there is no friction
             p.z <= 1e-6 * case.size() || after.slip.norm() <= 1e-6 * size
         };
         for law in Law::ALL {
@@ -70,9 +70,9 @@ fn much_friction_sticks() {
     }
 }
 
-/// Friction lengths without end stop the turning: R/10 is their largest, here 1e12.
+/// Very large friction lengths stop the rotation: here 1e12, while scenes allow R/10.
 #[test]
-fn long_friction_lengths_stop_the_turning() {
+fn large_friction_lengths_stop_the_rotation() {
     for law in Law::ALL {
         for trial in 0..20_000 {
             let mut case = case(44, trial);
@@ -87,7 +87,8 @@ fn long_friction_lengths_stop_the_turning() {
     }
 }
 
-/// A coin on edge that falls straight, and a flat one: the contact below and beside the centre.
+/// A coin on its edge and a flat coin fall without rotation: the contact point is below the centre, and
+/// beside it.
 #[test]
 fn thin_and_thick() {
     let friction = Friction {
@@ -104,11 +105,11 @@ fn thin_and_thick() {
                 point: point(&body, sin, [0.0, 0.0, -1.0], [0.0, 0.0]),
                 e: 0.5,
             };
-            // the centre is over the contact: a ball's bounce, to the order of the overhang
+            // the centre is above the contact point: it bounces like a ball, up to the small offset
             let p = case.impulse(law);
             assert!((p.z - 1.5).abs() < 1e-3, "{law:?} {:?}", parts(&p));
         }
-        // a thin disk flat on its rim: a lever of R against k_t = R²/4, K_zz = 5
+        // a flat thin disk touches at its rim: a lever arm of R, and k_t = R²/4, so K_zz = 5
         let body = body(1e-4);
         let case = Case {
             body,
@@ -121,7 +122,8 @@ fn thin_and_thick() {
     }
 }
 
-/// A vanishing tilt makes ψ' and its friction's moment never_settles: everything stays finite.
+/// As the tilt vanishes, ψ' and the moment of contour friction become infinite; the impulse remains
+/// finite.
 #[test]
 fn almost_flat() {
     for law in Law::ALL {

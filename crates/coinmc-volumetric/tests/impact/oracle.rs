@@ -1,12 +1,13 @@
-//! Moreau's law by brute force: projected Gauss–Seidel on the five parts of the impulse, from
-//! vectors, run until nothing moves.
+//! Moreau's law by an independent method: projected Gauss–Seidel iteration on the five parts of the
+//! impulse, with vectors, until it has converged.
 
 use crate::common::{Case, case, motions, parts};
 use coinmc_volumetric::{Impulse, Law};
 
 type Matrix = [[f64; 5]; 5];
 
-/// The rates (slip_x, slip_y, u_z, −ω_x, −ω_z) by unit parts (p_x, p_y, p_z, C, P), C = J_c/s.
+/// The response of the rates (slip_x, slip_y, u_z, −ω_x, −ω_z) to unit parts (p_x, p_y, p_z, C, P),
+/// C = J_c/s, and the rates without impulse.
 fn delassus(case: &Case) -> (Matrix, [f64; 5]) {
     let rates = |p: [f64; 5]| {
         let p = Impulse {
@@ -38,8 +39,8 @@ fn delassus(case: &Case) -> (Matrix, [f64; 5]) {
     (matrix, free)
 }
 
-/// The impulse where every part is what its law asks of the rates after, or none if the iteration
-/// does not settle.
+/// The impulse of which every part obeys its law with the rates after the impact; `None` if the iteration
+/// does not converge.
 fn gauss_seidel(case: &Case) -> Option<[f64; 5]> {
     let (g, free) = delassus(case);
     let f = &case.friction;
@@ -65,11 +66,11 @@ fn gauss_seidel(case: &Case) -> Option<[f64; 5]> {
     None
 }
 
-/// Above μ = 1/2 there may be several solutions and the iteration may pick another: below, the
-/// impulse agrees to 1e-8 (the iteration stops where it moves by 1e-15 a sweep, and contracts by
-/// 1e-4 a sweep at worst).
+/// Above μ = 1/2 there may be several solutions, and the iteration may find another one. Below, the
+/// impulse agrees to 1e-8: the iteration stops where it changes by less than 1e-15 per sweep, and it
+/// contracts by 1e-4 per sweep at worst.
 #[test]
-fn moreau_is_what_gauss_seidel_settles_on() {
+fn moreau_agrees_with_gauss_seidel() {
     let (mut compared, mut skipped) = (0, 0);
     for trial in 0..20_000 {
         let mut case = case(51, trial);
@@ -101,9 +102,8 @@ fn moreau_is_what_gauss_seidel_settles_on() {
     assert!(compared > 5_000 && skipped * 20 < compared);
 }
 
-/// Of all impulses that stop the approach, within the same limits of friction, the plastic one of
-/// Moreau leaves the least energy among those that friction could have: random departures inside
-/// the limits that keep u_z⁺ = 0 and p_z cannot do better.
+/// The plastic impact of Moreau's law leaves the least energy that friction within its limits can leave:
+/// random changes of the friction inside the limits, with u_z⁺ = 0 and the same p_z, leave no less.
 #[test]
 fn a_plastic_impact_dissipates_most() {
     for trial in 0..20_000 {

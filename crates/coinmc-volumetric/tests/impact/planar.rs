@@ -1,11 +1,11 @@
-//! A coin without sideways slip nor spin: the laws in the plane, and Stronge's in closed form.
+//! Impacts without sideways slip or spin: the laws in the plane, and Stronge's law in closed form.
 
 use crate::common::{Case, case, parts, point};
 use coinmc_flat as flat;
 use coinmc_flat::ImpactLaw as _;
 use coinmc_volumetric::Law;
 
-/// In the plane, no friction lengths.
+/// An impact in the plane, without friction lengths.
 fn planar(seed: u64, trial: u64) -> Case {
     let mut case = case(seed, trial);
     let t = case.point;
@@ -41,8 +41,8 @@ fn agrees_with_the_flat_laws() {
     }
 }
 
-/// Stronge's solution in the plane: u_z(τ) is a broken line whose corner is where the slip stops.
-fn broken_line(case: &Case) -> [f64; 2] {
+/// Stronge's solution in the plane: u_z(τ) is linear in two pieces, with a corner where the slip stops.
+fn closed_form(case: &Case) -> [f64; 2] {
     let k = case.point.matrix(&case.body);
     let (mu, e) = (case.friction.mu, case.e);
     let (slip, u0) = (case.point.slip_x, case.point.approach);
@@ -68,7 +68,7 @@ fn broken_line(case: &Case) -> [f64; 2] {
         if free <= stop {
             free
         } else {
-            // e² of the work is still to come back from the stop on
+            // the part of the e² of the work that is still to be returned after the slip has stopped
             let missing = (1.0 - e * e) * least - work_at_stop;
             let root = (at_stop * at_stop + 2.0 * second * missing).sqrt();
             stop + (root - at_stop) / second
@@ -81,12 +81,12 @@ fn broken_line(case: &Case) -> [f64; 2] {
 }
 
 #[test]
-fn stronge_is_the_broken_line() {
+fn stronge_agrees_with_the_closed_form() {
     let (mut stopped, mut jammed) = (0, 0);
     for trial in 0..100_000 {
         let case = planar(32, trial);
         let p = case.impulse(Law::Stronge);
-        let [x, z] = broken_line(&case);
+        let [x, z] = closed_form(&case);
         let off = (p.x - x).abs().max((p.z - z).abs()).max(p.y.abs());
         assert!(
             off <= 1e-11 * (case.size() + z),
@@ -97,6 +97,6 @@ fn stronge_is_the_broken_line() {
         stopped += u32::from(p.x.abs() < case.friction.mu * p.z * (1.0 - 1e-9));
         jammed += u32::from(k.zz < case.friction.mu * k.xz * case.point.slip_x.signum());
     }
-    // the cases that make the law what it is are among them
+    // the cases that distinguish this law are among them
     assert!(stopped > 10_000 && jammed > 500, "{stopped} {jammed}");
 }

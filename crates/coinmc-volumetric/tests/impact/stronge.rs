@@ -1,9 +1,9 @@
-//! Stronge's law against the Darboux–Keller equations stepped by brute force.
+//! Stronge's law against the Darboux–Keller equations, integrated with small steps.
 
 use crate::common::{Case, case, parts};
 use coinmc_volumetric::{Friction, Law};
 
-/// Implicit steps of `1/steps` of the frictionless compression: each solves Coulomb's law and the
+/// Implicit steps of 1/`steps` of the frictionless compression. Each step solves Coulomb's law and the
 /// friction lengths against the rates at its end. First order.
 fn stepped(case: &Case, steps: u32) -> [f64; 5] {
     let (b, t, f) = (&case.body, &case.point, &case.friction);
@@ -77,7 +77,7 @@ fn stepped(case: &Case, steps: u32) -> [f64; 5] {
     sum
 }
 
-/// Slips of the size of the approach, where the path turns, stops and resumes.
+/// Impacts with slips of the size of the approach, in which the slip turns, stops and resumes.
 fn turning(trial: u64) -> Case {
     let mut case = case(61, trial);
     let t = &mut case.point;
@@ -94,9 +94,9 @@ fn distance(case: &Case, a: [f64; 5], b: [f64; 5]) -> f64 {
     far / (case.size() + b[2])
 }
 
-/// The stepped path tends to the law's: its error is first order in the step, within its constant.
+/// The path with small steps converges to that of the law, with an error of first order in the step.
 #[test]
-fn steps_converge_to_it() {
+fn small_steps_converge_to_the_law() {
     let (mut coarse_sum, mut fine_sum, mut compared) = (0.0, 0.0, 0);
     for trial in 0..600 {
         let case = turning(trial);
@@ -121,7 +121,7 @@ fn steps_converge_to_it() {
     assert!((0.8..1.3).contains(&order), "{order}");
 }
 
-/// With e = 1 nothing is lost in the normal work: without friction no energy is.
+/// With e = 1 the normal impulse loses no energy; without friction no energy is lost at all.
 #[test]
 fn elastic_without_friction_keeps_the_energy() {
     for trial in 0..20_000 {
@@ -141,7 +141,7 @@ fn elastic_without_friction_keeps_the_energy() {
     }
 }
 
-/// e = 0: compression only, the contact does not rebound.
+/// With e = 0 there is only compression: the contact point does not rebound.
 #[test]
 fn plastic_impacts_end_without_rebound() {
     for trial in 0..50_000 {

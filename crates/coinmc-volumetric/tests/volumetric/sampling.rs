@@ -1,4 +1,4 @@
-//! The coin between events: where the laws of motion put it, and without a trace in the toss.
+//! Samples of the coin between events: they obey the laws of motion, and do not affect the toss.
 
 use crate::common::{Dice, Moment, Recorder, Sampler, Start, Tosser, moment, preset, scene};
 use coinmc_core::{Drag, Event, EventKind, Launch, Observer, Outcome, Preset, Scene, State};
@@ -7,8 +7,8 @@ use coinmc_oracle::{Model, Motion};
 use coinmc_volumetric::{Decision, Settings};
 use nalgebra::Vector3;
 
-/// Every kind of motion: bouncing, rocking, sliding, rolling on the rim and along the side, thin,
-/// thick, through air, without friction and without gyroscopic torque.
+/// Every kind of motion: bouncing, rocking, sliding, rolling on the rim and on the side; thin and thick
+/// coins; with drag, without friction and without gyroscopic torque.
 fn scenes() -> Vec<Scene> {
     let air = |scene: Scene| scene.with_drag(Drag::new(0.5, 2.0).expect("valid rates"));
     vec![
@@ -35,12 +35,12 @@ fn sampling_changes_nothing() {
         let tosser = Tosser::new(&scene);
         for toss in 0..120 {
             let launch = preset(Preset::Clean, &scene, 400, toss);
-            let alone = tosser.toss(&launch);
+            let unobserved = tosser.toss(&launch);
             let mut recorder = Recorder::default();
             tosser.observe(&launch, &mut recorder);
             for rate in [7.0, 100.0, 1000.0] {
                 let (outcome, sampler) = sampled(&tosser, &launch, rate);
-                assert_eq!(outcome, alone);
+                assert_eq!(outcome, unobserved);
                 assert_eq!(sampler.events, recorder.0);
                 samples += sampler.samples.len();
             }
@@ -49,7 +49,7 @@ fn sampling_changes_nothing() {
     assert!(samples > 300_000, "{samples}");
 }
 
-/// i/100 and 10i/1000 are the same number: the samples must be the same to the last bit.
+/// i/100 and 10i/1000 are the same number: the samples must be bit-identical.
 #[test]
 fn a_sample_does_not_depend_on_the_others() {
     for scene in scenes() {
@@ -60,7 +60,7 @@ fn a_sample_does_not_depend_on_the_others() {
             let (_, fast) = sampled(&tosser, &launch, 1000.0);
             let tenth: Vec<Event> = fast.samples.iter().step_by(10).copied().collect();
             assert_eq!(tenth, slow.samples);
-            // up to the end, and not beyond
+            // samples up to the end, and none after it
             let end = slow.events.last().expect("an end").state.time_s;
             assert!(f64::from(fast.taken - 1) < end * fast.rate_hz);
             assert!(f64::from(fast.taken) >= end * fast.rate_hz);
@@ -68,7 +68,7 @@ fn a_sample_does_not_depend_on_the_others() {
     }
 }
 
-/// The pieces of a toss: from an event, through samples, to the next event.
+/// The pieces of a toss: an event, the samples after it, and the next event.
 fn pieces(scene: &Scene, sampler: &Sampler) -> Vec<(Moment, Vec<Moment>, Moment)> {
     let moments = |events: &[Event]| -> Vec<Moment> {
         events.iter().map(|event| moment(scene, event)).collect()
@@ -104,8 +104,8 @@ fn apart(a: &Motion, b: &Motion) -> f64 {
     .fold(0.0, f64::max)
 }
 
-/// Flights against the oracle's closed form, in vectors of the laboratory. Times are known to an
-/// ulp of the toss and rates reach some tens: a few 1e-13.
+/// Flights against the closed form of the oracle, by vectors in the laboratory frame. Times are known to
+/// one unit in the last place, and angular velocities reach a few tens: a few 1e-13.
 #[test]
 fn flights_are_those_of_a_free_top() {
     let (mut seen, mut worst, mut worst_energy) = (0, 0.0_f64, 0.0_f64);
@@ -149,7 +149,7 @@ struct Contacts {
     rim_m: f64,
 }
 
-/// Follows contact closely, for as long as some turns take.
+/// Integrates contact closely, for the time of a few turns.
 fn tight() -> Settings {
     Settings {
         decision: Decision::Energy,
@@ -161,10 +161,10 @@ fn tight() -> Settings {
     }
 }
 
-/// Samples of one phase against the oracle's nine equations, by the classical Runge–Kutta method
-/// in steps of 1/1000 of the fastest rate, from sample to sample. Left out is what those steps do
-/// not resolve (a slip so slow that its direction may turn faster, a coin all but flat), and what
-/// comes after 3 units of time: some of these motions are unstable.
+/// Samples of one phase against the nine equations of the oracle, by the classical Runge–Kutta method in
+/// steps of 1/1000 of the fastest time scale, from sample to sample. Left out: what those steps do not
+/// resolve (a slip so slow that its direction may turn faster, an almost flat coin), and everything after
+/// 3 units of time, as some of these motions are unstable.
 fn contact(model: &Model, from: &Moment, within: &[Moment], seen: &mut Contacts) {
     let sticks = from.kind == EventKind::Sticking;
     let mode = |motion: &Motion| {
@@ -185,7 +185,7 @@ fn contact(model: &Model, from: &Moment, within: &[Moment], seen: &mut Contacts)
             return;
         }
         let fastest = 1.0 + motion.spin.norm() / motion.sine();
-        // a nonnegative number of steps, some hundreds
+        // a nonnegative number of steps, a few hundred
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let steps = (1000.0 * fastest * gone).ceil().max(1.0) as u32;
         for _ in 0..steps {
@@ -217,7 +217,7 @@ fn contacts(settings: &Settings) -> Contacts {
             start.z = start.z.min(2.0);
             let (_, sampler) = sampled(&tosser, &start.launch(&scene), 400.0);
             for (from, within, _) in pieces(&scene, &sampler) {
-                // on its side it touches with both rims
+                // on its side the coin touches with both rims
                 if is_contact(&from) && from.motion.axis.z.abs() > 1e-9 {
                     contact(&model, &from, &within, &mut seen);
                 }
@@ -231,26 +231,26 @@ fn contacts(settings: &Settings) -> Contacts {
 }
 
 #[test]
-fn contact_follows_newton_and_euler() {
+fn contact_obeys_newton_and_euler() {
     let seen = contacts(&tight());
     assert!(seen.worst < 1e-6, "{seen:?}");
     assert!(seen.rise < 1e-10, "{seen:?}");
 }
 
 #[test]
-fn contact_at_the_default_tolerance_follows_too() {
+fn contact_at_the_default_tolerance_is_close() {
     let seen = contacts(&Settings {
         time_limit: 10.0,
         ..Settings::default()
     });
     assert!(seen.worst < 0.02, "{seen:?}");
-    // 2e-4 of tolerance, in some of tens of steps
+    // tolerance 2e-4, in a few tens of steps
     assert!(seen.rise < 1e-2, "{seen:?}");
 }
 
-/// The last of rolling along the side is in closed form: v' = −a − bv, here by quadrature.
+/// The engine has the end of rolling on the side in closed form, v' = −a − bv; here it is integrated.
 #[test]
-fn a_coin_that_rolls_out_is_shown_to_the_end() {
+fn samples_of_rolling_continue_to_the_end() {
     for drag in [0.0, 0.5] {
         let scene =
             scene(1.0, 0.0, 0.3, 0.01).with_drag(Drag::new(drag, 0.0).expect("a valid rate"));
@@ -276,7 +276,7 @@ fn a_coin_that_rolls_out_is_shown_to_the_end() {
         let (mut y, mut v, mut time) = (from.motion.position.y, from.motion.velocity.y, from.time);
         for sample in within.iter().chain([&to]) {
             let gone = sample.time - time;
-            // the trapezoid's rule over 100 pieces: error 1e-4 of h³v''/12
+            // the trapezoidal rule over 100 pieces: error 1e-4 of h³v''/12
             for _ in 0..100 {
                 let h = gone / 100.0;
                 let after = (v * (1.0 - 0.5 * b * h) - a * h) / (1.0 + 0.5 * b * h);
@@ -302,7 +302,7 @@ fn a_coin_that_rolls_out_is_shown_to_the_end() {
     }
 }
 
-/// Wants the instants it was told.
+/// Asks for given instants.
 struct Instants {
     wanted: std::vec::IntoIter<f64>,
     next: f64,
@@ -322,8 +322,8 @@ impl Observer for Instants {
     }
 }
 
-/// A nanosecond from an event the coin is where the event has it, but for its motion in that time
-/// and the error of the step that led there.
+/// A nanosecond before or after an event, the coin is where the event shows it, apart from its motion in
+/// that time and the error of the step that led there.
 #[test]
 fn samples_join_the_events() {
     const NEAR: f64 = 1e-9;

@@ -30,7 +30,7 @@ fn moving(scene: &Scene, seed: u64, toss: u64) -> Launch {
     launch
 }
 
-/// The coin's two faces are alike to the last bit, so everything but the name agrees.
+/// The two faces are exchanged bit-identically: everything but the name agrees.
 #[test]
 fn heads_and_tails_exchange_exactly() {
     for law in Law::ALL {
@@ -52,8 +52,8 @@ fn heads_and_tails_exchange_exactly() {
     }
 }
 
-/// Quarter turns about the vertical exchange components and signs, and a reflection changes
-/// signs (ω, an axial vector, by the opposite ones): neither touches a bit of the toss.
+/// Quarter turns about the vertical exchange components and change signs, and a reflection changes signs
+/// (the opposite ones for ω, an axial vector). Neither changes a bit of the toss.
 #[test]
 fn quarter_turns_and_reflections_change_nothing() {
     let quarter = |v: Vector3<f64>| Vector3::new(-v.y, v.x, v.z);
@@ -76,9 +76,9 @@ fn quarter_turns_and_reflections_change_nothing() {
     }
 }
 
-/// Any other turn rounds (1e-16), which an impact amplifies less than a thousandfold: tosses of up
-/// to two impacts that are not followed through contact agree. The rest agrees on average: 5
-/// standard errors, false alarms 6e-7 a scene.
+/// Any other turn rounds (1e-16), and an impact amplifies the rounding less than a thousandfold: tosses
+/// of up to two impacts without much contact agree. The others agree on average: 5 standard errors,
+/// false alarms 6e-7 per scene.
 #[test]
 fn no_direction_is_preferred() {
     let (sin, cos) = libm::sincos(1.234);
@@ -115,7 +115,7 @@ fn scaled(launch: &Launch, length: f64, time: f64) -> Launch {
     }
 }
 
-/// The scene `length` times as large where time runs `time` times as slowly.
+/// The scene with all lengths multiplied by `length` and all times by `time`.
 fn scaled_scene(scene: &Scene, length: f64, time: f64) -> Scene {
     let (coin, surface) = (&scene.coin, &scene.surface);
     let surface = surface
@@ -129,7 +129,7 @@ fn scaled_scene(scene: &Scene, length: f64, time: f64) -> Scene {
     Scene::new(coin, surface, gravity).unwrap()
 }
 
-/// Powers of two (and a mass that cancels) change no bit of the dimensionless toss.
+/// Scaling by powers of two changes no bit of the dimensionless toss. (The mass cancels.)
 #[test]
 fn size_gravity_and_mass_do_not_matter() {
     let base = scene(0.85, 0.5, 0.3, 0.01);
@@ -152,8 +152,8 @@ fn size_gravity_and_mass_do_not_matter() {
     }
 }
 
-/// Lengths × 3: rounding differs. It changes the face of short tosses only where one comes within
-/// some 1e-12 of a change; of long ones (amplified up to a thousandfold an impact) of few.
+/// With lengths × 3 the rounding differs. It changes the face of a short toss only if that comes within
+/// about 1e-12 of another face, and of few long tosses (amplified up to a thousandfold per impact).
 #[test]
 fn an_odd_scale_does_not_matter() {
     for (ratio, e, allowed) in [(0.85, 0.0, 20), (2.0, 0.0, 20)] {

@@ -160,7 +160,11 @@ impl Rates {
     /// with |f| = μ, and slip starts along −f.
     pub(super) fn still(&self, k: &Couplings, has_lengths: bool) -> Still {
         let sideways = |sigma| {
-            if has_lengths { self.sideways(k, sigma) } else { 0.0 }
+            if has_lengths {
+                self.sideways(k, sigma)
+            } else {
+                0.0
+            }
         };
         let excess = |sigma: f64| {
             let (x, y) = (k.xz / (sigma + k.xx), sideways(sigma));
