@@ -1,9 +1,10 @@
 //! A scene and a launch distribution: all of a toss but its number and the seed.
 
 use coinmc_core::{
-    Coin, Domain, Drag, Landing, Launch, LaunchDistribution, Preset, Scene, Stream, Surface,
+    Coin, Domain, Drag, DynEngine, Landing, Launch, LaunchDistribution, Preset, Scene, Stream,
+    Surface,
 };
-use coinmc_flat::{AnyFlatEngine, Settings};
+use coinmc_flat::Settings;
 use std::fmt;
 
 /// A scene and how the coin is let go.
@@ -149,8 +150,8 @@ impl Case {
     ///
     /// # Panics
     /// If a setting is out of range.
-    pub fn engine(&self, settings: &Settings) -> AnyFlatEngine {
-        AnyFlatEngine::new(&self.scene, settings).expect("settings are in range")
+    pub fn engine(&self, settings: &Settings) -> DynEngine {
+        settings.engine(&self.scene).expect("settings are in range")
     }
 }
 

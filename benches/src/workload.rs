@@ -3,7 +3,7 @@
 use crate::Case;
 use coinmc_core::{Engine, Philox4x64, Preset, run_tosses};
 use coinmc_flat::{Law, Settings};
-use coinmc_volumetric::{AnyVolumetricEngine, Lanes};
+use coinmc_volumetric::Lanes;
 use std::hint::black_box;
 use std::ops::Range;
 
@@ -194,7 +194,7 @@ fn toss_in_space(case: &Case, law: coinmc_volumetric::Law, lanes: Lanes, range: 
         law,
         ..coinmc_volumetric::Settings::default()
     };
-    let engine = AnyVolumetricEngine::new(&case.scene, &settings);
+    let engine = settings.engine(&case.scene);
     let engine = engine.expect("the defaults are in range");
     let engine = engine.with_lanes(lanes).expect("lanes are available");
     tosses(&engine, case, range)

@@ -3,12 +3,12 @@
 use crate::errors;
 use crate::plan::Plan;
 use crate::supervise::wait_for;
-use coinmc::plan::{EngineChoice, Point};
+use coinmc::plan::Point;
 use coinmc_core::{Coin, Scene, Surface};
 use coinmc_film::text::{AngleOf, Choice, read};
 use coinmc_film::{
-    Coordinate, FilmedDrop, Fit, Frame, Law, Loss, Model, Options, Parameter, Ranked, compare,
-    fit_all, parameters,
+    Coordinate, FilmedDrop, Fit, Frame, Law, Loss, Model, Options, Parameter, Ranked, Settings,
+    compare, fit_all, parameters,
 };
 use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -209,7 +209,7 @@ impl Asked {
 
 /// The law of a name: one that its name tells, or the config's own.
 fn law(name: &str, point: Option<&Point>) -> PyResult<Law> {
-    if let Some(EngineChoice::Flat(settings)) = point.map(|point| point.engine)
+    if let Some(settings) = point.and_then(|point| point.engine.settings::<Settings>())
         && settings.law.name() == name
     {
         return Ok(settings.law);

@@ -1,6 +1,7 @@
 //! Launches as rows of twelve numbers: what the structured arrays of the Python part are made of.
 
-use coinmc::plan::{EngineChoice, Point};
+use coinmc::engines::EngineKind;
+use coinmc::plan::Point;
 use coinmc_core::{Launch, State};
 use nalgebra::{UnitVector3, Vector3};
 
@@ -25,7 +26,7 @@ pub(crate) fn check(point: &Point, row: &[f64]) -> Result<(), Fault> {
     if !(norm > 0.0 && norm.is_finite()) {
         return Err("its axis is no direction: give a vector of finite length, not 0");
     }
-    if matches!(point.engine, EngineChoice::Flat(_)) && !is_planar(row, norm) {
+    if point.engine.descriptor().kind == EngineKind::Planar && !is_planar(row, norm) {
         return Err("the flat engine needs axis and velocity in the xz plane and spin about y");
     }
     Ok(())

@@ -3,7 +3,6 @@
 use crate::errors;
 use coinmc::config::{self, Override};
 use coinmc::plan::{Plan as Planned, Point, Stop};
-use coinmc::run::engine_name;
 use pyo3::exceptions::{PyIndexError, PyTypeError};
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -114,7 +113,7 @@ impl Plan {
 
     /// Name of the engine of a point.
     fn engine(&self, point: usize) -> PyResult<&'static str> {
-        Ok(engine_name(&self.point(point)?.engine))
+        Ok(self.point(point)?.engine.name())
     }
 
     /// Ratio, radius, height, mass and gravity of a point, SI.

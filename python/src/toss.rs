@@ -6,8 +6,9 @@ use crate::launch::{Fault, ROW, check, launch, write_launch};
 use crate::plan::Plan;
 use crate::share::{Stretch, share_out};
 use crate::supervise::{Desk, supervise, threads};
+use coinmc::engines::EngineError;
 use coinmc::plan::{MAX_TOSSES, Point};
-use coinmc::run::{Begin, SettingsError, for_each_end, for_each_outcome, stream};
+use coinmc::run::{Begin, for_each_end, for_each_outcome, stream};
 use coinmc_core::Stream;
 use numpy::{PyReadonlyArray2, PyReadwriteArray1, PyReadwriteArray2};
 use pyo3::prelude::*;
@@ -23,7 +24,7 @@ enum Source<'a> {
 
 /// Why tosses stopped.
 enum Trouble {
-    Settings(SettingsError),
+    Settings(EngineError),
     Launch,
     Thread(io::Error),
 }

@@ -5,7 +5,7 @@ use clap::Args;
 use coinmc_bench::{Case, Report, Table, number};
 use coinmc_core::{Engine, Face, Preset};
 use coinmc_oracle::{StepperSettings, TimeStepper};
-use coinmc_volumetric::{AnyVolumetricEngine, Settings};
+use coinmc_volumetric::Settings;
 
 /// (H/R, e, friction lengths in R) of the scenes, all with μ = 0.3 and the preset clean.
 const SCENES: [(f64, f64, f64); 7] = [
@@ -87,7 +87,8 @@ impl Oracle {
 
     fn compare(&self, scene: &Scene, seed: u64) -> Differences {
         let scene = &scene.case;
-        let engine = AnyVolumetricEngine::new(&scene.scene, &Settings::default())
+        let engine = Settings::default()
+            .engine(&scene.scene)
             .expect("settings are in range");
         let settings = StepperSettings {
             step: self.step,

@@ -1,6 +1,7 @@
 //! Tosses side by side: launches go in as there is room, ends come out in any order.
 
 use crate::Launch;
+use crate::engine::AT_ONCE;
 use std::ops::ControlFlow;
 
 /// Tosses that an engine has under way together.
@@ -38,8 +39,8 @@ use std::ops::ControlFlow;
 /// let distribution = Preset::Robot.distribution();
 /// let launches = (0..5).map(|toss| distribution.launch(&coin, &mut stream.toss(toss)));
 /// let mut seen = vec![];
-/// Heights::default().toss_all_in_batch(launches, |number, _| {
-///     seen.push(number);
+/// Heights::default().toss_all_in_batch(launches, |ended| {
+///     seen.extend(ended.iter().map(|(number, _)| *number));
 ///     ControlFlow::Continue(())
 /// });
 /// assert_eq!(seen, [0, 1, 2, 3, 4]);
@@ -62,30 +63,33 @@ pub trait TossBatch {
     /// Tosses that have ended and are yet to be told, by number.
     fn ended(&mut self) -> &mut Vec<(u64, Self::End)>;
 
-    /// Follows the tosses of all launches, and tells `each` the number of every toss among them and
-    /// its end, until that breaks off.
+    /// Follows the tosses of all launches, and hands on the ends of some at a time, each with the
+    /// number of its toss, until `sink` breaks off.
     fn toss_all_in_batch(
         mut self,
-        launches: impl Iterator<Item = Launch>,
-        mut each: impl FnMut(u64, &Self::End) -> ControlFlow<()>,
+        mut launches: impl Iterator<Item = Launch>,
+        mut sink: impl FnMut(&[(u64, Self::End)]) -> ControlFlow<()>,
     ) where
         Self: Sized,
     {
-        let mut launches = launches.fuse();
+        let mut more = true;
         loop {
-            while self.has_room()
-                && let Some(launch) = launches.next()
-            {
-                self.launch(&launch);
-            }
-            let is_done = !self.advance() && self.ended().is_empty();
-            for (number, end) in self.ended().drain(..) {
-                if each(number, &end).is_break() {
-                    return;
+            while more && self.has_room() {
+                match launches.next() {
+                    Some(launch) => self.launch(&launch),
+                    None => more = false,
                 }
             }
-            if is_done {
+            let idle = !self.advance();
+            let ended = self.ended();
+            if idle && ended.is_empty() {
                 return;
+            }
+            if idle || ended.len() >= AT_ONCE {
+                if sink(ended).is_break() {
+                    return;
+                }
+                ended.clear();
             }
         }
     }

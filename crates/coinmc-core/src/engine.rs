@@ -1,14 +1,20 @@
 //! What an engine is.
 
-use crate::{Launch, LaunchDistribution, Observer, Outcome, Scene, Stream, Tally};
-use coinmc_lanes::Lanes;
+use crate::{Launch, LaunchDistribution, LaunchSource, Observer, Outcome, Scene, Stream, Tally};
+use coinmc_lanes::{Lanes, NoSuchLanes};
 use nalgebra::{UnitVector3, Vector3};
 use std::ops::{ControlFlow, Range};
+
+/// Takes the outcomes of some tosses, each with its number among the launches, and says whether to
+/// go on.
+pub type OutcomeSink<'a> = dyn FnMut(&[(u64, Outcome)]) -> ControlFlow<()> + 'a;
 
 /// Turns launches into outcomes.
 ///
 /// An engine is built for one scene, holds no random numbers and no history: the same launch
-/// gives the same outcome on any thread, alone or in a batch, whatever the workspace did before.
+/// gives the same outcome on any thread, scalar or in a batch, whatever the workspace did before.
+///
+/// Who learns the engine at run time only has a [`DynEngine`](crate::DynEngine).
 pub trait Engine: Sync {
     /// Scratch memory, one a worker, reused from toss to toss. Its history must not leak.
     type Workspace: Send;
@@ -21,6 +27,18 @@ pub trait Engine: Sync {
         Lanes::Scalar
     }
 
+    /// The same engine with these lanes. One that follows its tosses in no lanes stays as it is.
+    ///
+    /// # Errors
+    /// [`NoSuchLanes`] if this processor has no such instructions.
+    fn with_lanes(self, lanes: Lanes) -> Result<Self, NoSuchLanes>
+    where
+        Self: Sized,
+    {
+        lanes.available()?;
+        Ok(self)
+    }
+
     /// Follows one toss to its end and tells the observer what happened on the way.
     fn toss(
         &self,
@@ -29,32 +47,62 @@ pub trait Engine: Sync {
         observer: &mut impl Observer,
     ) -> Outcome;
 
-    /// Follows many tosses and hands on the outcome of each with its number among the launches, in any
-    /// order, until `each` breaks off.
+    /// Follows many tosses and hands on their outcomes, some at a time and in any order, until the
+    /// sink breaks off.
     ///
-    /// One after the other, unless the engine is faster with several at a time. Every outcome is
-    /// that of [`Engine::toss`].
+    /// The default is the scalar path; an engine that is faster with several tosses at a time has its
+    /// own. Every outcome is that of [`toss`](Self::toss).
+    fn toss_many(
+        &self,
+        workspace: &mut Self::Workspace,
+        launches: LaunchSource<'_>,
+        sink: &mut OutcomeSink<'_>,
+    ) {
+        toss_sequential(self, workspace, launches, sink);
+    }
+
+    /// [`toss_many`](Self::toss_many) for callers that have any iterator, and look at the outcomes one
+    /// by one.
     fn toss_all(
         &self,
         workspace: &mut Self::Workspace,
-        launches: impl Iterator<Item = Launch>,
-        each: impl FnMut(u64, &Outcome) -> ControlFlow<()>,
+        mut launches: impl Iterator<Item = Launch>,
+        mut each: impl FnMut(u64, &Outcome) -> ControlFlow<()>,
     ) {
-        toss_sequential(self, workspace, launches, each);
+        self.toss_many(
+            workspace,
+            LaunchSource::new(&mut launches),
+            &mut |outcomes| {
+                let mut outcomes = outcomes.iter();
+                outcomes.try_for_each(|(number, outcome)| each(*number, outcome))
+            },
+        );
     }
 }
 
-/// [`Engine::toss_all`], one toss after the other.
+/// Outcomes handed on together: a call of the sink then costs nothing, and tosses of milliseconds are
+/// not waited for long.
+pub(crate) const AT_ONCE: usize = 32;
+
+/// [`Engine::toss_many`] on the scalar path.
 pub fn toss_sequential<E: Engine + ?Sized>(
     engine: &E,
     workspace: &mut E::Workspace,
-    launches: impl Iterator<Item = Launch>,
-    mut each: impl FnMut(u64, &Outcome) -> ControlFlow<()>,
+    launches: LaunchSource<'_>,
+    sink: &mut OutcomeSink<'_>,
 ) {
+    let mut outcomes = Vec::with_capacity(AT_ONCE);
     for (number, launch) in (0..).zip(launches) {
-        if each(number, &engine.toss(workspace, &launch, &mut ())).is_break() {
-            return;
+        outcomes.push((number, engine.toss(workspace, &launch, &mut ())));
+        if outcomes.len() == AT_ONCE {
+            if sink(&outcomes).is_break() {
+                return;
+            }
+            outcomes.clear();
         }
+    }
+    if !outcomes.is_empty() {
+        let _ = sink(&outcomes);
     }
 }
 
@@ -127,8 +175,10 @@ pub fn run_tosses<E: Engine>(
 ) -> Tally {
     let mut tally = Tally::default();
     let launches = launches.launches(&scene.coin, stream, tosses, engine.lanes());
-    engine.toss_all(workspace, launches, |_, outcome| {
-        tally.add(outcome);
+    engine.toss_many(workspace, launches.into(), &mut |outcomes| {
+        for (_, outcome) in outcomes {
+            tally.add(outcome);
+        }
         ControlFlow::Continue(())
     });
     tally

@@ -25,12 +25,15 @@ mod beta;
 mod body;
 mod coin;
 mod decision;
+mod descriptor;
+mod dyn_engine;
 mod engine;
 mod estimate;
 mod launch;
 mod observer;
 mod outcome;
 mod random;
+pub mod schema;
 mod surface;
 mod tally;
 
@@ -39,13 +42,18 @@ pub use body::{Body, Units};
 pub use coin::{Coin, CoinError};
 pub use coinmc_lanes::Lanes;
 pub use decision::{Decided, DecisionRule, DecisionState};
-pub use engine::{Engine, Event, EventKind, State, run_tosses, toss_sequential};
+pub use descriptor::{
+    Answer, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings, LawDescriptor,
+    LawSettings, Remark, Unmodelled,
+};
+pub use dyn_engine::DynEngine;
+pub use engine::{Engine, Event, EventKind, OutcomeSink, State, run_tosses, toss_sequential};
 pub use estimate::{
     Estimate, IntervalMethod, relative_error, rule_of_thumb_relative_error, student_t_quantile,
 };
 pub use launch::{
-    Launch, LaunchDistribution, LaunchError, Launches, Marginal, Orientation, Preset, Spin,
-    inverse_normal_cdf,
+    Launch, LaunchDistribution, LaunchError, LaunchSource, Launches, Marginal, Orientation, Preset,
+    Spin, inverse_normal_cdf,
 };
 pub use observer::{DynObserver, Observer, sample_between};
 pub use outcome::{Breaks, Ended, Face, Outcome};

@@ -6,7 +6,7 @@
 
 use crate::parameter::Shared;
 use coinmc_core::{Coin, Engine, Launch, Observer, Outcome, Scene, Surface};
-use coinmc_flat::{AnyFlatEngine, Law, Settings, SettingsError};
+use coinmc_flat::{Law, Settings, SettingsError};
 
 /// The model of the drops.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,7 +45,7 @@ impl Model {
         };
         let surface = Surface::new(shared.restitution, friction).ok()?;
         let scene = Scene::new(self.coin, surface, self.gravity_m_s2).ok()?;
-        let engine = AnyFlatEngine::new(&scene, &self.settings(shared)).ok()?;
+        let engine = self.settings(shared).engine(&scene).ok()?;
         Some(engine.toss(&mut (), launch, observer))
     }
 

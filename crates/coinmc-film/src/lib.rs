@@ -25,7 +25,7 @@ mod table;
 pub mod text;
 
 pub use coinmc_flat::{
-    GaekSukhov, HalfSine, Law, Lever, LineContact, Materials, PulseTime, SettingsError,
+    GaekSukhov, HalfSine, Law, Lever, LineContact, Materials, PulseTime, Settings, SettingsError,
 };
 pub use compare::{Ranked, compare};
 pub use drop::{Coordinate, FilmedDrop, Frame, MAX_FRAMES};

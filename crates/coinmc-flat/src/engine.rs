@@ -4,9 +4,10 @@ use crate::batch::Batch;
 use crate::impact_law::ImpactLaw;
 use crate::parameters::Parameters;
 use crate::settings::{Decision, Settings, SettingsError};
-use coinmc_core::{Engine, Launch, Observer, Outcome, Scene, TossBatch, toss_sequential};
+use coinmc_core::{
+    Engine, Launch, LaunchSource, Observer, Outcome, OutcomeSink, Scene, TossBatch, toss_sequential,
+};
 use coinmc_lanes::{Lanes, NoSuchLanes};
-use std::ops::ControlFlow;
 
 /// Simulates planar tosses of one scene under one law of impact.
 ///
@@ -42,31 +43,6 @@ impl<L: ImpactLaw> FlatEngine<L> {
         })
     }
 
-    /// The same engine with these lanes in [`Engine::toss_all`], instead of the fastest ones of this
-    /// processor.
-    ///
-    /// # Errors
-    /// [`NoSuchLanes`] if this processor lacks the instructions.
-    ///
-    /// # Example
-    /// ```
-    /// use coinmc_core::{Coin, Scene, Surface};
-    /// use coinmc_flat::{FlatEngine, Lanes, Moreau, Settings};
-    /// let scene = Scene::new(Coin::cylinder(1.2, 0.01)?, Surface::new(0.5, 0.3)?, 9.81)?;
-    /// let engine = FlatEngine::new(&scene, &Settings::default(), Moreau)?;
-    /// assert_eq!(engine.with_lanes(Lanes::Portable)?.lanes(), Lanes::Portable);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn with_lanes(mut self, lanes: Lanes) -> Result<Self, NoSuchLanes> {
-        self.lanes = lanes.available()?;
-        Ok(self)
-    }
-
-    /// The lanes used by [`Engine::toss_all`].
-    pub fn lanes(&self) -> Lanes {
-        self.lanes
-    }
-
     /// A batch of tosses, if they can be computed in lanes: the law's impacts are impulses, the
     /// lanes are not scalar, and energy alone decides.
     pub(crate) fn batch(&self) -> Option<Batch<'_, L>> {
@@ -99,19 +75,19 @@ impl<L: ImpactLaw> Engine for FlatEngine<L> {
         self.lanes
     }
 
+    fn with_lanes(mut self, lanes: Lanes) -> Result<Self, NoSuchLanes> {
+        self.lanes = lanes.available()?;
+        Ok(self)
+    }
+
     fn toss(&self, (): &mut (), launch: &Launch, observer: &mut impl Observer) -> Outcome {
         self.toss_observed(launch, observer)
     }
 
-    fn toss_all(
-        &self,
-        (): &mut (),
-        launches: impl Iterator<Item = Launch>,
-        each: impl FnMut(u64, &Outcome) -> ControlFlow<()>,
-    ) {
+    fn toss_many(&self, (): &mut (), launches: LaunchSource<'_>, sink: &mut OutcomeSink<'_>) {
         match self.batch() {
-            Some(batch) => batch.toss_all_in_batch(launches, each),
-            None => toss_sequential(self, &mut (), launches, each),
+            Some(batch) => batch.toss_all_in_batch(launches, sink),
+            None => toss_sequential(self, &mut (), launches, sink),
         }
     }
 }

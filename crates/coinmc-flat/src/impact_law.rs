@@ -2,8 +2,9 @@
 
 use crate::contact_matrix::{ContactMatrix, Impulse};
 use crate::motion::Motion;
+use crate::settings::SettingsError;
 use crate::shape::Shape;
-use coinmc_core::Breaks;
+use coinmc_core::{Breaks, LawSettings, Scene};
 use coinmc_lanes::Lane;
 
 /// A law of impact at one corner.
@@ -35,6 +36,20 @@ pub trait ImpactLaw: Copy + Sync {
     fn effective_restitution(&self, e: f64) -> f64 {
         e
     }
+}
+
+/// A law of impact as a user gives it, to be had for any scene.
+pub(crate) trait PlanarLaw: LawSettings {
+    /// The law in a scene.
+    type Impact: ImpactLaw;
+
+    /// Checks the parameters.
+    fn validate(&self) -> Result<(), SettingsError> {
+        Ok(())
+    }
+
+    /// The law in this scene.
+    fn impact(self, scene: &Scene) -> Result<Self::Impact, SettingsError>;
 }
 
 /// An impact about to happen: the coin with its lowest corner on the surface, and the parameters of

@@ -22,12 +22,12 @@
 //! law chosen at run time · `single` one impact alone · `observer_adapter` what an observer is shown ·
 //! `settings` choices.
 
-mod any;
 mod batch;
 mod contact;
 mod contact_matrix;
 mod counters;
 mod decision;
+mod descriptor;
 mod dormand_prince;
 mod engine;
 mod flight;
@@ -48,16 +48,17 @@ mod toss;
 mod touching;
 mod transition;
 
-pub use any::AnyFlatEngine;
 pub use coinmc_lanes::{Lane, Lanes, NoSuchLanes};
 pub use contact_matrix::{ContactMatrix, Impulse};
+pub use descriptor::ENGINE;
 pub use engine::FlatEngine;
 pub use impact_law::{Impact, ImpactLaw, Resolution};
+pub use laws::Law;
 pub use laws::chatterjee_ruina::ChatterjeeRuina;
 pub use laws::gaek_sukhov::{GaekSukhov, GaekSukhovImpact, Lever};
 pub use laws::half_sine::{HalfSine, HalfSineImpact, PulseTime};
 pub use laws::line_contact::{LineContact, LineContactImpact};
 pub use laws::moreau::Moreau;
 pub use laws::palmgren::Materials;
-pub use settings::{Decision, Law, Settings, SettingsError};
+pub use settings::{Decision, Settings, SettingsError};
 pub use single::SingleImpact;

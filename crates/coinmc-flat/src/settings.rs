@@ -1,51 +1,12 @@
 //! What a user may choose about the flat engine.
 
-use crate::laws::gaek_sukhov::GaekSukhov;
-use crate::laws::half_sine::HalfSine;
-use crate::laws::line_contact::LineContact;
+use crate::laws::{LAWS, Law};
+use coinmc_core::schema::{
+    Absent, Bounds, Fallback, Kind, OutOfRange, TableKind, Value, Values, Whole, Word, count,
+    default, field, fields, number,
+};
+use coinmc_core::{EngineError, LawDescriptor};
 use thiserror::Error;
-
-/// The law of impact at a corner.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Law {
-    /// Newton restitution, Coulomb friction against the final slip (Moreau 1988), guarded by
-    /// Chatterjee–Ruina where that would gain energy.
-    #[default]
-    Moreau,
-    /// Chatterjee & Ruina (1998), tangential restitution 0.
-    ChatterjeeRuina,
-    /// Gaek & Sukhov's law as published.
-    GaekSukhov(GaekSukhov),
-    /// A force that is half a sine in time.
-    HalfSine(HalfSine),
-    /// Elastic line contact with damping and friction, resolved in time.
-    LineContact(LineContact),
-}
-
-impl Law {
-    /// The laws that are told by their names alone.
-    pub const RIGID: [Self; 2] = [Self::Moreau, Self::ChatterjeeRuina];
-
-    /// The name used in configs and results.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Moreau => "moreau",
-            Self::ChatterjeeRuina => "chatterjee-ruina",
-            Self::GaekSukhov(_) => "gaek-sukhov",
-            Self::HalfSine(_) => "half-sine",
-            Self::LineContact(_) => "line-contact",
-        }
-    }
-
-    fn validate(self) -> Result<(), SettingsError> {
-        match self {
-            Self::Moreau | Self::ChatterjeeRuina => Ok(()),
-            Self::GaekSukhov(gaek_sukhov) => gaek_sukhov.validate(),
-            Self::HalfSine(pulse) => pulse.validate(),
-            Self::LineContact(line) => line.validate(),
-        }
-    }
-}
 
 /// When the face of a toss counts as decided.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -95,70 +56,94 @@ impl Default for Settings {
     }
 }
 
-/// A setting outside its range.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum SettingsError {
-    /// zeno lies outside (0, 1].
-    #[error("zeno must lie in (0, 1], not {0}")]
-    Zeno(f64),
-    /// tolerance lies outside [1e-12, 1e-2].
-    #[error("tolerance must lie in [1e-12, 1e-2], not {0}")]
-    Tolerance(f64),
-    /// No impact is allowed.
-    #[error("max_impacts must be at least 1")]
-    MaxImpacts,
-    /// The energy fraction lies outside (0, 1).
-    #[error("energy_fraction must lie in (0, 1), not {0}")]
-    EnergyFraction(f64),
-    /// A quantity of the law of impact is out of its range.
-    #[error("{name} must be {range}, not {found}")]
-    Quantity {
-        /// Its name, with its unit.
-        name: &'static str,
-        /// Where it must lie.
-        range: &'static str,
-        /// What was given.
-        found: f64,
-    },
-    /// Gaek & Sukhov's law has no friction.
-    #[error("Gaek & Sukhov's law knows no friction: friction must be 0, not {0}")]
-    Friction(f64),
-}
+const ENERGY_FRACTION: Bounds = Bounds::open(0.0, 1.0);
+const ZENO: Bounds = Bounds::above_zero(1.0);
+const TOLERANCE: Bounds = Bounds::closed(1e-12, 1e-2);
+
+/// The name of the decision that needs no number.
+const ENERGY: &str = "energy";
 
 impl Settings {
+    /// The keys of `[engine.flat]`.
+    pub(crate) fn schema() -> TableKind {
+        let settings = Self::default();
+        fields(vec![
+            LawDescriptor::field(&LAWS, settings.law.name()),
+            field(
+                "decision",
+                "When the face of a toss counts as decided.",
+                Kind::Choice(
+                    vec![Word {
+                        name: ENERGY,
+                        doc: "when energy alone makes it certain",
+                    }],
+                    vec![number(
+                        "energy_fraction",
+                        "Decided when the energy has fallen to this fraction of its first value, or \
+                         earlier if certain.",
+                        ENERGY_FRACTION,
+                        Absent::Required,
+                    )],
+                ),
+                Absent::Is(Fallback::Word(ENERGY)),
+            ),
+            number(
+                "zeno",
+                "A sequence of bounces becomes sustained contact when the rest of it would turn the \
+                 coin by less than about this angle, rad.",
+                ZENO,
+                default(settings.zeno),
+            ),
+            number(
+                "tolerance",
+                "Relative error allowed per step of sliding contact and of impacts resolved in time.",
+                TOLERANCE,
+                default(settings.tolerance),
+            ),
+            count(
+                "max_impacts",
+                "Impacts after which a toss is given up as undecided.",
+                settings.max_impacts,
+            ),
+        ])
+    }
+
+    /// The settings that the values of that table give.
+    pub(crate) fn from_values(values: &Values) -> Result<Self, EngineError> {
+        Ok(Self {
+            law: Law::read(values)?,
+            decision: match values.get("decision") {
+                Some(Value::Tagged(_, fraction)) => Decision::EnergyFraction(fraction.number()?),
+                _ => Decision::Energy,
+            },
+            zeno: values.number("zeno")?,
+            tolerance: values.number("tolerance")?,
+            max_impacts: values.integer("max_impacts")?,
+        })
+    }
+
     /// Checks every setting.
     ///
     /// # Errors
     /// The first [`SettingsError`] in the order of the fields.
     pub fn validate(&self) -> Result<(), SettingsError> {
         self.law.validate()?;
-        if let Decision::EnergyFraction(fraction) = self.decision
-            && !(fraction > 0.0 && fraction < 1.0)
-        {
-            return Err(SettingsError::EnergyFraction(fraction));
+        if let Decision::EnergyFraction(fraction) = self.decision {
+            ENERGY_FRACTION.check("energy_fraction", fraction)?;
         }
-        if !(self.zeno > 0.0 && self.zeno <= 1.0) {
-            return Err(SettingsError::Zeno(self.zeno));
-        }
-        if !(1e-12..=1e-2).contains(&self.tolerance) {
-            return Err(SettingsError::Tolerance(self.tolerance));
-        }
-        if self.max_impacts == 0 {
-            return Err(SettingsError::MaxImpacts);
-        }
-        Ok(())
+        ZENO.check("zeno", self.zeno)?;
+        TOLERANCE.check("tolerance", self.tolerance)?;
+        Ok(Whole::COUNT.check("max_impacts", self.max_impacts)?)
     }
 }
 
-/// A positive, finite quantity of a law.
-pub(crate) fn positive(name: &'static str, found: f64) -> Result<(), SettingsError> {
-    if found > 0.0 && found.is_finite() {
-        Ok(())
-    } else {
-        Err(SettingsError::Quantity {
-            name,
-            range: "positive and finite",
-            found,
-        })
-    }
+/// Settings that no engine has.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum SettingsError {
+    /// A setting, or a parameter of the law of impact, is out of its range.
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
+    /// Gaek & Sukhov's law has no friction.
+    #[error("Gaek & Sukhov's law knows no friction: friction must be 0, not {0}")]
+    Friction(f64),
 }

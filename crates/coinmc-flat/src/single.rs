@@ -1,11 +1,11 @@
 //! One impact by itself: to look at a law, to compare it with film, to measure it.
 
-use crate::any::AnyFlatEngine;
 use crate::engine::FlatEngine;
 use crate::impact_law::{ImpactLaw, Resolution};
 use crate::motion::Motion;
 use crate::parameters::Parameters;
-use coinmc_core::{Breaks, Launch, State};
+use crate::settings::{Settings, SettingsError};
+use coinmc_core::{Breaks, Launch, Scene, State};
 
 /// One impact: the coin just before and just after, and what happened between.
 #[derive(Debug, Clone, Copy)]
@@ -29,35 +29,32 @@ pub struct SingleImpact {
     pub breaks: Breaks,
 }
 
-impl AnyFlatEngine {
-    /// [`FlatEngine::impact_once`] of the law it has.
+impl SingleImpact {
+    /// [`FlatEngine::impact_once`] of the law of the settings.
+    ///
+    /// # Errors
+    /// [`SettingsError`] if a setting is out of range, or the law does not go with the scene.
     ///
     /// # Example
     /// ```
     /// use coinmc_core::{Coin, Launch, Scene, Surface};
-    /// use coinmc_flat::{AnyFlatEngine, Law, Lever, GaekSukhov, Settings};
+    /// use coinmc_flat::{GaekSukhov, Law, Lever, Settings, SingleImpact};
     /// use nalgebra::{Unit, Vector3};
     /// let scene = Scene::new(Coin::cylinder(1.0, 0.01)?, Surface::new(0.5, 0.0)?, 9.81)?;
-    /// let paper = GaekSukhov { eta_n_s: 1e-3, lever: Lever::Height };
-    /// let settings = Settings { law: Law::GaekSukhov(paper), ..Settings::default() };
+    /// let law = Law::GaekSukhov(GaekSukhov { eta_n_s: 1e-3, lever: Lever::Height });
+    /// let settings = Settings { law, ..Settings::default() };
     /// let launch = Launch {
     ///     height_m: 0.0, // the coin is put onto the surface
     ///     velocity_m_s: Vector3::new(0.0, 0.0, -2.0),
     ///     axis: Unit::new_normalize(Vector3::new(0.5, 0.0, 1.0)),
     ///     spin_rad_s: Vector3::zeros(),
     /// };
-    /// let impact = AnyFlatEngine::new(&scene, &settings)?.impact_once(&launch);
+    /// let impact = SingleImpact::new(&scene, &settings, &launch)?;
     /// assert!(impact.after.spin_rad_s.y != 0.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn impact_once(&self, launch: &Launch) -> SingleImpact {
-        match self {
-            Self::Moreau(engine) => engine.impact_once(launch),
-            Self::ChatterjeeRuina(engine) => engine.impact_once(launch),
-            Self::GaekSukhov(engine) => engine.impact_once(launch),
-            Self::HalfSine(engine) => engine.impact_once(launch),
-            Self::LineContact(engine) => engine.impact_once(launch),
-        }
+    pub fn new(scene: &Scene, settings: &Settings, launch: &Launch) -> Result<Self, SettingsError> {
+        settings.law.impact_once(scene, settings, launch)
     }
 }
 

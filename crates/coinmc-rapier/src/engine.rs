@@ -5,7 +5,7 @@ use crate::batch;
 use crate::driver::Driver;
 use crate::settings::{Settings, SettingsError};
 use crate::world::World;
-use coinmc_core::{Engine, Launch, Observer, Outcome, Scene};
+use coinmc_core::{Engine, Launch, LaunchSource, Observer, Outcome, OutcomeSink, Scene};
 use std::ops::ControlFlow;
 
 /// Follows tosses of one scene with Rapier's steps.
@@ -86,14 +86,15 @@ impl Engine for RapierEngine {
         self.examine(workspace, launch, observer).outcome
     }
 
-    fn toss_all(
+    /// One outcome at a time: a toss takes milliseconds.
+    fn toss_many(
         &self,
         workspace: &mut Workspace,
-        launches: impl Iterator<Item = Launch>,
-        mut each: impl FnMut(u64, &Outcome) -> ControlFlow<()>,
+        launches: LaunchSource<'_>,
+        sink: &mut OutcomeSink<'_>,
     ) {
         self.examine_all(workspace, launches, |number, account| {
-            each(number as u64, &account.outcome)
+            sink(&[(number as u64, account.outcome)])
         });
     }
 }

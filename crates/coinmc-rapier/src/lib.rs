@@ -27,6 +27,7 @@
 
 mod account;
 mod batch;
+mod descriptor;
 mod driver;
 mod engine;
 mod flight;
@@ -40,6 +41,7 @@ mod toss;
 mod world;
 
 pub use account::{Account, Flaw};
+pub use descriptor::ENGINE;
 pub use engine::{RapierEngine, Workspace};
 pub use settings::{
     Decision, Flight, FrictionModel, Gyroscopic, Settings, SettingsError, Standing,

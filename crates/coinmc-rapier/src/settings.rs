@@ -1,5 +1,10 @@
 //! What a user may choose, and what is refused.
 
+use coinmc_core::EngineError;
+use coinmc_core::schema::{
+    Absent, Bounds, Fallback, Kind, OutOfRange, TableKind, Values, Whole, choice, count, default,
+    field, fields, flag, number,
+};
 use thiserror::Error;
 
 /// How Rapier solves friction.
@@ -62,7 +67,7 @@ pub enum Decision {
 }
 
 macro_rules! names {
-    ($type:ident { $($variant:ident = $name:literal),+ }) => {
+    ($type:ident { $($variant:ident = $name:literal: $doc:literal),+ $(,)? }) => {
         impl $type {
             /// Every choice.
             pub const ALL: [Self; [$($name),+].len()] = [$(Self::$variant),+];
@@ -73,15 +78,39 @@ macro_rules! names {
                     $(Self::$variant => $name),+
                 }
             }
+
+            fn doc(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $doc),+
+                }
+            }
         }
     };
 }
 
-names!(FrictionModel { Coulomb = "coulomb", Simplified = "simplified" });
-names!(Flight { Contact = "contact", Steps = "steps", Off = "off" });
-names!(Gyroscopic { Exact = "exact", Rapier = "rapier" });
-names!(Standing { Drag = "drag", Rapier = "rapier" });
-names!(Decision { Tilting = "tilting", Energy = "energy", Rest = "rest" });
+names!(FrictionModel {
+    Coulomb = "coulomb": "Coulomb's cone at every contact point",
+    Simplified = "simplified":
+        "one cone amid the contact points and a torque about the normal: Rapier's own default",
+});
+names!(Flight {
+    Contact = "contact": "all of it, to the moment of contact",
+    Steps = "steps": "whole steps, up to the last one that ends clear of the surface",
+    Off = "off": "none",
+});
+names!(Gyroscopic {
+    Exact = "exact": "this engine, after every step, without gain of energy",
+    Rapier = "rapier": "Rapier, by an explicit term that gains energy",
+});
+names!(Standing {
+    Drag = "drag": "this engine, by a third at a time, without the steps between",
+    Rapier = "rapier": "Rapier, step by step",
+});
+names!(Decision {
+    Tilting = "tilting": "when the energy that can still tilt the coin is too small",
+    Energy = "energy": "when the whole energy is too small",
+    Rest = "rest": "when the coin has come to rest",
+});
 
 impl Gyroscopic {
     pub(crate) fn is_rapiers(self) -> bool {
@@ -149,70 +178,149 @@ impl Default for Settings {
     }
 }
 
-/// A setting outside its range.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum SettingsError {
-    /// The step lies outside (0, 100].
-    #[error("step_s must lie in (0, 100], not {0}")]
-    Step(f64),
-    /// substeps lies outside 1 … 1000.
-    #[error("substeps must lie in 1 … 1000, not {0}")]
-    Substeps(u32),
-    /// prediction lies outside (0, 1].
-    #[error("prediction must lie in (0, 1], not {0}")]
-    Prediction(f64),
-    /// Rapier was not compiled: the feature `rapier` is off.
-    #[error(
-        "this build has no Rapier: build coinmc with the feature `rapier`, or toss with \
-         engine.volumetric"
-    )]
-    NotBuilt,
-    /// tosses_at_once lies outside 1 … 1000.
-    #[error("tosses_at_once must lie in 1 … 1000, not {0}")]
-    TossesAtOnce(u32),
-    /// max_gain is not positive.
-    #[error("max_gain must be positive, not {0}")]
-    MaxGain(f64),
-    /// No step is allowed.
-    #[error("max_steps must be at least 1")]
-    MaxSteps,
-    /// The time limit is not positive.
-    #[error("time_limit must be positive, not {0}")]
-    TimeLimit(f64),
+const STEP_S: Bounds = Bounds::above_zero(100.0);
+const SUBSTEPS: Whole = Whole { low: 1, high: 1000 };
+const PREDICTION: Bounds = Bounds::above_zero(1.0);
+const TOSSES_AT_ONCE: Whole = Whole { low: 1, high: 1000 };
+const MAX_GAIN: Bounds = Bounds::above_zero(1e6);
+const TIME_LIMIT: Bounds = Bounds::above_zero(1e15);
+
+/// A choice that has a name and a meaning.
+macro_rules! named {
+    ($key:literal, $doc:literal, $type:ident, $default:expr) => {
+        choice(
+            $key,
+            $doc,
+            $type::ALL.map(|one| (one.name(), one.doc())),
+            $default.name(),
+        )
+    };
 }
 
 impl Settings {
+    /// The keys of `[engine.rapier]`.
+    pub(crate) fn schema() -> TableKind {
+        let settings = Self::default();
+        let whole = |name, doc, whole, fallback: u32| {
+            let fallback = Fallback::Integer(u64::from(fallback));
+            field(name, doc, Kind::Integer(whole), Absent::Is(fallback))
+        };
+        fields(vec![
+            number("step_s", "Time step, s.", STEP_S, default(settings.step_s)),
+            whole(
+                "substeps",
+                "Substeps of every step, in each of which contacts are solved once.",
+                SUBSTEPS,
+                settings.substeps,
+            ),
+            named!(
+                "friction_model",
+                "How friction is solved.",
+                FrictionModel,
+                settings.friction_model
+            ),
+            number(
+                "prediction",
+                "Gap below which Rapier sees a contact, as a fraction of the distance of the rim from \
+                 the centre.",
+                PREDICTION,
+                default(settings.prediction),
+            ),
+            flag(
+                "ccd",
+                "Rapier's continuous collision detection; it does nothing for a plane.",
+                settings.ccd,
+            ),
+            named!(
+                "gyroscopic",
+                "Who adds the gyroscopic torque, if there is one.",
+                Gyroscopic,
+                settings.gyroscopic
+            ),
+            named!(
+                "flight",
+                "What of free flight is computed in closed form instead of stepped.",
+                Flight,
+                settings.flight
+            ),
+            named!(
+                "standing",
+                "Who slows a coin that stands on its rim and spins, where drag alone does, without \
+                 gyroscopic torque.",
+                Standing,
+                settings.standing
+            ),
+            whole(
+                "tosses_at_once",
+                "Tosses that share one world; 1 where ccd is on.",
+                TOSSES_AT_ONCE,
+                settings.tosses_at_once,
+            ),
+            named!(
+                "decision",
+                "When the face of a toss counts as decided.",
+                Decision,
+                settings.decision
+            ),
+            number(
+                "max_gain",
+                "Rise of the energy above its value at launch, as a fraction of it, beyond which a \
+                 toss has failed.",
+                MAX_GAIN,
+                default(settings.max_gain),
+            ),
+            count(
+                "max_steps",
+                "Steps after which a toss is given up as undecided.",
+                settings.max_steps,
+            ),
+            number(
+                "time_limit",
+                "Simulated time, in sqrt(D/g), after which a toss is given up as undecided.",
+                TIME_LIMIT,
+                default(settings.time_limit),
+            ),
+        ])
+    }
+
+    /// The settings that the values of that table give.
+    pub(crate) fn from_values(values: &Values) -> Result<Self, EngineError> {
+        Ok(Self {
+            step_s: values.number("step_s")?,
+            substeps: values.integer("substeps")?,
+            friction_model: values.one_of(
+                "friction_model",
+                FrictionModel::ALL,
+                FrictionModel::name,
+            )?,
+            prediction: values.number("prediction")?,
+            ccd: values.boolean("ccd")?,
+            gyroscopic: values.one_of("gyroscopic", Gyroscopic::ALL, Gyroscopic::name)?,
+            flight: values.one_of("flight", Flight::ALL, Flight::name)?,
+            standing: values.one_of("standing", Standing::ALL, Standing::name)?,
+            tosses_at_once: values.integer("tosses_at_once")?,
+            decision: values.one_of("decision", Decision::ALL, Decision::name)?,
+            max_gain: values.number("max_gain")?,
+            max_steps: values.integer("max_steps")?,
+            time_limit: values.number("time_limit")?,
+        })
+    }
+
     /// Checks every setting.
     ///
     /// # Errors
     /// The first [`SettingsError`] in the order of the fields.
     pub fn validate(&self) -> Result<(), SettingsError> {
-        let is_positive = |value: f64, most: f64| value > 0.0 && value <= most;
-        if !is_positive(self.step_s, 100.0) {
-            return Err(SettingsError::Step(self.step_s));
-        }
-        if !(1..=1000).contains(&self.substeps) {
-            return Err(SettingsError::Substeps(self.substeps));
-        }
-        if !is_positive(self.prediction, 1.0) {
-            return Err(SettingsError::Prediction(self.prediction));
-        }
-        if !(1..=1000).contains(&self.tosses_at_once) {
-            return Err(SettingsError::TossesAtOnce(self.tosses_at_once));
-        }
+        STEP_S.check("step_s", self.step_s)?;
+        SUBSTEPS.check("substeps", self.substeps)?;
+        PREDICTION.check("prediction", self.prediction)?;
+        TOSSES_AT_ONCE.check("tosses_at_once", self.tosses_at_once)?;
         if !cfg!(feature = "rapier") {
             return Err(SettingsError::NotBuilt);
         }
-        if !is_positive(self.max_gain, f64::INFINITY) {
-            return Err(SettingsError::MaxGain(self.max_gain));
-        }
-        if self.max_steps == 0 {
-            return Err(SettingsError::MaxSteps);
-        }
-        if !is_positive(self.time_limit, f64::INFINITY) {
-            return Err(SettingsError::TimeLimit(self.time_limit));
-        }
-        Ok(())
+        MAX_GAIN.check("max_gain", self.max_gain)?;
+        Whole::COUNT.check("max_steps", self.max_steps)?;
+        Ok(TIME_LIMIT.check("time_limit", self.time_limit)?)
     }
 
     /// Coins in one world.
@@ -223,4 +331,18 @@ impl Settings {
             self.tosses_at_once as usize
         }
     }
+}
+
+/// Settings that no engine has.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum SettingsError {
+    /// A setting is out of its range.
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
+    /// Rapier was not compiled: the feature `rapier` is off.
+    #[error(
+        "this build has no Rapier: build coinmc with the feature `rapier`, or toss with \
+         engine.volumetric"
+    )]
+    NotBuilt,
 }

@@ -1,8 +1,9 @@
 //! A planned experiment: the config of a run, interpreted as commands to a robot.
 
 use crate::{Face, Setting};
-use coinmc::plan::{EngineChoice, Plan, Point, Stop};
-use coinmc::run::{SettingsError, toss};
+use coinmc::engines::EngineError;
+use coinmc::plan::{Plan, Point, Stop};
+use coinmc::run::toss;
 use coinmc_core::{Domain, Launch, Marginal, Orientation, Outcome, Spin, Stream};
 use std::f64::consts::{PI, TAU};
 use std::fmt;
@@ -111,16 +112,16 @@ impl Experiment {
     /// plan.
     ///
     /// # Errors
-    /// [`SettingsError`] if the engine rejects its settings.
-    pub fn simulate(&self, throw: u32, setting: Setting) -> Result<Outcome, SettingsError> {
+    /// [`EngineError`] if the engine rejects its settings.
+    pub fn simulate(&self, throw: u32, setting: Setting) -> Result<Outcome, EngineError> {
         toss(self.point(), &setting.applied_to(&self.drawn(throw)))
     }
 
     /// The face of [`simulate`](Self::simulate); `None` for an undecided toss.
     ///
     /// # Errors
-    /// [`SettingsError`] if the engine rejects its settings.
-    pub fn model_face(&self, throw: u32, setting: Setting) -> Result<Option<Face>, SettingsError> {
+    /// [`EngineError`] if the engine rejects its settings.
+    pub fn model_face(&self, throw: u32, setting: Setting) -> Result<Option<Face>, EngineError> {
         Ok(self.simulate(throw, setting)?.face())
     }
 
@@ -150,7 +151,7 @@ fn throws(plan: &Plan, problems: &mut Vec<String>) -> u32 {
     let no_tosses = plan
         .points
         .first()
-        .is_some_and(|point| matches!(point.engine, EngineChoice::Analytic(_)));
+        .is_some_and(|point| !point.engine.makes_tosses());
     if no_tosses {
         problems.push(
             "[engine.analytic] does not toss coins: give the model to compare the experiment with, \

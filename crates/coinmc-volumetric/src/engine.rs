@@ -4,9 +4,10 @@ use crate::batch::Batch;
 use crate::impact::ImpactLaw;
 use crate::model::Model;
 use crate::settings::{Settings, SettingsError};
-use coinmc_core::{Engine, Launch, Observer, Outcome, Scene, TossBatch, toss_sequential};
+use coinmc_core::{
+    Engine, Launch, LaunchSource, Observer, Outcome, OutcomeSink, Scene, TossBatch, toss_sequential,
+};
 use coinmc_lanes::{Lanes, NoSuchLanes};
-use std::ops::ControlFlow;
 
 /// Simulates tosses of one scene under one impact law.
 ///
@@ -43,30 +44,6 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         })
     }
 
-    /// The same engine with these lanes for [`Engine::toss_all`], instead of [`Lanes::best`].
-    ///
-    /// # Errors
-    /// [`NoSuchLanes`] if this processor lacks the instructions.
-    ///
-    /// # Example
-    /// ```
-    /// use coinmc_core::{Coin, Scene, Surface};
-    /// use coinmc_volumetric::{Lanes, Moreau, Settings, VolumetricEngine};
-    /// let scene = Scene::new(Coin::cylinder(0.85, 0.01)?, Surface::new(0.5, 0.3)?, 9.81)?;
-    /// let engine = VolumetricEngine::new(&scene, &Settings::default(), Moreau)?;
-    /// assert_eq!(engine.with_lanes(Lanes::Portable)?.lanes(), Lanes::Portable);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn with_lanes(mut self, lanes: Lanes) -> Result<Self, NoSuchLanes> {
-        self.lanes = lanes.available()?;
-        Ok(self)
-    }
-
-    /// The lanes that [`Engine::toss_all`] uses.
-    pub fn lanes(&self) -> Lanes {
-        self.lanes
-    }
-
     /// A batch for many tosses; `None` if the lanes are [`Lanes::Scalar`].
     pub(crate) fn batch(&self) -> Option<Batch<'_, L>> {
         (self.lanes != Lanes::Scalar).then(|| Batch::new(&self.model, self.lanes))
@@ -82,21 +59,24 @@ impl<L: ImpactLaw> Engine for VolumetricEngine<L> {
         self.lanes
     }
 
+    fn with_lanes(mut self, lanes: Lanes) -> Result<Self, NoSuchLanes> {
+        self.lanes = lanes.available()?;
+        Ok(self)
+    }
+
     fn toss(&self, (): &mut (), launch: &Launch, observer: &mut impl Observer) -> Outcome {
         self.model.run(launch, observer).outcome
     }
 
-    fn toss_all(
-        &self,
-        (): &mut (),
-        launches: impl Iterator<Item = Launch>,
-        mut each: impl FnMut(u64, &Outcome) -> ControlFlow<()>,
-    ) {
-        match self.batch() {
-            Some(batch) => {
-                batch.toss_all_in_batch(launches, |number, end| each(number, &end.outcome));
-            }
-            None => toss_sequential(self, &mut (), launches, each),
-        }
+    fn toss_many(&self, (): &mut (), launches: LaunchSource<'_>, sink: &mut OutcomeSink<'_>) {
+        let Some(batch) = self.batch() else {
+            return toss_sequential(self, &mut (), launches, sink);
+        };
+        let mut outcomes = Vec::new();
+        batch.toss_all_in_batch(launches, |ended| {
+            outcomes.clear();
+            outcomes.extend(ended.iter().map(|(number, end)| (*number, end.outcome)));
+            sink(&outcomes)
+        });
     }
 }

@@ -31,12 +31,12 @@
 //!
 //! The rule that decides a face is [`coinmc_core::DecisionRule`].
 
-mod any;
 mod batch;
 mod body;
 mod bounce;
 mod contact;
 mod contact_phase;
+mod descriptor;
 mod drag;
 mod ending;
 mod engine;
@@ -47,6 +47,7 @@ mod flight_phase;
 mod four;
 mod impact;
 mod impact_phase;
+mod laws;
 mod limits;
 mod model;
 mod motion;
@@ -58,11 +59,12 @@ mod settings;
 mod toss;
 mod transition;
 
-pub use any::AnyVolumetricEngine;
 pub use body::{Body, Friction};
 pub use coinmc_lanes::{Lane, Lanes, Mask, NoSuchLanes};
+pub use descriptor::ENGINE;
 pub use engine::VolumetricEngine;
 pub use impact::{
     ChatterjeeRuina, ContactMatrix, ContactPoint, ImpactLaw, Impulse, Moreau, Stronge, VelocityJump,
 };
-pub use settings::{Decision, Law, Settings, SettingsError};
+pub use laws::Law;
+pub use settings::{Decision, Settings, SettingsError};

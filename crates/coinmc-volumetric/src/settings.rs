@@ -1,33 +1,10 @@
 //! What a user may choose about the volumetric engine.
 
-use thiserror::Error;
-
-/// The law of impact at the rim.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum Law {
-    /// Newton restitution, Coulomb friction against the final slip (Moreau 1988), guarded by
-    /// Chatterjee–Ruina where that would gain energy.
-    #[default]
-    Moreau,
-    /// Chatterjee & Ruina (1998), tangential restitution 0.
-    ChatterjeeRuina,
-    /// Stronge's energetic restitution, the Darboux–Keller equations through slip reversals.
-    Stronge,
-}
-
-impl Law {
-    /// All laws.
-    pub const ALL: [Self; 3] = [Self::Moreau, Self::ChatterjeeRuina, Self::Stronge];
-
-    /// The name used in configs and results.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Moreau => "moreau",
-            Self::ChatterjeeRuina => "chatterjee-ruina",
-            Self::Stronge => "stronge",
-        }
-    }
-}
+use crate::laws::{LAWS, Law};
+use coinmc_core::schema::{
+    Bounds, OutOfRange, TableKind, Values, Whole, choice, count, default, fields, number,
+};
+use coinmc_core::{EngineError, LawDescriptor};
 
 /// When the face of a toss counts as decided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -54,6 +31,15 @@ impl Decision {
         match self {
             Self::Tilting => "tilting",
             Self::Energy => "energy",
+        }
+    }
+
+    fn doc(self) -> &'static str {
+        match self {
+            Self::Tilting => {
+                "when the energy that can still tilt the coin is too small; its bias is measured"
+            }
+            Self::Energy => "when the whole energy is too small: rigorous, and slower",
         }
     }
 }
@@ -110,59 +96,100 @@ impl Default for Settings {
     }
 }
 
-/// A setting outside its range.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum SettingsError {
-    /// zeno lies outside (0, 1].
-    #[error("zeno must lie in (0, 1], not {0}")]
-    Zeno(f64),
-    /// tolerance lies outside [1e-12, 1e-2].
-    #[error("tolerance must lie in [1e-12, 1e-2], not {0}")]
-    Tolerance(f64),
-    /// stick_speed lies outside (0, 0.1].
-    #[error("stick_speed must lie in (0, 0.1], not {0}")]
-    StickSpeed(f64),
-    /// smoothing_time lies outside (0, 0.1].
-    #[error("smoothing_time must lie in (0, 0.1], not {0}")]
-    SmoothingTime(f64),
-    /// No impact is allowed.
-    #[error("max_impacts must be at least 1")]
-    MaxImpacts,
-    /// No step is allowed.
-    #[error("max_steps must be at least 1")]
-    MaxSteps,
-    /// The time limit is not positive.
-    #[error("time_limit must be positive, not {0}")]
-    TimeLimit(f64),
-}
+const ZENO: Bounds = Bounds::above_zero(1.0);
+const TOLERANCE: Bounds = Bounds::closed(1e-12, 1e-2);
+/// Small numbers below which motion counts as none.
+const SMALL: Bounds = Bounds::above_zero(0.1);
+const TIME_LIMIT: Bounds = Bounds::above_zero(1e15);
 
 impl Settings {
+    /// The keys of `[engine.volumetric]`.
+    pub(crate) fn schema() -> TableKind {
+        let settings = Self::default();
+        fields(vec![
+            LawDescriptor::field(&LAWS, settings.law.name()),
+            choice(
+                "decision",
+                "When the face of a toss counts as decided.",
+                Decision::ALL.map(|decision| (decision.name(), decision.doc())),
+                settings.decision.name(),
+            ),
+            number(
+                "zeno",
+                "A sequence of bounces becomes sustained contact when the rest of it would turn the \
+                 coin by less than about this angle, rad.",
+                ZENO,
+                default(settings.zeno),
+            ),
+            number(
+                "tolerance",
+                "Error allowed per step of sustained contact, relative to the speed that carries the \
+                 coin out of its shallower well.",
+                TOLERANCE,
+                default(settings.tolerance),
+            ),
+            number(
+                "stick_speed",
+                "Slip, in sqrt(g D), below which a contact point that can stick does; D is the \
+                 distance of the rim from the centre.",
+                SMALL,
+                default(settings.stick_speed),
+            ),
+            number(
+                "smoothing_time",
+                "Time, in sqrt(D/g), over which rolling and pivoting friction end the last of a \
+                 rotation.",
+                SMALL,
+                default(settings.smoothing_time),
+            ),
+            count(
+                "max_impacts",
+                "Impacts after which a toss is given up as undecided.",
+                settings.max_impacts,
+            ),
+            count(
+                "max_steps",
+                "Steps of sustained contact after which a toss is given up as undecided.",
+                settings.max_steps,
+            ),
+            number(
+                "time_limit",
+                "Simulated time, in sqrt(D/g), after which a toss is given up as undecided.",
+                TIME_LIMIT,
+                default(settings.time_limit),
+            ),
+        ])
+    }
+
+    /// The settings that the values of that table give.
+    pub(crate) fn from_values(values: &Values) -> Result<Self, EngineError> {
+        Ok(Self {
+            law: Law::read(values)?,
+            decision: values.one_of("decision", Decision::ALL, Decision::name)?,
+            zeno: values.number("zeno")?,
+            tolerance: values.number("tolerance")?,
+            stick_speed: values.number("stick_speed")?,
+            smoothing_time: values.number("smoothing_time")?,
+            max_impacts: values.integer("max_impacts")?,
+            max_steps: values.integer("max_steps")?,
+            time_limit: values.number("time_limit")?,
+        })
+    }
+
     /// Checks every setting.
     ///
     /// # Errors
     /// The first [`SettingsError`] in the order of the fields.
     pub fn validate(&self) -> Result<(), SettingsError> {
-        if !(self.zeno > 0.0 && self.zeno <= 1.0) {
-            return Err(SettingsError::Zeno(self.zeno));
-        }
-        if !(1e-12..=1e-2).contains(&self.tolerance) {
-            return Err(SettingsError::Tolerance(self.tolerance));
-        }
-        if !(self.stick_speed > 0.0 && self.stick_speed <= 0.1) {
-            return Err(SettingsError::StickSpeed(self.stick_speed));
-        }
-        if !(self.smoothing_time > 0.0 && self.smoothing_time <= 0.1) {
-            return Err(SettingsError::SmoothingTime(self.smoothing_time));
-        }
-        if self.max_impacts == 0 {
-            return Err(SettingsError::MaxImpacts);
-        }
-        if self.max_steps == 0 {
-            return Err(SettingsError::MaxSteps);
-        }
-        if self.time_limit.is_nan() || self.time_limit <= 0.0 {
-            return Err(SettingsError::TimeLimit(self.time_limit));
-        }
-        Ok(())
+        ZENO.check("zeno", self.zeno)?;
+        TOLERANCE.check("tolerance", self.tolerance)?;
+        SMALL.check("stick_speed", self.stick_speed)?;
+        SMALL.check("smoothing_time", self.smoothing_time)?;
+        Whole::COUNT.check("max_impacts", self.max_impacts)?;
+        Whole::COUNT.check("max_steps", self.max_steps)?;
+        TIME_LIMIT.check("time_limit", self.time_limit)
     }
 }
+
+/// A setting outside its range.
+pub type SettingsError = OutOfRange;

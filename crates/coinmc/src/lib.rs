@@ -25,6 +25,7 @@
 //! * `rapier`: the engine `[engine.rapier]`. Without it such a config is rejected.
 
 pub mod config;
+pub mod engines;
 pub mod plan;
 pub mod published;
 pub mod results;

@@ -5,7 +5,7 @@ use crate::survey::survey;
 use clap::Args;
 use coinmc_bench::{Case, Report, Table, number};
 use coinmc_core::{Engine, Face, Launch, Preset, Scene};
-use coinmc_flat::{AnyFlatEngine, Law, LineContact, PulseTime, Settings};
+use coinmc_flat::{Law, LineContact, PulseTime, Settings};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -214,7 +214,7 @@ impl ImpactAccuracy {
             tolerance,
             ..Settings::default()
         };
-        let engine = AnyFlatEngine::new(&case.scene, &settings).expect("settings are in range");
+        let engine = settings.engine(&case.scene).expect("settings are in range");
         let (launches, stream) = (case.launches(), Case::stream(seed));
         let begun = Instant::now();
         let faces = (0..self.tosses)

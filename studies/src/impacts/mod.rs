@@ -13,9 +13,7 @@ pub(crate) use limit::ImpactLimit;
 use coinmc_core::{
     Coin, Domain, Launch, Scene, State, Stream, Surface, TossUniforms, UniformSource,
 };
-use coinmc_flat::{
-    AnyFlatEngine, HalfSine, Law, LineContact, Materials, PulseTime, Settings, SingleImpact,
-};
+use coinmc_flat::{HalfSine, Law, LineContact, Materials, PulseTime, Settings, SingleImpact};
 use nalgebra::{UnitVector3, Vector3};
 
 /// PLA on wood: the printed coins of the paper's robot.
@@ -61,8 +59,7 @@ fn impact(scene: &Scene, law: Law, tolerance: f64, launch: &Launch) -> SingleImp
         tolerance,
         ..Settings::default()
     };
-    let engine = AnyFlatEngine::new(scene, &settings).expect("settings are in range");
-    engine.impact_once(launch)
+    SingleImpact::new(scene, &settings, launch).expect("settings are in range")
 }
 
 /// A coin that touches with u at this angle from the vertical.

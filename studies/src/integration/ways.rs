@@ -1,11 +1,11 @@
 //! Ways to find P(heads) of a scene, side by side.
 
 use coinmc_core::{
-    Domain, Engine, Face, Landing, LaunchDistribution, Scene, Stream, TossUniforms, UniformSource,
-    unit_interval,
+    Domain, DynEngine, Engine, Face, Landing, LaunchDistribution, Scene, Stream, TossUniforms,
+    UniformSource, unit_interval,
 };
 use coinmc_quadrature::{Goal, Method, Sobol, integrate};
-use coinmc_volumetric::{AnyVolumetricEngine, Settings};
+use coinmc_volumetric::Settings;
 use std::ops::ControlFlow;
 
 /// A way, by what it does with the random numbers of the launches.
@@ -47,7 +47,7 @@ impl Way {
 pub(super) struct Subject {
     pub(super) scene: Scene,
     pub(super) launches: LaunchDistribution,
-    engine: AnyVolumetricEngine,
+    engine: DynEngine,
     /// P(heads) of the axis at launch.
     at_launch: f64,
 }
@@ -56,7 +56,7 @@ impl Subject {
     /// # Panics
     /// If the default settings are out of range.
     pub(super) fn new(scene: Scene, launches: LaunchDistribution) -> Self {
-        let engine = AnyVolumetricEngine::new(&scene, &Settings::default());
+        let engine = Settings::default().engine(&scene);
         let mut subject = Self {
             scene,
             launches,

@@ -29,7 +29,7 @@ impl RapierEnergy {
                         flight,
                         gyroscopic,
                         // whatever it rises to is to be seen
-                        max_gain: f64::INFINITY,
+                        max_gain: 1e6,
                         ..Settings::default()
                     };
                     jobs.extend([5e-3, 1e-3].map(|s| (clean, step(s))));

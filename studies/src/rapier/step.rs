@@ -12,9 +12,8 @@ use crate::survey::survey;
 use clap::Args;
 use coinmc_bench::rapier::{RATIOS, Tosser, cases};
 use coinmc_bench::{Case, Report, Stopwatch, Table, number};
-use coinmc_core::{Engine, Face, Tally};
+use coinmc_core::{DynEngine, Engine, Face, Tally};
 use coinmc_rapier::{Account, Settings};
-use coinmc_volumetric::AnyVolumetricEngine;
 
 /// The number of the first toss of the event-driven engine's own sample, beyond all others.
 const OTHERS: u64 = 1 << 40;
@@ -145,9 +144,9 @@ impl RapierStep {
     }
 }
 
-fn events(case: &Case) -> anyhow::Result<AnyVolumetricEngine> {
+fn events(case: &Case) -> anyhow::Result<DynEngine> {
     let settings = coinmc_volumetric::Settings::default();
-    Ok(AnyVolumetricEngine::new(&case.scene, &settings)?)
+    Ok(settings.engine(&case.scene)?)
 }
 
 impl Found {

@@ -28,8 +28,8 @@ pub(crate) use stress_box::Sample;
 
 use crate::survey::{EXAMINED_IMPACTS, Examiner, survey};
 use coinmc_bench::Case;
-use coinmc_core::{Coin, Engine, State, Tally, run_tosses};
-use coinmc_volumetric::{AnyVolumetricEngine, Settings};
+use coinmc_core::{Coin, DynEngine, Engine, State, Tally, run_tosses};
+use coinmc_volumetric::Settings;
 use nalgebra::Vector3;
 use std::ops::Range;
 
@@ -71,8 +71,8 @@ fn tightened(settings: &Settings) -> Settings {
 }
 
 /// The engine of `settings.law`.
-fn engine(case: &Case, settings: &Settings) -> AnyVolumetricEngine {
-    AnyVolumetricEngine::new(&case.scene, settings).expect("settings are in range")
+fn engine(case: &Case, settings: &Settings) -> DynEngine {
+    settings.engine(&case.scene).expect("settings are in range")
 }
 
 /// Tallies tosses of a case by an engine.

@@ -2,7 +2,7 @@
 
 use coinmc_bench::Case;
 use coinmc_core::{Coin, Engine, Launch, Orientation, Outcome, Scene, Surface, UniformSource};
-use coinmc_volumetric::{AnyVolumetricEngine, Settings};
+use coinmc_volumetric::Settings;
 use nalgebra::{UnitVector3, Vector3};
 use std::f64::consts::TAU;
 use std::fmt;
@@ -72,7 +72,7 @@ impl Sample {
 
     /// Follows the toss.
     pub(super) fn toss(&self, settings: &Settings) -> Outcome {
-        let engine = AnyVolumetricEngine::new(&self.scene, settings);
+        let engine = settings.engine(&self.scene);
         let engine = engine.expect("settings are in range");
         engine.toss(&mut (), &self.launch, &mut ())
     }

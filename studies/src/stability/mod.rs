@@ -10,8 +10,6 @@ use anyhow::{anyhow, bail};
 use clap::{Args, ValueEnum};
 use coinmc_bench::{Report, Table, number};
 use coinmc_core::{Ended, Engine, Outcome};
-use coinmc_flat::AnyFlatEngine;
-use coinmc_volumetric::AnyVolumetricEngine;
 use found::{Found, Hardest};
 use region::AXES;
 use std::ops::{ControlFlow, Range};
@@ -161,11 +159,11 @@ impl Stability {
         let (scene, elastic) = (&samples[0].scene, usize::from(samples[0].is_elastic()));
         match self.engine {
             Which::Flat => {
-                let engine = AnyFlatEngine::new(scene, &limits.flat[elastic]);
+                let engine = limits.flat[elastic].engine(scene);
                 make(&engine.expect("settings are in range"), samples, looks)
             }
             Which::Space => {
-                let engine = AnyVolumetricEngine::new(scene, &limits.space[elastic]);
+                let engine = limits.space[elastic].engine(scene);
                 make(&engine.expect("settings are in range"), samples, looks)
             }
         }

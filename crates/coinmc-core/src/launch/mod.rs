@@ -6,12 +6,14 @@ mod orientation;
 mod preset;
 mod side_by_side;
 mod sincos;
+mod source;
 mod spin;
 
 pub use marginal::{Marginal, inverse_normal_cdf};
 pub use orientation::Orientation;
 pub use preset::Preset;
 pub use side_by_side::Launches;
+pub use source::LaunchSource;
 pub use spin::Spin;
 
 use crate::{Coin, Stream, UniformSource};

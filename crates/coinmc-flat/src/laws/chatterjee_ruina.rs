@@ -1,7 +1,10 @@
 //! Chatterjee & Ruina's law of impact.
 
 use crate::contact_matrix::{ContactMatrix, Impulse};
-use crate::impact_law::ImpactLaw;
+use crate::impact_law::{ImpactLaw, PlanarLaw};
+use crate::settings::SettingsError;
+use coinmc_core::schema::Values;
+use coinmc_core::{EngineError, LawSettings, Scene};
 use coinmc_lanes::{Lane, Mask};
 
 /// Chatterjee & Ruina, "A new algebraic rigid-body collision law", J. Appl. Mech. 65 (1998) 939,
@@ -13,6 +16,23 @@ use coinmc_lanes::{Lane, Mask};
 /// −½(1 − e²)(u_z²/K_zz) − κ(1 − κ/2)·|p_II − p_I|²_K <= 0 for e and κ in [0, 1]; u_z⁺ = −e u_z⁻.
 #[derive(Debug, Clone, Copy)]
 pub struct ChatterjeeRuina;
+
+impl LawSettings for ChatterjeeRuina {
+    const NAME: &'static str = "chatterjee-ruina";
+    const DOC: &'static str = "Chatterjee & Ruina (1998), tangential restitution 0";
+
+    fn read(_: &Values) -> Result<Self, EngineError> {
+        Ok(Self)
+    }
+}
+
+impl PlanarLaw for ChatterjeeRuina {
+    type Impact = Self;
+
+    fn impact(self, _: &Scene) -> Result<Self, SettingsError> {
+        Ok(self)
+    }
+}
 
 impl ImpactLaw for ChatterjeeRuina {
     #[inline(always)]

@@ -28,11 +28,12 @@
 //! corner to corner for ever, since the law takes nothing from rotation.
 
 use crate::contact_matrix::{ContactMatrix, Impulse};
-use crate::impact_law::{Impact, ImpactLaw, Resolution};
+use crate::impact_law::{Impact, ImpactLaw, PlanarLaw, Resolution};
 use crate::laws::moreau::Moreau;
-use crate::settings::{SettingsError, positive};
+use crate::settings::SettingsError;
 use crate::shape::{Quadrant, Shape};
-use coinmc_core::Scene;
+use coinmc_core::schema::{Absent, Bounds, TableKind, Values, choice, fields, number};
+use coinmc_core::{EngineError, LawSettings, Scene, Unmodelled};
 use coinmc_lanes::{Lane, sin_cos};
 
 /// Restitution assumed when the time of the remaining bounces is judged, if √k is less: the turning
@@ -79,14 +80,63 @@ impl Lever {
             Self::Corner => "corner",
         }
     }
+
+    fn doc(self) -> &'static str {
+        match self {
+            Self::Height => "H cos θ, as published",
+            Self::Diameter => "2R cos θ, the letter L of one of its formulas",
+            Self::Corner => "R cos θ − (H/2) sin θ, that of the corner that touches",
+        }
+    }
 }
 
-impl GaekSukhov {
-    pub(crate) fn validate(self) -> Result<(), SettingsError> {
-        if self.eta_n_s == 0.0 {
-            return Ok(());
-        }
-        positive("eta_n_s", self.eta_n_s)
+const ETA_N_S: Bounds = Bounds::closed(0.0, 1e12);
+
+impl LawSettings for GaekSukhov {
+    const NAME: &'static str = "gaek-sukhov";
+    const DOC: &'static str =
+        "Gaek & Sukhov's law as published: surface.restitution is the square root of its k.";
+    const UNMODELLED: &'static [Unmodelled] = &[Unmodelled {
+        table: "surface",
+        key: "friction",
+        message: "Gaek & Sukhov's law knows no friction: `surface.friction` must be 0",
+        help: "set `friction = 0`, or take another `engine.flat.law`",
+    }];
+
+    fn parameters() -> TableKind {
+        fields(vec![
+            number(
+                "eta_n_s",
+                "Its constant η = 2·N_max·τ/π, the impulse that turns the coin, N s.",
+                ETA_N_S,
+                Absent::Required,
+            ),
+            choice(
+                "lever",
+                "Lever of that impulse, θ the tilt of the face.",
+                Lever::ALL.map(|lever| (lever.name(), lever.doc())),
+                Lever::default().name(),
+            ),
+        ])
+    }
+
+    fn read(parameters: &Values) -> Result<Self, EngineError> {
+        Ok(Self {
+            eta_n_s: parameters.number("eta_n_s")?,
+            lever: parameters.one_of("lever", Lever::ALL, Lever::name)?,
+        })
+    }
+}
+
+impl PlanarLaw for GaekSukhov {
+    type Impact = GaekSukhovImpact;
+
+    fn validate(&self) -> Result<(), SettingsError> {
+        Ok(ETA_N_S.check("eta_n_s", self.eta_n_s)?)
+    }
+
+    fn impact(self, scene: &Scene) -> Result<GaekSukhovImpact, SettingsError> {
+        GaekSukhovImpact::new(scene, self)
     }
 }
 

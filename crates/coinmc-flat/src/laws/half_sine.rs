@@ -19,13 +19,14 @@
 
 use crate::contact_matrix::{ContactMatrix, Impulse};
 use crate::dormand_prince::{Step, System, growth};
-use crate::impact_law::{Impact, ImpactLaw, Resolution};
+use crate::impact_law::{Impact, ImpactLaw, PlanarLaw, Resolution};
 use crate::laws::moreau::Moreau;
 use crate::laws::palmgren::{Materials, duration, scene_stiffness};
 use crate::motion::Motion;
-use crate::settings::{SettingsError, positive};
+use crate::settings::SettingsError;
 use crate::shape::Shape;
-use coinmc_core::Scene;
+use coinmc_core::schema::{Absent, Bounds, Rule, TableKind, Values, fields, number, table};
+use coinmc_core::{EngineError, LawSettings, Scene};
 use coinmc_lanes::{Lane, sin_cos};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -59,13 +60,66 @@ pub enum PulseTime {
     Contact(Materials),
 }
 
-impl HalfSine {
-    pub(crate) fn validate(&self) -> Result<(), SettingsError> {
+const TIME_S: Bounds = Bounds::closed(1e-12, 1.0);
+const PEAK_N: Bounds = Bounds::closed(1e-12, 1e15);
+
+impl LawSettings for HalfSine {
+    const NAME: &'static str = "half-sine";
+    const DOC: &'static str = "A force that is half a sine in time.";
+
+    fn parameters() -> TableKind {
+        TableKind {
+            fields: vec![
+                number(
+                    "time_s",
+                    "How long the force acts, s.",
+                    TIME_S,
+                    Absent::Omitted,
+                ),
+                table(
+                    "contact",
+                    "What touches, if the time is to follow from it: that of a lossless line contact.",
+                    fields(Materials::parameters()),
+                    Absent::Omitted,
+                ),
+                number(
+                    "peak_n",
+                    "Largest force, N; what the restitution asks for if absent.",
+                    PEAK_N,
+                    Absent::Omitted,
+                ),
+            ],
+            rules: vec![Rule::ExactlyOne(&["time_s", "contact"])],
+        }
+    }
+
+    fn read(parameters: &Values) -> Result<Self, EngineError> {
+        let time = match parameters.table("contact")? {
+            Some(contact) => PulseTime::Contact(Materials::read(contact)?),
+            None => PulseTime::Given(parameters.number("time_s")?),
+        };
+        Ok(Self {
+            time,
+            peak_n: parameters.optional("peak_n")?,
+        })
+    }
+}
+
+impl PlanarLaw for HalfSine {
+    type Impact = HalfSineImpact;
+
+    fn validate(&self) -> Result<(), SettingsError> {
         match self.time {
-            PulseTime::Given(time) => positive("time_s", time)?,
+            PulseTime::Given(time) => TIME_S.check("time_s", time)?,
             PulseTime::Contact(materials) => materials.validate()?,
         }
-        self.peak_n.map_or(Ok(()), |peak| positive("peak_n", peak))
+        Ok(self
+            .peak_n
+            .map_or(Ok(()), |peak| PEAK_N.check("peak_n", peak))?)
+    }
+
+    fn impact(self, scene: &Scene) -> Result<HalfSineImpact, SettingsError> {
+        HalfSineImpact::new(scene, self)
     }
 }
 

@@ -1,8 +1,11 @@
 //! Moreau's law of impact.
 
 use crate::contact_matrix::{ContactMatrix, Impulse};
-use crate::impact_law::ImpactLaw;
+use crate::impact_law::{ImpactLaw, PlanarLaw};
 use crate::laws::chatterjee_ruina::ChatterjeeRuina;
+use crate::settings::SettingsError;
+use coinmc_core::schema::Values;
+use coinmc_core::{EngineError, LawSettings, Scene};
 use coinmc_lanes::{Lane, Mask};
 
 /// Newton restitution u_z⁺ = −e u_z⁻ with Coulomb friction against the slip **after** the impact.
@@ -15,6 +18,23 @@ use coinmc_lanes::{Lane, Mask};
 /// impulse of [`ChatterjeeRuina`] is used.
 #[derive(Debug, Clone, Copy)]
 pub struct Moreau;
+
+impl LawSettings for Moreau {
+    const NAME: &'static str = "moreau";
+    const DOC: &'static str = "Newton restitution, Coulomb friction against the final slip";
+
+    fn read(_: &Values) -> Result<Self, EngineError> {
+        Ok(Self)
+    }
+}
+
+impl PlanarLaw for Moreau {
+    type Impact = Self;
+
+    fn impact(self, _: &Scene) -> Result<Self, SettingsError> {
+        Ok(self)
+    }
+}
 
 impl ImpactLaw for Moreau {
     #[inline(always)]

@@ -5,8 +5,8 @@
 //! steel is 3.84e-5 Q^0.9/l^0.8. Hence Q = K δ^(10/9) with K = E* l^(8/9)/1.36^(10/9), 1/E* the
 //! bracket. The exponents of length add up to 2, so the constant is the same in m, N and Pa.
 
-use crate::settings::{SettingsError, positive};
-use coinmc_core::Scene;
+use coinmc_core::schema::{Absent, Bounds, Field, OutOfRange, Values, default, number};
+use coinmc_core::{EngineError, Scene};
 
 /// n of Q = K δⁿ.
 pub(crate) const EXPONENT: f64 = 10.0 / 9.0;
@@ -53,27 +53,65 @@ impl Materials {
         FACTOR / compliance * libm::pow(self.length_m, 8.0 / 9.0)
     }
 
-    pub(crate) fn validate(&self) -> Result<(), SettingsError> {
-        positive("coin_young_pa", self.coin_young_pa)?;
-        poisson("coin_poisson", self.coin_poisson)?;
-        positive("surface_young_pa", self.surface_young_pa)?;
-        poisson("surface_poisson", self.surface_poisson)?;
-        positive("length_m", self.length_m)?;
-        positive("stiffness of the contact", self.stiffness())
+    /// The keys of a table of materials.
+    pub(crate) fn parameters() -> Vec<Field> {
+        vec![
+            number(
+                "coin_young_pa",
+                "Young's modulus of the coin, Pa.",
+                YOUNG_PA,
+                Absent::Required,
+            ),
+            number(
+                "coin_poisson",
+                "Poisson's ratio of the coin.",
+                POISSON,
+                default(0.3),
+            ),
+            number(
+                "surface_young_pa",
+                "Young's modulus of the surface, Pa.",
+                YOUNG_PA,
+                Absent::Required,
+            ),
+            number(
+                "surface_poisson",
+                "Poisson's ratio of the surface.",
+                POISSON,
+                default(0.3),
+            ),
+            number(
+                "length_m",
+                "Length of the line of contact, m.",
+                LENGTH_M,
+                Absent::Required,
+            ),
+        ]
+    }
+
+    /// The materials that the values of such a table give.
+    pub(crate) fn read(values: &Values) -> Result<Self, EngineError> {
+        Ok(Self {
+            coin_young_pa: values.number("coin_young_pa")?,
+            coin_poisson: values.number("coin_poisson")?,
+            surface_young_pa: values.number("surface_young_pa")?,
+            surface_poisson: values.number("surface_poisson")?,
+            length_m: values.number("length_m")?,
+        })
+    }
+
+    pub(crate) fn validate(&self) -> Result<(), OutOfRange> {
+        YOUNG_PA.check("coin_young_pa", self.coin_young_pa)?;
+        POISSON.check("coin_poisson", self.coin_poisson)?;
+        YOUNG_PA.check("surface_young_pa", self.surface_young_pa)?;
+        POISSON.check("surface_poisson", self.surface_poisson)?;
+        LENGTH_M.check("length_m", self.length_m)
     }
 }
 
-fn poisson(name: &'static str, found: f64) -> Result<(), SettingsError> {
-    if (-0.99..=0.5).contains(&found) {
-        Ok(())
-    } else {
-        Err(SettingsError::Quantity {
-            name,
-            range: "between -0.99 and 0.5",
-            found,
-        })
-    }
-}
+const YOUNG_PA: Bounds = Bounds::closed(1e3, 1e15);
+const POISSON: Bounds = Bounds::closed(-0.99, 0.5);
+const LENGTH_M: Bounds = Bounds::closed(1e-9, 1e6);
 
 /// K in units of m g/D^(10/9).
 pub(crate) fn scene_stiffness(scene: &Scene, materials: &Materials) -> f64 {

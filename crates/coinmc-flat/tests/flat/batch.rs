@@ -1,10 +1,9 @@
 //! Batches of tosses are bit-identical to the scalar path.
 
 use crate::common::{Dice, Start, preset, scene};
-use coinmc_core::{Ended, Engine, Face, Landing, Launch, Outcome, Preset, Scene};
+use coinmc_core::{DynEngine, Ended, Engine, Face, Landing, Launch, Outcome, Preset, Scene};
 use coinmc_flat::{
-    AnyFlatEngine, Decision, GaekSukhov, HalfSine, Lanes, Law, Lever, LineContact, Materials,
-    PulseTime, Settings,
+    Decision, GaekSukhov, HalfSine, Lanes, Law, Lever, LineContact, Materials, PulseTime, Settings,
 };
 use std::ops::ControlFlow;
 
@@ -29,12 +28,12 @@ fn lively(scene: &Scene, count: u64) -> Vec<Launch> {
     (0..count).map(start).collect()
 }
 
-fn engine(scene: &Scene, settings: &Settings) -> AnyFlatEngine {
-    AnyFlatEngine::new(scene, settings).expect("good settings")
+fn engine(scene: &Scene, settings: &Settings) -> DynEngine {
+    settings.engine(scene).expect("good settings")
 }
 
 /// The outcomes of a batch, by the number of the toss.
-fn batch_outcomes(engine: &AnyFlatEngine, launches: &[Launch]) -> Vec<Outcome> {
+fn batch_outcomes(engine: &DynEngine, launches: &[Launch]) -> Vec<Outcome> {
     let mut outcomes = vec![None; launches.len()];
     engine.toss_all(&mut (), launches.iter().copied(), |number, outcome| {
         let index = usize::try_from(number).expect("a small number");
@@ -49,7 +48,7 @@ fn batch_outcomes(engine: &AnyFlatEngine, launches: &[Launch]) -> Vec<Outcome> {
 }
 
 /// The number of tosses that are reported if the caller stops after `enough`.
-fn reported(engine: &AnyFlatEngine, launches: impl Iterator<Item = Launch>, enough: u64) -> u64 {
+fn reported(engine: &DynEngine, launches: impl Iterator<Item = Launch>, enough: u64) -> u64 {
     let mut reported = 0;
     engine.toss_all(&mut (), launches, |_, _| {
         reported += 1;

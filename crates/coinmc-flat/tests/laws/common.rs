@@ -1,9 +1,10 @@
 //! Scenes, laws, launches and random numbers.
 
-use coinmc_core::{Coin, Domain, Launch, Scene, Stream, Surface, TossUniforms, UniformSource};
+use coinmc_core::{
+    Coin, Domain, DynEngine, Launch, Scene, Stream, Surface, TossUniforms, UniformSource,
+};
 use coinmc_flat::{
-    AnyFlatEngine, GaekSukhov, HalfSine, Law, Lever, LineContact, Materials, PulseTime, Settings,
-    SingleImpact,
+    GaekSukhov, HalfSine, Law, Lever, LineContact, Materials, PulseTime, Settings, SingleImpact,
 };
 use nalgebra::{UnitVector3, Vector3};
 
@@ -51,13 +52,12 @@ pub(crate) fn settings(law: Law, tolerance: f64) -> Settings {
     }
 }
 
-pub(crate) fn engine(scene: &Scene, law: Law) -> AnyFlatEngine {
-    AnyFlatEngine::new(scene, &settings(law, 1e-6)).expect("good settings")
+pub(crate) fn engine(scene: &Scene, law: Law) -> DynEngine {
+    settings(law, 1e-6).engine(scene).expect("good settings")
 }
 
 pub(crate) fn impact(scene: &Scene, law: Law, tolerance: f64, launch: &Launch) -> SingleImpact {
-    let engine = AnyFlatEngine::new(scene, &settings(law, tolerance)).expect("good settings");
-    engine.impact_once(launch)
+    SingleImpact::new(scene, &settings(law, tolerance), launch).expect("good settings")
 }
 
 /// A coin about to touch: tilt of u from the vertical, velocity, spin.

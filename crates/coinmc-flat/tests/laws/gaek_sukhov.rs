@@ -2,7 +2,7 @@
 
 use crate::common::{Dice, engine, gaek_sukhov, impact, scene, touch};
 use coinmc_core::Engine;
-use coinmc_flat::{AnyFlatEngine, Lever, Settings, SettingsError};
+use coinmc_flat::{Lever, Settings, SettingsError, SingleImpact};
 use std::f64::consts::FRAC_PI_2;
 
 const MASS_KG: f64 = 0.01;
@@ -72,9 +72,7 @@ fn where_it_breaks_the_corner_s_own_impact_stands_in() {
     let start = touch(0.4, 0.2, -1.0, 5.0);
     let broken = impact(&scene, gaek_sukhov(0.5, Lever::Height), 1e-6, &start);
     assert_eq!(broken.breaks.negative_heights, 1);
-    let newton = AnyFlatEngine::new(&scene, &Settings::default())
-        .unwrap()
-        .impact_once(&start);
+    let newton = SingleImpact::new(&scene, &Settings::default(), &start).unwrap();
     assert_eq!(broken.after, newton.after);
 }
 
@@ -125,7 +123,7 @@ fn friction_is_refused() {
         law: gaek_sukhov(1e-3, Lever::Height),
         ..Settings::default()
     };
-    let refused = AnyFlatEngine::new(&with_friction, &settings).err();
+    let refused = settings.engine(&with_friction).err();
     assert_eq!(refused, Some(SettingsError::Friction(0.3)));
-    assert!(AnyFlatEngine::new(&scene(1.0, 0.5, 0.0), &settings).is_ok());
+    assert!(settings.engine(&scene(1.0, 0.5, 0.0)).is_ok());
 }

@@ -2,9 +2,7 @@
 
 use crate::common::{Dice, impact, line, materials, scene, settings, touch};
 use coinmc_core::{Engine, Scene};
-use coinmc_flat::{
-    AnyFlatEngine, GaekSukhov, HalfSine, Law, Lever, LineContact, Materials, PulseTime, Settings,
-};
+use coinmc_flat::{GaekSukhov, HalfSine, Law, Lever, LineContact, Materials, PulseTime, Settings};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 #[test]
@@ -113,7 +111,7 @@ fn tosses_on_soft_and_hard_surfaces_end() {
     for young in [1e4, 1e6, 1e9, 1e13] {
         for (e, friction) in [(0.1, 0.3), (0.5, 0.0), (0.5, 2.0), (0.9, 0.3)] {
             let scene = scene(1.1, e, friction);
-            let engine = AnyFlatEngine::new(&scene, &settings(line(young), 1e-4)).unwrap();
+            let engine = settings(line(young), 1e-4).engine(&scene).unwrap();
             for toss in 0..20 {
                 let mut dice = Dice::new(241, toss);
                 let mut launch = touch(dice.between(-PI, PI), 0.2, -0.5, dice.between(-30.0, 30.0));

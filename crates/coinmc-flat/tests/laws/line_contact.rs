@@ -2,7 +2,7 @@
 
 use crate::common::{Dice, impact, line, materials, scene, settings, touch};
 use coinmc_core::{Launch, State};
-use coinmc_flat::{AnyFlatEngine, Law, LineContact};
+use coinmc_flat::{Law, LineContact, SingleImpact};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 fn distance(a: &State, b: &State) -> f64 {
@@ -199,8 +199,7 @@ fn tangential_stiffness_matters_where_the_corner_sticks() {
             materials: materials(1e12),
             tangential,
         });
-        let engine = AnyFlatEngine::new(&scene, &settings(law, 1e-9)).unwrap();
-        engine.impact_once(&start)
+        SingleImpact::new(&scene, &settings(law, 1e-9), &start).unwrap()
     });
     assert!(distance(&mindlin.after, &stiff.after) > 0.05);
     for found in [mindlin, stiff] {

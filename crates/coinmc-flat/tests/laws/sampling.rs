@@ -2,7 +2,7 @@
 
 use crate::common::{Dice, line, pulse, scene, settings, touch};
 use coinmc_core::{Engine, Event, EventKind, Launch, Observer, Scene, State};
-use coinmc_flat::{AnyFlatEngine, Law};
+use coinmc_flat::Law;
 
 /// Wants so many instants, evenly, within the first impact.
 struct Film {
@@ -55,7 +55,9 @@ fn film(
         touched: None,
         released: None,
     };
-    let engine = AnyFlatEngine::new(scene, &settings(law, tolerance)).expect("good settings");
+    let engine = settings(law, tolerance)
+        .engine(scene)
+        .expect("good settings");
     engine.toss(&mut (), launch, &mut film);
     film
 }

@@ -151,7 +151,7 @@ fn settings_out_of_range_are_refused() {
             ..good
         };
         assert!(
-            matches!(settings.validate(), Err(SettingsError::Step(_))),
+            matches!(settings.validate(), Err(SettingsError::OutOfRange(step)) if step.name == "step_s"),
             "{bad}"
         );
     }

@@ -4,7 +4,7 @@ use crate::Experiment;
 use crate::journal::{History, Resolution, Throw};
 use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray, UInt64Array};
 use arrow_schema::{DataType, Field, Schema};
-use coinmc::run::SettingsError;
+use coinmc::engines::EngineError;
 use parquet::arrow::ArrowWriter;
 use parquet::basic::Compression;
 use parquet::file::metadata::KeyValue;
@@ -29,8 +29,8 @@ pub struct ThrowRow {
 /// The rows of all throws that are resolved.
 ///
 /// # Errors
-/// [`SettingsError`] if the engine rejects its settings.
-pub fn rows(experiment: &Experiment, history: &History) -> Result<Vec<ThrowRow>, SettingsError> {
+/// [`EngineError`] if the engine rejects its settings.
+pub fn rows(experiment: &Experiment, history: &History) -> Result<Vec<ThrowRow>, EngineError> {
     let resolved = (0..).zip(history.throws());
     let resolved = resolved.filter(|(_, throw)| throw.resolution.is_some());
     resolved

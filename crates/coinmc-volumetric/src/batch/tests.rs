@@ -32,9 +32,11 @@ fn launches(scene: &Scene, preset: Preset, count: u64) -> Vec<Launch> {
 fn ends<L: ImpactLaw>(engine: &VolumetricEngine<L>, launches: &[Launch]) -> Vec<FinishedToss> {
     let mut ends = vec![None; launches.len()];
     let batch = engine.batch().expect("lanes");
-    batch.toss_all_in_batch(launches.iter().copied(), |number, end| {
-        let index = usize::try_from(number).expect("a small number");
-        assert!(ends[index].replace(*end).is_none(), "toss {number} twice");
+    batch.toss_all_in_batch(launches.iter().copied(), |ended| {
+        for (number, end) in ended {
+            let index = usize::try_from(*number).expect("a small number");
+            assert!(ends[index].replace(*end).is_none(), "toss {number} twice");
+        }
         ControlFlow::Continue(())
     });
     let ends: Option<Vec<FinishedToss>> = ends.into_iter().collect();

@@ -3,6 +3,8 @@
 use super::contact_point::Condensed;
 use super::{ContactPoint, ImpactLaw, Impulse, friction_moments::FrictionMoments};
 use crate::body::{Body, Friction};
+use coinmc_core::schema::Values;
+use coinmc_core::{EngineError, LawSettings};
 use coinmc_lanes::Lane;
 
 /// Chatterjee & Ruina, "A new algebraic rigid-body collision law", J. Appl. Mech. 65 (1998) 939,
@@ -28,6 +30,15 @@ use coinmc_lanes::Lane;
 /// follows after p_y.
 #[derive(Debug, Clone, Copy)]
 pub struct ChatterjeeRuina;
+
+impl LawSettings for ChatterjeeRuina {
+    const NAME: &'static str = "chatterjee-ruina";
+    const DOC: &'static str = "Chatterjee & Ruina (1998), tangential restitution 0";
+
+    fn read(_: &Values) -> Result<Self, EngineError> {
+        Ok(Self)
+    }
+}
 
 impl ImpactLaw for ChatterjeeRuina {
     #[inline(always)]

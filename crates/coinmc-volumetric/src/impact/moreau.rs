@@ -4,6 +4,8 @@ use super::contact_point::Condensed;
 use super::friction_moments::{FrictionMoments, JointSolution};
 use super::{ChatterjeeRuina, ContactMatrix, ContactPoint, ImpactLaw, Impulse};
 use crate::body::{Body, Friction};
+use coinmc_core::schema::Values;
+use coinmc_core::{EngineError, LawSettings};
 use coinmc_lanes::{Lane, Mask};
 
 /// Newton restitution u_z⁺ = −e u_z⁻ and friction against the slip **after** the impact.
@@ -42,6 +44,15 @@ const LAST_WITH_KINKS: f64 = 1e-8;
 
 /// Bisection alone needs 60 halvings of the bracket for full precision.
 const MAX_STEPS: u32 = 100;
+
+impl LawSettings for Moreau {
+    const NAME: &'static str = "moreau";
+    const DOC: &'static str = "Newton restitution, Coulomb friction against the final slip";
+
+    fn read(_: &Values) -> Result<Self, EngineError> {
+        Ok(Self)
+    }
+}
 
 impl ImpactLaw for Moreau {
     #[inline(always)]

@@ -1,11 +1,11 @@
 //! Scenes, random numbers, launches and the recorder that the tests share.
 
 use coinmc_core::{
-    Coin, Domain, Engine, Event, EventKind, Face, Launch, Observer, Outcome, Preset, Scene, State,
-    Stream, Surface, TossUniforms, UniformSource,
+    Coin, Domain, DynEngine, Engine, Event, EventKind, Face, Launch, Observer, Outcome, Preset,
+    Scene, State, Stream, Surface, TossUniforms, UniformSource,
 };
 use coinmc_oracle::{Model, Motion};
-use coinmc_volumetric::{AnyVolumetricEngine, Law, Settings};
+use coinmc_volumetric::{Law, Settings};
 use nalgebra::{UnitVector3, Vector3};
 
 /// R = 1 cm, g = 9.81 m/s², both friction lengths `rho` radii.
@@ -19,7 +19,7 @@ pub(crate) fn scene(ratio: f64, restitution: f64, friction: f64, rho: f64) -> Sc
 }
 
 /// An engine of any law.
-pub(crate) struct Tosser(AnyVolumetricEngine);
+pub(crate) struct Tosser(DynEngine);
 
 impl Tosser {
     /// With the default settings.
@@ -36,7 +36,7 @@ impl Tosser {
     }
 
     pub(crate) fn with(scene: &Scene, settings: &Settings) -> Self {
-        Self(AnyVolumetricEngine::new(scene, settings).expect("valid settings"))
+        Self(settings.engine(scene).expect("valid settings"))
     }
 
     pub(crate) fn toss(&self, launch: &Launch) -> Outcome {
@@ -44,11 +44,7 @@ impl Tosser {
     }
 
     pub(crate) fn observe(&self, launch: &Launch, observer: &mut impl Observer) -> Outcome {
-        match &self.0 {
-            AnyVolumetricEngine::Moreau(engine) => engine.toss(&mut (), launch, observer),
-            AnyVolumetricEngine::ChatterjeeRuina(engine) => engine.toss(&mut (), launch, observer),
-            AnyVolumetricEngine::Stronge(engine) => engine.toss(&mut (), launch, observer),
-        }
+        self.0.toss(&mut (), launch, observer)
     }
 
     /// The toss and its events.

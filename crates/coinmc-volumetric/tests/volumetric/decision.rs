@@ -2,7 +2,7 @@
 
 use crate::common::{Tosser, paired, preset, scene, side, stream};
 use coinmc_core::{Ended, Engine, Face, LaunchDistribution, Marginal, Preset, Scene, Spin};
-use coinmc_volumetric::{AnyVolumetricEngine, Decision, Settings};
+use coinmc_volumetric::{Decision, Settings};
 use std::ops::ControlFlow;
 
 /// The tilting rule, which leaves out energy that cannot become tilt, changes the probability of the side
@@ -102,7 +102,7 @@ fn sides(
     launches: &LaunchDistribution,
     tosses: u64,
 ) -> Vec<bool> {
-    let engine = AnyVolumetricEngine::new(scene, settings).expect("valid settings");
+    let engine = settings.engine(scene).expect("valid settings");
     let mut sides = Vec::new();
     let launches = launches.launches(&scene.coin, &stream(251), 0..tosses, engine.lanes());
     engine.toss_all(&mut (), launches, |number, outcome| {

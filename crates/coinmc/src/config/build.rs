@@ -6,6 +6,7 @@ use super::form::{Form, What};
 use super::launch;
 use super::source::Span;
 use super::sweep::Sweep;
+use crate::engines::{EngineDescriptor, EngineKind, engine};
 use crate::plan::{Point, Sampling, Stop};
 use coinmc_core::{
     Coin, CoinError, Drag, IntervalMethod, Landing, LaunchDistribution, Preset, Scene, Surface,
@@ -130,7 +131,7 @@ struct Part<T> {
     last: Option<T>,
 }
 
-impl<T: Copy> Part<T> {
+impl<T: Clone> Part<T> {
     fn new(root: &Form, tables: &[&str]) -> Self {
         let swept = tables
             .iter()
@@ -152,7 +153,7 @@ impl<T: Copy> Part<T> {
             self.tried = true;
             self.last = build().map_err(report).ok();
         }
-        self.last
+        self.last.clone()
     }
 }
 
@@ -299,15 +300,21 @@ fn launches(root: &Form, at: &At<'_>) -> Result<LaunchDistribution, Fault> {
     launches
         .validate()
         .map_err(|error| Fault::problem(form.span, error.to_string(), None))?;
-    if root.get("engine").and_then(Form::tag) == Some("flat") {
-        launch::require_planar(form, &launches)?;
+    if let Some(engine) = engine_of(root)
+        && engine.kind == EngineKind::Planar
+    {
+        launch::require_planar(form, &launches, engine.name)?;
     }
     Ok(launches)
 }
 
+fn engine_of(root: &Form) -> Option<&'static EngineDescriptor> {
+    engine(root.get("engine")?.tag()?)
+}
+
 /// When to stop; a closed form has nothing to stop.
 pub(super) fn stop(root: &Form) -> Option<Stop> {
-    if root.get("engine")?.tag()? == "analytic" {
+    if engine_of(root)?.kind == EngineKind::ClosedForm {
         return Some(Stop::Tosses(0));
     }
     let form = root.get("stop")?;

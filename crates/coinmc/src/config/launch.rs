@@ -246,7 +246,11 @@ fn spin(form: &Form, at: &At<'_>) -> Result<Spin, Fault> {
 }
 
 /// Refuses a launch that leaves the xz plane, and blames the part that does.
-pub(super) fn require_planar(form: &Form, launch: &LaunchDistribution) -> Result<(), Fault> {
+pub(super) fn require_planar(
+    form: &Form,
+    launch: &LaunchDistribution,
+    engine: &str,
+) -> Result<(), Fault> {
     if launch.is_planar() {
         return Ok(());
     }
@@ -267,7 +271,7 @@ pub(super) fn require_planar(form: &Form, launch: &LaunchDistribution) -> Result
         )
     };
     let message = format!(
-        "engine.flat needs a launch in the xz plane, and this one's {} leaves it",
+        "engine.{engine} needs a launch in the xz plane, and this one's {} leaves it",
         if key == "velocity_m_s" {
             "velocity"
         } else {

@@ -7,17 +7,14 @@ mod explain;
 mod sampling;
 mod stop;
 
+pub use coinmc_core::EngineChoice;
 pub use coinmc_quadrature::{Goal, Integral, MAX_EVALUATIONS, Method};
 pub use explain::Explanation;
 pub use sampling::Sampling;
 pub use stop::Stop;
 pub(crate) use stop::{FIRST_LOOK, looks};
 
-use coinmc_analytic::Rule;
-use coinmc_core::{IntervalMethod, LaunchDistribution, Scene};
-use coinmc_flat::Settings as FlatSettings;
-use coinmc_rapier::Settings as RapierSettings;
-use coinmc_volumetric::Settings as VolumetricSettings;
+use coinmc_core::{Answer, DynEngine, EngineError, IntervalMethod, LaunchDistribution, Scene};
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
 use std::sync::Arc;
@@ -101,25 +98,26 @@ pub struct Point {
     pub engine: EngineChoice,
 }
 
-/// An engine with its settings.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum EngineChoice {
-    /// The flat toss.
-    Flat(FlatSettings),
-    /// The toss in space.
-    Volumetric(VolumetricSettings),
-    /// The toss in space in time steps, on Rapier.
-    Rapier(RapierSettings),
-    /// A closed form: no toss is made, the probability is exact under the rule's assumptions.
-    Analytic(Rule),
-}
+impl Point {
+    /// The engine that tosses here; `None` if a closed form answers.
+    ///
+    /// # Errors
+    /// [`EngineError`] if the engine refuses its settings.
+    pub fn build_engine(&self) -> Result<Option<DynEngine>, EngineError> {
+        Ok(match self.engine.build(&self.scene)? {
+            Answer::Tosses(engine) => Some(engine),
+            Answer::Exact(_) => None,
+        })
+    }
 
-impl EngineChoice {
-    /// Whether the engine tosses at all.
-    pub fn makes_tosses(&self) -> bool {
-        match self {
-            Self::Flat(_) | Self::Volumetric(_) | Self::Rapier(_) => true,
-            Self::Analytic(_) => false,
+    /// The exact probabilities of heads, tails and side, if a closed form answers.
+    pub(crate) fn exact(&self) -> Option<[f64; 3]> {
+        if self.engine.makes_tosses() {
+            return None;
+        }
+        match self.engine.build(&self.scene) {
+            Ok(Answer::Exact(faces)) => Some(faces),
+            _ => None,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Which points are tossed, and which are answered without tosses.
 
-use super::{EngineChoice, Plan, Point, Stop};
+use super::{Plan, Stop};
 use coinmc_quadrature::{Goal, Integral, MAX_EVALUATIONS, MIN_EVALUATIONS, Method};
 
 /// How launches are drawn where the first contact decides. Elsewhere they are random.
@@ -57,7 +57,10 @@ impl Plan {
     pub fn method(&self, index: usize) -> Option<Method> {
         let point = &self.points[index];
         match self.sampling {
-            Sampling::Auto => Method::of(&point.scene, &point.launches, time_limit_s(point)?),
+            Sampling::Auto => {
+                let limit_s = point.engine.flight_limit_s(&point.scene)?;
+                Method::of(&point.scene, &point.launches, limit_s)
+            }
             Sampling::Random => None,
         }
     }
@@ -83,17 +86,5 @@ impl Plan {
             half_width,
             evaluations: evaluations.clamp(MIN_EVALUATIONS, MAX_EVALUATIONS),
         }
-    }
-}
-
-/// Simulated time, s, after which a point's engine gives a toss up, if the engine follows a flight in
-/// closed form.
-fn time_limit_s(point: &Point) -> Option<f64> {
-    match &point.engine {
-        EngineChoice::Flat(_) => Some(f64::INFINITY),
-        EngineChoice::Volumetric(settings) => {
-            Some(settings.time_limit * point.scene.time_scale_s())
-        }
-        EngineChoice::Rapier(_) | EngineChoice::Analytic(_) => None,
     }
 }

@@ -1,7 +1,7 @@
 //! From counts to probabilities with intervals, for points with a fixed number of tosses and for points
 //! that stop at a half width.
 
-use crate::plan::{EngineChoice, Plan, Stop, looks};
+use crate::plan::{Plan, Stop, looks};
 use coinmc_core::{Estimate, Face, IntervalMethod, Tally};
 use coinmc_quadrature::{Integral, Share};
 
@@ -24,10 +24,8 @@ pub(super) const CLOSED_FORM: &str = "closed-form";
 /// decision to stop depends on the data (Bonferroni). This requires an interval with at least nominal
 /// coverage at every p and n: Clopper and Pearson's, whatever the plan says.
 pub(crate) fn estimates(plan: &Plan, index: usize, tally: &Tally) -> [Estimate; 3] {
-    let point = &plan.points[index];
-    if let EngineChoice::Analytic(rule) = point.engine {
-        let p = rule.probabilities(point.scene.coin.ratio());
-        return [p.heads, p.tails, p.side].map(|p| Estimate {
+    if let Some(faces) = plan.points[index].exact() {
+        return faces.map(|p| Estimate {
             p,
             lo: p,
             hi: p,
@@ -80,9 +78,9 @@ pub(crate) fn look_confidence(plan: &Plan) -> f64 {
 
 /// Name of the interval method of a point, as results show it.
 pub(crate) fn interval_name(plan: &Plan, index: usize) -> &'static str {
-    match (plan.points[index].engine, plan.stop) {
-        (EngineChoice::Analytic(_), _) => EXACT,
-        (_, Stop::Tosses(_)) => plan.interval.name(),
-        (_, Stop::HalfWidth { .. }) => "sequential-clopper-pearson",
+    match plan.stop {
+        _ if !plan.points[index].engine.makes_tosses() => EXACT,
+        Stop::Tosses(_) => plan.interval.name(),
+        Stop::HalfWidth { .. } => "sequential-clopper-pearson",
     }
 }

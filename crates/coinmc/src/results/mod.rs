@@ -16,7 +16,6 @@ pub use schema::{Column, FORMAT, Kind, columns};
 
 use crate::plan::Plan;
 use crate::published::Published;
-use crate::run::{engine_name, law};
 use coinmc_core::{Estimate, Face, Tally};
 use coinmc_quadrature::Integral;
 use std::sync::Arc;
@@ -99,8 +98,8 @@ impl Row {
         Self {
             point: index,
             parameters: point.parameters.clone(),
-            engine: engine_name(&point.engine),
-            law: law(&point.engine),
+            engine: point.engine.name(),
+            law: point.engine.law(),
             gyroscopic_torque: point.scene.has_gyroscopic_torque(),
             tally,
             heads,

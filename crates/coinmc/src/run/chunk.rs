@@ -1,18 +1,11 @@
 //! The unit of work.
 
 use super::piece::{Piece, integrate_while};
-use super::{Begin, RunError, SettingsError, for_each_outcome, stream};
-use crate::plan::{EngineChoice, Plan};
-use coinmc_core::Tally;
+use super::{Begin, RunError, for_some_outcomes, stream};
+use crate::plan::Plan;
+use coinmc_core::{EngineError, Tally};
 use std::fmt;
-use std::ops::Range;
-
-/// Tosses between two questions whether to go on: about 0.1 ms of typical tosses in the plane and
-/// 1 ms in space, so that asking costs nothing, and well under 0.1 s of the most tedious ones.
-const BATCH: u64 = 64;
-
-/// The same of tosses in time steps: one takes from 1 ms to seconds.
-const STEPPED_BATCH: u64 = 1;
+use std::ops::{ControlFlow, Range};
 
 /// A range of tosses of one point: the only unit of work there is. Threads, machines and a run
 /// that goes on after a break all do chunks, and chunks add up to the same counts however they
@@ -82,25 +75,31 @@ fn run_chunk_while(
     })
 }
 
-/// The tally of a chunk that there is; `None` if it was told not to go on.
+/// The tally of a chunk that there is; `None` if it was told not to go on. That is asked whenever an
+/// engine hands on outcomes: about every 0.1 ms in the plane, 1 ms in space, after each toss in time
+/// steps, and well within 0.1 s of the most tedious tosses.
 fn tally(
     plan: &Plan,
     chunk: &Chunk,
     go_on: impl Fn() -> bool,
-) -> Result<Option<Tally>, SettingsError> {
+) -> Result<Option<Tally>, EngineError> {
     let (point, tosses) = (&plan.points[chunk.point], &chunk.tosses);
     let mut tally = Tally::default();
-    let batch = match point.engine {
-        EngineChoice::Analytic(_) => return Ok(Some(tally)),
-        EngineChoice::Rapier(_) => STEPPED_BATCH,
-        EngineChoice::Flat(_) | EngineChoice::Volumetric(_) => BATCH,
-    };
+    if !point.engine.makes_tosses() {
+        return Ok(Some(tally));
+    }
     if go_on() {
         let stream = stream(plan, chunk.point);
         let begin = Begin::Drawn(&stream);
-        for_each_outcome(point, begin, tosses.clone(), |_, outcome| {
-            tally.add(outcome);
-            tally.tosses() % batch != 0 || go_on()
+        for_some_outcomes(point, begin, tosses.clone(), &mut |outcomes| {
+            for (_, outcome) in outcomes {
+                tally.add(outcome);
+            }
+            if go_on() {
+                ControlFlow::Continue(())
+            } else {
+                ControlFlow::Break(())
+            }
         })?;
     }
     Ok((tally.tosses() == tosses.end - tosses.start).then_some(tally))

@@ -2,7 +2,7 @@
 //! nor a restart change what is counted.
 
 use super::Chunk;
-use crate::plan::{EngineChoice, FIRST_LOOK, Plan, Stop, looks};
+use crate::plan::{FIRST_LOOK, Plan, Stop, looks};
 use std::ops::Range;
 
 /// Fewest tosses of a chunk, except the last of a point: some 30 ms of work in the plane, more in
@@ -26,7 +26,7 @@ fn fixed_size(total: u64, plan: &Plan) -> u64 {
         size.unwrap_or(1 << 63)
     };
     let mut engines = plan.points.iter().map(|point| &point.engine);
-    let stepped = engines.any(|engine| matches!(engine, EngineChoice::Rapier(_)));
+    let stepped = engines.any(|engine| engine.descriptor().stepped);
     let enough = if stepped { MOST_CHUNKS } else { ENOUGH_CHUNKS };
     let size = of_at_most(enough).clamp(LEAST, LARGE);
     size.max(of_at_most(MOST_CHUNKS))

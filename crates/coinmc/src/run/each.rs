@@ -1,8 +1,10 @@
 //! Tosses of a point one by one, for who wants each of them and not their counts.
 
-use super::{SettingsError, Task, with_engine};
 use crate::plan::Point;
-use coinmc_core::{Engine, Event, EventKind, Launch, Observer, Outcome, State, Stream};
+use coinmc_core::{
+    Engine, EngineError, Event, EventKind, Launch, LaunchSource, Observer, Outcome, OutcomeSink,
+    State, Stream,
+};
 use nalgebra::Vector3;
 use std::ops::{ControlFlow, Range};
 
@@ -43,7 +45,7 @@ pub struct Seen {
 /// follow several at a time), as long as it says to go on. A closed form makes no toss: then `false`.
 ///
 /// # Errors
-/// [`SettingsError`] if the engine refuses its settings.
+/// [`EngineError`] if the engine refuses its settings.
 ///
 /// # Example
 /// ```
@@ -61,21 +63,46 @@ pub struct Seen {
 ///     true
 /// })?;
 /// assert!(most > 1);
-/// # Ok::<(), coinmc::run::SettingsError>(())
+/// # Ok::<(), coinmc::engines::EngineError>(())
 /// ```
 pub fn for_each_outcome(
     point: &Point,
     begin: Begin<'_>,
     tosses: Range<u64>,
-    see: impl FnMut(u64, &Outcome) -> bool,
-) -> Result<bool, SettingsError> {
-    let follow = Follow {
-        point,
-        begin,
-        tosses,
-        see,
+    mut see: impl FnMut(u64, &Outcome) -> bool,
+) -> Result<bool, EngineError> {
+    let first = tosses.start;
+    for_some_outcomes(point, begin, tosses, &mut |outcomes| {
+        let mut outcomes = outcomes.iter();
+        if outcomes.all(|(number, outcome)| see(first + number, outcome)) {
+            ControlFlow::Continue(())
+        } else {
+            ControlFlow::Break(())
+        }
+    })
+}
+
+/// [`for_each_outcome`], some outcomes at a time, with the numbers counted from 0.
+pub(super) fn for_some_outcomes(
+    point: &Point,
+    begin: Begin<'_>,
+    tosses: Range<u64>,
+    sink: &mut OutcomeSink<'_>,
+) -> Result<bool, EngineError> {
+    let Some(engine) = point.build_engine()? else {
+        return Ok(false);
     };
-    Ok(with_engine(point, follow)?.is_some())
+    match begin {
+        Begin::Drawn(stream) => {
+            let (coin, lanes) = (&point.scene.coin, engine.lanes());
+            let launches = point.launches.launches(coin, stream, tosses, lanes);
+            engine.toss_many(&mut (), launches.into(), sink);
+        }
+        Begin::Given(launch) => {
+            engine.toss_many(&mut (), LaunchSource::new(&mut tosses.map(launch)), sink);
+        }
+    }
+    Ok(true)
 }
 
 /// [`for_each_outcome`] with the coin as it was at the end, one toss after the other: an engine that
@@ -88,75 +115,20 @@ pub fn for_each_end(
     begin: Begin<'_>,
     tosses: Range<u64>,
     see: &mut dyn FnMut(&Seen) -> bool,
-) -> Result<bool, SettingsError> {
-    let watch = Watch {
-        point,
-        begin,
-        tosses,
-        see,
+) -> Result<bool, EngineError> {
+    let Some(engine) = point.build_engine()? else {
+        return Ok(false);
     };
-    Ok(with_engine(point, watch)?.is_some())
-}
-
-struct Follow<'a, F> {
-    point: &'a Point,
-    begin: Begin<'a>,
-    tosses: Range<u64>,
-    see: F,
-}
-
-impl<F: FnMut(u64, &Outcome) -> bool> Task for Follow<'_, F> {
-    type Output = ();
-
-    fn with<E: Engine>(self, engine: &E) {
-        let Self {
-            point,
-            begin,
-            tosses,
-            mut see,
-        } = self;
-        let first = tosses.start;
-        let see = |number, outcome: &Outcome| {
-            if see(first + number, outcome) {
-                ControlFlow::Continue(())
-            } else {
-                ControlFlow::Break(())
-            }
-        };
-        let workspace = &mut engine.workspace();
-        match begin {
-            Begin::Drawn(stream) => {
-                let (coin, lanes) = (&point.scene.coin, engine.lanes());
-                let launches = point.launches.launches(coin, stream, tosses, lanes);
-                engine.toss_all(workspace, launches, see);
-            }
-            Begin::Given(launch) => engine.toss_all(workspace, tosses.map(launch), see),
+    for toss in tosses {
+        let launch = begin.launch(point, toss);
+        let mut last = Last::new(&launch);
+        let outcome = engine.toss(&mut (), &launch, &mut last);
+        let end = last.0;
+        if !see(&Seen { toss, outcome, end }) {
+            break;
         }
     }
-}
-
-struct Watch<'a> {
-    point: &'a Point,
-    begin: Begin<'a>,
-    tosses: Range<u64>,
-    see: &'a mut dyn FnMut(&Seen) -> bool,
-}
-
-impl Task for Watch<'_> {
-    type Output = ();
-
-    fn with<E: Engine>(self, engine: &E) {
-        let mut workspace = engine.workspace();
-        for toss in self.tosses {
-            let launch = self.begin.launch(self.point, toss);
-            let mut last = Last::new(&launch);
-            let outcome = engine.toss(&mut workspace, &launch, &mut last);
-            let end = last.0;
-            if !(self.see)(&Seen { toss, outcome, end }) {
-                return;
-            }
-        }
-    }
+    Ok(true)
 }
 
 /// Sees the end alone.

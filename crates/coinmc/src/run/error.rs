@@ -1,6 +1,7 @@
 //! Why a run stopped, and what to do about it.
 
-use super::{Chunk, Part, SettingsError};
+use super::{Chunk, Part};
+use coinmc_core::EngineError;
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -134,7 +135,7 @@ pub enum RunError {
         /// Index of the point.
         point: usize,
         /// What the engine says.
-        source: SettingsError,
+        source: EngineError,
     },
     /// The system gives no thread.
     #[error("cannot start a thread: {0}")]

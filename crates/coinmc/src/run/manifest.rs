@@ -1,6 +1,6 @@
 //! `manifest.json`: what a run directory is the run of.
 
-use super::{Part, RunError, engines, replace};
+use super::{Part, RunError, replace};
 use crate::plan::Plan;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -40,7 +40,7 @@ impl Manifest {
         let engines = plan
             .points
             .iter()
-            .map(|point| engines::name(&point.engine).to_owned());
+            .map(|point| point.engine.name().to_owned());
         Self {
             format: FORMAT,
             plan_hash: plan.hash(),

@@ -1,9 +1,9 @@
 //! What a piece of work comes to, and the piece that is no range of tosses.
 
-use super::{Chunk, RunError, SettingsError, Task, with_engine};
+use super::{Chunk, RunError};
 use crate::plan::{Plan, Point};
-use coinmc_core::{Domain, Engine, Stream, Tally};
-use coinmc_quadrature::{Goal, Integral, Method, integrate};
+use coinmc_core::{Domain, Stream, Tally};
+use coinmc_quadrature::{Goal, Integral, integrate};
 
 /// What a chunk came to.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,45 +83,15 @@ pub(super) fn integrate_while(
         return Ok(None);
     };
     let stream_point = if plan.paired { 0 } else { index as u64 };
-    let work = Work {
-        method,
-        point: &plan.points[index],
-        scrambles: Stream::new(plan.seed, Domain::Scramble, stream_point),
-        goal,
-        go_on,
-    };
-    let found = with_engine(&plan.points[index], work);
-    found
-        .map(Option::flatten)
-        .map_err(|source: SettingsError| RunError::Settings {
-            point: index,
-            source,
-        })
-}
-
-struct Work<'a, F> {
-    method: Method,
-    point: &'a Point,
-    scrambles: Stream,
-    goal: Goal,
-    go_on: F,
-}
-
-impl<F: Fn() -> bool> Task for Work<'_, F> {
-    type Output = Option<Integral>;
-
-    fn with<E: Engine>(self, engine: &E) -> Option<Integral> {
-        let Point {
-            scene, launches, ..
-        } = self.point;
-        integrate(
-            self.method,
-            scene,
-            launches,
-            engine,
-            &self.scrambles,
-            &self.goal,
-            self.go_on,
-        )
-    }
+    let point = &plan.points[index];
+    let engine = point.build_engine().map_err(|source| RunError::Settings {
+        point: index,
+        source,
+    })?;
+    let Point {
+        scene, launches, ..
+    } = point;
+    let scrambles = Stream::new(plan.seed, Domain::Scramble, stream_point);
+    Ok(engine
+        .and_then(|engine| integrate(method, scene, launches, &engine, &scrambles, &goal, go_on)))
 }

@@ -1,6 +1,6 @@
 //! Why a toss cannot be traced.
 
-use crate::run::SettingsError;
+use coinmc_core::EngineError;
 use thiserror::Error;
 
 /// Why there is no trace, or no file of it.
@@ -48,6 +48,6 @@ pub enum TraceError {
         /// Index of the point.
         point: usize,
         /// What the engine says.
-        source: SettingsError,
+        source: EngineError,
     },
 }

@@ -3,8 +3,8 @@
 use super::recorder::{MAX_RECORDS, Recorder};
 use super::{Trace, TraceError};
 use crate::plan::{MAX_TOSSES, Plan, Point, Stop};
-use crate::run::{Task, engine_name, stream, with_engine};
-use coinmc_core::{Engine, Launch, Outcome, Scene};
+use crate::run::stream;
+use coinmc_core::{DynEngine, Engine, Launch, Outcome, Scene};
 
 /// Largest rate of samples, 1/s.
 pub const MAX_RATE_HZ: f64 = 1e9;
@@ -64,12 +64,12 @@ pub fn record(
     }
     let launch = *launch;
     let scene = point_of(plan, point)?.scene;
-    let recorder = Recorder::new(&scene, rate_hz, max_records);
-    let (outcome, recorder) = follow(plan, point, Watch { launch, recorder })?;
+    let mut recorder = Recorder::new(&scene, rate_hz, max_records);
+    let outcome = engine_of(plan, point)?.toss(&mut (), &launch, &mut recorder);
     Ok(Trace {
         point,
         toss: 0,
-        engine: engine_name(&plan.points[point].engine),
+        engine: plan.points[point].engine.name(),
         scene,
         launch,
         rate_hz,
@@ -86,7 +86,7 @@ pub fn record(
 /// Those of [`replay()`].
 pub fn outcome(plan: &Plan, point: usize, toss: u64) -> Result<Outcome, TraceError> {
     let launch = launch(plan, point, toss)?;
-    follow(plan, point, Alone(launch))
+    Ok(engine_of(plan, point)?.toss(&mut (), &launch, &mut ()))
 }
 
 /// How a toss of a plan begins.
@@ -96,7 +96,7 @@ pub fn outcome(plan: &Plan, point: usize, toss: u64) -> Result<Outcome, TraceErr
 pub fn launch(plan: &Plan, point: usize, toss: u64) -> Result<Launch, TraceError> {
     let found = point_of(plan, point)?;
     if !found.engine.makes_tosses() {
-        let engine = engine_name(&found.engine);
+        let engine = found.engine.name();
         return Err(TraceError::NoTraces { point, engine });
     }
     let tosses = tosses_at_most(plan);
@@ -137,39 +137,13 @@ pub(super) fn point_of(plan: &Plan, point: usize) -> Result<&Point, TraceError> 
     found.ok_or(TraceError::NoSuchPoint { point, points })
 }
 
-/// Does a task with the engine of a point.
-pub(super) fn follow<T: Task>(plan: &Plan, point: usize, task: T) -> Result<T::Output, TraceError> {
+/// The engine of a point.
+pub(super) fn engine_of(plan: &Plan, point: usize) -> Result<DynEngine, TraceError> {
     let found = point_of(plan, point)?;
-    let done = with_engine(found, task).map_err(|source| TraceError::Settings { point, source })?;
-    done.ok_or_else(|| TraceError::NoTraces {
+    let engine = found.build_engine();
+    let engine = engine.map_err(|source| TraceError::Settings { point, source })?;
+    engine.ok_or_else(|| TraceError::NoTraces {
         point,
-        engine: engine_name(&found.engine),
+        engine: found.engine.name(),
     })
-}
-
-/// A launch and who watches it.
-struct Watch {
-    launch: Launch,
-    recorder: Recorder,
-}
-
-impl Task for Watch {
-    type Output = (Outcome, Recorder);
-
-    fn with<E: Engine>(mut self, engine: &E) -> Self::Output {
-        let mut workspace = engine.workspace();
-        let outcome = engine.toss(&mut workspace, &self.launch, &mut self.recorder);
-        (outcome, self.recorder)
-    }
-}
-
-/// A launch that nobody watches.
-struct Alone(Launch);
-
-impl Task for Alone {
-    type Output = Outcome;
-
-    fn with<E: Engine>(self, engine: &E) -> Outcome {
-        engine.toss(&mut engine.workspace(), &self.0, &mut ())
-    }
 }

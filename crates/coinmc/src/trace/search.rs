@@ -1,11 +1,12 @@
 //! Tosses found by how they went.
 
 use super::TraceError;
-use super::replay::{follow, point_of, tosses_at_most};
+use super::replay::{engine_of, point_of, tosses_at_most};
 use crate::plan::Plan;
-use crate::run::{Task, stream};
+use crate::run::stream;
 use coinmc_core::{
-    Ended, Engine, Event, EventKind, Face, LaunchDistribution, Observer, Outcome, Scene, Stream,
+    DynEngine, Ended, Engine, Event, EventKind, Face, LaunchDistribution, Observer, Outcome, Scene,
+    Stream,
 };
 use std::fmt;
 use std::str::FromStr;
@@ -199,7 +200,7 @@ pub fn search(
             best: &mut best,
             go_on: &mut go_on,
         };
-        if !follow(plan, point, look)? {
+        if !look.search(&engine_of(plan, point)?) {
             is_cut = true;
             break;
         }
@@ -266,11 +267,8 @@ struct Look<'a, 'q, F> {
     go_on: &'a mut F,
 }
 
-impl<F: FnMut(u64) -> bool> Task for Look<'_, '_, F> {
-    type Output = bool;
-
-    fn with<E: Engine>(self, engine: &E) -> bool {
-        let mut workspace = engine.workspace();
+impl<F: FnMut(u64) -> bool> Look<'_, '_, F> {
+    fn search(self, engine: &DynEngine) -> bool {
         let by_time = self.best.query.longest == Some(Length::Time);
         for toss in 0..self.tosses {
             if !(self.go_on)(*self.searched) {
@@ -281,9 +279,9 @@ impl<F: FnMut(u64) -> bool> Task for Look<'_, '_, F> {
             let mut clock = Clock(f64::NAN);
             // a watched toss takes longer
             let outcome = if by_time {
-                engine.toss(&mut workspace, &launch, &mut clock)
+                engine.toss(&mut (), &launch, &mut clock)
             } else {
-                engine.toss(&mut workspace, &launch, &mut ())
+                engine.toss(&mut (), &launch, &mut ())
             };
             *self.searched += 1;
             self.best.add(Found {

@@ -3,7 +3,6 @@
 use super::{EndKind, Trace, table};
 use crate::plan::Plan;
 use crate::results::Cell;
-use crate::run::law;
 use coinmc_core::{Launch, Outcome};
 use nalgebra::Vector3;
 use serde_json::{Map, Value, json};
@@ -29,7 +28,7 @@ impl Trace {
             "point": self.point,
             "toss": self.toss,
             "engine": self.engine,
-            "law": law(&point.engine),
+            "law": point.engine.law(),
             "parameters": parameters.collect::<Map<_, _>>(),
             "gravity_m_s2": self.scene.gravity_m_s2(),
             "gyroscopic_torque": self.scene.has_gyroscopic_torque(),

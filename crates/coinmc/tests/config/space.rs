@@ -30,7 +30,7 @@ fn the_toss_in_space_has_the_defaults_of_its_crate() {
     };
     assert_eq!(
         point.engine,
-        EngineChoice::Volumetric(volumetric::Settings::default())
+        EngineChoice::new(volumetric::Settings::default())
     );
     assert_eq!(point.launches, Preset::Clean.distribution());
     let surface = point.scene.surface;
@@ -72,7 +72,7 @@ fn all_of_the_toss_in_space_can_be_chosen() {
         max_steps: 9,
         time_limit: 100.0,
     };
-    assert_eq!(point.engine, EngineChoice::Volumetric(chosen));
+    assert_eq!(point.engine, EngineChoice::new(chosen));
     assert_eq!(parse(&plan.resolved_toml, &[]), plan);
 }
 

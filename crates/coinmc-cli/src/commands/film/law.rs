@@ -3,7 +3,7 @@
 use clap::{Args, ValueEnum};
 use coinmc::plan::EngineChoice;
 use coinmc_core::Coin;
-use coinmc_film::{GaekSukhov, HalfSine, Law, Lever, LineContact, Materials, PulseTime};
+use coinmc_film::{GaekSukhov, HalfSine, Law, Lever, LineContact, Materials, PulseTime, Settings};
 
 /// PLA on wood.
 const COIN_YOUNG_PA: f64 = 3e9;
@@ -72,11 +72,8 @@ enum LeverName {
 impl LawArguments {
     /// The law of this name, with its parameters from the arguments, or from a config with the same
     /// law, or else the default ones.
-    pub(super) fn law(&self, name: LawName, coin: &Coin, configured: Option<EngineChoice>) -> Law {
-        let configured = match configured {
-            Some(EngineChoice::Flat(settings)) => Some(settings.law),
-            _ => None,
-        };
+    pub(super) fn law(&self, name: LawName, coin: &Coin, configured: Option<&EngineChoice>) -> Law {
+        let configured = configured.and_then(|engine| Some(engine.settings::<Settings>()?.law));
         match name {
             LawName::Moreau => Law::Moreau,
             LawName::ChatterjeeRuina => Law::ChatterjeeRuina,

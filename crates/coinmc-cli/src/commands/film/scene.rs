@@ -74,7 +74,9 @@ impl SceneArguments {
         if let Some(mass_kg) = self.mass_kg {
             coin = coin.with_mass(mass_kg).map_err(|error| input(&error))?;
         }
-        let law = self.laws.law(name, &coin, point.map(|point| point.engine));
+        let law = self
+            .laws
+            .law(name, &coin, point.as_ref().map(|point| &point.engine));
         let usual = Options::default().shared;
         let surface = scene.map(|scene| scene.surface);
         let given = |argument: Option<f64>, in_config: Option<f64>, usual: f64| {

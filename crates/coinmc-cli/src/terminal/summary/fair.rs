@@ -1,10 +1,11 @@
 //! Where the curves cross 1/3.
 
 use super::curves::{label, others};
-use super::{Curve, FAIR, no_bounce};
+use super::{Curve, FAIR};
 use crate::terminal::plot::Mark;
 use crate::terminal::table::{Column, Table};
 use crate::terminal::{Colors, Style, compact, decimals_for, in_ascii};
+use coinmc::engines::no_bounce_rule;
 use coinmc::published;
 use coinmc::results::{FairRatio, Results};
 use std::collections::HashSet;
@@ -37,7 +38,7 @@ pub(super) fn table(
     let percent = compact(fair[0].confidence * 100.0);
     columns.push(Column::right("fair H/R"));
     // Closed forms have no error but that of the interpolation.
-    columns.push(Column::left(if fair[0].engine == "analytic" {
+    columns.push(Column::left(if no_bounce_rule(fair[0].engine).is_none() {
         "interpolated within".to_owned()
     } else {
         format!("{percent} % interval")
@@ -80,7 +81,7 @@ pub(super) fn table(
 
 /// Published fair ratios of the kind of toss that this engine computes; none for a closed form.
 fn references(engine: &str, style: &Style) -> String {
-    let Some(rule) = no_bounce(engine) else {
+    let Some(rule) = no_bounce_rule(engine) else {
         return String::new();
     };
     let mut text = format!(

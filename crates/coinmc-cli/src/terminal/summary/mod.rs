@@ -7,8 +7,8 @@ mod published;
 use super::plot::{Curve, Level, Plot, Reference};
 use super::table::{Column, Table};
 use super::{Colors, Style, compact, count, decimals_for, grouped, wrapped};
+use coinmc::engines::no_bounce_rule;
 use coinmc::results::{FairRatio, Results, Row};
-use coinmc_analytic::Rule;
 use coinmc_core::Estimate;
 use curves::curves;
 use std::path::Path;
@@ -136,7 +136,10 @@ fn probability(p: &Estimate, row: &Row, decimals: usize, style: &Style) -> Strin
 
 /// P(side) over the ratio, a curve for each combination of the other axes.
 fn plot(results: &Results, curves: &[Curve], style: &Style) -> Option<String> {
-    let rule = results.rows.iter().find_map(|row| no_bounce(row.engine));
+    let rule = results
+        .rows
+        .iter()
+        .find_map(|row| no_bounce_rule(row.engine));
     let label = rule.map_or(String::new(), |rule| format!("{rule} rule (no bounce)"));
     let p_side = |ratio| rule.map_or(f64::NAN, |rule| rule.p_side(ratio));
     let reference = Reference {
@@ -154,15 +157,6 @@ fn plot(results: &Results, curves: &[Curve], style: &Style) -> Option<String> {
         }),
     }
     .render(style)
-}
-
-/// The closed form of a toss that does not bounce, for the kind of toss that an engine computes.
-fn no_bounce(engine: &str) -> Option<Rule> {
-    match engine {
-        "flat" => Some(Rule::Arc),
-        "volumetric" | "rapier" => Some(Rule::Zone),
-        _ => None,
-    }
 }
 
 /// Undecided tosses, and the path of the results.

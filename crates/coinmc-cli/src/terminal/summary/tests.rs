@@ -1,6 +1,7 @@
 use super::*;
 use coinmc::config;
 use coinmc::results::fair_ratios;
+use coinmc_analytic::Rule;
 use coinmc_core::Tally;
 
 /// Results of a config with made-up counts: P(side) after the arc rule times `share`, less where

@@ -18,13 +18,14 @@ mod release;
 mod scale;
 
 use crate::contact_matrix::{ContactMatrix, Impulse};
-use crate::impact_law::{Impact, ImpactLaw, Resolution};
+use crate::impact_law::{Impact, ImpactLaw, PlanarLaw, Resolution};
 use crate::laws::moreau::Moreau;
 use crate::laws::palmgren::{Materials, scene_stiffness};
 use crate::motion::Motion;
-use crate::settings::{SettingsError, positive};
+use crate::settings::SettingsError;
 use crate::shape::Shape;
-use coinmc_core::Scene;
+use coinmc_core::schema::{Absent, Bounds, TableKind, Values, fields, number};
+use coinmc_core::{EngineError, LawSettings, Scene};
 use coinmc_lanes::{Lane, sin_cos};
 use damping::{LEAST_RESTITUTION, strength};
 use equations::{Body, CORNERS, Corner, Grip};
@@ -61,10 +62,47 @@ impl LineContact {
     pub fn mindlin(poisson: f64) -> f64 {
         2.0 * (1.0 - poisson) / (2.0 - poisson)
     }
+}
 
-    pub(crate) fn validate(&self) -> Result<(), SettingsError> {
+const TANGENTIAL: Bounds = Bounds::closed(1e-3, 1e3);
+const STIFFNESS: Bounds = Bounds::open(0.0, f64::INFINITY);
+
+impl LawSettings for LineContact {
+    const NAME: &'static str = "line-contact";
+    const DOC: &'static str = "Elastic line contact with damping and friction, resolved in time.";
+
+    fn parameters() -> TableKind {
+        let mut all = Materials::parameters();
+        all.push(number(
+            "tangential",
+            "Stiffness along the surface over that along the normal (2(1 − ν)/(2 − ν) with the coin's \
+             ν if absent).",
+            TANGENTIAL,
+            Absent::Omitted,
+        ));
+        fields(all)
+    }
+
+    fn read(parameters: &Values) -> Result<Self, EngineError> {
+        let materials = Materials::read(parameters)?;
+        let tangential = parameters.optional("tangential")?;
+        Ok(Self {
+            materials,
+            tangential: tangential.unwrap_or_else(|| Self::mindlin(materials.coin_poisson)),
+        })
+    }
+}
+
+impl PlanarLaw for LineContact {
+    type Impact = LineContactImpact;
+
+    fn validate(&self) -> Result<(), SettingsError> {
         self.materials.validate()?;
-        positive("tangential", self.tangential)
+        Ok(TANGENTIAL.check("tangential", self.tangential)?)
+    }
+
+    fn impact(self, scene: &Scene) -> Result<LineContactImpact, SettingsError> {
+        LineContactImpact::new(scene, self)
     }
 }
 
@@ -85,7 +123,7 @@ impl LineContactImpact {
     pub fn new(scene: &Scene, line: LineContact) -> Result<Self, SettingsError> {
         line.validate()?;
         let stiffness = scene_stiffness(scene, &line.materials);
-        positive("stiffness of the contact over the coin's weight", stiffness)?;
+        STIFFNESS.check("stiffness of the contact over the coin's weight", stiffness)?;
         Ok(Self {
             line,
             stiffness,

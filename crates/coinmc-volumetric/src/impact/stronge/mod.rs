@@ -7,6 +7,8 @@ mod sweep;
 
 use super::{ChatterjeeRuina, ContactPoint, ImpactLaw, Impulse};
 use crate::body::{Body, Friction};
+use coinmc_core::schema::Values;
+use coinmc_core::{EngineError, LawSettings};
 use coinmc_lanes::Lane;
 use sweep::Sweep;
 
@@ -45,6 +47,16 @@ pub struct Stronge;
 ///
 /// Of 2e5 impacts of all shapes the longest needed 667; most need two or three.
 const MAX_PIECES: u32 = 2000;
+
+impl LawSettings for Stronge {
+    const NAME: &'static str = "stronge";
+    const DOC: &'static str =
+        "Stronge's energetic restitution, slip followed through its reversals";
+
+    fn read(_: &Values) -> Result<Self, EngineError> {
+        Ok(Self)
+    }
+}
 
 impl ImpactLaw for Stronge {
     const HAS_LANES: bool = false;

@@ -3,12 +3,12 @@
 //! The limits are far outside anything that can be tossed; they keep typing errors and arithmetic
 //! overflow out.
 
-use super::engines::engines;
 use super::launch::launch;
-use super::terms::{default, field, fields, number, table};
-use super::{Absent, Bounds, Condition, Fallback, Kind, Rule, TableKind, Whole, Word};
+use super::{Absent, Bounds, Condition, Fallback, Field, Kind, Rule, TableKind, Whole, Word};
+use crate::engines::{ENGINES, WITHOUT_TOSSES};
 use crate::plan::{MAX_POINTS, MAX_TOSSES, Sampling};
-use coinmc_core::{IntervalMethod, Landing, Scene};
+use coinmc_core::schema::{default, field, fields, number, table};
+use coinmc_core::{EngineDescriptor, IntervalMethod, Landing, Scene};
 
 use Absent::{Is, Omitted, Required};
 
@@ -74,11 +74,18 @@ pub(in crate::config) fn root() -> TableKind {
             ),
         ],
         rules: vec![Rule::Unless {
-            condition: Condition::Tag("engine", "analytic"),
+            condition: Condition::Tag("engine", WITHOUT_TOSSES.name),
             keys: &["surface", "launch", "stop"],
             fallback: None,
         }],
     }
+}
+
+/// The tags of `[engine.…]`.
+fn engines() -> Vec<Field> {
+    let tag =
+        |engine: &EngineDescriptor| table(engine.name, engine.doc, (engine.schema)(), Required);
+    ENGINES.map(tag).to_vec()
 }
 
 /// The keys of a range; the bounds are those of the number that is swept.

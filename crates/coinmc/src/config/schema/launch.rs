@@ -1,9 +1,9 @@
 //! The keys of `[launch]`.
 
 use super::Absent::{Omitted, Required};
-use super::terms::{field, fields, marginal, marginal_kind, table};
 use super::{Bounds, Condition, Field, Kind, Rule, TableKind, Word};
 use coinmc_core::Preset;
+use coinmc_core::schema::{field, fields, marginal, marginal_kind, table};
 
 /// Limit of every component of a velocity, m/s.
 const SPEED: Bounds = Bounds::closed(-1e6, 1e6);

@@ -1,7 +1,7 @@
 //! What the tosses of a point do without, and why nothing is lost by it.
 
-use crate::plan::{EngineChoice, Point};
-use coinmc_core::Landing;
+use crate::plan::Point;
+use coinmc_core::{EngineKind, Landing};
 use coinmc_quadrature::Method;
 
 /// Something that is not computed.
@@ -62,10 +62,10 @@ pub(super) fn omissions(point: &Point, integrated: Option<Method>) -> Vec<Omissi
             omissions.push(omission);
         }
     };
-    let in_space = match point.engine {
-        EngineChoice::Analytic(_) => return vec![Omission::Tosses],
-        EngineChoice::Flat(_) => false,
-        EngineChoice::Volumetric(_) | EngineChoice::Rapier(_) => true,
+    let in_space = match point.engine.descriptor().kind {
+        EngineKind::ClosedForm => return vec![Omission::Tosses],
+        EngineKind::Planar => false,
+        EngineKind::Spatial => true,
     };
     omit(Omission::RandomTosses, integrated.is_some());
     let decided = integrated.is_some_and(|method| method != Method::Tossed);

@@ -1,0 +1,109 @@
+//! An engine that is known at run time only.
+
+use crate::{DynObserver, Engine, Launch, LaunchSource, Observer, Outcome, OutcomeSink};
+use coinmc_lanes::{Lanes, NoSuchLanes};
+use std::fmt::Debug;
+use std::sync::Arc;
+
+/// Any [`Engine`] behind a pointer: what uses it is compiled once for all engines, and an engine once,
+/// in the crate that makes a `DynEngine` of it.
+///
+/// Many tosses cost one call through the pointer, a toss by itself one, and one more for each of its
+/// events.
+///
+/// # Example
+/// ```
+/// use coinmc_core::{DynEngine, Engine, Face, Launch, Observer, Outcome};
+/// # use coinmc_core::{Coin, Domain, Preset, Stream};
+///
+/// /// Says what showed at the launch.
+/// #[derive(Debug, Clone)]
+/// struct Still;
+///
+/// impl Engine for Still {
+///     type Workspace = ();
+///     fn workspace(&self) {}
+///     fn toss(&self, (): &mut (), launch: &Launch, _: &mut impl Observer) -> Outcome {
+///         let shows_heads = launch.axis.z > 0.0;
+///         Outcome::decided(if shows_heads { Face::Heads } else { Face::Tails })
+///     }
+/// }
+///
+/// let engine = DynEngine::new(Still);
+/// # let (coin, stream) = (Coin::cylinder(1.0, 0.01)?, Stream::new(1, Domain::Launch, 0));
+/// # let launch = Preset::Clean.distribution().launch(&coin, &mut stream.toss(0));
+/// assert_eq!(engine.toss(&mut (), &launch, &mut ()), Still.toss(&mut (), &launch, &mut ()));
+/// # Ok::<(), coinmc_core::CoinError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct DynEngine(Arc<dyn ErasedEngine>);
+
+/// What of an [`Engine`] can be called through a pointer. Nothing of it is generic.
+trait ErasedEngine: Debug + Send + Sync {
+    fn erased_lanes(&self) -> Lanes;
+    fn erased_with_lanes(&self, lanes: Lanes) -> Result<DynEngine, NoSuchLanes>;
+    fn toss_unobserved(&self, launch: &Launch) -> Outcome;
+    fn toss_observed(&self, launch: &Launch, observer: &mut DynObserver) -> Outcome;
+    fn toss_erased(&self, launches: LaunchSource<'_>, sink: &mut OutcomeSink<'_>);
+}
+
+impl<E: Engine + Debug + Clone + Send + 'static> ErasedEngine for E {
+    fn erased_lanes(&self) -> Lanes {
+        self.lanes()
+    }
+
+    fn erased_with_lanes(&self, lanes: Lanes) -> Result<DynEngine, NoSuchLanes> {
+        self.clone().with_lanes(lanes).map(DynEngine::new)
+    }
+
+    fn toss_unobserved(&self, launch: &Launch) -> Outcome {
+        self.toss(&mut self.workspace(), launch, &mut ())
+    }
+
+    fn toss_observed(&self, launch: &Launch, observer: &mut DynObserver) -> Outcome {
+        self.toss(&mut self.workspace(), launch, observer)
+    }
+
+    fn toss_erased(&self, launches: LaunchSource<'_>, sink: &mut OutcomeSink<'_>) {
+        self.toss_many(&mut self.workspace(), launches, sink);
+    }
+}
+
+impl DynEngine {
+    /// An engine to be called through a pointer.
+    pub fn new(engine: impl Engine + Debug + Clone + Send + 'static) -> Self {
+        Self(Arc::new(engine))
+    }
+
+    fn toss_for<O: Observer>(&self, launch: &Launch, observer: &mut O) -> Outcome {
+        if O::ACTIVE {
+            self.0
+                .toss_observed(launch, &mut DynObserver::new(observer))
+        } else {
+            self.0.toss_unobserved(launch)
+        }
+    }
+}
+
+/// Every call has a workspace of its own.
+impl Engine for DynEngine {
+    type Workspace = ();
+
+    fn workspace(&self) {}
+
+    fn lanes(&self) -> Lanes {
+        self.0.erased_lanes()
+    }
+
+    fn with_lanes(self, lanes: Lanes) -> Result<Self, NoSuchLanes> {
+        self.0.erased_with_lanes(lanes)
+    }
+
+    fn toss(&self, (): &mut (), launch: &Launch, observer: &mut impl Observer) -> Outcome {
+        self.toss_for(launch, observer)
+    }
+
+    fn toss_many(&self, (): &mut (), launches: LaunchSource<'_>, sink: &mut OutcomeSink<'_>) {
+        self.0.toss_erased(launches, sink);
+    }
+}

@@ -1,0 +1,87 @@
+//! Where an engine takes its launches from.
+
+use super::{Launch, Launches};
+
+/// Launches taken at a time from an iterator that is called through a pointer.
+const BLOCK: usize = 64;
+
+/// The launches of many tosses, in order: drawn from a distribution, or anybody's own.
+///
+/// It is one type, so that an engine which takes its launches from here is compiled once whatever
+/// they are, and no launch costs a call through a pointer.
+///
+/// # Example
+/// ```
+/// use coinmc_core::{Coin, Domain, LaunchSource, Lanes, Preset, Stream};
+/// let coin = Coin::cylinder(1.5, 0.01)?;
+/// let (robot, stream) = (Preset::Robot.distribution(), Stream::new(1, Domain::Launch, 0));
+/// let drawn = LaunchSource::from(robot.launches(&coin, &stream, 0..100, Lanes::best()));
+/// let mut own = (0..100).map(|toss| robot.launch(&coin, &mut stream.toss(toss)));
+/// assert!(drawn.eq(LaunchSource::new(&mut own)));
+/// # Ok::<(), coinmc_core::CoinError>(())
+/// ```
+pub struct LaunchSource<'a>(Source<'a>);
+
+// One a batch of tosses: its size does not matter, a pointer to follow at every launch would.
+#[allow(clippy::large_enum_variant)]
+enum Source<'a> {
+    Drawn(Launches),
+    Own {
+        launches: &'a mut dyn Blocks,
+        block: Vec<Launch>,
+        next: usize,
+    },
+}
+
+/// An iterator over launches that is called once a block.
+trait Blocks {
+    fn next_block(&mut self, block: &mut Vec<Launch>);
+}
+
+impl<I: Iterator<Item = Launch>> Blocks for I {
+    fn next_block(&mut self, block: &mut Vec<Launch>) {
+        block.extend(self.take(BLOCK));
+    }
+}
+
+impl<'a> LaunchSource<'a> {
+    /// These launches. Some more of them may be taken than are tossed.
+    pub fn new(launches: &'a mut impl Iterator<Item = Launch>) -> Self {
+        Self(Source::Own {
+            launches,
+            block: Vec::new(),
+            next: 0,
+        })
+    }
+}
+
+impl From<Launches> for LaunchSource<'_> {
+    fn from(launches: Launches) -> Self {
+        Self(Source::Drawn(launches))
+    }
+}
+
+impl Iterator for LaunchSource<'_> {
+    type Item = Launch;
+
+    #[inline]
+    fn next(&mut self) -> Option<Launch> {
+        match &mut self.0 {
+            Source::Drawn(launches) => launches.next(),
+            Source::Own {
+                launches,
+                block,
+                next,
+            } => {
+                if *next == block.len() {
+                    block.clear();
+                    launches.next_block(block);
+                    *next = 0;
+                }
+                let launch = *block.get(*next)?;
+                *next += 1;
+                Some(launch)
+            }
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! What a config may say, as data: keys, their meaning, limits and defaults.
+//!
+//! Engines and laws describe their own tables in these words, and read the checked [`Values`] of them.
+//! The reader of configs, its messages, the canonical text and the JSON Schema are all made from these
+//! descriptions. Nothing here reads or writes anything.
+//!
+//! # Example
+//! ```
+//! use coinmc_core::schema::{Bounds, default, fields, number};
+//! const STEP: Bounds = Bounds::above_zero(100.0);
+//! let table = fields(vec![number("step_s", "Time step, s.", STEP, default(1e-3))]);
+//! assert_eq!(table.field("step_s").unwrap().doc, "Time step, s.");
+//! assert_eq!(STEP.check("step_s", 0.0).unwrap_err().to_string(),
+//!            "step_s must be above 0 and at most 100, not 0");
+//! ```
+
+mod bounds;
+mod terms;
+mod values;
+
+pub use bounds::{Bounds, OutOfRange, Whole};
+pub use terms::{
+    choice, count, default, field, fields, flag, marginal, marginal_kind, number, table,
+};
+pub use values::{Value, Values, unlisted};
+
+/// A key of a table.
+#[derive(Debug, Clone)]
+pub struct Field {
+    /// The key.
+    pub name: &'static str,
+    /// What it means, with its unit.
+    pub doc: &'static str,
+    /// What its value may be.
+    pub kind: Kind,
+    /// What it means that it is absent.
+    pub absent: Absent,
+}
+
+/// What it means that a key is absent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Absent {
+    /// That is a problem.
+    Required,
+    /// Nothing, unless one of the table's rules says otherwise.
+    Omitted,
+    /// The same as this value.
+    Is(Fallback),
+}
+
+/// A value that stands in for an absent key.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Fallback {
+    /// A number, that may be swept or not.
+    Number(f64),
+    /// A whole number.
+    Integer(u64),
+    /// Yes or no.
+    Boolean(bool),
+    /// A word.
+    Word(&'static str),
+    /// A table with all its own fallbacks.
+    Table,
+}
+
+/// What a value may be.
+#[derive(Debug, Clone)]
+pub enum Kind {
+    /// A number that may be swept: a number, a list or a range.
+    Number(Bounds),
+    /// A number that may not.
+    Real(Bounds),
+    /// A whole number.
+    Integer(Whole),
+    /// Yes or no.
+    Boolean,
+    /// One of these words.
+    Word(Vec<Word>),
+    /// Exactly three of a kind: x, y, z.
+    Vector(Box<Kind>),
+    /// A number that may be swept, or a distribution (a table with exactly one of these keys).
+    Marginal(Bounds, Vec<Field>),
+    /// One of these words, or a table with exactly one of these keys.
+    Choice(Vec<Word>, Vec<Field>),
+    /// A table.
+    Table(TableKind),
+}
+
+/// The keys of a table and how they depend on each other.
+#[derive(Debug, Clone)]
+pub struct TableKind {
+    /// Its keys, in the order of the reference.
+    pub fields: Vec<Field>,
+    /// How they depend on each other.
+    pub rules: Vec<Rule>,
+}
+
+/// How the keys of one table depend on each other.
+#[derive(Debug, Clone, Copy)]
+pub enum Rule {
+    /// Exactly one of these is given.
+    ExactlyOne(&'static [&'static str]),
+    /// The key goes with another one only, and has this value where that one stands alone.
+    GoesWith {
+        /// The key.
+        key: &'static str,
+        /// The one that must be there.
+        other: &'static str,
+        /// What the key is if only the other one is there.
+        fallback: Fallback,
+    },
+    /// These are given unless a condition holds; then, absent, they are the fallback.
+    Unless {
+        /// When they may be absent.
+        condition: Condition,
+        /// The keys.
+        keys: &'static [&'static str],
+        /// What they then are; nothing, if absent.
+        fallback: Option<Fallback>,
+    },
+}
+
+/// A condition on another key of the same table.
+#[derive(Debug, Clone, Copy)]
+pub enum Condition {
+    /// It is given.
+    Given(&'static str),
+    /// It is this word.
+    Word(&'static str, &'static str),
+    /// It is a table with this key.
+    Tag(&'static str, &'static str),
+}
+
+impl Condition {
+    /// As the end of "… is missing: required unless …".
+    pub fn text(self) -> String {
+        match self {
+            Self::Given(key) => format!("`{key}` is given"),
+            Self::Word(key, word) => format!("{key} = \"{word}\""),
+            Self::Tag(key, tag) => format!("the {key} is {tag}"),
+        }
+    }
+}
+
+/// A word with its meaning.
+#[derive(Debug, Clone, Copy)]
+pub struct Word {
+    /// The word.
+    pub name: &'static str,
+    /// What it means.
+    pub doc: &'static str,
+}
+
+impl TableKind {
+    /// The field of this name.
+    pub fn field(&self, name: &str) -> Option<&Field> {
+        self.fields.iter().find(|field| field.name == name)
+    }
+}

@@ -1,0 +1,174 @@
+//! The checked values of a table, at one point of a sweep.
+
+use crate::EngineError;
+
+/// A checked value.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Value {
+    /// A number, of a sweep the one of this point.
+    Number(f64),
+    /// A whole number.
+    Integer(u64),
+    /// Yes or no.
+    Boolean(bool),
+    /// A word.
+    Word(&'static str),
+    /// Three values: x, y, z.
+    Vector(Vec<Value>),
+    /// A table.
+    Table(Values),
+    /// A table with the one key that says which alternative it is.
+    Tagged(&'static str, Box<Value>),
+}
+
+impl Value {
+    /// The number that this is.
+    ///
+    /// # Errors
+    /// [`EngineError`] if it is none.
+    pub fn number(&self) -> Result<f64, EngineError> {
+        match self {
+            Self::Number(number) => Ok(*number),
+            _ => Err(EngineError::new(
+                "a value is not the number its schema promises",
+            )),
+        }
+    }
+}
+
+/// The values of a table that were held against its schema, defaults included: what an engine or a
+/// law makes its settings of.
+///
+/// A key or type that the schema does not promise is an error that names it: then schema and reader
+/// contradict each other.
+///
+/// # Example
+/// ```
+/// use coinmc_core::schema::{Value, Values};
+/// let values = Values::new(vec![("zeno", Value::Number(0.01)), ("ccd", Value::Boolean(true))]);
+/// assert_eq!(values.number("zeno")?, 0.01);
+/// assert!(values.boolean("ccd")? && values.word("law").is_err());
+/// # Ok::<(), coinmc_core::EngineError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Values(Vec<(&'static str, Value)>);
+
+impl Values {
+    /// Values under their keys.
+    pub fn new(entries: Vec<(&'static str, Value)>) -> Self {
+        Self(entries)
+    }
+
+    /// What is under a key, if anything.
+    pub fn get(&self, key: &str) -> Option<&Value> {
+        let found = self.0.iter().find(|(name, _)| *name == key);
+        found.map(|(_, value)| value)
+    }
+
+    /// The number under a key.
+    ///
+    /// # Errors
+    /// [`EngineError`] if there is none, as with every method here.
+    pub fn number(&self, key: &str) -> Result<f64, EngineError> {
+        self.optional(key)?.ok_or_else(|| missing(key))
+    }
+
+    /// The number under a key; `None` if the key is absent.
+    ///
+    /// # Errors
+    /// As [`number`](Self::number).
+    pub fn optional(&self, key: &str) -> Result<Option<f64>, EngineError> {
+        match self.get(key) {
+            Some(Value::Number(number)) => Ok(Some(*number)),
+            Some(_) => Err(missing(key)),
+            None => Ok(None),
+        }
+    }
+
+    /// The whole number under a key.
+    ///
+    /// # Errors
+    /// As [`number`](Self::number).
+    pub fn integer<T: TryFrom<u64>>(&self, key: &str) -> Result<T, EngineError> {
+        match self.get(key) {
+            Some(Value::Integer(number)) => T::try_from(*number).map_err(|_| missing(key)),
+            _ => Err(missing(key)),
+        }
+    }
+
+    /// Whether what a key names holds.
+    ///
+    /// # Errors
+    /// As [`number`](Self::number).
+    pub fn boolean(&self, key: &str) -> Result<bool, EngineError> {
+        match self.get(key) {
+            Some(Value::Boolean(holds)) => Ok(*holds),
+            _ => Err(missing(key)),
+        }
+    }
+
+    /// The word under a key.
+    ///
+    /// # Errors
+    /// As [`number`](Self::number).
+    pub fn word(&self, key: &str) -> Result<&'static str, EngineError> {
+        match self.get(key) {
+            Some(Value::Word(word)) => Ok(word),
+            _ => Err(missing(key)),
+        }
+    }
+
+    /// The one of `all` whose name stands under a key.
+    ///
+    /// # Errors
+    /// As [`number`](Self::number), also if the word names none of them.
+    pub fn one_of<T: Copy, const N: usize>(
+        &self,
+        key: &str,
+        all: [T; N],
+        name: fn(T) -> &'static str,
+    ) -> Result<T, EngineError> {
+        let word = self.word(key)?;
+        let mut all = all.into_iter();
+        all.find(|one| name(*one) == word)
+            .ok_or_else(|| unlisted(key, word))
+    }
+
+    /// A name and what belongs to it: a word without values, or the key of a table and the values in
+    /// it.
+    ///
+    /// # Errors
+    /// As [`number`](Self::number).
+    pub fn named(&self, key: &str) -> Result<(&'static str, &Self), EngineError> {
+        const NOTHING: &Values = &Values(Vec::new());
+        match self.get(key) {
+            Some(Value::Word(word)) => Ok((word, NOTHING)),
+            Some(Value::Tagged(tag, inner)) => match &**inner {
+                Value::Table(values) => Ok((tag, values)),
+                _ => Err(missing(key)),
+            },
+            _ => Err(missing(key)),
+        }
+    }
+
+    /// The table under a key; `None` if the key is absent.
+    ///
+    /// # Errors
+    /// As [`number`](Self::number).
+    pub fn table(&self, key: &str) -> Result<Option<&Self>, EngineError> {
+        match self.get(key) {
+            Some(Value::Table(values)) => Ok(Some(values)),
+            Some(_) => Err(missing(key)),
+            None => Ok(None),
+        }
+    }
+}
+
+/// An alternative that a schema lists and its reader does not know.
+pub fn unlisted(key: &str, name: &str) -> EngineError {
+    EngineError::new(format_args!("there is no `{key}` called `{name}`"))
+}
+
+fn missing(key: &str) -> EngineError {
+    EngineError::new(format_args!("`{key}` is not what its schema promises"))
+}

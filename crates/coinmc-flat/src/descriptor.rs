@@ -1,0 +1,131 @@
+//! What the rest of the program knows of this engine.
+
+use crate::laws::LAWS;
+use crate::settings::{Decision, Settings, SettingsError};
+use coinmc_core::schema::Values;
+use coinmc_core::{
+    Answer, DynEngine, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings,
+    Landing, Remark, Scene, Unmodelled,
+};
+
+/// The engine, as configs and results know it.
+pub const ENGINE: EngineDescriptor = EngineDescriptor {
+    name: "flat",
+    doc: "The toss in a vertical plane, impact by impact.",
+    kind: EngineKind::Planar,
+    stepped: false,
+    laws: &LAWS,
+    unmodelled: &UNMODELLED,
+    remarks: &[Remark {
+        applies: |scene| {
+            let surface = &scene.surface;
+            surface.landing() == Landing::Bouncing && surface.restitution() == 1.0
+        },
+        text: "restitution = 1 loses no energy in a frictionless impact: tosses may stay undecided up \
+               to engine.flat.max_impacts",
+    }],
+    schema: Settings::schema,
+    read: |values| Settings::read(values).map(EngineChoice::new),
+};
+
+const UNMODELLED: [Unmodelled; 6] = [
+    Unmodelled {
+        table: "surface",
+        key: "rolling_friction_m",
+        message: "engine.flat models no rolling friction: `surface.rolling_friction_m` must be 0",
+        help: "remove `rolling_friction_m`, or toss in space with [engine.volumetric]",
+    },
+    Unmodelled {
+        table: "surface",
+        key: "pivoting_friction_m",
+        message: "engine.flat models no pivoting friction: `surface.pivoting_friction_m` must be 0",
+        help: "remove `pivoting_friction_m`, or toss in space with [engine.volumetric]",
+    },
+    Unmodelled {
+        table: "surface",
+        key: "restitution_threshold_m_s",
+        message: "engine.flat models no restitution threshold: `surface.restitution_threshold_m_s` \
+                  must be 0",
+        help: "remove `restitution_threshold_m_s`, or toss in space with [engine.volumetric]",
+    },
+    Unmodelled {
+        table: "environment",
+        key: "linear_drag_per_s",
+        message: "engine.flat models no drag: `environment.linear_drag_per_s` must be 0",
+        help: "remove `linear_drag_per_s`, or toss in space with [engine.volumetric]",
+    },
+    Unmodelled {
+        table: "environment",
+        key: "angular_drag_per_s",
+        message: "engine.flat models no drag: `environment.angular_drag_per_s` must be 0",
+        help: "remove `angular_drag_per_s`, or toss in space with [engine.volumetric]",
+    },
+    Unmodelled {
+        table: "environment",
+        key: "gyroscopic_torque",
+        message: "engine.flat has no gyroscopic torque to switch off: \
+                  `environment.gyroscopic_torque` must be true",
+        help: "remove `gyroscopic_torque` (spin stays in the plane, where that torque is 0), or toss \
+               in space with [engine.volumetric]",
+    },
+];
+
+impl EngineSettings for Settings {
+    fn descriptor(&self) -> &'static EngineDescriptor {
+        &ENGINE
+    }
+
+    fn law(&self) -> &'static str {
+        self.law.name()
+    }
+
+    fn explain(&self, _: &Scene) -> String {
+        let decided = match self.decision {
+            Decision::Energy => "until energy alone makes the face certain",
+            Decision::EnergyFraction(_) => {
+                "until the energy has fallen to the chosen fraction, and on to the certain face to \
+                 count disagreements"
+            }
+        };
+        format!(
+            "flight in closed form, impacts by the law {}, sustained contact, {decided}",
+            self.law.name()
+        )
+    }
+
+    fn flight_limit_s(&self, _: &Scene) -> Option<f64> {
+        Some(f64::INFINITY)
+    }
+
+    fn build(&self, scene: &Scene) -> Result<Answer, EngineError> {
+        let engine = self.engine(scene).map_err(EngineError::new)?;
+        Ok(Answer::Tosses(engine))
+    }
+}
+
+impl Settings {
+    /// An engine for this scene, of whichever law: compiled with this crate, for all laws.
+    ///
+    /// # Errors
+    /// [`SettingsError`] if a setting is out of range, or the law does not go with the scene.
+    ///
+    /// # Example
+    /// ```
+    /// use coinmc_core::{Coin, Engine, Scene, Surface};
+    /// use coinmc_flat::{Lanes, Settings};
+    /// let scene = Scene::new(Coin::cylinder(1.0, 0.01)?, Surface::new(0.5, 0.0)?, 9.81)?;
+    /// let engine = Settings::default().engine(&scene)?.with_lanes(Lanes::Scalar)?;
+    /// assert_eq!(engine.lanes(), Lanes::Scalar);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn engine(&self, scene: &Scene) -> Result<DynEngine, SettingsError> {
+        self.law.engine(scene, self)
+    }
+
+    /// The settings that the values of the engine's table give.
+    fn read(values: &Values) -> Result<Self, EngineError> {
+        let settings = Self::from_values(values)?;
+        settings.validate().map_err(EngineError::new)?;
+        Ok(settings)
+    }
+}

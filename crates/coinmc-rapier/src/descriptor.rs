@@ -1,0 +1,89 @@
+//! What the rest of the program knows of this engine.
+
+use crate::engine::RapierEngine;
+use crate::settings::{Decision, Flight, Settings};
+use coinmc_core::schema::Values;
+use coinmc_core::{
+    Answer, DynEngine, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings,
+    Landing, Remark, Scene,
+};
+
+/// The engine, as configs and results know it.
+pub const ENGINE: EngineDescriptor = EngineDescriptor {
+    name: "rapier",
+    doc: "The toss in space in time steps, on the physics engine Rapier.",
+    kind: EngineKind::Spatial,
+    stepped: true,
+    laws: &[],
+    unmodelled: &[],
+    remarks: &[
+        Remark {
+            applies: |scene| bounces(scene) && scene.surface.restitution() == 1.0,
+            text: "restitution = 1 loses no energy in a frictionless impact: tosses may stay undecided \
+                   up to engine.rapier.max_steps",
+        },
+        Remark {
+            applies: bounces,
+            text: "engine.rapier: the intervals hold the chance of the tosses, not the error of the \
+                   time steps and of Rapier's impacts; docs/methods/rapier.md has measured it",
+        },
+    ],
+    schema: Settings::schema,
+    read: |values| Settings::read(values).map(EngineChoice::new),
+};
+
+fn bounces(scene: &Scene) -> bool {
+    scene.surface.landing() == Landing::Bouncing
+}
+
+impl EngineSettings for Settings {
+    fn descriptor(&self) -> &'static EngineDescriptor {
+        &ENGINE
+    }
+
+    /// Rapier has one law of impact; how it solves friction is what can be chosen.
+    fn law(&self) -> &'static str {
+        self.friction_model.name()
+    }
+
+    fn explain(&self, scene: &Scene) -> String {
+        let flight = match self.flight {
+            Flight::Contact => {
+                "flight in closed form to every contact that ends more than a step of it, "
+            }
+            Flight::Steps => "flight in closed form by whole steps, ",
+            Flight::Off => "",
+        };
+        let decided = match self.decision {
+            Decision::Tilting => {
+                "until the energy that can still tilt the coin is too small to carry it over its rim"
+            }
+            Decision::Energy => "until energy alone makes the face certain",
+            Decision::Rest => "until the coin has come to rest",
+        };
+        let threshold = if scene.surface.restitution_threshold_m_s() > 0.0 {
+            " (restitution 0 below its threshold)"
+        } else {
+            ""
+        };
+        format!(
+            "{flight}steps of Rapier, {} substeps each, friction {}{threshold}, {decided}",
+            self.substeps,
+            self.friction_model.name()
+        )
+    }
+
+    fn build(&self, scene: &Scene) -> Result<Answer, EngineError> {
+        let engine = RapierEngine::new(scene, self).map_err(EngineError::new)?;
+        Ok(Answer::Tosses(DynEngine::new(engine)))
+    }
+}
+
+impl Settings {
+    /// The settings that the values of the engine's table give.
+    fn read(values: &Values) -> Result<Self, EngineError> {
+        let settings = Self::from_values(values)?;
+        settings.validate().map_err(EngineError::new)?;
+        Ok(settings)
+    }
+}

@@ -1,0 +1,111 @@
+//! What the rest of the program knows of this engine.
+
+use crate::laws::LAWS;
+use crate::settings::{Decision, Settings, SettingsError};
+use coinmc_core::schema::Values;
+use coinmc_core::{
+    Answer, DynEngine, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings,
+    Landing, Remark, Scene,
+};
+
+/// The engine, as configs and results know it.
+pub const ENGINE: EngineDescriptor = EngineDescriptor {
+    name: "volumetric",
+    doc: "The toss in space, impact by impact.",
+    kind: EngineKind::Spatial,
+    stepped: false,
+    laws: &LAWS,
+    unmodelled: &[],
+    remarks: &[
+        Remark {
+            applies: |scene| {
+                let surface = &scene.surface;
+                surface.landing() == Landing::Bouncing && surface.restitution() == 1.0
+            },
+            text: "restitution = 1 loses no energy in a frictionless impact: tosses may stay undecided \
+                   up to engine.volumetric.max_impacts",
+        },
+        Remark {
+            applies: rolls_for_ever,
+            text: "surface.rolling_friction_m = 0: nothing stops a coin that rolls on its rim; tosses \
+                   that roll from face to side and back stay undecided, never_settles or up to \
+                   engine.volumetric.max_steps",
+        },
+    ],
+    schema: Settings::schema,
+    read: |values| Settings::read(values).map(EngineChoice::new),
+};
+
+/// Whether a coin can roll without any loss.
+fn rolls_for_ever(scene: &Scene) -> bool {
+    let surface = &scene.surface;
+    surface.landing() == Landing::Bouncing
+        && surface.friction() > 0.0
+        && surface.rolling_friction_m() == 0.0
+        && scene.drag().is_none()
+}
+
+impl EngineSettings for Settings {
+    fn descriptor(&self) -> &'static EngineDescriptor {
+        &ENGINE
+    }
+
+    fn law(&self) -> &'static str {
+        self.law.name()
+    }
+
+    fn explain(&self, scene: &Scene) -> String {
+        let decided = match self.decision {
+            Decision::Tilting => {
+                "until the energy that can still tilt the coin is too small to carry it over its rim"
+            }
+            Decision::Energy => "until energy alone makes the face certain",
+        };
+        let threshold = if scene.surface.restitution_threshold_m_s() > 0.0 {
+            " (restitution 0 below its threshold)"
+        } else {
+            ""
+        };
+        format!(
+            "flight in closed form, impacts by the law {}{threshold}, sustained contact on the rim \
+             and on the side, {decided}",
+            self.law.name()
+        )
+    }
+
+    fn flight_limit_s(&self, scene: &Scene) -> Option<f64> {
+        Some(self.time_limit * scene.time_scale_s())
+    }
+
+    fn build(&self, scene: &Scene) -> Result<Answer, EngineError> {
+        let engine = self.engine(scene).map_err(EngineError::new)?;
+        Ok(Answer::Tosses(engine))
+    }
+}
+
+impl Settings {
+    /// An engine for this scene, of whichever law: compiled with this crate, for all laws.
+    ///
+    /// # Errors
+    /// [`SettingsError`] if a setting is out of range.
+    ///
+    /// # Example
+    /// ```
+    /// use coinmc_core::{Coin, Engine, Scene, Surface};
+    /// use coinmc_volumetric::{Lanes, Settings};
+    /// let scene = Scene::new(Coin::cylinder(0.85, 0.01)?, Surface::new(0.5, 0.3)?, 9.81)?;
+    /// let engine = Settings::default().engine(&scene)?.with_lanes(Lanes::Scalar)?;
+    /// assert_eq!(engine.lanes(), Lanes::Scalar);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn engine(&self, scene: &Scene) -> Result<DynEngine, SettingsError> {
+        self.law.engine(scene, self)
+    }
+
+    /// The settings that the values of the engine's table give.
+    fn read(values: &Values) -> Result<Self, EngineError> {
+        let settings = Self::from_values(values)?;
+        settings.validate().map_err(EngineError::new)?;
+        Ok(settings)
+    }
+}

@@ -1,0 +1,65 @@
+//! The laws of impact that a user may choose, each in a file of its own under `impact`.
+//!
+//! A new law is a file there and, here, a variant and a line in each list. The compiler asks for all
+//! but the line in [`LAWS`], without which no config can name the law.
+
+use crate::engine::VolumetricEngine;
+use crate::impact::{ChatterjeeRuina, Moreau, Stronge};
+use crate::settings::{Settings, SettingsError};
+use coinmc_core::schema::{Values, unlisted};
+use coinmc_core::{DynEngine, EngineError, LawDescriptor, LawSettings, Scene};
+
+/// The laws, in the order of the reference.
+pub(crate) const LAWS: [LawDescriptor; 3] = [
+    LawDescriptor::of::<Moreau>(),
+    LawDescriptor::of::<ChatterjeeRuina>(),
+    LawDescriptor::of::<Stronge>(),
+];
+
+/// The law of impact at the rim.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Law {
+    /// Newton restitution, Coulomb friction against the final slip (Moreau 1988), guarded by
+    /// Chatterjee–Ruina where that would gain energy.
+    #[default]
+    Moreau,
+    /// Chatterjee & Ruina (1998), tangential restitution 0.
+    ChatterjeeRuina,
+    /// Stronge's energetic restitution, the Darboux–Keller equations through slip reversals.
+    Stronge,
+}
+
+impl Law {
+    /// All laws.
+    pub const ALL: [Self; 3] = [Self::Moreau, Self::ChatterjeeRuina, Self::Stronge];
+
+    /// The name used in configs and results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Moreau => Moreau::NAME,
+            Self::ChatterjeeRuina => ChatterjeeRuina::NAME,
+            Self::Stronge => Stronge::NAME,
+        }
+    }
+
+    /// The law that the values of the engine's table name.
+    pub(crate) fn read(values: &Values) -> Result<Self, EngineError> {
+        let (name, _) = values.named("law")?;
+        let law = Self::ALL.into_iter().find(|law| law.name() == name);
+        law.ok_or_else(|| unlisted("law", name))
+    }
+
+    pub(crate) fn engine(
+        self,
+        scene: &Scene,
+        settings: &Settings,
+    ) -> Result<DynEngine, SettingsError> {
+        Ok(match self {
+            Self::Moreau => DynEngine::new(VolumetricEngine::new(scene, settings, Moreau)?),
+            Self::ChatterjeeRuina => {
+                DynEngine::new(VolumetricEngine::new(scene, settings, ChatterjeeRuina)?)
+            }
+            Self::Stronge => DynEngine::new(VolumetricEngine::new(scene, settings, Stronge)?),
+        })
+    }
+}

@@ -1,0 +1,65 @@
+//! Closed forms as an engine, one that makes no tosses.
+
+use coinmc_analytic::Rule;
+use coinmc_core::schema::{Absent, Kind, TableKind, Word, field, fields};
+use coinmc_core::{
+    Answer, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings, Scene,
+};
+
+/// The engine, as configs and results know it.
+pub(super) const ENGINE: EngineDescriptor = EngineDescriptor {
+    name: "analytic",
+    doc: "A closed form in the ratio alone: no toss is made.",
+    kind: EngineKind::ClosedForm,
+    stepped: false,
+    laws: &[],
+    unmodelled: &[],
+    remarks: &[],
+    schema,
+    read: |values| {
+        let rule = values.one_of("rule", Rule::ALL, Rule::name)?;
+        Ok(EngineChoice::new(ClosedForm(rule)))
+    },
+};
+
+fn schema() -> TableKind {
+    let rules = Rule::ALL.map(|rule| Word {
+        name: rule.name(),
+        doc: rule.assumption(),
+    });
+    let rules = Kind::Word(rules.to_vec());
+    fields(vec![field(
+        "rule",
+        "The closed form.",
+        rules,
+        Absent::Required,
+    )])
+}
+
+/// The settings of this engine: the probability is exact under the rule's assumptions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ClosedForm(pub Rule);
+
+impl EngineSettings for ClosedForm {
+    fn descriptor(&self) -> &'static EngineDescriptor {
+        &ENGINE
+    }
+
+    fn law(&self) -> &'static str {
+        self.0.name()
+    }
+
+    fn explain(&self, _: &Scene) -> String {
+        let Self(rule) = self;
+        format!(
+            "closed form {rule}: P(side) = {}, x = H/R ({})",
+            rule.formula(),
+            rule.assumption()
+        )
+    }
+
+    fn build(&self, scene: &Scene) -> Result<Answer, EngineError> {
+        let p = self.0.probabilities(scene.coin.ratio());
+        Ok(Answer::Exact([p.heads, p.tails, p.side]))
+    }
+}
