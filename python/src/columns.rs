@@ -3,8 +3,8 @@
 use crate::launch::{ROW, write_state};
 use crate::share::Stretch;
 use coinmc::run::Seen;
-use coinmc::trace::EndKind;
 use coinmc_core::{Face, Outcome};
+use coinmc_trace::EndKind;
 
 /// Code of a toss without a face, behind those of [`Face::ALL`].
 const UNDECIDED: u8 = 3;

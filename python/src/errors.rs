@@ -2,8 +2,8 @@
 
 use coinmc::config::Diagnostics;
 use coinmc::run::RunError;
-use coinmc::trace::TraceError;
 use coinmc_film::text::Diagnostics as FilmDiagnostics;
+use coinmc_trace::TraceError;
 use pyo3::PyErr;
 use pyo3::exceptions::PyValueError;
 

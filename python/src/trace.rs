@@ -4,11 +4,11 @@ use crate::errors;
 use crate::launch::{ROW, check, launch, write_state};
 use crate::plan::Plan;
 use crate::supervise::wait_for;
-use coinmc::trace::{
+use coinmc_core::EventKind;
+use coinmc_trace::{
     MAX_RECORDS, Record, RecordKind, Trace, default_rate_hz, launch as begin, outcome_name, record,
     replay,
 };
-use coinmc_core::EventKind;
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

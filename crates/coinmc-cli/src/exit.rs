@@ -4,10 +4,10 @@ use crate::output::{self, Console, Format};
 use crate::terminal::Colors;
 use coinmc::config::Diagnostics;
 use coinmc::run::RunError;
-use coinmc::trace::TraceError;
 #[cfg(feature = "film")]
 use coinmc_film::text as film;
 use coinmc_recording::Error as RecordingError;
+use coinmc_trace::TraceError;
 use serde_json::{Value, json};
 use std::process::ExitCode;
 

@@ -3,8 +3,7 @@
 //! # Config → plan → run → results
 //! ```text
 //! TOML ──config──▶ Plan ──run──▶ Report { Results } ──results──▶ CSV, Parquet, JSON
-//!                   │ └───count──▶  the same, without files
-//!                   └─────trace──▶  one toss again, event by event
+//!                   └─────count──▶  the same, without files
 //! ```
 //!
 //! | to … | see |
@@ -15,7 +14,7 @@
 //! | count in memory, or visit each toss | [`run::count`], [`run::for_each_outcome`] |
 //! | write or read the table of results | [`results`] |
 //! | find out how thick a fair coin is | [`results::fair_values`] |
-//! | watch a toss | [`trace`] |
+//! | watch a toss | the crate `coinmc-trace` |
 //! | compare with published counts | [`published`] |
 //!
 //! To toss coins without configs, take an engine: [`coinmc_flat`] in a plane, [`coinmc_volumetric`] in
@@ -30,4 +29,3 @@ pub mod plan;
 pub mod published;
 pub mod results;
 pub mod run;
-pub mod trace;

@@ -12,21 +12,31 @@ use std::io::{self, Write};
 /// Those of `out`.
 pub fn write_csv(results: &Results, out: &mut dyn Write) -> io::Result<()> {
     let columns = columns_of(results);
-    let mut line = String::new();
-    for column in &columns {
-        push(&mut line, Cell::Text(&column.name));
-    }
-    end(&mut line, out)?;
+    write_csv_row(columns.iter().map(|column| Cell::Text(&column.name)), out)?;
     for row in &results.rows {
-        for column in &columns {
-            push(&mut line, column.cell(row));
-        }
-        end(&mut line, out)?;
+        write_csv_row(columns.iter().map(|column| column.cell(row)), out)?;
     }
     Ok(())
 }
 
-pub(crate) fn push(line: &mut String, cell: Cell<'_>) {
+/// Writes a row of cells in the dialect of [`write_csv`].
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_csv_row<'a>(
+    cells: impl IntoIterator<Item = Cell<'a>>,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let mut line = String::new();
+    for cell in cells {
+        push(&mut line, cell);
+    }
+    line.pop();
+    line.push('\n');
+    out.write_all(line.as_bytes())
+}
+
+fn push(line: &mut String, cell: Cell<'_>) {
     match cell {
         Cell::Count(count) => line.push_str(&count.to_string()),
         // Debug switches to exponents where Display would write hundreds of zeros
@@ -43,21 +53,12 @@ pub(crate) fn push(line: &mut String, cell: Cell<'_>) {
     line.push(',');
 }
 
-pub(crate) fn end(line: &mut String, out: &mut dyn Write) -> io::Result<()> {
-    line.pop();
-    line.push('\n');
-    out.write_all(line.as_bytes())?;
-    line.clear();
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn cells_are_quoted_where_they_must_be() {
-        let mut line = String::new();
         let cells = [
             Cell::Text("plain"),
             Cell::Text("a \"b\", c"),
@@ -68,11 +69,8 @@ mod tests {
             Cell::Missing,
             Cell::Count(0),
         ];
-        for cell in cells {
-            push(&mut line, cell);
-        }
         let mut out = Vec::new();
-        end(&mut line, &mut out).unwrap();
+        write_csv_row(cells, &mut out).unwrap();
         let text = String::from_utf8(out).unwrap();
         assert_eq!(
             text,

@@ -1,18 +1,17 @@
 //! The results of a run: one row per point, the same table as CSV, Parquet and JSON.
 
-pub(crate) mod csv;
+mod csv;
 mod estimates;
 mod fair;
 mod json;
-pub(crate) mod parquet;
+mod parquet;
 mod schema;
 
-pub use csv::write_csv;
+pub use csv::{write_csv, write_csv_row};
 pub(crate) use estimates::{estimates, look_confidence};
 pub use fair::{FairRatio, fair_ratios, fair_values};
-pub use parquet::{record_batch, write_parquet};
-pub(crate) use schema::Cell;
-pub use schema::{Column, FORMAT, Kind, columns};
+pub use parquet::{arrow_array, arrow_field, parquet_error, record_batch, write_parquet};
+pub use schema::{Cell, Column, FORMAT, Kind, columns};
 
 use crate::plan::Plan;
 use crate::published::Published;

@@ -29,15 +29,15 @@ pub fn write_parquet(results: &Results, out: &mut (dyn Write + Send)) -> io::Res
         .set_key_value_metadata(Some(metadata(results)))
         .build();
     let mut writer =
-        ArrowWriter::try_new(out, Arc::clone(&schema), Some(properties)).map_err(into_io)?;
+        ArrowWriter::try_new(out, Arc::clone(&schema), Some(properties)).map_err(parquet_error)?;
     for rows in results.rows.chunks(GROUP) {
         let batch = batch(&schema, &columns, rows).map_err(io::Error::other)?;
         writer
             .write(&batch)
             .and_then(|()| writer.flush())
-            .map_err(into_io)?;
+            .map_err(parquet_error)?;
     }
-    writer.close().map(drop).map_err(into_io)
+    writer.close().map(drop).map_err(parquet_error)
 }
 
 /// The table as an Arrow record batch: the columns of the Parquet file, with the file's metadata in the
@@ -64,11 +64,11 @@ fn batch(
 }
 
 fn field(column: &Column) -> Field {
-    described(&column.name, column.kind, column.unit, column.doc)
+    arrow_field(&column.name, column.kind, column.unit, column.doc)
 }
 
-/// A field with its unit and meaning.
-pub(crate) fn described(name: &str, kind: Kind, unit: &str, doc: &str) -> Field {
+/// A field of a schema, with its unit and meaning as metadata.
+pub fn arrow_field(name: &str, kind: Kind, unit: &str, doc: &str) -> Field {
     let data_type = match kind {
         Kind::Count => DataType::UInt64,
         Kind::Number => DataType::Float64,
@@ -95,11 +95,11 @@ fn metadata(results: &Results) -> Vec<KeyValue> {
 }
 
 fn array(column: &Column, rows: &[Row]) -> ArrayRef {
-    array_of(column.kind, rows.iter().map(|row| column.cell(row)))
+    arrow_array(column.kind, rows.iter().map(|row| column.cell(row)))
 }
 
-/// The cells of a column; what is not of its kind is missing.
-pub(crate) fn array_of<'a>(kind: Kind, cells: impl Iterator<Item = Cell<'a>>) -> ArrayRef {
+/// The cells of a column; a cell of another kind is missing.
+pub fn arrow_array<'a>(kind: Kind, cells: impl Iterator<Item = Cell<'a>>) -> ArrayRef {
     match kind {
         Kind::Count => {
             let count = |cell| {
@@ -144,8 +144,9 @@ pub(crate) fn array_of<'a>(kind: Kind, cells: impl Iterator<Item = Cell<'a>>) ->
     }
 }
 
-/// Passes the system's error through, so that callers recognise a full disk.
-pub(crate) fn into_io(error: ParquetError) -> io::Error {
+/// Converts an error of the Parquet writer; a system error keeps its kind, so that callers recognise a
+/// full disk.
+pub fn parquet_error(error: ParquetError) -> io::Error {
     match error {
         ParquetError::External(inner) => match inner.downcast::<io::Error>() {
             Ok(error) => *error,

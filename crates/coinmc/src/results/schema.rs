@@ -31,12 +31,16 @@ impl Kind {
     }
 }
 
-/// A cell of the table.
+/// A cell of a table.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Cell<'a> {
+pub enum Cell<'a> {
+    /// A count.
     Count(u64),
+    /// A finite number.
     Number(f64),
+    /// Text.
     Text(&'a str),
+    /// True or false.
     Flag(bool),
     /// Undefined: no tosses, or none with that face.
     Missing,
@@ -44,7 +48,7 @@ pub(crate) enum Cell<'a> {
 
 impl Cell<'_> {
     /// A number; missing if it is not finite.
-    pub(crate) fn finite(value: f64) -> Self {
+    pub fn finite(value: f64) -> Self {
         if value.is_finite() {
             Self::Number(value)
         } else {

@@ -3,8 +3,8 @@
 use crate::exit::Failure;
 use anyhow::anyhow;
 use coinmc::plan::Plan;
-use coinmc::trace::{Trace, svg, write_csv, write_jsonl, write_mcap, write_parquet};
 use coinmc_recording::{Compression, Error, NewFile};
+use coinmc_trace::{Trace, svg, write_csv, write_jsonl, write_mcap, write_parquet};
 use std::io;
 use std::path::{Path, PathBuf};
 

@@ -8,7 +8,7 @@ use crate::terminal::events::events;
 use crate::terminal::table::{Column, Table};
 use crate::terminal::{Style, compact, grouped};
 use coinmc::plan::Plan;
-use coinmc::trace::{Trace as Recorded, outcome_name};
+use coinmc_trace::{Trace as Recorded, outcome_name};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 

@@ -4,7 +4,7 @@ use super::Trace;
 use crate::exit::Failure;
 use crate::terminal::progress::Progress;
 use coinmc::plan::Plan;
-use coinmc::trace::{MAX_RATE_HZ, Query, TraceError, launch, search};
+use coinmc_trace::{MAX_RATE_HZ, Query, TraceError, launch, search};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 

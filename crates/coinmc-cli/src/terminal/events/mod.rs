@@ -5,7 +5,7 @@ mod verdict;
 
 use super::table::{Column, Table};
 use super::{Colors, Style, compact, count, in_ascii, wrapped};
-use coinmc::trace::Trace;
+use coinmc_trace::Trace;
 use rows::{Line, Row, lines};
 
 /// What happened in a toss, event by event, and why it ended. Long runs of small bounces are told

@@ -1,7 +1,7 @@
 //! A trace's events as rows, an impact being one, and which of them are told one by one.
 
-use coinmc::trace::{Mode, Record, RecordKind, Trace};
 use coinmc_core::{Coin, EventKind, State};
+use coinmc_trace::{Mode, Record, RecordKind, Trace};
 
 /// Events that follow each other within this part of sqrt(D/g), in which a coin topples, are small
 /// ones: in that time it turns and moves by nothing that matters.

@@ -1,7 +1,7 @@
 use super::rows::{Line, Row, lines};
 use super::{Style, events};
-use coinmc::trace::{Trace, replay};
 use coinmc_core::{Ended, Face};
+use coinmc_trace::{Trace, replay};
 
 fn trace(config: &str, toss: u64) -> Trace {
     let plan = coinmc::config::parse("inline", config, &[]).expect("a good config");

@@ -2,8 +2,8 @@
 
 use super::rows::of_balance;
 use crate::terminal::{compact, count};
-use coinmc::trace::{Record, RecordKind, Trace};
 use coinmc_core::{Ended, EventKind, Face, Landing};
+use coinmc_trace::{Record, RecordKind, Trace};
 
 /// A coin with its axis within this angle of level, rad, lies along its side.
 const LEVEL: f64 = 1e-6;

@@ -14,7 +14,7 @@
 //! velocities at both records turns the coin, an error of third order in the time between them.
 //! Either way u is then put where the engine has it, by the smallest rotation.
 
-use super::record::Mode;
+use crate::record::Mode;
 use coinmc_core::{Scene, State};
 use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
 

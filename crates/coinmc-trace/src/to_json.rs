@@ -1,19 +1,13 @@
 //! A toss as JSON: what belongs to all of it.
 
-use super::{EndKind, Trace, table};
-use crate::plan::Plan;
-use crate::results::Cell;
+use crate::end::EndKind;
+use crate::table;
+use crate::trace::Trace;
+use coinmc::plan::Plan;
+use coinmc::results::Cell;
 use coinmc_core::{Launch, Outcome};
 use nalgebra::Vector3;
 use serde_json::{Map, Value, json};
-
-/// The face that shows, or why there is none: the name used in files.
-pub fn outcome_name(outcome: &Outcome) -> &'static str {
-    match outcome.face() {
-        Some(face) => face.name(),
-        None => EndKind::of(outcome.ended).name(),
-    }
-}
 
 impl Trace {
     /// The toss without its records: its key, how it began and how it ended.

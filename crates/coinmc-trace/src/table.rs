@@ -1,9 +1,10 @@
 //! The one definition of the table of records: CSV, Parquet, JSON lines and docs/guide/traces.md follow
 //! it.
 
-use super::tell::outcome_name;
-use super::{Record, Trace};
-use crate::results::{Cell, Kind};
+use crate::end::outcome_name;
+use crate::record::Record;
+use crate::trace::Trace;
+use coinmc::results::{Cell, Kind};
 use coinmc_core::{Coin, State};
 
 /// Version of the files of traces.

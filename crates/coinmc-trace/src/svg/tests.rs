@@ -1,5 +1,6 @@
 use super::{picture, units, write};
-use crate::trace::{Trace, replay};
+use crate::replay::replay;
+use crate::trace::Trace;
 use coinmc_core::Ended;
 
 fn trace(launch: &str, engine: &str, toss: u64, rate_hz: f64) -> Trace {
@@ -13,7 +14,7 @@ fn trace(launch: &str, engine: &str, toss: u64, rate_hz: f64) -> Trace {
          surface = {{ restitution = 0.3, friction = 0.3{lengths} }}\n\
          {launch}\nengine.{engine} = {{}}\nstop.tosses = 100"
     );
-    let plan = crate::config::parse("inline", &config, &[])
+    let plan = coinmc::config::parse("inline", &config, &[])
         .unwrap_or_else(|problems| panic!("{}", problems.render(false)));
     replay(&plan, 0, toss, rate_hz).expect("a toss of the plan")
 }

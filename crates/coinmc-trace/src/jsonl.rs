@@ -1,7 +1,9 @@
 //! Traces as JSON lines.
 
-use super::{FORMAT, Trace, table, tell};
-use crate::plan::Plan;
+use crate::table::FORMAT;
+use crate::trace::Trace;
+use crate::{table, to_json};
+use coinmc::plan::Plan;
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
 
@@ -20,7 +22,7 @@ pub fn write_jsonl(plan: &Plan, traces: &[Trace], out: &mut dyn Write) -> io::Re
     for trace in traces {
         line("toss", trace.to_json(plan), out)?;
         for row in table::rows(std::slice::from_ref(trace)) {
-            line("record", Value::Object(tell::record(&row)), out)?;
+            line("record", Value::Object(to_json::record(&row)), out)?;
         }
     }
     Ok(())

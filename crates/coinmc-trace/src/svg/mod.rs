@@ -14,7 +14,7 @@ mod units;
 mod view;
 mod window;
 
-use super::Trace;
+use crate::trace::Trace;
 use canvas::Canvas;
 use panel::{Area, Panel};
 use std::io::{self, Write};

@@ -5,7 +5,8 @@ use super::strobe::Strobe;
 use super::view::Shot;
 use super::window::Window;
 use super::{coin, impacts, units};
-use crate::trace::{Mode, Trace};
+use crate::record::Mode;
+use crate::trace::Trace;
 
 /// Room below the ground for impacts and the scale bar, px.
 const BELOW: f64 = 40.0;

@@ -3,7 +3,8 @@
 use super::canvas::{Anchor, Canvas, FAINT, HEADS, LINE, SLIDING, STICKING, TAILS, TEXT};
 use super::units::{digits, length, time};
 use super::view::Shot;
-use crate::trace::{Mode, Trace};
+use crate::record::Mode;
+use crate::trace::Trace;
 use coinmc_core::{Ended, Face, Landing};
 
 /// Outcome, and what was tossed.

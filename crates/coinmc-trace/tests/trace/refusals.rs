@@ -1,7 +1,7 @@
 //! What cannot be traced is refused in words that help.
 
 use crate::plans::flat;
-use coinmc::trace::{Query, TraceError, replay, search};
+use coinmc_trace::{Query, TraceError, replay, search};
 
 #[test]
 fn points_and_tosses_that_are_not_there() {

@@ -1,9 +1,10 @@
 //! Tosses seen again.
 
-use super::recorder::{MAX_RECORDS, Recorder};
-use super::{Trace, TraceError};
-use crate::plan::{MAX_TOSSES, Plan, Point, Stop};
-use crate::run::stream;
+use crate::error::TraceError;
+use crate::recorder::{MAX_RECORDS, Recorder};
+use crate::trace::Trace;
+use coinmc::plan::{MAX_TOSSES, Plan, Point, Stop};
+use coinmc::run::stream;
 use coinmc_core::{DynEngine, Engine, Launch, Outcome, Scene};
 
 /// Largest rate of samples, 1/s.
@@ -23,9 +24,9 @@ pub const MAX_RATE_HZ: f64 = 1e9;
 ///      launch.preset = 'robot'\nengine.flat = {}\nstop.tosses = 100",
 ///     &[],
 /// ).unwrap();
-/// let trace = coinmc::trace::replay(&plan, 0, 42, 100.0)?;
-/// assert_eq!(trace.outcome, coinmc::trace::outcome(&plan, 0, 42)?);
-/// # Ok::<(), coinmc::trace::TraceError>(())
+/// let trace = coinmc_trace::replay(&plan, 0, 42, 100.0)?;
+/// assert_eq!(trace.outcome, coinmc_trace::outcome(&plan, 0, 42)?);
+/// # Ok::<(), coinmc_trace::TraceError>(())
 /// ```
 pub fn replay(plan: &Plan, point: usize, toss: u64, rate_hz: f64) -> Result<Trace, TraceError> {
     replay_within(plan, point, toss, rate_hz, MAX_RECORDS)

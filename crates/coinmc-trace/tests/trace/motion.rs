@@ -1,8 +1,8 @@
 //! What a trace shows moves as a coin does.
 
 use crate::plans::{all, event_driven, flat};
-use coinmc::trace::{Mode, Record, RecordKind, Trace, default_rate_hz, replay};
 use coinmc_core::EventKind;
+use coinmc_trace::{Mode, Record, RecordKind, Trace, default_rate_hz, replay};
 use nalgebra::Vector3;
 
 fn traces(tosses: u64, rate_hz: f64) -> impl Iterator<Item = Trace> {
@@ -170,7 +170,7 @@ fn the_default_rate_follows_the_coin_and_its_spin() {
     let plan = flat("moreau", 1);
     let (scene, mut launch) = (
         plan.points[0].scene,
-        coinmc::trace::launch(&plan, 0, 0).unwrap(),
+        coinmc_trace::launch(&plan, 0, 0).unwrap(),
     );
     launch.spin_rad_s = Vector3::zeros();
     // 20/sqrt(D/g) with D = 1.02 cm is 620 a second

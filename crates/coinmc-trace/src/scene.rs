@@ -1,6 +1,7 @@
 //! What viewers draw: the coin, the ground, a mark at each impact.
 
-use super::{Record, RecordKind, Trace};
+use crate::record::{Record, RecordKind};
+use crate::trace::Trace;
 use coinmc_core::{Coin, EventKind, State};
 use coinmc_recording::foxglove::{
     Color, CubePrimitive, CylinderPrimitive, Pose, SceneEntity, SceneEntityDeletion, SceneUpdate,

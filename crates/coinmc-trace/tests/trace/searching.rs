@@ -2,8 +2,8 @@
 
 use crate::plans::{flat, space};
 use coinmc::plan::Plan;
-use coinmc::trace::{Condition, EndKind, Found, Length, Query, outcome, replay, search};
 use coinmc_core::Face;
+use coinmc_trace::{Condition, EndKind, Found, Length, Query, outcome, replay, search};
 
 fn query(conditions: &[Condition], longest: Option<Length>, count: usize) -> Query<'_> {
     Query {

@@ -1,6 +1,7 @@
 //! The trace seen from the side: its records projected onto a vertical plane.
 
-use crate::trace::{Mode, Record, RecordKind, Trace};
+use crate::record::{Mode, Record, RecordKind};
+use crate::trace::Trace;
 use coinmc_core::{Coin, EventKind};
 use nalgebra::Vector3;
 

@@ -1,9 +1,9 @@
 //! A toss replayed is the toss of the run.
 
 use crate::plans::{all, flat, space};
-use coinmc::run::{Chunk, run_chunk};
-use coinmc::trace::{RecordKind, outcome, replay, replay_within};
+use coinmc::run::{Begin, Chunk, Seen, for_each_end, run_chunk};
 use coinmc_core::{EventKind, Tally};
+use coinmc_trace::{RecordKind, outcome, replay, replay_within};
 
 #[test]
 fn replayed_outcomes_are_those_of_the_run_toss_by_toss() {
@@ -35,8 +35,8 @@ fn who_watches_changes_nothing() {
             let watched = replay(&plan, 1, toss, 997.0).unwrap();
             assert_eq!(alone, events.outcome);
             assert_eq!(alone, watched.outcome);
-            let kept = |record: &&coinmc::trace::Record| record.kind != RecordKind::Sample;
-            let states = |trace: &coinmc::trace::Trace| {
+            let kept = |record: &&coinmc_trace::Record| record.kind != RecordKind::Sample;
+            let states = |trace: &coinmc_trace::Trace| {
                 let kept = trace.records.iter().filter(kept);
                 kept.map(|record| (record.kind, record.mode, record.state))
                     .collect::<Vec<_>>()
@@ -109,4 +109,19 @@ fn memory_is_bounded_and_the_trace_says_so() {
             })
             .as_ref()
     );
+}
+
+#[test]
+fn a_trace_ends_like_the_toss_in_a_run() {
+    for plan in [flat("moreau", 20), space("moreau", 20)] {
+        let stream = coinmc::run::stream(&plan, 0);
+        let mut compare = |toss: &Seen| {
+            let trace = replay(&plan, 0, toss.toss, 0.0).unwrap();
+            assert_eq!(trace.outcome, toss.outcome);
+            assert_eq!(trace.records.last().unwrap().state, toss.end);
+            true
+        };
+        let begin = Begin::Drawn(&stream);
+        assert!(for_each_end(&plan.points[0], begin, 0..20, &mut compare).unwrap());
+    }
 }

@@ -1,7 +1,7 @@
 //! An observer that writes down what it sees.
 
-use super::record::{Mode, Record, RecordKind};
-use super::turning::Turning;
+use crate::record::{Mode, Record, RecordKind};
+use crate::turning::Turning;
 use coinmc_core::{Event, EventKind, Observer, Scene, State};
 
 /// Most records of a trace, unless asked for less: some 30 MB.
@@ -15,7 +15,7 @@ pub const MAX_RECORDS: usize = 200_000;
 ///
 /// # Example
 /// ```
-/// use coinmc::trace::Recorder;
+/// use coinmc_trace::Recorder;
 /// use coinmc_core::{Coin, Domain, Engine, Preset, Scene, Stream, Surface};
 /// use coinmc_flat::{FlatEngine, Moreau, Settings};
 /// let coin = Coin::cylinder(1.5, 0.01)?;

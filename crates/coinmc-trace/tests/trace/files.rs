@@ -3,8 +3,8 @@
 use crate::plans::{flat, space};
 use coinmc::plan::Plan;
 use coinmc::results::Kind;
-use coinmc::trace::{Trace, columns, replay, write_csv, write_jsonl, write_mcap, write_parquet};
 use coinmc_recording::{Compression, Unsynced, salvage};
+use coinmc_trace::{Trace, columns, replay, write_csv, write_jsonl, write_mcap, write_parquet};
 use serde_json::Value;
 use std::io::Cursor;
 

@@ -1,11 +1,12 @@
 //! Traces as Parquet, with units and the config in its metadata.
 
-use super::table::{self, Row};
-use super::{FORMAT, Trace};
-use crate::plan::Plan;
-use crate::results::parquet::{array_of, described, into_io};
+use crate::table::FORMAT;
+use crate::table::{self, Row};
+use crate::trace::Trace;
 use arrow_array::RecordBatch;
 use arrow_schema::Schema;
+use coinmc::plan::Plan;
+use coinmc::results::{arrow_array, arrow_field, parquet_error};
 use parquet::arrow::ArrowWriter;
 use parquet::basic::Compression;
 use parquet::file::metadata::KeyValue;
@@ -25,7 +26,7 @@ pub fn write_parquet(
 ) -> io::Result<()> {
     let fields = table::columns()
         .iter()
-        .map(|c| described(c.name, c.kind, c.unit, c.doc));
+        .map(|c| arrow_field(c.name, c.kind, c.unit, c.doc));
     let schema = Arc::new(Schema::new(fields.collect::<Vec<_>>()));
     let properties = WriterProperties::builder()
         .set_created_by(format!("coinmc {}", env!("CARGO_PKG_VERSION")))
@@ -33,19 +34,19 @@ pub fn write_parquet(
         .set_key_value_metadata(Some(metadata(plan, traces)))
         .build();
     let mut writer =
-        ArrowWriter::try_new(out, Arc::clone(&schema), Some(properties)).map_err(into_io)?;
+        ArrowWriter::try_new(out, Arc::clone(&schema), Some(properties)).map_err(parquet_error)?;
     for trace in traces {
         let rows: Vec<Row<'_>> = table::rows(std::slice::from_ref(trace)).collect();
         let columns = table::columns().iter();
         let arrays =
-            columns.map(|column| array_of(column.kind, rows.iter().map(|r| column.cell(r))));
+            columns.map(|column| arrow_array(column.kind, rows.iter().map(|r| column.cell(r))));
         let batch = RecordBatch::try_new(Arc::clone(&schema), arrays.collect());
         writer
             .write(&batch.map_err(io::Error::other)?)
             .and_then(|()| writer.flush())
-            .map_err(into_io)?;
+            .map_err(parquet_error)?;
     }
-    writer.close().map(drop).map_err(into_io)
+    writer.close().map(drop).map_err(parquet_error)
 }
 
 fn metadata(plan: &Plan, traces: &[Trace]) -> Vec<KeyValue> {

@@ -3,9 +3,12 @@
 //! Several tosses follow one another in one file, each a second after the end of the one before,
 //! so that a viewer plays them in turn on the same topics.
 
-use super::scene::{self, COIN, WORLD, contact_m, vector};
-use super::{FORMAT, Mode, Record, RecordKind, Trace, table, tell};
-use crate::plan::Plan;
+use crate::record::{Mode, Record, RecordKind};
+use crate::scene::{self, COIN, WORLD, contact_m, vector};
+use crate::table::FORMAT;
+use crate::trace::Trace;
+use crate::{table, to_json};
+use coinmc::plan::Plan;
 use coinmc_core::{EventKind, Scene, State};
 use coinmc_recording::foxglove::{FrameTransform, Quaternion, SceneUpdate, Time};
 use coinmc_recording::{Channel, Compression, Error, Options, Recorder, Schema, Unsynced};
@@ -108,7 +111,7 @@ fn write_toss<W: Write>(
         if is_finite(record) {
             recorder.write(&channels.transforms, now, &transform(record, now))?;
         }
-        recorder.write(&channels.states, now, &tell::record(&row).into())?;
+        recorder.write(&channels.states, now, &to_json::record(&row).into())?;
         recorder.write(&channels.energies, now, &energy(trace, record))?;
         if mode.replace(record.mode) != Some(record.mode) {
             recorder.write(&channels.modes, now, &mode_message(trace, record))?;
@@ -187,10 +190,10 @@ fn event(trace: &Trace, record: &Record, kind: EventKind, impacts: u64) -> Value
         "time_s": state.time_s,
         "kind": RecordKind::Event(kind).name(),
         "impact": impacts,
-        "position_m": tell::vector(&state.position_m),
-        "contact_m": tell::vector(&contact_m(&trace.scene.coin, state)),
-        "velocity_m_s": tell::vector(&state.velocity_m_s),
-        "spin_rad_s": tell::vector(&state.spin_rad_s),
+        "position_m": to_json::vector(&state.position_m),
+        "contact_m": to_json::vector(&contact_m(&trace.scene.coin, state)),
+        "velocity_m_s": to_json::vector(&state.velocity_m_s),
+        "spin_rad_s": to_json::vector(&state.spin_rad_s),
         "energy_j_kg": record.energy_j_kg,
     })
 }

@@ -1,127 +1,13 @@
 //! Tosses found by how they went.
 
-use super::TraceError;
-use super::replay::{engine_of, point_of, tosses_at_most};
-use crate::plan::Plan;
-use crate::run::stream;
+use crate::condition::Condition;
+use crate::error::TraceError;
+use crate::replay::{engine_of, point_of, tosses_at_most};
+use coinmc::plan::Plan;
+use coinmc::run::stream;
 use coinmc_core::{
-    DynEngine, Ended, Engine, Event, EventKind, Face, LaunchDistribution, Observer, Outcome, Scene,
-    Stream,
+    DynEngine, Engine, Event, EventKind, LaunchDistribution, Observer, Outcome, Scene, Stream,
 };
-use std::fmt;
-use std::str::FromStr;
-use thiserror::Error;
-
-/// What a toss must have been like.
-///
-/// # Example
-/// ```
-/// use coinmc::trace::Condition;
-/// use coinmc_core::Face;
-/// assert_eq!("face=side".parse(), Ok(Condition::Face(Face::Side)));
-/// assert!("face=edge".parse::<Condition>().is_err());
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Condition {
-    /// This face shows.
-    Face(Face),
-    /// It ended so; any face will do for [`EndKind::Decided`].
-    Ended(EndKind),
-}
-
-/// How a toss ended, whatever shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum EndKind {
-    /// With a face.
-    Decided,
-    /// Undecided at the limit of simulated time.
-    TimeLimit,
-    /// Proven never to settle.
-    NeverSettles,
-    /// Undecided at the limit of impacts or of steps in contact.
-    ImpactLimit,
-    /// The numbers went wrong.
-    Failed,
-}
-
-impl EndKind {
-    /// All of them.
-    pub const ALL: [Self; 5] = [
-        Self::Decided,
-        Self::TimeLimit,
-        Self::NeverSettles,
-        Self::ImpactLimit,
-        Self::Failed,
-    ];
-
-    /// That of an end.
-    pub fn of(ended: Ended) -> Self {
-        match ended {
-            Ended::Decided(_) => Self::Decided,
-            Ended::TimeLimit => Self::TimeLimit,
-            Ended::NeverSettles => Self::NeverSettles,
-            Ended::ImpactLimit => Self::ImpactLimit,
-            Ended::Failed => Self::Failed,
-        }
-    }
-
-    /// The name used in files and on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Decided => "decided",
-            Self::TimeLimit => "time_limit",
-            Self::NeverSettles => "never_settles",
-            Self::ImpactLimit => "impact_limit",
-            Self::Failed => "failed",
-        }
-    }
-}
-
-/// What is no condition.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error(
-    "a condition is `face=heads`, `face=tails`, `face=side`, `ended=decided`, \
-     `ended=time_limit`, `ended=never_settles`, `ended=impact_limit` or `ended=failed`"
-)]
-pub struct ConditionError;
-
-impl FromStr for Condition {
-    type Err = ConditionError;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let found = match text.split_once('=') {
-            Some(("face", name)) => {
-                let face = Face::ALL.into_iter().find(|face| face.name() == name);
-                face.map(Self::Face)
-            }
-            Some(("ended", name)) => {
-                let end = EndKind::ALL.into_iter().find(|end| end.name() == name);
-                end.map(Self::Ended)
-            }
-            _ => None,
-        };
-        found.ok_or(ConditionError)
-    }
-}
-
-impl fmt::Display for Condition {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Face(face) => write!(f, "face={}", face.name()),
-            Self::Ended(end) => write!(f, "ended={}", end.name()),
-        }
-    }
-}
-
-impl Condition {
-    /// Whether a toss that ended so meets it.
-    pub fn holds(&self, outcome: &Outcome) -> bool {
-        match self {
-            Self::Face(face) => outcome.face() == Some(*face),
-            Self::Ended(end) => EndKind::of(outcome.ended) == *end,
-        }
-    }
-}
 
 /// What makes a toss long.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,0 +1,59 @@
+//! How tosses end, by name.
+
+use coinmc_core::{Ended, Outcome};
+
+/// How a toss ended, regardless of the face.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EndKind {
+    /// With a face.
+    Decided,
+    /// Undecided at the limit of simulated time.
+    TimeLimit,
+    /// Proven never to settle.
+    NeverSettles,
+    /// Undecided at the limit of impacts or of steps in contact.
+    ImpactLimit,
+    /// The computation failed (NaN).
+    Failed,
+}
+
+impl EndKind {
+    /// All of them.
+    pub const ALL: [Self; 5] = [
+        Self::Decided,
+        Self::TimeLimit,
+        Self::NeverSettles,
+        Self::ImpactLimit,
+        Self::Failed,
+    ];
+
+    /// The kind of an end.
+    pub fn of(ended: Ended) -> Self {
+        match ended {
+            Ended::Decided(_) => Self::Decided,
+            Ended::TimeLimit => Self::TimeLimit,
+            Ended::NeverSettles => Self::NeverSettles,
+            Ended::ImpactLimit => Self::ImpactLimit,
+            Ended::Failed => Self::Failed,
+        }
+    }
+
+    /// The name used in files and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Decided => "decided",
+            Self::TimeLimit => "time_limit",
+            Self::NeverSettles => "never_settles",
+            Self::ImpactLimit => "impact_limit",
+            Self::Failed => "failed",
+        }
+    }
+}
+
+/// The face, or why there is none, as named in files.
+pub fn outcome_name(outcome: &Outcome) -> &'static str {
+    match outcome.face() {
+        Some(face) => face.name(),
+        None => EndKind::of(outcome.ended).name(),
+    }
+}

@@ -1,0 +1,47 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Contents
+//! ```text
+//! Plan, point, toss ──replay──▶ Trace ──write──▶ .mcap .csv .parquet .jsonl .svg
+//! ```
+//!
+//! * [`replay()`] repeats a toss and returns its [`Trace`]; [`record()`] does the same for any launch.
+//! * [`search()`] finds tosses by how they end.
+//! * [`write_csv`], [`write_parquet`], [`write_jsonl`], [`write_mcap`] and [`svg`] write traces.
+//! * [`Recorder`] is the observer that records; it works with any engine.
+//!
+//! States between events are computed by the engine itself (in flight in closed form, in contact by a
+//! step of its own integrator), never interpolated; times of events are exact. docs/guide/traces.md
+//! describes the files.
+
+mod condition;
+mod csv;
+mod end;
+mod error;
+mod jsonl;
+mod mcap;
+mod parquet;
+mod record;
+mod recorder;
+mod replay;
+mod scene;
+mod search;
+pub mod svg;
+mod table;
+mod to_json;
+mod trace;
+mod turning;
+
+pub use condition::{Condition, ConditionError};
+pub use csv::write_csv;
+pub use end::{EndKind, outcome_name};
+pub use error::TraceError;
+pub use jsonl::write_jsonl;
+pub use mcap::write_mcap;
+pub use parquet::write_parquet;
+pub use record::{Mode, Record, RecordKind};
+pub use recorder::{MAX_RECORDS, Recorder};
+pub use replay::{MAX_RATE_HZ, default_rate_hz, launch, outcome, record, replay, replay_within};
+pub use search::{Findings, Found, Length, Query, search};
+pub use table::{Column, FORMAT, columns};
+pub use trace::Trace;
