@@ -4,6 +4,7 @@ import ast
 import doctest
 import importlib
 import inspect
+import json
 import pkgutil
 import subprocess
 import sys
@@ -47,6 +48,13 @@ def parameters(node: ast.FunctionDef) -> list[tuple[str, str | None]]:
     defaults += [ast.unparse(default) for default in arguments.defaults]
     names = [argument.arg for argument in arguments.args]
     return list(zip(names, defaults, strict=True))
+
+
+def test_a_run_directory_remembers_the_build(tmp_path):
+    assert coinmc.__build__.startswith(coinmc.__version__)
+    coinmc.run({"coin": {"ratio": 1.0}, "engine": {"analytic": {}}}, tmp_path / "run")
+    manifest = json.loads((tmp_path / "run/manifest.json").read_text())
+    assert manifest["builds"] == [coinmc.__build__]
 
 
 def real_parameters(function) -> list[tuple[str, str | None]]:
