@@ -8,12 +8,12 @@ use nalgebra::UnitQuaternion;
 pub struct Record {
     /// Why it was recorded.
     pub kind: RecordKind,
-    /// What goes on from here on.
+    /// How the coin moves from here.
     pub mode: Mode,
     /// The coin, as the engine has it.
     pub state: State,
     /// Turns the body's axes to the laboratory's; the body's z is u. The rotation about u does not
-    /// influence the toss: it is reckoned beside it, see docs/guide/traces.md.
+    /// influence the toss; it is computed for pictures, see docs/guide/traces.md.
     pub orientation: UnitQuaternion<f64>,
     /// Mechanical energy per unit mass, J/kg, with the potential zero at the surface.
     pub energy_j_kg: f64,

@@ -1,5 +1,5 @@
-//! The one definition of the table of records: CSV, Parquet, JSON lines and docs/guide/traces.md follow
-//! it.
+//! The one definition of the table of records: CSV, Parquet, JSON lines and docs/reference/traces.md
+//! follow it.
 
 use crate::end::outcome_name;
 use crate::record::Record;
@@ -109,7 +109,7 @@ const COLUMNS: &[Column] = &[
     column!("kind", Text, "", "The event, or `sample`.", |row| {
         Cell::Text(row.record.kind.name())
     }),
-    column!("mode", Text, "", "What goes on from here on.", |row| {
+    column!("mode", Text, "", "How the coin moves from here.", |row| {
         Cell::Text(row.record.mode.name())
     }),
     number!("x_m", "m", "Centre of the coin.", |row| {

@@ -1,4 +1,4 @@
-//! How the coin is turned about its own axis, reckoned beside the toss.
+//! How the coin is turned about its own axis, which engines do not follow.
 //!
 //! A coin is a body of revolution: engines know its axis u and its angular velocity, and nothing
 //! else matters. A picture of it wants a whole rotation, whose z axis is u.

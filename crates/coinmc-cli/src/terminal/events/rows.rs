@@ -18,7 +18,7 @@ pub(super) struct Row {
     pub(super) time_s: f64,
     pub(super) event: String,
     pub(super) is_impact: bool,
-    /// How the coin moves from here on.
+    /// How the coin moves from here.
     pub(super) goes_on: &'static str,
     /// Of the centre.
     pub(super) height_m: f64,
