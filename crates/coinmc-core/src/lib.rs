@@ -33,6 +33,7 @@ mod launch;
 mod observer;
 mod outcome;
 mod random;
+mod scene;
 pub mod schema;
 mod surface;
 mod tally;
@@ -58,5 +59,6 @@ pub use launch::{
 pub use observer::{DynObserver, Observer, sample_between};
 pub use outcome::{Breaks, Ended, Face, Outcome};
 pub use random::{Domain, Philox4x64, Stream, TossUniforms, UniformSource, unit_interval};
-pub use surface::{Drag, Landing, Scene, Surface, SurfaceError};
+pub use scene::{Drag, Scene, SceneParameter};
+pub use surface::{Landing, Surface, SurfaceError};
 pub use tally::{Counter, CounterKind, Tally};

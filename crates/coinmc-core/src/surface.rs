@@ -1,6 +1,9 @@
-//! The surface the coin lands on, and the scene: coin, surface and gravity together.
+//! The surface that the coin lands on.
 
-use crate::Coin;
+use crate::schema::{
+    Absent, Bounds, Condition, Fallback, ReadError, Rule, TableKind, Values, choice, default,
+    number,
+};
 use thiserror::Error;
 
 /// What a contact with the surface does to the coin.
@@ -14,6 +17,27 @@ pub enum Landing {
     /// This is what the closed forms assume. It is not `restitution = 0`: such a coin still
     /// rotates about the point that stuck and can roll over several edges.
     Adhesive,
+}
+
+impl Landing {
+    /// Both ways of landing.
+    pub const ALL: [Self; 2] = [Self::Bouncing, Self::Adhesive];
+
+    /// The name used in configs.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Bouncing => "bouncing",
+            Self::Adhesive => "adhesive",
+        }
+    }
+
+    /// What it means.
+    fn doc(self) -> &'static str {
+        match self {
+            Self::Bouncing => "impacts, rocking, sliding, settling",
+            Self::Adhesive => "the first contact decides",
+        }
+    }
 }
 
 /// Contact properties of the surface (of the pair coin–surface, strictly).
@@ -60,6 +84,90 @@ pub enum SurfaceError {
 }
 
 impl Surface {
+    /// The keys of the table `[surface]` of a config.
+    pub fn schema() -> TableKind {
+        TableKind {
+            fields: vec![
+                number(
+                    "restitution",
+                    "Coefficient of restitution e at the contact point.",
+                    Bounds::closed(0.0, 1.0),
+                    Absent::Omitted,
+                ),
+                number(
+                    "friction",
+                    "Coefficient of friction μ.",
+                    Bounds::closed(0.0, 1e6),
+                    Absent::Omitted,
+                ),
+                number(
+                    "rolling_friction_m",
+                    "Rolling (contour) friction length, m: the power lost is normal force × this × rate \
+                     at which the contact point moves along the rim. Coins on hard surfaces: about \
+                     0.001 to 0.01 R.",
+                    Bounds::closed(0.0, 1e6),
+                    default(0.0),
+                ),
+                number(
+                    "pivoting_friction_m",
+                    "Pivoting friction length, m: the power lost is normal force × this × rate at which \
+                     the coin turns about the vertical.",
+                    Bounds::closed(0.0, 1e6),
+                    default(0.0),
+                ),
+                number(
+                    "restitution_threshold_m_s",
+                    "Speed of approach, m/s, below which a contact point does not bounce (restitution \
+                     0), as in game engines; nature has none.",
+                    Bounds::closed(0.0, 1e6),
+                    default(0.0),
+                ),
+                choice(
+                    "landing",
+                    "What a contact does.",
+                    Landing::ALL.map(|landing| (landing.name(), landing.doc())),
+                    Landing::default().name(),
+                ),
+            ],
+            rules: vec![Rule::Unless {
+                condition: Condition::Word("landing", Landing::Adhesive.name()),
+                keys: &["restitution", "friction"],
+                fallback: Some(Fallback::Number(0.0)),
+            }],
+        }
+    }
+
+    /// The surface that a config gives.
+    ///
+    /// # Errors
+    /// [`ReadError`] where [`SurfaceError`] applies.
+    pub fn read(values: &Values) -> Result<Self, ReadError> {
+        let number = |key| values.number(key);
+        let landing = values.one_of("landing", Landing::ALL, Landing::name)?;
+        let (rolling, pivoting) = (
+            number("rolling_friction_m")?,
+            number("pivoting_friction_m")?,
+        );
+        let threshold = number("restitution_threshold_m_s")?;
+        Self::new(number("restitution")?, number("friction")?)
+            .and_then(|surface| surface.with_friction_lengths(rolling, pivoting))
+            .and_then(|surface| surface.with_restitution_threshold(threshold))
+            .map(|surface| surface.with_landing(landing))
+            .map_err(|error| ReadError::new(error.to_string()))
+    }
+
+    /// A surface that no coin leaves: the assumption of the closed forms.
+    pub const fn adhesive() -> Self {
+        Self {
+            restitution: 0.0,
+            friction: 0.0,
+            rolling_friction_m: 0.0,
+            pivoting_friction_m: 0.0,
+            threshold_m_s: 0.0,
+            landing: Landing::Adhesive,
+        }
+    }
+
     /// A bouncing surface with coefficient of restitution e (Newton's, at the contact point) and
     /// Coulomb friction coefficient μ (static = kinetic).
     ///
@@ -155,151 +263,5 @@ impl Surface {
     /// How the coin lands.
     pub fn landing(&self) -> Landing {
         self.landing
-    }
-}
-
-/// Everything about a toss that is not its launch.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Scene {
-    /// What is tossed.
-    pub coin: Coin,
-    /// What it lands on.
-    pub surface: Surface,
-    gravity_m_s2: f64,
-    drag: Drag,
-    gyroscopic_torque: bool,
-}
-
-/// Linear drag in flight and in contact: v' = −linear·v, L' = −angular·L on top of all else.
-///
-/// # Example
-/// ```
-/// use coinmc_core::Drag;
-/// assert!(Drag::new(1.0, 0.05).is_ok() && Drag::new(-1.0, 0.0).is_err());
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Drag {
-    linear_per_s: f64,
-    angular_per_s: f64,
-}
-
-impl Drag {
-    /// Rates of decay of the centre's velocity and of the angular momentum, 1/s.
-    ///
-    /// # Errors
-    /// [`SurfaceError::Drag`] unless both are finite and not negative.
-    pub fn new(linear_per_s: f64, angular_per_s: f64) -> Result<Self, SurfaceError> {
-        for rate in [linear_per_s, angular_per_s] {
-            if !(rate >= 0.0 && rate.is_finite()) {
-                return Err(SurfaceError::Drag(rate));
-            }
-        }
-        Ok(Self {
-            linear_per_s,
-            angular_per_s,
-        })
-    }
-
-    /// Rate at which the centre's velocity decays, 1/s.
-    pub fn linear_per_s(&self) -> f64 {
-        self.linear_per_s
-    }
-
-    /// Rate at which the angular momentum decays, 1/s.
-    pub fn angular_per_s(&self) -> f64 {
-        self.angular_per_s
-    }
-
-    /// Whether there is none.
-    pub fn is_none(&self) -> bool {
-        self.linear_per_s == 0.0 && self.angular_per_s == 0.0
-    }
-}
-
-impl Scene {
-    /// Standard acceleration of gravity as the literature on coins rounds it, m/s².
-    pub const STANDARD_GRAVITY_M_S2: f64 = 9.81;
-
-    /// A coin, a surface and the acceleration of gravity.
-    ///
-    /// # Errors
-    /// [`SurfaceError::Gravity`] unless `gravity_m_s2` is positive and finite.
-    pub fn new(coin: Coin, surface: Surface, gravity_m_s2: f64) -> Result<Self, SurfaceError> {
-        if gravity_m_s2 > 0.0 && gravity_m_s2.is_finite() {
-            Ok(Self {
-                coin,
-                surface,
-                gravity_m_s2,
-                drag: Drag::default(),
-                gyroscopic_torque: true,
-            })
-        } else {
-            Err(SurfaceError::Gravity(gravity_m_s2))
-        }
-    }
-
-    /// The same scene with drag.
-    pub fn with_drag(self, drag: Drag) -> Self {
-        Self { drag, ..self }
-    }
-
-    /// The same scene with or without the gyroscopic torque ω × Iω. Without it a coin turns about
-    /// a fixed ω instead of a fixed L, which it does not keep: unphysical, and what PhysX (hence
-    /// Unity) does unless told otherwise.
-    pub fn with_gyroscopic_torque(self, gyroscopic_torque: bool) -> Self {
-        Self {
-            gyroscopic_torque,
-            ..self
-        }
-    }
-
-    /// The drag.
-    pub fn drag(&self) -> Drag {
-        self.drag
-    }
-
-    /// Whether ω × Iω acts, as it does in nature.
-    pub fn has_gyroscopic_torque(&self) -> bool {
-        self.gyroscopic_torque
-    }
-
-    /// Acceleration of gravity g, m/s².
-    pub fn gravity_m_s2(&self) -> f64 {
-        self.gravity_m_s2
-    }
-
-    /// sqrt(D/g), s: the time scale of a coin toppling over its rim.
-    pub fn time_scale_s(&self) -> f64 {
-        (self.coin.rim_distance_m() / self.gravity_m_s2).sqrt()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_ends_of_each_range_are_in_and_beyond_is_out() {
-        assert!(Surface::new(0.0, 0.0).is_ok() && Surface::new(1.0, 1e6).is_ok());
-        for (e, mu) in [
-            (-1e-9, 0.0),
-            (1.0 + 1e-9, 0.0),
-            (0.5, -1e-9),
-            (f64::NAN, 0.0),
-        ] {
-            assert!(Surface::new(e, mu).is_err(), "{e} {mu}");
-        }
-        assert!(Surface::new(0.5, f64::INFINITY).is_err());
-        let surface = Surface::new(0.5, 0.3).unwrap();
-        for bad in [-1e-9, f64::NAN, f64::INFINITY] {
-            assert!(surface.with_friction_lengths(bad, 0.0).is_err());
-            assert!(surface.with_friction_lengths(0.0, bad).is_err());
-            assert!(surface.with_restitution_threshold(bad).is_err());
-            assert!(Drag::new(bad, 0.0).is_err() && Drag::new(0.0, bad).is_err());
-        }
-        let coin = Coin::cylinder(1.0, 1.0).unwrap();
-        for g in [0.0, -9.81, f64::NAN, f64::INFINITY] {
-            assert!(Scene::new(coin, Surface::new(0.5, 0.3).unwrap(), g).is_err());
-        }
     }
 }

@@ -2,6 +2,9 @@
 
 use super::LaunchError;
 use super::draw::Uniforms;
+use crate::schema::{
+    Absent, Bounds, Field, Kind, ReadError, Value, Values, field, fields, number, table,
+};
 use coinmc_lanes::{Lane, Mask};
 
 /// The distribution of one number.
@@ -42,6 +45,95 @@ impl Marginal {
             }
             Self::Normal { sd, .. } if sd < 0.0 => Err(LaunchError::NegativeDeviation(sd)),
             _ => Ok(()),
+        }
+    }
+
+    /// A config's key whose value is a marginal: a number, or a table that names a distribution.
+    pub(super) fn field(
+        name: &'static str,
+        doc: &'static str,
+        bounds: Bounds,
+        absent: Absent,
+    ) -> Field {
+        field(name, doc, Self::kind(bounds), absent)
+    }
+
+    /// What such a value may be.
+    pub(super) fn kind(bounds: Bounds) -> Kind {
+        let spread = Bounds::closed(0.0, bounds.high);
+        let uniform = fields(vec![
+            number("from", "Lower end.", bounds, Absent::Required),
+            number("to", "Upper end.", bounds, Absent::Required),
+        ]);
+        let normal = fields(vec![
+            number("mean", "Mean.", bounds, Absent::Required),
+            number("sd", "Standard deviation.", spread, Absent::Required),
+        ]);
+        let distributions = vec![
+            table(
+                "uniform",
+                "Uniform between two values.",
+                uniform,
+                Absent::Required,
+            ),
+            table("normal", "Normal.", normal, Absent::Required),
+        ];
+        Kind::Marginal(bounds, distributions)
+    }
+
+    /// The marginal that a config gives.
+    pub(super) fn read(value: &Value) -> Result<Self, ReadError> {
+        let Value::Tagged(name, inner) = value else {
+            return Ok(Self::Constant(value.number()?));
+        };
+        let parameters = inner.table()?;
+        match *name {
+            "normal" => Ok(Self::Normal {
+                mean: parameters.number("mean")?,
+                sd: parameters.number("sd")?,
+            }),
+            "uniform" => {
+                let (from, to) = (parameters.number("from")?, parameters.number("to")?);
+                if from < to {
+                    return Ok(Self::Uniform { from, to });
+                }
+                let empty = format!("a uniform distribution from {from} to {to} is empty");
+                let help =
+                    "`to` must be larger than `from`; for a constant write the number itself";
+                Err(ReadError::new(empty).with_help(help).at("to"))
+            }
+            _ => Err(crate::schema::unlisted("distribution", name).into()),
+        }
+    }
+
+    /// The reverse of [`read`](Self::read).
+    pub(super) fn value(&self) -> Value {
+        let pair = |name, a: (&'static str, f64), b: (&'static str, f64)| {
+            let parameters = [a, b].map(|(key, number)| (key, Value::Number(number)));
+            Value::Tagged(
+                name,
+                Box::new(Value::Table(Values::new(parameters.to_vec()))),
+            )
+        };
+        match *self {
+            Self::Constant(value) => Value::Number(value),
+            Self::Uniform { from, to } => pair("uniform", ("from", from), ("to", to)),
+            Self::Normal { mean, sd } => pair("normal", ("mean", mean), ("sd", sd)),
+        }
+    }
+
+    /// The distribution of a multiple, for units; `scale` is linear.
+    pub(super) fn scaled(&self, scale: impl Fn(f64) -> f64) -> Self {
+        match *self {
+            Self::Constant(value) => Self::Constant(scale(value)),
+            Self::Uniform { from, to } => Self::Uniform {
+                from: scale(from),
+                to: scale(to),
+            },
+            Self::Normal { mean, sd } => Self::Normal {
+                mean: scale(mean),
+                sd: scale(sd),
+            },
         }
     }
 

@@ -1,5 +1,6 @@
 //! How a toss begins, and how beginnings are distributed.
 
+mod config;
 mod draw;
 mod marginal;
 mod orientation;

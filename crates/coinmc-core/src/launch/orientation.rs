@@ -1,10 +1,12 @@
 //! Orientation of the coin at launch.
 
+use super::config::{direction_kind, direction_value, read_direction, to_degrees};
 use super::dimension::ORIENTATION;
 use super::draw::Uniforms;
 use super::sincos::sin_cos;
 use super::{LaunchError, Marginal};
 use crate::UniformSource;
+use crate::schema::{Absent, Bounds, Kind, ReadError, Value, Word, field, unlisted};
 use coinmc_lanes::Lane;
 use nalgebra::UnitVector3;
 use std::f64::consts::TAU;
@@ -25,6 +27,63 @@ pub enum Orientation {
 }
 
 impl Orientation {
+    /// The value of the key `orientation` of a config.
+    pub(super) fn kind() -> Kind {
+        let words = vec![
+            Word {
+                name: "isotropic",
+                doc: "uniform on the sphere",
+            },
+            Word {
+                name: "euler-angles",
+                doc: "three uniform Euler angles",
+            },
+        ];
+        let tables = vec![
+            Marginal::field(
+                "tilt_deg",
+                "Angle of the heads normal from the vertical, in the xz plane, degrees.",
+                Bounds::closed(-36_000.0, 36_000.0),
+                Absent::Required,
+            ),
+            field(
+                "axis",
+                "Always this direction of the heads normal, of any length.",
+                direction_kind(),
+                Absent::Required,
+            ),
+        ];
+        Kind::Choice(words, tables)
+    }
+
+    /// The orientation that a config gives.
+    pub(super) fn read(value: &Value) -> Result<Self, ReadError> {
+        Ok(match value {
+            Value::Word("isotropic") => Self::Isotropic,
+            Value::Word("euler-angles") => Self::EulerAngles,
+            Value::Tagged("tilt_deg", tilt) => {
+                Self::Tilt(Marginal::read(tilt)?.scaled(f64::to_radians))
+            }
+            Value::Tagged("axis", axis) => Self::Fixed(read_direction(axis)?),
+            Value::Word(name) | Value::Tagged(name, _) => {
+                return Err(unlisted("orientation", name).into());
+            }
+            _ => return Err(ReadError::new("this is no orientation")),
+        })
+    }
+
+    /// The reverse of [`read`](Self::read).
+    pub(super) fn value(&self) -> Value {
+        match self {
+            Self::Fixed(axis) => Value::Tagged("axis", Box::new(direction_value(axis))),
+            Self::Isotropic => Value::Word("isotropic"),
+            Self::EulerAngles => Value::Word("euler-angles"),
+            Self::Tilt(tilt) => {
+                Value::Tagged("tilt_deg", Box::new(tilt.scaled(to_degrees).value()))
+            }
+        }
+    }
+
     /// Checks the parameters.
     ///
     /// # Errors

@@ -183,7 +183,7 @@ impl fmt::Display for Preset {
 
 /// No preset has this name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("no such preset; the presets are robot, table1, clean, clean-flat, hand, drop")]
+#[error("no such preset; the presets are {}", Preset::ALL.map(Preset::name).join(", "))]
 pub struct UnknownPreset;
 
 impl FromStr for Preset {

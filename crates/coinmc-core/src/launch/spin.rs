@@ -1,9 +1,16 @@
 //! Angular velocity of the coin at launch.
 
+use super::config::{
+    direction_kind, direction_value, read_direction, read_vector, to_degrees, vector_kind,
+    vector_value,
+};
 use super::dimension::SPIN;
 use super::draw::{Uniforms, sample3};
 use super::sincos::sin_cos;
 use super::{LaunchError, Marginal};
+use crate::schema::{
+    Absent, Bounds, Kind, ReadError, Value, Values, field, fields, table, unlisted,
+};
 use crate::{Coin, UniformSource};
 use coinmc_lanes::Lane;
 use nalgebra::{UnitVector3, Vector3};
@@ -32,7 +39,115 @@ pub enum Spin {
     },
 }
 
+/// Limit of every rate of turning, rad/s.
+const RATE: Bounds = Bounds::closed(-1e9, 1e9);
+
 impl Spin {
+    /// The value of the key `spin` of a config.
+    pub(super) fn kind() -> Kind {
+        let about = fields(vec![
+            field(
+                "axis",
+                "The axis, of any length; y for a flat toss.",
+                direction_kind(),
+                Absent::Required,
+            ),
+            Marginal::field("rate_rad_s", "Signed rate, rad/s.", RATE, Absent::Required),
+        ]);
+        let precessing = fields(vec![
+            Marginal::field(
+                "rate_rad_s",
+                "Angular momentum over transverse moment, rad/s.",
+                RATE,
+                Absent::Required,
+            ),
+            Marginal::field(
+                "psi_deg",
+                "Angle between angular momentum and the coin's axis, degrees.",
+                Bounds::closed(0.0, 180.0),
+                Absent::Required,
+            ),
+        ]);
+        let tables = vec![
+            field(
+                "components_rad_s",
+                "Component by component in the laboratory frame, rad/s.",
+                vector_kind(RATE),
+                Absent::Required,
+            ),
+            table(
+                "about",
+                "About a fixed axis of the laboratory.",
+                about,
+                Absent::Required,
+            ),
+            table(
+                "precessing",
+                "A free symmetric top.",
+                precessing,
+                Absent::Required,
+            ),
+        ];
+        Kind::Choice(vec![], tables)
+    }
+
+    /// The spin that a config gives.
+    pub(super) fn read(value: &Value) -> Result<Self, ReadError> {
+        let Value::Tagged(name, inner) = value else {
+            return Err(ReadError::new("this is no spin"));
+        };
+        let marginal = |values: &Values, key| {
+            Marginal::read(values.required(key)?).map_err(|error| error.at(key))
+        };
+        match *name {
+            "components_rad_s" => Ok(Self::Components(read_vector(inner)?)),
+            "about" => {
+                let values = inner.table()?;
+                let axis = read_direction(values.required("axis")?);
+                Ok(Self::About {
+                    axis: axis.map_err(|error| error.at("axis"))?,
+                    rate_rad_s: marginal(values, "rate_rad_s")?,
+                })
+            }
+            "precessing" => {
+                let values = inner.table()?;
+                Ok(Self::Precessing {
+                    rate_rad_s: marginal(values, "rate_rad_s")?,
+                    psi_rad: marginal(values, "psi_deg")?.scaled(f64::to_radians),
+                })
+            }
+            _ => Err(unlisted("spin", name).into()),
+        }
+    }
+
+    /// The reverse of [`read`](Self::read).
+    pub(super) fn value(&self) -> Value {
+        let table =
+            |name, entries| Value::Tagged(name, Box::new(Value::Table(Values::new(entries))));
+        match self {
+            Self::Components(components) => {
+                Value::Tagged("components_rad_s", Box::new(vector_value(components)))
+            }
+            Self::About { axis, rate_rad_s } => table(
+                "about",
+                vec![
+                    ("axis", direction_value(axis)),
+                    ("rate_rad_s", rate_rad_s.value()),
+                ],
+            ),
+            Self::Precessing {
+                rate_rad_s,
+                psi_rad,
+            } => table(
+                "precessing",
+                vec![
+                    ("rate_rad_s", rate_rad_s.value()),
+                    ("psi_deg", psi_rad.scaled(to_degrees).value()),
+                ],
+            ),
+        }
+    }
+
     /// Checks the parameters.
     ///
     /// # Errors

@@ -15,13 +15,13 @@
 //! ```
 
 mod bounds;
+mod read_error;
 mod terms;
 mod values;
 
 pub use bounds::{Bounds, OutOfRange, Whole};
-pub use terms::{
-    choice, count, default, field, fields, flag, marginal, marginal_kind, number, table,
-};
+pub use read_error::ReadError;
+pub use terms::{choice, count, default, field, fields, flag, number, table};
 pub use values::{Value, Values, unlisted};
 
 /// A key of a table.

@@ -1,6 +1,6 @@
 //! Short ways of writing the schema.
 
-use super::Absent::{Is, Required};
+use super::Absent::Is;
 use super::{Absent, Bounds, Fallback, Field, Kind, TableKind, Whole, Word};
 
 /// A key.
@@ -16,29 +16,6 @@ pub fn field(name: &'static str, doc: &'static str, kind: Kind, absent: Absent) 
 /// A number that may be swept.
 pub fn number(name: &'static str, doc: &'static str, bounds: Bounds, absent: Absent) -> Field {
     field(name, doc, Kind::Number(bounds), absent)
-}
-
-/// A number that may be swept, or a distribution.
-pub fn marginal(name: &'static str, doc: &'static str, bounds: Bounds, absent: Absent) -> Field {
-    field(name, doc, marginal_kind(bounds), absent)
-}
-
-/// [`marginal`] without its key.
-pub fn marginal_kind(bounds: Bounds) -> Kind {
-    let spread = Bounds::closed(0.0, bounds.high);
-    let uniform = fields(vec![
-        number("from", "Lower end.", bounds, Required),
-        number("to", "Upper end.", bounds, Required),
-    ]);
-    let normal = fields(vec![
-        number("mean", "Mean.", bounds, Required),
-        number("sd", "Standard deviation.", spread, Required),
-    ]);
-    let distributions = vec![
-        table("uniform", "Uniform between two values.", uniform, Required),
-        table("normal", "Normal.", normal, Required),
-    ];
-    Kind::Marginal(bounds, distributions)
 }
 
 /// A table.

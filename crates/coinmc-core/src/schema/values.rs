@@ -34,6 +34,31 @@ impl Value {
             )),
         }
     }
+
+    /// The values of the table that this is.
+    ///
+    /// # Errors
+    /// [`EngineError`] if it is none.
+    pub fn table(&self) -> Result<&Values, EngineError> {
+        match self {
+            Self::Table(values) => Ok(values),
+            _ => Err(EngineError::new(
+                "a value is not the table its schema promises",
+            )),
+        }
+    }
+
+    /// The three components of the vector that this is.
+    ///
+    /// # Errors
+    /// [`EngineError`] if it is none.
+    pub fn components(&self) -> Result<&[Self; 3], EngineError> {
+        match self {
+            Self::Vector(components) => components.as_slice().try_into().ok(),
+            _ => None,
+        }
+        .ok_or_else(|| EngineError::new("a value is not the vector its schema promises"))
+    }
 }
 
 /// The values of a table that were held against its schema, defaults included: what an engine or a
@@ -59,6 +84,11 @@ impl Values {
         Self(entries)
     }
 
+    /// All keys with their values, in order.
+    pub fn entries(&self) -> impl Iterator<Item = (&'static str, &Value)> {
+        self.0.iter().map(|(key, value)| (*key, value))
+    }
+
     /// What is under a key, if anything.
     pub fn get(&self, key: &str) -> Option<&Value> {
         let found = self.0.iter().find(|(name, _)| *name == key);
@@ -71,6 +101,14 @@ impl Values {
     /// [`EngineError`] if there is none, as with every method here.
     pub fn number(&self, key: &str) -> Result<f64, EngineError> {
         self.optional(key)?.ok_or_else(|| missing(key))
+    }
+
+    /// The value under a key.
+    ///
+    /// # Errors
+    /// As [`number`](Self::number).
+    pub fn required(&self, key: &str) -> Result<&Value, EngineError> {
+        self.get(key).ok_or_else(|| missing(key))
     }
 
     /// The number under a key; `None` if the key is absent.

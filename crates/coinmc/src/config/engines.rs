@@ -1,11 +1,11 @@
 //! The engine of a point, and what an engine refuses because it does not model it.
 
-use super::build::{At, Fault, get};
+use super::at::{At, Fault, get};
 use super::diagnostics::Problems;
 use super::form::{Form, What};
 use super::quantity::Quantity;
+use super::values::values;
 use crate::engines::{EngineChoice, engine};
-use coinmc_core::schema::{Value, Values};
 
 /// The engine with its settings at one point.
 pub(super) fn choice(root: &Form, at: &At<'_>) -> Result<EngineChoice, Fault> {
@@ -15,36 +15,6 @@ pub(super) fn choice(root: &Form, at: &At<'_>) -> Result<EngineChoice, Fault> {
     let engine = engine(tag).ok_or(Fault::Reported)?;
     let settings = (engine.read)(&values(inner, at)?);
     settings.map_err(|error| Fault::problem(inner.span, error.to_string(), None))
-}
-
-/// The values of a table at a point.
-fn values(form: &Form, at: &At<'_>) -> Result<Values, Fault> {
-    match value(form, at)? {
-        Value::Table(values) => Ok(values),
-        _ => Err(Fault::Reported),
-    }
-}
-
-fn value(form: &Form, at: &At<'_>) -> Result<Value, Fault> {
-    Ok(match &form.what {
-        What::Invalid => return Err(Fault::Reported),
-        What::Number(..) => Value::Number(at.number(form)?),
-        What::Real(number) => Value::Number(*number),
-        What::Integer(number) => Value::Integer(*number),
-        What::Boolean(holds) => Value::Boolean(*holds),
-        What::Word(word) => Value::Word(word),
-        What::Vector(components) => {
-            let components = components.iter().map(|component| value(component, at));
-            Value::Vector(components.collect::<Result<_, _>>()?)
-        }
-        What::Table(entries) => {
-            let entries = entries
-                .iter()
-                .map(|(key, form)| Ok((*key, value(form, at)?)));
-            Value::Table(Values::new(entries.collect::<Result<_, _>>()?))
-        }
-        What::Tagged(tag, inner) => Value::Tagged(tag, Box::new(value(inner, at)?)),
-    })
 }
 
 /// Refuses everything that the config asks for and its engine or law does not model. It would be

@@ -3,6 +3,7 @@
 
 use super::quantity::Quantity;
 use super::source::Span;
+use coinmc_core::schema::Value;
 
 /// A checked value and the place to blame for it. A default's place is the table that lacks it,
 /// a preset's the name of the preset.
@@ -36,6 +37,24 @@ pub(super) const COMPONENTS: [&str; 3] = ["x", "y", "z"];
 impl Form {
     pub(super) fn new(span: Span, what: What) -> Self {
         Self { span, what }
+    }
+
+    /// A constant value; `span` is blamed for it.
+    pub(super) fn of_value(span: Span, value: &Value) -> Self {
+        let nested = |value| Self::of_value(span, value);
+        let what = match value {
+            Value::Number(number) => What::Number(Quantity::Constant(*number), None),
+            Value::Integer(number) => What::Integer(*number),
+            Value::Boolean(holds) => What::Boolean(*holds),
+            Value::Word(word) => What::Word(word),
+            Value::Vector(components) => What::Vector(components.iter().map(nested).collect()),
+            Value::Table(values) => {
+                let entries = values.entries().map(|(key, value)| (key, nested(value)));
+                What::Table(entries.collect())
+            }
+            Value::Tagged(tag, inner) => What::Tagged(tag, Box::new(nested(inner))),
+        };
+        Self::new(span, what)
     }
 
     pub(super) fn invalid(span: Span) -> Self {

@@ -17,7 +17,9 @@
 //! * With `[engine.analytic]`, `[surface]`, `[launch]` and `[stop]` may be left out. If they are
 //!   there they are checked, axes in them make points, and they change no result.
 
+mod at;
 mod build;
+mod columns;
 mod diagnostics;
 mod engines;
 mod form;
@@ -31,6 +33,7 @@ mod schema;
 mod source;
 mod sweep;
 mod tree;
+mod values;
 mod walk;
 
 pub use diagnostics::{Diagnostics, Problem};

@@ -3,12 +3,11 @@
 //! The limits are far outside anything that can be tossed; they keep typing errors and arithmetic
 //! overflow out.
 
-use super::launch::launch;
 use super::{Absent, Bounds, Condition, Fallback, Field, Kind, Rule, TableKind, Whole, Word};
 use crate::engines::{ENGINES, WITHOUT_TOSSES};
 use crate::plan::{MAX_POINTS, MAX_TOSSES, Sampling};
-use coinmc_core::schema::{default, field, fields, number, table};
-use coinmc_core::{EngineDescriptor, IntervalMethod, Landing, Scene};
+use coinmc_core::schema::{default, field, fields, table};
+use coinmc_core::{Coin, EngineDescriptor, IntervalMethod, LaunchDistribution, Scene, Surface};
 
 use Absent::{Is, Omitted, Required};
 
@@ -36,17 +35,27 @@ pub(in crate::config) fn root() -> TableKind {
             table(
                 "coin",
                 "What is tossed: a cylinder of height H and radius R.",
-                coin(),
+                Coin::schema(),
                 Required,
             ),
-            table("surface", "What the coin lands on.", surface(), Omitted),
+            table(
+                "surface",
+                "What the coin lands on.",
+                Surface::schema(),
+                Omitted,
+            ),
             table(
                 "environment",
                 "Where it happens.",
-                environment(),
+                Scene::environment_schema(),
                 Is(Fallback::Table),
             ),
-            table("launch", "How the coin is let go.", launch(), Omitted),
+            table(
+                "launch",
+                "How the coin is let go.",
+                LaunchDistribution::schema(),
+                Omitted,
+            ),
             field(
                 "engine",
                 "Who follows the toss; exactly one.",
@@ -122,146 +131,6 @@ pub(in crate::config) fn range(bounds: Bounds) -> TableKind {
                 },
             ]),
             Is(Fallback::Word("linear")),
-        ),
-    ])
-}
-
-fn coin() -> TableKind {
-    let moment = Kind::Number(Bounds::open(0.0, 1e30));
-    fields(vec![
-        number(
-            "ratio",
-            "Height over radius, H/R.",
-            Bounds::closed(1e-12, 1e12),
-            Required,
-        ),
-        number(
-            "radius_m",
-            "Radius R, m.",
-            Bounds::closed(1e-9, 1e6),
-            default(0.01),
-        ),
-        number(
-            "mass_kg",
-            "Mass, kg. It cancels everywhere but in given moments of inertia and in laws of impact \
-             that name forces or stiffness.",
-            Bounds::closed(1e-12, 1e12),
-            default(0.01),
-        ),
-        field(
-            "axial_moment_kg_m2",
-            "Moment of inertia about the coin's axis, kg m², of a hollow or loaded coin; a uniform \
-             cylinder's if absent.",
-            moment.clone(),
-            Omitted,
-        ),
-        field(
-            "transverse_moment_kg_m2",
-            "Moment of inertia about a diameter through the centre, kg m²; a uniform cylinder's if \
-             absent.",
-            moment,
-            Omitted,
-        ),
-    ])
-}
-
-fn surface() -> TableKind {
-    let landing = vec![
-        Word {
-            name: landing_name(Landing::Bouncing),
-            doc: "impacts, rocking, sliding, settling",
-        },
-        Word {
-            name: landing_name(Landing::Adhesive),
-            doc: "the first contact decides",
-        },
-    ];
-    TableKind {
-        fields: vec![
-            number(
-                "restitution",
-                "Coefficient of restitution e at the contact point.",
-                Bounds::closed(0.0, 1.0),
-                Omitted,
-            ),
-            number(
-                "friction",
-                "Coefficient of friction μ.",
-                Bounds::closed(0.0, 1e6),
-                Omitted,
-            ),
-            number(
-                "rolling_friction_m",
-                "Contour (rolling) friction length, m: the power lost is normal force × this × rate \
-                 at which the contact point moves along the rim. Coins on hard surfaces: about \
-                 0.001 to 0.01 R.",
-                Bounds::closed(0.0, 1e6),
-                default(0.0),
-            ),
-            number(
-                "pivoting_friction_m",
-                "Pivoting friction length, m: the power lost is normal force × this × rate at which \
-                 the coin turns about the vertical.",
-                Bounds::closed(0.0, 1e6),
-                default(0.0),
-            ),
-            number(
-                "restitution_threshold_m_s",
-                "Speed of approach, m/s, below which a contact point does not bounce (restitution \
-                 0), as in game engines; nature has none.",
-                Bounds::closed(0.0, 1e6),
-                default(0.0),
-            ),
-            field(
-                "landing",
-                "What a contact does.",
-                Kind::Word(landing),
-                Is(Fallback::Word(landing_name(Landing::Bouncing))),
-            ),
-        ],
-        rules: vec![Rule::Unless {
-            condition: Condition::Word("landing", landing_name(Landing::Adhesive)),
-            keys: &["restitution", "friction"],
-            fallback: Some(Fallback::Number(0.0)),
-        }],
-    }
-}
-
-/// The word for a way of landing.
-pub(in crate::config) const fn landing_name(landing: Landing) -> &'static str {
-    match landing {
-        Landing::Bouncing => "bouncing",
-        Landing::Adhesive => "adhesive",
-    }
-}
-
-fn environment() -> TableKind {
-    let rate = Bounds::closed(0.0, 1e6);
-    fields(vec![
-        number(
-            "gravity_m_s2",
-            "Acceleration of gravity, m/s².",
-            Bounds::closed(1e-6, 1e6),
-            default(Scene::STANDARD_GRAVITY_M_S2),
-        ),
-        number(
-            "linear_drag_per_s",
-            "Rate at which the velocity of the centre decays, 1/s.",
-            rate,
-            default(0.0),
-        ),
-        number(
-            "angular_drag_per_s",
-            "Rate at which the angular momentum decays, 1/s.",
-            rate,
-            default(0.0),
-        ),
-        field(
-            "gyroscopic_torque",
-            "Whether the gyroscopic torque acts, as in nature. Without it a coin in flight turns \
-             about a fixed angular velocity, as in PhysX and Unity.",
-            Kind::Boolean,
-            Is(Fallback::Boolean(true)),
         ),
     ])
 }

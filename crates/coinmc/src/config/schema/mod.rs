@@ -3,7 +3,6 @@
 
 mod fields;
 mod json;
-mod launch;
 
 pub(super) use coinmc_core::schema::{
     Absent, Bounds, Condition, Fallback, Field, Kind, Rule, TableKind, Whole, Word,

@@ -1,0 +1,57 @@
+//! One point of a sweep, and what can be wrong there.
+
+use super::form::{Form, What};
+use super::quantity::Quantity;
+use super::source::Span;
+use super::sweep::Sweep;
+
+/// Why a part of a point cannot be built.
+#[derive(Debug)]
+pub(super) enum Fault {
+    /// A value is invalid, which has been reported.
+    Reported,
+    /// Values that are valid by themselves contradict each other.
+    Problem {
+        span: Span,
+        message: String,
+        help: Option<String>,
+    },
+}
+
+impl Fault {
+    pub(super) fn problem(span: Span, message: String, help: Option<&str>) -> Self {
+        Self::Problem {
+            span,
+            message,
+            help: help.map(str::to_owned),
+        }
+    }
+}
+
+/// One point of a sweep: which value each axis has.
+pub(super) struct At<'a> {
+    sweep: &'a Sweep,
+    pub(super) indices: Vec<usize>,
+}
+
+impl<'a> At<'a> {
+    pub(super) fn new(sweep: &'a Sweep) -> Self {
+        Self {
+            sweep,
+            indices: vec![],
+        }
+    }
+
+    pub(super) fn number(&self, form: &Form) -> Result<f64, Fault> {
+        match &form.what {
+            What::Number(_, Some(axis)) => Ok(self.sweep.axes[*axis].values[self.indices[*axis]]),
+            What::Number(Quantity::Constant(value), None) => Ok(*value),
+            _ => Err(Fault::Reported),
+        }
+    }
+}
+
+/// The value of a key that must be there unless its absence has been reported.
+pub(super) fn get<'f>(form: &'f Form, key: &str) -> Result<&'f Form, Fault> {
+    form.get(key).ok_or(Fault::Reported)
+}
