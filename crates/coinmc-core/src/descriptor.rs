@@ -173,13 +173,33 @@ pub enum Answer {
 
 /// Why an engine cannot be built.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{0}")]
-pub struct EngineError(String);
+#[error("{reason}")]
+pub struct EngineError {
+    reason: String,
+    is_mismatch: bool,
+}
 
 impl EngineError {
     /// For this reason, in words.
     pub fn new(reason: impl Display) -> Self {
-        Self(reason.to_string())
+        Self {
+            reason: reason.to_string(),
+            is_mismatch: false,
+        }
+    }
+
+    /// Values that do not follow their schema, for this reason: they broke a rule of their table, or
+    /// the schema and its reader contradict each other.
+    pub fn mismatch(reason: impl Display) -> Self {
+        Self {
+            is_mismatch: true,
+            ..Self::new(reason)
+        }
+    }
+
+    /// Whether the values do not follow their schema.
+    pub fn is_mismatch(&self) -> bool {
+        self.is_mismatch
     }
 }
 

@@ -19,6 +19,7 @@ pub struct ReadError {
     help: Option<&'static str>,
     /// Keys, innermost first.
     path: Vec<&'static str>,
+    is_mismatch: bool,
 }
 
 impl ReadError {
@@ -28,6 +29,7 @@ impl ReadError {
             reason: reason.into(),
             help: None,
             path: Vec::new(),
+            is_mismatch: false,
         }
     }
 
@@ -48,6 +50,11 @@ impl ReadError {
         self.help
     }
 
+    /// Whether the values do not follow their schema: see [`EngineError::mismatch`].
+    pub fn is_mismatch(&self) -> bool {
+        self.is_mismatch
+    }
+
     /// The key to blame: the keys that lead to it, outermost first.
     pub fn path(&self) -> impl Iterator<Item = &'static str> {
         self.path.iter().rev().copied()
@@ -56,6 +63,9 @@ impl ReadError {
 
 impl From<EngineError> for ReadError {
     fn from(error: EngineError) -> Self {
-        Self::new(error.to_string())
+        Self {
+            is_mismatch: error.is_mismatch(),
+            ..Self::new(error.to_string())
+        }
     }
 }

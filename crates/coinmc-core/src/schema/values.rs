@@ -29,7 +29,7 @@ impl Value {
     pub fn number(&self) -> Result<f64, EngineError> {
         match self {
             Self::Number(number) => Ok(*number),
-            _ => Err(EngineError::new(
+            _ => Err(EngineError::mismatch(
                 "a value is not the number its schema promises",
             )),
         }
@@ -42,7 +42,7 @@ impl Value {
     pub fn table(&self) -> Result<&Values, EngineError> {
         match self {
             Self::Table(values) => Ok(values),
-            _ => Err(EngineError::new(
+            _ => Err(EngineError::mismatch(
                 "a value is not the table its schema promises",
             )),
         }
@@ -57,7 +57,7 @@ impl Value {
             Self::Vector(components) => components.as_slice().try_into().ok(),
             _ => None,
         }
-        .ok_or_else(|| EngineError::new("a value is not the vector its schema promises"))
+        .ok_or_else(|| EngineError::mismatch("a value is not the vector its schema promises"))
     }
 }
 
@@ -204,9 +204,9 @@ impl Values {
 
 /// An alternative that a schema lists and its reader does not know.
 pub fn unlisted(key: &str, name: &str) -> EngineError {
-    EngineError::new(format_args!("there is no `{key}` called `{name}`"))
+    EngineError::mismatch(format_args!("there is no `{key}` called `{name}`"))
 }
 
 fn missing(key: &str) -> EngineError {
-    EngineError::new(format_args!("`{key}` is not what its schema promises"))
+    EngineError::mismatch(format_args!("`{key}` is not what its schema promises"))
 }

@@ -32,13 +32,16 @@ impl Fault {
 pub(super) struct At<'a> {
     sweep: &'a Sweep,
     pub(super) indices: Vec<usize>,
+    /// Whether no problem of the config is known so far.
+    pub(super) sound: bool,
 }
 
 impl<'a> At<'a> {
-    pub(super) fn new(sweep: &'a Sweep) -> Self {
+    pub(super) fn new(sweep: &'a Sweep, sound: bool) -> Self {
         Self {
             sweep,
             indices: vec![],
+            sound,
         }
     }
 

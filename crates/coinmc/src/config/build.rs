@@ -15,10 +15,10 @@ use std::collections::HashSet;
 
 /// Every point of the sweep. Each problem is reported once, at the first point that has it.
 pub(super) fn points(root: &Form, sweep: &Sweep, problems: &mut Problems) -> Vec<Point> {
-    let mut at = At::new(sweep);
     let mut points = Vec::new();
     let mut blamed = HashSet::new();
     let sound = problems.is_empty();
+    let mut at = At::new(sweep, sound);
     if sound {
         points.reserve_exact(sweep.points);
     }

@@ -4,7 +4,7 @@ use super::at::{At, Fault, get};
 use super::diagnostics::Problems;
 use super::form::{Form, What};
 use super::quantity::Quantity;
-use super::values::values;
+use super::values::read;
 use crate::engines::{EngineChoice, engine};
 
 /// The engine with its settings at one point.
@@ -13,8 +13,7 @@ pub(super) fn choice(root: &Form, at: &At<'_>) -> Result<EngineChoice, Fault> {
         return Err(Fault::Reported);
     };
     let engine = engine(tag).ok_or(Fault::Reported)?;
-    let settings = (engine.read)(&values(inner, at)?);
-    settings.map_err(|error| Fault::problem(inner.span, error.to_string(), None))
+    read(inner, at, |values| Ok((engine.read)(values)?))
 }
 
 /// Refuses everything that the config asks for and its engine or law does not model. It would be

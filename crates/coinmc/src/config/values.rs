@@ -11,13 +11,17 @@ pub(super) fn read<T>(
     reader: impl FnOnce(&Values) -> Result<T, ReadError>,
 ) -> Result<T, Fault> {
     reader(&values(form, at)?).map_err(|error| {
+        if error.is_mismatch() && !at.sound {
+            // a rule of the table was broken, and that has been reported
+            return Fault::Reported;
+        }
         let blamed = find(form, error.path());
         Fault::problem(blamed.span, error.to_string(), error.help())
     })
 }
 
 /// The value under a path of keys, or the last one on the way that exists.
-fn find<'f>(mut form: &'f Form, path: impl Iterator<Item = &'static str>) -> &'f Form {
+fn find(mut form: &Form, path: impl Iterator<Item = &'static str>) -> &Form {
     for key in path {
         let Some(inner) = step(untagged(form), key) else {
             return form;
@@ -46,7 +50,7 @@ fn untagged(mut form: &Form) -> &Form {
 }
 
 /// The values of a table at a point.
-pub(super) fn values(form: &Form, at: &At<'_>) -> Result<Values, Fault> {
+fn values(form: &Form, at: &At<'_>) -> Result<Values, Fault> {
     match value(form, at)? {
         Value::Table(values) => Ok(values),
         _ => Err(Fault::Reported),
