@@ -43,7 +43,8 @@ impl<I: ImpactLaw> Model<I> {
         let slow = speed.lt(L::splat(self.threshold));
         let e = L::select(slow, zero, L::splat(self.restitution));
         let plastic = e.le(zero);
-        // the remaining bounces take 2 e v/(a(1 − e)), where a is the acceleration that closes the gap
+        // the remaining bounces take 2 e v/(a(1 − e)), where a is the acceleration that closes the
+        // gap
         let rest = two * e * speed;
         let quick = L::splat(self.zeno) * (one - e);
         let short = rest.lt(quick * (two + two * dynamics.uplift(motion, spin)));

@@ -41,8 +41,8 @@ impl<L> Model<L> {
         }
     }
 
-    /// Whether the coin rocks on its side so little that it may be laid down: gap, speed and angular
-    /// velocity are below a tenth of zeno of half its thickness.
+    /// Whether the coin rocks on its side so little that it may be laid down: gap, speed and
+    /// angular velocity are below a tenth of zeno of half its thickness.
     #[inline]
     pub(crate) fn barely_rocks_on_side(&self, toss: &Toss) -> bool {
         let m = &toss.motion;

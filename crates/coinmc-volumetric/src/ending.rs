@@ -29,8 +29,8 @@ impl<L> Model<L> {
         }
     }
 
-    /// The end of a toss that has just landed, `time` after its launch: too late, or on a surface to
-    /// which the coin sticks.
+    /// The end of a toss that has just landed, `time` after its launch: too late, or on a surface
+    /// to which the coin sticks.
     #[inline]
     pub(crate) fn end_at_landing(&self, toss: &Toss, time: f64) -> Option<Ended> {
         if self.limits.is_late(time) {
@@ -42,8 +42,8 @@ impl<L> Model<L> {
         }
     }
 
-    /// The end of a toss that is given up. If its state is still finite, some work limit was reached;
-    /// every such limit is counted as the limit of impacts.
+    /// The end of a toss that is given up. If its state is still finite, some work limit was
+    /// reached; every such limit is counted as the limit of impacts.
     pub(crate) fn end_given_up(&self, toss: &Toss) -> Ended {
         let energy = toss.motion.energy(&self.dynamics.body, &toss.spin);
         if energy.is_finite() {

@@ -11,7 +11,7 @@ use coinmc_core::{Ended, EventKind, Observer};
 /// A coin whose impacts change more often than this from one rim to the other, without flight,
 /// is laid on its side.
 const MAX_RIM_CHANGES: u32 = 100;
-/// Speeds whose difference is below this fraction of them are equal but for rounding.
+/// Speeds whose difference is below this fraction of them are equal apart from rounding.
 const ROUNDING: f64 = 1e-13;
 
 impl<L: ImpactLaw> Model<L> {

@@ -1,19 +1,19 @@
 #![doc = include_str!("../README.md")]
 //!
 //! # Model
-//! The coin flies in closed form to the first root of its gap, which is never missed, and bounces by an
-//! [`ImpactLaw`]. When all remaining bounces would be over before the coin has turned noticeably,
-//! sustained contact follows: on one point of a rim, sticking or slipping, with friction against
-//! rolling and pivoting, or on the side. The toss ends when the energy that can still tilt the coin is
-//! too small to carry it over its rim. Derivations: `docs/methods/space.md`.
+//! The coin flies in closed form to the first root of its gap, which is never missed, and bounces
+//! by an [`ImpactLaw`]. When all remaining bounces would be over before the coin has turned
+//! noticeably, sustained contact follows: on one point of a rim, sticking or slipping, with
+//! friction against rolling and pivoting, or on the side. The toss ends when the energy that can
+//! still tilt the coin is too small to carry it over its rim. Derivations: `docs/methods/space.md`.
 //!
 //! # Range
 //! Any ratio and moments of inertia, restitution 0 to 1, any friction and friction lengths, linear
-//! drag, with or without gyroscopic torque. The bodies are rigid: elastic compliance and the flow of
-//! air are not modelled. Where no energy is lost, some tosses are never decided: a coin that moves from
-//! one face or side to another for ever (e = 1 without friction, rolling without friction lengths)
-//! ends as [`coinmc_core::Ended::NeverSettles`] where that is known, and otherwise at a limit. Both are
-//! counted.
+//! drag, with or without gyroscopic torque. The bodies are rigid: elastic compliance and the flow
+//! of air are not modelled. Where no energy is lost, some tosses are never decided: a coin that
+//! moves from one face or side to another for ever (e = 1 without friction, rolling without
+//! friction lengths) ends as [`coinmc_core::Ended::NeverSettles`] where that is known, and
+//! otherwise at a limit. Both are counted.
 //!
 //! # Modules
 //! Each line uses only the lines above it:

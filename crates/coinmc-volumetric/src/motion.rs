@@ -1,21 +1,22 @@
 //! The motion of the coin, and the frame in which it is expressed.
 //!
 //! # The folded frame
-//! Heads and tails are mirror images of each other, and the physics does not depend on directions in
-//! the plane. So the motion is expressed in a frame that turns with the coin, and that is reflected
-//! so that u always points up. x is the horizontal direction in which u leans, z is up, y = z × x:
+//! Heads and tails are mirror images of each other, and the physics does not depend on directions
+//! in the plane. So the motion is expressed in a frame that turns with the coin, and that is
+//! reflected so that u always points up. x is the horizontal direction in which u leans, z is up,
+//! y = z × x:
 //!
 //! u = (s, 0, c) with s, c >= 0,  e_θ = (c, 0, −s),  y.
 //!
-//! A separate flag tells which face this u belongs to. The lowest point is then always
-//! r = R e_θ − h u (h = H/2), that is rx = c R − s h, rz = −c h − s R. No formula has a separate case
-//! for the other rim, and u → −u gives bit-identical numbers.
+//! A separate flag tells which face this u belongs to. The lowest point is then always r = R
+//! e_θ − h u (h = H/2), that is rx = c R − s h, rz = −c h − s R. No formula has a separate case for
+//! the other rim, and u → −u gives bit-identical numbers.
 //!
 //! # The rotation vector
 //! The axis of a free symmetric top turns about the fixed angular momentum, at the angular velocity
-//! Ω = L/I_t with the components Ω_a = ω_a I_a/I_t along u and Ω_t = ω_θ, Ω_y = ω_y across u. Without
-//! gyroscopic torque it turns about the fixed ω. In both cases u turns about Ω, and only Ω_a/ω_a
-//! differs.
+//! Ω = L/I_t with the components Ω_a = ω_a I_a/I_t along u and Ω_t = ω_θ, Ω_y = ω_y across u.
+//! Without gyroscopic torque it turns about the fixed ω. In both cases u turns about Ω, and only
+//! Ω_a/ω_a differs.
 
 use crate::body::Body;
 use crate::impact::{ContactPoint, Impulse};
@@ -54,8 +55,9 @@ pub(crate) struct Spin<L> {
 /// Smallest sine of the tilt: the frame needs a direction in which u leans, and quotients by s must
 /// stay finite.
 pub(crate) const LEAST_SIN: f64 = 1e-18;
-/// A coin tilted by less than this, in rad, is level: all points of its lower rim are at the surface.
-/// A coin in contact that does not roll round its rim before comes down on its face at this tilt.
+/// A coin tilted by less than this, in rad, is level: all points of its lower rim are at the
+/// surface. A coin in contact that does not roll round its rim before comes down on its face at
+/// this tilt.
 pub(crate) const FLAT: f64 = 1e-9;
 
 impl<T: Copy> Motion<T> {
@@ -269,8 +271,9 @@ impl<L: Lane> Motion<L> {
         }
     }
 
-    /// Removes what rounding and truncation have added to the energy since it was `before`, so that no
-    /// contact gains energy. All velocities are scaled together, which keeps every constraint on them.
+    /// Removes what rounding and truncation have added to the energy since it was `before`, so that
+    /// no contact gains energy. All velocities are scaled together, which keeps every constraint on
+    /// them.
     #[inline(always)]
     pub(crate) fn cap_energy(&mut self, body: &Body, spin: &mut Spin<L>, before: L) {
         let kinetic = self.kinetic(body, spin);

@@ -24,8 +24,8 @@ impl<O: Observer> ObserverAdapter<'_, O> {
 
     /// Shows a step of `length`; `at` returns the motion at any time within the step.
     pub(crate) fn step(&mut self, length: f64, at: impl Fn(f64) -> (Motion<f64>, Spin<f64>)) {
-        // A mode that ends at once may have rates that are NaN (a jam, a slip of 0), and so may then
-        // be any motion computed from them, even after no time.
+        // A mode that ends at once may have rates that are NaN (a jam, a slip of 0), and so may
+        // then be any motion computed from them, even after no time.
         if !O::ACTIVE || length == 0.0 {
             return;
         }

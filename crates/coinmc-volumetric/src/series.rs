@@ -1,11 +1,11 @@
-//! Elementary functions of the kernels, generic over lanes: sine and cosine, and the two functions of
-//! linear drag. They use IEEE 754 operations only, so they are bit-identical on every platform.
+//! Elementary functions of the kernels, generic over lanes: sine and cosine, and the two functions
+//! of linear drag. They use IEEE 754 operations only, so they are bit-identical on every platform.
 
 use coinmc_lanes::{Lane, Mask, PI_2_TAIL, sin_cos_near_zero};
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4};
 
-/// (sin x, cos x) for any x, rad; within 4e-16 for |x| < 1e6. Beyond that, x itself is less precise than
-/// the error of this function.
+/// (sin x, cos x) for any x, rad; within 4e-16 for |x| < 1e6. Beyond that, x itself is less precise
+/// than the error of this function.
 ///
 /// Cody & Waite reduction by multiples of π/2 in three parts of 33 bits, then the minimax
 /// polynomials of FreeBSD's msun (`k_sin.c`, `k_cos.c`) on [−π/4, π/4].
@@ -30,7 +30,8 @@ pub(crate) fn sin_cos<L: Lane>(x: L) -> (L, L) {
     )
 }
 
-/// (sin x, cos x) for a tilt, 0 <= x <= π/2 rad, within 4e-16; smooth, and accurate slightly beyond.
+/// (sin x, cos x) for a tilt, 0 <= x <= π/2 rad, within 4e-16; smooth, and accurate slightly
+/// beyond.
 #[inline(always)]
 pub(crate) fn sin_cos_tilt<L: Lane>(x: L) -> (L, L) {
     let fold = L::splat(FRAC_PI_4).lt(x);
@@ -39,8 +40,8 @@ pub(crate) fn sin_cos_tilt<L: Lane>(x: L) -> (L, L) {
     (L::select(fold, c, s), L::select(fold, s, c))
 }
 
-/// p = (1 − e^(−x))/x and q = (x − 1 + e^(−x))/x² for x >= 0. With linear drag k, in a time t a velocity
-/// v₀ carries a body v₀ t·p(kt) far, and a unit force t²·q(kt). p(0) = 1, q(0) = ½.
+/// p = (1 − e^(−x))/x and q = (x − 1 + e^(−x))/x² for x >= 0. With linear drag k, in a time t a
+/// velocity v₀ carries a body v₀ t·p(kt) far, and a unit force t²·q(kt). p(0) = 1, q(0) = ½.
 #[inline(always)]
 pub(crate) fn decay<L: Lane>(x: L) -> (L, L) {
     let one = L::splat(1.0);

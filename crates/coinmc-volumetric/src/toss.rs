@@ -54,8 +54,8 @@ impl Toss {
         }
     }
 
-    /// The launch in the folded frame. A coin that would start inside the surface is lifted until it
-    /// just touches.
+    /// The launch in the folded frame. A coin that would start inside the surface is lifted until
+    /// it just touches.
     pub(crate) fn new(launch: &Launch, units: &Units, body: &Body, axial_factor: f64) -> Self {
         let axis = launch.axis.into_inner();
         let heads_up = axis.z.is_sign_positive();

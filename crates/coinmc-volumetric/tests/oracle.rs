@@ -1,9 +1,10 @@
-//! Whole tosses against the time-stepping oracle: the same laws in another formulation and other code.
+//! Whole tosses against the time-stepping oracle: the same laws in another formulation and other
+//! code.
 //!
-//! Both simulate the same launches, so the differences are paired. Single tosses diverge at e > 0, where
-//! rounding grows with every bounce; their statistics must not. The bounds are 3 standard errors of the
-//! paired difference (false alarms with other seeds: 3e-3 per scene), plus
-//! .002 for what the oracle's step costs. The study `oracle` makes the long comparison.
+//! Both simulate the same launches, so the differences are paired. Single tosses diverge at e > 0,
+//! where rounding grows with every bounce; their statistics must not. The bounds are 3 standard
+//! errors of the paired difference (false alarms with other seeds: 3e-3 per scene), plus .002 for
+//! what the oracle's step costs. The study `oracle` makes the long comparison.
 
 use coinmc_core::{Coin, Domain, Engine, Face, Preset, Scene, Stream, Surface};
 use coinmc_oracle::{StepperSettings, TimeStepper};
@@ -74,8 +75,8 @@ fn bouncing_coins_agree() {
     agrees(0.25, 0.5, 0.01, 3000);
 }
 
-/// Tosses decided within two impacts do not amplify errors: they agree one by one, except those that
-/// come as close to a balance as the error of the oracle's step (about 2 in 900).
+/// Tosses decided within two impacts do not amplify errors: they agree one by one, except those
+/// that come as close to a balance as the error of the oracle's step (about 2 in 900).
 #[test]
 fn coins_that_do_not_bounce_agree_toss_by_toss() {
     for (ratio, rho) in [(0.85, 0.01), (2.0, 0.01)] {

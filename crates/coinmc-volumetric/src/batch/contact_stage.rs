@@ -1,5 +1,5 @@
-//! Eight coins in sustained contact in one mode: each tries step after step, until one of them needs
-//! the scalar path.
+//! Eight coins in sustained contact in one mode: each tries step after step, until one of them
+//! needs the scalar path.
 
 use super::columns::{has, load, store};
 use super::slot::Slot;

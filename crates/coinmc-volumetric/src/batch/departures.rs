@@ -17,7 +17,7 @@ pub(super) struct Departures {
 }
 
 impl Departures {
-    /// Fills one lane, but for the kind of departure.
+    /// Fills one lane, except for the kind of departure.
     #[inline]
     pub(super) fn put(&mut self, lane: usize, slot: usize, motion: &Motion<f64>, spin: &Spin<f64>) {
         put_start(&mut self.start, lane, motion, spin);

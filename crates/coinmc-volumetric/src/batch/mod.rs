@@ -9,12 +9,12 @@
 //!
 //! A pool holds all tosses in flight, each at one stage. A stage works on eight tosses at once, as
 //! soon as eight are waiting for it: so the lanes are full although tosses take different paths. In
-//! flight and in contact a toss keeps its lane from step to step; a lane that becomes free is given to
-//! the next toss. Rare cases (a coin that lies, stands, jams, or changes its mode of contact) are
-//! handled one by one by the code of the scalar path. With [`Lanes::Scalar`] there is no batch.
+//! flight and in contact a toss keeps its lane from step to step; a lane that becomes free is given
+//! to the next toss. Rare cases (a coin that lies, stands, jams, or changes its mode of contact)
+//! are handled one by one by the code of the scalar path. With [`Lanes::Scalar`] there is no batch.
 //!
-//! No lane depends on another, and all operations are those of IEEE 754. So the outcome of a toss is
-//! bit-identical whatever other tosses are in flight and whatever the instruction set.
+//! No lane depends on another, and all operations are those of IEEE 754. So the outcome of a toss
+//! is bit-identical whatever other tosses are in flight and whatever the instruction set.
 
 mod arrivals;
 mod columns;
@@ -265,8 +265,8 @@ impl<I: ImpactLaw> Batch<'_, I> {
         }
     }
 
-    /// Brings a toss to its next stage, by the scalar path where that takes an impact or a change of
-    /// the mode of contact.
+    /// Brings a toss to its next stage, by the scalar path where that takes an impact or a change
+    /// of the mode of contact.
     fn apply(&mut self, slot: usize, mut next: Transition) {
         loop {
             let state = &mut self.pool.slots[slot];

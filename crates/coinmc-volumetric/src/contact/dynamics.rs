@@ -19,8 +19,8 @@ pub(crate) struct Dynamics {
     /// K_yy and 1/K_yy, which do not depend on the tilt.
     pub(super) kyy: f64,
     pub(super) inverse_kyy: f64,
-    /// 1/(K_xx K_zz − K_xz²). It does not depend on the tilt either, as the distance of the rim from
-    /// the centre is constant.
+    /// 1/(K_xx K_zz − K_xz²). It does not depend on the tilt either, as the distance of the rim
+    /// from the centre is constant.
     pub(super) inverse_det: f64,
     /// 1/(ρ_c smoothing_time) and 1/(ρ_p smoothing_time), see [`smoothed_sign`].
     contour_smoothing: f64,
@@ -89,11 +89,11 @@ impl Dynamics {
     #[inline(always)]
     pub(super) fn quotients<L: Lane>(&self, s: L, c: L) -> Quotients<L> {
         if !self.friction.has_lengths() {
-            let none = L::splat(0.0);
+            let zero = L::splat(0.0);
             return Quotients {
                 sin: L::splat(1.0) / s,
-                along: none,
-                about: none,
+                along: zero,
+                about: zero,
             };
         }
         let (ikt, ika) = (L::splat(self.inverse_kt), L::splat(self.inverse_ka));
@@ -154,8 +154,8 @@ impl Dynamics {
         L::splat(1.0) + rz * spin.tilt * spin.tilt + rx * self.gyroscopic(m, spin)
     }
 
-    /// An estimate from the motion before an impact of by how much [`press`](Self::press) may exceed 1
-    /// after it.
+    /// An estimate from the motion before an impact of by how much [`press`](Self::press) may
+    /// exceed 1 after it.
     #[inline(always)]
     pub(crate) fn uplift<L: Lane>(&self, m: &Motion<L>, spin: &Spin<L>) -> L {
         self.gyroscopic(m, spin).abs()

@@ -1,4 +1,5 @@
-//! Events within an accepted step of contact: another rim point touches, or the mode ceases to hold.
+//! Events within an accepted step of contact: another rim point touches, or the mode ceases to
+//! hold.
 
 use super::integrator::Trial;
 use super::margin_search::MarginSearch;
@@ -13,7 +14,8 @@ use super::tilt_search::TiltSearch;
 use coinmc_core::Decided;
 use std::f64::consts::FRAC_PI_2;
 
-/// After this many turning points of the tilt, a motion without loss has shown that it repeats itself.
+/// After this many turning points of the tilt, a motion without loss has shown that it repeats
+/// itself.
 const TURNING_POINTS: u32 = 3;
 /// An extreme of the tilt closer to the balance than this, in u_z, may lie on either side of it: a
 /// hundred times the error of the dense output.
@@ -57,8 +59,8 @@ impl ContactSolver<'_> {
         (self.after_step(phase), length)
     }
 
-    /// Moves `phase` to where its mode ceases to hold within the step, or where the other rim touches
-    /// before.
+    /// Moves `phase` to where its mode ceases to hold within the step, or where the other rim
+    /// touches before.
     fn end_mode(
         &mut self,
         phase: &mut Phase,
@@ -101,8 +103,8 @@ impl ContactSolver<'_> {
     }
 
     /// Moves `phase` to where the other rim touches on the way to `state`. The dense output puts
-    /// `state` at a time `length` into the step. `None` if the rim does not touch: the tilt may exceed
-    /// the side only by the error of the dense output.
+    /// `state` at a time `length` into the step. `None` if the rim does not touch: the tilt may
+    /// exceed the side only by the error of the dense output.
     fn touch_before(
         &mut self,
         phase: &mut Phase,
@@ -118,9 +120,9 @@ impl ContactSolver<'_> {
         arrives.then(|| search.finish(phase, state))
     }
 
-    /// A time at which the mode no longer holds, shortly after one at which it does: the fraction of
-    /// the step, the state and the rates. It is found in the dense output. Because that has the same
-    /// error as the step, a precision of a few thousandths of the step is enough.
+    /// A time at which the mode no longer holds, shortly after one at which it does: the fraction
+    /// of the step, the state and the rates. It is found in the dense output. Because that has the
+    /// same error as the step, a precision of a few thousandths of the step is enough.
     fn locate_end_of_mode(
         &self,
         phase: &Phase,
@@ -156,8 +158,8 @@ impl ContactSolver<'_> {
         }
     }
 
-    /// The exit of a motion that repeats itself. The tilt stays between its extremes for ever. If both
-    /// lie in one well, that decides the face, unless only the energy may decide it.
+    /// The exit of a motion that repeats itself. The tilt stays between its extremes for ever. If
+    /// both lie in one well, that decides the face, unless only the energy may decide it.
     fn exit_of_repetition(&self, phase: &Phase) -> Exit {
         // u_z is largest where the tilt is smallest
         let [highest, lowest] = phase.tilts.map(libm::cos);
@@ -189,8 +191,8 @@ impl ContactSolver<'_> {
     }
 }
 
-/// Where in a step the tilt turns, as a fraction of the step, and the state there: by bisection of the
-/// dense output.
+/// Where in a step the tilt turns, as a fraction of the step, and the state there: by bisection of
+/// the dense output.
 fn turning_point(phase: &Phase, trial: &Trial<f64, 6>) -> (f64, RimState<f64>) {
     let rises = phase.state[OMEGA_Y] > 0.0;
     let (mut low, mut high) = (0.0, 1.0);

@@ -175,8 +175,8 @@ pub(crate) fn shorter<L: Lane>(h: L, error: L) -> L {
 }
 
 /// The length of the next step after a step of length `h` with this (squared) error:
-/// h·0.9·error^(−1/4), changed by a factor of at most 5. (The fifth root that theory asks for is not an
-/// IEEE 754 operation; the fourth root corrects a little more, and keeps the order.)
+/// h·0.9·error^(−1/4), changed by a factor of at most 5. (The fifth root that theory asks for is
+/// not an IEEE 754 operation; the fourth root corrects a little more, and keeps the order.)
 #[inline(always)]
 pub(crate) fn next_length<L: Lane>(h: L, error: L) -> L {
     let factor = L::splat(0.9) / error.max(L::splat(1e-24)).sqrt().sqrt().sqrt();

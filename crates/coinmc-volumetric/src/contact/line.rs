@@ -1,4 +1,4 @@
-//! The equations of motion of a coin on its side: both rims touch the surface, and the tilt is zero.
+//! The equations of motion of a coin on its side: both rims touch the surface, the tilt is zero.
 //!
 //! With u = (1, 0, 0) the two contact points are r = (∓h, 0, −R), and slip at
 //! γ_i = (v_x, v_y + R ω_a ∓ h ω_z). In the frame that turns with ω_z,
@@ -6,12 +6,12 @@
 //! v_x' = ω_z v_y + f_x,  v_y' = −ω_z v_x + f_y,  k_a ω_a' = R f_y − ρ_c σ_c,
 //! k_t ω_z' = h (f_2y − f_1y) − ρ_p σ_p,
 //!
-//! with N_1 + N_2 = 1 (m g) and, because the coin does not tilt,
-//! h (N_1 − N_2) = k_t Ω_a ω_z + R f_x, Ω_a = ω_a I_a/I_t. Where this requires a negative force, the
-//! coin tips onto the other rim, if contact of that rim alone agrees. Friction is
-//! f_i = −μ N_i γ_i/√(γ_i² + ε²), ε = `stick_speed`: instead of sticking, a point creeps more slowly
-//! than ε. Straight rolling and sliding are those of the textbooks: a slip v_y + R ω_a decays at the
-//! rate μ(1 + R²/k_a), and ω_a of a rolling coin at the rate ρ_c/(k_a + R²).
+//! with N_1 + N_2 = 1 (m g) and, because the coin does not tilt, h (N_1 − N_2) = k_t Ω_a ω_z + R
+//! f_x, Ω_a = ω_a I_a/I_t. Where this requires a negative force, the coin tips onto the other rim,
+//! if contact of that rim alone agrees. Friction is f_i = −μ N_i γ_i/√(γ_i² + ε²),
+//! ε = `stick_speed`: instead of sticking, a point creeps more slowly than ε. Straight rolling and
+//! sliding are those of the textbooks: a slip v_y + R ω_a decays at the rate μ(1 + R²/k_a), and ω_a
+//! of a rolling coin at the rate ρ_c/(k_a + R²).
 
 use super::dynamics::Dynamics;
 use crate::motion::{Motion, Spin};
@@ -21,7 +21,8 @@ pub(super) type LineState = [f64; 4];
 
 pub(super) struct LineRates {
     pub(super) rates: LineState,
-    /// The share of the weight that the rim at r = (−h, 0, −R) would carry if the coin could not tip.
+    /// The share of the weight that the rim at r = (−h, 0, −R) would carry if the coin could not
+    /// tip.
     pub(super) share: f64,
 }
 

@@ -2,8 +2,9 @@
 //!
 //! # The state machine of a rim point
 //! A toss in contact on one rim point is in a [`Phase`], in one of two modes: it sticks or it slips
-//! ([`Mode`]). A phase is integrated step by step. The state at the start of a step and the step itself
-//! lead to a [`PhaseTransition`]: stay in the phase, change the mode, or leave contact by an [`Exit`].
+//! ([`Mode`]). A phase is integrated step by step. The state at the start of a step and the step
+//! itself lead to a [`PhaseTransition`]: stay in the phase, change the mode, or leave contact by an
+//! [`Exit`].
 //!
 //! ```text
 //!               ┌── friction cannot hold the point ──▶
@@ -21,11 +22,11 @@
 //! | function | from | to |
 //! |---|---|---|
 //! | `enter` | a motion | its first phase |
-//! | `exit_now` | a phase before a step | an exit, if the face is decided or a limit is reached |
-//! | `immediate_transition` | a phase before a step | a transition that takes no time, if there is one |
-//! | `exit_before_step` | a phase | an exit, or where its next step starts (after both of the above) |
+//! | `exit_now` | a phase before a step | an exit, if decided or at a limit |
+//! | `immediate_transition` | a phase before a step | a transition that takes no time, if any |
+//! | `exit_before_step` | a phase | an exit, or the start of its next step (by the two above) |
 //! | `try_step` | the start of a step | its end, which may be rejected as inaccurate |
-//! | `accept` | an accurate step | its end, or the first event within it, and the transition there |
+//! | `accept` | an accurate step | its end or its first event, and the transition there |
 //! | `apply` | a transition | the same phase, the next phase, or the exit |
 //! | `change_mode` | a phase whose mode no longer holds | the next phase |
 //!
@@ -35,7 +36,8 @@
 //! - `dynamics` constants and friction moments · `rim` equations of motion · `state` from motion to
 //!   state and back · `integrator` Runge–Kutta step
 //! - `rules` what governs contact · `phase` phase and exits · `step` one try of a step
-//! - `solver` the state machine · `tilt_search`, `margin_search`, `events` where in a step an event lies
+//! - `solver` the state machine · `tilt_search`, `margin_search`, `events` where in a step an event
+//!   lies
 //! - `follow` the scalar path
 //! - `line`, `rolling_stop`, `on_side` the coin on its side
 

@@ -1,7 +1,8 @@
 //! The path of a coin on its side, until its face is decided or it tips onto one rim.
 //!
-//! The face is decided by energy, or (under the tilting decision) once the weight holds both rims down
-//! for good. Once only straight rolling and a creep are left, their end follows in closed form.
+//! The face is decided by energy, or (under the tilting decision) once the weight holds both rims
+//! down for good. Once only straight rolling and a creep are left, their end follows in closed
+//! form.
 
 use super::integrator::{Trial, is_accepted, next_length, shorter, step};
 use super::line::{LineRates, LineState, line_motion, line_rates, line_state, place_on_side};
@@ -113,9 +114,9 @@ impl ContactSolver<'_> {
         }
     }
 
-    /// Whether contact of one rim alone agrees that the coin tips onto it: onto the lowest rim of the
-    /// folded frame for `side` = 1, onto the other one for −1. (Friction that makes a rim stick may
-    /// differ from the friction of its creep.)
+    /// Whether contact of one rim alone agrees that the coin tips onto it: onto the lowest rim of
+    /// the folded frame for `side` = 1, onto the other one for −1. (Friction that makes a rim stick
+    /// may differ from the friction of its creep.)
     fn tips(&self, state: &LineState, side: f64) -> bool {
         let [vx, vy, wa, wz] = *state;
         let body = &self.rules.dynamics.body;

@@ -49,8 +49,8 @@ pub(crate) struct Phase {
     pub(super) turning_points: u32,
     /// The smallest and the largest tilt at a turning point, rad.
     pub(super) tilts: [f64; 2],
-    /// Energy at the start of the phase. Truncation errors within the phase may have either sign, but
-    /// the energy never exceeds this.
+    /// Energy at the start of the phase. Truncation errors within the phase may have either sign,
+    /// but the energy never exceeds this.
     pub(crate) ceiling: f64,
 }
 

@@ -2,8 +2,8 @@
 //!
 //! # State
 //! The state is the tilt θ of u, ω in the triad (u, e_θ, y), and the slip velocity γ of the contact
-//! point. The velocity of the centre follows from it, because the contact point stays on the surface:
-//! v = (γx − ω_y rz, γy − R ω_a − h ω_θ, ω_y rx), h = H/2.
+//! point. The velocity of the centre follows from it, because the contact point stays on the
+//! surface: v = (γx − ω_y rz, γy − R ω_a − h ω_θ, ω_y rx), h = H/2.
 //!
 //! # Derivation
 //! The triad turns with W = (φ'c, ω_θ, ω_y), where φ' = −ω_θ/s is the rate of the azimuth, so
@@ -22,9 +22,10 @@
 //! by = −φ'vx + h ω_y(φ'c − Ω_a) − N(R t_a/ka + h t_θ/kt),
 //! bz = −1 − rz ω_y² − rx G.
 //!
-//! Sticking requires γ' = 0, slipping f = −μ N γ/|γ|. Drag adds −k v to the acceleration of the centre
-//! and −k_ω ω to ω'. Without gyroscopic torque Ω_a = ω_a. (Le Saux, Leine & Glocker, J. Nonlinear
-//! Sci. 15 (2005) 27; contour and pivoting friction as in Leine, Arch. Appl. Mech. 79 (2009) 1063.)
+//! Sticking requires γ' = 0, slipping f = −μ N γ/|γ|. Drag adds −k v to the acceleration of the
+//! centre and −k_ω ω to ω'. Without gyroscopic torque Ω_a = ω_a. (Le Saux, Leine & Glocker, J.
+//! Nonlinear Sci. 15 (2005) 27; contour and pivoting friction as in Leine, Arch. Appl. Mech. 79
+//! (2009) 1063.)
 
 use super::dynamics::Dynamics;
 use super::integrator::Flow;
@@ -60,8 +61,8 @@ pub(crate) struct Rates<L> {
     pub(crate) friction: [L; 2],
     /// Acceleration at which the contact point would enter the surface if it were free: −bz.
     pub(crate) press: L,
-    /// Kzz − μ Kxz nx. Where it is not positive, no normal force is consistent with slip (Painlevé):
-    /// the contact jams.
+    /// Kzz − μ Kxz nx. Where it is not positive, no normal force is consistent with slip
+    /// (Painlevé): the contact jams.
     pub(crate) jam_margin: L,
 }
 
@@ -204,11 +205,11 @@ impl<L: Lane> Slip<L> {
             };
         }
         let speed = (x * x + y * y).sqrt();
-        let none = speed.le(zero);
+        let at_rest = speed.le(zero);
         Self {
-            x: L::select(none, one, x),
-            y: L::select(none, zero, y),
-            speed: L::select(none, one, speed),
+            x: L::select(at_rest, one, x),
+            y: L::select(at_rest, zero, y),
+            speed: L::select(at_rest, one, speed),
         }
     }
 }

@@ -8,8 +8,8 @@ const NEGLIGIBLE_DRAG: f64 = 1e-12;
 
 /// Straight rolling that contour friction and drag bring to rest.
 ///
-/// v' = −a sgn v − bv with a = ρ_c R/(k_a + R²) and b = (kR² + k_a k_ω)/(k_a + R²), where k and k_ω are
-/// the rates of drag. With x = b|v₀|/a, v = v₀ [1 + (1 + 1/x)(e^(−bt) − 1)].
+/// v' = −a sgn v − bv with a = ρ_c R/(k_a + R²) and b = (kR² + k_a k_ω)/(k_a + R²), where k and k_ω
+/// are the rates of drag. With x = b|v₀|/a, v = v₀ [1 + (1 + 1/x)(e^(−bt) − 1)].
 pub(super) struct RollingStop {
     a: f64,
     b: f64,

@@ -105,8 +105,8 @@ impl ContactSolver<'_> {
         self.move_to_start(phase, motion, spin);
     }
 
-    /// A jam (Painlevé's configuration): an impulse at the contact point, without approach, ends the
-    /// slip.
+    /// A jam (Painlevé's configuration): an impulse at the contact point, without approach, ends
+    /// the slip.
     pub(super) fn resolve_jam(&mut self, phase: &mut Phase) -> PhaseTransition {
         self.usage.jams += 1;
         self.usage.steps += 1;

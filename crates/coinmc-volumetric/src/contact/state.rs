@@ -48,7 +48,8 @@ pub(crate) fn place<L: Lane>(
     motion.set_spin(spin, dynamics.axial_factor);
 }
 
-/// Sets the motion of a state, with no more energy than `ceiling`: all velocities are scaled together.
+/// Sets the motion of a state, with no more energy than `ceiling`: all velocities are scaled
+/// together.
 #[inline(always)]
 pub(super) fn place_below<L: Lane>(
     dynamics: &Dynamics,

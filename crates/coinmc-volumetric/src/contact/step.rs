@@ -152,7 +152,8 @@ fn braking_limit<L: Lane>(state: &RimState<L>, rates: &RimState<L>) -> L {
     L::select(braking.le(L::splat(0.0)), L::splat(f64::INFINITY), most)
 }
 
-/// No step of a falling coin reaches the tilt where it would be level: the rates grow like 1/θ there.
+/// No step of a falling coin reaches the tilt where it would be level: the rates grow like 1/θ
+/// there.
 #[inline(always)]
 fn flattening_limit<L: Lane>(state: &RimState<L>) -> L {
     let (tilt, falls) = (state[TILT], state[OMEGA_Y].lt(L::splat(0.0)));

@@ -1,5 +1,5 @@
-//! The equations of contact against vectors in the laboratory frame, against textbook motions, and in
-//! lanes.
+//! The equations of contact against vectors in the laboratory frame, against textbook motions, and
+//! in lanes.
 
 use super::dynamics::Dynamics;
 use super::integrator::{is_accepted, next_length, shorter, step};
@@ -255,9 +255,9 @@ fn steady_precession_is_steady() {
     assert!(checked > 500, "{checked}");
 }
 
-/// Euler's disk: its contact point circles at the rate of the closed form, and contour friction stops
-/// it in the finite time of the closed form. Both formulas hold for small tilts and thin coins: the
-/// corrections are of first order in the tilt (0.05) and in the ratio (1e-4).
+/// Euler's disk: its contact point circles at the rate of the closed form, and contour friction
+/// stops it in the finite time of the closed form. Both formulas hold for small tilts and thin
+/// coins: the corrections are of first order in the tilt (0.05) and in the ratio (1e-4).
 #[test]
 fn eulers_disk_comes_down_in_finite_time() {
     let dynamics = dynamics(1e-4, rough(0.3, 1e-3, 0.0), STILL, true);
@@ -281,8 +281,8 @@ fn eulers_disk_comes_down_in_finite_time() {
     assert!((time / expected - 1.0).abs() < 0.03, "{time} {expected}");
 }
 
-/// A coin that spins upright on its rim, and a wheel that rolls upright (u horizontal), slow down at
-/// the rates of the textbooks. The coin is thin, so that both rims are in the same place.
+/// A coin that spins upright on its rim, and a wheel that rolls upright (u horizontal), slow down
+/// at the rates of the textbooks. The coin is thin, so that both rims are in the same place.
 #[test]
 fn spun_coins_and_wheels_slow_down() {
     let dynamics = dynamics(1e-6, rough(0.5, 0.01, 0.02), STILL, true);
@@ -364,8 +364,8 @@ fn lane<const N: usize>(lanes: &[Four; N], lane: usize) -> [u64; N] {
     lanes.map(|component| component.0[lane].to_bits())
 }
 
-/// The power that the coin loses: to friction against slip, to contour and pivoting friction, and to
-/// drag.
+/// The power that the coin loses: to friction against slip, to contour and pivoting friction, and
+/// to drag.
 fn power(dynamics: &Dynamics, state: &RimState<f64>, mode: Mode) -> f64 {
     let [tilt, wy, wa, wt, gx, gy] = *state;
     let (s, c) = libm::sincos(tilt);
@@ -460,8 +460,8 @@ fn balance(tolerance: f64) -> (f64, f64) {
 }
 
 /// The energy that a phase loses is the integral of the power of its friction: at the default
-/// tolerance (2e-4 of an escape speed of .4), and at one that is 1e5 times tighter. The bounds are a
-/// few times the measured values.
+/// tolerance (2e-4 of an escape speed of .4), and at one that is 1e5 times tighter. The bounds are
+/// a few times the measured values.
 #[test]
 fn energy_balances_over_contact_phases() {
     let (worst, median) = balance(8e-5);

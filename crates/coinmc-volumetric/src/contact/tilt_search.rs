@@ -9,8 +9,8 @@ use std::f64::consts::FRAC_PI_2;
 /// Most tries of a search; bisection alone needs as many.
 const MOST_TRIES: u32 = 40;
 
-/// Newton's method in a bracket for the step length at which the tilt reaches a goal. Each evaluation
-/// is one try of the step.
+/// Newton's method in a bracket for the step length at which the tilt reaches a goal. Each
+/// evaluation is one try of the step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TiltSearch {
     goal: f64,
@@ -47,8 +47,8 @@ impl TiltSearch {
         })
     }
 
-    /// Whether the last try, which led to `state`, missed the goal; `length` is that of the next try
-    /// then.
+    /// Whether the last try, which led to `state`, missed the goal; `length` is that of the next
+    /// try then.
     pub(crate) fn needs_another_try(&mut self, state: &RimState<f64>) -> bool {
         let gap = state[TILT] - self.goal;
         if self.tries == MOST_TRIES || gap.abs() <= SIDE_ANGLE {

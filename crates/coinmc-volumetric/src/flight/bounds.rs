@@ -62,8 +62,8 @@ pub(crate) struct Bounds<L> {
 
 impl<L: Lane> Bounds<L> {
     /// An upper bound of |f'''| of a rim without drag, and the time for which it holds: while the
-    /// distance of u from the vertical is at least 1 − [`REACH`] of `sin`, its value now. Derived in
-    /// `search`, under *Lower bounds of f*.
+    /// distance of u from the vertical is at least 1 − [`REACH`] of `sin`, its value now. Derived
+    /// in `search`, under *Lower bounds of f*.
     #[inline(always)]
     pub(crate) fn jerk(&self, body: &Body, sin: L, inverse_sin: L) -> (L, L) {
         const CROSS: f64 = 3.0 / (1.0 - REACH);
@@ -110,8 +110,9 @@ impl<L: Lane> Orbit<L> {
     }
 }
 
-/// The largest height h(uz) of the centre at which the lowest point can touch, while uz stays within
-/// `amplitude` of ±`middle`. h increases up to |uz| = half, where it is 1, and decreases beyond.
+/// The largest height h(uz) of the centre at which the lowest point can touch, while uz stays
+/// within `amplitude` of ±`middle`. h increases up to |uz| = half, where it is 1, and decreases
+/// beyond.
 #[inline(always)]
 fn highest<L: Lane>(body: &Body, middle: L, amplitude: L) -> L {
     let (one, half) = (L::splat(1.0), L::splat(body.half));

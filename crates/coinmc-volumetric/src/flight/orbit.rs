@@ -5,8 +5,8 @@
 //! u(φ) = a + b cos φ + d sin φ,  a = e(e·u), b = u − a, d = e × u.
 //!
 //! Without drag φ = wt and the centre follows a parabola. With linear drag k and angular drag k_a
-//! (v' = −kv − g, Ω' = −k_a Ω) the direction of Ω stays fixed, φ = w t p(k_a t), and the height of the
-//! centre is z + v_z t p(kt) − g t² q(kt), with p and q of [`decay`].
+//! (v' = −kv − g, Ω' = −k_a Ω) the direction of Ω stays fixed, φ = w t p(k_a t), and the height of
+//! the centre is z + v_z t p(kt) − g t² q(kt), with p and q of [`decay`].
 
 use crate::body::Body;
 use crate::drag::Drag;
@@ -184,9 +184,9 @@ impl<L: Lane> Orbit<L> {
         (L::splat(1.0) + L::splat(self.drag.linear) * vz).min(L::splat(0.0))
     }
 
-    /// The motion at time `t`, at the height where the coin touches the surface, in the folded frame
-    /// of that moment. Also the x axis of that frame in the frame of the flight, and whether the axis
-    /// was reflected.
+    /// The motion at time `t`, at the height where the coin touches the surface, in the folded
+    /// frame of that moment. Also the x axis of that frame in the frame of the flight, and whether
+    /// the axis was reflected.
     #[inline(always)]
     pub(crate) fn land(&self, m: &Motion<L>, body: &Body, t: L) -> (Motion<L>, [L; 2], L::Mask) {
         let (mut after, x_axis, reflected) = self.at(m, t);
@@ -202,7 +202,7 @@ impl<L: Lane> Orbit<L> {
         let (z, vz) = self.fall(t);
         let at = |i: usize| self.state.a[i] + (self.state.b[i] * c + self.state.d[i] * s);
         let (ux, uy, uz) = (at(0), at(1), at(2));
-        // |u| is 1 but for rounding, which must not accumulate over thousands of flights
+        // |u| is 1 apart from rounding, which must not accumulate over thousands of flights
         let horizontal = ux * ux + uy * uy;
         let scale = L::splat(1.5) - L::splat(0.5) * (horizontal + uz * uz);
         let sin = horizontal.sqrt();
@@ -231,9 +231,9 @@ impl<L: Lane> Orbit<L> {
         (after, [nx, ny], reflected)
     }
 
-    /// A fraction `share` of the shortest time in which anything can happen at the start of a flight:
-    /// turning, toppling, or another point becoming the lowest (the opposite point of the rim as the
-    /// tilt vanishes, a point of the other rim as u becomes horizontal).
+    /// A fraction `share` of the shortest time in which anything can happen at the start of a
+    /// flight: turning, toppling, or another point becoming the lowest (the opposite point of the
+    /// rim as the tilt vanishes, a point of the other rim as u becomes horizontal).
     #[inline(always)]
     pub(crate) fn short_time(&self, m: &Motion<L>, share: L) -> L {
         let least = L::splat(LEAST_SIN);
@@ -251,8 +251,8 @@ impl<L: Lane> Orbit<L> {
         remains(self.drag.angular, self.since_start(t))
     }
 
-    /// Whether a Newton step of length `step`, with the second-order term, leaves a gap below 1e-14:
-    /// its error is of third order, and f''' of the order of the cube of the rates.
+    /// Whether a Newton step of length `step`, with the second-order term, leaves a gap below
+    /// 1e-14: its error is of third order, and f''' of the order of the cube of the rates.
     #[inline(always)]
     pub(crate) fn resolves(&self, step: L, sin: L) -> L::Mask {
         const THIRD_ORDER: f64 = 2e-5;
@@ -273,6 +273,6 @@ impl<L: Lane> Orbit<L> {
 fn remains<L: Lane>(k: f64, t: L) -> L {
     let x = L::splat(k) * t;
     let (p, _) = decay(x);
-    // p is exact but for rounding for any x; 1 − x p is not, and must not become negative
+    // p is exact apart from rounding for any x; 1 − x p is not, and must not become negative
     (L::splat(1.0) - x * p).max(L::splat(0.0))
 }

@@ -1,8 +1,8 @@
 //! First contact of a flight: the first root of the gap f(t), never missed.
 //!
 //! # Lower bounds of f: where no root can be
-//! f is the smaller of the gaps of the two rims, f_b = z − b h uz − R sin, b = ±1 (h = H/2). From any
-//! moment on, with the [`Bounds`] of uz and sin:
+//! f is the smaller of the gaps of the two rims, f_b = z − b h uz − R sin, b = ±1 (h = H/2). From
+//! any moment on, with the [`Bounds`] of uz and sin:
 //!
 //! * sin = √(sin²) is concave in sin², so sin(τ) <= sin + sin'τ + ½(sin²)''_max τ²/(2 sin), and
 //!   f_b(τ) >= f_b + f_b'τ − ½M τ²,  M = 1 + h·swing + R·spread/sin. (With drag, the strongest pull
@@ -10,29 +10,29 @@
 //! * Where sin is small: sin(τ) <= sin + wander·τ, so
 //!   f_b(τ) >= f_b + (f_b' + R sin' − R wander) τ − ½(1 + h·swing) τ².
 //! * Where sin is small, also: the horizontal part a of u moves in an almost straight line,
-//!   sin(τ) <= |a + a'τ| + ½bend τ². As |a + a'τ| is convex, it lies below its chord over [0, T]. With
-//!   the slope σ of that chord,
+//!   sin(τ) <= |a + a'τ| + ½bend τ². As |a + a'τ| is convex, it lies below its chord over [0, T].
+//!   With the slope σ of that chord,
 //!   f_b(τ) >= f_b + (f_b' + R sin' − Rσ) τ − ½(1 + h·swing + R·bend) τ² for τ <= T.
 //!   This is the best bound for a coin that comes down flat: then u moves along a radius, σ = sin'.
 //! * Without drag and while the gap widens: f(τ) >= f' τ + ½f''τ² − J τ³/6, where J bounds |f'''|.
-//!   uz''' is at most w·swing. Let V = wander, and let p be the part of a' across a; the part along a
-//!   is sin', and p² + sin'² <= V². Differentiating |a| gives
-//!   sin''' = 3 p a''_p/sin − 3 p² sin'/sin² + (the part of a''' along a), where |a''| <= wV,
-//!   |a'''| <= w²V and |p² sin'| <= 2V³/√27. Until τ = sin/(4V), sin keeps at least ¾ of its value, so
-//!   J = h w·swing + R V(w² + (3/¾) wV/sin + (6/√27)(V/(¾ sin))²). For the short flights of a coin
-//!   that is coming to rest this bound is very close to f, while the first one is many times too
-//!   steep. After a lift-off, where f, f' and f'' vanish together, its steps grow by a constant factor.
+//!   uz''' is at most w·swing. Let V = wander, and let p be the part of a' across a; the part along
+//!   a is sin', and p² + sin'² <= V². Differentiating |a| gives sin''' = 3 p a''_p/sin − 3 p²
+//!   sin'/sin² + (the part of a''' along a), where |a''| <= wV, |a'''| <= w²V and |p²
+//!   sin'| <= 2V³/√27. Until τ = sin/(4V), sin keeps at least ¾ of its value, so J = h w·swing + R
+//!   V(w² + (3/¾) wV/sin + (6/√27)(V/(¾ sin))²). For the short flights of a coin that is coming to
+//!   rest this bound is very close to f, while the first one is many times too steep. After a
+//!   lift-off, where f, f' and f'' vanish together, its steps grow by a constant factor.
 //!
 //! For each rim the search takes the first root of its best bound, and steps to the earlier of the
 //! two. So it never passes a root of f.
 //!
 //! # Upper bound of f: where a root must be
-//! A point of the coin that turns with Ω is accelerated upwards by at most climb = |Ω_h| w D, and no
-//! point is ever below the lowest one: f(τ) <= f + f'τ + ½Gτ², G = climb − 1 (with drag, the weakest
-//! pull replaces the 1), and f' − Gτ never increases. So once f' < 0 and f'² >= 2fG, f decreases all
-//! the way to the root 2f/(√(f'² − 2fG) − f') of that parabola, and has exactly one root before it.
-//! From there Newton's method with the second-order term closes in, with bisection where it leaves
-//! the bracket.
+//! A point of the coin that turns with Ω is accelerated upwards by at most climb = |Ω_h| w D, and
+//! no point is ever below the lowest one: f(τ) <= f + f'τ + ½Gτ², G = climb − 1 (with drag, the
+//! weakest pull replaces the 1), and f' − Gτ never increases. So once f' < 0 and f'² >= 2fG, f
+//! decreases all the way to the root 2f/(√(f'² − 2fG) − f') of that parabola, and has exactly one
+//! root before it. From there Newton's method with the second-order term closes in, with bisection
+//! where it leaves the bracket.
 
 use super::bounds::{Bounds, Extent};
 use super::departure::Departure;
@@ -42,12 +42,13 @@ use crate::body::Body;
 use crate::motion::Motion;
 use coinmc_lanes::{Lane, Mask};
 
-/// A gap below this counts as contact, in D: above the rounding of f (about 1e-15), and negligible as
-/// an energy (1e-14 m g D).
+/// A gap below this counts as contact, in D: above the rounding of f (about 1e-15), and negligible
+/// as an energy (1e-14 m g D).
 const TOUCH: f64 = 1e-14;
 /// Rounding of the gap's rate of change, relative to the speeds of which it is the difference.
 const ROUNDING: f64 = 1e-13;
-/// Evaluations after which a search is given up. The hardest flights of the stress test need a tenth.
+/// Evaluations after which a search is given up. The hardest flights of the stress test need a
+/// tenth.
 pub(crate) const MAX_EVALUATIONS: u32 = 20_000;
 
 /// First step away from the surface, as a fraction of the time scale of the coin's fastest motion:
@@ -74,7 +75,8 @@ pub(crate) struct Search<L: Lane> {
     pub(crate) high: L,
     pub(crate) bracketed: L::Mask,
     pub(crate) active: L::Mask,
-    /// Smallest step while a receding point is within rounding of the surface; doubled by each step.
+    /// Smallest step while a receding point is within rounding of the surface; doubled by each
+    /// step.
     pub(crate) least: L,
     /// The search begins at the start of the flight.
     pub(crate) departs: L::Mask,
@@ -89,8 +91,8 @@ pub(crate) fn least_time<L: Lane>(orbit: &Orbit<L>, motion: &Motion<L>, lifts_of
     orbit.short_time(motion, share)
 }
 
-/// Finds the first contact of a flight. On return t = 0 of the orbit may have moved: to where the coin
-/// was last too high for any contact. `least` comes from [`least_time`].
+/// Finds the first contact of a flight. On return t = 0 of the orbit may have moved: to where the
+/// coin was last too high for any contact. `least` comes from [`least_time`].
 #[inline(always)]
 pub(crate) fn first_contact<L: Lane>(
     orbit: &mut Orbit<L>,
@@ -221,7 +223,8 @@ impl<L: Lane> Search<L> {
         }
     }
 
-    /// For lanes with a bracket: one Newton step with the second-order term, kept within the bracket.
+    /// For lanes with a bracket: one Newton step with the second-order term, kept within the
+    /// bracket.
     #[inline(always)]
     pub(crate) fn close_in(&mut self, orbit: &Orbit<L>, now: &Gap<L>) {
         let lanes = self.bracketed & self.active;
@@ -240,8 +243,8 @@ impl<L: Lane> Search<L> {
         // the resolution of time is reached: no number lies between, or the time does not change
         let closed = middle.le(self.low) | self.high.le(middle);
         let same = next.le(self.time) & self.time.le(next);
-        // the gap has a kink where u becomes horizontal and the other rim the lowest: a step beyond it
-        // has followed the wrong rim
+        // the gap has a kink where u becomes horizontal and the other rim the lowest: a step beyond
+        // it has followed the wrong rim
         let one_rim = L::splat(0.0).le(now.uz * (now.uz + now.uz_rate * step));
         let resolved = inside & one_rim & orbit.resolves(step, now.sin);
         let done = lanes & (closed | same | resolved);
@@ -340,7 +343,8 @@ impl<L: Lane> Rims<L> {
     }
 }
 
-/// Slope of the chord of |a + a'τ| over the first half of the way to the vertical, and its duration.
+/// Slope of the chord of |a + a'τ| over the first half of the way to the vertical, and its
+/// duration.
 #[inline(always)]
 fn chord<L: Lane>(now: &Gap<L>) -> (L, L) {
     let ([x, y], [vx, vy]) = (now.across, now.across_rate);
@@ -353,8 +357,8 @@ fn chord<L: Lane>(now: &Gap<L>) -> (L, L) {
     ((end - now.sin + rounding) / until, until)
 }
 
-/// The first time t at which gap + slope·t − ½ bend t² crosses 0 downwards, or 1e30 if it never does.
-/// (With gap < 0 < −slope the crossing lies in the past, and t < 0.)
+/// The first time t at which gap + slope·t − ½ bend t² crosses 0 downwards, or 1e30 if it never
+/// does. (With gap < 0 < −slope the crossing lies in the past, and t < 0.)
 ///
 /// Each form of the root loses no digits where it is used: (√… + slope)/bend for slope >= 0, and
 /// 2 gap/(√… − slope) for slope < 0.

@@ -112,18 +112,18 @@ fn lanes_of_flight_are_independent() {
     }
 }
 
-/// The bound that the search uses for a widening gap: until `until`, the gap of a rim is at least the
-/// cubic with the greatest jerk. The bound is close enough to be useful.
+/// The bound that the search uses for a widening gap: until `until`, the gap of a rim is at least
+/// the cubic with the greatest jerk. The bound is close enough to be useful.
 #[test]
 fn the_jerk_bound_holds_and_is_tight() {
     let (mut shares, mut checked) = (0.0, 0_u32);
     for (trial, ratio) in (0..3000).zip([0.1, 0.85, 2.0, 10.0].into_iter().cycle()) {
         let body = Body::new(&Coin::cylinder(ratio, 0.01).expect("a good coin"));
-        let none = Drag {
+        let no_drag = Drag {
             linear: 0.0,
             angular: 0.0,
         };
-        let orbit = Orbit::new(&motion(&body, trial, trial % 2 == 0), none);
+        let orbit = Orbit::new(&motion(&body, trial, trial % 2 == 0), no_drag);
         let bounds = orbit.bounds(&orbit.extent(&body));
         let now = orbit.first_gap(&body);
         let (jerk, until) = bounds.jerk(&body, now.sin, 1.0 / now.sin);

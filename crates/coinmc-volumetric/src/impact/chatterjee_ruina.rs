@@ -10,24 +10,24 @@ use coinmc_lanes::Lane;
 /// Chatterjee & Ruina, "A new algebraic rigid-body collision law", J. Appl. Mech. 65 (1998) 939,
 /// with tangential restitution 0: p = (1 + e)p_I + κ(p_II − p_I).
 ///
-/// p_I is the frictionless plastic impulse, p_II = −K⁻¹u⁻ stops the contact point, and κ is the largest
-/// value up to 1 that keeps p inside the friction cone. u_z⁺ = −e u_z⁻.
+/// p_I is the frictionless plastic impulse, p_II = −K⁻¹u⁻ stops the contact point, and κ is the
+/// largest value up to 1 that keeps p inside the friction cone. u_z⁺ = −e u_z⁻.
 ///
 /// # Energy
-/// d = p_II − p_I does not change the normal velocity, (K d)_z = 0, while p_I is normal. So p_I·K d = 0:
-/// the two are orthogonal in the energy metric. With u⁻ = −K p_II the energy changes by
+/// d = p_II − p_I does not change the normal velocity, (K d)_z = 0, while p_I is normal. So p_I·K
+/// d = 0: the two are orthogonal in the energy metric. With u⁻ = −K p_II the energy changes by
 ///
 /// p·u⁻ + ½ p·K p = −½(1 − e²) u_z²/K_zz − κ(1 − κ/2) d·K d <= 0     (0 <= e <= 1, 0 <= κ <= 1).
 ///
-/// The friction lengths act after p: within |J_c| <= ρ_c p_z and |J_p| <= ρ_p p_z, they leave the least
-/// energy. As J = 0 is one of the choices, they dissipate too.
+/// The friction lengths act after p: within |J_c| <= ρ_c p_z and |J_p| <= ρ_p p_z, they leave the
+/// least energy. As J = 0 is one of the choices, they dissipate too.
 ///
 /// # Compared with the other laws
-/// Friction opposes the slip at the middle of the impact, −d_t, and not the slip at its end. So after
-/// a sliding impact the slip need not be antiparallel to the friction. With e > 0 an impact that could
-/// stick leaves the contact point with e times the slip that p_I of a plastic impact causes
-/// ([`Moreau`](super::Moreau) stops it). Friction and the friction lengths are not solved jointly: J
-/// follows after p_y.
+/// Friction opposes the slip at the middle of the impact, −d_t, and not the slip at its end. So
+/// after a sliding impact the slip need not be antiparallel to the friction. With e > 0 an impact
+/// that could stick leaves the contact point with e times the slip that p_I of a plastic impact
+/// causes ([`Moreau`](super::Moreau) stops it). Friction and the friction lengths are not solved
+/// jointly: J follows after p_y.
 #[derive(Debug, Clone, Copy)]
 pub struct ChatterjeeRuina;
 

@@ -42,8 +42,8 @@ impl<L: Lane> ContactMatrix<L> {
 }
 
 /// The contact point of a coin just before an impact. Lengths in D = sqrt(R² + H²/4), times in
-/// sqrt(D/g), in the frame whose z axis points up and whose x axis points along the horizontal part of
-/// the axis u.
+/// sqrt(D/g), in the frame whose z axis points up and whose x axis points along the horizontal part
+/// of the axis u.
 #[derive(Debug, Clone, Copy)]
 pub struct ContactPoint<L> {
     /// s = sin of the tilt of u from the vertical, > 0.

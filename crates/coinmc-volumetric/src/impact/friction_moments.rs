@@ -1,11 +1,11 @@
 //! The friction lengths in an impact: contour and pivoting friction against the final angular
 //! velocities.
 //!
-//! Contour friction opposes ψ' = ω_a + ω_θ c/s, the rate at which the contact point rolls along the rim,
-//! with |J_c| <= ρ_c p_z. For small s, ψ' and its inverse mass are huge. So the kernel uses the
-//! horizontal angular velocity ω_x = s ψ' = s ω_a + c ω_θ and C = J_c/s, |C| <= (ρ_c/s) p_z. Pivoting
-//! friction opposes ω_z = c ω_a − s ω_θ with P = J_p, |P| <= ρ_p p_z. (ω_x, ω_z) is (ω_a, ω_θ) turned to
-//! the horizontal and the vertical, and
+//! Contour friction opposes ψ' = ω_a + ω_θ c/s, the rate at which the contact point rolls along the
+//! rim, with |J_c| <= ρ_c p_z. For small s, ψ' and its inverse mass are huge. So the kernel uses
+//! the horizontal angular velocity ω_x = s ψ' = s ω_a + c ω_θ and C = J_c/s, |C| <= (ρ_c/s) p_z.
+//! Pivoting friction opposes ω_z = c ω_a − s ω_θ with P = J_p, |P| <= ρ_p p_z. (ω_x, ω_z) is (ω_a,
+//! ω_θ) turned to the horizontal and the vertical, and
 //!
 //! slip_y⁺ = slip_y + K_yy p_y − a C − b P      a = sR/ka + ch/kt    b = cR/ka − sh/kt
 //! ω_x⁺ = ω_x + a p_y − A C − F P               A = s²/ka + c²/kt    F = sc(1/ka − 1/kt)
@@ -14,14 +14,14 @@
 //! Neither C nor P acts on ω_y, hence not on the normal velocity nor on slip_x.
 //!
 //! # The minimum over a box
-//! The set-valued laws (C is at its limit with the sign of ω_x⁺, or inside with ω_x⁺ = 0; P and ω_z⁺
-//! likewise) are the conditions for a minimum: of the kinetic energy after the impact, a strictly convex
-//! quadratic function, over the box |C| <= C_m, |P| <= P_m. In two dimensions three clamps find it
-//! exactly. Let P* be the P of the minimum without limits. If only P is limited, its minimum has
-//! P = clamp(P*): where P* > P_m, with P = P_m and the C that makes ω_x⁺ = 0, the distance of the
-//! optimal P from P_m shrinks by the factor 1 − F²/(AG) > 0 but keeps its sign, so P = P_m is right.
-//! With P minimal for each C, ω_x⁺ is monotone in C, so C only needs to be clamped; then P follows from
-//! C. The box contains 0, so the energy never increases.
+//! The set-valued laws (C is at its limit with the sign of ω_x⁺, or inside with ω_x⁺ = 0; P and
+//! ω_z⁺ likewise) are the conditions for a minimum: of the kinetic energy after the impact, a
+//! strictly convex quadratic function, over the box |C| <= C_m, |P| <= P_m. In two dimensions three
+//! clamps find it exactly. Let P* be the P of the minimum without limits. If only P is limited, its
+//! minimum has P = clamp(P*): where P* > P_m, with P = P_m and the C that makes ω_x⁺ = 0, the
+//! distance of the optimal P from P_m shrinks by the factor 1 − F²/(AG) > 0 but keeps its sign, so
+//! P = P_m is right. With P minimal for each C, ω_x⁺ is monotone in C, so C only needs to be
+//! clamped; then P follows from C. The box contains 0, so the energy never increases.
 
 use super::ContactPoint;
 use crate::body::{Body, Friction};
@@ -42,8 +42,8 @@ pub(super) struct RimRates<L> {
     pub(super) pivot_pivot: L,
 }
 
-/// The limits of contour and pivoting friction per unit normal impulse, and the constants that their
-/// solution needs.
+/// The limits of contour and pivoting friction per unit normal impulse, and the constants that
+/// their solution needs.
 #[derive(Clone, Copy)]
 pub(super) struct FrictionMoments<L> {
     rates: RimRates<L>,
@@ -71,8 +71,8 @@ pub(super) struct JointSolution<L> {
     pub(super) slope: L,
 }
 
-/// The minimum over a box, in two dimensions: angular velocities before and inverse masses, with p_y
-/// eliminated or given, and the P of the minimum without limits.
+/// The minimum over a box, in two dimensions: angular velocities before and inverse masses, with
+/// p_y eliminated or given, and the P of the minimum without limits.
 pub(super) struct BoxProblem<L> {
     pub(super) roll: L,
     pub(super) pivot: L,
@@ -188,7 +188,8 @@ impl<L: Lane> FrictionMoments<L> {
             roll_pivot: r.roll_pivot,
             roll_mass: one / r.roll_roll,
             pivot_mass: one / r.pivot_pivot,
-            // without limits both angular velocities end at 0, and so does the angular momentum about z
+            // without limits both angular velocities end at 0, and so does the angular momentum
+            // about z
             free: self.momentum + self.rx * y,
         };
         self.least(&reduced, z.max(L::splat(0.0)))

@@ -5,9 +5,10 @@ use super::{ContactPoint, Impulse, friction_moments::FrictionMoments};
 use crate::body::{Body, Friction};
 use coinmc_lanes::Lane;
 
-/// The impulse at a contact point that slips in the direction n, does not approach (its normal velocity
-/// is taken as 0, and does not change) and jams: K_zz − μ K_xz n_x <= 0. In such a configuration of
-/// Painlevé, slip pushes the coin into the surface faster than any normal force can push it out.
+/// The impulse at a contact point that slips in the direction n, does not approach (its normal
+/// velocity is taken as 0, and does not change) and jams: K_zz − μ K_xz n_x <= 0. In such a
+/// configuration of Painlevé, slip pushes the coin into the surface faster than any normal force
+/// can push it out.
 ///
 /// Moreau's conditions, with 0 on the right of the normal one,
 /// p_x(σ + K_xx) + K_xz p_z = −slip_x, K_xz p_x + K_zz p_z = 0, p_y(σ + K_yy) = −slip_y,
@@ -17,13 +18,13 @@ use coinmc_lanes::Lane;
 /// μ (K_xz/K_zz) slip_x = sqrt(slip_x² + q² slip_y²),   q = (σ + α)/(σ + K_yy).
 ///
 /// In a jam the left side is at least |slip|, so the equation requires q >= 1. If α <= K_yy, then
-/// q < 1 for every σ: the contact sticks. Otherwise q decreases from α/K_yy to 1 as σ increases. If the
-/// equation requires q >= α/K_yy, the contact sticks; if not, σ follows from q. So a solution exists.
-/// If rounding puts a point just outside these cases, p of σ = 0 is used too.
+/// q < 1 for every σ: the contact sticks. Otherwise q decreases from α/K_yy to 1 as σ increases. If
+/// the equation requires q >= α/K_yy, the contact sticks; if not, σ follows from q. So a solution
+/// exists. If rounding puts a point just outside these cases, p of σ = 0 is used too.
 ///
 /// # Energy
-/// p·u⁻ + ½p·K p = p·u⁺ − ½p·K p with p·u⁺ = p_t·slip⁺ = −σ p_t² <= 0, as u_z⁺ = u_z⁻ = 0: the impulse
-/// dissipates. The friction lengths then leave the least energy within |J| <= ρ p_z.
+/// p·u⁻ + ½p·K p = p·u⁺ − ½p·K p with p·u⁺ = p_t·slip⁺ = −σ p_t² <= 0, as u_z⁺ = u_z⁻ = 0: the
+/// impulse dissipates. The friction lengths then leave the least energy within |J| <= ρ p_z.
 #[inline(always)]
 pub(crate) fn jam_impulse<L: Lane>(
     body: &Body,
@@ -65,8 +66,8 @@ mod tests {
     use super::*;
     use coinmc_core::{Coin, Domain, Stream, UniformSource};
 
-    /// Calls `check` for random jams: the coin leans over its contact point, μ is high, and the slip
-    /// drives the point into the surface.
+    /// Calls `check` for random jams: the coin leans over its contact point, μ is high, and the
+    /// slip drives the point into the surface.
     fn for_each_jam(
         mut check: impl FnMut(&Body, &Friction, &ContactPoint<f64>, &Impulse<f64>),
     ) -> u32 {

@@ -14,9 +14,9 @@ pub trait ImpactLaw: Copy + Sync {
     /// suits a law whose impacts take different paths through many cases.
     const HAS_LANES: bool = true;
 
-    /// The impulse of an impact with coefficient of restitution `e`, 0 to 1, at a contact point that
-    /// does not recede (`point.approach` <= 0). It adds no energy: [`Impulse::work`] <= 0 but for
-    /// rounding.
+    /// The impulse of an impact with coefficient of restitution `e`, 0 to 1, at a contact point
+    /// that does not recede (`point.approach` <= 0). It adds no energy: [`Impulse::work`] <= 0 but
+    /// for rounding.
     fn impulse<L: Lane>(
         &self,
         body: &Body,

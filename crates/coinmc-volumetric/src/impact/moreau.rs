@@ -13,29 +13,30 @@ use coinmc_lanes::{Lane, Mask};
 /// Moreau, "Unilateral contact and dry friction in finite freedom dynamics", CISM 302 (1988). With
 /// σ = |slip⁺|/(μ p_z) >= 0, friction −μ p_z along slip⁺ reads p_t = −slip⁺/σ:
 ///
-/// p_x(σ + K_xx) + K_xz p_z = −slip_x,  K_xz p_x + K_zz p_z = (1 + e)|u_z|,  p_y(σ + K_yy) = −slip_y,
+/// p_x(σ + K_xx) + K_xz p_z = −slip_x, K_xz p_x + K_zz p_z = (1 + e)|u_z|, p_y(σ + K_yy) = −slip_y,
 ///
-/// and the contact sticks (σ = 0) if that impulse lies in the friction cone. Otherwise σ is the root of
+/// and the contact sticks (σ = 0) if that impulse lies in the friction cone. Otherwise σ is the
+/// root of
 /// |p_t| = μ p_z. The friction lengths obey the same kind of law: J_c and J_p are at their limits
 /// against the final ψ' and ω_z, or stop them. They are solved exactly together with p_y for each σ
 /// (they change neither slip_x nor u_z).
 ///
 /// # Energy
-/// An impulse adds the energy ½p·(u⁻ + u⁺) = p·u⁺ − ½p·K p (with J as part of p). Friction has p·u⁺ <= 0
-/// by definition, so the energy added is at most e|u_z|p_z − ½p·K p: plastic impacts (e = 0) always
-/// dissipate. With e > 0 this may be positive at high friction. There, and where no root exists, the
-/// impulse is that of [`ChatterjeeRuina`], which dissipates.
+/// An impulse adds the energy ½p·(u⁻ + u⁺) = p·u⁺ − ½p·K p (with J as part of p). Friction has
+/// p·u⁺ <= 0 by definition, so the energy added is at most e|u_z|p_z − ½p·K p: plastic impacts
+/// (e = 0) always dissipate. With e > 0 this may be positive at high friction. There, and where no
+/// root exists, the impulse is that of [`ChatterjeeRuina`], which dissipates.
 ///
 /// # Compared with the other laws
-/// It is the law that Moreau–Jean time stepping solves. Where it can, it stops the slip of the contact
-/// point for any e; [`ChatterjeeRuina`] then lets the point rebound sideways. [`Stronge`](super::Stronge)
-/// relates e to work instead of velocity: u_z⁺ differs where the slip changes direction during the
-/// impact.
+/// It is the law that Moreau–Jean time stepping solves. Where it can, it stops the slip of the
+/// contact point for any e; [`ChatterjeeRuina`] then lets the point rebound sideways.
+/// [`Stronge`](super::Stronge) relates e to work instead of velocity: u_z⁺ differs where the slip
+/// changes direction during the impact.
 #[derive(Debug, Clone, Copy)]
 pub struct Moreau;
 
-/// Newton's method converges quadratically on a smooth function, and φ is nearly linear: a step from a
-/// relative error below this leaves less than 1e-11.
+/// Newton's method converges quadratically on a smooth function, and φ is nearly linear: a step
+/// from a relative error below this leaves less than 1e-11.
 const LAST: f64 = 1e-6;
 
 /// With friction lengths φ has kinks where one of their limits is reached. One in 1e8 final steps
@@ -145,8 +146,8 @@ impl<L: Lane> Problem<L> {
         }
     }
 
-    /// σ with its quotients, two of them by one division. (One division for all three would overflow at
-    /// very low friction, where σ exceeds 1e100.)
+    /// σ with its quotients, two of them by one division. (One division for all three would
+    /// overflow at very low friction, where σ exceeds 1e100.)
     #[inline(always)]
     fn at(&self, sigma: L) -> Trial<L> {
         let one = L::splat(1.0);
@@ -178,8 +179,8 @@ impl<L: Lane> Problem<L> {
         }
     }
 
-    /// φ expanded by (σ + α): numerator and denominator are then of the size of the velocities, and φ
-    /// is linear in σ but for the ratio q = (σ + α)/(σ + K_yy), which changes little.
+    /// φ expanded by (σ + α): numerator and denominator are then of the size of the velocities, and
+    /// φ is linear in σ apart from the ratio q = (σ + α)/(σ + K_yy), which changes little.
     #[inline(always)]
     fn cone(&self, sigma: L) -> Cone<L> {
         let at = self.at(sigma);
@@ -201,8 +202,8 @@ impl<L: Lane> Problem<L> {
         }
     }
 
-    /// A first guess: σ for the ratio q at the root that q = 1 (its limit for low friction) would give.
-    /// Nearly exact without friction lengths.
+    /// A first guess: σ for the ratio q at the root that q = 1 (its limit for low friction) would
+    /// give. Nearly exact without friction lengths.
     #[inline(always)]
     fn guess(&self) -> L {
         let inverse = L::splat(1.0) / (self.mu * self.base);

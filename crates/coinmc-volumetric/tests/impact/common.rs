@@ -66,8 +66,8 @@ pub(crate) fn point(body: &Body, sin: f64, slip: [f64; 3], spins: [f64; 2]) -> C
     }
 }
 
-/// A random impact over all ranges: ratios 1e-3 to 1e3, e 0 to 1, μ 0 to 10, ρ 0 to R/10, tilts from flat
-/// to upright, slips of 1e-3 to 1e3 of the approach.
+/// A random impact over all ranges: ratios 1e-3 to 1e3, e 0 to 1, μ 0 to 10, ρ 0 to R/10, tilts
+/// from flat to upright, slips of 1e-3 to 1e3 of the approach.
 pub(crate) fn case(seed: u64, trial: u64) -> Case {
     let mut dice = Dice::new(seed, trial);
     let body = body(dice.scale(1e-3, 1e3));

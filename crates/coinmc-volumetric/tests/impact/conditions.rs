@@ -26,7 +26,8 @@ fn newton_restitution_is_exact() {
             let (_, after) = motions(case, p);
             let parts = p.x.abs() + p.z.abs() + case.size();
             let off = (after.slip.z + case.e * case.point.approach).abs();
-            // the spins, up to 1000 times as large, and ω_y enter the velocities that this test computes
+            // the spins, up to 1000 times as large, and ω_y enter the velocities that this test
+            // computes
             let spins = case.point.spin.abs() + case.point.turn.abs();
             assert!(
                 off <= 1e-14 * (parts + spins + 1.0),
@@ -72,8 +73,8 @@ fn every_part_keeps_its_limit() {
     }
 }
 
-/// One of Moreau's set-valued laws: inside its limit the rate is 0; at its limit the friction opposes the
-/// rate.
+/// One of Moreau's set-valued laws: inside its limit the rate is 0; at its limit the friction
+/// opposes the rate.
 fn opposes(part: f64, limit: f64, rate: f64, size: f64) -> bool {
     let small = 1e-10 * size;
     if limit == 0.0 {
@@ -120,8 +121,8 @@ fn moreau_opposes_the_final_slip() {
     assert!(guarded < TRIALS / 10);
 }
 
-/// A reflection in the xz plane changes the sign of the y velocities and of all angular velocities except
-/// that about y, and so of p_y, J_c and J_p.
+/// A reflection in the xz plane changes the sign of the y velocities and of all angular velocities
+/// except that about y, and so of p_y, J_c and J_p.
 #[test]
 fn mirror_images_are_exact() {
     for law in Law::ALL {

@@ -46,7 +46,8 @@ fn low_friction_changes_little() {
     }
 }
 
-/// Very high friction stops the contact point. With e > 0 Moreau's impact might gain energy, so e = 0.
+/// Very high friction stops the contact point. With e > 0 Moreau's impact might gain energy, so
+/// e = 0.
 #[test]
 fn high_friction_sticks() {
     for trial in 0..20_000 {
@@ -87,8 +88,8 @@ fn large_friction_lengths_stop_the_rotation() {
     }
 }
 
-/// A coin on its edge and a flat coin fall without rotation: the contact point is below the centre, and
-/// beside it.
+/// A coin on its edge and a flat coin fall without rotation: the contact point is below the centre,
+/// and beside it.
 #[test]
 fn thin_and_thick() {
     let friction = Friction {

@@ -39,8 +39,8 @@ fn delassus(case: &Case) -> (Matrix, [f64; 5]) {
     (matrix, free)
 }
 
-/// The impulse of which every part obeys its law with the rates after the impact; `None` if the iteration
-/// does not converge.
+/// The impulse of which every part obeys its law with the rates after the impact; `None` if the
+/// iteration does not converge.
 fn gauss_seidel(case: &Case) -> Option<[f64; 5]> {
     let (g, free) = delassus(case);
     let f = &case.friction;
@@ -67,8 +67,8 @@ fn gauss_seidel(case: &Case) -> Option<[f64; 5]> {
 }
 
 /// Above μ = 1/2 there may be several solutions, and the iteration may find another one. Below, the
-/// impulse agrees to 1e-8: the iteration stops where it changes by less than 1e-15 per sweep, and it
-/// contracts by 1e-4 per sweep at worst.
+/// impulse agrees to 1e-8: the iteration stops where it changes by less than 1e-15 per sweep, and
+/// it contracts by 1e-4 per sweep at worst.
 #[test]
 fn moreau_agrees_with_gauss_seidel() {
     let (mut compared, mut skipped) = (0, 0);
@@ -102,8 +102,9 @@ fn moreau_agrees_with_gauss_seidel() {
     assert!(compared > 5_000 && skipped * 20 < compared);
 }
 
-/// The plastic impact of Moreau's law leaves the least energy that friction within its limits can leave:
-/// random changes of the friction inside the limits, with u_z⁺ = 0 and the same p_z, leave no less.
+/// The plastic impact of Moreau's law leaves the least energy that friction within its limits can
+/// leave: random changes of the friction inside the limits, with u_z⁺ = 0 and the same p_z, leave
+/// no less.
 #[test]
 fn a_plastic_impact_dissipates_most() {
     for trial in 0..20_000 {

@@ -41,7 +41,8 @@ fn agrees_with_the_flat_laws() {
     }
 }
 
-/// Stronge's solution in the plane: u_z(τ) is linear in two pieces, with a corner where the slip stops.
+/// Stronge's solution in the plane: u_z(τ) is linear in two pieces, with a corner where the slip
+/// stops.
 fn closed_form(case: &Case) -> [f64; 2] {
     let k = case.point.matrix(&case.body);
     let (mu, e) = (case.friction.mu, case.e);
@@ -68,7 +69,8 @@ fn closed_form(case: &Case) -> [f64; 2] {
         if free <= stop {
             free
         } else {
-            // the part of the e² of the work that is still to be returned after the slip has stopped
+            // the part of the e² of the work that is still to be returned after the slip has
+            // stopped
             let missing = (1.0 - e * e) * least - work_at_stop;
             let root = (at_stop * at_stop + 2.0 * second * missing).sqrt();
             stop + (root - at_stop) / second

@@ -3,8 +3,8 @@
 use crate::common::{Case, case, parts};
 use coinmc_volumetric::{Friction, Law};
 
-/// Implicit steps of 1/`steps` of the frictionless compression. Each step solves Coulomb's law and the
-/// friction lengths against the rates at its end. First order.
+/// Implicit steps of 1/`steps` of the frictionless compression. Each step solves Coulomb's law and
+/// the friction lengths against the rates at its end. First order.
 fn stepped(case: &Case, steps: u32) -> [f64; 5] {
     let (b, t, f) = (&case.body, &case.point, &case.friction);
     let (s, c) = (t.sin, t.cos);
@@ -94,7 +94,8 @@ fn distance(case: &Case, a: [f64; 5], b: [f64; 5]) -> f64 {
     far / (case.size() + b[2])
 }
 
-/// The path with small steps converges to that of the law, with an error of first order in the step.
+/// The path with small steps converges to that of the law, with an error of first order in the
+/// step.
 #[test]
 fn small_steps_converge_to_the_law() {
     let (mut coarse_sum, mut fine_sum, mut compared) = (0.0, 0.0, 0);

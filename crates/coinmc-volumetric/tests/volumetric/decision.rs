@@ -5,8 +5,9 @@ use coinmc_core::{Ended, Engine, Face, LaunchDistribution, Marginal, Preset, Sce
 use coinmc_volumetric::{Decision, Settings};
 use std::ops::ControlFlow;
 
-/// The tilting rule, which leaves out energy that cannot become tilt, changes the probability of the side
-/// by less than .001 plus 5 standard errors of the paired difference. Heads and tails are not exchanged.
+/// The tilting rule, which leaves out energy that cannot become tilt, changes the probability of
+/// the side by less than .001 plus 5 standard errors of the paired difference. Heads and tails are
+/// not exchanged.
 #[test]
 fn tilting_agrees_with_energy() {
     for (ratio, e, rho) in [(0.85, 0.5, 0.01), (0.85, 0.0, 0.01), (2.0, 0.0, 0.03)] {
@@ -34,10 +35,10 @@ fn tilting_agrees_with_energy() {
     }
 }
 
-/// The same in the hardest scenes. At most the given number of 20,000 tosses may be on the side by one
-/// rule only. In brackets: the number if all energy of straight rolling is left out, or (last scene) of
-/// the sliding of a flat coin. Of 400,000 tosses with another seed at most .8 in 10,000 differed; 15 or
-/// more of 20,000 occur with less than one seed in 1e9.
+/// The same in the hardest scenes. At most the given number of 20,000 tosses may be on the side by
+/// one rule only. In brackets: the number if all energy of straight rolling is left out, or (last
+/// scene) of the sliding of a flat coin. Of 400,000 tosses with another seed at most .8 in 10,000
+/// differed; 15 or more of 20,000 occur with less than one seed in 1e9.
 #[test]
 fn energy_that_cannot_become_tilt_is_not_overestimated() {
     let clean = Preset::Clean.distribution();
@@ -69,9 +70,9 @@ fn energy_that_cannot_become_tilt_is_not_overestimated() {
     }
 }
 
-/// Without friction lengths, two of five coins roll for ever, most of them on one face or on the side,
-/// which decides the face. Faces that energy decides do not change. Of 5000 other tosses 5 % ended as
-/// `NeverSettles` instead of 39 %.
+/// Without friction lengths, two of five coins roll for ever, most of them on one face or on the
+/// side, which decides the face. Faces that energy decides do not change. Of 5000 other tosses 5 %
+/// ended as `NeverSettles` instead of 39 %.
 #[test]
 fn a_coin_that_rolls_for_ever_without_passing_a_balance_is_decided() {
     let scene = scene(0.85, 0.5, 0.3, 0.0);

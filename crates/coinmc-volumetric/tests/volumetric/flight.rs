@@ -12,8 +12,8 @@ fn turning(model: &Model, motion: &Motion) -> f64 {
     motion.spin.norm().max(momentum.norm() / model.transverse)
 }
 
-/// Times at which a flight is examined: 400 over the whole flight, and where the coin is low enough to
-/// touch, at least one per 1/20 rad of rotation (2000 at most).
+/// Times at which a flight is examined: 400 over the whole flight, and where the coin is low enough
+/// to touch, at least one per 1/20 rad of rotation (2000 at most).
 fn looks(model: &Model, from: &Moment, time: f64) -> Vec<f64> {
     let evenly = |from: f64, to: f64, n: u32| {
         (1..n).map(move |i| from + (to - from) * f64::from(i) / f64::from(n))
@@ -49,8 +49,8 @@ struct Seen {
     drift: f64,
 }
 
-/// Searches for contacts within the flight. Rounding changes the gap by 1e-16 of the phase and of the
-/// height covered.
+/// Searches for contacts within the flight. Rounding changes the gap by 1e-16 of the phase and of
+/// the height covered.
 fn scan(model: &Model, from: &Moment, to: &Moment, seen: &mut Seen, what: &dyn Fn() -> String) {
     seen.flights += 1;
     let time = to.time - from.time;
@@ -80,9 +80,9 @@ fn scan(model: &Model, from: &Moment, to: &Moment, seen: &mut Seen, what: &dyn F
     assert!(drift <= 1e3 * blur, "{drift:e}: {from:?} {to:?} {}", what());
 }
 
-/// Without torque and drag the energy, the angular momentum and the horizontal velocity are conserved.
-/// The axial spin is L·u/I_a: the rounding of u, 1e-16, is multiplied by I_t/I_a in each flight, which
-/// matters for rods.
+/// Without torque and drag the energy, the angular momentum and the horizontal velocity are
+/// conserved. The axial spin is L·u/I_a: the rounding of u, 1e-16, is multiplied by I_t/I_a in each
+/// flight, which matters for rods.
 fn conserves(model: &Model, from: &Motion, to: &Motion, seen: &mut Seen) {
     let (before, after) = (from.energy(model), to.energy(model));
     let energy = (after / before - 1.0).abs();

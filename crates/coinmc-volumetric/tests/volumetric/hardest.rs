@@ -7,8 +7,8 @@ use nalgebra::{UnitVector3, Vector3};
 
 /// H/R, R m, e, μ, contour m, pivoting m, height m, u, spin rad/s.
 const HARDEST: [[f64; 13]; 3] = [
-    // came down on its side within a step of contact in which the mode also changed: the coin was put
-    // back on its side with an energy 3e-7 and 4e-6 above its own
+    // came down on its side within a step of contact in which the mode also changed: the coin was
+    // put back on its side with an energy 3e-7 and 4e-6 above its own
     [
         4.933_186_921_488_359,
         1.373_440_006_995_429_1,
@@ -39,9 +39,9 @@ const HARDEST: [[f64; 13]; 3] = [
         3_218.541_138_563_664,
         1_268.360_476_945_465_5,
     ],
-    // a long rod whose other rim touched just as the last step of a search passed the horizontal: the
-    // contact was found 1.5e-6 D too late, and putting the coin back on the surface added an energy of
-    // 6e-8
+    // a long rod whose other rim touched just as the last step of a search passed the horizontal:
+    // the contact was found 1.5e-6 D too late, and putting the coin back on the surface added an
+    // energy of 6e-8
     [
         2_891.208_573_163_485_7,
         0.092_606_066_326_694_49,
@@ -85,8 +85,8 @@ fn scene_and_launch(numbers: &[f64; 13]) -> (Scene, Launch) {
     (scene, launch)
 }
 
-/// The largest relative gain of energy outside flight, the largest relative change of energy in flight,
-/// and the largest distance of the lowest point from the surface in contact, in D.
+/// The largest relative gain of energy outside flight, the largest relative change of energy in
+/// flight, and the largest distance of the lowest point from the surface in contact, in D.
 struct Worst<'a> {
     scene: &'a Scene,
     last: Option<(EventKind, f64)>,
@@ -122,8 +122,8 @@ impl Observer for Worst<'_> {
     }
 }
 
-/// Energies are sums of terms up to 1000 times as large as the energy that changes in an event, hence
-/// 1e-12. In flight the phase of the whole flight adds its rounding, hence 1e-11.
+/// Energies are sums of terms up to 1000 times as large as the energy that changes in an event,
+/// hence 1e-12. In flight the phase of the whole flight adds its rounding, hence 1e-11.
 #[test]
 fn they_gain_nothing_and_stay_on_the_surface() {
     for numbers in &HARDEST {

@@ -7,8 +7,9 @@ use nalgebra::{UnitVector3, Vector3};
 use std::sync::mpsc;
 use std::time::Duration;
 
-/// Runs `work` on a thread of its own and fails if it does not return in time, so that a toss that never
-/// ends is a failure and not a test that never ends. Each of these takes about ten seconds at most.
+/// Runs `work` on a thread of its own and fails if it does not return in time, so that a toss that
+/// never ends is a failure and not a test that never ends. Each of these takes about ten seconds at
+/// most.
 fn within_two_minutes(work: impl FnOnce() + Send + 'static) {
     let (done, wait) = mpsc::channel();
     let worker = std::thread::spawn(move || {
@@ -22,12 +23,12 @@ fn within_two_minutes(work: impl FnOnce() + Send + 'static) {
     }
 }
 
-/// A random toss: ratio 1e-4 to 1e4, radius 1e-6 to 1e3 m, spin up to 1e5 rad/s, heights up to 1e3 R; e,
-/// μ and ρ at and between the ends of their ranges. Scenes in which a rolling or bouncing coin loses no
-/// energy are left out, because some of their tosses never end.
+/// A random toss: ratio 1e-4 to 1e4, radius 1e-6 to 1e3 m, spin up to 1e5 rad/s, heights up to 1e3
+/// R; e, μ and ρ at and between the ends of their ranges. Scenes in which a rolling or bouncing
+/// coin loses no energy are left out, because some of their tosses never end.
 ///
-/// `tame` restricts them to tosses whose contact can be followed to its end: a coin that turns n times as
-/// fast as it topples needs about n²/μ or n²R/ρ steps until friction has slowed it down.
+/// `tame` restricts them to tosses whose contact can be followed to its end: a coin that turns n
+/// times as fast as it topples needs about n²/μ or n²R/ρ steps until friction has slowed it down.
 fn stress(trial: u64, tame: bool) -> (Scene, Launch, Law) {
     let mut dice = Dice::new(130, trial);
     let radius = dice.scale(1e-6, 1e3);

@@ -23,10 +23,10 @@ fn impacts(moments: &[Moment]) -> impl Iterator<Item = (&Moment, &Moment, &Momen
     })
 }
 
-/// The normal velocity is reversed by e (also under Stronge's law if there is no friction); or it becomes
-/// 0, and sustained contact follows instead of flight to another contact. Rounding: 1e-12 of the
-/// velocities, and more where the lowest point of a flat coin is ill-defined (left out below a sine of
-/// 1e-4).
+/// The normal velocity is reversed by e (also under Stronge's law if there is no friction); or it
+/// becomes 0, and sustained contact follows instead of flight to another contact. Rounding: 1e-12
+/// of the velocities, and more where the lowest point of a flat coin is ill-defined (left out below
+/// a sine of 1e-4).
 #[test]
 fn impacts_reverse_the_approach_by_e() {
     let (mut bounced, mut stopped) = (0, 0);
@@ -73,7 +73,8 @@ fn impacts_reverse_the_approach_by_e() {
     assert!(bounced > 10_000 && stopped > 500, "{bounced} {stopped}");
 }
 
-/// Below the threshold an impact does not bounce; above it an impact is the same as without a threshold.
+/// Below the threshold an impact does not bounce; above it an impact is the same as without a
+/// threshold.
 #[test]
 fn slow_impacts_below_the_threshold_do_not_bounce() {
     let base = scene(0.85, 0.6, 0.3, 0.01);
@@ -107,8 +108,8 @@ fn slow_impacts_below_the_threshold_do_not_bounce() {
     assert!(slow > 1000 && fast > 1000, "{slow} {fast}");
 }
 
-/// No impact, flight or phase of contact ends with more energy than at its start, for all ratios, e, μ
-/// and friction lengths.
+/// No impact, flight or phase of contact ends with more energy than at its start, for all ratios,
+/// e, μ and friction lengths.
 #[test]
 fn no_event_gains_energy() {
     let mut worst = [0.0_f64; 3];

@@ -19,8 +19,8 @@ fn deviation(count: u32, tosses: u32, p: f64) -> f64 {
     (f64::from(count) - n * p) / (n * p * (1.0 - p)).sqrt()
 }
 
-/// Without spin and with uniform orientation, the coin sticks in the orientation in which it fell: the
-/// zone rule. 4.9 standard errors: false alarms 1e-6 per assertion.
+/// Without spin and with uniform orientation, the coin sticks in the orientation in which it fell:
+/// the zone rule. 4.9 standard errors: false alarms 1e-6 per assertion.
 #[test]
 fn adhesive_without_spin_is_the_zone_rule() {
     let tosses = 50_000;
@@ -47,7 +47,8 @@ fn adhesive_without_spin_is_the_zone_rule() {
     }
 }
 
-/// First contact, found by steps of 1/2000 (or 1/2000 rad of rotation, if that is shorter) and bisection.
+/// First contact, found by steps of 1/2000 (or 1/2000 rad of rotation, if that is shorter) and
+/// bisection.
 fn marched(model: &Model, start: &Motion) -> Motion {
     let step = 5e-4 / start.spin.norm().max(1.0);
     let at = |t: f64| {
@@ -71,9 +72,9 @@ fn marched(model: &Model, start: &Motion) -> Motion {
     at(low)
 }
 
-/// With spin, the face is the one towards which the coin leans at first contact. A launch whose contact
-/// comes within 1e-6 of a balance proves nothing (a fraction of 1e-6). The steps may miss a contact
-/// that enters the surface by less than 1e-7: at most 1 in 400.
+/// With spin, the face is the one towards which the coin leans at first contact. A launch whose
+/// contact comes within 1e-6 of a balance proves nothing (a fraction of 1e-6). The steps may miss a
+/// contact that enters the surface by less than 1e-7: at most 1 in 400.
 #[test]
 fn adhesive_with_spin_decides_at_first_contact() {
     let mut wrong = 0;
@@ -90,10 +91,11 @@ fn adhesive_with_spin_decides_at_first_contact() {
     assert!(wrong <= 3, "{wrong}");
 }
 
-/// Heads up and level, with the angular momentum at an angle ψ from the vertical, thrown down so fast
-/// that the coin falls by its own size while u turns by 1e-4 rad. So the phase φ at first contact is
-/// that at the surface, which is uniform, and the shares are those of the closed form. 4.9 standard
-/// errors: false alarms 1e-6 per assertion. 1e-4 rad change a share by less than half a standard error.
+/// Heads up and level, with the angular momentum at an angle ψ from the vertical, thrown down so
+/// fast that the coin falls by its own size while u turns by 1e-4 rad. So the phase φ at first
+/// contact is that at the surface, which is uniform, and the shares are those of the closed form.
+/// 4.9 standard errors: false alarms 1e-6 per assertion. 1e-4 rad change a share by less than half
+/// a standard error.
 #[test]
 fn a_precessing_coin_is_the_closed_form() {
     let tosses = 30_000;
@@ -137,9 +139,9 @@ fn a_precessing_coin_is_the_closed_form() {
     }
 }
 
-/// A sheet never ends on its side, and a rod never on an end. By the zone rule the expected number of
-/// rare faces is 1000·5e-5 (sheet) and far less (rod), and bounces only lower it. Two or more occur in one
-/// of a thousand runs.
+/// A sheet never ends on its side, and a rod never on an end. By the zone rule the expected number
+/// of rare faces is 1000·5e-5 (sheet) and far less (rod), and bounces only lower it. Two or more
+/// occur in one of a thousand runs.
 #[test]
 fn sheets_and_rods() {
     for (ratio, e) in [(1e-4, 0.0), (1e-4, 0.5), (1e4, 0.0), (1e4, 0.5)] {
@@ -179,8 +181,8 @@ fn tosses_that_lose_energy_are_decided() {
     }
 }
 
-/// At e = 1 without friction no energy is lost: a toss is decided at its launch, by the rule that is
-/// exact without friction, or it never settles.
+/// At e = 1 without friction no energy is lost: a toss is decided at its launch, by the rule that
+/// is exact without friction, or it never settles.
 #[test]
 fn without_loss_a_toss_is_decided_at_its_launch_or_never() {
     for ratio in [0.1, 1.0, 5.0] {
@@ -210,8 +212,9 @@ fn without_loss_a_toss_is_decided_at_its_launch_or_never() {
     }
 }
 
-/// A level coin without spin lands on the face on which it was held. A coin on its side does so if its
-/// rims can be struck one after another (H/R > 1.2247: an impact at one does not lift the other).
+/// A level coin without spin lands on the face on which it was held. A coin on its side does so if
+/// its rims can be struck one after another (H/R > 1.2247: an impact at one does not lift the
+/// other).
 #[test]
 fn level_coins_without_spin_land_level() {
     for ratio in [0.01, 0.5, 2.0] {

@@ -1,6 +1,6 @@
-//! Independent verification of the volumetric engine: each module checks one claim against something
-//! that the engine does not contain. Every tolerance is derived where it is used. Seeds are fixed, so no
-//! test fails by chance; "false alarms" says how often it would with another seed.
+//! Independent verification of the volumetric engine: each module checks one claim against
+//! something that the engine does not contain. Every tolerance is derived where it is used. Seeds
+//! are fixed, so no test fails by chance; "false alarms" says how often it would with another seed.
 
 mod common;
 mod decision;

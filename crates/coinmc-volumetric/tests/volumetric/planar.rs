@@ -54,10 +54,11 @@ impl Both {
     }
 }
 
-/// The first three impacts agree in time and speed to 1e-9 of their units (rounding, amplified by up to
-/// 1000 per impact; an approach slower than zeno starts contact instead). Faces may differ only where
-/// the engines have different bounds for when bounces become contact: the paired probabilities of the
-/// side agree within 5 standard errors (false alarms 6e-7 per scene) plus 0.003.
+/// The first three impacts agree in time and speed to 1e-9 of their units (rounding, amplified by
+/// up to 1000 per impact; an approach slower than zeno starts contact instead). Faces may differ
+/// only where the engines have different bounds for when bounces become contact: the paired
+/// probabilities of the side agree within 5 standard errors (false alarms 6e-7 per scene) plus
+/// 0.003.
 #[test]
 fn planar_tosses_agree_with_the_flat_engine() {
     for e in [0.0, 0.3, 0.7] {

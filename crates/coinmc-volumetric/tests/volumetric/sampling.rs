@@ -7,8 +7,8 @@ use coinmc_oracle::{Model, Motion};
 use coinmc_volumetric::{Decision, Settings};
 use nalgebra::Vector3;
 
-/// Every kind of motion: bouncing, rocking, sliding, rolling on the rim and on the side; thin and thick
-/// coins; with drag, without friction and without gyroscopic torque.
+/// Every kind of motion: bouncing, rocking, sliding, rolling on the rim and on the side; thin and
+/// thick coins; with drag, without friction and without gyroscopic torque.
 fn scenes() -> Vec<Scene> {
     let air = |scene: Scene| scene.with_drag(Drag::new(0.5, 2.0).expect("valid rates"));
     vec![
@@ -104,8 +104,8 @@ fn apart(a: &Motion, b: &Motion) -> f64 {
     .fold(0.0, f64::max)
 }
 
-/// Flights against the closed form of the oracle, by vectors in the laboratory frame. Times are known to
-/// one unit in the last place, and angular velocities reach a few tens: a few 1e-13.
+/// Flights against the closed form of the oracle, by vectors in the laboratory frame. Times are
+/// known to one unit in the last place, and angular velocities reach a few tens: a few 1e-13.
 #[test]
 fn flights_are_those_of_a_free_top() {
     let (mut seen, mut worst, mut worst_energy) = (0, 0.0_f64, 0.0_f64);
@@ -161,10 +161,10 @@ fn tight() -> Settings {
     }
 }
 
-/// Samples of one phase against the nine equations of the oracle, by the classical Runge–Kutta method in
-/// steps of 1/1000 of the fastest time scale, from sample to sample. Left out: what those steps do not
-/// resolve (a slip so slow that its direction may turn faster, an almost flat coin), and everything after
-/// 3 units of time, as some of these motions are unstable.
+/// Samples of one phase against the nine equations of the oracle, by the classical Runge–Kutta
+/// method in steps of 1/1000 of the fastest time scale, from sample to sample. Left out: what those
+/// steps do not resolve (a slip so slow that its direction may turn faster, an almost flat coin),
+/// and everything after 3 units of time, as some of these motions are unstable.
 fn contact(model: &Model, from: &Moment, within: &[Moment], seen: &mut Contacts) {
     let sticks = from.kind == EventKind::Sticking;
     let mode = |motion: &Motion| {
@@ -248,7 +248,8 @@ fn contact_at_the_default_tolerance_is_close() {
     assert!(seen.rise < 1e-2, "{seen:?}");
 }
 
-/// The engine has the end of rolling on the side in closed form, v' = −a − bv; here it is integrated.
+/// The engine has the end of rolling on the side in closed form, v' = −a − bv; here it is
+/// integrated.
 #[test]
 fn samples_of_rolling_continue_to_the_end() {
     for drag in [0.0, 0.5] {
@@ -322,8 +323,8 @@ impl Observer for Instants {
     }
 }
 
-/// A nanosecond before or after an event, the coin is where the event shows it, apart from its motion in
-/// that time and the error of the step that led there.
+/// A nanosecond before or after an event, the coin is where the event shows it, apart from its
+/// motion in that time and the error of the step that led there.
 #[test]
 fn samples_join_the_events() {
     const NEAR: f64 = 1e-9;

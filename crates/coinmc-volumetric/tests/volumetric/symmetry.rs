@@ -52,8 +52,8 @@ fn heads_and_tails_exchange_exactly() {
     }
 }
 
-/// Quarter turns about the vertical exchange components and change signs, and a reflection changes signs
-/// (the opposite ones for ω, an axial vector). Neither changes a bit of the toss.
+/// Quarter turns about the vertical exchange components and change signs, and a reflection changes
+/// signs (the opposite ones for ω, an axial vector). Neither changes a bit of the toss.
 #[test]
 fn quarter_turns_and_reflections_change_nothing() {
     let quarter = |v: Vector3<f64>| Vector3::new(-v.y, v.x, v.z);
@@ -76,9 +76,9 @@ fn quarter_turns_and_reflections_change_nothing() {
     }
 }
 
-/// Any other turn rounds (1e-16), and an impact amplifies the rounding less than a thousandfold: tosses
-/// of up to two impacts without much contact agree. The others agree on average: 5 standard errors,
-/// false alarms 6e-7 per scene.
+/// Any other turn rounds (1e-16), and an impact amplifies the rounding less than a thousandfold:
+/// tosses of up to two impacts without much contact agree. The others agree on average: 5 standard
+/// errors, false alarms 6e-7 per scene.
 #[test]
 fn no_direction_is_preferred() {
     let (sin, cos) = libm::sincos(1.234);
@@ -152,8 +152,9 @@ fn size_gravity_and_mass_do_not_matter() {
     }
 }
 
-/// With lengths × 3 the rounding differs. It changes the face of a short toss only if that comes within
-/// about 1e-12 of another face, and of few long tosses (amplified up to a thousandfold per impact).
+/// With lengths × 3 the rounding differs. It changes the face of a short toss only if that comes
+/// within about 1e-12 of another face, and of few long tosses (amplified up to a thousandfold per
+/// impact).
 #[test]
 fn an_odd_scale_does_not_matter() {
     for (ratio, e, allowed) in [(0.85, 0.0, 20), (2.0, 0.0, 20)] {

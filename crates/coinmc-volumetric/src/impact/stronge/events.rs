@@ -26,8 +26,8 @@ pub(super) struct Cut<'a> {
     pub(super) event: Event,
 }
 
-/// Most evaluations of the bracketing secant method. A third of them are bisections, which alone would
-/// be enough.
+/// Most evaluations of the bracketing secant method. A third of them are bisections, which alone
+/// would be enough.
 const MAX_STEPS: u32 = 200;
 
 impl<'a> Cut<'a> {
@@ -48,8 +48,8 @@ impl<'a> Cut<'a> {
         }
     }
 
-    /// As [`Cut::by`], for a distance that may be positive again at the end of the piece: looks at the
-    /// middle first.
+    /// As [`Cut::by`], for a distance that may be positive again at the end of the piece: looks at
+    /// the middle first.
     pub(super) fn by_bent(&mut self, event: Event, distance: impl Fn(&Step) -> f64) {
         let half = self.at * 0.5;
         let there = distance(&self.path.step(half));

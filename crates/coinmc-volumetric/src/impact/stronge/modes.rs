@@ -1,5 +1,5 @@
-//! The modes of friction at one moment: the contact point slips or sticks, and each of the two angular
-//! velocities runs or is held at 0.
+//! The modes of friction at one moment: the contact point slips or sticks, and each of the two
+//! angular velocities runs or is held at 0.
 
 use super::super::friction_moments::{BoxProblem, Limits, RimRates};
 
@@ -44,7 +44,8 @@ impl Rate {
         }
     }
 
-    /// Changes the mode: the rate has come to 0, or the friction that kept it at 0 has reached its limit.
+    /// Changes the mode: the rate has come to 0, or the friction that kept it at 0 has reached its
+    /// limit.
     pub(super) fn switch(&mut self, friction: f64) {
         if self.zero {
             self.sign = 1_f64.copysign(friction);
@@ -156,8 +157,8 @@ impl Rates {
         roll_y * c + pivot_y * p
     }
 
-    /// The friction at a contact point without slip: σ = 0 if its f is inside the cone; otherwise σ > 0
-    /// with |f| = μ, and slip starts along −f.
+    /// The friction at a contact point without slip: σ = 0 if its f is inside the cone; otherwise
+    /// σ > 0 with |f| = μ, and slip starts along −f.
     pub(super) fn still(&self, k: &Couplings, has_lengths: bool) -> Still {
         let sideways = |sigma| {
             if has_lengths {

@@ -55,8 +55,8 @@ pub(super) struct Line {
 }
 
 /// A piece with a slip that turns. Series in ξ, where dτ = |slip| ds and s = ξ·scale: the terms of
-/// ξ, ξ², … As a function of s the slip obeys slip' = −μ diag(K_xx, K_yy) slip + b|slip|, which is smooth
-/// even where the slip nearly vanishes.
+/// ξ, ξ², … As a function of s the slip obeys slip' = −μ diag(K_xx, K_yy) slip + b|slip|, which is
+/// smooth even where the slip nearly vanishes.
 struct Curve([Step; ORDER]);
 
 /// One term of the series of the slip and of its size.
@@ -88,8 +88,8 @@ impl Line {
 }
 
 impl Curve {
-    /// The series that starts at the slip (gx, gy), and the largest ξ at which it is accurate. Unless
-    /// `length` is NaN, τ goes little beyond it.
+    /// The series that starts at the slip (gx, gy), and the largest ξ at which it is accurate.
+    /// Unless `length` is NaN, τ goes little beyond it.
     fn new(drive: &Drive, normal: &Normal, gx: f64, gy: f64, length: f64) -> (Self, f64) {
         let mut terms = [Step::NONE; ORDER];
         let mut slips = [Slip::default(); ORDER + 1];
@@ -190,8 +190,8 @@ impl Path {
         }
     }
 
-    /// A piece with a slip that turns, from (gx, gy) on: as long as it is accurate, or little beyond
-    /// `length`.
+    /// A piece with a slip that turns, from (gx, gy) on: as long as it is accurate, or little
+    /// beyond `length`.
     pub(super) fn turning(
         drive: &Drive,
         normal: &Normal,
@@ -251,8 +251,8 @@ mod tests {
         [x, y, tau, work]
     }
 
-    /// Halving the pieces divides the error by 2^ORDER. This is visible between where the series just
-    /// converges and where rounding dominates.
+    /// Halving the pieces divides the error by 2^ORDER. This is visible between where the series
+    /// just converges and where rounding dominates.
     #[test]
     fn the_error_falls_with_the_order_of_the_series() {
         let exact = follow(64, 1.0);

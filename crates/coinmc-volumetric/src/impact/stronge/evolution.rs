@@ -10,15 +10,17 @@ use crate::body::{Body, Friction};
 /// Slip, and the rates of rolling and pivoting, below this fraction of the velocities count as 0.
 const REST: f64 = 1e-13;
 
-/// A slip that turns less than this before it stops (path length over the velocities) counts as straight.
+/// A slip that turns less than this before it stops (path length over the velocities) counts as
+/// straight.
 const STRAIGHT: f64 = 1e-13;
 
-/// A growing slip keeps its direction if it drifts sideways by less than this fraction of what friction
-/// could cause. (Where sticking just fails, the slip grows so slowly that it stays on the isocline.)
+/// A growing slip keeps its direction if it drifts sideways by less than this fraction of what
+/// friction could cause. (Where sticking just fails, the slip grows so slowly that it stays on the
+/// isocline.)
 const STEADY: f64 = 1e-11;
 
 /// The impulses so far, and the modes of friction.
-pub(super) struct Sweep {
+pub(super) struct Evolution {
     k: ContactMatrix<f64>,
     couplings: Couplings,
     point: ContactPoint<f64>,
@@ -78,7 +80,7 @@ struct Piece {
     pivoting: Torque,
 }
 
-impl Sweep {
+impl Evolution {
     pub(super) fn new(body: &Body, friction: &Friction, point: &ContactPoint<f64>, e: f64) -> Self {
         let k = point.matrix(body);
         let rim_rates = RimRates::rates(body, point);
@@ -194,20 +196,20 @@ impl Sweep {
         }
     }
 
-    /// The normal impulse at which, with a constant f of this x component, the work has returned to 0:
-    /// the end of the impact for e = 1, and no piece is longer.
+    /// The normal impulse at which, with a constant f of this x component, the work has returned to
+    /// 0: the end of the impact for e = 1, and no piece is longer.
     fn longest(&self, now: &Now, x: f64) -> f64 {
         let gain = self.k.zz + self.k.xz * x;
         let root = (now.normal * now.normal - 2.0 * gain * (self.least + self.back)).sqrt();
         (root - now.normal) / gain * (1.0 + 1e-6)
     }
 
-    /// How a slip behaves that starts with this f. If it turns so little before it stops that its path
-    /// is straight to the given precision, it is followed with the constant f, |f| = μ, that brings it
-    /// to 0.
+    /// How a slip behaves that starts with this f. If it turns so little before it stops that its
+    /// path is straight to the given precision, it is followed with the constant f, |f| = μ, that
+    /// brings it to 0.
     ///
-    /// Along its path the mean of f is (−slip/τ − b)/K. The length of this mean is below μ by the order
-    /// of the square of the angle between slip and slip'.
+    /// Along its path the mean of f is (−slip/τ − b)/K. The length of this mean is below μ by the
+    /// order of the square of the angle between slip and slip'.
     fn course(&self, drive: &Drive, now: &Now, fx: f64, fy: f64) -> Course {
         let (dx, dy) = (drive.xx * fx + drive.bx, drive.yy * fy + drive.by);
         let along = dx * now.slip_x + dy * now.slip_y;
@@ -286,7 +288,8 @@ impl Sweep {
         cut
     }
 
-    /// Shortens the piece to where an angular velocity that friction opposes comes to 0 or leaves it.
+    /// Shortens the piece to where an angular velocity that friction opposes comes to 0 or leaves
+    /// it.
     fn cut_by_rates(&self, cut: &mut Cut, piece: &Piece, now: &Now) {
         let t = &self.couplings.rates;
         let (c, p) = (&piece.contour, &piece.pivoting);
@@ -305,12 +308,12 @@ impl Sweep {
             -(self.couplings.mu * y / (x * x + y * y).sqrt())
         };
         // the sign of a rate that has just left 0 may be that of rounding
-        let none = REST * (self.size + t.roll.abs() + t.pivot.abs());
+        let rounding = REST * (self.size + t.roll.abs() + t.pivot.abs());
         let Rates { roll, pivot } = &self.rates;
         if roll.limit > 0.0 && !roll.zero {
             cut.by_bent(Event::Roll, |s| {
                 let (y, c, p) = impulses(s);
-                none + roll.sign * (t.roll + t.roll_y * y - t.roll_roll * c - t.roll_pivot * p)
+                rounding + roll.sign * (t.roll + t.roll_y * y - t.roll_roll * c - t.roll_pivot * p)
             });
         } else if roll.limit > 0.0 && turns {
             cut.by_bent(Event::Roll, |s| {
@@ -320,7 +323,8 @@ impl Sweep {
         if pivot.limit > 0.0 && !pivot.zero {
             cut.by_bent(Event::Pivot, |s| {
                 let (y, c, p) = impulses(s);
-                none + pivot.sign * (t.pivot + t.pivot_y * y - t.roll_pivot * c - t.pivot_pivot * p)
+                rounding
+                    + pivot.sign * (t.pivot + t.pivot_y * y - t.roll_pivot * c - t.pivot_pivot * p)
             });
         } else if pivot.limit > 0.0 && turns {
             cut.by_bent(Event::Pivot, |s| {
