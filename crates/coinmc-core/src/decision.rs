@@ -45,7 +45,9 @@
 //! moment about u or the vertical, so ω_a, L_z and the horizontal velocity never change. At the
 //! balance over a rim, u_z = c* = ±h, the energy of turning about the vertical is then
 //! k_t(Ω_z − Ω_a c*)²/(2s*²), and the coin cannot pass the balance with less than 1 plus that. This
-//! is exact for any restitution, in flight and in contact.
+//! is exact for any restitution, in flight and in contact. An engine in time steps changes ω_a and
+//! L_z a little in every contact, and does without this part of the rule
+//! ([`DecisionRule::in_time_steps`]).
 
 use crate::{Body, Scene};
 use coinmc_lanes::{Lane, Mask};
@@ -107,6 +109,8 @@ pub struct DecisionRule {
     slides: bool,
     /// Nothing but normal forces act.
     smooth: bool,
+    /// The same, and the motion keeps ω_a and L_z.
+    traps: bool,
     /// ½/(1 + k_a/R²) and k_a/R of straight rolling.
     rolling: f64,
     lever: f64,
@@ -129,12 +133,14 @@ impl DecisionRule {
         let surface = &scene.surface;
         let mu = surface.friction();
         let twists = surface.rolling_friction_m() > 0.0 || surface.pivoting_friction_m() > 0.0;
+        let smooth = mu == 0.0 && !twists && scene.drag().is_none();
         Self {
             body,
             axial_factor: body.axial_factor(scene.has_gyroscopic_torque()),
             tilting,
             slides: mu == 0.0,
-            smooth: mu == 0.0 && !twists && scene.drag().is_none(),
+            smooth,
+            traps: smooth,
             rolling: 0.5 / (1.0 + body.ka / (body.radius * body.radius)),
             lever: body.ka / body.radius,
             flat_sine: if mu * body.half <= body.radius {
@@ -143,6 +149,16 @@ impl DecisionRule {
                 0.0
             },
             flat_barrier: (1.0 + mu * mu).sqrt() - mu * body.radius,
+        }
+    }
+
+    /// The rule for an engine whose time steps do not keep ω_a and L_z on a surface without friction
+    /// to the accuracy of the other rules: see the module's text, *Without friction*.
+    #[must_use]
+    pub fn in_time_steps(self) -> Self {
+        Self {
+            traps: false,
+            ..self
         }
     }
 
@@ -210,7 +226,7 @@ impl DecisionRule {
             let barrier = L::select(lies, L::splat(self.flat_barrier), one);
             decided = decided | (energy - left_out).lt(barrier);
         }
-        if self.smooth {
+        if self.traps {
             decided = decided | self.is_trapped(state, energy - spinning, side);
         }
         decided

@@ -55,7 +55,7 @@ impl Driver {
             skips_standing: settings.standing == Standing::Drag && can_stand,
             scaled,
             settings: *settings,
-            rule: DecisionRule::new(scene, tilting, FLAT_SINE),
+            rule: DecisionRule::new(scene, tilting, FLAT_SINE).in_time_steps(),
             step,
             adhesive: scene.surface.landing() == Landing::Adhesive,
             precession: if exact {

@@ -134,6 +134,10 @@ fn without_any_friction_the_spin_about_the_vertical_traps_the_coin() {
     };
     assert_eq!(rule.decide(&spins(trap - 1e-3)), Decided::Face);
     assert_eq!(rule.decide(&spins(trap + 1e-3)), Decided::Open);
+    assert_eq!(
+        rule.in_time_steps().decide(&spins(trap - 1e-3)),
+        Decided::Open
+    );
     let drags = scene.with_drag(crate::Drag::new(0.0, 0.1).expect("good drag"));
     assert_eq!(
         DecisionRule::new(&drags, false, 0.0).decide(&spins(trap - 1e-3)),
