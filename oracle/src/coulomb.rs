@@ -1,15 +1,15 @@
 //! Impulses of several contacts at once, by projected Gauss–Seidel.
 //!
-//! Every contact has five rows: the normal, two tangents, the wandering of the contact point along
-//! the rim and the pivoting about the vertical. A row is a direction in the space of (v, ω); the
-//! impulses p change the rows' velocities by W p. Asked for are impulses with
+//! Every contact has five rows: the normal, two tangents, the motion of the contact point along the
+//! rim and the pivoting about the vertical. A row is a direction in the space of (v, ω); the
+//! impulses p change the rows' velocities by W p. The solver finds impulses with
 //!
 //! y = W p + b,   0 <= p_n ⊥ y_n >= 0,   |p_t| <= μ p_n against y_t,
 //! |p_c| <= (ρ_c/s) p_n against y_c,   |p_p| <= ρ_p p_n against y_p.
 //!
-//! The row of contour friction is the turning about the horizontal projection x of u, ω·x = sψ',
-//! with the arm ρ_c/s: the same power, and no large numbers nearly flat, where it matters most (it
-//! keeps the coin from whirling round its rim). The offset b says which velocities are meant:
+//! The row of rolling (contour) friction is the turning about the horizontal projection x of u,
+//! ω·x = sψ', with the arm ρ_c/s. That is the same power without large numbers near level, where it
+//! matters most (it stops the coin from whirling on its rim). The offset b chooses the velocities y:
 //! those after the impulses, their mean with those before, or Newton's v⁺ + e v⁻.
 
 use crate::points::{POINTS, Point};
@@ -28,9 +28,9 @@ pub(crate) const CONTOUR: usize = 3;
 pub(crate) const PIVOT: usize = 4;
 
 const SIZE: usize = ROWS * POINTS;
-/// Largest change in a sweep that counts as none, of the largest impulse.
+/// Change in a sweep that counts as converged, as a fraction of the largest impulse.
 const CONVERGED: f64 = 1e-12;
-/// Far more than ever needed where the law has one solution.
+/// Far more sweeps than needed where the law has one solution.
 const MOST_SWEEPS: usize = 2_000;
 
 /// Contacts, their rows and the impulses.
@@ -129,7 +129,7 @@ impl Contacts {
         self.count * ROWS
     }
 
-    /// How a row answers to another's impulse.
+    /// How the velocity of a row responds to the impulse of another.
     pub(crate) fn response(&self, row: usize, to: usize) -> f64 {
         self.w[row][to]
     }
@@ -145,7 +145,7 @@ impl Contacts {
         self.offset[row] + pushed
     }
 
-    /// Lets the impulses act.
+    /// Applies the impulses to the motion.
     pub(crate) fn apply(&self, motion: &mut Motion) {
         for row in 0..self.rows() {
             motion.velocity += self.linear[row] * self.impulse[row];
@@ -153,7 +153,7 @@ impl Contacts {
         }
     }
 
-    /// Work of the impulses: p·(mean of the velocities before and after), with nothing else acting.
+    /// Work of the impulses, if nothing else acts: p·(mean of the velocities before and after).
     pub(crate) fn work(&self) -> f64 {
         (0..self.rows())
             .map(|row| {
@@ -180,7 +180,7 @@ impl Contacts {
         false
     }
 
-    /// One contact, row after row, with everything else as it is. Returns the largest change.
+    /// Relaxes one contact, row after row, with all other impulses fixed. Returns the largest change.
     fn relax(&mut self, model: &Model, contact: usize) -> f64 {
         let at = contact * ROWS;
         let old = self.impulse;
@@ -204,8 +204,8 @@ impl Contacts {
             .fold(0.0, f64::max)
     }
 
-    /// Stick if the disc |p_t| <= most allows it; else a step against the slip, back to the disc.
-    /// Its fixed point is friction against the slip whatever the length of the step.
+    /// Sticks if the disc |p_t| <= most allows it; else makes a step against the slip and projects it
+    /// back onto the disc. The fixed point is friction against the slip, for any length of the step.
     fn relax_tangents(&mut self, contact: usize, most: f64) {
         let x = contact * ROWS + TANGENT;
         let y = x + 1;

@@ -4,12 +4,11 @@ use crate::coulomb::{Contacts, NORMAL, ROWS, TANGENT};
 use crate::{Model, Motion};
 use nalgebra::{Matrix3, Vector3};
 
-/// Gain of energy, of the energy of the contact's own motion, that counts as rounding.
+/// Gain of energy that counts as rounding, as a fraction of the energy of the contact's own motion.
 const ROUNDING: f64 = 1e-11;
 
-/// Changes the motion by the impact of the contacts gathered for it. A contact whose rebound would
-/// be slower than `rest` does not rebound. Returns whether the law itself was followed, rather
-/// than its substitute.
+/// Applies the impact of the gathered contacts to the motion. A contact whose rebound would be
+/// slower than `rest` does not rebound. Returns whether the law itself acted, not its substitute.
 ///
 /// Where Newton's law would gain energy (or has no solution) the impulse is that of Chatterjee and
 /// Ruina for one contact, and plastic for several.
@@ -52,7 +51,7 @@ fn aim(contacts: &mut Contacts, restitution: impl Fn(f64) -> f64) {
     }
 }
 
-/// Energy of the rows' own motion, to compare a gain with.
+/// Energy of the rows' own motion: the scale of a gain.
 fn scale(contacts: &Contacts) -> f64 {
     (0..contacts.rows())
         .filter(|&row| contacts.response(row, row) > 0.0)

@@ -1,12 +1,13 @@
 //! Independent oracles of the toss in space: slow, plain, and sharing no formula with the engine.
 //!
-//! The engine works in a triad that turns with the coin, knows events and integrates contact with
-//! a Runge–Kutta pair. Here everything is a vector of the laboratory:
+//! The engine works in a triad that turns with the coin, goes from event to event and integrates
+//! contact with a Runge–Kutta pair. Here everything is a vector in the laboratory:
 //!
 //! * [`TimeStepper`] follows whole tosses in fixed steps, with the set-valued laws of contact
-//!   solved implicitly (Moreau–Jean): it knows neither modes nor equations of rolling.
+//!   solved implicitly (Moreau–Jean), without modes or equations of rolling, and decides
+//!   by energy alone.
 //! * [`newton_euler`] solves the six equations of motion and the contact's constraints as one
-//!   linear system: what a right-hand side of sustained contact must agree with.
+//!   linear system, with which the right-hand sides of sustained contact must agree.
 //! * [`textbook`] holds the known answers: steady precession, Euler's disk, spun coins, wheels.
 //!
 //! # Units
@@ -39,13 +40,11 @@ mod model;
 mod motion;
 pub mod newton_euler;
 mod points;
-
 mod stepper;
 pub mod textbook;
 mod triad;
 
 pub use model::Model;
 pub use motion::Motion;
-
 pub use stepper::{History, StepperSettings, TimeStepper};
 pub use triad::{Triad, triad};

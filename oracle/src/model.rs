@@ -20,9 +20,9 @@ pub struct Model {
     pub threshold: f64,
     /// Coulomb friction μ.
     pub friction: f64,
-    /// ρ_c/D.
+    /// Rolling (contour) friction length, ρ_c/D.
     pub contour: f64,
-    /// ρ_p/D.
+    /// Pivoting friction length, ρ_p/D.
     pub pivoting: f64,
     /// Decay of the velocity, in sqrt(g/D).
     pub linear_drag: f64,
@@ -33,7 +33,7 @@ pub struct Model {
 }
 
 impl Model {
-    /// The model of a scene. The way of landing is not looked at: the model bounces.
+    /// The model of a scene. Adhesive landing is ignored: the coin bounces.
     pub fn new(scene: &Scene) -> Self {
         let (coin, surface, drag) = (&scene.coin, &scene.surface, scene.drag());
         let (d, time) = (coin.rim_distance_m(), scene.time_scale_s());

@@ -18,8 +18,7 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// A launch. As the launch's words have it, a coin that would begin inside the surface is
-    /// lifted.
+    /// The motion at launch. A coin that would begin inside the surface is lifted until it touches.
     pub fn launched(scene: &Scene, launch: &Launch) -> Self {
         let (d, time) = (scene.coin.rim_distance_m(), scene.time_scale_s());
         let mut motion = Self {

@@ -11,7 +11,7 @@ pub(crate) const POINTS: usize = 5;
 /// Index of the point opposite to the lowest.
 pub(crate) const OPPOSITE: usize = 2;
 
-/// Sine of a tilt that has no direction.
+/// Sine of the tilt below which it has no direction.
 const NO_TILT: f64 = 1e-150;
 
 /// A point of the rim.
@@ -20,7 +20,7 @@ pub(crate) struct Point {
     /// From the centre.
     pub(crate) arm: Vector3<f64>,
     /// x/s, x the unit horizontal projection of u: ψ' = wander·ω is the rate at which the lowest
-    /// point moves along the rim. 0 for the other points, which have none of their own.
+    /// point moves along the rim. 0 for the other points, which stay where they are on the rim.
     pub(crate) wander: Vector3<f64>,
 }
 

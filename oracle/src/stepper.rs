@@ -25,18 +25,18 @@ use coinmc_core::{Face, Launch, Scene, State};
 
 /// Gap at which a point touches.
 const TOUCH: f64 = 1e-8;
-/// Slowest approach that is one.
+/// Approach speed below which a point does not arrive.
 const APPROACH: f64 = 1e-10;
 /// Speed below which a point counts as stopped by an impact.
 const STOPPED: f64 = 1e-9;
-/// Fraction of the friction cone beyond which a contact slips.
+/// Fraction of the friction cone above which a contact slips.
 const ON_CONE: f64 = 1.0 - 1e-9;
-/// Rates in sqrt(g/D) from which steps of contact shrink in proportion.
+/// Rate, in sqrt(g/D), above which steps of contact shrink in proportion.
 const FAST: f64 = 4.0;
-/// Most by which a step turns the axis, of the sine of its tilt: nearly flat, another point of the
-/// rim is the lowest after a small turn.
+/// Largest turn of the axis in a step, as a fraction of the sine of its tilt: near level a small turn
+/// makes another point of the rim the lowest.
 const SWING: f64 = 0.2;
-/// Sine of the tilt below which `SWING` lets go: a gap of that order is one of `TOUCH`'s.
+/// Sine of the tilt below which `SWING` no longer shortens steps: the gap is of the order of `TOUCH`.
 const LEVEL: f64 = 5e-8;
 
 /// How finely tosses are followed.
@@ -45,11 +45,9 @@ pub struct StepperSettings {
     /// Step in contact, sqrt(D/g). A rebound slower than this in sqrt(gD), whose flight the step
     /// could not resolve, does not take place.
     pub step: f64,
-    /// Time after which a toss is given up, sqrt(D/g).
+    /// Time after which a toss is given up, sqrt(D/g). Without rolling friction coins may roll on
+    /// their side for ever, and end here.
     pub time_limit: f64,
-    /// Whether a coin on its side is decided without the energy of straight rolling, as it must
-    /// be where nothing brakes that.
-    pub leave_out_rolling: bool,
 }
 
 impl Default for StepperSettings {
@@ -57,7 +55,6 @@ impl Default for StepperSettings {
         Self {
             step: 4e-3,
             time_limit: 3e3,
-            leave_out_rolling: true,
         }
     }
 }
@@ -67,7 +64,7 @@ impl Default for StepperSettings {
 pub struct History {
     /// The face; `None` at the limit of time.
     pub face: Option<Face>,
-    /// Impacts, without those too slow to rebound that only begin a contact.
+    /// Impacts, without those that are too slow to rebound and only begin a contact.
     pub impacts: u32,
     /// Impacts in which Newton's law would have gained energy.
     pub substituted: u32,
@@ -89,7 +86,7 @@ pub struct TimeStepper {
 }
 
 impl TimeStepper {
-    /// A stepper for a scene, whatever its way of landing: this one bounces.
+    /// A stepper for a scene. Adhesive landing is ignored: the coin bounces.
     pub fn new(scene: &Scene, settings: StepperSettings) -> Self {
         Self {
             scene: *scene,
@@ -104,12 +101,11 @@ impl TimeStepper {
         &self.model
     }
 
-    /// Follows a toss to its certain face.
+    /// Follows a toss until energy decides its face.
     pub fn toss(&mut self, launch: &Launch) -> History {
         let mut toss = Toss::new(Motion::launched(&self.scene, launch));
         let face = loop {
-            let rolling = self.settings.leave_out_rolling;
-            if let Some(face) = decided(&self.model, &toss.motion, rolling) {
+            if let Some(face) = decided(&self.model, &toss.motion) {
                 break Some(face);
             }
             if toss.time >= self.settings.time_limit || toss.time.is_nan() {
@@ -127,13 +123,13 @@ impl TimeStepper {
         }
     }
 
-    /// Follows a motion for a time, decided or not, and hands every state to `watch`: for checks
-    /// of the stepper against known motions.
-    pub fn follow(&mut self, start: Motion, time: f64, mut watch: impl FnMut(f64, &Motion)) {
+    /// Follows a motion for a time, decided or not, and calls `visit` with every state: for checks of
+    /// the stepper against known motions.
+    pub fn follow(&mut self, start: Motion, time: f64, mut visit: impl FnMut(f64, &Motion)) {
         let mut toss = Toss::new(start);
         while toss.time < time {
             self.advance(&mut toss);
-            watch(toss.time, &toss.motion);
+            visit(toss.time, &toss.motion);
         }
     }
 
@@ -207,14 +203,14 @@ impl TimeStepper {
         contacts.apply(&mut motion);
         motion.velocity.z -= h;
         motion.drift(&self.model, h / 2.0);
-        toss.settle(&self.model, contacts, motion);
+        toss.take_over(&self.model, contacts, motion);
         toss.time += h;
         toss.steps += 1;
         toss.unconverged += u64::from(!converged);
     }
 }
 
-/// The impulses of a step of contact; those that newly stick do so with their velocity after it.
+/// The impulses of a step of contact. Rows that newly stick do so with their velocity after the step.
 fn solve_step(
     model: &Model,
     contacts: &mut Contacts,
@@ -249,7 +245,7 @@ fn solve_step(
 const LAWS: [std::ops::Range<usize>; 3] =
     [TANGENT..TANGENT + 2, CONTOUR..CONTOUR + 1, PIVOT..PIVOT + 1];
 
-/// Which laws of a contact hold it still: those inside their cone.
+/// Which laws of a contact hold it still: those whose impulses are inside their cones.
 fn stuck(model: &Model, contacts: &Contacts, contact: usize) -> [bool; 3] {
     let p = &contacts.impulse[contact * ROWS..][..ROWS];
     let inside = |size: f64, most: f64| size < ON_CONE * most * p[NORMAL];
@@ -280,7 +276,7 @@ fn touches(points: &[Point; POINTS], motion: &Motion, index: usize) -> bool {
     near(index) && (index <= OPPOSITE || near(OPPOSITE))
 }
 
-/// A toss on its way.
+/// A toss in flight or contact.
 #[derive(Debug)]
 struct Toss {
     motion: Motion,
@@ -338,8 +334,8 @@ impl Toss {
         step
     }
 
-    /// Takes over the state after a step of contact, and what still rests.
-    fn settle(&mut self, model: &Model, contacts: &Contacts, motion: Motion) {
+    /// Takes over the state after a step of contact, and which points still rest.
+    fn take_over(&mut self, model: &Model, contacts: &Contacts, motion: Motion) {
         self.motion = motion;
         let after = points(model, &self.motion);
         let mut contact = 0;

@@ -1,7 +1,6 @@
 //! Known answers for coins in contact, g = 1, D = 1, m = 1.
 //!
-//! Each is derived where it stands or cited; none knows more than a moment of inertia and the
-//! geometry.
+//! Each is derived in place or cited, and needs only moments of inertia and the geometry.
 
 use crate::{Model, Motion};
 use nalgebra::Vector3;

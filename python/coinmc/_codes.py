@@ -28,7 +28,7 @@ class Face(IntEnum):
 class Ended(IntEnum):
     """Why the engine stopped following the toss."""
 
-    #: The face is certain.
+    #: The face is decided.
     DECIDED = 0
     #: Undecided at the limit of simulated time.
     TIME_LIMIT = 1

@@ -27,7 +27,7 @@ class Tosses:
     impacts : ndarray of uint32, shape (n,)
         Impacts computed.
     time_s : ndarray of float64, shape (n,)
-        When the toss ended, s since launch: as soon as its face was certain, which is before the
+        When the toss ended, s since launch: as soon as its face was decided, which is before the
         coin lies still.
     final : ndarray of `STATE`, shape (n,)
         The coin at that instant.

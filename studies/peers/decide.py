@@ -18,7 +18,7 @@ GIVE_UP = 20.0
 
 
 def face(scene: Scene, z: float, velocity, axis, spin) -> str | None:
-    """``heads``, ``tails`` or ``side`` if energy settles it, else None.
+    """``heads``, ``tails`` or ``side`` if energy decides it, else None.
 
     z, velocity (3,), unit axis (3,) and spin (3,), all in the frame of the scene and of the
     laboratory; potential zero at the surface.

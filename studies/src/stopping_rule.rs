@@ -1,4 +1,4 @@
-//! Stopping when the energy has fallen to a hundredth, against going on until the face is certain.
+//! Stopping when the energy has fallen to a hundredth, against going on until the face is decided.
 //!
 //! The rule is that of Gaek & Sukhov, arXiv 2401.03557. It can only differ where a hundredth of
 //! the energy is more than the barrier m g D: where the drop height is beyond 100 D or so.

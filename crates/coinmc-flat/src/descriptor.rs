@@ -81,10 +81,10 @@ impl EngineSettings for Settings {
 
     fn explain(&self, _: &Scene) -> String {
         let decided = match self.decision {
-            Decision::Energy => "until energy alone makes the face certain",
+            Decision::Energy => "until energy alone decides the face",
             Decision::EnergyFraction(_) => {
-                "until the energy has fallen to the chosen fraction, and on to the certain face to \
-                 count disagreements"
+                "until the energy has fallen to the chosen fraction, and on until energy alone \
+                 decides the face, to count disagreements"
             }
         };
         format!(

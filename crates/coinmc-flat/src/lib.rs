@@ -7,7 +7,7 @@
 //! bounces would be over in no time it goes on in sustained contact: pivoting about the corner,
 //! sliding or not, flat on an edge, rocking from corner to corner. The toss ends when its energy
 //! is below the barrier m g D, D = sqrt(R² + H²/4): from then on no balance over a corner can be
-//! crossed and the face is certain.
+//! crossed and the face is decided.
 //!
 //! # Range
 //! Any ratio, restitution 0 to 1, any friction. Coins are rigid but for [`Law::LineContact`] in its

@@ -11,12 +11,12 @@ use thiserror::Error;
 /// When the face of a toss counts as decided.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Decision {
-    /// When energy alone makes it certain.
+    /// When energy alone decides it.
     #[default]
     Energy,
     /// When the mechanical energy has fallen to this fraction of its initial value (0.01 in Gaek
-    /// & Sukhov, arXiv 2401.03557) or the face is certain. The toss is followed on to the certain
-    /// end, and counted as `overruled` where the two disagree.
+    /// & Sukhov, arXiv 2401.03557) or the face is decided. The toss is followed until energy
+    /// decides, and counted as `overruled` where the two disagree.
     EnergyFraction(f64),
 }
 
@@ -75,7 +75,7 @@ impl Settings {
                 Kind::Choice(
                     vec![Word {
                         name: ENERGY,
-                        doc: "when energy alone makes it certain",
+                        doc: "when energy alone decides it",
                     }],
                     vec![number(
                         "energy_fraction",

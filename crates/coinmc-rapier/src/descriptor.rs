@@ -58,7 +58,7 @@ impl EngineSettings for Settings {
             Decision::Tilting => {
                 "until the energy that can still tilt the coin is too small to carry it over its rim"
             }
-            Decision::Energy => "until energy alone makes the face certain",
+            Decision::Energy => "until energy alone decides the face",
             Decision::Rest => "until the coin has come to rest",
         };
         let threshold = if scene.surface.restitution_threshold_m_s() > 0.0 {

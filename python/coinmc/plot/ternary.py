@@ -15,7 +15,7 @@ from coinmc.plot.table import columns, need, parameters, select
 
 __all__ = ["ternary"]
 
-# Where each face is certain: heads, tails, side.
+# Where each face has probability 1: heads, tails, side.
 _CORNERS = np.array([[0.0, 0.0], [1.0, 0.0], [0.5, np.sqrt(0.75)]])
 _FACES = ("heads", "tails", "side")
 
@@ -29,7 +29,7 @@ def ternary(
 ) -> Axes:
     """Draw the probabilities of the three faces in a triangle, with their intervals.
 
-    A corner is a face that is certain, the star a coin that is three-way fair. Around each point
+    A corner is a face with probability 1, the star a coin that is three-way fair. Around each point
     lies the region in which all three intervals hold.
 
     Parameters

@@ -58,7 +58,7 @@ impl SpaceConvergence {
             record.push(row);
         }
         let mut report = Report::new(record);
-        report.remark(verdict(&found));
+        report.remark(assessment(&found));
         report.remark(
             "half_width: of the statistical interval, undecided tosses counted either way. bias: \
              default minus tight; std_error its standard error, from the tosses that are on the \
@@ -85,7 +85,7 @@ fn cells_of(found: &Paired) -> Vec<String> {
     ]
 }
 
-fn verdict(found: &[Paired]) -> String {
+fn assessment(found: &[Paired]) -> String {
     let largest = found.iter().map(|f| f.bias().abs()).fold(0.0, f64::max);
     let above = found.iter().filter(|f| f.bias().abs() >= ASKED).count();
     let significant = found.iter().filter(|f| {

@@ -13,7 +13,7 @@ pub(super) fn head(canvas: &mut Canvas, trace: &Trace, left: f64) {
     canvas.label([left, 60.0], 13.0, Anchor::Start, FAINT, &scene(trace));
 }
 
-/// "Heads, certain after 0.412 s and 7 impacts"
+/// "Heads, decided after 0.412 s and 7 impacts"
 fn outcome(trace: &Trace) -> String {
     let adhesive = trace.scene.surface.landing() == Landing::Adhesive;
     let what = match trace.outcome.ended {
@@ -26,11 +26,11 @@ fn outcome(trace: &Trace) -> String {
             let how = if adhesive {
                 "by the first contact"
             } else {
-                "certain"
+                "decided"
             };
             format!("{face}, {how}")
         }
-        Ended::NeverSettles => "Never settles, as is certain".to_owned(),
+        Ended::NeverSettles => "Proven never to settle".to_owned(),
         Ended::TimeLimit => "Undecided: given up at the limit of time".to_owned(),
         Ended::ImpactLimit => "Undecided: given up at the limit of impacts".to_owned(),
         Ended::Failed => "Failed: its numbers left the range of numbers".to_owned(),

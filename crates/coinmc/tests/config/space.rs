@@ -179,7 +179,7 @@ fn what_the_toss_in_space_skips_is_explained() {
     let (computed, _) = explained(&["surface.restitution_threshold_m_s=2"]);
     assert!(computed.contains("(restitution 0 below its threshold)"));
     let (computed, _) = explained(&["engine.volumetric.decision=energy"]);
-    assert!(computed.ends_with("until energy alone makes the face certain"));
+    assert!(computed.ends_with("until energy alone decides the face"));
     let (computed, _) = explained(&["surface.landing=adhesive", "sampling.method=random"]);
     assert!(computed.contains("to the first contact"));
     let sets = ["surface.rolling_friction_m=[0, 1e-4]", "coin.ratio=[1, 2]"];

@@ -1,7 +1,7 @@
 //! One toss as text: its events in a table, and what decided the face.
 
+mod decision;
 mod rows;
-mod verdict;
 
 use super::table::{Column, Table};
 use super::{Colors, Style, compact, count, in_ascii, wrapped};
@@ -54,7 +54,7 @@ pub(crate) fn events(trace: &Trace, all: bool, style: &Style) -> String {
         text += &format!("{}\n", style.paint(Colors::Faint, &note));
     }
     text += "\n";
-    text += &wrapped(&verdict::verdict(trace), style.width, 0);
+    text += &wrapped(&decision::decision(trace), style.width, 0);
     if style.unicode { text } else { in_ascii(&text) }
 }
 

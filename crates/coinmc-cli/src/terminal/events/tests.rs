@@ -29,7 +29,7 @@ fn a_toss_is_told_from_launch_to_end() {
     assert!(text.contains("impact 1 "), "{text}");
     assert!(lines.iter().any(|line| line.contains("  ends")), "{text}");
     assert!(
-        text.contains("Certain at ") && text.contains("can never cross it again"),
+        text.contains("Decided at ") && text.contains("can never cross it again"),
         "{text}"
     );
     assert!(

@@ -8,7 +8,7 @@ use coinmc_trace::{Record, RecordKind, Trace};
 /// A coin with its axis within this angle of level, rad, lies along its side.
 const LEVEL: f64 = 1e-6;
 
-pub(super) fn verdict(trace: &Trace) -> String {
+pub(super) fn decision(trace: &Trace) -> String {
     let when = when(trace);
     match trace.outcome.ended {
         Ended::Decided(face) if trace.scene.surface.landing() == Landing::Adhesive => {
@@ -17,7 +17,7 @@ pub(super) fn verdict(trace: &Trace) -> String {
         Ended::Decided(face) if trace.outcome.overruled => {
             format!(
                 "The stopping rule of the config named {} as soon as the energy was low enough for \
-                 it. Followed until it was certain, {when}, the coin showed another face.",
+                 it. Followed until it was decided, {when}, the coin showed another face.",
                 name(face)
             )
         }
@@ -43,7 +43,7 @@ fn adhesive(when: &str, face: Face) -> String {
     )
 }
 
-/// Why a certain face is certain.
+/// Why a face is decided.
 fn decided(trace: &Trace, when: &str, face: Face) -> String {
     let Some(last) = trace.records.last() else {
         return shows(face).to_owned();
@@ -67,7 +67,7 @@ fn decided(trace: &Trace, when: &str, face: Face) -> String {
              that can tilt it: the rest sits in motion along the surface"
         )
     };
-    format!("Certain {when}{}: {why}. {}", after(trace), shows(face))
+    format!("Decided {when}{}: {why}. {}", after(trace), shows(face))
 }
 
 fn given_up(trace: &Trace, when: &str, limit: &str) -> String {
