@@ -1,12 +1,15 @@
 //! What the rest of the program knows of this engine.
 
-use crate::laws::LAWS;
+use crate::engine::VolumetricEngine;
+use crate::impact::ImpactLaw;
+use crate::laws::{LAWS, LawVisitor};
 use crate::settings::{Decision, Settings, SettingsError};
 use coinmc_core::schema::Values;
 use coinmc_core::{
     Answer, DynEngine, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings,
     Landing, Remark, Scene,
 };
+use std::fmt::Debug;
 
 /// The engine, as configs and results know it.
 pub const ENGINE: EngineDescriptor = EngineDescriptor {
@@ -83,8 +86,22 @@ impl EngineSettings for Settings {
     }
 }
 
+/// Builds the engine of a law.
+struct Build<'a> {
+    scene: &'a Scene,
+    settings: &'a Settings,
+}
+
+impl LawVisitor for Build<'_> {
+    type Output = Result<DynEngine, SettingsError>;
+
+    fn visit<I: ImpactLaw + Debug + Send + 'static>(self, law: I) -> Self::Output {
+        VolumetricEngine::new(self.scene, self.settings, law).map(DynEngine::new)
+    }
+}
+
 impl Settings {
-    /// An engine for this scene, of whichever law: compiled with this crate, for all laws.
+    /// An engine for this scene with the law of the settings.
     ///
     /// # Errors
     /// [`SettingsError`] if a setting is out of range.
@@ -99,7 +116,8 @@ impl Settings {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn engine(&self, scene: &Scene) -> Result<DynEngine, SettingsError> {
-        self.law.engine(scene, self)
+        let settings = self;
+        self.law.visit(Build { scene, settings })
     }
 
     /// The settings that the values of the engine's table give.

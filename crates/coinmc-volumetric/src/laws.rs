@@ -1,13 +1,12 @@
 //! The laws of impact that a user may choose, each in a file of its own under `impact`.
 //!
-//! A new law is a file there and, here, a variant and a line in each list. The compiler asks for all
-//! but the line in [`LAWS`], without which no config can name the law.
+//! A new law is a file there and, here, a variant and a line in each list. The compiler asks for
+//! each line except that in [`LAWS`], without which no config can name the law.
 
-use crate::engine::VolumetricEngine;
-use crate::impact::{ChatterjeeRuina, Moreau, Stronge};
-use crate::settings::{Settings, SettingsError};
+use crate::impact::{ChatterjeeRuina, ImpactLaw, Moreau, Stronge};
 use coinmc_core::schema::{Values, unlisted};
-use coinmc_core::{DynEngine, EngineError, LawDescriptor, LawSettings, Scene};
+use coinmc_core::{EngineError, LawDescriptor, LawSettings};
+use std::fmt::Debug;
 
 /// The laws, in the order of the reference.
 pub(crate) const LAWS: [LawDescriptor; 3] = [
@@ -49,17 +48,19 @@ impl Law {
         law.ok_or_else(|| unlisted("law", name))
     }
 
-    pub(crate) fn engine(
-        self,
-        scene: &Scene,
-        settings: &Settings,
-    ) -> Result<DynEngine, SettingsError> {
-        Ok(match self {
-            Self::Moreau => DynEngine::new(VolumetricEngine::new(scene, settings, Moreau)?),
-            Self::ChatterjeeRuina => {
-                DynEngine::new(VolumetricEngine::new(scene, settings, ChatterjeeRuina)?)
-            }
-            Self::Stronge => DynEngine::new(VolumetricEngine::new(scene, settings, Stronge)?),
-        })
+    /// Runs a task with the type of this law.
+    pub(crate) fn visit<V: LawVisitor>(self, visitor: V) -> V::Output {
+        match self {
+            Self::Moreau => visitor.visit(Moreau),
+            Self::ChatterjeeRuina => visitor.visit(ChatterjeeRuina),
+            Self::Stronge => visitor.visit(Stronge),
+        }
     }
+}
+
+/// A task that is generic over impact laws, for a law that is known only at run time.
+pub(crate) trait LawVisitor {
+    type Output;
+
+    fn visit<I: ImpactLaw + Debug + Send + 'static>(self, law: I) -> Self::Output;
 }

@@ -18,8 +18,9 @@
 //! # Modules
 //! Each line uses only the lines above it:
 //!
-//! - `series` elementary functions · `body`, `drag` the scene in the kernel's units · `settings`
-//! - `impact` impact laws · `motion` state and folded frame · `limits`
+//! - `series` elementary functions · `body`, `drag` the scene in the kernel's units
+//! - `impact` impact laws · `laws` their list · `settings` · `limits` · `motion` state and folded
+//!   frame
 //! - `place`, `observer_adapter` what an observer is shown
 //! - `flight` the orbit and its first contact · `contact` sustained contact
 //! - `toss` the state of one toss · `model` the constants of all tosses · `transition`,
@@ -27,7 +28,7 @@
 //! - `bounce` one impact · `ending` how a toss ends
 //! - `flight_phase`, `contact_phase`, `impact_phase` one toss through each phase
 //! - `scalar` one toss from launch to end · `batch` many tosses in lanes
-//! - `engine` the public engine
+//! - `engine` the public engine · `descriptor` what the rest of the program knows of it
 //!
 //! The rule that decides a face is [`coinmc_core::DecisionRule`].
 

@@ -9,16 +9,17 @@ use coinmc_core::{EngineError, LawDescriptor};
 /// When the face of a toss counts as decided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Decision {
-    /// When the energy that can still tilt the coin is too small to carry it over its rim: leaning
-    /// to its side the energy of straight rolling is left out, the less of it the faster its axis
-    /// will turn, flat on a face that of sliding and spinning; and when it lies on both rims and its
-    /// weight has twice the moment that could lift one. Not quite rigorous; its bias is measured in
+    /// When the energy that can still tilt the coin is too small to carry it over its rim. Energy
+    /// that cannot become tilt is left out: for a coin that leans towards its side a part of the
+    /// energy of straight rolling (the less, the faster its axis turns), for a coin flat on a face
+    /// that of sliding and spinning. Also when the coin lies on both rims and its weight has twice
+    /// the moment that could lift one. Not quite rigorous: its bias is measured in
     /// docs/validation/spatial.md.
     #[default]
     Tilting,
-    /// When the whole mechanical energy (without friction: all but that of motion which nothing
-    /// can turn into tilt) is below m g D, D the distance of the rim from the centre: rigorous, and
-    /// a coin that rolls along its side without loss is never decided.
+    /// When the mechanical energy is below m g D, where D is the distance of the rim from the
+    /// centre. (Without friction, energy of motion that cannot become tilt is left out.) Rigorous; a
+    /// coin that rolls on its side without loss is never decided.
     Energy,
 }
 
