@@ -69,8 +69,9 @@ def test_a_clean_commit_is_released(copy):
     assert places == sorted(places)
     assert not any("hack" in name or "testkit" in name or "oracle" in name for name in crates)
     notes = (copy / "target/dist/NOTES.md").read_text()
-    assert "### Added" in notes
-    assert "## [" not in notes
+    after = (copy / "CHANGELOG.md").read_text().split("## [0.1.0] - ")[1]
+    section = after.split("\n", 1)[1].split("\n## [")[0]
+    assert notes.strip() == section.strip()
 
 
 def test_a_dirty_tree_is_refused(copy):
