@@ -107,9 +107,7 @@ pub struct DecisionRule {
     tilting: bool,
     /// μ = 0.
     slides: bool,
-    /// Nothing but normal forces act.
-    smooth: bool,
-    /// The same, and the motion keeps ω_a and L_z.
+    /// Nothing but normal forces act, and the motion keeps ω_a and L_z.
     traps: bool,
     /// ½/(1 + k_a/R²) and k_a/R of straight rolling.
     rolling: f64,
@@ -133,14 +131,12 @@ impl DecisionRule {
         let surface = &scene.surface;
         let mu = surface.friction();
         let twists = surface.rolling_friction_m() > 0.0 || surface.pivoting_friction_m() > 0.0;
-        let smooth = mu == 0.0 && !twists && scene.drag().is_none();
         Self {
             body,
             axial_factor: body.axial_factor(scene.has_gyroscopic_torque()),
             tilting,
             slides: mu == 0.0,
-            smooth,
-            traps: smooth,
+            traps: mu == 0.0 && !twists && scene.drag().is_none(),
             rolling: 0.5 / (1.0 + body.ka / (body.radius * body.radius)),
             lever: body.ka / body.radius,
             flat_sine: if mu * body.half <= body.radius {
@@ -257,7 +253,7 @@ impl DecisionRule {
     /// Whether no energy is ever lost at this restitution: the face of such a toss is decided at its
     /// launch or never.
     pub fn loses_nothing(&self, restitution: f64) -> bool {
-        self.smooth && restitution == 1.0
+        self.traps && restitution == 1.0
     }
 }
 
