@@ -52,7 +52,7 @@ def parameters(node: ast.FunctionDef) -> list[tuple[str, str | None]]:
 
 def test_a_run_directory_remembers_the_build(tmp_path):
     assert coinmc.__build__.startswith(coinmc.__version__)
-    coinmc.run({"coin": {"ratio": 1.0}, "engine": {"analytic": {}}}, tmp_path / "run")
+    coinmc.run({"coin": {"ratio": 1.0}, "engine": {"analytic": {"rule": "arc"}}}, tmp_path / "run")
     manifest = json.loads((tmp_path / "run/manifest.json").read_text())
     assert manifest["builds"] == [coinmc.__build__]
 

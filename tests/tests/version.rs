@@ -41,7 +41,7 @@ fn the_version_names_the_commit() {
 #[test]
 fn a_run_directory_remembers_the_build() {
     let dir = tempfile::tempdir().expect("a temporary directory");
-    let config = "coin.ratio = 1.0\nlaunch.preset = 'robot'\nengine.analytic = {}\n";
+    let config = "coin.ratio = 1.0\nlaunch.preset = 'robot'\nengine.analytic.rule = 'arc'\n";
     fs::write(dir.path().join("toss.toml"), config).expect("the config can be written");
     let status = command(dir.path())
         .args(["run", "toss.toml", "--out", "run", "--quiet"])
