@@ -1,11 +1,11 @@
 //! What the rest of the program knows of this engine.
 
 use crate::laws::LAWS;
-use crate::settings::{Decision, Settings, SettingsError};
+use crate::settings::{Decision, Settings};
 use coinmc_core::schema::Values;
 use coinmc_core::{
-    Answer, DynEngine, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings,
-    Landing, Remark, Scene, Unmodelled,
+    Answer, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings, Landing,
+    Remark, Scene, Unmodelled,
 };
 
 /// The engine, as configs and results know it.
@@ -104,24 +104,6 @@ impl EngineSettings for Settings {
 }
 
 impl Settings {
-    /// An engine for this scene, of whichever law: compiled with this crate, for all laws.
-    ///
-    /// # Errors
-    /// [`SettingsError`] if a setting is out of range, or the law does not go with the scene.
-    ///
-    /// # Example
-    /// ```
-    /// use coinmc_core::{Coin, Engine, Scene, Surface};
-    /// use coinmc_flat::{Lanes, Settings};
-    /// let scene = Scene::new(Coin::cylinder(1.0, 0.01)?, Surface::new(0.5, 0.0)?, 9.81)?;
-    /// let engine = Settings::default().engine(&scene)?.with_lanes(Lanes::Scalar)?;
-    /// assert_eq!(engine.lanes(), Lanes::Scalar);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn engine(&self, scene: &Scene) -> Result<DynEngine, SettingsError> {
-        self.law.engine(scene, self)
-    }
-
     /// The settings that the values of the engine's table give.
     fn read(values: &Values) -> Result<Self, EngineError> {
         let settings = Self::from_values(values)?;

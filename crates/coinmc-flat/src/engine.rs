@@ -3,7 +3,8 @@
 use crate::batch::Batch;
 use crate::impact_law::ImpactLaw;
 use crate::parameters::Parameters;
-use crate::settings::{Decision, Settings, SettingsError};
+use crate::settings::{Decision, Settings};
+use crate::settings_error::SettingsError;
 use coinmc_core::{
     Engine, Launch, LaunchSource, Observer, Outcome, OutcomeSink, Scene, TossBatch, toss_sequential,
 };

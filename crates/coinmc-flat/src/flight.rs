@@ -24,8 +24,8 @@ const TOUCH: f64 = 1e-15;
 pub(crate) const MAX_EVALUATIONS: u32 = 2_000;
 /// The first step of a departing corner where every bound is zero to rounding: a coin that hops for
 /// so short a time (in sqrt(D/g)) stays within `TOUCH` of the surface. The step doubles each time,
-/// because a corner that neither rises nor falls has hardly any acceleration: a few steps instead of
-/// millions leave it behind.
+/// because a corner that neither rises nor falls has hardly any acceleration: a few steps instead
+/// of millions leave it behind.
 pub(crate) const LEAST_DEPARTURE: f64 = 1e-9;
 
 /// A flight from its present state to the end of the quadrant.
@@ -54,8 +54,8 @@ pub(crate) struct Evaluation<L: Lane> {
 }
 
 /// Flies to the first contact and puts the lowest corner on the surface. `departing`: this corner
-/// has just rebounded or lifted off, so that it approaches by rounding at most. `false` if the search
-/// ran out of evaluations.
+/// has just rebounded or lifted off, so that it approaches by rounding at most. `false` if the
+/// search ran out of evaluations.
 #[inline]
 pub(crate) fn fly_to_contact(motion: &mut Motion, shape: &Shape, mut departing: bool) -> bool {
     let mut flight = FlightSegment::of(motion, shape);
@@ -132,9 +132,9 @@ impl<L: Lane> FlightSegment<L> {
         }
     }
 
-    /// One evaluation of the search, at time `t` from the start of the segment. `departs`: the corner
-    /// leaves the surface, so that it approaches by rounding at most. `least` is the least step of a
-    /// departing corner.
+    /// One evaluation of the search, at time `t` from the start of the segment. `departs`: the
+    /// corner leaves the surface, so that it approaches by rounding at most. `least` is the least
+    /// step of a departing corner.
     #[inline(always)]
     pub(crate) fn evaluate(&self, t: L, departs: L::Mask, least: &mut L) -> Evaluation<L> {
         let (zero, touch) = (L::splat(0.0), L::splat(TOUCH));
@@ -258,9 +258,9 @@ fn lower_bound_step<L: Lane>(gap: L, rate: L, bound: L) -> L {
 
 /// A step away from the surface, for a corner that touches and moves up (or not at all).
 ///
-/// Each of three bounds on the step holds, so the longest is used. (1) The quadratic one with gap = 0.
-/// (2) While the coin turns towards its balance, cos δ exceeds its present value until the mirror
-/// image −δ is reached; so if f'' >= 0 now, f is convex until then. (3) |f'''| <= |ω|³, so
+/// Each of three bounds on the step holds, so the longest is used. (1) The quadratic one with
+/// gap = 0. (2) While the coin turns towards its balance, cos δ exceeds its present value until the
+/// mirror image −δ is reached; so if f'' >= 0 now, f is convex until then. (3) |f'''| <= |ω|³, so
 /// f >= At²/2 − |ω|³t³/6 > 0 for t < 3A/|ω|³, A = f''.
 #[inline(always)]
 fn departure<L: Lane>(delta: L, omega: L, cos: L, rate: L, bound: L) -> L {

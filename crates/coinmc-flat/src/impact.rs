@@ -194,9 +194,9 @@ impl<L: ImpactLaw> Parameters<L> {
         gap < small && motion.omega.abs() < small && motion.vz.abs() < small
     }
 
-    /// Lays the coin flat: a plastic impact of the whole edge. The coin then slides. It never tips if
-    /// the torque of friction at the base is below that of the normal force, μ·height <= half width:
-    /// the face is decided. Otherwise it trips over its leading corner.
+    /// Lays the coin flat: a plastic impact of the whole edge. The coin then slides. It never tips
+    /// if the torque of friction at the base is below that of the normal force, μ·height <= half
+    /// width: the face is decided. Otherwise it trips over its leading corner.
     fn lay_flat(&self, motion: &mut Motion) -> AfterImpact {
         let (gap, at_end) = self.shape.gap(motion.quadrant, motion.delta);
         let (height, half_width) = self.shape.base(motion.quadrant, at_end);

@@ -2,7 +2,7 @@
 
 use crate::contact_matrix::{ContactMatrix, Impulse};
 use crate::motion::Motion;
-use crate::settings::SettingsError;
+use crate::settings_error::SettingsError;
 use crate::shape::Shape;
 use coinmc_core::{Breaks, LawSettings, Scene};
 use coinmc_lanes::Lane;
@@ -13,15 +13,16 @@ use coinmc_lanes::Lane;
 /// energy. Most laws are an [`impulse`](Self::impulse) at one instant; a law with a duration
 /// [`resolve`](Self::resolve)s the impact itself.
 pub trait ImpactLaw: Copy + Sync {
-    /// Whether an impact is its impulse and nothing more, so that a batch can compute eight at a time.
+    /// Whether an impact is its impulse and nothing more, so that a batch can compute eight at a
+    /// time.
     const BATCHED: bool = true;
 
     /// The impulse for the velocity (`ux`, `uz`) of the corner before the impact (uz < 0
     /// approaches), restitution `e` and friction `mu`: of one impact, or of one per lane.
     fn impulse<L: Lane>(&self, k: ContactMatrix<L>, ux: L, uz: L, e: f64, mu: f64) -> Impulse<L>;
 
-    /// Moves the coin through an impact that is more than an impulse at one instant. A law that does
-    /// so is not [`BATCHED`](Self::BATCHED). By default [`impulse`](Self::impulse) is used.
+    /// Moves the coin through an impact that is more than an impulse at one instant. A law that
+    /// does so is not [`BATCHED`](Self::BATCHED). By default [`impulse`](Self::impulse) is used.
     #[inline]
     fn resolve(&self, _: &mut Impact<'_>) -> Resolution {
         Resolution::UseImpulse
@@ -38,7 +39,7 @@ pub trait ImpactLaw: Copy + Sync {
     }
 }
 
-/// A law of impact as a user gives it, to be had for any scene.
+/// A law of impact with the parameters that a user gives, before it is applied to a scene.
 pub(crate) trait PlanarLaw: LawSettings {
     /// The law in a scene.
     type Impact: ImpactLaw;

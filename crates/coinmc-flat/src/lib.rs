@@ -1,28 +1,36 @@
 #![doc = include_str!("../README.md")]
 //!
 //! # Model
-//! The coin's section is a rectangle 2R × H with the moment of inertia of the coin about a
-//! diameter. It flies in closed form ([`flight`](self)), touches with a corner at the first root
-//! of gap(t), which is never missed, and is thrown back by an [`ImpactLaw`]. When the remaining
-//! bounces would be over in no time it goes on in sustained contact: pivoting about the corner,
-//! sliding or not, flat on an edge, rocking from corner to corner. The toss ends when its energy
-//! is below the barrier m g D, D = sqrt(R² + H²/4): from then on no balance over a corner can be
-//! crossed and the face is decided.
+//! The section of the coin is a rectangle 2R × H with the moment of inertia of the coin about a
+//! diameter. The coin flies in closed form, touches with a corner at the first root of gap(t),
+//! which is never missed, and rebounds by an [`ImpactLaw`]. When the remaining bounces would be
+//! very short, they are replaced by sustained contact: the coin pivots about the corner, sliding or
+//! sticking, lies flat on an edge, or rocks from corner to corner. The face is decided when the
+//! energy is below the barrier m g D, D = sqrt(R² + H²/4): from then on the coin cannot cross a
+//! balance over a corner.
 //!
 //! # Range
-//! Any ratio, restitution 0 to 1, any friction. Coins are rigid but for [`Law::LineContact`] in its
-//! impacts; air and rolling friction are not modelled. Tosses at e = 1 without friction conserve energy and end undecided,
-//! at the limit of impacts; they are counted.
+//! Any ratio, restitution 0 to 1, any friction. Coins are rigid, except in impacts by
+//! [`Law::LineContact`]. Air and rolling friction are not modelled. Tosses at e = 1 without
+//! friction conserve energy; they end undecided at the limit of impacts and are counted.
 //!
-//! # Files
-//! `shape` geometry · `motion` state · `flight` first contact · `impact_law` the trait of the laws of
-//! impact, `laws` a file for each · `contact_matrix` and `touching` what an impulse does ·
-//! `dormand_prince` steps in time · `bounce` one impact and what follows it · `pivot` and `slide`
-//! contact phases · `contact` their order · `engine` the toss · `batch` many tosses at once · `any` its
-//! law chosen at run time · `single` one impact alone · `observer_adapter` what an observer is shown ·
-//! `settings` choices.
+//! # Layers
+//! Each module depends only on those above it.
+//!
+//! | modules | content |
+//! |---|---|
+//! | `shape`, `motion`, `contact_matrix`, `touching` | geometry, state, effect of an impulse |
+//! | `impact_law`, `laws` | what a law of impact is; one file per law |
+//! | `settings`, `decision`, `counters` | what a user chooses, when a face is decided |
+//! | `flight`, `slide`, `pivot`, `contact` | the phases between impacts |
+//! | `parameters`, `toss` | what all tosses of a scene share; the state of one toss |
+//! | `impact`, `transition` | an impact; what a toss does next |
+//! | `scalar`, `batch` | the drivers: one toss with an observer, many tosses in lanes |
+//! | `engine`, `single` | the public engine of one law, single impacts |
+//! | `by_law`, `descriptor` | the same for the law that the settings name, and for configs |
 
 mod batch;
+mod by_law;
 mod contact;
 mod contact_matrix;
 mod counters;
@@ -41,6 +49,7 @@ mod pivot;
 mod pivot_time;
 mod scalar;
 mod settings;
+mod settings_error;
 mod shape;
 mod single;
 mod slide;
@@ -60,5 +69,6 @@ pub use laws::half_sine::{HalfSine, HalfSineImpact, PulseTime};
 pub use laws::line_contact::{LineContact, LineContactImpact};
 pub use laws::moreau::Moreau;
 pub use laws::palmgren::Materials;
-pub use settings::{Decision, Settings, SettingsError};
+pub use settings::{Decision, Settings};
+pub use settings_error::SettingsError;
 pub use single::SingleImpact;

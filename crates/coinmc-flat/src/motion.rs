@@ -41,8 +41,8 @@ impl Units {
 }
 
 impl Motion {
-    /// The launch in dimensionless form. Components out of the xz plane are ignored. A coin that would
-    /// start inside the surface is lifted until it touches.
+    /// The launch in dimensionless form. Components out of the xz plane are ignored. A coin that
+    /// would start inside the surface is lifted until it touches.
     pub(crate) fn new(launch: &Launch, units: &Units, shape: &Shape) -> Self {
         let (x, z) = (launch.axis.x, launch.axis.z);
         // θ = q·90° + φ with φ from the two magnitudes alone: u and −u give the same φ
@@ -131,7 +131,8 @@ impl Motion {
         (self.quadrant, self.delta) = (as_quadrant(quadrant), delta);
     }
 
-    /// Sets the coin on its lowest corner with angular velocity `omega`, the corner sliding at `slip`.
+    /// Sets the coin on its lowest corner with angular velocity `omega`, the corner sliding at
+    /// `slip`.
     #[inline]
     pub(crate) fn set_on_corner(&mut self, sin: f64, cos: f64, omega: f64, slip: f64) {
         self.z = cos;

@@ -3,15 +3,16 @@
 use crate::contact::ContactParameters;
 use crate::motion::Units;
 use crate::observer_adapter::ObserverAdapter;
-use crate::settings::{Settings, SettingsError};
+use crate::settings::Settings;
+use crate::settings_error::SettingsError;
 use crate::shape::Shape;
 use coinmc_core::{Landing, Scene};
 
 /// The scene in units of D, sqrt(D/g) and m, the law of impact and the settings.
 ///
-/// The single steps of a toss are its methods, each in a file of its own: `toss` launches it, `impact`
-/// resolves an impact, `transition` says what follows. The `scalar` driver and the `batch` driver
-/// combine them into tosses.
+/// The single steps of a toss are its methods, each in a file of its own: `toss` launches it,
+/// `impact` resolves an impact, `transition` says what follows. The `scalar` driver and the `batch`
+/// driver combine them into tosses.
 #[derive(Debug, Clone)]
 pub(crate) struct Parameters<L> {
     pub(crate) law: L,

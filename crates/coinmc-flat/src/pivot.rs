@@ -1,8 +1,8 @@
 //! Contact phases that conserve energy: pivoting about a corner that sticks (μ > 0), or that slides
 //! without friction (μ = 0). Closed form in the angle.
 //!
-//! The centre is cos δ high. With the inertia J about the contact (1 + k when the corner sticks,
-//! k + sin²δ without friction) the energy E = ½Jω² + cos δ gives ω at every δ. Both phases begin with
+//! The centre is cos δ high. With the inertia J about the contact (1 + k when the corner sticks, k
+//! + sin²δ without friction) the energy E = ½Jω² + cos δ gives ω at every δ. Both phases begin with
 //! E >= 1 (below the barrier the coin is decided), hence ω never changes sign.
 
 use crate::motion::Motion;
@@ -160,8 +160,8 @@ fn slide_until(motion: &Motion, shape: &Shape, energy: f64) -> (f64, PivotEnd) {
     (opens_at, PivotEnd::LiftsOff)
 }
 
-/// Turns the coin to the angle `delta`. `slowness` is the time per angle, `place` sets the motion at
-/// an angle and a time since the start. Only an observer needs the time.
+/// Turns the coin to the angle `delta`. `slowness` is the time per angle, `place` sets the motion
+/// at an angle and a time since the start. Only an observer needs the time.
 fn turn_to<O: Observer>(
     motion: &mut Motion,
     delta: f64,

@@ -2,8 +2,8 @@
 
 /// The angle after time `t` of a phase that turns from one angle to another in time `took`.
 ///
-/// The inverse of [`duration`]: Newton's method, whose slope is the slowness itself, kept within the
-/// bracket by bisection, until the time is met to rounding or the bracket closes.
+/// The inverse of [`duration`]: Newton's method, whose slope is the slowness itself, kept within
+/// the bracket by bisection, until the time is met to rounding or the bracket closes.
 pub(crate) fn angle_after(
     slowness: &impl Fn(f64) -> f64,
     (from, to): (f64, f64),

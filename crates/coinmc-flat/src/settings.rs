@@ -1,12 +1,12 @@
-//! What a user may choose about the flat engine.
+//! The settings of the planar engine.
 
 use crate::laws::{LAWS, Law};
+use crate::settings_error::SettingsError;
 use coinmc_core::schema::{
-    Absent, Bounds, Fallback, Kind, OutOfRange, TableKind, Value, Values, Whole, Word, count,
-    default, field, fields, number,
+    Absent, Bounds, Fallback, Kind, TableKind, Value, Values, Whole, Word, count, default, field,
+    fields, number,
 };
 use coinmc_core::{EngineError, LawDescriptor};
-use thiserror::Error;
 
 /// When the face of a toss counts as decided.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -14,13 +14,13 @@ pub enum Decision {
     /// When energy alone decides it.
     #[default]
     Energy,
-    /// When the mechanical energy has fallen to this fraction of its initial value (0.01 in Gaek
-    /// & Sukhov, arXiv 2401.03557) or the face is decided. The toss is followed until energy
-    /// decides, and counted as `overruled` where the two disagree.
+    /// When the mechanical energy has fallen to this fraction of its initial value (0.01 in Gaek &
+    /// Sukhov, arXiv 2401.03557), or energy alone decides it. The toss continues until energy alone
+    /// decides, and is counted as `overruled` if the two faces differ.
     EnergyFraction(f64),
 }
 
-/// Settings of the flat engine. The defaults are converged: see docs/validation/planar.md.
+/// Settings of the planar engine. The defaults are converged: see docs/validation/planar.md.
 ///
 /// # Example
 /// ```
@@ -34,11 +34,11 @@ pub struct Settings {
     pub law: Law,
     /// When the face counts as decided.
     pub decision: Decision,
-    /// A sequence of bounces is replaced by sustained contact when all that remains of it would
-    /// turn the coin by less than about this angle, rad.
+    /// Sustained contact replaces a sequence of bounces when the rest of it would turn the coin by
+    /// less than about this angle, rad.
     pub zeno: f64,
-    /// Relative error allowed per step of the integration of sliding contact, and of impacts that
-    /// are resolved in time.
+    /// Allowed relative error per step of the integration of sliding, and of impacts resolved in
+    /// time.
     pub tolerance: f64,
     /// Impacts, or steps of sustained contact, after which a toss is given up as undecided.
     pub max_impacts: u32,
@@ -80,7 +80,7 @@ impl Settings {
                     vec![number(
                         "energy_fraction",
                         "Decided when the energy has fallen to this fraction of its first value, or \
-                         earlier if certain.",
+                         earlier if energy alone decides it.",
                         ENERGY_FRACTION,
                         Absent::Required,
                     )],
@@ -135,15 +135,4 @@ impl Settings {
         TOLERANCE.check("tolerance", self.tolerance)?;
         Ok(Whole::COUNT.check("max_impacts", self.max_impacts)?)
     }
-}
-
-/// Settings that no engine has.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum SettingsError {
-    /// A setting, or a parameter of the law of impact, is out of its range.
-    #[error(transparent)]
-    OutOfRange(#[from] OutOfRange),
-    /// Gaek & Sukhov's law has no friction.
-    #[error("Gaek & Sukhov's law knows no friction: friction must be 0, not {0}")]
-    Friction(f64),
 }

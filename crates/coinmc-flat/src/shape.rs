@@ -4,8 +4,8 @@ use coinmc_core::{Coin, Face};
 use coinmc_lanes::Lane;
 use std::f64::consts::FRAC_PI_2;
 
-/// A quarter turn: 0 starts with heads up, 1 with heads to the right, 2 with tails up, 3 with heads to
-/// the left.
+/// A quarter turn: 0 starts with heads up, 1 with heads to the right, 2 with tails up, 3 with heads
+/// to the left.
 pub(crate) type Quadrant = u8;
 
 /// The coin's section in units in which D = sqrt(R² + H²/4) = 1.
@@ -53,8 +53,8 @@ impl Shape {
         self.span[start(quadrant)]
     }
 
-    /// Angle from the start of a quadrant to its balance: [`first_span`](Self::first_span) over lanes,
-    /// with the quadrant as a floating-point number.
+    /// Angle from the start of a quadrant to its balance: [`first_span`](Self::first_span) over
+    /// lanes, with the quadrant as a floating-point number.
     #[inline(always)]
     pub(crate) fn first_span_lanes<L: Lane>(&self, quadrant: L) -> L {
         L::select(
@@ -113,8 +113,8 @@ impl Shape {
         (self.flat_height[edge], self.flat_height[1 - edge])
     }
 
-    /// The direction (+1: growing θ) in which a coin in this quadrant turns to lie on a face, and the
-    /// angle until it does.
+    /// The direction (+1: growing θ) in which a coin in this quadrant turns to lie on a face, and
+    /// the angle until it does.
     pub(crate) fn face_tilt(&self, quadrant: Quadrant, delta: f64) -> (f64, f64) {
         if quadrant & 1 == 0 {
             (-1.0, delta + self.span[0])
@@ -123,8 +123,8 @@ impl Shape {
         }
     }
 
-    /// The face on which the coin comes to rest in the well it is in: it falls to the edge on δ's side
-    /// of the balance.
+    /// The face on which the coin comes to rest in the well it is in: it falls to the edge on δ's
+    /// side of the balance.
     #[inline]
     pub(crate) fn face(quadrant: Quadrant, delta: f64) -> Face {
         // the flat positions in order of θ/90°: heads up, side, tails up, side

@@ -5,8 +5,8 @@ use crate::motion::Motion;
 use crate::shape::{Shape, as_quadrant};
 use coinmc_lanes::{Bits, Block, Lanes, Wide, Work};
 
-/// Eight flights, lane by lane. The sets of lanes say what each does next; a lane in none of them is
-/// free or in contact.
+/// Eight flights, lane by lane. The sets of lanes say what each does next; a lane in none of them
+/// is free or in contact.
 #[derive(Debug, Clone, Default)]
 pub(super) struct FlightStage {
     pub(super) segment: FlightSegment<Block>,
@@ -121,8 +121,8 @@ impl FlightStage {
         self.continue_search(shape, &segment, (t, evaluation.next, least), continuing);
     }
 
-    /// Moves the search of the `continuing` lanes from `t` to `next`, across the end of the quadrant
-    /// where that is reached.
+    /// Moves the search of the `continuing` lanes from `t` to `next`, across the end of the
+    /// quadrant where that is reached.
     #[inline(always)]
     pub(super) fn continue_search<L: Wide>(
         &mut self,

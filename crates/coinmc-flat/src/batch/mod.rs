@@ -7,12 +7,12 @@
 //!            high above: skipped       sliding, eight at a time ─▶ impact, searching
 //! ```
 //!
-//! A toss keeps its lane of a flight stage from launch to end. Each step of the search is made for all
-//! searching lanes of a stage. A lane that has found its contact, or is high above the surface, waits
-//! until enough others of its stage have come as far; they then share one impact, or one jump. A lane
-//! whose toss ends is given to the next launch. Sliding is integrated for eight tosses of any flight
-//! stages at a time. The rest of contact (an impact that ends a sequence of bounces, a coin that is
-//! nearly flat or pivots) takes the scalar path.
+//! A toss keeps its lane of a flight stage from launch to end. Each step of the search is made for
+//! all searching lanes of a stage. A lane that has found its contact, or is high above the surface,
+//! waits until enough others of its stage have come as far; they then share one impact, or one
+//! jump. A lane whose toss ends is given to the next launch. Sliding is integrated for eight tosses
+//! of any flight stages at a time. The rest of contact (an impact that ends a sequence of bounces,
+//! a coin that is nearly flat or pivots) takes the scalar path.
 //!
 //! No lane depends on another and every operation is IEEE 754's, so a toss is bit-identical to the
 //! scalar path, whatever tosses share its batch and with any instruction set.
@@ -36,9 +36,9 @@ use pool::{LaneId, Pool, SlidingToss};
 /// Flight stages: while one waits for its last result, the processor works on the others. Speed is
 /// the same from 4 to 16.
 const STAGES: usize = 8;
-/// So many lanes of a stage share an impact, or a jump, unless no lane of it is searching: an impact
-/// costs more than a step of the search, which continues without the lanes that wait, and a jump costs
-/// less. One more or less changes little.
+/// So many lanes of a stage share an impact, or a jump, unless no lane of it is searching: an
+/// impact costs more than a step of the search, which continues without the lanes that wait, and a
+/// jump costs less. One more or less changes little.
 const IMPACT_LANES: u32 = 5;
 const SKIP_LANES: u32 = 3;
 
@@ -158,7 +158,8 @@ impl<L: ImpactLaw> Batch<'_, L> {
         }
     }
 
-    /// Impacts and sustained contact of one toss on the scalar path, until it slides, flies or ends.
+    /// Impacts and sustained contact of one toss on the scalar path, until it slides, flies or
+    /// ends.
     fn bounce_scalar(&mut self, id: LaneId) {
         let mut toss = Toss {
             motion: self.stages[id.stage].motion(id.lane),

@@ -2,7 +2,7 @@
 
 use crate::contact_matrix::{ContactMatrix, Impulse};
 use crate::impact_law::{ImpactLaw, PlanarLaw};
-use crate::settings::SettingsError;
+use crate::settings_error::SettingsError;
 use coinmc_core::schema::Values;
 use coinmc_core::{EngineError, LawSettings, Scene};
 use coinmc_lanes::{Lane, Mask};
@@ -10,10 +10,10 @@ use coinmc_lanes::{Lane, Mask};
 /// Chatterjee & Ruina, "A new algebraic rigid-body collision law", J. Appl. Mech. 65 (1998) 939,
 /// with tangential restitution 0: p = (1 + e)p_I + κ(p_II − p_I).
 ///
-/// p_I is the frictionless plastic impulse, p_II the one that stops the contact altogether, κ the
-/// largest value up to 1 inside the friction cone. As K p_II − K p_I has no normal component,
-/// p_I and p_II − p_I are orthogonal in the energy metric, and the energy changes by
-/// −½(1 − e²)(u_z²/K_zz) − κ(1 − κ/2)·|p_II − p_I|²_K <= 0 for e and κ in [0, 1]; u_z⁺ = −e u_z⁻.
+/// p_I is the frictionless plastic impulse, p_II the impulse that stops the contact altogether, κ
+/// the largest value up to 1 inside the friction cone. As K p_II − K p_I has no normal component,
+/// p_I and p_II − p_I are orthogonal in the energy metric, and the energy changes by −½(1 −
+/// e²)(u_z²/K_zz) − κ(1 − κ/2)·|p_II − p_I|²_K <= 0 for e and κ in [0, 1]; u_z⁺ = −e u_z⁻.
 #[derive(Debug, Clone, Copy)]
 pub struct ChatterjeeRuina;
 
@@ -43,7 +43,7 @@ impl ImpactLaw for ChatterjeeRuina {
         let (dx, dz) = (stop_x, stop_z - smooth);
         let base = L::splat(1.0 + e) * smooth;
         let inside = dx.abs().le(friction * (base + dz));
-        // where it is not, |dx| > mu (base + dz) and 0 <= mu base: the denominator is positive
+        // outside, |dx| > mu (base + dz) and 0 <= mu base: the denominator is positive
         let outside = friction * base / (dx.abs() - friction * dz);
         let kappa = L::select(inside, L::splat(1.0), outside);
         // with e = 0 and κ = 1 this is p_II: the contact stops

@@ -1,46 +1,47 @@
 //! The law of impact of Gaek & Sukhov, arXiv 2401.03557, as published.
 //!
-//! With h₁ the height from which the coin fell, ω₁ its angular velocity, and h₃ and ω₂ the same
-//! after the impact,
+//! Before the impact the coin has fallen from the height h₁ and has the angular velocity ω₁; after
+//! it the coin rises to h₃ with ω₂:
 //!
 //! k m g h₁ + I ω₁²/2 = m g h₃ + I ω₂²/2,  Δω = ω₂ − ω₁ = η H cos θ/I,  η = 2 N_max τ/π,
 //!
-//! θ the tilt of the face, η the impulse of half a sine of height N_max and length τ: a constant,
-//! whatever the speed. k is the share of the energy of fall that a bounce leaves; a coin that lands
-//! without turning rebounds with restitution e = √k, so k here is the square of the surface's
-//! restitution. Horizontal motion stays what it is.
+//! where θ is the tilt of the face and η the impulse of half a sine of height N_max and length τ, a
+//! constant that does not depend on the speed. k is the share of the energy of fall that a bounce
+//! leaves. A coin that lands without turning rebounds with restitution e = √k, so k is the square
+//! of the surface's restitution here. Horizontal motion is unchanged.
 //!
-//! The heights are those of the energy of vertical motion, h = v_z²/2g, which is what they are for
-//! a coin that is dropped, and the only reading that works at every impact.
+//! The heights stand for the energy of vertical motion, h = v_z²/2g. This is exact for a dropped
+//! coin, and the only interpretation that works at every impact.
 //!
 //! # Where it breaks
-//! The energy that turning takes and the impulse η come from two different places, so nothing
-//! keeps them together:
-//! * **h₃ < 0** where |ω₂| > sqrt(ω₁² + 2 k m g h₁/I). Counted (`negative_heights`), and as a gain of
-//!   energy too where rotation alone would have more than the coin had before (`energy_gains`).
-//! * **The corner** would go on into the surface, v_z⁺ below what ω₂ takes it down. Counted
-//!   (`sinkings`).
-//! * **The lever** H cos θ never changes sign; the corner's own one, R cos θ − (H/2) sin θ, does
-//!   where the centre passes over the corner. Counted (`wrong_levers`); it is the law, and stands.
+//! The energy of rotation and the impulse η are independent of each other, so nothing keeps them
+//! consistent:
+//! * **h₃ < 0** where |ω₂| > sqrt(ω₁² + 2 k m g h₁/I). Counted (`negative_heights`), and as a gain
+//!   of energy as well where rotation alone would have more than the coin had before
+//!   (`energy_gains`).
+//! * **The corner** would keep moving into the surface: v_z⁺ is less than the speed with which ω₂
+//!   moves the corner down. Counted (`sinkings`).
+//! * **The lever** H cos θ never changes sign; that of the corner, R cos θ − (H/2) sin θ, does
+//!   where the centre passes over the corner. Counted (`wrong_levers`), and used as published.
 //!
 //! *Fallback* of the first two: the frictionless impact of the corner with e = √k, which loses
-//! energy. Setting h₃ = 0 and keeping the energy balance instead would leave coins that rock from
-//! corner to corner for ever, since the law takes nothing from rotation.
+//! energy. Setting h₃ = 0 and keeping the energy balance instead would let coins rock from corner
+//! to corner for ever, because the law takes no energy from rotation.
 
 use crate::contact_matrix::{ContactMatrix, Impulse};
 use crate::impact_law::{Impact, ImpactLaw, PlanarLaw, Resolution};
 use crate::laws::moreau::Moreau;
-use crate::settings::SettingsError;
+use crate::settings_error::SettingsError;
 use crate::shape::{Quadrant, Shape};
 use coinmc_core::schema::{Absent, Bounds, TableKind, Values, choice, fields, number};
 use coinmc_core::{EngineError, LawSettings, Scene, Unmodelled};
 use coinmc_lanes::{Lane, sin_cos};
 
-/// Restitution assumed when the time of the remaining bounces is judged, if √k is less: the turning
-/// that the law adds makes even k = 0 rebound.
-const LEAST_REBOUND: f64 = 0.5;
+/// Least restitution in the estimate of the time of the remaining bounces: the rotation that the
+/// law adds lets a coin rebound even with k = 0.
+const MIN_EFFECTIVE_RESTITUTION: f64 = 0.5;
 
-/// Gaek & Sukhov's law: its one number beside k, and how its lever is read.
+/// Gaek & Sukhov's law: its constant beside k, and the interpretation of its lever.
 ///
 /// # Example
 /// ```
@@ -59,12 +60,12 @@ pub struct GaekSukhov {
 /// Lever of the impulse about the centre, θ the tilt of the face from the surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Lever {
-    /// H cos θ, towards the face, as in the paper's formula.
+    /// H cos θ, towards the face, as in the published formula.
     #[default]
     Height,
-    /// L cos θ with L = 2R, towards the face: the letter that stands for H in one place.
+    /// L cos θ with L = 2R, towards the face: one published formula has this letter instead of H.
     Diameter,
-    /// R cos θ − (H/2) sin θ, that of the corner that touches.
+    /// R cos θ − (H/2) sin θ, the lever of the touching corner.
     Corner,
 }
 
@@ -99,7 +100,7 @@ impl LawSettings for GaekSukhov {
     const UNMODELLED: &'static [Unmodelled] = &[Unmodelled {
         table: "surface",
         key: "friction",
-        message: "Gaek & Sukhov's law knows no friction: `surface.friction` must be 0",
+        message: "Gaek & Sukhov's law has no friction: `surface.friction` must be 0",
         help: "set `friction = 0`, or take another `engine.flat.law`",
     }];
 
@@ -140,7 +141,7 @@ impl PlanarLaw for GaekSukhov {
     }
 }
 
-/// [`GaekSukhov`] for one scene, without units.
+/// [`GaekSukhov`] in one scene, in dimensionless units.
 #[derive(Debug, Clone, Copy)]
 pub struct GaekSukhovImpact {
     gaek_sukhov: GaekSukhov,
@@ -186,7 +187,7 @@ impl ImpactLaw for GaekSukhovImpact {
     }
 
     fn effective_restitution(&self, e: f64) -> f64 {
-        e.max(LEAST_REBOUND)
+        e.max(MIN_EFFECTIVE_RESTITUTION)
     }
 
     fn resolve(&self, impact: &mut Impact<'_>) -> Resolution {
@@ -197,10 +198,10 @@ impl ImpactLaw for GaekSukhovImpact {
         let lever = self.lever(shape, motion.quadrant, motion.delta);
         breaks.wrong_levers += u32::from(lever * sin < 0.0);
         let fall = 0.5 * motion.vz * motion.vz;
-        let left = impact.restitution * impact.restitution * fall;
+        let kept = impact.restitution * impact.restitution * fall;
         let omega = motion.omega + self.eta * lever / inertia;
         let turned = 0.5 * inertia * (motion.omega * motion.omega - omega * omega);
-        let rise = left + turned;
+        let rise = kept + turned;
         if rise < 0.0 {
             breaks.negative_heights += 1;
             breaks.energy_gains += u32::from(fall + turned < 0.0);

@@ -1,21 +1,21 @@
 //! An impact by a force that is half a sine in time, N(t) = N_max sin(πt/τ).
 //!
-//! The pulse has the impulse η = 2 N_max τ/π. Without a given N_max it is the one that
-//! [`Moreau`]'s law asks for, so that the corner would leave at e times its speed of approach if
-//! nothing moved meanwhile; friction keeps the ratio to N that it has in that impulse. The coin
-//! moves, turns and falls while the force acts, at the place where its corner then is: as τ → 0 the
-//! law becomes Moreau's, with an error of order τ.
+//! The pulse has the impulse η = 2 N_max τ/π. If N_max is not given, η is the impulse of
+//! [`Moreau`]'s law, with which the corner would leave at e times its speed of approach if nothing
+//! moved in the meantime. Friction has the same ratio to N as in that impulse. The coin moves,
+//! turns and falls while the force acts on the present position of the corner. As τ → 0 the law
+//! becomes Moreau's, with an error of order τ.
 //!
-//! τ is given, or that of a lossless impact on a line contact at this speed (so that it falls slowly
-//! as the impact gets harder, as u^(-1/19)).
+//! τ is given, or is the duration of a lossless impact on a line contact at this speed (which falls
+//! slowly with the speed, as u^(-1/19)).
 //!
 //! # Where it breaks
-//! * **N_max given**: nothing ties η to the speed of approach. *Fallback*: an impulse above Newton's
-//!   is cut down to it (counted as a gain of energy where it exceeds that of e = 1); one too small
-//!   to stop the corner is raised to the one that does (counted as a sinking).
-//! * The force knows nothing of the surface: with e < 1 the corner ends u τ(1 − e)/2 below it. The
-//!   coin is set back onto the surface. Where that, or turning meanwhile, gains energy, it is counted
-//!   and taken from all velocities alike.
+//! * **N_max given**: η does not depend on the speed of approach. *Fallback*: an impulse above
+//!   Newton's is reduced to Newton's (counted as a gain of energy if it exceeds that of e = 1); an
+//!   impulse too small to stop the corner is raised to one that does (counted as a sinking).
+//! * The force does not depend on the depth: with e < 1 the corner ends u τ(1 − e)/2 below the
+//!   surface. The coin is set back onto the surface. Where that, or the rotation during the pulse,
+//!   gains energy, the gain is counted and all velocities are reduced by one factor.
 
 use crate::contact_matrix::{ContactMatrix, Impulse};
 use crate::dormand_prince::{Step, System, growth};
@@ -23,17 +23,17 @@ use crate::impact_law::{Impact, ImpactLaw, PlanarLaw, Resolution};
 use crate::laws::moreau::Moreau;
 use crate::laws::palmgren::{Materials, duration, scene_stiffness};
 use crate::motion::Motion;
-use crate::settings::SettingsError;
+use crate::settings_error::SettingsError;
 use crate::shape::Shape;
 use coinmc_core::schema::{Absent, Bounds, Rule, TableKind, Values, fields, number, table};
 use coinmc_core::{EngineError, LawSettings, Scene};
 use coinmc_lanes::{Lane, sin_cos};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Steps after which a pulse is given up; the worst of the stress test needs some hundred.
+/// Steps after which a pulse is given up; the worst of the stress test needs some hundreds.
 const MAX_STEPS: u32 = 20_000;
-/// Most that a coin may turn in a pulse, rad: one that is still down then is not in an impact.
-const MOST_TURNED: f64 = 1.0;
+/// The largest angle, rad, that a coin may turn in a pulse; beyond it the contact is not an impact.
+const MAX_TURNED: f64 = 1.0;
 
 /// A force that is half a sine in time.
 ///
@@ -45,18 +45,18 @@ const MOST_TURNED: f64 = 1.0;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HalfSine {
-    /// How long it acts.
+    /// Duration.
     pub time: PulseTime,
-    /// N_max, N; what restitution asks for, if absent.
+    /// N_max, N; if absent, it follows from the restitution.
     pub peak_n: Option<f64>,
 }
 
-/// How long a pulse lasts.
+/// The duration of a pulse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PulseTime {
-    /// This long, s.
+    /// This duration, s.
     Given(f64),
-    /// As long as an impact on a line contact of these materials, without losses.
+    /// The duration of a lossless impact on a line contact of these materials.
     Contact(Materials),
 }
 
@@ -123,7 +123,7 @@ impl PlanarLaw for HalfSine {
     }
 }
 
-/// [`HalfSine`] for one scene, without units.
+/// [`HalfSine`] in one scene, in dimensionless units.
 #[derive(Debug, Clone, Copy)]
 pub struct HalfSineImpact {
     time: Time,
@@ -134,7 +134,7 @@ pub struct HalfSineImpact {
 #[derive(Debug, Clone, Copy)]
 enum Time {
     Given(f64),
-    OfStiffness(f64),
+    FromStiffness(f64),
 }
 
 impl HalfSineImpact {
@@ -147,7 +147,9 @@ impl HalfSineImpact {
         let weight = scene.coin.mass_kg() * scene.gravity_m_s2();
         let time = match pulse.time {
             PulseTime::Given(time) => Time::Given(time / scene.time_scale_s()),
-            PulseTime::Contact(materials) => Time::OfStiffness(scene_stiffness(scene, &materials)),
+            PulseTime::Contact(materials) => {
+                Time::FromStiffness(scene_stiffness(scene, &materials))
+            }
         };
         Ok(Self {
             time,
@@ -167,18 +169,18 @@ impl HalfSineImpact {
         }
         let time = match self.time {
             Time::Given(time) => time,
-            Time::OfStiffness(stiffness) => duration(stiffness, 1.0 / matrix.zz, -uz),
+            Time::FromStiffness(stiffness) => duration(stiffness, 1.0 / matrix.zz, -uz),
         };
         Some(Pulse {
             delta,
             inertia,
-            impulse: self.pushed(matrix, (ux, uz), impact, time),
+            impulse: self.impulse_within_limits(matrix, (ux, uz), impact, time),
             time,
         })
     }
 
     /// The impulse of the pulse.
-    fn pushed(
+    fn impulse_within_limits(
         &self,
         matrix: ContactMatrix,
         (ux, uz): (f64, f64),
@@ -209,8 +211,8 @@ impl HalfSineImpact {
     }
 }
 
-/// The coin under the pulse: angle turned, angular velocity, time. The centre needs no integration:
-/// its acceleration is known in time.
+/// A pulse. Its system has the state (angle turned, angular velocity, time). The centre needs no
+/// integration: its acceleration is known as a function of time.
 struct Pulse {
     delta: f64,
     inertia: f64,
@@ -219,10 +221,10 @@ struct Pulse {
 }
 
 impl Pulse {
-    /// The coin a time `t` after the touch, turned and turning so much. The centre is where half a
-    /// sine has pushed it: it has given the share (1 − cos φ)/2 of its impulse, φ = πt/τ, whose
-    /// integral is t/2 − τ sin φ/2π.
-    fn move_on(&self, motion: &mut Motion, shape: &Shape, [turned, omega, _]: [f64; 3], t: f64) {
+    /// Moves the coin to a time `t` after the touch, when its state is (turned, omega). Half a sine
+    /// has then given the share (1 − cos φ)/2 of its impulse, φ = πt/τ, whose integral is t/2 − τ
+    /// sin φ/2π.
+    fn apply(&self, motion: &mut Motion, shape: &Shape, [turned, omega, _]: [f64; 3], t: f64) {
         let (sin, cos) = libm::sincos(PI * t / self.time);
         let (given, so_far) = (0.5 * (1.0 - cos), 0.5 * t - 0.5 * self.time * sin / PI);
         motion.x += motion.vx * t + self.impulse.x * so_far;
@@ -251,8 +253,8 @@ impl System<3> for Pulse {
     }
 }
 
-/// Angle turned and angular velocity at `until`, no later than the pulse's end, and the steps taken;
-/// `None` if given up.
+/// The state at the time `until`, at most the end of the pulse, and the number of steps; `None` if
+/// given up.
 fn integrate(pulse: &Pulse, omega: f64, tolerance: f64, until: f64) -> Option<([f64; 3], u32)> {
     let mut y = [0.0, omega, 0.0];
     let mut rates = pulse.rates(&y);
@@ -270,7 +272,7 @@ fn integrate(pulse: &Pulse, omega: f64, tolerance: f64, until: f64) -> Option<([
         let error = shares
             .map(|(error, allowed)| error.abs() / allowed)
             .fold(0.0, f64::max);
-        if !step.end.iter().all(|y| y.is_finite()) || step.end[0].abs() > MOST_TURNED {
+        if !step.end.iter().all(|y| y.is_finite()) || step.end[0].abs() > MAX_TURNED {
             return None;
         }
         if error <= 1.0 {
@@ -307,7 +309,7 @@ impl ImpactLaw for HalfSineImpact {
         impact.record.peak_force = FRAC_PI_2 * pulse.impulse.z / pulse.time;
         let (motion, inertia) = (&mut *impact.motion, impact.shape.k);
         let before = motion.energy(inertia);
-        pulse.move_on(motion, impact.shape, turned, pulse.time);
+        pulse.apply(motion, impact.shape, turned, pulse.time);
         let (sin, cos) = sin_cos(motion.delta);
         motion.z = cos;
         let gained = motion.energy(inertia) > before * (1.0 + impact.tolerance);
@@ -315,7 +317,7 @@ impl ImpactLaw for HalfSineImpact {
         if motion.vz + motion.omega * sin > 0.0 {
             return Resolution::Separates;
         }
-        // gravity and turning have eaten the rebound
+        // gravity and rotation have used up the rebound
         Resolution::StaysInContact
     }
 
@@ -325,7 +327,7 @@ impl ImpactLaw for HalfSineImpact {
         };
         let found = integrate(&pulse, impact.motion.omega, impact.tolerance, time);
         if let Some((turned, _)) = found {
-            pulse.move_on(impact.motion, impact.shape, turned, time);
+            pulse.apply(impact.motion, impact.shape, turned, time);
         }
     }
 }

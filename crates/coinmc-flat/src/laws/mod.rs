@@ -1,8 +1,8 @@
-//! The laws of impact, each in a file of its own: its parameters, how a config gives them, and what an
-//! impact does.
+//! The laws of impact, each in a file of its own: its parameters, how a config gives them, and its
+//! impact.
 //!
-//! A new law is a file and, here, a module, a variant and a line in each list. The compiler asks for
-//! all but the line in [`LAWS`], without which no config can name the law.
+//! A new law is a file and, here, a module, a variant and a line in each list. The compiler demands
+//! all of them except the line in [`LAWS`], without which no config can name the law.
 
 pub(crate) mod chatterjee_ruina;
 pub(crate) mod gaek_sukhov;
@@ -11,13 +11,11 @@ pub(crate) mod line_contact;
 pub(crate) mod moreau;
 pub(crate) mod palmgren;
 
-use crate::engine::FlatEngine;
 use crate::impact_law::PlanarLaw;
-use crate::settings::{Settings, SettingsError};
-use crate::single::SingleImpact;
+use crate::settings_error::SettingsError;
 use chatterjee_ruina::ChatterjeeRuina;
 use coinmc_core::schema::{Values, unlisted};
-use coinmc_core::{DynEngine, EngineError, Launch, LawDescriptor, LawSettings, Scene};
+use coinmc_core::{EngineError, LawDescriptor, LawSettings};
 use gaek_sukhov::GaekSukhov;
 use half_sine::HalfSine;
 use line_contact::LineContact;
@@ -49,12 +47,12 @@ pub enum Law {
     LineContact(LineContact),
 }
 
-/// The same of every law.
+/// Evaluates an expression with the parameters of the law.
 macro_rules! each_law {
     ($any:expr, $law:ident => $same:expr) => {
         match $any {
-            Law::Moreau => each_law!(@ Moreau, $law => $same),
-            Law::ChatterjeeRuina => each_law!(@ ChatterjeeRuina, $law => $same),
+            Law::Moreau => each_law!(@ $crate::laws::moreau::Moreau, $law => $same),
+            Law::ChatterjeeRuina => each_law!(@ $crate::laws::chatterjee_ruina::ChatterjeeRuina, $law => $same),
             Law::GaekSukhov(law) => each_law!(@ law, $law => $same),
             Law::HalfSine(law) => each_law!(@ law, $law => $same),
             Law::LineContact(law) => each_law!(@ law, $law => $same),
@@ -66,8 +64,10 @@ macro_rules! each_law {
     }};
 }
 
+pub(crate) use each_law;
+
 impl Law {
-    /// The laws that are told by their names alone.
+    /// The laws without parameters.
     pub const RIGID: [Self; 2] = [Self::Moreau, Self::ChatterjeeRuina];
 
     /// The name used in configs and results.
@@ -78,7 +78,7 @@ impl Law {
         each_law!(self, law => name_of(law))
     }
 
-    /// The law that the values of the engine's table name.
+    /// The law that the values of the engine's table give.
     pub(crate) fn read(values: &Values) -> Result<Self, EngineError> {
         let (name, parameters) = values.named("law")?;
         Ok(match name {
@@ -93,26 +93,5 @@ impl Law {
 
     pub(crate) fn validate(self) -> Result<(), SettingsError> {
         each_law!(self, law => law.validate())
-    }
-
-    pub(crate) fn engine(
-        self,
-        scene: &Scene,
-        settings: &Settings,
-    ) -> Result<DynEngine, SettingsError> {
-        Ok(each_law!(self, law => {
-            DynEngine::new(FlatEngine::new(scene, settings, law.impact(scene)?)?)
-        }))
-    }
-
-    pub(crate) fn impact_once(
-        self,
-        scene: &Scene,
-        settings: &Settings,
-        launch: &Launch,
-    ) -> Result<SingleImpact, SettingsError> {
-        Ok(each_law!(self, law => {
-            FlatEngine::new(scene, settings, law.impact(scene)?)?.impact_once(launch)
-        }))
     }
 }

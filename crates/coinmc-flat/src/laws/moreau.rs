@@ -3,7 +3,7 @@
 use crate::contact_matrix::{ContactMatrix, Impulse};
 use crate::impact_law::{ImpactLaw, PlanarLaw};
 use crate::laws::chatterjee_ruina::ChatterjeeRuina;
-use crate::settings::SettingsError;
+use crate::settings_error::SettingsError;
 use coinmc_core::schema::Values;
 use coinmc_core::{EngineError, LawSettings, Scene};
 use coinmc_lanes::{Lane, Mask};
@@ -11,11 +11,12 @@ use coinmc_lanes::{Lane, Mask};
 /// Newton restitution u_z⁺ = −e u_z⁻ with Coulomb friction against the slip **after** the impact.
 ///
 /// Moreau, "Unilateral contact and dry friction in finite freedom dynamics", CISM 302 (1988): the
-/// contact sticks if the impulse that stops it lies in the friction cone, else it slides and the
-/// friction impulse is −μ p_z against the final slip. The work of the impulse is
-/// ½p·(u⁻ + u⁺), of which the normal part −½(1 − e)|u_z⁻|p_z and the friction with u⁺ dissipate;
-/// the friction with u⁻ need not. Where the sum would be positive, or no solution exists, the
-/// impulse of [`ChatterjeeRuina`] is used.
+/// contact sticks if the impulse that stops it lies in the friction cone; otherwise it slides and
+/// the friction impulse is −μ p_z against the final slip.
+///
+/// The work of the impulse is ½p·(u⁻ + u⁺). Its normal part −½(1 − e)|u_z⁻|p_z and the friction
+/// with u⁺ dissipate energy; the friction with u⁻ may not. Where the sum would be positive, or no
+/// solution exists, the impulse of [`ChatterjeeRuina`] is used.
 #[derive(Debug, Clone, Copy)]
 pub struct Moreau;
 
@@ -51,28 +52,29 @@ impl ImpactLaw for Moreau {
         let sticks = x.abs().le(L::splat(mu) * z);
         let (mut p, mut found) = (Impulse { x, z, sticks }, sticks);
         if (!sticks).any() {
-            // the friction that would be needed shows which way it fails to stop the slip
+            // the friction that sticking would need shows in which direction the contact still
+            // slides
             let friction = L::splat(mu) * -L::splat(1.0).copysign(x);
             for friction in [friction, -friction] {
-                let (slides, one) = slide(k, ux, rebound, friction);
-                p = Impulse::select(!found & slides, one, p);
+                let (slides, sliding) = slide(k, ux, rebound, friction);
+                p = Impulse::select(!found & slides, sliding, p);
                 found = found | slides;
                 if !(!found).any() {
                     break;
                 }
             }
         }
-        let sound = found & work(k, ux, uz, p).le(L::splat(0.0));
-        if (!sound).any() {
-            let guard = ChatterjeeRuina.impulse(k, ux, uz, e, mu);
-            p = Impulse::select(sound, p, guard);
+        let dissipates = found & work(k, ux, uz, p).le(L::splat(0.0));
+        if (!dissipates).any() {
+            let fallback = ChatterjeeRuina.impulse(k, ux, uz, e, mu);
+            p = Impulse::select(dissipates, p, fallback);
         }
         p
     }
 }
 
-/// The impulse with friction −`friction`·p_z, and whether the contact then slides in `friction`'s
-/// direction.
+/// The impulse with friction −`friction`·p_z, and whether the contact then slides in the direction
+/// of `friction`.
 #[inline(always)]
 fn slide<L: Lane>(k: ContactMatrix<L>, ux: L, rebound: L, friction: L) -> (L::Mask, Impulse<L>) {
     let zero = L::splat(0.0);

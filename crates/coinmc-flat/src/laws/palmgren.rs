@@ -1,7 +1,7 @@
-//! Elastic line contact: force by compression, and the impact of a mass on it without losses.
+//! Elastic line contact: force as a function of compression, and the lossless impact of a mass.
 //!
-//! Palmgren (1959), as Harris & Kotzalas, *Essential Concepts of Bearing Technology*, 5th ed., have
-//! it: δ = 1.36 [(1 − ν₁²)/E₁ + (1 − ν₂²)/E₂]^0.9 Q^0.9/l^0.8 in mm, N and MPa, which for steel on
+//! Palmgren (1959), after Harris & Kotzalas, *Essential Concepts of Bearing Technology*, 5th ed.:
+//! δ = 1.36 [(1 − ν₁²)/E₁ + (1 − ν₂²)/E₂]^0.9 Q^0.9/l^0.8 in mm, N and MPa, which for steel on
 //! steel is 3.84e-5 Q^0.9/l^0.8. Hence Q = K δ^(10/9) with K = E* l^(8/9)/1.36^(10/9), 1/E* the
 //! bracket. The exponents of length add up to 2, so the constant is the same in m, N and Pa.
 
@@ -14,10 +14,10 @@ pub(crate) const EXPONENT: f64 = 10.0 / 9.0;
 const FACTOR: f64 = 0.710_597_107_159_390_5;
 /// 1/(n + 1).
 const SHARE: f64 = 9.0 / 19.0;
-/// 2√π Γ(1 + 1/(n + 1))/Γ(1/2 + 1/(n + 1)): length of a lossless impact in δ_max/u.
+/// 2√π Γ(1 + 1/(n + 1))/Γ(1/2 + 1/(n + 1)): duration of a lossless impact in units of δ_max/u.
 const PULSE: f64 = 3.090_487_848_387_577_5;
 
-/// What the coin and the surface are made of, and how long their line of contact is.
+/// The materials of coin and surface, and the length of their line of contact.
 ///
 /// # Example
 /// ```
@@ -47,9 +47,9 @@ pub struct Materials {
 impl Materials {
     /// K of Q = K δ^(10/9), N/m^(10/9).
     pub fn stiffness(&self) -> f64 {
-        let soft = |young: f64, poisson: f64| (1.0 - poisson * poisson) / young;
-        let compliance = soft(self.coin_young_pa, self.coin_poisson)
-            + soft(self.surface_young_pa, self.surface_poisson);
+        let compliance_of = |young: f64, poisson: f64| (1.0 - poisson * poisson) / young;
+        let compliance = compliance_of(self.coin_young_pa, self.coin_poisson)
+            + compliance_of(self.surface_young_pa, self.surface_poisson);
         FACTOR / compliance * libm::pow(self.length_m, 8.0 / 9.0)
     }
 
@@ -119,7 +119,7 @@ pub(crate) fn scene_stiffness(scene: &Scene, materials: &Materials) -> f64 {
     materials.stiffness() * libm::pow(scene.coin.rim_distance_m(), EXPONENT) / weight
 }
 
-/// δ^(10/9), 0 for δ <= 0. Two cube roots are quicker than a power.
+/// δ^(10/9), 0 for δ <= 0. Two cube roots are faster than a power.
 #[inline]
 pub(crate) fn power(compression: f64) -> f64 {
     let depth = compression.max(0.0);
@@ -132,17 +132,18 @@ pub(crate) fn ninth_root(depth: f64) -> f64 {
     libm::cbrt(libm::cbrt(depth))
 }
 
-/// Deepest compression of a mass that meets a contact of this stiffness at `speed`, without losses.
-pub(crate) fn deepest(stiffness: f64, mass: f64, speed: f64) -> f64 {
+/// The greatest compression when a mass meets a contact of this stiffness at `speed`, without
+/// losses.
+pub(crate) fn max_compression(stiffness: f64, mass: f64, speed: f64) -> f64 {
     libm::pow(
         0.5 * (EXPONENT + 1.0) * mass * speed * speed / stiffness,
         SHARE,
     )
 }
 
-/// How long that impact lasts.
+/// The duration of that impact.
 pub(crate) fn duration(stiffness: f64, mass: f64, speed: f64) -> f64 {
-    PULSE * deepest(stiffness, mass, speed) / speed
+    PULSE * max_compression(stiffness, mass, speed) / speed
 }
 
 #[cfg(test)]
@@ -150,7 +151,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn constants_are_what_their_formulas_say() {
+    fn constants_match_their_formulas() {
         assert!((FACTOR - libm::pow(1.36, -EXPONENT)).abs() < 1e-15);
         let gammas = libm::tgamma(1.0 + SHARE) / libm::tgamma(0.5 + SHARE);
         let pulse = 2.0 * std::f64::consts::PI.sqrt() * gammas;
@@ -159,7 +160,7 @@ mod tests {
 
     /// Harris & Kotzalas's constant for steel on steel has three digits: 3.84e-5 ± 0.3 %.
     #[test]
-    fn steel_on_steel_is_the_handbook_s() {
+    fn steel_on_steel_matches_the_handbook() {
         let steel = Materials {
             coin_young_pa: 206e9,
             coin_poisson: 0.3,
@@ -174,9 +175,10 @@ mod tests {
         }
     }
 
-    /// Against the quadrature of dt = dδ/u sqrt(1 − (δ/δ_max)^(n+1)), substituted δ = δ_max (1 − y²).
+    /// Compared with the quadrature of dt = dδ/u sqrt(1 − (δ/δ_max)^(n+1)), substituted δ = δ_max
+    /// (1 − y²).
     #[test]
-    fn an_impact_lasts_as_long_as_its_quadrature_says() {
+    fn duration_matches_its_quadrature() {
         let (stiffness, mass, speed) = (3.0e7, 0.4, 1.7);
         let steps = 20_000;
         let integrand = |y: f64| {
@@ -186,7 +188,7 @@ mod tests {
         let width = 1.0 / f64::from(steps);
         let middle = |i: i32| (f64::from(i) + 0.5) * width;
         let sum: f64 = (0..steps).map(|i| integrand(middle(i)) * width).sum();
-        let expected = 2.0 * deepest(stiffness, mass, speed) / speed * sum;
+        let expected = 2.0 * max_compression(stiffness, mass, speed) / speed * sum;
         let found = duration(stiffness, mass, speed);
         assert!((found / expected - 1.0).abs() < 1e-6);
     }

@@ -169,8 +169,9 @@ mod tests {
         state
     }
 
-    /// Halving the step divides the error by 2⁵. Estimated from three step lengths, the order of the
-    /// slowest component is within 0.4 of 5; no component has a lower one (symmetry raises some to 6).
+    /// Halving the step divides the error by 2⁵. Estimated from three step lengths, the order of
+    /// the slowest component is within 0.4 of 5; no component has a lower one (symmetry raises some
+    /// to 6).
     #[test]
     fn converges_with_order_five() {
         let [a, b, c] = [32, 64, 128].map(integrate);

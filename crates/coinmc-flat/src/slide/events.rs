@@ -5,8 +5,8 @@ use crate::shape::{Quadrant, Shape};
 
 /// Margin within which an event counts as reached, in units of D, sqrt(D g) and m g.
 const EVENT: f64 = 1e-11;
-/// Slip this far backwards counts as zero, in sqrt(D g), so that rounding in the first step does not
-/// end a phase that begins at rest, perhaps with zero acceleration.
+/// Slip this far backwards counts as zero, in sqrt(D g), so that rounding in the first step does
+/// not end a phase that begins at rest, perhaps with zero acceleration.
 const REST: f64 = 1e-12;
 
 /// How a sliding phase ends.
@@ -166,8 +166,8 @@ impl EventSearch {
         ENDS[self.which]
     }
 
-    /// Records where a trial has led, with sine and cosine of the angle there (`None`: the equations
-    /// do not hold on the way); `true` if the search is over.
+    /// Records where a trial has led, with sine and cosine of the angle there (`None`: the
+    /// equations do not hold on the way); `true` if the search is over.
     pub(super) fn record(
         &mut self,
         margins: &Margins,
@@ -232,7 +232,8 @@ impl Cubic {
         c1 + t * (2.0 * c2 + t * 3.0 * c3)
     }
 
-    /// Where it is lowest and its value there, given a slope that is negative at 0 and positive at 1.
+    /// Where it is lowest and its value there, given a slope that is negative at 0 and positive at
+    /// 1.
     fn lowest(&self) -> (f64, f64) {
         let [_, c1, c2, c3] = self.0;
         // c1 < 0 < c1 + 2c2 + 3c3: the root of the slope at which it rises, without cancellation

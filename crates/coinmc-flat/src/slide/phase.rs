@@ -18,8 +18,8 @@ pub(crate) struct SlideStart<'a> {
     pub(crate) max_steps: u32,
 }
 
-/// A sliding phase. The next attempt is a step from `y`: of length `h`, or of a share of it while an
-/// event is searched for within the step.
+/// A sliding phase. The next attempt is a step from `y`: of length `h`, or of a share of it while
+/// an event is searched for within the step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SlidePhase {
     pub(super) sliding: Sliding,
@@ -132,8 +132,8 @@ impl SlidePhase {
         }
     }
 
-    /// Accepts an attempt at a whole step, shortens it, or begins the search for an event within it;
-    /// the end of the phase, if it ends here.
+    /// Accepts an attempt at a whole step, shortens it, or begins the search for an event within
+    /// it; the end of the phase, if it ends here.
     pub(super) fn finish_step<O: Observer>(
         &mut self,
         attempt: StepAttempt,
@@ -242,15 +242,15 @@ impl SlidePhase {
     }
 }
 
-/// The factor by which the next step may be longer: the usual exponent for a pair of order 5(4), and
-/// the usual safety factor.
+/// The factor by which the next step may be longer: the usual exponent for a pair of order 5(4),
+/// and the usual safety factor.
 #[inline]
 fn growth(tolerance: f64, error: f64) -> f64 {
     0.9 * libm::pow(tolerance / error.max(1e-30), 0.2)
 }
 
-/// Writes the integrated state back to the motion, without the energy that truncation has added. The
-/// slip shrinks with the other velocities.
+/// Writes the integrated state back to the motion, without the energy that truncation has added.
+/// The slip shrinks with the other velocities.
 #[inline]
 fn place(
     motion: &mut Motion,

@@ -23,7 +23,8 @@ pub(crate) struct SlideStage {
     sound: Bits,
 }
 
-/// States with their rates, lane by lane. Before the attempt only the states at the start are known.
+/// States with their rates, lane by lane. Before the attempt only the states at the start are
+/// known.
 #[derive(Default)]
 struct StateBlocks {
     state: [Block; 4],
@@ -36,8 +37,8 @@ struct StateBlocks {
 type LaneSlide<'a> = (&'a mut SlidePhase, &'a mut Motion);
 
 impl SlideStage {
-    /// One attempt at a step of each phase, or one trial of its search for an event; the ends of the
-    /// phases that end.
+    /// One attempt at a step of each phase, or one trial of its search for an event; the ends of
+    /// the phases that end.
     pub(crate) fn advance(
         lanes: Lanes,
         phases: &mut [Option<LaneSlide<'_>>; WIDTH],

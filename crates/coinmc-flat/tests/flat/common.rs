@@ -65,8 +65,8 @@ impl Dice {
     }
 }
 
-/// A planar launch in units of D and sqrt(D/g): height of the centre, velocity, angle θ of u from the
-/// vertical, angular velocity θ'.
+/// A planar launch in units of D and sqrt(D/g): height of the centre, velocity, angle θ of u from
+/// the vertical, angular velocity θ'.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Start {
     pub(crate) z: f64,
@@ -196,7 +196,8 @@ pub(crate) fn moment(scene: &Scene, kind: EventKind, state: &State) -> Moment {
     }
 }
 
-/// The section of the coin as four corners in its own frame (across, along u), in units of D, and k.
+/// The section of the coin as four corners in its own frame (across, along u), in units of D, and
+/// k.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Section {
     pub(crate) radius: f64,

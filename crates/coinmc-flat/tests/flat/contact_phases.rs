@@ -1,9 +1,9 @@
 //! Sustained contact against Newton and Euler's equations in world coordinates.
 //!
-//! The reference has three degrees of freedom and one corner in contact. At every evaluation it solves
-//! a 3 × 3 system for F, N and the angular acceleration α with a_x = F, a_z = N − 1,
-//! kα = r_z F − r_x N. Classical Runge–Kutta in steps of 1/2000: relative error (ω h)⁴/120, below 1e-12
-//! at ω = 2.
+//! The reference has three degrees of freedom and one corner in contact. At every evaluation it
+//! solves a 3 × 3 system for F, N and the angular acceleration α with a_x = F, a_z = N − 1,
+//! kα = r_z F − r_x N. Classical Runge–Kutta in steps of 1/2000: relative error (ω h)⁴/120, below
+//! 1e-12 at ω = 2.
 
 use crate::common::{Dice, Moment, Section, Start, engine_with, record, scene};
 use coinmc_core::EventKind;
@@ -213,8 +213,8 @@ fn check_phase(section: &Section, mu: f64, from: &Moment, to: &Moment, seen: &mu
     }
 }
 
-/// A coin on its corner, which slides and neither approaches nor leaves, that turns almost fast enough
-/// to lift off (ω²cos δ from 0.5 to 1).
+/// A coin on its corner, which slides and neither approaches nor leaves, that turns almost fast
+/// enough to lift off (ω²cos δ from 0.5 to 1).
 fn touching(section: &Section, dice: &mut Dice) -> Start {
     let theta = dice.between(0.0, std::f64::consts::TAU);
     let corners = section.corners(theta);
@@ -233,8 +233,8 @@ fn touching(section: &Section, dice: &mut Dice) -> Start {
     }
 }
 
-/// Events are located to 1e-11 in their margins and slides integrated to 1e-12 per step, with some tens
-/// of steps: 1e-9 leaves room for the amplification by the motion itself.
+/// Events are located to 1e-11 in their margins and slides integrated to 1e-12 per step, with some
+/// tens of steps: 1e-9 leaves room for the amplification by the motion itself.
 #[test]
 fn phases_follow_newton_and_euler() {
     let seen = check_tosses(1e-12, 1e-9);
@@ -256,8 +256,8 @@ fn phases_follow_newton_and_euler() {
     }
 }
 
-/// The same at the default tolerance, with some tens of steps; slides that stay near the balance amplify
-/// the error by as much again.
+/// The same at the default tolerance, with some tens of steps; slides that stay near the balance
+/// amplify the error by as much again.
 #[test]
 fn phases_at_the_default_tolerance_follow_newton_and_euler() {
     check_tosses(Settings::default().tolerance, 1e-4);

@@ -6,9 +6,9 @@ use coinmc_flat::Settings;
 
 const TOSSES: u64 = 30_000;
 
-/// Paired difference of P(side) and its standard error. The allowed difference is 0.0005 plus 4 standard
-/// errors: tosses are chaotic, so those that change at all change at random (false alarms: 6e-5 per
-/// scene).
+/// Paired difference of P(side) and its standard error. The allowed difference is 0.0005 plus 4
+/// standard errors: tosses are chaotic, so those that change at all change at random (false alarms:
+/// 6e-5 per scene).
 fn check(restitution: f64, finer: Settings) {
     for ratio in [0.25, 1.0, 2.0] {
         let scene = scene(ratio, restitution, 0.3);

@@ -12,8 +12,8 @@ fn with_fraction(fraction: f64) -> Settings {
 }
 
 /// The early face is that of the well in which the coin is when its energy, after an impact or a
-/// contact phase, is first at or below the fraction. It is overruled where the engine that decides by
-/// energy alone ends the same toss on another face.
+/// contact phase, is first at or below the fraction. It is overruled where the engine that decides
+/// by energy alone ends the same toss on another face.
 #[test]
 fn the_early_face_is_the_well_at_that_time() {
     let mut overruled = 0;
@@ -62,8 +62,8 @@ fn the_early_face_is_the_well_at_that_time() {
     assert!(overruled > 100, "{overruled}");
 }
 
-/// From 1 m the energy is over 70 m g D. A fraction of 0.002 of up to 500 m g D lies below the barrier,
-/// where energy alone has already decided the face.
+/// From 1 m the energy is over 70 m g D. A fraction of 0.002 of up to 500 m g D lies below the
+/// barrier, where energy alone has already decided the face.
 #[test]
 fn a_small_fraction_is_never_overruled() {
     for friction in [0.0, 0.3] {

@@ -4,8 +4,8 @@ use crate::common::{Section, engine_with, preset, record, scene};
 use coinmc_core::{EventKind, Preset};
 use coinmc_flat::Settings;
 
-/// Energies are sums of a few terms rounded to 1e-16 each, in rounded units: 1e-13 is a hundred times
-/// their noise. Flights are checked in `flight` (1e-12).
+/// Energies are sums of a few terms rounded to 1e-16 each, in rounded units: 1e-13 is a hundred
+/// times their noise. Flights are checked in `flight` (1e-12).
 #[test]
 fn nothing_gains_energy() {
     let settings = Settings {

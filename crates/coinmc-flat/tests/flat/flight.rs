@@ -8,8 +8,8 @@ fn gap(from: &Moment, section: &Section, t: f64) -> f64 {
     from.z + t * (from.vz - 0.5 * t) - section.reach(from.theta + from.omega * t)
 }
 
-/// The lowest gap between `begin` and `end`: 400 samples, and a ternary search about each sample that is
-/// lower than its neighbours and near the surface.
+/// The lowest gap between `begin` and `end`: 400 samples, and a ternary search about each sample
+/// that is lower than its neighbours and near the surface.
 fn lowest_gap(from: &Moment, section: &Section, begin: f64, end: f64) -> f64 {
     const SAMPLES: u32 = 400;
     let at = |i: u32| begin + (end - begin) * f64::from(i) / f64::from(SAMPLES);
@@ -38,9 +38,9 @@ fn lowest_gap(from: &Moment, section: &Section, begin: f64, end: f64) -> f64 {
     lowest
 }
 
-/// Times are known to an ulp (a few 1e-14 late in a toss) and corners move at up to 15 sqrt(gD), so a
-/// gap is known to about 1e-13: 1e-12 is not noise, and a contact missed by more is detected. Energy
-/// likewise: ulps of a height of 100 D compared with an energy of 100.
+/// Times are known to an ulp (a few 1e-14 late in a toss) and corners move at up to 15 sqrt(gD), so
+/// a gap is known to about 1e-13: 1e-12 is not noise, and a contact missed by more is detected.
+/// Energy likewise: ulps of a height of 100 D compared with an energy of 100.
 #[test]
 fn no_contact_is_missed_and_energy_is_conserved() {
     let mut flights = 0;

@@ -94,8 +94,8 @@ fn scene_and_launch(numbers: &[f64; 8]) -> (Scene, Launch) {
     (scene, launch)
 }
 
-/// Largest gain of energy outside flight, and largest distance from the surface at a touch, in D, in
-/// units of what rounding explains.
+/// Largest gain of energy outside flight, and largest distance from the surface at a touch, in D,
+/// in units of what rounding explains.
 struct Worst<'a> {
     scene: &'a Scene,
     last: Option<(EventKind, f64)>,
@@ -131,9 +131,9 @@ impl Observer for Worst<'_> {
     }
 }
 
-/// A phase ωt of up to 1e6 radians per unit of time and a height of up to 1e6 D have a relative error
-/// of about eight roundings of ε, from ω, t, the velocity and their products: this is the residual. The
-/// energy has no such error.
+/// A phase ωt of up to 1e6 radians per unit of time and a height of up to 1e6 D have a relative
+/// error of about eight roundings of ε, from ω, t, the velocity and their products: this is the
+/// residual. The energy has no such error.
 #[test]
 fn the_hardest_tosses_gain_no_energy_and_touch_the_surface() {
     for numbers in &HARDEST {

@@ -85,8 +85,8 @@ impl Contact {
     }
 }
 
-/// Checks what every law must obey. Rounding: 1e-12 of the largest term (about ten operations of 1e-16,
-/// and a condition number of K of up to 1e3 in the impulse that stops the contact).
+/// Checks what every law must obey. Rounding: 1e-12 of the largest term (about ten operations of
+/// 1e-16, and a condition number of K of up to 1e3 in the impulse that stops the contact).
 fn check_requirements(law: impl ImpactLaw) {
     let mut worst = [0.0_f64; 3];
     for trial in 0..200_000 {
@@ -133,8 +133,8 @@ fn chatterjee_ruina_meets_the_requirements_of_every_law() {
 }
 
 /// All solutions of Moreau's implicit law, by brute force: for the slip σ = |u_x⁺|/(μ p_z) >= 0,
-/// p_x(σ + K_xx) + K_xz p_z = −u_x and K_xz p_x + K_zz p_z = −(1 + e)u_z. Solutions with |p_x| = μ p_z
-/// slide; the one at σ = 0 sticks if it lies within the cone.
+/// p_x(σ + K_xx) + K_xz p_z = −u_x and K_xz p_x + K_zz p_z = −(1 + e)u_z. Solutions with |p_x| = μ
+/// p_z slide; the one at σ = 0 sticks if it lies within the cone.
 fn solutions(contact: &Contact) -> Vec<(f64, f64)> {
     const POINTS: u32 = 2000;
     let m = contact.matrix;
@@ -173,9 +173,9 @@ fn solutions(contact: &Contact) -> Vec<(f64, f64)> {
 }
 
 /// Moreau's impulse is one of the solutions found by brute force and slides against its friction.
-/// Chatterjee–Ruina replaces it only where no solution exists or one gains energy. The root is found to
-/// 1e-15 of σ; 1e-9 leaves room for its condition. Contacts within 1e-6 of the cone's edge or of zero
-/// gain, where both answers are correct, are excluded (1e-5 of them).
+/// Chatterjee–Ruina replaces it only where no solution exists or one gains energy. The root is
+/// found to 1e-15 of σ; 1e-9 leaves room for its condition. Contacts within 1e-6 of the cone's edge
+/// or of zero gain, where both answers are correct, are excluded (1e-5 of them).
 #[test]
 fn moreau_solves_the_implicit_law() {
     let (mut slides, mut sticks, mut guarded) = (0, 0, 0);

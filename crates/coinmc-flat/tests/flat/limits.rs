@@ -14,8 +14,8 @@ fn adhesive(ratio: f64) -> Scene {
     scene
 }
 
-/// Without spin and with uniform tilt the coin keeps its tilt: P(side) = (2/π) atan(x/2). Four standard
-/// errors: false alarms 6e-5 per ratio.
+/// Without spin and with uniform tilt the coin keeps its tilt: P(side) = (2/π) atan(x/2). Four
+/// standard errors: false alarms 6e-5 per ratio.
 #[test]
 fn adhesive_without_spin_is_the_arc_rule() {
     let tosses = 100_000_u32;
@@ -48,9 +48,9 @@ fn adhesive_without_spin_is_the_arc_rule() {
     }
 }
 
-/// With spin the face is that of the well in which the coin is at first contact. The contact is located
-/// independently in steps of 1/2000 with bisection. The steps may miss a launch that grazes the surface
-/// by less than the dip within a step, (ω/2000)²/8 < 1e-5: at most 1 in 1000.
+/// With spin the face is that of the well in which the coin is at first contact. The contact is
+/// located independently in steps of 1/2000 with bisection. The steps may miss a launch that grazes
+/// the surface by less than the dip within a step, (ω/2000)²/8 < 1e-5: at most 1 in 1000.
 #[test]
 fn adhesive_with_spin_is_the_well_at_first_contact() {
     for ratio in [0.1, 1.0, 3.0] {
@@ -83,9 +83,9 @@ fn adhesive_with_spin_is_the_well_at_first_contact() {
     }
 }
 
-/// A sheet hardly ever stands on its side, nor a rod on an end. By the arc rule, which bounces can only
-/// lower, the expected count of the rare faces is 0.64 in 20,000 at 1e-4 and 1e4: six or more occur once
-/// in 20,000 runs.
+/// A sheet hardly ever stands on its side, nor a rod on an end. By the arc rule, which bounces can
+/// only lower, the expected count of the rare faces is 0.64 in 20,000 at 1e-4 and 1e4: six or more
+/// occur once in 20,000 runs.
 #[test]
 fn sheets_and_rods_avoid_the_rare_faces() {
     for (ratio, restitution) in [(1e-4, 0.0), (1e-4, 0.5), (1e4, 0.0), (1e4, 0.5)] {
@@ -114,8 +114,8 @@ fn sheets_and_rods_avoid_the_rare_faces() {
     }
 }
 
-/// With losses every toss ends on a face: none of these 62,500 is undecided (the goal is fewer than 1 in
-/// 10⁶).
+/// With losses every toss ends on a face: none of these 62,500 is undecided (the goal is fewer than
+/// 1 in 10⁶).
 #[test]
 fn tosses_that_lose_energy_are_decided() {
     let launches = Preset::CleanFlat.distribution();
@@ -135,8 +135,9 @@ fn tosses_that_lose_energy_are_decided() {
     }
 }
 
-/// Nothing takes energy at e = 1 without friction: the toss has no face and is counted as undecided.
-/// Each impact rounds the energy by about 1e-16, 1000 impacts by less than 1e-12, far below 1e-10.
+/// Nothing takes energy at e = 1 without friction: the toss has no face and is counted as
+/// undecided. Each impact rounds the energy by about 1e-16, 1000 impacts by less than 1e-12, far
+/// below 1e-10.
 #[test]
 fn without_loss_nothing_is_decided() {
     for ratio in [0.1, 1.0, 5.0] {
@@ -162,9 +163,9 @@ fn without_loss_nothing_is_decided() {
     }
 }
 
-/// Keller 1986: a coin without thickness that starts from the table at u, heads up, and does not bounce
-/// shows heads if cos(ωt) > 0 at t = 2u/g. The rim meets the table early by up to R|sin|/u, an angle of
-/// ωR/u: launches nearer than 1.5 times that to the edge of a band are excluded.
+/// Keller 1986: a coin without thickness that starts from the table at u, heads up, and does not
+/// bounce shows heads if cos(ωt) > 0 at t = 2u/g. The rim meets the table early by up to R|sin|/u,
+/// an angle of ωR/u: launches nearer than 1.5 times that to the edge of a band are excluded.
 #[test]
 fn a_thin_coin_lands_in_kellers_bands() {
     let scene = adhesive(1e-7);

@@ -1,6 +1,6 @@
-//! Independent verification of the planar engine: each module checks one promise against a reference
-//! that the engine does not contain. Every tolerance is derived beside it. Seeds are fixed, so no test
-//! fails by chance; "false alarms" says how often one would with another seed.
+//! Independent verification of the planar engine: each module checks one promise against a
+//! reference that the engine does not contain. Every tolerance is derived beside it. Seeds are
+//! fixed, so no test fails by chance; "false alarms" says how often one would with another seed.
 
 mod batch;
 mod common;

@@ -1,9 +1,9 @@
 //! Oracle for tosses with friction: Moreau–Jean time stepping, without events.
 //!
-//! A step moves half way, treats every corner at or below the surface there as a contact, solves for
-//! all impulses at once by projected Gauss–Seidel (u_z⁺ >= −e u_z⁻ with p_z >= 0, friction against the
-//! final slip) and moves the other half. Steps shrink when a corner approaches fast, so that it is met
-//! within 1e-6 D, and are `STEP` long in contact.
+//! A step moves half way, treats every corner at or below the surface there as a contact, solves
+//! for all impulses at once by projected Gauss–Seidel (u_z⁺ >= −e u_z⁻ with p_z >= 0, friction
+//! against the final slip) and moves the other half. Steps shrink when a corner approaches fast, so
+//! that it is met within 1e-6 D, and are `STEP` long in contact.
 //!
 //! Jean, "The non-smooth contact dynamics method", Comput. Methods Appl. Mech. Engrg. 177 (1999).
 
@@ -124,7 +124,7 @@ impl Toss {
         step
     }
 
-    /// To the certain face. A corner that has sunk in (by 1e-6 D) has a lower barrier.
+    /// Runs until energy decides the face. A corner that has sunk in (by 1e-6 D) has a lower barrier.
     fn run(mut self) -> Face {
         loop {
             let k = self.section.k;
@@ -199,10 +199,10 @@ fn difference(
     (f64::from(sides) / n, difference, error)
 }
 
-/// Agrees within 3 standard errors of the paired difference (false alarms: 3e-3 per scene), plus .001
-/// for the step. The step causes up to .0007 at e = 0, in proportion to its length (at ratio 0.5:
-/// .0021, .0013, .0007, .0004, .0003 at 4, 2, 1, 1/2, 1/4 of `STEP`), and no visible error at e > 0.
-/// Nor do simultaneous impacts of two corners, which the engine resolves in sequence.
+/// Agrees within 3 standard errors of the paired difference (false alarms: 3e-3 per scene), plus
+/// .001 for the step. The step causes up to .0007 at e = 0, in proportion to its length (at ratio
+/// 0.5: .0021, .0013, .0007, .0004, .0003 at 4, 2, 1, 1/2, 1/4 of `STEP`), and no visible error at
+/// e > 0. Nor do simultaneous impacts of two corners, which the engine resolves in sequence.
 fn assert_agrees(scene: (f64, f64, f64)) {
     let (_, difference, error) = difference(scene, STEP, 20_000, 1.0);
     assert!(
@@ -225,8 +225,8 @@ fn bouncing_coins_agree() {
     }
 }
 
-/// Fast along the surface: these coins lie flat with an energy above the barrier and keep sliding. A
-/// flat slide takes the oracle thousands of steps, hence fewer tosses.
+/// Fast along the surface: these coins lie flat with an energy above the barrier and keep sliding.
+/// A flat slide takes the oracle thousands of steps, hence fewer tosses.
 #[test]
 fn fast_sliding_coins_agree() {
     for scene in [
@@ -243,10 +243,10 @@ fn fast_sliding_coins_agree() {
     }
 }
 
-/// Released almost flat and fast along the surface, a coin whose base is too narrow for its friction
-/// (μ·height > half width) trips over its leading corner; the others slide and stay flat. These motions
-/// hardly amplify errors: single tosses agree, except for at most two that come as near to a balance as
-/// the error of the step (4e-3 of 200).
+/// Released almost flat and fast along the surface, a coin whose base is too narrow for its
+/// friction (μ·height > half width) trips over its leading corner; the others slide and stay flat.
+/// These motions hardly amplify errors: single tosses agree, except for at most two that come as
+/// near to a balance as the error of the step (4e-3 of 200).
 #[test]
 fn coins_released_flat_agree() {
     for (ratio, e, mu) in [

@@ -1,17 +1,17 @@
-//! Oracle for tosses without friction: four corners in world coordinates, the full angle, small steps
-//! with bisection at a contact. It shares only the launch with the engine.
+//! Oracle for tosses without friction: four corners in world coordinates, the full angle, small
+//! steps with bisection at a contact. It shares only the launch with the engine.
 //!
-//! Sustained contact is a sequence of tiny elastic hops: a corner that would leave slower than `HOP`
-//! leaves at `HOP`. The hops add at most HOP²/2 = 5e-6 m g D, and end when the coin has turned so far
-//! that the corner leaves the surface.
+//! Sustained contact is a sequence of tiny elastic hops: a corner that would leave slower than
+//! `HOP` leaves at `HOP`. The hops add at most HOP²/2 = 5e-6 m g D, and end when the coin has
+//! turned so far that the corner leaves the surface.
 
 use crate::common::{Dice, Section, Start, engine, scene};
 use coinmc_core::{Engine, Face};
 
 /// sqrt(gD)
 const HOP: f64 = 3e-3;
-/// Longest step near the surface, sqrt(D/g): a corner can dip below the surface between two steps by at
-/// most |f''| (STEP/2)²/2 = 1e-5 D at ω = 9.
+/// Longest step near the surface, sqrt(D/g): a corner can dip below the surface between two steps
+/// by at most |f''| (STEP/2)²/2 = 1e-5 D at ω = 9.
 const STEP: f64 = 1e-3;
 
 struct Toss {
@@ -78,7 +78,8 @@ impl Toss {
         self.impacts += 1;
     }
 
-    /// To the decision by energy: without friction the energy of horizontal motion cannot come back.
+    /// To the decision by energy: without friction the energy of horizontal motion cannot come
+    /// back.
     fn run(mut self) -> (Face, u32) {
         loop {
             let k = self.section.k;
@@ -115,9 +116,9 @@ fn toss(section: Section, e: f64, hop: f64, start: &Start) -> (Face, u32) {
 
 /// P(side) agrees within 3 standard errors of the paired difference (false alarms: 3e-3 per scene).
 /// At e = 0 the hops change P by at most .0009, in proportion to their speed (measured at ratio 1:
-/// .0015, .0009, .0005, .0002 at 2, 1, 1/2, 1/4 of `HOP`), so .0015 is allowed there. Where both have at
-/// most two impacts, before errors have grown, single tosses agree, except for 1 in 1000 whose corner
-/// grazes (see `STEP`).
+/// .0015, .0009, .0005, .0002 at 2, 1, 1/2, 1/4 of `HOP`), so .0015 is allowed there. Where both
+/// have at most two impacts, before errors have grown, single tosses agree, except for 1 in 1000
+/// whose corner grazes (see `STEP`).
 fn assert_agrees(restitution: f64, ratio: f64, hop: f64, tosses: u64) {
     let scene = scene(ratio, restitution, 0.0);
     let (engine, section) = (engine(&scene), Section::new(&scene));

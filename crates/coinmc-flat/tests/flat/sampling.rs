@@ -93,8 +93,8 @@ fn angle_between(a: f64, b: f64) -> f64 {
     (a - b + turn / 2.0).rem_euclid(turn) - turn / 2.0
 }
 
-/// Flights are parabolas with constant spin. A toss lasts about 20 sqrt(D/g), in which angle and height
-/// are known to about 1e-14: 1e-12 is a hundred times that.
+/// Flights are parabolas with constant spin. A toss lasts about 20 sqrt(D/g), in which angle and
+/// height are known to about 1e-14: 1e-12 is a hundred times that.
 #[test]
 fn flights_are_parabolas() {
     let (mut seen, mut worst, mut worst_energy) = (0, 0.0_f64, 0.0_f64);
@@ -221,8 +221,8 @@ fn contact(
     }
 }
 
-/// The reference is accurate to 1e-12, the angle at a time to 1e-10, and slides are integrated to 1e-12
-/// per step: 1e-9 leaves room for the amplification by the motion.
+/// The reference is accurate to 1e-12, the angle at a time to 1e-10, and slides are integrated to
+/// 1e-12 per step: 1e-9 leaves room for the amplification by the motion.
 #[test]
 fn contact_follows_newton_and_euler() {
     let seen = contacts(1e-12);
@@ -256,8 +256,8 @@ impl Observer for Instants {
     }
 }
 
-/// A nanosecond from an event the coin is where it is at the event, up to its motion in that time and
-/// the error of the step: 1e-10 of a unit.
+/// A nanosecond from an event the coin is where it is at the event, up to its motion in that time
+/// and the error of the step: 1e-10 of a unit.
 #[test]
 fn samples_join_the_events() {
     const NEAR: f64 = 1e-9;

@@ -59,10 +59,10 @@ fn paired(differences: &[f64]) -> (f64, f64) {
     (mean, (square / n).sqrt())
 }
 
-/// Left and right differ in rounding (1e-16), which an impact amplifies less than a thousandfold. So
-/// tosses of up to three impacts without sliding agree: 1e-16·1e9 compared with launches within 1e-7 of
-/// a change, of which 2000 contain 2e-4. The others agree on average: 4 standard errors, false alarms
-/// 6e-5 per scene.
+/// Left and right differ in rounding (1e-16), which an impact amplifies less than a thousandfold.
+/// So tosses of up to three impacts without sliding agree: 1e-16·1e9 compared with launches within
+/// 1e-7 of a change, of which 2000 contain 2e-4. The others agree on average: 4 standard errors,
+/// false alarms 6e-5 per scene.
 #[test]
 fn left_and_right_are_alike() {
     for (ratio, restitution, friction) in SCENES {
@@ -111,8 +111,8 @@ fn scaled(launch: &Launch, length: f64, time: f64) -> Launch {
     }
 }
 
-/// Lengths × 4 with times × 2, gravity × 4 with times / 2, and any mass: powers of two, and a mass that
-/// cancels, leave the dimensionless toss bit-identical.
+/// Lengths × 4 with times × 2, gravity × 4 with times / 2, and any mass: powers of two, and a mass
+/// that cancels, leave the dimensionless toss bit-identical.
 #[test]
 fn size_gravity_and_mass_do_not_matter() {
     let surface = Surface::new(0.5, 0.3).unwrap();
@@ -140,8 +140,8 @@ fn size_gravity_and_mass_do_not_matter() {
     }
 }
 
-/// Lengths × 3: rounding differs, and changes the face only of launches within about 1e-12 of a change:
-/// none of 20,000 at e = 0 (three would mean that something else differs).
+/// Lengths × 3: rounding differs, and changes the face only of launches within about 1e-12 of a
+/// change: none of 20,000 at e = 0 (three would mean that something else differs).
 #[test]
 fn an_odd_scale_does_not_matter() {
     let small = scene(1.3, 0.0, 0.3);

@@ -10,12 +10,12 @@ use nalgebra::{UnitVector3, Vector3};
 
 /// A 10 g coin of R = 1 cm.
 pub(crate) fn scene(ratio: f64, restitution: f64, friction: f64) -> Scene {
-    let coin = Coin::cylinder(ratio, 0.01).expect("a good coin");
-    let surface = Surface::new(restitution, friction).expect("a good surface");
-    Scene::new(coin, surface, 9.81).expect("good gravity")
+    let coin = Coin::cylinder(ratio, 0.01).expect("a valid coin");
+    let surface = Surface::new(restitution, friction).expect("a valid surface");
+    Scene::new(coin, surface, 9.81).expect("valid gravity")
 }
 
-/// Both bodies of the same stuff.
+/// Coin and surface of the same material.
 pub(crate) fn materials(young_pa: f64) -> Materials {
     Materials {
         coin_young_pa: young_pa,
@@ -53,11 +53,11 @@ pub(crate) fn settings(law: Law, tolerance: f64) -> Settings {
 }
 
 pub(crate) fn engine(scene: &Scene, law: Law) -> DynEngine {
-    settings(law, 1e-6).engine(scene).expect("good settings")
+    settings(law, 1e-6).engine(scene).expect("valid settings")
 }
 
 pub(crate) fn impact(scene: &Scene, law: Law, tolerance: f64, launch: &Launch) -> SingleImpact {
-    SingleImpact::new(scene, &settings(law, tolerance), launch).expect("good settings")
+    SingleImpact::new(scene, &settings(law, tolerance), launch).expect("valid settings")
 }
 
 /// A coin about to touch: tilt of u from the vertical, velocity, spin.

@@ -1,4 +1,4 @@
-//! What every law owes the engine: determinism, mirror symmetry, no gain of energy, an end.
+//! What the engine requires of every law: determinism, mirror symmetry, no gain of energy, an end.
 
 use crate::common::{engine, gaek_sukhov, line, materials, pulse, scene};
 use coinmc_core::{
@@ -38,7 +38,7 @@ fn scenes(friction: f64) -> impl Iterator<Item = Scene> {
 }
 
 #[test]
-fn a_toss_alone_is_the_toss_in_its_batch_and_all_are_decided() {
+fn a_toss_is_bit_identical_in_its_batch_and_all_are_decided() {
     let launches = Preset::Robot.distribution();
     for (law, friction) in laws() {
         for scene in scenes(friction) {
@@ -55,7 +55,7 @@ fn a_toss_alone_is_the_toss_in_its_batch_and_all_are_decided() {
     }
 }
 
-/// The coin's two faces are alike to the last bit.
+/// The computation is bit-identical for the two faces.
 #[test]
 fn heads_and_tails_exchange_exactly() {
     let launches = Preset::CleanFlat.distribution();
@@ -83,7 +83,7 @@ fn heads_and_tails_exchange_exactly() {
     }
 }
 
-/// Largest energy seen after an energy, relative.
+/// The largest relative gain of energy from event to event.
 struct Ledger<'a> {
     scene: &'a Scene,
     last: f64,
@@ -98,7 +98,7 @@ impl Observer for Ledger<'_> {
     }
 }
 
-/// From event to event energy never grows by more than the rounding of states in SI.
+/// From event to event the energy grows by no more than the rounding of states in SI units.
 #[test]
 fn no_toss_gains_energy() {
     let launches = Preset::Robot.distribution();
@@ -112,24 +112,24 @@ fn no_toss_gains_energy() {
                     last: f64::INFINITY,
                     worst: 0.0,
                 };
-                let watched = engine.toss(&mut (), &launch, &mut ledger);
+                let observed = engine.toss(&mut (), &launch, &mut ledger);
                 assert!(ledger.worst < 1e-13, "{law:?} {toss}: {}", ledger.worst);
-                assert_eq!(watched, engine.toss(&mut (), &launch, &mut ()));
+                assert_eq!(observed, engine.toss(&mut (), &launch, &mut ()));
             }
         }
     }
 }
 
-/// e = 0: at rest on the surface at once, whatever the law; e = 1 without friction: never.
+/// With e = 0 every law decides every toss.
 #[test]
-fn the_ends_of_restitution() {
+fn tosses_without_rebound_are_decided() {
     let launches = Preset::CleanFlat.distribution();
     for law in [line(3e9), pulse(1e-5)] {
-        let dull = scene(1.0, 0.0, 0.3);
-        let moreau = engine(&dull, Law::Moreau);
-        let other = engine(&dull, law);
+        let plastic = scene(1.0, 0.0, 0.3);
+        let moreau = engine(&plastic, Law::Moreau);
+        let other = engine(&plastic, law);
         for toss in 0..200 {
-            let launch = launches.launch(&dull.coin, &mut stream().toss(toss));
+            let launch = launches.launch(&plastic.coin, &mut stream().toss(toss));
             let (a, b) = (
                 moreau.toss(&mut (), &launch, &mut ()),
                 other.toss(&mut (), &launch, &mut ()),

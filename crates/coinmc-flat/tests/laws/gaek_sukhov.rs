@@ -1,4 +1,4 @@
-//! Gaek & Sukhov's law against its own formulas, in SI, by hand.
+//! Gaek & Sukhov's law compared with its formulas in SI units.
 
 use crate::common::{Dice, engine, gaek_sukhov, impact, scene, touch};
 use coinmc_core::Engine;
@@ -9,7 +9,7 @@ const MASS_KG: f64 = 0.01;
 
 /// k m g h₁ + I ω₁²/2 = m g h₃ + I ω₂²/2 and Δω = η·lever/I, tilt below and beyond 90°.
 #[test]
-fn single_impacts_are_the_paper_s_formulas() {
+fn single_impacts_follow_the_published_formulas() {
     let (mut followed, mut broken) = (0, 0);
     for trial in 0..4000 {
         let mut dice = Dice::new(200, trial);
@@ -18,7 +18,7 @@ fn single_impacts_are_the_paper_s_formulas() {
         let scene = scene(ratio, e, 0.0);
         let lever = dice.pick(&Lever::ALL);
         let eta = dice.scale(1e-4, 1e-2);
-        // tilt of the face, and u to the right of the vertical: the lever turns it back
+        // tilt of the face, with u to the right of the vertical: the lever turns the coin back
         let tilt = dice.between(0.01, FRAC_PI_2 - 0.01);
         let (vz, spin) = (-dice.between(0.5, 4.0), dice.between(-60.0, 60.0));
         let found = impact(
@@ -40,7 +40,7 @@ fn single_impacts_are_the_paper_s_formulas() {
         let weight = MASS_KG * 9.81;
         let (h1, k) = (vz * vz / 2.0 / 9.81, e * e);
         let h3 = (k * weight * h1 + inertia * (spin * spin - turned * turned) / 2.0) / weight;
-        // the corner goes up: v_z − ω x_c >= 0
+        // the corner rises: v_z − ω x_c >= 0
         let leaves = h3 >= 0.0 && (2.0 * 9.81 * h3).sqrt() - turned * corner >= 0.0;
         let breaks = found.breaks;
         assert_eq!(breaks.negative_heights, u32::from(h3 < 0.0), "{trial}");
@@ -67,7 +67,7 @@ fn single_impacts_are_the_paper_s_formulas() {
 
 /// The fallback is the frictionless impact with e = √k.
 #[test]
-fn where_it_breaks_the_corner_s_own_impact_stands_in() {
+fn the_fallback_is_the_frictionless_impact() {
     let scene = scene(1.0, 0.6, 0.0);
     let start = touch(0.4, 0.2, -1.0, 5.0);
     let broken = impact(&scene, gaek_sukhov(0.5, Lever::Height), 1e-6, &start);
@@ -76,9 +76,9 @@ fn where_it_breaks_the_corner_s_own_impact_stands_in() {
     assert_eq!(broken.after, newton.after);
 }
 
-/// Flat on its face without turning the coin rebounds to k times its height.
+/// Without the impulse η the coin rebounds to k times its height.
 #[test]
-fn without_lever_the_height_is_k_of_the_fall() {
+fn without_impulse_the_coin_rises_to_k_times_its_height() {
     for lever in Lever::ALL {
         let found = impact(
             &scene(1.0, 0.7, 0.0),
@@ -91,9 +91,9 @@ fn without_lever_the_height_is_k_of_the_fall() {
     }
 }
 
-/// With a constant η nothing ties spin to the fall, yet every toss ends.
+/// A constant η does not depend on the fall, yet every toss ends.
 #[test]
-fn every_toss_ends_whatever_eta() {
+fn every_toss_ends_for_any_eta() {
     for (eta, e) in [
         (1e-5, 0.3),
         (1e-3, 0.7),
@@ -117,13 +117,13 @@ fn every_toss_ends_whatever_eta() {
 }
 
 #[test]
-fn friction_is_refused() {
+fn friction_is_rejected() {
     let with_friction = scene(1.0, 0.5, 0.3);
     let settings = Settings {
         law: gaek_sukhov(1e-3, Lever::Height),
         ..Settings::default()
     };
-    let refused = settings.engine(&with_friction).err();
-    assert_eq!(refused, Some(SettingsError::Friction(0.3)));
+    let error = settings.engine(&with_friction).err();
+    assert_eq!(error, Some(SettingsError::Friction(0.3)));
     assert!(settings.engine(&scene(1.0, 0.5, 0.0)).is_ok());
 }

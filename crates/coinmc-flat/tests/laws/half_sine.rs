@@ -1,4 +1,4 @@
-//! The half sine against Moreau's law, which it becomes as it gets shorter.
+//! The half sine compared with Moreau's law, its limit for short pulses.
 
 use crate::common::{Dice, impact, materials, pulse, scene, touch};
 use coinmc_core::State;
@@ -11,9 +11,9 @@ fn distance(a: &State, b: &State) -> f64 {
     velocity.max((a.spin_rad_s.y - b.spin_rad_s.y).abs() * 0.01)
 }
 
-/// The error is proportional to τ: ten times shorter, ten times nearer, within a fifth.
+/// The error is proportional to τ: a pulse ten times shorter is ten times nearer, within a fifth.
 #[test]
-fn as_it_gets_shorter_it_becomes_moreau_s_law_with_order_one() {
+fn short_pulses_converge_to_moreau_s_law_with_order_one() {
     for trial in 0..200 {
         let mut dice = Dice::new(210, trial);
         let scene = scene(
@@ -41,9 +41,9 @@ fn as_it_gets_shorter_it_becomes_moreau_s_law_with_order_one() {
     }
 }
 
-/// Flat contact of a corner under the centre: nothing turns, η = (1 + e) m u, N_max = πη/2τ.
+/// Impact of a corner under the centre: the coin does not turn, η = (1 + e) m u, N_max = πη/2τ.
 #[test]
-fn the_force_is_that_of_its_impulse() {
+fn the_peak_force_follows_from_the_impulse() {
     let scene = scene(2.0, 0.5, 0.0);
     let start = touch(PI / 4.0, 0.0, -2.0, 0.0);
     let found = impact(&scene, pulse(1e-4), 1e-12, &start);
@@ -52,9 +52,9 @@ fn the_force_is_that_of_its_impulse() {
     assert!((found.after.velocity_m_s.z - (1.0 - 9.81e-4)).abs() < 1e-9);
 }
 
-/// A force that is capped stops the coin less, at worst dead; one too great is cut to Newton's.
+/// A small given peak gives less rebound, at least none; a large one is reduced to Newton's.
 #[test]
-fn a_given_peak_is_kept_between_stopping_and_newton() {
+fn a_given_peak_is_limited_to_stopping_and_newton() {
     let scene = scene(2.0, 0.5, 0.0);
     let start = touch(PI / 4.0, 0.0, -2.0, 0.0);
     // m u = 0.02 N s stops it, 0.03 N s is Newton's, 0.04 N s elastic
@@ -77,9 +77,9 @@ fn a_given_peak_is_kept_between_stopping_and_newton() {
     }
 }
 
-/// τ ~ u^(−1/19): a factor 10 in speed shortens the pulse by 10^(1/19).
+/// τ ~ u^(−1/19): a factor of 10 in speed shortens the pulse by 10^(1/19).
 #[test]
-fn the_time_of_a_contact_falls_slowly_with_speed() {
+fn the_duration_of_a_contact_falls_slowly_with_speed() {
     let scene = scene(2.0, 0.5, 0.0);
     let law = Law::HalfSine(HalfSine {
         time: PulseTime::Contact(materials(3e9)),

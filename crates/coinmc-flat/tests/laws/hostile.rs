@@ -1,4 +1,4 @@
-//! Settings that make no sense are refused; launches and stiffnesses that make none end.
+//! Invalid settings are rejected; tosses with extreme launches and stiffnesses end.
 
 use crate::common::{Dice, impact, line, materials, scene, settings, touch};
 use coinmc_core::{Engine, Scene};
@@ -6,7 +6,7 @@ use coinmc_flat::{GaekSukhov, HalfSine, Law, Lever, LineContact, Materials, Puls
 use std::f64::consts::{FRAC_PI_2, PI};
 
 #[test]
-fn quantities_out_of_range_are_refused() {
+fn quantities_out_of_range_are_rejected() {
     let good = materials(1e9);
     let line = |materials| {
         Law::LineContact(LineContact {
@@ -65,10 +65,10 @@ fn finite(scene: &Scene, found: &coinmc_flat::SingleImpact) -> bool {
     found.after.energy_j_kg(scene).is_finite() && found.after.time_s.is_finite()
 }
 
-/// E from 1e5 to 1e12 Pa, speeds from 1e-6 to 1e3 m/s, every tilt, also exactly flat, on the edge of
+/// E from 1e5 to 1e12 Pa, speeds from 1e-6 to 1e3 m/s, every tilt, including exactly flat, almost
 /// flat and with the centre over the corner.
 #[test]
-fn every_impact_of_the_box_ends_in_numbers() {
+fn every_impact_has_a_finite_result() {
     let mut given_up = 0;
     let mut most_steps = 0;
     for trial in 0..3000 {

@@ -1,4 +1,4 @@
-//! The line contact in time: limits with a known answer, energy, accuracy, the rigid limit.
+//! The line contact resolved in time: limits with known results, energy, accuracy, the rigid limit.
 
 use crate::common::{Dice, impact, line, materials, scene, settings, touch};
 use coinmc_core::{Launch, State};
@@ -10,7 +10,7 @@ fn distance(a: &State, b: &State) -> f64 {
     velocity.max((a.spin_rad_s.y - b.spin_rad_s.y).abs() * 0.01)
 }
 
-/// A contact that slides one way throughout: fast enough that friction cannot stop it.
+/// A contact that slides in one direction throughout: too fast for friction to stop it.
 fn sliding(trial: u64) -> (coinmc_core::Scene, Launch) {
     let mut dice = Dice::new(220, trial);
     let friction = dice.pick(&[0.0, 0.1, 0.2]);
@@ -23,10 +23,10 @@ fn sliding(trial: u64) -> (coinmc_core::Scene, Launch) {
     )
 }
 
-/// Sliding one way is where all laws agree: the error against Moreau's falls with the time of
-/// contact, that is as K^(−9/19). A factor 10⁴ in E makes that 78.5.
+/// All laws agree for sliding in one direction: the difference to Moreau's law falls with the
+/// duration of the contact, as K^(−9/19). A factor of 10⁴ in E changes it by 78.5.
 #[test]
-fn sliding_impacts_converge_to_moreau_s_law_with_the_time_of_contact() {
+fn sliding_impacts_converge_to_moreau_s_law_with_the_duration() {
     for trial in 0..100 {
         let (scene, start) = sliding(trial);
         let rigid = impact(&scene, Law::Moreau, 1e-9, &start).after;
@@ -43,14 +43,14 @@ fn sliding_impacts_converge_to_moreau_s_law_with_the_time_of_contact() {
     }
 }
 
-/// Frictionless, hard, under the centre: u⁺ = −e u⁻ and the time of contact of the closed form
-/// (e = 1).
+/// A hard, frictionless impact of a corner under the centre: u⁺ = −e u⁻, and the duration of the
+/// closed form (e = 1).
 #[test]
 fn a_corner_under_the_centre_rebounds_with_e() {
     let start = touch(PI / 4.0, 0.0, -2.0, 0.0);
     for e in [0.05, 0.3, 0.7, 1.0] {
         let found = impact(&scene(2.0, e, 0.0), line(1e13), 1e-11, &start);
-        // gravity takes g τ, about 1e-5 m/s
+        // gravity changes the velocity by g τ, about 1e-5 m/s
         assert!((found.after.velocity_m_s.z - 2.0 * e).abs() < 1e-4, "{e}");
     }
     let elastic = impact(&scene(2.0, 1.0, 0.0), line(1e13), 1e-11, &start);
@@ -59,14 +59,14 @@ fn a_corner_under_the_centre_rebounds_with_e() {
     let expected = 3.090_487_848_387_577_5 * depth / 2.0;
     assert!((elastic.after.time_s / expected - 1.0).abs() < 1e-5);
     let force = stiffness * libm::pow(depth, 10.0 / 9.0);
-    // the largest of the steps lies a little beside the peak
+    // the step with the largest force lies a little beside the peak
     assert!((elastic.peak_force_n / force - 1.0).abs() < 1e-2);
 }
 
-/// What is left of the energy's balance is the integration's error. In the time of one impact it may
-/// drift by the tolerance's share of the kinetic energy and of what of it is along the normal, which is
-/// no more; a step is at most a sixth of that time: below tolerance·energy·steps/3, whatever the impact.
-/// These last a few times of one impact: measured 1.3 tolerances.
+/// The imbalance of the energy is the error of the integration. In the duration of one impact it
+/// may drift by the tolerance times the kinetic energy plus its normal part, which is no larger. A
+/// step is at most a sixth of that duration, so the drift is below tolerance·energy·steps/3 for
+/// every impact. These impacts last a few durations: measured 1.3 tolerances.
 #[test]
 fn energy_balances_to_the_tolerance_and_is_never_gained() {
     for tolerance in [1e-6, 1e-9] {
@@ -107,7 +107,7 @@ fn energy_balances_to_the_tolerance_and_is_never_gained() {
 
 /// The error of the state falls with the tolerance, through all changes of grip.
 #[test]
-fn the_state_after_it_is_as_accurate_as_the_tolerance() {
+fn the_error_of_the_state_falls_with_the_tolerance() {
     for trial in 0..100 {
         let mut dice = Dice::new(222, trial);
         let scene = scene(
@@ -130,9 +130,9 @@ fn the_state_after_it_is_as_accurate_as_the_tolerance() {
     }
 }
 
-/// Laid down flat, both corners are pressed alike: it does not turn, and rebounds.
+/// A coin that lands flat presses on both corners equally: it rebounds without turning.
 #[test]
-fn a_flat_landing_presses_both_corners() {
+fn a_flat_landing_rebounds_without_turning() {
     for theta in [0.0, FRAC_PI_2, PI, -FRAC_PI_2] {
         let found = impact(
             &scene(1.0, 0.5, 0.3),
@@ -145,7 +145,7 @@ fn a_flat_landing_presses_both_corners() {
     }
 }
 
-/// A coin set down gently stays: it has too little energy to come back over its own weight.
+/// A coin set down gently stays: it has too little energy to rise against its weight.
 #[test]
 fn a_gentle_touch_stays() {
     let found = impact(
@@ -157,8 +157,8 @@ fn a_gentle_touch_stays() {
     assert!(found.stays);
 }
 
-/// A soft coin that lies on both corners and trembles has too little energy to leave as a whole, though
-/// neither corner is bound by itself; rocking without losses included.
+/// A soft coin that lies on both corners and trembles has too little energy to leave as a whole,
+/// although neither corner is bound separately; this includes rocking without losses.
 #[test]
 fn a_coin_that_lies_on_both_corners_stays() {
     for (ratio, restitution, friction, spin) in [
@@ -178,9 +178,9 @@ fn a_coin_that_lies_on_both_corners_stays() {
     }
 }
 
-/// A corner that comes down hard after another has grazed the surface is resolved on its own scale.
+/// A corner that comes down fast after another has grazed the surface is resolved on its own scale.
 #[test]
-fn a_graze_before_a_hard_impact_costs_no_more_than_the_impact() {
+fn a_graze_before_a_hard_impact_does_not_add_steps() {
     let scene = scene(6.5, 0.01, 10.0);
     let start = touch(1.5 * PI, -40.0, -50.0, 4000.0);
     let found = impact(&scene, line(1e7), 1e-6, &start);
@@ -188,10 +188,10 @@ fn a_graze_before_a_hard_impact_costs_no_more_than_the_impact() {
     assert!(found.steps < 3000, "{found:?}");
 }
 
-/// Stiff along the surface and compliant there are different laws where the corner sticks; both
-/// keep within the cone and lose energy.
+/// Tangential stiffness changes the result where the corner sticks; with every stiffness the impact
+/// loses energy.
 #[test]
-fn tangential_stiffness_matters_where_the_corner_sticks() {
+fn tangential_stiffness_matters_for_sticking_corners() {
     let scene = scene(1.0, 0.8, 1.0);
     let start = touch(0.6, 0.5, -2.0, 0.0);
     let [mindlin, stiff] = [LineContact::mindlin(0.3), 100.0].map(|tangential| {

@@ -1,6 +1,6 @@
-//! The laws of impact that are more than an impulse: against their formulas worked out by hand,
-//! their limits, the conservation of energy, and the conformance every law owes the engine. Seeds
-//! are fixed and every tolerance is derived where it stands.
+//! The laws of impact that are more than an impulse: their formulas computed independently, their
+//! limits, conservation of energy, and the conformance that the engine requires of every law. Seeds
+//! are fixed and every tolerance is derived beside it.
 
 mod common;
 mod conformance;

@@ -1,10 +1,10 @@
-//! The coin within an impact that lasts: where the law has it, at any instant.
+//! Samples within an impact that lasts follow the law.
 
 use crate::common::{Dice, line, pulse, scene, settings, touch};
 use coinmc_core::{Engine, Event, EventKind, Launch, Observer, Scene, State};
 use coinmc_flat::Law;
 
-/// Wants so many instants, evenly, within the first impact.
+/// Samples a number of equally spaced instants within the first impact.
 struct Film {
     from_s: f64,
     every_s: f64,
@@ -62,7 +62,7 @@ fn film(
     film
 }
 
-/// Where and when the first impact is, and 40 instants in it.
+/// The start and the end of the first impact, and 40 instants in it.
 fn within(scene: &Scene, law: Law, launch: &Launch) -> Option<(State, State, (f64, f64, u32))> {
     let events = film(scene, law, 1e-9, launch, None);
     let (touched, released) = (events.touched?, events.released?);
@@ -74,7 +74,7 @@ fn within(scene: &Scene, law: Law, launch: &Launch) -> Option<(State, State, (f6
     ))
 }
 
-fn apart(a: &State, b: &State) -> f64 {
+fn distance(a: &State, b: &State) -> f64 {
     let turned = (a.axis.into_inner() - b.axis.into_inner()).norm() * 0.01;
     let moving = (a.velocity_m_s - b.velocity_m_s).norm() * 1e-4;
     (a.position_m - b.position_m).norm().max(turned).max(moving)
@@ -97,11 +97,11 @@ fn drop(trial: u64) -> (Scene, Launch) {
     (scene, launch)
 }
 
-/// At the tightest tolerance errors are some 1e-12 of the lengths and speeds of an impact (0.1 mm,
-/// 3 m/s); the tolerance of 1e-6 is met within a hundredfold: 1e-8 m, and 1e-4 m/s (which counts 1e-4
-/// here). A straight line from touch to release would be off by 1e-5 m and 1 m/s.
+/// At the tightest tolerance errors are about 1e-12 of the lengths and speeds of an impact (0.1 mm,
+/// 3 m/s). At 1e-6 they are at most a hundredfold of the tolerance: 1e-8 m, and 1e-4 m/s (weighted
+/// by 1e-4 here). A straight line from touch to release would be wrong by 1e-5 m and 1 m/s.
 #[test]
-fn samples_within_an_impact_are_the_law_s_own_motion() {
+fn samples_within_an_impact_follow_the_law() {
     let mut seen = 0;
     for trial in 0..40 {
         let (scene, launch) = drop(trial);
@@ -115,10 +115,10 @@ fn samples_within_an_impact_are_the_law_s_own_motion() {
             let mut straight: f64 = 0.0;
             for (a, b) in coarse.seen.iter().zip(&exact.seen) {
                 assert_eq!(a.time_s, b.time_s);
-                assert!(apart(a, b) < 1e-8, "{trial} {}: {a:?} {b:?}", law.name());
+                assert!(distance(a, b) < 1e-8, "{trial} {}: {a:?} {b:?}", law.name());
                 let share = (b.time_s - touched.time_s) / (released.time_s - touched.time_s);
-                let even = touched.velocity_m_s.lerp(&released.velocity_m_s, share);
-                straight = straight.max((even - b.velocity_m_s).norm());
+                let linear = touched.velocity_m_s.lerp(&released.velocity_m_s, share);
+                straight = straight.max((linear - b.velocity_m_s).norm());
                 seen += 1;
             }
             assert!(straight > 0.05, "{trial}: {straight}");
@@ -127,10 +127,10 @@ fn samples_within_an_impact_are_the_law_s_own_motion() {
     assert!(seen > 2000, "{seen}");
 }
 
-/// Velocities are the derivatives of positions: central differences of 40 instants of a pulse are off
-/// by (h/τ)²π²/6 of the change, under 1e-3 of it, beside the corners of the force at its ends.
+/// Velocities are the derivatives of positions: central differences over 40 instants of a pulse
+/// have an error of (h/τ)²π²/6 of the change, below 1e-3 of it, except at the ends of the pulse.
 #[test]
-fn positions_and_velocities_of_samples_belong_together() {
+fn velocities_of_samples_are_derivatives_of_positions() {
     for trial in 0..20 {
         let (scene, launch) = drop(trial);
         for law in [line(3e9), pulse(1e-4)] {

@@ -84,7 +84,7 @@ const VOLUMETRIC: &[Case] = &[
 /// What the flat engine does not model is refused, never ignored.
 #[rustfmt::skip]
 const NOT_FLAT: &[Case] = &[
-    ("'moreau'", "{ gaek-sukhov = { eta_n_s = 1e-3 } }", &[(6, 12, "Gaek & Sukhov's law knows no friction: `surface.friction` must be 0 set `friction = 0`")]),
+    ("'moreau'", "{ gaek-sukhov = { eta_n_s = 1e-3 } }", &[(6, 12, "Gaek & Sukhov's law has no friction: `surface.friction` must be 0 set `friction = 0`")]),
     ("'moreau'", "{ gaek-sukhov = {} }", &[(6, 12, "no friction"), (10, 23, "`eta_n_s` is missing")]),
     ("'moreau'", "{ half-sine = { peak_n = 10 } }", &[(10, 21, "one of `time_s`, `contact` is missing")]),
     ("'moreau'", "{ half-sine = { time_s = 0 } }", &[(10, 32, "must be from 1e-12 to 1")]),

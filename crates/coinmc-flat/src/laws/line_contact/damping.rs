@@ -1,14 +1,15 @@
 //! The damping that gives a wanted restitution.
 //!
-//! Hunt & Crossley, J. Appl. Mech. 42 (1975) 440: N = K δⁿ (1 + c δ'). Along a line, with v = δ' and
-//! mass M, M v dv/(1 + c v) = −K δⁿ dδ, so that F(v) = v/c − ln(1 + c v)/c² is the same at the
+//! Hunt & Crossley, J. Appl. Mech. 42 (1975) 440: N = K δⁿ (1 + c δ'). Along a line, with v = δ'
+//! and mass M, M v dv/(1 + c v) = −K δⁿ dδ, so that F(v) = v/c − ln(1 + c v)/c² is the same at the
 //! approach v = u and at the rebound v = −e u:
 //!
 //! (1 + e) d = ln[(1 + d)/(1 − e d)],  d = c u,
 //!
 //! whatever n, K and M. For e → 1, d = 3(1 − e)/2; for e → 0, e d → 1. This is exact for one corner
-//! whose mass along the normal stays the same while it is down: without friction, or while it slides
-//! one way. Elsewhere the restitution that results is measured, see docs/methods/impact-laws.md.
+//! whose mass along the normal stays the same while it is down: without friction, or while it
+//! slides one way. Elsewhere the restitution that results is measured, see
+//! docs/methods/impact-laws.md.
 
 /// Below this restitution an impact is not resolved in time: nothing rebounds.
 pub(crate) const LEAST_RESTITUTION: f64 = 1e-3;

@@ -1,22 +1,23 @@
 //! The coin on compliant corners: positions, forces, and the margins that events break.
 //!
 //! Units of m, D and sqrt(D/g). Displacements and times start at the touch, so that rounding does
-//! no harm however stiff the contact. Corner i is r_i from the centre; turning by φ moves it
-//! by r_i(φ) − r_i = (r_z, −r_x) sin φ − 2 r sin²(φ/2), and its velocity is (v_x + ω r_z, v_z − ω r_x).
+//! no harm however stiff the contact. Corner i is r_i from the centre; turning by φ moves it by
+//! r_i(φ) − r_i = (r_z, −r_x) sin φ − 2 r sin²(φ/2), and its velocity is (v_x + ω r_z, v_z − ω
+//! r_x).
 //!
 //! * **Normal force** N = K δⁿ (1 + c δ') of Hunt & Crossley, never a pull.
-//! * **Friction** F = −k_t s, s a spring between corner and surface: it follows the corner, s' = u_x,
-//!   as long as |k_t s| < μN, and slides at that bound otherwise. A spring in series with a dry
-//!   slider: it takes F·(u_x − s') >= 0 and gives back ½ k_t s². k_t is constant in an impact, because
-//!   a stiffness that changes with the load would create energy.
+//! * **Friction** F = −k_t s, s a spring between corner and surface: it follows the corner,
+//!   s' = u_x, as long as |k_t s| < μN, and slides at that bound otherwise. A spring in series with
+//!   a dry slider: it takes F·(u_x − s') >= 0 and gives back ½ k_t s². k_t is constant in an
+//!   impact, because a stiffness that changes with the load would create energy.
 
 use crate::dormand_prince::System;
 use crate::laws::palmgren::{EXPONENT, ninth_root, power};
 use coinmc_lanes::sin_cos;
 use std::f64::consts::FRAC_PI_2;
 
-/// x, z, φ since the touch; v_x, v_z, ω; the four springs s; the energy that damping and friction have
-/// taken.
+/// x, z, φ since the touch; v_x, v_z, ω; the four springs s; the energy that damping and friction
+/// have taken.
 pub(super) type State = [f64; 11];
 
 pub(super) const CORNERS: usize = 4;

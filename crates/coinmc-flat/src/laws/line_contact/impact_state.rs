@@ -30,7 +30,8 @@ pub(super) struct ImpactState {
 
 impl ImpactState {
     /// The lowest corner (number 0) touches at the speed `approach`; `mass` is the inverse of K_zz
-    /// there. Sets the body's tangential stiffness to `ratio` of the secant stiffness at full depth.
+    /// there. Sets the body's tangential stiffness to `ratio` of the secant stiffness at full
+    /// depth.
     pub(super) fn new(
         mut body: Body,
         velocity: [f64; 3],
@@ -64,15 +65,15 @@ impl ImpactState {
     }
 
     /// The energy of the motion, the energy stored in the corners, and the energy that damping and
-    /// friction have taken (that of the tangential springs counts as taken). The sum is constant, but
-    /// for the error of the integration.
+    /// friction have taken (that of the tangential springs counts as taken). The sum is constant,
+    /// but for the error of the integration.
     pub(super) fn balance(&self, y: &State) -> f64 {
         let stored = |which| self.body.stored(&self.body.place(y, which));
         kinetic(&self.body, y) + y[1] + (0..CORNERS).map(stored).sum::<f64>() + y[LOST]
     }
 
-    /// The drift of the balance that is allowed in a time: in the duration of one impact, the tolerance
-    /// times the energy; at least rounding.
+    /// The drift of the balance that is allowed in a time: in the duration of one impact, the
+    /// tolerance times the energy; at least rounding.
     pub(super) fn allowed_drift(&self, time: f64) -> f64 {
         self.energy * (self.tolerance * time / self.scale.time).max(ROUNDING)
     }

@@ -1,13 +1,15 @@
 //! Line contact resolved in time: an elastic, damped, dry contact from touch to release.
 //!
-//! The coin flies rigidly; where a corner meets the surface both yield as a line contact does
-//! ([`palmgren`](crate::laws::palmgren)), with the damping that gives the wanted restitution ([`damping`]) and friction
-//! behind a spring ([`equations`]). Any number of corners may touch at once. Gravity acts all the
-//! time, the coin turns and moves while it is down, and nothing is idealised but the law of force.
+//! The coin is rigid in flight; where a corner meets the surface, both deform as a line contact
+//! ([`palmgren`](crate::laws::palmgren)), with the damping that gives the wanted restitution
+//! ([`damping`]) and friction in series with a spring ([`equations`]). Any number of corners may
+//! touch at once. Gravity acts all the time, the coin turns and moves while it touches, and only
+//! the law of force is idealised.
 //!
-//! An impact ends when no corner touches, or when what touches cannot leave any more: the engine goes
-//! on with sustained contact of a rigid corner, as it does when the bounces that remain would be over
-//! in no time. An impact that is given up (counted as `unresolved`) is done by [`Moreau`]'s law.
+//! An impact ends when no corner touches, or when the touching corners cannot leave any more. The
+//! engine then continues with sustained contact of a rigid corner, as it does when the remaining
+//! bounces would be very short. An impact that is given up is counted (`unresolved`), and
+//! [`Moreau`]'s law is used.
 
 mod damping;
 mod equations;
@@ -22,7 +24,7 @@ use crate::impact_law::{Impact, ImpactLaw, PlanarLaw, Resolution};
 use crate::laws::moreau::Moreau;
 use crate::laws::palmgren::{Materials, scene_stiffness};
 use crate::motion::Motion;
-use crate::settings::SettingsError;
+use crate::settings_error::SettingsError;
 use crate::shape::Shape;
 use coinmc_core::schema::{Absent, Bounds, TableKind, Values, fields, number};
 use coinmc_core::{EngineError, LawSettings, Scene};
@@ -32,7 +34,7 @@ use equations::{Body, CORNERS, Corner, Grip};
 use impact_state::ImpactState;
 use release::Release;
 
-/// A corner this near to the surface touches it, in D.
+/// A corner at most this high above the surface touches it, in D.
 const TOUCH: f64 = 1e-15;
 
 /// Elastic line contact.
@@ -50,15 +52,15 @@ const TOUCH: f64 = 1e-15;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LineContact {
-    /// What touches.
+    /// The materials in contact.
     pub materials: Materials,
-    /// Stiffness along the surface over the secant stiffness of the normal at full depth.
+    /// Ratio of the tangential stiffness to the normal secant stiffness at full depth.
     pub tangential: f64,
 }
 
 impl LineContact {
-    /// 2(1 − ν)/(2 − ν), the ratio of tangential to normal stiffness of like elastic bodies (Mindlin,
-    /// J. Appl. Mech. 16 (1949) 259).
+    /// 2(1 − ν)/(2 − ν), the ratio of tangential to normal stiffness of like elastic bodies
+    /// (Mindlin, J. Appl. Mech. 16 (1949) 259).
     pub fn mindlin(poisson: f64) -> f64 {
         2.0 * (1.0 - poisson) / (2.0 - poisson)
     }
@@ -106,7 +108,7 @@ impl PlanarLaw for LineContact {
     }
 }
 
-/// [`LineContact`] for one scene, without units.
+/// [`LineContact`] in one scene, in dimensionless units.
 #[derive(Debug, Clone, Copy)]
 pub struct LineContactImpact {
     line: LineContact,
@@ -151,7 +153,7 @@ impl LineContactImpact {
             inertia: shape.k,
             stiffness: self.stiffness,
             mu,
-            // follows from the speed of the impact
+            // set from the speed of the impact
             tangential: 0.0,
             corners: corners(motion, shape),
         }
@@ -162,7 +164,7 @@ impl LineContactImpact {
 fn corners(motion: &Motion, shape: &Shape) -> [Corner; CORNERS] {
     let (sin, cos) = sin_cos(motion.delta);
     let (height, half_width) = shape.base(motion.quadrant, false);
-    // how far the coin is turned from flat at the quadrant's start
+    // the angle turned since flat at the quadrant's start
     let (sine, cosine) = sin_cos(motion.delta + shape.first_span(motion.quadrant));
     let corner = |x: f64, z: f64, gap: f64| Corner {
         x,
@@ -204,12 +206,12 @@ impl ImpactLaw for LineContactImpact {
         let (shape, motion) = (impact.shape, &mut *impact.motion);
         let touched = *motion;
         apply(motion, shape, &state);
-        // what touches is on the surface, be it to rounding or to the depth of a bound corner
+        // corners that touch are on the surface, to rounding or to the depth of a bound corner
         motion.z = motion.z.max(sin_cos(motion.delta).1);
         if release == Release::Apart {
             return Resolution::Separates;
         }
-        // the coin has sunk in and cannot pay for coming up where it is now: it stays where it touched
+        // too little energy to rise to the surface at this angle: the coin stays as it touched
         if motion.z > touched.energy(shape.k) {
             *motion = touched;
         }

@@ -33,8 +33,8 @@ impl ImpactState {
         }
     }
 
-    /// Whether the normal motion of a corner, a mass on a spring under gravity, has too little energy
-    /// to come back to the surface. Damping can only take more.
+    /// Whether the normal motion of a corner, a mass on a spring under gravity, has too little
+    /// energy to come back to the surface. Damping can only take more.
     fn is_bound(&self, at: &Place) -> bool {
         let press = 1.0 + self.y[5] * self.y[5] * at.rz;
         let energy = self.body.mass(at) * (0.5 * at.rate * at.rate - press * at.depth)
@@ -42,10 +42,10 @@ impl ImpactState {
         at.depth > 0.0 && press > 0.0 && energy < 0.0
     }
 
-    /// Whether the coin as a whole has too little energy to leave the surface: without the energy of
-    /// sliding, less than a coin has that lies flat on the edge between the touching corners. (Two
-    /// corners that share the weight exchange energy, so that neither is bound by itself.) Friction may
-    /// still make the coin trip, also the rigid coin in the contact that follows.
+    /// Whether the coin as a whole has too little energy to leave the surface: without the energy
+    /// of sliding, less than a coin has that lies flat on the edge between the touching corners.
+    /// (Two corners that share the weight exchange energy, so that neither is bound by itself.)
+    /// Friction may still make the coin trip, also the rigid coin in the contact that follows.
     fn lies_on_edge(&self, down: [bool; CORNERS], stored: f64) -> bool {
         let corners = &self.body.corners;
         let edge = |(i, j): (usize, usize)| {

@@ -1,6 +1,6 @@
 //! The scales of an impact.
 
-use crate::laws::palmgren::{deepest, duration};
+use crate::laws::palmgren::{duration, max_compression};
 
 /// The units of errors: the lossless compression of one corner.
 #[derive(Debug, Clone, Copy)]
@@ -18,11 +18,11 @@ pub(super) struct Scale {
 impl Scale {
     /// A corner with this effective mass touches at the speed `approach`.
     pub(super) fn new(stiffness: f64, mass: f64, approach: f64) -> Self {
-        // static depth under the own weight, and the speed after a fall by that depth: anything slower
-        // is a loading, not an impact
+        // static depth under the own weight, and the speed after a fall by that depth: anything
+        // slower is a loading, not an impact
         let resting = libm::pow(1.0 / stiffness, 0.9);
         let speed = approach.max(resting.sqrt());
-        let length = deepest(stiffness, mass, speed).max(resting);
+        let length = max_compression(stiffness, mass, speed).max(resting);
         Self {
             length,
             speed,
