@@ -1,9 +1,10 @@
 //! The stepper in sustained contact, against the equations and the textbook.
 
-use crate::common::{Dice, scene};
+use crate::common::in_contact;
 use coinmc_core::Scene;
 use coinmc_oracle::newton_euler::{Contact, Twist, rates, runge_kutta, slip, twist_rates};
 use coinmc_oracle::{Model, Motion, StepperSettings, TimeStepper, textbook};
+use coinmc_testkit::{Dice, rolling_scene};
 use nalgebra::Vector3;
 
 fn stepper(scene: &Scene, step: f64) -> TimeStepper {
@@ -82,9 +83,9 @@ fn the_stepper_is_of_second_order() {
         for trial in 0..200 {
             let mut dice = Dice::new(11, trial);
             let mu = if sticks { 1.0 } else { 0.2 };
-            let scene = scene(dice.between(0.1, 2.0), 0.0, mu, 0.02);
+            let scene = rolling_scene(dice.between(0.1, 2.0), 0.0, mu, 0.02);
             let model = Model::new(&scene);
-            let mut start = dice.in_contact(&model, 0.7);
+            let mut start = in_contact(&mut dice, &model, 0.7);
             if sticks {
                 let off = slip(&model, &start);
                 start.velocity -= Vector3::new(off.x, off.y, 0.0);
@@ -106,7 +107,7 @@ fn the_stepper_is_of_second_order() {
 /// On its side without friction lengths: sliding turns into rolling when and how fast as known.
 #[test]
 fn a_cylinder_slides_until_it_rolls() {
-    let scene = scene(1.0, 0.0, 0.3, 0.0);
+    let scene = rolling_scene(1.0, 0.0, 0.3, 0.0);
     let model = Model::new(&scene);
     let speed = 2.0;
     let start = Motion {
@@ -130,7 +131,7 @@ fn a_cylinder_slides_until_it_rolls() {
 /// A wheel on its side slows down by contour friction, which both rims share.
 #[test]
 fn a_wheel_slows_down_at_the_known_rate() {
-    let scene = scene(0.5, 0.0, 0.5, 0.02);
+    let scene = rolling_scene(0.5, 0.0, 0.5, 0.02);
     let model = Model::new(&scene);
     let spin = 3.0;
     let start = Motion {
@@ -148,7 +149,7 @@ fn a_wheel_slows_down_at_the_known_rate() {
 /// tilt; the friction is small, so that it takes many turns.
 #[test]
 fn eulers_disk_falls_in_the_known_time() {
-    let scene = scene(1e-3, 0.0, 1.0, 1e-3);
+    let scene = rolling_scene(1e-3, 0.0, 1.0, 1e-3);
     let model = Model::new(&scene);
     let (high, low) = (0.1, 0.03);
     let start = textbook::precessing(&model, high, 0.0).expect("a speed");

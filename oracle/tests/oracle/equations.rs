@@ -1,8 +1,9 @@
 //! The linear system of contact against the textbook and against itself.
 
-use crate::common::{Dice, scene};
+use crate::common::in_contact;
 use coinmc_oracle::newton_euler::{Contact, Twist, rates, runge_kutta, slip, twist_rates};
 use coinmc_oracle::{Model, Motion, textbook, triad};
+use coinmc_testkit::{Dice, rolling_scene};
 use nalgebra::Vector2;
 
 /// Full friction against what moves.
@@ -25,14 +26,14 @@ fn mode(model: &Model, motion: &Motion, sticks: bool) -> (Contact, Twist) {
 
 /// Random tilts on both rims.
 fn random(dice: &mut Dice) -> (Model, Motion) {
-    let model = Model::new(&scene(dice.between(0.1, 3.0), 0.5, 0.3, 0.02));
+    let model = Model::new(&rolling_scene(dice.between(0.1, 3.0), 0.5, 0.3, 0.02));
     let tilt = dice.between(0.2, 1.4);
     let tilt = if dice.between(0.0, 1.0) < 0.5 {
         tilt
     } else {
         std::f64::consts::PI - tilt
     };
-    let motion = dice.in_contact(&model, tilt);
+    let motion = in_contact(dice, &model, tilt);
     (model, motion)
 }
 
@@ -108,7 +109,7 @@ fn steady_precession_is_steady() {
         (0.2, 1.2, 1.5),
         (0.5, 2.6, -0.3),
     ] {
-        let model = Model::new(&scene(ratio, 0.0, 1.0, 0.0));
+        let model = Model::new(&rolling_scene(ratio, 0.0, 1.0, 0.0));
         let start = textbook::precessing(&model, tilt, circle).expect("a speed");
         let rate = textbook::steady_precession(&model, tilt, circle).expect("a speed");
         assert!(slip(&model, &start).norm() < 1e-13);
@@ -127,7 +128,7 @@ fn steady_precession_is_steady() {
 #[test]
 fn eulers_disk_turns_at_its_known_rate() {
     // corrections of the order of the tilt and of H/R
-    let model = Model::new(&scene(1e-5, 0.0, 1.0, 0.0));
+    let model = Model::new(&rolling_scene(1e-5, 0.0, 1.0, 0.0));
     for tilt in [1e-2, 1e-3] {
         let rate = textbook::steady_precession(&model, tilt, 0.0).expect("a speed");
         let known = textbook::euler_disk_rate(&model, tilt);
@@ -141,10 +142,10 @@ fn eulers_disk_turns_at_its_known_rate() {
 /// A coin spun upright and a wheel, from the equations.
 #[test]
 fn spun_coins_and_wheels_slow_down_at_the_known_rates() {
-    let model = Model::new(&scene(0.2, 0.0, 1.0, 0.02));
+    let model = Model::new(&rolling_scene(0.2, 0.0, 1.0, 0.02));
     // a hair off upright, so that the lowest rim is one
     let tilt = std::f64::consts::FRAC_PI_2 - 1e-9;
-    let upright = Dice::new(5, 0).in_contact(&model, tilt);
+    let upright = in_contact(&mut Dice::new(5, 0), &model, tilt);
     let spun = Motion {
         velocity: nalgebra::Vector3::zeros(),
         spin: nalgebra::Vector3::z() * 3.0,

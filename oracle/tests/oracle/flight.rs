@@ -1,8 +1,8 @@
 //! Free motion.
 
-use crate::common::{Dice, scene};
 use coinmc_core::Drag;
 use coinmc_oracle::{Model, Motion};
+use coinmc_testkit::{Dice, rolling_scene};
 use nalgebra::Vector3;
 
 fn random(dice: &mut Dice) -> Motion {
@@ -19,7 +19,7 @@ fn random(dice: &mut Dice) -> Motion {
 fn energy_and_momentum_are_kept() {
     for trial in 0..200 {
         let mut dice = Dice::new(1, trial);
-        let model = Model::new(&scene(dice.between(0.05, 5.0), 0.5, 0.3, 0.0));
+        let model = Model::new(&rolling_scene(dice.between(0.05, 5.0), 0.5, 0.3, 0.0));
         let start = random(&mut dice);
         let momentum = |m: &Motion| model.inertia(&m.axis) * m.spin;
         let (energy, turning) = (start.energy(&model), momentum(&start));
@@ -40,7 +40,7 @@ fn free_motion_solves_the_equations_of_motion() {
     for trial in 0..40 {
         let mut dice = Dice::new(2, trial);
         let drag = Drag::new(dice.between(0.0, 10.0), dice.between(0.0, 10.0)).expect("drag");
-        let scene = scene(dice.between(0.1, 3.0), 0.5, 0.3, 0.0)
+        let scene = rolling_scene(dice.between(0.1, 3.0), 0.5, 0.3, 0.0)
             .with_gyroscopic_torque(trial % 2 == 0)
             .with_drag(if trial % 4 < 2 { Drag::default() } else { drag });
         let model = Model::new(&scene);
@@ -93,7 +93,7 @@ fn free_motion_solves_the_equations_of_motion() {
 /// The axis of a free coin goes round its angular momentum at |L|/I_t, at a constant angle.
 #[test]
 fn a_free_coin_precesses_at_the_known_rate() {
-    let model = Model::new(&scene(0.3, 0.5, 0.3, 0.0));
+    let model = Model::new(&rolling_scene(0.3, 0.5, 0.3, 0.0));
     let (sin, cos) = libm::sincos(0.4);
     let spin = Vector3::new(0.7, 0.0, 0.0) + Vector3::new(0.0, 0.0, 5.0);
     let mut motion = Motion {

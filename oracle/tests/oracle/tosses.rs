@@ -1,8 +1,8 @@
 //! Whole tosses of the stepper.
 
-use crate::common::scene;
 use coinmc_core::{Coin, Domain, Face, Launch, Preset, Scene, Stream, Surface};
 use coinmc_oracle::{Model, Motion, StepperSettings, TimeStepper};
+use coinmc_testkit::rolling_scene;
 use nalgebra::{UnitVector3, Vector3};
 
 fn launch(scene: &Scene, toss: u64) -> Launch {
@@ -50,7 +50,7 @@ fn a_flat_drop_bounces_like_a_ball() {
 #[test]
 fn nothing_gains_energy() {
     for (ratio, e) in [(0.25, 0.5), (0.85, 0.0), (0.85, 0.8), (2.0, 0.3)] {
-        let scene = scene(ratio, e, 0.3, 0.01);
+        let scene = rolling_scene(ratio, e, 0.3, 0.01);
         let model = Model::new(&scene);
         for toss in 0..15 {
             let start = Motion::launched(&scene, &launch(&scene, toss));
@@ -68,7 +68,7 @@ fn nothing_gains_energy() {
 /// (single tosses are chaotic at e > 0, but rounding has not grown up at e = 0).
 #[test]
 fn mirrored_tosses_land_alike() {
-    let scene = scene(0.85, 0.0, 0.3, 0.01);
+    let scene = rolling_scene(0.85, 0.0, 0.3, 0.01);
     let mut stepper = stepper(&scene);
     let (mut differ, tosses) = (0, 40);
     for toss in 0..tosses {
@@ -96,7 +96,7 @@ fn mirrored_tosses_land_alike() {
 #[test]
 fn extreme_coins_land_as_they_must() {
     for (ratio, side) in [(0.02, false), (30.0, true)] {
-        let scene = scene(ratio, 0.3, 0.3, 0.01);
+        let scene = rolling_scene(ratio, 0.3, 0.3, 0.01);
         let mut stepper = stepper(&scene);
         for toss in 0..20 {
             let face = stepper.toss(&launch(&scene, toss)).face;
@@ -111,7 +111,7 @@ fn extreme_coins_land_as_they_must() {
 #[test]
 fn earlier_values_are_met() {
     for (ratio, rho, known) in [(0.85, 0.01, 0.0611), (2.0, 0.003, 0.9061)] {
-        let scene = scene(ratio, 0.0, 0.3, rho);
+        let scene = rolling_scene(ratio, 0.0, 0.3, rho);
         let mut stepper = stepper(&scene);
         let tosses = 1500;
         let sides = (0..tosses)

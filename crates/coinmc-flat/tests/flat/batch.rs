@@ -1,15 +1,15 @@
 //! Batches of tosses are bit-identical to the scalar path.
 
-use crate::common::{Dice, Start, preset, scene};
+use crate::common::Start;
 use coinmc_core::{DynEngine, Ended, Engine, Face, Landing, Launch, Outcome, Preset, Scene};
 use coinmc_flat::{
     Decision, GaekSukhov, HalfSine, Lanes, Law, Lever, LineContact, Materials, PulseTime, Settings,
 };
-use std::ops::ControlFlow;
+use coinmc_testkit::{Dice, conformance, count_until, preset_launch, scalar_outcomes, scene};
 
 fn launches(scene: &Scene, named: Preset, count: u64) -> Vec<Launch> {
     (0..count)
-        .map(|toss| preset(named, scene, 700, toss))
+        .map(|toss| preset_launch(named, scene, 700, toss))
         .collect()
 }
 
@@ -32,53 +32,17 @@ fn engine(scene: &Scene, settings: &Settings) -> DynEngine {
     settings.engine(scene).expect("good settings")
 }
 
-/// The outcomes of a batch, by the number of the toss.
-fn batch_outcomes(engine: &DynEngine, launches: &[Launch]) -> Vec<Outcome> {
-    let mut outcomes = vec![None; launches.len()];
-    engine.toss_all(&mut (), launches.iter().copied(), |number, outcome| {
-        let index = usize::try_from(number).expect("a small number");
-        assert!(
-            outcomes[index].replace(*outcome).is_none(),
-            "toss {number} reported twice"
-        );
-        ControlFlow::Continue(())
-    });
-    let outcomes: Option<Vec<Outcome>> = outcomes.into_iter().collect();
-    outcomes.expect("every toss ends")
-}
-
-/// The number of tosses that are reported if the caller stops after `enough`.
-fn reported(engine: &DynEngine, launches: impl Iterator<Item = Launch>, enough: u64) -> u64 {
-    let mut reported = 0;
-    engine.toss_all(&mut (), launches, |_, _| {
-        reported += 1;
-        if reported == enough {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    });
-    reported
-}
-
 /// Compares every kind of lanes with the scalar path; returns the outcomes.
 fn assert_lanes_agree(scene: &Scene, settings: &Settings, launches: &[Launch]) -> Vec<Outcome> {
     let engine = engine(scene, settings);
-    let scalar_toss = |launch| engine.toss(&mut (), launch, &mut ());
-    let scalar: Vec<Outcome> = launches.iter().map(scalar_toss).collect();
+    let scalar = scalar_outcomes(&engine, launches);
     for lanes in Lanes::ALL {
         let Ok(engine) = engine.clone().with_lanes(lanes) else {
             println!("SKIPPED: this processor does not support {lanes} lanes");
             continue;
         };
-        let outcomes = batch_outcomes(&engine, launches);
-        for (i, (outcome, scalar)) in outcomes.iter().zip(&scalar).enumerate() {
-            assert_eq!(
-                outcome, scalar,
-                "{lanes} toss {i} of {scene:?}: {:?}",
-                launches[i]
-            );
-        }
+        let outcomes = conformance::batch_matches_scalar(&engine, launches);
+        assert_eq!(outcomes, scalar, "{lanes} of {scene:?}");
     }
     scalar
 }
@@ -247,18 +211,14 @@ fn early_stops_and_fewer_tosses_than_lanes() {
         let Ok(engine) = engine(&scene, &Settings::default()).with_lanes(lanes) else {
             continue;
         };
-        assert_eq!(
-            reported(&engine, launches.iter().copied(), 300),
-            300,
-            "{lanes}"
-        );
+        conformance::a_stopped_batch_leaves_nothing_behind(&engine, &launches, 300);
     }
 }
 
 #[test]
 fn launches_that_end_at_once_are_reported_while_others_fly() {
     let scene = scene(1.2, 0.5, 0.3);
-    let mut resting = preset(Preset::Robot, &scene, 700, 0);
+    let mut resting = preset_launch(Preset::Robot, &scene, 700, 0);
     resting.height_m = 0.0;
     (resting.velocity_m_s, resting.spin_rad_s) = Default::default();
     let flying = launches(&scene, Preset::Robot, 300);
@@ -274,6 +234,7 @@ fn launches_that_end_at_once_are_reported_while_others_fly() {
         };
         // without end: none may be held back until the others have ended
         let endless = flying.iter().copied().chain(std::iter::repeat(resting));
-        assert_eq!(reported(&engine, endless, 100_000), 100_000, "{lanes}");
+        let reported = count_until(&engine, &mut engine.workspace(), endless, 100_000);
+        assert_eq!(reported, 100_000, "{lanes}");
     }
 }

@@ -1,18 +1,9 @@
-//! Scenes, random numbers, launches and observers that the tests share.
+//! Engines, launches and states in units of the coin that the tests share.
 
-use coinmc_core::{
-    Coin, Domain, Engine, Event, EventKind, Face, Launch, Observer, Outcome, Preset, Scene, State,
-    Stream, Surface, UniformSource,
-};
+use coinmc_core::{Engine, EventKind, Face, Launch, Outcome, Scene, State};
 use coinmc_flat::{FlatEngine, ImpactLaw, Moreau, Settings};
+use coinmc_testkit::{Dice, Recorder};
 use nalgebra::{UnitVector3, Vector3};
-
-/// R = 1 cm, g = 9.81 m/s².
-pub(crate) fn scene(ratio: f64, restitution: f64, friction: f64) -> Scene {
-    let coin = Coin::cylinder(ratio, 0.01).expect("a valid coin");
-    let surface = Surface::new(restitution, friction).expect("a valid surface");
-    Scene::new(coin, surface, Scene::STANDARD_GRAVITY_M_S2).expect("valid gravity")
-}
 
 pub(crate) fn engine(scene: &Scene) -> FlatEngine<Moreau> {
     FlatEngine::new(scene, &Settings::default(), Moreau).expect("valid settings")
@@ -22,51 +13,8 @@ pub(crate) fn engine_with(scene: &Scene, settings: Settings) -> FlatEngine<Morea
     FlatEngine::new(scene, &settings, Moreau).expect("valid settings")
 }
 
-pub(crate) fn stream(seed: u64) -> Stream {
-    Stream::new(seed, Domain::Launch, 0)
-}
-
-/// Toss number `toss` of a preset.
-pub(crate) fn preset(preset: Preset, scene: &Scene, seed: u64, toss: u64) -> Launch {
-    preset
-        .distribution()
-        .launch(&scene.coin, &mut stream(seed).toss(toss))
-}
-
-/// Random numbers of one trial, taken one after the other.
-pub(crate) struct Dice {
-    uniforms: coinmc_core::TossUniforms,
-    next: u32,
-}
-
-impl Dice {
-    pub(crate) fn new(seed: u64, trial: u64) -> Self {
-        Self {
-            uniforms: stream(seed).toss(trial),
-            next: 0,
-        }
-    }
-
-    pub(crate) fn between(&mut self, from: f64, to: f64) -> f64 {
-        self.next += 1;
-        from + (to - from) * self.uniforms.uniform(self.next - 1)
-    }
-
-    /// Log-uniform.
-    pub(crate) fn scale(&mut self, from: f64, to: f64) -> f64 {
-        libm::exp(self.between(libm::log(from), libm::log(to)))
-    }
-
-    pub(crate) fn pick<T: Copy>(&mut self, choices: &[T]) -> T {
-        // the share lies in (0, 1): the index within the slice
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-        let index = (self.between(0.0, 1.0) * choices.len() as f64) as usize;
-        choices[index.min(choices.len() - 1)]
-    }
-}
-
-/// A planar launch in units of D and sqrt(D/g): height of the centre, velocity, angle θ of u from
-/// the vertical, angular velocity θ'.
+/// A planar launch in units of D and sqrt(D/g): height of the centre, velocity, angle θ of u from the
+/// vertical, angular velocity θ'.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Start {
     pub(crate) z: f64,
@@ -114,16 +62,6 @@ pub(crate) struct Moment {
     pub(crate) omega: f64,
 }
 
-/// Keeps all events of a toss.
-#[derive(Default)]
-pub(crate) struct Recorder(pub(crate) Vec<Event>);
-
-impl Observer for Recorder {
-    fn event(&mut self, event: &Event) {
-        self.0.push(*event);
-    }
-}
-
 /// The toss and its events.
 pub(crate) fn record<L: ImpactLaw>(
     engine: &FlatEngine<L>,
@@ -138,48 +76,6 @@ pub(crate) fn record<L: ImpactLaw>(
         .map(|event| moment(scene, event.kind, &event.state))
         .collect();
     (outcome, moments)
-}
-
-/// Keeps all events of a toss, and the coin at the multiples of a time.
-pub(crate) struct Sampler {
-    /// Instants a second.
-    pub(crate) rate_hz: f64,
-    pub(crate) taken: u32,
-    pub(crate) events: Vec<Event>,
-    /// Under the kind of the event before each.
-    pub(crate) samples: Vec<Event>,
-}
-
-impl Sampler {
-    pub(crate) fn new(rate_hz: f64) -> Self {
-        Self {
-            rate_hz,
-            taken: 0,
-            events: Vec::new(),
-            samples: Vec::new(),
-        }
-    }
-}
-
-impl Observer for Sampler {
-    fn event(&mut self, event: &Event) {
-        self.events.push(*event);
-    }
-
-    fn wants_at_s(&self) -> f64 {
-        f64::from(self.taken) / self.rate_hz
-    }
-
-    fn sample(&mut self, state: &State) {
-        assert_eq!(state.time_s, self.wants_at_s());
-        self.taken += 1;
-        let before = self.events.last().expect("a launch");
-        assert!(before.state.time_s <= state.time_s);
-        self.samples.push(Event {
-            kind: before.kind,
-            state: *state,
-        });
-    }
 }
 
 pub(crate) fn moment(scene: &Scene, kind: EventKind, state: &State) -> Moment {

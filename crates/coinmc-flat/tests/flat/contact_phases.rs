@@ -5,9 +5,10 @@
 //! kα = r_z F − r_x N. Classical Runge–Kutta in steps of 1/2000: relative error (ω h)⁴/120, below
 //! 1e-12 at ω = 2.
 
-use crate::common::{Dice, Moment, Section, Start, engine_with, record, scene};
+use crate::common::{Moment, Section, Start, engine_with, record};
 use coinmc_core::EventKind;
 use coinmc_flat::Settings;
+use coinmc_testkit::{Dice, scene};
 use nalgebra::{Matrix3, SVector, Vector3};
 
 /// (x, z, θ, v_x, v_z, ω)

@@ -1,8 +1,9 @@
 //! The defaults are converged: finer settings do not change P(side).
 
-use crate::common::{engine_with, preset, scene};
+use crate::common::engine_with;
 use coinmc_core::{Engine, Face, Preset};
 use coinmc_flat::Settings;
+use coinmc_testkit::{preset_launch, scene};
 
 const TOSSES: u64 = 30_000;
 
@@ -18,7 +19,7 @@ fn check(restitution: f64, finer: Settings) {
         );
         let (mut up, mut down) = (0_u32, 0_u32);
         for toss in 0..TOSSES {
-            let launch = preset(Preset::CleanFlat, &scene, 100, toss);
+            let launch = preset_launch(Preset::CleanFlat, &scene, 100, toss);
             let side = |engine: &coinmc_flat::FlatEngine<_>| {
                 engine.toss(&mut (), &launch, &mut ()).face() == Some(Face::Side)
             };

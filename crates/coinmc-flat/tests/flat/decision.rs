@@ -1,8 +1,9 @@
 //! The decision by an energy fraction compared with the decision by energy alone.
 
-use crate::common::{Section, engine, engine_with, preset, record, scene};
+use crate::common::{Section, engine, engine_with, record};
 use coinmc_core::{Ended, Engine, EventKind, Preset};
 use coinmc_flat::{Decision, Settings};
+use coinmc_testkit::{preset_launch, scene};
 
 fn with_fraction(fraction: f64) -> Settings {
     Settings {
@@ -29,7 +30,7 @@ fn the_early_face_is_the_well_at_that_time() {
             let early = engine_with(&scene, with_fraction(fraction));
             let by_energy = engine(&scene);
             for toss in 0..2_000 {
-                let launch = preset(Preset::CleanFlat, &scene, 110, toss);
+                let launch = preset_launch(Preset::CleanFlat, &scene, 110, toss);
                 let (outcome, moments) = record(&early, &scene, &launch);
                 let reference = by_energy.toss(&mut (), &launch, &mut ());
                 let below = fraction * moments[0].energy(section.k);
@@ -71,7 +72,7 @@ fn a_small_fraction_is_never_overruled() {
         let k = Section::new(&scene).k;
         let engine = engine_with(&scene, with_fraction(0.002));
         for toss in 0..5_000 {
-            let launch = preset(Preset::CleanFlat, &scene, 111, toss);
+            let launch = preset_launch(Preset::CleanFlat, &scene, 111, toss);
             let (outcome, moments) = record(&engine, &scene, &launch);
             assert!(moments[0].energy(k) < 500.0);
             assert!(!outcome.overruled && outcome.face().is_some());

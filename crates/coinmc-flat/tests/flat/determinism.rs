@@ -1,7 +1,8 @@
-//! The same launch gives the same outcome: scalar, in a batch, observed or not.
+//! The same launch gives the same outcome: on the scalar path, in a batch, observed or not.
 
-use crate::common::{Recorder, engine, preset, scene, stream};
-use coinmc_core::{Engine, Preset, Tally, run_tosses};
+use crate::common::engine;
+use coinmc_core::{Engine, Launch, Preset, Scene, Tally, run_tosses};
+use coinmc_testkit::{conformance, preset_launch, scene, stream};
 
 /// All kinds of contact: rocking, sliding, pivoting, frictionless, grazing, thin, thick.
 const SCENES: [(f64, f64, f64); 8] = [
@@ -15,22 +16,28 @@ const SCENES: [(f64, f64, f64); 8] = [
     (20.0, 0.5, 0.3),
 ];
 
+fn launches(scene: &Scene, preset: Preset, seed: u64, count: u64) -> Vec<Launch> {
+    let launch = |toss| preset_launch(preset, scene, seed, toss);
+    (0..count).map(launch).collect()
+}
+
 #[test]
 fn an_observer_changes_nothing() {
     for (ratio, restitution, friction) in SCENES {
         let scene = scene(ratio, restitution, friction);
+        let launches = launches(&scene, Preset::CleanFlat, 90, 6_500);
+        conformance::observers_change_nothing(&engine(&scene), &launches, &[]);
+    }
+}
+
+#[test]
+fn outcomes_depend_on_the_launch_alone() {
+    for (ratio, restitution, friction) in SCENES {
+        let scene = scene(ratio, restitution, friction);
+        let launches = launches(&scene, Preset::Robot, 91, 2000);
         let engine = engine(&scene);
-        for toss in 0..6_500 {
-            let launch = preset(Preset::CleanFlat, &scene, 90, toss);
-            let mut recorder = Recorder::default();
-            let observed = engine.toss(&mut (), &launch, &mut recorder);
-            let unobserved = engine.toss(&mut (), &launch, &mut ());
-            assert_eq!(
-                observed, unobserved,
-                "{ratio} {restitution} {friction} {toss}"
-            );
-            assert!(recorder.0.len() >= 2);
-        }
+        conformance::outcomes_depend_on_the_launch_alone(&engine, &launches);
+        conformance::a_stopped_batch_leaves_nothing_behind(&engine, &launches, 300);
     }
 }
 
@@ -50,7 +57,7 @@ fn a_toss_does_not_depend_on_its_batch() {
         assert_eq!(whole, merged);
         let mut one_by_one = Tally::default();
         for toss in (0..2000).rev() {
-            let launch = preset(Preset::Robot, &scene, 91, toss);
+            let launch = preset_launch(Preset::Robot, &scene, 91, toss);
             one_by_one.add(&engine.toss(&mut (), &launch, &mut ()));
         }
         assert_eq!(whole, one_by_one);

@@ -1,8 +1,9 @@
 //! No impact, no contact and no toss ever gains energy.
 
-use crate::common::{Section, engine_with, preset, record, scene};
+use crate::common::{Section, engine_with, record};
 use coinmc_core::{EventKind, Preset};
 use coinmc_flat::Settings;
+use coinmc_testkit::{preset_launch, scene};
 
 /// Energies are sums of a few terms rounded to 1e-16 each, in rounded units: 1e-13 is a hundred
 /// times their noise. Flights are checked in `flight` (1e-12).
@@ -20,7 +21,7 @@ fn nothing_gains_energy() {
                 let k = Section::new(&scene).k;
                 let engine = engine_with(&scene, settings);
                 for toss in 0..100 {
-                    let launch = preset(Preset::CleanFlat, &scene, 40, toss);
+                    let launch = preset_launch(Preset::CleanFlat, &scene, 40, toss);
                     let (_, moments) = record(&engine, &scene, &launch);
                     let first = moments[0].energy(k);
                     for pair in moments.windows(2) {

@@ -1,7 +1,8 @@
 //! Comparison with other engines.
 
-use crate::common::{engine, stream};
+use crate::common::engine;
 use coinmc_core::{Coin, Preset, Scene, Surface, run_tosses};
+use coinmc_testkit::stream;
 
 /// Chipmunk 7 and Box2D 2.4 tossed a rectangle (I = m(4R² + H²)/12, the section's own) with e = .5
 /// and μ = .3 from 1 m at uniform angle and N(0, 20 rad/s): P(side) = .077 ± .006 and .078 at

@@ -1,7 +1,8 @@
 //! Flight: no contact is missed, energy is conserved, contacts are located exactly.
 
-use crate::common::{Moment, Section, engine, preset, record, scene};
+use crate::common::{Moment, Section, engine, record};
 use coinmc_core::{EventKind, Preset};
+use coinmc_testkit::{preset_launch, scene};
 
 /// Height of the lowest point after a flight of `t`.
 fn gap(from: &Moment, section: &Section, t: f64) -> f64 {
@@ -61,7 +62,7 @@ fn no_contact_is_missed_and_energy_is_conserved() {
         let (engine, section) = (engine(&scene), Section::new(&scene));
         for toss in 0..3_000 {
             let launches = [Preset::Robot, Preset::CleanFlat][(toss % 2) as usize];
-            let launch = preset(launches, &scene, 30 + number as u64, toss);
+            let launch = preset_launch(launches, &scene, 30 + number as u64, toss);
             let (_, moments) = record(&engine, &scene, &launch);
             for pair in moments.windows(2) {
                 let [from, to] = pair else { unreachable!() };

@@ -1,7 +1,7 @@
 //! The laws of impact against their definitions, at random contacts.
 
-use crate::common::Dice;
 use coinmc_flat::{ChatterjeeRuina, ContactMatrix, ImpactLaw, Impulse, Moreau};
+use coinmc_testkit::Dice;
 
 /// A contact before its impact.
 #[derive(Debug, Clone, Copy)]

@@ -1,26 +1,19 @@
 //! Limits with a known answer.
 
-use crate::common::{Dice, Section, Start, engine, engine_with, preset, record, scene, stream};
-use coinmc_core::{
-    Ended, Engine, EventKind, Face, Landing, Launch, Preset, Scene, UniformSource, run_tosses,
-};
+use crate::common::{Section, Start, engine, engine_with, record};
+use coinmc_core::{Ended, Engine, EventKind, Face, Launch, Preset, UniformSource, run_tosses};
 use coinmc_flat::Settings;
+use coinmc_testkit::{Dice, adhesive, preset_launch, scene, stream};
 use nalgebra::{UnitVector3, Vector3};
 use std::f64::consts::{PI, TAU};
 
-fn adhesive(ratio: f64) -> Scene {
-    let mut scene = scene(ratio, 0.5, 0.3);
-    scene.surface = scene.surface.with_landing(Landing::Adhesive);
-    scene
-}
-
-/// Without spin and with uniform tilt the coin keeps its tilt: P(side) = (2/π) atan(x/2). Four
-/// standard errors: false alarms 6e-5 per ratio.
+/// Without spin and with uniform tilt the coin keeps its tilt: P(side) = (2/π) atan(x/2). Four standard
+/// errors: false alarms 6e-5 per ratio.
 #[test]
 fn adhesive_without_spin_is_the_arc_rule() {
     let tosses = 100_000_u32;
     for ratio in [0.1, 1.0, 1.1547, 3.0] {
-        let scene = adhesive(ratio);
+        let scene = adhesive(scene(ratio, 0.5, 0.3));
         let engine = engine(&scene);
         let mut sides = 0;
         for toss in 0..tosses {
@@ -54,7 +47,7 @@ fn adhesive_without_spin_is_the_arc_rule() {
 #[test]
 fn adhesive_with_spin_is_the_well_at_first_contact() {
     for ratio in [0.1, 1.0, 3.0] {
-        let scene = adhesive(ratio);
+        let scene = adhesive(scene(ratio, 0.5, 0.3));
         let (engine, section) = (engine(&scene), Section::new(&scene));
         let mut wrong = 0;
         for toss in 0..5_000 {
@@ -149,7 +142,7 @@ fn without_loss_nothing_is_decided() {
         };
         let engine = engine_with(&scene, settings);
         for toss in 0..100 {
-            let launch = preset(Preset::CleanFlat, &scene, 83, toss);
+            let launch = preset_launch(Preset::CleanFlat, &scene, 83, toss);
             let (outcome, moments) = record(&engine, &scene, &launch);
             assert_eq!(outcome.ended, Ended::ImpactLimit);
             assert_eq!(outcome.impacts, 1000);
@@ -168,7 +161,7 @@ fn without_loss_nothing_is_decided() {
 /// an angle of ωR/u: launches nearer than 1.5 times that to the edge of a band are excluded.
 #[test]
 fn a_thin_coin_lands_in_kellers_bands() {
-    let scene = adhesive(1e-7);
+    let scene = adhesive(scene(1e-7, 0.5, 0.3));
     let engine = engine(&scene);
     let mut checked = 0;
     for toss in 0..20_000 {

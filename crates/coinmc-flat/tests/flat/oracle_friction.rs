@@ -7,8 +7,9 @@
 //!
 //! Jean, "The non-smooth contact dynamics method", Comput. Methods Appl. Mech. Engrg. 177 (1999).
 
-use crate::common::{Dice, Section, Start, engine, scene};
+use crate::common::{Section, Start, engine};
 use coinmc_core::{Engine, Face};
+use coinmc_testkit::{Dice, scene};
 
 /// Longest step near the surface, sqrt(D/g).
 const STEP: f64 = 1e-3;

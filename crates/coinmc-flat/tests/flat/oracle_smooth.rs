@@ -5,8 +5,9 @@
 //! `HOP` leaves at `HOP`. The hops add at most HOP²/2 = 5e-6 m g D, and end when the coin has
 //! turned so far that the corner leaves the surface.
 
-use crate::common::{Dice, Section, Start, engine, scene};
+use crate::common::{Section, Start, engine};
 use coinmc_core::{Engine, Face};
+use coinmc_testkit::{Dice, scene};
 
 /// sqrt(gD)
 const HOP: f64 = 3e-3;

@@ -1,11 +1,12 @@
 //! The coin between events obeys the laws of motion, and sampling does not change the toss.
 
-use crate::common::{
-    Dice, Moment, Recorder, Sampler, Section, Start, engine, engine_with, moment, preset, scene,
-};
+use crate::common::{Moment, Section, Start, engine, engine_with, moment};
 use crate::contact_phases::{phase, world};
-use coinmc_core::{Engine, Event, EventKind, Launch, Observer, Outcome, Preset, Scene, State};
+use coinmc_core::{Engine, Event, EventKind, Launch, Outcome, Preset, Scene};
 use coinmc_flat::{FlatEngine, Moreau, Settings};
+use coinmc_testkit::{
+    Dice, Recorder, Sampler, conformance, preset_launch, samples_beside_events, scene,
+};
 
 /// All kinds of motion: rocking, sliding, pivoting, frictionless, bouncing, thin, thick.
 const SCENES: [(f64, f64, f64); 6] = [
@@ -23,45 +24,29 @@ fn sampled(engine: &FlatEngine<Moreau>, launch: &Launch, rate: f64) -> (Outcome,
     (outcome, sampler)
 }
 
+fn launches(scene: &Scene, seed: u64, count: u64) -> Vec<Launch> {
+    let launch = |toss| preset_launch(Preset::CleanFlat, scene, seed, toss);
+    (0..count).map(launch).collect()
+}
+
 #[test]
 fn sampling_changes_nothing() {
     let mut samples = 0;
     for (ratio, restitution, friction) in SCENES {
         let scene = scene(ratio, restitution, friction);
-        let engine = engine(&scene);
-        for toss in 0..500 {
-            let launch = preset(Preset::CleanFlat, &scene, 92, toss);
-            let alone = engine.toss(&mut (), &launch, &mut ());
-            let mut recorder = Recorder::default();
-            engine.toss(&mut (), &launch, &mut recorder);
-            for rate in [7.0, 100.0, 1000.0] {
-                let (outcome, sampler) = sampled(&engine, &launch, rate);
-                assert_eq!(outcome, alone);
-                assert_eq!(sampler.events, recorder.0);
-                samples += sampler.samples.len();
-            }
-        }
+        let (engine, launches) = (engine(&scene), launches(&scene, 92, 500));
+        let rates = [7.0, 100.0, 1000.0];
+        samples += conformance::observers_change_nothing(&engine, &launches, &rates);
     }
     assert!(samples > 1_000_000, "{samples}");
 }
 
-/// i/100 and 10i/1000 are the same number: the samples must be the same to the last bit.
 #[test]
 fn a_sample_does_not_depend_on_the_others() {
     for (ratio, restitution, friction) in SCENES {
         let scene = scene(ratio, restitution, friction);
-        let engine = engine(&scene);
-        for toss in 0..200 {
-            let launch = preset(Preset::CleanFlat, &scene, 93, toss);
-            let (_, slow) = sampled(&engine, &launch, 100.0);
-            let (_, fast) = sampled(&engine, &launch, 1000.0);
-            let tenth: Vec<Event> = fast.samples.iter().step_by(10).copied().collect();
-            assert_eq!(tenth, slow.samples);
-            // up to the end, and not beyond
-            let end = slow.events.last().expect("an end").state.time_s;
-            assert!(f64::from(fast.taken - 1) < end * fast.rate_hz);
-            assert!(f64::from(fast.taken) >= end * fast.rate_hz);
-        }
+        let launches = launches(&scene, 93, 200);
+        conformance::samples_do_not_depend_on_the_rate(&engine(&scene), &launches);
     }
 }
 
@@ -103,7 +88,7 @@ fn flights_are_parabolas() {
         let (engine, section) = (engine(&scene), Section::new(&scene));
         for toss in 0..300 {
             let launches = [Preset::Robot, Preset::CleanFlat][(toss % 2) as usize];
-            let launch = preset(launches, &scene, 94, toss);
+            let launch = preset_launch(launches, &scene, 94, toss);
             let (_, sampler) = sampled(&engine, &launch, 500.0);
             for (from, within, _) in pieces(&scene, &sampler) {
                 if matches!(from.kind, EventKind::Sticking | EventKind::Sliding) {
@@ -236,28 +221,8 @@ fn contact_at_the_default_tolerance_follows_newton_and_euler() {
     assert!(seen.worst < 1e-4, "{seen:?}");
 }
 
-/// Wants the instants it was told.
-struct Instants {
-    wanted: std::vec::IntoIter<f64>,
-    next: f64,
-    seen: Vec<State>,
-}
-
-impl Observer for Instants {
-    fn event(&mut self, _: &Event) {}
-
-    fn wants_at_s(&self) -> f64 {
-        self.next
-    }
-
-    fn sample(&mut self, state: &State) {
-        self.seen.push(*state);
-        self.next = self.wanted.next().unwrap_or(f64::INFINITY);
-    }
-}
-
-/// A nanosecond from an event the coin is where it is at the event, up to its motion in that time
-/// and the error of the step: 1e-10 of a unit.
+/// A nanosecond from an event the coin is where it is at the event, up to its motion in that time and
+/// the error of the step: 1e-10 of a unit.
 #[test]
 fn samples_join_the_events() {
     const NEAR: f64 = 1e-9;
@@ -270,33 +235,16 @@ fn samples_join_the_events() {
         let scene = scene(ratio, restitution, friction);
         let engine = engine_with(&scene, settings);
         for toss in 0..200 {
-            let launch = preset(Preset::CleanFlat, &scene, 96, toss);
+            let launch = preset_launch(Preset::CleanFlat, &scene, 96, toss);
             let mut recorder = Recorder::default();
             engine.toss(&mut (), &launch, &mut recorder);
-            let pairs: Vec<(State, State)> = recorder
-                .0
-                .windows(2)
-                .map(|pair| (pair[0].state, pair[1].state))
-                .filter(|(from, to)| to.time_s - from.time_s > 10.0 * NEAR)
-                .collect();
-            let mut wanted = pairs
-                .iter()
-                .flat_map(|(from, to)| [from.time_s + NEAR, to.time_s - NEAR])
-                .collect::<Vec<_>>()
-                .into_iter();
-            let next = wanted.next().unwrap_or(f64::INFINITY);
-            let mut instants = Instants {
-                wanted,
-                next,
-                seen: Vec::new(),
-            };
-            engine.toss(&mut (), &launch, &mut instants);
-            assert_eq!(instants.seen.len(), 2 * pairs.len());
-            let events = pairs.iter().flat_map(|(from, to)| [from, to]);
-            for (event, sample) in events.zip(&instants.seen) {
+            let joined = samples_beside_events(&recorder.0, NEAR, |instants| {
+                engine.toss(&mut (), &launch, instants);
+            });
+            for (event, sample) in &joined {
                 let (a, b) = (
-                    moment(&scene, EventKind::Ended, event),
-                    moment(&scene, EventKind::Ended, sample),
+                    moment(&scene, event.kind, &event.state),
+                    moment(&scene, event.kind, sample),
                 );
                 let passed = (b.time - a.time).abs();
                 let speed = 1.0 + a.vx.abs() + a.vz.abs() + a.omega.abs();

@@ -1,21 +1,12 @@
-//! Scenes, laws, launches and random numbers.
+//! Laws, engines and launches.
 
-use coinmc_core::{
-    Coin, Domain, DynEngine, Launch, Scene, Stream, Surface, TossUniforms, UniformSource,
-};
+use coinmc_core::{DynEngine, Launch, Scene};
 use coinmc_flat::{
     GaekSukhov, HalfSine, Law, Lever, LineContact, Materials, PulseTime, Settings, SingleImpact,
 };
 use nalgebra::{UnitVector3, Vector3};
 
-/// A 10 g coin of R = 1 cm.
-pub(crate) fn scene(ratio: f64, restitution: f64, friction: f64) -> Scene {
-    let coin = Coin::cylinder(ratio, 0.01).expect("a valid coin");
-    let surface = Surface::new(restitution, friction).expect("a valid surface");
-    Scene::new(coin, surface, 9.81).expect("valid gravity")
-}
-
-/// Coin and surface of the same material.
+/// Both bodies of the same material.
 pub(crate) fn materials(young_pa: f64) -> Materials {
     Materials {
         coin_young_pa: young_pa,
@@ -68,31 +59,5 @@ pub(crate) fn touch(theta: f64, vx: f64, vz: f64, spin: f64) -> Launch {
         velocity_m_s: Vector3::new(vx, 0.0, vz),
         axis: UnitVector3::new_unchecked(Vector3::new(sin, 0.0, cos)),
         spin_rad_s: Vector3::new(0.0, spin, 0.0),
-    }
-}
-
-/// Random numbers of one trial, one after the other.
-pub(crate) struct Dice(TossUniforms, u32);
-
-impl Dice {
-    pub(crate) fn new(seed: u64, trial: u64) -> Self {
-        Self(Stream::new(seed, Domain::Launch, 0).toss(trial), 0)
-    }
-
-    pub(crate) fn between(&mut self, from: f64, to: f64) -> f64 {
-        self.1 += 1;
-        from + (to - from) * self.0.uniform(self.1 - 1)
-    }
-
-    /// Log-uniform.
-    pub(crate) fn scale(&mut self, from: f64, to: f64) -> f64 {
-        libm::exp(self.between(libm::log(from), libm::log(to)))
-    }
-
-    pub(crate) fn pick<T: Copy>(&mut self, choices: &[T]) -> T {
-        // the share lies in (0, 1): the index within the slice
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-        let index = (self.between(0.0, 1.0) * choices.len() as f64) as usize;
-        choices[index.min(choices.len() - 1)]
     }
 }

@@ -1,10 +1,11 @@
 //! What the engine requires of every law: determinism, mirror symmetry, no gain of energy, an end.
 
-use crate::common::{engine, gaek_sukhov, line, materials, pulse, scene};
+use crate::common::{engine, gaek_sukhov, line, materials, pulse};
 use coinmc_core::{
     Domain, Engine, Event, Face, Observer, Preset, Scene, Stream, Tally, run_tosses,
 };
 use coinmc_flat::{HalfSine, Law, Lever, PulseTime};
+use coinmc_testkit::scene;
 use nalgebra::UnitVector3;
 
 /// A law and the friction of its scenes.

@@ -1,8 +1,9 @@
 //! Gaek & Sukhov's law compared with its formulas in SI units.
 
-use crate::common::{Dice, engine, gaek_sukhov, impact, scene, touch};
+use crate::common::{engine, gaek_sukhov, impact, touch};
 use coinmc_core::Engine;
 use coinmc_flat::{Lever, Settings, SettingsError, SingleImpact};
+use coinmc_testkit::{Dice, scene};
 use std::f64::consts::FRAC_PI_2;
 
 const MASS_KG: f64 = 0.01;

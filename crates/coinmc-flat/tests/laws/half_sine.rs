@@ -1,8 +1,9 @@
 //! The half sine compared with Moreau's law, its limit for short pulses.
 
-use crate::common::{Dice, impact, materials, pulse, scene, touch};
+use crate::common::{impact, materials, pulse, touch};
 use coinmc_core::State;
 use coinmc_flat::{HalfSine, Law, Materials, PulseTime};
+use coinmc_testkit::{Dice, scene};
 use std::f64::consts::PI;
 
 /// Largest difference of two states in velocity and in spin times R.

@@ -1,8 +1,9 @@
 //! Invalid settings are rejected; tosses with extreme launches and stiffnesses end.
 
-use crate::common::{Dice, impact, line, materials, scene, settings, touch};
+use crate::common::{impact, line, materials, settings, touch};
 use coinmc_core::{Engine, Scene};
 use coinmc_flat::{GaekSukhov, HalfSine, Law, Lever, LineContact, Materials, PulseTime, Settings};
+use coinmc_testkit::{Dice, scene};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 #[test]

@@ -1,8 +1,9 @@
 //! The line contact resolved in time: limits with known results, energy, accuracy, the rigid limit.
 
-use crate::common::{Dice, impact, line, materials, scene, settings, touch};
+use crate::common::{impact, line, materials, settings, touch};
 use coinmc_core::{Launch, State};
 use coinmc_flat::{Law, LineContact, SingleImpact};
+use coinmc_testkit::{Dice, scene};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 fn distance(a: &State, b: &State) -> f64 {

@@ -1,8 +1,9 @@
 //! Samples within an impact that lasts follow the law.
 
-use crate::common::{Dice, line, pulse, scene, settings, touch};
+use crate::common::{line, pulse, settings, touch};
 use coinmc_core::{Engine, Event, EventKind, Launch, Observer, Scene, State};
 use coinmc_flat::Law;
+use coinmc_testkit::{Dice, scene};
 
 /// Samples a number of equally spaced instants within the first impact.
 struct Film {

@@ -1,11 +1,10 @@
 //! A toss is the same toss whatever the world did before it, and whoever makes it.
 
-use crate::common::{Tosser, launch, quick, scene, table1};
-use coinmc_core::{Engine, Launch, Outcome, Preset, Scene};
+use crate::common::{Tosser, quick};
+use coinmc_core::{Engine, Launch, Preset, Scene};
 use coinmc_rapier::{Account, Flight, FrictionModel, Gyroscopic, RapierEngine, Settings};
+use coinmc_testkit::{conformance, count_until, preset_launch, scene, table1};
 use nalgebra::Vector3;
-use std::ops::ControlFlow;
-use std::thread;
 
 fn scenes() -> [(Scene, Preset, Settings); 4] {
     let steps = Settings {
@@ -31,7 +30,7 @@ fn what_went_before_does_not_matter() {
     for (scene, preset, settings) in scenes() {
         let mut batch = Tosser::new(&scene, &settings);
         let together: Vec<Account> = (0..600)
-            .map(|toss| batch.examine(&launch(preset, &scene, 10, toss)))
+            .map(|toss| batch.examine(&preset_launch(preset, &scene, 10, toss)))
             .collect();
         // backwards, so that every toss has other predecessors; every third in a world of its own
         let mut other = Tosser::new(&scene, &settings);
@@ -39,7 +38,7 @@ fn what_went_before_does_not_matter() {
             if toss % 3 == 0 {
                 other = Tosser::new(&scene, &settings);
             }
-            let alone = other.examine(&launch(preset, &scene, 10, toss as u64));
+            let alone = other.examine(&preset_launch(preset, &scene, 10, toss as u64));
             assert_eq!(alone, *expected, "toss {toss} of {preset}");
             tosses += 1;
         }
@@ -65,7 +64,7 @@ fn launches(scene: &Scene, preset: Preset, count: u64) -> Vec<Launch> {
         _ => good,
     };
     (0..count)
-        .map(|toss| wild(toss, launch(preset, scene, 12, toss)))
+        .map(|toss| wild(toss, preset_launch(preset, scene, 12, toss)))
         .collect()
 }
 
@@ -108,15 +107,7 @@ fn a_batch_that_breaks_off_leaves_nothing_behind() {
     let launches = launches(&scene, preset, 200);
     let engine = RapierEngine::new(&scene, &settings).unwrap();
     let mut workspace = engine.workspace();
-    let mut seen = 0;
-    engine.toss_all(&mut workspace, launches.iter().copied(), |_, _| {
-        seen += 1;
-        if seen == 10 {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    });
+    let seen = count_until(&engine, &mut workspace, launches.iter().copied(), 10);
     assert_eq!(seen, 10);
     let mut fresh = Tosser::new(&scene, &settings);
     for launch in &launches[..20] {
@@ -126,20 +117,10 @@ fn a_batch_that_breaks_off_leaves_nothing_behind() {
 }
 
 #[test]
-fn threads_do_not_matter() {
+fn outcomes_depend_on_the_launch_alone() {
     let (scene, preset, settings) = scenes()[0];
-    let toss = |from: u64| -> Vec<Outcome> {
-        let mut tosser = Tosser::new(&scene, &settings);
-        let tosses = (0..200).map(|k| launch(preset, &scene, 11, 4 * k + from));
-        tosses.map(|launch| tosser.toss(&launch)).collect()
-    };
-    let apart: Vec<Vec<Outcome>> = thread::scope(|scope| {
-        let threads: Vec<_> = (0..4).map(|from| scope.spawn(move || toss(from))).collect();
-        threads.into_iter().map(|t| t.join().unwrap()).collect()
-    });
-    let mut tosser = Tosser::new(&scene, &settings);
-    for k in 0..800_usize {
-        let outcome = tosser.toss(&launch(preset, &scene, 11, k as u64));
-        assert_eq!(apart[k % 4][k / 4], outcome, "{k}");
-    }
+    let launch = |toss| preset_launch(preset, &scene, 11, toss);
+    let launches: Vec<Launch> = (0..800).map(launch).collect();
+    let engine = RapierEngine::new(&scene, &settings).unwrap();
+    conformance::outcomes_depend_on_the_launch_alone(&engine, &launches);
 }

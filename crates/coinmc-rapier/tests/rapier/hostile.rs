@@ -1,8 +1,9 @@
 //! Any launch at all ends, without a panic, under the right count.
 
-use crate::common::{Tosser, launch, quick, scene};
+use crate::common::{Tosser, quick};
 use coinmc_core::{Coin, Ended, Landing, Launch, Preset, Scene, Surface};
 use coinmc_rapier::{Flaw, Flight, Settings, SettingsError};
+use coinmc_testkit::{preset_launch, scene};
 use nalgebra::{UnitVector3, Vector3};
 
 fn brief() -> Settings {
@@ -15,7 +16,7 @@ fn brief() -> Settings {
 #[test]
 fn what_is_no_number_is_counted_as_failed() {
     let scene = scene(1.0, 0.5, 0.3);
-    let good = launch(Preset::Clean, &scene, 30, 0);
+    let good = preset_launch(Preset::Clean, &scene, 30, 0);
     for flight in Flight::ALL {
         let mut tosser = Tosser::new(&scene, &Settings { flight, ..brief() });
         let expected = tosser.examine(&good);
@@ -101,7 +102,8 @@ fn a_coin_that_tunnels_is_not_classified() {
         ..quick()
     };
     let mut tosser = Tosser::new(&scene, &settings);
-    let accounts = (0..50).map(|toss| tosser.examine(&launch(Preset::Clean, &scene, 31, toss)));
+    let accounts =
+        (0..50).map(|toss| tosser.examine(&preset_launch(Preset::Clean, &scene, 31, toss)));
     let tunnelled = accounts.filter(|a| a.flaw == Some(Flaw::Tunnelled)).count();
     assert!(tunnelled > 25, "{tunnelled}");
 }
@@ -109,7 +111,7 @@ fn a_coin_that_tunnels_is_not_classified() {
 #[test]
 fn limits_are_kept() {
     let scene = scene(1.0, 0.9, 0.3);
-    let launch = launch(Preset::Clean, &scene, 32, 0);
+    let launch = preset_launch(Preset::Clean, &scene, 32, 0);
     let mut few = Tosser::new(
         &scene,
         &Settings {

@@ -1,14 +1,15 @@
 //! Where the answer is known beforehand.
 
-use crate::common::{Tosser, launch, quick, scene};
+use crate::common::{Tosser, quick};
 use coinmc_core::{Face, Landing, Preset, Tally};
+use coinmc_testkit::{preset_launch, scene};
 
 fn tally(ratio: f64, tosses: u64) -> Tally {
     let scene = scene(ratio, 0.3, 0.3);
     let mut tosser = Tosser::new(&scene, &quick());
     let mut tally = Tally::default();
     for toss in 0..tosses {
-        tally.add(&tosser.toss(&launch(Preset::Clean, &scene, 40, toss)));
+        tally.add(&tosser.toss(&preset_launch(Preset::Clean, &scene, 40, toss)));
     }
     tally
 }
@@ -45,7 +46,7 @@ fn adhesive_without_spin_is_the_well_it_began_in() {
         let mut tosser = Tosser::new(&scene, &quick());
         let half = ratio / 2.0 / (1.0 + ratio * ratio / 4.0_f64).sqrt();
         for toss in 0..2000 {
-            let launch = launch(Preset::Drop, &scene, 41, toss);
+            let launch = preset_launch(Preset::Drop, &scene, 41, toss);
             let expected = if launch.axis.z.abs() < half {
                 Face::Side
             } else if launch.axis.z > 0.0 {
@@ -71,7 +72,7 @@ fn adhesive_landings_are_those_of_the_event_driven_engine() {
         let events = VolumetricEngine::new(&scene, &Settings::default(), Moreau).unwrap();
         let mut tosser = Tosser::new(&scene, &quick());
         for toss in 0..5000 {
-            let launch = launch(Preset::Clean, &scene, 42, toss);
+            let launch = preset_launch(Preset::Clean, &scene, 42, toss);
             let expected = events.toss(&mut (), &launch, &mut ());
             assert_eq!(tosser.toss(&launch).ended, expected.ended, "{ratio} {toss}");
         }

@@ -1,8 +1,9 @@
 //! What single motions must be.
 
-use crate::common::{Tosser, launch, quick, scene, table1};
+use crate::common::{Tosser, quick};
 use coinmc_core::{Engine, Event, EventKind, Launch, Observer, Preset, Scene, State, Surface};
 use coinmc_rapier::{Decision, RapierEngine, Settings};
+use coinmc_testkit::{preset_launch, scene, table1};
 use nalgebra::{UnitVector3, Vector3};
 
 /// Keeps states: at events, and at a rate until a time.
@@ -66,7 +67,7 @@ fn flight_keeps_energy_and_angular_momentum() {
     let scene = scene(0.5, 0.5, 0.3);
     let coin = &scene.coin;
     for toss in 0..20 {
-        let launch = launch(Preset::Clean, &scene, 50, toss);
+        let launch = preset_launch(Preset::Clean, &scene, 50, toss);
         // from 1 m the coin falls for 0.44 s at least
         let watch = watched(&scene, &quick(), &launch, 100.0, 0.43);
         assert_eq!(watch.taken.len(), 43);
@@ -104,7 +105,7 @@ fn energy_stays_below_its_value_at_launch() {
     ] {
         let mut tosser = Tosser::new(&scene, &settings);
         for toss in 0..100 {
-            let account = tosser.examine(&launch(preset, &scene, 51, toss));
+            let account = tosser.examine(&preset_launch(preset, &scene, 51, toss));
             assert!(account.energy_gain < 1e-3, "{toss} {account:?}");
         }
     }

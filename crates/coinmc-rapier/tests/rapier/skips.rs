@@ -3,9 +3,10 @@
 //! Paired: the same launches with and without. 5 standard errors of the paired difference, false
 //! alarms 6e-7 each.
 
-use crate::common::{Tosser, is_side, launch, paired, quick, scene, table1};
+use crate::common::{Tosser, quick};
 use coinmc_core::{Face, Launch, Preset, Scene};
 use coinmc_rapier::{Account, Decision, Flight, Gyroscopic, Settings, Standing};
+use coinmc_testkit::{paired, preset_launch, scene, side, table1};
 
 struct Difference {
     mean: f64,
@@ -24,13 +25,13 @@ fn compare(
     tosses: u64,
 ) -> Difference {
     let launches: Vec<Launch> = (0..tosses)
-        .map(|toss| launch(preset, scene, 70, toss))
+        .map(|toss| preset_launch(preset, scene, 70, toss))
         .collect();
     let [one, other] = [with, without].map(|s| Tosser::new(scene, s).examine_all(&launches));
     let steps = |accounts: &[Account]| -> u64 { accounts.iter().map(|a| u64::from(a.steps)).sum() };
     let (mut differences, mut changed) = (Vec::new(), 0);
     for (one, other) in one.iter().zip(&other) {
-        differences.push(is_side(&one.outcome) - is_side(&other.outcome));
+        differences.push(side(&one.outcome) - side(&other.outcome));
         changed += u64::from(one.outcome.face() != other.outcome.face());
     }
     let (mean, error) = paired(&differences);
@@ -114,7 +115,7 @@ fn deciding_by_energy_changes_no_toss() {
         let mut tossers = [energy, rest].map(|settings| Tosser::new(&scene, &settings));
         let (mut both, mut saved) = (0, 0);
         for toss in 0..60 {
-            let launch = launch(preset, &scene, 71, toss);
+            let launch = preset_launch(preset, &scene, 71, toss);
             let [one, other] = [0, 1].map(|i| tossers[i].examine(&launch));
             if let (Some(one), Some(other)) = (one.outcome.face(), other.outcome.face()) {
                 both += 1;
@@ -139,7 +140,7 @@ fn deciding_by_tilting_energy_changes_no_statistics() {
     let mut tossers = [tilting, energy].map(|settings| Tosser::new(&scene, &settings));
     let (mut both, mut other_face, mut rolls) = (0, 0, 0);
     for toss in 0..150 {
-        let launch = launch(Preset::Clean, &scene, 72, toss);
+        let launch = preset_launch(Preset::Clean, &scene, 72, toss);
         let [one, other] = [0, 1].map(|i| tossers[i].toss(&launch));
         // what is still rolling at the limit of time is on its side
         rolls += u32::from(one.face() == Some(Face::Side) && other.face().is_none());
@@ -190,7 +191,7 @@ fn who_slows_a_standing_coin_does_not_matter_where_none_stands() {
         (scene(0.5, 0.5, 0.3), Preset::Clean, 2e-3),
     ] {
         let launches: Vec<Launch> = (0..150)
-            .map(|toss| launch(preset, &scene, 73, toss))
+            .map(|toss| preset_launch(preset, &scene, 73, toss))
             .collect();
         let [drag, rapier] = Standing::ALL.map(|standing| {
             let settings = Settings {

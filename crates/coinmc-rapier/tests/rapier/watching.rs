@@ -1,8 +1,9 @@
 //! What an observer is shown, and that looking changes nothing.
 
-use crate::common::{Tosser, launch, quick, scene, table1};
+use crate::common::{Tosser, quick};
 use coinmc_core::{Engine, Event, EventKind, Observer, Preset, State};
 use coinmc_rapier::{Flight, RapierEngine, Settings};
+use coinmc_testkit::{preset_launch, scene, table1};
 
 /// Keeps everything, and samples at a rate.
 #[derive(Default)]
@@ -64,7 +65,7 @@ fn a_watched_toss_is_the_same_toss() {
         let mut blind = Tosser::new(&scene, &settings);
         let mut workspace = engine.workspace();
         for toss in 0..60 {
-            let launch = launch(preset, &scene, 60, toss);
+            let launch = preset_launch(preset, &scene, 60, toss);
             let mut film = Film {
                 rate_hz: 100.0,
                 ..Film::default()
@@ -98,7 +99,7 @@ fn an_observer_that_stands_still_is_passed_over() {
     }
     let scene = scene(1.0, 0.5, 0.3);
     let engine = RapierEngine::new(&scene, &quick()).unwrap();
-    let launch = launch(Preset::Clean, &scene, 61, 0);
+    let launch = preset_launch(Preset::Clean, &scene, 61, 0);
     let outcome = engine.toss(&mut engine.workspace(), &launch, &mut Stuck);
     assert_eq!(outcome, Tosser::new(&scene, &quick()).toss(&launch));
 }

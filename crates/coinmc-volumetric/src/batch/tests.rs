@@ -4,10 +4,9 @@ use crate::engine::VolumetricEngine;
 use crate::finished_toss::FinishedToss;
 use crate::impact::{ChatterjeeRuina, ImpactLaw, Moreau, Stronge};
 use crate::settings::{Decision, Settings};
-use coinmc_core::{
-    Coin, Domain, Drag, Ended, Engine, Landing, Launch, Preset, Scene, Stream, Surface, TossBatch,
-};
+use coinmc_core::{Coin, Drag, Ended, Engine, Landing, Launch, Preset, Scene, Surface, TossBatch};
 use coinmc_lanes::Lanes;
+use coinmc_testkit::{count_until, preset_launch};
 use std::ops::ControlFlow;
 
 fn surface(e: f64, mu: f64, rho: f64) -> Surface {
@@ -23,8 +22,7 @@ fn scene(ratio: f64, surface: Surface) -> Scene {
 }
 
 fn launches(scene: &Scene, preset: Preset, count: u64) -> Vec<Launch> {
-    let (stream, distribution) = (Stream::new(600, Domain::Launch, 0), preset.distribution());
-    let launch = |toss| distribution.launch(&scene.coin, &mut stream.toss(toss));
+    let launch = |toss| preset_launch(preset, scene, 600, toss);
     (0..count).map(launch).collect()
 }
 
@@ -47,25 +45,7 @@ fn same(end: &FinishedToss, expected: &FinishedToss) -> bool {
     end.outcome == expected.outcome && end.time.to_bits() == expected.time.to_bits()
 }
 
-/// How many tosses are reported to a caller that stops after `enough`.
-fn reported<L: ImpactLaw>(
-    engine: &VolumetricEngine<L>,
-    launches: impl Iterator<Item = Launch>,
-    enough: u64,
-) -> u64 {
-    let mut count = 0;
-    engine.toss_all(&mut (), launches, |_, _| {
-        count += 1;
-        if count == enough {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    });
-    count
-}
-
-/// Compares every set of lanes with the scalar path.
+/// Compares every set of lanes with the single toss.
 fn agree<L: ImpactLaw>(scene: &Scene, settings: &Settings, law: L, launches: &[Launch]) {
     let engine = VolumetricEngine::new(scene, settings, law).expect("valid settings");
     let scalar: Vec<FinishedToss> = launches
@@ -186,17 +166,14 @@ fn a_caller_can_stop_at_any_toss() {
     let engine =
         VolumetricEngine::new(&scene, &Settings::default(), Moreau).expect("valid settings");
     for lanes in Lanes::ALL.into_iter().filter(|lanes| lanes.is_available()) {
-        let engine = engine.clone().with_lanes(lanes).expect("available lanes");
-        assert_eq!(
-            reported(&engine, launches.iter().copied(), 300),
-            300,
-            "{lanes}"
-        );
+        let engine = engine.clone().with_lanes(lanes).expect("they are there");
+        let reported = count_until(&engine, &mut (), launches.iter().copied(), 300);
+        assert_eq!(reported, 300, "{lanes}");
     }
 }
 
 #[test]
-fn tosses_that_end_at_launch_are_reported_while_others_fly() {
+fn launches_that_end_at_once_are_reported_while_others_fly() {
     let scene = scene(0.85, surface(0.5, 0.3, 0.01));
     let flying = launches(&scene, Preset::Clean, 300);
     let resting = Launch {
@@ -211,9 +188,10 @@ fn tosses_that_end_at_launch_are_reported_while_others_fly() {
     let engine =
         VolumetricEngine::new(&scene, &Settings::default(), Moreau).expect("valid settings");
     for lanes in Lanes::ALL.into_iter().filter(|lanes| lanes.is_available()) {
-        let engine = engine.clone().with_lanes(lanes).expect("available lanes");
-        // an endless number of them must not be held back until the others have ended
+        let engine = engine.clone().with_lanes(lanes).expect("they are there");
+        // an endless number of them: none may wait until the others have ended
         let endless = flying.iter().copied().chain(std::iter::repeat(resting));
-        assert_eq!(reported(&engine, endless, 100_000), 100_000, "{lanes}");
+        let reported = count_until(&engine, &mut (), endless, 100_000);
+        assert_eq!(reported, 100_000, "{lanes}");
     }
 }

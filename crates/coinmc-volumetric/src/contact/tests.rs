@@ -7,35 +7,12 @@ use super::rim::{Mode, OMEGA_A, OMEGA_T, OMEGA_Y, RimState, SLIP_X, SLIP_Y, TILT
 use crate::body::{Body, Friction};
 use crate::drag::Drag;
 use crate::four::Four;
-use coinmc_core::{Coin, Domain, Stream, TossUniforms, UniformSource};
+use coinmc_core::Coin;
 use coinmc_oracle::newton_euler::{self, Contact, Twist};
 use coinmc_oracle::{Model, Motion, textbook, triad};
+use coinmc_testkit::Dice;
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::FRAC_PI_2;
-
-/// Random numbers of one trial, in sequence.
-struct Dice {
-    uniforms: TossUniforms,
-    next: u32,
-}
-
-impl Dice {
-    fn new(seed: u64, trial: u64) -> Self {
-        Self {
-            uniforms: Stream::new(seed, Domain::Launch, 0).toss(trial),
-            next: 0,
-        }
-    }
-
-    fn between(&mut self, from: f64, to: f64) -> f64 {
-        self.next += 1;
-        from + (to - from) * self.uniforms.uniform(self.next - 1)
-    }
-
-    fn chance(&mut self) -> bool {
-        self.between(0.0, 1.0) < 0.5
-    }
-}
 
 const SMOOTHING: f64 = 1e-9;
 

@@ -1,41 +1,10 @@
 //! Random contact points, and the motion before and after an impact from first principles.
 
-use coinmc_core::{Coin, Domain, Stream, TossUniforms, UniformSource};
+use coinmc_core::Coin;
+use coinmc_testkit::Dice;
 use coinmc_volumetric::{Body, ChatterjeeRuina, Friction, ImpactLaw, Impulse, Law, Moreau};
 use coinmc_volumetric::{ContactPoint, Lane, Stronge};
 use nalgebra::Vector3;
-
-/// Random numbers of one trial, taken one after the other.
-pub(crate) struct Dice {
-    uniforms: TossUniforms,
-    next: u32,
-}
-
-impl Dice {
-    pub(crate) fn new(seed: u64, trial: u64) -> Self {
-        Self {
-            uniforms: Stream::new(seed, Domain::Launch, 0).toss(trial),
-            next: 0,
-        }
-    }
-
-    pub(crate) fn between(&mut self, from: f64, to: f64) -> f64 {
-        self.next += 1;
-        from + (to - from) * self.uniforms.uniform(self.next - 1)
-    }
-
-    /// Log-uniform.
-    pub(crate) fn scale(&mut self, from: f64, to: f64) -> f64 {
-        libm::exp(self.between(libm::log(from), libm::log(to)))
-    }
-
-    pub(crate) fn pick<T: Copy>(&mut self, choices: &[T]) -> T {
-        // the share lies in (0, 1): the index within the slice
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-        let index = (self.between(0.0, 1.0) * choices.len() as f64) as usize;
-        choices[index.min(choices.len() - 1)]
-    }
-}
 
 /// Everything on which an impact depends.
 #[derive(Debug, Clone, Copy)]

@@ -113,7 +113,7 @@ fn a_plastic_impact_dissipates_most() {
         let p = case.impulse(Law::Moreau);
         let (_, after) = motions(&case, &p);
         let f = &case.friction;
-        let mut dice = crate::common::Dice::new(53, trial);
+        let mut dice = coinmc_testkit::Dice::new(53, trial);
         for _ in 0..20 {
             let share = dice.scale(1e-4, 1.0);
             let mut q = p;

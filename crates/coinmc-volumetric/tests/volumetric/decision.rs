@@ -1,7 +1,8 @@
 //! The decision rules compared.
 
-use crate::common::{Tosser, paired, preset, scene, side, stream};
+use crate::common::Tosser;
 use coinmc_core::{Ended, Engine, Face, LaunchDistribution, Marginal, Preset, Scene, Spin};
+use coinmc_testkit::{paired, preset_launch, rolling_scene, side, stream};
 use coinmc_volumetric::{Decision, Settings};
 use std::ops::ControlFlow;
 
@@ -11,7 +12,7 @@ use std::ops::ControlFlow;
 #[test]
 fn tilting_agrees_with_energy() {
     for (ratio, e, rho) in [(0.85, 0.5, 0.01), (0.85, 0.0, 0.01), (2.0, 0.0, 0.03)] {
-        let scene = scene(ratio, e, 0.3, rho);
+        let scene = rolling_scene(ratio, e, 0.3, rho);
         let energy = Settings {
             decision: Decision::Energy,
             ..Settings::default()
@@ -20,7 +21,7 @@ fn tilting_agrees_with_energy() {
         let mut differences = Vec::new();
         let (mut undecided, mut differ) = (0, 0);
         for toss in 0..2500 {
-            let launch = preset(Preset::Clean, &scene, 250, toss);
+            let launch = preset_launch(Preset::Clean, &scene, 250, toss);
             let (a, b) = (a.toss(&launch), b.toss(&launch));
             undecided += u32::from(a.face().is_none() || b.face().is_none());
             differ += u32::from(a.face() != b.face());
@@ -49,12 +50,12 @@ fn energy_that_cannot_become_tilt_is_not_overestimated() {
     };
     for (scene, launches, differ_at_most) in [
         // rolls longest, and turns while it rolls (66, 38)
-        (scene(0.85, 0.0, 0.3, 0.003), &clean, 14),
-        (scene(0.85, 0.5, 0.3, 0.003), &clean, 14),
+        (rolling_scene(0.85, 0.0, 0.3, 0.003), &clean, 14),
+        (rolling_scene(0.85, 0.5, 0.3, 0.003), &clean, 14),
         // spins fast: a gyroscopic torque keeps it leaning (328)
-        (scene(1.2, 0.5, 0.3, 0.005), &hand, 14),
+        (rolling_scene(1.2, 0.5, 0.3, 0.005), &hand, 14),
         // slides flat on a face, and is tall enough for friction to tip it (8)
-        (scene(2.0, 0.8, 0.3, 0.03), &clean, 1),
+        (rolling_scene(2.0, 0.8, 0.3, 0.03), &clean, 1),
     ] {
         let sides = |decision| {
             let settings = Settings {
@@ -75,7 +76,7 @@ fn energy_that_cannot_become_tilt_is_not_overestimated() {
 /// ended as `NeverSettles` instead of 39 %.
 #[test]
 fn a_coin_that_rolls_for_ever_without_passing_a_balance_is_decided() {
-    let scene = scene(0.85, 0.5, 0.3, 0.0);
+    let scene = rolling_scene(0.85, 0.5, 0.3, 0.0);
     let energy = Settings {
         decision: Decision::Energy,
         ..Settings::default()
@@ -83,7 +84,7 @@ fn a_coin_that_rolls_for_ever_without_passing_a_balance_is_decided() {
     let (tilting, energy) = (Tosser::new(&scene), Tosser::with(&scene, &energy));
     let (mut never_settles, mut open, mut differ) = (0, 0, 0);
     for toss in 0..1000 {
-        let launch = preset(Preset::Clean, &scene, 252, toss);
+        let launch = preset_launch(Preset::Clean, &scene, 252, toss);
         let (one, other) = (tilting.toss(&launch), energy.toss(&launch));
         never_settles += u32::from(one.ended == Ended::NeverSettles);
         open += u32::from(other.ended == Ended::NeverSettles);

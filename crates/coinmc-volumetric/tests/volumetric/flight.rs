@@ -1,8 +1,9 @@
 //! Flight: it agrees with its equations, conserves what it should, and misses no contact.
 
-use crate::common::{Dice, Moment, Start, Tosser, flights};
+use crate::common::{Moment, Start, Tosser, flights};
 use coinmc_core::{Coin, Drag, EventKind, Scene, Surface};
 use coinmc_oracle::{Model, Motion};
+use coinmc_testkit::Dice;
 use coinmc_volumetric::Settings;
 use nalgebra::Vector3;
 

@@ -2,7 +2,8 @@
 //! (`coinmc-studies stability`).
 
 use crate::common::Tosser;
-use coinmc_core::{Coin, Event, EventKind, Launch, Observer, Scene, Surface};
+use coinmc_core::{Coin, Launch, Scene, Surface};
+use coinmc_testkit::Extremes;
 use nalgebra::{UnitVector3, Vector3};
 
 /// H/R, R m, e, μ, contour m, pivoting m, height m, u, spin rad/s.
@@ -85,59 +86,16 @@ fn scene_and_launch(numbers: &[f64; 13]) -> (Scene, Launch) {
     (scene, launch)
 }
 
-/// The largest relative gain of energy outside flight, the largest relative change of energy in
-/// flight, and the largest distance of the lowest point from the surface in contact, in D.
-struct Worst<'a> {
-    scene: &'a Scene,
-    last: Option<(EventKind, f64)>,
-    gain: f64,
-    drift: f64,
-    residual: f64,
-}
-
-impl Observer for Worst<'_> {
-    fn event(&mut self, event: &Event) {
-        let (coin, state) = (&self.scene.coin, &event.state);
-        let energy = state.energy_j_kg(self.scene);
-        if let Some((from, before)) = self.last {
-            let change = energy / before - 1.0;
-            let departs = matches!(
-                from,
-                EventKind::Launched | EventKind::Impact | EventKind::LiftOff
-            );
-            let flown = departs && event.kind == EventKind::Touching;
-            if flown {
-                self.drift = self.drift.max(change.abs());
-            } else {
-                self.gain = self.gain.max(change);
-            }
-        }
-        if !matches!(event.kind, EventKind::Launched | EventKind::Ended) {
-            let across = (state.axis.x.powi(2) + state.axis.y.powi(2)).sqrt();
-            let lowest = 0.5 * coin.height_m() * state.axis.z.abs() + coin.radius_m() * across;
-            let gap = (state.position_m.z - lowest).abs() / coin.rim_distance_m();
-            self.residual = self.residual.max(gap);
-        }
-        self.last = Some((event.kind, energy));
-    }
-}
-
-/// Energies are sums of terms up to 1000 times as large as the energy that changes in an event,
-/// hence 1e-12. In flight the phase of the whole flight adds its rounding, hence 1e-11.
+/// Energies are sums of terms up to 1000 times as large as the energy that changes in an event, hence
+/// 1e-12. In flight the phase of the whole flight adds its rounding, hence 1e-11.
 #[test]
 fn they_gain_nothing_and_stay_on_the_surface() {
     for numbers in &HARDEST {
         let (scene, launch) = scene_and_launch(numbers);
-        let mut worst = Worst {
-            scene: &scene,
-            last: None,
-            gain: f64::NEG_INFINITY,
-            drift: 0.0,
-            residual: 0.0,
-        };
+        let mut worst = Extremes::new(&scene);
         Tosser::new(&scene).observe(&launch, &mut worst);
         assert!(worst.gain < 1e-12, "{numbers:?}: {:e}", worst.gain);
         assert!(worst.drift < 1e-11, "{numbers:?}: {:e}", worst.drift);
-        assert!(worst.residual < 1e-12, "{numbers:?}: {:e}", worst.residual);
+        assert!(worst.gap < 1e-12, "{numbers:?}: {:e}", worst.gap);
     }
 }

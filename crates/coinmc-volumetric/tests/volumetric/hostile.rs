@@ -1,27 +1,10 @@
 //! Every launch ends in bounded time, without a panic, and is counted correctly.
 
-use crate::common::{Dice, Tosser, scene};
+use crate::common::Tosser;
 use coinmc_core::{Coin, Ended, Launch, Scene, Surface};
+use coinmc_testkit::{Dice, is_finite, replace_two, rolling_scene, within_two_minutes};
 use coinmc_volumetric::{Law, Settings};
 use nalgebra::{UnitVector3, Vector3};
-use std::sync::mpsc;
-use std::time::Duration;
-
-/// Runs `work` on a thread of its own and fails if it does not return in time, so that a toss that
-/// never ends is a failure and not a test that never ends. Each of these takes about ten seconds at
-/// most.
-fn within_two_minutes(work: impl FnOnce() + Send + 'static) {
-    let (done, wait) = mpsc::channel();
-    let worker = std::thread::spawn(move || {
-        work();
-        // the receiver is gone only if the time is already up
-        let _ = done.send(());
-    });
-    match wait.recv_timeout(Duration::from_mins(2)) {
-        Err(mpsc::RecvTimeoutError::Timeout) => panic!("a toss hangs"),
-        _ => worker.join().expect("no panic"),
-    }
-}
 
 /// A random toss: ratio 1e-4 to 1e4, radius 1e-6 to 1e3 m, spin up to 1e5 rad/s, heights up to 1e3
 /// R; e, μ and ρ at and between the ends of their ranges. Scenes in which a rolling or bouncing
@@ -133,35 +116,8 @@ fn all_tosses_end_and_are_counted() {
     });
 }
 
-const VALUES: [f64; 17] = [
-    0.0,
-    -0.0,
-    1e-300,
-    -1e-9,
-    0.01,
-    -3.0,
-    30.0,
-    1e4,
-    -1e4,
-    1e9,
-    -1e9,
-    1e150,
-    1e300,
-    -1e300,
-    f64::INFINITY,
-    f64::NEG_INFINITY,
-    f64::NAN,
-];
-
 fn extreme(dice: &mut Dice) -> Launch {
-    let tame = [0.01, 0.1, 1.0, 10.0];
-    // only two of the quantities are extreme, otherwise every toss would end at once
-    let mut numbers = [(); 7].map(|()| dice.pick(&tame));
-    for _ in 0..2 {
-        let which = dice.pick(&[0, 1, 2, 3, 4, 5, 6]);
-        numbers[which] = dice.pick(&VALUES);
-    }
-    let [height_m, vx, vy, vz, wx, wy, wz] = numbers;
+    let [height_m, vx, vy, vz, wx, wy, wz] = replace_two(dice);
     let axis = match dice.pick(&[0, 1, 2, 3]) {
         0 => Vector3::z(),
         1 => Vector3::x(),
@@ -176,14 +132,8 @@ fn extreme(dice: &mut Dice) -> Launch {
     }
 }
 
-fn is_finite(launch: &Launch) -> bool {
-    launch.height_m.is_finite()
-        && launch.velocity_m_s.iter().all(|v| v.is_finite())
-        && launch.spin_rad_s.iter().all(|v| v.is_finite())
-}
-
 #[test]
-fn extreme_launches_end_and_launches_with_nan_fail() {
+fn extreme_launches_end_and_launches_that_are_not_finite_fail() {
     within_two_minutes(|| {
         let mut ends = [0_u32; 5];
         for trial in 0..20_000 {
@@ -198,7 +148,7 @@ fn extreme_launches_end_and_launches_with_nan_fail() {
                 max_steps: 10_000,
                 ..Settings::default()
             };
-            let engine = Tosser::with(&scene(ratio, restitution, friction, rho), &settings);
+            let engine = Tosser::with(&rolling_scene(ratio, restitution, friction, rho), &settings);
             let launch = extreme(&mut dice);
             let outcome = engine.toss(&launch);
             let end = match outcome.ended {
@@ -219,9 +169,9 @@ fn extreme_launches_end_and_launches_with_nan_fail() {
     });
 }
 
-/// Without a direction of the axis there is no face.
+/// An axis that is NaN has no face.
 #[test]
-fn an_axis_with_nan_fails() {
+fn an_axis_of_nan_fails() {
     for (height_m, restitution) in [(0.0, 0.5), (0.005, 0.5), (1.0, 0.5), (1.0, 0.0)] {
         for axis in [
             Vector3::new(f64::NAN, 0.0, f64::NAN),
@@ -234,7 +184,7 @@ fn an_axis_with_nan_fails() {
                 axis: UnitVector3::new_unchecked(axis),
                 spin_rad_s: Vector3::zeros(),
             };
-            let outcome = Tosser::new(&scene(1.0, restitution, 0.3, 0.01)).toss(&launch);
+            let outcome = Tosser::new(&rolling_scene(1.0, restitution, 0.3, 0.01)).toss(&launch);
             assert_eq!(outcome.ended, Ended::Failed, "{axis:?} from {height_m} m");
         }
     }

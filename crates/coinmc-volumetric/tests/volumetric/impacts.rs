@@ -1,8 +1,9 @@
 //! Impacts and phases of contact as an observer sees them.
 
-use crate::common::{Dice, Moment, Start, Tosser, scene};
+use crate::common::{Moment, Start, Tosser};
 use coinmc_core::{Coin, EventKind, Scene, Surface};
 use coinmc_oracle::{Model, Motion};
+use coinmc_testkit::{Dice, rolling_scene};
 use coinmc_volumetric::Law;
 use nalgebra::Vector3;
 
@@ -39,7 +40,7 @@ fn impacts_reverse_the_approach_by_e() {
             (0.5, 0.0, 0.3, 0.01),
         ] {
             let mu = if law == Law::Stronge { 0.0 } else { mu };
-            let scene = scene(ratio, e, mu, rho);
+            let scene = rolling_scene(ratio, e, mu, rho);
             let model = Model::new(&scene);
             let engine = Tosser::of(&scene, law);
             for trial in 0..400 {
@@ -77,7 +78,7 @@ fn impacts_reverse_the_approach_by_e() {
 /// threshold.
 #[test]
 fn slow_impacts_below_the_threshold_do_not_bounce() {
-    let base = scene(0.85, 0.6, 0.3, 0.01);
+    let base = rolling_scene(0.85, 0.6, 0.3, 0.01);
     let speed = base.coin.rim_distance_m() / base.time_scale_s();
     let mut scene = base;
     let threshold = 0.8;

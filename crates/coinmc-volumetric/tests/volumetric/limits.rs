@@ -1,17 +1,12 @@
 //! Limiting cases with a known answer.
 
-use crate::common::{Dice, Start, Tosser, preset, scene, stream, well};
+use crate::common::{Start, Tosser, well};
 use coinmc_analytic::{precession, zone};
-use coinmc_core::{Ended, Face, Landing, Launch, Preset, Scene, UniformSource};
+use coinmc_core::{Ended, Face, Launch, Preset, UniformSource};
 use coinmc_oracle::{Model, Motion};
+use coinmc_testkit::{Dice, adhesive, preset_launch, rolling_scene, stream};
 use nalgebra::{UnitVector3, Vector3};
 use std::f64::consts::TAU;
-
-fn adhesive(ratio: f64) -> Scene {
-    let mut scene = scene(ratio, 0.5, 0.3, 0.01);
-    scene.surface = scene.surface.with_landing(Landing::Adhesive);
-    scene
-}
 
 /// Deviation from the expected share, in standard errors.
 fn deviation(count: u32, tosses: u32, p: f64) -> f64 {
@@ -25,11 +20,11 @@ fn deviation(count: u32, tosses: u32, p: f64) -> f64 {
 fn adhesive_without_spin_is_the_zone_rule() {
     let tosses = 50_000;
     for ratio in [0.1, 0.7, 1.0, 3.0] {
-        let scene = adhesive(ratio);
+        let scene = adhesive(rolling_scene(ratio, 0.5, 0.3, 0.01));
         let (engine, model) = (Tosser::new(&scene), Model::new(&scene));
         let mut counts = [0; 3];
         for toss in 0..tosses {
-            let launch = preset(Preset::Drop, &scene, 230, u64::from(toss));
+            let launch = preset_launch(Preset::Drop, &scene, 230, u64::from(toss));
             let outcome = engine.toss(&launch);
             let face = well(&model, &launch.axis);
             assert_eq!(outcome.face(), Some(face), "{ratio} {toss}");
@@ -79,7 +74,7 @@ fn marched(model: &Model, start: &Motion) -> Motion {
 fn adhesive_with_spin_decides_at_first_contact() {
     let mut wrong = 0;
     for ratio in [0.1, 1.0, 3.0] {
-        let scene = adhesive(ratio);
+        let scene = adhesive(rolling_scene(ratio, 0.5, 0.3, 0.01));
         let (engine, model) = (Tosser::new(&scene), Model::new(&scene));
         for toss in 0..400 {
             let launch = Start::lively(&mut Dice::new(231, toss)).launch(&scene);
@@ -101,7 +96,7 @@ fn a_precessing_coin_is_the_closed_form() {
     let tosses = 30_000;
     let fall = 1e4;
     for (ratio, psi) in [(0.2, 1.0), (1.0, 1.4), (1.5, 0.7), (0.7, 1.9)] {
-        let scene = adhesive(ratio);
+        let scene = adhesive(rolling_scene(ratio, 0.5, 0.3, 0.01));
         let (engine, model) = (Tosser::new(&scene), Model::new(&scene));
         let (sin, cos) = libm::sincos(psi);
         let direction = Vector3::new(sin, 0.0, cos);
@@ -145,7 +140,7 @@ fn a_precessing_coin_is_the_closed_form() {
 #[test]
 fn sheets_and_rods() {
     for (ratio, e) in [(1e-4, 0.0), (1e-4, 0.5), (1e4, 0.0), (1e4, 0.5)] {
-        let scene = scene(ratio, e, 0.3, 0.01);
+        let scene = rolling_scene(ratio, e, 0.3, 0.01);
         let engine = Tosser::new(&scene);
         let (mut rare, mut undecided) = (0, 0);
         for toss in 0..500 {
@@ -167,10 +162,10 @@ fn tosses_that_lose_energy_are_decided() {
     for e in [0.0, 0.3, 0.5, 0.8, 0.95] {
         for mu in [0.0, 0.1, 0.3, 1.0, 3.0] {
             for ratio in [0.05, 0.85, 2.0, 10.0] {
-                let scene = scene(ratio, e, mu, 0.01);
+                let scene = rolling_scene(ratio, e, mu, 0.01);
                 let engine = Tosser::new(&scene);
                 for toss in 0..50 {
-                    let outcome = engine.toss(&preset(Preset::Clean, &scene, 234, toss));
+                    let outcome = engine.toss(&preset_launch(Preset::Clean, &scene, 234, toss));
                     assert!(
                         outcome.face().is_some(),
                         "{e} {mu} {ratio} {toss}: {outcome:?}"
@@ -186,7 +181,7 @@ fn tosses_that_lose_energy_are_decided() {
 #[test]
 fn without_loss_a_toss_is_decided_at_its_launch_or_never() {
     for ratio in [0.1, 1.0, 5.0] {
-        let scene = scene(ratio, 1.0, 0.0, 0.0);
+        let scene = rolling_scene(ratio, 1.0, 0.0, 0.0);
         let engine = Tosser::new(&scene);
         let mut ends = [0; 2];
         for toss in 0..2000 {
@@ -218,7 +213,7 @@ fn without_loss_a_toss_is_decided_at_its_launch_or_never() {
 #[test]
 fn level_coins_without_spin_land_level() {
     for ratio in [0.01, 0.5, 2.0] {
-        let scene = scene(ratio, 0.0, 0.3, 0.01);
+        let scene = rolling_scene(ratio, 0.0, 0.3, 0.01);
         let engine = Tosser::new(&scene);
         for (axis, face) in [
             (Vector3::z(), Face::Heads),

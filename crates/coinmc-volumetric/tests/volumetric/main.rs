@@ -4,6 +4,7 @@
 
 mod common;
 mod decision;
+mod determinism;
 mod flight;
 mod hardest;
 mod hostile;

@@ -1,8 +1,9 @@
 //! A toss in the plane without friction agrees with the flat engine.
 
-use crate::common::{Dice, Start, Tosser, paired, scene, side};
+use crate::common::{Start, Tosser};
 use coinmc_core::{Engine, Event, EventKind, Launch, Observer, Outcome, Scene};
 use coinmc_flat::{FlatEngine, Moreau, Settings};
+use coinmc_testkit::{Dice, paired, rolling_scene, side};
 use nalgebra::Vector3;
 
 /// Times and normal speeds of the impacts.
@@ -63,7 +64,7 @@ impl Both {
 fn planar_tosses_agree_with_the_flat_engine() {
     for e in [0.0, 0.3, 0.7] {
         for ratio in [0.3, 1.0, 1.5, 3.0] {
-            let scene = scene(ratio, e, 0.0, 0.0);
+            let scene = rolling_scene(ratio, e, 0.0, 0.0);
             let both = Both::new(&scene);
             let (length, time) = (scene.coin.rim_distance_m(), scene.time_scale_s());
             let mut differences = Vec::new();

@@ -1,9 +1,12 @@
 //! Samples of the coin between events: they obey the laws of motion, and do not affect the toss.
 
-use crate::common::{Dice, Moment, Recorder, Sampler, Start, Tosser, moment, preset, scene};
-use coinmc_core::{Drag, Event, EventKind, Launch, Observer, Outcome, Preset, Scene, State};
+use crate::common::{Moment, Start, Tosser, moment};
+use coinmc_core::{Drag, Event, EventKind, Launch, Outcome, Preset, Scene};
 use coinmc_oracle::newton_euler::{Contact, Twist, runge_kutta, slip};
 use coinmc_oracle::{Model, Motion};
+use coinmc_testkit::{
+    Dice, Recorder, Sampler, conformance, preset_launch, rolling_scene, samples_beside_events,
+};
 use coinmc_volumetric::{Decision, Settings};
 use nalgebra::Vector3;
 
@@ -12,13 +15,13 @@ use nalgebra::Vector3;
 fn scenes() -> Vec<Scene> {
     let air = |scene: Scene| scene.with_drag(Drag::new(0.5, 2.0).expect("valid rates"));
     vec![
-        scene(0.85, 0.5, 0.3, 0.01),
-        scene(0.85, 0.0, 0.3, 0.01),
-        scene(0.1, 0.3, 0.5, 0.003),
-        scene(3.0, 0.0, 0.3, 0.01),
-        scene(1.5, 0.6, 0.0, 0.01),
-        air(scene(1.0, 0.3, 0.3, 0.01)),
-        scene(1.2, 0.4, 0.3, 0.01).with_gyroscopic_torque(false),
+        rolling_scene(0.85, 0.5, 0.3, 0.01),
+        rolling_scene(0.85, 0.0, 0.3, 0.01),
+        rolling_scene(0.1, 0.3, 0.5, 0.003),
+        rolling_scene(3.0, 0.0, 0.3, 0.01),
+        rolling_scene(1.5, 0.6, 0.0, 0.01),
+        air(rolling_scene(1.0, 0.3, 0.3, 0.01)),
+        rolling_scene(1.2, 0.4, 0.3, 0.01).with_gyroscopic_torque(false),
     ]
 }
 
@@ -28,43 +31,27 @@ fn sampled(tosser: &Tosser, launch: &Launch, rate: f64) -> (Outcome, Sampler) {
     (outcome, sampler)
 }
 
+fn launches(scene: &Scene, seed: u64, count: u64) -> Vec<Launch> {
+    let launch = |toss| preset_launch(Preset::Clean, scene, seed, toss);
+    (0..count).map(launch).collect()
+}
+
 #[test]
 fn sampling_changes_nothing() {
     let mut samples = 0;
     for scene in scenes() {
-        let tosser = Tosser::new(&scene);
-        for toss in 0..120 {
-            let launch = preset(Preset::Clean, &scene, 400, toss);
-            let unobserved = tosser.toss(&launch);
-            let mut recorder = Recorder::default();
-            tosser.observe(&launch, &mut recorder);
-            for rate in [7.0, 100.0, 1000.0] {
-                let (outcome, sampler) = sampled(&tosser, &launch, rate);
-                assert_eq!(outcome, unobserved);
-                assert_eq!(sampler.events, recorder.0);
-                samples += sampler.samples.len();
-            }
-        }
+        let (tosser, launches) = (Tosser::new(&scene), launches(&scene, 400, 120));
+        let rates = [7.0, 100.0, 1000.0];
+        samples += conformance::observers_change_nothing(&tosser.0, &launches, &rates);
     }
     assert!(samples > 300_000, "{samples}");
 }
 
-/// i/100 and 10i/1000 are the same number: the samples must be bit-identical.
 #[test]
 fn a_sample_does_not_depend_on_the_others() {
     for scene in scenes() {
-        let tosser = Tosser::new(&scene);
-        for toss in 0..100 {
-            let launch = preset(Preset::Clean, &scene, 401, toss);
-            let (_, slow) = sampled(&tosser, &launch, 100.0);
-            let (_, fast) = sampled(&tosser, &launch, 1000.0);
-            let tenth: Vec<Event> = fast.samples.iter().step_by(10).copied().collect();
-            assert_eq!(tenth, slow.samples);
-            // samples up to the end, and none after it
-            let end = slow.events.last().expect("an end").state.time_s;
-            assert!(f64::from(fast.taken - 1) < end * fast.rate_hz);
-            assert!(f64::from(fast.taken) >= end * fast.rate_hz);
-        }
+        let launches = launches(&scene, 401, 100);
+        conformance::samples_do_not_depend_on_the_rate(&Tosser::new(&scene).0, &launches);
     }
 }
 
@@ -113,7 +100,7 @@ fn flights_are_those_of_a_free_top() {
         let (tosser, model) = (Tosser::new(&scene), Model::new(&scene));
         let conserves = scene.has_gyroscopic_torque() && scene.drag() == Drag::default();
         for toss in 0..200 {
-            let launch = preset(Preset::Clean, &scene, 402, toss);
+            let launch = preset_launch(Preset::Clean, &scene, 402, toss);
             let (_, sampler) = sampled(&tosser, &launch, 500.0);
             for (from, within, _) in pieces(&scene, &sampler) {
                 if is_contact(&from) {
@@ -210,7 +197,7 @@ fn contact(model: &Model, from: &Moment, within: &[Moment], seen: &mut Contacts)
 fn contacts(settings: &Settings) -> Contacts {
     let mut seen = Contacts::default();
     for (ratio, mu) in [(0.85, 0.3), (0.3, 0.5), (2.0, 0.7), (0.1, 0.2)] {
-        let scene = scene(ratio, 0.0, mu, 0.0);
+        let scene = rolling_scene(ratio, 0.0, mu, 0.0);
         let (tosser, model) = (Tosser::with(&scene, settings), Model::new(&scene));
         for toss in 0..40 {
             let mut start = Start::lively(&mut Dice::new(403, toss));
@@ -253,8 +240,8 @@ fn contact_at_the_default_tolerance_is_close() {
 #[test]
 fn samples_of_rolling_continue_to_the_end() {
     for drag in [0.0, 0.5] {
-        let scene =
-            scene(1.0, 0.0, 0.3, 0.01).with_drag(Drag::new(drag, 0.0).expect("a valid rate"));
+        let scene = rolling_scene(1.0, 0.0, 0.3, 0.01)
+            .with_drag(Drag::new(drag, 0.0).expect("a good rate"));
         let model = Model::new(&scene);
         let (radius, r2) = (model.radius, model.radius * model.radius);
         let inertia = model.axial + r2;
@@ -303,28 +290,8 @@ fn samples_of_rolling_continue_to_the_end() {
     }
 }
 
-/// Asks for given instants.
-struct Instants {
-    wanted: std::vec::IntoIter<f64>,
-    next: f64,
-    seen: Vec<State>,
-}
-
-impl Observer for Instants {
-    fn event(&mut self, _: &Event) {}
-
-    fn wants_at_s(&self) -> f64 {
-        self.next
-    }
-
-    fn sample(&mut self, state: &State) {
-        self.seen.push(*state);
-        self.next = self.wanted.next().unwrap_or(f64::INFINITY);
-    }
-}
-
-/// A nanosecond before or after an event, the coin is where the event shows it, apart from its
-/// motion in that time and the error of the step that led there.
+/// A nanosecond before or after an event, the coin is where the event shows it, apart from its motion in
+/// that time and the error of the step that led there.
 #[test]
 fn samples_join_the_events() {
     const NEAR: f64 = 1e-9;
@@ -336,37 +303,18 @@ fn samples_join_the_events() {
         };
         let tosser = Tosser::with(&scene, &settings);
         for toss in 0..40 {
-            let launch = preset(Preset::Clean, &scene, 404, toss);
+            let launch = preset_launch(Preset::Clean, &scene, 404, toss);
             let mut recorder = Recorder::default();
             tosser.observe(&launch, &mut recorder);
-            let pairs: Vec<(Event, Event)> = recorder
-                .0
-                .windows(2)
-                .map(|pair| (pair[0], pair[1]))
-                .filter(|(from, to)| to.state.time_s - from.state.time_s > 10.0 * NEAR)
-                .collect();
-            let mut wanted = pairs
-                .iter()
-                .flat_map(|(from, to)| [from.state.time_s + NEAR, to.state.time_s - NEAR])
-                .collect::<Vec<_>>()
-                .into_iter();
-            let mut instants = Instants {
-                next: wanted.next().unwrap_or(f64::INFINITY),
-                wanted,
-                seen: Vec::new(),
-            };
-            tosser.observe(&launch, &mut instants);
-            assert_eq!(instants.seen.len(), 2 * pairs.len());
-            let events = pairs.iter().flat_map(|(from, to)| [from, to]);
-            for (event, sample) in events.zip(&instants.seen) {
-                let a = moment(&scene, event);
-                let b = moment(
-                    &scene,
-                    &Event {
-                        state: *sample,
-                        ..*event
-                    },
-                );
+            let joined = samples_beside_events(&recorder.0, NEAR, |instants| {
+                tosser.observe(&launch, instants);
+            });
+            for (event, sample) in &joined {
+                let beside = Event {
+                    state: *sample,
+                    ..*event
+                };
+                let (a, b) = (moment(&scene, event), moment(&scene, &beside));
                 let passed = (b.time - a.time).abs();
                 let speed = 1.0 + a.motion.velocity.norm() + a.motion.spin.norm();
                 let moved = (a.motion.position - b.motion.position).norm();

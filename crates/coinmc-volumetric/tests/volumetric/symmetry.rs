@@ -1,7 +1,8 @@
 //! Symmetries of the physics: heads and tails, the directions of the plane, left and right, size.
 
-use crate::common::{Dice, Start, Tosser, paired, preset, scene, side, turned};
-use coinmc_core::{Coin, Launch, Preset, Scene};
+use crate::common::{Start, Tosser};
+use coinmc_core::{Launch, Preset, Scene};
+use coinmc_testkit::{Dice, Scale, conformance, paired, preset_launch, rolling_scene, side};
 use coinmc_volumetric::Law;
 use nalgebra::{UnitVector3, Vector3};
 
@@ -25,29 +26,18 @@ fn mapped(launch: &Launch, map: impl Fn(Vector3<f64>) -> Vector3<f64>, of_spin: 
 }
 
 fn moving(scene: &Scene, seed: u64, toss: u64) -> Launch {
-    let mut launch = preset(Preset::Clean, scene, seed, toss);
+    let mut launch = preset_launch(Preset::Clean, scene, seed, toss);
     launch.velocity_m_s = Dice::new(seed + 1000, toss).vector(0.3);
     launch
 }
 
-/// The two faces are exchanged bit-identically: everything but the name agrees.
 #[test]
 fn heads_and_tails_exchange_exactly() {
     for law in Law::ALL {
         for (ratio, e, mu, rho) in SCENES {
-            let scene = scene(ratio, e, mu, rho);
-            let engine = Tosser::of(&scene, law);
-            for toss in 0..400 {
-                let launch = moving(&scene, 220, toss);
-                let flipped = Launch {
-                    axis: UnitVector3::new_unchecked(-launch.axis.into_inner()),
-                    ..launch
-                };
-                let (a, b) = (engine.toss(&launch), engine.toss(&flipped));
-                assert_eq!(turned(a.face()), b.face(), "{ratio} {e} {toss}");
-                let counts = |o: &coinmc_core::Outcome| (o.impacts, o.contact_steps, o.jams);
-                assert_eq!(counts(&a), counts(&b), "{ratio} {e} {toss}");
-            }
+            let scene = rolling_scene(ratio, e, mu, rho);
+            let launches: Vec<_> = (0..400).map(|toss| moving(&scene, 220, toss)).collect();
+            conformance::heads_and_tails_exchange(&Tosser::of(&scene, law).0, &launches);
         }
     }
 }
@@ -59,7 +49,7 @@ fn quarter_turns_and_reflections_change_nothing() {
     let quarter = |v: Vector3<f64>| Vector3::new(-v.y, v.x, v.z);
     let mirror = |v: Vector3<f64>| Vector3::new(v.x, -v.y, v.z);
     for (ratio, e, mu, rho) in SCENES {
-        let scene = scene(ratio, e, mu, rho);
+        let scene = rolling_scene(ratio, e, mu, rho);
         let engine = Tosser::new(&scene);
         for toss in 0..400 {
             let launch = moving(&scene, 221, toss);
@@ -85,7 +75,7 @@ fn no_direction_is_preferred() {
     let turn = |v: Vector3<f64>| Vector3::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y, v.z);
     let mut short = 0;
     for (ratio, e, mu, rho) in SCENES {
-        let scene = scene(ratio, e, mu, rho);
+        let scene = rolling_scene(ratio, e, mu, rho);
         let engine = Tosser::new(&scene);
         let mut differences = Vec::new();
         for toss in 0..1500 {
@@ -106,33 +96,10 @@ fn no_direction_is_preferred() {
     assert!(short > 500, "{short}");
 }
 
-fn scaled(launch: &Launch, length: f64, time: f64) -> Launch {
-    Launch {
-        height_m: launch.height_m * length,
-        velocity_m_s: launch.velocity_m_s * (length / time),
-        spin_rad_s: launch.spin_rad_s / time,
-        ..*launch
-    }
-}
-
-/// The scene with all lengths multiplied by `length` and all times by `time`.
-fn scaled_scene(scene: &Scene, length: f64, time: f64) -> Scene {
-    let (coin, surface) = (&scene.coin, &scene.surface);
-    let surface = surface
-        .with_friction_lengths(
-            surface.rolling_friction_m() * length,
-            surface.pivoting_friction_m() * length,
-        )
-        .unwrap();
-    let gravity = scene.gravity_m_s2() * length / (time * time);
-    let coin = Coin::cylinder(coin.ratio(), coin.radius_m() * length).unwrap();
-    Scene::new(coin, surface, gravity).unwrap()
-}
-
 /// Scaling by powers of two changes no bit of the dimensionless toss. (The mass cancels.)
 #[test]
 fn size_gravity_and_mass_do_not_matter() {
-    let base = scene(0.85, 0.5, 0.3, 0.01);
+    let base = rolling_scene(0.85, 0.5, 0.3, 0.01);
     let reference = Tosser::new(&base);
     for (length, time, mass_kg) in [
         (4.0, 2.0, 0.01),
@@ -141,12 +108,13 @@ fn size_gravity_and_mass_do_not_matter() {
         (0.25, 0.5, 0.3),
         (1_048_576.0, 4.0, 1.0),
     ] {
-        let mut other = scaled_scene(&base, length, time);
+        let scale = Scale { length, time };
+        let mut other = scale.scene(&base);
         other.coin = other.coin.with_mass(mass_kg).unwrap();
         let engine = Tosser::new(&other);
         for toss in 0..1000 {
             let launch = moving(&base, 223, toss);
-            let outcome = engine.toss(&scaled(&launch, length, time));
+            let outcome = engine.toss(&scale.launch(&launch));
             assert_eq!(reference.toss(&launch), outcome, "{length} {time} {toss}");
         }
     }
@@ -158,16 +126,16 @@ fn size_gravity_and_mass_do_not_matter() {
 #[test]
 fn an_odd_scale_does_not_matter() {
     for (ratio, e, allowed) in [(0.85, 0.0, 20), (2.0, 0.0, 20)] {
-        let base = scene(ratio, e, 0.3, 0.01);
-        let (length, time) = (3.0, libm::sqrt(3.0));
-        let (a, b) = (
-            Tosser::new(&base),
-            Tosser::new(&scaled_scene(&base, length, time)),
-        );
+        let base = rolling_scene(ratio, e, 0.3, 0.01);
+        let scale = Scale {
+            length: 3.0,
+            time: libm::sqrt(3.0),
+        };
+        let (a, b) = (Tosser::new(&base), Tosser::new(&scale.scene(&base)));
         let mut changed = 0;
         for toss in 0..2000 {
             let start = Start::lively(&mut Dice::new(224, toss)).launch(&base);
-            let outcomes = [a.toss(&start), b.toss(&scaled(&start, length, time))];
+            let outcomes = [a.toss(&start), b.toss(&scale.launch(&start))];
             let differ = outcomes[0].face() != outcomes[1].face();
             changed += u32::from(differ);
             let short = outcomes[0].impacts <= 2 && outcomes[0].contact_steps < 50;

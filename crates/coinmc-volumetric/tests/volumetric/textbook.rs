@@ -1,8 +1,9 @@
 //! Sustained contact of whole tosses against textbook motions.
 
-use crate::common::{Moment, Start, Tosser, scene};
+use crate::common::{Moment, Start, Tosser};
 use coinmc_core::{Ended, EventKind, Face, Scene};
 use coinmc_oracle::{Model, Motion, textbook};
+use coinmc_testkit::rolling_scene;
 use coinmc_volumetric::{Decision, Settings};
 use nalgebra::Vector3;
 
@@ -39,7 +40,7 @@ fn steady_precession_stays_steady() {
         (0.85, 1.3, -0.7),
         (0.3, 1.4, -2.0),
     ] {
-        let scene = scene(ratio, 0.0, 5.0, 0.0);
+        let scene = rolling_scene(ratio, 0.0, 5.0, 0.0);
         let model = Model::new(&scene);
         let Some(motion) = textbook::precessing(&model, tilt, circle) else {
             continue;
@@ -84,7 +85,7 @@ fn lying(model: &Model, velocity: f64, spin: f64) -> Motion {
 #[test]
 fn a_sliding_cylinder_starts_to_roll() {
     for (ratio, mu) in [(1.0, 0.3), (3.0, 0.1), (10.0, 1.0)] {
-        let scene = scene(ratio, 0.0, mu, 0.0);
+        let scene = rolling_scene(ratio, 0.0, mu, 0.0);
         let model = Model::new(&scene);
         let (ended, moments) = begin(&scene, &lying(&model, 5.0, 0.0), &tight());
         assert_eq!(ended, Ended::NeverSettles, "{ratio} {mu}");
@@ -108,7 +109,7 @@ fn a_sliding_cylinder_starts_to_roll() {
 #[test]
 fn a_rolling_cylinder_stops_like_a_wheel() {
     for ratio in [1.0, 3.0] {
-        let scene = scene(ratio, 0.0, 0.3, 0.01);
+        let scene = rolling_scene(ratio, 0.0, 0.3, 0.01);
         let model = Model::new(&scene);
         let spin = 3.0 / model.radius;
         let (ended, moments) = begin(&scene, &lying(&model, 3.0, -spin), &tight());
@@ -122,7 +123,7 @@ fn a_rolling_cylinder_stops_like_a_wheel() {
 /// A rod that stands on its end and spins about its axis neither tips nor leaves the surface.
 #[test]
 fn a_rod_spun_on_end_stays_there() {
-    let scene = scene(3.0, 0.0, 0.3, 0.01);
+    let scene = rolling_scene(3.0, 0.0, 0.3, 0.01);
     let model = Model::new(&scene);
     let motion = Motion {
         position: Vector3::new(0.0, 0.0, model.half),
