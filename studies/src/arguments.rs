@@ -11,11 +11,7 @@ use crate::missed_contacts::MissedContacts;
 use crate::oracle::Oracle;
 use crate::rapier::{RapierEnergy, RapierRestitution, RapierStep, RapierStress};
 use crate::robot_soak::RobotSoak;
-use crate::sensitivity::Sensitivity;
-use crate::space::{
-    SpaceConvergence, SpaceDecision, SpaceEnergy, SpaceLaws, SpaceMissed, SpacePeers,
-    SpaceReferences, SpaceStress,
-};
+use crate::space::{SpaceDecision, SpaceLaws, SpacePeers, SpaceReferences};
 use crate::stability::Stability;
 use crate::stopping_rule::StoppingRule;
 use crate::undecided::Undecided;
@@ -55,8 +51,6 @@ enum Command {
     Undecided(Undecided),
     /// How often stopping at a hundredth of the energy names another face
     StoppingRule(StoppingRule),
-    /// How the fair ratio depends on drop height, restitution and friction
-    Sensitivity(Sensitivity),
     /// Adhesive scenes: error of random and Sobol tosses, control variate, quadrature
     Integration(Integration),
     /// Either engine under random tosses from a huge box: errors, gains and limits by region
@@ -69,18 +63,10 @@ enum Command {
     ImpactAccuracy(ImpactAccuracy),
     /// Laws of impact: stress of the line contact, and its balance of energy
     ImpactBalance(ImpactBalance),
-    /// In space: how P(side) depends on the engine's settings, toss by toss
-    SpaceConvergence(SpaceConvergence),
     /// In space: P(side) with its total error, by law of impact
     SpaceLaws(SpaceLaws),
     /// In space: the reference values of an earlier study, under its law of impact and ours
     SpaceReferences(SpaceReferences),
-    /// In space: every flight against dense sampling
-    SpaceMissed(SpaceMissed),
-    /// In space: gains of energy, and the balance of contact phases
-    SpaceEnergy(SpaceEnergy),
-    /// In space: random tosses from a huge box of scenes
-    SpaceStress(SpaceStress),
     /// In space: P(side) beside what other engines give
     SpacePeers(SpacePeers),
     /// In space: the decision by tilting energy against the rigorous one
@@ -113,19 +99,14 @@ impl Arguments {
                 Command::Energy(study) => study.execute(seed),
                 Command::Undecided(study) => study.execute(seed),
                 Command::StoppingRule(study) => study.execute(seed),
-                Command::Sensitivity(study) => study.execute(seed)?,
                 Command::Integration(study) => study.execute(seed),
                 Command::Stability(study) => study.execute(seed)?,
                 Command::ImpactCurves(study) => study.execute(seed)?,
                 Command::ImpactLimit(study) => study.execute(seed),
                 Command::ImpactAccuracy(study) => study.execute(seed),
                 Command::ImpactBalance(study) => study.execute(seed),
-                Command::SpaceConvergence(study) => study.execute(seed),
                 Command::SpaceLaws(study) => study.execute(seed),
                 Command::SpaceReferences(study) => study.execute(seed),
-                Command::SpaceMissed(study) => study.execute(seed),
-                Command::SpaceEnergy(study) => study.execute(seed),
-                Command::SpaceStress(study) => study.execute(seed),
                 Command::SpacePeers(study) => study.execute(seed)?,
                 Command::SpaceDecision(study) => study.execute(seed)?,
                 Command::LinkFuzz(study) => study.execute(seed)?,

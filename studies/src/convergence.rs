@@ -1,14 +1,19 @@
 //! How much of P(side) is due to the engine's own settings.
 //!
-//! Every toss is made with each setting and with a reference in which both are ten times as
-//! tight. The bias of a setting is the mean of the differences, toss by toss, so its standard
-//! error is that of the few tosses that differ.
+//! Every toss is made with each variant of the settings and with a reference whose tolerances and
+//! Zeno rule are all ten times as tight as the defaults. The bias is the mean of the differences,
+//! toss by toss, so its standard error is that of the few tosses that differ.
 
-use crate::survey::{CASE_COLUMNS, case_cells, survey};
+use crate::grid::Grid;
+use crate::paired::{Paired, undecided};
+use crate::space::tightened;
+use crate::survey::{EventDriven, survey_tosses, volumetric};
 use clap::Args;
 use coinmc_bench::{Case, Report, Table, number};
-use coinmc_core::{Engine, Face, Preset};
-use coinmc_flat::Settings;
+use std::ops::Range;
+
+/// The project's bound on |bias|.
+const BOUND: f64 = 0.0005;
 
 const ZENO: [f64; 6] = [1.0, 0.3, 0.1, 0.03, 0.003, 0.001];
 const TOLERANCE: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-8];
@@ -16,61 +21,102 @@ const TOLERANCE: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-8];
 /// The study's arguments.
 #[derive(Debug, Args)]
 pub(crate) struct Convergence {
-    /// Tosses of each scene with each setting
+    /// The engine
+    #[arg(long, value_enum, default_value_t = EventDriven::Flat)]
+    engine: EventDriven,
+
+    /// Tosses of each scene with each variant
     #[arg(long, value_parser = number::count, default_value = "100_000", value_name = "N")]
     tosses: u64,
+
+    #[command(flatten)]
+    grid: Grid,
 }
 
+/// Settings that are compared with the tight ones.
 struct Variant {
     name: String,
     settings: Settings,
 }
 
-/// How the tosses with one setting differ from the reference's.
-#[derive(Debug, Clone, Copy, Default)]
-struct Change {
-    tosses: u64,
-    /// On the side with the setting.
-    side: u64,
-    /// On the side with the setting only, and with the reference only.
-    gained: u64,
-    lost: u64,
-    /// With another outcome, heads and tails told apart.
-    changed: u64,
-    /// Impacts and contact steps.
-    steps: u64,
+#[derive(Debug, Clone, Copy)]
+enum Settings {
+    Flat(coinmc_flat::Settings),
+    Volumetric(coinmc_volumetric::Settings),
+}
+
+impl Settings {
+    /// The same tosses with these settings and with the tight ones.
+    fn pair(&self, case: &Case, seed: u64, tosses: Range<u64>) -> Paired {
+        match self {
+            Self::Flat(settings) => {
+                let default = coinmc_flat::Settings::default();
+                let tight = coinmc_flat::Settings {
+                    zeno: default.zeno / 10.0,
+                    tolerance: default.tolerance / 10.0,
+                    ..default
+                };
+                let engines = [settings, &tight].map(|settings| case.engine(settings));
+                Paired::of(case, [&engines[0], &engines[1]], seed, tosses)
+            }
+            Self::Volumetric(settings) => {
+                let tight = tightened(&coinmc_volumetric::Settings::default());
+                let engines = [settings, &tight].map(|settings| volumetric(case, settings));
+                Paired::of(case, [&engines[0], &engines[1]], seed, tosses)
+            }
+        }
+    }
 }
 
 impl Convergence {
     pub(crate) fn execute(&self, seed: u64) -> Report {
-        let cases = Case::grid(
-            &[Preset::CleanFlat],
-            &[0.0, 0.3, 0.5, 0.8],
-            &[0.0, 0.3, 1.0],
-            &[0.25, 1.0, 2.0],
+        let (cases, variants) = (self.grid.cases_of(self.engine), self.variants());
+        let jobs: Vec<(&Case, &Variant)> = cases
+            .iter()
+            .flat_map(|case| variants.iter().map(move |variant| (case, variant)))
+            .collect();
+        let found = survey_tosses(
+            &jobs,
+            self.tosses,
+            |(case, variant), tosses| variant.settings.pair(case, seed, tosses),
+            Paired::merge,
         );
-        let variants = variants();
-        let changes = survey(&cases, |case| compare(case, &variants, seed, self.tosses));
         let title = format!(
-            "P(side) with a setting minus P(side) with both ten times as tight, {} tosses a scene, \
-             paired",
+            "P(side) with a variant of the settings, and its difference from all tolerances ten \
+             times as tight as the defaults; {} tosses a scene, paired, 95 % intervals",
             self.tosses
         );
-        let mut record = Table::new(title, &record_columns());
-        for (case, changes) in cases.iter().zip(&changes) {
-            for (variant, change) in variants.iter().zip(changes) {
-                record.push(row(case, variant, change));
-            }
+        let more = [
+            "setting",
+            "p_side",
+            "half_width",
+            "bias",
+            "std_error",
+            "discordant",
+            "changed",
+            "total_error",
+            "undecided",
+            "undecided_tight",
+        ];
+        let mut record = Table::new(title, &Case::columns(&more));
+        for ((case, variant), found) in jobs.iter().zip(&found) {
+            record.push([case.cells(), vec![variant.name.clone()], cells_of(found)].concat());
         }
         let defaults = (0..cases.len()).map(|case| case * variants.len());
+        let of_defaults: Vec<Paired> = defaults.clone().map(|i| found[i]).collect();
         let shown = record.select("The defaults, scene by scene", defaults);
         let mut report = Report::new(record);
-        report.show(summary(&cases, &variants, &changes));
+        if variants.len() > 1 {
+            report.show(summary(&cases, &variants, &found));
+        }
         report.show(shown);
+        report.remark(conclusion(&of_defaults));
         report.remark(
-            "bias: mean difference toss by toss, std_error its standard error. changed: share of \
-             tosses with another outcome. rms: of bias/std_error over the scenes in which any toss \
-             landed otherwise; 1 where nothing but chance is at work.",
+            "half_width: of the statistical interval, undecided tosses counted either way. bias: \
+             variant minus tight; std_error its standard error, from the tosses that are on the \
+             side in one of the two only (discordant). total_error: half_width + |bias| + 1.96 \
+             std_error. changed: share of tosses with another face: a single toss is chaotic, a \
+             probability is not.",
         );
         report.remark(format!(
             "A scene in which none of {} tosses changed has |bias| < {:.0e} with 95 % confidence.",
@@ -79,99 +125,78 @@ impl Convergence {
         ));
         report
     }
-}
 
-/// The defaults first.
-fn variants() -> Vec<Variant> {
-    let default = Settings::default();
-    let mut variants = vec![Variant {
-        name: "default".to_owned(),
-        settings: default,
-    }];
-    variants.extend(ZENO.map(|zeno| Variant {
-        name: format!("zeno {zeno}"),
-        settings: Settings { zeno, ..default },
-    }));
-    variants.extend(TOLERANCE.map(|tolerance| Variant {
-        name: format!("tolerance {tolerance:e}"),
-        settings: Settings {
-            tolerance,
-            ..default
-        },
-    }));
-    variants
-}
-
-fn compare(case: &Case, variants: &[Variant], seed: u64, tosses: u64) -> Vec<Change> {
-    let default = Settings::default();
-    let tight = Settings {
-        zeno: default.zeno / 10.0,
-        tolerance: default.tolerance / 10.0,
-        ..default
-    };
-    let reference = case.engine(&tight);
-    let engines: Vec<_> = variants.iter().map(|v| case.engine(&v.settings)).collect();
-    let mut changes = vec![Change::default(); variants.len()];
-    let (launches, stream) = (case.launches(), Case::stream(seed));
-    for toss in 0..tosses {
-        let launch = launches.launch(&case.scene.coin, &mut stream.toss(toss));
-        let expected = reference.toss(&mut (), &launch, &mut ()).face();
-        for (engine, change) in engines.iter().zip(&mut changes) {
-            let outcome = engine.toss(&mut (), &launch, &mut ());
-            change.add(outcome.face(), expected);
-            change.steps += u64::from(outcome.impacts) + u64::from(outcome.contact_steps);
+    /// The defaults first; in the plane, where tosses are fast, then each setting by itself.
+    fn variants(&self) -> Vec<Variant> {
+        let default = coinmc_flat::Settings::default();
+        let named = |name: String, settings| Variant { name, settings };
+        if self.engine == EventDriven::Volumetric {
+            let settings = Settings::Volumetric(coinmc_volumetric::Settings::default());
+            return vec![named("default".to_owned(), settings)];
         }
-    }
-    changes
-}
-
-impl Change {
-    fn add(&mut self, face: Option<Face>, expected: Option<Face>) {
-        let (now, before) = (face == Some(Face::Side), expected == Some(Face::Side));
-        self.tosses += 1;
-        self.side += u64::from(now);
-        self.gained += u64::from(now && !before);
-        self.lost += u64::from(before && !now);
-        self.changed += u64::from(face != expected);
-    }
-
-    fn bias(&self) -> f64 {
-        (self.gained as f64 - self.lost as f64) / self.tosses as f64
-    }
-
-    /// Standard error of the mean of differences that are −1, 0 or 1.
-    fn std_error(&self) -> f64 {
-        let n = self.tosses as f64;
-        let mean_square = (self.gained + self.lost) as f64 / n;
-        ((mean_square - self.bias().powi(2)).max(0.0) / n).sqrt()
-    }
-
-    fn share(&self, count: u64) -> f64 {
-        count as f64 / self.tosses as f64
+        let mut variants = vec![named("default".to_owned(), Settings::Flat(default))];
+        variants.extend(ZENO.map(|zeno| {
+            let settings = coinmc_flat::Settings { zeno, ..default };
+            named(format!("zeno {zeno}"), Settings::Flat(settings))
+        }));
+        variants.extend(TOLERANCE.map(|tolerance| {
+            let settings = coinmc_flat::Settings {
+                tolerance,
+                ..default
+            };
+            named(format!("tolerance {tolerance:e}"), Settings::Flat(settings))
+        }));
+        variants
     }
 }
 
-fn record_columns() -> Vec<&'static str> {
-    let columns = ["setting", "p_side", "bias", "std_error", "changed"];
-    CASE_COLUMNS.into_iter().chain(columns).collect()
+fn share(count: u64, found: &Paired) -> f64 {
+    count as f64 / found.first.tosses() as f64
 }
 
-fn row(case: &Case, variant: &Variant, change: &Change) -> Vec<String> {
-    let mut cells = case_cells(case);
-    cells.extend([
-        variant.name.clone(),
-        number::probability(change.share(change.side)),
-        number::difference(change.bias()),
-        number::probability(change.std_error()),
-        number::probability(change.share(change.changed)),
-    ]);
-    cells
+fn cells_of(found: &Paired) -> Vec<String> {
+    let half_width = found.side().half_width();
+    vec![
+        number::probability(found.side().p),
+        number::probability(half_width),
+        number::difference(found.bias()),
+        number::probability(found.std_error()),
+        found.discordant().to_string(),
+        number::probability(share(found.changed, found)),
+        number::probability(half_width + found.numerical_error()),
+        undecided(&found.first),
+        undecided(&found.second),
+    ]
 }
 
-/// One row a setting: its worst scene, and all scenes together.
-fn summary(cases: &[Case], variants: &[Variant], changes: &[Vec<Change>]) -> Table {
+/// Root mean square of bias/std_error over the scenes in which any toss landed otherwise.
+fn rms<'a>(found: impl Iterator<Item = &'a Paired>) -> Option<f64> {
+    let discordant = found.filter(|found| found.discordant() > 0);
+    let scores: Vec<f64> = discordant.map(|found| found.z().powi(2)).collect();
+    let mean = scores.iter().sum::<f64>() / scores.len() as f64;
+    (!scores.is_empty()).then(|| mean.sqrt())
+}
+
+fn conclusion(found: &[Paired]) -> String {
+    let largest = found.iter().map(|f| f.bias().abs()).fold(0.0, f64::max);
+    let above = found.iter().filter(|f| f.bias().abs() >= BOUND).count();
+    let significant = found.iter().filter(|f| {
+        let excess = f.bias().abs() - BOUND;
+        excess > 1.96 * f.std_error()
+    });
+    format!(
+        "defaults: largest |bias| {largest:.5} (bound {BOUND}); at or above it in {above} of {} \
+         scenes, beyond its own error in {}; rms of bias/std_error {} (1: nothing but chance)",
+        found.len(),
+        significant.count(),
+        rms(found.iter()).map_or("none".to_owned(), |rms| format!("{rms:.2}")),
+    )
+}
+
+/// One row per variant: its worst scene, and all scenes together.
+fn summary(cases: &[Case], variants: &[Variant], found: &[Paired]) -> Table {
     let mut table = Table::new(
-        "Settings (the other at its default), against both ten times as tight as the defaults",
+        "Variants of the settings (all others at their defaults)",
         &[
             "setting",
             "largest_bias",
@@ -183,62 +208,31 @@ fn summary(cases: &[Case], variants: &[Variant], changes: &[Vec<Change>]) -> Tab
         ],
     );
     for (v, variant) in variants.iter().enumerate() {
-        let of_cases = || cases.iter().zip(changes.iter().map(|of_case| of_case[v]));
-        let largest = of_cases().max_by(|a, b| a.1.bias().abs().total_cmp(&b.1.bias().abs()));
+        let of_cases = || found.iter().skip(v).step_by(variants.len());
+        let pairs = cases.iter().zip(of_cases());
+        let largest = pairs.max_by(|a, b| a.1.bias().abs().total_cmp(&b.1.bias().abs()));
         let Some((case, worst)) = largest else {
             continue;
         };
-        let scores: Vec<f64> = of_cases()
-            .filter(|(_, change)| change.std_error() > 0.0)
-            .map(|(_, change)| (change.bias() / change.std_error()).powi(2))
-            .collect();
-        let rms = (scores.iter().sum::<f64>() / scores.len() as f64).sqrt();
-        let (mut tosses, mut changed, mut steps) = (0, 0, 0);
-        for (_, change) in of_cases() {
-            tosses += change.tosses;
-            changed += change.changed;
-            steps += change.steps;
+        let mut total = Paired::default();
+        for found in of_cases() {
+            total.merge(found);
         }
+        let place = if worst.changed == 0 {
+            String::new()
+        } else {
+            case.to_string()
+        };
+        let steps = total.first.impacts + total.first.contact_steps;
         table.push(vec![
             variant.name.clone(),
             number::difference(worst.bias()),
             number::probability(worst.std_error()),
-            if worst.changed == 0 {
-                String::new()
-            } else {
-                case.to_string()
-            },
-            if scores.is_empty() {
-                "none".to_owned()
-            } else {
-                format!("{rms:.2}")
-            },
-            number::probability(changed as f64 / tosses as f64),
-            format!("{:.2}", steps as f64 / tosses as f64),
+            place,
+            rms(of_cases()).map_or("none".to_owned(), |rms| format!("{rms:.2}")),
+            number::probability(share(total.changed, &total)),
+            format!("{:.2}", share(steps, &total)),
         ]);
     }
     table
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_error_of_a_paired_difference_is_that_of_the_tosses_that_differ() {
-        let mut change = Change::default();
-        let (side, heads) = (Some(Face::Side), Some(Face::Heads));
-        for _ in 0..90 {
-            change.add(side, side);
-        }
-        for _ in 0..8 {
-            change.add(side, heads);
-        }
-        change.add(heads, side);
-        change.add(None, side);
-        assert_eq!((change.side, change.changed), (98, 10));
-        assert!((change.bias() - 0.06).abs() < 1e-15);
-        // mean square 0.1, mean 0.06, n = 100
-        assert!((change.std_error() - ((0.1 - 0.0036) / 100.0_f64).sqrt()).abs() < 1e-15);
-    }
 }

@@ -51,7 +51,12 @@ impl FlatTable {
         let entries = entries();
         let settings = Settings::default();
         let estimates = survey(&entries, |entry| {
-            side(&tally(&entry.case, &settings, seed, self.tosses))
+            side(&tally(
+                &entry.case,
+                &entry.case.engine(&settings),
+                seed,
+                0..self.tosses,
+            ))
         });
         let mut record = Table::new(
             format!(

@@ -1,19 +1,24 @@
 //! `coinmc-studies`: validation of the engines and of the runner, one study per subcommand.
 
 mod arguments;
+mod balance;
 mod convergence;
 mod energy;
 mod film;
 mod flat_table;
+mod flight;
+mod grid;
 mod impacts;
 mod integration;
 mod legs;
 mod link_fuzz;
 mod missed_contacts;
 mod oracle;
+mod paired;
+mod phases;
 mod rapier;
 mod robot_soak;
-mod sensitivity;
+mod sample;
 mod space;
 mod stability;
 mod stopping_rule;

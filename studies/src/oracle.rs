@@ -1,6 +1,6 @@
 //! The volumetric engine against the time-stepping oracle, toss by toss.
 
-use crate::survey::{CASE_COLUMNS, case_cells, survey};
+use crate::survey::{FRICTION, survey, volumetric};
 use clap::Args;
 use coinmc_bench::{Case, Report, Table, number};
 use coinmc_core::{Engine, Face, Preset};
@@ -30,12 +30,6 @@ pub(crate) struct Oracle {
     step: f64,
 }
 
-struct Scene {
-    case: Case,
-    /// Friction lengths in radii.
-    rho: f64,
-}
-
 /// How the engine's tosses differ from the oracle's.
 #[derive(Debug, Clone, Copy, Default)]
 struct Differences {
@@ -55,8 +49,8 @@ struct Differences {
 
 impl Oracle {
     pub(crate) fn execute(&self, seed: u64) -> Report {
-        let scenes: Vec<Scene> = SCENES.map(Scene::new).into();
-        let found = survey(&scenes, |scene| self.compare(scene, seed));
+        let cases = SCENES.map(case_of);
+        let found = survey(&cases, |case| self.compare(case, seed));
         let mut record = Table::new(
             format!(
                 "P(side) of the engine minus that of the time-stepping oracle (step {}), {} tosses \
@@ -65,8 +59,8 @@ impl Oracle {
             ),
             &columns(),
         );
-        for (scene, found) in scenes.iter().zip(&found) {
-            record.push(row(scene, found));
+        for (case, found) in cases.iter().zip(&found) {
+            record.push(row(case, found));
         }
         let worst = found.iter().map(Differences::z).fold(0.0, f64::max);
         let (short, changed) = found.iter().fold((0, 0), |(short, changed), found| {
@@ -85,20 +79,16 @@ impl Oracle {
         report
     }
 
-    fn compare(&self, scene: &Scene, seed: u64) -> Differences {
-        let scene = &scene.case;
-        let engine = Settings::default()
-            .engine(&scene.scene)
-            .expect("settings are in range");
+    fn compare(&self, case: &Case, seed: u64) -> Differences {
+        let engine = volumetric(case, &Settings::default());
         let settings = StepperSettings {
             step: self.step,
             ..StepperSettings::default()
         };
-        let mut oracle = TimeStepper::new(&scene.scene, settings);
-        let (launches, stream) = (scene.launches(), Case::stream(seed));
+        let mut oracle = TimeStepper::new(&case.scene, settings);
         let mut differences = Differences::default();
         for toss in 0..self.tosses {
-            let launch = launches.launch(&scene.scene.coin, &mut stream.toss(toss));
+            let launch = case.launch(seed, toss);
             let outcome = engine.toss(&mut engine.workspace(), &launch, &mut ());
             let (face, other) = (outcome.face(), oracle.toss(&launch).face);
             differences.add(face, other, outcome.impacts <= 2);
@@ -107,14 +97,9 @@ impl Oracle {
     }
 }
 
-impl Scene {
-    fn new((ratio, e, rho): (f64, f64, f64)) -> Self {
-        let mut case = Case::new(Preset::Clean, 0.01, ratio, e, 0.3);
-        let length = rho * case.scene.coin.radius_m();
-        let surface = case.scene.surface.with_friction_lengths(length, length);
-        case.scene.surface = surface.expect("friction lengths are positive");
-        Self { case, rho }
-    }
+/// The case of a row of [`SCENES`].
+fn case_of((ratio, e, rho): (f64, f64, f64)) -> Case {
+    Case::new(Preset::Clean, 0.01, ratio, e, FRICTION).rolling(rho)
 }
 
 impl Differences {
@@ -153,7 +138,6 @@ impl Differences {
 
 fn columns() -> Vec<&'static str> {
     let columns = [
-        "rho_over_r",
         "oracle_p_side",
         "bias",
         "std_error",
@@ -162,14 +146,13 @@ fn columns() -> Vec<&'static str> {
         "short",
         "short_changed",
     ];
-    CASE_COLUMNS.into_iter().chain(columns).collect()
+    Case::columns(&columns)
 }
 
-fn row(scene: &Scene, found: &Differences) -> Vec<String> {
+fn row(case: &Case, found: &Differences) -> Vec<String> {
     let share = |count: u64| number::probability(count as f64 / found.tosses as f64);
-    let mut cells = case_cells(&scene.case);
+    let mut cells = case.cells();
     cells.extend([
-        scene.rho.to_string(),
         share(found.side),
         number::difference(found.bias()),
         number::probability(found.std_error()),

@@ -3,7 +3,7 @@
 //! The rule is that of Gaek & Sukhov, arXiv 2401.03557. It can only differ where a hundredth of
 //! the energy is more than the barrier m g D: where the drop height is beyond 100 D or so.
 
-use crate::survey::{case_cells, side, survey, tally, with_case_columns};
+use crate::survey::{side, survey, tally};
 use clap::Args;
 use coinmc_bench::{Case, Report, Table, number};
 use coinmc_core::{Estimate, IntervalMethod, Preset, Tally};
@@ -39,7 +39,7 @@ impl StoppingRule {
                     decision,
                     ..Settings::default()
                 };
-                tally(case, &settings, seed, self.tosses)
+                tally(case, &case.engine(&settings), seed, 0..self.tosses)
             };
             Compared {
                 case: *case,
@@ -62,7 +62,7 @@ impl StoppingRule {
              intervals)",
             self.tosses
         );
-        let mut record = Table::new(title, &with_case_columns(&columns));
+        let mut record = Table::new(title, &Case::columns(&columns));
         for one in &compared {
             record.push(one.row());
         }
@@ -121,7 +121,7 @@ impl Compared {
     fn row(&self) -> Vec<String> {
         let (certain, early) = (side(&self.certain).p, side(&self.early).p);
         let disagree = self.disagreement();
-        let mut cells = case_cells(&self.case);
+        let mut cells = self.case.cells();
         cells.extend([
             self.case.scene.coin.radius_m().to_string(),
             format!("{:.2}", self.height_over_100_d()),

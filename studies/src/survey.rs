@@ -1,15 +1,48 @@
-//! What studies share: a survey of scenes on all cores, tallies, tables.
+//! What studies share: surveys of scenes on all cores, engines, tallies.
 
 use crate::worst::Worst;
+use clap::ValueEnum;
 use coinmc_bench::{Case, number};
-use coinmc_core::{Engine, Estimate, IntervalMethod, Observer, Preset, Tally, run_tosses};
-use coinmc_flat::Settings;
+use coinmc_core::{
+    DynEngine, Engine, Estimate, IntervalMethod, Observer, Preset, Tally, run_tosses,
+};
 use rayon::prelude::*;
+use std::fmt;
 use std::io::{IsTerminal, stderr};
+use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Does something for every item, on all cores, in the order of the items; says on a terminal
-/// how far it is.
+/// Coulomb friction of the scenes that vary everything else.
+pub(crate) const FRICTION: f64 = 0.3;
+
+/// Tosses that one thread makes at a time: the cost of a toss varies a hundredfold between scenes.
+pub(crate) const PART: u64 = 20_000;
+
+/// The event-driven engines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum EventDriven {
+    /// In the plane
+    Flat,
+    /// In space
+    Volumetric,
+}
+
+impl fmt::Display for EventDriven {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Flat => "flat",
+            Self::Volumetric => "volumetric",
+        })
+    }
+}
+
+/// The volumetric engine of `settings.law`.
+pub(crate) fn volumetric(case: &Case, settings: &coinmc_volumetric::Settings) -> DynEngine {
+    settings.engine(&case.scene).expect("settings are in range")
+}
+
+/// Does something for every item, on all cores, in the order of the items; shows progress on a
+/// terminal.
 pub(crate) fn survey<'a, T: Sync, R: Send>(
     items: &'a [T],
     each: impl Fn(&'a T) -> R + Sync,
@@ -34,34 +67,49 @@ pub(crate) fn survey<'a, T: Sync, R: Send>(
     results
 }
 
-/// Tallies the first tosses of a case.
-pub(crate) fn tally(case: &Case, settings: &Settings, seed: u64, tosses: u64) -> Tally {
-    let engine = case.engine(settings);
+/// Makes the first tosses of every item in parts, on all cores, and merges the findings of the
+/// parts, in the order of the items.
+pub(crate) fn survey_tosses<T: Sync, R: Send + Clone>(
+    items: &[T],
+    tosses: u64,
+    each: impl Fn(&T, Range<u64>) -> R + Sync,
+    merge: impl Fn(&mut R, &R),
+) -> Vec<R> {
+    let parts: Vec<(usize, Range<u64>)> = (0..items.len())
+        .flat_map(|item| {
+            let starts = (0..tosses.div_ceil(PART)).map(|part| part * PART);
+            starts.map(move |start| (item, start..(start + PART).min(tosses)))
+        })
+        .collect();
+    let found = survey(&parts, |(item, range)| each(&items[*item], range.clone()));
+    let mut merged: Vec<Option<R>> = vec![None; items.len()];
+    for ((item, _), found) in parts.iter().zip(&found) {
+        match &mut merged[*item] {
+            Some(sum) => merge(sum, found),
+            empty => *empty = Some(found.clone()),
+        }
+    }
+    merged.into_iter().flatten().collect()
+}
+
+/// Tallies tosses of a case.
+pub(crate) fn tally<E>(case: &Case, engine: &E, seed: u64, tosses: Range<u64>) -> Tally
+where
+    E: Engine<Workspace = ()>,
+{
     let (launches, stream) = (case.launches(), Case::stream(seed));
-    run_tosses(
-        &engine,
-        &mut engine.workspace(),
-        &case.scene,
-        &launches,
-        &stream,
-        0..tosses,
-    )
+    run_tosses(engine, &mut (), &case.scene, &launches, &stream, tosses)
 }
 
 /// P(side) with its 95 % interval.
 pub(crate) fn side(tally: &Tally) -> Estimate {
-    Estimate::new(
-        tally.side,
-        tally.undecided(),
-        tally.tosses(),
-        0.95,
-        IntervalMethod::Wilson,
-    )
+    let (n, method) = (tally.tosses(), IntervalMethod::Wilson);
+    Estimate::new(tally.side, tally.undecided(), n, 0.95, method)
 }
 
-/// The box in which a study looks for trouble: every mixture of bouncy and dull, smooth and rough,
-/// thin and thick.
-pub(crate) fn stress_box(presets: &[Preset], restitutions: &[f64]) -> Vec<Case> {
+/// The scenes in which a planar study looks for trouble: every mixture of bouncy and dull, smooth
+/// and rough, thin and thick.
+pub(crate) fn planar_stress(presets: &[Preset], restitutions: &[f64]) -> Vec<Case> {
     let (frictions, ratios) = ([0.0, 0.1, 0.3, 1.0, 10.0], [0.01, 0.1, 1.0, 10.0, 100.0]);
     Case::grid(presets, restitutions, &frictions, &ratios)
 }
@@ -75,25 +123,25 @@ pub(crate) trait Examiner: Observer {
     fn examined(&self) -> u64;
 }
 
-/// Impacts after which a toss under examination is given up: one without losses would go on for
-/// ever, and no other would get its turn.
+/// Impacts after which a toss under examination is given up: one without losses would never end.
 pub(crate) const EXAMINED_IMPACTS: u32 = 1000;
 
 /// Tosses, from number 0, until `quota` things are examined, or that many tosses are made.
-pub(crate) fn examine(case: &Case, seed: u64, quota: u64, examiner: &mut impl Examiner) {
-    let settings = Settings {
-        max_impacts: EXAMINED_IMPACTS,
-        ..Settings::default()
-    };
-    let engine = case.engine(&settings);
-    let (launches, stream) = (case.launches(), Case::stream(seed));
+pub(crate) fn examine<E>(
+    case: &Case,
+    engine: &E,
+    seed: u64,
+    quota: u64,
+    examiner: &mut impl Examiner,
+) where
+    E: Engine<Workspace = ()>,
+{
     for toss in 0..quota {
         if examiner.examined() >= quota {
             break;
         }
         examiner.begin(toss);
-        let launch = launches.launch(&case.scene.coin, &mut stream.toss(toss));
-        engine.toss(&mut (), &launch, examiner);
+        engine.toss(&mut (), &case.launch(seed, toss), examiner);
     }
 }
 
@@ -109,23 +157,4 @@ pub(crate) fn worst_text(worst: Option<(&Case, Worst)>) -> String {
         }
         _ => "none seen".to_owned(),
     }
-}
-
-/// The cells that say which case a row is about, under [`CASE_COLUMNS`].
-pub(crate) fn case_cells(case: &Case) -> Vec<String> {
-    let (coin, surface) = (&case.scene.coin, &case.scene.surface);
-    vec![
-        case.preset.to_string(),
-        surface.restitution().to_string(),
-        surface.friction().to_string(),
-        coin.ratio().to_string(),
-    ]
-}
-
-/// Titles of the cells of [`case_cells`].
-pub(crate) const CASE_COLUMNS: [&str; 4] = ["preset", "restitution", "friction", "ratio"];
-
-/// The case's columns followed by these.
-pub(crate) fn with_case_columns(columns: &[&'static str]) -> Vec<&'static str> {
-    CASE_COLUMNS.iter().chain(columns).copied().collect()
 }

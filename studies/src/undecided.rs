@@ -1,6 +1,6 @@
 //! Tosses that have no face when the engine gives them up.
 
-use crate::survey::{case_cells, stress_box, survey, with_case_columns};
+use crate::survey::{planar_stress, survey};
 use clap::Args;
 use coinmc_bench::{Case, Report, Table, number};
 use coinmc_core::{Engine, Estimate, IntervalMethod, Preset, Tally};
@@ -33,7 +33,7 @@ struct Found {
 
 impl Undecided {
     pub(crate) fn execute(&self, seed: u64) -> Report {
-        let cases = stress_box(&[self.preset], &[0.0, 0.3, 0.5, 0.8, 0.95]);
+        let cases = planar_stress(&[self.preset], &[0.0, 0.3, 0.5, 0.8, 0.95]);
         let found = survey(&cases, |case| toss(case, seed, self.tosses));
         let columns = [
             "tosses",
@@ -45,7 +45,7 @@ impl Undecided {
             "tosses_a_second",
             "undecided_tosses",
         ];
-        let mut record = Table::new("Every scene", &with_case_columns(&columns));
+        let mut record = Table::new("Every scene", &Case::columns(&columns));
         for (case, found) in cases.iter().zip(&found) {
             record.push(row(case, found));
         }
@@ -108,7 +108,7 @@ fn row(case: &Case, found: &Found) -> Vec<String> {
     let tally = &found.tally;
     let a_toss = |count: u64| format!("{:.2}", count as f64 / tally.tosses() as f64);
     let named: Vec<String> = found.named.iter().map(u64::to_string).collect();
-    let mut cells = case_cells(case);
+    let mut cells = case.cells();
     cells.extend([
         tally.tosses().to_string(),
         tally.undecided().to_string(),

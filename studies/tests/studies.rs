@@ -42,7 +42,8 @@ fn no_toss_of_the_stress_box_is_undecided() {
 
 #[test]
 fn settings_at_their_defaults_are_converged() {
-    let lines = STUDIES.study(&["convergence", "--tosses", "100"]);
+    let size = ["--tosses", "100", "--ratios", "0.25,1,2"];
+    let lines = STUDIES.study(&[&["convergence"], &size[..]].concat());
     let defaults = lines
         .lines()
         .iter()
@@ -75,18 +76,6 @@ fn the_early_rule_disagrees_only_where_the_drop_is_high() {
 }
 
 #[test]
-fn the_fair_ratio_is_found_for_every_value() {
-    let lines = STUDIES.study(&["sensitivity", "--tosses", "2000"]);
-    assert!(lines.len() >= 25);
-    for ratio in lines.column("fair_ratio") {
-        assert!(
-            (1.2..2.0).contains(&ratio.parse::<f64>().unwrap()),
-            "{ratio}"
-        );
-    }
-}
-
-#[test]
 fn a_study_is_the_same_every_time_and_another_with_another_seed() {
     let of = |seed| STUDIES.study(&["--seed", seed, "stopping-rule", "--tosses", "40"]);
     assert_eq!(of("1"), of("1"));
@@ -96,7 +85,7 @@ fn a_study_is_the_same_every_time_and_another_with_another_seed() {
 #[test]
 fn in_space_the_defaults_are_converged_and_the_grid_can_be_chosen() {
     let size = ["--tosses", "400", "--rhos", "0.01,0.03", "--ratios", "0.85"];
-    let lines = STUDIES.study(&[&["space-convergence"], &size[..]].concat());
+    let lines = STUDIES.study(&[&["convergence", "--engine", "volumetric"], &size[..]].concat());
     assert_eq!(lines.len(), 4 * 2);
     let (bias, error) = (lines.numbers("bias"), lines.numbers("std_error"));
     for ((bias, error), line) in bias.iter().zip(error).zip(lines.lines()) {
@@ -136,7 +125,13 @@ fn in_space_the_older_law_is_near_its_published_values() {
 
 #[test]
 fn in_space_no_flight_passes_over_a_contact_and_nothing_gains_energy() {
-    let lines = STUDIES.study(&["space-missed", "--flights", "4000"]);
+    let lines = STUDIES.study(&[
+        "missed-contacts",
+        "--engine",
+        "volumetric",
+        "--flights",
+        "4000",
+    ]);
     assert!(lines.column("missed").iter().all(|missed| *missed == "0"));
     for name in ["energy", "momentum"] {
         let worst = lines.numbers(name);
@@ -145,36 +140,18 @@ fn in_space_no_flight_passes_over_a_contact_and_nothing_gains_energy() {
             "{name}: {worst:?}"
         );
     }
-    let lines = STUDIES.study(&["space-energy", "--events", "12000", "--phases", "24"]);
+    let lines = STUDIES.study(&[
+        "energy",
+        "--engine",
+        "volumetric",
+        "--events",
+        "12000",
+        "--phases",
+        "24",
+    ]);
     for (gain, line) in lines.numbers("worst_gain").iter().zip(lines.lines()) {
         assert!(*gain <= 1e-12, "{line}");
     }
-}
-
-#[test]
-fn in_space_no_random_toss_panics_or_fails() {
-    let size = [
-        "--tosses",
-        "300",
-        "--max-impacts",
-        "5000",
-        "--max-elastic",
-        "200",
-        "--max-steps",
-        "5000",
-    ];
-    let lines = STUDIES.study(&[&["space-stress"], &size[..]].concat());
-    assert_eq!(lines.len(), 4);
-    // a panic is a toss that no group counts
-    assert_eq!(lines.numbers("tosses").iter().sum::<f64>(), 300.0);
-    assert!(
-        lines
-            .column("undecided")
-            .iter()
-            .all(|kinds| !kinds.contains("failed"))
-    );
-    let output = STUDIES.execute(&["space-stress", "--only", "7"]);
-    assert!(String::from_utf8_lossy(&output.stdout).contains("ended"));
 }
 
 #[test]
@@ -275,10 +252,10 @@ fn exact_flight_gains_no_energy() {
 /// Bounds ten times and more above the worst of 1e8 tosses in the plane and 1e6 in space.
 #[test]
 fn no_region_of_the_box_breaks_an_engine() {
-    for (engine, tosses) in [("flat", 4000.0), ("space", 400.0)] {
+    for (engine, tosses) in [("flat", 4000.0), ("volumetric", 400.0)] {
         let count = format!("{tosses}");
         let size = ["--tosses", &count, "--max-impacts", "500"];
-        let limits = ["--max-steps", "500", "--looked-into", "10"];
+        let limits = ["--max-steps", "500", "--dense", "10"];
         let arguments = [&["stability", "--engine", engine], &size[..], &limits[..]].concat();
         let lines = STUDIES.study(&arguments);
         for name in ["failed", "not_finite", "panics", "missed"] {
@@ -300,16 +277,9 @@ fn no_region_of_the_box_breaks_an_engine() {
 }
 
 #[test]
-fn in_random_scenes_a_toss_ends_as_it_does_alone() {
-    for engine in ["flat", "space"] {
-        let size = [
-            "--tosses",
-            "20000",
-            "--together",
-            "50",
-            "--looked-into",
-            "1000",
-        ];
+fn in_random_scenes_batches_match_the_scalar_path() {
+    for engine in ["flat", "volumetric"] {
+        let size = ["--tosses", "20000", "--together", "50", "--dense", "1000"];
         let limits = ["--max-impacts", "50", "--max-steps", "50"];
         let lines =
             STUDIES.study(&[&["stability", "--engine", engine], &size[..], &limits[..]].concat());
@@ -322,6 +292,23 @@ fn in_random_scenes_a_toss_ends_as_it_does_alone() {
         let output = STUDIES.execute(&["stability", "--together", together, "--first", first]);
         assert!(!output.status.success(), "{refused:?}");
     }
+}
+
+#[test]
+fn no_law_breaks_the_volumetric_engine() {
+    for law in ["chatterjee-ruina", "stronge"] {
+        let size = ["--tosses", "200", "--max-steps", "500", "--law", law];
+        let lines = STUDIES.study(&[&["stability", "--engine", "volumetric"], &size[..]].concat());
+        for name in ["failed", "not_finite", "panics", "missed"] {
+            assert!(
+                lines.numbers(name).iter().all(|n| *n == 0.0),
+                "{law}: {name}"
+            );
+        }
+    }
+    let output = STUDIES.execute(&["stability", "--law", "nothing"]);
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(!output.status.success() && message.contains("no law is called `nothing`"));
 }
 
 #[test]

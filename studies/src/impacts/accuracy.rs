@@ -1,11 +1,12 @@
 //! Work and precision: error of the state after an impact, and of P(side), against run time.
 
-use super::{Dice, distance, impact, line, materials, pulse, scene, touch};
+use super::{distance, impact, line, materials, pulse, scene, touch};
 use crate::survey::survey;
 use clap::Args;
 use coinmc_bench::{Case, Report, Table, number};
 use coinmc_core::{Engine, Face, Launch, Preset, Scene};
 use coinmc_flat::{Law, LineContact, PulseTime, Settings};
+use coinmc_testkit::Dice;
 use std::hint::black_box;
 use std::time::Instant;
 

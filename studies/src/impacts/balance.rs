@@ -1,11 +1,12 @@
 //! Stress of the line contact: the balance of energy, and that every impact ends in numbers.
 
-use super::{Dice, impact, line, scene, touch};
+use super::{impact, line, scene, touch};
 use crate::survey::survey;
 use clap::Args;
 use coinmc_bench::{Report, Table, number};
 use coinmc_core::State;
 use coinmc_flat::Materials;
+use coinmc_testkit::Dice;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Young's modulus of both bodies, Pa: one row each, log-uniform from one to the next.

@@ -5,12 +5,13 @@
 //! surface gives back, and normal restitution that depends on when the grip changes. Both limits
 //! are approached with the first power of the time of contact, as K^(−9/19).
 
-use super::{Dice, distance, impact, line, materials, pulse, scene, touch};
+use super::{distance, impact, line, materials, pulse, scene, touch};
 use crate::survey::survey;
 use clap::Args;
 use coinmc_bench::{Report, Table, number};
 use coinmc_core::{Launch, Scene};
 use coinmc_flat::{Law, LineContact, PulseTime};
+use coinmc_testkit::Dice;
 
 /// How many times as stiff as PLA on wood.
 const STIFFER: [f64; 6] = [1e-2, 1.0, 1e2, 1e4, 1e6, 1e8];

@@ -10,9 +10,7 @@ pub(crate) use balance::ImpactBalance;
 pub(crate) use curves::ImpactCurves;
 pub(crate) use limit::ImpactLimit;
 
-use coinmc_core::{
-    Coin, Domain, Launch, Scene, State, Stream, Surface, TossUniforms, UniformSource,
-};
+use coinmc_core::{Coin, Launch, Scene, State, Surface};
 use coinmc_flat::{HalfSine, Law, LineContact, Materials, PulseTime, Settings, SingleImpact};
 use nalgebra::{UnitVector3, Vector3};
 
@@ -77,30 +75,4 @@ fn touch(theta: f64, vx: f64, vz: f64, spin: f64) -> Launch {
 fn distance(scene: &Scene, a: &State, b: &State) -> f64 {
     let rim = (a.spin_rad_s.y - b.spin_rad_s.y).abs() * scene.coin.radius_m();
     (a.velocity_m_s - b.velocity_m_s).norm().max(rim)
-}
-
-/// Random numbers of one trial, one after the other.
-struct Dice(TossUniforms, u32);
-
-impl Dice {
-    fn new(seed: u64, trial: u64) -> Self {
-        Self(Stream::new(seed, Domain::Launch, 0).toss(trial), 0)
-    }
-
-    fn between(&mut self, from: f64, to: f64) -> f64 {
-        self.1 += 1;
-        from + (to - from) * self.0.uniform(self.1 - 1)
-    }
-
-    /// Log-uniform.
-    fn scale(&mut self, from: f64, to: f64) -> f64 {
-        libm::exp(self.between(libm::log(from), libm::log(to)))
-    }
-
-    fn pick<T: Copy>(&mut self, choices: &[T]) -> T {
-        // the share lies in (0, 1): the index within the slice
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-        let index = (self.between(0.0, 1.0) * choices.len() as f64) as usize;
-        choices[index.min(choices.len() - 1)]
-    }
 }

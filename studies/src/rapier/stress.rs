@@ -1,7 +1,7 @@
 //! Random tosses from the box that the event-driven engine has to survive: does each end, and how.
 
 use super::Flaws;
-use crate::space::Sample;
+use crate::sample::Sample;
 use crate::survey::survey;
 use clap::Args;
 use coinmc_bench::{Report, Table, number};

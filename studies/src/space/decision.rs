@@ -1,9 +1,9 @@
 //! What the decision by tilting energy changes against the rigorous one, and how many tosses
 //! never end.
 
-use super::grid::Grid;
-use super::paired::{Paired, undecided};
-use super::{cells, columns, survey_tosses};
+use crate::grid::Grid;
+use crate::paired::{Paired, undecided};
+use crate::survey::survey_tosses;
 use clap::Args;
 use coinmc_bench::{Case, Report, Table, number};
 use coinmc_volumetric::{Decision, Settings};
@@ -36,7 +36,7 @@ impl SpaceDecision {
         let found = survey_tosses(
             &cases,
             self.tosses,
-            |case, tosses| Paired::of(case, [&tilting, &energy], seed, tosses),
+            |case, tosses| Paired::in_space(case, [&tilting, &energy], seed, tosses),
             Paired::merge,
         );
         let more = [
@@ -52,9 +52,9 @@ impl SpaceDecision {
             "Decision by tilting energy against the rigorous one, {} tosses a scene, paired",
             self.tosses
         );
-        let mut record = Table::new(title, &columns(&more));
+        let mut record = Table::new(title, &Case::columns(&more));
         for (case, found) in cases.iter().zip(&found) {
-            let mut row = cells(case);
+            let mut row = case.cells();
             row.extend(cells_of(found));
             record.push(row);
         }

@@ -1,13 +1,13 @@
 //! P(side) with its total error, law by law.
 
-use super::grid::Grid;
-use super::paired::{Paired, side, undecided};
-use super::{cells, columns, engine, survey_tosses, tightened};
+use super::tightened;
+use crate::grid::Grid;
+use crate::paired::{Paired, undecided};
+use crate::survey::{side, survey_tosses, tally, volumetric};
 use clap::Args;
 use coinmc_bench::{Case, Report, Table, number};
-use coinmc_core::{Engine, Tally};
+use coinmc_core::Tally;
 use coinmc_volumetric::{Law, Settings};
-use std::ops::Range;
 
 /// The study's arguments.
 #[derive(Debug, Args)]
@@ -30,7 +30,7 @@ impl SpaceLaws {
         let tallies = survey_tosses(
             &scenes,
             self.tosses,
-            |(case, law), tosses| tally(case, *law, seed, tosses),
+            |(case, law), tosses| tally(case, &volumetric(case, &settings(*law)), seed, tosses),
             Tally::merge,
         );
         let paired = survey_tosses(
@@ -38,7 +38,7 @@ impl SpaceLaws {
             self.paired.min(self.tosses),
             |(case, law), tosses| {
                 let settings = settings(*law);
-                Paired::of(case, [&settings, &tightened(&settings)], seed, tosses)
+                Paired::in_space(case, [&settings, &tightened(&settings)], seed, tosses)
             },
             Paired::merge,
         );
@@ -57,11 +57,11 @@ impl SpaceLaws {
             self.tosses,
             self.paired.min(self.tosses),
         );
-        let mut record = Table::new(title, &columns(&more));
+        let mut record = Table::new(title, &Case::columns(&more));
         for (i, ((case, law), tally)) in scenes.iter().zip(&tallies).enumerate() {
             let moreau = side(&tallies[i - i % Law::ALL.len()]).p;
             let (estimate, error) = (side(tally), paired[i].numerical_error());
-            let mut row = cells(case);
+            let mut row = case.cells();
             row.extend([
                 law.name().to_owned(),
                 number::probability(estimate.p),
@@ -95,15 +95,4 @@ fn settings(law: Law) -> Settings {
         law,
         ..Settings::default()
     }
-}
-
-fn tally(case: &Case, law: Law, seed: u64, tosses: Range<u64>) -> Tally {
-    let engine = engine(case, &settings(law));
-    let (launches, stream) = (case.launches(), Case::stream(seed));
-    let mut tally = Tally::default();
-    for number in tosses {
-        let launch = launches.launch(&case.scene.coin, &mut stream.toss(number));
-        tally.add(&engine.toss(&mut (), &launch, &mut ()));
-    }
-    tally
 }

@@ -1,7 +1,8 @@
 //! Our P(side) beside what other engines give in the same scenes.
 
-use super::paired::{Paired, undecided};
-use super::{FRICTION, survey_tosses, tightened};
+use super::tightened;
+use crate::paired::{Paired, undecided};
+use crate::survey::{FRICTION, survey_tosses};
 use anyhow::Context;
 use clap::Args;
 use coinmc_bench::{Case, Report, Table, number};
@@ -50,7 +51,7 @@ impl SpacePeers {
         let found = survey_tosses(
             &ours,
             self.tosses,
-            |one, tosses| Paired::of(&one.case, [&default, &tight], seed, tosses),
+            |one, tosses| Paired::in_space(&one.case, [&default, &tight], seed, tosses),
             Paired::merge,
         );
         let columns = [

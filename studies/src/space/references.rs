@@ -5,9 +5,8 @@
 //! conditions together; the earlier study solved friction without the lengths and then added these
 //! in a few sweeps ([`Sequential`]).
 
-use super::paired::side;
 use super::sequential::Sequential;
-use super::{FRICTION, engine, survey_tosses, tally};
+use crate::survey::{FRICTION, side, survey_tosses, tally, volumetric};
 use clap::Args;
 use coinmc_bench::{Case, Report, Table, number};
 use coinmc_core::{Preset, Tally};
@@ -88,7 +87,7 @@ impl SpaceReferences {
                         let engine = engine.expect("the defaults are in range");
                         tally(&case, &engine, seed, tosses)
                     }
-                    None => tally(&case, &engine(&case, &settings), seed, tosses),
+                    None => tally(&case, &volumetric(&case, &settings), seed, tosses),
                 }
             },
             Tally::merge,

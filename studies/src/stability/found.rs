@@ -1,8 +1,8 @@
-//! What many tosses came to.
+//! Sums and extremes over many tosses.
 
 use super::region::AXES;
 use super::witness::Seen;
-use crate::space::Sample;
+use crate::sample::Sample;
 use crate::worst::Worst;
 use coinmc_bench::number;
 use coinmc_core::{Ended, Outcome, Tally};
@@ -27,7 +27,7 @@ pub(super) const COLUMNS: [&str; 16] = [
     "differ",
 ];
 
-/// Tosses that are named, of each kind.
+/// How many tosses of each kind are listed.
 const NAMED: usize = 6;
 
 /// Tosses of one region of the box.
@@ -56,7 +56,7 @@ pub(super) struct Hardest {
     depth: Vec<Worst>,
 }
 
-/// What a range of tosses came to.
+/// Sums and extremes over a range of tosses.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Found {
     /// By parameter, then by region.

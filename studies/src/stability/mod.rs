@@ -4,10 +4,10 @@ mod found;
 mod region;
 mod witness;
 
-use crate::space::{PART, Sample};
-use crate::survey::survey;
+use crate::sample::Sample;
+use crate::survey::{EventDriven, PART, survey};
 use anyhow::{anyhow, bail};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use coinmc_bench::{Report, Table, number};
 use coinmc_core::{Ended, Engine, Outcome};
 use found::{Found, Hardest};
@@ -20,18 +20,22 @@ use witness::{Seen, Witness};
 #[derive(Debug, Args)]
 pub(crate) struct Stability {
     /// The engine
-    #[arg(long, value_enum, default_value_t = Which::Flat)]
-    engine: Which,
+    #[arg(long, value_enum, default_value_t = EventDriven::Flat)]
+    engine: EventDriven,
+
+    /// The law of impact, by the engine's name for it; by default the engine's default
+    #[arg(long, value_name = "LAW")]
+    law: Option<String>,
 
     /// Tosses
     #[arg(long, value_parser = number::count, default_value = "1e7", value_name = "N")]
     tosses: u64,
 
-    /// Tosses of a scene: the first is watched, all are made side by side
+    /// Tosses of a scene: the first is observed on the scalar path, all are made in one batch
     #[arg(long, value_parser = number::count, default_value = "1", value_name = "N")]
     together: u64,
 
-    /// Number of the first toss: a long study may be made in parts
+    /// Number of the first toss, to make a long study in parts
     #[arg(long, value_parser = number::count_or_zero, default_value = "0", value_name = "TOSS")]
     first: u64,
 
@@ -47,24 +51,16 @@ pub(crate) struct Stability {
     #[arg(long, value_parser = number::count, default_value = "2000", value_name = "N")]
     max_steps: u64,
 
-    /// One toss of so many, if it is watched, has its flights sampled densely
+    /// One observed toss of so many has its flights sampled densely
     #[arg(long, value_parser = number::count, default_value = "1000", value_name = "N")]
-    looked_into: u64,
+    dense: u64,
 
-    /// Makes this toss alone
+    /// Makes this toss only
     #[arg(long, value_name = "TOSS")]
     only: Option<u64>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Which {
-    /// In the plane
-    Flat,
-    /// In space
-    Space,
-}
-
-/// The engines' settings, limits as asked for: below e = 1, and at it.
+/// The engines' settings with the limits of the command line: below e = 1, and at it.
 struct Limits {
     flat: [coinmc_flat::Settings; 2],
     space: [coinmc_volumetric::Settings; 2],
@@ -74,7 +70,7 @@ impl Stability {
     pub(crate) fn execute(&self, seed: u64) -> anyhow::Result<Report> {
         let limits = self.limits()?;
         if let Some(toss) = self.only {
-            return Ok(self.alone(seed, toss, &limits));
+            return Ok(self.one(seed, toss, &limits));
         }
         let end = self.first.checked_add(self.tosses);
         let end = end.ok_or_else(|| anyhow!("toss numbers end at {}", u64::MAX))?;
@@ -82,12 +78,12 @@ impl Stability {
             bail!("--together is at most {PART}: the tosses of a scene are held in memory");
         }
         if !self.first.is_multiple_of(self.together) {
-            bail!("--first is no multiple of --together");
+            bail!("--first must be a multiple of --together");
         }
         let part = PART.next_multiple_of(self.together);
         let starts = (0..self.tosses.div_ceil(part)).map(|index| self.first + index * part);
         let parts: Vec<Range<u64>> = starts.map(|start| start..(start + part).min(end)).collect();
-        // a panic is counted and named; its message would tear the table
+        // a panic is counted and named; its message would disrupt the table
         let hook = panic::take_hook();
         panic::set_hook(Box::new(|_| {}));
         let found = survey(&parts, |part| self.find(seed, part.clone(), &limits));
@@ -100,15 +96,31 @@ impl Stability {
         let most = |limit: u64| u32::try_from(limit).map_err(|_| anyhow!("at most {}", u32::MAX));
         let impacts = [most(self.max_impacts)?, most(self.max_elastic)?];
         let max_steps = most(self.max_steps)?;
+        let (mut flat, mut space) = (
+            coinmc_flat::Settings::default(),
+            coinmc_volumetric::Settings::default(),
+        );
+        space.max_steps = max_steps;
+        if let Some(name) = &self.law {
+            match self.engine {
+                EventDriven::Flat => {
+                    let laws = coinmc_flat::Law::RIGID;
+                    flat.law = named(&laws, |law| law.name(), name)?;
+                }
+                EventDriven::Volumetric => {
+                    let laws = coinmc_volumetric::Law::ALL;
+                    space.law = named(&laws, |law| law.name(), name)?;
+                }
+            }
+        }
         Ok(Limits {
             flat: impacts.map(|max_impacts| coinmc_flat::Settings {
                 max_impacts,
-                ..coinmc_flat::Settings::default()
+                ..flat
             }),
             space: impacts.map(|max_impacts| coinmc_volumetric::Settings {
                 max_impacts,
-                max_steps,
-                ..coinmc_volumetric::Settings::default()
+                ..space
             }),
         })
     }
@@ -116,8 +128,8 @@ impl Stability {
     fn sample(&self, seed: u64, toss: u64) -> Sample {
         let scene = toss / self.together;
         match self.engine {
-            Which::Flat => Sample::in_plane(seed, scene, toss),
-            Which::Space => Sample::in_scene(seed, scene, toss),
+            EventDriven::Flat => Sample::in_plane(seed, scene, toss),
+            EventDriven::Volumetric => Sample::in_scene(seed, scene, toss),
         }
     }
 
@@ -127,7 +139,7 @@ impl Stability {
         while first < tosses.end {
             let numbers = first..(first + self.together).min(tosses.end);
             let samples: Vec<Sample> = numbers.map(|toss| self.sample(seed, toss)).collect();
-            let looks = first.is_multiple_of(self.looked_into);
+            let looks = first.is_multiple_of(self.dense);
             let made = panic::catch_unwind(AssertUnwindSafe(|| {
                 self.in_one_scene(&samples, looks, limits)
             }));
@@ -148,8 +160,8 @@ impl Stability {
         found
     }
 
-    /// Follows tosses of one scene: the first is watched, and is made again side by side with the
-    /// others if there are any.
+    /// Makes the tosses of one scene: the first on the scalar path under observation, then all of
+    /// them in one batch if there are several.
     fn in_one_scene(
         &self,
         samples: &[Sample],
@@ -157,16 +169,11 @@ impl Stability {
         limits: &Limits,
     ) -> Vec<(Outcome, Seen)> {
         let (scene, elastic) = (&samples[0].scene, usize::from(samples[0].is_elastic()));
-        match self.engine {
-            Which::Flat => {
-                let engine = limits.flat[elastic].engine(scene);
-                make(&engine.expect("settings are in range"), samples, looks)
-            }
-            Which::Space => {
-                let engine = limits.space[elastic].engine(scene);
-                make(&engine.expect("settings are in range"), samples, looks)
-            }
-        }
+        let engine = match self.engine {
+            EventDriven::Flat => limits.flat[elastic].engine(scene).ok(),
+            EventDriven::Volumetric => limits.space[elastic].engine(scene).ok(),
+        };
+        make(&engine.expect("settings are in range"), samples, looks)
     }
 
     fn report(&self, seed: u64, found: &Found) -> Report {
@@ -188,11 +195,11 @@ impl Stability {
         report.remark(
             "gain: of energy in an impact or a contact phase, relative to the energy before. residual: \
              distance of the lowest point from the surface at a contact, in D. drift: relative change \
-             of energy in flight. missed: flights that pass over a contact, of those looked into; \
-             depth: the deepest of these, in D. n: spin in units of sqrt(g/D). differ: tosses that end \
-             otherwise side by side than alone, of those made both ways.",
+             of energy in flight. missed: flights that pass over a contact, of those sampled densely; \
+             depth: the deepest of these, in D. n: spin in units of sqrt(g/D). differ: tosses whose \
+             outcome in the batch is not that of the scalar path, of those made both ways.",
         );
-        report.remark("--only TOSS makes a toss again, alone.");
+        report.remark("--only TOSS repeats one toss.");
         report
     }
 
@@ -205,8 +212,8 @@ impl Stability {
         table
     }
 
-    /// One toss, told in full.
-    fn alone(&self, seed: u64, toss: u64, limits: &Limits) -> Report {
+    /// One toss in detail.
+    fn one(&self, seed: u64, toss: u64, limits: &Limits) -> Report {
         let sample = self.sample(seed, toss);
         let (outcome, seen) = self.in_one_scene(std::slice::from_ref(&sample), true, limits)[0];
         let mut table = Table::new(sample.to_string(), &["what", "value"]);
@@ -234,23 +241,32 @@ impl Stability {
     }
 }
 
+/// The law of this name.
+fn named<L: Copy>(laws: &[L], name_of: fn(&L) -> &'static str, name: &str) -> anyhow::Result<L> {
+    let law = laws.iter().find(|law| name_of(law) == name);
+    law.copied().ok_or_else(|| {
+        let names: Vec<&str> = laws.iter().map(name_of).collect();
+        anyhow!("no law is called `{name}`; there are {}", names.join(", "))
+    })
+}
+
 fn make<E>(engine: &E, samples: &[Sample], looks: bool) -> Vec<(Outcome, Seen)>
 where
     E: Engine<Workspace = ()>,
 {
     let mut witness = Witness::new(&samples[0].scene, looks);
-    let alone = engine.toss(&mut (), &samples[0].launch, &mut witness);
-    let mut made = vec![(alone, witness.seen)];
+    let scalar = engine.toss(&mut (), &samples[0].launch, &mut witness);
+    let mut made = vec![(scalar, witness.seen)];
     if samples.len() == 1 {
         return made;
     }
-    made.resize(samples.len(), (alone, Seen::nothing()));
+    made.resize(samples.len(), (scalar, Seen::nothing()));
     let launches = samples.iter().map(|sample| sample.launch);
     engine.toss_all(&mut (), launches, |number, outcome| {
         let toss = usize::try_from(number).expect("an index");
         made[toss].0 = *outcome;
         ControlFlow::Continue(())
     });
-    made[0].1.agrees = Some(made[0].0 == alone);
+    made[0].1.agrees = Some(made[0].0 == scalar);
     made
 }

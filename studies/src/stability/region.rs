@@ -1,6 +1,6 @@
 //! The regions of the box, one parameter at a time.
 
-use crate::space::Sample;
+use crate::sample::Sample;
 
 /// A parameter of a toss, and where its regions begin.
 pub(super) struct Axis {

@@ -1,7 +1,7 @@
-//! What is seen of one toss from outside the engine.
+//! Observations of one toss from outside the engine.
 
+use crate::flight::Leg;
 use crate::legs::Legs;
-use crate::space::Leg;
 use crate::worst::largest;
 use coinmc_core::{Event, EventKind, Observer, Scene, State};
 
@@ -14,20 +14,20 @@ pub(super) struct Seen {
     pub(super) residual: f64,
     /// Relative change of energy in flight.
     pub(super) drift: f64,
-    /// Penetration in a flight that was looked into, in D.
+    /// Penetration in a flight that was sampled densely, in D.
     pub(super) depth: f64,
-    /// Flights looked into.
+    /// Flights sampled densely.
     pub(super) flights: u64,
     /// Those that pass over a contact.
     pub(super) missed: u64,
-    /// A number of an event's state is infinite or none.
+    /// A number of an event's state is infinite or NaN.
     pub(super) not_finite: bool,
-    /// Whether it ends side by side with others as it does alone, if it was made both ways.
+    /// Whether the batch gives the outcome of the scalar path, if it was made both ways.
     pub(super) agrees: Option<bool>,
 }
 
 impl Seen {
-    /// What is seen of a toss that nobody watches.
+    /// Of a toss that is not observed.
     pub(super) fn nothing() -> Self {
         Self {
             gain: f64::NEG_INFINITY,
@@ -42,20 +42,20 @@ impl Seen {
     }
 }
 
-/// Watches one toss.
+/// Observes one toss.
 pub(super) struct Witness<'a> {
     scene: &'a Scene,
-    looks_into_flights: bool,
+    samples_flights: bool,
     legs: Legs,
     last: Option<(EventKind, f64)>,
     pub(super) seen: Seen,
 }
 
 impl<'a> Witness<'a> {
-    pub(super) fn new(scene: &'a Scene, looks_into_flights: bool) -> Self {
+    pub(super) fn new(scene: &'a Scene, samples_flights: bool) -> Self {
         Self {
             scene,
-            looks_into_flights,
+            samples_flights,
             legs: Legs::default(),
             last: None,
             seen: Seen::nothing(),
@@ -75,7 +75,7 @@ impl<'a> Witness<'a> {
         let energies = [start, end].map(|state| state.energy_j_kg(self.scene));
         let drift = (energies[1] / energies[0] - 1.0).abs();
         self.seen.drift = largest(self.seen.drift, drift);
-        if self.looks_into_flights {
+        if self.samples_flights {
             let depth = Leg::new(self.scene, start, end).depth();
             self.seen.flights += 1;
             self.seen.missed += u64::from(Leg::is_missed(depth));
@@ -106,7 +106,7 @@ impl Observer for Witness<'_> {
             let gap = self.gap(&event.state).abs();
             self.seen.residual = largest(self.seen.residual, gap);
         }
-        // one rim and the other in turn: an impact follows the other at once
+        // two impacts at one instant, at one rim and then the other, enclose no flight
         let flown = |(start, end): &(State, State)| start.time_s < end.time_s;
         if let Some((start, end)) = self.legs.see(event).filter(flown) {
             self.fly(&start, &end);
@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn gains_show_in_impacts_and_numbers_that_are_none_anywhere() {
+    fn gains_show_in_impacts_and_nan_anywhere() {
         let seen = watch(&[
             event(EventKind::Touching, 0.0, 0.005, -1.0),
             event(EventKind::Impact, 0.0, 0.005, 1.1),

@@ -1,13 +1,13 @@
-//! The grid of scenes that the studies of the toss in space share.
+//! The grid of scenes that several studies share.
 
-use super::FRICTION;
+use crate::survey::{EventDriven, FRICTION};
 use clap::Args;
 use coinmc_bench::Case;
 use coinmc_core::Preset;
 
 /// H/R × restitution × friction lengths, with μ = 0.3 and the preset clean.
 #[derive(Debug, Clone, Args)]
-pub(super) struct Grid {
+pub(crate) struct Grid {
     /// H/R of the scenes
     #[arg(long, value_delimiter = ',', value_parser = positive, value_name = "X,…",
           default_values_t = [0.25, 0.85, 2.0])]
@@ -18,15 +18,28 @@ pub(super) struct Grid {
           default_values_t = [0.0, 0.3, 0.5, 0.8])]
     restitutions: Vec<f64>,
 
-    /// Contour and pivoting friction lengths of the scenes, in radii
+    /// Rolling and pivoting friction lengths of the scenes in space, in radii
     #[arg(long, value_delimiter = ',', value_parser = share, value_name = "RHO,…",
           default_values_t = [0.0, 0.003, 0.01, 0.03])]
     rhos: Vec<f64>,
 }
 
 impl Grid {
-    /// Every combination, the friction length varying fastest.
-    pub(super) fn cases(&self) -> Vec<Case> {
+    /// The scenes of a study of this engine: in the plane coins fall with the preset clean-flat on
+    /// surfaces of several frictions and no friction lengths.
+    pub(crate) fn cases_of(&self, engine: EventDriven) -> Vec<Case> {
+        let frictions = [0.0, FRICTION, 1.0];
+        match engine {
+            EventDriven::Flat => {
+                let presets = [Preset::CleanFlat];
+                Case::grid(&presets, &self.restitutions, &frictions, &self.ratios)
+            }
+            EventDriven::Volumetric => self.cases(),
+        }
+    }
+
+    /// Every combination in space, the friction length varying fastest.
+    pub(crate) fn cases(&self) -> Vec<Case> {
         let mut cases = Vec::new();
         for &ratio in &self.ratios {
             for &e in &self.restitutions {

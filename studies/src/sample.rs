@@ -1,8 +1,7 @@
 //! Random scenes and launches from all over the box that the engine has to survive.
 
 use coinmc_bench::Case;
-use coinmc_core::{Coin, Engine, Launch, Orientation, Outcome, Scene, Surface, UniformSource};
-use coinmc_volumetric::Settings;
+use coinmc_core::{Coin, Launch, Orientation, Scene, Surface, UniformSource};
 use nalgebra::{UnitVector3, Vector3};
 use std::f64::consts::TAU;
 use std::fmt;
@@ -70,22 +69,9 @@ impl Sample {
         sample
     }
 
-    /// Follows the toss.
-    pub(super) fn toss(&self, settings: &Settings) -> Outcome {
-        let engine = settings.engine(&self.scene);
-        let engine = engine.expect("settings are in range");
-        engine.toss(&mut (), &self.launch, &mut ())
-    }
-
     /// Spin in units of sqrt(g/D): how often the coin turns while it topples.
     pub(crate) fn turns(&self) -> f64 {
         self.launch.spin_rad_s.norm() * self.scene.time_scale_s()
-    }
-
-    /// A friction length is missing: the coin may roll or spin for ever.
-    pub(super) fn rolls_freely(&self) -> bool {
-        self.scene.surface.rolling_friction_m() == 0.0
-            || self.scene.surface.pivoting_friction_m() == 0.0
     }
 
     /// Bounces lose nothing.

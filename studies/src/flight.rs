@@ -3,9 +3,8 @@
 //! In the laboratory frame and from the angular momentum alone: the axis goes round the fixed L at
 //! the rate |L|/I_t. The engine's folded frame and its bounds have no part in it.
 
-use super::angular_momentum;
 use crate::worst::largest;
-use coinmc_core::{Scene, State};
+use coinmc_core::{Coin, Scene, State};
 use nalgebra::Vector3;
 
 /// Even samples of a flight.
@@ -15,11 +14,18 @@ const CLOSING_IN: std::ops::Range<i32> = 10..40;
 /// Penetration, in D, that is no rounding error: a contact was passed over.
 const MISSED: f64 = 1e-12;
 
+/// Angular momentum about the centre per mass, m²/s.
+pub(crate) fn angular_momentum(coin: &Coin, state: &State) -> Vector3<f64> {
+    let axis = state.axis.into_inner();
+    let along = axis * state.spin_rad_s.dot(&axis);
+    along * coin.axial_gyration_m2() + (state.spin_rad_s - along) * coin.transverse_gyration_m2()
+}
+
 /// A flight between two states, by each of them: near either end that one is exact.
 pub(crate) struct Leg {
-    pub(super) from: Flight,
-    pub(super) back: Flight,
-    pub(super) duration: f64,
+    pub(crate) from: Flight,
+    pub(crate) back: Flight,
+    pub(crate) duration: f64,
 }
 
 impl Leg {
@@ -56,7 +62,7 @@ impl Leg {
     }
 
     /// What counts as passing over a contact, for a report.
-    pub(super) fn criterion() -> String {
+    pub(crate) fn criterion() -> String {
         let closing_in = 2 * CLOSING_IN.len();
         format!(
             "deeper than {MISSED:e} D at one of {SAMPLES} even samples and {closing_in} towards \
@@ -66,7 +72,7 @@ impl Leg {
 }
 
 /// A flight without drag through a known state.
-pub(super) struct Flight {
+pub(crate) struct Flight {
     gravity: f64,
     radius: f64,
     half: f64,
@@ -82,7 +88,7 @@ pub(super) struct Flight {
 }
 
 impl Flight {
-    pub(super) fn new(scene: &Scene, state: &State) -> Self {
+    pub(crate) fn new(scene: &Scene, state: &State) -> Self {
         let coin = &scene.coin;
         let axis = state.axis.into_inner();
         let momentum = angular_momentum(coin, state);
@@ -104,20 +110,20 @@ impl Flight {
     }
 
     /// The axis `t` seconds later.
-    pub(super) fn axis(&self, t: f64) -> Vector3<f64> {
+    pub(crate) fn axis(&self, t: f64) -> Vector3<f64> {
         let (sin, cos) = libm::sincos(self.rate * t);
         self.along + self.across * cos + self.ahead * sin
     }
 
     /// The centre `t` seconds later.
-    pub(super) fn position(&self, t: f64) -> Vector3<f64> {
+    pub(crate) fn position(&self, t: f64) -> Vector3<f64> {
         let mut position = self.position + self.velocity * t;
         position.z -= 0.5 * self.gravity * t * t;
         position
     }
 
     /// Height of the lowest point `t` seconds later, in D.
-    pub(super) fn gap(&self, t: f64) -> f64 {
+    pub(crate) fn gap(&self, t: f64) -> f64 {
         let u = self.axis(t);
         // from the horizontal part: 1 − u_z² has no digits left near 0
         let sine = (u.x * u.x + u.y * u.y).sqrt();

@@ -1,8 +1,8 @@
 //! The same tosses made in two ways.
 
-use super::engine;
+use crate::survey::{side, volumetric};
 use coinmc_bench::Case;
-use coinmc_core::{Engine, Estimate, Face, IntervalMethod, Outcome, Tally};
+use coinmc_core::{Engine, Estimate, Face, Outcome, Tally};
 use coinmc_volumetric::Settings;
 use std::ops::{ControlFlow, Range};
 
@@ -11,25 +11,39 @@ const SIGMAS: f64 = 1.96;
 
 /// How tosses differ between two settings.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Paired {
-    pub(super) first: Tally,
-    pub(super) second: Tally,
+pub(crate) struct Paired {
+    pub(crate) first: Tally,
+    pub(crate) second: Tally,
     /// On the side the first way only, and the second way only.
-    pub(super) gained: u64,
-    pub(super) lost: u64,
+    pub(crate) gained: u64,
+    pub(crate) lost: u64,
     /// With another outcome, heads and tails told apart.
-    pub(super) changed: u64,
+    pub(crate) changed: u64,
 }
 
 impl Paired {
-    /// Makes tosses of a case under two settings.
-    pub(super) fn of(case: &Case, settings: [&Settings; 2], seed: u64, tosses: Range<u64>) -> Self {
-        let [first, second] = settings.map(|settings| outcomes(case, settings, seed, &tosses));
+    /// Makes tosses of a case with two engines.
+    pub(crate) fn of<E>(case: &Case, engines: [&E; 2], seed: u64, tosses: Range<u64>) -> Self
+    where
+        E: Engine<Workspace = ()>,
+    {
+        let [first, second] = engines.map(|engine| outcomes(case, engine, seed, &tosses));
         let mut paired = Self::default();
         for (first, second) in first.iter().zip(&second) {
             paired.add(first, second);
         }
         paired
+    }
+
+    /// Makes tosses of a case in space under two settings.
+    pub(crate) fn in_space(
+        case: &Case,
+        settings: [&Settings; 2],
+        seed: u64,
+        tosses: Range<u64>,
+    ) -> Self {
+        let [first, second] = settings.map(|settings| volumetric(case, settings));
+        Self::of(case, [&first, &second], seed, tosses)
     }
 
     fn add(&mut self, first: &Outcome, second: &Outcome) {
@@ -44,7 +58,7 @@ impl Paired {
         self.changed += u64::from(first.face() != second.face());
     }
 
-    pub(super) fn merge(&mut self, other: &Self) {
+    pub(crate) fn merge(&mut self, other: &Self) {
         self.first.merge(&other.first);
         self.second.merge(&other.second);
         self.gained += other.gained;
@@ -53,24 +67,24 @@ impl Paired {
     }
 
     /// P(side) the first way minus the second way.
-    pub(super) fn bias(&self) -> f64 {
+    pub(crate) fn bias(&self) -> f64 {
         (self.gained as f64 - self.lost as f64) / self.first.tosses() as f64
     }
 
     /// Tosses that are on the side in one way only.
-    pub(super) fn discordant(&self) -> u64 {
+    pub(crate) fn discordant(&self) -> u64 {
         self.gained + self.lost
     }
 
     /// Standard error of the mean of differences that are −1, 0 or 1.
-    pub(super) fn std_error(&self) -> f64 {
+    pub(crate) fn std_error(&self) -> f64 {
         let n = self.first.tosses() as f64;
         let mean_square = self.discordant() as f64 / n;
         ((mean_square - self.bias().powi(2)).max(0.0) / n).sqrt()
     }
 
     /// |bias| in standard errors; 0 where no toss differs.
-    pub(super) fn z(&self) -> f64 {
+    pub(crate) fn z(&self) -> f64 {
         if self.discordant() == 0 {
             0.0
         } else {
@@ -80,20 +94,22 @@ impl Paired {
 
     /// The largest |bias| that these tosses leave possible, with 95 % confidence; without a
     /// discordant toss by the rule of three.
-    pub(super) fn numerical_error(&self) -> f64 {
+    pub(crate) fn numerical_error(&self) -> f64 {
         let rule_of_three = 3.0 / self.first.tosses() as f64;
         self.bias().abs() + (SIGMAS * self.std_error()).max(rule_of_three)
     }
 
     /// P(side) of the first way, with its 95 % interval.
-    pub(super) fn side(&self) -> Estimate {
+    pub(crate) fn side(&self) -> Estimate {
         side(&self.first)
     }
 }
 
 /// The outcome of every toss, in the order of their numbers.
-fn outcomes(case: &Case, settings: &Settings, seed: u64, tosses: &Range<u64>) -> Vec<Outcome> {
-    let engine = engine(case, settings);
+fn outcomes<E>(case: &Case, engine: &E, seed: u64, tosses: &Range<u64>) -> Vec<Outcome>
+where
+    E: Engine<Workspace = ()>,
+{
     let (launches, stream) = (case.launches(), Case::stream(seed));
     let launches = launches.launches(&case.scene.coin, &stream, tosses.clone(), engine.lanes());
     let mut outcomes = Vec::new();
@@ -101,19 +117,13 @@ fn outcomes(case: &Case, settings: &Settings, seed: u64, tosses: &Range<u64>) ->
         outcomes.push((number, *outcome));
         ControlFlow::Continue(())
     });
-    // tosses that are followed side by side do not end in their order
+    // tosses of a batch do not end in their order
     outcomes.sort_unstable_by_key(|(number, _)| *number);
     outcomes.into_iter().map(|(_, outcome)| outcome).collect()
 }
 
-/// P(side) with its 95 % interval.
-pub(super) fn side(tally: &Tally) -> Estimate {
-    let (n, method) = (tally.tosses(), IntervalMethod::Wilson);
-    Estimate::new(tally.side, tally.undecided(), n, 0.95, method)
-}
-
 /// "12 (time 3, never_settles 9)"; "0" where every toss has a face.
-pub(super) fn undecided(tally: &Tally) -> String {
+pub(crate) fn undecided(tally: &Tally) -> String {
     let kinds = [
         ("time", tally.time_limit),
         ("never_settles", tally.never_settles),

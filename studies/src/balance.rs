@@ -20,7 +20,7 @@ const FALL: f64 = 0.05;
 const STEPS: u32 = 200_000;
 
 /// Follows phases of one scene.
-pub(super) struct Reference {
+pub(crate) struct Reference {
     model: Model,
     scene: Scene,
     /// The engine's setting of that name: the time over which friction ends the last of a rotation.
@@ -28,7 +28,7 @@ pub(super) struct Reference {
 }
 
 impl Reference {
-    pub(super) fn new(scene: &Scene, smoothing_time: f64) -> Self {
+    pub(crate) fn new(scene: &Scene, smoothing_time: f64) -> Self {
         Self {
             model: Model::new(scene),
             scene: *scene,
@@ -37,13 +37,13 @@ impl Reference {
     }
 
     /// The energy, in m g D, of a state.
-    pub(super) fn energy(&self, state: &State) -> f64 {
+    pub(crate) fn energy(&self, state: &State) -> f64 {
         motion(&self.scene, state).energy(&self.model)
     }
 
     /// The energy, in m g D, with which a phase that begins in `start` ends after `duration`
     /// seconds; `None` if that takes too many steps, or ends level, where the equations have no value.
-    pub(super) fn energy_after(&self, start: &State, sticks: bool, duration: f64) -> Option<f64> {
+    pub(crate) fn energy_after(&self, start: &State, sticks: bool, duration: f64) -> Option<f64> {
         let unit = self.scene.time_scale_s();
         let mut motion = motion(&self.scene, start);
         let mut left = duration / unit;
