@@ -83,8 +83,8 @@ impl Case {
         (1e9 * ratio).round() / 1e9
     }
 
-    /// The Unity (PhysX) scene of Gaek & Sukhov, arXiv 2401.03557, table 1, as `examples/table1.toml`
-    /// has it.
+    /// The Unity (PhysX) scene of Gaek & Sukhov, arXiv 2401.03557, table 1, as
+    /// `examples/table1.toml` has it.
     ///
     /// # Panics
     /// If `ratio` is not positive.

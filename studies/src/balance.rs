@@ -14,7 +14,8 @@ const STEP: f64 = 1e-3;
 const TURN: f64 = 5e-3;
 /// Most by which a step changes the slip, of the slip.
 const BRAKE: f64 = 0.05;
-/// Most by which a step changes the sine of the tilt, of the sine: a coin that falls level turns ever faster.
+/// Most by which a step changes the sine of the tilt, of the sine: a coin that falls level turns
+/// ever faster.
 const FALL: f64 = 0.05;
 /// Most steps of a phase.
 const STEPS: u32 = 200_000;
@@ -42,7 +43,8 @@ impl Reference {
     }
 
     /// The energy, in m g D, with which a phase that begins in `start` ends after `duration`
-    /// seconds; `None` if that takes too many steps, or ends level, where the equations have no value.
+    /// seconds; `None` if that takes too many steps, or ends level, where the equations have no
+    /// value.
     pub(crate) fn energy_after(&self, start: &State, sticks: bool, duration: f64) -> Option<f64> {
         let unit = self.scene.time_scale_s();
         let mut motion = motion(&self.scene, start);
@@ -69,7 +71,8 @@ impl Reference {
         (contact, self.twist(motion))
     }
 
-    /// Dry friction that fades linearly where it would end the rotation within the time `smoothing_time`.
+    /// Dry friction that fades linearly where it would end the rotation within the time
+    /// `smoothing_time`.
     fn twist(&self, motion: &Motion) -> Twist {
         let model = &self.model;
         let s = motion.sine();

@@ -1,7 +1,7 @@
 //! Fits to synthetic film: how often the intervals hold the truth.
 //!
-//! Every case is one drop with its own restitution, friction and first state, filmed at 240 frames a
-//! second with 0.5 mm and 0.5° of noise, and fitted as `coinmc film fit` does by default.
+//! Every case is one drop with its own restitution, friction and first state, filmed at 240 frames
+//! a second with 0.5 mm and 0.5° of noise, and fitted as `coinmc film fit` does by default.
 
 use crate::survey::survey;
 use clap::Args;

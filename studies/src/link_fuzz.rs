@@ -1,8 +1,8 @@
 //! Any bytes on the robot's link: the properties of the fuzz targets, without their toolchain.
 //!
 //! Inputs are mixed and spoiled pieces of the kept corpus: input k depends on the seed and k alone,
-//! so a finding can be made again. It is blind where the fuzz targets steer by coverage, and makes up
-//! for it by number.
+//! so a finding can be made again. It is blind where the fuzz targets steer by coverage, and makes
+//! up for it by number.
 
 use anyhow::Context;
 use clap::Args;

@@ -1,5 +1,5 @@
-//! Every flight between two events, sampled densely, with either event-driven engine. The closed form
-//! is that of space: a flight in the plane is a special case.
+//! Every flight between two events, sampled densely, with either event-driven engine. The closed
+//! form is that of space: a flight in the plane is a special case.
 
 use crate::flight::{Leg, angular_momentum};
 use crate::legs::Legs;

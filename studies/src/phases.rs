@@ -29,8 +29,8 @@ struct Balance {
     left_out: u64,
 }
 
-/// Contact phases against their independent integration: so many phases, over all scenes, for each of
-/// two settings.
+/// Contact phases against their independent integration: so many phases, over all scenes, for each
+/// of two settings.
 pub(crate) fn balance(seed: u64, phases: u64) -> Table {
     let default = Settings::default();
     let tight = Settings {

@@ -55,8 +55,8 @@ impl Sample {
         }
     }
 
-    /// The same scene and a launch in the plane, for the flat engine: u anywhere in the xz plane, the
-    /// spin about y in either direction.
+    /// The same scene and a launch in the plane, for the flat engine: u anywhere in the xz plane,
+    /// the spin about y in either direction.
     pub(crate) fn in_plane(seed: u64, scene: u64, toss: u64) -> Self {
         let mut sample = Self::in_scene(seed, scene, toss);
         let mut uniforms = Case::stream(seed).toss(toss);

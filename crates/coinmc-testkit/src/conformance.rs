@@ -8,8 +8,8 @@ use coinmc_core::{Engine, Event, Launch, Outcome, Scene};
 use nalgebra::UnitVector3;
 use std::thread;
 
-/// The outcome depends on the launch alone: not on the tosses that the workspace made before, nor on
-/// the thread.
+/// The outcome depends on the launch alone: not on the tosses that the workspace made before, nor
+/// on the thread.
 ///
 /// # Panics
 /// If an outcome differs.

@@ -100,7 +100,8 @@ impl Observer for Instants {
 }
 
 /// The coin just after each event and just before the next, `near_s` away, each with its event: of
-/// all pairs of events that are ten times as far apart. `toss` makes the same toss for any observer.
+/// all pairs of events that are ten times as far apart. `toss` makes the same toss for any
+/// observer.
 ///
 /// # Panics
 /// If an instant is not sampled.
@@ -132,7 +133,8 @@ pub struct Extremes<'a> {
     pub drift: f64,
     /// Distance of the lowest point from the surface at an event of contact, in D.
     pub gap: f64,
-    /// Distance at the end of a flight, relative to what the rounding of its phase and fall explains.
+    /// Distance at the end of a flight, relative to what the rounding of its phase and fall
+    /// explains.
     pub gap_in_roundings: f64,
 }
 

@@ -2,8 +2,8 @@
 //!
 //! The two engines agree on many a toss that is decided early and on few others, so that the
 //! difference of the same tosses, x − y, can vary more than x alone. What the event-driven engine
-//! makes of them is used for what it is worth instead, as a control variate: x̄ − β(ȳ − P), with P its
-//! share of the side among many other tosses and β the regression of x on y. The variance is
+//! makes of them is used for what it is worth instead, as a control variate: x̄ − β(ȳ − P), with P
+//! its share of the side among many other tosses and β the regression of x on y. The variance is
 //! s_x²(1 − ρ²)/n + (1 − β)² P(1 − P)/N, never above that of x alone, nor of x − y.
 
 use super::trend::{self, Cell};

@@ -80,7 +80,7 @@ impl RapierStress {
         let mut report = Report::new(record);
         report.remark(
             "H/R 1e-4 … 1e4, e 0 … 1, mu 0 … 10, spin up to 1e5 rad/s, height up to 1e3 R, friction \
-             lengths up to 0.1 R (see space-stress). step in sqrt(D/g). decided: share of tosses with \
+             lengths up to 0.1 R (the box of `stability`). step in sqrt(D/g). decided: share of tosses with \
              a face; all others are counted under what became of them.",
         );
         report

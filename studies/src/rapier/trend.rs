@@ -6,7 +6,8 @@ const ASKED: f64 = 0.005;
 /// Standard errors of a two-sided 95 %.
 const SIGMAS: f64 = 1.96;
 
-/// Steps, s, that the line is fitted to: those at which the bias is nearly proportional to the step.
+/// Steps, s, that the line is fitted to: those at which the bias is nearly proportional to the
+/// step.
 const SMALL: f64 = 2e-3;
 
 /// A bias at one step, s, and its standard error.

@@ -13,8 +13,8 @@ pub(crate) fn engine_with(scene: &Scene, settings: Settings) -> FlatEngine<Morea
     FlatEngine::new(scene, &settings, Moreau).expect("valid settings")
 }
 
-/// A planar launch in units of D and sqrt(D/g): height of the centre, velocity, angle θ of u from the
-/// vertical, angular velocity θ'.
+/// A planar launch in units of D and sqrt(D/g): height of the centre, velocity, angle θ of u from
+/// the vertical, angular velocity θ'.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Start {
     pub(crate) z: f64,

@@ -94,9 +94,9 @@ fn scene_and_launch(numbers: &[f64; 8]) -> (Scene, Launch) {
     (scene, launch)
 }
 
-/// A phase ωt of up to 1e6 radians per unit of time and a height of up to 1e6 D have a relative error
-/// of about eight roundings of ε, from ω, t, the velocity and their products. The energy has no such
-/// error.
+/// A phase ωt of up to 1e6 radians per unit of time and a height of up to 1e6 D have a relative
+/// error of about eight roundings of ε, from ω, t, the velocity and their products. The energy has
+/// no such error.
 #[test]
 fn the_hardest_tosses_gain_no_energy_and_touch_the_surface() {
     for numbers in &HARDEST {

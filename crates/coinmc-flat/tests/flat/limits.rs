@@ -7,8 +7,8 @@ use coinmc_testkit::{Dice, adhesive, preset_launch, scene, stream};
 use nalgebra::{UnitVector3, Vector3};
 use std::f64::consts::{PI, TAU};
 
-/// Without spin and with uniform tilt the coin keeps its tilt: P(side) = (2/π) atan(x/2). Four standard
-/// errors: false alarms 6e-5 per ratio.
+/// Without spin and with uniform tilt the coin keeps its tilt: P(side) = (2/π) atan(x/2). Four
+/// standard errors: false alarms 6e-5 per ratio.
 #[test]
 fn adhesive_without_spin_is_the_arc_rule() {
     let tosses = 100_000_u32;

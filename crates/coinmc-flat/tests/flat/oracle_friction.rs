@@ -125,7 +125,8 @@ impl Toss {
         step
     }
 
-    /// Runs until energy decides the face. A corner that has sunk in (by 1e-6 D) has a lower barrier.
+    /// Runs until energy decides the face. A corner that has sunk in (by 1e-6 D) has a lower
+    /// barrier.
     fn run(mut self) -> Face {
         loop {
             let k = self.section.k;

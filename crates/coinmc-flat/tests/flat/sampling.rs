@@ -221,8 +221,8 @@ fn contact_at_the_default_tolerance_follows_newton_and_euler() {
     assert!(seen.worst < 1e-4, "{seen:?}");
 }
 
-/// A nanosecond from an event the coin is where it is at the event, up to its motion in that time and
-/// the error of the step: 1e-10 of a unit.
+/// A nanosecond from an event the coin is where it is at the event, up to its motion in that time
+/// and the error of the step: 1e-10 of a unit.
 #[test]
 fn samples_join_the_events() {
     const NEAR: f64 = 1e-9;

@@ -24,10 +24,10 @@ fn heads_and_tails_exchange_exactly() {
     }
 }
 
-/// Left and right differ in rounding (1e-16), which an impact amplifies less than a thousandfold. So
-/// tosses of up to three impacts without sliding agree: 1e-16·1e9 compared with launches within 1e-7 of
-/// a change, of which 2000 contain 2e-4. The others agree on average: 4 standard errors, false alarms
-/// 6e-5 per scene.
+/// Left and right differ in rounding (1e-16), which an impact amplifies less than a thousandfold.
+/// So tosses of up to three impacts without sliding agree: 1e-16·1e9 compared with launches within
+/// 1e-7 of a change, of which 2000 contain 2e-4. The others agree on average: 4 standard errors,
+/// false alarms 6e-5 per scene.
 #[test]
 fn left_and_right_are_alike() {
     for (ratio, restitution, friction) in SCENES {
@@ -67,8 +67,8 @@ fn left_and_right_are_alike() {
     }
 }
 
-/// Lengths × 4 with times × 2, gravity × 4 with times / 2, and any mass: powers of two, and a mass that
-/// cancels, leave the dimensionless toss bit-identical.
+/// Lengths × 4 with times × 2, gravity × 4 with times / 2, and any mass: powers of two, and a mass
+/// that cancels, leave the dimensionless toss bit-identical.
 #[test]
 fn size_gravity_and_mass_do_not_matter() {
     let base = scene(1.3, 0.5, 0.3);

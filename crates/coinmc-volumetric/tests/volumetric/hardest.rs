@@ -86,8 +86,8 @@ fn scene_and_launch(numbers: &[f64; 13]) -> (Scene, Launch) {
     (scene, launch)
 }
 
-/// Energies are sums of terms up to 1000 times as large as the energy that changes in an event, hence
-/// 1e-12. In flight the phase of the whole flight adds its rounding, hence 1e-11.
+/// Energies are sums of terms up to 1000 times as large as the energy that changes in an event,
+/// hence 1e-12. In flight the phase of the whole flight adds its rounding, hence 1e-11.
 #[test]
 fn they_gain_nothing_and_stay_on_the_surface() {
     for numbers in &HARDEST {

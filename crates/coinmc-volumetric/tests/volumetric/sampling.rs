@@ -290,8 +290,8 @@ fn samples_of_rolling_continue_to_the_end() {
     }
 }
 
-/// A nanosecond before or after an event, the coin is where the event shows it, apart from its motion in
-/// that time and the error of the step that led there.
+/// A nanosecond before or after an event, the coin is where the event shows it, apart from its
+/// motion in that time and the error of the step that led there.
 #[test]
 fn samples_join_the_events() {
     const NEAR: f64 = 1e-9;
