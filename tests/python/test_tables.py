@@ -62,3 +62,15 @@ def test_every_file_is_used_and_its_origin_known(tables):
         r"^\| `([\w-]+\.csv)` \|", (DATA / "README.md").read_text(), re.MULTILINE
     )
     assert sorted(described) == sorted(files)
+
+
+def test_every_study_that_is_named_exists():
+    source = (ROOT / "studies/src/arguments.rs").read_text(encoding="utf-8")
+    variants = re.findall(r"^    ([A-Z][A-Za-z]+)\(", source, re.MULTILINE)
+    studies = {re.sub(r"(?<!^)(?=[A-Z])", "-", name).lower() for name in variants}
+    pages = [*(ROOT / "docs").rglob("*.md"), DATA / "README.md"]
+    for page in pages:
+        text = page.read_text(encoding="utf-8")
+        for command in re.findall(r"coinmc-studies ((?:--\w+ \S+ )*[\w-]+)", text):
+            name = command.split()[-1]
+            assert name in {*studies, "--", "NAME"}, f"{page.name}: {name}"
