@@ -1,4 +1,4 @@
-//! Conditions of a search.
+//! Conditions of a search for tosses.
 
 use crate::end::EndKind;
 use coinmc_core::{Face, Outcome};
@@ -6,7 +6,7 @@ use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
 
-/// What a toss must have been like.
+/// A condition on how a toss ends.
 ///
 /// # Example
 /// ```
@@ -17,13 +17,13 @@ use thiserror::Error;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Condition {
-    /// This face shows.
+    /// It shows this face.
     Face(Face),
-    /// It ended so; any face will do for [`EndKind::Decided`].
+    /// It ends in this way, with any face for [`EndKind::Decided`].
     Ended(EndKind),
 }
 
-/// What is no condition.
+/// The text is not a condition.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error(
     "a condition is `face=heads`, `face=tails`, `face=side`, `ended=decided`, \
@@ -60,7 +60,7 @@ impl fmt::Display for Condition {
 }
 
 impl Condition {
-    /// Whether a toss that ended so meets it.
+    /// Whether an outcome meets the condition.
     pub fn holds(&self, outcome: &Outcome) -> bool {
         match self {
             Self::Face(face) => outcome.face() == Some(*face),

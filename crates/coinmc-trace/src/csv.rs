@@ -8,7 +8,7 @@ use std::io::{self, Write};
 /// Writes the table of records, with a line of column names first, in the dialect of the results.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_csv(traces: &[Trace], out: &mut dyn Write) -> io::Result<()> {
     let columns = table::columns();
     write_csv_row(columns.iter().map(|column| Cell::Text(column.name)), out)?;

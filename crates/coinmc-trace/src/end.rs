@@ -1,4 +1,4 @@
-//! How tosses end, by name.
+//! The ways in which tosses end, and their names.
 
 use coinmc_core::{Ended, Outcome};
 

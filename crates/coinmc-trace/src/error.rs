@@ -1,34 +1,34 @@
-//! Why a toss cannot be traced.
+//! Errors of tracing.
 
 use coinmc_core::EngineError;
 use thiserror::Error;
 
-/// Why there is no trace, or no file of it.
+/// Why a toss cannot be traced.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum TraceError {
-    /// The plan has fewer points.
+    /// The plan has no such point.
     #[error(
         "there is no point {point}: this config has {points}, numbered from 0 (the column \
          `point` of the results)"
     )]
     NoSuchPoint {
-        /// The point asked for.
+        /// The requested point.
         point: usize,
-        /// Points there are.
+        /// Number of points.
         points: usize,
     },
-    /// The run makes fewer tosses.
+    /// The plan has no such toss.
     #[error(
-        "there is no toss {toss}: this config makes {tosses} a point, numbered from 0 (see [stop])"
+        "there is no toss {toss}: this config has {tosses} per point, numbered from 0 (see [stop])"
     )]
     NoSuchToss {
-        /// The toss asked for.
+        /// The requested toss.
         toss: u64,
-        /// Tosses a point.
+        /// Number of tosses per point.
         tosses: u64,
     },
-    /// A closed form makes no tosses.
+    /// The engine is a closed form, without tosses.
     #[error(
         "point {point} has the engine `{engine}`, a closed form that makes no tosses: there is \
          nothing to trace"
@@ -39,15 +39,15 @@ pub enum TraceError {
         /// Its engine.
         engine: &'static str,
     },
-    /// The rate is not one.
-    #[error("a rate of samples lies between 0 and 1e9 a second, not {0}")]
+    /// The sampling rate is out of range.
+    #[error("a sampling rate lies between 0 and 1e9 per second, not {0}")]
     Rate(f64),
-    /// An engine does not accept its settings.
+    /// An engine rejects its settings.
     #[error("point {point}: {source}")]
     Settings {
         /// Index of the point.
         point: usize,
-        /// What the engine says.
+        /// The engine's error.
         source: EngineError,
     },
 }

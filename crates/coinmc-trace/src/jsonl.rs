@@ -7,10 +7,10 @@ use coinmc::plan::Plan;
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
 
-/// Writes an object a line: one of the file, one of each toss, and after it its records.
+/// Writes one object per line: one for the file, one for each toss, followed by its records.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_jsonl(plan: &Plan, traces: &[Trace], out: &mut dyn Write) -> io::Result<()> {
     let file = json!({
         "format": FORMAT,
@@ -28,7 +28,7 @@ pub fn write_jsonl(plan: &Plan, traces: &[Trace], out: &mut dyn Write) -> io::Re
     Ok(())
 }
 
-/// A line begins with its type.
+/// Writes a line, which begins with its type.
 fn line(kind: &str, value: Value, out: &mut dyn Write) -> io::Result<()> {
     let mut object = Map::new();
     object.insert("type".to_owned(), json!(kind));

@@ -1,7 +1,7 @@
-//! Traces as MCAP, for viewers and for programs of any language.
+//! Traces as MCAP, for viewers and for programs in any language.
 //!
-//! Several tosses follow one another in one file, each a second after the end of the one before,
-//! so that a viewer plays them in turn on the same topics.
+//! Several tosses share a file and its topics, each starting a second after the end of the previous
+//! one, so that a viewer plays them in sequence.
 
 use crate::record::{Mode, Record, RecordKind};
 use crate::scene::{self, COIN, WORLD, contact_m, vector};
@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::io::Write;
 
-/// When the first toss begins, and how long after one the next does, ns.
+/// Log time of the first launch, and the pause between tosses, ns.
 const PAUSE_NS: u64 = 1_000_000_000;
 
 /// The channels of a file.
@@ -33,7 +33,7 @@ struct Channels {
 /// Writes traces. The same traces give the same bytes.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_mcap(
     plan: &Plan,
     traces: &[Trace],
@@ -46,7 +46,7 @@ pub fn write_mcap(
         compression,
     };
     let mut recorder = Recorder::new(Unsynced(out), &options)?;
-    recorder.metadata("coinmc", &about(plan))?;
+    recorder.metadata("coinmc", &file_metadata(plan))?;
     let channels = Channels::open(&mut recorder)?;
     let mut start = PAUSE_NS;
     for trace in traces {
@@ -90,7 +90,7 @@ impl Channels {
     }
 }
 
-/// Writes a toss that begins at `start`, ns; when it ends.
+/// Writes a toss that begins at `start`, ns; returns its end.
 fn write_toss<W: Write>(
     recorder: &mut Recorder<Unsynced<W>>,
     channels: &Channels,
@@ -101,12 +101,12 @@ fn write_toss<W: Write>(
     let mut toss = trace.to_json(plan);
     toss["begins_ns"] = json!(start);
     recorder.write(&channels.tosses, start, &toss)?;
-    let setting = scene::setting(trace, Time::from_ns(start));
-    recorder.write(&channels.scene, start, &setting)?;
+    let initial = scene::initial(trace, Time::from_ns(start));
+    recorder.write(&channels.scene, start, &initial)?;
     let (mut impacts, mut mode, mut now) = (0, None, start);
     for row in table::rows(std::slice::from_ref(trace)) {
         let record = row.record;
-        // times of a toss never run backwards, whatever rounding does
+        // times within a toss never decrease, despite rounding
         now = now.max(start.saturating_add(nanoseconds(record.state.time_s)));
         if is_finite(record) {
             recorder.write(&channels.transforms, now, &transform(record, now))?;
@@ -128,7 +128,8 @@ fn write_toss<W: Write>(
     Ok(now)
 }
 
-/// A viewer has no use for what is no place; a toss that failed may end so.
+/// Whether position and orientation are finite; those of a failed toss may be NaN, which viewers
+/// cannot draw.
 fn is_finite(record: &Record) -> bool {
     let place = record.state.position_m.iter();
     place
@@ -198,8 +199,8 @@ fn event(trace: &Trace, record: &Record, kind: EventKind, impacts: u64) -> Value
     })
 }
 
-/// What the file is.
-fn about(plan: &Plan) -> BTreeMap<String, String> {
+/// Metadata of the file.
+fn file_metadata(plan: &Plan) -> BTreeMap<String, String> {
     let pairs = [
         ("trace_format", FORMAT.to_string()),
         ("program_version", env!("CARGO_PKG_VERSION").to_owned()),
@@ -209,7 +210,7 @@ fn about(plan: &Plan) -> BTreeMap<String, String> {
     pairs.map(|(key, value)| (key.to_owned(), value)).into()
 }
 
-/// The entries of an object as texts: metadata holds nothing else.
+/// The entries of an object as texts, because metadata can only hold text.
 fn values(object: &Value) -> BTreeMap<String, String> {
     let entries = object.as_object().into_iter().flatten();
     entries
@@ -220,7 +221,7 @@ fn values(object: &Value) -> BTreeMap<String, String> {
         .collect()
 }
 
-/// Nearest whole nanosecond; what is no time is none.
+/// The nearest whole nanosecond; 0 for NaN.
 fn nanoseconds(time_s: f64) -> u64 {
     // the cast saturates
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]

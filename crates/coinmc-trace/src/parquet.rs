@@ -15,10 +15,10 @@ use serde_json::Value;
 use std::io::{self, Write};
 use std::sync::Arc;
 
-/// Writes the table of records, a row group a toss. The same traces give the same bytes.
+/// Writes the table of records, one row group per toss. The same traces give the same bytes.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write_parquet(
     plan: &Plan,
     traces: &[Trace],

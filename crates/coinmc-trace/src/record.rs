@@ -1,4 +1,4 @@
-//! One line of a trace.
+//! A record of a trace.
 
 use coinmc_core::{EventKind, State};
 use nalgebra::UnitQuaternion;
@@ -8,12 +8,12 @@ use nalgebra::UnitQuaternion;
 pub struct Record {
     /// Why it was recorded.
     pub kind: RecordKind,
-    /// How the coin moves from here.
+    /// How the coin moves from this record on.
     pub mode: Mode,
-    /// The coin, as the engine has it.
+    /// State of the coin, from the engine.
     pub state: State,
-    /// Turns the body's axes to the laboratory's; the body's z is u. The rotation about u does not
-    /// influence the toss; it is computed for pictures, see docs/guide/traces.md.
+    /// Rotation from the body frame, whose z axis is u, to the laboratory frame. The rotation about
+    /// u does not influence the toss and is computed separately; see docs/guide/traces.md.
     pub orientation: UnitQuaternion<f64>,
     /// Mechanical energy per unit mass, J/kg, with the potential zero at the surface.
     pub energy_j_kg: f64,
@@ -22,9 +22,9 @@ pub struct Record {
 /// Why a record was made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RecordKind {
-    /// Something happened.
+    /// An event happened.
     Event(EventKind),
-    /// The observer asked for this time.
+    /// A sample at a time that the observer requested.
     Sample,
 }
 
@@ -47,11 +47,11 @@ impl RecordKind {
 /// How the coin moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mode {
-    /// It touches nothing.
+    /// Without contact.
     Flight,
-    /// In sustained contact, the contact point stands still.
+    /// In sustained contact, with the contact point at rest.
     Sticking,
-    /// In sustained contact, the contact point slides.
+    /// In sustained contact, with the contact point sliding.
     Sliding,
     /// The toss is over.
     Ended,

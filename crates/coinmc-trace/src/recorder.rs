@@ -1,17 +1,17 @@
-//! An observer that writes down what it sees.
+//! An observer that records a toss.
 
 use crate::record::{Mode, Record, RecordKind};
 use crate::turning::Turning;
 use coinmc_core::{Event, EventKind, Observer, Scene, State};
 
-/// Most records of a trace, unless asked for less: some 30 MB.
+/// Default limit of records per trace, about 30 MB.
 pub const MAX_RECORDS: usize = 200_000;
 
 /// Records a toss: every event, and the coin at a fixed rate between them.
 ///
-/// Memory is bounded. Where half the records are used up no more samples are taken, so that the
-/// events of a long toss still find room; where all are, only the end is still recorded. Both are
-/// told.
+/// Memory is bounded. Once half of the records are used, no more samples are taken, which leaves
+/// room for the events of a long toss; once all are used, only the end is still recorded. The trace
+/// says from when on.
 ///
 /// # Example
 /// ```
@@ -38,15 +38,16 @@ pub struct Recorder {
     records: Vec<Record>,
     mode: Mode,
     turning: Turning,
-    /// Samples taken so far.
+    /// Number of samples so far.
     samples: u64,
     samples_until_s: Option<f64>,
     events_until_s: Option<f64>,
 }
 
 impl Recorder {
-    /// A recorder of a toss in this scene: `rate_hz` samples a second (0 for events alone), at
-    /// most `max_records` records and the end.
+    /// A recorder for a toss in this scene: `rate_hz` samples per second (0 for events only), at
+    /// most
+    /// `max_records` records and the end.
     pub fn new(scene: &Scene, rate_hz: f64, max_records: usize) -> Self {
         Self {
             scene: *scene,
@@ -61,7 +62,7 @@ impl Recorder {
         }
     }
 
-    /// The last time of which samples are recorded, s, if the recorder was full before the end.
+    /// Time of the last recorded sample, s, if the recorder was full before the end.
     pub fn samples_until_s(&self) -> Option<f64> {
         self.samples_until_s
     }
@@ -71,7 +72,7 @@ impl Recorder {
         self.events_until_s
     }
 
-    /// What was recorded, in order of time.
+    /// The records, in order of time.
     pub fn into_records(self) -> Vec<Record> {
         self.records
     }
@@ -87,8 +88,8 @@ impl Recorder {
         });
     }
 
-    /// An impact that turns into sustained contact is followed by it at the same instant.
-    fn settle(&mut self, mode: Mode, time_s: f64) {
+    /// Corrects the mode of an impact that is followed by sustained contact at the same instant.
+    fn correct_impact_mode(&mut self, mode: Mode, time_s: f64) {
         let now = self.records.iter_mut().rev();
         for record in now.take_while(|record| record.state.time_s == time_s) {
             if matches!(record.kind, RecordKind::Event(EventKind::Impact)) {
@@ -110,7 +111,7 @@ impl Observer for Recorder {
             EventKind::Ended => Mode::Ended,
         };
         if matches!(self.mode, Mode::Sticking | Mode::Sliding) {
-            self.settle(self.mode, event.state.time_s);
+            self.correct_impact_mode(self.mode, event.state.time_s);
         }
         let is_end = event.kind == EventKind::Ended;
         if self.events_until_s.is_none() && self.records.len() >= self.max_records {
@@ -168,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn samples_are_asked_for_at_whole_multiples() {
+    fn samples_are_requested_at_whole_multiples() {
         let mut recorder = recorder(100);
         for n in 1..=20 {
             let wanted = recorder.wants_at_s();
@@ -178,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn a_full_recorder_takes_events_then_the_end_alone_and_says_so() {
+    fn a_full_recorder_takes_only_events_then_only_the_end() {
         let mut recorder = recorder(8);
         recorder.event(&event(EventKind::Launched, 0.0));
         while recorder.wants_at_s().is_finite() {
@@ -197,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn the_mode_is_what_goes_on_from_there() {
+    fn the_mode_is_that_after_the_record() {
         let mut recorder = recorder(100);
         for (kind, time_s) in [
             (EventKind::Launched, 0.0),

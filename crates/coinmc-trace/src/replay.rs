@@ -1,4 +1,4 @@
-//! Tosses seen again.
+//! Replaying tosses.
 
 use crate::error::TraceError;
 use crate::recorder::{MAX_RECORDS, Recorder};
@@ -7,14 +7,15 @@ use coinmc::plan::{MAX_TOSSES, Plan, Point, Stop};
 use coinmc::run::stream;
 use coinmc_core::{DynEngine, Engine, Launch, Outcome, Scene};
 
-/// Largest rate of samples, 1/s.
+/// Greatest sampling rate, 1/s.
 pub const MAX_RATE_HZ: f64 = 1e9;
 
-/// Replays a toss of a plan with `rate_hz` samples a second (0 for events alone), at most
-/// [`MAX_RECORDS`] records in all.
+/// Replays a toss of a plan with `rate_hz` samples per second (0 for events only), with at most
+/// [`MAX_RECORDS`] records.
 ///
 /// # Errors
-/// [`TraceError`] if the plan has no such toss, its engine makes none, or the rate is no rate.
+/// [`TraceError`] if the plan has no such toss, its engine is a closed form, or the rate is out of
+/// range.
 ///
 /// # Example
 /// ```
@@ -32,7 +33,7 @@ pub fn replay(plan: &Plan, point: usize, toss: u64, rate_hz: f64) -> Result<Trac
     replay_within(plan, point, toss, rate_hz, MAX_RECORDS)
 }
 
-/// [`replay()`] with at most so many records: for many traces at once.
+/// [`replay()`] with at most `max_records` records, for many traces at once.
 ///
 /// # Errors
 /// Those of [`replay()`].
@@ -48,11 +49,12 @@ pub fn replay_within(
     Ok(Trace { toss, ..trace })
 }
 
-/// Follows and records a launch of somebody's own at a point of a plan; the trace's toss is 0. As
-/// [`replay_within`] else.
+/// Records a given launch at a point of a plan, otherwise like [`replay_within`]; the trace has
+/// toss number 0.
 ///
 /// # Errors
-/// [`TraceError`] if the plan has no such point, its engine makes no toss, or the rate is no rate.
+/// [`TraceError`] if the plan has no such point, its engine is a closed form, or the rate is out of
+/// range.
 pub fn record(
     plan: &Plan,
     point: usize,
@@ -81,7 +83,7 @@ pub fn record(
     })
 }
 
-/// How a toss of a plan ends, unwatched: as it did in the run.
+/// The outcome of a toss of a plan, without recording it; the same as in the run.
 ///
 /// # Errors
 /// Those of [`replay()`].
@@ -90,7 +92,7 @@ pub fn outcome(plan: &Plan, point: usize, toss: u64) -> Result<Outcome, TraceErr
     Ok(engine_of(plan, point)?.toss(&mut (), &launch, &mut ()))
 }
 
-/// How a toss of a plan begins.
+/// The launch of a toss of a plan.
 ///
 /// # Errors
 /// [`TraceError::NoSuchPoint`], [`TraceError::NoTraces`], [`TraceError::NoSuchToss`].
@@ -100,7 +102,7 @@ pub fn launch(plan: &Plan, point: usize, toss: u64) -> Result<Launch, TraceError
         let engine = found.engine.name();
         return Err(TraceError::NoTraces { point, engine });
     }
-    let tosses = tosses_at_most(plan);
+    let tosses = max_tosses(plan);
     if toss >= tosses {
         return Err(TraceError::NoSuchToss { toss, tosses });
     }
@@ -108,8 +110,8 @@ pub fn launch(plan: &Plan, point: usize, toss: u64) -> Result<Launch, TraceError
     Ok(found.launches.launch(&found.scene.coin, uniforms))
 }
 
-/// Samples a second that show a toss well: 24 a turn of the coin at launch, and 20 in the time
-/// sqrt(D/g) in which it topples, rounded up to 1, 2 or 5 times a power of ten.
+/// A sampling rate that shows a toss well, 1/s: 24 samples per turn of the coin at launch, and 20
+/// within the toppling time sqrt(D/g), rounded up to 1, 2 or 5 times a power of ten.
 pub fn default_rate_hz(scene: &Scene, launch: &Launch) -> f64 {
     let turns = launch.spin_rad_s.norm() / std::f64::consts::TAU;
     let wanted = (24.0 * turns).max(20.0 / scene.time_scale_s());
@@ -123,8 +125,8 @@ pub fn default_rate_hz(scene: &Scene, launch: &Launch) -> f64 {
     step.map_or(wanted, |step| step * ten)
 }
 
-/// Tosses that a point of the plan has at most.
-pub(super) fn tosses_at_most(plan: &Plan) -> u64 {
+/// Greatest number of tosses per point of the plan.
+pub(super) fn max_tosses(plan: &Plan) -> u64 {
     let tosses = match plan.stop {
         Stop::Tosses(tosses) => tosses,
         Stop::HalfWidth { max_tosses, .. } => max_tosses,

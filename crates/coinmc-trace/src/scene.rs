@@ -1,4 +1,4 @@
-//! What viewers draw: the coin, the ground, a mark at each impact.
+//! The scene that viewers draw: the coin, the ground and a mark at each impact.
 
 use crate::record::{Record, RecordKind};
 use crate::trace::Trace;
@@ -14,16 +14,16 @@ pub(super) const WORLD: &str = "world";
 pub(super) const COIN: &str = "coin";
 
 const BODY: [f64; 4] = [0.55, 0.53, 0.5, 1.0];
-/// As in pictures: two colours that the colour-blind can tell apart.
+/// As in SVG pictures: two colours that colour-blind readers can distinguish.
 const HEADS: [f64; 4] = [0.0, 0.447, 0.698, 1.0];
 const TAILS: [f64; 4] = [0.835, 0.369, 0.0, 1.0];
 const GROUND: [f64; 4] = [0.8, 0.8, 0.8, 0.6];
 const MARK: [f64; 4] = [0.84, 0.15, 0.16, 0.9];
 
-/// Thickness of what is painted on the coin, against its height.
+/// Thickness of the paint on the coin, relative to its height.
 const PAINT: f64 = 0.02;
 
-/// The coin's lowest point, m; where a whole face or line is lowest, its middle.
+/// The coin's lowest point, m; if a whole face or line is lowest, its middle.
 pub(super) fn contact_m(coin: &Coin, state: &State) -> Vector<f64> {
     let u = state.axis.into_inner();
     let up = if u.z > 0.0 {
@@ -44,8 +44,8 @@ pub(super) fn contact_m(coin: &Coin, state: &State) -> Vector<f64> {
     state.position_m - up * (0.5 * coin.height_m()) + along * coin.radius_m()
 }
 
-/// The scene of a toss that begins at `start`; what an earlier one left goes.
-pub(super) fn setting(trace: &Trace, start: Time) -> SceneUpdate {
+/// The scene of a toss that begins at `start`, which replaces that of an earlier toss.
+pub(super) fn initial(trace: &Trace, start: Time) -> SceneUpdate {
     SceneUpdate {
         deletions: vec![SceneEntityDeletion {
             timestamp: start,
@@ -56,7 +56,7 @@ pub(super) fn setting(trace: &Trace, start: Time) -> SceneUpdate {
     }
 }
 
-/// A mark where the coin struck.
+/// A mark at an impact.
 pub(super) fn mark(trace: &Trace, record: &Record, number: u64, at: Time) -> SceneUpdate {
     let size = 0.12 * trace.scene.coin.rim_distance_m();
     let place = contact_m(&trace.scene.coin, &record.state);
@@ -72,7 +72,7 @@ pub(super) fn mark(trace: &Trace, record: &Record, number: u64, at: Time) -> Sce
     }
 }
 
-/// A cylinder, painted on both faces, with a dash on heads that shows how it turns.
+/// A cylinder with painted faces, and a dash on heads that shows its rotation.
 fn coin(coin: &Coin, at: Time) -> SceneEntity {
     let (radius, height) = (coin.radius_m(), coin.height_m());
     let cylinder = |z: f64, radius: f64, height: f64, color| CylinderPrimitive {
@@ -97,7 +97,7 @@ fn coin(coin: &Coin, at: Time) -> SceneEntity {
     entity
 }
 
-/// A slab below all the toss, its upper face the surface.
+/// A slab below the whole toss, whose upper face is the surface.
 fn ground(trace: &Trace, at: Time) -> SceneEntity {
     let rim = trace.scene.coin.rim_distance_m();
     let places = || trace.records.iter().map(|record| record.state.position_m);
@@ -123,7 +123,7 @@ pub(super) fn vector(v: &Vector<f64>) -> Vector3 {
     Vector3::new(v.x, v.y, v.z)
 }
 
-/// Whether a mark is due.
+/// Whether a record is an impact, which gets a mark.
 pub(super) fn is_impact(record: &Record) -> bool {
     record.kind == RecordKind::Event(EventKind::Impact)
 }

@@ -1,39 +1,39 @@
-//! Tosses found by how they went.
+//! Searching for tosses.
 
 use crate::condition::Condition;
 use crate::error::TraceError;
-use crate::replay::{engine_of, point_of, tosses_at_most};
+use crate::replay::{engine_of, max_tosses, point_of};
 use coinmc::plan::Plan;
 use coinmc::run::stream;
 use coinmc_core::{
     DynEngine, Engine, Event, EventKind, LaunchDistribution, Observer, Outcome, Scene, Stream,
 };
 
-/// What makes a toss long.
+/// The measure of a toss's length.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Length {
     /// Simulated time until its end.
     Time,
-    /// Impacts.
+    /// Number of impacts.
     Impacts,
 }
 
-/// What is looked for, and where.
+/// A query: the tosses to find, and where to search.
 #[derive(Debug, Clone)]
 pub struct Query<'a> {
     /// Points, in the order in which they are searched.
     pub points: &'a [usize],
-    /// All of these must hold.
+    /// Conditions, all of which must hold.
     pub conditions: &'a [Condition],
-    /// The longest of all; `None` for the first.
+    /// Find the longest tosses by this measure; `None` for the first ones.
     pub longest: Option<Length>,
-    /// How many tosses are wanted.
+    /// Number of tosses to find.
     pub count: usize,
-    /// Tosses looked at, at most.
+    /// Greatest number of tosses to search.
     pub limit: u64,
 }
 
-/// A toss found.
+/// A found toss.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Found {
     /// Its point.
@@ -42,26 +42,27 @@ pub struct Found {
     pub toss: u64,
     /// How it ended.
     pub outcome: Outcome,
-    /// When, s; known if the longest in time were looked for.
+    /// Time of its end, s; known if the search is for the longest in time, NaN otherwise.
     pub time_s: f64,
 }
 
-/// What a search came to.
+/// Result of a search.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Findings {
-    /// The tosses: the first in order, or the longest, the longest first.
+    /// The tosses: the first ones in order, or the longest ones, the longest first.
     pub found: Vec<Found>,
-    /// Tosses looked at.
+    /// Number of tosses searched.
     pub searched: u64,
-    /// Whether it was ended before all that was asked for was found, and tosses are left.
+    /// Whether the search ended early: not enough tosses were found, but not all were searched.
     pub is_cut: bool,
 }
 
 /// Searches a plan's tosses, point by point and in order: the same query finds the same tosses.
-/// `go_on` is told before each how many tosses have been looked at, and says whether to go on.
+/// `go_on` is called before each toss with the number searched so far; the search ends if it
+/// returns false.
 ///
 /// # Errors
-/// [`TraceError`] if a point is not there or makes no tosses.
+/// [`TraceError`] if a point does not exist or its engine is a closed form.
 pub fn search(
     plan: &Plan,
     query: &Query<'_>,
@@ -74,9 +75,9 @@ pub fn search(
     let (mut searched, mut is_cut) = (0, false);
     for &point in query.points {
         let found = point_of(plan, point)?;
-        let tosses = tosses_at_most(plan).min(query.limit - searched);
-        is_cut |= tosses < tosses_at_most(plan);
-        let look = Look {
+        let tosses = max_tosses(plan).min(query.limit - searched);
+        is_cut |= tosses < max_tosses(plan);
+        let search = PointSearch {
             scene: &found.scene,
             launches: &found.launches,
             stream: stream(plan, point),
@@ -86,7 +87,7 @@ pub fn search(
             best: &mut best,
             go_on: &mut go_on,
         };
-        if !look.search(&engine_of(plan, point)?) {
+        if !search.run(&engine_of(plan, point)?) {
             is_cut = true;
             break;
         }
@@ -102,14 +103,14 @@ pub fn search(
     })
 }
 
-/// What has been found so far.
+/// The best tosses found so far.
 struct Best<'q> {
     query: &'q Query<'q>,
     found: Vec<Found>,
 }
 
 impl Best<'_> {
-    /// No toss to come can change it.
+    /// Whether no further toss can change the result.
     fn is_full(&self) -> bool {
         self.query.longest.is_none() && self.found.len() >= self.query.count
     }
@@ -121,7 +122,7 @@ impl Best<'_> {
         }
         let place = match self.query.longest {
             None => self.found.len(),
-            // behind those that are as long, so that the first stays first
+            // after those of equal length, so that the first stays first
             Some(length) => {
                 let long = |found: &Found| key(found, length) >= key(&toss, length);
                 self.found.partition_point(long)
@@ -141,8 +142,8 @@ fn key(found: &Found, length: Length) -> f64 {
     }
 }
 
-/// Looks at the tosses of a point; whether it may go on with the next.
-struct Look<'a, 'q, F> {
+/// The search in one point.
+struct PointSearch<'a, 'q, F> {
     scene: &'a Scene,
     launches: &'a LaunchDistribution,
     stream: Stream,
@@ -153,8 +154,8 @@ struct Look<'a, 'q, F> {
     go_on: &'a mut F,
 }
 
-impl<F: FnMut(u64) -> bool> Look<'_, '_, F> {
-    fn search(self, engine: &DynEngine) -> bool {
+impl<F: FnMut(u64) -> bool> PointSearch<'_, '_, F> {
+    fn run(self, engine: &DynEngine) -> bool {
         let by_time = self.best.query.longest == Some(Length::Time);
         for toss in 0..self.tosses {
             if !(self.go_on)(*self.searched) {
@@ -162,10 +163,10 @@ impl<F: FnMut(u64) -> bool> Look<'_, '_, F> {
             }
             let uniforms = &mut self.stream.toss(toss);
             let launch = self.launches.launch(&self.scene.coin, uniforms);
-            let mut clock = Clock(f64::NAN);
-            // a watched toss takes longer
+            let mut end_time = EndTime(f64::NAN);
+            // observing a toss takes longer
             let outcome = if by_time {
-                engine.toss(&mut (), &launch, &mut clock)
+                engine.toss(&mut (), &launch, &mut end_time)
             } else {
                 engine.toss(&mut (), &launch, &mut ())
             };
@@ -174,7 +175,7 @@ impl<F: FnMut(u64) -> bool> Look<'_, '_, F> {
                 point: self.point,
                 toss,
                 outcome,
-                time_s: clock.0,
+                time_s: end_time.0,
             });
             if self.best.is_full() {
                 return true;
@@ -184,10 +185,10 @@ impl<F: FnMut(u64) -> bool> Look<'_, '_, F> {
     }
 }
 
-/// Looks at the end alone.
-struct Clock(f64);
+/// Observes the time of the end.
+struct EndTime(f64);
 
-impl Observer for Clock {
+impl Observer for EndTime {
     fn event(&mut self, event: &Event) {
         if event.kind == EventKind::Ended {
             self.0 = event.state.time_s;

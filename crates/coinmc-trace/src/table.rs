@@ -1,5 +1,5 @@
-//! The one definition of the table of records: CSV, Parquet, JSON lines and docs/reference/traces.md
-//! follow it.
+//! The only definition of the table of records: CSV, Parquet, JSON lines and
+//! docs/reference/traces.md follow it.
 
 use crate::end::outcome_name;
 use crate::record::Record;
@@ -7,7 +7,7 @@ use crate::trace::Trace;
 use coinmc::results::{Cell, Kind};
 use coinmc_core::{Coin, State};
 
-/// Version of the files of traces.
+/// Version of the trace file formats.
 pub const FORMAT: u64 = 1;
 
 /// One column of the table of records.
@@ -15,16 +15,16 @@ pub const FORMAT: u64 = 1;
 pub struct Column {
     /// Its name.
     pub name: &'static str,
-    /// What it holds.
+    /// Kind of its values.
     pub kind: Kind,
-    /// Unit; `1` for pure numbers, empty for what is no number.
+    /// Unit; `1` for dimensionless numbers, empty for columns that are not numbers.
     pub unit: &'static str,
-    /// What it means.
+    /// Description.
     pub doc: &'static str,
     cell: fn(&Row<'_>) -> Cell<'static>,
 }
 
-/// A record with what belongs to all of its toss.
+/// A record with the trace it belongs to.
 #[derive(Clone, Copy)]
 pub(super) struct Row<'a> {
     pub(super) trace: &'a Trace,
@@ -62,7 +62,7 @@ pub(super) fn lowest_m(coin: &Coin, state: &State) -> f64 {
     state.position_m.z - 0.5 * coin.height_m() * u.z.abs() - coin.radius_m() * across
 }
 
-/// The angle between the coin's axis and the vertical, whichever end is up, rad.
+/// The angle between the coin's axis and the vertical, regardless of which end is up, rad.
 pub(super) fn tilt_rad(state: &State) -> f64 {
     let u = &state.axis;
     libm::atan2((u.x * u.x + u.y * u.y).sqrt(), u.z.abs())
@@ -172,7 +172,7 @@ const COLUMNS: &[Column] = &[
     number!(
         "energy_j_kg",
         "J/kg",
-        "Mechanical energy a unit of mass; 0 for a point at rest on the surface.",
+        "Mechanical energy per unit mass; 0 for a point at rest on the surface.",
         |row| row.record.energy_j_kg
     ),
     column!(

@@ -1,4 +1,4 @@
-//! A toss as JSON: what belongs to all of it.
+//! Tosses and records as JSON.
 
 use crate::end::EndKind;
 use crate::table;
@@ -10,10 +10,10 @@ use nalgebra::Vector3;
 use serde_json::{Map, Value, json};
 
 impl Trace {
-    /// The toss without its records: its key, how it began and how it ended.
+    /// The toss without its records: point, number, launch and outcome.
     ///
     /// # Panics
-    /// If `plan` is not the one that was replayed and has no such point.
+    /// If `plan` is not the replayed plan and has no such point.
     pub fn to_json(&self, plan: &Plan) -> Value {
         let point = &plan.points[self.point];
         let parameters = point.parameters.iter();
@@ -61,7 +61,7 @@ pub(super) fn vector(v: &Vector3<f64>) -> Value {
     json!([v.x, v.y, v.z])
 }
 
-/// A record, one entry a column of the table.
+/// A record, with one entry per column of the table.
 pub(super) fn record(row: &table::Row<'_>) -> Map<String, Value> {
     let cells = table::columns().iter().map(|column| {
         let value = match column.cell(row) {

@@ -10,26 +10,26 @@ pub struct Trace {
     pub point: usize,
     /// Number of the toss.
     pub toss: u64,
-    /// Name of the engine that followed it.
+    /// Name of the engine.
     pub engine: &'static str,
-    /// What was tossed, onto what.
+    /// Coin, surface and environment.
     pub scene: Scene,
-    /// How it began.
+    /// The launch.
     pub launch: Launch,
-    /// Samples a second asked for, 1/s; 0 for events alone.
+    /// Requested sampling rate, 1/s; 0 for events only.
     pub rate_hz: f64,
-    /// How it ended: the same as in the run.
+    /// The outcome, the same as in the run.
     pub outcome: Outcome,
-    /// What was seen, in order of time. The first is the launch, the last the end.
+    /// The records in order of time. The first is the launch, the last the end.
     pub records: Vec<Record>,
-    /// Where the recorder was full: no sample is recorded after this time, s. `None`: all are there.
+    /// Time of the last recorded sample, s, if the recorder was full; `None` if all are recorded.
     pub samples_until_s: Option<f64>,
-    /// The same for events; the end is recorded always.
+    /// The same for events; the end is always recorded.
     pub events_until_s: Option<f64>,
 }
 
 impl Trace {
-    /// When the toss ended, s since launch.
+    /// Duration of the toss, s.
     pub fn duration_s(&self) -> f64 {
         self.records.last().map_or(0.0, |last| last.state.time_s)
     }

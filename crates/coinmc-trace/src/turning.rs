@@ -1,24 +1,24 @@
-//! How the coin is turned about its own axis, which engines do not follow.
+//! The rotation of the coin about its own axis, computed separately from the toss.
 //!
-//! A coin is a body of revolution: engines know its axis u and its angular velocity, and nothing
-//! else matters. A picture of it wants a whole rotation, whose z axis is u.
+//! A coin is a body of revolution: engines only need its axis u and its angular velocity. Drawing
+//! it needs a complete rotation, whose z axis is u.
 //!
-//! In flight that is a closed form. A free symmetric top turns about its angular momentum at
-//! Ω = L/I_t while it spins about u at (1 − I_a/I_t) ω_a (Goldstein, *Classical Mechanics*, §5.6):
-//! ω = Ω + (1 − I_a/I_t) ω_a u, so from one record to the next, h later,
+//! In flight the rotation has a closed form. A free symmetric top turns about its angular momentum
+//! at Ω = L/I_t while it spins about u at (1 − I_a/I_t) ω_a (Goldstein, *Classical Mechanics*,
+//! §5.6): ω = Ω + (1 − I_a/I_t) ω_a u, so from one record to the next, h later,
 //!
 //! R(t + h) = rot(Ω h) · R(t) · rot(z, (1 − I_a/I_t) ω_a h).
 //!
-//! Angular drag k shrinks Ω and ω_a alike: h becomes (1 − e^(−kh))/k. Without gyroscopic torque ω
-//! stays as it is and the second factor is 1. In sustained contact the mean of the angular
-//! velocities at both records turns the coin, an error of third order in the time between them.
-//! Either way u is then put where the engine has it, by the smallest rotation.
+//! Angular drag k reduces Ω and ω_a equally: h becomes (1 − e^(−kh))/k. Without gyroscopic torque ω
+//! is constant and the second factor is 1. In sustained contact the coin is turned by the mean of
+//! the angular velocities at both records, with an error of third order in the time between them.
+//! In both cases u is then aligned with the engine's by the smallest rotation.
 
 use crate::record::Mode;
 use coinmc_core::{Scene, State};
 use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
 
-/// Follows the rotation from record to record.
+/// Computes the rotation from record to record.
 #[derive(Debug, Clone)]
 pub(super) struct Turning {
     /// Ω_a/ω_a.
@@ -41,7 +41,7 @@ impl Turning {
         }
     }
 
-    /// The rotation at a state that `mode` led to.
+    /// The rotation at a state, with the mode that led to it.
     pub(super) fn turn(&mut self, state: &State, mode: Mode) -> UnitQuaternion<f64> {
         let turned = match &self.last {
             None => UnitQuaternion::identity(),
@@ -61,7 +61,7 @@ impl Turning {
         orientation
     }
 
-    /// Time, as far as drag leaves it.
+    /// The effective time, reduced by drag.
     fn effective(&self, h: f64) -> f64 {
         if self.drag_per_s > 0.0 {
             -libm::expm1(-self.drag_per_s * h) / self.drag_per_s
@@ -83,7 +83,7 @@ impl Turning {
     }
 }
 
-/// The rotation by a vector, through `libm`: the same bits on every machine.
+/// The rotation by a vector, computed with `libm`: bit-identical on every machine.
 fn rotation(by: &Vector3<f64>) -> UnitQuaternion<f64> {
     let angle = by.norm();
     if !(angle > 0.0 && angle.is_finite()) {
@@ -94,7 +94,7 @@ fn rotation(by: &Vector3<f64>) -> UnitQuaternion<f64> {
     UnitQuaternion::new_normalize(Quaternion::new(cos, v.x, v.y, v.z))
 }
 
-/// The rotation next to `turned` whose z axis is `axis`.
+/// The rotation closest to `turned` whose z axis is `axis`.
 fn with_axis(turned: UnitQuaternion<f64>, axis: &Unit<Vector3<f64>>) -> UnitQuaternion<f64> {
     let from = turned * Vector3::z();
     let between = from.cross(axis);
@@ -102,8 +102,8 @@ fn with_axis(turned: UnitQuaternion<f64>, axis: &Unit<Vector3<f64>>) -> UnitQuat
     let smallest = if cos > -0.5 {
         Quaternion::new(1.0 + cos, between.x, between.y, between.z)
     } else {
-        // Towards the opposite: about an axis across, and the rest from there. y first, about
-        // which a flat toss turns.
+        // If the axes are nearly opposite, first turn about a transverse axis: preferably y, about
+        // which a planar toss turns.
         let across = if from.y.abs() < 0.9 {
             Vector3::y()
         } else {
@@ -140,8 +140,8 @@ mod tests {
             .with_gyroscopic_torque(gyroscopic)
     }
 
-    /// Euler's equations with small steps of the classical Runge–Kutta kind: R' = [ω] R,
-    /// d(Iω)/dt = −k Iω in the laboratory.
+    /// Euler's equations, integrated with small classical Runge–Kutta steps: R' = [ω] R,
+    /// d(Iω)/dt = −k Iω in the laboratory frame.
     fn integrated(
         scene: &Scene,
         start: &State,
@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn flight_is_that_of_eulers_equations() {
+    fn flight_satisfies_eulers_equations() {
         for drag in [0.0, 1.5] {
             let scene = scene(drag, true);
             let start = state(
@@ -200,8 +200,8 @@ mod tests {
         }
     }
 
-    /// The rotation in contact against its own limit of many records: third order each, so second
-    /// order in all; halving the step quarters the error.
+    /// The rotation in contact converges with the number of records: errors are of third order per
+    /// record, so second order in total; halving the step quarters the error.
     #[test]
     fn contact_converges() {
         let scene = scene(0.0, true);
@@ -227,7 +227,7 @@ mod tests {
     }
 
     #[test]
-    fn the_bodys_z_axis_is_u_whatever_happens() {
+    fn the_bodys_z_axis_is_always_u() {
         let scene = scene(0.0, false);
         let mut turning = Turning::new(&scene);
         let axes = [

@@ -1,8 +1,8 @@
-//! SVG text: elements with their numbers rounded to a hundredth of a pixel.
+//! SVG elements, with numbers rounded to a hundredth of a pixel.
 
 use std::fmt::Write;
 
-/// Colours that the colour-blind can tell apart (Okabe & Ito, 2008), and greys.
+/// Colours that colour-blind readers can distinguish (Okabe & Ito, 2008), and greys.
 pub(super) const HEADS: &str = "#0072b2";
 pub(super) const HEADS_PALE: &str = "#9ccbe6";
 pub(super) const TAILS: &str = "#d55e00";
@@ -20,7 +20,7 @@ pub(super) struct Canvas {
     text: String,
 }
 
-/// Where text is put relative to its point.
+/// Position of text relative to its point.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Anchor {
     Start,
@@ -39,7 +39,7 @@ impl Canvas {
         Self { text }
     }
 
-    /// A line of SVG as it is.
+    /// Adds a line of SVG unchanged.
     pub(super) fn raw(&mut self, line: &str) {
         self.text.push_str(line);
         self.text.push('\n');
@@ -75,7 +75,7 @@ impl Canvas {
         self.polygon("polygon", &points, style);
     }
 
-    /// Points joined by lines; fewer than two are nothing.
+    /// Points joined by lines; draws nothing for fewer than two.
     pub(super) fn polyline(&mut self, points: &[[f64; 2]], style: &str) {
         if points.len() > 1 {
             self.polygon("polyline", points, style);
@@ -86,13 +86,13 @@ impl Canvas {
         let mut list = String::new();
         for [x, y] in points {
             let separator = if list.is_empty() { "" } else { " " };
-            // writing to a string does not fail
+            // writing to a string cannot fail
             let _ = write!(list, "{separator}{},{}", px(*x), px(*y));
         }
         self.raw(&format!("<{element} points=\"{list}\" {style}/>"));
     }
 
-    /// Text of a size in px; `style` adds to it.
+    /// Text of a size in px, with additional `style`.
     pub(super) fn label(
         &mut self,
         [x, y]: [f64; 2],
@@ -120,7 +120,7 @@ impl Canvas {
     }
 }
 
-/// A length in hundredths of a pixel, without needless zeros.
+/// A length rounded to hundredths of a pixel, without trailing zeros.
 pub(super) fn px(value: f64) -> String {
     let mut text = format!("{value:.2}");
     while text.ends_with('0') {

@@ -2,12 +2,12 @@
 //!
 //! Its two faces are ellipses with the half axes R and R|u·eye|, displaced along the projection of
 //! u. The half of its side next to heads is drawn in a pale shade of their colour, likewise for
-//! tails: an upside-down coin is told at a glance even from the edge.
+//! tails, so that an upside-down coin is recognisable even from the edge.
 
 use super::canvas::{Canvas, EDGE, HEADS, HEADS_PALE, TAILS, TAILS_PALE, px};
 use coinmc_core::Coin;
 
-/// Below this many pixels across a coin is a dot in the colour of the face that is up.
+/// A coin with fewer pixels across than this is a dot in the colour of the upper face.
 const DOT: f64 = 5.0;
 
 /// Draws a coin with its centre at `at`, px; `axis` is u to the right, up and towards the eye.
@@ -77,7 +77,7 @@ fn rim(radius: f64, minor: f64, low: f64, colour: &str) -> String {
     )
 }
 
-/// The near face; from the edge it is a line, for which an ellipse would be nothing.
+/// The near face; seen from the edge it is a line, where an ellipse would be invisible.
 fn face(radius: f64, minor: f64, high: f64, colour: &str) -> String {
     let [r, m, high, width] = [radius, minor, high, stroke(radius)].map(px);
     format!(
@@ -85,7 +85,7 @@ fn face(radius: f64, minor: f64, high: f64, colour: &str) -> String {
     )
 }
 
-/// Width of the line along a face's rim: enough to tell its colour from the edge.
+/// Width of the line along a face's rim, enough to show its colour seen from the edge.
 fn stroke(radius: f64) -> f64 {
     (0.08 * radius).clamp(1.0, 3.0)
 }

@@ -1,14 +1,14 @@
-//! Marks where the coin struck the ground.
+//! Marks of impacts on the ground.
 
 use super::canvas::{Anchor, Canvas, TEXT};
 use super::view::Shot;
 
-/// Size of the mark of the hardest impact and of the softest, px.
+/// Sizes of the marks of the hardest and the softest impact, px.
 const LARGEST: f64 = 11.0;
 const SMALLEST: f64 = 4.0;
-/// Impacts in turn within this distance, px, share a mark.
+/// Successive impacts within this distance, px, share a mark.
 const SHARED: f64 = 10.0;
-/// Least distance of two numbers, px.
+/// Smallest distance between two numbers, px.
 const LEGIBLE: f64 = 24.0;
 
 /// Impacts that share a mark.
@@ -19,8 +19,8 @@ struct Group {
     hardest: f64,
 }
 
-/// Draws the impacts among `shots` from index `first` on; they are numbered from the launch. `at`
-/// tells where on the ground a point is.
+/// Draws the impacts among `shots` from index `first` on, numbered from the launch. `at` maps a
+/// point on the ground to the picture.
 pub(super) fn draw(
     canvas: &mut Canvas,
     shots: &[Shot],

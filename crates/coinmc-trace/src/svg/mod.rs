@@ -1,8 +1,7 @@
-//! A picture of a toss: seen from the side, the coin at even steps of time, impacts marked.
+//! A picture of a toss: a side view with the coin at equal time steps and marks at impacts.
 //!
-//! A toss may be a thousand times as high as the coin is wide. Where that makes the coin too small
-//! to be seen, a second panel magnifies the last of the toss. The text of a picture depends on the
-//! trace alone.
+//! A toss can be a thousand times as high as the coin is wide. If that makes the coin too small to
+//! see, a second panel magnifies the end of the toss. A picture depends only on the trace.
 
 mod canvas;
 mod caption;
@@ -27,19 +26,19 @@ const MARGIN: f64 = 28.0;
 const HEAD: f64 = 104.0;
 const FOOT: f64 = 44.0;
 const GAP: f64 = 30.0;
-/// A coin smaller than this across, px, is shown again in a panel that magnifies the end.
+/// If the coin is smaller than this, px, a second panel magnifies the end.
 const SMALL: f64 = 44.0;
-/// Width of the magnified window, in the coin's largest extent.
+/// Width of the magnified window, in units of the coin's largest extent.
 const MAGNIFIED: f64 = 9.0;
 
 /// Writes a trace as an SVG picture: a side view in the plane of the toss (for tosses in space the
 /// vertical plane through its horizontal displacement).
 ///
-/// A trace without samples shows its events alone. Heads are blue and tails are orange, in a
-/// palette that the colour-blind can tell apart.
+/// A trace without samples shows only its events. Heads are blue and tails are orange, from a
+/// palette for colour-blind readers.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub fn write(trace: &Trace, mut out: impl Write) -> io::Result<()> {
     out.write_all(picture(trace).as_bytes())
 }
@@ -48,7 +47,7 @@ fn picture(trace: &Trace) -> String {
     let shots = View::of(trace).shots(trace);
     let size_m = 2.0 * trace.scene.coin.rim_distance_m();
     let Some(whole) = Window::around(&shots, size_m) else {
-        // no position is a number: the caption says what became of the toss
+        // all positions are NaN: the caption explains it
         let mut canvas = Canvas::new(WIDTH, HEAD);
         caption::head(&mut canvas, trace, MARGIN);
         return canvas.finish();
@@ -87,7 +86,7 @@ fn picture(trace: &Trace) -> String {
     canvas.finish()
 }
 
-/// The whole toss and its end: side by side where the toss is high, else one above the other.
+/// The whole toss and its end: in two columns if the toss is high, otherwise in two rows.
 fn magnified(whole: Window, last: Window, inner: f64) -> Vec<(Area, Window)> {
     let (first, second) = if whole.height() > 0.75 * whole.width() {
         let left = Area::fitting(&whole, [0.36 * inner, 560.0])

@@ -1,4 +1,4 @@
-//! One panel: ground, path, strobe positions, impacts, scale bar.
+//! A panel: ground, path, positions of the coin, impacts and scale bar.
 
 use super::canvas::{Anchor, Canvas, FAINT, GROUND, LINE, SLIDING, STICKING, TEXT};
 use super::strobe::Strobe;
@@ -12,12 +12,12 @@ use crate::trace::Trace;
 const BELOW: f64 = 40.0;
 /// Thickness of the ground, px.
 const BAND: f64 = 7.0;
-/// Least length of a contact that is marked on it, px.
+/// Smallest length of a contact that is drawn, px.
 const TOUCH: f64 = 5.0;
-/// Least distance of two points of a path, px.
+/// Smallest distance between two points of a path, px.
 const NEAR: f64 = 0.4;
 
-/// Where a panel is, px.
+/// Position and size of a panel, px.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Area {
     pub(super) left: f64,
@@ -27,7 +27,7 @@ pub(super) struct Area {
 }
 
 impl Area {
-    /// The largest area for a window within a width and a height, at the picture's head.
+    /// The largest area for a window within a width and a height, at the top of the picture.
     pub(super) fn fitting(window: &Window, [width, height]: [f64; 2]) -> Self {
         let scale = (width / window.width()).min((height - BELOW) / window.height());
         Self {
@@ -54,7 +54,7 @@ impl Area {
         }
     }
 
-    /// Pixels a metre.
+    /// Pixels per metre.
     pub(super) fn scale_of(&self, window: &Window) -> f64 {
         (self.height - BELOW) / window.height()
     }
@@ -78,7 +78,7 @@ impl<'a> Panel<'a> {
         }
     }
 
-    /// Pixels a metre.
+    /// Pixels per metre.
     pub(super) fn scale(&self) -> f64 {
         self.scale
     }
@@ -138,13 +138,13 @@ impl<'a> Panel<'a> {
         self.draw_scale_bar(canvas);
     }
 
-    /// The centre's way, without points that cannot be told apart.
+    /// The path of the centre, without points that are too close to distinguish.
     fn path(&self, shots: &[Shot]) -> Vec<[f64; 2]> {
         let mut path: Vec<[f64; 2]> = Vec::new();
         let mut skipped = None;
         for shot in self.seen(shots) {
             let at = self.at(shot.x, shot.z);
-            // corners, at impacts, are kept
+            // keep the corners at impacts
             if shot.is_impact() || path.last().is_none_or(|last| apart(last, &at) >= NEAR) {
                 path.push(at);
                 skipped = None;
@@ -163,7 +163,7 @@ impl<'a> Panel<'a> {
         canvas.polyline(&self.path(shots), &style);
     }
 
-    /// Colours the ground where the coin stays on it.
+    /// Colours the ground along sustained contacts.
     fn draw_contact(&self, canvas: &mut Canvas, shots: &[Shot]) {
         for (mode, low, high) in spans(self.seen(shots)) {
             let ([left, ground], [right, _]) = (self.at(low, 0.0), self.at(high, 0.0));
@@ -200,7 +200,7 @@ impl<'a> Panel<'a> {
         );
     }
 
-    /// What the panel shows and how often, above it.
+    /// The title above the panel: its content and the time step.
     pub(super) fn name(&self, canvas: &mut Canvas, shots: &[Shot], what: &str) {
         let every = self.strobe(shots).describe();
         let text = match (what.is_empty(), every.is_empty()) {
@@ -212,7 +212,7 @@ impl<'a> Panel<'a> {
         canvas.label(at, 12.0, Anchor::Start, FAINT, &text);
     }
 
-    /// Marks what another panel magnifies.
+    /// Marks the area that another panel magnifies.
     pub(super) fn frame(&self, canvas: &mut Canvas, other: &Panel<'_>) {
         let Window {
             left, right, top, ..
@@ -220,7 +220,7 @@ impl<'a> Panel<'a> {
         let ([x1, y1], [x2, y2]) = (self.at(left, top), self.at(right, 0.0));
         let edge = self.area.left + self.area.width;
         let (x1, x2) = (x1.max(self.area.left), x2.min(edge));
-        // no smaller than can be seen
+        // not too small to see
         let (grow_x, grow_y) = ((10.0 - (x2 - x1)).max(0.0), (8.0 - (y2 - y1)).max(0.0));
         let style = format!("fill=\"none\" stroke=\"{TEXT}\" stroke-dasharray=\"3 2\"");
         canvas.rectangle(
@@ -231,7 +231,7 @@ impl<'a> Panel<'a> {
     }
 }
 
-/// The modes of contact in turn, each with the leftmost and the rightmost of its contact points.
+/// The successive modes of contact, each with its leftmost and rightmost contact point.
 fn spans(seen: &[Shot]) -> Vec<(Mode, f64, f64)> {
     let mut spans: Vec<(Mode, f64, f64)> = Vec::new();
     let mut before = Mode::Flight;

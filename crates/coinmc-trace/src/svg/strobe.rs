@@ -1,30 +1,30 @@
-//! At which instants the coin itself is drawn.
+//! The instants at which the coin is drawn.
 
 use super::units;
 use super::view::Shot;
 
-/// Positions in a panel, at least and at most, where there are as many samples.
-const LEAST: f64 = 8.0;
-const MOST: f64 = 40.0;
-/// Distance of two positions along the way, in the coin's extent, on average.
+/// Smallest and greatest number of positions in a panel, if there are enough samples.
+const MIN: f64 = 8.0;
+const MAX: f64 = 40.0;
+/// Average distance between positions along the path, in units of the coin's extent.
 const SPACED: f64 = 0.6;
 /// Opacity of the first position; the last has 1.
 const FAINTEST: f64 = 0.45;
 
-/// Every `stride`-th of what there is: of the samples, so that times are even, or of the events
-/// of a trace without samples.
+/// Selects every `stride`-th sample, at equal time steps, or every `stride`-th event of a trace
+/// without samples.
 pub(super) struct Strobe {
     stride: usize,
-    /// Samples a second; `None` without samples.
+    /// Sampling rate, 1/s; `None` without samples.
     rate_hz: Option<f64>,
 }
 
 impl Strobe {
-    /// For a way of `way` px and a coin `size` px across.
-    pub(super) fn new(seen: &[Shot], way: f64, size: f64, rate_hz: f64) -> Self {
+    /// For a path of `path` px and a coin `size` px across.
+    pub(super) fn new(seen: &[Shot], path: f64, size: f64, rate_hz: f64) -> Self {
         let samples = seen.iter().filter(|shot| shot.is_sample()).count();
         let rate_hz = (samples > 1 && rate_hz > 0.0).then_some(rate_hz);
-        let most = (way / (SPACED * size)).clamp(LEAST, MOST);
+        let most = (path / (SPACED * size)).clamp(MIN, MAX);
         let there = if rate_hz.is_some() {
             samples
         } else {
@@ -54,7 +54,7 @@ impl Strobe {
     fn is_due(&self, index: usize, shot: &Shot) -> bool {
         match self.rate_hz {
             None => index.is_multiple_of(self.stride),
-            // a sample's number since launch is a whole number but for rounding
+            // a sample's number since launch is a whole number except for rounding
             Some(rate_hz) => {
                 let steps = libm::round(shot.time_s * rate_hz) / self.stride as f64;
                 shot.is_sample() && steps == libm::floor(steps)
@@ -62,7 +62,7 @@ impl Strobe {
         }
     }
 
-    /// "every 20 ms"; nothing without samples.
+    /// "every 20 ms"; empty without samples.
     pub(super) fn describe(&self) -> String {
         match self.rate_hz {
             Some(rate_hz) => format!("every {}", units::time(self.stride as f64 / rate_hz)),

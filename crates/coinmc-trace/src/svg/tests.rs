@@ -30,7 +30,7 @@ fn high(toss: u64) -> Trace {
 }
 
 /// Every element is closed, attributes are quoted, and no number is missing.
-fn is_sound(svg: &str) {
+fn assert_valid_svg(svg: &str) {
     let mut open = Vec::new();
     for element in svg.split('<').skip(1) {
         let (tag, text) = element.split_once('>').expect("a closed tag");
@@ -50,10 +50,10 @@ fn is_sound(svg: &str) {
 }
 
 #[test]
-fn a_picture_is_sound_and_always_the_same() {
+fn a_picture_is_valid_and_reproducible() {
     for toss in 0..20 {
         let svg = picture(&low(toss));
-        is_sound(&svg);
+        assert_valid_svg(&svg);
         assert_eq!(svg, picture(&low(toss)));
         let mut written = Vec::new();
         write(&low(toss), &mut written).expect("memory");
@@ -74,11 +74,11 @@ fn heads_and_tails_and_impacts_are_there() {
     }
 }
 
-/// In a drop from 50 m a coin of 2 cm is a fifth of a pixel: the end is shown again.
+/// In a drop from 50 m a coin of 2 cm is a fifth of a pixel wide: the end is magnified.
 #[test]
-fn what_is_too_small_is_magnified() {
+fn a_coin_that_is_too_small_is_magnified() {
     let svg = picture(&high(4));
-    is_sound(&svg);
+    assert_valid_svg(&svg);
     let magnified = svg.split_once("magnified ").expect("a second panel").1;
     let times: f64 = magnified
         .split_once(" times")
@@ -88,7 +88,7 @@ fn what_is_too_small_is_magnified() {
     assert!(!picture(&low(4)).contains("magnified"));
 }
 
-/// Points nearer than what can be seen are left out: a picture stays small.
+/// Points that are too close to distinguish are skipped, so that a picture stays small.
 #[test]
 fn a_picture_stays_small() {
     let mut trace = high(3);
@@ -106,22 +106,22 @@ fn a_picture_stays_small() {
 fn events_alone_make_a_picture() {
     let launch = "launch.preset = 'robot'";
     let svg = picture(&trace(launch, "flat", 5, 0.0));
-    is_sound(&svg);
+    assert_valid_svg(&svg);
     assert!(!svg.contains("every"));
 }
 
 #[test]
-fn a_toss_that_went_wrong_is_a_caption() {
+fn a_failed_toss_has_only_a_caption() {
     let mut trace = low(1);
     trace.outcome.ended = Ended::Failed;
     for record in &mut trace.records {
         record.state.position_m.z = f64::NAN;
     }
     let svg = picture(&trace);
-    is_sound(&svg);
+    assert_valid_svg(&svg);
     assert!(svg.contains("Failed"));
     trace.records.clear();
-    is_sound(&picture(&trace));
+    assert_valid_svg(&picture(&trace));
 }
 
 #[test]

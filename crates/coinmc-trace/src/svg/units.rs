@@ -1,4 +1,4 @@
-//! Numbers for people: round lengths and times with a unit that fits.
+//! Formatting of numbers: round lengths and times with suitable units.
 
 /// The largest of 1, 2 and 5 times a power of ten that is not above `limit`.
 pub(super) fn nice_below(limit: f64) -> f64 {
@@ -6,7 +6,7 @@ pub(super) fn nice_below(limit: f64) -> f64 {
         return 1.0;
     }
     let decade = libm::pow(10.0, libm::floor(libm::log10(limit)));
-    // rounding may put the power on the other side of the limit
+    // rounding may move the power beyond the limit
     [5.0, 2.0, 1.0]
         .into_iter()
         .map(|digit| digit * decade)
@@ -58,7 +58,7 @@ fn with_unit(value: f64, units: &[(f64, &str)]) -> String {
     }
 }
 
-/// Four significant digits at most, without needless zeros.
+/// At most four significant digits, without trailing zeros.
 pub(super) fn digits(value: f64) -> String {
     let size = value.abs();
     if !value.is_finite() || size != 0.0 && !(1e-4..1e7).contains(&size) {

@@ -5,7 +5,7 @@ use crate::trace::Trace;
 use coinmc_core::{Coin, EventKind};
 use nalgebra::Vector3;
 
-/// The plane of the picture: right is `right`, up is z, and the eye looks along z × right.
+/// The plane of the picture: `right` points right, z points up, and the eye looks along z × right.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct View {
     right: Vector3<f64>,
@@ -21,15 +21,15 @@ pub(super) struct Shot {
     pub(super) z: f64,
     /// u: to the right, up, and towards the eye.
     pub(super) axis: [f64; 3],
-    /// Where the lowest point of the coin is, along x.
+    /// Position of the coin's lowest point along x.
     pub(super) foot: f64,
-    /// Speed at which that point comes down, m/s.
+    /// Downward speed of this point, m/s.
     pub(super) approach_m_s: f64,
 }
 
 impl View {
-    /// The plane through the displacement from the start to the end; where there is next to none,
-    /// through the first velocity, or else through the way the coin leans.
+    /// The plane through the displacement from the start to the end; if it is almost zero, through
+    /// the first velocity, or else through the direction in which the coin leans.
     pub(super) fn of(trace: &Trace) -> Self {
         let finite = |record: &&Record| is_finite(record);
         let mut records = trace.records.iter().filter(finite);
@@ -38,7 +38,7 @@ impl View {
         let coin = trace.scene.coin.rim_distance_m();
         let candidates = first.zip(last).map(|(first, last)| {
             let (a, b) = (&first.state, &last.state);
-            // by how far each would carry the coin, or make it lean
+            // candidates, with the distance that each would move or tilt the coin
             let fall = trace.scene.time_scale_s();
             [
                 b.position_m - a.position_m,
@@ -56,7 +56,7 @@ impl View {
         Self { right }
     }
 
-    /// The records whose numbers are numbers.
+    /// The records without NaN.
     pub(super) fn shots(&self, trace: &Trace) -> Vec<Shot> {
         let coin = &trace.scene.coin;
         trace
@@ -110,7 +110,7 @@ fn is_finite(record: &Record) -> bool {
     .all(|number| number.is_finite())
 }
 
-/// The lowest point seen from the centre; of a level face its middle, of a level side likewise.
+/// The lowest point relative to the centre; for a level face or side, its middle.
 fn lowest(coin: &Coin, u: &Vector3<f64>) -> Vector3<f64> {
     let across = (u.x * u.x + u.y * u.y).sqrt();
     let half = 0.5 * coin.height_m();

@@ -1,8 +1,8 @@
-//! The part of the world that a panel shows, and the part of the toss.
+//! The part of space and of the toss that a panel shows.
 
 use super::view::Shot;
 
-/// A rectangle of the plane of the picture, m, and the shots that are drawn in it.
+/// A rectangle in the plane of the picture, m, and the shots drawn in it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Window {
     pub(super) left: f64,
@@ -13,7 +13,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// All of the toss with a coin's width about it; `None` without a shot.
+    /// The whole toss with a margin of a coin's width; `None` without shots.
     pub(super) fn around(shots: &[Shot], size_m: f64) -> Option<Self> {
         Self::of(shots, 0, size_m)
     }
@@ -22,7 +22,7 @@ impl Window {
         let seen = shots.get(first..).filter(|seen| !seen.is_empty())?;
         let low = |of: fn(&Shot) -> f64| seen.iter().map(of).fold(f64::INFINITY, f64::min);
         let high = |of: fn(&Shot) -> f64| seen.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
-        // no narrower than a few coins, so that a drop has ground to fall on
+        // at least a few coins wide, so that a vertical drop has some ground
         let (left, right) = (low(|shot| shot.x), high(|shot| shot.x));
         let spare = (2.5 * size_m - 0.5 * (right - left)).max(0.9 * size_m);
         Some(Self {
@@ -33,15 +33,15 @@ impl Window {
         })
     }
 
-    /// The last of the toss: as far back as it stays within `width` along the ground and two thirds
-    /// of that in height.
+    /// The end of the toss, as far back as it stays within `width` along the ground and two thirds
+    /// of it in height.
     pub(super) fn last(shots: &[Shot], width: f64, size_m: f64) -> Self {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         let outside = shots.iter().rposition(|shot| {
             (low, high) = (low.min(shot.x), high.max(shot.x));
             high - low > width - 2.0 * size_m || shot.z > width / 1.5
         });
-        // the shot that enters is the first
+        // start with the shot that enters the window
         let first = outside.map_or(0, |index| (index + 1).min(shots.len() - 1));
         let Some(mut window) = Self::of(shots, first, size_m) else {
             return Self {

@@ -1,4 +1,4 @@
-//! All files of a trace say the same.
+//! All file formats of a trace agree.
 
 use crate::plans::{flat, space};
 use coinmc::plan::Plan;
@@ -31,7 +31,7 @@ fn jsonl(plan: &Plan, traces: &[Trace]) -> Vec<Value> {
 }
 
 #[test]
-fn csv_has_a_line_a_record_and_numbers_that_read_back() {
+fn csv_has_a_line_per_record_and_numbers_that_read_back() {
     let (_, traces) = traces();
     let text = csv(&traces);
     let mut lines = text.lines();
@@ -59,7 +59,7 @@ fn csv_has_a_line_a_record_and_numbers_that_read_back() {
 }
 
 #[test]
-fn json_lines_say_what_csv_says() {
+fn json_lines_agree_with_csv() {
     let (plan, traces) = traces();
     let text = csv(&traces);
     let mut cells = text
@@ -96,7 +96,7 @@ fn json_lines_say_what_csv_says() {
 }
 
 #[test]
-fn the_mcap_is_whole_and_has_all_records() {
+fn the_mcap_is_undamaged_and_has_all_records() {
     let (plan, traces) = traces();
     for compression in [Compression::None, Compression::Lz4] {
         let mut bytes = Vec::new();
@@ -124,7 +124,7 @@ fn the_same_traces_give_the_same_bytes() {
 }
 
 #[test]
-fn a_toss_of_events_alone_has_files_too() {
+fn a_trace_of_events_only_can_be_written() {
     let plan = flat("moreau", 2);
     let trace = replay(&plan, 0, 0, 0.0).unwrap();
     let traces = [trace];

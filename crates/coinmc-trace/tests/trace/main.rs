@@ -1,8 +1,8 @@
-//! Tosses seen again: as they were, written down right, found by how they went.
+//! Tests of replaying, recording, writing and searching.
 
+mod errors;
 mod files;
 mod motion;
 mod plans;
-mod refusals;
 mod replay;
 mod searching;

@@ -1,4 +1,4 @@
-//! What a trace shows moves as a coin does.
+//! The recorded motion is that of a coin.
 
 use crate::plans::{all, event_driven, flat};
 use coinmc_core::EventKind;
@@ -18,7 +18,7 @@ fn is_event(record: &Record, kind: EventKind) -> bool {
     record.kind == RecordKind::Event(kind)
 }
 
-/// Height of the lowest point of the cylinder as the quaternion turns it, by its definition.
+/// Height of the lowest point of the cylinder with the quaternion's orientation.
 fn lowest(trace: &Trace, record: &Record) -> f64 {
     let coin = &trace.scene.coin;
     let (half, radius) = (0.5 * coin.height_m(), coin.radius_m());
@@ -27,7 +27,7 @@ fn lowest(trace: &Trace, record: &Record) -> f64 {
 }
 
 #[test]
-fn times_never_run_backwards_and_samples_are_where_they_were_asked_for() {
+fn times_never_decrease_and_samples_are_at_the_requested_times() {
     for trace in traces(6, 730.0) {
         let times = trace.records.iter().map(|record| record.state.time_s);
         assert!(times.is_sorted());
@@ -37,7 +37,7 @@ fn times_never_run_backwards_and_samples_are_where_they_were_asked_for() {
             .filter(|r| r.kind == RecordKind::Sample);
         for (n, sample) in (1..).zip(samples) {
             let asked = f64::from(n) / 730.0;
-            // engines count time in units of their own: an ulp or two
+            // engines use other units of time: an ulp or two
             assert!(
                 (sample.state.time_s - asked).abs() <= 4e-16 * asked.max(1.0),
                 "{asked}"
@@ -99,7 +99,7 @@ fn the_quaternions_z_axis_is_u() {
 
 /// Without drag: samples of the first flight against the parabola, and the energy.
 #[test]
-fn samples_in_flight_are_those_of_the_closed_form() {
+fn samples_in_flight_follow_the_closed_form() {
     for trace in traces(5, 400.0).filter(|trace| trace.scene.drag().is_none()) {
         let first = trace.records[0].state;
         let flight = trace.records.iter();
@@ -121,7 +121,7 @@ fn samples_in_flight_are_those_of_the_closed_form() {
 fn energy_never_grows() {
     for trace in traces(6, 1000.0) {
         let scene = &trace.scene;
-        // a step in contact errs by the engine's tolerance, 2e-4 of what it takes to balance
+        // the error of a step in contact is the engine's tolerance, 2e-4 of the energy of balance
         let slack = 1e-3 * scene.gravity_m_s2() * scene.coin.rim_distance_m();
         for pair in trace.records.windows(2) {
             assert!(
@@ -132,9 +132,9 @@ fn energy_never_grows() {
     }
 }
 
-/// In the plane the turn about y is all there is: the quaternion has no other part.
+/// In the plane the coin only turns about y: the quaternion has no other component.
 #[test]
-fn a_flat_toss_turns_about_y_alone() {
+fn a_planar_toss_turns_only_about_y() {
     let plan = flat("moreau", 5);
     for toss in 0..5 {
         for record in &replay(&plan, 0, toss, 1000.0).unwrap().records {
@@ -173,7 +173,7 @@ fn the_default_rate_follows_the_coin_and_its_spin() {
         coinmc_trace::launch(&plan, 0, 0).unwrap(),
     );
     launch.spin_rad_s = Vector3::zeros();
-    // 20/sqrt(D/g) with D = 1.02 cm is 620 a second
+    // 20/sqrt(D/g) with D = 1.02 cm is 620 per second
     assert_eq!(default_rate_hz(&scene, &launch), 1000.0);
     launch.spin_rad_s = Vector3::new(0.0, 500.0, 0.0);
     assert_eq!(default_rate_hz(&scene, &launch), 2000.0);

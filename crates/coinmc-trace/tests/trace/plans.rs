@@ -3,7 +3,7 @@
 use coinmc::config;
 use coinmc::plan::Plan;
 
-/// A plan with these tables in place of the usual.
+/// A plan with these tables.
 pub(crate) fn plan(engine: &str, launch: &str, tosses: u64) -> Plan {
     let text = format!(
         "seed = 7\n[coin]\nradius_m = 0.01\nratio = [0.4, 1.2]\n[surface]\nrestitution = 0.5\n\
@@ -38,7 +38,7 @@ fn stepped(tosses: u64) -> Plan {
     plan("[engine.rapier]", "clean", tosses)
 }
 
-/// One of each kind, with so many tosses a point.
+/// One plan of each kind, with this many tosses per point.
 pub(crate) fn all(tosses: u64) -> Vec<Plan> {
     #[allow(unused_mut, reason = "without Rapier there are no more")]
     let mut plans = event_driven(tosses);
@@ -47,7 +47,7 @@ pub(crate) fn all(tosses: u64) -> Vec<Plan> {
     plans
 }
 
-/// Those whose events are exact.
+/// The plans with exact events.
 pub(crate) fn event_driven(tosses: u64) -> Vec<Plan> {
     vec![
         flat("moreau", tosses),

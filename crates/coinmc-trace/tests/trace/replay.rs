@@ -1,4 +1,4 @@
-//! A toss replayed is the toss of the run.
+//! A replayed toss is the toss of the run.
 
 use crate::plans::{all, flat, space};
 use coinmc::run::{Begin, Chunk, Seen, for_each_end, run_chunk};
@@ -27,7 +27,7 @@ fn replayed_outcomes_are_those_of_the_run_toss_by_toss() {
 }
 
 #[test]
-fn who_watches_changes_nothing() {
+fn observing_a_toss_does_not_change_it() {
     for plan in all(3) {
         for toss in 0..3 {
             let alone = outcome(&plan, 1, toss).unwrap();
@@ -57,7 +57,7 @@ fn a_trace_begins_with_the_launch_and_ends_with_the_end() {
             assert_eq!(first.kind, RecordKind::Event(EventKind::Launched));
             assert_eq!(last.kind, RecordKind::Event(EventKind::Ended));
             assert_eq!(first.state.time_s, 0.0);
-            // engines keep the launch in units of their own
+            // engines convert the launch to other units
             let off = first.state.velocity_m_s - trace.launch.velocity_m_s;
             assert!(off.norm() < 1e-12, "{off}");
             let ends = |kind| trace.records.iter().filter(|r| r.kind == kind).count();
@@ -81,15 +81,15 @@ fn points_that_share_their_random_numbers_share_their_launches() {
         &[],
     )
     .unwrap();
-    let of = |point| replay(&paired, point, 3, 0.0).unwrap().launch;
-    assert_eq!(of(0).spin_rad_s, of(1).spin_rad_s);
+    let launch = |point| replay(&paired, point, 3, 0.0).unwrap().launch;
+    assert_eq!(launch(0).spin_rad_s, launch(1).spin_rad_s);
     let apart = flat("moreau", 5);
-    let of = |point| replay(&apart, point, 3, 0.0).unwrap().launch;
-    assert_ne!(of(0).spin_rad_s, of(1).spin_rad_s);
+    let launch = |point| replay(&apart, point, 3, 0.0).unwrap().launch;
+    assert_ne!(launch(0).spin_rad_s, launch(1).spin_rad_s);
 }
 
 #[test]
-fn memory_is_bounded_and_the_trace_says_so() {
+fn memory_is_bounded_and_the_trace_reports_it() {
     let plan = space("moreau", 5);
     let whole = replay(&plan, 0, 2, 50_000.0).unwrap();
     assert_eq!(whole.samples_until_s, None);
@@ -102,7 +102,7 @@ fn memory_is_bounded_and_the_trace_says_so() {
             .records
             .last()
             .map(|last| {
-                // fewer samples leave the turn about the coin's own axis less exact
+                // with fewer samples the rotation about the coin's own axis is less exact
                 let mut last = *last;
                 last.orientation = cut.records.last().unwrap().orientation;
                 last

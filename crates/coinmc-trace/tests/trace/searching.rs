@@ -1,4 +1,4 @@
-//! Searches find what looking at every toss finds.
+//! A search finds the same tosses as replaying all of them.
 
 use crate::plans::{flat, space};
 use coinmc::plan::Plan;
@@ -44,14 +44,14 @@ fn the_first_that_show_a_face() {
     // it stops at the third
     let third = all.iter().position(|key| *key == sides[2]).unwrap() as u64;
     assert_eq!(findings.searched, third + 1);
-    // and asked for more than there are, it finds all there are
+    // asked for more than exist, it finds all
     let findings = search(&plan, &query(&side, None, 1000), |_| true).unwrap();
     assert_eq!(keys(&findings.found), sides);
     assert_eq!((findings.searched, findings.is_cut), (400, false));
 }
 
 #[test]
-fn conditions_are_all_to_hold() {
+fn all_conditions_must_hold() {
     let plan = flat("moreau", 50);
     let both = [
         Condition::Face(Face::Side),
@@ -108,7 +108,7 @@ fn the_longest_by_time_and_by_impacts() {
 }
 
 #[test]
-fn limits_and_interruptions_are_told() {
+fn limits_and_interruptions_are_reported() {
     let plan = flat("moreau", 200);
     let none = [Condition::Ended(EndKind::Failed)];
     let limited = Query {

@@ -1,4 +1,4 @@
-//! Files of traces: the name's ending says what is in them.
+//! Trace files, whose format is given by the name's extension.
 
 use crate::exit::Failure;
 use anyhow::anyhow;
@@ -17,35 +17,32 @@ enum Kind {
     Svg,
 }
 
-/// New files, begun before anything takes time, in their places only when complete.
+/// New files, created before the work begins, which appear only when complete.
 pub(super) struct Files {
     files: Vec<(PathBuf, Kind, NewFile)>,
 }
 
 impl Files {
-    /// Begins files of at most so many traces.
+    /// Creates files for at most this many traces.
     pub(super) fn begin(paths: &[PathBuf], traces: usize) -> Result<Self, Failure> {
         let mut files: Vec<(PathBuf, Kind, NewFile)> = Vec::new();
         for path in paths {
             let kind = kind(path)?;
             if kind == Kind::Svg && traces > 1 {
                 return Err(Failure::Input(anyhow!(
-                    "{} would show one toss, and {traces} were asked for: ask for one",
+                    "{} can only show one toss, but {traces} were requested: request one",
                     path.display()
                 )));
             }
             if files.iter().any(|(other, ..)| other == path) {
-                return Err(Failure::Input(anyhow!(
-                    "{} was named twice",
-                    path.display()
-                )));
+                return Err(Failure::Input(anyhow!("{} is given twice", path.display())));
             }
             files.push((path.clone(), kind, NewFile::begin(path)?));
         }
         Ok(Self { files })
     }
 
-    /// Writes all of them; their paths.
+    /// Writes all files; returns their paths.
     pub(super) fn write(
         self,
         plan: &Plan,
@@ -70,7 +67,7 @@ impl Files {
     }
 }
 
-/// `begin` has made sure that it is one at most.
+/// Writes a picture; `begin` has checked that there is at most one trace.
 fn picture(traces: &[Trace], out: &mut NewFile) -> io::Result<()> {
     traces
         .iter()
@@ -86,7 +83,7 @@ fn kind(path: &Path) -> Result<Kind, Failure> {
         Some("jsonl") => Ok(Kind::Jsonl),
         Some("svg") => Ok(Kind::Svg),
         _ => Err(Failure::Input(anyhow!(
-            "{} does not say what to write: let it end in .mcap, .csv, .parquet, .jsonl or .svg",
+            "{} has no known extension: use .mcap, .csv, .parquet, .jsonl or .svg",
             path.display()
         ))),
     }

@@ -1,4 +1,4 @@
-//! `coinmc trace`: tosses seen again.
+//! `coinmc trace`: replaying tosses.
 
 mod files;
 mod recover;
@@ -31,13 +31,13 @@ Examples:
   coinmc trace toss.toml --longest --rate 2000 -o long.parquet -o long.svg
   coinmc trace recover torn.mcap                                     what a crash has left";
 
-/// Records of all traces of a file, at most: some 300 MB of memory.
-const MOST_RECORDS: usize = 2_000_000;
+/// Greatest number of records of all traces together, about 300 MB of memory.
+const MAX_TOTAL_RECORDS: usize = 2_000_000;
 
-/// Replay tosses, bit for bit, and show or record them
+/// Replay tosses exactly, and show or record them
 ///
-/// Nothing of a toss needs to have been stored: its point and number say which random numbers it
-/// began with. Files are MCAP, CSV, Parquet, JSON lines or SVG, told by the name's ending.
+/// Tosses need not have been stored: the point and the number of a toss determine its random
+/// numbers. Files are MCAP, CSV, Parquet, JSON lines or SVG, by the name's extension.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, args_conflicts_with_subcommands = true)]
 #[command(subcommand_negates_reqs = true)]
@@ -52,17 +52,18 @@ pub(crate) struct Trace {
     #[arg(required = true, value_name = "CONFIG|RUN_DIR")]
     config: Option<PathBuf>,
 
-    /// Points, by their index from 0; several with commas
-    /// [default: with --toss the first, else all]
+    /// Points, by their index from 0, separated by commas
+    /// [default: the first with --toss, otherwise all]
     #[arg(long = "point", value_name = "P", value_delimiter = ',')]
     points: Vec<usize>,
 
-    /// Tosses of each point, by their number from 0; several with commas
+    /// Tosses of each point, by their number from 0, separated by commas
     #[arg(long = "toss", value_name = "K", value_delimiter = ',')]
     #[arg(conflicts_with_all = ["conditions", "longest", "count", "limit"])]
     tosses: Vec<u64>,
 
-    /// Search for tosses that went so: face=side, ended=time_limit, …; repeat to ask for both
+    /// Search for tosses with this outcome: face=side, ended=time_limit, …; repeat to require
+    /// several
     #[arg(long = "where", value_name = "WHAT=HOW")]
     conditions: Vec<Condition>,
 
@@ -71,17 +72,17 @@ pub(crate) struct Trace {
     #[arg(default_missing_value = "time", value_enum)]
     longest: Option<By>,
 
-    /// How many tosses to search for
+    /// Number of tosses to find
     #[arg(long, value_name = "N", default_value_t = 1)]
     #[arg(value_parser = clap::value_parser!(u16).range(1..=1000))]
     count: u16,
 
-    /// Tosses to look at in a search, at most, point by point and in order
+    /// Greatest number of tosses to search, point by point and in order
     #[arg(long, value_name = "N", default_value_t = 100_000)]
     limit: u64,
 
-    /// Samples a second between events; 0 for events alone
-    /// [default: 24 a turn and 20 a topple, rounded up to 1, 2 or 5]
+    /// Samples per second between events; 0 for events only
+    /// [default: 24 per turn and 20 per toppling time, rounded up to 1, 2 or 5]
     #[arg(long, value_name = "HZ")]
     rate: Option<f64>,
 
@@ -89,11 +90,11 @@ pub(crate) struct Trace {
     #[arg(short, long = "out", value_name = "FILE")]
     outs: Vec<PathBuf>,
 
-    /// Print the events of each toss, and what decided it
+    /// Print the events of each toss and what decided it
     #[arg(long)]
     show: bool,
 
-    /// With --show: every event, also where many small ones follow each other
+    /// With --show: print every event, even if there are many small ones
     #[arg(long, requires = "show")]
     all: bool,
 
@@ -105,11 +106,11 @@ pub(crate) struct Trace {
     #[arg(long = "set", value_name = "KEY=VALUE")]
     overrides: Vec<Override>,
 
-    /// How to write the result
+    /// Format of the result
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 
-    /// No progress and no remarks; warnings and errors stay
+    /// Hide progress and notes; warnings and errors are still shown
     #[arg(long, short)]
     quiet: bool,
 }
@@ -119,7 +120,7 @@ enum Verb {
     Recover(Recover),
 }
 
-/// What makes a toss long.
+/// The measure of a toss's length.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum By {
     /// Simulated time
@@ -140,14 +141,13 @@ impl Trace {
         match (&self.recover, &self.config) {
             (Some(Verb::Recover(recover)), _) => recover.execute(console),
             (None, Some(config)) => self.trace(config, console),
-            (None, None) => Err(Failure::Input(anyhow!("name a config or a run directory"))),
+            (None, None) => Err(Failure::Input(anyhow!("give a config or a run directory"))),
         }
     }
 
     fn trace(&self, config: &Path, console: &Console) -> Result<Outcome, Failure> {
         if self.show && self.format == Format::Json {
-            let both =
-                anyhow!("--show prints for people and --format json for programs: choose one");
+            let both = anyhow!("--show prints text and --format json prints JSON: choose one");
             return Err(Failure::Input(both));
         }
         let plan = self.plan(config)?;
@@ -157,13 +157,14 @@ impl Trace {
                 .iter()
                 .for_each(|note| progress.note(&format!("note: {note}")));
         }
-        // before anything takes time
+        // before the work begins
         select::check(self, &plan)?;
-        let files = Files::begin(&self.outs, self.most(&plan))?;
-        let told = progress.clone();
-        let cancel = interrupt::listen(move || told.note("stopping; Ctrl-C again stops at once"))
-            .context("cannot listen for signals")
-            .map_err(Failure::Runtime)?;
+        let files = Files::begin(&self.outs, self.max_traces(&plan))?;
+        let for_handler = progress.clone();
+        let cancel =
+            interrupt::listen(move || for_handler.note("stopping; Ctrl-C again stops at once"))
+                .context("cannot listen for signals")
+                .map_err(Failure::Runtime)?;
         let selected = select::select(self, &plan, cancel, &progress);
         progress.finish();
         let mut selected = selected?;
@@ -182,15 +183,15 @@ impl Trace {
         }
         if !self.overrides.is_empty() {
             return Err(Failure::Input(anyhow!(
-                "{} is the run of one config: use --set with a config, such as the config.toml in it",
+                "{} is the run of a fixed config: use --set with a config, such as the config.toml in it",
                 config.display()
             )));
         }
         Ok(stored_plan(config)?)
     }
 
-    /// Tosses that will be traced, at most.
-    fn most(&self, plan: &Plan) -> usize {
+    /// Greatest number of tosses that will be traced.
+    fn max_traces(&self, plan: &Plan) -> usize {
         match self.tosses.len() {
             0 => usize::from(self.count),
             tosses => tosses * select::points(self, plan).len(),
@@ -203,7 +204,7 @@ impl Trace {
         selected: &mut Selected,
         cancel: &AtomicBool,
     ) -> Result<Vec<Recorded>, Failure> {
-        let most = MAX_RECORDS.min(MOST_RECORDS / selected.tosses.len().max(1));
+        let most = MAX_RECORDS.min(MAX_TOTAL_RECORDS / selected.tosses.len().max(1));
         let mut traces = Vec::with_capacity(selected.tosses.len());
         for &(point, toss) in &selected.tosses {
             if cancel.load(Ordering::Relaxed) {

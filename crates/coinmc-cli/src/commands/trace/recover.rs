@@ -1,4 +1,4 @@
-//! `coinmc trace recover`: what a crash has left of a recording.
+//! `coinmc trace recover`: recovering a recording after a crash.
 
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, FORMAT_VERSION, Format};
@@ -8,19 +8,19 @@ use coinmc_recording::Recovered;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
-/// Write what can be read of a damaged or unfinished MCAP recording to a new one
+/// Copy what is readable in a damaged or unfinished MCAP recording to a new one
 ///
-/// Works for traces and for the robot's recordings. The damaged file is only read.
+/// Works for traces and for recordings of the robot. The damaged file is only read.
 #[derive(Debug, Args)]
 pub(super) struct Recover {
     /// The damaged recording
     file: PathBuf,
 
-    /// The new recording [default: FILE with .recovered before its ending]
+    /// The new recording [default: FILE with .recovered before its extension]
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
 
-    /// How to write the result
+    /// Format of the result
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 }
@@ -59,13 +59,13 @@ fn to_text(recovered: &Recovered, out: &Path) -> String {
         count(recovered.metadata, "metadata record"),
     );
     if recovered.was_whole() {
-        text += "Nothing was wrong with the recording.\n";
+        text += "The recording was not damaged.\n";
     } else {
         if !recovered.had_end {
-            text += "The recording had no end: it was cut off, or never finished.\n";
+            text += "The recording has no end: it was cut off or never finished.\n";
         }
         text += &format!(
-            "Damaged: {} and {} in all; {} of unknown channels left out.\n",
+            "Damaged: {} and {} in total; {} on unknown channels lost.\n",
             count(recovered.lost_bytes, "byte"),
             count(recovered.lost_chunks, "chunk"),
             count(recovered.lost_messages, "message"),
@@ -73,7 +73,7 @@ fn to_text(recovered: &Recovered, out: &Path) -> String {
     }
     if recovered.unknown_compression > 0 {
         text += &format!(
-            "{} compressed in a way that coinmc does not read: it knows LZ4.\n",
+            "{} compressed in an unsupported format: coinmc reads LZ4.\n",
             match recovered.unknown_compression {
                 1 => "1 chunk is".to_owned(),
                 n => format!("{n} chunks are"),
@@ -105,7 +105,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_new_file_lies_beside_the_old() {
+    fn the_new_file_is_next_to_the_old_one() {
         assert_eq!(
             beside(Path::new("a/b.mcap")),
             Path::new("a/b.recovered.mcap")

@@ -1,4 +1,4 @@
-//! What was traced, for people and for programs.
+//! The report of traces, as text and as JSON.
 
 use super::Trace;
 use super::select::{Selected, Status};
@@ -12,7 +12,7 @@ use coinmc_trace::{Trace as Recorded, outcome_name};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// Result on standard output, advice on standard error unless quiet.
+/// Prints the result to standard output, and notes to standard error unless quiet.
 pub(super) fn present(
     trace: &Trace,
     plan: &Plan,
@@ -59,7 +59,7 @@ fn to_text(trace: &Trace, traces: &[Recorded], files: &[PathBuf], style: &Style)
     text
 }
 
-/// A line a toss.
+/// One line per toss.
 fn overview(traces: &[Recorded], style: &Style) -> String {
     let mut table = Table::new(vec![
         Column::right("point"),
@@ -84,7 +84,7 @@ fn overview(traces: &[Recorded], style: &Style) -> String {
     table.render(style).text
 }
 
-/// What the user should know beside the result.
+/// Notes beside the result.
 fn remarks(trace: &Trace, selected: &Selected, traces: &[Recorded]) -> Vec<String> {
     let mut remarks = Vec::new();
     if let Some(searched) = selected.searched {
@@ -93,19 +93,19 @@ fn remarks(trace: &Trace, selected: &Selected, traces: &[Recorded]) -> Vec<Strin
         remarks.push(match selected.status {
             Status::Interrupted => format!("coinmc: stopped after {searched}; no file was written"),
             Status::Short { limit: true } => format!(
-                "coinmc: found {found} of {} in {searched}; look further with --limit",
+                "coinmc: found {found} of {} in {searched}; search further with --limit",
                 trace.count
             ),
             Status::Short { limit: false } => format!(
-                "coinmc: found {found} of {}; {searched} were all there are",
+                "coinmc: found {found} of {}; all {searched} were searched",
                 trace.count
             ),
-            Status::Complete => format!("coinmc: looked at {searched}"),
+            Status::Complete => format!("coinmc: searched {searched}"),
         });
     }
     for cut in traces.iter().filter(|t| t.samples_until_s.is_some()) {
         remarks.push(format!(
-            "coinmc: point {}, toss {}: no samples after {} s, there are too many; lower --rate",
+            "coinmc: point {}, toss {}: no samples after {} s because there are too many; lower --rate",
             cut.point,
             cut.toss,
             compact(cut.samples_until_s.unwrap_or_default()),

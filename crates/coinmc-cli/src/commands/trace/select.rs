@@ -1,4 +1,4 @@
-//! Which tosses: named, or searched for.
+//! Selection of tosses: given or searched for.
 
 use super::Trace;
 use crate::exit::Failure;
@@ -8,32 +8,32 @@ use coinmc_trace::{MAX_RATE_HZ, Query, TraceError, launch, search};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// Between two looks of the user.
+/// Time between updates of the progress.
 const PAUSE: Duration = Duration::from_millis(50);
-/// Most tosses of a command.
-const MOST: usize = 1000;
+/// Greatest number of tosses per command.
+const MAX: usize = 1000;
 
 /// The tosses to trace, by point and number.
 #[derive(Debug)]
 pub(super) struct Selected {
     pub(super) tosses: Vec<(usize, u64)>,
-    /// Tosses looked at; `None` where none were searched for.
+    /// Number of tosses searched; `None` without a search.
     pub(super) searched: Option<u64>,
     pub(super) status: Status,
 }
 
-/// Whether all was found.
+/// Whether the search was complete.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Status {
     Complete,
-    /// Fewer were found than wanted. `limit`: there were more tosses to look at.
+    /// Fewer were found than requested. `limit`: there were more tosses to search.
     Short {
         limit: bool,
     },
     Interrupted,
 }
 
-/// The points asked for.
+/// The requested points.
 pub(super) fn points(trace: &Trace, plan: &Plan) -> Vec<usize> {
     if !trace.points.is_empty() {
         trace.points.clone()
@@ -44,11 +44,11 @@ pub(super) fn points(trace: &Trace, plan: &Plan) -> Vec<usize> {
     }
 }
 
-/// Refuses tosses that are not there before anything is begun.
+/// Rejects tosses that do not exist before the work begins.
 pub(super) fn check(trace: &Trace, plan: &Plan) -> Result<(), Failure> {
-    if !trace.tosses.is_empty() && trace.tosses.len() * points(trace, plan).len() > MOST {
+    if !trace.tosses.is_empty() && trace.tosses.len() * points(trace, plan).len() > MAX {
         return Err(Failure::Input(anyhow::anyhow!(
-            "at most {MOST} tosses are traced at a time"
+            "at most {MAX} tosses can be traced at a time"
         )));
     }
     if let Some(rate) = trace
@@ -57,7 +57,7 @@ pub(super) fn check(trace: &Trace, plan: &Plan) -> Result<(), Failure> {
     {
         return Err(TraceError::Rate(rate).into());
     }
-    // a search comes to its last point late
+    // a search would reach its last point late
     let firsts = points(trace, plan).into_iter().map(|point| (point, 0));
     for (point, toss) in firsts.chain(named(trace, plan)) {
         launch(plan, point, toss)?;
@@ -65,7 +65,7 @@ pub(super) fn check(trace: &Trace, plan: &Plan) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Every toss named, of every point named.
+/// All given tosses of all given points.
 fn named(trace: &Trace, plan: &Plan) -> Vec<(usize, u64)> {
     let points = points(trace, plan).into_iter();
     points
@@ -97,7 +97,7 @@ pub(super) fn select(
     progress.searched(0, trace.limit);
     let mut shown = Instant::now();
     let findings = search(plan, &query, |searched| {
-        // a toss may take a microsecond, and a second
+        // a toss may take a microsecond or a second
         if shown.elapsed() >= PAUSE {
             progress.searched(searched, trace.limit);
             shown = Instant::now();

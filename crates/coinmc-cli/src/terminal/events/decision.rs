@@ -1,4 +1,4 @@
-//! What decided the face of a toss, and when, in a sentence or two.
+//! Explanation of what decided the face of a toss, and when.
 
 use super::rows::of_balance;
 use crate::terminal::{compact, count};
@@ -16,34 +16,36 @@ pub(super) fn decision(trace: &Trace) -> String {
         }
         Ended::Decided(face) if trace.outcome.overruled => {
             format!(
-                "The stopping rule of the config named {} as soon as the energy was low enough for \
-                 it. Followed until it was decided, {when}, the coin showed another face.",
+                "The decision rule of the config named {} as soon as the energy was low enough for \
+                 it. Continued until the face was decided by energy, {when}, the coin showed \
+                 another face.",
                 name(face)
             )
         }
         Ended::Decided(face) => decided(trace, &when, face),
         Ended::NeverSettles => format!(
-            "Undecided: it is proven {when} that the coin never settles. Nothing takes its energy: \
-             it stands balanced, or bounces or rolls for ever."
+            "Undecided: it is proven {when} that the coin never settles. It loses no energy: it \
+             stands balanced, or bounces or rolls for ever."
         ),
-        Ended::TimeLimit => given_up(trace, &when, "the limit of simulated time, time_limit"),
-        Ended::ImpactLimit => given_up(trace, &when, "its limit of impacts or of steps in contact"),
+        Ended::TimeLimit => undecided(trace, &when, "the limit of simulated time, time_limit"),
+        Ended::ImpactLimit => {
+            undecided(trace, &when, "its limit of impacts or of steps in contact")
+        }
         Ended::Failed => format!(
-            "Failed {when}: its numbers left the range of numbers. It counts as failed, with no \
-             face."
+            "Failed {when}: a value is not a number (NaN). The toss counts as failed, without a face."
         ),
     }
 }
 
 fn adhesive(when: &str, face: Face) -> String {
     format!(
-        "The landing is adhesive: the first contact, {when}, decides. The coin topples to where its \
-         centre is beyond the rim that touches. {}",
+        "The landing is adhesive: the first contact, {when}, decides. The coin topples to the side \
+         of the touching rim on which its centre is. {}",
         shows(face)
     )
 }
 
-/// Why a face is decided.
+/// Explains a decision by energy.
 fn decided(trace: &Trace, when: &str, face: Face) -> String {
     let Some(last) = trace.records.last() else {
         return shows(face).to_owned();
@@ -59,24 +61,24 @@ fn decided(trace: &Trace, when: &str, face: Face) -> String {
     } else if level < LEVEL {
         format!(
             "it lies along its side; its energy is {percent} of what it takes to balance over its \
-             rim, but sits in rolling and sliding, which cannot tilt it that far"
+             rim, but is in rolling and sliding, which cannot tilt it that far"
         )
     } else {
         format!(
             "its energy is {percent} of what it takes to balance over its rim, but too little of \
-             that can tilt it: the rest sits in motion along the surface"
+             that can tilt it: the rest is in motion along the surface"
         )
     };
     format!("Decided {when}{}: {why}. {}", after(trace), shows(face))
 }
 
-fn given_up(trace: &Trace, when: &str, limit: &str) -> String {
+fn undecided(trace: &Trace, when: &str, limit: &str) -> String {
     let left = trace.records.last().map_or(String::new(), |last| {
         compact_percent(of_balance(trace, last))
     });
     format!(
-        "Undecided {when}, after {}: given up at {limit} of the engine, with {left} of the energy \
-         that it takes to balance over the rim. Raise the limit in the config to follow it on.",
+        "Undecided {when}, after {}: stopped at {limit} of the engine, with {left} of the energy \
+         that it takes to balance over the rim. Raise the limit in the config to continue it.",
         count(u64::from(trace.outcome.impacts), "impact")
     )
 }
@@ -86,7 +88,7 @@ fn when(trace: &Trace) -> String {
     format!("at {} s", compact(trace.duration_s()))
 }
 
-/// ", just after impact 7" if that is the last thing that happened.
+/// ", just after impact 7" if that was the last event.
 fn after(trace: &Trace) -> String {
     let event = |record: &Record| match record.kind {
         RecordKind::Event(kind) => Some(kind),
@@ -116,7 +118,7 @@ fn name(face: Face) -> &'static str {
     }
 }
 
-/// Three digits, rounded away from 100 % so that the side it is on can be seen.
+/// Three digits, rounded away from 100 %, to show whether it is above or below.
 fn compact_percent(share: f64) -> String {
     let percent = 100.0 * share;
     let rounded = if percent < 100.0 {

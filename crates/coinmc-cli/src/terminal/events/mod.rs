@@ -8,13 +8,13 @@ use super::{Colors, Style, compact, count, in_ascii, wrapped};
 use coinmc_trace::Trace;
 use rows::{Line, Row, lines};
 
-/// What happened in a toss, event by event, and why it ended. Long runs of small bounces are told
-/// in one line unless `all` is asked for.
+/// The events of a toss and why it ended. Long series of small bounces share one line unless `all`
+/// is set.
 pub(crate) fn events(trace: &Trace, all: bool, style: &Style) -> String {
     let mut table = Table::new(vec![
         Column::right("time, s"),
         Column::left("event"),
-        Column::left("goes on").droppable(4),
+        Column::left("motion").droppable(4),
         Column::right("height, m").droppable(3),
         Column::right("energy, J/kg").droppable(6),
         Column::right("of balance"),
@@ -47,7 +47,7 @@ pub(crate) fn events(trace: &Trace, all: bool, style: &Style) -> String {
     if let Some(until) = trace.events_until_s {
         let last = compact(until);
         notes.push(format!(
-            "Events after {last} s, but for the end, were too many to record."
+            "Events after {last} s, except for the end, were too many to record."
         ));
     }
     for note in notes {
@@ -73,7 +73,7 @@ fn title(trace: &Trace) -> String {
     )
 }
 
-/// Decimals of a time that show a ten-thousandth of the toss, and no fewer than 4.
+/// Decimals of a time that resolve a ten-thousandth of the toss, at least 4.
 fn decimals(duration_s: f64) -> usize {
     let mut decimals = 4;
     let mut unit = 1.0;
@@ -99,7 +99,7 @@ fn cells(row: &Row, decimals: usize) -> Vec<String> {
     ]
 }
 
-/// Three decimals, more where they would not show three digits.
+/// Three decimals, or more if these would show fewer than three digits.
 fn three_digits(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 || (0.1..1e6).contains(&size) {

@@ -1,18 +1,18 @@
-//! A trace's events as rows, an impact being one, and which of them are told one by one.
+//! A trace's events as rows, and which of them get a line of their own.
 
 use coinmc_core::{Coin, EventKind, State};
 use coinmc_trace::{Mode, Record, RecordKind, Trace};
 
-/// Events that follow each other within this part of sqrt(D/g), in which a coin topples, are small
-/// ones: in that time it turns and moves by nothing that matters.
+/// Successive events within this fraction of the toppling time sqrt(D/g) are small: the coin hardly
+/// turns or moves in that time.
 const SMALL: f64 = 0.1;
-/// So many of them in turn are told in one line.
+/// At least this many successive small events share one line.
 const FLOOD: usize = 5;
-/// A table of more lines than this shows only its ends, `END` lines each.
+/// A longer table than this shows only its first and last `END` lines.
 const LONG: usize = 60;
 const END: usize = 25;
 
-/// What is told of an event.
+/// The row of an event.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Row {
     pub(super) time_s: f64,
@@ -23,14 +23,14 @@ pub(super) struct Row {
     /// Of the centre.
     pub(super) height_m: f64,
     pub(super) energy_j_kg: f64,
-    /// Energy over that of balance on the rim, at rest.
+    /// Energy as a fraction of that at balance on the rim, at rest.
     pub(super) of_balance: f64,
     pub(super) turns_s: f64,
     /// The face that is up.
     pub(super) up: &'static str,
     /// Angle from lying on a face, 90° being the side.
     pub(super) tilt_deg: f64,
-    /// At an impact, how fast the lowest point came down; in contact, how fast it slides.
+    /// At an impact, the downward speed of the lowest point; in contact, its sliding speed.
     pub(super) rim_m_s: Option<f64>,
 }
 
@@ -38,13 +38,13 @@ pub(super) struct Row {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Line<'a> {
     Row(&'a Row),
-    /// Small events in turn.
+    /// Successive small events.
     Group(&'a [Row]),
-    /// Left out for want of space.
+    /// Omitted rows.
     Hidden(&'a [Row]),
 }
 
-/// One row an event; touching and the impact that follows are one.
+/// One row per event; touching and the impact that follows share one.
 pub(super) fn rows(trace: &Trace) -> Vec<Row> {
     let mut rows = Vec::new();
     let (mut impacts, mut touching) = (0_u64, None);
@@ -97,13 +97,13 @@ fn row(trace: &Trace, record: &Record, event: String, rim_m_s: Option<f64>) -> R
     }
 }
 
-/// Energy over that of a coin balanced at rest over its rim, g D.
+/// Energy as a fraction of that of a coin balanced at rest on its rim, g D.
 pub(super) fn of_balance(trace: &Trace, record: &Record) -> f64 {
     let scene = &trace.scene;
     record.energy_j_kg / (scene.gravity_m_s2() * scene.coin.rim_distance_m())
 }
 
-/// How fast the lowest point sinks and how fast it slips, m/s.
+/// Downward speed and sliding speed of the lowest point, m/s.
 fn rim_speeds(coin: &Coin, state: &State) -> (f64, f64) {
     let u = state.axis.into_inner();
     let across = u.xy().norm();
@@ -118,7 +118,7 @@ fn rim_speeds(coin: &Coin, state: &State) -> (f64, f64) {
     (-velocity.z, velocity.xy().norm())
 }
 
-/// The lines that are shown, in order.
+/// The lines to show, in order.
 pub(super) fn lines(rows: &[Row], time_scale_s: f64, all: bool) -> Vec<Line<'_>> {
     if all {
         return rows.iter().map(Line::Row).collect();
@@ -134,7 +134,7 @@ pub(super) fn lines(rows: &[Row], time_scale_s: f64, all: bool) -> Vec<Line<'_>>
     [head, &[Line::Hidden(hidden)], tail].concat()
 }
 
-/// Floods of small events between the first and the last of each.
+/// Groups long series of small events, except for the first and the last of each.
 fn groups(rows: &[Row], small_s: f64) -> Vec<Line<'_>> {
     let mut lines = Vec::new();
     let flood = |pair: &[Row]| pair[1].time_s - pair[0].time_s < small_s;
@@ -155,7 +155,7 @@ fn groups(rows: &[Row], small_s: f64) -> Vec<Line<'_>> {
 }
 
 impl Line<'_> {
-    /// How many rows it stands for.
+    /// Number of rows that the line stands for.
     fn rows(&self) -> usize {
         match self {
             Line::Row(_) => 1,

@@ -16,7 +16,7 @@ fn shown(trace: &Trace) -> String {
 }
 
 #[test]
-fn a_toss_is_told_from_launch_to_end() {
+fn a_toss_is_shown_from_launch_to_end() {
     let trace = trace(FLAT, 5);
     let text = shown(&trace);
     let lines: Vec<&str> = text.lines().collect();
@@ -38,9 +38,9 @@ fn a_toss_is_told_from_launch_to_end() {
     );
 }
 
-/// The energy of each row is no more than that of the row before.
+/// The energy of each row is at most that of the row before.
 #[test]
-fn energy_is_told_against_the_balance() {
+fn energy_is_a_fraction_of_that_at_balance() {
     let trace = trace(FLAT, 7);
     let rows = super::rows::rows(&trace);
     let barrier = trace.scene.gravity_m_s2() * trace.scene.coin.rim_distance_m();
@@ -84,9 +84,9 @@ fn floods_of_small_bounces_are_one_line() {
     let mut rows: Vec<Row> = (0..50).map(|i| row(1.0 + 1e-4 * f64::from(i))).collect();
     rows.insert(0, row(0.0));
     rows.push(row(2.0));
-    let told = lines(&rows, 0.03, false);
-    assert_eq!(told.len(), 5, "{told:?}");
-    assert!(matches!(told[2], Line::Group(group) if group.len() == 48));
+    let shown_lines = lines(&rows, 0.03, false);
+    assert_eq!(shown_lines.len(), 5, "{shown_lines:?}");
+    assert!(matches!(shown_lines[2], Line::Group(group) if group.len() == 48));
     assert_eq!(lines(&rows, 0.03, true).len(), 52);
     assert_eq!(super::grouped(&rows[2..50]), "48 impacts in 4.700 ms");
 }
@@ -94,9 +94,9 @@ fn floods_of_small_bounces_are_one_line() {
 #[test]
 fn a_long_table_shows_its_ends() {
     let rows: Vec<Row> = (0..1000).map(|i| row(f64::from(i))).collect();
-    let told = lines(&rows, 0.03, false);
-    assert_eq!(told.len(), 51);
-    assert!(matches!(told[25], Line::Hidden(hidden) if hidden.len() == 950));
+    let shown_lines = lines(&rows, 0.03, false);
+    assert_eq!(shown_lines.len(), 51);
+    assert!(matches!(shown_lines[25], Line::Hidden(hidden) if hidden.len() == 950));
     assert!(lines(&rows, 0.03, true).len() == 1000);
 }
 
@@ -107,7 +107,7 @@ fn every_end_has_its_sentence() {
         (Ended::NeverSettles, "never settles"),
         (Ended::TimeLimit, "time_limit"),
         (Ended::ImpactLimit, "limit of impacts"),
-        (Ended::Failed, "range of numbers"),
+        (Ended::Failed, "not a number"),
         (Ended::Decided(Face::Side), "It comes to rest on its side."),
     ] {
         trace.outcome.ended = ended;

@@ -1,10 +1,10 @@
-//! What cannot be traced is refused in words that help.
+//! Error messages for tosses that cannot be traced.
 
 use crate::plans::flat;
 use coinmc_trace::{Query, TraceError, replay, search};
 
 #[test]
-fn points_and_tosses_that_are_not_there() {
+fn points_and_tosses_that_do_not_exist() {
     let plan = flat("moreau", 10);
     let error = replay(&plan, 2, 0, 0.0).unwrap_err();
     assert!(
@@ -17,7 +17,7 @@ fn points_and_tosses_that_are_not_there() {
     assert!(
         error
             .to_string()
-            .starts_with("there is no toss 10: this config makes 10"),
+            .starts_with("there is no toss 10: this config has 10"),
         "{error}"
     );
     assert!(replay(&plan, 1, 9, 0.0).is_ok());
@@ -52,7 +52,7 @@ fn a_closed_form_has_no_traces() {
 }
 
 #[test]
-fn rates_that_are_none() {
+fn invalid_sampling_rates() {
     let plan = flat("moreau", 10);
     for rate in [-1.0, f64::NAN, f64::INFINITY, 2e9] {
         assert!(matches!(
