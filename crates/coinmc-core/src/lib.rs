@@ -62,3 +62,8 @@ pub use random::{Domain, Philox4x64, Stream, TossUniforms, UniformSource, unit_i
 pub use scene::{Drag, Scene, SceneParameter};
 pub use surface::{Landing, Surface, SurfaceError};
 pub use tally::{Counter, CounterKind, Tally};
+
+/// The code of the walk-through is tested.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/developer/add-an-engine.md")]
+mod add_an_engine {}

@@ -93,7 +93,6 @@ impl Parameter {
 pub fn parameters(law: Law) -> &'static [Parameter] {
     use Parameter::{Eta, Floor, Friction, Peak, Restitution, Stiffness};
     match law {
-        Law::Moreau | Law::ChatterjeeRuina => &[Restitution, Friction, Floor],
         // Gaek & Sukhov's law has no friction
         Law::GaekSukhov(_) => &[Restitution, Eta, Floor],
         Law::HalfSine(pulse) => match (pulse.time, pulse.peak_n) {
@@ -105,6 +104,8 @@ pub fn parameters(law: Law) -> &'static [Parameter] {
             (PulseTime::Contact(_), Some(_)) => &[Restitution, Friction, Peak, Stiffness, Floor],
         },
         Law::LineContact(_) => &[Restitution, Friction, Stiffness, Floor],
+        // parameters of its own are fitted once they are a [`Parameter`]
+        _ => &[Restitution, Friction, Floor],
     }
 }
 
@@ -187,7 +188,7 @@ impl Shared {
                 }
                 self.peak_n = pulse.peak_n.unwrap_or(self.peak_n);
             }
-            Law::Moreau | Law::ChatterjeeRuina | Law::LineContact(_) => {}
+            _ => {}
         }
         self
     }
@@ -201,7 +202,6 @@ impl Shared {
             ..materials
         };
         match law {
-            Law::Moreau | Law::ChatterjeeRuina => law,
             Law::GaekSukhov(mut gaek_sukhov) => {
                 gaek_sukhov.eta_n_s = self.eta_n_s;
                 Law::GaekSukhov(gaek_sukhov)
@@ -218,6 +218,7 @@ impl Shared {
                 materials: stiffer(line.materials),
                 ..line
             }),
+            _ => law,
         }
     }
 }

@@ -40,16 +40,22 @@ pub trait ImpactLaw: Copy + Sync {
 }
 
 /// A law of impact with the parameters that a user gives, before it is applied to a scene.
-pub(crate) trait PlanarLaw: LawSettings {
+pub trait PlanarLaw: LawSettings {
     /// The law in a scene.
     type Impact: ImpactLaw;
 
     /// Checks the parameters.
+    ///
+    /// # Errors
+    /// [`SettingsError`] if one is out of range.
     fn validate(&self) -> Result<(), SettingsError> {
         Ok(())
     }
 
     /// The law in this scene.
+    ///
+    /// # Errors
+    /// [`SettingsError`] if a parameter is out of range, or the law does not go with the scene.
     fn impact(self, scene: &Scene) -> Result<Self::Impact, SettingsError>;
 }
 

@@ -61,7 +61,7 @@ pub use coinmc_lanes::{Lane, Lanes, NoSuchLanes};
 pub use contact_matrix::{ContactMatrix, Impulse};
 pub use descriptor::ENGINE;
 pub use engine::FlatEngine;
-pub use impact_law::{Impact, ImpactLaw, Resolution};
+pub use impact_law::{Impact, ImpactLaw, PlanarLaw, Resolution};
 pub use laws::Law;
 pub use laws::chatterjee_ruina::ChatterjeeRuina;
 pub use laws::gaek_sukhov::{GaekSukhov, GaekSukhovImpact, Lever};
@@ -72,3 +72,8 @@ pub use laws::palmgren::Materials;
 pub use settings::{Decision, Settings};
 pub use settings_error::SettingsError;
 pub use single::SingleImpact;
+
+/// The code of the walk-through is tested.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/developer/add-a-law.md")]
+mod add_a_law {}
