@@ -224,8 +224,8 @@ class Config:
 
     def _tosses(self) -> str:
         if self.tosses_planned == 0:
-            analytic = self.engine() == "analytic"
-            return "none: closed forms are exact" if analytic else "none: points are integrated"
+            tosses = self._plan.makes_tosses(0)
+            return "none: points are integrated" if tosses else "none: closed forms are exact"
         if self.stop.half_width is None:
             return f"{self.stop.tosses:,} a point, {self.tosses_planned:,} in all"
         most = f"{self.tosses_planned:,} at most"

@@ -30,7 +30,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _lib {
     #[pymodule_export]
-    use super::analytic::closed_form;
+    use super::analytic::{closed_form, no_bounce_rule};
     #[pymodule_export]
     use super::film::{fit_film, read_film};
     #[pymodule_export]

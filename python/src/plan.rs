@@ -116,6 +116,11 @@ impl Plan {
         Ok(self.point(point)?.engine.name())
     }
 
+    /// Whether the engine of a point makes tosses: a closed form makes none.
+    fn makes_tosses(&self, point: usize) -> PyResult<bool> {
+        Ok(self.point(point)?.engine.makes_tosses())
+    }
+
     /// Ratio, radius, height, mass and gravity of a point, SI.
     fn scene(&self, point: usize) -> PyResult<Scene> {
         let scene = &self.point(point)?.scene;

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from coinmc import analytic
+from coinmc import _lib, analytic
 from coinmc._intervals import wilson
 from coinmc.plot import published as others
 from coinmc.plot.style import (
@@ -29,8 +29,8 @@ __all__ = ["probability"]
 
 Table = Mapping[str, NDArray[Any]]
 
-# The closed form that an engine's tosses tend to where nothing bounces.
-_LIMITS = {"flat": "arc", "volumetric": "zone", "rapier": "zone"}
+# The closed forms of a coin that does not bounce, in the plane and in space.
+_NO_BOUNCE = {"arc", "zone"}
 # What the published scene of Unity looks like in the columns of a result.
 _UNITY_SCENE = {"radius_m": 0.5, "restitution": 0.3, "friction": 10.0, "linear_drag_per_s": 1.0}
 # More curves than this cannot be told apart.
@@ -182,8 +182,8 @@ def _engines(table: Table) -> list[str]:
 
 def _rules(wanted: bool | Iterable[str], table: Table) -> list[str]:
     if wanted is True:
-        rules = [_LIMITS[engine] for engine in _engines(table) if engine in _LIMITS]
-        return list(dict.fromkeys(rules))
+        rules = map(_lib.no_bounce_rule, _engines(table))
+        return list(dict.fromkeys(rule for rule in rules if rule))
     if wanted is False:
         return []
     return [wanted] if isinstance(wanted, str) else list(wanted)
@@ -194,7 +194,7 @@ def _closed_forms(ax: Axes, rules: list[str], span: tuple[float, float], shown: 
     for rule, line in zip(rules, cycle([":", "--", "-.", "-"])):
         p = analytic.rule(rule, ratio)
         for face in shown:
-            label = f"{rule} rule, no bounce" if rule in _LIMITS.values() else f"{rule} rule"
+            label = f"{rule} rule, no bounce" if rule in _NO_BOUNCE else f"{rule} rule"
             if len(shown) > 1:
                 label = f"P({face}), {label}"
             ax.plot(ratio, getattr(p, face), line, color=NEUTRAL, label=label, zorder=1)
