@@ -420,7 +420,7 @@ fn journal_progress(journal: &Journal, planned: u32) -> Progress {
         match (throw.resolution, &throw.reading) {
             (Some(Resolution::Void(_)), _) => progress.voids += 1,
             (Some(Resolution::Done), Some((reading, _))) => {
-                progress.faces[index(reading.face)] += 1
+                progress.faces[index(reading.face)] += 1;
             }
             _ => {}
         }
