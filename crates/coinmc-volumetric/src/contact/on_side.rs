@@ -69,6 +69,7 @@ impl ContactSolver<'_> {
     }
 
     /// The exit of a coin on its side that is decided or tips.
+    #[inline(always)]
     fn side_exit(
         &self,
         state: &LineState,
@@ -92,6 +93,7 @@ impl ContactSolver<'_> {
     }
 
     /// An accepted step of at most this length, and its duration; `None` if the limits allow none.
+    #[inline(always)]
     fn step_on_side(
         &mut self,
         state: &LineState,

@@ -19,7 +19,7 @@ pub(crate) struct ContactRules<'a> {
 
 impl ContactRules<'_> {
     /// Which face is decided by the motion now.
-    #[inline]
+    #[inline(always)]
     pub(super) fn decide(&self, motion: &Motion<f64>, spin: &Spin<f64>) -> Decided {
         let body = &self.dynamics.body;
         self.rule.decide(&motion.decision_state(body, spin))
