@@ -1,9 +1,9 @@
 //! Contact phases that conserve energy: pivoting about a corner that sticks (μ > 0), or that slides
 //! without friction (μ = 0). Closed form in the angle.
 //!
-//! The centre is cos δ high. With the inertia J about the contact (1 + k when the corner sticks, k
-//! + sin²δ without friction) the energy E = ½Jω² + cos δ gives ω at every δ. Both phases begin with
-//! E >= 1 (below the barrier the coin is decided), hence ω never changes sign.
+//! The centre is at the height cos δ. With the inertia J about the contact (1 + k when the corner
+//! sticks, sin²δ + k without friction) the energy E = ½Jω² + cos δ gives ω at every δ. Both phases
+//! begin with E >= 1 (below the barrier the coin is decided), hence ω never changes sign.
 
 use crate::motion::Motion;
 use crate::observer_adapter::ObserverAdapter;

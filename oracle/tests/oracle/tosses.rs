@@ -106,7 +106,7 @@ fn extreme_coins_land_as_they_must() {
 }
 
 /// P(side) of an earlier study of ours in two scenes without restitution, .0611 and .9061 (each
-/// ± .0007): within 3 standard errors of 1500 tosses (false alarms with other seeds: 5e-3) and
+/// ± .0007): within 3 standard errors of the tosses made (false alarms with other seeds: 5e-3) and
 /// .002 for the step.
 #[test]
 fn earlier_values_are_met() {

@@ -1,12 +1,11 @@
 //! What Rapier makes of three landings that are known exactly, and of a coin that rolls on its rim.
 //!
-//! * *point*: on one point of the rim, without spin. v_n⁺ = −e v_n⁻ there. * *flat*, *side*: on a
-//! face and on the side, without spin. The coin leaves with e times its speed
+//! * *point*: on one point of the rim, without spin: v_n⁺ = −e v_n⁻ there.
+//! * *flat*, *side*: on a face and on the side, without spin. The coin leaves with e times its speed
 //!   and does not turn.
-//! * *rim*: a coin that rolls in a steady circle about its resting centre, φ'²s(k_t c − k_a h s/R)
-//! =
-//!   g r_x with r_x = R c − h s (h = H/2), loses nothing. What it does lose is what friction of the
-//!   contour length ρ would take, N ρ |ψ'|, ψ' = φ'(h s/R − c).
+//! * *rim*: a coin that rolls in a steady circle about its resting centre,
+//!   φ'²s(k_t c − k_a h s/R) = g r_x with r_x = R c − h s (h = H/2), loses nothing. What it does lose
+//!   is what rolling friction of the length ρ would take, N ρ |ψ'|, ψ' = φ'(h s/R − c).
 
 use super::STEPS;
 use clap::Args;
