@@ -1,13 +1,13 @@
-"""How likely does a tossed cylinder come to rest on heads, on tails or on its side?
+"""How likely is a tossed cylinder to come to rest on heads, on tails or on its side?
 
-The engines of coinmc at native speed, from NumPy's arrays into NumPy's arrays:
+The engines of coinmc at native speed, with NumPy arrays in and out:
 
-* `toss`, `launches`: tosses one by one, with launches drawn or of your own;
+* `toss`, `launches`: individual tosses, with launches drawn at random or your own;
 * `estimate`: probabilities with intervals, in memory; `run`, `open`: in a run directory;
-* `trace`: one toss, watched;
+* `trace`: the recorded motion of one toss;
 * `sensitivity`: how strongly probabilities depend on parameters;
 * `check`, `Config`: what a config means;
-* `coinmc.analytic`: closed forms; `coinmc.film`: drops on film; `coinmc.plot`: pictures.
+** `coinmc.analytic`: closed forms; `coinmc.film`: drops on film; `coinmc.plot`: plots.
 
 All quantities are in SI units, and names carry their unit. *Ratio* always means H/R, height over
 **radius**. z points up, the surface is z = 0, and *heads* means that heads shows. The guide is
@@ -84,8 +84,8 @@ __all__ = [
     "trace",
 ]
 
-#: Imported when first asked for: nobody waits for what is not used.
-_LATER = {
+#: Imported on first use, to keep `import coinmc` fast.
+_LAZY = {
     "film": "coinmc.film",
     "plot": "coinmc.plot",
     "Sensitivity": "coinmc._sensitivity",
@@ -94,9 +94,9 @@ _LATER = {
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _LATER:
+    if name not in _LAZY:
         raise AttributeError(f"module 'coinmc' has no attribute {name!r}")
-    module = importlib.import_module(_LATER[name])
+    module = importlib.import_module(_LAZY[name])
     return module if name in ("film", "plot") else getattr(module, name)
 
 

@@ -1,4 +1,4 @@
-"""What the codes in arrays mean."""
+"""The integer codes used in arrays of outcomes."""
 
 from enum import IntEnum
 
@@ -6,7 +6,7 @@ __all__ = ["Ended", "Face"]
 
 
 class Face(IntEnum):
-    """What shows when the coin rests.
+    """The outcome of a toss.
 
     Examples
     --------
@@ -26,7 +26,7 @@ class Face(IntEnum):
 
 
 class Ended(IntEnum):
-    """Why the engine stopped following the toss."""
+    """Why the engine stopped simulating the toss."""
 
     #: The face is decided.
     DECIDED = 0
@@ -36,5 +36,5 @@ class Ended(IntEnum):
     ENDLESS = 2
     #: Undecided at the limit of impacts or of steps in contact.
     IMPACT_LIMIT = 3
-    #: The numbers went wrong (not finite).
+    #: The state became infinite or NaN.
     FAILED = 4

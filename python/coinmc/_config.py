@@ -1,4 +1,4 @@
-"""Configs: what is tossed, onto what, how and how often."""
+"""Configs: the coin, the surface, the launch, the engine and the number of tosses."""
 
 import os
 from collections.abc import Mapping
@@ -11,7 +11,7 @@ __all__ = ["Config", "ConfigLike", "Group", "Scene", "Stop", "check"]
 
 
 class Scene(NamedTuple):
-    """The coin of a point, and gravity.
+    """The coin and gravity at a point of the sweep.
 
     Attributes
     ----------
@@ -20,7 +20,7 @@ class Scene(NamedTuple):
     radius_m, height_m : float
         R and H, m.
     mass_kg : float
-        Mass, kg. No probability depends on it.
+        Mass, kg. It affects no probability.
     gravity_m_s2 : float
         Acceleration of gravity, m/s².
     """
@@ -38,9 +38,9 @@ class Stop(NamedTuple):
     Attributes
     ----------
     tosses : int
-        Tosses of a point; with a half width, the most.
+        Tosses per point; an upper limit if there is a half width.
     half_width : float or None
-        The longest arm that every interval must come to, if that ends a point.
+        Half width that every interval must reach, if the point stops by precision.
     """
 
     tosses: int
@@ -48,12 +48,12 @@ class Stop(NamedTuple):
 
 
 class Group(NamedTuple):
-    """Points that are treated alike.
+    """Points that are computed in the same way.
 
     Attributes
     ----------
     points : int
-        How many.
+        Number of points.
     computed : str
         What is computed for them.
     skipped : list of str
@@ -66,20 +66,20 @@ class Group(NamedTuple):
 
 
 class Config:
-    """A config as understood: every default and preset spelled out, every sweep counted out.
+    """A checked config, with every default and preset spelled out and every sweep expanded.
 
     Parameters
     ----------
     config : path or dict
         A TOML file, or a dict with the same tables.
     overrides : dict, optional
-        Values that replace or add to the config's, by dotted key, as ``--set`` does on the command
-        line: ``{"coin.ratio": 1.2}``.
+        Values that replace or add to those of the config, by dotted key, like ``--set`` on the
+        command line: ``{"coin.ratio": 1.2}``.
 
     Raises
     ------
     coinmc.ConfigError
-        With every problem found, each with its place and a caret under it.
+        If the config is invalid; the message shows every problem with its location.
 
     Examples
     --------
@@ -140,12 +140,12 @@ class Config:
 
     @property
     def hash(self) -> str:
-        """A name for what will be computed: equal exactly for equal plans."""
+        """Hash of the plan: equal if and only if the plans are equal."""
         return self._plan.hash
 
     @property
     def seed(self) -> int:
-        """Key of all random numbers."""
+        """Seed of all random numbers."""
         return self._plan.seed
 
     @property
@@ -160,7 +160,7 @@ class Config:
 
     @property
     def notes(self) -> list[str]:
-        """Remarks on the config that are no problems."""
+        """Remarks on the config that are not errors."""
         return self._plan.notes
 
     @property
@@ -170,38 +170,38 @@ class Config:
 
     @property
     def confidence(self) -> float:
-        """Confidence of every interval."""
+        """Confidence level of every interval."""
         return self._plan.confidence
 
     @property
     def interval(self) -> str:
-        """How intervals are computed where the number of tosses is fixed."""
+        """Method of the intervals when the number of tosses is fixed."""
         return self._plan.interval
 
     @property
     def tosses_planned(self) -> int:
-        """Tosses of all points, at most."""
+        """Upper limit of the tosses of all points together."""
         return self._plan.tosses_planned
 
     @property
     def groups(self) -> list[Group]:
-        """What is computed and what is skipped and why, points of one treatment together."""
+        """What is computed, what is skipped and why, for each group of points."""
         return [Group(*group) for group in self._plan.explain()]
 
     def __len__(self) -> int:
-        """Give the number of points of the sweep."""
+        """Return the number of points of the sweep."""
         return len(self._plan)
 
     def parameters(self, point: int = 0) -> dict[str, float]:
-        """Give the parameters of a point, by the names of their columns (SI units)."""
+        """Return the parameters of a point by column name (SI units)."""
         return dict(self._plan.parameters(point))
 
     def engine(self, point: int = 0) -> str:
-        """Name the engine of a point: ``flat``, ``volumetric``, ``rapier`` or ``analytic``."""
+        """Return the engine of a point: ``flat``, ``volumetric``, ``rapier`` or ``analytic``."""
         return self._plan.engine(point)
 
     def scene(self, point: int = 0) -> Scene:
-        """Give the coin of a point, and gravity."""
+        """Return the coin and gravity at a point."""
         return Scene(*self._plan.scene(point))
 
     def __repr__(self) -> str:
@@ -237,28 +237,28 @@ class Config:
     def __hash__(self) -> int:
         return hash(self.hash)
 
-    def __reduce__(self):  # configs travel between processes
-        return _rebuilt, (self.resolved,)
+    def __reduce__(self):  # configs can be pickled
+        return _from_resolved, (self.resolved,)
 
 
-#: What every function takes for a config.
+#: Anything that a function accepts as a config.
 ConfigLike: TypeAlias = Config | str | os.PathLike[str] | Mapping[str, Any]
 
 
 def check(config: ConfigLike, overrides: Mapping[str, Any] | None = None) -> Config:
-    """Read a config and show what would be computed, like ``coinmc check``.
+    """Check a config and say what would be computed, like ``coinmc check``.
 
     Parameters
     ----------
     config : path, dict or Config
-        What is tossed; a text is taken for a path, never for TOML (that is `Config.from_toml`).
+        The config; a string is a path, never TOML text (use `Config.from_toml` for that).
     overrides : dict, optional
-        Values that replace the config's, by dotted key.
+        Values that replace those of the config, by dotted key.
 
     Returns
     -------
     Config
-        The config as understood; ``print`` it to read the plan.
+        The checked config; ``print`` it to read the plan.
 
     Examples
     --------
@@ -273,25 +273,25 @@ def check(config: ConfigLike, overrides: Mapping[str, Any] | None = None) -> Con
 
 
 def as_config(config: ConfigLike, overrides: Mapping[str, Any] | None = None) -> Config:
-    """Make a config of whatever a user may give for one."""
+    """Convert anything accepted as a config to a `Config`."""
     if isinstance(config, Config) and not overrides:
         return config
     return Config(config, overrides)
 
 
 def plan_of(config: Config) -> _lib.Plan:
-    """Give the Rust part's plan of a config."""
+    """Return the plan of a config, as the Rust library holds it."""
     return config._plan
 
 
 def default_directory(config: Config) -> Path:
-    """Name the run directory as the command line does: after the config and what it means."""
+    """Return the default run directory, as on the command line: config name and plan hash."""
     kind, source = config._source
     stem = Path(source).stem if kind == "path" else "run"
     return Path("runs") / f"{stem}-{config.hash[:8]}"
 
 
-def _rebuilt(text: str) -> Config:
+def _from_resolved(text: str) -> Config:
     return Config.from_toml(text)
 
 

@@ -1,4 +1,4 @@
-"""What can go wrong, as exceptions."""
+"""The exceptions of coinmc."""
 
 from typing import NamedTuple
 
@@ -6,18 +6,18 @@ __all__ = ["ConfigError", "Error", "FilmError", "Problem", "RunError", "TraceErr
 
 
 class Problem(NamedTuple):
-    """One problem of a config or of a film's text.
+    """One problem in a config or in the text of a film.
 
     Attributes
     ----------
     source : str
         The file, or ``--set`` for an override.
     line, column : int
-        Place, from 1; 0 if the problem has no place in a text.
+        Location, counted from 1; 0 if the problem is not at any place in the text.
     message : str
         What was found and what is allowed.
     help : str or None
-        How to mend it.
+        How to fix it.
     """
 
     source: str
@@ -28,7 +28,7 @@ class Problem(NamedTuple):
 
 
 class Error(Exception):
-    """What all exceptions of coinmc have in common."""
+    """Base class of all exceptions of coinmc."""
 
 
 class _Diagnosed(Error, ValueError):
@@ -36,33 +36,33 @@ class _Diagnosed(Error, ValueError):
         super().__init__(message)
         self.problems = [Problem(*problem) for problem in problems]
 
-    def __reduce__(self):  # exceptions travel between processes
+    def __reduce__(self):  # exceptions can be pickled
         return type(self), (str(self), [tuple(problem) for problem in self.problems])
 
 
 class ConfigError(_Diagnosed):
-    """A config means nothing. The text is the command line's, with a caret under each token.
+    """A config is invalid. The message is that of the command line, with carets at each problem.
 
     Attributes
     ----------
     problems : list of Problem
-        All that was found, in the order of their places.
+        All problems found, ordered by location.
     """
 
 
 class FilmError(_Diagnosed):
-    """A film's text cannot be read, or its drops cannot be fitted.
+    """The text of a film cannot be read, or its drops cannot be fitted.
 
     Attributes
     ----------
     problems : list of Problem
-        What is wrong with a text; empty for what is wrong with a fit.
+        Problems in the text; empty if the fit failed.
     """
 
 
 class RunError(Error, RuntimeError):
-    """A run failed, or a directory is not that of the run. Finished work is kept."""
+    """A run failed, or the directory belongs to another run. Finished work is kept."""
 
 
 class TraceError(Error, ValueError):
-    """There is no such toss, or it cannot be traced so."""
+    """There is no such toss, or it cannot be traced with these options."""

@@ -1,4 +1,4 @@
-"""Probabilities with their intervals, of counts."""
+"""Probabilities and their intervals from counts."""
 
 from typing import NamedTuple
 
@@ -8,18 +8,18 @@ __all__ = ["Estimate", "estimates", "normal_quantile", "wilson"]
 
 
 class Estimate(NamedTuple):
-    """A probability, and an interval that holds the true one with the stated confidence.
+    """An estimated probability and its confidence interval.
 
     Attributes
     ----------
     p : float
-        Share of all tosses; NaN without tosses.
+        Fraction of all tosses; NaN if there are none.
     lo, hi : float
         Ends of Wilson's score interval.
     n : int
-        All tosses, undecided ones included.
+        Number of tosses, including undecided ones.
     confidence : float
-        Probability that the interval holds the true value, before the data were seen.
+        Confidence level of the interval.
     """
 
     p: float
@@ -30,22 +30,22 @@ class Estimate(NamedTuple):
 
     @property
     def half_width(self) -> float:
-        """The longer arm of the interval."""
+        """The larger distance from the estimate to an end of the interval."""
         return max(self.hi - self.p, self.p - self.lo) if self.n else 1.0
 
 
 def estimates(counts: dict[str, int], confidence: float) -> dict[str, Estimate]:
     """Estimate the probability of every face; undecided tosses may have gone either way."""
     n = sum(counts.values())
-    made = {}
+    by_face = {}
     for face in ("heads", "tails", "side"):
-        share = wilson(counts[face], counts["undecided"], n, confidence)
-        made[face] = Estimate(*share, n, confidence)
-    return made
+        interval = wilson(counts[face], counts["undecided"], n, confidence)
+        by_face[face] = Estimate(*interval, n, confidence)
+    return by_face
 
 
 def wilson(k: int, undecided: int, n: int, confidence: float) -> tuple[float, float, float]:
-    """Estimate a probability from k of n tosses: the share and both ends of Wilson's interval.
+    """Estimate a probability from k of n tosses; return k/n and both ends of Wilson's interval.
 
     Examples
     --------
@@ -58,7 +58,7 @@ def wilson(k: int, undecided: int, n: int, confidence: float) -> tuple[float, fl
 
 
 def normal_quantile(confidence: float) -> float:
-    """Give z such that a normal number lies within ± z standard deviations with this confidence."""
+    """Return the z for which a normal variate lies within ± z standard deviations."""
     return -_lib.inverse_normal_cdf((1.0 - _between_0_and_1(confidence)) / 2.0)
 
 

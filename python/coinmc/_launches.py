@@ -1,4 +1,4 @@
-"""Launches: how tosses begin, as structured arrays."""
+"""Launches, the initial states of tosses, as structured arrays."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -22,7 +22,7 @@ STATE = np.dtype(
     ]
 )
 
-#: A launch is the state that a toss begins with.
+#: A launch is the initial state of a toss.
 LAUNCH = STATE
 
 _NUMBERS = STATE.itemsize // 8
@@ -36,26 +36,26 @@ def launches(
     point: int = 0,
     overrides: Mapping[str, Any] | None = None,
 ) -> np.ndarray:
-    """Draw launches: those that tosses ``first`` to ``first + n`` of a point begin with.
+    """Draw the launches of tosses ``first`` to ``first + n - 1`` of a point.
 
     Parameters
     ----------
     config : path, dict or Config
-        What is tossed, and how.
+        The config.
     n : int
-        How many.
+        Number of launches.
     first : int, optional
-        Number of the first toss.
+        Index of the first toss.
     point : int, optional
-        Point of the sweep.
+        Index of the point in the sweep.
     overrides : dict, optional
-        Values that replace the config's, by dotted key.
+        Values that replace those of the config, by dotted key.
 
     Returns
     -------
     ndarray, shape (n,), dtype `LAUNCH`
-        Their x and y are 0. A coin that would begin inside the surface is lifted until it touches
-        when it is tossed, not here.
+        The launches; x and y are 0. A coin that would start inside the surface is lifted until it
+        touches only when it is tossed, not here.
 
     Examples
     --------
@@ -75,17 +75,17 @@ def launches(
 
 
 def as_launches(given: Any) -> np.ndarray:
-    """Check what a user gives for launches, and make it a contiguous array of `LAUNCH`.
+    """Check launches given by the user and return them as a contiguous array of `LAUNCH`.
 
-    An array that is one already is not copied.
+    An array that is already in that form is not copied.
     """
     array = plain(given)
     if array.dtype.names is None or set(array.dtype.names) != set(LAUNCH.names):
         raise TypeError(
-            f"launches are a structured array with the fields {', '.join(LAUNCH.names)}"
+            f"launches must be a structured array with the fields {', '.join(LAUNCH.names)}"
         )
     if array.ndim > 1:
-        raise ValueError(f"launches are an array of one dimension, not {array.ndim}: ravel() it")
+        raise ValueError(f"launches must be a 1-D array, not {array.ndim}-D: call ravel()")
     array = np.atleast_1d(array)
     if array.dtype == LAUNCH and array.flags.c_contiguous and array.flags.aligned:
         return array
@@ -93,9 +93,9 @@ def as_launches(given: Any) -> np.ndarray:
 
 
 def plain(given: Any) -> np.ndarray:
-    """Make an array without what subclasses add to it, where that can be left away."""
+    """Convert to a plain array, dropping what subclasses add."""
     if np.any(getattr(given, "mask", False)):
-        raise ValueError("masked values have no place here: fill or drop them")
+        raise ValueError("masked values are not supported: fill or drop them")
     return np.asarray(given)
 
 
@@ -104,36 +104,36 @@ def _converted(array: np.ndarray) -> np.ndarray:
     for name in LAUNCH.names:
         field = array[name]
         if field.dtype.kind not in "fiu" or field.shape != launches[name].shape:
-            raise TypeError(f"the field {name} of a launch is three real numbers")
+            raise TypeError(f"the field {name} of a launch must be three real numbers")
         launches[name] = field
     return launches
 
 
 def rows(states: np.ndarray) -> np.ndarray:
-    """See states as rows of twelve numbers, without a copy."""
+    """Return a view of states as rows of twelve numbers, without copying."""
     return states.view(np.float64).reshape(len(states), _NUMBERS)
 
 
 def natural(number: Any, name: str) -> int:
-    """Check a whole number that is not negative."""
+    """Check a non-negative integer and return it."""
     try:
         whole = number.__index__()
     except (AttributeError, TypeError):
         if isinstance(number, float) and number.is_integer() and abs(number) < 1 << 53:
-            whole = int(number)  # 1e6 is a natural way of writing a million
+            whole = int(number)  # 1e6 is a natural way to write a million
         else:
-            raise TypeError(f"{name} is a whole number, not {number!r}") from None
+            raise TypeError(f"{name} must be a whole number, not {number!r}") from None
     if not 0 <= whole < 1 << 63:
-        raise ValueError(f"{name} must not be negative or beyond 2^63")
+        raise ValueError(f"{name} must not be negative or exceed 2^63 - 1")
     return whole
 
 
 def threads_of(threads: Any) -> int | None:
-    """Check a number of threads."""
+    """Check a number of threads and return it."""
     most = 1024
     if threads is None:
         return None
     threads = natural(threads, "threads")
     if not 1 <= threads <= most:
-        raise ValueError(f"threads must lie from 1 to {most}, not {threads}")
+        raise ValueError(f"threads must be from 1 to {most}, not {threads}")
     return threads

@@ -1,4 +1,4 @@
-"""Progress of long work: tqdm where it is installed, else a line."""
+"""Progress bars of long computations, drawn by tqdm."""
 
 import sys
 from collections.abc import Callable, Iterator
@@ -6,23 +6,23 @@ from contextlib import contextmanager
 
 __all__ = ["reporting"]
 
-#: What is told how many tosses are done, and how many there will be.
+#: Called with the number of tosses done and the number planned.
 Report = Callable[[int, int], None]
 
 
 @contextmanager
 def reporting(progress: bool | Report | None, what: str) -> Iterator[Report | None]:
-    """Give what long work reports to, and clean up behind it.
+    """Yield the callable to report progress to, or None; close the bar at the end.
 
     Parameters
     ----------
     progress : bool, callable or None
-        True: a bar. None: a bar if a person watches (a terminal or a notebook) and tqdm is
-        installed. A callable is called with (done, planned). False: nothing.
+        True: a bar. None: a bar in a terminal or a notebook if tqdm is installed. A callable is
+        called with (done, planned). False: nothing.
     what : str
-        What the bar is called.
+        Label of the bar.
     """
-    if progress is False or (progress is None and not _watched()):
+    if progress is False or (progress is None and not _is_interactive()):
         yield None
         return
     if callable(progress):
@@ -43,7 +43,7 @@ def reporting(progress: bool | Report | None, what: str) -> Iterator[Report | No
         yield report
 
 
-def _watched() -> bool:
+def _is_interactive() -> bool:
     return hasattr(sys, "ps1") or (sys.stderr is not None and sys.stderr.isatty())
 
 

@@ -1,4 +1,4 @@
-"""Estimates and runs: a table of all points, for anyone who takes tables."""
+"""Results of estimates and runs, as tables with one row per point."""
 
 import html
 import os
@@ -17,27 +17,27 @@ from coinmc._progress import reporting
 
 __all__ = ["Crossing", "Result", "estimate", "open", "run"]
 
-#: Rows that a representation shows.
+#: Number of rows shown by `repr`.
 _SHOWN = 12
 
 
 class Crossing(NamedTuple):
-    """Where the probability of a face crosses a target. Made by `Result.fair`.
+    """A point at which the probability of a face crosses a target. Made by `Result.fair`.
 
     Attributes
     ----------
     at : dict of str to float
-        The other swept parameters.
+        Values of the other swept parameters.
     engine, law : str
-        Who tossed.
+        The engine and its contact law.
     value : float
-        Value of the parameter at which the interpolated curve crosses.
+        Value of the parameter at which the interpolated curve crosses the target.
     lo, hi : float or None
-        Interval of the value; None where it reaches beyond the sweep.
+        Interval of the value; None where it extends beyond the sweep.
     confidence : float
-        Confidence of the interval.
+        Confidence level of the interval.
     rising : bool
-        Whether the probability rises there.
+        Whether the probability increases there.
     """
 
     at: dict[str, float]
@@ -51,9 +51,9 @@ class Crossing(NamedTuple):
 
 
 class Result:
-    """Probabilities with intervals, a row a point. Made by `run`, `estimate` and `open`.
+    """Probabilities with intervals, one row per point. Made by `run`, `estimate` and `open`.
 
-    It is a table to anyone who speaks Arrow, without a copy: ``pyarrow.table(result)``,
+    Libraries that support Arrow read it as a table without copying: ``pyarrow.table(result)``,
     ``polars.DataFrame(result)``, ``duckdb.sql("select … from result")``;
     ``pyarrow.table(result).to_pandas()`` for pandas. Columns are described in
     docs/reference/formats.md.
@@ -61,7 +61,7 @@ class Result:
     Attributes
     ----------
     config : Config
-        What was run.
+        The config that was run.
     path : pathlib.Path or None
         The run directory, if there is one.
     """
@@ -73,24 +73,24 @@ class Result:
 
     @cached_property
     def columns(self) -> dict[str, np.ndarray]:
-        """Columns by name, each of shape (points,). A number that is missing is NaN."""
+        """Columns by name, each of shape (points,). Missing numbers are NaN."""
         columns = self._table.columns()
-        # texts come as lists
+        # columns of text are lists
         return {name: np.asarray(column) for name, column in columns.items()}
 
     @property
     def units(self) -> dict[str, str]:
-        """Unit of every column; ``1`` for pure numbers, empty for what is no number."""
+        """Unit of every column; ``1`` for dimensionless numbers, empty for text."""
         return {name: unit for name, unit, _ in self._table.describe()}
 
     @property
     def descriptions(self) -> dict[str, str]:
-        """What every column means."""
+        """Description of every column."""
         return {name: text for name, _, text in self._table.describe()}
 
     @property
     def metadata(self) -> dict[str, str]:
-        """What belongs to the whole table: ``axes``, ``config`` (the resolved config), ``format``,
+        """Metadata of the table: ``axes``, ``config`` (the resolved config), ``format``,
         ``plan_hash``, ``program_version``.
         """
         return self._table.metadata
@@ -102,47 +102,47 @@ class Result:
 
     @property
     def tosses(self) -> int:
-        """Tosses of all points."""
+        """Total number of tosses of all points."""
         return self._table.tosses
 
     @property
     def status(self) -> str:
-        """``complete``; ``interrupted`` or ``part``: not all is counted; ``short``: all is done and
-        some points had not come to the half width asked for.
+        """``complete``; ``interrupted`` or ``part`` if some tosses are missing; ``short`` if the
+        run is finished but some points did not reach the requested half width.
         """
         return self._table.status
 
     def __len__(self) -> int:
-        """Give the number of points."""
+        """Return the number of points."""
         return len(self._table)
 
     def __getitem__(self, name: str) -> np.ndarray:
-        """Give a column."""
+        """Return a column."""
         return self.columns[name]
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
-        """Give the table as an Arrow stream (the Arrow PyCapsule interface)."""
+        """Export the table as an Arrow stream (the Arrow PyCapsule interface)."""
         return self._table.__arrow_c_stream__(requested_schema)
 
     def fair(
         self, target: float = 1 / 3, face: str = "side", along: str = "coin.ratio"
     ) -> list[Crossing]:
-        """Find where the probability of a face hits a target between the points of a sweep.
+        """Find where the probability of a face crosses a target between the points of a sweep.
 
         Parameters
         ----------
         target : float
             The probability, between 0 and 1; 1/3 makes a three-sided coin fair.
         face : {"side", "heads", "tails"}
-            Whose.
+            The face.
         along : str
-            The parameter that is looked for: a swept one, by its key in the config or its column.
+            The swept parameter to solve for, by its config key or its column name.
 
         Returns
         -------
         list of Crossing
-            None, one or several for each combination of the other swept parameters. The interval
-            covers the error of the points and that of the interpolation.
+            Zero or more crossings for each combination of the other swept parameters. The interval
+            covers the error of the points and of the interpolation.
 
         Examples
         --------
@@ -155,23 +155,23 @@ class Result:
         """
         target = float(target)
         if not 0.0 < target < 1.0:
-            raise ValueError(f"a target is a probability between 0 and 1, not {target}")
+            raise ValueError(f"the target must be a probability between 0 and 1, not {target}")
         column = _column(along)
         if column not in self.axes:
             swept = ", ".join(self.axes) or "nothing"
-            raise ValueError(f"{along} is not swept here; swept is {swept}")
-        found = self._table.fair(target, face, column)
-        return [Crossing(dict(at), *rest) for at, *rest in found]
+            raise ValueError(f"{along} is not swept in this result; swept: {swept}")
+        crossings = self._table.fair(target, face, column)
+        return [Crossing(dict(at), *fields) for at, *fields in crossings]
 
     def sensitivity(self, parameters: "list[str] | None" = None, **options: Any) -> Any:
-        """Find how strongly probabilities depend on parameters: `coinmc.sensitivity` of the config.
+        """Compute how strongly probabilities depend on parameters, by `coinmc.sensitivity`.
 
         Parameters
         ----------
         parameters : list of str, optional
             As for `coinmc.sensitivity`.
         **options
-            Its other options.
+            Other options of `coinmc.sensitivity`.
         """
         from coinmc._sensitivity import sensitivity
 
@@ -222,9 +222,9 @@ class Result:
     def _more(self) -> list[str]:
         return [f"… {len(self) - _SHOWN} more points"] if len(self) > _SHOWN else []
 
-    def __reduce__(self):  # a result is what its directory holds
+    def __reduce__(self):  # pickled as the path of its directory
         if self.path is None:
-            raise TypeError("a result without a directory cannot be pickled: take its columns")
+            raise TypeError("a result without a directory cannot be pickled: pickle its columns")
         return open, (self.path,)
 
 
@@ -236,25 +236,25 @@ def estimate(
     progress: bool | Callable[[int, int], None] | None = None,
     overrides: Mapping[str, Any] | None = None,
 ) -> Result:
-    """Estimate the probabilities of all points, in memory: nothing is written.
+    """Estimate the probabilities of all points in memory, without writing any file.
 
     Parameters
     ----------
     config : path, dict or Config
-        What is tossed, and how.
+        The config.
     tosses : int, optional
-        Tosses of each point, whatever the config says.
+        Tosses per point, instead of the number in the config.
     threads : int, optional
-        Threads that toss; without it, one a core. They change nothing but the time.
+        Number of threads; by default one per core. It does not affect the results.
     progress : bool or callable, optional
         Whether to show progress.
     overrides : dict, optional
-        Values that replace the config's, by dotted key.
+        Values that replace those of the config, by dotted key.
 
     Returns
     -------
     Result
-        The counts are those of ``coinmc run``, to the last toss.
+        The counts are exactly those of ``coinmc run``.
 
     Examples
     --------
@@ -274,8 +274,8 @@ def estimate(
         overrides = {**(overrides or {}), "stop": {"tosses": natural(tosses, "tosses")}}
     config = as_config(config, overrides)
     with reporting(progress, "estimate") as report:
-        table, told = _lib.estimate(plan_of(config), threads_of(threads), report)
-    _warn(told)
+        table, messages = _lib.estimate(plan_of(config), threads_of(threads), report)
+    _warn(messages)
     return Result(table, config)
 
 
@@ -289,22 +289,22 @@ def run(
 ) -> Result:
     """Run a config in a run directory, like ``coinmc run``.
 
-    The same call again goes on where the last one stopped, killed or not, and gives a finished run
-    at once.
+    Calling it again resumes an interrupted or killed run where it stopped, and returns the result
+    of a finished run at once.
 
     Parameters
     ----------
     config : path, dict or Config
-        What is tossed, and how.
+        The config.
     out : path, optional
-        The run directory: new, empty, or that of the same run. Without it,
+        The run directory: new, empty, or from an earlier call with the same config. By default
         ``runs/NAME-HASH``, as on the command line.
     threads : int, optional
-        Threads that toss; without it, one a core.
+        Number of threads; by default one per core.
     progress : bool or callable, optional
         Whether to show progress.
     overrides : dict, optional
-        Values that replace the config's, by dotted key.
+        Values that replace those of the config, by dotted key.
 
     Returns
     -------
@@ -313,50 +313,50 @@ def run(
     Raises
     ------
     coinmc.RunError
-        If the directory is another run's, or cannot be written.
+        If the directory belongs to another run, or cannot be written.
     KeyboardInterrupt
-        All that was counted is kept.
+        If interrupted; finished work is kept.
     """
     config = as_config(config, overrides)
     path = Path(default_directory(config) if out is None else out)
     with reporting(progress, "run") as report:
-        table, told = _lib.run(plan_of(config), path, threads_of(threads), report)
-    _warn(told)
+        table, messages = _lib.run(plan_of(config), path, threads_of(threads), report)
+    _warn(messages)
     return Result(table, config, path)
 
 
 def open(path: str | os.PathLike[str]) -> Result:
-    """Open a run directory, of `run` or of ``coinmc run``, finished or not.
+    """Open the run directory of a finished or unfinished `run` or ``coinmc run``.
 
     Parameters
     ----------
     path : path
-        The directory. It is only read.
+        The directory. It is not modified.
 
     Returns
     -------
     Result
-        All that is counted so far; `Result.status` says whether it is all.
+        The counts so far; `Result.status` says whether they are complete.
 
     Raises
     ------
     coinmc.RunError
-        If it is no run directory, or another version's.
+        If it is not a run directory, or was written by another version.
     """
     path = Path(path)
-    (plan, table), told = _lib.open(path)
-    _warn(told)
+    (plan, table), messages = _lib.open(path)
+    _warn(messages)
     return Result(table, Config.from_toml(plan.resolved), path)
 
 
-def _warn(told: list[str]) -> None:
-    for text in told:
-        warnings.warn(text, RuntimeWarning, stacklevel=3)
+def _warn(messages: list[str]) -> None:
+    for message in messages:
+        warnings.warn(message, RuntimeWarning, stacklevel=3)
 
 
 def _column(name: str) -> str:
-    """Name of the column of a key: the bare key for what describes the scene."""
+    """Return the column of a config key: without its table for coin, surface and environment."""
     if not isinstance(name, str):
-        raise TypeError(f"a parameter is named by a text, not {type(name).__name__}")
+        raise TypeError(f"the name of a parameter must be a string, not {type(name).__name__}")
     table, _, key = name.partition(".")
     return key if table in ("coin", "surface", "environment") and key else name

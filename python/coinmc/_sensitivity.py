@@ -16,26 +16,27 @@ from coinmc._progress import reporting
 
 __all__ = ["Sensitivity", "sensitivity"]
 
-#: Tosses compared at a time.
+#: Tosses compared at once.
 _BLOCK = 1 << 20
 _FACES = (Face.HEADS, Face.TAILS, Face.SIDE)
-#: Parameters that no probability depends on.
-_INERT = {"coin.mass_kg"}
+#: Parameters that affect no probability.
+_WITHOUT_EFFECT = {"coin.mass_kg"}
 
 
 class Sensitivity:
-    """Derivatives of probabilities, a row a parameter. Made by `sensitivity`.
+    """Derivatives of probabilities, one row per parameter. Made by `sensitivity`.
 
     Attributes
     ----------
     columns : dict of str to ndarray
-        ``parameter`` and its ``value``; ``tosses`` compared; for each face ``d_p_<face>``, the
-        derivative dP(face)/d ln(parameter), with its interval ``d_p_<face>_lo`` and
-        ``d_p_<face>_hi``; and ``changed``, the share of tosses whose outcome changed.
+        ``parameter`` and its ``value``; ``tosses``, the number compared; for each face
+        ``d_p_<face>``, the derivative dP(face)/d ln(parameter), with its interval
+        ``d_p_<face>_lo`` and ``d_p_<face>_hi``; and ``changed``, the fraction of tosses whose
+        outcome changed.
     confidence : float
-        Confidence of the intervals.
+        Confidence level of the intervals.
     step : float
-        By how much, relatively, parameters were changed.
+        Relative change of each parameter.
     """
 
     def __init__(self, rows: list[dict[str, Any]], confidence: float, step: float) -> None:
@@ -45,11 +46,11 @@ class Sensitivity:
         self.step = step
 
     def __len__(self) -> int:
-        """Give the number of parameters."""
+        """Return the number of parameters."""
         return len(self.columns.get("parameter", ()))
 
     def __getitem__(self, name: str) -> np.ndarray:
-        """Give a column."""
+        """Return a column."""
         return self.columns[name]
 
     def __repr__(self) -> str:
@@ -76,35 +77,35 @@ def sensitivity(
     progress: bool | Callable[[int, int], None] | None = None,
     overrides: Mapping[str, Any] | None = None,
 ) -> Sensitivity:
-    """Find how strongly probabilities depend on parameters, by paired differences.
+    """Compute how strongly probabilities depend on parameters, by paired differences.
 
-    Each parameter is made smaller and larger by half a step (by the same factor), and the same
-    tosses, launched with the same random numbers, are made with both. Those that end on the same
-    face both times say nothing but that; the difference is known from those that change, far better
-    than from two independent estimates.
+    Each parameter is decreased and increased by half a step (by the same factor), and the same
+    tosses, with the same random numbers, are computed with both values. Only the tosses whose face
+    changes contribute to the difference, so its error is far smaller than that of two independent
+    estimates.
 
     Parameters
     ----------
     config : path, dict or Config
-        What is tossed, and how.
+        The config.
     parameters : list of str, optional
-        Keys of numbers in the config that are not 0, as ``"surface.restitution"``; without it, all
+        Keys of non-zero numbers in the config, such as ``"surface.restitution"``; by default all
         of coin, surface, environment and launch.
     tosses : int, optional
-        Tosses made with each value; without it, those of a point of the config.
+        Tosses with each value; by default the number per point in the config.
     step : float, optional
-        Ratio of the two values less 1. The error of the difference for the derivative goes with its
-        square, that of chance with its inverse root.
+        Ratio of the two values minus 1. The discretization error of the derivative is proportional
+        to the square of the step, the statistical error to the inverse of its square root.
     point : int, optional
-        Point of the sweep at which to look: every swept parameter takes its value there.
+        Index of the point in the sweep: every swept parameter takes its value there.
     confidence : float, optional
-        Of the intervals, between 0 and 1.
+        Confidence level of the intervals, between 0 and 1.
     threads : int, optional
-        Threads that toss.
+        Number of threads.
     progress : bool or callable, optional
         Whether to show progress.
     overrides : dict, optional
-        Values that replace the config's, by dotted key.
+        Values that replace those of the config, by dotted key.
 
     Returns
     -------
@@ -112,10 +113,10 @@ def sensitivity(
 
     Notes
     -----
-    With b tosses that gain the face and c that lose it among n, the difference is d = (b - c)/n and
-    its variance (b + c - (b - c)²/n)/n², as in McNemar's test of paired proportions. Undecided
-    tosses count as showing no face. The interval is that of a normal distribution: with fewer than
-    about ten tosses that change it is rough.
+    If b of n tosses gain the face and c lose it, the difference is d = (b - c)/n and its variance
+    (b + c - (b - c)²/n)/n², as in McNemar's test of paired proportions. Undecided tosses count as
+    showing no face. The interval assumes a normal distribution and is rough with fewer than about
+    ten changed tosses.
 
     Examples
     --------
@@ -132,12 +133,12 @@ def sensitivity(
     step, confidence = float(step), float(confidence)
     z = normal_quantile(confidence)
     if not 0.0 < step <= 1.0:
-        raise ValueError(f"the step must lie above 0 and not above 1, not {step}")
+        raise ValueError(f"the step must be greater than 0 and at most 1, not {step}")
     if isinstance(parameters, str):
         parameters = [parameters]
     if tosses is not None:
         if natural(tosses, "tosses") == 0:
-            raise ValueError("a difference takes at least one toss")
+            raise ValueError("a sensitivity needs at least one toss")
         overrides = {**(overrides or {}), "stop": {"tosses": natural(tosses, "tosses")}}
     config = _at_point(as_config(config, overrides), natural(point, "point"))
     n = config.stop.tosses
@@ -159,7 +160,7 @@ def _cross(
     report: Callable[[int, int], None] | None,
     place: tuple[int, int],
 ) -> np.ndarray:
-    """Count tosses by what shows with the smaller value (rows) and with the larger (columns)."""
+    """Count tosses by face with the smaller value (rows) and with the larger value (columns)."""
     table = np.zeros((len(Face), len(Face)), np.int64)
     number, pairs = place
     for first in range(0, n, _BLOCK):
@@ -191,14 +192,14 @@ def _row(table: np.ndarray, step: float, z: float) -> dict[str, Any]:
 
 
 def _at_point(config: Config, point: int) -> Config:
-    """Make every swept parameter what it is at a point."""
+    """Return the config with every swept parameter fixed at its value at a point."""
     at = config.parameters(point)
     swept = {_key(config, axis): at[axis] for axis in config.axes}
     return Config(Config.from_toml(config.resolved), swept) if swept else config
 
 
 def _key(config: Config, column: str) -> str:
-    """Key of a column: those that describe the scene have none of their table in front."""
+    """Return the config key of a column; columns of the scene lack the name of their table."""
     if "." in column:
         return column
     tables = tomllib.loads(config.resolved)
@@ -209,7 +210,7 @@ def _key(config: Config, column: str) -> str:
 
 
 def _numbers(config: Config) -> dict[str, float]:
-    """Give all single numbers but 0 of what is tossed, by dotted key."""
+    """Return all non-zero numbers of the scene and the launch, by dotted key."""
     tables = tomllib.loads(config.resolved)
     found: dict[str, float] = {}
     for table in ("coin", "surface", "environment", "launch"):
@@ -221,7 +222,7 @@ def _collect(item: Any, path: str, found: dict[str, float]) -> None:
     if isinstance(item, dict):
         for key, inner in item.items():
             _collect(inner, f"{path}.{key}", found)
-    elif path not in _INERT and _is_number(item):
+    elif path not in _WITHOUT_EFFECT and _is_number(item):
         found[path] = float(item)
 
 
@@ -235,7 +236,7 @@ def _pair(
     if name not in values:
         known = ", ".join(values)
         raise ValueError(
-            f"{name} is no number of this config that can be changed; there are {known}"
+            f"{name} is not a number of this config that can be varied; choose from {known}"
         )
     base = Config.from_toml(config.resolved)
     root = math.sqrt(1.0 + step)

@@ -1,4 +1,4 @@
-"""Configs from dicts: as the TOML text that means the same, so that messages can quote it."""
+"""Conversion of config dicts to TOML text, which error messages can quote."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -7,17 +7,17 @@ from coinmc._errors import ConfigError
 
 __all__ = ["document", "overrides_of", "value"]
 
-#: No config nests deeper; a dict that does is a cycle.
-_DEEPEST = 16
+#: Deepest nesting accepted; a deeper dict contains itself.
+_MAX_DEPTH = 16
 _BARE = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-")
 _ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\t": "\\t", "\r": "\\r"}
 
 
 def document(tables: Mapping[str, Any]) -> str:
-    """Write a dict of tables as TOML: a key a line, tables inside tables in braces."""
+    """Write a dict of tables as TOML: one key per line, nested tables inline."""
     if not isinstance(tables, Mapping):
         raise TypeError(
-            f"a config is a path, a dict or a coinmc.Config, not {type(tables).__name__}"
+            f"a config must be a path, a dict or a coinmc.Config, not {type(tables).__name__}"
         )
     plain = [f"{_key(key)} = {value(item)}" for key, item in _items(tables) if not _table(item)]
     headed = [
@@ -29,24 +29,24 @@ def document(tables: Mapping[str, Any]) -> str:
 
 
 def overrides_of(overrides: Mapping[str, Any] | None) -> list[str]:
-    """Write overrides as the command line's ``--set key.path=value``."""
+    """Write overrides in the form of the command line's ``--set key.path=value``."""
     if overrides is None:
         return []
     if not isinstance(overrides, Mapping):
-        raise TypeError('overrides are a dict such as {"coin.ratio": 1.2}')
+        raise TypeError('overrides must be a dict such as {"coin.ratio": 1.2}')
     lines = []
     for key, item in _items(overrides):
         if "=" in key:
-            raise ConfigError(f"`{key}` is no path of keys such as `surface.friction`")
+            raise ConfigError(f"`{key}` is not a dotted key such as `surface.friction`")
         lines.append(f"{key}={value(item)}")
     return lines
 
 
 def value(item: Any, depth: int = 0) -> str:
     """Write a value as a TOML expression on one line."""
-    if depth > _DEEPEST:
-        raise ConfigError("a config does not nest this deeply")
-    # NumPy's scalars and arrays know what they are in Python
+    if depth > _MAX_DEPTH:
+        raise ConfigError("the config is nested too deeply")
+    # NumPy scalars and arrays convert themselves to Python values
     if not isinstance(item, (str, bytes)) and hasattr(item, "tolist"):
         item = item.tolist()
     if isinstance(item, bool):
@@ -60,14 +60,16 @@ def value(item: Any, depth: int = 0) -> str:
         return "{ " + ", ".join(pairs) + " }"
     if isinstance(item, (list, tuple, range)):
         return "[" + ", ".join(value(inner, depth + 1) for inner in item) + "]"
-    raise TypeError(f"a config holds numbers, texts, lists and dicts, not {type(item).__name__}")
+    raise TypeError(
+        f"a config holds numbers, booleans, strings, lists and dicts, not {type(item).__name__}"
+    )
 
 
 def _number(number: float) -> str:
     if isinstance(number, int):
-        # Python refuses to write out very long integers
+        # Python refuses to print very long integers
         if abs(number) >= 1 << 64:
-            raise ConfigError("a whole number of a config lies within 64 bits")
+            raise ConfigError("whole numbers in a config must fit in 64 bits")
         return str(int(number))
     return repr(float(number))
 
@@ -80,7 +82,7 @@ def _items(table: Mapping[str, Any]) -> list[tuple[str, Any]]:
     items = list(table.items())
     for key, _ in items:
         if not isinstance(key, str):
-            raise TypeError(f"keys of a config are texts, not {type(key).__name__}")
+            raise TypeError(f"config keys must be strings, not {type(key).__name__}")
     return items
 
 

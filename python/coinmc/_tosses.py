@@ -1,4 +1,4 @@
-"""Tosses one by one."""
+"""Individual tosses."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -16,25 +16,25 @@ __all__ = ["Tosses", "toss"]
 
 
 class Tosses:
-    """Tosses of one point, each by itself. Made by `toss`.
+    """Individual tosses of one point. Made by `toss`.
 
     Attributes
     ----------
     face : ndarray of uint8, shape (n,)
-        What shows: codes of `Face`.
+        Face of each toss: codes of `Face`.
     ended : ndarray of uint8, shape (n,)
-        Why the toss ended: codes of `Ended`.
+        Reason why each toss ended: codes of `Ended`.
     impacts : ndarray of uint32, shape (n,)
-        Impacts computed.
+        Number of impacts.
     time_s : ndarray of float64, shape (n,)
-        When the toss ended, s since launch: as soon as its face was decided, which is before the
-        coin lies still.
+        Time at which the toss ended, s since launch. A toss ends as soon as its face is decided,
+        before the coin comes to rest.
     final : ndarray of `STATE`, shape (n,)
-        The coin at that instant.
+        State of the coin at that time.
     config : Config
-        What was tossed.
+        The config.
     point, first : int
-        Point of the sweep, and number of the first toss.
+        Index of the point in the sweep, and index of the first toss.
     """
 
     __slots__ = (
@@ -72,19 +72,19 @@ class Tosses:
         self.final = np.empty(n, STATE)
 
     def __len__(self) -> int:
-        """Give the number of tosses."""
+        """Return the number of tosses."""
         return len(self.face)
 
     @property
     def launches(self) -> np.ndarray:
-        """How the tosses began, dtype `LAUNCH`: as given, else drawn again."""
+        """Launches of the tosses, dtype `LAUNCH`: those given, or the drawn ones, drawn again."""
         if self._given is not None:
             return self._given
         return launches(self.config, len(self), first=self.first, point=self.point)
 
     @property
     def counts(self) -> dict[str, int]:
-        """Tosses by what shows."""
+        """Number of tosses by face."""
         counts = np.bincount(self.face, minlength=len(Face))
         return {face.name.lower(): int(counts[face]) for face in Face}
 
@@ -94,13 +94,13 @@ class Tosses:
         Parameters
         ----------
         confidence : float
-            Probability that an interval holds the true value, between 0 and 1.
+            Confidence level, between 0 and 1.
 
         Returns
         -------
         dict of str to Estimate
-            By ``heads``, ``tails``, ``side``. Undecided tosses may have gone either way: the lower
-            end takes none of them, the upper end all.
+            By ``heads``, ``tails``, ``side``. Undecided tosses could have shown any face: the lower
+            end counts none of them for the face, the upper end all.
         """
         return estimates(self.counts, confidence)
 
@@ -121,29 +121,30 @@ def toss(
     progress: bool | Callable[[int, int], None] | None = None,
     overrides: Mapping[str, Any] | None = None,
 ) -> "Tosses | np.ndarray":
-    """Toss, and keep every toss.
+    """Compute tosses and return the outcome of each.
 
     Parameters
     ----------
     config : path, dict or Config
-        What is tossed, and how.
+        The config.
     n : int, optional
-        How many; without it, as many as the config asks for at each point.
+        Number of tosses; by default the number per point in the config.
     launches : ndarray of `LAUNCH`, optional
-        Launches of your own, instead of n that are drawn. Axes need not have unit length. Any
-        dtype with the same fields will do; one that is contiguous and native is not copied.
+        Your own launches, instead of n drawn ones. Axes need not have unit length. Any dtype with
+        the same fields is accepted; a contiguous array of native byte order is not copied.
     first : int, optional
-        Number of the first toss: toss k is the same toss in every call, run and machine.
+        Index of the first toss: toss k is the same toss in every call, in every run and on every
+        machine.
     point : int, optional
-        Point of the sweep.
+        Index of the point in the sweep.
     faces_only : bool, optional
-        Give nothing but the array of what shows: a byte a toss instead of 110, and a little faster.
+        Return only the array of faces: one byte per toss instead of 110, and slightly faster.
     threads : int, optional
-        Threads that toss; without it, one a core. They change nothing but the time.
+        Number of threads; by default one per core. It does not affect the results.
     progress : bool or callable, optional
         Whether to show progress; see the guide.
     overrides : dict, optional
-        Values that replace the config's, by dotted key.
+        Values that replace those of the config, by dotted key.
 
     Returns
     -------
@@ -152,9 +153,9 @@ def toss(
     Raises
     ------
     coinmc.ConfigError
-        If the config means nothing.
+        If the config is invalid.
     ValueError
-        If the point is answered by a closed form, or a launch is none.
+        If the point has a closed form instead of an engine, or a launch is invalid.
 
     Examples
     --------
@@ -177,18 +178,18 @@ def toss(
     if launches is not None:
         launches = as_launches(launches)
         if n is not None and natural(n, "n") != len(launches):
-            raise ValueError(f"n = {n}, but there are {len(launches)} launches: leave n away")
+            raise ValueError(f"n = {n}, but there are {len(launches)} launches: omit n")
     count = _count(config, n, launches)
-    begin = (plan_of(config), point, first, None if launches is None else rows(launches))
+    source = (plan_of(config), point, first, None if launches is None else rows(launches))
     threads = threads_of(threads)
     with reporting(progress, "toss") as report:
         if faces_only:
             face = np.empty(count, np.uint8)
-            _lib.toss(*begin, face, None, threads, report)
+            _lib.toss(*source, face, None, threads, report)
             return face
         tosses = Tosses(config, point, first, count, launches)
-        beside = (tosses.ended, tosses.impacts, tosses.time_s, rows(tosses.final))
-        _lib.toss(*begin, tosses.face, beside, threads, report)
+        details = (tosses.ended, tosses.impacts, tosses.time_s, rows(tosses.final))
+        _lib.toss(*source, tosses.face, details, threads, report)
     return tosses
 
 
@@ -198,5 +199,5 @@ def _count(config: Config, n: int | None, launches: np.ndarray | None) -> int:
     if n is not None:
         return natural(n, "n")
     if config.stop.half_width is not None:
-        raise ValueError("this config stops at a half width: say how many tosses, n")
+        raise ValueError("this config stops at a half width: give the number of tosses, n")
     return config.stop.tosses

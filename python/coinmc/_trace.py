@@ -1,4 +1,4 @@
-"""One toss, watched."""
+"""The recorded motion of one toss."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -12,7 +12,7 @@ from coinmc._launches import STATE, as_launches, natural, rows
 
 __all__ = ["EVENT", "SAMPLE", "Trace", "trace"]
 
-_KNOWN = [
+_FIELDS = [
     ("time_s", "f8"),
     *((name, "f8", 3) for name in STATE.names),
     ("quaternion", "f8", 4),
@@ -21,43 +21,44 @@ _KNOWN = [
 ]
 
 #: The coin at one instant of a trace: time since launch (s), the fields of `STATE`, the orientation
-#: as a unit quaternion (w, x, y, z) that turns the body's axes to the laboratory's, mechanical
-#: energy a unit of mass (J/kg, 0 for a point at rest on the surface), and what goes on from there
-#: on: ``flight``, ``sticking``, ``sliding`` or ``ended``.
-SAMPLE = np.dtype(_KNOWN)
+#: as a unit quaternion (w, x, y, z) that rotates body axes to laboratory axes, mechanical energy
+#: per unit mass (J/kg, 0 for a point at rest on the surface), and the mode of motion from then on:
+#: ``flight``, ``sticking``, ``sliding`` or ``ended``.
+SAMPLE = np.dtype(_FIELDS)
 
-#: The same at an event, and which: ``launched``, ``touching``, ``impact``, ``sticking``,
+#: The same at an event, and its kind: ``launched``, ``touching``, ``impact``, ``sticking``,
 #: ``sliding``, ``lift_off`` or ``ended``.
-EVENT = np.dtype([*_KNOWN, ("kind", "U8")])
+EVENT = np.dtype([*_FIELDS, ("kind", "U8")])
 
 
 class Trace:
-    """A toss as it was. Made by `trace`.
+    """The recorded motion of a toss. Made by `trace`.
 
     Attributes
     ----------
     samples : ndarray of `SAMPLE`
-        The launch, the coin at whole multiples of 1/rate, and the end. States come from the engine
-        itself, never from interpolation.
+        The state at launch, at multiples of 1/rate, and at the end. States are computed by the
+        engine, never interpolated.
     events : ndarray of `EVENT`
-        All events, launch and end included; times are exact.
+        All events, including launch and end; times are exact.
     outcome : str
-        The face that shows (``heads``, ``tails``, ``side``), or why there is none
+        The face (``heads``, ``tails``, ``side``), or the reason why there is none
         (``time_limit``, ``never_settles``, ``impact_limit``, ``failed``).
     face : Face
         The face, or ``Face.UNDECIDED``.
     scene : dict
         ``ratio``, ``radius_m``, ``height_m``, ``mass_kg``, ``gravity_m_s2``.
     engine : str
-        Who followed the toss.
+        The engine.
     rate_hz : float
-        Samples a second, 1/s.
+        Samples per second, 1/s.
     point, toss : int
-        Point of the sweep; number of the toss, or None for a launch of one's own.
+        Index of the point in the sweep; index of the toss, or None if a launch was given.
     impacts, contact_steps, jams : int
-        Impacts; steps in sustained contact; impacts in Painlevé configurations.
+        Numbers of impacts, of steps in sustained contact, and of impacts in Painlevé
+        configurations.
     complete : bool
-        Whether all was recorded; a million records and the end are the most.
+        Whether everything was recorded; the limit is a million records and the end.
     """
 
     __slots__ = (
@@ -76,28 +77,30 @@ class Trace:
         "toss",
     )
 
-    def __init__(self, config: Config, point: int, toss: int | None, told: dict[str, Any]) -> None:
+    def __init__(
+        self, config: Config, point: int, toss: int | None, recorded: dict[str, Any]
+    ) -> None:
         self.point = point
         self.toss = toss
         self.scene = config.scene(point)._asdict()
-        self.engine: str = told["engine"]
-        self.rate_hz: float = told["rate_hz"]
-        self.outcome: str = told["outcome"]
-        self.face = Face[(told["face"] or "undecided").upper()]
-        self.impacts: int = told["impacts"]
-        self.contact_steps: int = told["contact_steps"]
-        self.jams: int = told["jams"]
-        self.complete = told["samples_until_s"] is None and told["events_until_s"] is None
-        self.samples = _records(told["samples"], SAMPLE)
-        self.events = _records(told["events"], EVENT)
+        self.engine: str = recorded["engine"]
+        self.rate_hz: float = recorded["rate_hz"]
+        self.outcome: str = recorded["outcome"]
+        self.face = Face[(recorded["face"] or "undecided").upper()]
+        self.impacts: int = recorded["impacts"]
+        self.contact_steps: int = recorded["contact_steps"]
+        self.jams: int = recorded["jams"]
+        self.complete = recorded["samples_until_s"] is None and recorded["events_until_s"] is None
+        self.samples = _records(recorded["samples"], SAMPLE)
+        self.events = _records(recorded["events"], EVENT)
 
     @property
     def duration_s(self) -> float:
-        """When the toss ended, s since launch."""
+        """Time at which the toss ended, s since launch."""
         return float(self.events["time_s"][-1])
 
     def __len__(self) -> int:
-        """Give the number of samples."""
+        """Return the number of samples."""
         return len(self.samples)
 
     def __repr__(self) -> str:
@@ -117,22 +120,22 @@ def trace(
     rate_hz: float | None = 240.0,
     overrides: Mapping[str, Any] | None = None,
 ) -> Trace:
-    """Watch one toss: any toss of any run, again, bit for bit.
+    """Repeat any toss of any run, bit-identically, and record its motion.
 
     Parameters
     ----------
     config : path, dict or Config
-        What is tossed, and how.
+        The config.
     toss : int, optional
-        Number of the toss.
+        Index of the toss.
     launch : ndarray of `LAUNCH` with one element, optional
-        A launch of your own instead.
+        Your own launch, instead of a toss by its index.
     point : int, optional
-        Point of the sweep.
+        Index of the point in the sweep.
     rate_hz : float or None, optional
-        Samples a second, 0 for events alone; None: as many as show this toss well.
+        Samples per second, 0 for events only; None chooses a rate that suits this toss.
     overrides : dict, optional
-        Values that replace the config's, by dotted key.
+        Values that replace those of the config, by dotted key.
 
     Returns
     -------
@@ -148,10 +151,10 @@ def trace(
     >>> import coinmc
     >>> scene = {"coin": {"ratio": 1}, "surface": {"restitution": 0.5, "friction": 0.3},
     ...          "launch": {"preset": "robot"}, "engine": {"flat": {}}, "stop": {"tosses": 100}}
-    >>> seen = coinmc.trace(scene, 42)
-    >>> seen.events["kind"][:3].tolist()
+    >>> trace = coinmc.trace(scene, 42)
+    >>> trace.events["kind"][:3].tolist()
     ['launched', 'touching', 'impact']
-    >>> bool(seen.face == coinmc.toss(scene, 1, first=42).face[0])
+    >>> bool(trace.face == coinmc.toss(scene, 1, first=42).face[0])
     True
     """
     config = as_config(config, overrides)
@@ -160,18 +163,18 @@ def trace(
     if launch is not None:
         launches = as_launches(launch)
         if len(launches) != 1:
-            raise ValueError(f"a trace is of one launch, not of {len(launches)}")
+            raise ValueError(f"a trace needs exactly one launch, not {len(launches)}")
         row = rows(launches)[0]
     rate = None if rate_hz is None else float(rate_hz)
-    told = _lib.trace(plan_of(config), point, toss, row, rate)
-    return Trace(config, point, None if launch is not None else toss, told)
+    recorded = _lib.trace(plan_of(config), point, toss, row, rate)
+    return Trace(config, point, None if launch is not None else toss, recorded)
 
 
-def _records(told: dict[str, Any], dtype: np.dtype) -> np.ndarray:
-    records = np.empty(len(told["time_s"]), dtype)
+def _records(columns: dict[str, Any], dtype: np.dtype) -> np.ndarray:
+    records = np.empty(len(columns["time_s"]), dtype)
     for at, name in enumerate(STATE.names):
-        records[name] = told["state"][:, 3 * at : 3 * at + 3]
+        records[name] = columns["state"][:, 3 * at : 3 * at + 3]
     for name in dtype.names:
         if name not in STATE.names:
-            records[name] = told[name]
+            records[name] = columns[name]
     return records

@@ -1,10 +1,10 @@
-"""Closed forms: probabilities of a cylinder that no toss is needed for.
+"""Closed forms: probabilities of a cylinder that need no simulation.
 
-All functions take numbers or arrays of any shape and broadcast them against each other, as NumPy's
-own do; numbers give numbers. NaN in any argument gives NaN, and so does what lies outside the
-domain of a function; nothing is raised for it, and no warning is given. `is_heads` gives a truth
-value, and False for NaN. Ratios are H/R, height over radius, from 0 to infinity, both included.
-Derivations, sources and accuracy are in docs/methods/plane.md.
+All functions take numbers or arrays of any shape and broadcast them like NumPy functions; numbers
+give numbers. NaN in any argument gives NaN, and so do values outside the domain of a function,
+without exception or warning. `is_heads` returns booleans, and False for NaN. Ratios are H/R, height
+over radius, from 0 to infinity, both included. Derivations, sources and accuracy are in
+docs/methods/plane.md.
 
 Examples
 --------
@@ -63,7 +63,7 @@ class Faces(NamedTuple):
     Attributes
     ----------
     heads, tails, side : float or ndarray
-        None is computed as one minus the others.
+        Each is computed directly, not as one minus the others.
     """
 
     heads: Real
@@ -98,7 +98,7 @@ def zone(ratio: ArrayLike) -> Real:
 
 
 def surface_area(ratio: ArrayLike) -> Real:
-    """P(side) as the side's share of the surface, x/(1 + x): no mechanics.
+    """P(side) as the side's fraction of the surface area, x/(1 + x): no mechanics.
 
     Parameters
     ----------
@@ -109,7 +109,9 @@ def surface_area(ratio: ArrayLike) -> Real:
 
 
 def cross_section(ratio: ArrayLike) -> Real:
-    """P(side) as the side's share of the outline of the axial section, x/(2 + x): no mechanics.
+    """P(side) as the side's fraction of the perimeter of the axial section, x/(2 + x).
+
+    It contains no mechanics.
 
     Parameters
     ----------
@@ -120,7 +122,7 @@ def cross_section(ratio: ArrayLike) -> Real:
 
 
 def well_depth_flat(ratio: ArrayLike) -> Real:
-    """P(side) by the depths and widths of the wells of potential energy, in the plane.
+    """P(side) from the depths and widths of the potential energy wells, in the plane.
 
     Many bounces, spin about a horizontal diameter.
 
@@ -133,7 +135,7 @@ def well_depth_flat(ratio: ArrayLike) -> Real:
 
 
 def well_depth_solid(ratio: ArrayLike) -> Real:
-    """P(side) by the depths of the wells and their solid angles: a heuristic.
+    """P(side) from the depths and solid angles of the potential energy wells: a heuristic.
 
     Parameters
     ----------
@@ -174,7 +176,7 @@ def rule(name: str, ratio: ArrayLike) -> Faces:
 
 
 def fair_ratio(name: str, target: ArrayLike = 1 / 3) -> Real:
-    """Ratio H/R at which P(side) of a rule is a target.
+    """Ratio H/R at which P(side) by a rule equals a target.
 
     Parameters
     ----------
@@ -216,7 +218,7 @@ def precession(ratio: ArrayLike, psi_rad: ArrayLike) -> Faces:
 
 
 def precession_fair_ratio(psi_rad: ArrayLike, target: ArrayLike = 1 / 3) -> Real:
-    """Ratio H/R at which P(side) of a precessing coin is a target.
+    """Ratio H/R at which P(side) of a precessing coin equals a target.
 
     Parameters
     ----------
@@ -240,7 +242,7 @@ def same_side(psi_rad: ArrayLike) -> Real:
 
 
 def other_side(psi_rad: ArrayLike) -> Real:
-    """Probability that it shows the other face, without the cancellation of one minus that.
+    """Probability that it shows the other face, without the rounding error of 1 - `same_side`.
 
     Parameters
     ----------
@@ -284,7 +286,7 @@ def face_depth(ratio: ArrayLike) -> Real:
 
 
 def zone_area(height_m: ArrayLike, radius_m: ArrayLike) -> Real:
-    """Area, m², of the spherical zone that the side of a coin cuts out of the sphere about it.
+    """Area, m², of the zone that the side of a coin cuts out of its circumscribed sphere.
 
     Parameters
     ----------
@@ -297,7 +299,7 @@ def zone_area(height_m: ArrayLike, radius_m: ArrayLike) -> Real:
 def half_turns(
     upward_speed_m_s: ArrayLike, spin_rad_s: ArrayLike, gravity_m_s2: ArrayLike = 9.81
 ) -> Real:
-    """Number of half turns until a coin tossed straight up is back at its height, 2uω/(πg).
+    """Number of half turns until a coin tossed upwards is back at its initial height, 2uω/(πg).
 
     Parameters
     ----------
@@ -312,12 +314,12 @@ def half_turns(
 
 
 def is_heads(half_turns: ArrayLike) -> "bool | np.ndarray":
-    """Whether a thin coin that started heads up shows heads after so many half turns (Keller).
+    """Whether a thin coin that started heads up shows heads after these half turns (Keller).
 
     Parameters
     ----------
     half_turns : array_like
-        Edges of the bands count as heads; NaN and infinity as not.
+        Number of half turns. Edges of the bands count as heads; NaN and infinity do not.
     """
     shows = _form("is_heads", half_turns)
     return bool(shows) if isinstance(shows, float) else shows != 0.0
@@ -326,12 +328,12 @@ def is_heads(half_turns: ArrayLike) -> "bool | np.ndarray":
 def heads_band(
     turns: ArrayLike, upward_speed_m_s: ArrayLike, gravity_m_s2: ArrayLike = 9.81
 ) -> "tuple[Real, Real]":
-    """Slowest and fastest spin, rad/s, that show heads after so many whole turns (Keller's bands).
+    """Slowest and fastest spin, rad/s, that show heads after n whole turns (Keller's bands).
 
     Parameters
     ----------
     turns : array_like
-        Whole turns n, from 0 on; other numbers give NaN.
+        Number of whole turns n, 0 or more; other numbers give NaN.
     upward_speed_m_s : array_like
         u, not negative, m/s.
     gravity_m_s2 : array_like
@@ -344,7 +346,7 @@ def heads_band(
 
 
 def heads_in_window(from_half_turns: ArrayLike, to_half_turns: ArrayLike) -> Real:
-    """P(heads) if the number of half turns is uniform in a window.
+    """P(heads) if the number of half turns is uniformly distributed over a window.
 
     Parameters
     ----------

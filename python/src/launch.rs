@@ -24,7 +24,7 @@ pub(crate) fn check(point: &Point, row: &[f64]) -> Result<(), Fault> {
     let axis = vector(row, 2);
     let norm = axis.norm();
     if !(norm > 0.0 && norm.is_finite()) {
-        return Err("its axis is no direction: give a vector of finite length, not 0");
+        return Err("its axis has no direction: give a vector of finite, non-zero length");
     }
     if point.engine.descriptor().kind == EngineKind::Planar && !is_planar(row, norm) {
         return Err("the flat engine needs axis and velocity in the xz plane and spin about y");

@@ -61,7 +61,7 @@ def test_known_values():
 
 
 @pytest.mark.parametrize(("name", "arguments"), FORMS.items())
-def test_arrays_are_the_numbers_one_by_one(name, arguments):
+def test_arrays_equal_scalars(name, arguments):
     form = getattr(analytic, name)
     scale = np.linspace(0.9, 1.1, 12)
     if name == "heads_band":
@@ -76,7 +76,7 @@ def test_arrays_are_the_numbers_one_by_one(name, arguments):
 
 
 @pytest.mark.parametrize(("name", "arguments"), FORMS.items())
-def test_nan_in_nan_out_in_every_place(name, arguments):
+def test_nan_in_any_argument_gives_nan(name, arguments):
     form = getattr(analytic, name)
     for place in range(len(arguments)):
         given = list(arguments)

@@ -20,7 +20,7 @@ def test_every_example_means_the_same_as_file_text_and_dict(examples):
         assert pickle.loads(pickle.dumps(config)) == config
 
 
-def test_the_plan_is_the_command_lines(examples, command):
+def test_the_plan_equals_that_of_the_command_line(examples, command):
     import json
 
     for path in sorted(examples.glob("f*.toml")):
@@ -36,7 +36,7 @@ def test_the_plan_is_the_command_lines(examples, command):
         assert ours.hash[:8] in str(ours)
 
 
-def test_overrides_are_those_of_the_command_line(examples):
+def test_overrides_act_as_on_the_command_line(examples):
     path = examples / "first.toml"
     dotted = {"coin.ratio": 1.25, "surface": {"restitution": 0.4, "friction": np.float32(0.5)}}
     config = coinmc.Config(path, dotted)
@@ -49,7 +49,7 @@ def test_overrides_are_those_of_the_command_line(examples):
     assert [sweep.parameters(i)["ratio"] for i in range(5)] == [1.0, 1.25, 1.5, 1.75, 2.0]
 
 
-def test_messages_are_the_command_lines(command, tmp_path):
+def test_messages_equal_those_of_the_command_line(command, tmp_path):
     bad = tmp_path / "bad.toml"
     bad.write_text('[coin]\nratoi = 1\n[surface]\nrestitution = 1.5\nfriction = "much"\n')
     printed = command("check", bad, check=False).stderr
@@ -66,7 +66,7 @@ def test_messages_are_the_command_lines(command, tmp_path):
     assert (str(copied), copied.problems) == (str(caught.value), caught.value.problems)
 
 
-def test_a_text_is_a_path_and_never_guessed():
+def test_a_string_is_always_a_path():
     with pytest.raises(coinmc.ConfigError, match="there is no such file"):
         coinmc.check("coin.ratio = 1\nengine.analytic.rule = 'arc'")
 
@@ -74,10 +74,10 @@ def test_a_text_is_a_path_and_never_guessed():
 @pytest.mark.parametrize(
     ("config", "raised", "message"),
     [
-        (None, TypeError, "a config is a path, a dict or a coinmc.Config"),
+        (None, TypeError, "a config must be a path, a dict or a coinmc.Config"),
         (7, TypeError, "not int"),
         (b"first.toml", TypeError, "not bytes"),
-        ({1: {}}, TypeError, "keys of a config are texts"),
+        ({1: {}}, TypeError, "config keys must be strings"),
         ({"coin": {"ratio": None}}, TypeError, "not NoneType"),
         ({"coin": {"ratio": 1j}}, TypeError, "not complex"),
         ({"coin": {"ratio": 10**400}}, coinmc.ConfigError, "64 bits"),
@@ -86,24 +86,24 @@ def test_a_text_is_a_path_and_never_guessed():
         ({}, coinmc.ConfigError, "`engine` is missing"),
     ],
 )
-def test_what_is_no_config_is_refused(config, raised, message):
+def test_invalid_configs_are_rejected(config, raised, message):
     with pytest.raises(raised, match=message):
         coinmc.check(config)
 
 
-def test_a_dict_that_holds_itself_is_refused():
+def test_a_dict_that_contains_itself_is_rejected():
     config = {"coin": {"ratio": 1}}
     config["coin"]["coin"] = config["coin"]
     with pytest.raises(coinmc.ConfigError, match="nest"):
         coinmc.check(config)
 
 
-def test_overrides_cannot_smuggle():
+def test_overrides_cannot_inject_toml():
     rule = {"coin": {"ratio": 1}, "engine": {"analytic": {"rule": "arc"}}}
     for overrides in ({"seed=1\n[coin]": 2}, {"": 1}, {"a.": 1}, {"seed": "x\ny"}):
         with pytest.raises(coinmc.ConfigError):
             coinmc.check(rule, overrides)
-    with pytest.raises(TypeError, match="overrides are a dict"):
+    with pytest.raises(TypeError, match="overrides must be a dict"):
         coinmc.check(rule, ["seed=1"])
     quoted = coinmc.check(rule, {"engine": {"analytic": {"rule": "zone"}}})
     assert "zone" in quoted.groups[0].computed

@@ -24,7 +24,7 @@ def example(request, examples):
     return examples / f"{request.param}.toml", overrides
 
 
-def test_an_estimate_is_the_command_lines_to_the_last_count(example, command, tmp_path):
+def test_an_estimate_has_exactly_the_counts_of_the_command_line(example, command, tmp_path):
     path, overrides = example
     result = coinmc.estimate(path, overrides=overrides)
     sets = [f"stop.tosses={overrides['stop']['tosses']}"]
@@ -60,7 +60,7 @@ def test_tosses_add_up_to_the_estimate(example):
         assert impacts == pytest.approx(result["impacts_per_toss"][point], rel=1e-12)
 
 
-def test_tosses_depend_on_no_threads_and_no_cut(example):
+def test_tosses_do_not_depend_on_threads_or_on_the_first_toss(example):
     path, overrides = example
     n = overrides["stop"]["tosses"]
     whole = coinmc.toss(path, overrides=overrides)
@@ -73,7 +73,7 @@ def test_tosses_depend_on_no_threads_and_no_cut(example):
     np.testing.assert_array_equal(faces, whole.face)
 
 
-def test_launches_go_out_and_come_back(example):
+def test_drawn_launches_can_be_tossed_again(example):
     path, overrides = example
     tosses = coinmc.toss(path, overrides=overrides)
     launches = coinmc.launches(path, len(tosses), overrides=overrides)
@@ -84,7 +84,7 @@ def test_launches_go_out_and_come_back(example):
         np.testing.assert_array_equal(getattr(tosses, name), getattr(again, name))
 
 
-def test_a_trace_ends_where_its_toss_does(example):
+def test_a_trace_ends_in_the_state_of_its_toss(example):
     path, overrides = example
     tosses = coinmc.toss(path, 4, overrides=overrides)
     for number in range(len(tosses)):
@@ -97,7 +97,7 @@ def test_a_trace_ends_where_its_toss_does(example):
             np.testing.assert_array_equal(last[name], tosses.final[name][number])
 
 
-def test_where_a_coin_is_let_go_moves_all_and_changes_nothing(scene):
+def test_the_horizontal_position_only_shifts_the_motion(scene):
     launches = coinmc.launches(scene, 100)
     plain = coinmc.toss(scene, launches=launches)
     moved = launches.copy()
@@ -111,7 +111,7 @@ def test_where_a_coin_is_let_go_moves_all_and_changes_nothing(scene):
     assert trace.samples["position_m"][0].tolist()[:2] == [3.0, -2.0]
 
 
-def test_other_layouts_of_launches_are_taken(scene):
+def test_other_layouts_of_launches_are_accepted(scene):
     launches = coinmc.launches(scene, 50)
     expected = coinmc.toss(scene, launches=launches, faces_only=True)
     names = list(reversed(coinmc.LAUNCH.names))
@@ -130,7 +130,7 @@ def test_bad_launches_are_named(scene):
     launches = coinmc.launches(scene, 40_000)
     launches["axis"][39_000] = 0.0
     launches["axis"][30_001] = np.nan
-    with pytest.raises(ValueError, match="launch 30001: its axis is no direction"):
+    with pytest.raises(ValueError, match="launch 30001: its axis has no direction"):
         coinmc.toss(scene, launches=launches)
     launches = coinmc.launches(scene, 10)
     launches["velocity_m_s"][3, 1] = 0.1
@@ -138,11 +138,11 @@ def test_bad_launches_are_named(scene):
         coinmc.toss(scene, launches=launches)
     with pytest.raises(TypeError, match="structured array with the fields position_m"):
         coinmc.toss(scene, launches=np.zeros((3, 12)))
-    with pytest.raises(ValueError, match="leave n away"):
+    with pytest.raises(ValueError, match="omit n"):
         coinmc.toss(scene, 3, launches=coinmc.launches(scene, 4))
 
 
-def test_numbers_that_are_none_fail_and_are_counted(scene):
+def test_launches_with_nan_fail_and_are_counted(scene):
     launches = coinmc.launches(scene, 3)
     launches["velocity_m_s"][0, 2] = np.nan
     launches["position_m"][1, 2] = np.inf
@@ -161,7 +161,7 @@ def test_a_closed_form_makes_no_toss(examples):
         coinmc.trace(examples / "closed-forms.toml")
 
 
-def test_arguments_out_of_range_are_refused(scene):
+def test_arguments_out_of_range_are_rejected(scene):
     with pytest.raises(IndexError, match="there is no point 5: this config has 1"):
         coinmc.toss(scene, 10, point=5)
     for arguments in ({"n": -1}, {"n": 2**63}, {"n": 1, "first": 10**15}, {"threads": 0}):
@@ -173,11 +173,11 @@ def test_arguments_out_of_range_are_refused(scene):
     assert len(coinmc.toss(scene, 1e2)) == 100
     assert len(coinmc.toss(scene, 0)) == 0
     stops = {"stop": {"half_width": 0.01, "max_tosses": 1000}}
-    with pytest.raises(ValueError, match="say how many tosses"):
+    with pytest.raises(ValueError, match="give the number of tosses"):
         coinmc.toss(scene, overrides=stops)
 
 
-def test_other_threads_go_on_meanwhile(scene):
+def test_other_threads_keep_running(scene):
     """The interpreter's lock is free: a Python thread counts while tosses are made."""
     counted, stop = [0], threading.Event()
 
@@ -196,7 +196,7 @@ def test_other_threads_go_on_meanwhile(scene):
     assert counted_meanwhile > 100_000
 
 
-def test_progress_is_told(scene):
+def test_progress_is_reported(scene):
     told = []
     coinmc.toss(scene, 400_000, progress=lambda done, planned: told.append((done, planned)))
     assert told
@@ -207,7 +207,7 @@ def test_progress_is_told(scene):
     assert told[-1] == (400_000, 400_000)
 
 
-def test_what_progress_raises_stops_the_work(scene):
+def test_an_exception_in_progress_stops_the_work(scene):
     def raising(done, planned):
         raise LookupError(f"{done} of {planned}")
 
@@ -220,7 +220,7 @@ def test_what_progress_raises_stops_the_work(scene):
             work()
 
 
-def test_a_bar_is_shown_where_tqdm_is(scene, capsys, monkeypatch):
+def test_a_bar_is_shown_if_tqdm_is_installed(scene, capsys, monkeypatch):
     coinmc.toss(scene, 300_000, faces_only=True, progress=True)
     assert "toss" in capsys.readouterr().err
     coinmc.toss(scene, 300_000, faces_only=True, progress=False)

@@ -176,7 +176,7 @@ def test_closed_forms(first, second):
 
 @thorough
 @given(arrays(), arrays(), arrays())
-def test_arrays_where_launches_and_drops_are_wanted(first, second, third):
+def test_arbitrary_arrays_as_launches_and_drops(first, second, third):
     for call in (
         lambda: coinmc.toss(SCENE, launches=first),
         lambda: coinmc.trace(SCENE, launch=second),

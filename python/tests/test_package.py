@@ -50,7 +50,7 @@ def parameters(node: ast.FunctionDef) -> list[tuple[str, str | None]]:
     return list(zip(names, defaults, strict=True))
 
 
-def test_a_run_directory_remembers_the_build(tmp_path):
+def test_a_run_directory_records_the_build(tmp_path):
     assert coinmc.__build__.startswith(coinmc.__version__)
     coinmc.run({"coin": {"ratio": 1.0}, "engine": {"analytic": {"rule": "arc"}}}, tmp_path / "run")
     manifest = json.loads((tmp_path / "run/manifest.json").read_text())
@@ -65,7 +65,7 @@ def real_parameters(function) -> list[tuple[str, str | None]]:
     ]
 
 
-def test_stubs_are_the_module(package):
+def test_stubs_match_the_module(package):
     """Every name, parameter and default of the stubs is that of the module, and the other way."""
     stub = stub_of(package)
     functions = {node.name: node for node in stub.body if isinstance(node, ast.FunctionDef)}
@@ -115,7 +115,7 @@ def _order(name: str) -> tuple[int, str]:
     return kind, name
 
 
-def test_everything_public_is_described():
+def test_everything_public_is_documented():
     for name in modules():
         module = importlib.import_module(name)
         for public in module.__all__:
@@ -138,7 +138,7 @@ def test_examples_in_docstrings(name, root, tmp_path, monkeypatch):
     assert failed == 0
 
 
-def test_importing_brings_nothing_heavy():
+def test_import_loads_no_heavy_module():
     program = (
         "import sys; before = set(sys.modules); import coinmc; print(*set(sys.modules) - before)"
     )
@@ -149,7 +149,7 @@ def test_importing_brings_nothing_heavy():
     assert not names & set(HEAVY)
 
 
-def test_importing_takes_little_more_than_numpy():
+def test_import_takes_little_longer_than_numpy():
     """Side by side, in turns: on a busy machine both are slow. benches/python tells the times."""
     timed = "import time; t = time.process_time(); import {}; print(time.process_time() - t)"
     least = {"numpy": float("inf"), "coinmc": float("inf")}
@@ -171,7 +171,7 @@ def test_the_wheel_is_small(package):
     assert [line.split(">")[0] for line in needed] == ["numpy"]
 
 
-def test_work_that_is_short_is_quick(scene):
+def test_short_work_is_fast(scene):
     """A call costs less than a millisecond beside its tosses: best of many."""
     config = coinmc.Config(scene)
     times = []

@@ -44,7 +44,7 @@ def python(code):
 
 
 @pytest.mark.parametrize("name", DRAWN)
-def test_axes_that_are_given_are_drawn_into_and_returned(name):
+def test_given_axes_are_used_and_returned(name):
     from matplotlib import pyplot
 
     ax = Figure().add_subplot()
@@ -84,7 +84,7 @@ def test_without_matplotlib_the_message_says_what_to_install():
     assert python(code) == "coinmc.plot needs matplotlib: pip install 'coinmc[plot]'"
 
 
-def test_everything_named_is_there_and_documented():
+def test_every_exported_name_exists_and_is_documented():
     for name in plot.__all__:
         there = getattr(plot, name)
         assert isinstance(there, dict) or "Returns\n    -------" in there.__doc__, name
@@ -113,7 +113,7 @@ def test_the_published_data_are_those_of_the_repository():
     assert published.unity_table1()["tosses"].tolist() == [601949, 11500, 1103, 2531]
 
 
-def test_published_counts_stand_beside_their_own_scene_only():
+def test_published_counts_are_shown_only_for_their_scene():
     table = samples.line()
     count = len(table["ratio"])
     table |= {"engine": np.full(count, "volumetric"), "radius_m": np.full(count, 0.5)}
@@ -190,13 +190,13 @@ def test_impacts_are_marked_where_the_coin_touches():
 
 def test_modes_follow_from_the_events():
     motion = motion_of(samples.trace())
-    stretches = [mode for mode, _ in motion.stretches()]
-    assert stretches in (["flight", "sliding"], ["flight", "sliding", "ended"])
-    sliding = motion.stretches()[1][1]
+    modes = [mode for mode, _ in motion.phases()]
+    assert modes in (["flight", "sliding"], ["flight", "sliding", "ended"])
+    sliding = motion.phases()[1][1]
     np.testing.assert_allclose(motion.time_s[sliding][[0, -1]], [0.6, 0.7])
 
 
-def test_a_table_is_a_table_whatever_holds_it(tmp_path):
+def test_tables_are_read_from_every_source(tmp_path):
     wanted = {"ratio": [0.5, 1.0], "p_side": [0.1, np.nan], "law": ["moreau", "stronge"]}
     (tmp_path / "t.csv").write_text("ratio,p_side,law\n0.5,0.1,moreau\n1.0,,stronge\n")
     rows = np.array([(0.5, 0.1, "moreau"), (1.0, np.nan, "stronge")], "f8,f8,U9")
@@ -213,25 +213,25 @@ def test_a_table_is_a_table_whatever_holds_it(tmp_path):
 
 MISTAKES = {
     "no column": (lambda: plot.probability({"ratio": [1.0]}), "no column p_side"),
-    "no table": (lambda: plot.probability(3), "int is no table"),
-    "lengths": (lambda: plot.probability({"ratio": [1.0], "p_side": [1, 2]}), "one length"),
-    "no face": (lambda: plot.probability(samples.sweep(), faces="edge"), "no face is called edge"),
+    "no table": (lambda: plot.probability(3), "int is not a table"),
+    "lengths": (lambda: plot.probability({"ratio": [1.0], "p_side": [1, 2]}), "equal lengths"),
+    "no face": (lambda: plot.probability(samples.sweep(), faces="edge"), "unknown face edge"),
     "no rule": (lambda: plot.probability(samples.sweep(), closed_forms=["arcs"]), "arcs"),
     "no row": (lambda: plot.heat(samples.sweep(), where={"restitution": 0.5}), "no row has"),
     "many rows": (lambda: plot.heat(samples.sweep(), y="radius_m"), "fix restitution"),
     "gap": (lambda: plot.heat({n: c[:-1] for n, c in samples.sweep().items()}), "not a full grid"),
-    "view": (lambda: plot.path(samples.trace(), view="below"), "no view is called 'below'"),
+    "view": (lambda: plot.path(samples.trace(), view="below"), "unknown view 'below'"),
     "flat axes": (
         lambda: plot.path(samples.trace(), view="space", ax=Figure().add_subplot()),
         'projection="3d"',
     ),
     "times": (lambda: plot.path(samples.trace(), times=(7, 8)), "nothing was recorded"),
-    "ending": (lambda: plot.animation(samples.trace(), "toss.avi"), "ends in .gif or .mp4"),
+    "ending": (lambda: plot.animation(samples.trace(), "toss.avi"), "must end in .gif or .mp4"),
     "frames": (lambda: plot.animation(samples.trace(), slow=1e4), "frames are more than 2000"),
-    "quantity": (lambda: plot.basin({}, "tilt", "vx_m_s", (0, 1, 0, 1)), "no quantity is called"),
+    "quantity": (lambda: plot.basin({}, "tilt", "vx_m_s", (0, 1, 0, 1)), "unknown quantity"),
     "same": (lambda: plot.basin({}, "tilt_rad", "tilt_deg", (0, 1, 0, 1)), "the same quantity"),
     "extent": (lambda: plot.basin({}, "vx_m_s", "tilt_deg", (0, 0, 0, 1)), "is empty"),
-    "never_settles": (lambda: plot.basin({}, "vx_m_s", "tilt_deg", (0, np.inf, 0, 1)), "finite"),
+    "infinite": (lambda: plot.basin({}, "vx_m_s", "tilt_deg", (0, np.inf, 0, 1)), "finite"),
     "launches": (
         lambda: plot.basin(
             ROOT / "examples/first.toml",
@@ -240,7 +240,7 @@ MISTAKES = {
             (0, 1, 0, 1),
             launch=np.zeros(2, coinmc.LAUNCH),
         ),
-        "of one launch, not of 2",
+        "exactly one launch, not 2",
     ),
     "whole": (
         lambda: plot.basin({}, "vx_m_s", "tilt_deg", (0, 1, 0, 1), shape=(2.5, 5)),
@@ -254,7 +254,7 @@ MISTAKES = {
 
 
 @pytest.mark.parametrize("name", MISTAKES)
-def test_mistakes_are_named(name):
+def test_mistakes_are_reported(name):
     call, message = MISTAKES[name]
     with pytest.raises((ValueError, TypeError)) as caught:
         call()
@@ -273,7 +273,7 @@ def test_a_film_is_written_once(tmp_path):
         plot.animation(samples.trace(), path)
 
 
-def test_mp4_is_written_where_ffmpeg_is_and_refused_elsewhere(tmp_path):
+def test_mp4_is_written_if_ffmpeg_is_installed_and_rejected_otherwise(tmp_path):
     path = tmp_path / "toss.mp4"
     if FFMpegWriter.isAvailable():
         plot.animation(samples.trace(), path, slow=0.5, fps=20, dpi=40)
@@ -284,7 +284,7 @@ def test_mp4_is_written_where_ffmpeg_is_and_refused_elsewhere(tmp_path):
         assert not path.exists()
 
 
-def test_a_basin_is_the_engines_own_answer_pixel_by_pixel():
+def test_every_pixel_of_a_basin_equals_a_toss():
     config, extent = "examples/first.toml", (0, 180, 0, 30)
     faces = plot.basin_faces(ROOT / config, "tilt_deg", "wy_rad_s", extent, shape=(5, 7), threads=1)
     launches = np.repeat(coinmc.launches(ROOT / config, 1), 35).reshape(5, 7)
@@ -296,7 +296,7 @@ def test_a_basin_is_the_engines_own_answer_pixel_by_pixel():
     np.testing.assert_array_equal(faces, wanted)
 
 
-def test_a_basin_in_blocks_is_the_basin(monkeypatch):
+def test_a_basin_does_not_depend_on_its_blocks(monkeypatch):
     from coinmc.plot import basin_faces
 
     module = sys.modules["coinmc.plot.basin"]
@@ -311,7 +311,7 @@ def test_a_basin_in_blocks_is_the_basin(monkeypatch):
     np.testing.assert_array_equal(*made)
 
 
-def test_without_bounces_a_basin_is_what_the_landing_angle_says():
+def test_without_bounces_a_basin_follows_from_the_landing_angle():
     """A thin coin that stays where it lands: side if |u_z| < sin atan(x/2) when it touches."""
     ratio = 0.4
     config = {

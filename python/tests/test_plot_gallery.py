@@ -84,7 +84,7 @@ def test_the_notebook_runs_cell_by_cell(capsys):
     not all(importlib.util.find_spec(name) for name in ("jupytext", "nbclient", "ipykernel")),
     reason="jupytext, nbclient and ipykernel are not installed",
 )
-def test_the_notebook_is_one():
+def test_the_notebook_is_valid():
     import jupytext
     import nbclient
 

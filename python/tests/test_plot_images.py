@@ -164,7 +164,7 @@ def saved(figure, path):
 
 
 @pytest.mark.parametrize("name", PICTURES)
-def test_a_picture_is_as_it_was(name, tmp_path):
+def test_a_picture_is_unchanged(name, tmp_path):
     right, _, space = PICTURES[name]
     path = saved(drawn(right, space=space), tmp_path / f"{name}.png")
     baseline = BASELINES / f"{name}.png"
@@ -179,7 +179,7 @@ def test_a_picture_is_as_it_was(name, tmp_path):
 
 
 @pytest.mark.parametrize("name", PICTURES)
-def test_a_wrong_picture_is_told_from_the_right_one(name, tmp_path):
+def test_a_wrong_picture_is_detected(name, tmp_path):
     """Faces exchanged, impacts or intervals gone: twice the tolerance at least."""
     _, wrong, space = PICTURES[name]
     path = saved(drawn(wrong, space=space), tmp_path / f"{name}.png")
@@ -251,7 +251,7 @@ WORDS = {
 
 
 @pytest.mark.parametrize("name", PICTURES)
-def test_a_picture_says_what_it_shows(name):
+def test_a_picture_labels_what_it_shows(name):
     draw, _, space = PICTURES[name]
     ax = Figure().add_subplot(projection="3d" if space else None)
     draw(ax)

@@ -19,7 +19,7 @@ def sweep(scene):
     return {**scene, "coin": {"ratio": [0.8, 1.2, 1.6]}}
 
 
-def test_arrow_and_parquet_are_one_table(sweep, tmp_path):
+def test_arrow_and_parquet_hold_the_same_table(sweep, tmp_path):
     result = coinmc.run(sweep, tmp_path / "run")
     table = pa.table(result)
     written = pq.read_table(tmp_path / "run" / "results.parquet")
@@ -46,7 +46,7 @@ def test_arrow_shares_memory(sweep):
     assert addresses[0] == addresses[1]
 
 
-def test_other_libraries_take_it(sweep):
+def test_other_libraries_read_it(sweep):
     result = coinmc.estimate(sweep)
     frame = pl.DataFrame(result)
     assert frame["p_side"].to_list() == result["p_side"].tolist()
@@ -71,7 +71,7 @@ def test_columns_are_arrays(sweep):
     assert exact.tosses == 0
 
 
-def test_what_is_shown(sweep):
+def test_representation(sweep):
     result = coinmc.estimate(sweep)
     assert "3 points" in repr(result)
     assert repr(result).count("\n") == 4
@@ -81,7 +81,7 @@ def test_what_is_shown(sweep):
     assert "38 more points" in repr(coinmc.estimate(many))
 
 
-def test_a_run_is_the_estimate_and_the_directory_opens(sweep, tmp_path):
+def test_a_run_equals_the_estimate_and_its_directory_opens(sweep, tmp_path):
     estimate = coinmc.estimate(sweep)
     result = coinmc.run(sweep, tmp_path / "run")
     opened = coinmc.open(tmp_path / "run")
@@ -94,7 +94,7 @@ def test_a_run_is_the_estimate_and_the_directory_opens(sweep, tmp_path):
         pickle.dumps(estimate)
 
 
-def test_the_command_line_goes_on_with_a_run_and_back(scene, command, tmp_path):
+def test_the_command_line_resumes_a_run_and_vice_versa(scene, command, tmp_path):
     config = tmp_path / "toss.toml"
     config.write_text(coinmc.Config(scene).resolved)
     command("run", config, "--out", tmp_path / "run", "--quiet")
@@ -104,7 +104,7 @@ def test_the_command_line_goes_on_with_a_run_and_back(scene, command, tmp_path):
     assert (tmp_path / "run" / "results.parquet").read_bytes() == before
 
 
-def test_an_interrupted_run_goes_on(sweep, tmp_path):
+def test_an_interrupted_run_resumes(sweep, tmp_path):
     whole = {**sweep, "stop": {"tosses": 200_000}}
 
     def interrupting(done, planned):
@@ -134,12 +134,12 @@ def test_a_run_without_a_directory_names_one_like_the_command_line(
     assert [path.name for path in (tmp_path / "runs").iterdir()] == [result.path.name]
 
 
-def test_a_point_short_of_its_target_says_so(scene):
+def test_a_point_short_of_its_target_is_reported(scene):
     stop = {"half_width": 0.001, "max_tosses": 2000}
     assert coinmc.estimate({**scene, "stop": stop}).status == "short"
 
 
-def test_directories_of_others_are_refused(scene, command, tmp_path):
+def test_directories_of_other_runs_are_rejected(scene, command, tmp_path):
     with pytest.raises(coinmc.RunError, match="is not a run directory"):
         coinmc.open(tmp_path)
     coinmc.run(scene, tmp_path / "run")
@@ -151,7 +151,7 @@ def test_directories_of_others_are_refused(scene, command, tmp_path):
     assert " ".join(str(caught.value).split()) in " ".join(printed.stderr.split())
 
 
-def test_a_damaged_tally_is_told_and_not_used(scene, tmp_path):
+def test_a_damaged_tally_is_reported_and_not_used(scene, tmp_path):
     coinmc.run(scene, tmp_path / "run")
     [tally] = (tmp_path / "run" / "tallies").glob("*.tally")
     tally.write_bytes(tally.read_bytes()[:-3])
@@ -163,7 +163,7 @@ def test_a_damaged_tally_is_told_and_not_used(scene, tmp_path):
     assert again.tosses == 3000
 
 
-def test_the_fair_ratio_is_the_command_lines(command, examples, tmp_path):
+def test_the_fair_ratio_equals_that_of_the_command_line(command, examples, tmp_path):
     path = examples / "flat-fair.toml"
     arguments = ("--set", "stop.tosses=2000", "--format", "json", "--quiet")
     printed = command("run", path, "--out", tmp_path / "run", *arguments).stdout
@@ -179,7 +179,7 @@ def test_the_fair_ratio_is_the_command_lines(command, examples, tmp_path):
     ("engine", "preset", "interval"),
     [("volumetric", "hand", "student-t"), ("volumetric", "clean", "exact")],
 )
-def test_what_does_not_bounce_is_integrated_as_by_the_command_line(
+def test_points_without_bounces_are_integrated_as_on_the_command_line(
     command, tmp_path, engine, preset, interval
 ):
     config = {
@@ -218,7 +218,7 @@ def test_fair_for_other_faces_and_parameters(scene):
         for crossing in result.fair(target, face="heads", along=along):
             assert 0.0 <= crossing.value <= 0.9
     assert result.fair(target, face="heads", along="restitution")
-    with pytest.raises(ValueError, match="is not swept here; swept is restitution"):
+    with pytest.raises(ValueError, match="is not swept in this result; swept: restitution"):
         result.fair()
     with pytest.raises(ValueError, match="between 0 and 1"):
         result.fair(1.5, along="restitution")

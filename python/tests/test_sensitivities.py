@@ -16,7 +16,7 @@ ADHESIVE = {
 }
 
 
-def test_the_derivative_is_that_of_the_closed_form():
+def test_the_derivative_equals_that_of_the_closed_form():
     """dP/d ln x of the arc rule is (2/π)·2x/(4 + x²); five intervals of 99.9 % miss 1 in 200."""
     for ratio in (0.3, 0.7, 1.0, 1.5, 2.0):
         table = coinmc.sensitivity(
@@ -28,7 +28,7 @@ def test_the_derivative_is_that_of_the_closed_form():
         assert table["d_p_side_lo"][0] - slack < exact < table["d_p_side_hi"][0] + slack, ratio
 
 
-def test_pairs_know_far_better_than_independent_tosses():
+def test_pairs_are_far_more_precise_than_independent_tosses():
     table = coinmc.sensitivity(ADHESIVE, ["coin.ratio"], step=0.02)
     half_width = (table["d_p_side_hi"][0] - table["d_p_side_lo"][0]) / 2
     p = coinmc.analytic.arc(1.0)
@@ -36,7 +36,7 @@ def test_pairs_know_far_better_than_independent_tosses():
     assert half_width < independent / 4
 
 
-def test_probabilities_sum_to_one_so_derivatives_to_nothing(scene):
+def test_derivatives_of_all_faces_sum_to_zero(scene):
     table = coinmc.sensitivity(scene, tosses=20_000)
     total = sum(table[f"d_p_{face}"] for face in ("heads", "tails", "side"))
     # but for undecided tosses, of which there are none
@@ -47,7 +47,7 @@ def test_probabilities_sum_to_one_so_derivatives_to_nothing(scene):
     assert len(repr(table).splitlines()) == 1 + len(table)
 
 
-def test_a_result_knows_its_own_and_takes_a_point(scene):
+def test_sensitivity_of_a_result_at_a_point(scene):
     result = coinmc.estimate({**scene, "coin": {"ratio": [0.8, 1.6]}})
     at = [result.sensitivity(["coin.ratio"], point=point, tosses=5000) for point in (0, 1)]
     assert [float(table["value"][0]) for table in at] == [0.8, 1.6]
@@ -55,8 +55,8 @@ def test_a_result_knows_its_own_and_takes_a_point(scene):
     assert at[1]["d_p_side"].tolist() == alone["d_p_side"].tolist()
 
 
-def test_what_cannot_be_changed_is_said(scene):
-    with pytest.raises(ValueError, match=r"coin\.ratoi is no number of this config"):
+def test_parameters_that_cannot_be_varied_are_reported(scene):
+    with pytest.raises(ValueError, match=r"coin\.ratoi is not a number of this config"):
         coinmc.sensitivity(scene, ["coin.ratoi"])
     for arguments in ({"step": 0.0}, {"step": 2.0}, {"confidence": 1.0}, {"tosses": 0}):
         with pytest.raises(ValueError, match=r"step|confidence|at least one"):

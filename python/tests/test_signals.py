@@ -59,7 +59,7 @@ def delay(work: str, *arguments: str) -> float:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT to send")
 @pytest.mark.parametrize("name", WORK)
-def test_ctrl_c_is_heard_at_once(name, tmp_path):
+def test_ctrl_c_acts_at_once(name, tmp_path):
     delays = []
     for attempt in range(TRIES):
         delays.append(delay(WORK[name], str(tmp_path / f"run-{attempt}")))
@@ -69,7 +69,7 @@ def test_ctrl_c_is_heard_at_once(name, tmp_path):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT to send")
-def test_an_interrupted_run_keeps_what_it_counted(tmp_path):
+def test_an_interrupted_run_keeps_its_counts(tmp_path):
     delay(WORK["run"], str(tmp_path / "run"))
     part = coinmc.open(tmp_path / "run")
     assert part.status == "interrupted"
@@ -77,7 +77,7 @@ def test_an_interrupted_run_keeps_what_it_counted(tmp_path):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT to send")
-def test_ctrl_c_leaves_a_fit_alone(root):
+def test_ctrl_c_abandons_a_fit(root):
     """A fit cannot be told to stop: Python does not wait for it."""
     work = (
         "from coinmc import film; "

@@ -9,7 +9,7 @@ import coinmc
 
 
 @pytest.mark.parametrize("example", ["first", "hand"])
-def test_a_trace_is_the_command_lines(example, examples, command, tmp_path):
+def test_a_trace_equals_that_of_the_command_line(example, examples, command, tmp_path):
     path = examples / f"{example}.toml"
     trace = coinmc.trace(path, 3, rate_hz=100)
     command("trace", path, "--toss", 3, "--rate", 100, "--out", tmp_path / "toss.csv", "--quiet")
@@ -39,7 +39,7 @@ def test_a_trace_is_the_command_lines(example, examples, command, tmp_path):
     assert {row["outcome"] for row in rows} == {trace.outcome}
 
 
-def test_energy_only_falls_and_axes_are_unit(examples):
+def test_energy_never_increases_and_axes_have_unit_length(examples):
     trace = coinmc.trace(examples / "hand.toml", 5, rate_hz=1000)
     energy = trace.samples["energy_j_kg"]
     assert (np.diff(energy) <= 1e-9 * energy[0]).all()
@@ -62,14 +62,14 @@ def test_samples_are_at_whole_multiples_between_the_ends(scene):
     assert coinmc.trace(scene, 1, rate_hz=None).rate_hz > 50
 
 
-def test_a_launch_of_ones_own_is_watched(scene):
+def test_a_given_launch_is_traced(scene):
     launch = coinmc.launches(scene, 1, first=17)
     own, drawn = coinmc.trace(scene, launch=launch), coinmc.trace(scene, 17)
     np.testing.assert_array_equal(own.samples, drawn.samples)
     assert (own.toss, drawn.toss) == (None, 17)
 
 
-def test_what_cannot_be_traced_is_said(scene, command, tmp_path):
+def test_tosses_that_cannot_be_traced_are_reported(scene, command, tmp_path):
     with pytest.raises(coinmc.TraceError, match="3000") as caught:
         coinmc.trace(scene, 3000)
     (tmp_path / "toss.toml").write_text(coinmc.Config(scene).resolved)
@@ -79,5 +79,5 @@ def test_what_cannot_be_traced_is_said(scene, command, tmp_path):
         coinmc.trace(scene, rate_hz=-1.0)
     with pytest.raises(coinmc.TraceError, match="rate"):
         coinmc.trace(scene, rate_hz=float("nan"))
-    with pytest.raises(ValueError, match="one launch"):
+    with pytest.raises(ValueError, match="exactly one launch"):
         coinmc.trace(scene, launch=coinmc.launches(scene, 2))

@@ -1,9 +1,9 @@
-"""Drops on film: what Tracker exports, and laws of impact fitted to it.
+"""Drops on film: reading Tracker exports and fitting impact laws to them.
 
-A camera sees a coin fall, turn and bounce in a vertical plane, and somebody marks its centre and
-its angle frame by frame. `read` reads the text that Tracker exports; `fit` finds restitution and
-friction from several drops together, and says which law describes them best. Coordinates, methods
-and their accuracy are in docs/guide/film.md.
+A camera films a coin that falls, turns and bounces in a vertical plane, and its centre and angle
+are marked frame by frame. `read` reads the text that Tracker exports; `fit` estimates restitution
+and friction from several drops together and compares laws of impact. Coordinates, methods and
+their accuracy are in docs/guide/film.md.
 """
 
 from coinmc.film._drop import Drop, parse, read

@@ -1,4 +1,4 @@
-"""Laws of impact fitted to drops."""
+"""Fits of impact laws to drops."""
 
 from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
@@ -14,12 +14,12 @@ __all__ = ["RESIDUAL", "Fit", "FittedDrop", "Noise", "Parameter", "Ranked", "com
 
 #: Names of the coordinates: centre, m, and angle of the axis from the vertical, rad.
 _COORDINATES = np.array(["x_m", "z_m", "theta_rad"])
-#: Laws that are told by their names alone.
+#: Laws without parameters of their own.
 _LAWS = ("moreau", "chatterjee-ruina")
 
-#: A residual: number of the drop and of the frame, time as in the film (s), coordinate (``x_m``,
-#: ``z_m`` or ``theta_rad``), what was seen, seen less predicted (m or rad), the same in standard
-#: deviations.
+#: A residual: index of the drop and of the frame, time as in the film (s), coordinate (``x_m``,
+#: ``z_m`` or ``theta_rad``), observed value, observed minus predicted value (m or rad), and the
+#: same in standard deviations.
 RESIDUAL = np.dtype(
     [
         ("drop", "i8"),
@@ -45,7 +45,7 @@ class Parameter(NamedTuple):
     std_error : float or None
         Standard error by linear theory, if there is one.
     lo, hi : float or None
-        Interval by the profile of the likelihood; None: open.
+        Ends of the profile likelihood interval; None where it is open.
     """
 
     name: str
@@ -56,14 +56,14 @@ class Parameter(NamedTuple):
 
 
 class Noise(NamedTuple):
-    """Scatter of a coordinate.
+    """Estimated noise of a coordinate.
 
     Attributes
     ----------
     coordinate : str
         ``x_m``, ``z_m`` or ``theta_rad``.
     n : int
-        Points of it.
+        Number of observations.
     sigma : float
         Standard deviation, m or rad.
     correlation : float
@@ -77,20 +77,20 @@ class Noise(NamedTuple):
 
 
 class FittedDrop(NamedTuple):
-    """A drop as fitted.
+    """The fitted motion of a drop.
 
     Attributes
     ----------
     name : str
-        Its name.
+        Name of the drop.
     start : tuple of float
         x, x', z above the surface, z', θ, θ' at the first frame: m, m/s, rad, rad/s.
     half_width : tuple of float
-        Half the width of the interval of each; NaN where the film says nothing.
+        Half the width of the interval of each; NaN where the film does not determine it.
     frames, of_frames : int
-        Frames that count, and that there are.
+        Number of frames used, and number of frames in the film.
     impacts_s : list of float
-        Times of the impacts among them since the first frame, s.
+        Times of the impacts within the used frames, s since the first frame.
     """
 
     name: str
@@ -102,18 +102,18 @@ class FittedDrop(NamedTuple):
 
 
 class Ranked(NamedTuple):
-    """One law among several, by Akaike's and Schwarz's criteria.
+    """A law ranked by Akaike's and Schwarz's information criteria.
 
     Attributes
     ----------
     law : str
         The law.
     aic, bic : float
-        The criteria; less is better.
+        The criteria; lower is better.
     delta_aic, delta_bic : float
-        By how much they exceed the least. Below 2 tells nothing, above 10 decides.
+        Differences from the lowest values. Below 2 is inconclusive, above 10 is decisive.
     weight : float
-        Akaike weight: exp(-Δ/2), all together 1.
+        Akaike weight: exp(-Δ/2), normalized to a sum of 1.
     """
 
     law: str
@@ -125,7 +125,7 @@ class Ranked(NamedTuple):
 
 
 class Fit:
-    """A law fitted to drops; with several laws, the best, and the others beside it.
+    """A law fitted to drops; of several laws the best, with the others in `all`.
 
     Attributes
     ----------
@@ -134,42 +134,42 @@ class Fit:
     parameters : dict of str to Parameter
         The fitted parameters.
     values : dict of str to float
-        All parameters, fitted and given.
+        All parameters, fitted and fixed.
     noise : list of Noise
-        Scatter of the coordinates.
+        Noise of the coordinates.
     drops : list of FittedDrop
         The drops.
     residuals : ndarray of `RESIDUAL`
         Every residual.
     remarks : list of str
-        What a reader ought to know.
+        Remarks on the quality of the fit.
     n, fitted : int
-        Points that count; numbers that were fitted.
+        Number of observations; number of fitted parameters.
     log_likelihood, aic, bic, confidence : float
-        Greatest log-likelihood, criteria, confidence of the intervals.
+        Maximum log-likelihood, criteria, confidence level of the intervals.
     all : list of Fit
-        The fits of all laws, the best by AIC first; this one among them.
+        The fits of all laws, including this one, the best by AIC first.
     """
 
-    def __init__(self, told: dict[str, Any]) -> None:
-        self.law: str = told["law"]
-        self.parameters = {row[0]: Parameter(*row) for row in told["parameters"]}
-        self.values: dict[str, float] = dict(told["values"])
-        self.noise = [Noise(*row) for row in told["noise"]]
-        self.drops = [FittedDrop(*row) for row in told["drops"]]
-        self.residuals = _residuals(told["residuals"])
-        self.remarks: list[str] = told["remarks"]
-        self.n: int = told["n"]
-        self.fitted: int = told["fitted"]
-        self.log_likelihood: float = told["log_likelihood"]
-        self.aic: float = told["aic"]
-        self.bic: float = told["bic"]
-        self.confidence: float = told["confidence"]
+    def __init__(self, fields: dict[str, Any]) -> None:
+        self.law: str = fields["law"]
+        self.parameters = {row[0]: Parameter(*row) for row in fields["parameters"]}
+        self.values: dict[str, float] = dict(fields["values"])
+        self.noise = [Noise(*row) for row in fields["noise"]]
+        self.drops = [FittedDrop(*row) for row in fields["drops"]]
+        self.residuals = _residuals(fields["residuals"])
+        self.remarks: list[str] = fields["remarks"]
+        self.n: int = fields["n"]
+        self.fitted: int = fields["fitted"]
+        self.log_likelihood: float = fields["log_likelihood"]
+        self.aic: float = fields["aic"]
+        self.bic: float = fields["bic"]
+        self.confidence: float = fields["confidence"]
         self.all = [self]
-        self._rank = Ranked(self.law, *(told[name] for name in Ranked._fields[1:]))
+        self._rank = Ranked(self.law, *(fields[name] for name in Ranked._fields[1:]))
 
     def compare(self) -> list[Ranked]:
-        """Compare the laws that were fitted together, the best first."""
+        """Return the laws that were fitted together, the best first."""
         return compare(self.all)
 
     def __repr__(self) -> str:
@@ -198,54 +198,55 @@ def fit(
     loss: str = "square",
     confidence: float = 0.95,
 ) -> Fit:
-    """Fit laws of impact to drops, and say which describes them best.
+    """Fit impact laws to drops and compare them.
 
-    All drops share restitution and friction; each has its own first state.
+    All drops share restitution and friction; each has its own initial state.
 
     Parameters
     ----------
     drops : Drop or iterable of Drop
         The films.
     coin : path, dict or Config, optional
-        A config whose first point says coin, gravity, restitution and friction.
+        A config whose first point gives coin, gravity, restitution and friction.
     ratio, radius_m : float, optional
-        H/R and R (m) of the coin, instead of or in place of the config's.
+        H/R and R (m) of the coin; they override those of the config.
     gravity_m_s2 : float, optional
-        Gravity, m/s²; 9.81 unless a config says otherwise.
+        Gravity, m/s²; by default that of the config, or 9.81 without a config.
     laws : list of str, optional
-        ``moreau``, ``chatterjee-ruina``; both without it. And the law of the config given,
-        ``engine.flat.law``, by its name, with the config's numbers of it.
+        Laws to fit: ``moreau``, ``chatterjee-ruina`` (by default both), and the law of the config,
+        ``engine.flat.law``, with its parameters as in the config.
     free : list of str, optional
-        Parameters to fit, as far as a law has them: ``restitution``, ``friction``, ``floor_m``;
-        without it, all that are not known beforehand: all but the floor's height.
+        Parameters to fit, if the law has them: ``restitution``, ``friction``, ``floor_m``; by
+        default all but the height of the floor.
     restitution, friction, floor_m : float, optional
-        Values where they are not fitted; 0.5 and 0.3 unless a config says otherwise, and 0 m.
+        Values of parameters that are not fitted; by default those of the config, or 0.5 and 0.3
+        without a config, and 0 m.
     bounces : int, optional
-        The film counts up to the bounce after this many.
+        Number of bounces to use: frames count until the bounce after these.
     until_s : float, optional
-        And no longer than this after its first frame, s.
+        Frames later than this after the first frame, s, are not used.
     loss : {"square", "huber"}, optional
-        What residuals cost: Huber's where points may be marked wrongly.
+        Loss function of the residuals; ``huber`` if some points may be marked wrongly.
     confidence : float, optional
-        Of the intervals.
+        Confidence level of the intervals.
 
     Returns
     -------
     Fit
-        The best by Akaike's criterion; ``compare()`` shows the others.
+        The best fit by Akaike's criterion; ``compare()`` lists the others.
 
     Raises
     ------
     coinmc.FilmError
-        If the drops do not allow a fit, or none is found.
+        If the drops do not determine the parameters, or the fit does not converge.
     """
     drops = [drops] if isinstance(drops, Drop) else list(drops)
     if not all(isinstance(drop, Drop) for drop in drops):
-        raise TypeError("drops are coinmc.film.Drop, as film.read gives them")
+        raise TypeError("drops must be coinmc.film.Drop objects, as film.read returns them")
     laws = list(dict.fromkeys([laws] if isinstance(laws, str) else laws))
     if not laws:
         raise ValueError("a fit needs a law")
-    asked = {
+    options = {
         "ratio": _number(ratio),
         "radius_m": _number(radius_m),
         "gravity_m_s2": _number(gravity_m_s2),
@@ -259,28 +260,28 @@ def fit(
         "loss": loss,
         "confidence": float(confidence),
     }
-    seen = [
+    films = [
         (drop.name, drop.time_s, np.column_stack([drop.x_m, drop.z_m, drop.theta_rad]))
         for drop in drops
     ]
     config = None if coin is None else plan_of(as_config(coin))
-    fits = [Fit(told) for told in _lib.fit_film(seen, asked, config)]
-    for made in fits:
-        made.all = fits
+    fits = [Fit(fields) for fields in _lib.fit_film(films, options, config)]
+    for fit_of_law in fits:
+        fit_of_law.all = fits
     return fits[0]
 
 
 def compare(fits: Iterable[Fit]) -> list[Ranked]:
-    """Compare fits of one call of `fit`, the best first."""
-    return sorted((made._rank for made in fits), key=lambda rank: rank.aic)
+    """Rank the fits from one call of `fit`, the best first."""
+    return sorted((each._rank for each in fits), key=lambda rank: rank.aic)
 
 
 def _number(value: float | None) -> float | None:
     return None if value is None else float(value)
 
 
-def _residuals(told: dict[str, np.ndarray]) -> np.ndarray:
-    residuals = np.empty(len(told["time_s"]), RESIDUAL)
+def _residuals(columns: dict[str, np.ndarray]) -> np.ndarray:
+    residuals = np.empty(len(columns["time_s"]), RESIDUAL)
     for name in RESIDUAL.names:
-        residuals[name] = _COORDINATES[told[name]] if name == "coordinate" else told[name]
+        residuals[name] = _COORDINATES[columns[name]] if name == "coordinate" else columns[name]
     return residuals

@@ -1,20 +1,20 @@
-"""Pictures of results, tosses, films and launches, with matplotlib.
+"""Plots of results, tosses, films and launches, with matplotlib.
 
-Every function draws into the axes given as ``ax``, or into a new figure, and returns the axes; take
-``ax.figure.savefig(...)`` from there. Intervals are always drawn. Results may be a
+Every function draws into the axes given as ``ax``, or into a new figure, and returns the axes; save
+the figure with ``ax.figure.savefig(...)``. Intervals are always drawn. A result can be a
 `coinmc.Result` or any table with the same columns.
 
 ==================== ==================================================================
 `probability`        P(face) against a parameter, closed forms and published data
 `heat`               P(face) over two parameters, with the contour at 1/3
-`ternary`            heads, tails and side at once
+`ternary`            P(heads), P(tails) and P(side) in one triangle
 `basin`              the face as a function of two quantities of the launch
 `basin_faces`        the same as an array
 `path`               a trajectory, in the plane or in space
 `energy`             energy against time
 `animation`          a toss as GIF or MP4
-`residuals`          what a fit to film leaves over
-`sensitivity`        what a probability depends on
+`residuals`          residuals of a fit to film
+`sensitivity`        how a probability depends on parameters
 `time_against_error` run time against error
 ==================== ==================================================================
 

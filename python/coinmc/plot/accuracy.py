@@ -1,4 +1,4 @@
-"""Run time against error: which way of computing gives the same accuracy sooner."""
+"""Error against run time, to compare methods at equal accuracy."""
 
 from __future__ import annotations
 
@@ -24,26 +24,26 @@ def time_against_error(
     slope: bool = True,
     ax: Axes | None = None,
 ) -> Axes:
-    """Plot error against run time, both logarithmic, a curve for each way of computing.
+    """Plot error against run time, both logarithmic, with one curve per method.
 
     Parameters
     ----------
     table : table
         Columns `time`, `error` and, where known, the interval of the error; for instance the CSV
-        of a study of ``coinmc-studies``. Rows that are not positive have no place on logarithmic
-        axes and are left out.
+        of a study of ``coinmc-studies``. Rows with values that are not positive cannot be shown on
+        logarithmic axes and are left out.
     time, error : str
         Columns of the axes.
     by : str, optional
-        Column of text or numbers that tells the curves apart.
+        Column of text or numbers that separates the curves.
     low, high : str, optional
         Columns with the ends of the interval of the error; by default ``<error>_lo`` and
         ``<error>_hi`` if the table has them.
     slope : bool
-        Whether the line is drawn on which statistical error falls, from the first point of the
-        first curve on: error ~ 1/sqrt(time).
+        Whether to draw the decrease of a statistical error, 1/sqrt(time), from the first point of
+        the first curve.
     ax : Axes, optional
-        Where to draw; a new figure if absent.
+        Axes to draw into; a new figure if absent.
 
     Returns
     -------
@@ -89,6 +89,6 @@ def time_against_error(
 
 
 def _slope(ax: Axes, error: float, first: float, last: float) -> None:
-    """Draw how statistical error would fall from a first point on."""
+    """Draw the decrease of a statistical error from its first point."""
     errors = [error, error * np.sqrt(first / last)]
     ax.plot([first, last], errors, ":", color=NEUTRAL, label="error ~ 1/√time", zorder=0)

@@ -1,4 +1,4 @@
-"""A toss in motion: GIF or MP4."""
+"""Animation of a toss, as GIF or MP4."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from coinmc.plot.style import MODES, NEUTRAL, axes_for
 
 __all__ = ["animation"]
 
-# More frames than this are a long wait and a file that no page wants.
-_MOST_FRAMES = 2000
+# More frames take long to draw and make a file too large for a web page.
+_MAX_FRAMES = 2000
 
 
 def animation(
@@ -32,41 +32,41 @@ def animation(
     overwrite: bool = False,
     ax: Axes | None = None,
 ) -> FuncAnimation:
-    """Show the toss as a short film, seen from the side or from above.
+    """Animate a toss, seen from the side or from above.
 
     Parameters
     ----------
     trace : coinmc.Trace
-        As `coinmc.trace` gives it, with at least `fps`/`slow` samples a second.
+        A trace from `coinmc.trace` with at least `fps`/`slow` samples per second.
     path : path, optional
         File to write: ``.gif``, or ``.mp4`` where the program ffmpeg is installed. Nothing is
         written if absent.
     slow : float
-        How many times slower than life.
+        Slow-motion factor.
     fps : int
-        Frames a second of the film, 1 to 50.
+        Frames per second of the animation, 1 to 50.
     dpi : float
-        Dots an inch.
+        Dots per inch.
     view : {"side", "top"}
-        From where it is seen.
+        Direction of view.
     overwrite : bool
-        Replace a file that is there.
+        Replace an existing file.
     ax : Axes, optional
-        Where to draw; its figure is what is filmed. A new figure if absent.
+        Axes to draw into; their whole figure is animated. A new figure if absent.
 
     Returns
     -------
     FuncAnimation
-        Keep it as long as it is shown.
+        Keep a reference to it as long as it is shown.
 
     Raises
     ------
     FileExistsError
-        There is such a file, and `overwrite` is not set.
+        If the file exists and `overwrite` is not set.
     ValueError
-        Another ending, or a film of more than 2000 frames.
+        If the file has another extension, or there are more than 2000 frames.
     RuntimeError
-        MP4 without ffmpeg.
+        If an MP4 is requested and ffmpeg is not installed.
 
     Examples
     --------
@@ -81,7 +81,7 @@ def animation(
     own, ax = ax is None, axes_for(ax, size=(4.8, 4.8))
     film = _film(ax, motion, frames, view, fps)
     if own:
-        # the layout is that of every frame: to find it again each time takes longer than to draw
+        # all frames share the layout: computing it for each takes longer than drawing
         ax.figure.draw_without_rendering()
         ax.figure.set_layout_engine("none")
     if path is not None:
@@ -90,16 +90,16 @@ def animation(
 
 
 def _frames(motion: Motion, slow: float, fps: int) -> NDArray[np.int64]:
-    """Index of the record that each frame shows: the last one not after it."""
+    """Return the index of the record shown in each frame: the last one not after it."""
     if not (1 <= fps <= 50):
         raise ValueError(f"fps must be 1 to 50, found {fps}")
     if not (np.isfinite(slow) and slow > 0):
         raise ValueError(f"slow must be positive, found {slow}")
     span = motion.time_s[-1] - motion.time_s[0]
     count = int(np.ceil(span * slow * fps)) + 1
-    if count > _MOST_FRAMES:
+    if count > _MAX_FRAMES:
         raise ValueError(
-            f"{count} frames are more than {_MOST_FRAMES}: lower slow (now {slow:g}) or fps ({fps})"
+            f"{count} frames are more than {_MAX_FRAMES}: lower slow (now {slow:g}) or fps ({fps})"
         )
     times = motion.time_s[0] + np.arange(count) / (slow * fps)
     return np.append(
@@ -109,7 +109,7 @@ def _frames(motion: Motion, slow: float, fps: int) -> NDArray[np.int64]:
 
 def _writer(path: Path, fps: int, overwrite: bool) -> Any:
     if path.suffix not in (".gif", ".mp4"):
-        raise ValueError(f"{path}: a film ends in .gif or .mp4")
+        raise ValueError(f"{path}: an animation must end in .gif or .mp4")
     if path.exists() and not overwrite:
         raise FileExistsError(f"{path} exists: choose another name, or set overwrite=True")
     if path.suffix == ".gif":
@@ -123,7 +123,7 @@ def _film(
     ax: Axes, motion: Motion, frames: NDArray[np.int64], view: str, fps: int
 ) -> FuncAnimation:
     if view not in ("side", "top"):
-        raise ValueError(f"no view is called {view!r}: use side or top")
+        raise ValueError(f"unknown view {view!r}: use side or top")
     up = 2 if view == "side" else 1
     _limits(ax, motion, up)
     (trail,) = ax.plot([], [], color=MODES["flight"], linewidth=1)
@@ -149,7 +149,7 @@ def _film(
 
 
 def _limits(ax: Axes, motion: Motion, up: int) -> None:
-    """Room for the coin everywhere on its way, as much across as up."""
+    """Set square limits that hold the coin throughout its motion."""
     reach = np.hypot(motion.radius_m, motion.height_m / 2)
     way = motion.position_m[:, [0, up]]
     low, high = way.min(axis=0) - 1.2 * reach, way.max(axis=0) + 1.2 * reach

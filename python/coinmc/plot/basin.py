@@ -20,12 +20,12 @@ from coinmc.plot.style import FACES, UNDECIDED, axes_for, axis_label
 
 __all__ = ["VARIABLES", "basin", "basin_faces", "show_faces"]
 
-# Launches computed at once: enough to keep all cores busy, some tens of megabytes.
+# Launches computed at once: enough to keep all cores busy, in some tens of megabytes.
 _BLOCK = 1 << 18
-# Pixels along either side.
-_LONGEST = 1 << 14
+# Largest number of pixels along either side.
+_MAX_SIDE = 1 << 14
 
-#: Quantities of the launch that an axis can be: field of the launch, and component or what it sets.
+#: Quantities of the launch that an axis can show: field of the launch, and its component.
 VARIABLES: Mapping[str, tuple[str, int | None]] = {
     "height_m": ("position_m", 2),
     "vx_m_s": ("velocity_m_s", 0),
@@ -58,21 +58,21 @@ def basin_faces(
     config : path, Config or dict
         Coin, surface and engine, as for `coinmc.toss`.
     x, y : str
-        Quantities of the axes, of `VARIABLES`: height of the centre, components of velocity
+        Quantities of the axes, from `VARIABLES`: height of the centre, components of velocity
         and spin, or tilt of the heads normal from the vertical towards x.
     extent : tuple of float
-        First and last value of `x`, first and last of `y`: the outer edges of the outer pixels.
+        First and last value of `x`, first and last of `y`, at the outer edges of the pixels.
     shape : tuple of int
         Rows and columns.
     launch : structured array of one launch, optional
-        All other quantities, as `coinmc.launches` gives them; by default toss 0 of the
+        A launch from `coinmc.launches` that gives all other quantities; by default toss 0 of the
         config.
     point : int
-        The point of the sweep.
+        Index of the point in the sweep.
     threads : int, optional
-        How many cores to use; all if absent.
+        Number of threads; by default one per core.
     overrides : mapping, optional
-        Changes of the config, as ``{"coin.ratio": 1.2}``.
+        Values that replace those of the config, such as ``{"coin.ratio": 1.2}``.
 
     Returns
     -------
@@ -82,7 +82,7 @@ def basin_faces(
     Raises
     ------
     ValueError
-        An axis, an extent or a shape that cannot be.
+        If an axis, the extent or the shape is invalid.
 
     Examples
     --------
@@ -99,7 +99,7 @@ def basin_faces(
     y_values = _centres(extent[2], extent[3], rows)
     base = launches(config, 1, point=point) if launch is None else as_launches(launch)
     if len(base) != 1:
-        raise ValueError(f"a map is of one launch, not of {len(base)}")
+        raise ValueError(f"a basin needs exactly one launch, not {len(base)}")
     at_once = max(1, _BLOCK // across)
     block = np.repeat(base, at_once * across).reshape(at_once, across)
     _set(block, x, x_values[None, :])
@@ -132,17 +132,17 @@ def basin(
     overrides: Mapping[str, Any] | None = None,
     ax: Axes | None = None,
 ) -> tuple[AxesImage, Axes]:
-    """Map which launches end on heads, tails and side.
+    """Map the launches that end on heads, on tails and on the side.
 
-    Every pixel is one toss, none is random: where the coin bounces, basins are as fine as dust, and
-    colours mix in proportion where a pixel of the screen covers several of the map.
+    Every pixel is one toss, and nothing is random. If the coin bounces, the basins are very finely
+    interleaved; colours mix in proportion where a pixel of the screen covers several of the map.
 
     Parameters
     ----------
     config, x, y, extent, shape, launch, point, threads, overrides
         As for `basin_faces`.
     ax : Axes, optional
-        Where to draw; a new figure if absent.
+        Axes to draw into; a new figure if absent.
 
     Returns
     -------
@@ -180,16 +180,16 @@ def show_faces(
     extent: tuple[float, float, float, float],
     ax: Axes | None = None,
 ) -> tuple[AxesImage, Axes]:
-    """Draws the faces that `basin_faces` found: `basin` without its computing.
+    """Draw faces computed by `basin_faces`.
 
     Parameters
     ----------
     faces : ndarray of uint8, (rows, columns)
         Codes of `coinmc.Face`.
     x, y, extent
-        As they were computed.
+        As given to `basin_faces`.
     ax : Axes, optional
-        Where to draw; a new figure if absent.
+        Axes to draw into; a new figure if absent.
 
     Returns
     -------
@@ -205,7 +205,7 @@ def show_faces(
         cmap=ListedColormap([*FACES.values(), UNDECIDED]),
         vmin=-0.5,
         vmax=3.5,
-        # codes are names: colours may be averaged, codes not
+        # average colours, not codes
         interpolation_stage="rgba",
     )
     ax.set(xlabel=axis_label(x), ylabel=axis_label(y))
@@ -225,7 +225,7 @@ def _checked(
 ) -> tuple[int, int]:
     for name in (x, y):
         if name not in VARIABLES:
-            raise ValueError(f"no quantity is called {name!r}: use {', '.join(VARIABLES)}")
+            raise ValueError(f"unknown quantity {name!r}: use {', '.join(VARIABLES)}")
     if VARIABLES[x] == VARIABLES[y]:
         raise ValueError(f"both axes are the same quantity, {x}")
     if len(extent) != 4 or not np.isfinite(extent).all():
@@ -233,8 +233,8 @@ def _checked(
     if extent[0] == extent[1] or extent[2] == extent[3]:
         raise ValueError(f"extent {extent} is empty")
     rows, across = (index(side) for side in shape)
-    if not (1 <= rows <= _LONGEST and 1 <= across <= _LONGEST):
-        raise ValueError(f"shape must be 1 to {_LONGEST} rows and columns, found {shape}")
+    if not (1 <= rows <= _MAX_SIDE and 1 <= across <= _MAX_SIDE):
+        raise ValueError(f"shape must be 1 to {_MAX_SIDE} rows and columns, found {shape}")
     return rows, across
 
 
@@ -243,7 +243,7 @@ def _centres(first: float, last: float, count: int) -> NDArray[np.float64]:
 
 
 def _set(launches: NDArray[Any], name: str, values: NDArray[np.float64]) -> None:
-    """Set one quantity of all launches, broadcasting."""
+    """Set one quantity of all launches, with broadcasting."""
     field, component = VARIABLES[name]
     if component is not None:
         launches[field][..., component] = values
@@ -255,7 +255,7 @@ def _set(launches: NDArray[Any], name: str, values: NDArray[np.float64]) -> None
 
 
 def _key(faces: NDArray[np.uint8]) -> list[Patch]:
-    """Say what occurs, with its share of the picture."""
+    """Make the legend: the faces that occur, with their share of the pixels."""
     counts = np.bincount(faces.ravel(), minlength=4)
     names = [*FACES, "undecided"]
     colours = [*FACES.values(), UNDECIDED]

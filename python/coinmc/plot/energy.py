@@ -1,4 +1,4 @@
-"""How a toss spends its energy."""
+"""Energy of a toss against time."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ __all__ = ["energy"]
 
 
 def energy(trace: Any, *, barriers: bool = True, ax: Axes | None = None) -> Axes:
-    """Plot energy per unit mass against time, with modes shaded and impacts marked.
+    """Plot energy per unit mass against time, with shaded modes and marked impacts.
 
     Parameters
     ----------
     trace : coinmc.Trace
-        As `coinmc.trace` gives it.
+        A trace from `coinmc.trace`.
     barriers : bool
-        Draw the energies of the coin at rest on a face, on its side, and balanced on its rim
-        between them: once the energy is below the last, the coin cannot change its face.
+        Draw the energies of the coin at rest on a face, on its side, and balanced on its rim:
+        once the energy is below the last of these, the face cannot change.
     ax : Axes, optional
-        Where to draw; a new figure if absent.
+        Axes to draw into; a new figure if absent.
 
     Returns
     -------
@@ -34,7 +34,8 @@ def energy(trace: Any, *, barriers: bool = True, ax: Axes | None = None) -> Axes
 
     Notes
     -----
-    Logarithmic, since every impact takes a share. The potential is zero for a point on the surface.
+    The energy axis is logarithmic, since every impact dissipates a fraction of the energy. The
+    potential energy is zero for a point on the surface.
 
     Examples
     --------
@@ -50,16 +51,16 @@ def energy(trace: Any, *, barriers: bool = True, ax: Axes | None = None) -> Axes
     key = [Line2D([], [], color=CYCLE[0], label="energy")]
     ax.plot(values[0], values[1], color=CYCLE[0], linewidth=1.5)
     shaded = dict.fromkeys(
-        mode for mode, _ in motion.stretches() if mode in ("sticking", "sliding")
+        mode for mode, _ in motion.phases() if mode in ("sticking", "sliding")
     )
-    for mode, stretch in motion.stretches():
+    for mode, phase in motion.phases():
         if mode in shaded:
-            begin, end = motion.time_s[stretch][[0, -1]]
+            begin, end = motion.time_s[phase][[0, -1]]
             ax.axvspan(begin, end, color=MODES[mode], alpha=0.3, linewidth=0)
     key += [Patch(color=MODES[mode], alpha=0.3, label=mode) for mode in shaded]
     if len(motion.impacts):
         times = motion.time_s[motion.impacts]
-        # along the lower edge, whatever the scale
+        # along the lower edge on any scale
         edge = {"transform": ax.get_xaxis_transform(), "clip_on": False}
         ax.plot(times, np.full(len(times), 0.015), "^", color=NEUTRAL, markersize=5, **edge)
         key.append(Line2D([], [], color=NEUTRAL, marker="^", linestyle="none", label="impact"))
@@ -70,10 +71,10 @@ def energy(trace: Any, *, barriers: bool = True, ax: Axes | None = None) -> Axes
 
 
 def _energies(trace: Any) -> tuple[Any, Any]:
-    """Give times and energies of samples and events in order."""
+    """Return times and energies of samples and events in order of time."""
     time = np.concatenate([trace.samples["time_s"], trace.events["time_s"]])
     value = np.concatenate([trace.samples["energy_j_kg"], trace.events["energy_j_kg"]])
-    # of several at one instant the energy falls: an impact only takes
+    # records at one instant are ordered by decreasing energy: impacts only dissipate
     order = np.lexsort((-value, time))
     return time[order], value[order]
 
@@ -81,7 +82,7 @@ def _energies(trace: Any) -> tuple[Any, Any]:
 def _barriers(ax: Axes, motion: Motion, gravity_m_s2: float) -> None:
     radius, half = motion.radius_m, motion.height_m / 2
     rim = np.hypot(radius, half)
-    # the rim's is the highest: its name above its line, the others' below, clear of each other
+    # the level of the rim is the highest: its name goes above the line, the others go below
     for name, height, place in (
         ("on its rim", rim, (3, 2)),
         ("on its side", radius, (3, -11)),

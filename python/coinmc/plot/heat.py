@@ -33,7 +33,7 @@ def heat(
 ) -> Axes:
     """Map a probability over two parameters, with its contour at a target.
 
-    Cells whose interval holds the target are hatched: the contour may as well pass there.
+    Cells whose interval contains the target are hatched: the true contour may pass through them.
 
     Parameters
     ----------
@@ -45,14 +45,14 @@ def heat(
     face : str
         ``heads``, ``tails`` or ``side``.
     where : mapping of str to value, optional
-        Only rows with these values, as ``{"friction": 0.3}``: needed where more than two parameters
-        vary.
+        Use only rows with these values, such as ``{"friction": 0.3}``: needed if more than two
+        parameters vary.
     target : float
         The probability whose contour is drawn.
     bar : bool
-        Whether a bar of the colours is drawn beside the axes.
+        Whether to draw a colour bar.
     ax : Axes, optional
-        Where to draw; a new figure if absent.
+        Axes to draw into; a new figure if absent.
 
     Returns
     -------
@@ -61,7 +61,7 @@ def heat(
     Raises
     ------
     ValueError
-        A pair of `x` and `y` has no row, or several.
+        If a pair of `x` and `y` has no row, or several.
 
     Examples
     --------
@@ -97,7 +97,7 @@ def heat(
 def _grid(
     table: Mapping[str, NDArray[Any]], x: str, y: str, names: list[str]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], list[NDArray[np.float64]]]:
-    """Give the values of both axes, and each column over them, y first."""
+    """Return the values of both axes, and each column as a grid with y as its first axis."""
     xs, at_x = np.unique(table[x], return_inverse=True)
     ys, at_y = np.unique(table[y], return_inverse=True)
     counts = np.zeros((len(ys), len(xs)), int)
@@ -122,7 +122,7 @@ def _grid(
 
 
 def _edges(centres: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Cells end half way between their centres; the outer ones are symmetric."""
+    """Return cell edges half way between the centres; the outer cells are symmetric."""
     if len(centres) == 1:
         return centres[0] + np.array([-0.5, 0.5])
     inner = (centres[1:] + centres[:-1]) / 2
@@ -136,7 +136,7 @@ def _hatch(
     cells: NDArray[np.bool_],
     name: str,
 ) -> list[Any]:
-    """Hatches cells; returns what the legend says of them."""
+    """Hatch cells and return their entries of the legend."""
     if not cells.any():
         return []
     rectangles = [

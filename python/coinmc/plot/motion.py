@@ -1,4 +1,4 @@
-"""A trace as plots need it: samples and events in one order of time, with the coin's size."""
+"""A trace prepared for plots: samples and events in order of time, and the size of the coin."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ __all__ = ["Motion", "motion_of"]
 
 _MODES = np.array(["flight", "sticking", "sliding", "ended"])
 _KINDS = np.array(["launched", "touching", "impact", "sticking", "sliding", "lift_off", "ended"])
-# Fields with a row an instant.
+# Fields with one row per instant.
 _RECORDED = ("time_s", "position_m", "velocity_m_s", "axis", "spin_rad_s", "mode", "kind")
-# What goes on after an event. Touching changes nothing yet: the impact follows at the same instant.
+# The mode after an event. Touching changes nothing: the impact follows at the same instant.
 _MODE_AFTER = {"sticking": "sticking", "sliding": "sliding", "ended": "ended"}
 
 
@@ -26,17 +26,17 @@ class Motion:
     Attributes
     ----------
     time_s : ndarray, (n,)
-        Since launch, s; never falls.
+        Time since launch, s; never decreases.
     position_m, velocity_m_s, axis, spin_rad_s : ndarray, (n, 3)
         Centre, its velocity, unit normal of the heads face, angular velocity.
     mode : ndarray of str, (n,)
-        What goes on from there on: ``flight``, ``sticking``, ``sliding`` or ``ended``.
+        The mode of motion from then on: ``flight``, ``sticking``, ``sliding`` or ``ended``.
     kind : ndarray of str, (n,)
         The event, or ``sample``.
     radius_m, height_m : float
-        The coin.
+        Size of the coin.
     outcome : str
-        Face on which the toss ended, or why it has none.
+        The face, or the reason why there is none.
     """
 
     time_s: NDArray[np.float64]
@@ -52,7 +52,7 @@ class Motion:
 
     @property
     def is_planar(self) -> bool:
-        """Whether all of it stays in the plane y = 0, the coin turning about y."""
+        """Whether the motion stays in the plane y = 0, with the coin turning about y."""
         return not (self.position_m[:, 1].any() or self.axis[:, 1].any())
 
     @property
@@ -61,12 +61,12 @@ class Motion:
         return np.flatnonzero(self.kind == "impact")
 
     def between(self, first_s: float, last_s: float) -> Motion:
-        """Give the part of it in a stretch of time.
+        """Return the part of the motion in an interval of time.
 
         Raises
         ------
         ValueError
-            Nothing was recorded in it.
+            If nothing was recorded in it.
         """
         rows = (self.time_s >= first_s) & (self.time_s <= last_s)
         if not rows.any():
@@ -77,15 +77,18 @@ class Motion:
         return replace(self, **{name: getattr(self, name)[rows] for name in _RECORDED})
 
     def feet_m(self) -> NDArray[np.float64]:
-        """Find the coin's lowest point at every instant, (n, 3); of a side or face, its middle."""
+        """Return the lowest point of the coin at every instant, (n, 3).
+
+        If a whole face or a line of the side is lowest, it is the middle of that.
+        """
         ends = -0.5 * self.height_m * np.sign(_small_to_zero(self.axis[:, 2]))[:, None] * self.axis
         down = self.axis * self.axis[:, 2:3] - np.array([0.0, 0.0, 1.0])
         length = np.linalg.norm(down, axis=1, keepdims=True)
         rim = np.divide(down, length, out=np.zeros_like(down), where=length > 1e-9)
         return self.position_m + ends + self.radius_m * rim
 
-    def stretches(self) -> list[tuple[str, slice]]:
-        """List runs of one mode, each up to and with the first instant of the next."""
+    def phases(self) -> list[tuple[str, slice]]:
+        """Return the phases of constant mode, each including the first instant of the next."""
         starts = [0, *(1 + np.flatnonzero(self.mode[1:] != self.mode[:-1])), len(self.mode) - 1]
         return [
             (str(self.mode[begin]), slice(int(begin), int(end) + 1))
@@ -99,12 +102,12 @@ def _small_to_zero(values: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def motion_of(trace: Any) -> Motion:
-    """Give the motion that a trace recorded.
+    """Return the motion recorded in a trace.
 
     Parameters
     ----------
     trace : coinmc.Trace
-        As `coinmc.trace` gives it.
+        A trace from `coinmc.trace`.
 
     Returns
     -------
@@ -113,13 +116,13 @@ def motion_of(trace: Any) -> Motion:
     Raises
     ------
     ValueError
-        The trace holds no event and no sample.
+        If the trace has no event and no sample.
     """
     samples, events = trace.samples, trace.events
     time = np.concatenate([samples["time_s"], events["time_s"]])
     if not len(time):
         raise ValueError("the trace is empty: there is nothing to draw")
-    # events before the samples of the same instant, as the coin goes on from them
+    # events come before samples of the same instant
     rank = np.concatenate([np.ones(len(samples), int), np.zeros(len(events), int)])
     order = np.lexsort((rank, time))
     kind = np.concatenate([np.full(len(samples), "sample"), _names(events["kind"], _KINDS)])[order]
@@ -142,12 +145,12 @@ def motion_of(trace: Any) -> Motion:
 
 
 def _names(values: NDArray[Any], names: NDArray[np.str_]) -> NDArray[np.str_]:
-    """Codes in words; words stay."""
+    """Convert codes to names; keep names as they are."""
     return names[values] if np.issubdtype(values.dtype, np.integer) else values.astype(str)
 
 
 def _modes(kinds: NDArray[np.str_]) -> NDArray[np.str_]:
-    """Find the mode after each event and sample, from the events alone."""
+    """Return the mode after each event and sample, derived from the events."""
     mode, modes = "flight", []
     for kind in kinds.tolist():
         if kind in ("launched", "impact", "lift_off"):

@@ -1,4 +1,4 @@
-"""The outline of the coin as it is seen from afar, and its rims in space."""
+"""The rims of the coin in space, and the outline of the coin seen from a distance."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _POINTS = 36
 def rims(
     position_m: NDArray[np.float64], axis: NDArray[np.float64], radius_m: float, height_m: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Points on the rim of heads and of tails, each (36, 3), in m.
+    """Return points on the rims of heads and of tails, each (36, 3), in m.
 
     Examples
     --------
@@ -24,7 +24,7 @@ def rims(
     >>> set(heads[:, 2].tolist()), set(tails[:, 2].tolist())
     ({0.25}, {-0.25})
     """
-    # any direction that is not along the axis spans the face with it
+    # any direction not along the axis yields two vectors that span the face
     other = np.eye(3)[np.argmin(np.abs(axis))]
     first = np.cross(axis, other)
     first /= np.linalg.norm(first)
@@ -35,7 +35,7 @@ def rims(
 
 
 def hull(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Find the corners of the convex hull of points in a plane, anticlockwise (Andrew 1979).
+    """Return the corners of the convex hull of points in a plane, anticlockwise (Andrew 1979).
 
     Parameters
     ----------
@@ -66,5 +66,5 @@ def hull(points: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _turn(a: list[float], b: list[float], c: list[float]) -> float:
-    """Twice the area of the triangle: positive if the path turns left."""
+    """Return twice the signed area of the triangle: positive if the path turns left."""
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])

@@ -31,10 +31,10 @@ Table = Mapping[str, NDArray[Any]]
 
 # The closed forms of a coin that does not bounce, in the plane and in space.
 _NO_BOUNCE = {"arc", "zone"}
-# What the published scene of Unity looks like in the columns of a result.
+# The published Unity scene, as columns of a result.
 _UNITY_SCENE = {"radius_m": 0.5, "restitution": 0.3, "friction": 10.0, "linear_drag_per_s": 1.0}
-# More curves than this cannot be told apart.
-_MOST_CURVES = 21
+# More curves cannot be distinguished.
+_MAX_CURVES = 21
 _LINES = ["-", "--", "-.", ":"]
 
 
@@ -54,22 +54,22 @@ def probability(
     ----------
     result : table
         A result of `coinmc.run`, `coinmc.estimate` or `coinmc.open`, or any table
-        with the columns `x`, ``p_<face>``, ``p_<face>_lo`` and ``p_<face>_hi``. Every other
-        parameter that varies makes a curve of its own.
+        with the columns `x`, ``p_<face>``, ``p_<face>_lo`` and ``p_<face>_hi``. Each combination of
+        the other parameters that vary makes a curve.
     x : str
         Column of the horizontal axis.
     faces : str or iterable of str
-        Of ``heads``, ``tails`` and ``side``.
+        One or more of ``heads``, ``tails`` and ``side``.
     where : mapping of str to value, optional
-        Only rows with these values, as ``{"friction": 0.3}``.
+        Use only rows with these values, such as ``{"friction": 0.3}``.
     closed_forms : bool or iterable of str
-        Rules of `coinmc.analytic` to draw, by name; True: the one of the same kind of toss
-        without bounces. Drawn against the ratio only.
+        Names of the rules of `coinmc.analytic` to draw; True draws the rule for the same kind of
+        toss without bounces. Drawn only against the ratio.
     published : bool
-        Show what was published for the engine: fair ratios with their errors and, beside results of
-        that very scene, the counts of table 1 of arXiv 2401.03557. Against the ratio only.
+        Show published values: fair ratios with their errors and, for results of the same scene, the
+        counts of table 1 of arXiv 2401.03557. Drawn only against the ratio.
     ax : Axes, optional
-        Where to draw; a new figure if absent.
+        Axes to draw into; a new figure if absent.
 
     Returns
     -------
@@ -95,7 +95,7 @@ def probability(
     curves = _curves(table, x)
     for number, (name, curve) in enumerate(curves):
         for face in shown:
-            _curve(ax, curve, x, face, _look(number, face, len(shown)), _label(name, face, shown))
+            _curve(ax, curve, x, face, _style(number, face, len(shown)), _label(name, face, shown))
     span = (np.nanmin(table[x]), np.nanmax(table[x]))
     if x == "ratio":
         _closed_forms(ax, _rules(closed_forms, table), span, shown)
@@ -109,12 +109,12 @@ def probability(
 
 
 def _curves(table: Table, x: str) -> list[tuple[str, Table]]:
-    """Make a curve of each combination of the other parameters that vary, with its name."""
+    """Return name and rows of a curve for each combination of the other parameters that vary."""
     named = [name for name in ("engine", "law") if name in table]
     others = [name for name in [*parameters(table), *named] if name != x]
     varied = [name for name in others if len(np.unique(table[name])) > 1]
     combinations = list(dict.fromkeys(zip(*(table[name].tolist() for name in varied), strict=True)))
-    if len(combinations) > _MOST_CURVES:
+    if len(combinations) > _MAX_CURVES:
         raise ValueError(
             f"{len(combinations)} curves, one for each {', '.join(varied)}: choose some of them "
             f"with where={{{varied[0]!r}: …}}, or plot a heat map"
@@ -130,7 +130,7 @@ def _curves(table: Table, x: str) -> list[tuple[str, Table]]:
 
 
 def _short(name: str) -> str:
-    """Name a parameter in a legend, with what stands before its value."""
+    """Return the text before the value of a parameter in a legend."""
     symbols = {
         "restitution": "e = ",
         "friction": "μ = ",
@@ -150,8 +150,8 @@ def _label(name: str, face: str, shown: list[str]) -> str:
     return ", ".join(parts + ([name] if name else []))
 
 
-def _look(number: int, face: str, faces: int) -> dict[str, Any]:
-    """Several faces: a colour a face, a line a curve. One face: a colour and a marker a curve."""
+def _style(number: int, face: str, faces: int) -> dict[str, Any]:
+    """Style a curve: colours by face if there are several faces, else colours by curve."""
     if faces > 1:
         line = _LINES[number % len(_LINES)]
         return {"color": FACES[face], "marker": FACE_MARKERS[face], "linestyle": line}
@@ -160,19 +160,19 @@ def _look(number: int, face: str, faces: int) -> dict[str, Any]:
     return {"color": CYCLE[at], "marker": CYCLE_MARKERS[at], "linestyle": line}
 
 
-def _curve(ax: Axes, curve: Table, x: str, face: str, look: dict[str, Any], label: str) -> None:
+def _curve(ax: Axes, curve: Table, x: str, face: str, style: dict[str, Any], label: str) -> None:
     p, low, high = (curve[f"p_{face}{end}"] for end in ("", "_lo", "_hi"))
     ax.errorbar(
         curve[x],
         p,
-        # a closed form has no interval; rounding must not make an end negative
+        # a closed form has no interval; rounding must not make a bar negative
         yerr=np.nan_to_num(np.maximum([p - low, high - p], 0)),
         markersize=4,
         linewidth=1,
         elinewidth=1.2,
         capsize=2.5,
         label=label or None,
-        **look,
+        **style,
     )
 
 
@@ -225,13 +225,13 @@ def _is_unity_scene(table: Table) -> bool:
 
 
 def _unity(ax: Axes, span: tuple[float, float], shown: list[str]) -> None:
-    """Draw the published counts within the sweep, with 95 % intervals by Wilson."""
+    """Draw the published counts within the sweep, with Wilson's 95 % intervals."""
     counts = others.unity_table1()
     inside = (counts["ratio"] >= span[0]) & (counts["ratio"] <= span[1])
     for face in shown:
         count, tosses = counts[face][inside], counts["tosses"][inside]
-        seen = [wilson(int(k), 0, int(n), 0.95) for k, n in zip(count, tosses, strict=True)]
-        share, low, high = np.array(seen).reshape(-1, 3).T
+        intervals = [wilson(int(k), 0, int(n), 0.95) for k, n in zip(count, tosses, strict=True)]
+        share, low, high = np.array(intervals).reshape(-1, 3).T
         name = f"{others.SOURCE}, Unity"
         ax.errorbar(
             counts["ratio"][inside],

@@ -1,4 +1,4 @@
-"""Published data that results are set beside: what the folder ``data`` holds, with provenance."""
+"""Published data to compare with results, from the folder ``data``, with provenance."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 __all__ = ["SOURCE", "FairRatio", "fair_ratios", "provenance", "unity_table1"]
 
-#: Whose counts `unity_table1` gives.
+#: Source of the counts of `unity_table1`.
 SOURCE = "Gaek & Sukhov, arXiv 2401.03557"
 
 
@@ -25,7 +25,7 @@ class FairRatio:
     engine : str
         The engine that computes the same kind of toss.
     ratio, half_width : float
-        H/R and its error as stated.
+        H/R and its published error.
     source : str
         Authors, reference and model.
     """
@@ -42,7 +42,7 @@ def _rows(name: str) -> list[dict[str, str]]:
 
 
 def provenance() -> str:
-    """Where the data come from, under which terms, and what their columns mean (Markdown).
+    """Return sources, licences and columns of the data (Markdown).
 
     Examples
     --------
@@ -54,7 +54,7 @@ def provenance() -> str:
 
 
 def unity_table1() -> dict[str, NDArray[np.float64]]:
-    """Outcomes of the published Unity scene.
+    """Return the outcomes of the published Unity scene.
 
     Returns
     -------
@@ -76,7 +76,7 @@ def unity_table1() -> dict[str, NDArray[np.float64]]:
 
 
 def fair_ratios(engines: Iterable[str]) -> list[FairRatio]:
-    """Give what was published for the kinds of toss that these engines compute.
+    """Return the published fair ratios for the kinds of toss that these engines compute.
 
     Examples
     --------

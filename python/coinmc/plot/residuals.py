@@ -1,4 +1,4 @@
-"""What a fit to film leaves over."""
+"""Residuals of a fit to film."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from coinmc.plot.table import columns, need, select
 
 __all__ = ["residuals"]
 
-# Name, colour and marker of each coordinate: the same in every picture.
+# Name, colour and marker of each coordinate, the same in every plot.
 _COORDINATES = {
     coordinate: (name, CYCLE[number], CYCLE_MARKERS[number])
     for number, (coordinate, name) in enumerate({"x_m": "x", "z_m": "z", "theta_rad": "θ"}.items())
@@ -30,9 +30,9 @@ def residuals(
 ) -> Axes:
     """Plot residuals of a film fit in standard deviations against time.
 
-    A good fit scatters evenly about 0, nineteen of twenty points within the band of ± 2. A
-    coordinate that stays on one side for a while says that the law, the coin or the calibration is
-    not the film's.
+    The residuals of a good fit scatter evenly about 0, with 95 % of them within ± 2. A coordinate
+    that stays on one side for some time indicates that the law, the coin or the calibration does
+    not match the film.
 
     Parameters
     ----------
@@ -40,13 +40,13 @@ def residuals(
         A fit, or the table that ``coinmc film fit --residuals table.csv`` writes (columns
         ``time_s``, ``coordinate``, ``standardised``, ``drop`` and perhaps ``law``).
     coordinate : {"x_m", "z_m", "theta_rad"}, optional
-        Only this one.
+        Plot only this coordinate.
     law : str, optional
-        Which law's, if the table holds several; the first if absent.
+        The law to plot, if the table has several; the first if absent.
     reach : float
-        Of the vertical axis, standard deviations. What lies beyond is drawn at its edge.
+        Limit of the vertical axis, standard deviations. Residuals beyond it are drawn at the edge.
     ax : Axes, optional
-        Where to draw; a new figure if absent.
+        Axes to draw into; a new figure if absent.
 
     Returns
     -------
@@ -97,7 +97,7 @@ def residuals(
 
 
 def _since_first_frame(time: Any, drop: Any) -> Any:
-    """Reckon times from the first frame of each drop: drops lie over each other."""
+    """Return times since the first frame of each drop, so that drops overlap in the plot."""
     since = np.array(time, float)
     for number in np.unique(drop):
         rows = drop == number

@@ -1,4 +1,4 @@
-"""What a probability depends on."""
+"""How a probability depends on parameters."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ __all__ = ["sensitivity"]
 
 
 def sensitivity(table: Any, face: str = "side", *, ax: Axes | None = None) -> Axes:
-    """Show how much P(face) changes with each parameter, with intervals, longest first.
+    """Plot how much P(face) changes with each parameter, with intervals, largest first.
 
     Parameters
     ----------
     table : table
-        As `coinmc.sensitivity` gives it: columns ``parameter``, ``d_p_<face>``,
-        ``d_p_<face>_lo`` and ``d_p_<face>_hi``.
+        A result of `coinmc.sensitivity`, or any table with the columns ``parameter``,
+        ``d_p_<face>``, ``d_p_<face>_lo`` and ``d_p_<face>_hi``.
     face : str
         ``heads``, ``tails`` or ``side``.
     ax : Axes, optional
-        Where to draw; a new figure if absent.
+        Axes to draw into; a new figure if absent.
 
     Returns
     -------
@@ -32,8 +32,8 @@ def sensitivity(table: Any, face: str = "side", *, ax: Axes | None = None) -> Ax
 
     Notes
     -----
-    A bar is dP/d ln(parameter): a hundredth of it is what P gains when the parameter grows by one
-    per cent.
+    A bar is dP/d ln(parameter): P changes by a hundredth of it when the parameter grows by one per
+    cent.
 
     Examples
     --------
@@ -48,7 +48,7 @@ def sensitivity(table: Any, face: str = "side", *, ax: Axes | None = None) -> Ax
     (face,) = face_list(face)
     names = ("parameter", *(f"d_p_{face}{end}" for end in ("", "_lo", "_hi")))
     parameter, value, low, high = need(columns(table), names)
-    # the longest on top; horizontal bars count from below
+    # horizontal bars count from the bottom: the largest goes last, to the top
     order = np.argsort(np.abs(value), kind="stable")
     value, low, high = value[order], low[order], high[order]
     ax = axes_for(ax)

@@ -1,8 +1,8 @@
-"""Colours, markers and labels, defined once, and the axes that a plot goes to.
+"""Colours, markers and labels of all plots, and the axes that a plot is drawn into.
 
-The colours are Okabe & Ito's, told apart by colour-blind eyes too, and dark enough for paper, light
-enough for a dark screen. Faces also differ by marker. What is neither data nor text is mid-grey;
-text and frames are left to matplotlib's settings, so that a dark style stays dark.
+The colours are those of Okabe & Ito, which colour-blind readers can distinguish and which suit
+light and dark backgrounds. Faces also differ by marker. Everything but data and text is mid-grey;
+text and frames follow matplotlib's settings, so that dark styles work.
 """
 
 from __future__ import annotations
@@ -25,20 +25,20 @@ __all__ = [
 
 #: Colour of each face, in the order of every table.
 FACES = {"heads": "#0072B2", "tails": "#D55E00", "side": "#009E73"}
-#: Marker of each face: the shape tells what the colour tells.
+#: Marker of each face, to distinguish faces without colour.
 FACE_MARKERS = {"heads": "o", "tails": "s", "side": "^"}
 #: Colour of tosses without a face.
 UNDECIDED = "#BBBBBB"
-#: Colour of each way of moving.
+#: Colour of each mode of motion.
 MODES = {"flight": "#56B4E9", "sticking": "#009E73", "sliding": "#E69F00", "ended": "#999999"}
 #: Reference lines, bands, the ground: readable on white and on black.
 NEUTRAL = "#808080"
-#: Colours of curves that are no faces.
+#: Colours of curves that do not stand for a face.
 CYCLE = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#999999"]
-#: Markers of curves that are no faces.
+#: Markers of curves that do not stand for a face.
 CYCLE_MARKERS = ["o", "s", "^", "D", "v", "P", "X"]
 
-# Longest first: the first suffix that fits is the unit.
+# Longest first: the first suffix that matches gives the unit.
 _UNITS = {
     "_per_cpu_s": "1/s",
     "_per_s": "1/s",
@@ -72,12 +72,12 @@ _NAMES = {
 
 
 def axis_label(name: str) -> str:
-    """Label an axis that shows a column: its name in words, and its unit.
+    """Return the label of an axis: the name of the column in words, and its unit.
 
     Parameters
     ----------
     name : str
-        Name of a column or of a parameter; its last part says the unit (``_m_s``: m/s).
+        Name of a column or parameter; its suffix gives the unit (``_m_s``: m/s).
 
     Returns
     -------
@@ -87,7 +87,7 @@ def axis_label(name: str) -> str:
     --------
     >>> from coinmc.plot.style import axis_label
     >>> axis_label("ratio"), axis_label("rolling_friction_m"), axis_label("jams")
-    ('H/R, height over radius', 'contour, m', 'jams')
+    ('H/R, height over radius', 'rolling friction, m', 'jams')
     """
     name = name.rpartition(".")[2]
     if name in _NAMES:
@@ -99,7 +99,7 @@ def axis_label(name: str) -> str:
 
 
 def face_list(faces: str | Iterable[str]) -> list[str]:
-    """One face or several, checked.
+    """Check the names of one or more faces and return them as a list.
 
     Parameters
     ----------
@@ -113,13 +113,13 @@ def face_list(faces: str | Iterable[str]) -> list[str]:
     Raises
     ------
     ValueError
-        A face has another name, or there is none.
+        If a name is unknown, or there is none.
     """
     listed = [faces] if isinstance(faces, str) else [str(face) for face in faces]
     unknown = [face for face in listed if face not in FACES]
     if unknown or not listed:
         raise ValueError(
-            f"no face is called {', '.join(unknown) or 'nothing'}: use {', '.join(FACES)}"
+            f"unknown face {', '.join(unknown) or '(none given)'}: use {', '.join(FACES)}"
         )
     return listed
 
@@ -127,10 +127,9 @@ def face_list(faces: str | Iterable[str]) -> list[str]:
 def axes_for(
     ax: Axes | None, *, space: bool = False, size: tuple[float, float] = (6.4, 4.2)
 ) -> Any:
-    """Give the axes given, or those of a new figure.
+    """Return the given axes, or those of a new figure.
 
-    Only a new figure touches pyplot: it is then shown by notebooks and by ``pyplot.show()`` as any
-    other, while plots into given axes need no pyplot at all.
+    Only new figures use pyplot, so that notebooks and ``pyplot.show()`` display them.
     """
     if ax is None:
         from matplotlib import pyplot
@@ -139,6 +138,6 @@ def axes_for(
         return pyplot.subplots(figsize=size, layout="constrained", subplot_kw=settings)[1]
     if space and ax.name != "3d":
         raise ValueError(
-            'a picture in space needs axes in space: figure.add_subplot(projection="3d")'
+            'the view in space needs 3-D axes: figure.add_subplot(projection="3d")'
         )
     return ax

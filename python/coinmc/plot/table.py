@@ -1,4 +1,4 @@
-"""What plots take for a table: named columns, from whatever holds them."""
+"""Tables for plots: named columns read from various sources."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 
 __all__ = ["columns", "need", "parameters", "select"]
 
-# Columns of results that are no parameter, although they come before the counts.
-_NO_PARAMETER = ("point",)
+# Columns of results before the counts that are not parameters.
+_NOT_PARAMETERS = ("point",)
 
 
 def columns(source: Any) -> dict[str, NDArray[Any]]:
-    """Give the columns of a table, by name.
+    """Return the columns of a table, by name.
 
     Parameters
     ----------
@@ -29,14 +29,14 @@ def columns(source: Any) -> dict[str, NDArray[Any]]:
     Returns
     -------
     dict of str to ndarray
-        All of one length. Cells that are empty in a CSV column of numbers are NaN.
+        Columns of equal length. Empty cells in a CSV column of numbers are NaN.
 
     Raises
     ------
     TypeError
-        It is none of these.
+        If the source is none of these.
     ValueError
-        The columns have different lengths.
+        If the columns have different lengths.
 
     Examples
     --------
@@ -47,7 +47,7 @@ def columns(source: Any) -> dict[str, NDArray[Any]]:
     found = _columns(source)
     lengths = {len(column) for column in found.values()}
     if len(lengths) > 1:
-        raise ValueError(f"the columns of a table must have one length, found {sorted(lengths)}")
+        raise ValueError(f"columns of a table must have equal lengths, found {sorted(lengths)}")
     return found
 
 
@@ -67,7 +67,7 @@ def _columns(source: Any) -> dict[str, NDArray[Any]]:
         table = pyarrow.table(source)
         return {name: table[name].to_numpy() for name in table.column_names}
     raise TypeError(
-        f"{type(source).__name__} is no table: give a result, a mapping of names to arrays, a "
+        f"{type(source).__name__} is not a table: give a result, a mapping of names to arrays, a "
         "structured array, an Arrow table or the path of a CSV file"
     )
 
@@ -76,16 +76,16 @@ def _read_csv(path: str | os.PathLike[str]) -> dict[str, NDArray[Any]]:
     with open(path, newline="", encoding="utf-8") as file:
         rows = list(csv.reader(file))
     if not rows:
-        raise ValueError(f"{os.fspath(path)}: no line with the names of the columns")
+        raise ValueError(f"{os.fspath(path)}: no header line")
     names, cells = rows[0], rows[1:]
     ragged = [number for number, row in enumerate(cells, 2) if len(row) != len(names)]
     if ragged:
-        raise ValueError(f"{os.fspath(path)}: line {ragged[0]} has not {len(names)} cells")
+        raise ValueError(f"{os.fspath(path)}: line {ragged[0]} does not have {len(names)} cells")
     return {name: _numbers([row[at] for row in cells]) for at, name in enumerate(names)}
 
 
 def _numbers(cells: list[str]) -> NDArray[Any]:
-    """Numbers if all cells are, else text."""
+    """Return numbers if all cells are numbers or empty, else text."""
     try:
         return np.array([float(cell) if cell else np.nan for cell in cells])
     except ValueError:
@@ -93,12 +93,12 @@ def _numbers(cells: list[str]) -> NDArray[Any]:
 
 
 def need(table: Mapping[str, NDArray[Any]], names: Iterable[str]) -> list[NDArray[Any]]:
-    """Give the columns of these names, in order.
+    """Return the columns with these names, in order.
 
     Raises
     ------
     ValueError
-        One is missing; the message names those that there are.
+        If one is missing; the message lists the columns of the table.
     """
     names = list(names)
     missing = [name for name in names if name not in table]
@@ -108,14 +108,14 @@ def need(table: Mapping[str, NDArray[Any]], names: Iterable[str]) -> list[NDArra
 
 
 def parameters(table: Mapping[str, NDArray[Any]]) -> list[str]:
-    """Names of the columns that say what was tossed: in results, those before ``engine``."""
+    """Return the names of the columns of parameters: in results, those before ``engine``."""
     names = list(table)
     if "engine" in names:
         names = names[: names.index("engine")]
     return [
         name
         for name in names
-        if name not in _NO_PARAMETER
+        if name not in _NOT_PARAMETERS
         and not name.startswith("p_")
         and np.issubdtype(table[name].dtype, np.number)
     ]
@@ -124,12 +124,12 @@ def parameters(table: Mapping[str, NDArray[Any]]) -> list[str]:
 def select(
     table: Mapping[str, NDArray[Any]], where: Mapping[str, Any] | None
 ) -> dict[str, NDArray[Any]]:
-    """Keep the rows with these values; numbers may differ by rounding.
+    """Return the rows with these values; numbers may differ by rounding.
 
     Raises
     ------
     ValueError
-        No such column, or no row with that value.
+        If there is no such column, or no row with that value.
     """
     kept = dict(table)
     for name, value in (where or {}).items():
@@ -138,6 +138,6 @@ def select(
         rows = np.isclose(column, value, rtol=1e-9, atol=0) if number else column == value
         if not rows.any():
             there = ", ".join(str(item) for item in np.unique(column)[:12])
-            raise ValueError(f"no row has {name} = {value}; there are {there}")
+            raise ValueError(f"no row has {name} = {value}; values: {there}")
         kept = {key: held[rows] for key, held in kept.items()}
     return kept

@@ -1,4 +1,4 @@
-"""Heads, tails and side in one picture."""
+"""The probabilities of heads, tails and side in one triangle."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ def ternary(
 ) -> Axes:
     """Draw the probabilities of the three faces in a triangle, with their intervals.
 
-    A corner is a face with probability 1, the star a coin that is three-way fair. Around each point
-    lies the region in which all three intervals hold.
+    A corner is a face with probability 1, the star a three-way fair coin. Around each point lies
+    the region in which all three probabilities are within their intervals.
 
     Parameters
     ----------
@@ -38,12 +38,12 @@ def ternary(
         A result, or any table with the columns ``p_<face>``, ``p_<face>_lo`` and ``p_<face>_hi`` of
         the three faces.
     where : mapping of str to value, optional
-        Only rows with these values.
+        Use only rows with these values.
     along : str, optional
-        The points are joined along this column and its values written beside them; by default the
-        one parameter that varies, if it is the only one.
+        Column along which the points are joined, and whose values are written beside them; by
+        default the parameter that varies, if there is only one.
     ax : Axes, optional
-        Where to draw; a new figure if absent.
+        Axes to draw into; a new figure if absent.
 
     Returns
     -------
@@ -51,8 +51,8 @@ def ternary(
 
     Notes
     -----
-    Intervals of 95 % hold all three probabilities at once with 85 % at least (Bonferroni). Tosses
-    without a face belong to no corner: points are where the shares of the decided ones put them.
+    Three intervals of 95 % hold jointly with at least 85 % (Bonferroni). Undecided tosses belong to
+    no corner: the positions of the points use the fractions of the decided tosses.
 
     Examples
     --------
@@ -95,7 +95,7 @@ def _only_varied(table: Mapping[str, NDArray[Any]]) -> str | None:
 
 
 def _name_points(ax: Axes, points: NDArray[Any], values: NDArray[Any], along: str) -> None:
-    """Write first and last value and some between, and say what they are."""
+    """Write the first, the last and some intermediate values, and name them in the title."""
     for at in np.unique(np.linspace(0, len(values) - 1, 6).round().astype(int)):
         ax.annotate(
             f"{values[at]:g}",
@@ -135,9 +135,9 @@ def _frame(ax: Axes) -> None:
 
 
 def _region(low: NDArray[np.float64], high: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Corners of the part of the triangle in which every probability lies in its interval.
+    """Return the corners of the region in which every probability lies in its interval.
 
-    The triangle, cut by one half plane after the other (Sutherland & Hodgman 1974), in barycentric
+    The triangle is cut by successive half planes (Sutherland & Hodgman 1974), in barycentric
     coordinates.
     """
     corners = np.eye(3)
@@ -148,7 +148,7 @@ def _region(low: NDArray[np.float64], high: NDArray[np.float64]) -> NDArray[np.f
 
 
 def _cut(corners: NDArray[np.float64], inside: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Keep the polygon's part where a linear function, `inside` at its corners, is not negative."""
+    """Return the part of a polygon where a linear function, given at its corners, is >= 0."""
     kept = []
     for at in range(len(corners)):
         here, before = inside[at], inside[at - 1]
