@@ -89,7 +89,7 @@ def toss(
     first: int,
     rows: NDArray[np.float64] | None,
     face: NDArray[np.uint8],
-    beside: tuple[NDArray[np.uint8], NDArray[np.uint32], NDArray[np.float64], NDArray[np.float64]]
+    details: tuple[NDArray[np.uint8], NDArray[np.uint32], NDArray[np.float64], NDArray[np.float64]]
     | None = None,
     threads: int | None = None,
     progress: _Progress = None,

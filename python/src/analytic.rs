@@ -24,7 +24,7 @@ enum Form {
 }
 
 impl Form {
-    /// The form of a name; of a rule with what is wanted in front, as in `side:arc`.
+    /// The form with this name; for a rule, prefixed with the quantity, as in `side:arc`.
     fn named(name: &str) -> Option<Self> {
         if let Some((what, rule)) = name.split_once(':') {
             let rule: Rule = rule.parse().ok()?;
@@ -85,7 +85,7 @@ impl Form {
     }
 }
 
-/// An edge of Keller's band of `turns`; NaN unless that is a whole number.
+/// An edge of Keller's band after `turns` turns; NaN unless `turns` is a whole number.
 fn band(turns: f64, speed_m_s: f64, gravity_m_s2: f64, edge: fn(HeadsBand) -> f64) -> f64 {
     if !(0.0..=f64::from(u32::MAX)).contains(&turns) || turns.trunc() != turns {
         return f64::NAN;
@@ -96,7 +96,7 @@ fn band(turns: f64, speed_m_s: f64, gravity_m_s2: f64, edge: fn(HeadsBand) -> f6
     edge(HeadsBand::after_turns(turns, speed_m_s, gravity_m_s2))
 }
 
-/// Fills `out` with a closed form of arguments that are as long.
+/// Fills `out` with a closed form of arguments of the same length.
 #[pyfunction]
 pub(crate) fn closed_form(
     py: Python<'_>,

@@ -1,46 +1,46 @@
-//! What is known of tosses, column by column, in arrays that Python made.
+//! Columns of tosses in arrays allocated by Python.
 
 use crate::launch::{ROW, write_state};
-use crate::share::Stretch;
-use coinmc::run::Seen;
+use crate::share::Splittable;
+use coinmc::run::FinishedToss;
 use coinmc_core::{Face, Outcome};
 use coinmc_trace::EndKind;
 
-/// Code of a toss without a face, behind those of [`Face::ALL`].
+/// Code of a toss without a face, after those of [`Face::ALL`].
 const UNDECIDED: u8 = 3;
 
-/// What is filled, for the tosses of a stretch.
+/// The columns to fill, for a range of tosses.
 #[derive(Default)]
 pub(crate) struct Columns<'a> {
     pub(crate) face: &'a mut [u8],
-    pub(crate) rest: Option<Rest<'a>>,
+    pub(crate) details: Option<Details<'a>>,
 }
 
-/// All that is kept of a toss beside its face.
-pub(crate) struct Rest<'a> {
+/// The columns besides the face.
+pub(crate) struct Details<'a> {
     pub(crate) ended: &'a mut [u8],
     pub(crate) impacts: &'a mut [u32],
     pub(crate) time_s: &'a mut [f64],
     pub(crate) last: &'a mut [f64],
 }
 
-impl Stretch for Columns<'_> {
-    fn places(&self) -> usize {
+impl Splittable for Columns<'_> {
+    fn len(&self) -> usize {
         self.face.len()
     }
 
     fn split(self, n: usize) -> (Self, Self) {
         let (face, later) = self.face.split_at_mut(n);
-        let (rest, after) = self.rest.map(|rest| rest.split(n)).unzip();
+        let (details, after) = self.details.map(|details| details.split(n)).unzip();
         let later = Self {
             face: later,
-            rest: after,
+            details: after,
         };
-        (Self { face, rest }, later)
+        (Self { face, details }, later)
     }
 }
 
-impl Rest<'_> {
+impl Details<'_> {
     fn split(self, n: usize) -> (Self, Self) {
         let (ended, later_ended) = self.ended.split_at_mut(n);
         let (impacts, later_impacts) = self.impacts.split_at_mut(n);
@@ -62,26 +62,26 @@ impl Rest<'_> {
     }
 
     /// Whether all columns have `n` tosses.
-    pub(crate) fn is_of(&self, n: usize) -> bool {
+    pub(crate) fn has_len(&self, n: usize) -> bool {
         let lengths = [self.ended.len(), self.impacts.len(), self.time_s.len()];
         lengths == [n; 3] && self.last.len() == n * ROW
     }
 
-    /// Writes a toss into place `i`; `from` is where the coin was let go.
-    pub(crate) fn write(&mut self, i: usize, seen: &Seen, from: [f64; 2]) {
-        self.ended[i] = end_code(&seen.outcome);
-        self.impacts[i] = seen.outcome.impacts;
-        self.time_s[i] = seen.end.time_s;
-        write_state(&seen.end, from, &mut self.last[i * ROW..(i + 1) * ROW]);
+    /// Writes a toss to index `i`; `from` is the horizontal position of the launch.
+    pub(crate) fn write(&mut self, i: usize, toss: &FinishedToss, from: [f64; 2]) {
+        self.ended[i] = end_code(&toss.outcome);
+        self.impacts[i] = toss.outcome.impacts;
+        self.time_s[i] = toss.end.time_s;
+        write_state(&toss.end, from, &mut self.last[i * ROW..(i + 1) * ROW]);
     }
 }
 
-/// Rows of launches that are drawn.
+/// Rows to fill with drawn launches.
 #[derive(Default)]
 pub(crate) struct Rows<'a>(pub(crate) &'a mut [f64]);
 
-impl Stretch for Rows<'_> {
-    fn places(&self) -> usize {
+impl Splittable for Rows<'_> {
+    fn len(&self) -> usize {
         self.0.len() / ROW
     }
 
@@ -91,7 +91,7 @@ impl Stretch for Rows<'_> {
     }
 }
 
-/// The code of what shows.
+/// The code of the face.
 pub(crate) fn face_code(outcome: &Outcome) -> u8 {
     match outcome.face() {
         Some(Face::Heads) => 0,

@@ -1,4 +1,4 @@
-//! Rust's errors as the exceptions of the Python part.
+//! Conversion of Rust errors to the exceptions of the Python package.
 
 use coinmc::config::Diagnostics;
 use coinmc::run::RunError;
@@ -8,7 +8,7 @@ use pyo3::PyErr;
 use pyo3::exceptions::PyValueError;
 
 mod python {
-    #![allow(missing_docs)] // described where they are defined, in Python
+    #![allow(missing_docs)] // documented in Python
 
     pyo3::import_exception!(coinmc._errors, ConfigError);
     pyo3::import_exception!(coinmc._errors, RunError);
@@ -19,7 +19,7 @@ mod python {
 /// A problem: source, line, column, message, help.
 type Problem = (String, usize, usize, String, Option<String>);
 
-/// The command line's message, with carets, and the problems one by one.
+/// The message of the command line, with carets, and the list of problems.
 pub(crate) fn config(found: &Diagnostics) -> PyErr {
     let problems = found.problems().iter().map(|problem| -> Problem {
         let (message, help) = (problem.message.clone(), problem.help.clone());
@@ -30,7 +30,7 @@ pub(crate) fn config(found: &Diagnostics) -> PyErr {
     python::ConfigError::new_err((found.render(false), problems))
 }
 
-/// The same of a film.
+/// The same for the text of a film.
 pub(crate) fn footage(found: &FilmDiagnostics) -> PyErr {
     let problems = found.problems().iter().map(|problem| -> Problem {
         let (message, help) = (problem.message.clone(), problem.help.clone());
@@ -41,7 +41,7 @@ pub(crate) fn footage(found: &FilmDiagnostics) -> PyErr {
     python::FilmError::new_err((found.render(false), problems))
 }
 
-/// What does not allow a fit.
+/// Why drops cannot be fitted.
 pub(crate) fn film(error: impl ToString) -> PyErr {
     python::FilmError::new_err((error.to_string(), Vec::<Problem>::new()))
 }
@@ -56,12 +56,12 @@ pub(crate) fn trace(error: &TraceError) -> PyErr {
     python::TraceError::new_err(error.to_string())
 }
 
-/// Something that was given is out of range.
+/// An argument is invalid.
 pub(crate) fn value(error: impl ToString) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 
-/// What is no override.
+/// An override is malformed.
 pub(crate) fn overriding(error: impl ToString) -> PyErr {
     python::ConfigError::new_err((error.to_string(), Vec::<Problem>::new()))
 }

@@ -1,4 +1,4 @@
-//! Drops on film: Tracker's text read, laws of impact fitted.
+//! Drops on film: reading Tracker exports and fitting laws of impact.
 
 use crate::errors;
 use crate::plan::Plan;
@@ -14,10 +14,10 @@ use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
-/// What the reader is told of a file.
+/// What the reader needs to know about a file.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
-struct Told {
+struct ReaderOptions {
     x: Option<String>,
     y: Option<String>,
     angle: Option<String>,
@@ -27,7 +27,7 @@ struct Told {
     angle_of: String,
 }
 
-/// Reads a text that Tracker exported.
+/// Reads a text exported by Tracker.
 #[pyfunction]
 pub(crate) fn read_film<'py>(
     py: Python<'py>,
@@ -35,15 +35,15 @@ pub(crate) fn read_film<'py>(
     bytes: &[u8],
     options: &Bound<'py, PyDict>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let told: Told = options.extract()?;
+    let options: ReaderOptions = options.extract()?;
     let choice = Choice {
-        x: told.x,
-        y: told.y,
-        angle: told.angle,
-        ends: told.ends,
-        length_m: told.length_m,
-        angle_rad: told.angle_rad,
-        angle_of: match told.angle_of.as_str() {
+        x: options.x,
+        y: options.y,
+        angle: options.angle,
+        ends: options.ends,
+        length_m: options.length_m,
+        angle_rad: options.angle_rad,
+        angle_of: match options.angle_of.as_str() {
             "face" => AngleOf::Face,
             "axis" => AngleOf::Axis,
             "tilt" => AngleOf::Tilt,
@@ -67,17 +67,17 @@ pub(crate) fn read_film<'py>(
     Ok(dict)
 }
 
-/// A drop from Python: its name, times and what was seen.
+/// A drop from Python: its name, times and observed coordinates.
 type Drop<'py> = (
     String,
     PyReadonlyArray1<'py, f64>,
     PyReadonlyArray2<'py, f64>,
 );
 
-/// What a fit is asked to do. What is not given comes from the config, else it is as usual.
+/// The options of a fit. Absent ones come from the config, or have their defaults without one.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
-struct Asked {
+struct FitRequest {
     ratio: Option<f64>,
     radius_m: Option<f64>,
     gravity_m_s2: Option<f64>,
@@ -92,8 +92,8 @@ struct Asked {
     confidence: f64,
 }
 
-/// Fits laws to drops: one dict a law, the best by AIC first. The first point of a config says coin,
-/// surface, gravity, and the numbers of its own law.
+/// Fits laws to drops: one dict per law, the best by AIC first. The first point of a config gives the
+/// coin, the surface, gravity, and the parameters of its own law.
 #[pyfunction]
 #[pyo3(signature = (drops, options, config=None))]
 pub(crate) fn fit_film<'py>(
@@ -104,9 +104,9 @@ pub(crate) fn fit_film<'py>(
 ) -> PyResult<Bound<'py, PyList>> {
     let drops = drops.iter().map(filmed).collect::<PyResult<Vec<_>>>()?;
     let point = config.map(|plan| plan.point(0)).transpose()?;
-    let asked: Asked = options.extract()?;
-    let models = asked.models(point)?;
-    let options = asked.options(point)?;
+    let request: FitRequest = options.extract()?;
+    let models = request.models(point)?;
+    let options = request.options(point)?;
     let fits = wait_for(py, move || fit_all(&models, &drops, &options))?;
     let fits = fits.map_err(errors::film)?;
     let made = compare(&fits)
@@ -119,7 +119,7 @@ pub(crate) fn fit_film<'py>(
 fn filmed((name, time, seen): &Drop<'_>) -> PyResult<FilmedDrop> {
     let (time, seen) = (time.as_slice()?, seen.as_slice()?);
     if seen.len() != 3 * time.len() {
-        return Err(errors::value("a drop has three coordinates a frame"));
+        return Err(errors::value("a drop has three coordinates per frame"));
     }
     let frames = time.iter().zip(seen.chunks_exact(3));
     let frames = frames.map(|(&time_s, seen)| Frame {
@@ -132,7 +132,7 @@ fn filmed((name, time, seen): &Drop<'_>) -> PyResult<FilmedDrop> {
     })
 }
 
-impl Asked {
+impl FitRequest {
     fn models(&self, point: Option<&Point>) -> PyResult<Vec<Model>> {
         let coin = self.coin(point)?;
         let configured = point.map_or(Scene::STANDARD_GRAVITY_M_S2, |p| p.scene.gravity_m_s2());
@@ -161,7 +161,7 @@ impl Asked {
             (Some(ratio), Some(radius_m), None) => (ratio, radius_m),
             _ => {
                 return Err(errors::value(
-                    "say what was dropped: a config, or ratio and radius_m",
+                    "say what was dropped: give a config, or ratio and radius_m",
                 ));
             }
         };
@@ -207,7 +207,7 @@ impl Asked {
     }
 }
 
-/// The law of a name: one that its name tells, or the config's own.
+/// The law with this name: one without parameters, or that of the config.
 fn law(name: &str, point: Option<&Point>) -> PyResult<Law> {
     if let Some(settings) = point.and_then(|point| point.engine.settings::<Settings>())
         && settings.law.name() == name
@@ -217,8 +217,8 @@ fn law(name: &str, point: Option<&Point>) -> PyResult<Law> {
     named(name, &Law::RIGID, Law::name, "law").map_err(|_| {
         let names = Law::RIGID.map(Law::name).join(", ");
         errors::value(format!(
-            "there is no law {name:?} here; there are {names}, and that of the config given, \
-             engine.flat.law, with its numbers"
+            "there is no law {name:?} here; choose from {names}, or give a config with this law as \
+             engine.flat.law"
         ))
     })
 }
@@ -288,7 +288,7 @@ fn as_dict<'py>(py: Python<'py>, fit: &Fit, ranked: &Ranked) -> PyResult<Bound<'
     Ok(dict)
 }
 
-/// Drop, frame and coordinate by number; time, seen, residual and standardised by value.
+/// The residuals as columns; drop, frame and coordinate are indices.
 fn residuals<'py>(py: Python<'py>, fit: &Fit) -> PyResult<Bound<'py, PyDict>> {
     let all = &fit.residuals;
     let dict = PyDict::new(py);

@@ -1,9 +1,9 @@
-//! Intervals of proportions, as results have them.
+//! Intervals of proportions, as in results.
 
 use coinmc_core::{Estimate, IntervalMethod};
 use pyo3::prelude::*;
 
-/// The share of `successes` in `n` tosses of which `undecided` have no face, and both ends of
+/// The fraction of `successes` in `n` tosses, `undecided` of them without a face, and both ends of
 /// Wilson's interval.
 #[pyfunction]
 pub(crate) fn wilson(successes: u64, undecided: u64, n: u64, confidence: f64) -> (f64, f64, f64) {

@@ -1,4 +1,4 @@
-//! Launches as rows of twelve numbers: what the structured arrays of the Python part are made of.
+//! Launches as rows of twelve numbers, the layout of the structured arrays in Python.
 
 use coinmc::engines::EngineKind;
 use coinmc::plan::Point;
@@ -8,18 +8,18 @@ use nalgebra::{UnitVector3, Vector3};
 /// Numbers of a row: position, velocity, axis, spin, each x, y, z.
 pub(crate) const ROW: usize = 12;
 
-/// An axis this close to unit length is taken as it is, so that launches handed out come back the
-/// same to the bit.
+/// An axis this close to unit length is not normalized, so that launches drawn for the user are
+/// bit-identical when they are tossed.
 const UNIT: f64 = 1e-12;
 
-/// A motion out of the plane, against what is in it, that is taken for rounding.
+/// Relative motion out of the plane that is treated as a rounding error.
 const PLANAR: f64 = 1e-9;
 
-/// What is wrong with a row, in words that follow its number.
+/// What is wrong with a row; the message begins with the number of the row.
 pub(crate) type Fault = &'static str;
 
-/// Checks the launch of a row for a point's engine. What is not finite passes, except in the axis:
-/// the engine counts it as failed.
+/// Checks that the engine of a point can toss the launch of a row. Numbers other than the axis may be
+/// infinite or NaN: the engine counts such a toss as failed.
 pub(crate) fn check(point: &Point, row: &[f64]) -> Result<(), Fault> {
     let axis = vector(row, 2);
     let norm = axis.norm();
@@ -34,7 +34,7 @@ pub(crate) fn check(point: &Point, row: &[f64]) -> Result<(), Fault> {
 
 fn is_planar(row: &[f64], norm: f64) -> bool {
     let (velocity, spin) = (vector(row, 1), vector(row, 3));
-    // written so that what is not finite passes
+    // NaN and infinity pass
     let is_out = |part: f64, whole: f64| part.abs() > PLANAR * whole;
     !(is_out(row[7], norm)
         || is_out(velocity.y, velocity.norm())
@@ -42,7 +42,7 @@ fn is_planar(row: &[f64], norm: f64) -> bool {
         || is_out(spin.z, spin.norm()))
 }
 
-/// The launch of a row that [`check`] let pass.
+/// The launch of a row that passed [`check`].
 pub(crate) fn launch(row: &[f64]) -> Launch {
     let axis = vector(row, 2);
     Launch {
@@ -65,7 +65,7 @@ pub(crate) fn write_launch(launch: &Launch, row: &mut [f64]) {
     row[9..].copy_from_slice(launch.spin_rad_s.as_slice());
 }
 
-/// Writes a state into a row; `from` is where the coin was let go, which no engine looks at.
+/// Writes a state into a row; `from` is the horizontal position of the launch, which engines ignore.
 pub(crate) fn write_state(state: &State, from: [f64; 2], row: &mut [f64]) {
     row[..3].copy_from_slice(state.position_m.as_slice());
     row[0] += from[0];

@@ -1,13 +1,13 @@
-//! The Rust part of the Python package `coinmc`: thin, typed functions over arrays that the Python
-//! part makes and owns. Whoever uses coinmc from Python meets the Python part alone.
+//! The Rust part of the Python package `coinmc`: thin, typed functions over arrays that are allocated
+//! and owned by Python. They are private: users call the Python part.
 //!
 //! # Files
-//! `plan` configs · `supervise` long work, signals and progress · `share` threads · `launch` rows of
-//! numbers and launches · `columns` and `toss` tosses one by one · `run` estimates and runs ·
-//! `results` tables, also as Arrow · `interval` of proportions · `trace` one toss watched · `analytic` closed forms · `film`
-//! drops on film · `errors` exceptions.
+//! `plan` configs · `supervise` long work, signals and progress · `share` threads · `launch` launches as
+//! rows of numbers · `columns` and `toss` individual tosses · `run` estimates and runs · `results`
+//! tables, also as Arrow · `interval` intervals of proportions · `trace` recorded motion of a toss ·
+//! `analytic` closed forms · `film` drops on film · `errors` exceptions.
 
-// Arguments come converted from Python, and are owned.
+// Arguments converted from Python are owned.
 #![allow(clippy::needless_pass_by_value)]
 
 mod analytic;

@@ -1,4 +1,4 @@
-//! Configs, read and planned.
+//! Configs and their plans.
 
 use crate::errors;
 use coinmc::config::{self, Override};
@@ -8,11 +8,11 @@ use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// A config as understood.
+/// A checked config.
 #[pyclass(frozen, module = "coinmc._lib")]
 pub(crate) struct Plan(pub(crate) Arc<Planned>);
 
-/// What a point tosses and where: ratio, radius, height, mass, gravity.
+/// The coin and gravity at a point: ratio, radius, height, mass, gravity.
 type Scene = (f64, f64, f64, f64, f64);
 
 #[pymethods]
@@ -24,7 +24,7 @@ impl Plan {
         plan.map(Self::from).map_err(|found| errors::config(&found))
     }
 
-    /// Reads a text that messages call `name`.
+    /// Reads a text; `name` is its name in messages.
     #[staticmethod]
     fn parse(name: &str, text: &str, overrides: Vec<String>) -> PyResult<Self> {
         let plan = config::parse(name, text, &parsed(&overrides)?);
@@ -76,7 +76,7 @@ impl Plan {
         self.0.interval.name()
     }
 
-    /// The half width that ends a point, if one does.
+    /// The half width at which a point stops, if there is one.
     #[getter]
     fn half_width(&self) -> Option<f64> {
         match self.0.stop {
@@ -85,7 +85,7 @@ impl Plan {
         }
     }
 
-    /// Tosses of a point, at most.
+    /// Largest number of tosses of a point.
     #[getter]
     fn tosses(&self) -> u64 {
         match self.0.stop {
@@ -134,7 +134,7 @@ impl Plan {
         ))
     }
 
-    /// Points treated alike, what is computed for them, and what is skipped and why.
+    /// For each group of points: their number, what is computed, and what is skipped and why.
     fn explain(&self) -> Vec<(usize, String, Vec<String>)> {
         let groups = self.0.explain().into_iter();
         groups
@@ -150,7 +150,7 @@ impl From<Planned> for Plan {
 }
 
 impl Plan {
-    /// A point that there is.
+    /// The point with this index, or an `IndexError`.
     pub(crate) fn point(&self, point: usize) -> PyResult<&Point> {
         let points = self.0.points.len();
         self.0.points.get(point).ok_or_else(|| {
@@ -160,14 +160,14 @@ impl Plan {
         })
     }
 
-    /// A point that makes tosses.
-    pub(crate) fn tossing(&self, point: usize) -> PyResult<&Point> {
+    /// The point with this index, if its engine makes tosses, or an error.
+    pub(crate) fn tossed_point(&self, point: usize) -> PyResult<&Point> {
         let found = self.point(point)?;
         if found.engine.makes_tosses() {
             return Ok(found);
         }
         Err(errors::value(format!(
-            "point {point} is answered by a closed form, which makes no tosses: give an engine that \
+            "point {point} is computed by a closed form, which makes no tosses: use an engine that \
              does, such as engine.flat"
         )))
     }

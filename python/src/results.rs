@@ -1,4 +1,4 @@
-//! The results table for Python: as NumPy arrays, and as Arrow without a copy.
+//! The table of results for Python: as NumPy arrays, and as Arrow without copying.
 
 use crate::errors;
 use arrow_array::cast::AsArray;
@@ -13,10 +13,10 @@ use numpy::IntoPyArray;
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyDict};
 
-/// Name that the Arrow PyCapsule interface gives to streams.
+/// Name of stream capsules in the Arrow PyCapsule interface.
 const STREAM: &std::ffi::CStr = c"arrow_array_stream";
 
-/// What a run, or an estimate, came to.
+/// The results of a run or an estimate.
 #[pyclass(frozen, module = "coinmc._lib")]
 pub(crate) struct Results {
     table: Table,
@@ -82,7 +82,7 @@ impl Results {
         &self.table.config
     }
 
-    /// Metadata of the table, text by text.
+    /// Metadata of the table.
     #[getter]
     fn metadata<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let entries = PyDict::new(py);
@@ -110,7 +110,7 @@ impl Results {
             .collect()
     }
 
-    /// The columns: arrays of numbers and flags, lists of texts.
+    /// The columns: arrays of numbers and booleans, lists of strings.
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let columns = PyDict::new(py);
         let schema = self.batch.schema();
@@ -120,8 +120,8 @@ impl Results {
         Ok(columns)
     }
 
-    /// The stream of the Arrow PyCapsule interface. A schema that is asked for is not looked at,
-    /// which the interface leaves to the producer.
+    /// The stream of the Arrow PyCapsule interface. A requested schema is ignored, as the interface
+    /// permits.
     #[pyo3(signature = (requested_schema=None))]
     fn __arrow_c_stream__<'py>(
         &self,
@@ -157,7 +157,7 @@ fn crossing(fair: FairRatio) -> Crossing {
     )
 }
 
-/// A column: numbers that are missing become NaN.
+/// A column; missing numbers become NaN.
 fn numpy<'py>(py: Python<'py>, array: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
     Ok(match array.data_type() {
         DataType::UInt64 => {

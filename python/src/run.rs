@@ -1,4 +1,4 @@
-//! Estimates in memory, runs in a directory, and what such a directory holds.
+//! Estimates in memory, runs in a directory, and reading such directories.
 
 use crate::errors;
 use crate::plan::Plan;
@@ -9,8 +9,8 @@ use pyo3::prelude::*;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-/// Results, and what went wrong and was dealt with.
-type Told<T> = PyResult<(T, Vec<String>)>;
+/// A value and the warnings.
+type WithWarnings<T> = PyResult<(T, Vec<String>)>;
 
 /// Counts all points in memory.
 #[pyfunction]
@@ -20,12 +20,12 @@ pub(crate) fn estimate(
     plan: &Plan,
     threads: Option<NonZeroUsize>,
     progress: Option<Py<PyAny>>,
-) -> Told<Results> {
-    let (report, warnings) = supervise(py, progress, |desk| {
+) -> WithWarnings<Results> {
+    let (report, warnings) = supervise(py, progress, |supervision| {
         let options = Count {
             threads,
-            cancel: &desk.stop,
-            sink: desk,
+            cancel: &supervision.stop,
+            sink: supervision,
         };
         count(&plan.0, &options)
     })?;
@@ -33,7 +33,7 @@ pub(crate) fn estimate(
     Ok((Results::new(report)?, warnings))
 }
 
-/// Runs a plan, or what is left of it, in a run directory.
+/// Runs a plan, or resumes it, in a run directory.
 #[pyfunction]
 #[pyo3(signature = (plan, out, threads=None, progress=None))]
 pub(crate) fn run(
@@ -42,15 +42,15 @@ pub(crate) fn run(
     out: PathBuf,
     threads: Option<NonZeroUsize>,
     progress: Option<Py<PyAny>>,
-) -> Told<Results> {
-    let (report, warnings) = supervise(py, progress, |desk| {
+) -> WithWarnings<Results> {
+    let (report, warnings) = supervise(py, progress, |supervision| {
         let options = Options {
             out: &out,
             build: coinmc_build::BUILD,
             part: Part::WHOLE,
             threads,
-            cancel: &desk.stop,
-            sink: desk,
+            cancel: &supervision.stop,
+            sink: supervision,
         };
         run_plan(&plan.0, &options)
     })?;
@@ -60,8 +60,8 @@ pub(crate) fn run(
 
 /// Reads a run directory, finished or not.
 #[pyfunction]
-pub(crate) fn open(py: Python<'_>, path: PathBuf) -> Told<(Plan, Results)> {
-    let (read, warnings) = supervise(py, None, |desk| stored_report(&path, desk))?;
+pub(crate) fn open(py: Python<'_>, path: PathBuf) -> WithWarnings<(Plan, Results)> {
+    let (read, warnings) = supervise(py, None, |supervision| stored_report(&path, supervision))?;
     let (plan, report) = read.map_err(|error| errors::run(&error))?;
     Ok(((Plan::from(plan), Results::new(report)?), warnings))
 }

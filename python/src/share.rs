@@ -1,77 +1,74 @@
-//! Arrays that several threads fill, each a stretch of them at a time.
+//! Filling arrays from several threads, part by part.
 
-use crate::supervise::Desk;
+use crate::supervise::Supervision;
 use std::io;
 use std::panic::resume_unwind;
 use std::sync::atomic::Ordering::Relaxed;
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
-/// Longest stretch: some milliseconds of the quickest tosses.
-const LONGEST: usize = 1 << 14;
-/// Stretches a worker gets at least, so that all end at about the same time.
-const SHARE: usize = 16;
+/// Longest part: some milliseconds of the fastest tosses.
+const MAX_PART: usize = 1 << 14;
+/// Least number of parts per worker, so that all workers finish at about the same time.
+const MIN_PARTS_PER_WORKER: usize = 16;
 
-/// What can be cut in two, as slices can.
-pub(crate) trait Stretch: Sized + Default + Send {
-    /// How many places it has.
-    fn places(&self) -> usize;
+/// Arrays that can be split in two, like slices.
+pub(crate) trait Splittable: Sized + Default + Send {
+    /// Number of elements.
+    fn len(&self) -> usize;
 
-    /// Cuts off the first `n` places.
+    /// Splits off the first `n` elements.
     fn split(self, n: usize) -> (Self, Self);
 }
 
-/// What is left to fill, and how much is not.
-struct Left<S> {
+/// The part that remains to be filled, and the index of its first element.
+struct Remaining<S> {
     at: usize,
-    stretch: S,
+    part: S,
 }
 
-/// Has `workers` threads fill all of `whole`: `fill` is told the place at which a stretch begins. Ends
-/// early, without filling the rest, if it fails or the desk says so.
-pub(crate) fn share_out<S: Stretch, E: Send + From<io::Error>>(
+/// Fills `whole` on `workers` threads: `fill` gets the index at which a part starts, and the part.
+/// Stops early, without filling the rest, after an error or when told to by the supervisor.
+pub(crate) fn fill_in_parallel<S: Splittable, E: Send + From<io::Error>>(
     whole: S,
     workers: usize,
-    desk: &Desk,
+    supervision: &Supervision,
     fill: impl Fn(usize, S) -> Result<(), E> + Sync,
 ) -> Result<(), E> {
-    let places = whole.places();
-    desk.planned.store(places as u64, Relaxed);
-    let longest = (places / (workers * SHARE)).clamp(1, LONGEST);
-    let left = Mutex::new(Left {
-        at: 0,
-        stretch: whole,
-    });
+    let len = whole.len();
+    supervision.planned.store(len as u64, Relaxed);
+    let max_len = (len / (workers * MIN_PARTS_PER_WORKER)).clamp(1, MAX_PART);
+    let left = Mutex::new(Remaining { at: 0, part: whole });
     let work = || -> Result<(), E> {
-        while let Some((at, stretch)) = take(&left, longest).filter(|_| desk.go_on()) {
-            let places = stretch.places() as u64;
-            fill(at, stretch).inspect_err(|_| desk.stop.store(true, Relaxed))?;
-            desk.done.fetch_add(places, Relaxed);
+        while let Some((at, part)) = take(&left, max_len).filter(|_| supervision.may_continue()) {
+            let len = part.len() as u64;
+            fill(at, part).inspect_err(|_| supervision.stop.store(true, Relaxed))?;
+            supervision.done.fetch_add(len, Relaxed);
         }
         Ok(())
     };
     thread::scope(|scope| {
-        let mut hands = Vec::new();
+        let mut helpers = Vec::new();
         for _ in 1..workers {
-            let hand = thread::Builder::new().spawn_scoped(scope, work);
-            hands.push(hand.inspect_err(|_| desk.stop.store(true, Relaxed))?);
+            let helper = thread::Builder::new().spawn_scoped(scope, work);
+            helpers.push(helper.inspect_err(|_| supervision.stop.store(true, Relaxed))?);
         }
         let mut done = work();
-        for hand in hands {
-            done = done.and(hand.join().unwrap_or_else(|panic| resume_unwind(panic)));
+        for helper in helpers {
+            done = done.and(helper.join().unwrap_or_else(|panic| resume_unwind(panic)));
         }
         done
     })
 }
 
-fn take<S: Stretch>(left: &Mutex<Left<S>>, longest: usize) -> Option<(usize, S)> {
+fn take<S: Splittable>(left: &Mutex<Remaining<S>>, max_len: usize) -> Option<(usize, S)> {
     let mut left = left.lock().unwrap_or_else(PoisonError::into_inner);
-    let n = longest.min(left.stretch.places());
+    let n = max_len.min(left.part.len());
     if n == 0 {
         return None;
     }
-    let (now, later) = std::mem::take(&mut left.stretch).split(n);
-    left.stretch = later;
+    let (now, later) = std::mem::take(&mut left.part).split(n);
+    left.part = later;
     let at = left.at;
     left.at += n;
     Some((at, now))

@@ -1,5 +1,5 @@
-//! Long work: done on other threads without the interpreter's lock, while this thread looks after
-//! signals (Ctrl-C) and progress.
+//! Supervision of long work: it runs on other threads without the interpreter lock, while this thread
+//! handles signals (Ctrl-C) and progress.
 
 use crate::errors;
 use coinmc::run::{Progress, ProgressSink};
@@ -12,36 +12,36 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::{self, Thread};
 use std::time::Duration;
 
-/// How often signals are looked at: Ctrl-C is heard after this, and work stops at the next toss.
+/// Interval at which signals are polled. Ctrl-C takes effect after this, at the next toss.
 const POLL: Duration = Duration::from_millis(40);
 
-/// Where work and supervisor meet.
+/// State shared by the work and its supervisor.
 #[derive(Default)]
-pub(crate) struct Desk {
-    /// Set by the supervisor: stop.
+pub(crate) struct Supervision {
+    /// Set by the supervisor to stop the work.
     pub(crate) stop: AtomicBool,
     /// Tosses done.
     pub(crate) done: AtomicU64,
-    /// Tosses to do.
+    /// Tosses planned.
     pub(crate) planned: AtomicU64,
     finished: AtomicBool,
     warnings: Mutex<Vec<String>>,
 }
 
-impl Desk {
-    /// Whether work may go on.
-    pub(crate) fn go_on(&self) -> bool {
+impl Supervision {
+    /// Whether the work may continue.
+    pub(crate) fn may_continue(&self) -> bool {
         !self.stop.load(Relaxed)
     }
 
-    /// What went wrong and was dealt with.
+    /// Takes the warnings reported so far.
     pub(crate) fn take_warnings(&self) -> Vec<String> {
         let mut warnings = self.warnings.lock().unwrap_or_else(PoisonError::into_inner);
         std::mem::take(&mut *warnings)
     }
 }
 
-impl ProgressSink for Desk {
+impl ProgressSink for Supervision {
     fn progress(&self, progress: &Progress) {
         self.done.store(progress.tosses_done, Relaxed);
         self.planned.store(progress.tosses_planned, Relaxed);
@@ -53,53 +53,56 @@ impl ProgressSink for Desk {
     }
 }
 
-/// Wakes the supervisor when work ends, also by a panic.
-struct Bell<'a> {
-    desk: &'a Desk,
+/// Wakes the supervisor when the work ends, also by a panic.
+struct FinishGuard<'a> {
+    supervision: &'a Supervision,
     supervisor: Thread,
 }
 
-impl Drop for Bell<'_> {
+impl Drop for FinishGuard<'_> {
     fn drop(&mut self) {
-        self.desk.finished.store(true, Relaxed);
+        self.supervision.finished.store(true, Relaxed);
         self.supervisor.unpark();
     }
 }
 
-/// Does `job` on another thread and gives what it returns; meanwhile calls `progress(done,
-/// planned)`, and raises what that or a signal handler raises once the job has stopped.
+/// Runs `job` on another thread and returns its result and warnings; meanwhile calls `progress(done,
+/// planned)`. An exception from that or from a signal handler stops the job and is then raised.
 pub(crate) fn supervise<T: Send>(
     py: Python<'_>,
     progress: Option<Py<PyAny>>,
-    job: impl FnOnce(&Desk) -> T + Send,
+    job: impl FnOnce(&Supervision) -> T + Send,
 ) -> PyResult<(T, Vec<String>)> {
-    let desk = Desk::default();
-    let (made, raised) = py.detach(|| {
+    let supervision = Supervision::default();
+    let (result, raised) = py.detach(|| {
         let supervisor = thread::current();
         thread::scope(|scope| {
-            let desk = &desk;
+            let supervision = &supervision;
             let worker = scope.spawn(move || {
-                let _bell = Bell { desk, supervisor };
-                job(desk)
+                let _guard = FinishGuard {
+                    supervision,
+                    supervisor,
+                };
+                job(supervision)
             });
             let mut raised = Ok(());
-            while !desk.finished.load(Relaxed) {
+            while !supervision.finished.load(Relaxed) {
                 thread::park_timeout(POLL);
                 if raised.is_ok() {
-                    raised = Python::attach(|py| attend(py, desk, progress.as_ref()));
-                    desk.stop.store(raised.is_err(), Relaxed);
+                    raised = Python::attach(|py| poll(py, supervision, progress.as_ref()));
+                    supervision.stop.store(raised.is_err(), Relaxed);
                 }
             }
             (worker.join(), raised)
         })
     });
     raised?;
-    let made = made.unwrap_or_else(|panic| resume_unwind(panic));
-    Ok((made, desk.take_warnings()))
+    let result = result.unwrap_or_else(|panic| resume_unwind(panic));
+    Ok((result, supervision.take_warnings()))
 }
 
-/// Does a `job` that cannot be told to stop, and gives what it returns. If a signal handler raises
-/// meanwhile the job is left alone: nobody waits for it, and what it finds is thrown away.
+/// Runs a `job` that cannot be stopped and returns its result. If a signal handler raises meanwhile,
+/// the job is abandoned: it runs on, and its result is discarded.
 pub(crate) fn wait_for<T: Send + 'static>(
     py: Python<'_>,
     job: impl FnOnce() -> T + Send + 'static,
@@ -111,21 +114,21 @@ pub(crate) fn wait_for<T: Send + 'static>(
     });
     let worker =
         worker.map_err(|error| errors::value(format!("cannot start a thread: {error}")))?;
-    let made: PyResult<Option<T>> = py.detach(move || {
+    let result: PyResult<Option<T>> = py.detach(move || {
         loop {
             match receiver.recv_timeout(POLL) {
-                Ok(made) => return Ok(Some(made)),
+                Ok(result) => return Ok(Some(result)),
                 Err(RecvTimeoutError::Disconnected) => return Ok(None),
                 Err(RecvTimeoutError::Timeout) => Python::attach(signals)?,
             }
         }
     });
-    match made? {
-        Some(made) => Ok(made),
-        // it ended without an answer
+    match result? {
+        Some(result) => Ok(result),
+        // it ended without a result
         None => match worker.join() {
             Err(panic) => resume_unwind(panic),
-            Ok(()) => unreachable!("a job that returns has sent what it made"),
+            Ok(()) => unreachable!("a job that returns has sent its result"),
         },
     }
 }
@@ -134,16 +137,19 @@ fn signals(py: Python<'_>) -> PyResult<()> {
     py.check_signals()
 }
 
-fn attend(py: Python<'_>, desk: &Desk, progress: Option<&Py<PyAny>>) -> PyResult<()> {
+fn poll(py: Python<'_>, supervision: &Supervision, progress: Option<&Py<PyAny>>) -> PyResult<()> {
     signals(py)?;
     if let Some(progress) = progress {
-        let (done, planned) = (desk.done.load(Relaxed), desk.planned.load(Relaxed));
+        let (done, planned) = (
+            supervision.done.load(Relaxed),
+            supervision.planned.load(Relaxed),
+        );
         progress.call1(py, (done, planned))?;
     }
     Ok(())
 }
 
-/// The threads asked for, or one a core.
+/// The requested number of threads, or one per core.
 pub(crate) fn threads(asked: Option<NonZeroUsize>) -> NonZeroUsize {
     asked
         .or_else(|| thread::available_parallelism().ok())

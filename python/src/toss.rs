@@ -1,14 +1,14 @@
-//! Tosses one by one: each worker fills its own stretch of the columns.
+//! Individual tosses: each worker fills its own part of the columns.
 
-use crate::columns::{Columns, Rest, Rows, face_code};
+use crate::columns::{Columns, Details, Rows, face_code};
 use crate::errors;
 use crate::launch::{Fault, ROW, check, launch, write_launch};
 use crate::plan::Plan;
-use crate::share::{Stretch, share_out};
-use crate::supervise::{Desk, supervise, threads};
+use crate::share::{Splittable, fill_in_parallel};
+use crate::supervise::{Supervision, supervise, threads};
 use coinmc::engines::EngineError;
 use coinmc::plan::{MAX_TOSSES, Point};
-use coinmc::run::{Begin, for_each_end, for_each_outcome, stream};
+use coinmc::run::{TossSource, for_each_end, for_each_outcome, stream};
 use coinmc_core::Stream;
 use numpy::{PyReadonlyArray2, PyReadwriteArray1, PyReadwriteArray2};
 use pyo3::prelude::*;
@@ -16,20 +16,20 @@ use std::io;
 use std::num::NonZeroUsize;
 use std::ops::Range;
 
-/// How the tosses begin: the number of the first and the stream of all, or rows of launches.
+/// Launches of the tosses: drawn (index of the first toss, stream of all), or rows of given launches.
 enum Source<'a> {
     Drawn(u64, Stream),
     Given(&'a [f64]),
 }
 
-/// Why tosses stopped.
-enum Trouble {
+/// Why the tosses stopped.
+enum TossError {
     Settings(EngineError),
     Launch,
     Thread(io::Error),
 }
 
-impl From<io::Error> for Trouble {
+impl From<io::Error> for TossError {
     fn from(error: io::Error) -> Self {
         Self::Thread(error)
     }
@@ -42,14 +42,25 @@ struct Job<'a> {
 }
 
 impl Job<'_> {
-    /// Makes the tosses of a stretch that begins at place `at`.
-    fn fill(&self, at: usize, columns: Columns<'_>, desk: &Desk) -> Result<(), Trouble> {
-        let n = columns.places();
+    /// Computes the tosses of the columns that start at index `at`.
+    fn fill(
+        &self,
+        at: usize,
+        columns: Columns<'_>,
+        supervision: &Supervision,
+    ) -> Result<(), TossError> {
+        let n = columns.len();
         match &self.source {
             Source::Drawn(first, stream) => {
                 let first = first + at as u64;
                 let tosses = first..first + n as u64;
-                self.follow(Begin::Drawn(stream), tosses, columns, |_| [0.0; 2], desk)
+                self.toss_into(
+                    TossSource::Drawn(stream),
+                    tosses,
+                    columns,
+                    |_| [0.0; 2],
+                    supervision,
+                )
             }
             Source::Given(rows) => {
                 let rows = &rows[at * ROW..(at + n) * ROW];
@@ -57,47 +68,52 @@ impl Job<'_> {
                     .chunks_exact(ROW)
                     .any(|row| check(self.point, row).is_err())
                 {
-                    return Err(Trouble::Launch);
+                    return Err(TossError::Launch);
                 }
-                let row = |toss: u64| &rows[place(toss) * ROW..][..ROW];
-                let begin = |toss| launch(row(toss));
+                let row = |toss: u64| &rows[index(toss) * ROW..][..ROW];
+                let source = |toss| launch(row(toss));
                 let from = |toss| [row(toss)[0], row(toss)[1]];
-                self.follow(Begin::Given(&begin), 0..n as u64, columns, from, desk)
+                self.toss_into(
+                    TossSource::Given(&source),
+                    0..n as u64,
+                    columns,
+                    from,
+                    supervision,
+                )
             }
         }
     }
 
-    fn follow(
+    fn toss_into(
         &self,
-        begin: Begin<'_>,
+        source: TossSource<'_>,
         tosses: Range<u64>,
         columns: Columns<'_>,
         from: impl Fn(u64) -> [f64; 2],
-        desk: &Desk,
-    ) -> Result<(), Trouble> {
+        supervision: &Supervision,
+    ) -> Result<(), TossError> {
         let (face, first) = (columns.face, tosses.start);
-        let followed = match columns.rest {
-            None => for_each_outcome(self.point, begin, tosses, |toss, outcome| {
-                face[place(toss - first)] = face_code(outcome);
-                desk.go_on()
+        let tossed = match columns.details {
+            None => for_each_outcome(self.point, source, tosses, |toss, outcome| {
+                face[index(toss - first)] = face_code(outcome);
+                supervision.may_continue()
             }),
-            Some(mut rest) => for_each_end(self.point, begin, tosses, &mut |seen| {
-                let i = place(seen.toss - first);
-                face[i] = face_code(&seen.outcome);
-                rest.write(i, seen, from(seen.toss));
-                desk.go_on()
+            Some(mut details) => for_each_end(self.point, source, tosses, &mut |finished| {
+                let i = index(finished.toss - first);
+                face[i] = face_code(&finished.outcome);
+                details.write(i, finished, from(finished.toss));
+                supervision.may_continue()
             }),
         };
-        followed.map(drop).map_err(Trouble::Settings)
+        tossed.map(drop).map_err(TossError::Settings)
     }
 
-    /// The exception of what stopped it. Workers may have met several bad launches: the first is
-    /// told.
-    fn raised(&self, trouble: Trouble) -> PyErr {
-        match trouble {
-            Trouble::Settings(error) => errors::value(error),
-            Trouble::Thread(error) => errors::value(format!("cannot start a thread: {error}")),
-            Trouble::Launch => errors::value(self.first_fault()),
+    /// The exception for an error. Of several invalid launches the first is reported.
+    fn exception(&self, error: TossError) -> PyErr {
+        match error {
+            TossError::Settings(error) => errors::value(error),
+            TossError::Thread(error) => errors::value(format!("cannot start a thread: {error}")),
+            TossError::Launch => errors::value(self.first_fault()),
         }
     }
 
@@ -115,22 +131,22 @@ impl Job<'_> {
     }
 }
 
-/// A place in an array that there is.
-fn place(index: u64) -> usize {
+/// An index of an existing element.
+fn index(index: u64) -> usize {
     usize::try_from(index).expect("an index of an array in memory")
 }
 
-/// Checks that toss numbers stay within what a plan may have.
+/// Checks that the indices of the tosses do not exceed those of a plan.
 fn must_fit(first: u64, n: usize) -> PyResult<()> {
     match first.checked_add(n as u64) {
         Some(end) if end <= MAX_TOSSES => Ok(()),
         _ => Err(errors::value(format!(
-            "tosses are numbered below {MAX_TOSSES}"
+            "tosses must be numbered below {MAX_TOSSES}"
         ))),
     }
 }
 
-/// What the tosses of a call are.
+/// The arguments of a call.
 struct Call<'a> {
     plan: &'a Plan,
     point: usize,
@@ -142,7 +158,7 @@ struct Call<'a> {
 
 impl Call<'_> {
     fn fill(self, py: Python<'_>, columns: Columns<'_>) -> PyResult<()> {
-        let n = columns.places();
+        let n = columns.len();
         must_fit(self.first, n)?;
         let source = match self.rows {
             Some(rows) if rows.len() != n * ROW => {
@@ -152,36 +168,36 @@ impl Call<'_> {
             None => Source::Drawn(self.first, stream(&self.plan.0, self.point)),
         };
         let job = Job {
-            point: self.plan.tossing(self.point)?,
+            point: self.plan.tossed_point(self.point)?,
             source,
         };
         let workers = workers(self.threads, n);
-        let (done, _) = supervise(py, self.progress, |desk| {
-            share_out(columns, workers, desk, |at, columns| {
-                job.fill(at, columns, desk)
+        let (done, _) = supervise(py, self.progress, |supervision| {
+            fill_in_parallel(columns, workers, supervision, |at, columns| {
+                job.fill(at, columns, supervision)
             })
         })?;
-        done.map_err(|trouble| job.raised(trouble))
+        done.map_err(|error| job.exception(error))
     }
 }
 
-/// Threads for so many tosses: no more than tosses.
+/// Number of threads for `n` tosses, at most one per toss.
 fn workers(asked: Option<NonZeroUsize>, n: usize) -> usize {
     threads(asked).get().min(n.max(1))
 }
 
-/// The columns beside the face, as Python gives them: ended, impacts, time, and twelve numbers a toss.
-type Beside<'py> = (
+/// The columns besides the face, as Python arrays: ended, impacts, time and twelve numbers per toss.
+type DetailArrays<'py> = (
     PyReadwriteArray1<'py, u8>,
     PyReadwriteArray1<'py, u32>,
     PyReadwriteArray1<'py, f64>,
     PyReadwriteArray2<'py, f64>,
 );
 
-/// Fills `face`, and the columns beside it if they are given, with `len(face)` tosses: from number
-/// `first`, or of the launches in `rows`.
+/// Fills `face`, and the other columns if given, with `len(face)` tosses: from index `first`, or of
+/// the launches in `rows`.
 #[pyfunction]
-#[pyo3(signature = (plan, point, first, rows, face, beside=None, threads=None, progress=None))]
+#[pyo3(signature = (plan, point, first, rows, face, details=None, threads=None, progress=None))]
 #[allow(clippy::too_many_arguments)] // Python's arguments
 pub(crate) fn toss(
     py: Python<'_>,
@@ -190,13 +206,16 @@ pub(crate) fn toss(
     first: u64,
     rows: Option<PyReadonlyArray2<'_, f64>>,
     mut face: PyReadwriteArray1<'_, u8>,
-    mut beside: Option<Beside<'_>>,
+    mut details: Option<DetailArrays<'_>>,
     threads: Option<NonZeroUsize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<()> {
     let face = face.as_slice_mut()?;
-    let rest = beside.as_mut().map(slices).transpose()?;
-    if rest.as_ref().is_some_and(|rest| !rest.is_of(face.len())) {
+    let details = details.as_mut().map(slices).transpose()?;
+    if details
+        .as_ref()
+        .is_some_and(|details| !details.has_len(face.len()))
+    {
         return Err(errors::value("columns must be equally long"));
     }
     let rows = rows.as_ref().map(PyReadonlyArray2::as_slice).transpose()?;
@@ -208,11 +227,11 @@ pub(crate) fn toss(
         threads,
         progress,
     };
-    call.fill(py, Columns { face, rest })
+    call.fill(py, Columns { face, details })
 }
 
-fn slices<'a>((ended, impacts, time_s, last): &'a mut Beside<'_>) -> PyResult<Rest<'a>> {
-    Ok(Rest {
+fn slices<'a>((ended, impacts, time_s, last): &'a mut DetailArrays<'_>) -> PyResult<Details<'a>> {
+    Ok(Details {
         ended: ended.as_slice_mut()?,
         impacts: impacts.as_slice_mut()?,
         time_s: time_s.as_slice_mut()?,
@@ -220,7 +239,7 @@ fn slices<'a>((ended, impacts, time_s, last): &'a mut Beside<'_>) -> PyResult<Re
     })
 }
 
-/// Fills rows with the launches of a point from number `first`.
+/// Fills rows with the launches of a point from toss `first`.
 #[pyfunction]
 pub(crate) fn launches(
     py: Python<'_>,
@@ -234,16 +253,18 @@ pub(crate) fn launches(
         return Err(errors::value("a launch is a row of twelve numbers"));
     }
     let rows = Rows(rows);
-    must_fit(first, rows.places())?;
-    let (found, stream) = (plan.tossing(point)?, stream(&plan.0, point));
-    let begin = Begin::Drawn(&stream);
+    must_fit(first, rows.len())?;
+    let (found, stream) = (plan.tossed_point(point)?, stream(&plan.0, point));
+    let source = TossSource::Drawn(&stream);
     let draw = |at: usize, rows: Rows<'_>| -> Result<(), io::Error> {
         for (toss, row) in (first + at as u64..).zip(rows.0.chunks_exact_mut(ROW)) {
-            write_launch(&begin.launch(found, toss), row);
+            write_launch(&source.launch(found, toss), row);
         }
         Ok(())
     };
-    let workers = workers(None, rows.places());
-    let (drawn, _) = supervise(py, None, |desk| share_out(rows, workers, desk, draw))?;
+    let workers = workers(None, rows.len());
+    let (drawn, _) = supervise(py, None, |supervision| {
+        fill_in_parallel(rows, workers, supervision, draw)
+    })?;
     drawn.map_err(|error| errors::value(format!("cannot start a thread: {error}")))
 }

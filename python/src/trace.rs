@@ -1,4 +1,4 @@
-//! One toss, watched.
+//! The recorded motion of one toss.
 
 use crate::errors;
 use crate::launch::{ROW, check, launch, write_state};
@@ -6,16 +6,16 @@ use crate::plan::Plan;
 use crate::supervise::wait_for;
 use coinmc_core::EventKind;
 use coinmc_trace::{
-    MAX_RECORDS, Record, RecordKind, Trace, default_rate_hz, launch as begin, outcome_name, record,
-    replay,
+    MAX_RECORDS, Record, RecordKind, Trace, default_rate_hz, launch as launch_of, outcome_name,
+    record, replay,
 };
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::sync::Arc;
 
-/// Replays a toss of a point, or follows a launch given as a row, with so many samples a second;
-/// `rate_hz` None: a rate that shows it well.
+/// Replays a toss of a point, or tosses a launch given as a row, and records it with `rate_hz` samples
+/// per second; None chooses a rate that suits the toss.
 #[pyfunction]
 #[pyo3(signature = (plan, point, toss, row=None, rate_hz=None))]
 pub(crate) fn trace<'py>(
@@ -27,7 +27,7 @@ pub(crate) fn trace<'py>(
     rate_hz: Option<f64>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let row = row.as_ref().map(PyReadonlyArray1::as_slice).transpose()?;
-    let scene = plan.tossing(point)?.scene;
+    let scene = plan.tossed_point(point)?.scene;
     if let Some(row) = row {
         if row.len() != ROW {
             return Err(errors::value("a launch is a row of twelve numbers"));
@@ -36,10 +36,10 @@ pub(crate) fn trace<'py>(
             .map_err(|fault| errors::value(format!("launch: {fault}")))?;
     }
     let (plan, own) = (Arc::clone(&plan.0), row.map(launch));
-    let made = wait_for(py, move || {
+    let trace = wait_for(py, move || {
         let launch = match own {
             Some(launch) => launch,
-            None => begin(&plan, point, toss)?,
+            None => launch_of(&plan, point, toss)?,
         };
         let rate_hz = rate_hz.unwrap_or_else(|| default_rate_hz(&scene, &launch));
         match own {
@@ -47,7 +47,7 @@ pub(crate) fn trace<'py>(
             None => replay(&plan, point, toss, rate_hz),
         }
     })?;
-    let trace = made.map_err(|error| errors::trace(&error))?;
+    let trace = trace.map_err(|error| errors::trace(&error))?;
     let from = row.map_or([0.0; 2], |row| [row[0], row[1]]);
     as_dict(py, &trace, from)
 }
@@ -72,7 +72,7 @@ fn as_dict<'py>(py: Python<'py>, trace: &Trace, from: [f64; 2]) -> PyResult<Boun
     Ok(dict)
 }
 
-/// What was sampled, and the two ends.
+/// Whether a record belongs to the samples: those at regular times, the launch and the end.
 fn is_sample(record: &Record) -> bool {
     matches!(
         record.kind,

@@ -14,7 +14,7 @@
 //! | count in memory, or visit each toss | [`run::count`], [`run::for_each_outcome`] |
 //! | write or read the table of results | [`results`] |
 //! | find out how thick a fair coin is | [`results::fair_values`] |
-//! | watch a toss | the crate `coinmc-trace` |
+//! | record the motion of a toss | the crate `coinmc-trace` |
 //! | compare with published counts | [`published`] |
 //!
 //! To toss coins without configs, take an engine: [`coinmc_flat`] in a plane, [`coinmc_volumetric`] in

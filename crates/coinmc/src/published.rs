@@ -1,5 +1,5 @@
-//! Published outcomes that results are set beside. The data, their sources and licences are in the
-//! folder `data`; they are compiled in.
+//! Published outcomes to compare with results. The data, their sources and licences are in the folder
+//! `data` and are compiled into the program.
 
 use crate::plan::Point;
 use coinmc_core::{Landing, Preset, Scene};
@@ -19,7 +19,7 @@ pub struct Counts {
     pub tails: u64,
     /// Tosses that ended on the side.
     pub side: u64,
-    /// Tosses whose end the authors' rule did not recognise.
+    /// Tosses with an end that the authors' rule did not recognise.
     pub unidentified: u64,
 }
 
@@ -30,19 +30,19 @@ pub struct FairRatio {
     pub engine: String,
     /// H/R.
     pub ratio: f64,
-    /// Its error as stated.
+    /// Its published error.
     pub half_width: f64,
     /// Authors, reference and model.
     pub source: String,
 }
 
-/// What was published for the launch and ratio of a point.
+/// The counts published for the launch and ratio of a point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Published {
     /// The counts.
     pub counts: Counts,
-    /// Keys of the config in which the point is another scene than the published one: empty for
-    /// the very same.
+    /// Config keys in which the scene of the point differs from the published one; empty if it is the
+    /// same scene.
     pub differs: Vec<&'static str>,
 }
 
@@ -67,7 +67,7 @@ pub fn fair_ratios(engine: &str) -> impl Iterator<Item = &'static FairRatio> {
     FAIR_RATIOS.iter().filter(move |fair| fair.engine == engine)
 }
 
-/// The lines of a file that is part of the program.
+/// Parses a CSV file that is compiled into the program.
 ///
 /// # Panics
 /// If the file is not as described in `data`; a test reads all of them.
@@ -108,8 +108,8 @@ fn fair_ratio(cells: &[&str]) -> Option<FairRatio> {
 }
 
 impl Published {
-    /// What was published for this point: its tosses begin as the published ones do, and its ratio
-    /// is one of theirs. How it came to that (preset or spelled out) does not matter.
+    /// The counts published for this point, if its launches are distributed like the published ones
+    /// (by a preset or spelled out) and its ratio is one of the published ratios.
     ///
     /// # Example
     /// ```
@@ -129,7 +129,7 @@ impl Published {
         if !point.engine.makes_tosses() || point.launches != Preset::Table1.distribution() {
             return None;
         }
-        // ratios may come out of a range, and then are right to 15 digits
+        // ratios computed from a range are correct to 15 digits
         let same = |ratio: f64| (ratio / point.scene.coin.ratio() - 1.0).abs() < 1e-12;
         let counts = table1().iter().find(|counts| same(counts.ratio))?;
         Some(Self {
@@ -139,7 +139,7 @@ impl Published {
     }
 }
 
-/// The keys in which a scene is not the published one. Mass cancels, and is left out.
+/// The keys in which a scene differs from the published one. Mass has no effect and is left out.
 fn differences(scene: &Scene) -> Vec<&'static str> {
     let (surface, drag) = (&scene.surface, scene.drag());
     [
@@ -164,19 +164,19 @@ fn differences(scene: &Scene) -> Vec<&'static str> {
 }
 
 impl Counts {
-    /// All tosses.
+    /// Number of tosses.
     pub fn tosses(&self) -> u64 {
         self.heads + self.tails + self.side + self.unidentified
     }
 
-    /// Share of the tosses that ended on the side.
+    /// Fraction of the tosses that ended on the side.
     pub fn p_side(&self) -> f64 {
         self.side as f64 / self.tosses() as f64
     }
 
-    /// How far `side` of `tosses` tosses lie above the published share, in standard errors of the
-    /// difference: the z-score of two proportions, with the variance of the pooled share. `None`
-    /// if that is 0: no toss, or none on the side anywhere, or all of them.
+    /// Difference between `side` of `tosses` tosses and the published fraction, in standard errors:
+    /// the z-score of two proportions, with the variance of the pooled fraction. `None` if that is 0:
+    /// there are no tosses, or none or all of them ended on the side.
     ///
     /// # Example
     /// ```
@@ -198,7 +198,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_data_are_those_of_the_paper() {
+    fn the_data_match_the_paper() {
         let sides: Vec<_> = table1().iter().map(|c| (c.ratio, c.side)).collect();
         assert_eq!(
             sides,
@@ -217,7 +217,7 @@ mod tests {
 
     /// 400 of 1000 against 495 of 1103: pooled 895/2103, worked out by hand.
     #[test]
-    fn the_z_score_is_that_of_two_proportions() {
+    fn the_z_score_compares_two_proportions() {
         let z = table1()[2].z_score(400, 1000).unwrap();
         let variance = 895.0 / 2103.0 * (1208.0 / 2103.0) * (1.0 / 1000.0 + 1.0 / 1103.0);
         assert!((z - (0.4 - 495.0 / 1103.0) / f64::sqrt(variance)).abs() < 1e-12);

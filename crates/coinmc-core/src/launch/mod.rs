@@ -2,18 +2,18 @@
 
 mod config;
 mod draw;
+mod lanes;
 mod marginal;
 mod orientation;
 mod preset;
-mod side_by_side;
 mod sincos;
 mod source;
 mod spin;
 
+pub use lanes::Launches;
 pub use marginal::{Marginal, inverse_normal_cdf};
 pub use orientation::Orientation;
 pub use preset::Preset;
-pub use side_by_side::Launches;
 pub use source::LaunchSource;
 pub use spin::Spin;
 

@@ -1,7 +1,7 @@
 //! A replayed toss is the toss of the run.
 
 use crate::plans::{all, flat, space};
-use coinmc::run::{Begin, Chunk, Seen, for_each_end, run_chunk};
+use coinmc::run::{Chunk, FinishedToss, TossSource, for_each_end, run_chunk};
 use coinmc_core::{EventKind, Tally};
 use coinmc_trace::{RecordKind, outcome, replay, replay_within};
 
@@ -115,13 +115,13 @@ fn memory_is_bounded_and_the_trace_reports_it() {
 fn a_trace_ends_like_the_toss_in_a_run() {
     for plan in [flat("moreau", 20), space("moreau", 20)] {
         let stream = coinmc::run::stream(&plan, 0);
-        let mut compare = |toss: &Seen| {
+        let mut compare = |toss: &FinishedToss| {
             let trace = replay(&plan, 0, toss.toss, 0.0).unwrap();
             assert_eq!(trace.outcome, toss.outcome);
             assert_eq!(trace.records.last().unwrap().state, toss.end);
             true
         };
-        let begin = Begin::Drawn(&stream);
+        let begin = TossSource::Drawn(&stream);
         assert!(for_each_end(&plan.points[0], begin, 0..20, &mut compare).unwrap());
     }
 }

@@ -1,6 +1,6 @@
 //! One point of a sweep, and what can be wrong there.
 
-use super::form::{Form, What};
+use super::checked::{Checked, CheckedValue};
 use super::quantity::Quantity;
 use super::source::Span;
 use super::sweep::Sweep;
@@ -45,16 +45,18 @@ impl<'a> At<'a> {
         }
     }
 
-    pub(super) fn number(&self, form: &Form) -> Result<f64, Fault> {
-        match &form.what {
-            What::Number(_, Some(axis)) => Ok(self.sweep.axes[*axis].values[self.indices[*axis]]),
-            What::Number(Quantity::Constant(value), None) => Ok(*value),
+    pub(super) fn number(&self, checked: &Checked) -> Result<f64, Fault> {
+        match &checked.value {
+            CheckedValue::Number(_, Some(axis)) => {
+                Ok(self.sweep.axes[*axis].values[self.indices[*axis]])
+            }
+            CheckedValue::Number(Quantity::Constant(value), None) => Ok(*value),
             _ => Err(Fault::Reported),
         }
     }
 }
 
 /// The value of a key that must be there unless its absence has been reported.
-pub(super) fn get<'f>(form: &'f Form, key: &str) -> Result<&'f Form, Fault> {
-    form.get(key).ok_or(Fault::Reported)
+pub(super) fn get<'f>(checked: &'f Checked, key: &str) -> Result<&'f Checked, Fault> {
+    checked.get(key).ok_or(Fault::Reported)
 }

@@ -1,10 +1,10 @@
 //! From the checked config to the points of a plan.
 
 use super::at::{At, Fault, get};
+use super::checked::{Checked, CheckedValue};
 use super::columns::Columns;
 use super::diagnostics::Problems;
 use super::engines;
-use super::form::{Form, What};
 use super::launch;
 use super::sweep::Sweep;
 use super::values::read;
@@ -14,7 +14,7 @@ use coinmc_core::{Coin, IntervalMethod, LaunchDistribution, Preset, Scene, Surfa
 use std::collections::HashSet;
 
 /// Every point of the sweep. Each problem is reported once, at the first point that has it.
-pub(super) fn points(root: &Form, sweep: &Sweep, problems: &mut Problems) -> Vec<Point> {
+pub(super) fn points(root: &Checked, sweep: &Sweep, problems: &mut Problems) -> Vec<Point> {
     let mut points = Vec::new();
     let mut blamed = HashSet::new();
     let sound = problems.is_empty();
@@ -64,11 +64,11 @@ struct Part<T> {
 }
 
 impl<T: Clone> Part<T> {
-    fn new(root: &Form, tables: &[&str]) -> Self {
+    fn new(root: &Checked, tables: &[&str]) -> Self {
         let swept = tables
             .iter()
             .filter_map(|table| root.get(table))
-            .any(Form::is_swept);
+            .any(Checked::is_swept);
         Self {
             swept,
             tried: false,
@@ -89,10 +89,10 @@ impl<T: Clone> Part<T> {
     }
 }
 
-fn scene(root: &Form, at: &At<'_>) -> Result<Scene, Fault> {
+fn scene(root: &Checked, at: &At<'_>) -> Result<Scene, Fault> {
     let coin = read(get(root, "coin")?, at, Coin::read)?;
     let surface = match root.get("surface") {
-        Some(form) => read(form, at, Surface::read)?,
+        Some(checked) => read(checked, at, Surface::read)?,
         // only closed forms do without
         None => Surface::adhesive(),
     };
@@ -101,76 +101,76 @@ fn scene(root: &Form, at: &At<'_>) -> Result<Scene, Fault> {
     })
 }
 
-fn launches(root: &Form, at: &At<'_>) -> Result<LaunchDistribution, Fault> {
-    let Some(form) = root.get("launch") else {
+fn launches(root: &Checked, at: &At<'_>) -> Result<LaunchDistribution, Fault> {
+    let Some(checked) = root.get("launch") else {
         // only a closed form does without; no launch is ever drawn
         return Ok(Preset::Robot.distribution());
     };
-    let launches = read(form, at, LaunchDistribution::read)?;
+    let launches = read(checked, at, LaunchDistribution::read)?;
     launches
         .validate()
-        .map_err(|error| Fault::problem(form.span, error.to_string(), None))?;
+        .map_err(|error| Fault::problem(checked.span, error.to_string(), None))?;
     if let Some(engine) = engine_of(root)
         && engine.kind == EngineKind::Planar
     {
-        launch::require_planar(form, &launches, engine.name)?;
+        launch::require_planar(checked, &launches, engine.name)?;
     }
     Ok(launches)
 }
 
-fn engine_of(root: &Form) -> Option<&'static EngineDescriptor> {
+fn engine_of(root: &Checked) -> Option<&'static EngineDescriptor> {
     engine(root.get("engine")?.tag()?)
 }
 
 /// When to stop; a closed form has nothing to stop.
-pub(super) fn stop(root: &Form) -> Option<Stop> {
+pub(super) fn stop(root: &Checked) -> Option<Stop> {
     if engine_of(root)?.kind == EngineKind::ClosedForm {
         return Some(Stop::Tosses(0));
     }
-    let form = root.get("stop")?;
-    if let Some(tosses) = integer(form, "tosses") {
+    let checked = root.get("stop")?;
+    if let Some(tosses) = integer(checked, "tosses") {
         return Some(Stop::Tosses(tosses));
     }
-    let half_width = real(form, "half_width")?;
+    let half_width = real(checked, "half_width")?;
     Some(Stop::HalfWidth {
         half_width,
-        max_tosses: integer(form, "max_tosses")?,
+        max_tosses: integer(checked, "max_tosses")?,
     })
 }
 
 /// How launches are drawn.
-pub(super) fn sampling(root: &Form) -> Option<Sampling> {
+pub(super) fn sampling(root: &Checked) -> Option<Sampling> {
     let name = root.get("sampling")?.get("method")?.word()?;
     Sampling::ALL.into_iter().find(|known| known.name() == name)
 }
 
 /// Confidence and method of the intervals.
-pub(super) fn estimate(root: &Form) -> Option<(f64, IntervalMethod)> {
-    let form = root.get("estimate")?;
-    let name = form.get("interval")?.word()?;
+pub(super) fn estimate(root: &Checked) -> Option<(f64, IntervalMethod)> {
+    let checked = root.get("estimate")?;
+    let name = checked.get("interval")?.word()?;
     let method = [IntervalMethod::Wilson, IntervalMethod::ClopperPearson]
         .into_iter()
         .find(|method| method.name() == name)?;
-    Some((real(form, "confidence")?, method))
+    Some((real(checked, "confidence")?, method))
 }
 
-pub(super) fn integer(form: &Form, key: &str) -> Option<u64> {
-    match form.get(key)?.what {
-        What::Integer(value) => Some(value),
+pub(super) fn integer(checked: &Checked, key: &str) -> Option<u64> {
+    match checked.get(key)?.value {
+        CheckedValue::Integer(value) => Some(value),
         _ => None,
     }
 }
 
-pub(super) fn boolean(form: &Form, key: &str) -> Option<bool> {
-    match form.get(key)?.what {
-        What::Boolean(value) => Some(value),
+pub(super) fn boolean(checked: &Checked, key: &str) -> Option<bool> {
+    match checked.get(key)?.value {
+        CheckedValue::Boolean(value) => Some(value),
         _ => None,
     }
 }
 
-fn real(form: &Form, key: &str) -> Option<f64> {
-    match form.get(key)?.what {
-        What::Real(value) => Some(value),
+fn real(checked: &Checked, key: &str) -> Option<f64> {
+    match checked.get(key)?.value {
+        CheckedValue::Real(value) => Some(value),
         _ => None,
     }
 }

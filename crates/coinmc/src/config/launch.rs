@@ -1,18 +1,21 @@
 //! Launches: presets spelled out, and distributions built for a point.
 
 use super::at::{Fault, get};
-use super::form::{Form, What};
+use super::checked::{Checked, CheckedValue};
 use coinmc_core::{LaunchDistribution, Preset};
 
 /// The launch with its preset replaced by what the preset says, except where the config says
 /// otherwise. Without a preset the coin starts from rest unless a velocity is given.
-pub(super) fn spelled_out(launch: &Form) -> Form {
-    let What::Table(entries) = &launch.what else {
+pub(super) fn spelled_out(launch: &Checked) -> Checked {
+    let CheckedValue::Table(entries) = &launch.value else {
         return launch.clone();
     };
-    let (blamed, base) = match launch.get("preset").map(|form| (form.span, form.word())) {
+    let (blamed, base) = match launch
+        .get("preset")
+        .map(|checked| (checked.span, checked.word()))
+    {
         // an invalid preset leaves open what else is missing
-        Some((_, None)) => return Form::invalid(launch.span),
+        Some((_, None)) => return Checked::invalid(launch.span),
         Some((span, Some(name))) => {
             let preset = name.parse::<Preset>();
             (span, preset.map(|preset| preset.distribution().values()))
@@ -26,17 +29,17 @@ pub(super) fn spelled_out(launch: &Form) -> Form {
         .into_iter()
         .filter_map(|field| {
             let key = field.name;
-            if let Some((_, form)) = given(key).filter(|_| key != "preset") {
-                return Some((key, form.clone()));
+            if let Some((_, checked)) = given(key).filter(|_| key != "preset") {
+                return Some((key, checked.clone()));
             }
-            Some((key, Form::of_value(blamed, base.get(key)?)))
+            Some((key, Checked::of_value(blamed, base.get(key)?)))
         });
-    Form::new(launch.span, What::Table(merged.collect()))
+    Checked::new(launch.span, CheckedValue::Table(merged.collect()))
 }
 
 /// Refuses a launch that leaves the xz plane, and blames the part that does.
 pub(super) fn require_planar(
-    form: &Form,
+    checked: &Checked,
     launch: &LaunchDistribution,
     engine: &str,
 ) -> Result<(), Fault> {
@@ -69,7 +72,7 @@ pub(super) fn require_planar(
     );
     let help = format!("the presets robot and clean-flat are flat; {help}");
     Err(Fault::Problem {
-        span: get(form, key)?.span,
+        span: get(checked, key)?.span,
         message,
         help: Some(help),
     })

@@ -19,10 +19,10 @@
 
 mod at;
 mod build;
+mod checked;
 mod columns;
 mod diagnostics;
 mod engines;
-mod form;
 mod launch;
 mod nearest;
 mod notes;
@@ -40,8 +40,8 @@ pub use diagnostics::{Diagnostics, Problem};
 pub use overrides::{Override, OverrideError};
 
 use crate::plan::Plan;
+use checked::{Checked, CheckedValue};
 use diagnostics::{Problems, printable};
-use form::{Form, What};
 use source::{Sources, Span};
 use std::fs::File;
 use std::io::Read;
@@ -169,30 +169,30 @@ fn plan(
 }
 
 /// Replaces the launch's preset by what it stands for.
-fn spell_out(root: &mut Form) {
-    if let What::Table(entries) = &mut root.what {
-        for (_, form) in entries.iter_mut().filter(|(key, _)| *key == "launch") {
-            *form = launch::spelled_out(form);
+fn spell_out(root: &mut Checked) {
+    if let CheckedValue::Table(entries) = &mut root.value {
+        for (_, checked) in entries.iter_mut().filter(|(key, _)| *key == "launch") {
+            *checked = launch::spelled_out(checked);
         }
     }
 }
 
 /// A grid and a zip of fewer than two axes are the same sweep: write it one way.
-fn single_axis(root: &mut Form) {
-    let What::Table(entries) = &mut root.what else {
+fn single_axis(root: &mut Checked) {
+    let CheckedValue::Table(entries) = &mut root.value else {
         return;
     };
     for (_, sweep) in entries.iter_mut().filter(|(key, _)| *key == "sweep") {
-        if let What::Table(fields) = &mut sweep.what {
+        if let CheckedValue::Table(fields) = &mut sweep.value {
             for (_, mode) in fields {
-                mode.what = What::Word("grid");
+                mode.value = CheckedValue::Word("grid");
             }
         }
     }
 }
 
 /// The canonical text, unless it is too long to be read back.
-fn resolved(root: &Form, end: Span, problems: &mut Problems) -> Option<String> {
+fn resolved(root: &Checked, end: Span, problems: &mut Problems) -> Option<String> {
     let text = resolved::document(root);
     if text.len() > MAX_BYTES {
         let message = format!(

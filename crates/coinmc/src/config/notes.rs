@@ -1,12 +1,12 @@
 //! Remarks that are no problems: something given that changes nothing, or that may surprise.
 
-use super::form::Form;
+use super::checked::Checked;
 use crate::engines::EngineKind;
 use crate::plan::Point;
 use coinmc_core::{Landing, Surface};
 
 /// The remarks on a config, in the order of its tables.
-pub(super) fn notes(root: &Form, points: &[Point]) -> Vec<String> {
+pub(super) fn notes(root: &Checked, points: &[Point]) -> Vec<String> {
     let mut notes = Vec::new();
     let Some(engine) = points.first().map(|point| point.engine.descriptor()) else {
         return notes;

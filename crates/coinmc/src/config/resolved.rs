@@ -1,28 +1,31 @@
 //! The config as understood, as TOML: every default and preset spelled out, in one fixed order.
 //! Equal plans have equal texts, so its hash names the plan.
 
-use super::form::{Form, What};
+use super::checked::{Checked, CheckedValue};
 use super::quantity::Quantity;
 use std::fmt::Write;
 
 /// Writes the document. Top-level tables get a header, all else is inline.
-pub(super) fn document(root: &Form) -> String {
+pub(super) fn document(root: &Checked) -> String {
     let mut text = String::new();
-    let What::Table(entries) = &root.what else {
+    let CheckedValue::Table(entries) = &root.value else {
         return text;
     };
-    for (key, form) in entries.iter().filter(|(_, form)| header(form).is_none()) {
-        line(&mut text, key, form);
+    for (key, checked) in entries
+        .iter()
+        .filter(|(_, checked)| header(checked).is_none())
+    {
+        line(&mut text, key, checked);
     }
-    for (key, form) in entries {
-        let Some((tag, inner)) = header(form) else {
+    for (key, checked) in entries {
+        let Some((tag, inner)) = header(checked) else {
             continue;
         };
         let dot = if tag.is_empty() { "" } else { "." };
         put(&mut text, format_args!("\n[{key}{dot}{tag}]\n"));
-        if let What::Table(entries) = &inner.what {
-            for (key, form) in entries {
-                line(&mut text, key, form);
+        if let CheckedValue::Table(entries) = &inner.value {
+            for (key, checked) in entries {
+                line(&mut text, key, checked);
             }
         }
     }
@@ -30,47 +33,47 @@ pub(super) fn document(root: &Form) -> String {
 }
 
 /// The tag (empty for a plain table) and table of what gets a header.
-fn header(form: &Form) -> Option<(&'static str, &Form)> {
-    match &form.what {
-        What::Table(_) => Some(("", form)),
-        What::Tagged(tag, inner) => Some((tag, inner)),
+fn header(checked: &Checked) -> Option<(&'static str, &Checked)> {
+    match &checked.value {
+        CheckedValue::Table(_) => Some(("", checked)),
+        CheckedValue::Tagged(tag, inner) => Some((tag, inner)),
         _ => None,
     }
 }
 
-fn line(text: &mut String, key: &str, form: &Form) {
+fn line(text: &mut String, key: &str, checked: &Checked) {
     text.push_str(key);
     text.push_str(" = ");
-    value(text, form);
+    value(text, checked);
     text.push('\n');
 }
 
-fn value(text: &mut String, form: &Form) {
-    match &form.what {
-        What::Number(number, _) => quantity(text, number),
-        What::Real(value) => float(text, *value),
-        What::Integer(value) => put(text, format_args!("{value}")),
-        What::Boolean(value) => put(text, format_args!("{value}")),
-        What::Word(word) => put(text, format_args!("\"{word}\"")),
-        What::Vector(components) => list(text, components, value),
-        What::Tagged(tag, inner) => {
+fn value(text: &mut String, checked: &Checked) {
+    match &checked.value {
+        CheckedValue::Number(number, _) => quantity(text, number),
+        CheckedValue::Real(value) => float(text, *value),
+        CheckedValue::Integer(value) => put(text, format_args!("{value}")),
+        CheckedValue::Boolean(value) => put(text, format_args!("{value}")),
+        CheckedValue::Word(word) => put(text, format_args!("\"{word}\"")),
+        CheckedValue::Vector(components) => list(text, components, value),
+        CheckedValue::Tagged(tag, inner) => {
             put(text, format_args!("{{ {tag} = "));
             value(text, inner);
             text.push_str(" }");
         }
-        What::Table(entries) => {
+        CheckedValue::Table(entries) => {
             text.push('{');
-            for (index, (key, form)) in entries.iter().enumerate() {
+            for (index, (key, checked)) in entries.iter().enumerate() {
                 put(
                     text,
                     format_args!("{} {key} = ", if index == 0 { "" } else { "," }),
                 );
-                value(text, form);
+                value(text, checked);
             }
             text.push_str(" }");
         }
         // a config with problems is never written
-        What::Invalid => {}
+        CheckedValue::Invalid => {}
     }
 }
 

@@ -1,7 +1,7 @@
 //! The axes of a sweep and the points they span.
 
+use super::checked::{COMPONENTS, Checked, CheckedValue};
 use super::diagnostics::Problems;
-use super::form::{COMPONENTS, Form, What};
 use super::source::Span;
 use crate::plan::MAX_POINTS;
 
@@ -24,11 +24,11 @@ pub(super) struct Sweep {
 impl Sweep {
     /// Finds every swept number (in the order of the schema, so that the order of keys in the
     /// file does not matter), numbers them, and writes their values out if they are not too many.
-    pub(super) fn find(root: &mut Form, problems: &mut Problems) -> Option<Self> {
+    pub(super) fn find(root: &mut Checked, problems: &mut Problems) -> Option<Self> {
         let zip = root
             .get("sweep")
             .and_then(|sweep| sweep.get("mode"))
-            .map(Form::word)??
+            .map(Checked::word)??
             == "zip";
         let mut found = Vec::new();
         collect(root, &mut Vec::new(), &mut found);
@@ -81,30 +81,30 @@ struct Found {
     span: Span,
 }
 
-fn collect(form: &mut Form, path: &mut Vec<&'static str>, found: &mut Vec<Found>) {
-    match &mut form.what {
-        What::Number(quantity, axis) if quantity.len() > 1 => {
+fn collect(checked: &mut Checked, path: &mut Vec<&'static str>, found: &mut Vec<Found>) {
+    match &mut checked.value {
+        CheckedValue::Number(quantity, axis) if quantity.len() > 1 => {
             *axis = Some(found.len());
             let quantity = quantity.clone();
             found.push(Found {
                 name: column(path),
                 quantity,
-                span: form.span,
+                span: checked.span,
             });
         }
-        What::Table(entries) => {
+        CheckedValue::Table(entries) => {
             for (key, inner) in entries {
                 path.push(key);
                 collect(inner, path, found);
                 path.pop();
             }
         }
-        What::Tagged(tag, inner) => {
+        CheckedValue::Tagged(tag, inner) => {
             path.push(tag);
             collect(inner, path, found);
             path.pop();
         }
-        What::Vector(components) => {
+        CheckedValue::Vector(components) => {
             for (name, inner) in COMPONENTS.iter().zip(components) {
                 path.push(name);
                 collect(inner, path, found);

@@ -1,4 +1,4 @@
-//! Closed forms as an engine, one that makes no tosses.
+//! Closed forms as an engine without tosses.
 
 use coinmc_analytic::Rule;
 use coinmc_core::schema::{Absent, Kind, TableKind, Word, field, fields};

@@ -1,7 +1,7 @@
-//! The engines: the one list that configs, plans, runs and reports ask.
+//! The engines: the list used by configs, plans, runs and reports.
 //!
-//! An engine is its crate and a line here; what is known of it is its [`EngineDescriptor`]. The
-//! walk-through is docs/developer/add-an-engine.md.
+//! An engine is a crate and a line here; its properties are in its [`EngineDescriptor`]. See
+//! docs/developer/add-an-engine.md for a tutorial.
 
 mod analytic;
 
@@ -18,7 +18,7 @@ pub const ENGINES: [&EngineDescriptor; 4] = [
     &analytic::ENGINE,
 ];
 
-/// The engine that configs and results call so.
+/// The engine with this name in configs and results.
 ///
 /// # Example
 /// ```
@@ -30,8 +30,8 @@ pub fn engine(name: &str) -> Option<&'static EngineDescriptor> {
     ENGINES.into_iter().find(|engine| engine.name == name)
 }
 
-/// The closed form that the tosses of an engine of this name tend to where nothing bounces; `None` if
-/// it makes none, or there is no such engine.
+/// The closed form for the tosses of an engine without bounces; `None` if the engine makes no tosses,
+/// or if there is no engine with this name.
 ///
 /// # Example
 /// ```

@@ -1,4 +1,4 @@
-//! What a plan computes and what it skips, in words.
+//! Explanation of what a plan computes and what it skips.
 
 mod omission;
 mod without_tosses;
@@ -8,10 +8,10 @@ use coinmc_core::Landing;
 use coinmc_quadrature::Method;
 use omission::{Omission, omissions};
 
-/// What is done for some of the points, and what is not and why.
+/// What is computed and what is skipped, and why, for some of the points.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Explanation {
-    /// How many points are treated so.
+    /// Number of points.
     pub points: usize,
     /// What is computed.
     pub computed: String,
@@ -20,8 +20,8 @@ pub struct Explanation {
 }
 
 impl Plan {
-    /// What will be computed and what is skipped and why, points of one treatment together, in
-    /// the order in which treatments first appear.
+    /// What will be computed, what is skipped and why, for each group of points with the same
+    /// treatment, in the order in which the treatments first appear.
     ///
     /// # Example
     /// ```
@@ -51,15 +51,15 @@ impl Plan {
     }
 }
 
-/// All that decides how a point is treated. A swept setting of the engine does not.
+/// Everything that determines the treatment of a point; swept settings of the engine do not.
 #[derive(PartialEq)]
 struct Treatment {
     engine: &'static str,
-    /// Slow contacts do not bounce. Unlike the rest this is something computed.
+    /// Slow contacts do not bounce. Unlike the other fields this is part of what is computed.
     threshold: bool,
     /// The first contact decides.
     adhesive: bool,
-    /// How it is integrated, and how many random numbers are left to that.
+    /// The method of integration, and the number of random numbers left to integrate over.
     integrated: Option<(Method, usize)>,
     omissions: Vec<Omission>,
 }

@@ -1,15 +1,14 @@
 //! The unit of work.
 
-use super::piece::{Piece, integrate_while};
-use super::{Begin, RunError, for_some_outcomes, stream};
+use super::chunk_result::{ChunkResult, integrate_while};
+use super::{RunError, TossSource, for_some_outcomes, stream};
 use crate::plan::Plan;
 use coinmc_core::{EngineError, Tally};
 use std::fmt;
 use std::ops::{ControlFlow, Range};
 
-/// A range of tosses of one point: the only unit of work there is. Threads, machines and a run
-/// that goes on after a break all do chunks, and chunks add up to the same counts however they
-/// are cut.
+/// A range of tosses of one point: the only unit of work. Threads, machines and resumed runs all
+/// compute chunks, and the counts of chunks add up to the same total however the run is divided.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Chunk {
     /// Index of the point in the plan.
@@ -21,7 +20,7 @@ pub struct Chunk {
 impl fmt::Display for Chunk {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.tosses.is_empty() {
-            // of a point that is integrated: one chunk, no tosses
+            // the one chunk of an integrated point has no tosses
             return write!(f, "point {}", self.point);
         }
         write!(
@@ -32,30 +31,29 @@ impl fmt::Display for Chunk {
     }
 }
 
-/// Does one chunk of tosses, on this thread. A point that a closed form answers has no tosses, and
-/// its tally stays empty; one that is integrated is tossed all the same, as
-/// `sampling.method = "random"` would.
+/// Computes one chunk of tosses on this thread. A point with a closed form has no tosses, so its tally
+/// stays empty; a point that a run would integrate is tossed, as with `sampling.method = "random"`.
 ///
 /// # Errors
-/// [`RunError::NoSuchChunk`] if the plan has no such point or the range runs backwards;
-/// [`RunError::Settings`] if the engine refuses its settings.
+/// [`RunError::NoSuchChunk`] if the plan has no such point or the range is reversed;
+/// [`RunError::Settings`] if the engine rejects its settings.
 pub fn run_chunk(plan: &Plan, chunk: &Chunk) -> Result<Tally, RunError> {
-    // nobody asks it to stop
+    // never stopped, so there is a tally
     Ok(run_chunk_while(plan, chunk, || true)?.unwrap_or_default())
 }
 
-/// Does one chunk, whatever its point is answered by, unless `go_on`, asked every now and then, says
-/// no: then `None`.
-pub(super) fn do_chunk_while(
+/// Computes one chunk, of tosses or of an integration; `None` if `go_on`, which is called from time to
+/// time, returned false.
+pub(super) fn compute_chunk(
     plan: &Plan,
     chunk: &Chunk,
     go_on: impl Fn() -> bool,
-) -> Result<Option<Piece>, RunError> {
+) -> Result<Option<ChunkResult>, RunError> {
     if plan.integrates(chunk.point) {
         let found = integrate_while(plan, chunk.point, plan.goal(), go_on)?;
-        return Ok(found.map(Piece::Integrated));
+        return Ok(found.map(ChunkResult::Integrated));
     }
-    Ok(run_chunk_while(plan, chunk, go_on)?.map(Piece::Tossed))
+    Ok(run_chunk_while(plan, chunk, go_on)?.map(ChunkResult::Tossed))
 }
 
 fn run_chunk_while(
@@ -75,9 +73,9 @@ fn run_chunk_while(
     })
 }
 
-/// The tally of a chunk that there is; `None` if it was told not to go on. That is asked whenever an
-/// engine hands on outcomes: about every 0.1 ms in the plane, 1 ms in space, after each toss in time
-/// steps, and well within 0.1 s of the most tedious tosses.
+/// The tally of an existing chunk; `None` if `go_on` returned false. It is called whenever an engine
+/// delivers outcomes: about every 0.1 ms in the plane, every 1 ms in space, after each toss in time
+/// steps, and well within 0.1 s for the longest tosses.
 fn tally(
     plan: &Plan,
     chunk: &Chunk,
@@ -90,8 +88,8 @@ fn tally(
     }
     if go_on() {
         let stream = stream(plan, chunk.point);
-        let begin = Begin::Drawn(&stream);
-        for_some_outcomes(point, begin, tosses.clone(), &mut |outcomes| {
+        let source = TossSource::Drawn(&stream);
+        for_some_outcomes(point, source, tosses.clone(), &mut |outcomes| {
             for (_, outcome) in outcomes {
                 tally.add(outcome);
             }

@@ -99,8 +99,8 @@ impl RunDirectory {
         let mut finished = Finished::new();
         self.tallies.scan(plan, &Cut::new(plan), |entry| {
             match entry {
-                Entry::Finished(chunk, piece) => {
-                    finished.insert((chunk.point, chunk.tosses.start), piece);
+                Entry::Finished(chunk, result) => {
+                    finished.insert((chunk.point, chunk.tosses.start), result);
                 }
                 Entry::Leftover(path) => replace::remove(&path)?,
                 Entry::Damaged(path, damage) => {

@@ -1,4 +1,4 @@
-//! Tosses of a point one by one, for who wants each of them and not their counts.
+//! Individual tosses of a point, for callers that need each toss and not only the counts.
 
 use crate::plan::Point;
 use coinmc_core::{
@@ -8,17 +8,17 @@ use coinmc_core::{
 use nalgebra::Vector3;
 use std::ops::{ControlFlow, Range};
 
-/// How the tosses begin.
+/// Where the launches of tosses come from.
 #[derive(Clone, Copy)]
-pub enum Begin<'a> {
-    /// Drawn from the point's distribution with the random numbers of this
+pub enum TossSource<'a> {
+    /// Drawn from the distribution of the point with the random numbers of this
     /// [`stream`](super::stream): the tosses of a run.
     Drawn(&'a Stream),
-    /// As somebody says of each, by its number.
+    /// Given by a function of the number of the toss.
     Given(&'a (dyn Fn(u64) -> Launch + Sync)),
 }
 
-impl Begin<'_> {
+impl TossSource<'_> {
     /// The launch of toss number `toss`.
     pub fn launch(&self, point: &Point, toss: u64) -> Launch {
         match self {
@@ -30,35 +30,36 @@ impl Begin<'_> {
     }
 }
 
-/// A toss as it ended.
+/// A toss that has ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Seen {
+pub struct FinishedToss {
     /// Its number.
     pub toss: u64,
-    /// How it ended.
+    /// Its outcome.
     pub outcome: Outcome,
-    /// The coin at the end, as far as the engine followed it.
+    /// State of the coin when the engine stopped.
     pub end: State,
 }
 
-/// Follows tosses and tells `see` the number and the outcome of each, in any order (an engine may
-/// follow several at a time), as long as it says to go on. A closed form makes no toss: then `false`.
+/// Computes tosses and calls `visit` with the number and the outcome of each, in any order (an engine
+/// may compute several at a time), until it returns false. Returns false if the point has a closed form
+/// and so makes no tosses.
 ///
 /// # Errors
-/// [`EngineError`] if the engine refuses its settings.
+/// [`EngineError`] if the engine rejects its settings.
 ///
 /// # Example
 /// ```
-/// use coinmc::run::{Begin, for_each_outcome, stream};
+/// use coinmc::run::{TossSource, for_each_outcome, stream};
 /// let plan = coinmc::config::parse(
 ///     "inline",
 ///     "coin.ratio = 1\nsurface = { restitution = 0.5, friction = 0.3 }\n\
 ///      launch.preset = 'robot'\nengine.flat = {}\nstop.tosses = 100",
 ///     &[],
 /// ).unwrap();
-/// let begin = stream(&plan, 0);
+/// let stream = stream(&plan, 0);
 /// let mut most = 0;
-/// for_each_outcome(&plan.points[0], Begin::Drawn(&begin), 0..100, |_, outcome| {
+/// for_each_outcome(&plan.points[0], TossSource::Drawn(&stream), 0..100, |_, outcome| {
 ///     most = most.max(outcome.impacts);
 ///     true
 /// })?;
@@ -67,14 +68,14 @@ pub struct Seen {
 /// ```
 pub fn for_each_outcome(
     point: &Point,
-    begin: Begin<'_>,
+    source: TossSource<'_>,
     tosses: Range<u64>,
-    mut see: impl FnMut(u64, &Outcome) -> bool,
+    mut visit: impl FnMut(u64, &Outcome) -> bool,
 ) -> Result<bool, EngineError> {
     let first = tosses.start;
-    for_some_outcomes(point, begin, tosses, &mut |outcomes| {
+    for_some_outcomes(point, source, tosses, &mut |outcomes| {
         let mut outcomes = outcomes.iter();
-        if outcomes.all(|(number, outcome)| see(first + number, outcome)) {
+        if outcomes.all(|(number, outcome)| visit(first + number, outcome)) {
             ControlFlow::Continue(())
         } else {
             ControlFlow::Break(())
@@ -82,56 +83,56 @@ pub fn for_each_outcome(
     })
 }
 
-/// [`for_each_outcome`], some outcomes at a time, with the numbers counted from 0.
+/// Like [`for_each_outcome`], several outcomes at a time, with the numbers counted from 0.
 pub(super) fn for_some_outcomes(
     point: &Point,
-    begin: Begin<'_>,
+    source: TossSource<'_>,
     tosses: Range<u64>,
     sink: &mut OutcomeSink<'_>,
 ) -> Result<bool, EngineError> {
     let Some(engine) = point.build_engine()? else {
         return Ok(false);
     };
-    match begin {
-        Begin::Drawn(stream) => {
+    match source {
+        TossSource::Drawn(stream) => {
             let (coin, lanes) = (&point.scene.coin, engine.lanes());
             let launches = point.launches.launches(coin, stream, tosses, lanes);
             engine.toss_many(&mut (), launches.into(), sink);
         }
-        Begin::Given(launch) => {
+        TossSource::Given(launch) => {
             engine.toss_many(&mut (), LaunchSource::new(&mut tosses.map(launch)), sink);
         }
     }
     Ok(true)
 }
 
-/// [`for_each_outcome`] with the coin as it was at the end, one toss after the other: an engine that
-/// follows several at a time is a few times as fast without.
+/// Like [`for_each_outcome`], with the final state of the coin. Tosses use the scalar path, which is a
+/// few times slower for engines with batches.
 ///
 /// # Errors
-/// Those of [`for_each_outcome`].
+/// As [`for_each_outcome`].
 pub fn for_each_end(
     point: &Point,
-    begin: Begin<'_>,
+    source: TossSource<'_>,
     tosses: Range<u64>,
-    see: &mut dyn FnMut(&Seen) -> bool,
+    visit: &mut dyn FnMut(&FinishedToss) -> bool,
 ) -> Result<bool, EngineError> {
     let Some(engine) = point.build_engine()? else {
         return Ok(false);
     };
     for toss in tosses {
-        let launch = begin.launch(point, toss);
+        let launch = source.launch(point, toss);
         let mut last = Last::new(&launch);
         let outcome = engine.toss(&mut (), &launch, &mut last);
         let end = last.0;
-        if !see(&Seen { toss, outcome, end }) {
+        if !visit(&FinishedToss { toss, outcome, end }) {
             break;
         }
     }
     Ok(true)
 }
 
-/// Sees the end alone.
+/// Observer that keeps the last state.
 struct Last(State);
 
 impl Last {

@@ -11,7 +11,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RunError {
-    /// The disk, or the user's share of it, is full.
+    /// The disk or the user's quota is full.
     #[error(
         "no space left for {}: free some and run again, finished chunks are kept ({source})",
         path.display()
@@ -19,17 +19,17 @@ pub enum RunError {
     OutOfSpace {
         /// What was being written.
         path: PathBuf,
-        /// The system's words.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// The system refused to read or write something.
+    /// Reading or writing failed.
     #[error("cannot {action} {}: {source}", path.display())]
     Io {
-        /// What was tried, as a verb.
+        /// The failed operation, as a verb.
         action: &'static str,
-        /// On what.
+        /// The file or directory.
         path: PathBuf,
-        /// The system's words.
+        /// Error of the operating system.
         source: io::Error,
     },
     /// The directory exists and holds something else.
@@ -52,9 +52,9 @@ pub enum RunError {
     OtherPlan {
         /// The directory.
         dir: PathBuf,
-        /// Hash of the plan whose run it holds.
+        /// Hash of the plan of the run in it.
         theirs: String,
-        /// Hash of the plan that was to be run.
+        /// Hash of the plan to be run.
         ours: String,
     },
     /// The directory was begun by another version of the program, which may toss differently.
@@ -71,7 +71,7 @@ pub enum RunError {
         /// This program's version.
         ours: String,
     },
-    /// The directory holds another share of the same run.
+    /// The directory holds another part of the same run.
     #[error(
         "{} holds part {theirs} of this run, not part {ours}: give each part its own directory \
          and merge them",
@@ -82,10 +82,10 @@ pub enum RunError {
         dir: PathBuf,
         /// The part it holds.
         theirs: Part,
-        /// The part that was to be run.
+        /// The part to be run.
         ours: Part,
     },
-    /// A file is of a format that only a newer program knows.
+    /// A file has a format that only a newer program can read.
     #[error(
         "{} has format {found}, this program knows up to {known}: use a newer coinmc",
         path.display()
@@ -95,10 +95,10 @@ pub enum RunError {
         path: PathBuf,
         /// Its format.
         found: u64,
-        /// The newest format known.
+        /// The newest format that this program can read.
         known: u64,
     },
-    /// The manifest cannot be understood.
+    /// The manifest cannot be read.
     #[error(
         "{} is damaged ({reason}): restore it, or move the directory away and run again",
         path.display()
@@ -115,13 +115,13 @@ pub enum RunError {
         /// The directory.
         dir: PathBuf,
     },
-    /// A run that stops by half width decides after each look where to go on, which parts that do
-    /// not see each other cannot.
+    /// A run that stops at a half width chooses after each look which points to continue; parts on
+    /// different machines cannot do that.
     #[error(
         "a run that stops at a half width cannot be cut into parts: give a fixed number of tosses"
     )]
     PartsNeedFixedTosses,
-    /// The chunk lies outside the plan.
+    /// The chunk is outside the plan.
     #[error("{chunk} lies outside the plan, which has {points} points")]
     NoSuchChunk {
         /// The chunk asked for.
@@ -129,21 +129,21 @@ pub enum RunError {
         /// Number of points.
         points: usize,
     },
-    /// An engine does not accept its settings.
+    /// An engine rejects its settings.
     #[error("point {point}: {source}")]
     Settings {
         /// Index of the point.
         point: usize,
-        /// What the engine says.
+        /// Error of the engine.
         source: EngineError,
     },
-    /// The system gives no thread.
+    /// No thread could be started.
     #[error("cannot start a thread: {0}")]
     Thread(io::Error),
     /// A merge was given no directory.
     #[error("nothing to merge: name the run directories of the parts")]
     NothingToMerge,
-    /// The config that a run directory holds is not one.
+    /// The config in a run directory is invalid.
     #[error("{} does not hold a config that can be read: {reason}", path.display())]
     BadConfig {
         /// The config.
@@ -157,12 +157,12 @@ pub enum RunError {
         /// The directory.
         dir: PathBuf,
     },
-    /// Parts together do not make a whole.
+    /// Some chunks are in none of the parts.
     #[error("{} in none of the parts: {}", number(*total), list(missing, *total))]
     Missing {
-        /// The first of them, neighbours joined.
+        /// The first missing chunks, with adjacent ones joined.
         missing: Vec<Chunk>,
-        /// How many there are in all.
+        /// The number of missing chunks.
         total: u64,
     },
     /// Two parts count the same tosses differently.
@@ -181,7 +181,7 @@ pub enum RunError {
 }
 
 impl RunError {
-    /// Sorts a system's error: a full disk is told apart from all others.
+    /// Classifies an error of the operating system: a full disk has its own variant.
     pub(crate) fn io(action: &'static str, path: &Path, source: io::Error) -> Self {
         use io::ErrorKind::{FileTooLarge, QuotaExceeded, StorageFull};
         let path = path.to_owned();

@@ -9,7 +9,7 @@ use std::fmt::Write;
 /// Version of the format.
 const FORMAT: u64 = 1;
 const TITLE: &str = "coinmc integral";
-/// How the lines of an interval begin that is exact, and of one that is Student's.
+/// The kinds of interval: Student's, and exact.
 const KINDS: [&str; 2] = ["student-t", "exact"];
 
 /// The file's content.
@@ -27,8 +27,8 @@ pub(super) fn encode(point: usize, integral: &Integral, plan_hash: &str) -> Stri
     seal(text)
 }
 
-/// Reads the file of a point that the plan integrates by `method`. Anything but the very bytes that
-/// [`encode`] would write is refused.
+/// Reads the file of a point that the plan integrates by `method`. Any bytes other than those that
+/// [`encode`] would write are rejected.
 pub(super) fn decode(
     bytes: &[u8],
     point: usize,
@@ -87,7 +87,7 @@ fn numbers(text: &str) -> Option<Share> {
     })
 }
 
-/// Whether an integration can find this: in particular, some face shows.
+/// Whether an integration can have this result; in particular, some face must show.
 fn is_possible(integral: &Integral) -> bool {
     let in_order = |share: &Share| 0.0 <= share.lo && share.lo <= share.p && share.p <= share.hi;
     let sum = |end: fn(&Share) -> f64| integral.faces.iter().map(end).sum::<f64>();
@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn files_read_back_and_any_damage_is_seen() {
+    fn files_read_back_and_any_damage_is_detected() {
         let kept = |method: &Method| !matches!(method, Method::Zone | Method::Arc);
         for method in Method::ALL.into_iter().filter(kept) {
             let mut written = Integral {
@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn strangers_with_a_right_checksum_are_told_apart() {
+    fn foreign_files_with_a_valid_checksum_are_rejected() {
         let text = encode(7, &example(), HASH);
         let decode = |text: &str, point, hash| super::decode(text.as_bytes(), point, METHOD, hash);
         assert_eq!(decode(&text, 8, HASH), Err(Damage::OtherChunk));

@@ -1,4 +1,4 @@
-//! `manifest.json`: what a run directory is the run of.
+//! `manifest.json`: identifies the run in a directory.
 
 use super::{Part, RunError, replace};
 use crate::plan::Plan;
@@ -10,7 +10,7 @@ use std::path::Path;
 /// Version of the run directory's format.
 pub(super) const FORMAT: u64 = 1;
 pub(super) const FILE: &str = "manifest.json";
-/// No manifest is longer; what is longer is not read.
+/// Largest manifest that is read, bytes.
 const MAX_BYTES: usize = 64 << 10;
 
 /// The manifest's fields. See docs/reference/formats.md.
@@ -24,12 +24,12 @@ pub(super) struct Manifest {
     pub(super) builds: BTreeSet<String>,
     /// Engines that the points name.
     pub(super) engines: BTreeSet<String>,
-    /// Kinds of machine that counted tosses.
+    /// Kinds of machine that computed tosses.
     pub(super) targets: BTreeSet<String>,
     pub(super) part: String,
 }
 
-/// The one field that every version has.
+/// The field that every version has.
 #[derive(Deserialize)]
 struct AnyFormat {
     format: u64,
@@ -85,7 +85,7 @@ impl Manifest {
         replace::replace(&dir.join(FILE), text.as_bytes())
     }
 
-    /// Checks that the run in `dir`, whose manifest this is, is the one that `ours` describes.
+    /// Checks that this manifest, read from `dir`, describes the same run and part as `ours`.
     pub(super) fn must_match(&self, ours: &Self, dir: &Path) -> Result<(), RunError> {
         self.must_be_same_run(ours, dir)?;
         if self.part == ours.part {
@@ -98,7 +98,7 @@ impl Manifest {
         })
     }
 
-    /// Like [`must_match`](Self::must_match), but any part of the run will do.
+    /// Like [`must_match`](Self::must_match), but accepts any part of the run.
     pub(super) fn must_be_same_run(&self, ours: &Self, dir: &Path) -> Result<(), RunError> {
         let dir = dir.to_owned();
         if self.plan_hash != ours.plan_hash {
@@ -112,9 +112,9 @@ impl Manifest {
         Ok(())
     }
 
-    /// The warning if the run in `dir`, whose manifest this is, is resumed by builds that have not
-    /// worked on it yet. They may: builds of one version give the same counts, unless the program is
-    /// being changed.
+    /// The warning if the run in `dir`, which has this manifest, is resumed by builds that have not
+    /// worked on it yet. This is allowed: builds of one version give the same counts, except while the
+    /// program is being changed.
     pub(super) fn warning_of_other_builds(&self, ours: &Self, dir: &Path) -> Option<String> {
         if ours.builds.is_subset(&self.builds) {
             return None;
@@ -142,7 +142,7 @@ fn listed(builds: &BTreeSet<String>) -> String {
     builds.join(", ")
 }
 
-/// This machine's kind and the vector instructions this program was compiled to use.
+/// The kind of this machine and the vector instructions that this program was compiled for.
 fn target() -> String {
     let features = [
         ("sse4.2", cfg!(target_feature = "sse4.2")),

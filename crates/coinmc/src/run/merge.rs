@@ -1,10 +1,10 @@
 //! Merges the parts of a run.
 
+use super::chunk_result::ChunkResult;
 use super::cut::Cut;
 use super::directory::RunDirectory;
 use super::in_directory::conclude;
 use super::manifest::Manifest;
-use super::piece::Piece;
 use super::schedule::{Finished, Next, Schedule};
 use super::stored::{read_manifest, read_plan};
 use super::tallies::{Entry, Tallies};
@@ -46,7 +46,7 @@ pub fn merge(inputs: &[PathBuf], out: &Path, sink: &dyn ProgressSink) -> Result<
         &plan,
         collected
             .iter()
-            .map(|(key, found)| (*key, found.piece))
+            .map(|(key, found)| (*key, found.result))
             .collect(),
     )?;
     write(&plan, ours, collected, inputs, out, sink)
@@ -55,7 +55,7 @@ pub fn merge(inputs: &[PathBuf], out: &Path, sink: &dyn ProgressSink) -> Result<
 /// The result of a chunk and the run directory it came from.
 struct Found {
     chunk: Chunk,
-    piece: Piece,
+    result: ChunkResult,
     input: usize,
 }
 
@@ -80,9 +80,9 @@ fn collect(
     let mut collected = Collected::new();
     for (input, dir) in inputs.iter().enumerate() {
         Tallies::of(dir, plan_hash.to_owned()).scan(plan, &cut, |entry| match entry {
-            Entry::Finished(chunk, piece) => {
+            Entry::Finished(chunk, result) => {
                 match collected.entry((chunk.point, chunk.tosses.start)) {
-                    Slot::Occupied(there) if there.get().piece != piece => {
+                    Slot::Occupied(there) if there.get().result != result => {
                         let first = inputs[there.get().input].clone();
                         return Err(RunError::Conflict {
                             chunk,
@@ -94,7 +94,7 @@ fn collect(
                     Slot::Vacant(free) => {
                         free.insert(Found {
                             chunk,
-                            piece,
+                            result,
                             input,
                         });
                     }
@@ -148,7 +148,7 @@ fn write(
     let mut new = Vec::new();
     for (key, found) in &collected {
         match existing.get(key) {
-            Some(piece) if *piece != found.piece => {
+            Some(result) if *result != found.result => {
                 return Err(RunError::Conflict {
                     chunk: found.chunk.clone(),
                     first: inputs[found.input].clone(),
@@ -156,14 +156,14 @@ fn write(
                 });
             }
             Some(_) => {}
-            None => new.push((found.chunk.clone(), found.piece)),
+            None => new.push((found.chunk.clone(), found.result)),
         }
     }
     new.chunks(BATCH)
         .try_for_each(|batch| directory.tallies().store(batch))?;
     let finished = collected
         .into_iter()
-        .map(|(key, found)| (key, found.piece))
+        .map(|(key, found)| (key, found.result))
         .collect();
     let mut schedule = Schedule::new(plan, Part::WHOLE, finished);
     let whole = schedule.next();

@@ -32,6 +32,7 @@
 //! ```
 
 mod chunk;
+mod chunk_result;
 mod count;
 mod cut;
 mod damage;
@@ -44,7 +45,6 @@ mod manifest;
 mod merge;
 mod options;
 mod part;
-mod piece;
 mod progress;
 mod replace;
 mod report;
@@ -57,15 +57,15 @@ mod toss;
 mod workers;
 
 pub use chunk::{Chunk, run_chunk};
+pub use chunk_result::integrate_point;
 pub use count::{Count, count};
 use each::for_some_outcomes;
-pub use each::{Begin, Seen, for_each_end, for_each_outcome};
+pub use each::{FinishedToss, TossSource, for_each_end, for_each_outcome};
 pub use error::RunError;
 pub use in_directory::run;
 pub use merge::merge;
 pub use options::Options;
 pub use part::{Part, PartError};
-pub use piece::integrate_point;
 pub use progress::{Progress, ProgressSink};
 pub use report::{Report, Status};
 pub use stored::{stored_plan, stored_report};

@@ -1,10 +1,10 @@
-//! The share of a run that one of several machines does.
+//! The part of a run that one of several machines computes.
 
 use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
 
-/// Part `index` of `of`, counted from 1: the chunks whose number is `index - 1` modulo `of`.
+/// Part `index` of `of`, counted from 1: the chunks with numbers equal to `index - 1` modulo `of`.
 ///
 /// # Example
 /// ```
@@ -21,13 +21,13 @@ pub struct Part {
     of: u32,
 }
 
-/// Why a text is no part.
+/// Why a text is not a valid part.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum PartError {
-    /// Not two whole numbers with a slash between.
+    /// Not two whole numbers separated by a slash.
     #[error("a part is written i/n, as in 2/4, not `{0}`")]
     Form(String),
-    /// The index does not lie between 1 and the number of parts.
+    /// The index is not between 1 and the number of parts.
     #[error("part {index}/{of}: 1 <= i <= n is required")]
     Range {
         /// The index found.
@@ -53,12 +53,12 @@ impl Part {
         }
     }
 
-    /// Which part, from 1.
+    /// The number of the part, from 1.
     pub fn index(self) -> u32 {
         self.index
     }
 
-    /// How many parts there are.
+    /// The number of parts.
     pub fn of(self) -> u32 {
         self.of
     }

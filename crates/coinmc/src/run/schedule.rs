@@ -1,7 +1,7 @@
 //! Which chunk comes next, and the sum of a point's chunks.
 
+use super::chunk_result::{ChunkResult, whole};
 use super::cut::Cut;
-use super::piece::{Piece, whole};
 use super::{Chunk, Part, Progress};
 use crate::plan::{Plan, Stop};
 use crate::results::estimates;
@@ -10,7 +10,7 @@ use coinmc_quadrature::Integral;
 use std::collections::HashMap;
 
 /// Results of chunks that an earlier run finished, by point and first toss.
-pub(super) type Finished = HashMap<(usize, u64), Piece>;
+pub(super) type Finished = HashMap<(usize, u64), ChunkResult>;
 
 /// Hands out chunks and collects their results, in whatever order they arrive.
 ///
@@ -101,7 +101,7 @@ impl<'a> Schedule<'a> {
         let points = points.collect();
         let reused = finished
             .values()
-            .map(Piece::tosses)
+            .map(ChunkResult::tosses)
             .fold(0, u64::saturating_add);
         let progress = Progress {
             points_done: 0,
@@ -160,15 +160,15 @@ impl<'a> Schedule<'a> {
     }
 
     /// Records the result of a chunk that [`next`](Self::next) handed out.
-    pub(super) fn complete(&mut self, chunk: &Chunk, piece: &Piece) {
+    pub(super) fn complete(&mut self, chunk: &Chunk, result: &ChunkResult) {
         let point = &mut self.points[chunk.point];
-        match piece {
-            Piece::Tossed(tally) => point.tally.merge(tally),
-            Piece::Integrated(integral) => point.integral = Some(*integral),
+        match result {
+            ChunkResult::Tossed(tally) => point.tally.merge(tally),
+            ChunkResult::Integrated(integral) => point.integral = Some(*integral),
         }
         point.outstanding -= 1;
         self.in_flight -= 1;
-        self.progress.tosses_done += piece.tosses();
+        self.progress.tosses_done += result.tosses();
         self.update_worst(chunk.point);
         self.close_stage_if_complete(chunk.point);
     }
@@ -199,15 +199,15 @@ impl<'a> Schedule<'a> {
     /// Removes and returns the results of an earlier run that this one did not need.
     pub(super) fn take_unneeded(&mut self) -> Vec<(usize, u64)> {
         let unneeded = std::mem::take(&mut self.finished);
-        for piece in unneeded.values() {
-            self.forget_reused(piece);
+        for result in unneeded.values() {
+            self.forget_reused(result);
         }
         unneeded.into_keys().collect()
     }
 
-    fn forget_reused(&mut self, piece: &Piece) {
-        self.progress.tosses_done -= piece.tosses();
-        self.progress.tosses_reused -= piece.tosses();
+    fn forget_reused(&mut self, result: &ChunkResult) {
+        self.progress.tosses_done -= result.tosses();
+        self.progress.tosses_reused -= result.tosses();
         self.progress.reused_chunks -= 1;
     }
 
@@ -235,16 +235,16 @@ impl<'a> Schedule<'a> {
     }
 
     fn take_finished(&mut self, chunk: &Chunk) -> bool {
-        let Some(piece) = self.finished.remove(&(chunk.point, chunk.tosses.start)) else {
+        let Some(result) = self.finished.remove(&(chunk.point, chunk.tosses.start)) else {
             return false;
         };
         let point = &mut self.points[chunk.point];
-        match piece {
-            Piece::Integrated(integral) => point.integral = Some(integral),
-            Piece::Tossed(tally) => {
+        match result {
+            ChunkResult::Integrated(integral) => point.integral = Some(integral),
+            ChunkResult::Tossed(tally) => {
                 let Some(sum) = point.tally.checked_merge(&tally) else {
                     // only forged counts overflow: repeat the chunk
-                    self.forget_reused(&piece);
+                    self.forget_reused(&result);
                     return false;
                 };
                 point.tally = sum;

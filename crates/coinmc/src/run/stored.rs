@@ -35,8 +35,8 @@ pub fn stored_report(dir: &Path, sink: &dyn ProgressSink) -> Result<(Plan, Repor
     let tallies = Tallies::of(dir, plan.hash());
     tallies.scan(&plan, &Cut::new(&plan), |entry| {
         match entry {
-            Entry::Finished(chunk, piece) => {
-                finished.insert((chunk.point, chunk.tosses.start), piece);
+            Entry::Finished(chunk, result) => {
+                finished.insert((chunk.point, chunk.tosses.start), result);
             }
             Entry::Damaged(path, damage) => {
                 sink.warning(&format!("{} is rejected: {damage}", path.display()));

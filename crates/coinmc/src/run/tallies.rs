@@ -1,9 +1,9 @@
 //! The directory of tally files: reads finished chunks, adds new ones.
 
+use super::chunk_result::{ChunkResult, whole};
 use super::cut::Cut;
 use super::damage::Damage;
 use super::integral_file;
-use super::piece::{Piece, whole};
 use super::replace::{self, Replacement, TEMPORARY};
 use super::sealed::MAX_BYTES;
 use super::tally_file;
@@ -29,7 +29,7 @@ pub(super) struct Tallies {
 #[derive(Debug)]
 pub(super) enum Entry {
     /// A finished chunk.
-    Finished(Chunk, Piece),
+    Finished(Chunk, ChunkResult),
     /// A file that is rejected.
     Damaged(PathBuf, Damage),
     /// The temporary file of a killed run.
@@ -85,27 +85,27 @@ impl Tallies {
         let bytes = replace::read_bounded(path, MAX_BYTES)
             .map_err(|error| RunError::io("read", path, error))?;
         let hash = &self.plan_hash;
-        let piece = bytes.ok_or(Damage::TooLong).and_then(|bytes| {
+        let result = bytes.ok_or(Damage::TooLong).and_then(|bytes| {
             if let Some(method) = plan.method(chunk.point) {
                 let integral = integral_file::decode(&bytes, chunk.point, method, hash);
-                return integral.map(Piece::Integrated);
+                return integral.map(ChunkResult::Integrated);
             }
-            tally_file::decode(&bytes, &chunk, hash).map(Piece::Tossed)
+            tally_file::decode(&bytes, &chunk, hash).map(ChunkResult::Tossed)
         });
-        Ok(match piece {
-            Ok(piece) => Entry::Finished(chunk, piece),
+        Ok(match result {
+            Ok(result) => Entry::Finished(chunk, result),
             Err(damage) => Entry::Damaged(path.to_owned(), damage),
         })
     }
 
     /// Adds finished chunks durably: synced to the disk.
-    pub(super) fn store(&self, batch: &[(Chunk, Piece)]) -> Result<(), RunError> {
+    pub(super) fn store(&self, batch: &[(Chunk, ChunkResult)]) -> Result<(), RunError> {
         let mut files = Vec::with_capacity(batch.len());
-        for (chunk, piece) in batch {
+        for (chunk, result) in batch {
             let mut file = Replacement::begin(&self.path.join(tally_file::name(chunk)))?;
-            let text = match piece {
-                Piece::Tossed(tally) => tally_file::encode(chunk, tally, &self.plan_hash),
-                Piece::Integrated(integral) => {
+            let text = match result {
+                ChunkResult::Tossed(tally) => tally_file::encode(chunk, tally, &self.plan_hash),
+                ChunkResult::Integrated(integral) => {
                     integral_file::encode(chunk.point, integral, &self.plan_hash)
                 }
             };

@@ -23,7 +23,7 @@ pub(super) fn parse_name(file: &str) -> Option<(usize, u64)> {
         .strip_prefix('p')?
         .split_once("-t")?;
     let (point, start) = (point.parse().ok()?, start.parse().ok()?);
-    // one spelling only, so that no two names mean the same chunk
+    // only one spelling is valid, so that no two names mean the same chunk
     (name(&Chunk {
         point,
         tosses: start..start,
@@ -31,8 +31,7 @@ pub(super) fn parse_name(file: &str) -> Option<(usize, u64)> {
         .then_some((point, start))
 }
 
-/// Whether the counter has a line even if it is 0: most laws never break down, and their files need
-/// no lines that say so.
+/// Whether the counter has a line even if it is 0; counters of events that most laws never have do not.
 fn is_always_written(counter: &Counter) -> bool {
     counter.kind != CounterKind::Breakdown
 }
@@ -52,7 +51,7 @@ pub(super) fn encode(chunk: &Chunk, tally: &Tally, plan_hash: &str) -> String {
     seal(text)
 }
 
-/// Reads the file of `chunk`. Anything but the very bytes that [`encode`] would write is refused.
+/// Reads the file of `chunk`. Any bytes other than those that [`encode`] would write are rejected.
 pub(super) fn decode(bytes: &[u8], chunk: &Chunk, plan_hash: &str) -> Result<Tally, Damage> {
     let mut lines = unseal(bytes)?.lines();
     let title = lines
@@ -99,7 +98,7 @@ pub(super) fn decode(bytes: &[u8], chunk: &Chunk, plan_hash: &str) -> Result<Tal
     }
 }
 
-/// Whether `tosses` tosses can end in these counts.
+/// Whether `tosses` tosses can have these counts.
 fn is_possible(tally: &Tally, tosses: u64) -> bool {
     let most_events = tosses.saturating_mul(u64::from(u32::MAX));
     let mut endings = Some(0_u64);
@@ -146,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn names_have_one_spelling() {
+    fn names_have_only_one_spelling() {
         let (chunk, _) = example();
         assert_eq!(name(&chunk), "p000003-t00000000016384.tally");
         assert_eq!(parse_name(&name(&chunk)), Some((3, 16384)));
@@ -168,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn forged_counts_are_refused_without_overflow() {
+    fn impossible_counts_are_rejected_without_overflow() {
         let (chunk, tally) = example();
         for forged in [
             Tally {
@@ -191,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn strangers_with_a_right_checksum_are_told_apart() {
+    fn foreign_files_with_a_valid_checksum_are_rejected() {
         let (chunk, tally) = example();
         let text = encode(&chunk, &tally, HASH);
         let other = Chunk {
@@ -239,7 +238,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn files_read_back_and_any_damage_is_seen(
+        fn files_read_back_and_any_damage_is_detected(
             point in 0..10_000_usize,
             start in 0..u64::MAX / 2,
             faces in prop::array::uniform7(0..1_u64 << 40),

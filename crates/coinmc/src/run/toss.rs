@@ -1,13 +1,13 @@
-//! One toss, and the random numbers of all.
+//! A single toss, and the random numbers of all tosses.
 
 use crate::plan::{Plan, Point};
 use coinmc_core::{Domain, Ended, Engine, EngineError, Face, Launch, Outcome, Stream};
 
-/// Follows one launch at a point, for who has launches of their own; a closed form makes no toss
-/// and gives what counts as none, [`Ended::Failed`].
+/// Computes the toss of a given launch at a point. A point with a closed form makes no toss: then the
+/// outcome is [`Ended::Failed`].
 ///
 /// # Errors
-/// [`EngineError`] if the engine refuses its settings.
+/// [`EngineError`] if the engine rejects its settings.
 pub fn toss(point: &Point, launch: &Launch) -> Result<Outcome, EngineError> {
     Ok(match point.build_engine()? {
         Some(engine) => engine.toss(&mut (), launch, &mut ()),

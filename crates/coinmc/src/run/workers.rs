@@ -1,7 +1,7 @@
 //! Threads that execute chunks, and the one that stores their results.
 
-use super::chunk::do_chunk_while;
-use super::piece::Piece;
+use super::chunk::compute_chunk;
+use super::chunk_result::ChunkResult;
 use super::schedule::{Next, Schedule};
 use super::{Chunk, ProgressSink, RunError};
 use crate::plan::Plan;
@@ -17,10 +17,10 @@ const BATCH: usize = 64;
 /// How long an idle worker waits before it checks whether it should stop.
 const IDLE_WAIT: Duration = Duration::from_millis(50);
 
-type Done = Result<(Chunk, Piece), RunError>;
+type Done = Result<(Chunk, ChunkResult), RunError>;
 
 /// Stores finished chunks, a few at a time.
-pub(super) type Store<'a> = &'a dyn Fn(&[(Chunk, Piece)]) -> Result<(), RunError>;
+pub(super) type Store<'a> = &'a dyn Fn(&[(Chunk, ChunkResult)]) -> Result<(), RunError>;
 
 /// State that the threads share.
 struct Shared<'a, 'p> {
@@ -117,11 +117,11 @@ pub(super) fn execute<'p>(
 fn work(shared: &Shared<'_, '_>, sender: &SyncSender<Done>) {
     let _stop_on_panic = StopOnPanic(&shared.broken);
     while let Some(chunk) = shared.next_chunk() {
-        let done = match do_chunk_while(shared.plan, &chunk, || shared.should_continue()) {
-            Ok(Some(piece)) => {
-                shared.schedule().complete(&chunk, &piece);
+        let done = match compute_chunk(shared.plan, &chunk, || shared.should_continue()) {
+            Ok(Some(result)) => {
+                shared.schedule().complete(&chunk, &result);
                 shared.changed.notify_all();
-                Ok((chunk, piece))
+                Ok((chunk, result))
             }
             Ok(None) => return,
             Err(error) => Err(error),

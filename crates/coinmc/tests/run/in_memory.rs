@@ -6,8 +6,8 @@ use crate::support::{
 use coinmc::plan::Plan;
 use coinmc::results::Results;
 use coinmc::run::{
-    Begin, Chunk, Count, Part, RunError, Status, count, for_each_end, for_each_outcome, run_chunk,
-    stored_report, stream, toss as toss_alone,
+    Chunk, Count, Part, RunError, Status, TossSource, count, for_each_end, for_each_outcome,
+    run_chunk, stored_report, stream, toss as toss_alone,
 };
 use coinmc_core::{Launch, Outcome, Tally};
 use std::num::NonZeroUsize;
@@ -100,19 +100,19 @@ fn tosses_one_by_one_are_those_of_a_chunk() {
         let (point, tosses) = (1, 30..330);
         let stream = stream(plan, point);
         let found = &plan.points[point];
-        let begin = Begin::Drawn(&stream);
+        let source = TossSource::Drawn(&stream);
         let mut tally = Tally::default();
         let mut numbers = Vec::new();
         let mut add = |toss, outcome: &Outcome| {
             assert_eq!(
                 *outcome,
-                toss_alone(found, &begin.launch(found, toss)).unwrap()
+                toss_alone(found, &source.launch(found, toss)).unwrap()
             );
             numbers.push(toss);
             tally.add(outcome);
             true
         };
-        assert!(for_each_outcome(found, begin, tosses.clone(), &mut add).unwrap());
+        assert!(for_each_outcome(found, source, tosses.clone(), &mut add).unwrap());
         numbers.sort_unstable();
         assert!(numbers.into_iter().eq(tosses.clone()));
         let chunk = Chunk { point, tosses };
@@ -126,14 +126,14 @@ fn a_launch_given_ends_like_the_same_launch_drawn() {
     for plan in &plans {
         let found = &plan.points[0];
         let stream = stream(plan, 0);
-        let drawn = |toss| -> Launch { Begin::Drawn(&stream).launch(found, toss) };
+        let drawn = |toss| -> Launch { TossSource::Drawn(&stream).launch(found, toss) };
         let mut seen = Vec::new();
-        for begin in [Begin::Drawn(&stream), Begin::Given(&drawn)] {
+        for source in [TossSource::Drawn(&stream), TossSource::Given(&drawn)] {
             let mut keep = |toss: &_| {
                 seen.push(*toss);
                 true
             };
-            assert!(for_each_end(found, begin, 0..20, &mut keep).unwrap());
+            assert!(for_each_end(found, source, 0..20, &mut keep).unwrap());
         }
         let (first, second) = seen.split_at(20);
         assert_eq!(first, second);
@@ -149,7 +149,13 @@ fn who_sees_may_stop() {
         seen += 1;
         seen < 3
     };
-    for_each_outcome(&plan.points[0], Begin::Drawn(&stream), 0..1000, &mut three).unwrap();
+    for_each_outcome(
+        &plan.points[0],
+        TossSource::Drawn(&stream),
+        0..1000,
+        &mut three,
+    )
+    .unwrap();
     assert_eq!(seen, 3);
 }
 
@@ -158,9 +164,9 @@ fn a_closed_form_follows_nothing() {
     let text = "coin.ratio = 1\nengine.analytic.rule = 'arc'";
     let plan = coinmc::config::parse("test", text, &[]).unwrap();
     let stream = stream(&plan, 0);
-    let begin = Begin::Drawn(&stream);
+    let source = TossSource::Drawn(&stream);
     let mut never = |_, _: &_| unreachable!("a closed form makes no toss");
-    assert!(!for_each_outcome(&plan.points[0], begin, 0..9, &mut never).unwrap());
+    assert!(!for_each_outcome(&plan.points[0], source, 0..9, &mut never).unwrap());
     let fixed = plan_of("[coin]\nratio = 1.0\n[surface]\nrestitution = 0.5\n[stop]\ntosses = 9\n");
     assert_eq!(counted(&fixed, 1, &Ear::default()).2, 9);
 }

@@ -4,8 +4,8 @@
 mod number;
 mod table;
 
+use super::checked::{Checked, CheckedValue};
 use super::diagnostics::{Problems, quoted};
-use super::form::{Form, What};
 use super::nearest::nearest;
 use super::schema::{Field, Kind, TableKind, Whole, Word};
 use super::source::{Sources, Span};
@@ -18,7 +18,7 @@ pub(super) fn document(
     schema: &TableKind,
     root: &Table,
     end: Span,
-) -> Form {
+) -> Checked {
     Walker { sources, problems }.table(schema, root, end, "")
 }
 
@@ -29,16 +29,16 @@ struct Walker<'a> {
 
 impl Walker<'_> {
     /// Checks one value; `path` is what messages call it.
-    fn value(&mut self, kind: &Kind, node: &Node, path: &str) -> Form {
+    fn value(&mut self, kind: &Kind, node: &Node, path: &str) -> Checked {
         match kind {
             Kind::Number(bounds) => self.quantity(*bounds, node, path),
             Kind::Real(bounds) => match self.real(*bounds, node, path) {
-                Some(value) => Form::new(node.span, What::Real(value)),
-                None => Form::invalid(node.span),
+                Some(value) => Checked::new(node.span, CheckedValue::Real(value)),
+                None => Checked::invalid(node.span),
             },
             Kind::Integer(whole) => self.integer(*whole, node, path),
             Kind::Boolean => match node.value {
-                Value::Boolean(value) => Form::new(node.span, What::Boolean(value)),
+                Value::Boolean(value) => Checked::new(node.span, CheckedValue::Boolean(value)),
                 _ => self.wrong_type(node, path, "true or false"),
             },
             Kind::Word(words) => match &node.value {
@@ -64,7 +64,7 @@ impl Walker<'_> {
         }
     }
 
-    fn wrong_type(&mut self, node: &Node, path: &str, expected: &str) -> Form {
+    fn wrong_type(&mut self, node: &Node, path: &str, expected: &str) -> Checked {
         let found = node.value.type_name();
         let message = match &node.value {
             Value::Table(_) | Value::List(_) => {
@@ -83,10 +83,10 @@ impl Walker<'_> {
             _ => None,
         };
         self.problems.push(node.span, message, help);
-        Form::invalid(node.span)
+        Checked::invalid(node.span)
     }
 
-    fn integer(&mut self, whole: Whole, node: &Node, path: &str) -> Form {
+    fn integer(&mut self, whole: Whole, node: &Node, path: &str) -> Checked {
         let expected = format!("a whole number from {} to {}", whole.low, whole.high);
         // whole numbers up to 2^64 are exact in 128 bits, and beyond that they are out of range
         #[allow(clippy::cast_possible_truncation)]
@@ -99,19 +99,26 @@ impl Walker<'_> {
         if let Ok(value) = u64::try_from(value)
             && (whole.low..=whole.high).contains(&value)
         {
-            return Form::new(node.span, What::Integer(value));
+            return Checked::new(node.span, CheckedValue::Integer(value));
         }
         let found = quoted(self.sources.text(node.span));
         self.problems.add(
             node.span,
             format!("`{path}` must be {expected}, found {found}"),
         );
-        Form::invalid(node.span)
+        Checked::invalid(node.span)
     }
 
-    fn word(&mut self, words: &[Word], tags: &[Field], text: &str, span: Span, path: &str) -> Form {
+    fn word(
+        &mut self,
+        words: &[Word],
+        tags: &[Field],
+        text: &str,
+        span: Span,
+        path: &str,
+    ) -> Checked {
         if let Some(word) = words.iter().find(|word| word.name == text) {
-            return Form::new(span, What::Word(word.name));
+            return Checked::new(span, CheckedValue::Word(word.name));
         }
         let expected = alternatives(words, tags);
         let message = format!("`{path}` must be {expected}, found {}", quoted(text));
@@ -121,10 +128,10 @@ impl Walker<'_> {
             message,
             near.map(|near| format!("did you mean \"{near}\"?")),
         );
-        Form::invalid(span)
+        Checked::invalid(span)
     }
 
-    fn vector(&mut self, component: &Kind, node: &Node, path: &str) -> Form {
+    fn vector(&mut self, component: &Kind, node: &Node, path: &str) -> Checked {
         let Value::List(items) = &node.value else {
             return self.wrong_type(node, path, "a list of three, x, y and z");
         };
@@ -134,18 +141,18 @@ impl Walker<'_> {
                 items.len()
             );
             self.problems.add(node.span, message);
-            return Form::invalid(node.span);
+            return Checked::invalid(node.span);
         }
-        let components = super::form::COMPONENTS
+        let components = super::checked::COMPONENTS
             .iter()
             .zip(items)
             .map(|(name, item)| self.value(component, item, &format!("{path}.{name}")))
             .collect();
-        Form::new(node.span, What::Vector(components))
+        Checked::new(node.span, CheckedValue::Vector(components))
     }
 
     /// A table with exactly one key, which says what it is.
-    fn tagged(&mut self, tags: &[Field], table: &Table, span: Span, path: &str) -> Form {
+    fn tagged(&mut self, tags: &[Field], table: &Table, span: Span, path: &str) -> Checked {
         let (mut known, unknown): (Vec<&Entry>, Vec<&Entry>) = table
             .entries
             .iter()
@@ -155,12 +162,15 @@ impl Walker<'_> {
         }
         known.sort_by_key(|entry| entry.key_span);
         // every alternative is checked, so that no problem hides behind another
-        let mut forms: Vec<Form> = known
+        let mut forms: Vec<Checked> = known
             .iter()
             .filter_map(|entry| {
                 let tag = tags.iter().find(|tag| tag.name == entry.key)?;
                 let inner = self.value(&tag.kind, &entry.node, &format!("{path}.{}", tag.name));
-                Some(Form::new(span, What::Tagged(tag.name, Box::new(inner))))
+                Some(Checked::new(
+                    span,
+                    CheckedValue::Tagged(tag.name, Box::new(inner)),
+                ))
             })
             .collect();
         for entry in known.iter().skip(1) {
@@ -178,8 +188,8 @@ impl Walker<'_> {
             );
         }
         match forms.pop() {
-            Some(form) if known.len() == 1 && unknown.is_empty() => form,
-            _ => Form::invalid(span),
+            Some(checked) if known.len() == 1 && unknown.is_empty() => checked,
+            _ => Checked::invalid(span),
         }
     }
 

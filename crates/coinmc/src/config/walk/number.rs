@@ -1,8 +1,8 @@
 //! Numbers, lists and ranges.
 
 use super::Walker;
+use crate::config::checked::{Checked, CheckedValue};
 use crate::config::diagnostics::quoted;
-use crate::config::form::{Form, What};
 use crate::config::quantity::{Quantity, Range};
 use crate::config::schema::{self, Bounds};
 use crate::config::source::Span;
@@ -10,7 +10,7 @@ use crate::config::tree::{Node, Table, Value};
 
 impl Walker<'_> {
     /// A number that may be swept.
-    pub(super) fn quantity(&mut self, bounds: Bounds, node: &Node, path: &str) -> Form {
+    pub(super) fn quantity(&mut self, bounds: Bounds, node: &Node, path: &str) -> Checked {
         let quantity = match &node.value {
             Value::List(items) => self.list(bounds, items, node.span, path),
             Value::Table(table) => self.range(bounds, table, node.span, path),
@@ -23,8 +23,8 @@ impl Walker<'_> {
             }
         };
         match quantity {
-            Some(quantity) => Form::new(node.span, What::Number(quantity, None)),
-            None => Form::invalid(node.span),
+            Some(quantity) => Checked::new(node.span, CheckedValue::Number(quantity, None)),
+            None => Checked::invalid(node.span),
         }
     }
 
@@ -88,13 +88,13 @@ impl Walker<'_> {
     }
 
     fn range(&mut self, bounds: Bounds, table: &Table, span: Span, path: &str) -> Option<Quantity> {
-        let form = self.table(&schema::range(bounds), table, span, path);
-        let real = |key: &str| match form.get(key)?.what {
-            What::Real(value) => Some((value, form.get(key)?.span)),
+        let checked = self.table(&schema::range(bounds), table, span, path);
+        let real = |key: &str| match checked.get(key)?.value {
+            CheckedValue::Real(value) => Some((value, checked.get(key)?.span)),
             _ => None,
         };
         let (from, to) = (real("from"), real("to"));
-        let log = form.get("scale").and_then(Form::word)? == "log";
+        let log = checked.get("scale").and_then(Checked::word)? == "log";
         let mut sound = true;
         if let (Some((from, _)), Some((to, to_span))) = (from, to)
             && from >= to
@@ -112,7 +112,7 @@ impl Walker<'_> {
             self.problems.add(from_span, message);
             sound = false;
         }
-        let What::Integer(steps) = form.get("steps")?.what else {
+        let CheckedValue::Integer(steps) = checked.get("steps")?.value else {
             return None;
         };
         let range = Range {

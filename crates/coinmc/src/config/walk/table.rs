@@ -2,7 +2,7 @@
 
 use super::Walker;
 use super::names;
-use crate::config::form::{Form, What};
+use crate::config::checked::{Checked, CheckedValue};
 use crate::config::nearest::nearest;
 use crate::config::quantity::Quantity;
 use crate::config::schema::{Absent, Condition, Fallback, Field, Kind, Rule, TableKind};
@@ -12,7 +12,7 @@ use crate::config::tree::Table;
 /// A table while it is checked: what each field holds, in the order of the schema.
 struct Slots<'a> {
     fields: &'a [Field],
-    forms: Vec<Option<Form>>,
+    forms: Vec<Option<Checked>>,
     span: Span,
     path: &'a str,
     /// Fields whose name was probably mistyped; the unknown key has been reported.
@@ -29,7 +29,7 @@ impl Walker<'_> {
         table: &Table,
         span: Span,
         path: &str,
-    ) -> Form {
+    ) -> Checked {
         let fields = &kind.fields;
         let forms = vec![None; fields.len()];
         let mut slots = Slots {
@@ -65,9 +65,9 @@ impl Walker<'_> {
         }
         let present = fields.iter().zip(slots.forms);
         let entries = present
-            .filter_map(|(field, form)| Some((field.name, form?)))
+            .filter_map(|(field, checked)| Some((field.name, checked?)))
             .collect();
-        Form::new(span, What::Table(entries))
+        Checked::new(span, CheckedValue::Table(entries))
     }
 
     fn missing(&mut self, slots: &mut Slots<'_>, index: usize, unless: &str) {
@@ -91,7 +91,7 @@ impl Walker<'_> {
             self.problems.add_with_help(slots.span, message, help);
             slots.missing.push(field.name);
         }
-        slots.forms[index] = Some(Form::invalid(slots.span));
+        slots.forms[index] = Some(Checked::invalid(slots.span));
     }
 
     fn rule(&mut self, rule: Rule, slots: &mut Slots<'_>) {
@@ -106,9 +106,9 @@ impl Walker<'_> {
                     return;
                 };
                 match (&slots.forms[at], &slots.forms[with]) {
-                    (Some(form), None) => {
+                    (Some(checked), None) => {
                         let message = format!("`{key}` goes with `{other}` only");
-                        self.problems.add(form.span, message);
+                        self.problems.add(checked.span, message);
                     }
                     (None, Some(_)) => slots.fill(at, fallback),
                     _ => {}
@@ -132,7 +132,7 @@ impl Walker<'_> {
                         }
                         (None, Some(true), Some(fallback)) => slots.fill(index, fallback),
                         // an invalid value may have meant either: no further message
-                        (None, None, _) => slots.forms[index] = Some(Form::invalid(slots.span)),
+                        (None, None, _) => slots.forms[index] = Some(Checked::invalid(slots.span)),
                         _ => {}
                     }
                 }
@@ -167,7 +167,7 @@ impl Slots<'_> {
         self.fields.iter().position(|field| field.name == key)
     }
 
-    fn get(&self, key: &str) -> Option<&Form> {
+    fn get(&self, key: &str) -> Option<&Checked> {
         self.forms[self.index(key)?].as_ref()
     }
 
@@ -177,35 +177,35 @@ impl Slots<'_> {
 
     /// Whether a condition holds; `None` if an invalid value leaves it open.
     fn holds(&self, condition: Condition) -> Option<bool> {
-        let decided = |key: &str, holds: &dyn Fn(&Form) -> bool| match self.get(key) {
+        let decided = |key: &str, holds: &dyn Fn(&Checked) -> bool| match self.get(key) {
             _ if self.missing.contains(&key) => Some(false),
-            Some(Form {
-                what: What::Invalid,
+            Some(Checked {
+                value: CheckedValue::Invalid,
                 ..
             }) => None,
-            Some(form) => Some(holds(form)),
+            Some(checked) => Some(holds(checked)),
             None if self.mistyped.contains(&key) => None,
             None => Some(false),
         };
         match condition {
             // whatever preset was meant, one was
             Condition::Given(key) => Some(self.get(key).is_some() || self.mistyped.contains(&key)),
-            Condition::Word(key, word) => decided(key, &|form| form.word() == Some(word)),
-            Condition::Tag(key, tag) => decided(key, &|form| form.tag() == Some(tag)),
+            Condition::Word(key, word) => decided(key, &|checked| checked.word() == Some(word)),
+            Condition::Tag(key, tag) => decided(key, &|checked| checked.tag() == Some(tag)),
         }
     }
 }
 
 /// What an absent key stands for.
-fn absent(kind: &Kind, fallback: Fallback, span: Span) -> Form {
-    let constant = |value| What::Number(Quantity::Constant(value), None);
-    let what = match (fallback, kind) {
-        (Fallback::Number(value), Kind::Real(_)) => What::Real(value),
+fn absent(kind: &Kind, fallback: Fallback, span: Span) -> Checked {
+    let constant = |value| CheckedValue::Number(Quantity::Constant(value), None);
+    let value = match (fallback, kind) {
+        (Fallback::Number(value), Kind::Real(_)) => CheckedValue::Real(value),
         (Fallback::Number(value), _) => constant(value),
-        (Fallback::Integer(value), _) => What::Integer(value),
-        (Fallback::Boolean(value), _) => What::Boolean(value),
-        (Fallback::Word(word), _) => What::Word(word),
-        (Fallback::Table, Kind::Table(table)) => What::Table(
+        (Fallback::Integer(value), _) => CheckedValue::Integer(value),
+        (Fallback::Boolean(value), _) => CheckedValue::Boolean(value),
+        (Fallback::Word(word), _) => CheckedValue::Word(word),
+        (Fallback::Table, Kind::Table(table)) => CheckedValue::Table(
             table
                 .fields
                 .iter()
@@ -215,9 +215,9 @@ fn absent(kind: &Kind, fallback: Fallback, span: Span) -> Form {
                 })
                 .collect(),
         ),
-        (Fallback::Table, _) => What::Invalid,
+        (Fallback::Table, _) => CheckedValue::Invalid,
     };
-    Form::new(span, what)
+    Checked::new(span, value)
 }
 
 fn join(path: &str, key: &str) -> String {

@@ -1,4 +1,4 @@
-//! What the tosses of a point do without, and why nothing is lost by it.
+//! What is not computed for the tosses of a point, and why that loses nothing.
 
 use crate::plan::Point;
 use coinmc_core::{EngineKind, Landing};
@@ -21,7 +21,7 @@ pub(super) enum Omission {
 }
 
 impl Omission {
-    /// What is left out, and the reason.
+    /// What is omitted, and the reason.
     pub(super) fn reason(self) -> &'static str {
         match self {
             Self::Tosses => "tosses: the probability is known without them",
@@ -53,7 +53,7 @@ impl Omission {
     }
 }
 
-/// All that the tosses of a point, or its integration by a method, do without.
+/// Everything that is omitted from the tosses of a point, or from its integration by a method.
 pub(super) fn omissions(point: &Point, integrated: Option<Method>) -> Vec<Omission> {
     let (scene, surface) = (&point.scene, &point.scene.surface);
     let mut omissions = Vec::new();

@@ -1,9 +1,9 @@
-//! How a point is answered that is integrated, in words.
+//! Explanation of how an integrated point is computed.
 
 use coinmc_analytic::Rule;
 use coinmc_quadrature::{Method, REPLICATES};
 
-/// What decides, and what a method makes of it.
+/// What decides the face of a point that needs no tosses.
 const DECIDES: &str =
     "what decides is the axis when the centre comes down to the distance of the rim";
 

@@ -8,13 +8,13 @@ use coinmc_core::schema::Value;
 /// A checked value and the place to blame for it. A default's place is the table that lacks it,
 /// a preset's the name of the preset.
 #[derive(Debug, Clone)]
-pub(super) struct Form {
+pub(super) struct Checked {
     pub(super) span: Span,
-    pub(super) what: What,
+    pub(super) value: CheckedValue,
 }
 
 #[derive(Debug, Clone)]
-pub(super) enum What {
+pub(super) enum CheckedValue {
     /// Already reported.
     Invalid,
     /// A number that may be swept, and which axis of the sweep it is.
@@ -24,78 +24,80 @@ pub(super) enum What {
     Boolean(bool),
     Word(&'static str),
     /// x, y, z.
-    Vector(Vec<Form>),
+    Vector(Vec<Checked>),
     /// The keys that are present, in the order of the schema.
-    Table(Vec<(&'static str, Form)>),
+    Table(Vec<(&'static str, Checked)>),
     /// A table with the one key that says which alternative it is.
-    Tagged(&'static str, Box<Form>),
+    Tagged(&'static str, Box<Checked>),
 }
 
 /// Names of a vector's components in column names.
 pub(super) const COMPONENTS: [&str; 3] = ["x", "y", "z"];
 
-impl Form {
-    pub(super) fn new(span: Span, what: What) -> Self {
-        Self { span, what }
+impl Checked {
+    pub(super) fn new(span: Span, value: CheckedValue) -> Self {
+        Self { span, value }
     }
 
     /// A constant value; `span` is blamed for it.
     pub(super) fn of_value(span: Span, value: &Value) -> Self {
         let nested = |value| Self::of_value(span, value);
-        let what = match value {
-            Value::Number(number) => What::Number(Quantity::Constant(*number), None),
-            Value::Integer(number) => What::Integer(*number),
-            Value::Boolean(holds) => What::Boolean(*holds),
-            Value::Word(word) => What::Word(word),
-            Value::Vector(components) => What::Vector(components.iter().map(nested).collect()),
+        let value = match value {
+            Value::Number(number) => CheckedValue::Number(Quantity::Constant(*number), None),
+            Value::Integer(number) => CheckedValue::Integer(*number),
+            Value::Boolean(holds) => CheckedValue::Boolean(*holds),
+            Value::Word(word) => CheckedValue::Word(word),
+            Value::Vector(components) => {
+                CheckedValue::Vector(components.iter().map(nested).collect())
+            }
             Value::Table(values) => {
                 let entries = values.entries().map(|(key, value)| (key, nested(value)));
-                What::Table(entries.collect())
+                CheckedValue::Table(entries.collect())
             }
-            Value::Tagged(tag, inner) => What::Tagged(tag, Box::new(nested(inner))),
+            Value::Tagged(tag, inner) => CheckedValue::Tagged(tag, Box::new(nested(inner))),
         };
-        Self::new(span, what)
+        Self::new(span, value)
     }
 
     pub(super) fn invalid(span: Span) -> Self {
         Self {
             span,
-            what: What::Invalid,
+            value: CheckedValue::Invalid,
         }
     }
 
     /// The value of a key, if this is a table that has it.
     pub(super) fn get(&self, key: &str) -> Option<&Self> {
-        match &self.what {
-            What::Table(entries) => entries
+        match &self.value {
+            CheckedValue::Table(entries) => entries
                 .iter()
                 .find(|(name, _)| *name == key)
-                .map(|(_, form)| form),
+                .map(|(_, checked)| checked),
             _ => None,
         }
     }
 
     pub(super) fn word(&self) -> Option<&'static str> {
-        match self.what {
-            What::Word(word) => Some(word),
+        match self.value {
+            CheckedValue::Word(word) => Some(word),
             _ => None,
         }
     }
 
     pub(super) fn tag(&self) -> Option<&'static str> {
-        match self.what {
-            What::Tagged(tag, _) => Some(tag),
+        match self.value {
+            CheckedValue::Tagged(tag, _) => Some(tag),
             _ => None,
         }
     }
 
     /// Whether any number in it is an axis.
     pub(super) fn is_swept(&self) -> bool {
-        match &self.what {
-            What::Number(_, axis) => axis.is_some(),
-            What::Vector(components) => components.iter().any(Self::is_swept),
-            What::Table(entries) => entries.iter().any(|(_, form)| form.is_swept()),
-            What::Tagged(_, inner) => inner.is_swept(),
+        match &self.value {
+            CheckedValue::Number(_, axis) => axis.is_some(),
+            CheckedValue::Vector(components) => components.iter().any(Self::is_swept),
+            CheckedValue::Table(entries) => entries.iter().any(|(_, checked)| checked.is_swept()),
+            CheckedValue::Tagged(_, inner) => inner.is_swept(),
             _ => false,
         }
     }

@@ -1,21 +1,21 @@
-//! What a piece of work comes to, and the piece that is no range of tosses.
+//! The result of a chunk, and the integration of a point.
 
 use super::{Chunk, RunError};
 use crate::plan::{Plan, Point};
 use coinmc_core::{Domain, Stream, Tally};
 use coinmc_quadrature::{Goal, Integral, integrate};
 
-/// What a chunk came to.
+/// The result of a chunk.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Piece {
-    /// A range of tosses.
+pub(super) enum ChunkResult {
+    /// The counts of a range of tosses.
     Tossed(Tally),
-    /// A whole point, integrated: its chunk is an empty range.
+    /// The integral of a whole point, whose chunk is an empty range.
     Integrated(Integral),
 }
 
-impl Piece {
-    /// Tosses counted in it.
+impl ChunkResult {
+    /// Number of tosses counted.
     pub(super) fn tosses(&self) -> u64 {
         match self {
             Self::Tossed(tally) => tally.tosses(),
@@ -24,7 +24,7 @@ impl Piece {
     }
 }
 
-/// The one chunk of a point that is integrated.
+/// The only chunk of an integrated point.
 pub(super) fn whole(point: usize) -> Chunk {
     Chunk {
         point,
@@ -32,13 +32,13 @@ pub(super) fn whole(point: usize) -> Chunk {
     }
 }
 
-/// Integrates a point, on this thread; `None` if it is one that is tossed or a closed form.
+/// Integrates a point on this thread; `None` if the point is tossed or has a closed form.
 ///
-/// Ends at the goal of the plan, or after `evaluations` if that comes first (not before
-/// the first look). The result depends on the plan and that number alone.
+/// Stops at the goal of the plan, or after `evaluations` if that comes first (but not before the first
+/// look). The result depends only on the plan and on that number.
 ///
 /// # Errors
-/// [`RunError::NoSuchChunk`] if there is no such point, [`RunError::Settings`] if its engine refuses
+/// [`RunError::NoSuchChunk`] if there is no such point, [`RunError::Settings`] if its engine rejects
 /// its settings.
 ///
 /// # Example
@@ -72,7 +72,7 @@ pub fn integrate_point(
     integrate_while(plan, point, goal, || true)
 }
 
-/// [`integrate_point`] to a goal of its own, unless `go_on` says no: then `None`.
+/// Like [`integrate_point`], with its own goal; also `None` if `go_on` returned false.
 pub(super) fn integrate_while(
     plan: &Plan,
     index: usize,
