@@ -1,6 +1,9 @@
 //! Stands in for the world in a build without Rapier, which rejects every scene: no method is ever
 //! called.
 
+// The signatures are those of the real world.
+#![allow(clippy::unused_self)]
+
 use crate::motion::Motion;
 use crate::scaled::Scaled;
 use crate::settings::Settings;
