@@ -46,7 +46,7 @@ pub struct StepperSettings {
     /// could not resolve, does not take place.
     pub step: f64,
     /// Time after which a toss is given up, sqrt(D/g). Without rolling friction coins may roll on
-    /// their side for ever, and end here.
+    /// their side forever, and end here.
     pub time_limit: f64,
 }
 

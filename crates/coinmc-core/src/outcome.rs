@@ -33,7 +33,7 @@ pub enum Ended {
     /// The toss was still undecided at the engine's limit of simulated time.
     TimeLimit,
     /// The coin provably never comes to rest on a face: it stands balanced on its rim, or rolls or bounces
-    /// for ever without loss.
+    /// forever without loss.
     NeverSettles,
     /// The toss was still undecided at the engine's limit of impacts or contact phases.
     ImpactLimit,

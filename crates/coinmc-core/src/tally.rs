@@ -75,7 +75,7 @@ tally! {
     tails: Ending, "Tosses that show tails.";
     side: Ending, "Tosses on the side.";
     time_limit: Ending, "Undecided at the limit of simulated time.";
-    never_settles: Ending, "Undecided for ever: provably never at rest on a face.";
+    never_settles: Ending, "Undecided forever: provably never at rest on a face.";
     impact_limit: Ending, "Undecided at the limit of impacts or of steps in contact.";
     failed: Ending, "Undecided because a number became NaN or infinite.";
     impacts: Event, "Impacts, in all tosses.";

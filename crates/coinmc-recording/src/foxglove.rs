@@ -148,7 +148,7 @@ pub struct SceneEntity {
     pub frame_id: String,
     /// Id: an entity with the same id is replaced.
     pub id: String,
-    /// How long it is shown; zero for ever.
+    /// How long it is shown; zero forever.
     pub lifetime: Time,
     /// Whether it moves with its frame.
     pub frame_locked: bool,

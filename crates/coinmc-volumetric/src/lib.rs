@@ -11,7 +11,7 @@
 //! Any ratio and moments of inertia, restitution 0 to 1, any friction and friction lengths, linear
 //! drag, with or without gyroscopic torque. The bodies are rigid: elastic compliance and the flow
 //! of air are not modelled. Where no energy is lost, some tosses are never decided: a coin that
-//! moves from one face or side to another for ever (e = 1 without friction, rolling without
+//! moves from one face or side to another forever (e = 1 without friction, rolling without
 //! friction lengths) ends as [`coinmc_core::Ended::NeverSettles`] where that is known, and
 //! otherwise at a limit. Both are counted.
 //!

@@ -93,7 +93,7 @@ fn remarks(cases: &[Case], found: &[Paired]) -> [String; 3] {
     [
         format!("largest |bias| with friction lengths: {largest:.5}"),
         format!(
-            "without friction lengths {:.5} of {tosses} tosses roll for ever (never_settles or at the \
+            "without friction lengths {:.5} of {tosses} tosses roll forever (never_settles or at the \
              limit of time), {:.1e} are undecided otherwise",
             share(never_settles),
             share(other)

@@ -43,7 +43,7 @@ pub(crate) struct Stability {
     #[arg(long, value_parser = number::count, default_value = "1000", value_name = "N")]
     max_impacts: u64,
 
-    /// The same where e = 1: such a coin may bounce for ever
+    /// The same where e = 1: such a coin may bounce forever
     #[arg(long, value_parser = number::count, default_value = "100", value_name = "N")]
     max_elastic: u64,
 

@@ -26,7 +26,7 @@
 //!
 //! *Fallback* of the first two: the frictionless impact of the corner with e = √k, which loses
 //! energy. Setting h₃ = 0 and keeping the energy balance instead would let coins rock from corner
-//! to corner for ever, because the law takes no energy from rotation.
+//! to corner forever, because the law takes no energy from rotation.
 
 use crate::contact_matrix::{ContactMatrix, Impulse};
 use crate::impact_law::{Impact, ImpactLaw, PlanarLaw, Resolution};

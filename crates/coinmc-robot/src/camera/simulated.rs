@@ -33,7 +33,7 @@ pub fn simulate_camera(
     input: impl BufRead,
     mut output: impl Write,
 ) -> io::Result<()> {
-    // A restarted camera must not repeat the same faults: it would fail for ever.
+    // A restarted camera must not repeat the same faults: it would fail forever.
     let mut dice = Dice::new(seed, u64::from(std::process::id()) + 16);
     let mut input = input;
     loop {

@@ -158,7 +158,7 @@ impl ContactSolver<'_> {
         }
     }
 
-    /// The exit of a motion that repeats itself. The tilt stays between its extremes for ever. If
+    /// The exit of a motion that repeats itself. The tilt stays between its extremes forever. If
     /// both lie in one well, that decides the face, unless only the energy may decide it.
     fn exit_of_repetition(&self, phase: &Phase) -> Exit {
         // u_z is largest where the tilt is smallest

@@ -173,7 +173,7 @@ impl ContactSolver<'_> {
         let rolling = RollingStop::new(dynamics, state);
         adapter.event(EventKind::Sticking, motion, spin);
         if !rolling.stops() {
-            // drag alone never quite stops the coin; without drag it rolls for ever
+            // drag alone never quite stops the coin; without drag it rolls forever
             return if rolling.slows() {
                 Exit::Decided(Decided::Side)
             } else {

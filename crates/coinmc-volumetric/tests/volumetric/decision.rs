@@ -71,7 +71,7 @@ fn energy_that_cannot_become_tilt_is_not_overestimated() {
     }
 }
 
-/// Without friction lengths, two of five coins roll for ever, most of them on one face or on the
+/// Without friction lengths, two of five coins roll forever, most of them on one face or on the
 /// side, which decides the face. Faces that energy decides do not change. Of 5000 other tosses 5 %
 /// ended as `NeverSettles` instead of 39 %.
 #[test]

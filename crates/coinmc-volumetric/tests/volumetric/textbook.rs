@@ -80,7 +80,7 @@ fn lying(model: &Model, velocity: f64, spin: f64) -> Motion {
     }
 }
 
-/// Slides, then rolls for ever with 1/(1 + k) of the speed (two thirds). Instead of sticking it
+/// Slides, then rolls forever with 1/(1 + k) of the speed (two thirds). Instead of sticking it
 /// creeps more slowly than `stick_speed`, 1e-6.
 #[test]
 fn a_sliding_cylinder_starts_to_roll() {

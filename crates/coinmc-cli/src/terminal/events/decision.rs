@@ -25,7 +25,7 @@ pub(super) fn decision(trace: &Trace) -> String {
         Ended::Decided(face) => decided(trace, &when, face),
         Ended::NeverSettles => format!(
             "Undecided: it is proven {when} that the coin never settles. It loses no energy: it \
-             stands balanced, or bounces or rolls for ever."
+             stands balanced, or bounces or rolls forever."
         ),
         Ended::TimeLimit => undecided(trace, &when, "the limit of simulated time, time_limit"),
         Ended::ImpactLimit => {

@@ -175,7 +175,7 @@ fn closing(results: &Results, csv: &Path, style: &Style) -> String {
     if undecided > 0 {
         let reasons = [
             (sum(|row| row.tally.time_limit), "at the limit of time"),
-            (sum(|row| row.tally.never_settles), "for ever"),
+            (sum(|row| row.tally.never_settles), "forever"),
             (sum(|row| row.tally.impact_limit), "at the limit of impacts"),
             (sum(|row| row.tally.failed), "failed"),
         ];

@@ -170,7 +170,7 @@ fn undecided_tosses_are_counted_by_why_not() {
     results.rows[0].tally.impact_limit = 1000;
     let text = text(&results, &Style::plain(100));
     assert!(
-        text.contains("tosses (9.1e-2): 3 for ever, 1 000 at the limit of impacts\n"),
+        text.contains("tosses (9.1e-2): 3 forever, 1 000 at the limit of impacts\n"),
         "{text}"
     );
 }
