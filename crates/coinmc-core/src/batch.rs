@@ -1,20 +1,20 @@
-//! Tosses side by side: launches go in as there is room, ends come out in any order.
+//! Batches of tosses: launches go in while there is room, and ends come out in any order.
 
 use crate::Launch;
 use crate::engine::AT_ONCE;
 use std::ops::ControlFlow;
 
-/// Tosses that an engine has under way together.
+/// The tosses that an engine has in flight at the same time.
 ///
-/// It knows neither where launches come from nor who is told of the ends, so it is compiled once
-/// whatever these are, and calls neither.
+/// It is independent of the source of launches and of the receiver of ends, so it is compiled only
+/// once.
 ///
 /// # Example
 /// ```
 /// use coinmc_core::{Coin, Domain, Launch, Preset, Stream, TossBatch};
 /// use std::ops::ControlFlow;
 ///
-/// /// Two tosses at a time that end where they begin.
+/// /// Two tosses at a time that end at their launch.
 /// #[derive(Default)]
 /// struct Heights(u64, Vec<(u64, f64)>);
 ///
@@ -47,24 +47,24 @@ use std::ops::ControlFlow;
 /// # Ok::<(), coinmc_core::CoinError>(())
 /// ```
 pub trait TossBatch {
-    /// What comes of a toss.
+    /// The result of a toss.
     type End;
 
-    /// Whether one more toss may be launched. Not without bound: tosses that end at once wait to be
-    /// told, too.
+    /// Whether one more toss may be launched. The number is bounded even for tosses that end at once,
+    /// since their ends are kept until they are passed on.
     fn has_room(&self) -> bool;
 
-    /// Launches a toss, where there is room. Tosses are numbered as they come, from 0.
+    /// Launches a toss if there is room. Tosses are numbered in order of launch, from 0.
     fn launch(&mut self, launch: &Launch);
 
-    /// One piece of work; `false` if no toss is under way.
+    /// Does one step of work; `false` if no toss is in flight.
     fn advance(&mut self) -> bool;
 
-    /// Tosses that have ended and are yet to be told, by number.
+    /// Tosses that have ended and have not been passed on, with their numbers.
     fn ended(&mut self) -> &mut Vec<(u64, Self::End)>;
 
-    /// Follows the tosses of all launches, and hands on the ends of some at a time, each with the
-    /// number of its toss, until `sink` breaks off.
+    /// Computes the tosses of all launches and passes on their ends, some at a time, each with the
+    /// number of its toss, until `sink` breaks.
     fn toss_all_in_batch(
         mut self,
         mut launches: impl Iterator<Item = Launch>,

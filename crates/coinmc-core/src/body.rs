@@ -1,11 +1,11 @@
 //! The coin in the units of the engines in space: lengths in D = sqrt(R² + H²/4), times in
 //! sqrt(D/g), masses in m (Froude scaling). Then g = 1, the energy barrier m g D between a face and
-//! the side is 1, and a coin of 1 cm and one of 1 m are the same computation.
+//! the side is 1, and coins of 1 cm and of 1 m need the same computation.
 
 use crate::{Coin, Scene};
 
-/// The coin's shape and inertia per its mass m, in units of D = sqrt(R² + H²/4), the distance of
-/// the rim from the centre: radius² + half² = 1.
+/// The coin's shape and its inertia divided by its mass m, in units of D = sqrt(R² + H²/4), the
+/// distance of the rim from the centre: radius² + half² = 1.
 ///
 /// # Example
 /// ```
@@ -64,7 +64,7 @@ impl Body {
     }
 }
 
-/// One length and one time of these units in SI units.
+/// The units of length and time in SI units.
 ///
 /// # Example
 /// ```

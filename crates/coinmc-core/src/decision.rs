@@ -8,7 +8,7 @@
 //! coin then stands on its rim, in flight it is higher still. So a coin whose mechanical energy is
 //! below m g D stays in the well it is in: a face if its lowest point is beyond the centre (c > h,
 //! with c the cosine of the tilt and h = H/2), else the side. This is rigorous as long as contact
-//! only takes energy.
+//! never adds energy.
 //!
 //! # Tilting
 //! The decision `tilting` also leaves out energy that cannot become tilt:
@@ -18,54 +18,53 @@
 //!   least the energy Λ²/(2(1 + k_a/R²)) as long as the axis keeps its direction. On the side the
 //!   axis turns about the vertical at Ω_z, which neither weight nor free rotation changes: v_y
 //!   becomes v_x, and ω_a becomes ω_θ and tilt. In the time t that the coin takes to topple, about
-//!   Λ cos(Ω_z t) remains along the axis. The rule therefore leaves out the share 1/(1 + Ω_z² t²)
+//!   Λ cos(Ω_z t) remains along the axis. The rule therefore leaves out a fraction 1/(1 + Ω_z² t²)
 //!   of the energy, all of it for an axis that will not turn, with t² = `TOPPLING`. (The rate φ' at
-//!   which the axis turns now is no substitute: a leaning coin that spins fast nods, and passes
-//!   φ' = 0 while Ω_z holds it up.) This is nearly rigorous: `docs/validation/` has the bias that
-//!   remains.
+//!   which the axis turns now cannot replace Ω_z: a leaning coin that spins fast nutates, and passes
+//!   φ' = 0 while Ω_z holds it up.) This is nearly rigorous: `docs/validation/` gives the remaining
+//!   bias.
 //! * *Flat on a face*, with the sine of the tilt below `flat_sine`: the energy of sliding and of
 //!   spinning about u. Sliding friction under a coin tilted by θ has a moment of at most
 //!   μN(h c + R s) about the centre, against the moment N(R c − h s) of the weight. The rest of the
-//!   energy has to pay for the difference, up to the tilt at which there is none,
+//!   energy must do the work of the difference, up to the tilt at which the moments are equal,
 //!   tan θ = (R − μh)/(h + μR):
 //!   ∫ (R c − h s − μ(h c + R s)) dθ = sqrt(1 + μ²) − (h + μR), as R² + h² = 1. The rest includes
 //!   the potential h, so its barrier is not 1 but sqrt(1 + μ²) − μR. That is 1 without friction and
 //!   h where μh = R; beyond that friction alone tips the coin, and nothing is left out.
 //!
-//!   The slip of a coin that also spins points only partly ahead, so less than μ acts towards
-//!   tipping. The rule does not use this: as sliding and spinning die away together, the slip may
-//!   turn to point ahead.
+//!   The slip of a coin that also spins is only partly in the direction of motion, so less than μ
+//!   acts towards tipping. The rule does not use this: as sliding and spinning decay together, the
+//!   slip may turn into the direction of motion.
 //!
 //! # Without friction
 //! With μ = 0 the horizontal velocity never changes, and the rule leaves its energy out under every
 //! decision. Rolling then cannot tilt the coin, so on the side `tilting` leaves out the energy of
 //! ω_a.
 //!
-//! Without friction lengths and drag too, the normal force is the only one but weight. It has no
-//! moment about u or the vertical, so ω_a, L_z and the horizontal velocity never change. At the
+//! Without friction lengths and drag as well, the normal force is the only force besides weight. It
+//! has no moment about u or the vertical, so ω_a, L_z and the horizontal velocity never change. At the
 //! balance over a rim, u_z = c* = ±h, the energy of turning about the vertical is then
 //! k_t(Ω_z − Ω_a c*)²/(2s*²), and the coin cannot pass the balance with less than 1 plus that. This
-//! is exact for any restitution, in flight and in contact. An engine in time steps changes ω_a and
-//! L_z a little in every contact, and does without this part of the rule
+//! is exact for any restitution, in flight and in contact. An engine with time steps changes ω_a and
+//! L_z slightly in every contact, and does not use this part of the rule
 //! ([`DecisionRule::in_time_steps`]).
 
 use crate::{Body, Scene};
 use coinmc_lanes::{Lane, Mask};
 
-/// What is known about the face of a toss.
+/// The state of the decision on a toss.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Decided {
     /// It may still change.
     Open,
-    /// The face that is up now.
+    /// The face that is up.
     Face,
     /// The side.
     Side,
 }
 
-/// What the rule needs to know about the motion of a coin: in units of D and sqrt(D/g), and in the
-/// frame in which the axis points up. There x is the horizontal direction the axis leans to, z is
-/// up, y = z × x.
+/// The state of a coin as the rule needs it, in units of D and sqrt(D/g), and in a frame in which the
+/// axis points up: x is the horizontal direction towards which the axis leans, z is up, y = z × x.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DecisionState<L> {
     /// Mechanical energy in m g D, potential zero at the surface.
@@ -107,7 +106,7 @@ pub struct DecisionRule {
     tilting: bool,
     /// μ = 0.
     slides: bool,
-    /// Nothing but normal forces act, and the motion keeps ω_a and L_z.
+    /// Only weight and normal forces act, and the motion conserves ω_a and L_z.
     traps: bool,
     /// ½/(1 + k_a/R²) and k_a/R of straight rolling.
     rolling: f64,
@@ -118,9 +117,9 @@ pub struct DecisionRule {
     flat_barrier: f64,
 }
 
-/// Square of the time, in sqrt(D/g), in which a rolling coin that turns topples: a choice. With 1
-/// the bias of P(side) is .0018 where it is largest among the examples, with 2 it is .0004, at the
-/// cost of 5 % of the rate where coins roll longest.
+/// Square of the time, in sqrt(D/g), in which a rolling coin that turns topples: a choice. With 1 the
+/// largest bias of P(side) among the examples is 0.0018, with 2 it is 0.0004, at the cost of 5 % of
+/// the speed where coins roll longest.
 const TOPPLING: f64 = 2.0;
 
 impl DecisionRule {
@@ -148,8 +147,8 @@ impl DecisionRule {
         }
     }
 
-    /// The rule for an engine whose time steps do not keep ω_a and L_z on a surface without friction
-    /// to the accuracy of the other rules: see the module's text, *Without friction*.
+    /// The rule for an engine with time steps, which do not conserve ω_a and L_z on a frictionless
+    /// surface accurately enough: see *Without friction* in the module documentation.
     #[must_use]
     pub fn in_time_steps(self) -> Self {
         Self {
@@ -181,7 +180,7 @@ impl DecisionRule {
         }
     }
 
-    /// What the rule says about one coin.
+    /// Applies the rule to one coin.
     #[inline]
     pub fn decide(&self, state: &DecisionState<f64>) -> Decided {
         if self.is_decided(state) {
@@ -228,7 +227,7 @@ impl DecisionRule {
         decided
     }
 
-    /// Energy of straight rolling that stays straight rolling: see the module's text, *Tilting*.
+    /// Energy of straight rolling that cannot become tilt: see *Tilting* in the module documentation.
     #[inline(always)]
     fn lasting_roll<L: Lane>(&self, state: &DecisionState<L>) -> L {
         let invariant = state.vy - L::splat(self.lever) * state.axial;
@@ -236,8 +235,8 @@ impl DecisionRule {
         L::splat(self.rolling) * invariant * invariant / turns
     }
 
-    /// Whether the energy besides ω_a's, `free`, cannot carry the coin over its balance: see the
-    /// module's text, *Without friction*.
+    /// Whether the energy without that of ω_a, `free`, cannot carry the coin over its balance: see
+    /// *Without friction* in the module documentation.
     #[inline(always)]
     fn is_trapped<L: Lane>(&self, state: &DecisionState<L>, free: L, side: L::Mask) -> L::Mask {
         let Body {

@@ -1,4 +1,4 @@
-//! What the rest of the program knows of an engine and of a law of impact.
+//! Descriptors: everything that the rest of the program knows about an engine or a law of impact.
 
 use crate::schema::{Absent, Fallback, Field, Kind, TableKind, Values, Word, field, fields, table};
 use crate::{DynEngine, Scene};
@@ -7,64 +7,64 @@ use std::fmt::{self, Debug, Display};
 use std::sync::Arc;
 use thiserror::Error;
 
-/// An engine: all that reading a config, planning, explaining and reporting need to know of it. The
-/// settings themselves are [`EngineSettings`].
+/// An engine, as needed to read configs, plan, explain and report. Its settings are
+/// [`EngineSettings`].
 #[derive(Debug, Clone, Copy)]
 pub struct EngineDescriptor {
     /// Its name in configs and results.
     pub name: &'static str,
-    /// What it does, in a sentence.
+    /// Description, one sentence.
     pub doc: &'static str,
-    /// What it computes.
+    /// The kind of its results.
     pub kind: EngineKind,
-    /// A toss takes a millisecond or more, as in time steps: work is cut finer.
+    /// Whether a toss takes a millisecond or more, as with time steps; its chunks are then smaller.
     pub stepped: bool,
-    /// Its laws of impact, of which its table names one under `law`; empty if it has no choice.
+    /// The laws of impact that can be chosen with the key `law`; empty if there is no choice.
     pub laws: &'static [LawDescriptor],
-    /// What it does not model, whatever its settings.
+    /// What it does not model with any settings.
     pub unmodelled: &'static [Unmodelled],
-    /// What a user should know of it in some scenes.
+    /// What users should know about it in some scenes.
     pub remarks: &'static [Remark],
     /// The keys of its table in a config.
     pub schema: fn() -> TableKind,
-    /// Its settings, from the values of that table.
+    /// Reads its settings from the values of that table.
     pub read: fn(&Values) -> Result<EngineChoice, EngineError>,
 }
 
-/// What an engine computes.
+/// The kind of results of an engine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EngineKind {
-    /// Tosses in the xz plane: launches must lie in it.
+    /// Tosses in the xz plane; launches must lie in it.
     Planar,
     /// Tosses in space.
     Spatial,
-    /// Probabilities, without a toss.
+    /// Probabilities without tosses.
     ClosedForm,
 }
 
-/// A law of impact: its name, its parameters, and what does not go with it.
+/// A law of impact: its name, its parameters, and what it does not model.
 #[derive(Debug, Clone, Copy)]
 pub struct LawDescriptor {
     /// Its name in configs and results.
     pub name: &'static str,
-    /// What it is, in a sentence.
+    /// Description, one sentence.
     pub doc: &'static str,
-    /// The keys of its table; a law without any is told by its name alone.
+    /// The keys of its table; a law without parameters is given by its name alone.
     pub parameters: fn() -> TableKind,
     /// What it does not model.
     pub unmodelled: &'static [Unmodelled],
 }
 
-/// A law of impact as a config gives it: the parameters that [`LawDescriptor`] tells of.
+/// A law of impact with its parameters, as described by a [`LawDescriptor`].
 pub trait LawSettings: Sized {
     /// Its name in configs and results.
     const NAME: &'static str;
-    /// What it is, in a sentence.
+    /// Description, one sentence.
     const DOC: &'static str;
     /// What it does not model.
     const UNMODELLED: &'static [Unmodelled] = &[];
 
-    /// The keys of its table; none (the default) of a law that is told by its name alone.
+    /// The keys of its table; none (the default) for a law without parameters.
     fn parameters() -> TableKind {
         fields(vec![])
     }
@@ -72,7 +72,7 @@ pub trait LawSettings: Sized {
     /// The law with these parameters.
     ///
     /// # Errors
-    /// [`EngineError`] if they are not those of the schema.
+    /// [`EngineError`] if they do not match the schema.
     fn read(parameters: &Values) -> Result<Self, EngineError>;
 }
 
@@ -87,7 +87,7 @@ impl LawDescriptor {
         }
     }
 
-    /// The key `law` of an engine with a choice of laws.
+    /// The key `law` of an engine with several laws.
     pub fn field(laws: &[Self], fallback: &'static str) -> Field {
         let (mut words, mut tables) = (vec![], vec![]);
         for &Self {
@@ -114,55 +114,55 @@ impl LawDescriptor {
     }
 }
 
-/// A key of the scene that an engine or law would ignore, and that must therefore be 0, or true if it
-/// is no number: results would claim what was never computed.
+/// A key of the scene that an engine or law would ignore. It must therefore be 0, or true if it is not
+/// a number: otherwise results would claim what was never computed.
 #[derive(Debug, Clone, Copy)]
 pub struct Unmodelled {
     /// The table of the config.
     pub table: &'static str,
     /// Its key.
     pub key: &'static str,
-    /// What is wrong.
+    /// The error message.
     pub message: &'static str,
-    /// What can be done.
+    /// The remedy.
     pub help: &'static str,
 }
 
-/// What a user should know of an engine in some scenes.
+/// What users should know about an engine in some scenes.
 #[derive(Debug, Clone, Copy)]
 pub struct Remark {
     /// Whether it applies to a scene.
     pub applies: fn(&Scene) -> bool,
-    /// What to say.
+    /// The text of the remark.
     pub text: &'static str,
 }
 
-/// The settings of an engine: comparable data, of which an engine is built for each scene.
+/// The settings of an engine: comparable data from which an engine is built for each scene.
 pub trait EngineSettings: Any + Debug + Send + Sync {
-    /// Whose settings they are.
+    /// The engine that has these settings.
     fn descriptor(&self) -> &'static EngineDescriptor;
 
-    /// The name in results of the law that is followed: of impact, or whatever takes its place.
+    /// The name in results of the law of impact, or of whatever takes its place.
     fn law(&self) -> &'static str;
 
-    /// What is computed for a scene in which the first contact does not decide, in words.
+    /// Describes what is computed for a scene in which the first contact does not decide.
     fn explain(&self, scene: &Scene) -> String;
 
-    /// Simulated time, s, after which a toss is given up, of an engine that follows flight in closed
-    /// form: where the first contact decides, quadrature may then take its place. `None` (the default)
-    /// if it must not.
+    /// Limit of simulated time, s, of an engine that computes flight in closed form. Quadrature may
+    /// then replace the engine in scenes in which the first contact decides; with `None` (the
+    /// default) it may not.
     fn flight_limit_s(&self, _: &Scene) -> Option<f64> {
         None
     }
 
-    /// What answers a scene.
+    /// Builds the engine for a scene, or computes the exact probabilities.
     ///
     /// # Errors
-    /// [`EngineError`] if a setting is out of range or does not go with the scene.
+    /// [`EngineError`] if a setting is out of range or incompatible with the scene.
     fn build(&self, scene: &Scene) -> Result<Answer, EngineError>;
 }
 
-/// What answers a scene.
+/// An engine built for a scene, or exact probabilities.
 #[derive(Debug, Clone)]
 pub enum Answer {
     /// Tosses of this engine.
@@ -180,7 +180,7 @@ pub struct EngineError {
 }
 
 impl EngineError {
-    /// For this reason, in words.
+    /// An error with this reason.
     pub fn new(reason: impl Display) -> Self {
         Self {
             reason: reason.to_string(),
@@ -188,8 +188,8 @@ impl EngineError {
         }
     }
 
-    /// Values that do not follow their schema, for this reason: they broke a rule of their table, or
-    /// the schema and its reader contradict each other.
+    /// An error for values that do not match their schema: they violate a rule of their table, or
+    /// the schema and its reader disagree.
     pub fn mismatch(reason: impl Display) -> Self {
         Self {
             is_mismatch: true,
@@ -197,7 +197,7 @@ impl EngineError {
         }
     }
 
-    /// Whether the values do not follow their schema.
+    /// Whether the values do not match their schema.
     pub fn is_mismatch(&self) -> bool {
         self.is_mismatch
     }
@@ -209,8 +209,8 @@ impl From<crate::schema::OutOfRange> for EngineError {
     }
 }
 
-/// An engine with its settings, whichever it is: [`EngineSettings`] behind a pointer that can be
-/// compared, cloned and asked for what it is.
+/// Any engine with its settings: [`EngineSettings`] behind a pointer that can be compared, cloned and
+/// downcast.
 #[derive(Clone)]
 pub struct EngineChoice(Arc<dyn ComparableSettings>);
 
@@ -225,7 +225,7 @@ impl<S: EngineSettings + PartialEq> ComparableSettings for S {
 }
 
 impl EngineChoice {
-    /// These settings, and so their engine.
+    /// The engine with these settings.
     pub fn new(settings: impl EngineSettings + PartialEq) -> Self {
         Self(Arc::new(settings))
     }
@@ -240,12 +240,12 @@ impl EngineChoice {
         self.descriptor().name
     }
 
-    /// Whether the engine tosses at all.
+    /// Whether the engine makes tosses.
     pub fn makes_tosses(&self) -> bool {
         self.descriptor().kind != EngineKind::ClosedForm
     }
 
-    /// The settings, if they are of this type.
+    /// The settings, if they have this type.
     pub fn settings<S: EngineSettings>(&self) -> Option<&S> {
         let settings: &dyn Any = &*self.0;
         settings.downcast_ref()

@@ -1,22 +1,22 @@
-//! An engine that is known at run time only.
+//! An engine that is chosen at run time.
 
 use crate::{DynObserver, Engine, Launch, LaunchSource, Observer, Outcome, OutcomeSink};
 use coinmc_lanes::{Lanes, NoSuchLanes};
 use std::fmt::Debug;
 use std::sync::Arc;
 
-/// Any [`Engine`] behind a pointer: what uses it is compiled once for all engines, and an engine once,
-/// in the crate that makes a `DynEngine` of it.
+/// Any [`Engine`] behind a pointer: code that uses it is compiled once for all engines, and each
+/// engine once, in the crate that creates the `DynEngine`.
 ///
-/// Many tosses cost one call through the pointer, a toss by itself one, and one more for each of its
-/// events.
+/// A batch of tosses costs one call through the pointer; a single toss costs one, and one more for
+/// each of its events.
 ///
 /// # Example
 /// ```
 /// use coinmc_core::{DynEngine, Engine, Face, Launch, Observer, Outcome};
 /// # use coinmc_core::{Coin, Domain, Preset, Stream};
 ///
-/// /// Says what showed at the launch.
+/// /// Ends with the face that is up at launch.
 /// #[derive(Debug, Clone)]
 /// struct Still;
 ///
@@ -38,7 +38,7 @@ use std::sync::Arc;
 #[derive(Debug, Clone)]
 pub struct DynEngine(Arc<dyn ErasedEngine>);
 
-/// What of an [`Engine`] can be called through a pointer. Nothing of it is generic.
+/// The methods of an [`Engine`] without generics, so that they can be called through a pointer.
 trait ErasedEngine: Debug + Send + Sync {
     fn erased_lanes(&self) -> Lanes;
     fn erased_with_lanes(&self, lanes: Lanes) -> Result<DynEngine, NoSuchLanes>;
@@ -70,7 +70,7 @@ impl<E: Engine + Debug + Clone + Send + 'static> ErasedEngine for E {
 }
 
 impl DynEngine {
-    /// An engine to be called through a pointer.
+    /// Erases the type of an engine.
     pub fn new(engine: impl Engine + Debug + Clone + Send + 'static) -> Self {
         Self(Arc::new(engine))
     }
@@ -85,7 +85,7 @@ impl DynEngine {
     }
 }
 
-/// Every call has a workspace of its own.
+/// Every call creates its own workspace.
 impl Engine for DynEngine {
     type Workspace = ();
 

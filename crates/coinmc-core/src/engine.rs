@@ -1,33 +1,33 @@
-//! What an engine is.
+//! The trait of all engines.
 
 use crate::{Launch, LaunchDistribution, LaunchSource, Observer, Outcome, Scene, Stream, Tally};
 use coinmc_lanes::{Lanes, NoSuchLanes};
 use nalgebra::{UnitVector3, Vector3};
 use std::ops::{ControlFlow, Range};
 
-/// Takes the outcomes of some tosses, each with its number among the launches, and says whether to
-/// go on.
+/// Receives the outcomes of some tosses, each with its number among the launches, and says whether to
+/// continue.
 pub type OutcomeSink<'a> = dyn FnMut(&[(u64, Outcome)]) -> ControlFlow<()> + 'a;
 
 /// Turns launches into outcomes.
 ///
-/// An engine is built for one scene, holds no random numbers and no history: the same launch
-/// gives the same outcome on any thread, scalar or in a batch, whatever the workspace did before.
+/// An engine is built for one scene and holds no random numbers and no history: the same launch
+/// gives the same outcome on any thread, scalar or in a batch, whatever the workspace was used for.
 ///
-/// Who learns the engine at run time only has a [`DynEngine`](crate::DynEngine).
+/// If the engine is chosen at run time, use a [`DynEngine`](crate::DynEngine).
 pub trait Engine: Sync {
-    /// Scratch memory, one a worker, reused from toss to toss. Its history must not leak.
+    /// Scratch memory, one per worker, reused from toss to toss. Its contents must not affect outcomes.
     type Workspace: Send;
 
     /// A fresh workspace.
     fn workspace(&self) -> Self::Workspace;
 
-    /// The lanes in which it follows many tosses; their launches are drawn in the same.
+    /// The lanes in which it computes many tosses and draws their launches.
     fn lanes(&self) -> Lanes {
         Lanes::Scalar
     }
 
-    /// The same engine with these lanes. One that follows its tosses in no lanes stays as it is.
+    /// The same engine with these lanes. An engine without batches is unchanged.
     ///
     /// # Errors
     /// [`NoSuchLanes`] if this processor has no such instructions.
@@ -39,7 +39,7 @@ pub trait Engine: Sync {
         Ok(self)
     }
 
-    /// Follows one toss to its end and tells the observer what happened on the way.
+    /// Computes one toss to its end and reports its events to the observer.
     fn toss(
         &self,
         workspace: &mut Self::Workspace,
@@ -47,11 +47,11 @@ pub trait Engine: Sync {
         observer: &mut impl Observer,
     ) -> Outcome;
 
-    /// Follows many tosses and hands on their outcomes, some at a time and in any order, until the
-    /// sink breaks off.
+    /// Computes many tosses and passes on their outcomes, some at a time and in any order, until the
+    /// sink breaks.
     ///
-    /// The default is the scalar path; an engine that is faster with several tosses at a time has its
-    /// own. Every outcome is that of [`toss`](Self::toss).
+    /// The default is the scalar path; engines with batches override it. Every outcome is
+    /// bit-identical to that of [`toss`](Self::toss).
     fn toss_many(
         &self,
         workspace: &mut Self::Workspace,
@@ -61,8 +61,8 @@ pub trait Engine: Sync {
         toss_sequential(self, workspace, launches, sink);
     }
 
-    /// [`toss_many`](Self::toss_many) for callers that have any iterator, and look at the outcomes one
-    /// by one.
+    /// Like [`toss_many`](Self::toss_many), for any iterator of launches, with a callback for each
+    /// outcome.
     fn toss_all(
         &self,
         workspace: &mut Self::Workspace,
@@ -80,8 +80,8 @@ pub trait Engine: Sync {
     }
 }
 
-/// Outcomes handed on together: a call of the sink then costs nothing, and tosses of milliseconds are
-/// not waited for long.
+/// Outcomes passed on at once: enough to make calls of the sink negligible, and few enough to keep it
+/// responsive when a toss takes milliseconds.
 pub(crate) const AT_ONCE: usize = 32;
 
 /// [`Engine::toss_many`] on the scalar path.
@@ -136,7 +136,7 @@ impl State {
 /// What happened.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EventKind {
-    /// The coin was let go.
+    /// The coin was released.
     Launched,
     /// The coin touches the surface, just before the impact.
     Touching,
@@ -146,13 +146,13 @@ pub enum EventKind {
     Sticking,
     /// Sustained contact with a sliding contact point began.
     Sliding,
-    /// The contact force vanished: flight again.
+    /// The contact force vanished and flight began again.
     LiftOff,
     /// The toss ended; no further event follows.
     Ended,
 }
 
-/// An event and the state at it.
+/// An event and the state of the coin at that instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Event {
     /// What happened.
@@ -161,10 +161,10 @@ pub struct Event {
     pub state: State,
 }
 
-/// Tosses number `tosses.start .. tosses.end` of a stream, tallied: the inner loop of every run.
+/// Tallies tosses `tosses.start .. tosses.end` of a stream: the inner loop of every run.
 ///
-/// Toss k is the same toss whatever the range around it, so tallies of disjoint ranges merge to
-/// the tally of their union.
+/// Toss k is the same toss in any range, so the tallies of disjoint ranges merge to the tally of
+/// their union.
 pub fn run_tosses<E: Engine>(
     engine: &E,
     workspace: &mut E::Workspace,

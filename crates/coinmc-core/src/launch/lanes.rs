@@ -1,4 +1,4 @@
-//! Launches drawn eight at a time.
+//! Launches drawn in lanes, eight at a time.
 
 use super::draw::{Draw, Uniforms};
 use super::{Launch, LaunchDistribution};
@@ -7,7 +7,7 @@ use crate::{Coin, Stream};
 use coinmc_lanes::{Block, Lanes, WIDTH, Wide, Work};
 use std::ops::Range;
 
-/// Launches of some tosses, in order: see [`LaunchDistribution::launches`].
+/// Launches of a range of tosses, in order: see [`LaunchDistribution::launches`].
 #[derive(Debug, Clone)]
 pub struct Launches {
     distribution: LaunchDistribution,
@@ -15,7 +15,7 @@ pub struct Launches {
     stream: Stream,
     tosses: Range<u64>,
     lanes: Lanes,
-    /// Those of eight tosses from a multiple of eight on, once any of them has been asked for.
+    /// The launches of the eight tosses from `drawn_from`, a multiple of eight.
     drawn: Draw<Block>,
     drawn_from: Option<u64>,
 }
@@ -39,7 +39,7 @@ impl Launches {
         }
     }
 
-    /// Draws eight.
+    /// Draws the launches of eight tosses.
     #[inline(never)]
     fn draw(&mut self, from: u64) {
         self.drawn = self.lanes.enter(Drawing {
@@ -61,7 +61,7 @@ impl Iterator for Launches {
             let uniforms = &mut self.stream.toss(toss);
             return Some(self.distribution.launch(&self.coin, uniforms));
         }
-        // less than eight
+        // below WIDTH
         #[allow(clippy::cast_possible_truncation)]
         let lane = (toss % WIDTH as u64) as usize;
         let from = toss - lane as u64;

@@ -1,4 +1,4 @@
-//! How a toss begins, and how beginnings are distributed.
+//! Launches, the initial states of tosses, and their distributions.
 
 mod config;
 mod draw;
@@ -24,11 +24,11 @@ use nalgebra::{UnitVector3, Vector3};
 use std::ops::Range;
 use thiserror::Error;
 
-/// One initial state. The coin is a body of revolution, so its spin phase does not matter and
-/// the axis alone says how it is turned.
+/// One initial state. The coin is a body of revolution, so rotation about its axis has no effect and
+/// the axis alone gives its orientation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Launch {
-    /// Height of the centre above the surface, m. A coin that would begin inside the surface is
+    /// Height of the centre above the surface, m. A coin that would start inside the surface is
     /// lifted until it touches.
     pub height_m: f64,
     /// Velocity of the centre, m/s.
@@ -39,9 +39,9 @@ pub struct Launch {
     pub spin_rad_s: Vector3<f64>,
 }
 
-/// Dimensions of the launch. Each quantity owns its own, whether or not it is random, so that
-/// two distributions that differ in one quantity share the random numbers of all others. The
-/// most used ones come first: they share one Philox block.
+/// Dimensions of the launch. Each quantity has its own dimensions, random or not, so that two
+/// distributions that differ in one quantity share the random numbers of all others. The most used
+/// dimensions come first, because they share one Philox block.
 pub(crate) mod dimension {
     pub(crate) const ORIENTATION: [u32; 3] = [0, 1, 2];
     pub(crate) const SPIN: [u32; 3] = [3, 4, 5];
@@ -66,9 +66,9 @@ pub struct LaunchDistribution {
     pub height_m: Marginal,
     /// Velocity of the centre, component by component, m/s.
     pub velocity_m_s: [Marginal; 3],
-    /// How the coin is turned.
+    /// Orientation of the coin.
     pub orientation: Orientation,
-    /// How it spins.
+    /// Spin of the coin.
     pub spin: Spin,
 }
 
@@ -103,13 +103,13 @@ impl LaunchDistribution {
         self.spin.validate()
     }
 
-    /// The launch of these uniforms.
+    /// Computes a launch from uniform random numbers.
     pub fn launch(&self, coin: &Coin, uniforms: &mut impl UniformSource) -> Launch {
         self.draw(coin, uniforms).launch(|&number| number)
     }
 
     /// The launches of these tosses, drawn several at a time with these lanes: each is the
-    /// [`launch`](Self::launch) of its toss's uniforms, to the last bit.
+    /// [`launch`](Self::launch) of its toss, bit for bit.
     ///
     /// # Example
     /// ```
@@ -132,7 +132,7 @@ impl LaunchDistribution {
         Launches::new(self, coin, stream, tosses, lanes)
     }
 
-    /// One launch, or several side by side.
+    /// One launch, or one per lane.
     #[inline(always)]
     fn draw<L: Lane>(&self, coin: &Coin, uniforms: &mut impl Uniforms<L>) -> Draw<L> {
         let axis = self.orientation.draw(uniforms);

@@ -1,11 +1,11 @@
-//! Sine and cosine with the bits of libm, in lanes.
+//! Sine and cosine in lanes, bit-identical to libm.
 //!
 //! Launches are drawn with libm's functions, and the bits of a launch never change. The kernels' own
 //! function ([`coinmc_lanes::sin_cos`]) rounds differently.
 
 use coinmc_lanes::{COSINE, Lane, Mask, SINE};
 
-/// (sin x, cos x), rad: the bits of `libm::sincos`.
+/// (sin x, cos x), x in rad, bit-identical to `libm::sincos`.
 #[inline(always)]
 pub(super) fn sin_cos<L: Lane>(x: L) -> (L, L) {
     if L::COUNT == 1 {
@@ -35,7 +35,7 @@ const fn word(higher: u64) -> f64 {
     f64::from_bits(higher << 32)
 }
 
-/// Where libm starts to subtract the next multiple of π/2: just beyond π/4, 3π/4, 5π/4 and 7π/4.
+/// Where libm starts to subtract the next multiple of π/2: just above π/4, 3π/4, 5π/4 and 7π/4.
 const ENDS: [f64; 4] = [
     word(0x3fe9_21fc),
     word(0x4002_d97d),
@@ -46,7 +46,7 @@ const ENDS: [f64; 4] = [
 const MULTIPLES: [u64; 4] = [0x3ff9_21fb, 0x4009_21fb, 0x4012_d97c, 0x4019_21fb];
 /// Below this, the sine equals its argument.
 const TINY: f64 = word(0x3e46_a09e);
-/// Just beyond 9π/4, from where libm divides.
+/// Just above 9π/4, where libm starts to divide.
 const LAST: f64 = word(0x401c_463c);
 
 /// How many times π/2 is subtracted, 0 to 4, and whether libm does exactly that.

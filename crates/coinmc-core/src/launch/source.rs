@@ -1,14 +1,14 @@
-//! Where an engine takes its launches from.
+//! The source of an engine's launches.
 
 use super::{Launch, Launches};
 
-/// Launches taken at a time from an iterator that is called through a pointer.
+/// Number of launches per call of an iterator behind a pointer.
 const BLOCK: usize = 64;
 
-/// The launches of many tosses, in order: drawn from a distribution, or anybody's own.
+/// The launches of many tosses, in order: drawn from a distribution, or from any iterator.
 ///
-/// It is one type, so that an engine which takes its launches from here is compiled once whatever
-/// they are, and no launch costs a call through a pointer.
+/// It is a single type, so that engines are compiled once for all sources; and launches are fetched
+/// in blocks, so that none costs a call through a pointer.
 ///
 /// # Example
 /// ```
@@ -22,7 +22,7 @@ const BLOCK: usize = 64;
 /// ```
 pub struct LaunchSource<'a>(Source<'a>);
 
-// One a batch of tosses: its size does not matter, a pointer to follow at every launch would.
+// There is one per batch, so its size has no cost; a pointer to follow at every launch would.
 #[allow(clippy::large_enum_variant)]
 enum Source<'a> {
     Drawn(Launches),
@@ -33,7 +33,7 @@ enum Source<'a> {
     },
 }
 
-/// An iterator over launches that is called once a block.
+/// An iterator over launches that is called once per block.
 trait Blocks {
     fn next_block(&mut self, block: &mut Vec<Launch>);
 }
@@ -45,7 +45,7 @@ impl<I: Iterator<Item = Launch>> Blocks for I {
 }
 
 impl<'a> LaunchSource<'a> {
-    /// These launches. Some more of them may be taken than are tossed.
+    /// Uses these launches. More of them may be taken than are tossed.
     pub fn new(launches: &'a mut impl Iterator<Item = Launch>) -> Self {
         Self(Source::Own {
             launches,

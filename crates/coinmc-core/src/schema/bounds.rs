@@ -1,4 +1,4 @@
-//! Limits of numbers. Each is stated once: what a config shows is what an engine enforces.
+//! Bounds of numbers, stated once for configs and engines.
 
 use std::fmt;
 use thiserror::Error;
@@ -7,34 +7,34 @@ use thiserror::Error;
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[error("{name} must be {bounds}, not {found}")]
 pub struct OutOfRange {
-    /// What the number is called.
+    /// Name of the number.
     pub name: &'static str,
-    /// Where it must lie.
+    /// The allowed range.
     pub bounds: Bounds,
-    /// What was given.
+    /// The value found.
     pub found: f64,
 }
 
 /// Whole numbers from `low` to `high`, both allowed.
 #[derive(Debug, Clone, Copy)]
 pub struct Whole {
-    /// The least.
+    /// The smallest.
     pub low: u64,
-    /// The greatest.
+    /// The largest.
     pub high: u64,
 }
 
 impl Whole {
-    /// Counts, of which there is at least one.
+    /// Counts of at least 1.
     pub const COUNT: Self = Self {
         low: 1,
         high: u32::MAX as u64,
     };
 
-    /// Whether a number of this name is one of them.
+    /// Checks a number; `name` is its name in the message.
     ///
     /// # Errors
-    /// [`OutOfRange`] if not.
+    /// [`OutOfRange`] if it is out of range.
     pub fn check(self, name: &'static str, found: impl Into<u64>) -> Result<(), OutOfRange> {
         let Self { low, high } = self;
         Bounds::closed(low as f64, high as f64).check(name, found.into() as f64)
@@ -48,12 +48,12 @@ pub struct Bounds {
     pub low: f64,
     /// Upper end.
     pub high: f64,
-    /// Whether `low` and `high` themselves are out.
+    /// Whether `low` and `high` themselves are excluded.
     pub open: (bool, bool),
 }
 
 impl Bounds {
-    /// The ends are in.
+    /// Both ends are allowed.
     pub const fn closed(low: f64, high: f64) -> Self {
         Self {
             low,
@@ -62,7 +62,7 @@ impl Bounds {
         }
     }
 
-    /// The ends are out.
+    /// Both ends are excluded.
     pub const fn open(low: f64, high: f64) -> Self {
         Self {
             low,
@@ -71,7 +71,7 @@ impl Bounds {
         }
     }
 
-    /// Positive numbers up to `high`, which is in.
+    /// Positive numbers up to and including `high`.
     pub const fn above_zero(high: f64) -> Self {
         Self {
             low: 0.0,
@@ -80,16 +80,16 @@ impl Bounds {
         }
     }
 
-    /// Whether a number is one of them.
+    /// Whether a number is within the bounds.
     pub fn contains(&self, x: f64) -> bool {
         (x > self.low || (x == self.low && !self.open.0))
             && (x < self.high || (x == self.high && !self.open.1))
     }
 
-    /// Whether a number of this name is one of them.
+    /// Checks a number; `name` is its name in the message.
     ///
     /// # Errors
-    /// [`OutOfRange`] if not.
+    /// [`OutOfRange`] if it is out of range.
     pub fn check(self, name: &'static str, found: f64) -> Result<(), OutOfRange> {
         if self.contains(found) {
             return Ok(());

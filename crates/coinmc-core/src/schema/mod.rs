@@ -1,8 +1,8 @@
-//! What a config may say, as data: keys, their meaning, limits and defaults.
+//! Schema of configs, as data: keys, their meaning, bounds and defaults.
 //!
-//! Engines and laws describe their own tables in these words, and read the checked [`Values`] of them.
-//! The reader of configs, its messages, the canonical text and the JSON Schema are all made from these
-//! descriptions. Nothing here reads or writes anything.
+//! Engines and laws describe their own tables with these types, and read the checked [`Values`] of
+//! them. The config reader, its messages, the resolved TOML and the JSON Schema are all derived from
+//! these descriptions. Nothing here reads or writes files.
 //!
 //! # Example
 //! ```
@@ -31,16 +31,16 @@ pub struct Field {
     pub name: &'static str,
     /// What it means, with its unit.
     pub doc: &'static str,
-    /// What its value may be.
+    /// The allowed values.
     pub kind: Kind,
-    /// What it means that it is absent.
+    /// The meaning of its absence.
     pub absent: Absent,
 }
 
-/// What it means that a key is absent.
+/// The meaning of an absent key.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Absent {
-    /// That is a problem.
+    /// It is an error.
     Required,
     /// Nothing, unless one of the table's rules says otherwise.
     Omitted,
@@ -48,35 +48,35 @@ pub enum Absent {
     Is(Fallback),
 }
 
-/// A value that stands in for an absent key.
+/// The default of an absent key.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Fallback {
-    /// A number, that may be swept or not.
+    /// A number.
     Number(f64),
     /// A whole number.
     Integer(u64),
-    /// Yes or no.
+    /// `true` or `false`.
     Boolean(bool),
     /// A word.
     Word(&'static str),
-    /// A table with all its own fallbacks.
+    /// A table with all its defaults.
     Table,
 }
 
-/// What a value may be.
+/// The kind of a value.
 #[derive(Debug, Clone)]
 pub enum Kind {
     /// A number that may be swept: a number, a list or a range.
     Number(Bounds),
-    /// A number that may not.
+    /// A number that cannot be swept.
     Real(Bounds),
     /// A whole number.
     Integer(Whole),
-    /// Yes or no.
+    /// `true` or `false`.
     Boolean,
     /// One of these words.
     Word(Vec<Word>),
-    /// Exactly three of a kind: x, y, z.
+    /// A list of three values of this kind: x, y, z.
     Vector(Box<Kind>),
     /// A number that may be swept, or a distribution (a table with exactly one of these keys).
     Marginal(Bounds, Vec<Field>),
@@ -100,22 +100,22 @@ pub struct TableKind {
 pub enum Rule {
     /// Exactly one of these is given.
     ExactlyOne(&'static [&'static str]),
-    /// The key goes with another one only, and has this value where that one stands alone.
+    /// The key is allowed only with another key, and has a default if that one is given alone.
     GoesWith {
         /// The key.
         key: &'static str,
-        /// The one that must be there.
+        /// The key that it requires.
         other: &'static str,
-        /// What the key is if only the other one is there.
+        /// The default of the key if only the other one is given.
         fallback: Fallback,
     },
-    /// These are given unless a condition holds; then, absent, they are the fallback.
+    /// These keys are required unless a condition holds; then they have a default.
     Unless {
         /// When they may be absent.
         condition: Condition,
         /// The keys.
         keys: &'static [&'static str],
-        /// What they then are; nothing, if absent.
+        /// Their default, if they have one.
         fallback: Option<Fallback>,
     },
 }
@@ -132,7 +132,7 @@ pub enum Condition {
 }
 
 impl Condition {
-    /// As the end of "… is missing: required unless …".
+    /// The condition in words, after "… is missing: required unless …".
     pub fn text(self) -> String {
         match self {
             Self::Given(key) => format!("`{key}` is given"),
@@ -152,7 +152,7 @@ pub struct Word {
 }
 
 impl TableKind {
-    /// The field of this name.
+    /// The field with this name.
     pub fn field(&self, name: &str) -> Option<&Field> {
         self.fields.iter().find(|field| field.name == name)
     }

@@ -1,9 +1,9 @@
-//! Why checked values describe nothing.
+//! Errors of checked values that contradict each other.
 
 use crate::EngineError;
 use thiserror::Error;
 
-/// Values that are valid by themselves but describe nothing together, with the key to blame.
+/// Values that are individually valid but contradict each other, with the key at fault.
 ///
 /// # Example
 /// ```
@@ -23,7 +23,7 @@ pub struct ReadError {
 }
 
 impl ReadError {
-    /// An error that blames the whole table.
+    /// An error of the whole table.
     pub fn new(reason: impl Into<String>) -> Self {
         Self {
             reason: reason.into(),
@@ -39,7 +39,7 @@ impl ReadError {
         self
     }
 
-    /// The same error, blamed on a key of the enclosing table.
+    /// The same error, at a key of the enclosing table.
     pub fn at(mut self, key: &'static str) -> Self {
         self.path.push(key);
         self
@@ -50,12 +50,12 @@ impl ReadError {
         self.help
     }
 
-    /// Whether the values do not follow their schema: see [`EngineError::mismatch`].
+    /// Whether the values do not match their schema: see [`EngineError::mismatch`].
     pub fn is_mismatch(&self) -> bool {
         self.is_mismatch
     }
 
-    /// The key to blame: the keys that lead to it, outermost first.
+    /// The path of the key at fault, outermost key first.
     pub fn path(&self) -> impl Iterator<Item = &'static str> {
         self.path.iter().rev().copied()
     }

@@ -1,4 +1,4 @@
-//! Short ways of writing the schema.
+//! Shorthands for writing schemas.
 
 use super::Absent::Is;
 use super::{Absent, Bounds, Fallback, Field, Kind, TableKind, Whole, Word};
@@ -31,7 +31,7 @@ pub fn fields(fields: Vec<Field>) -> TableKind {
     }
 }
 
-/// The number that an absent key stands for.
+/// A default number.
 pub fn default(value: f64) -> Absent {
     Is(Fallback::Number(value))
 }
@@ -42,12 +42,12 @@ pub fn count(name: &'static str, doc: &'static str, fallback: u32) -> Field {
     field(name, doc, Kind::Integer(Whole::COUNT), Is(fallback))
 }
 
-/// Yes or no.
+/// A boolean.
 pub fn flag(name: &'static str, doc: &'static str, fallback: bool) -> Field {
     field(name, doc, Kind::Boolean, Is(Fallback::Boolean(fallback)))
 }
 
-/// One of these words, each given with its meaning.
+/// One of these words, each with its meaning.
 pub fn choice<const N: usize>(
     name: &'static str,
     doc: &'static str,

@@ -5,11 +5,11 @@ use crate::EngineError;
 /// A checked value.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Value {
-    /// A number, of a sweep the one of this point.
+    /// A number; if it is swept, its value at this point.
     Number(f64),
     /// A whole number.
     Integer(u64),
-    /// Yes or no.
+    /// `true` or `false`.
     Boolean(bool),
     /// A word.
     Word(&'static str),
@@ -17,15 +17,15 @@ pub enum Value {
     Vector(Vec<Value>),
     /// A table.
     Table(Values),
-    /// A table with the one key that says which alternative it is.
+    /// A table with a single key that names the alternative.
     Tagged(&'static str, Box<Value>),
 }
 
 impl Value {
-    /// The number that this is.
+    /// The number.
     ///
     /// # Errors
-    /// [`EngineError`] if it is none.
+    /// [`EngineError`] if the value has another kind.
     pub fn number(&self) -> Result<f64, EngineError> {
         match self {
             Self::Number(number) => Ok(*number),
@@ -35,10 +35,10 @@ impl Value {
         }
     }
 
-    /// The values of the table that this is.
+    /// The values of the table.
     ///
     /// # Errors
-    /// [`EngineError`] if it is none.
+    /// [`EngineError`] if the value has another kind.
     pub fn table(&self) -> Result<&Values, EngineError> {
         match self {
             Self::Table(values) => Ok(values),
@@ -48,10 +48,10 @@ impl Value {
         }
     }
 
-    /// The three components of the vector that this is.
+    /// The components of the vector.
     ///
     /// # Errors
-    /// [`EngineError`] if it is none.
+    /// [`EngineError`] if the value has another kind.
     pub fn components(&self) -> Result<&[Self; 3], EngineError> {
         match self {
             Self::Vector(components) => components.as_slice().try_into().ok(),
@@ -61,11 +61,11 @@ impl Value {
     }
 }
 
-/// The values of a table that were held against its schema, defaults included: what an engine or a
-/// law makes its settings of.
+/// The checked values of a table, including defaults, from which an engine or a law reads its
+/// settings.
 ///
-/// A key or type that the schema does not promise is an error that names it: then schema and reader
-/// contradict each other.
+/// Reading a key or type that is not in the schema is an error that names it: schema and reader
+/// disagree.
 ///
 /// # Example
 /// ```
@@ -89,7 +89,7 @@ impl Values {
         self.0.iter().map(|(key, value)| (*key, value))
     }
 
-    /// What is under a key, if anything.
+    /// The value of a key, if present.
     pub fn get(&self, key: &str) -> Option<&Value> {
         let found = self.0.iter().find(|(name, _)| *name == key);
         found.map(|(_, value)| value)
@@ -134,7 +134,7 @@ impl Values {
         }
     }
 
-    /// Whether what a key names holds.
+    /// The boolean under a key.
     ///
     /// # Errors
     /// As [`number`](Self::number).
@@ -156,7 +156,7 @@ impl Values {
         }
     }
 
-    /// The one of `all` whose name stands under a key.
+    /// The member of `all` with the name under a key.
     ///
     /// # Errors
     /// As [`number`](Self::number), also if the word names none of them.
@@ -172,8 +172,7 @@ impl Values {
             .ok_or_else(|| unlisted(key, word))
     }
 
-    /// A name and what belongs to it: a word without values, or the key of a table and the values in
-    /// it.
+    /// The name of an alternative and its values: a word has none, a table has those under its key.
     ///
     /// # Errors
     /// As [`number`](Self::number).
@@ -202,7 +201,7 @@ impl Values {
     }
 }
 
-/// An alternative that a schema lists and its reader does not know.
+/// An alternative that is in the schema but unknown to its reader.
 pub fn unlisted(key: &str, name: &str) -> EngineError {
     EngineError::mismatch(format_args!("there is no `{key}` called `{name}`"))
 }
