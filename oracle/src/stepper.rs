@@ -33,10 +33,11 @@ const STOPPED: f64 = 1e-9;
 const ON_CONE: f64 = 1.0 - 1e-9;
 /// Rate, in sqrt(g/D), above which steps of contact shrink in proportion.
 const FAST: f64 = 4.0;
-/// Largest turn of the axis in a step, as a fraction of the sine of its tilt: near level a small turn
-/// makes another point of the rim the lowest.
+/// Largest turn of the axis in a step, as a fraction of the sine of its tilt: near level a small
+/// turn makes another point of the rim the lowest.
 const SWING: f64 = 0.2;
-/// Sine of the tilt below which `SWING` no longer shortens steps: the gap is of the order of `TOUCH`.
+/// Sine of the tilt below which `SWING` no longer shortens steps: the gap is of the order of
+/// `TOUCH`.
 const LEVEL: f64 = 5e-8;
 
 /// How finely tosses are followed.
@@ -123,8 +124,8 @@ impl TimeStepper {
         }
     }
 
-    /// Follows a motion for a time, decided or not, and calls `visit` with every state: for checks of
-    /// the stepper against known motions.
+    /// Follows a motion for a time, decided or not, and calls `visit` with every state: for checks
+    /// of the stepper against known motions.
     pub fn follow(&mut self, start: Motion, time: f64, mut visit: impl FnMut(f64, &Motion)) {
         let mut toss = Toss::new(start);
         while toss.time < time {
@@ -210,7 +211,8 @@ impl TimeStepper {
     }
 }
 
-/// The impulses of a step of contact. Rows that newly stick do so with their velocity after the step.
+/// The impulses of a step of contact. Rows that newly stick do so with their velocity after the
+/// step.
 fn solve_step(
     model: &Model,
     contacts: &mut Contacts,

@@ -6,7 +6,8 @@ use coinmc_analytic::{Rule, keller, precession, well_depth, zone};
 use numpy::{PyReadonlyArray1, PyReadwriteArray1};
 use pyo3::prelude::*;
 
-/// The closed form that the tosses of an engine tend to where nothing bounces; `None` if it makes none.
+/// The closed form that the tosses of an engine tend to where nothing bounces; `None` if it makes
+/// none.
 #[pyfunction]
 pub(crate) fn no_bounce_rule(engine: &str) -> Option<&'static str> {
     coinmc::engines::no_bounce_rule(engine).map(Rule::name)

@@ -92,8 +92,8 @@ struct FitRequest {
     confidence: f64,
 }
 
-/// Fits laws to drops: one dict per law, the best by AIC first. The first point of a config gives the
-/// coin, the surface, gravity, and the parameters of its own law.
+/// Fits laws to drops: one dict per law, the best by AIC first. The first point of a config gives
+/// the coin, the surface, gravity, and the parameters of its own law.
 #[pyfunction]
 #[pyo3(signature = (drops, options, config=None))]
 pub(crate) fn fit_film<'py>(

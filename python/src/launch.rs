@@ -18,8 +18,8 @@ const PLANAR: f64 = 1e-9;
 /// What is wrong with a row; the message begins with the number of the row.
 pub(crate) type Fault = &'static str;
 
-/// Checks that the engine of a point can toss the launch of a row. Numbers other than the axis may be
-/// infinite or NaN: the engine counts such a toss as failed.
+/// Checks that the engine of a point can toss the launch of a row. Numbers other than the axis may
+/// be infinite or NaN: the engine counts such a toss as failed.
 pub(crate) fn check(point: &Point, row: &[f64]) -> Result<(), Fault> {
     let axis = vector(row, 2);
     let norm = axis.norm();
@@ -65,7 +65,8 @@ pub(crate) fn write_launch(launch: &Launch, row: &mut [f64]) {
     row[9..].copy_from_slice(launch.spin_rad_s.as_slice());
 }
 
-/// Writes a state into a row; `from` is the horizontal position of the launch, which engines ignore.
+/// Writes a state into a row; `from` is the horizontal position of the launch, which engines
+/// ignore.
 pub(crate) fn write_state(state: &State, from: [f64; 2], row: &mut [f64]) {
     row[..3].copy_from_slice(state.position_m.as_slice());
     row[0] += from[0];

@@ -1,10 +1,11 @@
-//! The Rust part of the Python package `coinmc`: thin, typed functions over arrays that are allocated
-//! and owned by Python. They are private: users call the Python part.
+//! The Rust part of the Python package `coinmc`: thin, typed functions over arrays that are
+//! allocated and owned by Python. They are private: users call the Python part.
 //!
 //! # Files
-//! `plan` configs · `supervise` long work, signals and progress · `share` threads · `launch` launches as
-//! rows of numbers · `columns` and `toss` individual tosses · `run` estimates and runs · `results`
-//! tables, also as Arrow · `interval` intervals of proportions · `trace` recorded motion of a toss ·
+//! `plan` configs · `supervise` long work, signals and progress · `share` threads · `launch`
+//! launches as rows of numbers · `columns` and `toss` individual tosses · `run` estimates and runs
+//! · `results` tables, also as Arrow · `interval` intervals of proportions · `trace` recorded
+//! motion of a toss ·
 //! `analytic` closed forms · `film` drops on film · `errors` exceptions.
 
 // Arguments converted from Python are owned.

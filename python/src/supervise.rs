@@ -1,5 +1,5 @@
-//! Supervision of long work: it runs on other threads without the interpreter lock, while this thread
-//! handles signals (Ctrl-C) and progress.
+//! Supervision of long work: it runs on other threads without the interpreter lock, while this
+//! thread handles signals (Ctrl-C) and progress.
 
 use crate::errors;
 use coinmc::run::{Progress, ProgressSink};
@@ -66,8 +66,9 @@ impl Drop for FinishGuard<'_> {
     }
 }
 
-/// Runs `job` on another thread and returns its result and warnings; meanwhile calls `progress(done,
-/// planned)`. An exception from that or from a signal handler stops the job and is then raised.
+/// Runs `job` on another thread and returns its result and warnings; meanwhile calls
+/// `progress(done, planned)`. An exception from that or from a signal handler stops the job and is
+/// then raised.
 pub(crate) fn supervise<T: Send>(
     py: Python<'_>,
     progress: Option<Py<PyAny>>,
@@ -101,8 +102,8 @@ pub(crate) fn supervise<T: Send>(
     Ok((result, supervision.take_warnings()))
 }
 
-/// Runs a `job` that cannot be stopped and returns its result. If a signal handler raises meanwhile,
-/// the job is abandoned: it runs on, and its result is discarded.
+/// Runs a `job` that cannot be stopped and returns its result. If a signal handler raises
+/// meanwhile, the job is abandoned: it runs on, and its result is discarded.
 pub(crate) fn wait_for<T: Send + 'static>(
     py: Python<'_>,
     job: impl FnOnce() -> T + Send + 'static,

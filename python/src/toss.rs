@@ -16,7 +16,8 @@ use std::io;
 use std::num::NonZeroUsize;
 use std::ops::Range;
 
-/// Launches of the tosses: drawn (index of the first toss, stream of all), or rows of given launches.
+/// Launches of the tosses: drawn (index of the first toss, stream of all), or rows of given
+/// launches.
 enum Source<'a> {
     Drawn(u64, Stream),
     Given(&'a [f64]),
@@ -186,7 +187,8 @@ fn workers(asked: Option<NonZeroUsize>, n: usize) -> usize {
     threads(asked).get().min(n.max(1))
 }
 
-/// The columns besides the face, as Python arrays: ended, impacts, time and twelve numbers per toss.
+/// The columns besides the face, as Python arrays: ended, impacts, time and twelve numbers per
+/// toss.
 type DetailArrays<'py> = (
     PyReadwriteArray1<'py, u8>,
     PyReadwriteArray1<'py, u32>,

@@ -14,8 +14,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::sync::Arc;
 
-/// Replays a toss of a point, or tosses a launch given as a row, and records it with `rate_hz` samples
-/// per second; None chooses a rate that suits the toss.
+/// Replays a toss of a point, or tosses a launch given as a row, and records it with `rate_hz`
+/// samples per second; None chooses a rate that suits the toss.
 #[pyfunction]
 #[pyo3(signature = (plan, point, toss, row=None, rate_hz=None))]
 pub(crate) fn trace<'py>(

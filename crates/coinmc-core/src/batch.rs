@@ -50,8 +50,8 @@ pub trait TossBatch {
     /// The result of a toss.
     type End;
 
-    /// Whether one more toss may be launched. The number is bounded even for tosses that end at once,
-    /// since their ends are kept until they are passed on.
+    /// Whether one more toss may be launched. The number is bounded even for tosses that end at
+    /// once, since their ends are kept until they are passed on.
     fn has_room(&self) -> bool;
 
     /// Launches a toss if there is room. Tosses are numbered in order of launch, from 0.

@@ -20,7 +20,8 @@
 //!   becomes v_x, and ω_a becomes ω_θ and tilt. In the time t that the coin takes to topple, about
 //!   Λ cos(Ω_z t) remains along the axis. The rule therefore leaves out a fraction 1/(1 + Ω_z² t²)
 //!   of the energy, all of it for an axis that will not turn, with t² = `TOPPLING`. (The rate φ' at
-//!   which the axis turns now cannot replace Ω_z: a leaning coin that spins fast nutates, and passes
+//!   which the axis turns now cannot replace Ω_z: a leaning coin that spins fast nutates, and
+//!   passes
 //!   φ' = 0 while Ω_z holds it up.) This is nearly rigorous: `docs/validation/` gives the remaining
 //!   bias.
 //! * *Flat on a face*, with the sine of the tilt below `flat_sine`: the energy of sliding and of
@@ -42,11 +43,11 @@
 //! ω_a.
 //!
 //! Without friction lengths and drag as well, the normal force is the only force besides weight. It
-//! has no moment about u or the vertical, so ω_a, L_z and the horizontal velocity never change. At the
-//! balance over a rim, u_z = c* = ±h, the energy of turning about the vertical is then
+//! has no moment about u or the vertical, so ω_a, L_z and the horizontal velocity never change. At
+//! the balance over a rim, u_z = c* = ±h, the energy of turning about the vertical is then
 //! k_t(Ω_z − Ω_a c*)²/(2s*²), and the coin cannot pass the balance with less than 1 plus that. This
-//! is exact for any restitution, in flight and in contact. An engine with time steps changes ω_a and
-//! L_z slightly in every contact, and does not use this part of the rule
+//! is exact for any restitution, in flight and in contact. An engine with time steps changes ω_a
+//! and L_z slightly in every contact, and does not use this part of the rule
 //! ([`DecisionRule::in_time_steps`]).
 
 use crate::{Body, Scene};
@@ -63,8 +64,9 @@ pub enum Decided {
     Side,
 }
 
-/// The state of a coin as the rule needs it, in units of D and sqrt(D/g), and in a frame in which the
-/// axis points up: x is the horizontal direction towards which the axis leans, z is up, y = z × x.
+/// The state of a coin as the rule needs it, in units of D and sqrt(D/g), and in a frame in which
+/// the axis points up: x is the horizontal direction towards which the axis leans, z is up, y = z ×
+/// x.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DecisionState<L> {
     /// Mechanical energy in m g D, potential zero at the surface.
@@ -117,9 +119,9 @@ pub struct DecisionRule {
     flat_barrier: f64,
 }
 
-/// Square of the time, in sqrt(D/g), in which a rolling coin that turns topples: a choice. With 1 the
-/// largest bias of P(side) among the examples is 0.0018, with 2 it is 0.0004, at the cost of 5 % of
-/// the speed where coins roll longest.
+/// Square of the time, in sqrt(D/g), in which a rolling coin that turns topples: a choice. With 1
+/// the largest bias of P(side) among the examples is 0.0018, with 2 it is 0.0004, at the cost of 5
+/// % of the speed where coins roll longest.
 const TOPPLING: f64 = 2.0;
 
 impl DecisionRule {
@@ -227,7 +229,8 @@ impl DecisionRule {
         decided
     }
 
-    /// Energy of straight rolling that cannot become tilt: see *Tilting* in the module documentation.
+    /// Energy of straight rolling that cannot become tilt: see *Tilting* in the module
+    /// documentation.
     #[inline(always)]
     fn lasting_roll<L: Lane>(&self, state: &DecisionState<L>) -> L {
         let invariant = state.vy - L::splat(self.lever) * state.axial;
@@ -249,8 +252,8 @@ impl DecisionRule {
         free.lt(barrier(near)) & (!side | free.lt(barrier(far)))
     }
 
-    /// Whether no energy is ever lost at this restitution: the face of such a toss is decided at its
-    /// launch or never.
+    /// Whether no energy is ever lost at this restitution: the face of such a toss is decided at
+    /// its launch or never.
     pub fn loses_nothing(&self, restitution: f64) -> bool {
         self.traps && restitution == 1.0
     }

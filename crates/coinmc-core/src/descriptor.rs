@@ -114,8 +114,8 @@ impl LawDescriptor {
     }
 }
 
-/// A key of the scene that an engine or law would ignore. It must therefore be 0, or true if it is not
-/// a number: otherwise results would claim what was never computed.
+/// A key of the scene that an engine or law would ignore. It must therefore be 0, or true if it is
+/// not a number: otherwise results would claim what was never computed.
 #[derive(Debug, Clone, Copy)]
 pub struct Unmodelled {
     /// The table of the config.
@@ -209,8 +209,8 @@ impl From<crate::schema::OutOfRange> for EngineError {
     }
 }
 
-/// Any engine with its settings: [`EngineSettings`] behind a pointer that can be compared, cloned and
-/// downcast.
+/// Any engine with its settings: [`EngineSettings`] behind a pointer that can be compared, cloned
+/// and downcast.
 #[derive(Clone)]
 pub struct EngineChoice(Arc<dyn ComparableSettings>);
 

@@ -5,8 +5,8 @@ use coinmc_lanes::{Lanes, NoSuchLanes};
 use nalgebra::{UnitVector3, Vector3};
 use std::ops::{ControlFlow, Range};
 
-/// Receives the outcomes of some tosses, each with its number among the launches, and says whether to
-/// continue.
+/// Receives the outcomes of some tosses, each with its number among the launches, and says whether
+/// to continue.
 pub type OutcomeSink<'a> = dyn FnMut(&[(u64, Outcome)]) -> ControlFlow<()> + 'a;
 
 /// Turns launches into outcomes.
@@ -16,7 +16,8 @@ pub type OutcomeSink<'a> = dyn FnMut(&[(u64, Outcome)]) -> ControlFlow<()> + 'a;
 ///
 /// If the engine is chosen at run time, use a [`DynEngine`](crate::DynEngine).
 pub trait Engine: Sync {
-    /// Scratch memory, one per worker, reused from toss to toss. Its contents must not affect outcomes.
+    /// Scratch memory, one per worker, reused from toss to toss. Its contents must not affect
+    /// outcomes.
     type Workspace: Send;
 
     /// A fresh workspace.
@@ -47,8 +48,8 @@ pub trait Engine: Sync {
         observer: &mut impl Observer,
     ) -> Outcome;
 
-    /// Computes many tosses and passes on their outcomes, some at a time and in any order, until the
-    /// sink breaks.
+    /// Computes many tosses and passes on their outcomes, some at a time and in any order, until
+    /// the sink breaks.
     ///
     /// The default is the scalar path; engines with batches override it. Every outcome is
     /// bit-identical to that of [`toss`](Self::toss).
@@ -80,8 +81,8 @@ pub trait Engine: Sync {
     }
 }
 
-/// Outcomes passed on at once: enough to make calls of the sink negligible, and few enough to keep it
-/// responsive when a toss takes milliseconds.
+/// Outcomes passed on at once: enough to make calls of the sink negligible, and few enough to keep
+/// it responsive when a toss takes milliseconds.
 pub(crate) const AT_ONCE: usize = 32;
 
 /// [`Engine::toss_many`] on the scalar path.

@@ -32,8 +32,8 @@ pub enum Ended {
     Decided(Face),
     /// The toss was still undecided at the engine's limit of simulated time.
     TimeLimit,
-    /// The coin provably never comes to rest on a face: it stands balanced on its rim, or rolls or bounces
-    /// forever without loss.
+    /// The coin provably never comes to rest on a face: it stands balanced on its rim, or rolls or
+    /// bounces forever without loss.
     NeverSettles,
     /// The toss was still undecided at the engine's limit of impacts or contact phases.
     ImpactLimit,

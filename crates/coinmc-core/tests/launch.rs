@@ -240,7 +240,7 @@ fn distributions() -> Vec<LaunchDistribution> {
 }
 
 #[test]
-fn launches_drawn_side_by_side_are_those_drawn_alone() {
+fn launches_in_lanes_are_bit_identical_to_the_scalar_path() {
     let coin = coin();
     let stream = Stream::new(11, Domain::Launch, 3);
     for distribution in distributions() {

@@ -17,8 +17,8 @@
 //! | record the motion of a toss | the crate `coinmc-trace` |
 //! | compare with published counts | [`published`] |
 //!
-//! To toss coins without configs, take an engine: [`coinmc_flat`] in a plane, [`coinmc_volumetric`] in
-//! space, or `coinmc_rapier` in time steps; [`coinmc_core`] holds what they share.
+//! To toss coins without configs, take an engine: [`coinmc_flat`] in a plane, [`coinmc_volumetric`]
+//! in space, or `coinmc_rapier` in time steps; [`coinmc_core`] holds what they share.
 //!
 //! # Cargo features
 //! * `rapier`: the engine `[engine.rapier]`. Without it such a config is rejected.

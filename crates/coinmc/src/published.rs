@@ -1,4 +1,5 @@
-//! Published outcomes to compare with results. The data, their sources and licences are in the folder
+//! Published outcomes to compare with results. The data, their sources and licences are in the
+//! folder
 //! `data` and are compiled into the program.
 
 use crate::plan::Point;
@@ -41,8 +42,8 @@ pub struct FairRatio {
 pub struct Published {
     /// The counts.
     pub counts: Counts,
-    /// Config keys in which the scene of the point differs from the published one; empty if it is the
-    /// same scene.
+    /// Config keys in which the scene of the point differs from the published one; empty if it is
+    /// the same scene.
     pub differs: Vec<&'static str>,
 }
 
@@ -175,8 +176,8 @@ impl Counts {
     }
 
     /// Difference between `side` of `tosses` tosses and the published fraction, in standard errors:
-    /// the z-score of two proportions, with the variance of the pooled fraction. `None` if that is 0:
-    /// there are no tosses, or none or all of them ended on the side.
+    /// the z-score of two proportions, with the variance of the pooled fraction. `None` if that is
+    /// 0: there are no tosses, or none or all of them ended on the side.
     ///
     /// # Example
     /// ```

@@ -24,8 +24,8 @@ use nalgebra::{UnitVector3, Vector3};
 use std::ops::Range;
 use thiserror::Error;
 
-/// One initial state. The coin is a body of revolution, so rotation about its axis has no effect and
-/// the axis alone gives its orientation.
+/// One initial state. The coin is a body of revolution, so rotation about its axis has no effect
+/// and the axis alone gives its orientation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Launch {
     /// Height of the centre above the surface, m. A coin that would start inside the surface is

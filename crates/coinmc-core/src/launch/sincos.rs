@@ -1,7 +1,7 @@
 //! Sine and cosine in lanes, bit-identical to libm.
 //!
-//! Launches are drawn with libm's functions, and the bits of a launch never change. The kernels' own
-//! function ([`coinmc_lanes::sin_cos`]) rounds differently.
+//! Launches are drawn with libm's functions, and the bits of a launch never change. The kernels'
+//! own function ([`coinmc_lanes::sin_cos`]) rounds differently.
 
 use coinmc_lanes::{COSINE, Lane, Mask, SINE};
 

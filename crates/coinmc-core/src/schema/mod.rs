@@ -1,8 +1,8 @@
 //! Schema of configs, as data: keys, their meaning, bounds and defaults.
 //!
 //! Engines and laws describe their own tables with these types, and read the checked [`Values`] of
-//! them. The config reader, its messages, the resolved TOML and the JSON Schema are all derived from
-//! these descriptions. Nothing here reads or writes files.
+//! them. The config reader, its messages, the resolved TOML and the JSON Schema are all derived
+//! from these descriptions. Nothing here reads or writes files.
 //!
 //! # Example
 //! ```

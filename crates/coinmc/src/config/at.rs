@@ -1,4 +1,4 @@
-//! One point of a sweep, and what can be wrong there.
+//! One point of a sweep, and the errors that can occur there.
 
 use super::checked::{Checked, CheckedValue};
 use super::quantity::Quantity;
@@ -10,7 +10,7 @@ use super::sweep::Sweep;
 pub(super) enum Fault {
     /// A value is invalid, which has been reported.
     Reported,
-    /// Values that are valid by themselves contradict each other.
+    /// Values that are individually valid contradict each other.
     Problem {
         span: Span,
         message: String,
@@ -28,7 +28,7 @@ impl Fault {
     }
 }
 
-/// One point of a sweep: which value each axis has.
+/// One point of a sweep: the value of each axis.
 pub(super) struct At<'a> {
     sweep: &'a Sweep,
     pub(super) indices: Vec<usize>,

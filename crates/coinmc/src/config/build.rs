@@ -58,7 +58,7 @@ pub(super) fn points(root: &Checked, sweep: &Sweep, problems: &mut Problems) -> 
 /// A part of a point, built once if the sweep does not touch it.
 struct Part<T> {
     swept: bool,
-    /// Whether `last` is what came of an attempt.
+    /// Whether `last` is the result of an attempt.
     tried: bool,
     last: Option<T>,
 }
@@ -93,7 +93,7 @@ fn scene(root: &Checked, at: &At<'_>) -> Result<Scene, Fault> {
     let coin = read(get(root, "coin")?, at, Coin::read)?;
     let surface = match root.get("surface") {
         Some(checked) => read(checked, at, Surface::read)?,
-        // only closed forms do without
+        // only closed forms need no surface
         None => Surface::adhesive(),
     };
     read(get(root, "environment")?, at, |environment| {
@@ -103,7 +103,7 @@ fn scene(root: &Checked, at: &At<'_>) -> Result<Scene, Fault> {
 
 fn launches(root: &Checked, at: &At<'_>) -> Result<LaunchDistribution, Fault> {
     let Some(checked) = root.get("launch") else {
-        // only a closed form does without; no launch is ever drawn
+        // only closed forms need no launch, and they draw none
         return Ok(Preset::Robot.distribution());
     };
     let launches = read(checked, at, LaunchDistribution::read)?;
@@ -122,7 +122,7 @@ fn engine_of(root: &Checked) -> Option<&'static EngineDescriptor> {
     engine(root.get("engine")?.tag()?)
 }
 
-/// When to stop; a closed form has nothing to stop.
+/// When to stop; `None` for a closed form.
 pub(super) fn stop(root: &Checked) -> Option<Stop> {
     if engine_of(root)?.kind == EngineKind::ClosedForm {
         return Some(Stop::Tosses(0));

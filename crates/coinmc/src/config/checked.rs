@@ -1,12 +1,12 @@
-//! The config once every key and value has been checked by itself: what the canonical text and
-//! the plan are made from.
+//! The config after every key and value has been checked; the resolved TOML and the plan are
+//! derived from it.
 
 use super::quantity::Quantity;
 use super::source::Span;
 use coinmc_core::schema::Value;
 
-/// A checked value and the place to blame for it. A default's place is the table that lacks it,
-/// a preset's the name of the preset.
+/// A checked value and its location for error messages. The location of a default is the table that
+/// lacks the key; that of a value from a preset is the name of the preset.
 #[derive(Debug, Clone)]
 pub(super) struct Checked {
     pub(super) span: Span,
@@ -17,7 +17,7 @@ pub(super) struct Checked {
 pub(super) enum CheckedValue {
     /// Already reported.
     Invalid,
-    /// A number that may be swept, and which axis of the sweep it is.
+    /// A number that may be swept, and the index of its axis if it is.
     Number(Quantity, Option<usize>),
     Real(f64),
     Integer(u64),
@@ -27,7 +27,7 @@ pub(super) enum CheckedValue {
     Vector(Vec<Checked>),
     /// The keys that are present, in the order of the schema.
     Table(Vec<(&'static str, Checked)>),
-    /// A table with the one key that says which alternative it is.
+    /// A table with a single key that names the alternative.
     Tagged(&'static str, Box<Checked>),
 }
 
@@ -39,7 +39,7 @@ impl Checked {
         Self { span, value }
     }
 
-    /// A constant value; `span` is blamed for it.
+    /// A constant value; `span` is its location for error messages.
     pub(super) fn of_value(span: Span, value: &Value) -> Self {
         let nested = |value| Self::of_value(span, value);
         let value = match value {

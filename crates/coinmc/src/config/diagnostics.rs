@@ -1,11 +1,11 @@
-//! Everything that is wrong with a config, said at once.
+//! All problems of a config, reported at once.
 
 use super::source::{Source, Sources, Span};
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 use std::fmt;
 
-/// Problems kept; a config with more is not repaired by reading on.
+/// Largest number of problems kept; more would not help to repair a config.
 const KEPT: usize = 100;
 
 /// One problem of a config.
@@ -14,13 +14,13 @@ const KEPT: usize = 100;
 pub struct Problem {
     /// The file, or `--set` for an override.
     pub source: String,
-    /// Line, from 1; 0 if the problem has no place in the text (a file that is not there).
+    /// Line, from 1; 0 if the problem has no location in the text (such as a missing file).
     pub line: usize,
     /// Column in characters, from 1; 0 like `line`.
     pub column: usize,
     /// What was found and what is allowed.
     pub message: String,
-    /// How to mend it.
+    /// How to fix it.
     pub help: Option<String>,
     /// The lines to quote, the number of the first and the bytes to mark.
     quote: Option<Quote>,
@@ -33,7 +33,7 @@ struct Quote {
     marked: std::ops::Range<usize>,
 }
 
-/// All problems of a config, sorted by place. [`Display`](fmt::Display) and
+/// All problems of a config, sorted by location. [`Display`](fmt::Display) and
 /// [`render`](Self::render) quote the lines with a caret under the token.
 ///
 /// # Example
@@ -45,7 +45,7 @@ struct Quote {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Diagnostics {
     problems: Vec<Problem>,
-    /// How many were found beyond those kept.
+    /// Number of problems found beyond those kept.
     dropped: usize,
 }
 
@@ -66,7 +66,7 @@ impl Diagnostics {
         }
     }
 
-    /// The same with a place that cannot be quoted.
+    /// The same with a location in text that cannot be quoted.
     pub(super) fn at(mut self, line: usize, column: usize) -> Self {
         for problem in &mut self.problems {
             (problem.line, problem.column) = (line, column);
@@ -74,12 +74,13 @@ impl Diagnostics {
         self
     }
 
-    /// The problems, sorted by place: the file's, then the overrides'. At most 100 are kept.
+    /// The problems, sorted by location: those of the file, then those of overrides. At most 100
+    /// are kept.
     pub fn problems(&self) -> &[Problem] {
         &self.problems
     }
 
-    /// The messages as a person reads them, with or without colour (ANSI escapes).
+    /// The messages in readable form, with or without colour (ANSI escapes).
     pub fn render(&self, color: bool) -> String {
         let renderer = if color {
             Renderer::styled()
@@ -135,7 +136,7 @@ impl fmt::Display for Diagnostics {
 
 impl std::error::Error for Diagnostics {}
 
-/// Gathers problems while a config is read.
+/// Collects problems while a config is read.
 #[derive(Debug, Default)]
 pub(super) struct Problems {
     found: Vec<(Span, String, Option<String>)>,
@@ -168,7 +169,7 @@ impl Problems {
         self.found.is_empty()
     }
 
-    /// The finished list, by place; problems of one place stay in the order they were found.
+    /// The finished list, sorted by location; problems at one location keep their order.
     pub(super) fn finish(mut self, sources: &Sources) -> Diagnostics {
         self.found.sort_by_key(|(span, ..)| *span);
         let problems = self
@@ -200,7 +201,7 @@ impl Problems {
     }
 }
 
-/// A file name without what would steer a terminal.
+/// A file name without characters that control a terminal.
 pub(super) fn printable(name: &str) -> String {
     let escaped = |c: char| match c {
         '"' | '\'' | '\\' => vec![c],
@@ -209,7 +210,7 @@ pub(super) fn printable(name: &str) -> String {
     name.chars().flat_map(escaped).collect()
 }
 
-/// Foreign text for a message: on one line, printable, of bounded length, in backquotes.
+/// User text for a message: on one line, printable, of bounded length, in backquotes.
 pub(super) fn quoted(text: &str) -> String {
     const LONGEST: usize = 40;
     let mut shown: String = text

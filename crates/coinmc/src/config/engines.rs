@@ -1,4 +1,4 @@
-//! The engine of a point, and what an engine refuses because it does not model it.
+//! The engine of a point, and the rejection of what an engine does not model.
 
 use super::at::{At, Fault, get};
 use super::checked::{Checked, CheckedValue};
@@ -16,8 +16,8 @@ pub(super) fn choice(root: &Checked, at: &At<'_>) -> Result<EngineChoice, Fault>
     read(inner, at, |values| Ok((engine.read)(values)?))
 }
 
-/// Refuses everything that the config asks for and its engine or law does not model. It would be
-/// ignored otherwise, and the results would claim what was never computed.
+/// Rejects everything in the config that its engine or law does not model. Otherwise it would be
+/// ignored, and the results would claim what was never computed.
 pub(super) fn refuse_unmodelled(root: &Checked, problems: &mut Problems) {
     let Some(CheckedValue::Tagged(tag, inner)) = root.get("engine").map(|checked| &checked.value)
     else {
@@ -40,8 +40,8 @@ pub(super) fn refuse_unmodelled(root: &Checked, problems: &mut Problems) {
     }
 }
 
-/// A number is not 0, or something true by nature is switched off. A list or range has at least two
-/// different values.
+/// Whether a number is anywhere not 0, or something that is true by default is switched off. A list
+/// or range has at least two different values.
 fn is_somewhere_in_force(checked: &Checked) -> bool {
     match &checked.value {
         CheckedValue::Number(Quantity::Constant(value), _) => *value != 0.0,

@@ -1,11 +1,11 @@
-//! Launches: presets spelled out, and distributions built for a point.
+//! Launches: expansion of presets, and distributions for a point.
 
 use super::at::{Fault, get};
 use super::checked::{Checked, CheckedValue};
 use coinmc_core::{LaunchDistribution, Preset};
 
-/// The launch with its preset replaced by what the preset says, except where the config says
-/// otherwise. Without a preset the coin starts from rest unless a velocity is given.
+/// The launch with its preset expanded, except for values given in the config. Without a preset the
+/// coin starts from rest unless a velocity is given.
 pub(super) fn spelled_out(launch: &Checked) -> Checked {
     let CheckedValue::Table(entries) = &launch.value else {
         return launch.clone();
@@ -14,7 +14,7 @@ pub(super) fn spelled_out(launch: &Checked) -> Checked {
         .get("preset")
         .map(|checked| (checked.span, checked.word()))
     {
-        // an invalid preset leaves open what else is missing
+        // with an invalid preset it is unknown what else is missing
         Some((_, None)) => return Checked::invalid(launch.span),
         Some((span, Some(name))) => {
             let preset = name.parse::<Preset>();
@@ -37,7 +37,7 @@ pub(super) fn spelled_out(launch: &Checked) -> Checked {
     Checked::new(launch.span, CheckedValue::Table(merged.collect()))
 }
 
-/// Refuses a launch that leaves the xz plane, and blames the part that does.
+/// Rejects a launch that leaves the xz plane, and reports the part that does.
 pub(super) fn require_planar(
     checked: &Checked,
     launch: &LaunchDistribution,

@@ -1,4 +1,4 @@
-//! Reads a config: TOML in, a [`Plan`] or every [`Problem`] at once out.
+//! Reads a config: TOML in, a [`Plan`] or all [`Problem`]s out.
 //!
 //! ```text
 //! text ─▶ tree ─▶ walk (against the schema) ─▶ form ─▶ sweep, build ─▶ Plan
@@ -48,13 +48,13 @@ use std::io::Read;
 use std::path::Path;
 use sweep::Sweep;
 
-/// Longest config, as written and as resolved, bytes.
+/// Largest config, as written and as resolved, bytes.
 pub const MAX_BYTES: usize = 1 << 20;
 
 /// Reads a config file.
 ///
 /// # Errors
-/// Every problem found, also if the file cannot be read.
+/// Every problem found, or that the file cannot be read.
 pub fn load(path: &Path, overrides: &[Override]) -> Result<Plan, Diagnostics> {
     let name = path.display().to_string();
     let bytes = read(path).map_err(|error| {
@@ -80,7 +80,7 @@ pub fn load(path: &Path, overrides: &[Override]) -> Result<Plan, Diagnostics> {
     }
 }
 
-/// Reads one byte more than allowed, so that too long a file is seen and never held.
+/// Reads at most one byte more than allowed, to detect larger files without loading them.
 fn read(path: &Path) -> std::io::Result<Vec<u8>> {
     let file = File::open(path)?;
     if file.metadata()?.is_dir() {
@@ -91,7 +91,7 @@ fn read(path: &Path) -> std::io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Reads a config from a text that messages call `name`.
+/// Reads a config from a text; `name` is its name in messages.
 ///
 /// # Errors
 /// Every problem found.
@@ -125,7 +125,7 @@ pub fn json_schema() -> String {
     schema::json_schema()
 }
 
-/// The whole way from text to plan. `None` only after a problem.
+/// Converts text to a plan; `None` only after a problem.
 fn plan(
     sources: &mut Sources,
     name: &str,
@@ -133,7 +133,7 @@ fn plan(
     overrides: &[Override],
     problems: &mut Problems,
 ) -> Option<Plan> {
-    // a byte order mark is no part of the text
+    // a byte order mark is not part of the text
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let file = sources.add(&printable(name), text);
     let mut tree = tree::document(sources, file, text, problems)?;
@@ -168,7 +168,7 @@ fn plan(
     })
 }
 
-/// Replaces the launch's preset by what it stands for.
+/// Expands the preset of the launch.
 fn spell_out(root: &mut Checked) {
     if let CheckedValue::Table(entries) = &mut root.value {
         for (_, checked) in entries.iter_mut().filter(|(key, _)| *key == "launch") {
@@ -177,7 +177,7 @@ fn spell_out(root: &mut Checked) {
     }
 }
 
-/// A grid and a zip of fewer than two axes are the same sweep: write it one way.
+/// A grid and a zip of fewer than two axes are the same sweep: write both as a grid.
 fn single_axis(root: &mut Checked) {
     let CheckedValue::Table(entries) = &mut root.value else {
         return;
@@ -191,7 +191,7 @@ fn single_axis(root: &mut Checked) {
     }
 }
 
-/// The canonical text, unless it is too long to be read back.
+/// The resolved TOML, unless it is too long to be read back.
 fn resolved(root: &Checked, end: Span, problems: &mut Problems) -> Option<String> {
     let text = resolved::document(root);
     if text.len() > MAX_BYTES {

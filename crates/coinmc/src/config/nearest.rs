@@ -1,6 +1,6 @@
 //! "Did you mean …?"
 
-/// The candidate that was most likely meant, if any is near: a word whose beginning it is
+/// The candidate that was most likely meant, if any is near: one that starts with the text
 /// (`gravity` for `gravity_m_s2`), or the one with the fewest typing errors.
 pub(super) fn nearest<'a>(
     word: &str,

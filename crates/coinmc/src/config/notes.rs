@@ -1,4 +1,4 @@
-//! Remarks that are no problems: something given that changes nothing, or that may surprise.
+//! Remarks that are not errors: settings without effect, or with surprising effects.
 
 use super::checked::Checked;
 use crate::engines::EngineKind;
@@ -38,7 +38,7 @@ fn adhesive(point: &Point) -> bool {
 /// A key of `[surface]`, and where its value is.
 type Property = (&'static str, fn(&Surface) -> f64);
 
-/// Properties of contacts where there are none.
+/// The remark on properties of contacts if no point has contacts.
 fn in_vain(points: &[Point]) -> Option<String> {
     let properties: [Property; 5] = [
         ("restitution", Surface::restitution),

@@ -8,10 +8,10 @@ use std::str::FromStr;
 use thiserror::Error;
 use toml::de::{DeTable, DeValue};
 
-/// A value that replaces (or adds to) what the config file says.
+/// A value that replaces a value of the config file, or adds one.
 ///
-/// The text is `key.path=value`; the value is a TOML expression, and a bare word that is no TOML
-/// is taken as text.
+/// The text is `key.path=value`; the value is a TOML expression, and a bare word that is not TOML
+/// is read as a string.
 ///
 /// # Example
 /// ```
@@ -30,14 +30,14 @@ pub struct Override {
     value: Range<usize>,
 }
 
-/// Why a text is no override. Problems of the value itself are found when the config is read.
+/// Why a text is not an override. Problems of the value itself are found when the config is read.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum OverrideError {
     /// There is no `=`.
     #[error("expected `key.path=value`, such as `surface.friction=0.2`")]
     NoEquals,
-    /// What stands before the `=` is no path of keys.
-    #[error("`{0}` is no path of keys such as `surface.friction`")]
+    /// The text before the `=` is not a dotted key.
+    #[error("`{0}` is not a dotted key such as `surface.friction`")]
     Key(String),
     /// The text has a line break or another control character.
     #[error("an override is one line without control characters")]
@@ -99,7 +99,7 @@ fn key_path(text: &str) -> Option<Vec<(String, Range<usize>)>> {
 }
 
 impl Override {
-    /// Puts the value into the tree, or says what is wrong with it.
+    /// Puts the value into the tree, or reports what is wrong with it.
     pub(super) fn apply(&self, sources: &mut Sources, root: &mut Table, problems: &mut Problems) {
         let source = sources.add("--set", &self.text);
         match self.node(sources, source) {
@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_override_is_refused() {
+    fn invalid_overrides_are_rejected() {
         for bad in [
             "", "a", "=1", "a.=1", "a b=1", "[a]=1", "#a=1", "a=1\nb=2", "a..b=1", "\"a=1",
         ] {

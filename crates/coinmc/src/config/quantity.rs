@@ -21,7 +21,7 @@ pub(super) struct Range {
 }
 
 impl Quantity {
-    /// How many values it takes.
+    /// Number of values.
     pub(super) fn len(&self) -> u64 {
         match self {
             Self::Constant(_) => 1,
@@ -38,7 +38,7 @@ impl Quantity {
         }
     }
 
-    /// The one way of writing these values: a list that is a range becomes that range.
+    /// The canonical form of these values: a list that equals a range becomes that range.
     pub(super) fn canonical(&self) -> Self {
         let values = self.values();
         match values[..] {
@@ -91,11 +91,11 @@ impl Range {
     }
 }
 
-/// The nearest number with so many (at least one) significant decimal digits; formatting and
+/// The nearest number with `count` (at least one) significant decimal digits; formatting and
 /// parsing are exact.
 pub(super) fn digits(value: f64, count: usize) -> f64 {
     let rounded = format!("{value:.*e}", count - 1).parse().unwrap_or(value);
-    // a negative zero would be another text for the same value
+    // a negative zero would be a second text for the same value
     if rounded == 0.0 { 0.0 } else { rounded }
 }
 
@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn a_list_and_the_range_it_spells_out_are_written_alike() {
+    fn a_list_that_equals_a_range_is_written_as_the_range() {
         for quantity in [range(0.2, 2.0, 19, false), range(0.01, 10.0, 4, true)] {
             let list = Quantity::List(quantity.values());
             assert_eq!(list.canonical(), quantity);

@@ -1,11 +1,11 @@
-//! The config as understood, as TOML: every default and preset spelled out, in one fixed order.
-//! Equal plans have equal texts, so its hash names the plan.
+//! The resolved config as TOML: every default and preset spelled out, in a fixed order. Equal plans
+//! have equal texts, so the hash of the text identifies the plan.
 
 use super::checked::{Checked, CheckedValue};
 use super::quantity::Quantity;
 use std::fmt::Write;
 
-/// Writes the document. Top-level tables get a header, all else is inline.
+/// Writes the document. Top-level tables get a header, everything else is inline.
 pub(super) fn document(root: &Checked) -> String {
     let mut text = String::new();
     let CheckedValue::Table(entries) = &root.value else {
@@ -32,7 +32,7 @@ pub(super) fn document(root: &Checked) -> String {
     text
 }
 
-/// The tag (empty for a plain table) and table of what gets a header.
+/// The tag (empty for a plain table) and the table, if the value gets a header.
 fn header(checked: &Checked) -> Option<(&'static str, &Checked)> {
     match &checked.value {
         CheckedValue::Table(_) => Some(("", checked)),

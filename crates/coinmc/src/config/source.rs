@@ -1,8 +1,8 @@
-//! The texts a config is made of, and places in them.
+//! The texts that make up a config, and locations in them.
 
 use std::ops::Range;
 
-/// A stretch of one source, in bytes. Ordered by place: the file first, then the overrides.
+/// A range of one source, in bytes. Ordered by location: the file first, then the overrides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) struct Span {
     source: usize,
@@ -10,7 +10,7 @@ pub(super) struct Span {
     end: usize,
 }
 
-/// One text with the name that messages call it by.
+/// One text with its name in messages.
 #[derive(Debug, Clone)]
 pub(super) struct Source {
     pub(super) name: String,
@@ -35,7 +35,7 @@ impl Sources {
         &self.0[span.source]
     }
 
-    /// A stretch of a source, cut to what is there and to whole characters.
+    /// A range of a source, clipped to its length and to whole characters.
     pub(super) fn span(&self, source: usize, range: Range<usize>) -> Span {
         let text = &self.0[source].text;
         let start = text.floor_char_boundary(range.start);
@@ -43,7 +43,7 @@ impl Sources {
         Span { source, start, end }
     }
 
-    /// Just behind the last character that is not blank: where a missing table would go.
+    /// Just after the last character that is not blank, where a missing table would go.
     pub(super) fn end(&self, source: usize) -> Span {
         let end = self.0[source].text.trim_end().len();
         Span {
@@ -72,7 +72,7 @@ impl Sources {
         let line_end = text[span.start..]
             .find('\n')
             .map_or(text.len(), |n| span.start + n);
-        // one line before shows what the place belongs to
+        // the line before shows the context
         let before = text[..line_start.saturating_sub(1)].rfind('\n');
         let start = before.map_or(0, |newline| newline + 1);
         let first = text[..start].bytes().filter(|byte| *byte == b'\n').count() + 1;

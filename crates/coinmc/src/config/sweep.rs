@@ -60,7 +60,7 @@ impl Sweep {
         distinct.then_some(Self { axes, points, zip })
     }
 
-    /// Which value of each axis point number `point` has.
+    /// Index of the value of each axis at point number `point`.
     pub(super) fn indices(&self, point: usize, indices: &mut Vec<usize>) {
         indices.clear();
         indices.resize(self.axes.len(), point);
@@ -115,7 +115,7 @@ fn collect(checked: &mut Checked, path: &mut Vec<&'static str>, found: &mut Vec<
     }
 }
 
-/// Column names: the bare key for what describes the scene, the whole path for the rest.
+/// Column names: the bare key for parameters of the scene, the whole path for the others.
 fn column(path: &[&'static str]) -> String {
     match path {
         ["coin" | "surface" | "environment", key] => (*key).to_owned(),

@@ -1,11 +1,10 @@
-//! The parsed text, before anything is known about coins: tables, lists and scalars with their
-//! places.
+//! The parsed text before it is checked: tables, lists and scalars with their locations.
 
 use super::diagnostics::Problems;
 use super::source::{Sources, Span};
 use toml::de::{DeFloat, DeInteger, DeTable, DeValue};
 
-/// A value and where it stands.
+/// A value and its location.
 #[derive(Debug, Clone)]
 pub(super) struct Node {
     pub(super) value: Value,
@@ -15,7 +14,8 @@ pub(super) struct Node {
 #[derive(Debug, Clone)]
 pub(super) enum Value {
     Text(String),
-    /// Larger than 64 bits is kept so that a range check can quote it; beyond 128 it saturates.
+    /// Integers of more than 64 bits are kept so that messages can quote them; beyond 128 they
+    /// saturate.
     Integer(i128),
     Float(f64),
     Boolean(bool),
@@ -25,7 +25,7 @@ pub(super) enum Value {
 }
 
 impl Value {
-    /// What messages call this type.
+    /// Name of this type in messages.
     pub(super) fn type_name(&self) -> &'static str {
         match self {
             Self::Text(_) => "text",
@@ -57,7 +57,8 @@ impl Table {
         self.entries.iter().find(|entry| entry.key == key)
     }
 
-    /// The value at a path of keys replaced or added; what stands in its way gives way.
+    /// Replaces or adds the value at a path of keys; values on the path that are not tables are
+    /// replaced by tables.
     pub(super) fn set(&mut self, path: &[(String, Span)], node: Node) {
         let Some(((key, key_span), rest)) = path.split_first() else {
             return;
@@ -100,8 +101,8 @@ impl Table {
     }
 }
 
-/// Reads the text of a source as TOML. Text that cannot be read on is one problem at its place;
-/// duplicate keys are reported and the first of each is kept.
+/// Reads the text of a source as TOML. A syntax error is one problem at its location; duplicate
+/// keys are reported and the first of each is kept.
 pub(super) fn document(
     sources: &Sources,
     source: usize,
@@ -111,14 +112,14 @@ pub(super) fn document(
     let (table, errors) = DeTable::parse_recoverable(text);
     let place = |error: &toml::de::Error| {
         let range = error.span().unwrap_or(text.len()..text.len());
-        // an error at the end of the text is shown behind its last character
+        // an error at the end of the text is shown after its last character
         if range.start >= text.len() {
             sources.end(source)
         } else {
             sources.span(source, range)
         }
     };
-    // The crate's own text tells the errors that the rest of the document survives.
+    // The message of the TOML crate identifies the errors after which parsing can continue.
     let (duplicates, mut fatal): (Vec<_>, Vec<_>) = errors
         .iter()
         .partition(|error| error.message() == "duplicate key");

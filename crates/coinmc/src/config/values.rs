@@ -4,7 +4,7 @@ use super::at::{At, Fault};
 use super::checked::{COMPONENTS, Checked, CheckedValue};
 use coinmc_core::schema::{ReadError, Value, Values};
 
-/// What a table describes at a point, by a reader of its values.
+/// Reads what a table describes at a point.
 pub(super) fn read<T>(
     checked: &Checked,
     at: &At<'_>,
@@ -12,7 +12,7 @@ pub(super) fn read<T>(
 ) -> Result<T, Fault> {
     reader(&values(checked, at)?).map_err(|error| {
         if error.is_mismatch() && !at.sound {
-            // a rule of the table was broken, and that has been reported
+            // a rule of the table is violated, which has been reported
             return Fault::Reported;
         }
         let blamed = find(checked, error.path());
@@ -41,7 +41,7 @@ fn step<'f>(checked: &'f Checked, key: &str) -> Option<&'f Checked> {
     }
 }
 
-/// The value itself, without the tags that say which alternative it is.
+/// The value itself, without the tags that name the alternative.
 fn untagged(mut checked: &Checked) -> &Checked {
     while let CheckedValue::Tagged(_, inner) = &checked.value {
         checked = inner;

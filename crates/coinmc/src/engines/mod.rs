@@ -30,8 +30,8 @@ pub fn engine(name: &str) -> Option<&'static EngineDescriptor> {
     ENGINES.into_iter().find(|engine| engine.name == name)
 }
 
-/// The closed form for the tosses of an engine without bounces; `None` if the engine makes no tosses,
-/// or if there is no engine with this name.
+/// The closed form for the tosses of an engine without bounces; `None` if the engine makes no
+/// tosses, or if there is no engine with this name.
 ///
 /// # Example
 /// ```

@@ -31,8 +31,9 @@ impl fmt::Display for Chunk {
     }
 }
 
-/// Computes one chunk of tosses on this thread. A point with a closed form has no tosses, so its tally
-/// stays empty; a point that a run would integrate is tossed, as with `sampling.method = "random"`.
+/// Computes one chunk of tosses on this thread. A point with a closed form has no tosses, so its
+/// tally stays empty; a point that a run would integrate is tossed, as with `sampling.method =
+/// "random"`.
 ///
 /// # Errors
 /// [`RunError::NoSuchChunk`] if the plan has no such point or the range is reversed;
@@ -42,8 +43,8 @@ pub fn run_chunk(plan: &Plan, chunk: &Chunk) -> Result<Tally, RunError> {
     Ok(run_chunk_while(plan, chunk, || true)?.unwrap_or_default())
 }
 
-/// Computes one chunk, of tosses or of an integration; `None` if `go_on`, which is called from time to
-/// time, returned false.
+/// Computes one chunk, of tosses or of an integration; `None` if `go_on`, which is called from time
+/// to time, returned false.
 pub(super) fn compute_chunk(
     plan: &Plan,
     chunk: &Chunk,
@@ -73,9 +74,9 @@ fn run_chunk_while(
     })
 }
 
-/// The tally of an existing chunk; `None` if `go_on` returned false. It is called whenever an engine
-/// delivers outcomes: about every 0.1 ms in the plane, every 1 ms in space, after each toss in time
-/// steps, and well within 0.1 s for the longest tosses.
+/// The tally of an existing chunk; `None` if `go_on` returned false. It is called whenever an
+/// engine delivers outcomes: about every 0.1 ms in the plane, every 1 ms in space, after each toss
+/// in time steps, and well within 0.1 s for the longest tosses.
 fn tally(
     plan: &Plan,
     chunk: &Chunk,

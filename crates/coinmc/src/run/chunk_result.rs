@@ -34,12 +34,12 @@ pub(super) fn whole(point: usize) -> Chunk {
 
 /// Integrates a point on this thread; `None` if the point is tossed or has a closed form.
 ///
-/// Stops at the goal of the plan, or after `evaluations` if that comes first (but not before the first
-/// look). The result depends only on the plan and on that number.
+/// Stops at the goal of the plan, or after `evaluations` if that comes first (but not before the
+/// first look). The result depends only on the plan and on that number.
 ///
 /// # Errors
-/// [`RunError::NoSuchChunk`] if there is no such point, [`RunError::Settings`] if its engine rejects
-/// its settings.
+/// [`RunError::NoSuchChunk`] if there is no such point, [`RunError::Settings`] if its engine
+/// rejects its settings.
 ///
 /// # Example
 /// ```

@@ -14,8 +14,8 @@ use std::path::{Path, PathBuf};
 
 /// The config as understood.
 pub(super) const CONFIG: &str = "config.toml";
-/// How often, and at what interval, a lock that somebody holds is tried again: a third of a second in
-/// all.
+/// How often, and at what interval, a lock that somebody holds is tried again: a third of a second
+/// in all.
 const LOCK_ATTEMPTS: u32 = 16;
 const LOCK_PAUSE: std::time::Duration = std::time::Duration::from_millis(20);
 /// Locked while a process runs here; an empty file.
@@ -89,8 +89,8 @@ impl RunDirectory {
         &self.tallies
     }
 
-    /// The chunks that an earlier run finished. Removes its temporary files, and renames files that are
-    /// rejected.
+    /// The chunks that an earlier run finished. Removes its temporary files, and renames files that
+    /// are rejected.
     pub(super) fn finished(
         &self,
         plan: &Plan,

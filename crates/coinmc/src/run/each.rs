@@ -41,9 +41,9 @@ pub struct FinishedToss {
     pub end: State,
 }
 
-/// Computes tosses and calls `visit` with the number and the outcome of each, in any order (an engine
-/// may compute several at a time), until it returns false. Returns false if the point has a closed form
-/// and so makes no tosses.
+/// Computes tosses and calls `visit` with the number and the outcome of each, in any order (an
+/// engine may compute several at a time), until it returns false. Returns false if the point has a
+/// closed form and so makes no tosses.
 ///
 /// # Errors
 /// [`EngineError`] if the engine rejects its settings.
@@ -106,8 +106,8 @@ pub(super) fn for_some_outcomes(
     Ok(true)
 }
 
-/// Like [`for_each_outcome`], with the final state of the coin. Tosses use the scalar path, which is a
-/// few times slower for engines with batches.
+/// Like [`for_each_outcome`], with the final state of the coin. Tosses use the scalar path, which
+/// is a few times slower for engines with batches.
 ///
 /// # Errors
 /// As [`for_each_outcome`].

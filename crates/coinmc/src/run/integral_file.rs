@@ -1,4 +1,5 @@
-//! The file of one integrated point: a few lines of text with a checksum. See docs/reference/formats.md.
+//! The file of one integrated point: a few lines of text with a checksum. See
+//! docs/reference/formats.md.
 
 use super::damage::Damage;
 use super::sealed::{seal, unseal};

@@ -113,8 +113,8 @@ impl Manifest {
     }
 
     /// The warning if the run in `dir`, which has this manifest, is resumed by builds that have not
-    /// worked on it yet. This is allowed: builds of one version give the same counts, except while the
-    /// program is being changed.
+    /// worked on it yet. This is allowed: builds of one version give the same counts, except while
+    /// the program is being changed.
     pub(super) fn warning_of_other_builds(&self, ours: &Self, dir: &Path) -> Option<String> {
         if ours.builds.is_subset(&self.builds) {
             return None;

@@ -111,7 +111,8 @@ fn collect(
     Ok(collected)
 }
 
-/// Schedules the run with the collected results: a chunk that the schedule still hands out is missing.
+/// Schedules the run with the collected results: a chunk that the schedule still hands out is
+/// missing.
 fn must_be_whole(plan: &Plan, finished: Finished) -> Result<(), RunError> {
     let mut schedule = Schedule::new(plan, Part::WHOLE, finished);
     let (mut missing, mut total) = (Vec::<Chunk>::new(), 0);

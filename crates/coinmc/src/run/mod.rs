@@ -7,8 +7,8 @@
 //!                           └── a later run resumes from them
 //! ```
 //!
-//! The counts depend on the plan alone: not on threads, parts, machine or order, nor on how often the
-//! run was killed and resumed. The files are described in docs/reference/formats.md.
+//! The counts depend on the plan alone: not on threads, parts, machine or order, nor on how often
+//! the run was killed and resumed. The files are described in docs/reference/formats.md.
 //!
 //! # Example
 //! ```no_run

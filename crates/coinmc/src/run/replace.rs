@@ -69,7 +69,8 @@ impl Replacement {
         Ok(())
     }
 
-    /// Syncs the file and gives it its final name, which is durable once the directory is synced too.
+    /// Syncs the file and gives it its final name, which is durable once the directory is synced
+    /// too.
     pub(super) fn finish(mut self) -> Result<(), RunError> {
         self.sync()?;
         fs::rename(&self.temporary, &self.place)
@@ -208,7 +209,7 @@ mod tests {
 
     #[cfg(target_os = "linux")]
     #[test]
-    fn a_full_disk_is_told_apart() {
+    fn a_full_disk_has_its_own_error() {
         let error = File::options()
             .write(true)
             .open("/dev/full")

@@ -23,8 +23,9 @@ pub fn stored_plan(dir: &Path) -> Result<Plan, RunError> {
     Ok(plan)
 }
 
-/// The plan of a run directory and all that is counted so far, whether the run is finished, stopped or
-/// still in progress. Nothing in the directory is changed; the sink is warned of rejected tallies.
+/// The plan of a run directory and all that is counted so far, whether the run is finished, stopped
+/// or still in progress. Nothing in the directory is changed; the sink is warned of rejected
+/// tallies.
 ///
 /// # Errors
 /// Those of [`stored_plan`], and [`RunError::Io`]. A directory that holds a part of a run is read

@@ -127,9 +127,9 @@ impl Tallies {
     }
 }
 
-/// Syncs files on several threads: a thread that waits for the disk sleeps, and wakes late while the
-/// workers keep all processors busy (64 files in sequence took 0.2 s). All content is handed to the
-/// system before the first sync, as one sync often writes what the next would.
+/// Syncs files on several threads: a thread that waits for the disk sleeps, and wakes late while
+/// the workers keep all processors busy (64 files in sequence took 0.2 s). All content is handed to
+/// the system before the first sync, as one sync often writes what the next would.
 fn sync_all(files: &mut [Replacement]) -> Result<(), RunError> {
     const EACH: usize = 4;
     files.iter_mut().try_for_each(Replacement::hand_over)?;

@@ -1,4 +1,5 @@
-//! The file of one finished chunk: a few lines of text with a checksum. See docs/reference/formats.md.
+//! The file of one finished chunk: a few lines of text with a checksum. See
+//! docs/reference/formats.md.
 
 use super::Chunk;
 use super::damage::Damage;
@@ -31,7 +32,8 @@ pub(super) fn parse_name(file: &str) -> Option<(usize, u64)> {
         .then_some((point, start))
 }
 
-/// Whether the counter has a line even if it is 0; counters of events that most laws never have do not.
+/// Whether the counter has a line even if it is 0; counters of events that most laws never have do
+/// not.
 fn is_always_written(counter: &Counter) -> bool {
     counter.kind != CounterKind::Breakdown
 }

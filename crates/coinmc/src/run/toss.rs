@@ -3,8 +3,8 @@
 use crate::plan::{Plan, Point};
 use coinmc_core::{Domain, Ended, Engine, EngineError, Face, Launch, Outcome, Stream};
 
-/// Computes the toss of a given launch at a point. A point with a closed form makes no toss: then the
-/// outcome is [`Ended::Failed`].
+/// Computes the toss of a given launch at a point. A point with a closed form makes no toss: then
+/// the outcome is [`Ended::Failed`].
 ///
 /// # Errors
 /// [`EngineError`] if the engine rejects its settings.

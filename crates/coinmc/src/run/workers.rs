@@ -71,8 +71,8 @@ impl Drop for StopOnPanic<'_> {
     }
 }
 
-/// Executes all chunks of the schedule, or as many as are complete before `cancel` is set, and returns
-/// the schedule. Every result that it counts has been stored.
+/// Executes all chunks of the schedule, or as many as are complete before `cancel` is set, and
+/// returns the schedule. Every result that it counts has been stored.
 pub(super) fn execute<'p>(
     plan: &'p Plan,
     schedule: Schedule<'p>,
@@ -132,8 +132,8 @@ fn work(shared: &Shared<'_, '_>, sender: &SyncSender<Done>) {
     }
 }
 
-/// Stores results as they arrive until all workers have ended. It has its own thread, so that no worker
-/// waits for the disk.
+/// Stores results as they arrive until all workers have ended. It has its own thread, so that no
+/// worker waits for the disk.
 fn store_results(
     shared: &Shared<'_, '_>,
     receiver: &Receiver<Done>,

@@ -1,8 +1,8 @@
-//! Bad configs: every problem is found in one go, at its exact place, with words that help.
+//! Invalid configs: every problem is reported at once, at its exact location, with a remedy.
 
 use coinmc::config;
 
-/// A good config; each case replaces one piece of it.
+/// A valid config; each case replaces one piece of it.
 const GOOD: &str = "\
 seed = 1
 [coin]
@@ -18,7 +18,7 @@ law = 'moreau'
 tosses = 1000
 ";
 
-/// The engine of the good config.
+/// The engine of the valid config.
 const FLAT: &str = "[engine.flat]\nlaw = 'moreau'";
 
 /// Replaced piece, its replacement, and every problem: line, column, a piece of message or help.
@@ -81,7 +81,7 @@ const VOLUMETRIC: &[Case] = &[
     (FLAT, "[engine.volumetirc]", &[(9, 9, "did you mean `volumetric`?")]),
 ];
 
-/// What the flat engine does not model is refused, never ignored.
+/// What the flat engine does not model is rejected, never ignored.
 #[rustfmt::skip]
 const NOT_FLAT: &[Case] = &[
     ("'moreau'", "{ gaek-sukhov = { eta_n_s = 1e-3 } }", &[(6, 12, "Gaek & Sukhov's law has no friction: `surface.friction` must be 0 set `friction = 0`")]),
@@ -95,7 +95,7 @@ const NOT_FLAT: &[Case] = &[
     ("0.3", "0.3\npivoting_friction_m = { from = 0, to = 1e-4, steps = 3 }", &[(7, 23, "pivoting friction")]),
     ("0.3", "0.3\nrestitution_threshold_m_s = 2", &[(7, 29, "engine.flat models no restitution threshold")]),
     ("[stop]", "[environment]\nlinear_drag_per_s = 1\nangular_drag_per_s = 0.05\ngyroscopic_torque = false\n[stop]", &[(12, 21, "engine.flat models no drag: `environment.linear_drag_per_s` must be 0"), (13, 22, "`environment.angular_drag_per_s` must be 0"), (14, 21, "`environment.gyroscopic_torque` must be true")]),
-    // a launch out of the plane and a value out of range are told in the same go
+    // a launch out of the plane and a value out of range are reported together
     ("0.3\n[launch]\npreset = 'robot'", "-1\nrolling_friction_m = 1e-4\n[launch]\npreset = 'clean'", &[(6, 12, "from 0 to 1e6"), (7, 22, "rolling friction"), (9, 10, "leaves it")]),
 ];
 
@@ -251,7 +251,7 @@ fn check_all(cases: &[Case]) {
 }
 
 #[test]
-fn the_good_config_is_good() {
+fn the_base_config_is_valid() {
     config::parse("good.toml", GOOD, &[]).unwrap();
 }
 
@@ -266,22 +266,22 @@ fn settings_of_the_engine_in_space() {
 }
 
 #[test]
-fn what_the_flat_engine_does_not_model() {
+fn unmodelled_physics_of_the_flat_engine() {
     check_all(NOT_FLAT);
 }
 
 #[test]
-fn sweeps_that_make_no_sense() {
+fn invalid_sweeps() {
     check_all(SWEEPS);
 }
 
 #[test]
-fn launches_that_make_no_sense() {
+fn invalid_launches() {
     check_all(LAUNCHES);
 }
 
 #[test]
-fn tables_and_keys_that_are_missing_unknown_or_too_many() {
+fn missing_unknown_and_excess_tables_and_keys() {
     check_all(TABLES);
 }
 
@@ -291,12 +291,12 @@ fn impossible_moments_of_inertia() {
 }
 
 #[test]
-fn text_that_is_no_toml() {
+fn text_that_is_not_toml() {
     check_all(SYNTAX);
 }
 
 #[test]
-fn all_problems_come_at_once_sorted_by_place() {
+fn all_problems_are_reported_at_once_sorted_by_location() {
     let text = "\
 sede = 1
 [coin]
@@ -337,7 +337,7 @@ half_width = 1
 }
 
 #[test]
-fn an_empty_config_names_all_that_is_needed() {
+fn an_empty_config_lists_everything_required() {
     let diagnostics = config::parse("empty.toml", "", &[]).unwrap_err();
     let messages: Vec<_> = diagnostics
         .problems()
@@ -357,7 +357,7 @@ fn an_empty_config_names_all_that_is_needed() {
 }
 
 #[test]
-fn thousands_of_problems_are_cut_short() {
+fn thousands_of_problems_are_truncated() {
     let list = vec!["-1"; 50_000].join(", ");
     let text = GOOD.replace("1.2", &format!("[{list}]"));
     let diagnostics = config::parse("bad.toml", &text, &[]).unwrap_err();

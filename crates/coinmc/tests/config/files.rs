@@ -4,7 +4,7 @@ use coinmc::config::{self, MAX_BYTES};
 use std::time::{Duration, Instant};
 
 #[test]
-fn files_that_cannot_be_read_are_one_problem() {
+fn unreadable_files_give_one_problem() {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str, bytes: &[u8]| {
         let path = folder.path().join(name);
@@ -52,7 +52,7 @@ fn files_that_cannot_be_read_are_one_problem() {
 }
 
 #[test]
-fn a_byte_order_mark_and_windows_line_ends_are_fine() {
+fn byte_order_mark_and_windows_line_ends_are_accepted() {
     let text = "\u{feff}coin.ratio = 1\r\n[engine.analytic]\r\nrule = 'arc'\r\n";
     config::parse("dos.toml", text, &[]).unwrap();
     let bad = config::parse("dos.toml", &text.replace("arc", "ark"), &[]).unwrap_err();
@@ -63,7 +63,7 @@ fn a_byte_order_mark_and_windows_line_ends_are_fine() {
 const AT_ONCE: Duration = Duration::from_millis(500);
 
 #[test]
-fn huge_sweeps_are_refused_before_they_are_written_out() {
+fn huge_sweeps_are_rejected_before_they_are_expanded() {
     let range = "{ from = 0.1, to = 1, steps = 1000000 }";
     let many = (0..3).map(|_| range).collect::<Vec<_>>().join(", ");
     for (text, count) in [
@@ -92,7 +92,7 @@ fn huge_sweeps_are_refused_before_they_are_written_out() {
 }
 
 #[test]
-fn deep_nesting_is_refused() {
+fn deep_nesting_is_rejected() {
     for text in [
         format!("a = {}1{}", "[".repeat(100_000), "]".repeat(100_000)),
         format!("a = {}1{}", "{a=".repeat(100_000), "}".repeat(100_000)),
@@ -104,7 +104,7 @@ fn deep_nesting_is_refused() {
 }
 
 #[test]
-fn a_config_too_long_to_be_spelled_out_is_refused() {
+fn a_config_too_long_when_resolved_is_rejected() {
     // "9e6" becomes "9000000.0": three times as long
     let list = (1..=100_000)
         .map(|i| format!("{i}e6"))

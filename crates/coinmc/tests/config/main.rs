@@ -1,4 +1,4 @@
-//! Configs: what good ones mean, what bad ones are told, and how they are written down.
+//! Configs: the meaning of valid ones, the errors of invalid ones, and the resolved text.
 
 mod bad;
 mod files;

@@ -1,4 +1,4 @@
-//! Good configs: what they come to mean.
+//! Valid configs and their plans.
 
 use crate::support::{SMALL, column, parse};
 use coinmc::config;
@@ -54,7 +54,7 @@ fn defaults_are_those_of_the_crates() {
 }
 
 #[test]
-fn the_examples_are_good_and_stay_what_they_are() {
+fn the_examples_are_valid_and_their_plans_unchanged() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
     for (name, points, tosses) in [
         ("first", 4, 400_000),
@@ -101,7 +101,7 @@ fn a_grid_varies_its_first_axis_slowest_and_ignores_the_order_of_keys() {
 }
 
 #[test]
-fn a_zip_goes_side_by_side() {
+fn a_zip_advances_all_axes_together() {
     let sets = [
         "surface.restitution=[0.7, 0.3]",
         "coin.ratio=[1, 2]",
@@ -121,7 +121,7 @@ fn a_zip_of_fewer_than_two_axes_is_a_grid() {
 }
 
 #[test]
-fn any_number_can_be_swept_and_has_a_column() {
+fn every_number_can_be_swept_and_has_a_column() {
     for (set, name, values) in [
         ("coin.radius_m=[0.01, 0.02]", "radius_m", [0.01, 0.02]),
         ("coin.mass_kg=[0.01, 0.02]", "mass_kg", [0.01, 0.02]),
@@ -176,7 +176,7 @@ fn any_number_can_be_swept_and_has_a_column() {
 }
 
 #[test]
-fn a_launch_can_be_spelled_out() {
+fn a_launch_can_be_given_without_preset() {
     let text = SMALL.replace(
         "preset = 'robot'",
         "height_m = { uniform = { from = 1, to = 2 } }
@@ -208,7 +208,7 @@ fn angles_are_degrees_in_the_config_and_radians_in_the_plan() {
 }
 
 #[test]
-fn a_closed_form_needs_a_coin_only() {
+fn a_closed_form_needs_only_a_coin() {
     let plan = parse("coin.ratio = [1, 2]\nengine.analytic.rule = 'zone'", &[]);
     assert_eq!(plan.stop, Stop::Tosses(0));
     assert_eq!(plan.tosses_planned(), 0);
@@ -234,7 +234,7 @@ fn an_adhesive_landing_needs_no_coefficients() {
 }
 
 #[test]
-fn stop_and_estimate_are_understood() {
+fn stop_and_estimate_are_read() {
     let text = SMALL.replace("tosses = 1000", "half_width = 0.01");
     let sets = [
         "estimate.confidence=0.99",
@@ -276,7 +276,7 @@ fn the_energy_rule_is_a_setting() {
 }
 
 #[test]
-fn plans_that_differ_have_other_hashes() {
+fn different_plans_have_different_hashes() {
     let base = parse(SMALL, &[]);
     assert_eq!(base.hash().len(), 64);
     for set in [
@@ -297,7 +297,7 @@ fn plans_that_differ_have_other_hashes() {
 }
 
 #[test]
-fn treatments_are_explained_together() {
+fn points_of_one_treatment_are_explained_together() {
     let sets = [
         "coin.ratio=[1, 2, 3]",
         "surface.friction=[0, 0.3]",

@@ -173,7 +173,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
 
     #[test]
-    fn the_resolved_text_means_the_same_plan(text in good()) {
+    fn the_resolved_text_gives_the_same_plan(text in good()) {
         let plan = config::parse("a.toml", &text, &[]).unwrap_or_else(|e| panic!("{text}\n{e}"));
         let again = config::parse("b.toml", &plan.resolved_toml, &[]).unwrap();
         prop_assert_eq!(&plan, &again);

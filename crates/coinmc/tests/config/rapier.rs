@@ -38,7 +38,7 @@ fn the_engine_has_the_defaults_of_its_crate() {
 }
 
 #[test]
-fn all_of_the_engine_can_be_chosen() {
+fn every_setting_of_the_engine_can_be_given() {
     let sets = [
         "engine.rapier={step_s=5e-4, substeps=2, friction_model='simplified', \
                  prediction=0.01, ccd=true, gyroscopic='rapier', flight='steps', \

@@ -1,4 +1,4 @@
-//! What a person sees: rendered messages against expected files. `UPDATE_EXPECTED=1` writes them.
+//! Rendered messages against expected files. `UPDATE_EXPECTED=1` writes them.
 
 use crate::support::SMALL;
 use coinmc::config::{self, Override};
@@ -106,7 +106,7 @@ fn control_characters_do_not_reach_the_terminal() {
 }
 
 #[test]
-fn colour_is_only_added() {
+fn colour_adds_only_escapes() {
     let diagnostics = config::parse("toss.toml", "", &[]).unwrap_err();
     let coloured = diagnostics.render(true);
     assert!(coloured.contains("\u{1b}["));

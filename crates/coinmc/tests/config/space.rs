@@ -1,4 +1,4 @@
-//! Configs of the toss in space: what they come to mean.
+//! Configs of the toss in space and their plans.
 
 use crate::support::{column, parse};
 use coinmc::plan::EngineChoice;
@@ -46,7 +46,7 @@ fn the_toss_in_space_has_the_defaults_of_its_crate() {
 }
 
 #[test]
-fn all_of_the_toss_in_space_can_be_chosen() {
+fn every_setting_of_the_toss_in_space_can_be_given() {
     let sets = [
         "surface.restitution_threshold_m_s=2",
         "environment.linear_drag_per_s=1",
@@ -77,7 +77,7 @@ fn all_of_the_toss_in_space_can_be_chosen() {
 }
 
 #[test]
-fn any_number_of_the_toss_in_space_can_be_swept() {
+fn every_number_of_the_toss_in_space_can_be_swept() {
     for (key, name) in [
         ("surface.rolling_friction_m", "rolling_friction_m"),
         ("surface.pivoting_friction_m", "pivoting_friction_m"),
@@ -141,7 +141,7 @@ fn all_physics_and_settings_of_the_toss_in_space_are_in_the_hash() {
 }
 
 #[test]
-fn what_the_toss_in_space_skips_is_explained() {
+fn omissions_of_the_toss_in_space_are_explained() {
     let explained = |sets: &[&str]| {
         let [all] = &parse(IN_SPACE, sets).explain()[..] else {
             panic!("one treatment: {sets:?}")
@@ -192,7 +192,7 @@ fn what_the_toss_in_space_skips_is_explained() {
 }
 
 #[test]
-fn what_may_surprise_in_space_is_noted() {
+fn surprising_settings_in_space_are_noted() {
     let notes = |sets: &[&str]| parse(IN_SPACE, sets).notes.join("; ");
     assert!(notes(&["surface.rolling_friction_m=0"]).contains("engine.volumetric.max_steps"));
     // something else ends it: no roll without friction, and drag

@@ -1,4 +1,4 @@
-//! What the tests of configs share.
+//! Helpers of the tests of configs.
 
 use coinmc::config::{self, Override};
 use coinmc::plan::Plan;

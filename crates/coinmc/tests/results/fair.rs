@@ -75,7 +75,7 @@ fn holds(fair: &FairRatio, x: f64) -> bool {
 }
 
 #[test]
-fn a_smooth_curve_crosses_where_it_does() {
+fn the_crossing_of_a_smooth_curve_is_accurate() {
     // error of the interpolation: the fourth power of the step
     for (step, tolerance) in [(0.4, 5e-3), (0.2, 3e-4), (0.1, 2e-5)] {
         let found = crossings(step, 0.0, smooth);
@@ -93,7 +93,7 @@ fn a_smooth_curve_crosses_where_it_does() {
 }
 
 #[test]
-fn arms_become_an_interval_by_the_slope() {
+fn half_widths_and_slope_give_the_interval() {
     // straight, with a point at the crossing: the interval is arm/slope to either side
     let straight = |x: f64| THIRD + 0.3 * (x - 1.5);
     let found = crossings(0.1, 0.003, straight);
@@ -128,7 +128,7 @@ fn curves_that_cross_twice_or_never_or_just_once() {
 }
 
 #[test]
-fn two_points_only_say_between_and_an_interval_beyond_the_sweep_is_open() {
+fn two_points_give_a_wide_interval_and_it_is_open_beyond_the_sweep() {
     let two = |p: [f64; 2], arm| {
         let rows = [1.0, 2.0].into_iter().zip(p);
         let rows = rows
@@ -148,7 +148,7 @@ fn two_points_only_say_between_and_an_interval_beyond_the_sweep_is_open() {
 }
 
 #[test]
-fn noise_that_crosses_to_and_fro_is_one_crossing() {
+fn a_noisy_crossing_is_one_crossing() {
     // 0.02 up and down about a slope of 0.1: several crossings of the points, one of the curve
     let mut up = 1.0;
     let rows = grid(0.1).map(|x| {
@@ -164,7 +164,7 @@ fn noise_that_crosses_to_and_fro_is_one_crossing() {
 }
 
 #[test]
-fn every_combination_of_other_axes_has_its_own() {
+fn every_combination_of_other_axes_has_its_own_crossing() {
     let mut rows = Vec::new();
     for e in [0.3, 0.6] {
         // out of order, and a point without tosses
@@ -201,7 +201,7 @@ impl Random {
 /// 929 hits have a probability of 0.2 %; more than 998 would say that the intervals are too long
 /// to be of use (the band is a little wider than the statistics alone ask for).
 #[test]
-fn intervals_hold_the_truth_as_often_as_they_say() {
+fn intervals_have_the_stated_coverage() {
     const SWEEPS: u32 = 1000;
     const TOSSES: u32 = 2000;
     for (seed, paired) in [(1, false), (2, true)] {

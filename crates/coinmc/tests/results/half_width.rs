@@ -42,7 +42,7 @@ fn plan(half_width: f64, max_tosses: u64) -> Plan {
 /// that do not share the confidence some 5 to 6 % would, with four looks that do, 1.3 % to 2 %
 /// are expected, so a rate above 3 % (5 standard deviations above 1.5 %) is an error.
 #[test]
-fn coverage_is_at_least_the_stated_confidence_whatever_the_stopping() {
+fn optional_stopping_keeps_the_stated_coverage() {
     const POINTS: u32 = 2000;
     let max_tosses = 1 << 17;
     let expected = Tally {

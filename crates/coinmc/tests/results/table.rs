@@ -117,7 +117,7 @@ fn csv_parquet_and_json_agree_cell_by_cell() {
 }
 
 #[test]
-fn cells_hold_what_their_names_say() {
+fn cells_match_their_columns() {
     let plan = plan("tosses = 100");
     let table = csv(&example(&plan));
     let cell = |row: usize, name: &str| {
@@ -236,7 +236,7 @@ fn closed_forms_are_exact_and_make_no_tosses() {
 }
 
 #[test]
-fn parquet_carries_units_and_the_config_and_is_the_same_every_time() {
+fn parquet_has_units_and_the_config_and_is_reproducible() {
     let dir = tempfile::tempdir().unwrap();
     let plan =
         plan_of("[coin]\nratio = [1.0, 2.0]\n[surface]\nrestitution = 0.5\n[stop]\ntosses = 10\n");
@@ -273,7 +273,7 @@ fn parquet_carries_units_and_the_config_and_is_the_same_every_time() {
 }
 
 #[test]
-fn every_column_is_documented_as_it_is() {
+fn every_column_is_documented() {
     let document = include_str!("../../../../docs/reference/formats.md");
     let plan = plan("tosses = 1");
     let always = &plan.points[0].parameters[..9];

@@ -1,4 +1,4 @@
-//! Damaged files are noticed and done again; directories of others are left alone.
+//! Damaged files are detected and recomputed; foreign directories are left alone.
 
 use crate::support::{Ear, FIXED, HALF_WIDTH, contents, plan, run_whole, run_with};
 use coinmc::run::{Part, RunError, Status};
@@ -16,7 +16,7 @@ fn tallies(dir: &Path) -> Vec<PathBuf> {
 type Damage = fn(&Path, &Path);
 
 #[test]
-fn damaged_tallies_are_set_aside_and_done_again() {
+fn damaged_tallies_are_set_aside_and_recomputed() {
     let plan = plan(FIXED);
     let damages: [(&str, Damage); 9] = [
         ("checksum", |path, _| {
@@ -93,7 +93,7 @@ fn reseal(path: &Path, alter: impl Fn(String) -> String) {
 }
 
 #[test]
-fn leftovers_go_and_strangers_stay() {
+fn leftovers_are_removed_and_foreign_files_kept() {
     let (plan, dir) = (plan(FIXED), tempdir().unwrap());
     run_whole(&plan, dir.path());
     let mut expected = contents(dir.path());
@@ -160,7 +160,7 @@ fn refused(dir: &Path, stop: &str, part: &str) -> RunError {
 }
 
 #[test]
-fn directories_of_others_are_refused_and_not_touched() {
+fn foreign_directories_are_rejected_and_untouched() {
     let dir = tempdir().unwrap();
     let file = dir.path().join("file");
     fs::write(&file, "mine").unwrap();
@@ -214,7 +214,7 @@ fn directories_of_others_are_refused_and_not_touched() {
 }
 
 #[test]
-fn a_directory_in_use_is_refused() {
+fn a_directory_in_use_is_rejected() {
     let (plan, dir) = (plan(FIXED), tempdir().unwrap());
     run_whole(&plan, dir.path());
     let lock = fs::File::open(dir.path().join("lock")).unwrap();

@@ -45,7 +45,7 @@ fn run_limited(out: &Path, blocks: u32) {
 }
 
 #[test]
-fn a_full_disk_is_a_clear_error_and_the_run_goes_on_later() {
+fn a_full_disk_is_reported_and_the_run_resumes_later() {
     let (plan, dir) = (plan(FIXED), tempdir().unwrap());
     let (whole, full) = (dir.path().join("whole"), dir.path().join("full"));
     run_whole(&plan, &whole);

@@ -1,4 +1,4 @@
-//! Counted in memory, read back, followed one by one: the same tosses as those of a run.
+//! Counting in memory, reading back and individual tosses give the same counts as a run.
 
 use crate::support::{
     Ear, FIXED, HALF_WIDTH, contents, plan, plan_in_space, plan_of, run_whole, run_with,
@@ -24,7 +24,7 @@ fn counted(plan: &Plan, threads: usize, ear: &Ear) -> (Results, Status, u64) {
 }
 
 #[test]
-fn memory_holds_what_a_run_writes() {
+fn counting_in_memory_equals_a_run() {
     for stop in [FIXED, HALF_WIDTH, "half_width = 0.001\nmax_tosses = 3000"] {
         let (plan, dir) = (plan(stop), tempdir().unwrap());
         let report = run_whole(&plan, dir.path());
@@ -36,7 +36,7 @@ fn memory_holds_what_a_run_writes() {
 }
 
 #[test]
-fn what_is_counted_when_cancelled_is_reported() {
+fn a_cancelled_count_reports_its_counts() {
     let plan = plan("tosses = 400_000");
     let ear = Ear::that_cancels_at(2);
     let (results, status, tosses) = counted(&plan, 2, &ear);
@@ -68,7 +68,7 @@ fn a_directory_is_read_back_finished_or_not_and_not_touched() {
 }
 
 #[test]
-fn a_damaged_tally_is_told_and_left_alone() {
+fn a_damaged_tally_is_reported_and_left_alone() {
     let (plan, dir) = (plan(FIXED), tempdir().unwrap());
     run_whole(&plan, dir.path());
     let tallies = std::fs::read_dir(dir.path().join("tallies")).unwrap();
@@ -85,7 +85,7 @@ fn a_damaged_tally_is_told_and_left_alone() {
 }
 
 #[test]
-fn what_is_no_run_is_not_read_back() {
+fn directories_without_a_run_are_rejected() {
     let dir = tempdir().unwrap();
     assert!(matches!(
         stored_report(dir.path(), &()),
@@ -94,7 +94,7 @@ fn what_is_no_run_is_not_read_back() {
 }
 
 #[test]
-fn tosses_one_by_one_are_those_of_a_chunk() {
+fn individual_tosses_equal_those_of_a_chunk() {
     let plans = [plan(FIXED), plan_in_space("moreau", FIXED)];
     for plan in &plans {
         let (point, tosses) = (1, 30..330);
@@ -121,7 +121,7 @@ fn tosses_one_by_one_are_those_of_a_chunk() {
 }
 
 #[test]
-fn a_launch_given_ends_like_the_same_launch_drawn() {
+fn a_given_launch_ends_like_the_same_drawn_launch() {
     let plans = [plan(FIXED), plan_in_space("moreau", FIXED)];
     for plan in &plans {
         let found = &plan.points[0];
@@ -141,7 +141,7 @@ fn a_launch_given_ends_like_the_same_launch_drawn() {
 }
 
 #[test]
-fn who_sees_may_stop() {
+fn the_visitor_can_stop() {
     let plan = plan(FIXED);
     let stream = stream(&plan, 0);
     let mut seen = 0;
@@ -160,7 +160,7 @@ fn who_sees_may_stop() {
 }
 
 #[test]
-fn a_closed_form_follows_nothing() {
+fn a_closed_form_makes_no_tosses() {
     let text = "coin.ratio = 1\nengine.analytic.rule = 'arc'";
     let plan = coinmc::config::parse("test", text, &[]).unwrap();
     let stream = stream(&plan, 0);

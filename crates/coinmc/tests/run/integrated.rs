@@ -40,7 +40,7 @@ fn tally(dir: &Path, point: usize) -> std::path::PathBuf {
 }
 
 #[test]
-fn a_run_integrates_and_says_so() {
+fn a_run_integrates_and_reports_it() {
     let (dir, plan) = (tempfile::tempdir().unwrap(), plan());
     let report = run_whole(&plan, dir.path());
     assert_eq!((report.status, report.tosses), (Status::Complete, 0));
@@ -70,7 +70,7 @@ fn a_run_integrates_and_says_so() {
 }
 
 #[test]
-fn a_run_killed_or_damaged_anywhere_ends_the_same() {
+fn a_run_killed_or_damaged_anywhere_has_the_same_results() {
     let (whole, other, plan) = (
         tempfile::tempdir().unwrap(),
         tempfile::tempdir().unwrap(),
@@ -132,7 +132,7 @@ fn parts_of_a_run_merge_to_the_whole() {
 }
 
 #[test]
-fn what_a_rule_gives_takes_no_work_and_no_file() {
+fn exact_rules_need_no_work_and_no_file() {
     let clean = "launch.preset = 'clean'\nengine.volumetric = {}\n";
     let dir = tempfile::tempdir().unwrap();
     let at = |name: &str| dir.path().join(name);
@@ -248,7 +248,7 @@ fn one_random_number_of_many_turns_is_not_exact() {
 
 /// A toss that its limit of time ends shows no face: it is counted, not called exact.
 #[test]
-fn a_limit_of_time_is_met_by_tosses_that_are_counted() {
+fn tosses_that_reach_the_time_limit_are_counted() {
     let flat = "launch = { height_m = 0.0113, orientation = { tilt_deg = 0 }, \
                 spin = { about = { axis = [0, 1, 0], rate_rad_s = 0 } } }\n";
     for (limit, undecided) in [("1.0", 100), ("1e3", 0)] {
@@ -259,7 +259,7 @@ fn a_limit_of_time_is_met_by_tosses_that_are_counted() {
     }
 }
 
-/// Hears how many tosses are planned.
+/// Records the number of planned tosses.
 #[derive(Default)]
 struct Planned(Mutex<Vec<u64>>);
 
@@ -273,7 +273,7 @@ impl ProgressSink for Planned {
     }
 }
 
-/// Points that are integrated take nothing off what the others are to toss.
+/// Integrated points do not reduce the tosses planned for the others.
 #[test]
 fn the_tosses_planned_are_those_of_tossed_points() {
     let text = "coin.ratio = [0.5, 1.0, 2.0]\nsurface.landing = 'adhesive'\n\
@@ -296,7 +296,7 @@ fn the_tosses_planned_are_those_of_tossed_points() {
 
 /// A step in many dimensions is tossed at random as ever.
 #[test]
-fn what_quadrature_does_not_sharpen_is_tossed() {
+fn points_that_quadrature_does_not_improve_are_tossed() {
     let low = "launch = { preset = 'table1', height_m = 0.005 }\nengine.volumetric = {}\n";
     let rows = counted(&plan_of(low, "tosses = 1000", ""), 1);
     assert!(
@@ -306,7 +306,7 @@ fn what_quadrature_does_not_sharpen_is_tossed() {
 }
 
 #[test]
-fn a_half_width_is_reached_or_said_to_be_missed() {
+fn a_half_width_is_reached_or_reported_as_missed() {
     let stop = |width| format!("half_width = {width}, max_tosses = 10_000");
     let dir = tempfile::tempdir().unwrap();
     let wide = run_whole(&plan_of(ENGINES, &stop(1e-2), ""), &dir.path().join("wide"));
@@ -352,7 +352,7 @@ fn the_fair_ratio_is_found_through_integrals() {
 }
 
 #[test]
-fn what_is_integrated_is_explained() {
+fn integration_is_explained() {
     let explained = |engine: &str, more: &str| {
         let plan = plan_of(engine, "tosses = 10", more);
         let [all] = &plan.explain()[..] else { panic!() };
@@ -397,7 +397,7 @@ fn what_is_integrated_is_explained() {
 
 /// The method is part of what a plan is.
 #[test]
-fn the_method_names_the_plan() {
+fn the_method_is_part_of_the_plan_hash() {
     let hash = |more| plan_of(ENGINES, "tosses = 10", more).hash();
     assert_eq!(hash(""), hash("sampling.method = 'auto'"));
     assert_ne!(hash(""), hash("sampling.method = 'random'"));

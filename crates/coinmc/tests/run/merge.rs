@@ -19,7 +19,7 @@ fn run_parts(dir: &Path, of: u32) -> Vec<PathBuf> {
 }
 
 #[test]
-fn merged_parts_are_the_whole_run_to_the_byte() {
+fn merged_parts_equal_the_whole_run_to_the_byte() {
     let dir = tempdir().unwrap();
     let whole = dir.path().join("whole");
     let report = run_whole(&plan(FIXED), &whole);
@@ -105,7 +105,7 @@ fn neighbouring_missing_chunks_are_named_together() {
 }
 
 #[test]
-fn parts_that_disagree_are_refused() {
+fn parts_that_disagree_are_rejected() {
     let dir = tempdir().unwrap();
     let parts = run_parts(dir.path(), 2);
     let (forged, out) = (dir.path().join("forged"), dir.path().join("merged"));
@@ -131,7 +131,7 @@ fn parts_that_disagree_are_refused() {
 }
 
 #[test]
-fn what_cannot_be_merged_is_refused() {
+fn invalid_merges_are_rejected() {
     let dir = tempdir().unwrap();
     let parts = run_parts(dir.path(), 2);
     let out = dir.path().join("merged");

@@ -1,4 +1,4 @@
-//! What is counted depends on the plan alone: threads, breaks and kills leave no trace.
+//! Counts depend only on the plan: not on threads, interruptions or kills.
 
 use crate::support::{
     Ear, FIXED, HALF_WIDTH, assert_same, contents, plan, plan_in_space, run_as_build, run_whole,
@@ -26,7 +26,7 @@ fn threads_change_nothing() {
 }
 
 #[test]
-fn a_run_is_its_chunks_however_they_are_cut() {
+fn a_run_equals_the_sum_of_its_chunks() {
     let (plan, dir) = (plan(FIXED), tempdir().unwrap());
     let report = run_whole(&plan, dir.path());
     for (point, row) in report.results.rows.iter().enumerate() {
@@ -40,7 +40,7 @@ fn a_run_is_its_chunks_however_they_are_cut() {
 }
 
 #[test]
-fn breaks_change_nothing() {
+fn interruptions_change_nothing() {
     for stop in [FIXED, HALF_WIDTH] {
         let (plan, dir) = (plan(stop), tempdir().unwrap());
         let (whole, broken) = (dir.path().join("whole"), dir.path().join("broken"));
@@ -66,7 +66,7 @@ fn breaks_change_nothing() {
 }
 
 #[test]
-fn a_finished_run_is_only_reported_again() {
+fn a_finished_run_is_only_reported() {
     let (plan, dir) = (plan(FIXED), tempdir().unwrap());
     let first = run_whole(&plan, dir.path());
     let before = contents(dir.path());
@@ -81,7 +81,7 @@ fn a_finished_run_is_only_reported_again() {
 }
 
 #[test]
-fn results_that_somebody_edited_are_made_good_with_a_warning() {
+fn edited_results_are_restored_with_a_warning() {
     let (plan, dir) = (plan(FIXED), tempdir().unwrap());
     run_whole(&plan, dir.path());
     let before = contents(dir.path());
@@ -163,7 +163,7 @@ fn tosses_in_space_depend_on_the_plan_alone() {
 
 /// A chunk of this run would take minutes, and a list of them more memory than there is.
 #[test]
-fn the_longest_run_begins_at_once_and_stops_when_told() {
+fn the_longest_run_starts_at_once_and_stops_on_request() {
     let (plan, dir, ear) = (
         plan("tosses = 1_000_000_000_000"),
         tempdir().unwrap(),
@@ -225,7 +225,7 @@ fn kills_at_any_instant_change_nothing() {
 }
 
 #[test]
-fn another_build_continues_a_run_and_says_so() {
+fn another_build_resumes_a_run_with_a_warning() {
     let (plan, dir) = (plan(FIXED), tempdir().unwrap());
     let (whole, mixed) = (dir.path().join("whole"), dir.path().join("mixed"));
     run_whole(&plan, &whole);

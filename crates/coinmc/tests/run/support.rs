@@ -1,4 +1,4 @@
-//! What the tests of runs share.
+//! Helpers of the tests of runs.
 #![allow(dead_code, reason = "each test binary uses its own share")]
 
 use coinmc::plan::Plan;
@@ -42,12 +42,12 @@ pub(crate) fn plan_in_space(law: &str, stop: &str) -> Plan {
     coinmc::config::parse("test", &text, &[]).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-/// Runs the whole plan on two threads and hears nothing.
+/// Runs the whole plan on two threads without progress.
 pub(crate) fn run_whole(plan: &Plan, out: &Path) -> Report {
     run_with(plan, out, Part::WHOLE, 2, &Ear::default()).unwrap()
 }
 
-/// Runs a part and cancels it when the ear has heard enough.
+/// Runs a part and cancels it after enough progress.
 pub(crate) fn run_with(
     plan: &Plan,
     out: &Path,
@@ -81,7 +81,7 @@ pub(crate) fn run_as_build(
     )
 }
 
-/// Remembers what it hears, and cancels at the `cancel_at`-th word of progress.
+/// Records progress and warnings, and cancels at the `cancel_at`-th report.
 #[derive(Default)]
 pub(crate) struct Ear {
     pub(crate) warnings: Mutex<Vec<String>>,
@@ -133,7 +133,7 @@ pub(crate) fn contents(dir: &Path) -> BTreeMap<String, Vec<u8>> {
     all
 }
 
-/// Whether two directories are the same to the byte; says which file is not.
+/// Whether two directories are the same to the byte; names the first file that differs.
 pub(crate) fn assert_same(a: &Path, b: &Path) {
     let (a, b) = (contents(a), contents(b));
     assert_eq!(a.keys().collect::<Vec<_>>(), b.keys().collect::<Vec<_>>());

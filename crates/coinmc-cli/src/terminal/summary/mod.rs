@@ -1,4 +1,5 @@
-//! The summary of a run as text: table, plot, fair ratios, published counts, undecided tosses, files.
+//! The summary of a run as text: table, plot, fair ratios, published counts, undecided tosses,
+//! files.
 
 mod curves;
 mod fair;

@@ -1,5 +1,5 @@
-//! Holds the parsed text against the schema: every key and value by itself, and the rules
-//! between keys of one table.
+//! Checks the parsed text against the schema: every key and value, and the rules between the keys
+//! of one table.
 
 mod number;
 mod table;
@@ -28,7 +28,7 @@ struct Walker<'a> {
 }
 
 impl Walker<'_> {
-    /// Checks one value; `path` is what messages call it.
+    /// Checks one value; `path` is its name in messages.
     fn value(&mut self, kind: &Kind, node: &Node, path: &str) -> Checked {
         match kind {
             Kind::Number(bounds) => self.quantity(*bounds, node, path),
@@ -151,7 +151,7 @@ impl Walker<'_> {
         Checked::new(node.span, CheckedValue::Vector(components))
     }
 
-    /// A table with exactly one key, which says what it is.
+    /// A table with exactly one key, which names the alternative.
     fn tagged(&mut self, tags: &[Field], table: &Table, span: Span, path: &str) -> Checked {
         let (mut known, unknown): (Vec<&Entry>, Vec<&Entry>) = table
             .entries
@@ -217,7 +217,7 @@ fn is_distribution(table: &Table, distributions: &[Field]) -> bool {
     distributions.iter().any(|tag| has(tag.name)) || !RANGE.iter().any(|name| has(name))
 }
 
-/// The table of the document that knows this key.
+/// The table of the schema that has this key.
 fn home(key: &str) -> Option<&'static str> {
     super::schema::root()
         .fields

@@ -1,4 +1,4 @@
-//! Tables: their keys, what absent keys mean, and the rules between keys.
+//! Tables: their keys, the defaults of absent keys, and the rules between keys.
 
 use super::Walker;
 use super::names;
@@ -22,7 +22,7 @@ struct Slots<'a> {
 }
 
 impl Walker<'_> {
-    /// Checks a table. `span` is blamed for what is absent.
+    /// Checks a table. `span` is the location of problems with absent keys.
     pub(super) fn table(
         &mut self,
         kind: &TableKind,
@@ -175,7 +175,7 @@ impl Slots<'_> {
         self.forms[index] = Some(absent(&self.fields[index].kind, fallback, self.span));
     }
 
-    /// Whether a condition holds; `None` if an invalid value leaves it open.
+    /// Whether a condition holds; `None` if that is unknown because a value is invalid.
     fn holds(&self, condition: Condition) -> Option<bool> {
         let decided = |key: &str, holds: &dyn Fn(&Checked) -> bool| match self.get(key) {
             _ if self.missing.contains(&key) => Some(false),
@@ -188,7 +188,7 @@ impl Slots<'_> {
             None => Some(false),
         };
         match condition {
-            // whatever preset was meant, one was
+            // an invalid preset is still a given one
             Condition::Given(key) => Some(self.get(key).is_some() || self.mistyped.contains(&key)),
             Condition::Word(key, word) => decided(key, &|checked| checked.word() == Some(word)),
             Condition::Tag(key, tag) => decided(key, &|checked| checked.tag() == Some(tag)),
@@ -196,7 +196,7 @@ impl Slots<'_> {
     }
 }
 
-/// What an absent key stands for.
+/// The default of an absent key.
 fn absent(kind: &Kind, fallback: Fallback, span: Span) -> Checked {
     let constant = |value| CheckedValue::Number(Quantity::Constant(value), None);
     let value = match (fallback, kind) {
