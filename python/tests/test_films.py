@@ -83,7 +83,7 @@ def test_problems_in_a_text_are_reported_with_their_location(tmp_path):
         film.parse("t\ty\ttheta\n0\t0.2\t1,5,0\n", name="a.txt")
     assert (caught.value.problems[0].line, caught.value.problems[0].column) == (2, 7)
     assert "^^^^^" in str(caught.value)
-    with pytest.raises(coinmc.FilmError, match="file not found"):
+    with pytest.raises(coinmc.FilmError, match="there is no such file"):
         film.read(tmp_path / "none.txt")
     with pytest.raises(coinmc.FilmError, match="cannot be read"):
         film.read(tmp_path)

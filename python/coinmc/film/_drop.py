@@ -99,7 +99,7 @@ def read(path: str | os.PathLike[str], **options: Any) -> Drop:
         with path.open("rb") as file:
             content = file.read(_MAX_BYTES + 1)
     except FileNotFoundError as error:
-        raise FilmError(f"{path}: file not found") from error
+        raise FilmError(f"{path}: there is no such file") from error
     except OSError as error:
         raise FilmError(f"{path}: the file cannot be read: {error.strerror}") from error
     return _drop(str(path), content, options)
