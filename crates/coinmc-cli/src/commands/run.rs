@@ -361,12 +361,12 @@ mod tests {
             .map(|i| Row::new(&plan, i, Tally::default(), false))
             .collect();
         let text = short_of_target(&rows, 2);
-        assert!(text.contains("2 points came to stop.max_tosses"), "{text}");
+        assert!(text.contains("2 points reached stop.max_tosses"), "{text}");
         rows[1].evaluations = MAX_EVALUATIONS;
         let text = short_of_target(&rows, 2);
-        assert!(text.contains("1 point came to stop.max_tosses"), "{text}");
+        assert!(text.contains("1 point reached stop.max_tosses"), "{text}");
         assert!(
-            text.contains("\ncoinmc: 1 point came to 4 194 304 evaluations"),
+            text.contains("\ncoinmc: 1 point reached 4 194 304 evaluations"),
             "{text}"
         );
         rows[0].reached_target = true;

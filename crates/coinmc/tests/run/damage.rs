@@ -140,7 +140,7 @@ fn tallies_beyond_where_a_point_stopped_are_set_aside() {
     run_with(&plan, dir.path(), Part::WHOLE, 2, &ear).unwrap();
     let warnings = ear.warnings();
     assert!(
-        warnings.len() == 1 && warnings[0].contains("no part of this run"),
+        warnings.len() == 1 && warnings[0].contains("does not belong to this run"),
         "{warnings:?}"
     );
     fs::remove_file(format!("{}.rejected", forged.display())).unwrap();
