@@ -222,7 +222,7 @@ fn a_finished_run_is_reported_again_at_once() {
     let again = bench.finish(&out);
     assert_eq!(text(&first.stdout), text(&again.stdout));
     assert!(
-        text(&again.stderr).contains("nothing tossed again"),
+        text(&again.stderr).contains("nothing to toss"),
         "{}",
         text(&again.stderr)
     );

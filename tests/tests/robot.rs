@@ -212,7 +212,7 @@ fn assert_rejected(command: Command, words: &[&str]) {
 fn noise_resets_disconnections_and_kills_lose_or_double_no_throw() {
     let bench = Bench::new(40);
     let mut robot = bench.robot(&["--noise", "0.01", "--seed", "3"]);
-    let quiet = ["--quiet", "--most-voids", "40"];
+    let quiet = ["--quiet", "--max-voids", "40"];
     let mut host = bench.run("day", &quiet).spawn().expect("it starts");
     for (throw, mishap) in [
         (3, "reset"),
@@ -277,7 +277,7 @@ fn a_camera_that_hangs_ends_or_reads_nothing_does_not_block_the_experiment() {
         "1",
         "--photos",
         "4",
-        "--most-voids",
+        "--max-voids",
         "12",
     ];
     let run = bench.run_with("day", &camera, &more);

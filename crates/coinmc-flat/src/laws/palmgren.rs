@@ -109,7 +109,8 @@ impl Materials {
     }
 }
 
-const YOUNG_PA: Bounds = Bounds::closed(1e3, 1e15);
+/// Far beyond any material: studies make the contact ever stiffer.
+const YOUNG_PA: Bounds = Bounds::closed(1e3, 1e30);
 const POISSON: Bounds = Bounds::closed(-0.99, 0.5);
 const LENGTH_M: Bounds = Bounds::closed(1e-9, 1e6);
 
