@@ -19,8 +19,8 @@
 //! Each line uses only the lines above it:
 //!
 //! - `series` elementary functions · `body`, `drag` the scene in the kernel's units
-//! - `impact` impact laws · `laws` their list · `settings` · `limits` · `motion` state and folded
-//!   frame
+//! - `impact` impulse at the rim, the trait of impact laws · `laws` a file for each law, and their list ·
+//!   `settings` · `limits` · `motion` state and folded frame
 //! - `place`, `observer_adapter` what an observer is shown
 //! - `flight` the orbit and its first contact · `contact` sustained contact
 //! - `toss` the state of one toss · `model` the constants of all tosses · `transition`,
@@ -64,8 +64,6 @@ pub use body::{Body, Friction};
 pub use coinmc_lanes::{Lane, Lanes, Mask, NoSuchLanes};
 pub use descriptor::ENGINE;
 pub use engine::VolumetricEngine;
-pub use impact::{
-    ChatterjeeRuina, ContactMatrix, ContactPoint, ImpactLaw, Impulse, Moreau, Stronge, VelocityJump,
-};
-pub use laws::Law;
+pub use impact::{ContactMatrix, ContactPoint, ImpactLaw, Impulse, VelocityJump};
+pub use laws::{ChatterjeeRuina, Law, Moreau, Stronge};
 pub use settings::{Decision, Settings, SettingsError};

@@ -2,7 +2,8 @@
 
 use crate::engine::VolumetricEngine;
 use crate::finished_toss::FinishedToss;
-use crate::impact::{ChatterjeeRuina, ImpactLaw, Moreau, Stronge};
+use crate::impact::ImpactLaw;
+use crate::laws::{ChatterjeeRuina, Moreau, Stronge};
 use crate::settings::{Decision, Settings};
 use coinmc_core::{Coin, Drag, Ended, Engine, Landing, Launch, Preset, Scene, Surface, TossBatch};
 use coinmc_lanes::Lanes;

@@ -29,23 +29,23 @@ use coinmc_lanes::Lane;
 
 /// The angular velocities that contour and pivoting friction oppose, and their inverse masses.
 #[derive(Clone, Copy)]
-pub(super) struct RimRates<L> {
+pub(crate) struct RimRates<L> {
     /// ω_x = s ψ'.
-    pub(super) roll: L,
+    pub(crate) roll: L,
     /// ω_z.
-    pub(super) pivot: L,
+    pub(crate) pivot: L,
     /// a, b, A, F, G of the module's text.
-    pub(super) roll_y: L,
-    pub(super) pivot_y: L,
-    pub(super) roll_roll: L,
-    pub(super) roll_pivot: L,
-    pub(super) pivot_pivot: L,
+    pub(crate) roll_y: L,
+    pub(crate) pivot_y: L,
+    pub(crate) roll_roll: L,
+    pub(crate) roll_pivot: L,
+    pub(crate) pivot_pivot: L,
 }
 
 /// The limits of contour and pivoting friction per unit normal impulse, and the constants that
 /// their solution needs.
 #[derive(Clone, Copy)]
-pub(super) struct FrictionMoments<L> {
+pub(crate) struct FrictionMoments<L> {
     rates: RimRates<L>,
     /// ρ_c/s.
     contour: L,
@@ -62,37 +62,37 @@ pub(super) struct FrictionMoments<L> {
 
 /// C = J_c/s and P = J_p, solved jointly with p_y.
 #[derive(Clone, Copy)]
-pub(super) struct JointSolution<L> {
-    pub(super) contour: L,
-    pub(super) pivoting: L,
+pub(crate) struct JointSolution<L> {
+    pub(crate) contour: L,
+    pub(crate) pivoting: L,
     /// slip_y with C and P but without p_y: p_y = −slip_y/(σ + K_yy).
-    pub(super) slip_y: L,
+    pub(crate) slip_y: L,
     /// Its derivative with respect to σ.
-    pub(super) slope: L,
+    pub(crate) slope: L,
 }
 
 /// The minimum over a box, in two dimensions: angular velocities before and inverse masses, with
 /// p_y eliminated or given, and the P of the minimum without limits.
-pub(super) struct BoxProblem<L> {
-    pub(super) roll: L,
-    pub(super) pivot: L,
-    pub(super) roll_pivot: L,
+pub(crate) struct BoxProblem<L> {
+    pub(crate) roll: L,
+    pub(crate) pivot: L,
+    pub(crate) roll_pivot: L,
     /// 1/A and 1/G, with p_y eliminated or given.
-    pub(super) roll_mass: L,
-    pub(super) pivot_mass: L,
-    pub(super) free: L,
+    pub(crate) roll_mass: L,
+    pub(crate) pivot_mass: L,
+    pub(crate) free: L,
 }
 
 /// An interval; of length 0 where the friction is given.
 #[derive(Clone, Copy)]
-pub(super) struct Limits<L> {
-    pub(super) low: L,
-    pub(super) high: L,
+pub(crate) struct Limits<L> {
+    pub(crate) low: L,
+    pub(crate) high: L,
 }
 
 impl<L: Lane> Limits<L> {
     #[inline(always)]
-    pub(super) fn within(limit: L) -> Self {
+    pub(crate) fn within(limit: L) -> Self {
         Self {
             low: -limit,
             high: limit,
@@ -108,7 +108,7 @@ impl<L: Lane> Limits<L> {
 impl<L: Lane> BoxProblem<L> {
     /// (C, P) of the minimum over a box: see the module's text.
     #[inline(always)]
-    pub(super) fn least(&self, contour: Limits<L>, pivoting: Limits<L>) -> (L, L) {
+    pub(crate) fn least(&self, contour: Limits<L>, pivoting: Limits<L>) -> (L, L) {
         let p = pivoting.clamp(self.free);
         let c = contour.clamp((self.roll - self.roll_pivot * p) * self.roll_mass);
         let p = pivoting.clamp((self.pivot - self.roll_pivot * c) * self.pivot_mass);
@@ -118,7 +118,7 @@ impl<L: Lane> BoxProblem<L> {
 
 impl<L: Lane> RimRates<L> {
     #[inline(always)]
-    pub(super) fn rates(body: &Body, point: &ContactPoint<L>) -> Self {
+    pub(crate) fn rates(body: &Body, point: &ContactPoint<L>) -> Self {
         let (s, c) = (point.sin, point.cos);
         let (axial, across) = (L::splat(1.0 / body.ka), L::splat(1.0 / body.kt));
         let (radius, half) = (
@@ -138,13 +138,13 @@ impl<L: Lane> RimRates<L> {
 
     /// By how much C and P reduce slip_y.
     #[inline(always)]
-    pub(super) fn slip_y(&self, contour: L, pivoting: L) -> L {
+    pub(crate) fn slip_y(&self, contour: L, pivoting: L) -> L {
         self.roll_y * contour + self.pivot_y * pivoting
     }
 
     /// Twice the energy that C and P add to that of p_y.
     #[inline(always)]
-    pub(super) fn work(&self, y: L, contour: L, pivoting: L) -> L {
+    pub(crate) fn work(&self, y: L, contour: L, pivoting: L) -> L {
         let two = L::splat(2.0);
         let roll = two * self.roll + self.roll_y * y
             - self.roll_roll * contour
@@ -158,7 +158,7 @@ impl<L: Lane> RimRates<L> {
 
 impl<L: Lane> FrictionMoments<L> {
     #[inline(always)]
-    pub(super) fn new(body: &Body, friction: &Friction, point: &ContactPoint<L>, yy: L) -> Self {
+    pub(crate) fn new(body: &Body, friction: &Friction, point: &ContactPoint<L>, yy: L) -> Self {
         let (axial, across) = (
             L::splat(body.ka) * point.spin,
             L::splat(body.kt) * point.turn,
@@ -179,7 +179,7 @@ impl<L: Lane> FrictionMoments<L> {
 
     /// C and P for a given p_y: the least energy within their limits.
     #[inline(always)]
-    pub(super) fn held(&self, y: L, z: L) -> (L, L) {
+    pub(crate) fn held(&self, y: L, z: L) -> (L, L) {
         let r = &self.rates;
         let one = L::splat(1.0);
         let reduced = BoxProblem {
@@ -198,7 +198,7 @@ impl<L: Lane> FrictionMoments<L> {
     /// C and P jointly with p_y = −slip_y⁺/σ, and the derivative with respect to σ. `dz` is the
     /// derivative of z, `inverse` is 1/(σ + K_yy) and `rigid` is 1/(1 + σ).
     #[inline(always)]
-    pub(super) fn joint(&self, sigma: L, inverse: L, rigid: L, z: L, dz: L) -> JointSolution<L> {
+    pub(crate) fn joint(&self, sigma: L, inverse: L, rigid: L, z: L, dz: L) -> JointSolution<L> {
         let r = &self.rates;
         let (roll_y, pivot_y) = (r.roll_y * inverse, r.pivot_y * inverse);
         // both inverse masses times σ + K_yy, with one quotient for both

@@ -13,19 +13,13 @@
 //! Contour friction opposes the rolling of the contact point along the rim, pivoting friction
 //! opposes the rotation about the vertical.
 
-mod chatterjee_ruina;
-mod contact_point;
-mod friction_moments;
+pub(crate) mod contact_point;
+pub(crate) mod friction_moments;
 mod impulse;
 mod jam;
 mod law;
-mod moreau;
-mod stronge;
 
-pub use chatterjee_ruina::ChatterjeeRuina;
 pub use contact_point::{ContactMatrix, ContactPoint};
 pub use impulse::{Impulse, VelocityJump};
 pub(crate) use jam::jam_impulse;
 pub use law::ImpactLaw;
-pub use moreau::Moreau;
-pub use stronge::Stronge;

@@ -1,9 +1,10 @@
 //! Newton restitution with Coulomb friction against the final slip.
 
-use super::contact_point::Condensed;
-use super::friction_moments::{FrictionMoments, JointSolution};
-use super::{ChatterjeeRuina, ContactMatrix, ContactPoint, ImpactLaw, Impulse};
+use super::ChatterjeeRuina;
 use crate::body::{Body, Friction};
+use crate::impact::contact_point::Condensed;
+use crate::impact::friction_moments::{FrictionMoments, JointSolution};
+use crate::impact::{ContactMatrix, ContactPoint, ImpactLaw, Impulse};
 use coinmc_core::schema::Values;
 use coinmc_core::{EngineError, LawSettings};
 use coinmc_lanes::{Lane, Mask};

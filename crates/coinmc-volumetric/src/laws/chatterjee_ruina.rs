@@ -1,8 +1,9 @@
 //! The algebraic law of Chatterjee and Ruina.
 
-use super::contact_point::Condensed;
-use super::{ContactPoint, ImpactLaw, Impulse, friction_moments::FrictionMoments};
 use crate::body::{Body, Friction};
+use crate::impact::contact_point::Condensed;
+use crate::impact::friction_moments::FrictionMoments;
+use crate::impact::{ContactPoint, ImpactLaw, Impulse};
 use coinmc_core::schema::Values;
 use coinmc_core::{EngineError, LawSettings};
 use coinmc_lanes::Lane;

@@ -1,7 +1,7 @@
 //! The modes of friction at one moment: the contact point slips or sticks, and each of the two
 //! angular velocities runs or is held at 0.
 
-use super::super::friction_moments::{BoxProblem, Limits, RimRates};
+use crate::impact::friction_moments::{BoxProblem, Limits, RimRates};
 
 /// The angular velocity that contour or pivoting friction opposes: it has a sign, or is 0.
 #[derive(Clone, Copy)]

@@ -5,8 +5,9 @@ mod evolution;
 mod modes;
 mod path;
 
-use super::{ChatterjeeRuina, ContactPoint, ImpactLaw, Impulse};
+use super::ChatterjeeRuina;
 use crate::body::{Body, Friction};
+use crate::impact::{ContactPoint, ImpactLaw, Impulse};
 use coinmc_core::schema::Values;
 use coinmc_core::{EngineError, LawSettings};
 use coinmc_lanes::Lane;

@@ -1,11 +1,11 @@
 //! One impact, followed piece by piece.
 
-use super::super::friction_moments::RimRates;
-use super::super::{ContactMatrix, ContactPoint, Impulse};
 use super::events::{Cut, Event};
 use super::modes::{Couplings, Rate, Rates, Torque};
 use super::path::{Drive, Line, Normal, Path, Step};
 use crate::body::{Body, Friction};
+use crate::impact::friction_moments::RimRates;
+use crate::impact::{ContactMatrix, ContactPoint, Impulse};
 
 /// Slip, and the rates of rolling and pivoting, below this fraction of the velocities count as 0.
 const REST: f64 = 1e-13;

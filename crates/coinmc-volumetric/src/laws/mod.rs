@@ -1,9 +1,17 @@
-//! The laws of impact that a user may choose, each in a file of its own under `impact`.
+//! The laws of impact that a user may choose, each in a file of its own.
 //!
-//! A new law is a file there and, here, a variant and a line in each list. The compiler asks for
+//! A new law is a file and, here, a variant and a line in each list. The compiler asks for
 //! each line except that in [`LAWS`], without which no config can name the law.
 
-use crate::impact::{ChatterjeeRuina, ImpactLaw, Moreau, Stronge};
+mod chatterjee_ruina;
+mod moreau;
+mod stronge;
+
+pub use chatterjee_ruina::ChatterjeeRuina;
+pub use moreau::Moreau;
+pub use stronge::Stronge;
+
+use crate::impact::ImpactLaw;
 use coinmc_core::schema::{Values, unlisted};
 use coinmc_core::{EngineError, LawDescriptor, LawSettings};
 use std::fmt::Debug;
