@@ -50,9 +50,7 @@ def energy(trace: Any, *, barriers: bool = True, ax: Axes | None = None) -> Axes
     ax.set(yscale="log", xlabel="time since launch, s", ylabel="energy per mass, J/kg")
     key = [Line2D([], [], color=CYCLE[0], label="energy")]
     ax.plot(values[0], values[1], color=CYCLE[0], linewidth=1.5)
-    shaded = dict.fromkeys(
-        mode for mode, _ in motion.phases() if mode in ("sticking", "sliding")
-    )
+    shaded = dict.fromkeys(mode for mode, _ in motion.phases() if mode in ("sticking", "sliding"))
     for mode, phase in motion.phases():
         if mode in shaded:
             begin, end = motion.time_s[phase][[0, -1]]

@@ -137,7 +137,5 @@ def axes_for(
         settings = {"projection": "3d"} if space else {}
         return pyplot.subplots(figsize=size, layout="constrained", subplot_kw=settings)[1]
     if space and ax.name != "3d":
-        raise ValueError(
-            'the view in space needs 3-D axes: figure.add_subplot(projection="3d")'
-        )
+        raise ValueError('the view in space needs 3-D axes: figure.add_subplot(projection="3d")')
     return ax
