@@ -33,6 +33,7 @@ mod launch;
 mod observer;
 mod outcome;
 mod random;
+mod roughness;
 mod scene;
 pub mod schema;
 mod surface;
@@ -59,6 +60,7 @@ pub use launch::{
 pub use observer::{DynObserver, Observer, sample_between};
 pub use outcome::{Breaks, Ended, Face, Outcome};
 pub use random::{Domain, Philox4x64, Stream, TossUniforms, UniformSource, unit_interval};
+pub use roughness::{Roughness, RoughnessError};
 pub use scene::{Drag, Scene, SceneParameter};
 pub use surface::{Landing, Surface, SurfaceError};
 pub use tally::{Counter, CounterKind, Tally};

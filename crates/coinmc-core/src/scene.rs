@@ -73,7 +73,7 @@ pub struct SceneParameter {
 impl Scene {
     /// The parameters that every result states, swept or not, with their values: without them a toss is
     /// not defined.
-    pub const PARAMETERS: [SceneParameter; 9] = [
+    pub const PARAMETERS: [SceneParameter; 11] = [
         SceneParameter {
             name: "ratio",
             value: |scene| scene.coin.ratio(),
@@ -101,6 +101,14 @@ impl Scene {
         SceneParameter {
             name: "restitution_threshold_m_s",
             value: |scene| scene.surface.restitution_threshold_m_s(),
+        },
+        SceneParameter {
+            name: "roughness_slope",
+            value: |scene| scene.surface.roughness().map_or(0.0, |r| r.slope()),
+        },
+        SceneParameter {
+            name: "roughness_wavelength_m",
+            value: |scene| scene.surface.roughness().map_or(0.0, |r| r.wavelength_m()),
         },
         SceneParameter {
             name: "linear_drag_per_s",

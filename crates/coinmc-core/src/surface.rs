@@ -4,6 +4,7 @@ use crate::schema::{
     Absent, Bounds, Condition, Fallback, ReadError, Rule, TableKind, Values, choice, default,
     number,
 };
+use crate::{Roughness, RoughnessError};
 use thiserror::Error;
 
 /// What a contact with the surface does to the coin.
@@ -57,6 +58,7 @@ pub struct Surface {
     rolling_friction_m: f64,
     pivoting_friction_m: f64,
     threshold_m_s: f64,
+    roughness: Option<Roughness>,
     landing: Landing,
 }
 
@@ -122,6 +124,20 @@ impl Surface {
                     Bounds::closed(0.0, 1e6),
                     default(0.0),
                 ),
+                number(
+                    "roughness_slope",
+                    "Rms slope of the ground along any direction; 0: a perfect plane. With \
+                     `roughness_wavelength_m`.",
+                    Bounds::closed(0.0, Roughness::STEEPEST),
+                    default(0.0),
+                ),
+                number(
+                    "roughness_wavelength_m",
+                    "Wavelength of the ground, m: mean distance between places where a profile rises \
+                     through its mean. With `roughness_slope`.",
+                    Bounds::closed(0.0, 1e6),
+                    default(0.0),
+                ),
                 choice(
                     "landing",
                     "What a contact does.",
@@ -149,10 +165,14 @@ impl Surface {
             number("pivoting_friction_m")?,
         );
         let threshold = number("restitution_threshold_m_s")?;
+        let roughness = read_roughness(
+            number("roughness_slope")?,
+            number("roughness_wavelength_m")?,
+        )?;
         Self::new(number("restitution")?, number("friction")?)
             .and_then(|surface| surface.with_friction_lengths(rolling, pivoting))
             .and_then(|surface| surface.with_restitution_threshold(threshold))
-            .map(|surface| surface.with_landing(landing))
+            .map(|surface| surface.with_roughness(roughness).with_landing(landing))
             .map_err(|error| ReadError::new(error.to_string()))
     }
 
@@ -164,6 +184,7 @@ impl Surface {
             rolling_friction_m: 0.0,
             pivoting_friction_m: 0.0,
             threshold_m_s: 0.0,
+            roughness: None,
             landing: Landing::Adhesive,
         }
     }
@@ -186,6 +207,7 @@ impl Surface {
             rolling_friction_m: 0.0,
             pivoting_friction_m: 0.0,
             threshold_m_s: 0.0,
+            roughness: None,
             landing: Landing::Bouncing,
         })
     }
@@ -230,6 +252,12 @@ impl Surface {
         }
     }
 
+    /// The same surface with another roughness; `None` is a perfect plane.
+    #[must_use]
+    pub fn with_roughness(self, roughness: Option<Roughness>) -> Self {
+        Self { roughness, ..self }
+    }
+
     /// The same surface with another way of landing.
     pub fn with_landing(self, landing: Landing) -> Self {
         Self { landing, ..self }
@@ -260,8 +288,28 @@ impl Surface {
         self.threshold_m_s
     }
 
+    /// How rough the ground is; `None` for a perfect plane.
+    pub fn roughness(&self) -> Option<Roughness> {
+        self.roughness
+    }
+
     /// How the coin lands.
     pub fn landing(&self) -> Landing {
         self.landing
+    }
+}
+
+/// The roughness that a config gives by these two numbers, both 0 for a plane.
+fn read_roughness(slope: f64, wavelength_m: f64) -> Result<Option<Roughness>, ReadError> {
+    let lacks = |given: &str, key: &'static str| {
+        Err(ReadError::new(format!("{given} needs `{key}` as well")).at(key))
+    };
+    match (slope > 0.0, wavelength_m > 0.0) {
+        (false, false) => Ok(None),
+        (true, false) => lacks("`roughness_slope`", "roughness_wavelength_m"),
+        (false, true) => lacks("`roughness_wavelength_m`", "roughness_slope"),
+        (true, true) => Roughness::new(slope, wavelength_m)
+            .map(Some)
+            .map_err(|error: RoughnessError| ReadError::new(error.to_string())),
     }
 }

@@ -28,7 +28,7 @@ pub const ENGINE: EngineDescriptor = EngineDescriptor {
     read: |values| Settings::read(values).map(EngineChoice::new),
 };
 
-const UNMODELLED: [Unmodelled; 6] = [
+const UNMODELLED: [Unmodelled; 8] = [
     Unmodelled {
         table: "surface",
         key: "rolling_friction_m",
@@ -47,6 +47,18 @@ const UNMODELLED: [Unmodelled; 6] = [
         message: "engine.flat models no restitution threshold: `surface.restitution_threshold_m_s` \
                   must be 0",
         help: "remove `restitution_threshold_m_s`, or toss in space with [engine.volumetric]",
+    },
+    Unmodelled {
+        table: "surface",
+        key: "roughness_slope",
+        message: "engine.flat models a perfect plane: `surface.roughness_slope` must be 0",
+        help: "remove `roughness_slope`, or toss in space with [engine.volumetric]",
+    },
+    Unmodelled {
+        table: "surface",
+        key: "roughness_wavelength_m",
+        message: "engine.flat models a perfect plane: `surface.roughness_wavelength_m` must be 0",
+        help: "remove `roughness_wavelength_m`, or toss in space with [engine.volumetric]",
     },
     Unmodelled {
         table: "environment",

@@ -5,7 +5,7 @@ use crate::settings::{Decision, Flight, Settings};
 use coinmc_core::schema::Values;
 use coinmc_core::{
     Answer, DynEngine, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings,
-    Landing, Remark, Scene,
+    Landing, Remark, Scene, Unmodelled,
 };
 
 /// The engine, as configs and results know it.
@@ -15,7 +15,7 @@ pub const ENGINE: EngineDescriptor = EngineDescriptor {
     kind: EngineKind::Spatial,
     stepped: true,
     laws: &[],
-    unmodelled: &[],
+    unmodelled: &UNMODELLED,
     remarks: &[
         Remark {
             applies: |scene| bounces(scene) && scene.surface.restitution() == 1.0,
@@ -35,6 +35,21 @@ pub const ENGINE: EngineDescriptor = EngineDescriptor {
 fn bounces(scene: &Scene) -> bool {
     scene.surface.landing() == Landing::Bouncing
 }
+
+const UNMODELLED: [Unmodelled; 2] = [
+    Unmodelled {
+        table: "surface",
+        key: "roughness_slope",
+        message: "engine.rapier models a perfect plane: `surface.roughness_slope` must be 0",
+        help: "remove `roughness_slope`, or toss with [engine.volumetric]",
+    },
+    Unmodelled {
+        table: "surface",
+        key: "roughness_wavelength_m",
+        message: "engine.rapier models a perfect plane: `surface.roughness_wavelength_m` must be 0",
+        help: "remove `roughness_wavelength_m`, or toss with [engine.volumetric]",
+    },
+];
 
 impl EngineSettings for Settings {
     fn descriptor(&self) -> &'static EngineDescriptor {

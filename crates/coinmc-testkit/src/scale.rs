@@ -1,6 +1,6 @@
 //! The same toss in other units.
 
-use coinmc_core::{Coin, Drag, Launch, Scene};
+use coinmc_core::{Coin, Drag, Launch, Roughness, Scene};
 
 /// Lengths times `length`, times times `time`.
 #[derive(Debug, Clone, Copy)]
@@ -25,7 +25,11 @@ impl Scale {
         let surface = surface
             .with_friction_lengths(rolling, surface.pivoting_friction_m() * length)
             .and_then(|surface| surface.with_restitution_threshold(threshold))
-            .expect("scaled lengths and speeds stay in range");
+            .expect("scaled lengths and speeds stay in range")
+            .with_roughness(surface.roughness().map(|roughness| {
+                Roughness::new(roughness.slope(), roughness.wavelength_m() * length)
+                    .expect("a scaled wavelength stays positive")
+            }));
         let coin = Coin::cylinder(coin.ratio(), coin.radius_m() * length).expect("R > 0");
         let gravity = scene.gravity_m_s2() * length / (time * time);
         let drag = Drag::new(drag.linear_per_s() / time, drag.angular_per_s() / time);

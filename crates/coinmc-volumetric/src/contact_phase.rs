@@ -6,7 +6,7 @@ use crate::model::Model;
 use crate::motion::FLAT;
 use crate::toss::Toss;
 use crate::transition::Transition;
-use coinmc_core::{Ended, EventKind, Observer};
+use coinmc_core::{Decided, Ended, EventKind, Observer};
 
 impl<L> Model<L> {
     /// Follows sustained contact of the lowest point to its end.
@@ -34,6 +34,8 @@ impl<L> Model<L> {
                 Transition::Impact
             }
             Exit::Level => Transition::Impact,
+            // on rough ground the rule for a plane decides faces only
+            Exit::Decided(Decided::Side) if self.ground.is_some() => Transition::Impact,
             Exit::Decided(decided) => Transition::End(toss.ended(decided)),
             Exit::NeverSettles => Transition::End(Ended::NeverSettles),
             Exit::TimeLimit => Transition::End(Ended::TimeLimit),

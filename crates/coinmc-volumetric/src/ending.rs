@@ -21,7 +21,7 @@ impl<L> Model<L> {
         let energy = toss.motion.energy(&self.dynamics.body, &toss.spin);
         if !(energy.is_finite() && is_finite(launch)) {
             Some(Ended::Failed)
-        } else if self.adhesive {
+        } else if self.adhesive || self.ground.is_some() {
             None
         } else {
             self.end_if_decided(toss)

@@ -81,7 +81,7 @@ impl<L> Model<L> {
     }
 
     /// Shows a flight of length `duration`, which begins with `toss`, at the requested instants.
-    fn show_flight<O: Observer>(
+    pub(crate) fn show_flight<O: Observer>(
         &self,
         toss: &Toss,
         orbit: &Orbit<f64>,

@@ -4,6 +4,7 @@ use crate::contact::ContactSolver;
 use crate::flight::Departure;
 use crate::impact::ImpactLaw;
 use crate::model::Model;
+use crate::rough::FLATTEST;
 use crate::toss::Toss;
 use crate::transition::Transition;
 use coinmc_core::{Ended, EventKind, Observer};
@@ -22,6 +23,11 @@ impl<L: ImpactLaw> Model<L> {
         solver: &mut ContactSolver<'_>,
         observer: &mut O,
     ) -> Transition {
+        if let Some(ground) = &self.ground
+            && toss.motion.sin >= FLATTEST
+        {
+            return self.walk(ground, toss, &mut solver.usage, observer);
+        }
         if self.limits.no_impact_left(toss.impacts) {
             return Transition::End(Ended::ImpactLimit);
         }

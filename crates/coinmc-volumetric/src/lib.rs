@@ -26,6 +26,7 @@
 //! - `toss` the state of one toss · `model` the constants of all tosses · `transition`,
 //!   `finished_toss`
 //! - `bounce` one impact · `ending` how a toss ends
+//! - `rough` rough ground: contact and low hops on a random height field
 //! - `flight_phase`, `contact_phase`, `impact_phase` one toss through each phase
 //! - `scalar` one toss from launch to end · `batch` many tosses in lanes
 //! - `engine` the public engine · `descriptor` what the rest of the program knows of it
@@ -54,6 +55,7 @@ mod model;
 mod motion;
 mod observer_adapter;
 mod place;
+mod rough;
 mod scalar;
 mod series;
 mod settings;

@@ -4,6 +4,7 @@ use crate::body::{Body, Friction, Units};
 use crate::contact::{ContactRules, ContactSolver, Dynamics, Usage};
 use crate::drag::Drag;
 use crate::limits::Limits;
+use crate::rough::Ground;
 use crate::settings::{Decision, Settings, SettingsError};
 use crate::toss::Toss;
 use coinmc_core::{DecisionRule, Event, EventKind, Landing, Launch, Observer, Scene};
@@ -27,6 +28,10 @@ pub(crate) struct Model<L> {
     pub(crate) threshold: f64,
     /// Whether the coin sticks where it first lands.
     pub(crate) adhesive: bool,
+    /// The rough ground, if it is not a plane.
+    pub(crate) ground: Option<Ground>,
+    /// [`Settings::ground_step`].
+    pub(crate) ground_step: f64,
     /// Whether no toss ever loses energy.
     pub(crate) conserves: bool,
     /// [`Settings::zeno`].
@@ -72,6 +77,11 @@ impl<L> Model<L> {
             restitution,
             threshold,
             adhesive: scene.surface.landing() == Landing::Adhesive,
+            ground: scene.surface.roughness().map(|roughness| {
+                let length = roughness.correlation_length_m() / units.length_m;
+                Ground::new(roughness.slope(), length)
+            }),
+            ground_step: settings.ground_step,
             conserves: rule.loses_nothing(restitution) && threshold == 0.0,
             zeno: settings.zeno,
             negligible_rocking,

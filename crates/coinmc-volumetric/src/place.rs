@@ -27,6 +27,28 @@ impl Place {
         }
     }
 
+    /// At `position` at time 0, with the frame's x axis along `heading`.
+    pub(crate) fn at(position: [f64; 2], heading: [f64; 2]) -> Self {
+        Self {
+            heading,
+            position,
+            time: 0.0,
+        }
+    }
+
+    /// The laboratory's components of a horizontal vector (`x`, `y`) in the frame.
+    pub(crate) fn direction(&self, x: f64, y: f64) -> [f64; 2] {
+        let [nx, ny] = self.heading;
+        [nx * x - ny * y, nx * y + ny * x]
+    }
+
+    /// The horizontal place in the laboratory of a point at (`x`, `y`) from the centre, in the
+    /// frame.
+    pub(crate) fn point(&self, x: f64, y: f64) -> [f64; 2] {
+        let [dx, dy] = self.direction(x, y);
+        [self.position[0] + dx, self.position[1] + dy]
+    }
+
     /// Turns the frame so that its new x axis is (`nx`, `ny`) in the old frame.
     pub(crate) fn align(&mut self, nx: f64, ny: f64) {
         let [x, y] = self.heading;

@@ -73,6 +73,9 @@ pub struct Settings {
     pub stick_speed: f64,
     /// Time, in sqrt(D/g), over which rolling and pivoting friction end the last of a rotation.
     pub smoothing_time: f64,
+    /// On rough ground, the way between the places at which the ground's height is taken, in its
+    /// correlation length. Less is more accurate.
+    pub ground_step: f64,
     /// Impacts after which a toss is given up as undecided.
     pub max_impacts: u32,
     /// Steps of sustained contact after which a toss is given up as undecided.
@@ -90,6 +93,7 @@ impl Default for Settings {
             tolerance: 2e-4,
             stick_speed: 1e-2,
             smoothing_time: 1e-2,
+            ground_step: 0.5,
             max_impacts: 100_000,
             max_steps: 1_000_000,
             time_limit: 1e12,
@@ -101,6 +105,7 @@ const ZENO: Bounds = Bounds::above_zero(1.0);
 const TOLERANCE: Bounds = Bounds::closed(1e-12, 1e-2);
 /// Small numbers below which motion counts as none.
 const SMALL: Bounds = Bounds::above_zero(0.1);
+const GROUND_STEP: Bounds = Bounds::closed(0.01, 1.0);
 const TIME_LIMIT: Bounds = Bounds::above_zero(1e15);
 
 impl Settings {
@@ -143,6 +148,13 @@ impl Settings {
                 SMALL,
                 default(settings.smoothing_time),
             ),
+            number(
+                "ground_step",
+                "On rough ground: way between the places at which the ground's height is taken, in \
+                 correlation lengths (wavelength/2π).",
+                GROUND_STEP,
+                default(settings.ground_step),
+            ),
             count(
                 "max_impacts",
                 "Impacts after which a toss is given up as undecided.",
@@ -171,6 +183,7 @@ impl Settings {
             tolerance: values.number("tolerance")?,
             stick_speed: values.number("stick_speed")?,
             smoothing_time: values.number("smoothing_time")?,
+            ground_step: values.number("ground_step")?,
             max_impacts: values.integer("max_impacts")?,
             max_steps: values.integer("max_steps")?,
             time_limit: values.number("time_limit")?,
@@ -186,6 +199,7 @@ impl Settings {
         TOLERANCE.check("tolerance", self.tolerance)?;
         SMALL.check("stick_speed", self.stick_speed)?;
         SMALL.check("smoothing_time", self.smoothing_time)?;
+        GROUND_STEP.check("ground_step", self.ground_step)?;
         Whole::COUNT.check("max_impacts", self.max_impacts)?;
         Whole::COUNT.check("max_steps", self.max_steps)?;
         TIME_LIMIT.check("time_limit", self.time_limit)

@@ -167,7 +167,7 @@ impl<I: ImpactLaw> Batch<'_, I> {
             let last = model.limits.no_impact_left(slot.toss.impacts);
             by_scalar |= Bits::from(late | last) << lane;
         }
-        if !I::HAS_LANES || model.adhesive {
+        if !I::HAS_LANES || model.adhesive || model.ground.is_some() {
             by_scalar = Bits::MAX;
         }
         for lane in lanes_of(by_scalar & first(count)) {

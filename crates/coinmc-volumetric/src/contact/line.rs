@@ -17,17 +17,17 @@ use super::dynamics::Dynamics;
 use crate::motion::{Motion, Spin};
 
 /// v_x, v_y, ω_a, ω_z.
-pub(super) type LineState = [f64; 4];
+pub(crate) type LineState = [f64; 4];
 
-pub(super) struct LineRates {
-    pub(super) rates: LineState,
+pub(crate) struct LineRates {
+    pub(crate) rates: LineState,
     /// The share of the weight that the rim at r = (−h, 0, −R) would carry if the coin could not
     /// tip.
     pub(super) share: f64,
 }
 
 /// Rates of change of `state`, where sticking is a creep slower than `creep`.
-pub(super) fn line_rates(dynamics: &Dynamics, state: &LineState, creep: f64) -> LineRates {
+pub(crate) fn line_rates(dynamics: &Dynamics, state: &LineState, creep: f64) -> LineRates {
     let [vx, vy, wa, wz] = *state;
     let body = &dynamics.body;
     let slip = [

@@ -58,14 +58,16 @@ mod step;
 mod tilt_search;
 
 pub(crate) use dynamics::{Dynamics, fastest_rate};
-pub(crate) use integrator::Trial;
+pub(crate) use integrator::{Trial, is_accepted, next_length, shorter, step};
+pub(crate) use line::{LineState, line_rates};
 pub(crate) use on_side::SideExit;
 pub(crate) use phase::{Exit, Phase, PhaseTransition};
-pub(crate) use rim::{Mode, Rates};
+pub(crate) use rim::{Mode, OMEGA_Y, Rates, RimState, SLIP_X, SLIP_Y, TILT};
+pub(crate) use rolling_stop::RollingStop;
 pub(crate) use rules::{ContactRules, Usage};
 pub(crate) use solver::ContactSolver;
-pub(crate) use state::place;
-pub(crate) use step::StepTrial;
+pub(crate) use state::{place, place_unfolded, rim_state};
+pub(crate) use step::{StepTrial, can_stick, holds, slip_speed, step_limit};
 pub(crate) use tilt_search::TiltSearch;
 
 #[cfg(test)]

@@ -37,7 +37,7 @@ impl ContactSolver<'_> {
         let mut state = line_state(motion, spin);
         let mut length = FIRST_STEP;
         place_on_side(dynamics, &state, motion, spin);
-        if O::ACTIVE && !self.rolls_straight(&state) {
+        if O::ACTIVE && !self.rules.rolls_straight(&state) {
             adapter.event(EventKind::Sliding, motion, spin);
         }
         loop {
@@ -46,7 +46,7 @@ impl ContactSolver<'_> {
             if let Some(exit) = self.side_exit(&state, &now, motion, spin) {
                 return exit;
             }
-            if self.rolls_straight(&state) {
+            if self.rules.rolls_straight(&state) {
                 return SideExit::Leaves(self.roll_to_rest(&state, motion, spin, adapter));
             }
             if self.rules.limits.is_late(self.usage.time) {
@@ -137,15 +137,6 @@ impl ContactSolver<'_> {
         let fastest = wa.abs().max((vx.abs() + vy.abs()) / body.radius);
         let gyroscopic = body.kt * dynamics.axial_factor * fastest * wz.abs();
         2.0 * (dynamics.friction.mu * body.radius + gyroscopic) <= body.half
-    }
-
-    /// Whether only straight rolling and a creep are left.
-    fn rolls_straight(&self, state: &LineState) -> bool {
-        let [vx, vy, wa, wz] = *state;
-        let dynamics = self.rules.dynamics;
-        let body = &dynamics.body;
-        let slip = (vy + body.radius * wa).abs() + (body.half * wz).abs() + vx.abs();
-        dynamics.friction.mu > 0.0 && slip < self.rules.stick_speed
     }
 
     /// The state with no more kinetic energy than `ceiling`.

@@ -10,7 +10,7 @@ const NEGLIGIBLE_DRAG: f64 = 1e-12;
 ///
 /// v' = −a sgn v − bv with a = ρ_c R/(k_a + R²) and b = (kR² + k_a k_ω)/(k_a + R²), where k and k_ω
 /// are the rates of drag. With x = b|v₀|/a, v = v₀ [1 + (1 + 1/x)(e^(−bt) − 1)].
-pub(super) struct RollingStop {
+pub(crate) struct RollingStop {
     a: f64,
     b: f64,
     /// |v₀|.
@@ -21,7 +21,7 @@ pub(super) struct RollingStop {
 }
 
 impl RollingStop {
-    pub(super) fn new(dynamics: &Dynamics, state: &LineState) -> Self {
+    pub(crate) fn new(dynamics: &Dynamics, state: &LineState) -> Self {
         let Dynamics {
             body,
             friction,
@@ -48,7 +48,7 @@ impl RollingStop {
     }
 
     /// Whether contour friction stops the coin.
-    pub(super) fn stops(&self) -> bool {
+    pub(crate) fn stops(&self) -> bool {
         self.a != 0.0
     }
 
@@ -58,7 +58,7 @@ impl RollingStop {
     }
 
     /// The fraction of the velocities that is left at time `t`.
-    pub(super) fn left(&self, t: f64) -> f64 {
+    pub(crate) fn left(&self, t: f64) -> f64 {
         let lost = if self.dragged {
             -(1.0 + self.a / (self.b * self.speed)) * libm::expm1(-self.b * t)
         } else {

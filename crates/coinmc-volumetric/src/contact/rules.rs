@@ -1,6 +1,7 @@
 //! What governs sustained contact, and what a toss has used.
 
 use super::dynamics::Dynamics;
+use super::line::LineState;
 use crate::limits::Limits;
 use crate::motion::{Motion, Spin};
 use coinmc_core::{Decided, DecisionRule};
@@ -23,6 +24,14 @@ impl ContactRules<'_> {
     pub(super) fn decide(&self, motion: &Motion<f64>, spin: &Spin<f64>) -> Decided {
         let body = &self.dynamics.body;
         self.rule.decide(&motion.decision_state(body, spin))
+    }
+
+    /// Whether only straight rolling and a creep are left to a coin on its side.
+    pub(crate) fn rolls_straight(&self, state: &LineState) -> bool {
+        let [vx, vy, wa, wz] = *state;
+        let body = &self.dynamics.body;
+        let slip = (vy + body.radius * wa).abs() + (body.half * wz).abs() + vx.abs();
+        self.dynamics.friction.mu > 0.0 && slip < self.stick_speed
     }
 }
 

@@ -8,7 +8,7 @@ use crate::series::sin_cos_tilt;
 use coinmc_lanes::{Lane, Mask};
 
 /// The state of a motion whose lowest point stays on the surface.
-pub(super) fn rim_state(
+pub(crate) fn rim_state(
     dynamics: &Dynamics,
     motion: &Motion<f64>,
     spin: &Spin<f64>,
@@ -33,6 +33,29 @@ pub(crate) fn place<L: Lane>(
     motion: &mut Motion<L>,
     spin: &mut Spin<L>,
 ) {
+    place_at_tilt(dynamics, state, motion, spin, Motion::set_tilt);
+}
+
+/// The same for a coin whose axis may point down.
+pub(crate) fn place_unfolded(
+    dynamics: &Dynamics,
+    state: &RimState<f64>,
+    motion: &mut Motion<f64>,
+    spin: &mut Spin<f64>,
+) {
+    place_at_tilt(dynamics, state, motion, spin, |motion, sin, cos| {
+        (motion.sin, motion.cos) = (sin, cos);
+    });
+}
+
+#[inline(always)]
+fn place_at_tilt<L: Lane>(
+    dynamics: &Dynamics,
+    state: &RimState<L>,
+    motion: &mut Motion<L>,
+    spin: &mut Spin<L>,
+    set_tilt: impl FnOnce(&mut Motion<L>, L, L),
+) {
     let (s, c) = sin_cos_tilt(state[TILT]);
     let (radius, half) = (L::splat(dynamics.body.radius), L::splat(dynamics.body.half));
     *spin = Spin {
@@ -40,7 +63,7 @@ pub(crate) fn place<L: Lane>(
         axial: state[OMEGA_A],
         turn: state[OMEGA_T],
     };
-    motion.set_tilt(s, c);
+    set_tilt(motion, s, c);
     motion.vx = state[SLIP_X] + spin.tilt * (half * c + radius * s);
     motion.vy = state[SLIP_Y] - radius * spin.axial - half * spin.turn;
     motion.vz = spin.tilt * (radius * c - half * s);

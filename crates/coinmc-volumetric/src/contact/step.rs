@@ -129,7 +129,7 @@ pub(super) fn may_reach_side<L: Lane>(tilt: L, before: L, after: L, length: L) -
 
 /// The length of a step, given the wanted length: limited by what the state allows.
 #[inline(always)]
-pub(super) fn step_limit<L: Lane>(
+pub(crate) fn step_limit<L: Lane>(
     dynamics: &Dynamics,
     mode: Mode,
     state: &RimState<L>,
@@ -171,7 +171,7 @@ pub(super) fn wanted_length<L: Lane>(length: L, error: L, retry: L::Mask) -> L {
 
 /// Whether the mode is consistent with its forces.
 #[inline(always)]
-pub(super) fn holds<L: Lane>(dynamics: &Dynamics, mode: Mode, now: &Rates<L>) -> L::Mask {
+pub(crate) fn holds<L: Lane>(dynamics: &Dynamics, mode: Mode, now: &Rates<L>) -> L::Mask {
     let presses = !now.press.le(L::splat(0.0));
     presses
         & match mode {
@@ -194,14 +194,14 @@ pub(super) fn margin(dynamics: &Dynamics, mode: Mode, now: &Rates<f64>) -> f64 {
 
 /// Whether the forces that hold a sticking contact point lie in the friction cone.
 #[inline(always)]
-pub(super) fn can_stick<L: Lane>(dynamics: &Dynamics, sticking: &Rates<L>) -> L::Mask {
+pub(crate) fn can_stick<L: Lane>(dynamics: &Dynamics, sticking: &Rates<L>) -> L::Mask {
     let [fx, fy] = sticking.friction;
     let most = L::splat(dynamics.friction.mu) * sticking.normal;
     L::splat(0.0).lt(sticking.normal) & (fx * fx + fy * fy).lt(most * most)
 }
 
 #[inline(always)]
-pub(super) fn slip_speed<L: Lane>(state: &RimState<L>) -> L {
+pub(crate) fn slip_speed<L: Lane>(state: &RimState<L>) -> L {
     let [.., gx, gy] = *state;
     (gx * gx + gy * gy).sqrt()
 }

@@ -1,0 +1,80 @@
+//! When the face of a coin on rough ground is decided.
+//!
+//! The energy above the ground under a rim must reach 1 (in m g D) to carry the coin over that rim.
+//! On rough ground two more things can help: the ground is not as high where the coin will be, and a
+//! coin that rolls is kicked by bumps.
+//!
+//! * *A face*: decided once the energy above the own rim's ground is below 1 − 3σ.
+//! * *The side, by energy*: decided once the energy, above the ground of either rim, is below 1 less
+//!   what the ground can still change: 3σ, or in proportion less if contour friction stops the coin
+//!   within ℓ.
+//! * *The side, of a coin that rolls or spins on* (decision `tilting`): where the smooth rule holds
+//!   and no kick to be expected can topple the coin. Slopes under the two rims that differ by s_d,
+//!   passed at speed w, make it lean at the rate w s_d/2h, and heights that differ by σ_d lean it by
+//!   σ_d/2h at rest. With the correlation ρ of the ground over the coin's thickness, s_d² = 2s²(1 −
+//!   ρ), σ_d² = 2σ²(1 − ρ). The rule asks that KICKS standard deviations of both leave the coin
+//!   below the brim of its well. Its bias is measured: docs/validation/roughness.md.
+
+use super::tracks::rim_points;
+use super::walk::{Touch, Walk};
+use crate::impact::ImpactLaw;
+use crate::motion::Motion;
+use coinmc_core::{Decided, Observer};
+
+/// Standard deviations of the ground's height that a decided coin may still meet.
+const SPREAD: f64 = 3.0;
+/// Standard deviations of the kicks and heights that do not topple a decided coin.
+const KICKS: f64 = 7.0;
+/// A coin whose kinetic energy is below this share of its well's depth is at rest.
+const REST: f64 = 1e-3;
+
+impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
+    /// The face, if it is decided.
+    pub(super) fn decide(&self, touch: Touch) -> Option<Decided> {
+        let (motion, body) = (&self.toss.motion, self.body());
+        let (own, other) = (self.tracks.own.height, self.tracks.other.height);
+        let kinetic = motion.kinetic(body, &self.toss.spin);
+        let energy = kinetic + motion.z;
+        let sigma = self.ground.height;
+        if !self.model.rule.on_side(motion.cos.abs()) {
+            return (energy - own < 1.0 - SPREAD * sigma).then_some(Decided::Face);
+        }
+        if touch != Touch::Both {
+            // a coin that rocks is decided once both rims are down, or it has toppled
+            let low = own.min(other);
+            let decided = energy - low < 1.0 - SPREAD * sigma;
+            return decided.then_some(Decided::Side);
+        }
+        let highest = energy - own.min(other);
+        let friction = self.model.dynamics.friction.contour / body.radius;
+        let ahead = (kinetic / (friction * self.ground.length).max(f64::MIN_POSITIVE)).min(1.0);
+        let rests = kinetic < REST * (1.0 - body.radius);
+        let decided = highest < 1.0 - SPREAD * sigma * ahead || rests || self.is_safe();
+        decided.then_some(Decided::Side)
+    }
+
+    /// Whether a coin on both rims will stay on its side although it rolls or spins on.
+    fn is_safe(&self) -> bool {
+        let rule = &self.model.rule;
+        let (body, ground) = (self.body(), self.ground);
+        let mean = 0.5 * (self.tracks.own.height + self.tracks.other.height);
+        let motion = Motion {
+            z: self.toss.motion.z - mean,
+            ..self.toss.motion
+        };
+        let state = motion.decision_state(body, &self.toss.spin);
+        if !rule.is_tilting() || rule.decide(&state) != Decided::Side {
+            return false;
+        }
+        let thickness = 2.0 * body.half;
+        let contrast = ground.contrast(thickness);
+        let points = rim_points(body, &motion, &self.toss.spin);
+        let speed = points[0].speed().max(points[1].speed());
+        let rate = KICKS * speed * ground.slope() * contrast / thickness;
+        let lean = KICKS * ground.height * contrast / thickness;
+        let brim = 1.0 - lean * body.radius / body.half;
+        let well = (1.0 - body.radius) * brim * brim;
+        let inertia = body.kt + body.radius * body.radius;
+        brim > 0.0 && 0.5 * inertia * rate * rate < well
+    }
+}

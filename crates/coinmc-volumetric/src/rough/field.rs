@@ -1,0 +1,219 @@
+//! The random height field: a stationary Gaussian field on a torus, in its own units.
+//!
+//! Lengths are in the correlation length ℓ and heights in the rms height σ, so one field serves
+//! every ground. Its correlation is C(r) = exp(−r²/2). It is white noise convolved with the Gaussian
+//! kernel exp(−r²) (whose autocorrelation is C), in two steps: white noise on a grid of spacing ½ is
+//! blurred into coefficients, and these are the weights of cubic B-splines, which are twice
+//! continuously differentiable. A cubic B-spline of spacing d is close to a Gaussian of variance
+//! d²/3, so the blur supplies the rest of the kernel's variance ½. The finished field is scaled to
+//! an rms slope of exactly 1.
+
+use coinmc_core::{Philox4x64, unit_interval};
+use std::f64::consts::TAU;
+use std::sync::OnceLock;
+
+/// Coefficients along each side of the torus: a power of two.
+const SIDE: usize = 256;
+/// Coefficients of a line in memory: the first ones are repeated at its end, so that four
+/// neighbours never wrap.
+const WIDTH: usize = SIDE + 3;
+/// Coefficients per correlation length.
+const DENSITY: f64 = 2.0;
+/// Farthest neighbour in the blur, in coefficients: the kernel is below 1e-9 beyond.
+const BLUR: usize = 9;
+/// The key of the field's random numbers; there is one field for all scenes.
+const KEY: [u64; 2] = [0x726f_7567_686e_6573, 0x7320_6f66_2061_2074];
+
+/// The field.
+pub(super) struct HeightField {
+    coefficients: Vec<f64>,
+}
+
+impl HeightField {
+    /// The length of the torus, in ℓ.
+    pub(super) const LENGTH: f64 = SIDE as f64 / DENSITY;
+
+    /// The field that all grounds share: where a coin is on it is random.
+    pub(super) fn shared() -> &'static Self {
+        static FIELD: OnceLock<HeightField> = OnceLock::new();
+        FIELD.get_or_init(Self::new)
+    }
+
+    fn new() -> Self {
+        let coefficients = blurred_noise();
+        let scale = 1.0 / rms_slope(&coefficients);
+        let wrapped = |index: usize| {
+            let (row, column) = (index / WIDTH % SIDE, index % WIDTH % SIDE);
+            scale * coefficients[row * SIDE + column]
+        };
+        Self {
+            coefficients: (0..WIDTH * WIDTH).map(wrapped).collect(),
+        }
+    }
+
+    /// The height at (`x`, `y`), in σ; the coordinates are in ℓ.
+    #[inline]
+    pub(super) fn height(&self, x: f64, y: f64) -> f64 {
+        let (column, across) = cell(x);
+        let (row, along) = cell(y);
+        let (wx, wy) = (weights(across), weights(along));
+        let mut sum = 0.0;
+        for (line, wy) in self.coefficients[row * WIDTH..].chunks_exact(WIDTH).zip(wy) {
+            let mut height = 0.0;
+            for (coefficient, wx) in line[column..column + 4].iter().zip(wx) {
+                height += wx * coefficient;
+            }
+            sum += wy * height;
+        }
+        sum
+    }
+}
+
+/// The cell of a coordinate, as the first of its four coefficients, and the place within the cell.
+#[inline]
+fn cell(x: f64) -> (usize, f64) {
+    let scaled = x * DENSITY;
+    // rounded down; a call of `floor` takes longer
+    #[allow(clippy::cast_possible_truncation)]
+    let towards_zero = scaled as i64;
+    let low = towards_zero - i64::from(scaled < towards_zero as f64);
+    // the torus: a power of two, so that wrapping a negative cell is a mask
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let index = (low & (SIDE as i64 - 1)) as usize;
+    (index, scaled - low as f64)
+}
+
+/// The four cubic B-splines that are not zero at the place `t` of a cell.
+#[inline]
+fn weights(t: f64) -> [f64; 4] {
+    let u = 1.0 - t;
+    let (t2, u2) = (t * t, u * u);
+    [
+        u2 * u / 6.0,
+        2.0 / 3.0 - t2 * (1.0 - 0.5 * t),
+        2.0 / 3.0 - u2 * (1.0 - 0.5 * u),
+        t2 * t / 6.0,
+    ]
+}
+
+/// White noise on the grid, convolved with a Gaussian along both axes.
+fn blurred_noise() -> Vec<f64> {
+    let noise = white_noise();
+    let kernel = blur_kernel();
+    let blur = |from: &[f64], step: &dyn Fn(usize, usize, usize) -> usize| {
+        let mut to = vec![0.0; SIDE * SIDE];
+        for row in 0..SIDE {
+            for column in 0..SIDE {
+                to[row * SIDE + column] = (0..=2 * BLUR)
+                    .map(|k| kernel[k] * from[step(row, column, SIDE + k - BLUR)])
+                    .sum();
+            }
+        }
+        to
+    };
+    let once = blur(&noise, &|row, column, k| row * SIDE + (column + k) % SIDE);
+    blur(&once, &|row, column, k| ((row + k) % SIDE) * SIDE + column)
+}
+
+/// The Gaussian of variance ½ − d²/3 (d the grid's spacing), at the grid's points.
+fn blur_kernel() -> [f64; 2 * BLUR + 1] {
+    let variance = 0.5 * DENSITY * DENSITY - 1.0 / 3.0;
+    std::array::from_fn(|k| {
+        let distance = k as f64 - BLUR as f64;
+        libm::exp(-0.5 * distance * distance / variance)
+    })
+}
+
+/// Normal numbers by Box & Muller's transform.
+fn white_noise() -> Vec<f64> {
+    let philox = Philox4x64::new(KEY);
+    let block = |index| philox.block([index, 0, 0, 0]).map(unit_interval);
+    let normals = (0..(SIDE * SIDE / 4) as u64).flat_map(|index| {
+        let [a, b, c, d] = block(index);
+        let pair = |u: f64, v: f64| {
+            let (size, (sin, cos)) = ((-2.0 * libm::log(u)).sqrt(), libm::sincos(TAU * v));
+            [size * cos, size * sin]
+        };
+        let ([p, q], [r, s]) = (pair(a, b), pair(c, d));
+        [p, q, r, s]
+    });
+    normals.collect()
+}
+
+/// The rms slope of a field along one direction, from its values at the grid's points.
+fn rms_slope(coefficients: &[f64]) -> f64 {
+    // the derivative of cubic B-splines at a grid point: half the difference of the neighbours, and
+    // the weights (1, 4, 1)/6 across
+    let at = |row: usize, column: usize| coefficients[(row % SIDE) * SIDE + column % SIDE];
+    let mut squares = 0.0;
+    for row in 0..SIDE {
+        for column in 0..SIDE {
+            let line = |j: usize| at(row + j, column + 2) - at(row + j, column);
+            let slope = 0.5 * DENSITY * (line(0) + 4.0 * line(1) + line(2)) / 6.0;
+            let pile = |i: usize| at(row + 2, column + i) - at(row, column + i);
+            let other = 0.5 * DENSITY * (pile(0) + 4.0 * pile(1) + pile(2)) / 6.0;
+            squares += 0.5 * (slope * slope + other * other);
+        }
+    }
+    (squares / (SIDE * SIDE) as f64).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The slope along x and y, in σ/ℓ.
+    fn gradient(field: &HeightField, x: f64, y: f64) -> [f64; 2] {
+        let step = 1e-3;
+        let across = field.height(x + step, y) - field.height(x - step, y);
+        let along = field.height(x, y + step) - field.height(x, y - step);
+        [across, along].map(|rise| rise / (2.0 * step))
+    }
+
+    /// Means over places of a grid that is incommensurate with the field's own.
+    fn mean(of: impl Fn(f64, f64) -> f64) -> f64 {
+        let count = 400;
+        let place = |i: u32| f64::from(i) * HeightField::LENGTH / f64::from(count) + 0.123;
+        let mut sum = 0.0;
+        for i in 0..count {
+            for j in 0..count {
+                sum += of(place(i), place(j));
+            }
+        }
+        sum / f64::from(count * count)
+    }
+
+    /// There are about LENGTH²/π = 5200 independent patches on the torus, so a mean square is known
+    /// to sqrt(2/5200) = 2 %, and 6 % are three standard errors.
+    #[test]
+    fn heights_slopes_and_correlation_are_those_of_the_spectrum() {
+        let field = HeightField::shared();
+        let variance = mean(|x, y| field.height(x, y).powi(2));
+        assert!((variance - 1.0).abs() < 0.06, "{variance}");
+        let slope = mean(|x, y| gradient(field, x, y)[0].powi(2));
+        assert!((slope - 1.0).abs() < 0.06, "{slope}");
+        for lag in [0.5, 1.0, 1.5, 2.5] {
+            let along = mean(|x, y| field.height(x, y) * field.height(x + lag, y));
+            let across = mean(|x, y| field.height(x, y) * field.height(x, y + lag));
+            let expected = libm::exp(-0.5 * lag * lag);
+            assert!((along - expected).abs() < 0.06, "{lag}: {along}");
+            assert!((across - expected).abs() < 0.06, "{lag}: {across}");
+        }
+    }
+
+    #[test]
+    fn the_field_closes_on_itself_and_is_smooth() {
+        let field = HeightField::shared();
+        for i in 0..50 {
+            let (x, y) = (0.37 * f64::from(i), 0.71 * f64::from(i));
+            let around = field.height(x - HeightField::LENGTH, y + HeightField::LENGTH);
+            assert!((field.height(x, y) - around).abs() < 1e-9);
+        }
+        // across a cell's border neither the height nor the slope jumps
+        let (before, after) = (
+            gradient(field, 1.0 - 2e-3, 0.2),
+            gradient(field, 1.0 + 2e-3, 0.2),
+        );
+        assert!((before[0] - after[0]).abs() < 0.02, "{before:?} {after:?}");
+    }
+}

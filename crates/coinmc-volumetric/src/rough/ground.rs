@@ -1,0 +1,122 @@
+//! A rough ground as a rim of the coin meets it.
+
+use super::field::HeightField;
+
+/// The ground under a rim's arc is not expected to be higher than in its middle by more than this
+/// many σ.
+const HIGHEST: f64 = 3.0;
+/// Distance between the points of the arc that are examined, in ℓ.
+const SPACING: f64 = 0.6;
+/// Most points on either side of the middle of the arc.
+const MOST_POINTS: u32 = 12;
+/// A rim bridges no hollow if the ground's rms curvature is below this share of the rim's own.
+const BRIDGING: f64 = 0.1;
+
+/// A random ground of stated rms slope and correlation length; lengths in the kernel's unit D.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ground {
+    /// Correlation length ℓ.
+    pub(super) length: f64,
+    /// Rms height σ.
+    pub(super) height: f64,
+}
+
+impl Ground {
+    /// A ground of this rms slope and correlation length.
+    pub(crate) fn new(slope: f64, length: f64) -> Self {
+        Self {
+            length,
+            height: slope * length,
+        }
+    }
+
+    /// The rms slope along a direction.
+    pub(super) fn slope(&self) -> f64 {
+        self.height / self.length
+    }
+
+    /// The rms difference of the heights of two points this far apart: σ sqrt(2(1 − C)).
+    pub(super) fn difference(&self, distance: f64) -> f64 {
+        self.height * self.contrast(distance)
+    }
+
+    /// sqrt(2(1 − C)): the rms difference of two points' heights, in σ, or of their slopes across
+    /// the line that joins them, in s.
+    pub(super) fn contrast(&self, distance: f64) -> f64 {
+        let distance = distance / self.length;
+        (-2.0 * libm::expm1(-0.5 * distance * distance)).sqrt()
+    }
+
+    fn at(&self, [x, y]: [f64; 2]) -> f64 {
+        HeightField::shared().height(x / self.length, y / self.length)
+    }
+
+    /// The height that carries a rim whose lowest point is above `point`.
+    ///
+    /// Near its lowest point the rim is a parabola, ½κξ² above it at a distance ξ along the
+    /// horizontal unit vector `along`. It rests where the ground under this parabola reaches
+    /// highest: max over ξ of h(point + ξ along) − ½κξ². So a rim bridges hollows that are narrower
+    /// than its own curvature fits into.
+    pub(super) fn under_rim(&self, point: [f64; 2], along: [f64; 2], curvature: f64) -> f64 {
+        // in units of ℓ and σ
+        let bend = 0.5 * curvature * self.length * self.length / self.height;
+        let at = |k: f64| {
+            let way = k * SPACING * self.length;
+            let place = [point[0] + way * along[0], point[1] + way * along[1]];
+            self.at(place) - bend * (k * SPACING) * (k * SPACING)
+        };
+        // rms curvature √3 σ/ℓ²
+        if 3.0_f64.sqrt() * BRIDGING.recip() < 2.0 * bend {
+            // the rim follows the ground: the first order in h'/κ
+            return self.height * at(0.0);
+        }
+        let reach = (HIGHEST / bend).sqrt() / SPACING;
+        let mut best = (0.0, at(0.0));
+        for k in 1..=MOST_POINTS {
+            let k = f64::from(k);
+            if k > reach {
+                break;
+            }
+            for k in [-k, k] {
+                let height = at(k);
+                if height > best.1 {
+                    best = (k, height);
+                }
+            }
+        }
+        // the top of the parabola through the best point and its neighbours
+        let (before, after) = (at(best.0 - 1.0), at(best.0 + 1.0));
+        let (rise, bow) = (0.5 * (after - before), 2.0 * best.1 - before - after);
+        let top = if bow > rise.abs() {
+            best.1 + 0.5 * rise * rise / bow
+        } else {
+            best.1
+        };
+        self.height * top
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sharply_curved_rim_feels_the_point_and_a_flat_one_the_highest_bump() {
+        let ground = Ground::new(0.05, 0.02);
+        let along = [1.0, 0.0];
+        for i in 0..200 {
+            let point = [0.013 * f64::from(i), 0.007 * f64::from(i)];
+            let below = ground.height * ground.at(point);
+            let sharp = ground.under_rim(point, along, 1e9);
+            assert!((sharp - below).abs() <= 1e-9);
+            let flat = ground.under_rim(point, along, 1e-3);
+            let highest = (-720..=720)
+                .map(|k| ground.at([point[0] + f64::from(k) * 2e-4, point[1]]))
+                .fold(f64::NEG_INFINITY, f64::max);
+            // the arc is examined up to 12 points of 0.6 ℓ = 0.144 on either side; the parabola of
+            // three neighbours may miss a sharp bump's top by a fraction of σ
+            let error = flat - ground.height * highest;
+            assert!(error.abs() <= 0.25 * ground.height, "{error}");
+        }
+    }
+}

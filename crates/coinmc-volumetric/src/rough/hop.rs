@@ -1,0 +1,135 @@
+//! A low hop over rough ground.
+
+use super::tracks::{Track, rim_points};
+use super::walk::{Next, Touch, Walk};
+use crate::flight::Orbit;
+use crate::impact::ImpactLaw;
+use crate::motion::Motion;
+use coinmc_core::Observer;
+
+/// A rim touches when it is this close to its track and approaches it, by more than rounding.
+const TOUCH: f64 = 1e-10;
+const APPROACH: f64 = 1e-9;
+/// Shortest step of a rim that leaves its track by its acceleration alone, as a share of the time
+/// to the next node.
+const LEAST_STEP: f64 = 1e-2;
+/// Most steps of a search.
+const MOST_STEPS: u32 = 200;
+
+/// Which rim, as seen at the start of a hop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Rim {
+    Own,
+    Other,
+}
+
+/// The gap between a rim and its track, and its rate.
+#[derive(Debug, Clone, Copy)]
+struct RimGap {
+    height: f64,
+    rate: f64,
+}
+
+impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
+    /// Flies to the next node or to the first contact of a rim with its track.
+    pub(super) fn hop(&mut self) -> Next {
+        self.usage.steps += 1;
+        let orbit = Orbit::new(&self.toss.motion, self.model.dynamics.drag);
+        let (time, touches) = self.first_touch(&orbit);
+        self.fly_on(&orbit, time);
+        match touches {
+            None => {
+                self.lay_out_tracks();
+                Next::Goes(Touch::Nothing)
+            }
+            Some((rim, reflected)) => {
+                if (rim == Rim::Other) != reflected {
+                    self.switch_rim();
+                }
+                let [own, _] = rim_points(self.body(), &self.toss.motion, &self.toss.spin);
+                self.toss.motion.z = self.tracks.own.height - own.rz;
+                Next::Impact
+            }
+        }
+    }
+
+    /// The time of the first contact before the next node, and which rim touches; also whether the
+    /// axis then points down in the frame of the flight.
+    fn first_touch(&self, orbit: &Orbit<f64>) -> (f64, Option<(Rim, bool)>) {
+        let body = self.body();
+        let end = self.tracks.left;
+        let bounds = orbit.bounds(&orbit.extent(body));
+        let mut time = 0.0;
+        for _ in 0..MOST_STEPS {
+            let now = orbit.gap(body, time);
+            let bend = 1.0 + body.half * bounds.swing + body.radius * bounds.spread / now.sin;
+            let gap = |half: f64, track: &Track| RimGap {
+                height: now.z + half * now.uz
+                    - body.radius * now.sin
+                    - (track.height + track.rate * time),
+                rate: now.vz + half * now.uz_rate - body.radius * now.sin_rate - track.rate,
+            };
+            let own = gap(-body.half, &self.tracks.own);
+            let other = gap(body.half, &self.tracks.other);
+            for (rim, gap) in [(Rim::Own, own), (Rim::Other, other)] {
+                if gap.height <= TOUCH && gap.rate < -APPROACH {
+                    return (time, Some((rim, now.uz < 0.0)));
+                }
+            }
+            let least = if own.height <= TOUCH || other.height <= TOUCH {
+                LEAST_STEP * end
+            } else {
+                0.0
+            };
+            time += own.earliest(bend).min(other.earliest(bend)).max(least);
+            if time >= end {
+                break;
+            }
+        }
+        (end, None)
+    }
+
+    /// Moves the coin along its orbit.
+    fn fly_on(&mut self, orbit: &Orbit<f64>, time: f64) {
+        let start = self.toss.motion;
+        let (dx, dy) = orbit.drift(&start, time);
+        if O::ACTIVE {
+            self.model
+                .show_flight(self.toss, orbit, time, self.observer);
+            self.toss.place.shift(dx, dy);
+            self.toss.place.time += time;
+        }
+        let (mut motion, [nx, ny], reflected): (Motion<f64>, _, _) = orbit.at(&start, time);
+        let axial_factor = self.model.dynamics.axial_factor;
+        let axial = self.toss.spin.axial * orbit.spin_left(time);
+        let mut spin = motion.spin(axial_factor);
+        spin.axial = if reflected { -axial } else { axial };
+        motion.set_spin(&spin, axial_factor);
+        (self.toss.motion, self.toss.spin) = (motion, spin);
+        self.toss.heads_up ^= reflected;
+        self.toss.place.align(nx, ny);
+        self.place.shift(dx, dy);
+        self.place.align(nx, ny);
+        self.tracks.advance(time);
+        if reflected {
+            self.tracks.switch();
+        }
+        self.usage.time += time;
+        // drag takes energy in flight
+        self.budget = self.budget.min(self.energy());
+    }
+}
+
+impl RimGap {
+    /// The earliest time at which the gap may close: it never accelerates downwards by more than
+    /// `bend`.
+    fn earliest(&self, bend: f64) -> f64 {
+        let height = self.height.max(0.0);
+        let root = (self.rate * self.rate + 2.0 * bend * height).sqrt();
+        if self.rate >= 0.0 {
+            (self.rate + root) / bend
+        } else {
+            2.0 * height / (root - self.rate)
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! Rough ground: sustained contact and low hops on a random height field.
+//!
+//! # Law
+//! The ground is z = h(x, y), a stationary isotropic Gaussian field of rms slope s and correlation
+//! C(r) = σ² exp(−r²/2ℓ²), σ = sℓ. To first order in the slope, a rim point that rolls needs only to
+//! follow the height of the ground under it: static friction supplies whatever the tilt of the normal
+//! would change. So the coin moves as on a level plane that rises and falls under each rim. In a frame
+//! that rises at the rate of the ground under the touching rim, its equations of motion are exactly
+//! those on a plane, gyroscopic torque and weight included, as long as that rate is constant. Hence
+//! the law: *between nodes, `ground_step`·ℓ apart along the way, the ground under either rim rises at
+//! a constant rate; at a node the rate changes, and the rim follows or leaves the ground.*
+//!
+//! * The height under a rim is that of the dilated field: a rim bridges hollows that are narrower than
+//!   its own curvature ([`ground`]).
+//! * A bend that the rim can follow is followed without loss: hollows whose curvature is below that
+//!   of the rim, and bumps over which the ground falls away more slowly than the rim would. The rest
+//!   of a hollow's bend is an impact by the impact law; beyond a bump the coin hops.
+//! * The other rim touches when it meets its own track. Both rims stay down while the normal forces
+//!   that this takes are positive.
+//! * Mechanical energy is a budget that only impacts and friction reduce. What a coin gains by
+//!   climbing is taken from its velocities at every node, and returned on the way down.
+//!
+//! Where on the field a coin lands is random: a hash of its motion, so that a toss remains a pure
+//! function of its launch. High flights end on other ground.
+//!
+//! # Range
+//! First order in s. The limits s → 0 and ℓ → ∞ are the plane. A coin flatter than [`FLATTEST`]
+//! moves as on a plane.
+//!
+//! # Modules
+//! Each line uses only the lines above it:
+//!
+//! - `field` the random field in its own units · `ground` what a rim meets · `random_place` where
+//! - `tracks` the ground under both rims
+//! - `walk` the state of a coin, its energy and the loop; `hop`, `rim_contact`, `both_rims` its
+//!   three kinds of motion; `decision` its end
+
+mod both_rims;
+mod decision;
+mod field;
+mod ground;
+mod hop;
+mod random_place;
+mod rim_contact;
+mod tracks;
+mod walk;
+
+pub(crate) use ground::Ground;
+pub(crate) use walk::FLATTEST;

@@ -1,0 +1,178 @@
+//! The two tracks: the height of the ground under the lowest point of either rim, along the way.
+//!
+//! Each track is a polyline in time. At a *node* the places that the two points will have reached a
+//! short time later are predicted, and the tracks lead from their present heights to the ground's
+//! heights there; so they return to the ground at every node, and errors of the prediction do not
+//! add up.
+
+use super::ground::Ground;
+use crate::body::Body;
+use crate::motion::{Motion, Spin};
+use crate::place::Place;
+use crate::series::sin_cos;
+
+/// Longest time between nodes, in sqrt(D/g).
+const LONGEST: f64 = 0.1;
+/// Largest turn of the coin's frame between nodes, rad.
+const LARGEST_TURN: f64 = 0.2;
+/// A share of the time between nodes that counts as none.
+const INSTANT: f64 = 1e-9;
+/// The other rim is near the ground while it is lower than this many times the rms difference of the
+/// ground's heights under the rims, or comes that low before the next node.
+const NEAR: f64 = 6.0;
+/// Shortest and longest time between nodes while it is not, in sqrt(D/g).
+const FAR: [f64; 2] = [0.02, 2.0];
+/// Angular velocity, in sqrt(g/D), that a coin on one rim may gain in that time.
+const GAINED: f64 = 0.2;
+
+/// The ground under one rim: its height, and the rate at which that changes until the next node.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Track {
+    pub(super) height: f64,
+    pub(super) rate: f64,
+    /// Whether the track follows the ground.
+    near: bool,
+}
+
+/// The tracks of the rim at −h u, the lower one of an upright axis, and of the rim at +h u.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Tracks {
+    pub(super) own: Track,
+    pub(super) other: Track,
+    /// Time to the next node.
+    pub(super) left: f64,
+    /// Time from the last node to the next.
+    pub(super) interval: f64,
+}
+
+/// The lowest point of a rim relative to the centre, in the coin's frame, and how it moves.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct RimPoint {
+    /// Along x and z.
+    pub(super) rx: f64,
+    pub(super) rz: f64,
+    /// Velocity over the ground.
+    wx: f64,
+    wy: f64,
+}
+
+impl RimPoint {
+    /// Speed over the ground.
+    pub(super) fn speed(&self) -> f64 {
+        (self.wx * self.wx + self.wy * self.wy).sqrt()
+    }
+}
+
+/// The lowest points of both rims: own, other.
+pub(super) fn rim_points(body: &Body, motion: &Motion<f64>, spin: &Spin<f64>) -> [RimPoint; 2] {
+    let turn = -spin.turn / motion.sin;
+    [-body.half, body.half].map(|half| {
+        let rx = body.radius * motion.cos + half * motion.sin;
+        let rz = half * motion.cos - body.radius * motion.sin;
+        RimPoint {
+            rx,
+            rz,
+            wx: motion.vx + rz * spin.tilt,
+            wy: motion.vy + rx * turn,
+        }
+    })
+}
+
+impl Tracks {
+    /// Moves along both tracks.
+    pub(super) fn advance(&mut self, time: f64) {
+        self.own.height += self.own.rate * time;
+        self.other.height += self.other.rate * time;
+        self.left -= time;
+    }
+
+    /// Lowers both tracks by `excess`, and stops them until the next node.
+    pub(super) fn stop(&mut self, excess: f64) {
+        for track in [&mut self.own, &mut self.other] {
+            track.height -= excess;
+            track.rate = 0.0;
+        }
+    }
+
+    /// Whether the next node is reached, apart from a time too short to step over.
+    pub(super) fn at_node(&self) -> bool {
+        self.left <= INSTANT * self.interval
+    }
+
+    /// Exchanges the rims.
+    pub(super) fn switch(&mut self) {
+        std::mem::swap(&mut self.own, &mut self.other);
+    }
+
+    /// Lays out the tracks up to the next node.
+    ///
+    /// The ground matters where it decides which rim carries the coin. A coin that leans on one rim
+    /// with the other high above the ground is hardly moved by its slopes (the kick of a slope s on
+    /// one rim changes the lean by about h²/(k_t + R² + h²) of what it does across both); its track
+    /// is level, until the other rim may come near. `step` is the longest way of a point between nodes.
+    pub(super) fn lay_out(
+        &mut self,
+        ground: &Ground,
+        step: f64,
+        body: &Body,
+        motion: &Motion<f64>,
+        spin: &Spin<f64>,
+        place: &Place,
+    ) {
+        let points = rim_points(body, motion, spin);
+        let turn = -spin.turn / motion.sin;
+        let fastest = points[0].speed().max(points[1].speed());
+        let time = LONGEST
+            .min(step / fastest.max(f64::MIN_POSITIVE))
+            .min(LARGEST_TURN / turn.abs().max(f64::MIN_POSITIVE));
+        (self.left, self.interval) = (time, time);
+        let thickness = 2.0 * body.half;
+        let above = thickness * motion.cos.abs() - NEAR * ground.difference(thickness);
+        let near = above < thickness * spin.tilt.abs() * time;
+        if !near && self.own.near {
+            let closing = thickness * (spin.tilt.abs() + GAINED);
+            let time = (above / closing).clamp(FAR[0], FAR[1]);
+            (self.left, self.interval) = (time, time);
+            (self.own.rate, self.other) = (0.0, Track::default());
+            return;
+        }
+        let under = |point: &RimPoint, after: f64| {
+            let (sin, cos) = sin_cos(turn * after);
+            let x = point.rx * cos + (motion.vx + point.rz * spin.tilt) * after;
+            let y = point.rx * sin + motion.vy * after;
+            let along = place.direction(-sin, cos);
+            ground.under_rim(place.point(x, y), along, motion.sin / body.radius)
+        };
+        let lead = |track: &mut Track, point: &RimPoint| {
+            track.rate = (under(point, time) - track.height) / time;
+        };
+        lead(&mut self.own, &points[0]);
+        if near {
+            if !self.other.near {
+                // the rim is still above the ground
+                let highest = self.own.height + thickness * motion.cos;
+                self.other.height = under(&points[1], 0.0).min(highest);
+            }
+            lead(&mut self.other, &points[1]);
+        } else {
+            self.other = Track::default();
+        }
+        (self.own.near, self.other.near) = (true, near);
+    }
+
+    /// Begins the track of the own rim at the ground under it.
+    pub(super) fn begin(
+        &mut self,
+        ground: &Ground,
+        body: &Body,
+        motion: &Motion<f64>,
+        spin: &Spin<f64>,
+        place: &Place,
+    ) {
+        *self = Self::default();
+        let [own, _] = rim_points(body, motion, spin);
+        let along = place.direction(0.0, 1.0);
+        let curvature = motion.sin / body.radius;
+        self.own.height = ground.under_rim(place.point(own.rx, 0.0), along, curvature);
+    }
+}

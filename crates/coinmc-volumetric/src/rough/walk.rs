@@ -1,0 +1,365 @@
+//! One coin on rough ground: its state, and the loop from node to node and from event to event.
+
+use super::ground::Ground;
+use super::tracks::{Tracks, rim_points};
+use crate::body::Body;
+use crate::contact::Usage;
+use crate::flight::Departure;
+use crate::impact::ImpactLaw;
+use crate::model::Model;
+use crate::motion::{Motion, Spin};
+use crate::place::Place;
+use crate::toss::Toss;
+use crate::transition::Transition;
+use coinmc_core::{Ended, EventKind, Observer};
+
+/// A coin that is flatter than this sine of its tilt touches with a long arc of its rim, and the
+/// ground under it counts as a plane.
+pub(crate) const FLATTEST: f64 = 0.2;
+
+/// What touches the ground.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Touch {
+    /// Nothing: a low hop.
+    Nothing,
+    /// The own rim.
+    Rim,
+    /// Both rims: the coin is on its side.
+    Both,
+}
+
+/// What the walk does next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Next {
+    /// Goes on like this.
+    Goes(Touch),
+    /// The own rim has come down.
+    Impact,
+    /// Ends.
+    Ends(Transition),
+}
+
+/// A coin close to rough ground. `motion` is that of the laboratory: z above the mean of the ground;
+/// and while the other rim is on a bump, the axis of the folded frame may point down, cos < 0.
+pub(super) struct Walk<'a, I, O> {
+    pub(super) model: &'a Model<I>,
+    pub(super) ground: &'a Ground,
+    pub(super) toss: &'a mut Toss,
+    pub(super) usage: &'a mut Usage,
+    pub(super) observer: &'a mut O,
+    /// Where the coin is on the ground.
+    pub(super) place: Place,
+    pub(super) tracks: Tracks,
+    /// The mechanical energy that is left. It never grows; see [`balance`](Self::balance).
+    pub(super) budget: f64,
+}
+
+impl<I: ImpactLaw> Model<I> {
+    /// Follows a coin that has just landed on rough ground, until it departs for a high flight,
+    /// has become flat, or the toss ends.
+    pub(crate) fn walk<O: Observer>(
+        &self,
+        ground: &Ground,
+        toss: &mut Toss,
+        usage: &mut Usage,
+        observer: &mut O,
+    ) -> Transition {
+        let place = ground.random_place(&toss.motion);
+        let mut walk = Walk {
+            model: self,
+            ground,
+            toss,
+            usage,
+            observer,
+            place,
+            tracks: Tracks::default(),
+            budget: 0.0,
+        };
+        walk.land();
+        walk.follow()
+    }
+}
+
+impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
+    pub(super) fn body(&self) -> &Body {
+        &self.model.dynamics.body
+    }
+
+    /// Puts the coin onto the ground.
+    fn land(&mut self) {
+        let (motion, spin) = (&self.toss.motion, &self.toss.spin);
+        let body = &self.model.dynamics.body;
+        self.tracks
+            .begin(self.ground, body, motion, spin, &self.place);
+        self.toss.motion.z += self.tracks.own.height;
+        self.budget = self.energy();
+        self.lay_out_tracks();
+    }
+
+    fn follow(&mut self) -> Transition {
+        let mut next = Next::Impact;
+        loop {
+            if let Next::Ends(transition) = next {
+                self.leave();
+                return transition;
+            }
+            next = self.go_on(next);
+        }
+    }
+
+    /// Does what is next.
+    fn go_on(&mut self, next: Next) -> Next {
+        match next {
+            Next::Impact => self.impact(),
+            Next::Goes(touch) => {
+                if let Some(end) = self.end_now(touch) {
+                    return Next::Ends(end);
+                }
+                match touch {
+                    Touch::Nothing => self.hop(),
+                    Touch::Rim => self.roll_on_rim(),
+                    Touch::Both => self.roll_on_both(),
+                }
+            }
+            Next::Ends(_) => next,
+        }
+    }
+
+    /// The end of a toss that is decided or at a limit.
+    fn end_now(&mut self, touch: Touch) -> Option<Transition> {
+        let limits = &self.model.limits;
+        if limits.no_step_left(self.usage.steps) || !self.budget.is_finite() {
+            Some(Transition::End(self.model.end_given_up(self.toss)))
+        } else if limits.is_late(self.usage.time) {
+            Some(Transition::End(Ended::TimeLimit))
+        } else {
+            self.decide(touch)
+                .map(|decided| Transition::End(self.toss.ended(decided)))
+        }
+    }
+
+    /// Mechanical energy per m g D, the potential zero at the mean of the ground.
+    pub(super) fn energy(&self) -> f64 {
+        self.toss.motion.energy(self.body(), &self.toss.spin)
+    }
+
+    /// The height of the other rim above its track.
+    pub(super) fn gap_of_other(&self) -> f64 {
+        2.0 * self.body().half * self.toss.motion.cos + self.tracks.own.height
+            - self.tracks.other.height
+    }
+
+    /// The motion relative to a level ground at the height of the own track that rises with it.
+    pub(super) fn relative_motion(&self) -> Motion<f64> {
+        let [own, _] = rim_points(self.body(), &self.toss.motion, &self.toss.spin);
+        Motion {
+            vz: self.toss.motion.vz - self.tracks.own.rate,
+            z: -own.rz,
+            ..self.toss.motion
+        }
+    }
+
+    /// Sets the motion from one relative to the ground at the own track.
+    pub(super) fn set_relative(&mut self, motion: Motion<f64>, spin: Spin<f64>) {
+        let track = self.tracks.own;
+        self.toss.motion = Motion {
+            vz: motion.vz + track.rate,
+            z: motion.z + track.height,
+            ..motion
+        };
+        self.toss.spin = spin;
+    }
+
+    pub(super) fn lay_out_tracks(&mut self) {
+        let (motion, spin) = (&self.toss.motion, &self.toss.spin);
+        let body = &self.model.dynamics.body;
+        let step = self.model.ground_step * self.ground.length;
+        self.tracks
+            .lay_out(self.ground, step, body, motion, spin, &self.place);
+    }
+
+    /// Makes the other rim the own one, by reversing the axis of the folded frame.
+    pub(super) fn switch_rim(&mut self) {
+        self.toss.switch_rim();
+        self.toss.motion.cos = -self.toss.motion.cos;
+        self.place.align(-1.0, 0.0);
+        self.tracks.switch();
+    }
+
+    /// Scales the velocities relative to the own track so that the energy is the budget.
+    ///
+    /// The tracks stand for a ground at rest, whose forces on a rim that rolls do no work. But a
+    /// vertical force on a rim whose track rises works, since the force of a slope that would slow
+    /// down the coin is left out. So what a coin gains by climbing a slope is taken from all its
+    /// velocities, and what it gives back on the way down is returned.
+    ///
+    /// With v the velocities relative to the track, which rises at p, and k the scale,
+    /// T(k) = T(v) k² + v_z p k + p²/2 is to be the budget less the potential energy. Where no k
+    /// does that, the slope is too high for the coin: it comes to rest where its energy ends.
+    pub(super) fn balance(&mut self) {
+        /// A coin almost at rest would otherwise turn slopes into rocking.
+        const LARGEST: f64 = 1.1;
+        let rate = self.tracks.own.rate;
+        let mut motion = self.relative_motion();
+        let kinetic = motion.kinetic(self.body(), &self.toss.spin);
+        let wanted = self.budget - self.toss.motion.z - 0.5 * rate * rate;
+        let cross = motion.vz * rate;
+        let discriminant = cross * cross + 4.0 * kinetic * wanted;
+        let root = discriminant.max(0.0).sqrt() - cross;
+        let scale = if discriminant < 0.0 || root <= 0.0 {
+            self.tracks.stop(self.toss.motion.z - self.budget);
+            0.0
+        } else {
+            (root / (2.0 * kinetic)).min(LARGEST)
+        };
+        let mut spin = self.toss.spin;
+        for rotation in [&mut spin.axial, &mut spin.turn, &mut spin.tilt] {
+            *rotation *= scale;
+        }
+        for velocity in [&mut motion.vx, &mut motion.vy, &mut motion.vz] {
+            *velocity *= scale;
+        }
+        motion.set_spin(&spin, self.model.dynamics.axial_factor);
+        self.set_relative(motion, spin);
+    }
+
+    /// Moves the place by half of the way that `motion` makes in `time`.
+    pub(super) fn half_way(&mut self, time: f64) {
+        let (motion, turn) = (
+            &self.toss.motion,
+            -self.toss.spin.turn / self.toss.motion.sin,
+        );
+        let (sin, cos) = crate::series::sin_cos(0.5 * turn * time);
+        let (dx, dy) = (0.5 * motion.vx * time, 0.5 * motion.vy * time);
+        self.place.shift(dx, dy);
+        self.place.align(cos, sin);
+    }
+
+    /// One impact of the own rim.
+    fn impact(&mut self) -> Next {
+        let model = self.model;
+        if model.limits.no_impact_left(self.toss.impacts) {
+            return Next::Ends(Transition::End(Ended::ImpactLimit));
+        }
+        self.toss.impacts += 1;
+        model.notify(self.toss, EventKind::Touching, self.observer);
+        let stays = self.bounce();
+        model.notify(self.toss, EventKind::Impact, self.observer);
+        if stays {
+            Next::Goes(Touch::Rim)
+        } else {
+            self.rise()
+        }
+    }
+
+    /// The bounce of the own rim off its track; returns whether it stays on the ground.
+    pub(super) fn bounce(&mut self) -> bool {
+        let (before, spin) = (self.relative_motion(), self.toss.spin);
+        let mut bounced = self.model.bounce(&before, &spin, true);
+        if bounced.retry {
+            bounced = self.model.bounce(&before, &spin, false);
+        }
+        let lost =
+            before.energy(self.body(), &spin) - bounced.motion.energy(self.body(), &bounced.spin);
+        self.budget -= lost.max(0.0);
+        self.set_relative(bounced.motion, bounced.spin);
+        self.balance();
+        bounced.stays
+    }
+
+    /// What follows once the own rim is clear of the ground: a high flight, or a low hop.
+    pub(super) fn rise(&mut self) -> Next {
+        /// A flight that rises by more than this many σ and goes farther than this many ℓ lands on
+        /// other ground.
+        const HIGH: f64 = 2.0;
+        const FAR: f64 = 2.0;
+        let motion = &self.toss.motion;
+        let [own, _] = rim_points(self.body(), motion, &self.toss.spin);
+        let speed = motion.vz - self.toss.spin.tilt * own.rx - self.tracks.own.rate;
+        let apex = 0.5 * speed * speed;
+        let way = 2.0 * speed * own.speed();
+        if apex > HIGH * self.ground.height && way > FAR * self.ground.length {
+            return Next::Ends(Transition::Flight(Departure::Rebound));
+        }
+        Next::Goes(Touch::Nothing)
+    }
+
+    /// Leaves the rough ground: the height is that above the own track again, and the axis of the
+    /// folded frame points up.
+    fn leave(&mut self) {
+        if self.toss.motion.cos < 0.0 {
+            self.switch_rim();
+        }
+        let motion = &mut self.toss.motion;
+        let rest = motion.rest_height(&self.model.dynamics.body);
+        motion.z = (motion.z - self.tracks.own.height).max(rest);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::VolumetricEngine;
+    use crate::laws::Moreau;
+    use crate::settings::Settings;
+    use coinmc_core::{Coin, Launch, Roughness, Scene, Surface};
+    use coinmc_testkit::Dice;
+    use nalgebra::{UnitVector3, Vector3};
+
+    /// Friction and impacts take energy, and nothing gives any: the budget never grows, and after
+    /// every event the coin has no more energy than its budget but for rounding, 1e-12 of it. (In
+    /// between, the energy may exceed it by what the next node takes back.)
+    #[test]
+    fn no_event_gains_energy() {
+        let mut events = 0;
+        for (ratio, slope) in [(0.1, 0.02), (0.3, 0.05), (0.7, 0.05), (1.5, 0.1)] {
+            let surface = Surface::new(0.5, 0.3)
+                .and_then(|surface| surface.with_friction_lengths(5e-5, 5e-6))
+                .expect("a valid surface")
+                .with_roughness(Roughness::new(slope, 3e-3).ok());
+            let coin = Coin::cylinder(ratio, 0.0116).expect("a valid coin");
+            let scene = Scene::new(coin, surface, 9.81).expect("a valid scene");
+            let engine = VolumetricEngine::new(&scene, &Settings::default(), Moreau);
+            let model = engine.expect("valid settings").model;
+            let ground = model.ground.expect("a rough ground");
+            for toss in 0..60 {
+                let mut dice = Dice::new(21, toss);
+                let lean = dice.between(-0.3, 0.3);
+                let launch = Launch {
+                    height_m: 0.0,
+                    velocity_m_s: dice.vector(0.3),
+                    axis: UnitVector3::new_normalize(Vector3::new(1.0, 0.0, lean)),
+                    spin_rad_s: dice.vector(30.0),
+                };
+                let mut toss = model.launch(&launch);
+                toss.motion.vz = -toss.motion.vz.abs();
+                let (mut usage, place) = (Usage::default(), ground.random_place(&toss.motion));
+                let mut walk = Walk {
+                    model: &model,
+                    ground: &ground,
+                    toss: &mut toss,
+                    usage: &mut usage,
+                    observer: &mut (),
+                    place,
+                    tracks: Tracks::default(),
+                    budget: 0.0,
+                };
+                walk.land();
+                let (mut next, mut budget) = (Next::Impact, walk.budget);
+                while !matches!(next, Next::Ends(_)) {
+                    next = walk.go_on(next);
+                    assert!(walk.budget <= budget, "{} {budget}", walk.budget);
+                    budget = walk.budget;
+                    if walk.tracks.left == walk.tracks.interval || next == Next::Goes(Touch::Rim) {
+                        events += 1;
+                    }
+                    if walk.tracks.left == walk.tracks.interval {
+                        let gain = walk.energy() - budget;
+                        assert!(gain <= 1e-12 * budget, "gain {gain:e} of {budget}");
+                    }
+                }
+            }
+        }
+        assert!(events > 10_000, "{events}");
+    }
+}
