@@ -18,6 +18,17 @@ const SCENES: [(f64, f64, f64); 7] = [
     (2.0, 0.8, 0.01),
 ];
 
+/// The same of thin coins, on whose side rolling and pivoting friction hold: see
+/// docs/methods/space.md.
+const THIN: [(f64, f64, f64); 6] = [
+    (0.01, 0.5, 0.003),
+    (0.02, 0.5, 0.003),
+    (0.05, 0.5, 0.003),
+    (0.02, 0.5, 0.01),
+    (0.05, 0.5, 0.01),
+    (0.1, 0.5, 0.01),
+];
+
 /// The study's arguments.
 #[derive(Debug, Args)]
 pub(crate) struct Oracle {
@@ -28,6 +39,10 @@ pub(crate) struct Oracle {
     /// The oracle's step in sustained contact, in sqrt(D/g)
     #[arg(long, default_value_t = StepperSettings::default().step, value_name = "STEP")]
     step: f64,
+
+    /// Coins of H/R = 0.01 to 0.1 instead of 0.25 to 2
+    #[arg(long)]
+    thin: bool,
 }
 
 /// How the engine's tosses differ from the oracle's.
@@ -49,7 +64,8 @@ struct Differences {
 
 impl Oracle {
     pub(crate) fn execute(&self, seed: u64) -> Report {
-        let cases = SCENES.map(case_of);
+        let scenes: &[_] = if self.thin { &THIN } else { &SCENES };
+        let cases: Vec<Case> = scenes.iter().map(|&scene| case_of(scene)).collect();
         let found = survey(&cases, |case| self.compare(case, seed));
         let mut record = Table::new(
             format!(

@@ -242,21 +242,27 @@ impl Rates<Block> {
 
 // not generic over impact laws, so that it is compiled once
 fn try_steps(stage: &mut ContactStage, lanes: Lanes, rules: ContactRules<'_>, mode: Mode) {
-    match (mode, rules.dynamics.drag.acts()) {
-        (Mode::Stick, false) => lanes.enter(TrySteps::<true, false> { stage, rules }),
-        (Mode::Slip, false) => lanes.enter(TrySteps::<false, false> { stage, rules }),
-        (Mode::Stick, true) => lanes.enter(TrySteps::<true, true> { stage, rules }),
-        (Mode::Slip, true) => lanes.enter(TrySteps::<false, true> { stage, rules }),
+    // friction that holds is rare: one variant serves it with drag and without
+    let (drags, holds) = (rules.dynamics.drag.acts(), rules.dynamics.holds());
+    match (mode, drags, holds) {
+        (Mode::Stick, false, false) => lanes.enter(TrySteps::<true, false, false> { stage, rules }),
+        (Mode::Slip, false, false) => lanes.enter(TrySteps::<false, false, false> { stage, rules }),
+        (Mode::Stick, true, false) => lanes.enter(TrySteps::<true, true, false> { stage, rules }),
+        (Mode::Slip, true, false) => lanes.enter(TrySteps::<false, true, false> { stage, rules }),
+        (Mode::Stick, _, true) => lanes.enter(TrySteps::<true, true, true> { stage, rules }),
+        (Mode::Slip, _, true) => lanes.enter(TrySteps::<false, true, true> { stage, rules }),
     }
 }
 
 /// One try in each lane, of coins that stick or of coins that slip.
-struct TrySteps<'a, const STICKS: bool, const DRAGS: bool> {
+struct TrySteps<'a, const STICKS: bool, const DRAGS: bool, const HOLDS: bool> {
     stage: &'a mut ContactStage,
     rules: ContactRules<'a>,
 }
 
-impl<const STICKS: bool, const DRAGS: bool> Work for TrySteps<'_, STICKS, DRAGS> {
+impl<const STICKS: bool, const DRAGS: bool, const HOLDS: bool> Work
+    for TrySteps<'_, STICKS, DRAGS, HOLDS>
+{
     type Output = ();
 
     #[inline(always)]
@@ -272,7 +278,7 @@ impl<const STICKS: bool, const DRAGS: bool> Work for TrySteps<'_, STICKS, DRAGS>
             ceiling: L::load(&stage.ceiling),
             retry: L::mask(stage.retry),
         };
-        let dynamics = rules.dynamics.with_known_drag::<DRAGS>();
+        let dynamics = rules.dynamics.with_known::<DRAGS, HOLDS>();
         let tried = step.run(&dynamics, rules, mode);
         let steps = L::load(&stage.steps) + L::splat(1.0);
         let allowed = rules.limits.allow_step(tried.length, steps);

@@ -92,7 +92,7 @@ fn every_shape_surface_and_law() {
 }
 
 #[test]
-fn drag_threshold_adhesion_high_friction_and_no_gyroscopic_torque() {
+fn drag_threshold_adhesion_no_gyroscopic_torque_and_high_or_held_friction() {
     let drag = Drag::new(0.5, 0.3).expect("valid rates");
     let threshold = surface(0.5, 0.3, 0.01).with_restitution_threshold(0.3);
     let scenes = [
@@ -104,6 +104,9 @@ fn drag_threshold_adhesion_high_friction_and_no_gyroscopic_torque() {
         scene(3.0, surface(0.0, 2.0, 0.003)),
         scene(0.85, surface(0.5, 0.3, 0.01)).with_gyroscopic_torque(false),
         scene(0.5, surface(1.0, 0.0, 0.0)),
+        // friction that holds at rest
+        scene(0.01, surface(0.5, 0.3, 0.003)),
+        scene(0.05, surface(0.5, 0.3, 0.01)).with_drag(drag),
     ];
     for scene in &scenes {
         for preset in [Preset::Clean, Preset::Table1] {

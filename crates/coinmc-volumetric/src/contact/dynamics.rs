@@ -1,5 +1,6 @@
 //! The constants of a scene in contact, and friction against rolling and pivoting.
 
+use super::held_friction::holds_rocking;
 use crate::body::{Body, Friction};
 use crate::drag::Drag;
 use crate::motion::{Motion, Spin};
@@ -25,6 +26,9 @@ pub(crate) struct Dynamics {
     /// 1/(ρ_c smoothing_time) and 1/(ρ_p smoothing_time), see [`smoothed_sign`].
     contour_smoothing: f64,
     pivoting_smoothing: f64,
+    /// 1/smoothing_time where friction holds the rocking of the coin, else 0: see
+    /// [`held_friction`](super::held_friction).
+    pub(super) holding_rate: f64,
 }
 
 /// The smoothed sign of a rate in dry friction.
@@ -73,14 +77,26 @@ impl Dynamics {
             inverse_det: 1.0 / (1.0 + inverse_kt),
             contour_smoothing: inverse_smoothing(friction.contour),
             pivoting_smoothing: inverse_smoothing(friction.pivoting),
+            holding_rate: if holds_rocking(body.half, friction.contour, friction.pivoting) {
+                1.0 / smoothing_time
+            } else {
+                0.0
+            },
         }
     }
 
-    /// The same dynamics, with the case "no drag" known to the compiler.
+    /// Whether friction against rolling and pivoting holds at rest, instead of creeping.
+    pub(crate) fn holds(&self) -> bool {
+        self.holding_rate > 0.0
+    }
+
+    /// The same dynamics, with the cases "no drag" and "friction that does not hold" known to the
+    /// compiler: `DRAGS` is whether drag acts (or may act), `HOLDS` is [`holds`](Self::holds).
     #[inline(always)]
-    pub(crate) fn with_known_drag<const ACTS: bool>(&self) -> Self {
+    pub(crate) fn with_known<const DRAGS: bool, const HOLDS: bool>(&self) -> Self {
         Self {
-            drag: self.drag.known::<ACTS>(),
+            drag: self.drag.known::<DRAGS>(),
+            holding_rate: if HOLDS { self.holding_rate } else { 0.0 },
             ..*self
         }
     }

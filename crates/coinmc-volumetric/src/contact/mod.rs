@@ -33,7 +33,7 @@
 //! The scalar path (`follow`) and the batch both drive this machine.
 //!
 //! # Modules
-//! - `dynamics` constants and friction moments · `rim` equations of motion · `state` from motion to
+//! - `dynamics` constants and friction moments · `held_friction` friction that holds at rest · `rim` equations of motion · `state` from motion to
 //!   state and back · `integrator` Runge–Kutta step
 //! - `rules` what governs contact · `phase` phase and exits · `step` one try of a step
 //! - `solver` the state machine · `tilt_search`, `margin_search`, `events` where in a step an event
@@ -44,6 +44,7 @@
 mod dynamics;
 mod events;
 mod follow;
+mod held_friction;
 mod integrator;
 mod line;
 mod margin_search;

@@ -28,6 +28,7 @@
 //! (2009) 1063.)
 
 use super::dynamics::Dynamics;
+use super::held_friction::Load;
 use super::integrator::Flow;
 use crate::series::sin_cos_tilt;
 use coinmc_lanes::Lane;
@@ -155,7 +156,26 @@ impl Dynamics {
                 (mu * drive * slip.x, -(drive * slip.speed), drive)
             }
         };
-        let (torque_a, torque_t) = self.friction_torques_at(s, c, &inverse, wa, wt);
+        let (torque_a, torque_t) = if self.holds() {
+            let (fy, follows) = match mode {
+                Mode::Stick => (-(by * k(self.inverse_kyy)), self.inverse_kyy),
+                Mode::Slip => (mu * drive * slip.y, 0.0),
+            };
+            self.held_torques(&Load {
+                s,
+                c,
+                inverse: &inverse,
+                wy,
+                wa,
+                wt,
+                excess,
+                normal,
+                fy,
+                follows,
+            })
+        } else {
+            self.friction_torques_at(s, c, &inverse, wa, wt)
+        };
         by -= normal * (radius * torque_a * ika + half * torque_t * ikt);
         let fy = match mode {
             Mode::Stick => -(by * k(self.inverse_kyy)),
