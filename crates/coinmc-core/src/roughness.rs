@@ -1,21 +1,32 @@
-//! How rough the ground is.
+//! The roughness of the surface: a random height field by two numbers.
 
+use crate::Coin;
 use std::f64::consts::TAU;
 use thiserror::Error;
 
-/// The roughness of a surface: a stationary, isotropic Gaussian random height field.
+/// How rough the surface is.
 ///
-/// Heights have the correlation C(r) = σ² exp(−r²/2ℓ²). It is stated by two numbers that can be
-/// measured with a profilometer along any straight line: the rms slope s, and the wavelength λ, the
-/// mean distance between places where the profile rises through its mean. By Rice's formula
-/// (Bell Syst. Tech. J. 24 (1945) 46) λ = 2π σ/s, so ℓ = λ/2π and σ = sλ/2π.
+/// The ground is z = h(x, y), a stationary, isotropic Gaussian random field with mean 0 and correlation
+/// ⟨h(0) h(r)⟩ = σ² exp(−r²/(2ℓ²)). Both of its numbers can be measured on a profile, a straight cut
+/// through the ground:
+///
+/// * the **slope** s, the root mean square of dh/dx along any direction: s² = −C''(0) = σ²/ℓ². It is the
+///   Rdq of a profilometer, as a number and not in degrees.
+/// * the **wavelength** λ, the mean distance between points where a profile crosses its mean upwards.
+///   By Rice's formula there are sqrt(−C''(0)/C(0))/2π = 1/(2πℓ) of them per length, so λ = 2πσ/s.
+///
+/// Hence the height σ = sλ/2π (the Rq of a profilometer) and the correlation length ℓ = λ/2π.
+///
+/// Sources: Rice, Bell Syst. Tech. J. 24 (1945) 46; Longuet-Higgins, Phil. Trans. R. Soc. A 249 (1957)
+/// 321 (random surfaces); ISO 4287 (Rq, Rdq, RSm).
 ///
 /// # Example
 /// ```
 /// use coinmc_core::Roughness;
-/// let wood = Roughness::new(0.02, 3e-3)?;
+/// let wood = Roughness::new(0.03, 2e-3)?;
 /// assert!((wood.height_m() - 9.55e-6).abs() < 1e-8);
-/// assert!(Roughness::new(0.5, 3e-3).is_err());
+/// assert!((wood.height_m() / wood.correlation_length_m() - 0.03).abs() < 1e-15);
+/// assert!(Roughness::new(0.3, 2e-3).is_err());
 /// # Ok::<(), coinmc_core::RoughnessError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,28 +35,48 @@ pub struct Roughness {
     wavelength_m: f64,
 }
 
-/// Why a roughness is not valid.
+/// Why a roughness cannot be modelled.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum RoughnessError {
-    /// The rms slope is negative, or too steep for a law of first order in it.
-    #[error("rms slope must lie in (0, {most}], not {0}", most = Roughness::STEEPEST)]
+    /// The slope is negative or beyond [`Roughness::MAX_SLOPE`].
+    #[error(
+        "roughness slope must lie in [0, {most}], not {0}: the model is of first order in the slope",
+        most = Roughness::MAX_SLOPE
+    )]
     Slope(f64),
     /// The wavelength is not a positive finite length.
-    #[error("wavelength must be positive and finite, not {0} m")]
+    #[error("roughness wavelength must be positive and finite, not {0} m")]
     Wavelength(f64),
+    /// The wavelength is too short for the coin.
+    #[error(
+        "roughness wavelength {found_m:e} m is too short for a coin of this radius: at least {least_m:e} m \
+         ({radii} R)",
+        radii = Roughness::LEAST_WAVELENGTH_IN_RADII
+    )]
+    TooShort {
+        /// The wavelength, m.
+        found_m: f64,
+        /// The shortest that the model of contact holds for with this coin, m.
+        least_m: f64,
+    },
 }
 
 impl Roughness {
-    /// Largest rms slope. The law of contact is of first order in the slope.
-    pub const STEEPEST: f64 = 0.2;
+    /// The steepest rms slope: contact is computed to first order in the slope, and beyond a fifth its
+    /// square is no longer small.
+    pub const MAX_SLOPE: f64 = 0.2;
 
-    /// A ground of this rms slope along any direction, and this wavelength, m.
+    /// The shortest wavelength, in radii of the coin. The rim rides over shorter waves on their crests,
+    /// in contact at several of them at once, where one contact point a rim is assumed.
+    pub const LEAST_WAVELENGTH_IN_RADII: f64 = 0.005;
+
+    /// A ground with this root mean square slope and this wavelength, m. With slope 0 it is a plane.
     ///
     /// # Errors
-    /// [`RoughnessError`] unless 0 < slope <= [`STEEPEST`](Self::STEEPEST) and the wavelength is
+    /// [`RoughnessError`] unless 0 <= slope <= [`MAX_SLOPE`](Self::MAX_SLOPE) and the wavelength is
     /// positive and finite.
     pub fn new(slope: f64, wavelength_m: f64) -> Result<Self, RoughnessError> {
-        if !(slope > 0.0 && slope <= Self::STEEPEST) {
+        if !(0.0..=Self::MAX_SLOPE).contains(&slope) {
             return Err(RoughnessError::Slope(slope));
         }
         if !(wavelength_m > 0.0 && wavelength_m.is_finite()) {
@@ -57,14 +88,35 @@ impl Roughness {
         })
     }
 
-    /// Rms slope s along any direction, dimensionless.
+    /// Checks that the model holds for a coin on this ground.
+    ///
+    /// # Errors
+    /// [`RoughnessError::TooShort`] if the ground is no plane and its wavelength is less than
+    /// [`LEAST_WAVELENGTH_IN_RADII`](Self::LEAST_WAVELENGTH_IN_RADII) of the coin's radius.
+    pub fn check_for(&self, coin: &Coin) -> Result<(), RoughnessError> {
+        let least_m = Self::LEAST_WAVELENGTH_IN_RADII * coin.radius_m();
+        if self.slope == 0.0 || self.wavelength_m >= least_m {
+            return Ok(());
+        }
+        Err(RoughnessError::TooShort {
+            found_m: self.wavelength_m,
+            least_m,
+        })
+    }
+
+    /// Root mean square slope s along any direction, dimensionless.
     pub fn slope(&self) -> f64 {
         self.slope
     }
 
-    /// Wavelength λ, m: mean distance between up-crossings of a profile.
+    /// Mean distance λ between upward crossings of the mean along a profile, m.
     pub fn wavelength_m(&self) -> f64 {
         self.wavelength_m
+    }
+
+    /// Root mean square height σ = sλ/2π, m.
+    pub fn height_m(&self) -> f64 {
+        self.slope * self.correlation_length_m()
     }
 
     /// Correlation length ℓ = λ/2π, m.
@@ -72,9 +124,9 @@ impl Roughness {
         self.wavelength_m / TAU
     }
 
-    /// Rms height σ = sℓ, m.
-    pub fn height_m(&self) -> f64 {
-        self.slope * self.correlation_length_m()
+    /// Whether it is no roughness at all: a plane.
+    pub(crate) fn is_plane(&self) -> bool {
+        self.slope == 0.0
     }
 }
 
@@ -83,12 +135,30 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_cannot_be_a_ground_is_refused() {
-        for slope in [0.0, -0.1, 0.21, f64::NAN] {
-            assert!(Roughness::new(slope, 1e-3).is_err(), "{slope}");
+    fn the_ends_of_each_range_are_in_and_beyond_is_out() {
+        assert!(Roughness::new(0.0, 1e-9).is_ok() && Roughness::new(0.2, 1e6).is_ok());
+        for slope in [-1e-9, 0.2 + 1e-9, f64::NAN] {
+            let error = Roughness::new(slope, 1e-3).unwrap_err();
+            assert!(matches!(error, RoughnessError::Slope(_)), "{slope}");
         }
-        for wavelength in [0.0, -1.0, f64::INFINITY, f64::NAN] {
-            assert!(Roughness::new(0.1, wavelength).is_err(), "{wavelength}");
+        for wavelength in [0.0, -1e-3, f64::NAN, f64::INFINITY] {
+            let error = Roughness::new(0.1, wavelength).unwrap_err();
+            assert!(
+                matches!(error, RoughnessError::Wavelength(_)),
+                "{wavelength}"
+            );
         }
+    }
+
+    #[test]
+    fn waves_are_compared_with_the_coin_unless_there_are_none() {
+        let coin = Coin::cylinder(0.2, 0.01).unwrap();
+        assert!(Roughness::new(0.1, 5e-5).unwrap().check_for(&coin).is_ok());
+        assert!(Roughness::new(0.0, 4e-5).unwrap().check_for(&coin).is_ok());
+        let error = Roughness::new(0.1, 4e-5).unwrap().check_for(&coin);
+        assert_eq!(
+            error.unwrap_err().to_string(),
+            "roughness wavelength 4e-5 m is too short for a coin of this radius: at least 5e-5 m (0.005 R)"
+        );
     }
 }

@@ -73,7 +73,7 @@ pub struct SceneParameter {
 impl Scene {
     /// The parameters that every result states, swept or not, with their values: without them a toss is
     /// not defined.
-    pub const PARAMETERS: [SceneParameter; 11] = [
+    pub const PARAMETERS: [SceneParameter; 13] = [
         SceneParameter {
             name: "ratio",
             value: |scene| scene.coin.ratio(),
@@ -103,20 +103,33 @@ impl Scene {
             value: |scene| scene.surface.restitution_threshold_m_s(),
         },
         SceneParameter {
-            name: "roughness_slope",
-            value: |scene| scene.surface.roughness().map_or(0.0, |r| r.slope()),
-        },
-        SceneParameter {
-            name: "roughness_wavelength_m",
-            value: |scene| scene.surface.roughness().map_or(0.0, |r| r.wavelength_m()),
-        },
-        SceneParameter {
             name: "linear_drag_per_s",
             value: |scene| scene.drag().linear_per_s(),
         },
         SceneParameter {
             name: "angular_drag_per_s",
             value: |scene| scene.drag().angular_per_s(),
+        },
+        SceneParameter {
+            name: "restitution_exponent",
+            value: |scene| scene.surface.restitution_exponent(),
+        },
+        SceneParameter {
+            name: "restitution_reference_m_s",
+            value: |scene| scene.surface.restitution_reference_m_s(),
+        },
+        SceneParameter {
+            name: "roughness_slope",
+            value: |scene| scene.surface.given_roughness().map_or(0.0, |r| r.slope()),
+        },
+        SceneParameter {
+            name: "roughness_wavelength_m",
+            value: |scene| {
+                scene
+                    .surface
+                    .given_roughness()
+                    .map_or(0.0, |r| r.wavelength_m())
+            },
         },
     ];
 
@@ -172,8 +185,12 @@ impl Scene {
     /// A coin, a surface and the acceleration of gravity.
     ///
     /// # Errors
-    /// [`SurfaceError::Gravity`] unless `gravity_m_s2` is positive and finite.
+    /// [`SurfaceError::Gravity`] unless `gravity_m_s2` is positive and finite;
+    /// [`SurfaceError::Roughness`] if the surface's waves are too short for the coin.
     pub fn new(coin: Coin, surface: Surface, gravity_m_s2: f64) -> Result<Self, SurfaceError> {
+        if let Some(roughness) = surface.roughness() {
+            roughness.check_for(&coin)?;
+        }
         if gravity_m_s2 > 0.0 && gravity_m_s2.is_finite() {
             Ok(Self {
                 coin,
@@ -244,11 +261,31 @@ mod tests {
             assert!(surface.with_friction_lengths(bad, 0.0).is_err());
             assert!(surface.with_friction_lengths(0.0, bad).is_err());
             assert!(surface.with_restitution_threshold(bad).is_err());
+            assert!(surface.with_speed_dependent_restitution(bad, 1.0).is_err());
+            assert!(surface.with_speed_dependent_restitution(0.25, bad).is_err());
             assert!(Drag::new(bad, 0.0).is_err() && Drag::new(0.0, bad).is_err());
         }
+        assert!(surface.with_speed_dependent_restitution(1.0, 1e-9).is_ok());
+        assert!(
+            surface
+                .with_speed_dependent_restitution(1.001, 1.0)
+                .is_err()
+        );
         let coin = Coin::cylinder(1.0, 1.0).unwrap();
         for g in [0.0, -9.81, f64::NAN, f64::INFINITY] {
             assert!(Scene::new(coin, Surface::new(0.5, 0.3).unwrap(), g).is_err());
         }
+    }
+    #[test]
+    fn waves_too_short_for_the_coin_are_refused_where_there_are_waves() {
+        let coin = Coin::cylinder(0.2, 0.01).unwrap();
+        let on = |slope, wavelength_m| {
+            let roughness = crate::Roughness::new(slope, wavelength_m).unwrap();
+            let surface = Surface::new(0.5, 0.3).unwrap();
+            Scene::new(coin, surface.with_roughness(Some(roughness)), 9.81)
+        };
+        assert!(on(0.05, 5e-5).unwrap().surface.roughness().is_some());
+        assert!(on(0.0, 1e-9).unwrap().surface.roughness().is_none());
+        assert!(matches!(on(0.05, 4e-5), Err(SurfaceError::Roughness(_))));
     }
 }

@@ -4,8 +4,11 @@ use crate::schema::{
     Absent, Bounds, Condition, Fallback, ReadError, Rule, TableKind, Values, choice, default,
     number,
 };
-use crate::{Roughness, RoughnessError};
+use crate::{Coin, Roughness, RoughnessError};
 use thiserror::Error;
+
+/// Speed of approach at which the coefficient of restitution is meant if none is given.
+const DEFAULT_REFERENCE_M_S: f64 = 1.0;
 
 /// What a contact with the surface does to the coin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -58,6 +61,9 @@ pub struct Surface {
     rolling_friction_m: f64,
     pivoting_friction_m: f64,
     threshold_m_s: f64,
+    /// e falls with the speed of approach v as v^−exponent and is as given at the reference speed.
+    exponent: f64,
+    reference_m_s: f64,
     roughness: Option<Roughness>,
     landing: Landing,
 }
@@ -77,6 +83,15 @@ pub enum SurfaceError {
     /// The restitution threshold is negative or not finite.
     #[error("restitution threshold must be finite and not negative, not {0} m/s")]
     Threshold(f64),
+    /// The exponent of restitution lies outside [0, 1].
+    #[error("restitution exponent must lie in [0, 1], not {0}")]
+    Exponent(f64),
+    /// The reference speed of restitution is not a positive finite speed.
+    #[error("restitution reference must be positive and finite, not {0} m/s")]
+    Reference(f64),
+    /// The roughness cannot be modelled.
+    #[error(transparent)]
+    Roughness(#[from] RoughnessError),
     /// A drag rate is negative or not finite.
     #[error("drag must be finite and not negative, not {0} /s")]
     Drag(f64),
@@ -125,18 +140,31 @@ impl Surface {
                     default(0.0),
                 ),
                 number(
+                    "restitution_exponent",
+                    "Exponent p with which restitution falls with the speed of approach v: \
+                     min(1, e (v/v_ref)^-p). Plastic impacts of metal: 0.25; 0: the same at every speed.",
+                    Bounds::closed(0.0, 1.0),
+                    Absent::Omitted,
+                ),
+                number(
+                    "restitution_reference_m_s",
+                    "Speed of approach v_ref, m/s, at which the coefficient of restitution is \
+                     `restitution` (1 if absent).",
+                    Bounds::above_zero(1e6),
+                    Absent::Omitted,
+                ),
+                number(
                     "roughness_slope",
-                    "Rms slope of the ground along any direction; 0: a perfect plane. With \
-                     `roughness_wavelength_m`.",
-                    Bounds::closed(0.0, Roughness::STEEPEST),
-                    default(0.0),
+                    "Root mean square slope of the ground along any direction; 0: a plane.",
+                    Bounds::closed(0.0, Roughness::MAX_SLOPE),
+                    Absent::Omitted,
                 ),
                 number(
                     "roughness_wavelength_m",
-                    "Wavelength of the ground, m: mean distance between places where a profile rises \
-                     through its mean. With `roughness_slope`.",
-                    Bounds::closed(0.0, 1e6),
-                    default(0.0),
+                    "Mean distance, m, between points where a profile of the ground crosses its mean \
+                     upwards: 2π × root mean square height / root mean square slope.",
+                    Bounds::above_zero(1e6),
+                    Absent::Omitted,
                 ),
                 choice(
                     "landing",
@@ -145,19 +173,27 @@ impl Surface {
                     Landing::default().name(),
                 ),
             ],
-            rules: vec![Rule::Unless {
-                condition: Condition::Word("landing", Landing::Adhesive.name()),
-                keys: &["restitution", "friction"],
-                fallback: Some(Fallback::Number(0.0)),
-            }],
+            rules: vec![
+                Rule::Unless {
+                    condition: Condition::Word("landing", Landing::Adhesive.name()),
+                    keys: &["restitution", "friction"],
+                    fallback: Some(Fallback::Number(0.0)),
+                },
+                Rule::GoesWith {
+                    key: "restitution_reference_m_s",
+                    other: "restitution_exponent",
+                    fallback: Fallback::Number(DEFAULT_REFERENCE_M_S),
+                },
+                Rule::Together(&["roughness_slope", "roughness_wavelength_m"]),
+            ],
         }
     }
 
-    /// The surface that a config gives.
+    /// The surface that a config gives for a coin.
     ///
     /// # Errors
     /// [`ReadError`] where [`SurfaceError`] applies.
-    pub fn read(values: &Values) -> Result<Self, ReadError> {
+    pub fn read(values: &Values, coin: &Coin) -> Result<Self, ReadError> {
         let number = |key| values.number(key);
         let landing = values.one_of("landing", Landing::ALL, Landing::name)?;
         let (rolling, pivoting) = (
@@ -165,15 +201,31 @@ impl Surface {
             number("pivoting_friction_m")?,
         );
         let threshold = number("restitution_threshold_m_s")?;
-        let roughness = read_roughness(
-            number("roughness_slope")?,
-            number("roughness_wavelength_m")?,
-        )?;
+        let exponent = values.optional("restitution_exponent")?.unwrap_or(0.0);
+        let reference = values.optional("restitution_reference_m_s")?;
+        let reference = reference.unwrap_or(DEFAULT_REFERENCE_M_S);
+        let roughness = Self::read_roughness(values, coin)?;
         Self::new(number("restitution")?, number("friction")?)
             .and_then(|surface| surface.with_friction_lengths(rolling, pivoting))
             .and_then(|surface| surface.with_restitution_threshold(threshold))
+            .and_then(|surface| surface.with_speed_dependent_restitution(exponent, reference))
             .map(|surface| surface.with_roughness(roughness).with_landing(landing))
             .map_err(|error| ReadError::new(error.to_string()))
+    }
+
+    /// The roughness that a config gives for a coin.
+    fn read_roughness(values: &Values, coin: &Coin) -> Result<Option<Roughness>, ReadError> {
+        const WAVELENGTH: &str = "roughness_wavelength_m";
+        let (Some(slope), Some(wavelength)) = (
+            values.optional("roughness_slope")?,
+            values.optional(WAVELENGTH)?,
+        ) else {
+            return Ok(None);
+        };
+        let roughness = Roughness::new(slope, wavelength);
+        roughness
+            .and_then(|roughness| roughness.check_for(coin).map(|()| Some(roughness)))
+            .map_err(|error| ReadError::new(error.to_string()).at(WAVELENGTH))
     }
 
     /// A surface that no coin leaves: the assumption of the closed forms.
@@ -184,6 +236,8 @@ impl Surface {
             rolling_friction_m: 0.0,
             pivoting_friction_m: 0.0,
             threshold_m_s: 0.0,
+            exponent: 0.0,
+            reference_m_s: DEFAULT_REFERENCE_M_S,
             roughness: None,
             landing: Landing::Adhesive,
         }
@@ -207,6 +261,8 @@ impl Surface {
             rolling_friction_m: 0.0,
             pivoting_friction_m: 0.0,
             threshold_m_s: 0.0,
+            exponent: 0.0,
+            reference_m_s: DEFAULT_REFERENCE_M_S,
             roughness: None,
             landing: Landing::Bouncing,
         })
@@ -252,8 +308,42 @@ impl Surface {
         }
     }
 
-    /// The same surface with another roughness; `None` is a perfect plane.
-    #[must_use]
+    /// The same surface where restitution falls with the speed of approach v of the contact point:
+    /// e(v) = min(1, e (v/v_ref)^−p), with e as given at the reference speed v_ref.
+    ///
+    /// p = 1/4 is the law of fully plastic impact (Johnson, Contact Mechanics, 1985, § 11.5; coins of
+    /// metal above some 0.1 m/s); p = 0, the default, is Newton's constant e.
+    ///
+    /// # Errors
+    /// [`SurfaceError`] unless 0 <= p <= 1 and the reference speed is positive and finite.
+    ///
+    /// # Example
+    /// ```
+    /// use coinmc_core::Surface;
+    /// let steel = Surface::new(0.5, 0.2)?.with_speed_dependent_restitution(0.25, 1.0)?;
+    /// assert!((steel.restitution_at(0.1) - 0.889).abs() < 1e-3);
+    /// assert_eq!(steel.restitution_at(1e-3), 1.0);
+    /// # Ok::<(), coinmc_core::SurfaceError>(())
+    /// ```
+    pub fn with_speed_dependent_restitution(
+        self,
+        exponent: f64,
+        reference_m_s: f64,
+    ) -> Result<Self, SurfaceError> {
+        if !(0.0..=1.0).contains(&exponent) {
+            return Err(SurfaceError::Exponent(exponent));
+        }
+        if !(reference_m_s > 0.0 && reference_m_s.is_finite()) {
+            return Err(SurfaceError::Reference(reference_m_s));
+        }
+        Ok(Self {
+            exponent,
+            reference_m_s,
+            ..self
+        })
+    }
+
+    /// The same surface with roughness, or without.
     pub fn with_roughness(self, roughness: Option<Roughness>) -> Self {
         Self { roughness, ..self }
     }
@@ -288,8 +378,42 @@ impl Surface {
         self.threshold_m_s
     }
 
-    /// How rough the ground is; `None` for a perfect plane.
+    /// Exponent p with which restitution falls with the speed of approach; 0: it does not.
+    pub fn restitution_exponent(&self) -> f64 {
+        self.exponent
+    }
+
+    /// Approach speed at which restitution is [`restitution`](Self::restitution), m/s. Without an
+    /// exponent it does not matter.
+    pub fn restitution_reference_m_s(&self) -> f64 {
+        self.reference_m_s
+    }
+
+    /// Coefficient of restitution of a contact point that approaches at this speed, m/s: with its
+    /// exponent and threshold.
+    pub fn restitution_at(&self, approach_m_s: f64) -> f64 {
+        if approach_m_s < self.threshold_m_s {
+            return 0.0;
+        }
+        if self.exponent == 0.0 {
+            return self.restitution;
+        }
+        let slower = libm::pow(approach_m_s / self.reference_m_s, -self.exponent);
+        // 0 · ∞: a surface without restitution has none at speed 0 either
+        if self.restitution == 0.0 {
+            0.0
+        } else {
+            (self.restitution * slower).min(1.0)
+        }
+    }
+
+    /// The roughness; `None` on a plane.
     pub fn roughness(&self) -> Option<Roughness> {
+        self.roughness.filter(|roughness| !roughness.is_plane())
+    }
+
+    /// The roughness as given, of a plane too.
+    pub(crate) fn given_roughness(&self) -> Option<Roughness> {
         self.roughness
     }
 
@@ -299,17 +423,39 @@ impl Surface {
     }
 }
 
-/// The roughness that a config gives by these two numbers, both 0 for a plane.
-fn read_roughness(slope: f64, wavelength_m: f64) -> Result<Option<Roughness>, ReadError> {
-    let lacks = |given: &str, key: &'static str| {
-        Err(ReadError::new(format!("{given} needs `{key}` as well")).at(key))
-    };
-    match (slope > 0.0, wavelength_m > 0.0) {
-        (false, false) => Ok(None),
-        (true, false) => lacks("`roughness_slope`", "roughness_wavelength_m"),
-        (false, true) => lacks("`roughness_wavelength_m`", "roughness_slope"),
-        (true, true) => Roughness::new(slope, wavelength_m)
-            .map(Some)
-            .map_err(|error: RoughnessError| ReadError::new(error.to_string())),
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn restitution_falls_as_a_power_of_the_speed_up_to_1() {
+        let constant = Surface::new(0.5, 0.3).unwrap();
+        assert_eq!(
+            (constant.restitution_at(0.0), constant.restitution_at(9.0)),
+            (0.5, 0.5)
+        );
+        let plastic = constant
+            .with_speed_dependent_restitution(0.25, 2.0)
+            .unwrap();
+        for (speed, expected) in [
+            (2.0, 0.5),
+            (32.0, 0.25),
+            (0.125, 1.0),
+            (1e-9, 1.0),
+            (0.0, 1.0),
+        ] {
+            assert!(
+                (plastic.restitution_at(speed) - expected).abs() < 1e-15,
+                "{speed}"
+            );
+        }
+        let cut = plastic.with_restitution_threshold(0.5).unwrap();
+        assert_eq!(
+            (cut.restitution_at(0.4), cut.restitution_at(2.0)),
+            (0.0, 0.5)
+        );
+        let dead = Surface::new(0.0, 0.3).unwrap();
+        let dead = dead.with_speed_dependent_restitution(1.0, 1.0).unwrap();
+        assert_eq!(dead.restitution_at(0.0), 0.0);
     }
 }

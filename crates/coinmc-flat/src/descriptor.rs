@@ -50,15 +50,17 @@ const UNMODELLED: [Unmodelled; 8] = [
     },
     Unmodelled {
         table: "surface",
-        key: "roughness_slope",
-        message: "engine.flat models a perfect plane: `surface.roughness_slope` must be 0",
-        help: "remove `roughness_slope`, or toss in space with [engine.volumetric]",
+        key: "restitution_exponent",
+        message: "engine.flat models no restitution that depends on speed: \
+                  `surface.restitution_exponent` must be 0",
+        help: "remove `restitution_exponent`, or toss in space with [engine.volumetric]",
     },
     Unmodelled {
         table: "surface",
-        key: "roughness_wavelength_m",
-        message: "engine.flat models a perfect plane: `surface.roughness_wavelength_m` must be 0",
-        help: "remove `roughness_wavelength_m`, or toss in space with [engine.volumetric]",
+        key: "roughness_slope",
+        message: "engine.flat models no roughness: `surface.roughness_slope` must be 0",
+        help: "remove `roughness_slope` and `roughness_wavelength_m`, or toss in space with \
+               [engine.volumetric]",
     },
     Unmodelled {
         table: "environment",

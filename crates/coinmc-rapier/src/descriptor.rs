@@ -32,24 +32,25 @@ pub const ENGINE: EngineDescriptor = EngineDescriptor {
     read: |values| Settings::read(values).map(EngineChoice::new),
 };
 
-fn bounces(scene: &Scene) -> bool {
-    scene.surface.landing() == Landing::Bouncing
-}
-
 const UNMODELLED: [Unmodelled; 2] = [
     Unmodelled {
         table: "surface",
-        key: "roughness_slope",
-        message: "engine.rapier models a perfect plane: `surface.roughness_slope` must be 0",
-        help: "remove `roughness_slope`, or toss with [engine.volumetric]",
+        key: "restitution_exponent",
+        message: "engine.rapier models no restitution that depends on speed: \
+                  `surface.restitution_exponent` must be 0",
+        help: "remove `restitution_exponent`, or toss with [engine.volumetric]",
     },
     Unmodelled {
         table: "surface",
-        key: "roughness_wavelength_m",
-        message: "engine.rapier models a perfect plane: `surface.roughness_wavelength_m` must be 0",
-        help: "remove `roughness_wavelength_m`, or toss with [engine.volumetric]",
+        key: "roughness_slope",
+        message: "engine.rapier models no roughness: `surface.roughness_slope` must be 0",
+        help: "remove `roughness_slope` and `roughness_wavelength_m`, or toss with [engine.volumetric]",
     },
 ];
+
+fn bounces(scene: &Scene) -> bool {
+    scene.surface.landing() == Landing::Bouncing
+}
 
 impl EngineSettings for Settings {
     fn descriptor(&self) -> &'static EngineDescriptor {

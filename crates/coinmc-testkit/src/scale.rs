@@ -21,10 +21,13 @@ impl Scale {
         let Self { length, time } = *self;
         let (coin, surface, drag) = (&scene.coin, &scene.surface, scene.drag());
         let threshold = surface.restitution_threshold_m_s() * length / time;
+        let reference = surface.restitution_reference_m_s() * length / time;
+        let exponent = surface.restitution_exponent();
         let rolling = surface.rolling_friction_m() * length;
         let surface = surface
             .with_friction_lengths(rolling, surface.pivoting_friction_m() * length)
             .and_then(|surface| surface.with_restitution_threshold(threshold))
+            .and_then(|surface| surface.with_speed_dependent_restitution(exponent, reference))
             .expect("scaled lengths and speeds stay in range")
             .with_roughness(surface.roughness().map(|roughness| {
                 Roughness::new(roughness.slope(), roughness.wavelength_m() * length)

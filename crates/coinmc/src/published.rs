@@ -153,6 +153,11 @@ fn differences(scene: &Scene) -> Vec<&'static str> {
             "restitution_threshold_m_s",
             surface.restitution_threshold_m_s() == 2.0,
         ),
+        (
+            "restitution_exponent",
+            surface.restitution_exponent() == 0.0,
+        ),
+        ("roughness_slope", surface.roughness().is_none()),
         ("landing", surface.landing() == Landing::Bouncing),
         ("gravity_m_s2", scene.gravity_m_s2() == 9.81),
         ("linear_drag_per_s", drag.linear_per_s() == 1.0),

@@ -109,6 +109,8 @@ pub enum Rule {
         /// The default of the key if only the other one is given.
         fallback: Fallback,
     },
+    /// All of these are given, or none.
+    Together(&'static [&'static str]),
     /// These keys are required unless a condition holds; then they have a default.
     Unless {
         /// When they may be absent.

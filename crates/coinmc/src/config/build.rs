@@ -92,7 +92,7 @@ impl<T: Clone> Part<T> {
 fn scene(root: &Checked, at: &At<'_>) -> Result<Scene, Fault> {
     let coin = read(get(root, "coin")?, at, Coin::read)?;
     let surface = match root.get("surface") {
-        Some(checked) => read(checked, at, Surface::read)?,
+        Some(checked) => read(checked, at, |surface| Surface::read(surface, &coin))?,
         // only closed forms need no surface
         None => Surface::adhesive(),
     };

@@ -40,7 +40,7 @@ type Property = (&'static str, fn(&Surface) -> f64);
 
 /// The remark on properties of contacts if no point has contacts.
 fn in_vain(points: &[Point]) -> Option<String> {
-    let properties: [Property; 5] = [
+    let properties: [Property; 7] = [
         ("restitution", Surface::restitution),
         ("friction", Surface::friction),
         ("rolling_friction_m", Surface::rolling_friction_m),
@@ -49,6 +49,12 @@ fn in_vain(points: &[Point]) -> Option<String> {
             "restitution_threshold_m_s",
             Surface::restitution_threshold_m_s,
         ),
+        ("restitution_exponent", Surface::restitution_exponent),
+        ("roughness_slope", |surface| {
+            surface
+                .roughness()
+                .map_or(0.0, |roughness| roughness.slope())
+        }),
     ];
     let given = properties.iter().filter(|(_, value)| {
         let counts = |point: &Point| adhesive(point) && value(&point.scene.surface) != 0.0;

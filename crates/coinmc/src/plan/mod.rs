@@ -87,8 +87,8 @@ impl Plan {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Point {
     /// The parameters that results show: always `ratio`, `radius_m`, `restitution`, `friction`,
-    /// `rolling_friction_m`, `pivoting_friction_m`, `restitution_threshold_m_s`, `roughness_slope`,
-    /// `roughness_wavelength_m`, `linear_drag_per_s`, `angular_drag_per_s`, and every swept one, by the name of its column.
+    /// `rolling_friction_m`, `pivoting_friction_m` and the other [`Scene::PARAMETERS`], and every swept
+    /// one, by the name of its column.
     pub parameters: Vec<(Arc<str>, f64)>,
     /// Coin, surface, gravity, drag.
     pub scene: Scene,

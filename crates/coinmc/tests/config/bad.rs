@@ -52,6 +52,8 @@ const NUMBERS: &[Case] = &[
     ("0.3", "0.3\nrolling_friction_m = -1e-9", &[(7, 22, "`surface.rolling_friction_m` must be from 0 to 1e6, found `-1e-9`")]),
     ("0.3", "0.3\npivoting_friction_m = 'none'", &[(7, 23, "`surface.pivoting_friction_m` must be a number")]),
     ("0.3", "0.3\nrestitution_threshold_m_s = inf", &[(7, 29, "must be finite, from 0 to 1e6")]),
+    ("0.3", "0.3\nroughness_slope = 0.25\nroughness_wavelength_m = 0", &[(7, 19, "`surface.roughness_slope` must be from 0 to 0.2, found `0.25`"), (8, 26, "`surface.roughness_wavelength_m` must be above 0")]),
+    ("0.3", "0.3\nrestitution_exponent = -0.25\nrestitution_reference_m_s = 0", &[(7, 24, "`surface.restitution_exponent` must be from 0 to 1"), (8, 29, "`surface.restitution_reference_m_s` must be above 0")]),
     ("[stop]", "[environment]\nlinear_drag_per_s = -1\nangular_drag_per_s = nan\n[stop]", &[(12, 21, "`environment.linear_drag_per_s` must be from 0 to 1e6"), (13, 22, "`environment.angular_drag_per_s` must be finite")]),
     ("[stop]", "[environment]\ngyroscopic_torque = 0\n[stop]", &[(12, 21, "`environment.gyroscopic_torque` must be true or false, found an integer: `0`")]),
     ("tosses = 1000", "tosses = 0", &[(12, 10, "a whole number from 1 to 1000000000000000, found `0`")]),
@@ -94,6 +96,8 @@ const NOT_FLAT: &[Case] = &[
     ("0.3", "0.3\nrolling_friction_m = [0, 1e-4]\npivoting_friction_m = 1e-4", &[(7, 22, "rolling friction"), (8, 23, "engine.flat models no pivoting friction")]),
     ("0.3", "0.3\npivoting_friction_m = { from = 0, to = 1e-4, steps = 3 }", &[(7, 23, "pivoting friction")]),
     ("0.3", "0.3\nrestitution_threshold_m_s = 2", &[(7, 29, "engine.flat models no restitution threshold")]),
+    ("0.3", "0.3\nrestitution_exponent = 0.25", &[(7, 24, "engine.flat models no restitution that depends on speed: `surface.restitution_exponent` must be 0")]),
+    ("0.3", "0.3\nroughness_slope = [0, 0.1]\nroughness_wavelength_m = 1e-3", &[(7, 19, "engine.flat models no roughness: `surface.roughness_slope` must be 0 remove `roughness_slope` and `roughness_wavelength_m`")]),
     ("[stop]", "[environment]\nlinear_drag_per_s = 1\nangular_drag_per_s = 0.05\ngyroscopic_torque = false\n[stop]", &[(12, 21, "engine.flat models no drag: `environment.linear_drag_per_s` must be 0"), (13, 22, "`environment.angular_drag_per_s` must be 0"), (14, 21, "`environment.gyroscopic_torque` must be true")]),
     // a launch out of the plane and a value out of range are reported together
     ("0.3\n[launch]\npreset = 'robot'", "-1\nrolling_friction_m = 1e-4\n[launch]\npreset = 'clean'", &[(6, 12, "from 0 to 1e6"), (7, 22, "rolling friction"), (9, 10, "leaves it")]),

@@ -46,6 +46,10 @@ fn defaults_are_those_of_the_crates() {
             ("restitution_threshold_m_s", 0.0),
             ("linear_drag_per_s", 0.0),
             ("angular_drag_per_s", 0.0),
+            ("restitution_exponent", 0.0),
+            ("restitution_reference_m_s", 1.0),
+            ("roughness_slope", 0.0),
+            ("roughness_wavelength_m", 0.0),
         ]
     );
     assert!(point.scene.has_gyroscopic_torque());

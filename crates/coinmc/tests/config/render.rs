@@ -77,6 +77,46 @@ fn an_impossible_moment() {
 }
 
 #[test]
+fn one_of_two_roughness_keys() {
+    let text =
+        with("ratio = 1").replace("friction = 0.3", "friction = 0.3\nroughness_slope = 0.05");
+    expect("half_roughness", &text, &[]);
+}
+
+#[test]
+fn waves_too_short_for_the_coin() {
+    let rough = "friction = 0.3\nroughness_slope = 0.05\nroughness_wavelength_m = [1e-3, 4e-5]";
+    let text = with("ratio = 1").replace("friction = 0.3", rough);
+    expect(
+        "short_waves",
+        &text.replace("[engine.flat]", "[engine.volumetric]"),
+        &[],
+    );
+}
+
+#[test]
+fn a_reference_speed_without_an_exponent() {
+    let text = with("ratio = 1");
+    expect(
+        "reference_alone",
+        &text,
+        &["surface.restitution_reference_m_s=2"],
+    );
+}
+
+#[test]
+fn roughness_on_an_engine_without() {
+    let rough = "friction = 0.3\nroughness_slope = 0.05\nroughness_wavelength_m = 1e-3\n\
+                 restitution_exponent = 0.25";
+    let text = with("ratio = 1").replace("friction = 0.3", rough);
+    expect(
+        "rough_rapier",
+        &text.replace("[engine.flat]", "[engine.rapier]"),
+        &[],
+    );
+}
+
+#[test]
 fn two_engines() {
     let text = with("ratio = 1") + "[engine.analytic]\nrule = 'zoen'\n";
     expect("two_engines", &text, &[]);

@@ -53,7 +53,7 @@ fn every_setting_of_the_toss_in_space_can_be_given() {
         "environment.angular_drag_per_s=0.05",
         "environment.gyroscopic_torque=false",
         "engine.volumetric={law='stronge', decision='energy', zeno=0.01, tolerance=1e-6, \
-         stick_speed = 1e-3, smoothing_time=1e-4, max_impacts=7, max_steps=9, time_limit=100}",
+         stick_speed = 1e-3, smoothing_time=1e-4, ground_step=0.25, max_impacts=7, max_steps=9, time_limit=100}",
     ];
     let plan = parse(IN_SPACE, &sets);
     let point = &plan.points[0];
@@ -68,6 +68,7 @@ fn every_setting_of_the_toss_in_space_can_be_given() {
         tolerance: 1e-6,
         stick_speed: 1e-3,
         smoothing_time: 1e-4,
+        ground_step: 0.25,
         max_impacts: 7,
         max_steps: 9,
         time_limit: 100.0,
@@ -131,7 +132,9 @@ fn all_physics_and_settings_of_the_toss_in_space_are_in_the_hash() {
         "engine.volumetric.tolerance=1e-6",
         "engine.volumetric.stick_speed=1e-3",
         "engine.volumetric.smoothing_time=1e-4",
+        "engine.volumetric.ground_step=0.4",
         "engine.volumetric.max_impacts=10",
+        "surface.restitution_exponent=0.25",
         "engine.volumetric.time_limit=10",
         "launch.preset=drop",
     ] {

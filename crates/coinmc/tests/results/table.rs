@@ -176,7 +176,9 @@ fn cells_match_their_columns() {
 #[test]
 fn every_result_names_the_law_and_all_that_defines_the_toss() {
     let text = "[coin]\nratio = 1\n[surface]\nrestitution = 0.3\nfriction = 10\nrolling_friction_m = 1e-4\n\
-                pivoting_friction_m = 2e-4\nrestitution_threshold_m_s = 2\n[environment]\n\
+                pivoting_friction_m = 2e-4\nrestitution_threshold_m_s = 2\n\
+                restitution_exponent = 0.25\nrestitution_reference_m_s = 2\nroughness_slope = 0.06\n\
+                roughness_wavelength_m = 3e-3\n[environment]\n\
                 linear_drag_per_s = 1\nangular_drag_per_s = 0.05\ngyroscopic_torque = false\n\
                 [launch]\npreset = \"table1\"\n[engine.volumetric]\nlaw = \"stronge\"\n\
                 [stop]\ntosses = 1\n";
@@ -197,15 +199,25 @@ fn every_result_names_the_law_and_all_that_defines_the_toss() {
         ("restitution_threshold_m_s", "2.0"),
         ("linear_drag_per_s", "1.0"),
         ("angular_drag_per_s", "0.05"),
+        ("restitution_exponent", "0.25"),
+        ("restitution_reference_m_s", "2.0"),
+        ("roughness_slope", "0.06"),
+        ("roughness_wavelength_m", "0.003"),
         ("engine", "volumetric"),
         ("law", "stronge"),
         ("gyroscopic_torque", "false"),
     ];
-    assert_eq!(cells[3..13], expected);
+    assert_eq!(cells[3..17], expected);
     let published = results.rows[0].published.as_ref().unwrap();
     assert_eq!(
         published.differs,
-        ["radius_m", "rolling_friction_m", "pivoting_friction_m"]
+        [
+            "radius_m",
+            "rolling_friction_m",
+            "pivoting_friction_m",
+            "restitution_exponent",
+            "roughness_slope"
+        ]
     );
 }
 

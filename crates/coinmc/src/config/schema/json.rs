@@ -169,6 +169,14 @@ fn rule(rule: Rule) -> Vec<(&'static str, Json)> {
                 Json::Object(vec![(key, texts(&[other]))]),
             )]
         }
+        Rule::Together(keys) => {
+            let others = |key: &&'static str| {
+                let others: Vec<&str> = keys.iter().copied().filter(|one| one != key).collect();
+                (*key, texts(&others))
+            };
+            let requirements = keys.iter().map(others).collect();
+            vec![("dependentRequired", Json::Object(requirements))]
+        }
         Rule::Unless {
             condition: unless,
             keys,

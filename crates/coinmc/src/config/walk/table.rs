@@ -97,6 +97,7 @@ impl Walker<'_> {
     fn rule(&mut self, rule: Rule, slots: &mut Slots<'_>) {
         match rule {
             Rule::ExactlyOne(keys) => self.exactly_one(keys, slots),
+            Rule::Together(keys) => self.together(keys, slots),
             Rule::GoesWith {
                 key,
                 other,
@@ -158,6 +159,20 @@ impl Walker<'_> {
         if given.is_empty() && !keys.iter().any(|key| slots.mistyped.contains(key)) {
             let message = format!("one of {all} is missing in `{}`", slots.path);
             self.problems.add(slots.span, message);
+        }
+    }
+
+    fn together(&mut self, keys: &[&'static str], slots: &mut Slots<'_>) {
+        let Some(given) = keys.iter().find(|key| slots.get(key).is_some()) else {
+            return;
+        };
+        for key in keys {
+            if slots.get(key).is_none()
+                && let Some(index) = slots.index(key)
+            {
+                let beside = format!(" (required with `{given}`)");
+                self.missing(slots, index, &beside);
+            }
         }
     }
 }
