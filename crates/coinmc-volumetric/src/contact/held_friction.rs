@@ -6,8 +6,8 @@
 //!
 //! On a thin coin that rolls along its side that loss is all that matters. Its rocking from rim to
 //! rim, at the rate ω_y, turns the axis of its roll and so loads pivoting friction with a torque of
-//! ω_y ω_a N/m_zz = ¼ ω_y ω_a N (thin coin, upright, stuck contact); a coin that spins on the
-//! spot loads contour friction with (5/2) ω_y ω_z N. ω_y is at most about h, the speed that carries
+//! (ka − kt) ω_y ω_a = ¼ ω_y ω_a (thin coin, upright, stuck contact); a coin that spins on the
+//! spot loads contour friction with (5/2) ω_y ω_z. ω_y is at most about h, the speed that carries
 //! the coin out of its well. Where these torques are below the limits, friction holds, and the
 //! rocking loses only the share of order h² that the impact of a rim takes (Housner, Bull. Seismol.
 //! Soc. Am. 53 (1963) 403). The creep takes a share of the order of `smoothing_time` in a unit of
