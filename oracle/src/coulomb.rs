@@ -12,7 +12,6 @@
 //! matters most (it stops the coin from whirling on its rim). The offset b chooses the velocities y:
 //! those after the impulses, their mean with those before, or Newton's v⁺ + e v⁻.
 
-use crate::points::{POINTS, Point};
 use crate::{Model, Motion};
 use nalgebra::Vector3;
 
@@ -27,11 +26,35 @@ pub(crate) const CONTOUR: usize = 3;
 /// Index of the row of pivoting friction.
 pub(crate) const PIVOT: usize = 4;
 
-const SIZE: usize = ROWS * POINTS;
+/// The rows of sliding, contour and pivoting friction.
+pub(crate) const LAWS: [std::ops::Range<usize>; 3] =
+    [TANGENT..TANGENT + 2, CONTOUR..CONTOUR + 1, PIVOT..PIVOT + 1];
+
+/// Fraction of the friction cone above which a contact slips.
+const ON_CONE: f64 = 1.0 - 1e-9;
+/// Contacts at a time.
+pub(crate) const MOST: usize = 8;
+const SIZE: usize = ROWS * MOST;
 /// Change in a sweep that counts as converged, as a fraction of the largest impulse.
 const CONVERGED: f64 = 1e-12;
 /// Far more sweeps than needed where the law has one solution.
 const MOST_SWEEPS: usize = 2_000;
+/// Sweeps over the normals of more than two contacts for each over their friction.
+const INNER_SWEEPS: usize = 10;
+
+/// Where and how a coin touches.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Touch {
+    /// From the centre.
+    pub(crate) arm: Vector3<f64>,
+    /// Normal and two tangents of the surface: unit vectors.
+    pub(crate) normal: Vector3<f64>,
+    pub(crate) tangents: [Vector3<f64>; 2],
+    /// Unit projection of u onto the surface, about which the coin rolls.
+    pub(crate) rolling: Vector3<f64>,
+    /// 1/s, s the sine between u and the normal; 0 if the point does not move along the rim.
+    pub(crate) steepness: f64,
+}
 
 /// Contacts, their rows and the impulses.
 #[derive(Debug)]
@@ -43,9 +66,9 @@ pub(crate) struct Contacts {
     response: [Vector3<f64>; SIZE],
     w: [[f64; SIZE]; SIZE],
     /// 1/largest eigenvalue of a contact's tangential block.
-    relaxation: [f64; POINTS],
+    relaxation: [f64; MOST],
     /// ρ_c/s of a contact.
-    pub(crate) contour: [f64; POINTS],
+    pub(crate) contour: [f64; MOST],
     /// Velocities of the rows before any impulse.
     pub(crate) before: [f64; SIZE],
     /// The offset b.
@@ -62,8 +85,8 @@ impl Contacts {
             angular: [Vector3::zeros(); SIZE],
             response: [Vector3::zeros(); SIZE],
             w: [[0.0; SIZE]; SIZE],
-            relaxation: [0.0; POINTS],
-            contour: [0.0; POINTS],
+            relaxation: [0.0; MOST],
+            contour: [0.0; MOST],
             before: [0.0; SIZE],
             offset: [0.0; SIZE],
             impulse: [0.0; SIZE],
@@ -71,26 +94,22 @@ impl Contacts {
     }
 
     /// Contacts at these points of a coin that moves like this; impulses 0.
-    pub(crate) fn gather<'a>(
+    pub(crate) fn gather(
         &mut self,
         model: &Model,
         motion: &Motion,
-        points: impl Iterator<Item = &'a Point>,
+        touches: impl Iterator<Item = Touch>,
     ) {
         self.count = 0;
-        for point in points {
+        for touch in touches {
             let at = self.count * ROWS;
-            for (row, along) in [Vector3::z(), Vector3::x(), Vector3::y()]
-                .into_iter()
-                .enumerate()
-            {
+            let [first, second] = touch.tangents;
+            for (row, along) in [touch.normal, first, second].into_iter().enumerate() {
                 self.linear[at + row] = along;
-                self.angular[at + row] = point.arm.cross(&along);
+                self.angular[at + row] = touch.arm.cross(&along);
             }
-            let steepness = point.wander.norm();
-            let projection = point.wander / steepness.max(f64::MIN_POSITIVE);
-            self.contour[self.count] = model.contour * steepness;
-            for (row, about) in [(CONTOUR, projection), (PIVOT, Vector3::z())] {
+            self.contour[self.count] = model.contour * touch.steepness;
+            for (row, about) in [(CONTOUR, touch.rolling), (PIVOT, touch.normal)] {
                 self.linear[at + row] = Vector3::zeros();
                 self.angular[at + row] = about;
             }
@@ -129,6 +148,11 @@ impl Contacts {
         self.count * ROWS
     }
 
+    /// What gravity adds to a row's velocity in a time.
+    pub(crate) fn fall(&self, row: usize, time: f64) -> f64 {
+        -time * self.linear[row].z
+    }
+
     /// How the velocity of a row responds to the impulse of another.
     pub(crate) fn response(&self, row: usize, to: usize) -> f64 {
         self.w[row][to]
@@ -153,6 +177,20 @@ impl Contacts {
         }
     }
 
+    /// Which laws of a contact hold it still: those whose impulses are inside their cones.
+    pub(crate) fn stuck(&self, model: &Model, contact: usize) -> [bool; 3] {
+        let p = &self.impulse[contact * ROWS..][..ROWS];
+        let inside = |size: f64, most: f64| size < ON_CONE * most * p[NORMAL];
+        [
+            inside(
+                (p[TANGENT].powi(2) + p[TANGENT + 1].powi(2)).sqrt(),
+                model.friction,
+            ),
+            inside(p[CONTOUR].abs(), self.contour[contact]),
+            inside(p[PIVOT].abs(), model.pivoting),
+        ]
+    }
+
     /// Work of the impulses, if nothing else acts: p·(mean of the velocities before and after).
     pub(crate) fn work(&self) -> f64 {
         (0..self.rows())
@@ -167,8 +205,13 @@ impl Contacts {
     pub(crate) fn solve(&mut self, model: &Model) -> bool {
         for _ in 0..MOST_SWEEPS {
             let mut change: f64 = 0.0;
+            let old = self.impulse;
+            self.relax_normals();
             for contact in 0..self.count {
-                change = change.max(self.relax(model, contact));
+                self.relax_friction(model, contact);
+            }
+            for (p, old) in self.impulse.iter().zip(&old).take(self.rows()) {
+                change = change.max((p - old).abs());
             }
             let largest = self.impulse[..self.rows()]
                 .iter()
@@ -180,14 +223,51 @@ impl Contacts {
         false
     }
 
-    /// Relaxes one contact, row after row, with all other impulses fixed. Returns the largest change.
-    fn relax(&mut self, model: &Model, contact: usize) -> f64 {
+    /// Relaxes the normals with all friction fixed: two of them exactly, since the impulses of the two
+    /// rims of a thin coin nearly coincide and would take hundreds of sweeps; more of them in turn.
+    fn relax_normals(&mut self) {
+        if self.count == 2 && self.relax_pair() {
+            return;
+        }
+        for _ in 0..if self.count > 2 { INNER_SWEEPS } else { 1 } {
+            for contact in 0..self.count {
+                let row = contact * ROWS + NORMAL;
+                let p = self.impulse[row] - self.velocity(row) / self.w[row][row];
+                self.impulse[row] = p.max(0.0);
+            }
+        }
+    }
+
+    /// The normals of two contacts. `false` if they are one and the same.
+    fn relax_pair(&mut self) -> bool {
+        let (i, j) = (NORMAL, ROWS + NORMAL);
+        let (a, b, c) = (self.w[i][i], self.w[i][j], self.w[j][j]);
+        let determinant = a * c - b * b;
+        if determinant < 1e-9 * a * c {
+            return false;
+        }
+        let (p, q) = (self.impulse[i], self.impulse[j]);
+        // the velocities without the two
+        let (u, v) = (
+            self.velocity(i) - a * p - b * q,
+            self.velocity(j) - b * p - c * q,
+        );
+        let both = ((b * v - c * u) / determinant, (b * u - a * v) / determinant);
+        let (first, second) = ((-u / a).max(0.0), (-v / c).max(0.0));
+        (self.impulse[i], self.impulse[j]) = if both.0 >= 0.0 && both.1 >= 0.0 {
+            both
+        } else if b * first + v >= 0.0 {
+            (first, 0.0)
+        } else {
+            (0.0, second)
+        };
+        true
+    }
+
+    /// Relaxes the friction of a contact, law after law, with all other impulses fixed.
+    fn relax_friction(&mut self, model: &Model, contact: usize) {
         let at = contact * ROWS;
-        let old = self.impulse;
-        let normal = at + NORMAL;
-        let p = old[normal] - self.velocity(normal) / self.w[normal][normal];
-        let p = p.max(0.0);
-        self.impulse[normal] = p;
+        let p = self.impulse[at + NORMAL];
         self.relax_tangents(contact, model.friction * p);
         for (row, length) in [(CONTOUR, self.contour[contact]), (PIVOT, model.pivoting)] {
             let (row, most) = (at + row, length * p);
@@ -199,9 +279,6 @@ impl Contacts {
                 self.impulse[row] = 0.0;
             }
         }
-        (at..at + ROWS)
-            .map(|row| (self.impulse[row] - old[row]).abs())
-            .fold(0.0, f64::max)
     }
 
     /// Sticks if the disc |p_t| <= most allows it; else makes a step against the slip and projects it

@@ -6,6 +6,7 @@
 //! * [`TimeStepper`] follows whole tosses in fixed steps, with the set-valued laws of contact
 //!   solved implicitly (Moreau–Jean), without modes or equations of rolling, and decides
 //!   by energy alone.
+//! * [`RoughStepper`] does the same on an explicit [`Ground`], a random height field.
 //! * [`newton_euler`] solves the six equations of motion and the contact's constraints as one
 //!   linear system, with which the right-hand sides of sustained contact must agree.
 //! * [`textbook`] holds the known answers: steady precession, Euler's disk, spun coins, wheels.
@@ -35,16 +36,20 @@
 
 mod coulomb;
 mod decision;
+mod ground;
 mod impact;
 mod model;
 mod motion;
 pub mod newton_euler;
 mod points;
+mod rough;
 mod stepper;
 pub mod textbook;
 mod triad;
 
+pub use ground::{Ground, Relief};
 pub use model::Model;
 pub use motion::Motion;
+pub use rough::{Ending, RoughHistory, RoughSettings, RoughStepper, Start};
 pub use stepper::{History, StepperSettings, TimeStepper};
 pub use triad::{Triad, triad};

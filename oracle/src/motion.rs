@@ -119,7 +119,7 @@ fn decay(k: f64, time: f64) -> (f64, f64) {
 }
 
 /// A unit vector turned about `rotation` by its length, renewed to unit length.
-fn rotate(unit: &Vector3<f64>, rotation: &Vector3<f64>) -> Vector3<f64> {
+pub(crate) fn rotate(unit: &Vector3<f64>, rotation: &Vector3<f64>) -> Vector3<f64> {
     let angle = rotation.norm();
     if angle == 0.0 {
         return *unit;

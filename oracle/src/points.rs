@@ -1,5 +1,6 @@
 //! The points of the rims that may touch.
 
+use crate::coulomb::Touch;
 use crate::{Model, Motion};
 use nalgebra::Vector3;
 
@@ -28,6 +29,18 @@ impl Point {
     /// Height above the surface.
     pub(crate) fn gap(&self, motion: &Motion) -> f64 {
         motion.position.z + self.arm.z
+    }
+
+    /// The contact of this point with a horizontal surface.
+    pub(crate) fn touch(&self) -> Touch {
+        let steepness = self.wander.norm();
+        Touch {
+            arm: self.arm,
+            normal: Vector3::z(),
+            tangents: [Vector3::x(), Vector3::y()],
+            rolling: self.wander / steepness.max(f64::MIN_POSITIVE),
+            steepness,
+        }
     }
 
     /// Velocity of the material point that is there.

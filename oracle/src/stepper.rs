@@ -16,7 +16,7 @@
 //! Moreau, "Unilateral contact and dry friction in finite freedom dynamics" (1988); Jean, "The
 //! non-smooth contact dynamics method", Comput. Methods Appl. Mech. Engrg. 177 (1999) 235.
 
-use crate::coulomb::{CONTOUR, Contacts, NORMAL, PIVOT, ROWS, TANGENT};
+use crate::coulomb::{Contacts, LAWS, NORMAL, ROWS};
 use crate::decision::decided;
 use crate::impact::collide;
 use crate::points::{OPPOSITE, POINTS, Point, points};
@@ -29,8 +29,6 @@ const TOUCH: f64 = 1e-8;
 const APPROACH: f64 = 1e-10;
 /// Speed below which a point counts as stopped by an impact.
 const STOPPED: f64 = 1e-9;
-/// Fraction of the friction cone above which a contact slips.
-const ON_CONE: f64 = 1.0 - 1e-9;
 /// Rate, in sqrt(g/D), above which steps of contact shrink in proportion.
 const FAST: f64 = 4.0;
 /// Largest turn of the axis in a step, as a fraction of the sine of its tilt: near level a small
@@ -158,7 +156,11 @@ impl TimeStepper {
         contacts.gather(
             &self.model,
             motion,
-            points.iter().zip(touching).filter_map(of_touching),
+            points
+                .iter()
+                .zip(touching)
+                .filter_map(of_touching)
+                .map(Point::touch),
         );
         let approach = points
             .iter()
@@ -195,7 +197,9 @@ impl TimeStepper {
         contacts.gather(
             &self.model,
             &motion,
-            held.iter().filter(|&i| resting(i)).map(|&i| &middle[i]),
+            held.iter()
+                .filter(|&i| resting(i))
+                .map(|&i| middle[i].touch()),
         );
         for (contact, rest) in toss.resting.iter().flatten().enumerate() {
             contacts.impulse[contact * ROWS..][..ROWS].copy_from_slice(&rest.impulse);
@@ -226,7 +230,7 @@ fn solve_step(
     let mut converged = contacts.solve(model);
     let mut again = false;
     for (contact, rest) in resting.iter().flatten().enumerate() {
-        let stuck = stuck(model, contacts, contact);
+        let stuck = contacts.stuck(model, contact);
         for (law, rows) in LAWS.iter().enumerate() {
             if stuck[law] && !rest.stuck[law] {
                 for row in rows.clone() {
@@ -241,24 +245,6 @@ fn solve_step(
         converged = contacts.solve(model);
     }
     converged
-}
-
-/// The rows of sliding, contour and pivoting friction.
-const LAWS: [std::ops::Range<usize>; 3] =
-    [TANGENT..TANGENT + 2, CONTOUR..CONTOUR + 1, PIVOT..PIVOT + 1];
-
-/// Which laws of a contact hold it still: those whose impulses are inside their cones.
-fn stuck(model: &Model, contacts: &Contacts, contact: usize) -> [bool; 3] {
-    let p = &contacts.impulse[contact * ROWS..][..ROWS];
-    let inside = |size: f64, most: f64| size < ON_CONE * most * p[NORMAL];
-    [
-        inside(
-            (p[TANGENT].powi(2) + p[TANGENT + 1].powi(2)).sqrt(),
-            model.friction,
-        ),
-        inside(p[CONTOUR].abs(), contacts.contour[contact]),
-        inside(p[PIVOT].abs(), model.pivoting),
-    ]
 }
 
 /// A point that rests on the surface.
@@ -347,7 +333,7 @@ impl Toss {
             let impulse = &contacts.impulse[contact * ROWS..][..ROWS];
             if impulse[NORMAL] > 0.0 {
                 resting.impulse.copy_from_slice(impulse);
-                resting.stuck = stuck(model, contacts, contact);
+                resting.stuck = contacts.stuck(model, contact);
                 lowest = lowest.min(point.gap(&self.motion));
             } else {
                 *slot = None;

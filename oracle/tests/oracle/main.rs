@@ -4,4 +4,5 @@ mod common;
 mod contact;
 mod equations;
 mod flight;
+mod ground;
 mod tosses;
