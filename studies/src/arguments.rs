@@ -11,6 +11,7 @@ use crate::missed_contacts::MissedContacts;
 use crate::oracle::Oracle;
 use crate::rapier::{RapierEnergy, RapierRestitution, RapierStep, RapierStress};
 use crate::robot_soak::RobotSoak;
+use crate::rough::{RoughStarts, RoughTosses};
 use crate::space::{SpaceDecision, SpaceLaws, SpacePeers, SpaceReferences};
 use crate::stability::Stability;
 use crate::stopping_rule::StoppingRule;
@@ -71,6 +72,10 @@ enum Command {
     SpacePeers(SpacePeers),
     /// In space: the decision by tilting energy against the rigorous one
     SpaceDecision(SpaceDecision),
+    /// On explicit rough ground, time-stepped: do coins that start rolling or spinning stay upright
+    RoughStarts(RoughStarts),
+    /// On explicit rough ground, time-stepped: P(side) of whole tosses
+    RoughTosses(RoughTosses),
     /// Any bytes on the robot's link: does either end ever break a rule or panic
     LinkFuzz(LinkFuzz),
     /// On Rapier: P(side) against the step, beside the event-driven engine
@@ -109,6 +114,8 @@ impl Arguments {
                 Command::SpaceReferences(study) => study.execute(seed),
                 Command::SpacePeers(study) => study.execute(seed)?,
                 Command::SpaceDecision(study) => study.execute(seed)?,
+                Command::RoughStarts(study) => study.execute(seed),
+                Command::RoughTosses(study) => study.execute(seed),
                 Command::LinkFuzz(study) => study.execute(seed)?,
                 Command::RapierStep(study) => study.execute(seed)?,
                 Command::RapierEnergy(study) => study.execute(seed)?,

@@ -18,6 +18,7 @@ mod paired;
 mod phases;
 mod rapier;
 mod robot_soak;
+mod rough;
 mod sample;
 mod space;
 mod stability;

@@ -1,0 +1,80 @@
+//! P(side) of whole tosses by hand onto rough ground.
+
+use super::{Steps, Sums, ground_seed, scene};
+use crate::survey::survey;
+use clap::Args;
+use coinmc_bench::{Case, Report, Table, number};
+use coinmc_core::{LaunchDistribution, Marginal, Preset, Spin};
+use coinmc_oracle::RoughStepper;
+
+/// Rms slope and wavelength in mm: smooth, wood, rough.
+const GROUNDS: [(f64, f64); 3] = [(0.003, 3.0), (0.02, 3.0), (0.05, 3.0)];
+/// ψ of the tosses of `examples/hand.toml`.
+const PSI_DEG: f64 = 75.0;
+
+/// The study's arguments.
+#[derive(Debug, Args)]
+pub(crate) struct RoughTosses {
+    /// Tosses of each scene
+    #[arg(long, value_parser = number::count, default_value = "400", value_name = "N")]
+    tosses: u64,
+
+    /// H/R
+    #[arg(long, value_delimiter = ',', default_values_t = [0.2, 0.7071])]
+    ratios: Vec<f64>,
+
+    #[command(flatten)]
+    steps: Steps,
+}
+
+impl RoughTosses {
+    pub(crate) fn execute(&self, seed: u64) -> Report {
+        let of_ratio = |&ratio: &f64| GROUNDS.map(|(slope, wave)| (ratio, slope, wave));
+        let scenes: Vec<(f64, f64, f64)> = self.ratios.iter().flat_map(of_ratio).collect();
+        let found = survey(&scenes, |scene| self.follow(*scene, seed));
+        let mut columns = vec!["ratio", "slope", "wavelength_mm"];
+        columns.extend(Sums::COLUMNS);
+        let title = format!("P(side) of tosses by hand, psi {PSI_DEG} degrees, on rough ground");
+        let mut record = Table::new(title, &columns);
+        for ((ratio, slope, wavelength_mm), sums) in scenes.iter().zip(&found) {
+            let mut row = vec![
+                ratio.to_string(),
+                slope.to_string(),
+                wavelength_mm.to_string(),
+            ];
+            row.extend(sums.cells(&self.steps, &scene(*ratio)));
+            record.push(row);
+        }
+        let mut report = Report::new(record);
+        report.remark("Launches are those of examples/hand.toml, each onto a ground of its own.");
+        report
+    }
+
+    fn follow(&self, (ratio, slope, wavelength_mm): (f64, f64, f64), seed: u64) -> Sums {
+        let scene = scene(ratio);
+        let launches = launches();
+        let mut stepper = RoughStepper::new(&scene, self.steps.settings());
+        let mut sums = Sums::default();
+        for toss in 0..self.tosses {
+            let mut uniforms = Case::stream(seed).toss(toss);
+            let launch = launches.launch(&scene.coin, &mut uniforms);
+            let seed = ground_seed(seed, toss);
+            let mut ground = stepper.ground(slope, 1e-3 * wavelength_mm, seed);
+            sums.add(&stepper.toss(&launch, &mut ground));
+        }
+        sums
+    }
+}
+
+/// The launches of `examples/hand.toml`.
+fn launches() -> LaunchDistribution {
+    let mut launches = Preset::Hand.distribution();
+    launches.spin = Spin::Precessing {
+        rate_rad_s: Marginal::Normal {
+            mean: 238.6,
+            sd: 23.86,
+        },
+        psi_rad: Marginal::Constant(PSI_DEG.to_radians()),
+    };
+    launches
+}
