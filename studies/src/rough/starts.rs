@@ -32,7 +32,7 @@ pub(crate) struct RoughStarts {
     starts: Vec<Kind>,
 
     /// H/R
-    #[arg(long, value_delimiter = ',', default_values_t = [0.1, 0.2, 0.4, 0.7071])]
+    #[arg(long, value_delimiter = ',', default_values = ["0.1", "0.2", "0.4", "0.7071"])]
     ratios: Vec<f64>,
 
     /// Rms slopes of the ground

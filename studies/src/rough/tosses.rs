@@ -20,7 +20,7 @@ pub(crate) struct RoughTosses {
     tosses: u64,
 
     /// H/R
-    #[arg(long, value_delimiter = ',', default_values_t = [0.2, 0.7071])]
+    #[arg(long, value_delimiter = ',', default_values = ["0.2", "0.7071"])]
     ratios: Vec<f64>,
 
     #[command(flatten)]
