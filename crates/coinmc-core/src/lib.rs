@@ -36,6 +36,7 @@ mod random;
 mod roughness;
 mod scene;
 pub mod schema;
+mod side_ending;
 mod surface;
 mod tally;
 
@@ -62,6 +63,7 @@ pub use outcome::{Breaks, Ended, Face, Outcome};
 pub use random::{Domain, Philox4x64, Stream, TossUniforms, UniformSource, unit_interval};
 pub use roughness::{Roughness, RoughnessError};
 pub use scene::{Drag, Scene, SceneParameter};
+pub use side_ending::{OntoSide, ROLL_BOUNDS_M, SideEnding, SideMotion};
 pub use surface::{Landing, Surface, SurfaceError};
 pub use tally::{Counter, CounterKind, Tally};
 

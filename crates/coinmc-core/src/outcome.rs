@@ -1,5 +1,7 @@
 //! How a toss ends.
 
+use crate::SideEnding;
+
 /// The face that is up when the coin is at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Face {
@@ -56,6 +58,8 @@ pub struct Outcome {
     pub overruled: bool,
     /// Impacts at which the law of impact broke down and its fallback was used.
     pub breaks: Breaks,
+    /// How the coin came to end on its side; `None` if it did not, or the engine does not know.
+    pub side_ending: Option<SideEnding>,
 }
 
 /// Impacts, by kind, at which a law of impact broke down and its documented fallback was used. All
@@ -84,6 +88,7 @@ impl Outcome {
             jams: 0,
             overruled: false,
             breaks: Breaks::default(),
+            side_ending: None,
         }
     }
 

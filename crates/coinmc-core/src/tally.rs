@@ -1,6 +1,6 @@
 //! Counts of outcomes: the only thing a run accumulates.
 
-use crate::{Ended, Face, Outcome};
+use crate::{Ended, Face, Outcome, ROLL_BOUNDS_M, SideEnding, SideMotion};
 
 /// One counter of a [`Tally`], for whoever writes tallies to a file or a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,6 +24,8 @@ pub enum CounterKind {
     Event,
     /// An impact adds at most 1, and only under a law of impact that breaks down.
     Breakdown,
+    /// A toss on the side adds at most 1, in an engine that knows how it came to end there.
+    SideEnding,
 }
 
 /// Defines [`Tally`] from one list of counters: name, kind, and what each counts.
@@ -91,6 +93,16 @@ tally! {
     sinkings: Breakdown,
         "Impacts after which the corner would have continued into the surface, in all tosses.";
     unresolved: Breakdown, "Impacts whose integration in time was given up, in all tosses.";
+    side_rested: SideEnding, "Tosses on the side that came to rest where they landed.";
+    side_rolled: SideEnding, "Tosses on the side that rolled along it, by more than the radius.";
+    side_spun: SideEnding, "Tosses on the side that turned about the vertical, more than once.";
+    rolled_1_cm: SideEnding, "Tosses on the side that rolled more than 1 cm.";
+    rolled_3_cm: SideEnding, "Tosses on the side that rolled more than 3 cm.";
+    rolled_10_cm: SideEnding, "Tosses on the side that rolled more than 10 cm.";
+    rolled_30_cm: SideEnding, "Tosses on the side that rolled more than 30 cm.";
+    rolled_1_m: SideEnding, "Tosses on the side that rolled more than 1 m.";
+    rolled_3_m: SideEnding, "Tosses on the side that rolled more than 3 m.";
+    rolled_10_m: SideEnding, "Tosses on the side that rolled more than 10 m.";
 }
 
 impl Tally {
@@ -115,6 +127,42 @@ impl Tally {
         self.wrong_levers += u64::from(breaks.wrong_levers);
         self.sinkings += u64::from(breaks.sinkings);
         self.unresolved += u64::from(breaks.unresolved);
+        if let Some(ending) = outcome.side_ending {
+            self.add_side_ending(ending);
+        }
+    }
+
+    fn add_side_ending(&mut self, ending: SideEnding) {
+        match ending.motion {
+            SideMotion::Rested => self.side_rested += 1,
+            SideMotion::Rolled => self.side_rolled += 1,
+            SideMotion::Spun => self.side_spun += 1,
+        }
+        for counter in self
+            .rolled_mut()
+            .into_iter()
+            .take(ending.roll_bounds_passed.into())
+        {
+            *counter += 1;
+        }
+    }
+
+    /// Tosses on the side that rolled more than each of [`ROLL_BOUNDS_M`](crate::ROLL_BOUNDS_M).
+    pub fn rolled(&self) -> [u64; ROLL_BOUNDS_M.len()] {
+        let mut tally = *self;
+        tally.rolled_mut().map(|count| *count)
+    }
+
+    fn rolled_mut(&mut self) -> [&mut u64; ROLL_BOUNDS_M.len()] {
+        [
+            &mut self.rolled_1_cm,
+            &mut self.rolled_3_cm,
+            &mut self.rolled_10_cm,
+            &mut self.rolled_30_cm,
+            &mut self.rolled_1_m,
+            &mut self.rolled_3_m,
+            &mut self.rolled_10_m,
+        ]
     }
 
     /// Adds another tally's counts; `None` if a counter would overflow (only forged input can).

@@ -1,6 +1,6 @@
 //! Tallies: exact, order-free, safe against forged counts.
 
-use coinmc_core::{Breaks, Ended, Face, Outcome, Tally};
+use coinmc_core::{Breaks, Ended, Face, Outcome, SideEnding, SideMotion, Tally};
 use proptest::prelude::*;
 
 fn outcome() -> impl Strategy<Value = Outcome> {
@@ -31,6 +31,10 @@ fn outcome() -> impl Strategy<Value = Outcome> {
                 unresolved: jams,
                 ..Breaks::default()
             },
+            side_ending: Some(SideEnding {
+                motion: SideMotion::Rolled,
+                roll_bounds_passed: u8::try_from(jams % 8).expect("below 8"),
+            }),
         })
 }
 
@@ -81,4 +85,27 @@ fn the_names_of_the_counters_match_their_order() {
         assert!(named.contains(&format!("{name}: 7")), "{name} {named}");
         counts[i] = 0;
     }
+}
+
+#[test]
+fn a_side_ending_counts_its_motion_and_every_bound_it_passed() {
+    let mut sum = Tally::default();
+    for (motion, roll_bounds_passed) in [
+        (SideMotion::Rested, 0),
+        (SideMotion::Rolled, 2),
+        (SideMotion::Rolled, 7),
+        (SideMotion::Spun, 1),
+    ] {
+        sum.add(&Outcome {
+            side_ending: Some(SideEnding {
+                motion,
+                roll_bounds_passed,
+            }),
+            ..Outcome::decided(Face::Side)
+        });
+    }
+    sum.add(&Outcome::decided(Face::Heads));
+    assert_eq!((sum.side_rested, sum.side_rolled, sum.side_spun), (1, 2, 1));
+    assert_eq!(sum.rolled(), [3, 2, 1, 1, 1, 1, 1]);
+    assert_eq!((sum.rolled_1_cm, sum.rolled_10_m), (3, 1));
 }

@@ -21,6 +21,7 @@ impl Counters {
             jams: self.jams,
             overruled: false,
             breaks: self.breaks,
+            side_ending: None,
         }
     }
 }

@@ -284,6 +284,7 @@ impl<'a, O: Observer> Toss<'a, O> {
                 jams: 0,
                 overruled: false,
                 breaks: Breaks::default(),
+                side_ending: None,
             },
             flaw: ended.err(),
             steps: self.steps,

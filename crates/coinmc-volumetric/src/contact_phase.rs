@@ -16,6 +16,7 @@ impl<L> Model<L> {
         solver: &mut ContactSolver<'_>,
         observer: &mut O,
     ) -> Transition {
+        self.note_contact(toss);
         let (motion, spin, mut adapter) = toss.observed(&self.units, observer);
         let exit = solver.follow(motion, spin, &mut adapter);
         if exit == Exit::LiftOff {
@@ -59,6 +60,7 @@ impl<L> Model<L> {
         solver: &mut ContactSolver<'_>,
         observer: &mut O,
     ) -> Transition {
+        self.note_contact(toss);
         let (motion, spin, mut adapter) = toss.observed(&self.units, observer);
         match solver.follow_on_side(motion, spin, &mut adapter) {
             SideExit::TipsOntoThisRim => Transition::Contact,

@@ -1,6 +1,7 @@
 //! A toss that has ended.
 
 use crate::contact::Usage;
+use crate::model::Model;
 use crate::toss::Toss;
 use coinmc_core::{Breaks, Ended, Outcome};
 
@@ -13,7 +14,7 @@ pub(crate) struct FinishedToss {
 }
 
 impl FinishedToss {
-    pub(crate) fn new(ended: Ended, toss: &Toss, usage: &Usage) -> Self {
+    pub(crate) fn new<L>(model: &Model<L>, ended: Ended, toss: &Toss, usage: &Usage) -> Self {
         let outcome = Outcome {
             ended,
             impacts: toss.impacts,
@@ -21,6 +22,7 @@ impl FinishedToss {
             jams: usage.jams,
             overruled: false,
             breaks: Breaks::default(),
+            side_ending: model.side_ending(toss, ended),
         };
         let time = usage.time;
         Self { outcome, time }

@@ -54,6 +54,7 @@ mod limits;
 mod model;
 mod motion;
 mod observer_adapter;
+mod onto_side;
 mod place;
 mod rough;
 mod scalar;

@@ -20,7 +20,7 @@ impl<L: ImpactLaw> Model<L> {
             None => self.follow(&mut toss, &mut solver, observer),
         };
         self.notify(&toss, EventKind::Ended, observer);
-        FinishedToss::new(ended, &toss, &solver.usage)
+        FinishedToss::new(self, ended, &toss, &solver.usage)
     }
 
     /// Alternates flight and contact with the surface until the toss ends.

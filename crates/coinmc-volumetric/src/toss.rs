@@ -3,6 +3,7 @@
 use crate::body::{Body, Units};
 use crate::motion::{FLAT, Motion, Spin};
 use crate::observer_adapter::ObserverAdapter;
+use crate::onto_side::SideArrival;
 use crate::place::Place;
 use coinmc_core::{Decided, Ended, Face, Launch, Observer, State};
 use nalgebra::Vector3;
@@ -19,6 +20,8 @@ pub(crate) struct Toss {
     pub(crate) motion: Motion<f64>,
     pub(crate) spin: Spin<f64>,
     pub(crate) place: Place,
+    /// How the coin came onto its side, if it is there in sustained contact.
+    pub(crate) side_arrival: Option<SideArrival>,
 }
 
 impl Toss {
@@ -51,6 +54,7 @@ impl Toss {
             impacts: 0,
             rim_changes: 0,
             place: Place::origin([1.0, 0.0]),
+            side_arrival: None,
         }
     }
 
@@ -92,6 +96,7 @@ impl Toss {
             impacts: 0,
             rim_changes: 0,
             place: Place::origin([nx, ny]),
+            side_arrival: None,
         }
     }
 

@@ -259,6 +259,7 @@ mod tests {
             jams: 0,
             overruled: false,
             breaks: coinmc_core::Breaks::default(),
+            side_ending: None,
         };
         let seen = Seen {
             gain,

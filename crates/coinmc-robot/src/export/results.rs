@@ -29,6 +29,7 @@ pub fn results(experiment: &Experiment, history: &History) -> Results {
             jams: 0,
             overruled: false,
             breaks: Breaks::default(),
+            side_ending: None,
         });
     }
     let complete = tally.tosses() >= u64::from(experiment.throws());

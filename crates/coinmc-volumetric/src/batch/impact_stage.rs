@@ -131,7 +131,7 @@ impl ImpactStage {
     }
 
     /// What follows an impact that does not send the coin straight into a flight. Unless the toss
-    /// has ended, it has the motion of its lane afterwards.
+    /// has ended on a face, it has the motion of its lane afterwards.
     #[inline]
     pub(super) fn after_impact<I: ImpactLaw>(
         &self,
@@ -142,6 +142,7 @@ impl ImpactStage {
         let toss = &mut slot.toss;
         if has(self.decided, lane) {
             let decided = if has(self.on_side, lane) {
+                self.copy_motion(lane, toss);
                 Decided::Side
             } else {
                 Decided::Face

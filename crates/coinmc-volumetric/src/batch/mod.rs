@@ -122,7 +122,7 @@ impl<I: ImpactLaw> TossBatch for Batch<'_, I> {
 impl<I: ImpactLaw> Batch<'_, I> {
     fn end(&mut self, slot: usize, ended: Ended) {
         let state = &self.pool.slots[slot];
-        let finished = FinishedToss::new(ended, &state.toss, &state.usage);
+        let finished = FinishedToss::new(self.model, ended, &state.toss, &state.usage);
         self.ended.push((state.number, finished));
         self.pool.free.push(slot);
     }
@@ -283,6 +283,7 @@ impl<I: ImpactLaw> Batch<'_, I> {
                 }
                 Transition::Impact => self.model.impact(&mut state.toss, &mut solver, &mut ()),
                 Transition::Contact => {
+                    self.model.note_contact(&mut state.toss);
                     let (motion, spin) = (&mut state.toss.motion, &mut state.toss.spin);
                     state.phase = solver.enter(motion, spin);
                     match solver.exit_before_step(&mut state.phase, motion, spin) {

@@ -64,7 +64,7 @@ pub(crate) use line::{LineState, line_rates};
 pub(crate) use on_side::SideExit;
 pub(crate) use phase::{Exit, Phase, PhaseTransition};
 pub(crate) use rim::{Mode, OMEGA_Y, Rates, RimState, SLIP_X, SLIP_Y, TILT};
-pub(crate) use rolling_stop::RollingStop;
+pub(crate) use rolling_stop::{RollingStop, way_to_rest};
 pub(crate) use rules::{ContactRules, Usage};
 pub(crate) use solver::ContactSolver;
 pub(crate) use state::{place, place_unfolded, rim_state};

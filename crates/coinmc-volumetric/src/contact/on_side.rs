@@ -161,7 +161,7 @@ impl ContactSolver<'_> {
         adapter: &mut ObserverAdapter<'_, O>,
     ) -> Exit {
         let dynamics = self.rules.dynamics;
-        let rolling = RollingStop::new(dynamics, state);
+        let rolling = RollingStop::new(dynamics, state[1].abs());
         adapter.event(EventKind::Sticking, motion, spin);
         if !rolling.stops() {
             // drag alone never quite stops the coin; without drag it rolls forever

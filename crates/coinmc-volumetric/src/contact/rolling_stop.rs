@@ -1,10 +1,11 @@
 //! The end of straight rolling on the side, in closed form.
 
 use super::dynamics::Dynamics;
-use super::line::LineState;
 
 /// Drag is neglected if its share of the deceleration is below this.
 const NEGLIGIBLE_DRAG: f64 = 1e-12;
+/// Below this share the way is expanded in powers of it: the closed form cancels.
+const SMALL_DRAG: f64 = 1e-5;
 
 /// Straight rolling that contour friction and drag bring to rest.
 ///
@@ -21,7 +22,8 @@ pub(crate) struct RollingStop {
 }
 
 impl RollingStop {
-    pub(crate) fn new(dynamics: &Dynamics, state: &LineState) -> Self {
+    /// Rolling that begins at this speed.
+    pub(crate) fn new(dynamics: &Dynamics, speed: f64) -> Self {
         let Dynamics {
             body,
             friction,
@@ -31,7 +33,6 @@ impl RollingStop {
         let r2 = body.radius * body.radius;
         let a = friction.contour * body.radius / (body.ka + r2);
         let b = (drag.linear * r2 + drag.angular * body.ka) / (body.ka + r2);
-        let speed = state[1].abs();
         let dragged = b * speed >= NEGLIGIBLE_DRAG * a;
         let time = if dragged {
             libm::log1p(b * speed / a) / b
@@ -57,6 +58,11 @@ impl RollingStop {
         self.b > 0.0
     }
 
+    /// The way until the coin rests.
+    pub(crate) fn distance(&self) -> f64 {
+        way_to_rest(self.a, self.b, self.speed)
+    }
+
     /// The fraction of the velocities that is left at time `t`.
     pub(crate) fn left(&self, t: f64) -> f64 {
         let lost = if self.dragged {
@@ -71,5 +77,66 @@ impl RollingStop {
     /// exact without drag.
     pub(super) fn pieces(&self) -> f64 {
         (10.0 * self.b * self.time).ceil().max(1.0)
+    }
+}
+
+/// The way to rest of a speed v > 0 that falls at the rate a + bv: v²/2a, with drag
+/// v/b − (a/b²) ln(1 + bv/a); infinite if nothing stops it.
+pub(crate) fn way_to_rest(a: f64, b: f64, speed: f64) -> f64 {
+    if a == 0.0 {
+        return speed / b;
+    }
+    let x = b * speed / a;
+    if x < SMALL_DRAG {
+        // the next term of the series is x²/2 of this
+        speed * speed / (2.0 * a) * (1.0 - x * (2.0 / 3.0))
+    } else {
+        speed / b - a / (b * b) * libm::log1p(x)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rolling(a: f64, b: f64) -> RollingStop {
+        let dragged = b >= NEGLIGIBLE_DRAG * a;
+        let time = if dragged {
+            libm::log1p(b / a) / b
+        } else {
+            1.0 / a
+        };
+        RollingStop {
+            a,
+            b,
+            speed: 1.0,
+            time,
+            dragged,
+        }
+    }
+
+    /// The way is the integral of the speed, here by Simpson's rule.
+    #[test]
+    fn the_way_is_the_integral_of_the_speed() {
+        for b in [0.0, 1e-9, 1e-7, 1e-5, 1e-3, 1.0, 100.0] {
+            let rolling = rolling(0.5, b);
+            let pieces = 20_000;
+            let sum: f64 = (0..=pieces)
+                .map(|i| {
+                    let weight = match i {
+                        _ if i == 0 || i == pieces => 1.0,
+                        _ if i % 2 == 1 => 4.0,
+                        _ => 2.0,
+                    };
+                    weight * rolling.left(rolling.time * f64::from(i) / f64::from(pieces))
+                })
+                .sum();
+            let expected = sum * rolling.time / f64::from(3 * pieces);
+            let off = (rolling.distance() / expected - 1.0).abs();
+            // x − ln(1 + x) cancels down to x²/2 at the least x that is not expanded
+            assert!(off < 1e-10, "{b}: {off:e}");
+        }
+        assert_eq!(rolling(0.0, 0.25).distance(), 4.0);
+        assert_eq!(rolling(0.0, 0.0).distance(), f64::INFINITY);
     }
 }

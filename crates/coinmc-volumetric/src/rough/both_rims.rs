@@ -64,7 +64,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         if rules.rolls_straight(state) {
             self.usage.steps += 1;
             let time = self.tracks.left;
-            let rolling = RollingStop::new(dynamics, state);
+            let rolling = RollingStop::new(dynamics, state[1].abs());
             let left = if rolling.stops() {
                 rolling.left(time)
             } else {

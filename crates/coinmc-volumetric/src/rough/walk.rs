@@ -112,6 +112,9 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         match next {
             Next::Impact => self.impact(),
             Next::Goes(touch) => {
+                if touch != Touch::Nothing {
+                    self.model.note_contact(self.toss);
+                }
                 if let Some(end) = self.end_now(touch) {
                     return Next::Ends(end);
                 }

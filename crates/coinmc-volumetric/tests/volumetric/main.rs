@@ -13,5 +13,6 @@ mod limits;
 mod planar;
 mod rough;
 mod sampling;
+mod side_ending;
 mod symmetry;
 mod textbook;

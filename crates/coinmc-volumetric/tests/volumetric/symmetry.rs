@@ -1,7 +1,7 @@
 //! Symmetries of the physics: heads and tails, the directions of the plane, left and right, size.
 
 use crate::common::{Start, Tosser};
-use coinmc_core::{Launch, Preset, Scene};
+use coinmc_core::{Launch, Outcome, Preset, Scene};
 use coinmc_testkit::{Dice, Scale, conformance, paired, preset_launch, rolling_scene, side};
 use coinmc_volumetric::Law;
 use nalgebra::{UnitVector3, Vector3};
@@ -96,6 +96,14 @@ fn no_direction_is_preferred() {
     assert!(short > 500, "{short}");
 }
 
+/// The outcome but for the ways in metres that a coin rolls.
+fn without_lengths(mut outcome: Outcome) -> Outcome {
+    if let Some(ending) = &mut outcome.side_ending {
+        ending.roll_bounds_passed = 0;
+    }
+    outcome
+}
+
 /// Scaling by powers of two changes no bit of the dimensionless toss. (The mass cancels.)
 #[test]
 fn size_gravity_and_mass_do_not_matter() {
@@ -114,8 +122,9 @@ fn size_gravity_and_mass_do_not_matter() {
         let engine = Tosser::new(&other);
         for toss in 0..1000 {
             let launch = moving(&base, 223, toss);
-            let outcome = engine.toss(&scale.launch(&launch));
-            assert_eq!(reference.toss(&launch), outcome, "{length} {time} {toss}");
+            let outcomes = [reference.toss(&launch), engine.toss(&scale.launch(&launch))];
+            let [here, there] = outcomes.map(without_lengths);
+            assert_eq!(here, there, "{length} {time} {toss}");
         }
     }
 }

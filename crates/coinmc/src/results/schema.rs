@@ -1,7 +1,7 @@
 //! The one definition of the results table: CSV, Parquet, JSON and docs/reference/formats.md follow it.
 
 use super::{Results, Row};
-use coinmc_core::{Tally, relative_error, rule_of_thumb_relative_error};
+use coinmc_core::{CounterKind, Tally, relative_error, rule_of_thumb_relative_error};
 
 /// Version of the table.
 pub const FORMAT: u64 = 1;
@@ -223,6 +223,13 @@ fn work() -> Vec<Column> {
     ]
 }
 
+/// How tosses on the side came to end there.
+fn side_endings() -> Vec<Column> {
+    let counters = Tally::COUNTERS.iter();
+    let counters = counters.filter(|counter| counter.kind == CounterKind::SideEnding);
+    counters.map(|found| counter(found.name)).collect()
+}
+
 /// The column of one of the tally's counters.
 fn counter(name: &str) -> Column {
     let mut counters = Tally::COUNTERS.iter().enumerate();
@@ -278,6 +285,7 @@ pub fn columns<'a>(parameters: impl IntoIterator<Item = &'a str>) -> Vec<Column>
         .chain(endings())
         .chain(probabilities())
         .chain(work())
+        .chain(side_endings())
         .collect()
 }
 

@@ -100,7 +100,7 @@ impl RunDirectory {
         self.tallies.scan(plan, &Cut::new(plan), |entry| {
             match entry {
                 Entry::Finished(chunk, result) => {
-                    finished.insert((chunk.point, chunk.tosses.start), result);
+                    finished.insert((chunk.point, chunk.tosses.start), *result);
                 }
                 Entry::Leftover(path) => replace::remove(&path)?,
                 Entry::Damaged(path, damage) => {

@@ -81,6 +81,7 @@ fn collect(
     for (input, dir) in inputs.iter().enumerate() {
         Tallies::of(dir, plan_hash.to_owned()).scan(plan, &cut, |entry| match entry {
             Entry::Finished(chunk, result) => {
+                let result = *result;
                 match collected.entry((chunk.point, chunk.tosses.start)) {
                     Slot::Occupied(there) if there.get().result != result => {
                         let first = inputs[there.get().input].clone();

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 const CHECKSUM: &str = "crc32 ";
 /// Longest file, in bytes; longer ones are not read.
-pub(super) const MAX_BYTES: usize = 1024;
+pub(super) const MAX_BYTES: usize = 2048;
 
 /// Appends the checksum.
 pub(super) fn seal(mut text: String) -> String {

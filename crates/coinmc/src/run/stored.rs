@@ -37,7 +37,7 @@ pub fn stored_report(dir: &Path, sink: &dyn ProgressSink) -> Result<(Plan, Repor
     tallies.scan(&plan, &Cut::new(&plan), |entry| {
         match entry {
             Entry::Finished(chunk, result) => {
-                finished.insert((chunk.point, chunk.tosses.start), result);
+                finished.insert((chunk.point, chunk.tosses.start), *result);
             }
             Entry::Damaged(path, damage) => {
                 sink.warning(&format!("{} is rejected: {damage}", path.display()));

@@ -29,7 +29,7 @@ pub(super) struct Tallies {
 #[derive(Debug)]
 pub(super) enum Entry {
     /// A finished chunk.
-    Finished(Chunk, ChunkResult),
+    Finished(Chunk, Box<ChunkResult>),
     /// A file that is rejected.
     Damaged(PathBuf, Damage),
     /// The temporary file of a killed run.
@@ -93,7 +93,7 @@ impl Tallies {
             tally_file::decode(&bytes, &chunk, hash).map(ChunkResult::Tossed)
         });
         Ok(match result {
-            Ok(result) => Entry::Finished(chunk, result),
+            Ok(result) => Entry::Finished(chunk, Box::new(result)),
             Err(damage) => Entry::Damaged(path.to_owned(), damage),
         })
     }

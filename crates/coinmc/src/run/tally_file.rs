@@ -32,10 +32,13 @@ pub(super) fn parse_name(file: &str) -> Option<(usize, u64)> {
         .then_some((point, start))
 }
 
-/// Whether the counter has a line even if it is 0; counters of events that most laws never have do
-/// not.
+/// Whether the counter has a line even if it is 0; counters of what most laws or engines never
+/// count do not.
 fn is_always_written(counter: &Counter) -> bool {
-    counter.kind != CounterKind::Breakdown
+    !matches!(
+        counter.kind,
+        CounterKind::Breakdown | CounterKind::SideEnding
+    )
 }
 
 /// The file's content.
@@ -113,6 +116,7 @@ fn is_possible(tally: &Tally, tosses: u64) -> bool {
             CounterKind::Toss => tosses,
             CounterKind::Event => most_events,
             CounterKind::Breakdown => tally.impacts,
+            CounterKind::SideEnding => tally.side,
         };
         if count > most {
             return false;
@@ -183,6 +187,10 @@ mod tests {
             },
             Tally {
                 impacts: u64::MAX,
+                ..tally
+            },
+            Tally {
+                side_spun: tally.side + 1,
                 ..tally
             },
         ] {

@@ -4,6 +4,7 @@
 mod curves;
 mod fair;
 mod published;
+mod side_endings;
 
 use super::plot::{Curve, Level, Plot, Reference};
 use super::table::{Column, Table};
@@ -160,7 +161,7 @@ fn plot(results: &Results, curves: &[Curve], style: &Style) -> Option<String> {
     .render(style)
 }
 
-/// Undecided tosses, and the path of the results.
+/// Undecided tosses, how tosses on the side came there, and the path of the results.
 fn closing(results: &Results, csv: &Path, style: &Style) -> String {
     let sum = |count: fn(&Row) -> u64| {
         results
@@ -191,6 +192,8 @@ fn closing(results: &Results, csv: &Path, style: &Style) -> String {
         );
         text += &wrapped(&sentence, style.width, 4);
     }
+    let sentence = side_endings::sentence(results);
+    text += &sentence.map_or(String::new(), |text| wrapped(&text, style.width, 4));
     text + &format!("Results: {}\n", csv.display())
 }
 

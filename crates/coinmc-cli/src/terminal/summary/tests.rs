@@ -176,6 +176,20 @@ fn undecided_tosses_are_counted_by_why_not() {
 }
 
 #[test]
+fn tosses_on_the_side_are_told_by_how_they_came_there() {
+    let mut results = unity("", "2");
+    let plain = Style::plain(200);
+    assert!(!text(&results, &plain).contains("On the side"));
+    let tally = &mut results.rows[0].tally;
+    (tally.side_rested, tally.side_rolled, tally.side_spun) = (10, 1000, 990);
+    (tally.rolled_1_cm, tally.rolled_3_cm, tally.rolled_10_cm) = (1200, 500, 499);
+    let sentence = "On the side: 2 000 tosses, 0.5 % came to rest where they landed, 50.0 % rolled, \
+                    49.5 % spun; 25.0 % rolled more than 3 cm\n";
+    let text = text(&results, &plain);
+    assert!(text.contains(sentence), "{text}");
+}
+
+#[test]
 fn axes_side_by_side_make_one_curve() {
     let config = sweep("[0.5, 1.0, 1.5]", "[0.3, 0.4, 0.5]") + "\nsweep.mode = 'zip'";
     let text = text(&results(&config, 1.0), &Style::plain(80));
