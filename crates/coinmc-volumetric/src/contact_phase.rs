@@ -29,14 +29,16 @@ impl<L> Model<L> {
     pub(crate) fn after_contact(&self, toss: &mut Toss, exit: Exit) -> Transition {
         match exit {
             Exit::LiftOff => Transition::Flight(Departure::LiftOff),
+            // rough ground: the other rim is near it; and the rule for a plane decides faces only
+            Exit::OtherRim | Exit::Decided(Decided::Side) if self.ground.is_some() => {
+                Transition::NearGround
+            }
             Exit::OtherRim => {
                 toss.motion.lay_on_side();
                 toss.switch_rim();
                 Transition::Impact
             }
             Exit::Level => Transition::Impact,
-            // on rough ground the rule for a plane decides faces only
-            Exit::Decided(Decided::Side) if self.ground.is_some() => Transition::Impact,
             Exit::Decided(decided) => Transition::End(toss.ended(decided)),
             Exit::NeverSettles => Transition::End(Ended::NeverSettles),
             Exit::TimeLimit => Transition::End(Ended::TimeLimit),

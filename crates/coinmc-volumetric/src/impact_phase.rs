@@ -26,7 +26,7 @@ impl<L: ImpactLaw> Model<L> {
         if let Some(ground) = &self.ground
             && toss.motion.sin >= FLATTEST
         {
-            return self.walk(ground, toss, &mut solver.usage, observer);
+            return self.land_on(ground, toss, &mut solver.usage, observer);
         }
         if self.limits.no_impact_left(toss.impacts) {
             return Transition::End(Ended::ImpactLimit);

@@ -8,6 +8,7 @@ use crate::rough::Ground;
 use crate::settings::{Decision, Settings, SettingsError};
 use crate::toss::Toss;
 use coinmc_core::{DecisionRule, Event, EventKind, Landing, Launch, Observer, Scene};
+use std::f64::consts::FRAC_PI_2;
 
 /// Smallest error that the contact integrator may be asked for: its rounding.
 const LEAST_TOLERANCE: f64 = 1e-13;
@@ -34,6 +35,8 @@ pub(crate) struct Model<L> {
     pub(crate) adhesive: bool,
     /// The rough ground, if it is not a plane.
     pub(crate) ground: Option<Ground>,
+    /// [`ContactRules::side`].
+    side: f64,
     /// [`Settings::ground_step`].
     pub(crate) ground_step: f64,
     /// Whether no toss ever loses energy.
@@ -70,6 +73,13 @@ impl<L> Model<L> {
         let negligible_rocking = NEGLIGIBLE_ROCKING * settings.zeno;
         let tilting = settings.decision == Decision::Tilting;
         let rule = DecisionRule::new(scene, tilting, negligible_rocking);
+        let ground = scene.surface.roughness().map(|roughness| {
+            let length = roughness.correlation_length_m() / units.length_m;
+            Ground::new(roughness.slope(), length)
+        });
+        let side = ground
+            .as_ref()
+            .map_or(FRAC_PI_2, |ground| libm::acos(ground.near(2.0 * body.half)));
         let restitution = scene.surface.restitution();
         let threshold = scene.surface.restitution_threshold_m_s() / units.speed_m_s();
         let dynamics = Dynamics::new(body, friction, drag, axial_factor, settings.smoothing_time);
@@ -87,10 +97,8 @@ impl<L> Model<L> {
             restitution,
             threshold,
             adhesive: scene.surface.landing() == Landing::Adhesive,
-            ground: scene.surface.roughness().map(|roughness| {
-                let length = roughness.correlation_length_m() / units.length_m;
-                Ground::new(roughness.slope(), length)
-            }),
+            ground,
+            side,
             ground_step: settings.ground_step,
             conserves: rule.loses_nothing(restitution) && threshold == 0.0,
             zeno: settings.zeno,
@@ -113,6 +121,7 @@ impl<L> Model<L> {
             dynamics: &self.dynamics,
             rule: &self.rule,
             limits: &self.limits,
+            side: self.side,
             stick_speed: self.stick_speed,
             tolerance: self.tolerance,
         }

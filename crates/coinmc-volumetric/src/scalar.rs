@@ -55,13 +55,14 @@ impl<L: ImpactLaw> Model<L> {
         toss.rim_changes = 0;
         loop {
             let mut next = self.impact(toss, solver, observer);
-            if next == Transition::Contact {
-                next = self.follow_contact(toss, solver, observer);
-            }
-            match next {
-                Transition::Flight(departure) => return Ok(departure),
-                Transition::Impact | Transition::Contact => {}
-                Transition::End(ended) => return Err(ended),
+            loop {
+                next = match next {
+                    Transition::Contact => self.follow_contact(toss, solver, observer),
+                    Transition::NearGround => self.near_ground(toss, solver, observer),
+                    Transition::Flight(departure) => return Ok(departure),
+                    Transition::Impact => break,
+                    Transition::End(ended) => return Err(ended),
+                }
             }
         }
     }

@@ -11,5 +11,7 @@ pub(crate) enum Transition {
     Impact,
     /// Sustained contact of the lowest point.
     Contact,
+    /// Sustained contact of the lowest point on rough ground, with the other rim near it.
+    NearGround,
     End(Ended),
 }

@@ -171,7 +171,8 @@ impl ContactStage {
         let (motion, spin) = (&mut slot.toss.motion, &mut slot.toss.spin);
         let state = || self.trial.state.map(|block| block[lane]);
         if slot.tilt_search.is_none() && has(self.allowed & self.eventful, lane) {
-            slot.tilt_search = TiltSearch::within(phase, &state(), self.length[lane]);
+            slot.tilt_search =
+                TiltSearch::within(phase, &state(), self.length[lane], solver.rules.side);
         }
         if let Some(mut search) = slot.tilt_search {
             let state = state();

@@ -282,6 +282,10 @@ impl<I: ImpactLaw> Batch<'_, I> {
                     return;
                 }
                 Transition::Impact => self.model.impact(&mut state.toss, &mut solver, &mut ()),
+                Transition::NearGround => {
+                    self.model
+                        .near_ground(&mut state.toss, &mut solver, &mut ())
+                }
                 Transition::Contact => {
                     self.model.note_contact(&mut state.toss);
                     let (motion, spin) = (&mut state.toss.motion, &mut state.toss.spin);

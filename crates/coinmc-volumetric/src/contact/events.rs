@@ -12,7 +12,6 @@ use super::step::{
 };
 use super::tilt_search::TiltSearch;
 use coinmc_core::Decided;
-use std::f64::consts::FRAC_PI_2;
 
 /// After this many turning points of the tilt, a motion without loss has shown that it repeats
 /// itself.
@@ -34,13 +33,14 @@ impl ContactSolver<'_> {
         length: f64,
         wanted: f64,
     ) -> (PhaseTransition, f64) {
-        if let Some(mut search) = TiltSearch::within(phase, &trial.state, length) {
+        let side = self.rules.side;
+        if let Some(mut search) = TiltSearch::within(phase, &trial.state, length, side) {
             let state = self.finish_tries(phase, &mut search, trial.state);
             return search.finish(phase, state);
         }
         // the other rim may also have touched within the step and have risen again at its end
         let (before, after) = (phase.state[OMEGA_Y], trial.state[OMEGA_Y]);
-        if may_reach_side(phase.state[TILT], before, after, length) {
+        if may_reach_side(phase.state[TILT], before, after, length, side) {
             let (fraction, state) = turning_point(phase, trial);
             if let Some(touching) = self.touch_before(phase, &state, fraction * length) {
                 return touching;
@@ -74,7 +74,7 @@ impl ContactSolver<'_> {
             return touching;
         }
         phase.state = state;
-        phase.state[TILT] = phase.state[TILT].min(FRAC_PI_2);
+        phase.state[TILT] = phase.state[TILT].min(self.rules.side);
         phase.now = now;
         phase.length = wanted;
         let next = if now.press <= 0.0 {
@@ -111,12 +111,13 @@ impl ContactSolver<'_> {
         state: &RimState<f64>,
         length: f64,
     ) -> Option<(PhaseTransition, f64)> {
-        if state[TILT] <= FRAC_PI_2 + SIDE_ANGLE {
+        let side = self.rules.side;
+        if state[TILT] <= side + SIDE_ANGLE {
             return None;
         }
-        let mut search = TiltSearch::within(phase, state, length)?;
+        let mut search = TiltSearch::within(phase, state, length, side)?;
         let state = self.finish_tries(phase, &mut search, *state);
-        let arrives = (state[TILT] - FRAC_PI_2).abs() <= SIDE_ANGLE && state[OMEGA_Y] > 0.0;
+        let arrives = (state[TILT] - side).abs() <= SIDE_ANGLE && state[OMEGA_Y] > 0.0;
         arrives.then(|| search.finish(phase, state))
     }
 

@@ -12,6 +12,9 @@ pub(crate) struct ContactRules<'a> {
     pub(crate) dynamics: &'a Dynamics,
     pub(crate) rule: &'a DecisionRule,
     pub(crate) limits: &'a Limits,
+    /// The tilt, rad, at which the other rim touches: π/2; on rough ground a little less, where the
+    /// ground under that rim begins to matter.
+    pub(crate) side: f64,
     /// Slip below which a contact point may stick.
     pub(crate) stick_speed: f64,
     /// Error allowed per step, absolute and relative.

@@ -8,7 +8,6 @@ use super::rules::ContactRules;
 use super::state::place_below;
 use crate::motion::{FLAT, Motion, Spin};
 use coinmc_lanes::Lane;
-use std::f64::consts::FRAC_PI_2;
 
 /// The other rim counts as touching within this angle, rad; the difference is an energy of 1e-12 at
 /// most.
@@ -70,8 +69,7 @@ impl<L: Lane> StepTrial<L> {
         let mut state = trial.state;
         let (mut motion, mut spin) = (Motion::still(), Spin::still());
         place_below(dynamics, &mut state, &mut motion, &mut spin, self.ceiling);
-        let stick_speed = rules.stick_speed;
-        let eventful = self.has_event(dynamics, stick_speed, mode, length, &trial.state, &now);
+        let eventful = self.has_event(dynamics, rules, mode, length, &trial.state, &now);
         Tried {
             length,
             wanted,
@@ -91,7 +89,7 @@ impl<L: Lane> StepTrial<L> {
     fn has_event(
         &self,
         dynamics: &Dynamics,
-        stick_speed: f64,
+        rules: &ContactRules<'_>,
         mode: Mode,
         length: L,
         state: &RimState<L>,
@@ -99,19 +97,20 @@ impl<L: Lane> StepTrial<L> {
     ) -> L::Mask {
         let (zero, flat) = (L::splat(0.0), L::splat(FLAT));
         let tilt = state[TILT];
-        let on_side = L::splat(FRAC_PI_2 - SIDE_ANGLE).lt(tilt) & zero.lt(state[OMEGA_Y]);
-        let beyond = L::splat(FRAC_PI_2 + SIDE_ANGLE).lt(tilt);
+        let on_side = L::splat(rules.side - SIDE_ANGLE).lt(tilt) & zero.lt(state[OMEGA_Y]);
+        let beyond = L::splat(rules.side + SIDE_ANGLE).lt(tilt);
         // about to become level, or level already: no step may start from here
         let level = tilt.le(flat);
         let (before, after) = (self.state[OMEGA_Y], state[OMEGA_Y]);
-        let over = may_reach_side(self.state[TILT], before, after, length);
+        let over = may_reach_side(self.state[TILT], before, after, length, rules.side);
         let mut happens = on_side | beyond | over | level | !holds(dynamics, mode, now);
         if dynamics.conserves(mode) {
             happens = happens | (state[OMEGA_Y] * self.state[OMEGA_Y]).lt(zero);
         }
         if mode == Mode::Slip && dynamics.friction.mu > 0.0 {
             let slows = state[SLIP_X] * now.state[SLIP_X] + state[SLIP_Y] * now.state[SLIP_Y];
-            happens = happens | (slip_speed(state).le(L::splat(stick_speed)) & slows.lt(zero));
+            happens =
+                happens | (slip_speed(state).le(L::splat(rules.stick_speed)) & slows.lt(zero));
         }
         happens
     }
@@ -121,10 +120,16 @@ impl<L: Lane> StepTrial<L> {
 /// may have reached the side in between. The rate decreases on the way; the factor of 2 leaves room
 /// for a rate that increases first.
 #[inline(always)]
-pub(super) fn may_reach_side<L: Lane>(tilt: L, before: L, after: L, length: L) -> L::Mask {
+pub(super) fn may_reach_side<L: Lane>(
+    tilt: L,
+    before: L,
+    after: L,
+    length: L,
+    side: f64,
+) -> L::Mask {
     let zero = L::splat(0.0);
     let reach = tilt + L::splat(2.0) * before * length;
-    zero.lt(before) & after.lt(zero) & L::splat(FRAC_PI_2).lt(reach)
+    zero.lt(before) & after.lt(zero) & L::splat(side).lt(reach)
 }
 
 /// The length of a step, given the wanted length: limited by what the state allows.

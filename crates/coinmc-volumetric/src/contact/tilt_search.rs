@@ -4,7 +4,6 @@ use super::phase::{Exit, Phase, PhaseTransition};
 use super::rim::{OMEGA_Y, RimState, TILT};
 use super::step::SIDE_ANGLE;
 use crate::motion::FLAT;
-use std::f64::consts::FRAC_PI_2;
 
 /// Most tries of a search; bisection alone needs as many.
 const MOST_TRIES: u32 = 40;
@@ -24,14 +23,20 @@ pub(crate) struct TiltSearch {
 }
 
 impl TiltSearch {
-    /// The search, if the step of this length from `phase` to `state` passes a goal.
+    /// The search, if the step of this length from `phase` to `state` passes a goal: level, or the
+    /// tilt `side`.
     #[inline]
-    pub(crate) fn within(phase: &Phase, state: &RimState<f64>, length: f64) -> Option<Self> {
+    pub(crate) fn within(
+        phase: &Phase,
+        state: &RimState<f64>,
+        length: f64,
+        side: f64,
+    ) -> Option<Self> {
         let tilt = state[TILT];
-        let arrives = tilt > FRAC_PI_2 - SIDE_ANGLE && state[OMEGA_Y] > 0.0;
+        let arrives = tilt > side - SIDE_ANGLE && state[OMEGA_Y] > 0.0;
         // a tilt beyond the side has passed it within the step, even if it decreases again
-        let (goal, exit) = if arrives || tilt > FRAC_PI_2 + SIDE_ANGLE {
-            (FRAC_PI_2, Exit::OtherRim)
+        let (goal, exit) = if arrives || tilt > side + SIDE_ANGLE {
+            (side, Exit::OtherRim)
         } else if tilt < FLAT && phase.state[TILT] > FLAT {
             (FLAT, Exit::Level)
         } else {

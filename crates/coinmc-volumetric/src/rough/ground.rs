@@ -12,6 +12,12 @@ const MOST_POINTS: u32 = 12;
 /// A rim bridges no hollow if the ground's rms curvature is below this share of the rim's own.
 const BRIDGING: f64 = 0.1;
 
+/// The other rim is near the ground while it is lower than this many times the rms difference of
+/// the ground's heights under the rims.
+const NEAR: f64 = 6.0;
+/// Largest cosine of a tilt at which the other rim counts as near.
+const LARGEST_NEAR: f64 = 0.5;
+
 /// A random ground of stated rms slope and correlation length; lengths in the kernel's unit D.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Ground {
@@ -35,9 +41,14 @@ impl Ground {
         self.height / self.length
     }
 
-    /// The rms difference of the heights of two points this far apart: σ sqrt(2(1 − C)).
-    pub(super) fn difference(&self, distance: f64) -> f64 {
-        self.height * self.contrast(distance)
+    /// The cosine of the tilt below which the other rim of a coin of this thickness is near the
+    /// ground.
+    ///
+    /// The ground matters where it decides which rim carries the coin. A coin that leans on one rim
+    /// with the other high above the ground is hardly moved by slopes: the kick of a slope on one rim
+    /// changes the lean by about h²/(k_t + R² + h²) of what it does across both.
+    pub(crate) fn near(&self, thickness: f64) -> f64 {
+        (NEAR * self.height * self.contrast(thickness) / thickness).min(LARGEST_NEAR)
     }
 
     /// sqrt(2(1 − C)): the rms difference of two points' heights, in σ, or of their slopes across

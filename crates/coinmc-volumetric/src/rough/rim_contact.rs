@@ -36,6 +36,12 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         if contact.now.press <= 0.0 {
             return Next::Goes(Touch::Nothing);
         }
+        if self.tracks.at_node() {
+            return self.pass_node(&contact);
+        }
+        if self.other_is_clear() {
+            return Next::Ends(Transition::Contact);
+        }
         if self.barely_rocks(&contact) {
             return self.lie_down();
         }

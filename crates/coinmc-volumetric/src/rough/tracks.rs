@@ -17,13 +17,6 @@ const LONGEST: f64 = 0.1;
 const LARGEST_TURN: f64 = 0.2;
 /// A share of the time between nodes that counts as none.
 const INSTANT: f64 = 1e-9;
-/// The other rim is near the ground while it is lower than this many times the rms difference of the
-/// ground's heights under the rims, or comes that low before the next node.
-const NEAR: f64 = 6.0;
-/// Shortest and longest time between nodes while it is not, in sqrt(D/g).
-const FAR: [f64; 2] = [0.02, 2.0];
-/// Angular velocity, in sqrt(g/D), that a coin on one rim may gain in that time.
-const GAINED: f64 = 0.2;
 
 /// The ground under one rim: its height, and the rate at which that changes until the next node.
 #[derive(Debug, Clone, Copy, Default)]
@@ -104,12 +97,7 @@ impl Tracks {
         std::mem::swap(&mut self.own, &mut self.other);
     }
 
-    /// Lays out the tracks up to the next node.
-    ///
-    /// The ground matters where it decides which rim carries the coin. A coin that leans on one rim
-    /// with the other high above the ground is hardly moved by its slopes (the kick of a slope s on
-    /// one rim changes the lean by about h²/(k_t + R² + h²) of what it does across both); its track
-    /// is level, until the other rim may come near. `step` is the longest way of a point between nodes.
+    /// Lays out the tracks up to the next node. `step` is the longest way of a point between nodes.
     pub(super) fn lay_out(
         &mut self,
         ground: &Ground,
@@ -127,15 +115,7 @@ impl Tracks {
             .min(LARGEST_TURN / turn.abs().max(f64::MIN_POSITIVE));
         (self.left, self.interval) = (time, time);
         let thickness = 2.0 * body.half;
-        let above = thickness * motion.cos.abs() - NEAR * ground.difference(thickness);
-        let near = above < thickness * spin.tilt.abs() * time;
-        if !near && self.own.near {
-            let closing = thickness * (spin.tilt.abs() + GAINED);
-            let time = (above / closing).clamp(FAR[0], FAR[1]);
-            (self.left, self.interval) = (time, time);
-            (self.own.rate, self.other) = (0.0, Track::default());
-            return;
-        }
+        let near = motion.cos.abs() < ground.near(thickness) + spin.tilt.abs() * time;
         let under = |point: &RimPoint, after: f64| {
             let (sin, cos) = sin_cos(turn * after);
             let x = point.rx * cos + (motion.vx + point.rz * spin.tilt) * after;
@@ -157,22 +137,22 @@ impl Tracks {
         } else {
             self.other = Track::default();
         }
-        (self.own.near, self.other.near) = (true, near);
+        self.other.near = near;
     }
 
-    /// Begins the track of the own rim at the ground under it.
+    /// At a node, with the own rim on the ground under it.
     pub(super) fn begin(
-        &mut self,
         ground: &Ground,
         body: &Body,
         motion: &Motion<f64>,
         spin: &Spin<f64>,
         place: &Place,
-    ) {
-        *self = Self::default();
+    ) -> Self {
+        let mut tracks = Self::default();
         let [own, _] = rim_points(body, motion, spin);
         let along = place.direction(0.0, 1.0);
         let curvature = motion.sin / body.radius;
-        self.own.height = ground.under_rim(place.point(own.rx, 0.0), along, curvature);
+        tracks.own.height = ground.under_rim(place.point(own.rx, 0.0), along, curvature);
+        tracks
     }
 }

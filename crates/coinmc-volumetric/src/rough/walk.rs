@@ -3,7 +3,7 @@
 use super::ground::Ground;
 use super::tracks::{Tracks, rim_points};
 use crate::body::Body;
-use crate::contact::Usage;
+use crate::contact::{ContactSolver, Usage};
 use crate::flight::Departure;
 use crate::impact::ImpactLaw;
 use crate::model::Model;
@@ -11,11 +11,16 @@ use crate::motion::{Motion, Spin};
 use crate::place::Place;
 use crate::toss::Toss;
 use crate::transition::Transition;
-use coinmc_core::{Ended, EventKind, Observer};
+use coinmc_core::{Decided, Ended, EventKind, Observer};
 
 /// A coin that is flatter than this sine of its tilt touches with a long arc of its rim, and the
 /// ground under it counts as a plane.
 pub(crate) const FLATTEST: f64 = 0.2;
+
+/// Landings slower than this many times the rms speed at which the ground under a rim rises are
+/// those of a rim that follows it, not bounces off a slope. While the other rim is clear of the
+/// ground, they are on level ground.
+const SLOW: f64 = 5.0;
 
 /// What touches the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,49 +60,70 @@ pub(super) struct Walk<'a, I, O> {
 }
 
 impl<I: ImpactLaw> Model<I> {
-    /// Follows a coin that has just landed on rough ground, until it departs for a high flight,
-    /// has become flat, or the toss ends.
-    pub(crate) fn walk<O: Observer>(
+    /// Follows a coin that has just landed on rough ground, until it flies again, the other rim is
+    /// clear of the ground in sustained contact, or the toss ends.
+    pub(crate) fn land_on<O: Observer>(
         &self,
         ground: &Ground,
         toss: &mut Toss,
         usage: &mut Usage,
         observer: &mut O,
     ) -> Transition {
+        let mut walk = Walk::new(self, ground, toss, usage, observer);
+        walk.lay_out_tracks();
+        if walk.other_is_clear() && walk.approach() < SLOW * walk.speed_of_slopes() {
+            walk.tracks.own.rate = 0.0;
+        }
+        walk.follow(Next::Impact)
+    }
+
+    /// The same for a coin in sustained contact whose other rim has come near the ground.
+    pub(crate) fn near_ground<O: Observer>(
+        &self,
+        toss: &mut Toss,
+        solver: &mut ContactSolver<'_>,
+        observer: &mut O,
+    ) -> Transition {
+        // only rough ground leads here
+        let Some(ground) = &self.ground else {
+            return Transition::End(self.end_given_up(toss));
+        };
+        let mut walk = Walk::new(self, ground, toss, &mut solver.usage, observer);
+        walk.follow(Next::Goes(Touch::Rim))
+    }
+}
+
+impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
+    /// A coin that touches a plane, put onto the ground.
+    fn new(
+        model: &'a Model<I>,
+        ground: &'a Ground,
+        toss: &'a mut Toss,
+        usage: &'a mut Usage,
+        observer: &'a mut O,
+    ) -> Self {
         let place = ground.random_place(&toss.motion);
-        let mut walk = Walk {
-            model: self,
+        let body = &model.dynamics.body;
+        let tracks = Tracks::begin(ground, body, &toss.motion, &toss.spin, &place);
+        toss.motion.z += tracks.own.height;
+        let budget = toss.motion.energy(body, &toss.spin);
+        Self {
+            model,
             ground,
             toss,
             usage,
             observer,
             place,
-            tracks: Tracks::default(),
-            budget: 0.0,
-        };
-        walk.land();
-        walk.follow()
+            tracks,
+            budget,
+        }
     }
-}
 
-impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     pub(super) fn body(&self) -> &Body {
         &self.model.dynamics.body
     }
 
-    /// Puts the coin onto the ground.
-    fn land(&mut self) {
-        let (motion, spin) = (&self.toss.motion, &self.toss.spin);
-        let body = &self.model.dynamics.body;
-        self.tracks
-            .begin(self.ground, body, motion, spin, &self.place);
-        self.toss.motion.z += self.tracks.own.height;
-        self.budget = self.energy();
-        self.lay_out_tracks();
-    }
-
-    fn follow(&mut self) -> Transition {
-        let mut next = Next::Impact;
+    fn follow(&mut self, mut next: Next) -> Transition {
         loop {
             if let Next::Ends(transition) = next {
                 self.leave();
@@ -150,6 +176,33 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     pub(super) fn gap_of_other(&self) -> f64 {
         2.0 * self.body().half * self.toss.motion.cos + self.tracks.own.height
             - self.tracks.other.height
+    }
+
+    /// Whether the other rim is clear of the ground, and will be until the next node, so that the
+    /// plane serves.
+    pub(super) fn other_is_clear(&self) -> bool {
+        /// The share by which the tilt must exceed the one at which the rim counts as near.
+        const CLEAR: f64 = 1.3;
+        let reached = self.toss.spin.tilt.max(0.0) * self.tracks.interval;
+        let near = self.ground.near(2.0 * self.body().half);
+        // what a plane decides for the side is decided here, not on the plane
+        self.toss.motion.cos - reached > CLEAR * near && {
+            let motion = self.relative_motion();
+            let state = motion.decision_state(self.body(), &self.toss.spin);
+            self.model.rule.decide(&state) != Decided::Side
+        }
+    }
+
+    /// The speed at which the own rim approaches the mean ground.
+    fn approach(&self) -> f64 {
+        let [own, _] = rim_points(self.body(), &self.toss.motion, &self.toss.spin);
+        self.toss.spin.tilt * own.rx - self.toss.motion.vz
+    }
+
+    /// The rms speed at which the ground under the own rim rises and falls.
+    fn speed_of_slopes(&self) -> f64 {
+        let [own, _] = rim_points(self.body(), &self.toss.motion, &self.toss.spin);
+        own.speed() * self.ground.slope()
     }
 
     /// The motion relative to a level ground at the height of the own track that rises with it.
@@ -276,13 +329,20 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         /// other ground.
         const HIGH: f64 = 2.0;
         const FAR: f64 = 2.0;
-        let motion = &self.toss.motion;
-        let [own, _] = rim_points(self.body(), motion, &self.toss.spin);
-        let speed = motion.vz - self.toss.spin.tilt * own.rx - self.tracks.own.rate;
+        /// A rim that separates more slowly does so by its acceleration alone.
+        const BY_ACCELERATION: f64 = 1e-9;
+        let [own, _] = rim_points(self.body(), &self.toss.motion, &self.toss.spin);
+        let speed = -self.approach() - self.tracks.own.rate;
+        let departure = if speed > BY_ACCELERATION {
+            Departure::Rebound
+        } else {
+            Departure::LiftOff
+        };
         let apex = 0.5 * speed * speed;
         let way = 2.0 * speed * own.speed();
-        if apex > HIGH * self.ground.height && way > FAR * self.ground.length {
-            return Next::Ends(Transition::Flight(Departure::Rebound));
+        let high = apex > HIGH * self.ground.height && way > FAR * self.ground.length;
+        if high || self.other_is_clear() {
+            return Next::Ends(Transition::Flight(departure));
         }
         Next::Goes(Touch::Nothing)
     }
@@ -335,19 +395,11 @@ mod tests {
                     spin_rad_s: dice.vector(30.0),
                 };
                 let mut toss = model.launch(&launch);
+                toss.motion.z = toss.motion.rest_height(&model.dynamics.body);
                 toss.motion.vz = -toss.motion.vz.abs();
-                let (mut usage, place) = (Usage::default(), ground.random_place(&toss.motion));
-                let mut walk = Walk {
-                    model: &model,
-                    ground: &ground,
-                    toss: &mut toss,
-                    usage: &mut usage,
-                    observer: &mut (),
-                    place,
-                    tracks: Tracks::default(),
-                    budget: 0.0,
-                };
-                walk.land();
+                let mut usage = Usage::default();
+                let mut walk = Walk::new(&model, &ground, &mut toss, &mut usage, &mut ());
+                walk.lay_out_tracks();
                 let (mut next, mut budget) = (Next::Impact, walk.budget);
                 while !matches!(next, Next::Ends(_)) {
                     next = walk.go_on(next);
