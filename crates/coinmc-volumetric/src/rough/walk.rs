@@ -387,7 +387,7 @@ mod tests {
             let ground = model.ground.expect("a rough ground");
             for toss in 0..60 {
                 let mut dice = Dice::new(21, toss);
-                let lean = dice.between(-0.3, 0.3);
+                let lean = dice.between(-0.03, 0.03);
                 let launch = Launch {
                     height_m: 0.0,
                     velocity_m_s: dice.vector(0.3),
@@ -397,8 +397,8 @@ mod tests {
                 let mut toss = model.launch(&launch);
                 toss.motion.z = toss.motion.rest_height(&model.dynamics.body);
                 toss.motion.vz = -toss.motion.vz.abs();
-                let mut usage = Usage::default();
-                let mut walk = Walk::new(&model, &ground, &mut toss, &mut usage, &mut ());
+                let (mut usage, mut observer) = (Usage::default(), ());
+                let mut walk = Walk::new(&model, &ground, &mut toss, &mut usage, &mut observer);
                 walk.lay_out_tracks();
                 let (mut next, mut budget) = (Next::Impact, walk.budget);
                 while !matches!(next, Next::Ends(_)) {
