@@ -28,8 +28,8 @@ pub enum Ending {
     Energy,
     /// At rest on its side.
     Rest,
-    /// At the limit of time, undecided.
-    TimeLimit,
+    /// At the limit of time or steps, undecided.
+    Limit,
 }
 
 /// The face, if energy decides it.

@@ -19,6 +19,8 @@ use coinmc_core::{Face, Launch, Scene};
 
 /// Gap at which a point touches.
 const TOUCH: f64 = 2e-8;
+/// Depth that a point that touches may have.
+const DEEP: f64 = 4.0 * TOUCH;
 /// Gap that larger ones count as while the time of an impact is looked for.
 const FAR: f64 = 1e-3;
 /// Approach speed below which a point does not arrive.
@@ -40,6 +42,9 @@ const HIGHEST: f64 = 6.0;
 const SHORTEST: f64 = 1e-14;
 /// Attempts at the time of an impact, which halves or better with each.
 const MOST_ATTEMPTS: u32 = 60;
+
+/// Pieces of flight, steps and impacts after which a toss is given up: a hundred times as many as usual.
+const MOST_PIECES: u64 = 5_000_000;
 
 /// How finely tosses onto rough ground are followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,7 +71,7 @@ impl Default for RoughSettings {
 /// How a toss onto rough ground went.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RoughHistory {
-    /// The face; `None` at the limit of time.
+    /// The face; `None` at the limit of time or steps.
     pub face: Option<Face>,
     /// What ended it.
     pub ending: Ending,
@@ -118,6 +123,7 @@ pub struct RoughStepper {
 #[derive(Debug)]
 struct Toss {
     state: State,
+    pieces: u64,
     time: f64,
     way: f64,
     impacts: u32,
@@ -179,8 +185,9 @@ impl RoughStepper {
             if quiet.settled(&self.model, motion, carrying, toss.time) {
                 break (Some(Face::Side), Ending::Rest);
             }
-            if toss.time >= self.settings.time_limit || toss.time.is_nan() {
-                break (None, Ending::TimeLimit);
+            let endless = toss.time >= self.settings.time_limit || toss.pieces >= MOST_PIECES;
+            if endless || toss.time.is_nan() {
+                break (None, Ending::Limit);
             }
             self.advance(&mut toss, ground);
         };
@@ -200,7 +207,7 @@ impl RoughStepper {
             self.advance(&mut toss, ground);
             visit(toss.time, &toss.state.motion);
         }
-        toss.history(None, Ending::TimeLimit)
+        toss.history(None, Ending::Limit)
     }
 
     /// Height of the nearest point of the rims above the ground below it.
@@ -234,6 +241,7 @@ impl RoughStepper {
 
     /// A piece of flight, or a step that may end with an impact.
     fn advance(&mut self, toss: &mut Toss, ground: &mut Ground) {
+        toss.pieces += 1;
         let h = self.step(&toss.state.motion, ground);
         let safe = self.safe(&toss.state, ground);
         if safe > h {
@@ -335,43 +343,27 @@ impl RoughStepper {
     fn collide(&mut self, toss: &mut Toss) {
         let state = &mut toss.state;
         let motion = &mut state.motion;
-        let mut touching: Vec<Minimum> = state.resting.iter().map(|r| r.minimum).collect();
-        self.found.sort_by(|a, b| a.gap.total_cmp(&b.gap));
-        let arriving = |m: &&Minimum| m.gap <= TOUCH && m.approach(motion) > APPROACH;
-        touching.extend(self.found.iter().filter(arriving));
+        let energy = motion.energy(&self.model);
+        let mut touching = touching(state.resting.iter(), &self.found, motion);
         self.found.clear();
-        touching.truncate(MOST);
+        raise(motion, &mut touching);
         let axis = motion.axis;
         let touches = touching.iter().map(|minimum| minimum.touch(&axis));
         self.contacts.gather(&self.model, motion, touches);
         let approach = touching
             .iter()
             .fold(0.0, |most: f64, m| most.max(m.approach(motion)));
-        let energy = motion.energy(&self.model);
         collide(&self.model, motion, &mut self.contacts, self.settings.step);
-        toss.returned += restrain(&self.model, motion, energy).0;
+        let (excess, sunk) = restrain(&self.model, motion, energy);
+        toss.returned += excess;
         toss.gained = toss.gained.max(motion.energy(&self.model) - energy);
         toss.impacts += u32::from(approach > self.settings.step);
-        let spin = motion.spin;
-        state.resting.clear();
-        for minimum in touching {
-            if minimum.approach(motion).abs() > HELD {
-                continue;
-            }
-            let v = minimum.velocity(motion);
-            let rolling = minimum.touch(&axis).rolling;
-            state.resting.push(Resting {
-                minimum,
-                force: [0.0; ROWS],
-                distance: minimum.distance(),
-                new: true,
-                stuck: [
-                    v.norm() <= STOPPED,
-                    rolling.dot(&spin).abs() <= STOPPED,
-                    minimum.normal.dot(&spin).abs() <= STOPPED,
-                ],
-            });
-        }
+        let rests = |minimum: &Minimum| minimum.approach(motion).abs() <= HELD;
+        state.resting = touching
+            .into_iter()
+            .filter(rests)
+            .map(|minimum| resting(minimum, motion, sunk))
+            .collect();
     }
 
     /// A time of flight in which the ground cannot be reached: no point comes down faster than
@@ -408,6 +400,7 @@ impl Toss {
                 motion,
                 resting: Vec::new(),
             },
+            pieces: 0,
             time: 0.0,
             way: 0.0,
             impacts: 0,
@@ -457,6 +450,57 @@ impl Toss {
             gained: self.gained,
             end: self.state.motion,
         }
+    }
+}
+
+/// The points that take part in an impact: those that rest, and of those found the ones that touch and
+/// approach, the deepest first.
+fn touching<'a>(
+    resting: impl Iterator<Item = &'a Resting>,
+    found: &[Minimum],
+    motion: &Motion,
+) -> Vec<Minimum> {
+    let mut touching: Vec<Minimum> = resting.map(|resting| resting.minimum).collect();
+    let mut arriving: Vec<Minimum> = found
+        .iter()
+        .filter(|m| m.gap <= TOUCH && m.approach(motion) > APPROACH)
+        .copied()
+        .collect();
+    arriving.sort_by(|a, b| a.gap.total_cmp(&b.gap));
+    touching.extend(arriving);
+    touching.truncate(MOST);
+    touching
+}
+
+/// Raises a coin that has sunk in deeper than points may, as one does that parts from the ground more
+/// slowly than the ground rises beside it: the point would arrive again and again without a step
+/// between. The points that no longer touch take no part.
+fn raise(motion: &mut Motion, touching: &mut Vec<Minimum>) {
+    let deepest = touching.iter().fold(0.0, |least: f64, m| least.min(m.gap));
+    if deepest >= -DEEP {
+        return;
+    }
+    motion.position.z -= deepest;
+    for minimum in touching.iter_mut() {
+        minimum.gap -= deepest;
+    }
+    touching.retain(|minimum| minimum.gap <= DEEP);
+}
+
+/// A point that has come to rest by an impact.
+fn resting(minimum: Minimum, motion: &Motion, sunk: f64) -> Resting {
+    let v = minimum.velocity(motion);
+    let rolling = minimum.touch(&motion.axis).rolling;
+    Resting {
+        minimum,
+        force: [0.0; ROWS],
+        distance: minimum.distance() - sunk,
+        new: true,
+        stuck: [
+            v.norm() <= STOPPED,
+            rolling.dot(&motion.spin).abs() <= STOPPED,
+            minimum.normal.dot(&motion.spin).abs() <= STOPPED,
+        ],
     }
 }
 
