@@ -13,7 +13,7 @@
 //!   passed at speed w, make it lean at the rate w s_d/2h, and heights that differ by σ_d lean it by
 //!   σ_d/2h at rest. With the correlation ρ of the ground over the coin's thickness, s_d² = 2s²(1 −
 //!   ρ), σ_d² = 2σ²(1 − ρ). The rule asks that KICKS standard deviations of both leave the coin
-//!   below the brim of its well. Its bias is measured: docs/validation/roughness.md.
+//!   below the brim of its well. See docs/methods/rough.md.
 
 use super::tracks::rim_points;
 use super::walk::{Touch, Walk};
