@@ -67,12 +67,14 @@ def read(config: Path, ratio: float) -> tuple[Scene, dict]:
     if {"linear_drag_per_s", "angular_drag_per_s"} & set(tables.get("environment", {})):
         raise SystemExit(f"{config}: peers are not given drag")
     coin["ratio"] = ratio
+    if "rolling_friction_m" not in surface:
+        raise SystemExit(f"{config}: peers need rolling_friction_m, coinmc would estimate it")
     return (
         Scene(
             height=ratio,
             restitution=surface["restitution"],
             friction=surface["friction"],
-            rolling=surface.get("rolling_friction_m", 0.0) / radius,
+            rolling=surface["rolling_friction_m"] / radius,
             second=float(1.0 / np.sqrt(radius)),
         ),
         tables,

@@ -27,6 +27,7 @@ radius_m = 0.5
 restitution = 0.3
 friction = 10.0
 rolling_friction_m = [0.0, 0.001]
+pivoting_friction_m = 0.0
 restitution_threshold_m_s = 2.0
 [environment]
 linear_drag_per_s = 1.0

@@ -24,12 +24,14 @@ mod batch;
 mod beta;
 mod body;
 mod coin;
+mod contact_patch;
 mod decision;
 mod descriptor;
 mod dyn_engine;
 mod engine;
 mod estimate;
 mod launch;
+mod material;
 mod observer;
 mod outcome;
 mod random;
@@ -44,6 +46,7 @@ pub use batch::TossBatch;
 pub use body::{Body, Units};
 pub use coin::{Coin, CoinError};
 pub use coinmc_lanes::Lanes;
+pub use contact_patch::{hertz_radius_m, pivoting_friction_of_patch_m};
 pub use decision::{Decided, DecisionRule, DecisionState};
 pub use descriptor::{
     Answer, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings, LawDescriptor,
@@ -58,6 +61,7 @@ pub use launch::{
     Launch, LaunchDistribution, LaunchError, LaunchSource, Launches, Marginal, Orientation, Preset,
     Spin, inverse_normal_cdf,
 };
+pub use material::{Material, Sourced};
 pub use observer::{DynObserver, Observer, sample_between};
 pub use outcome::{Breaks, Ended, Face, Outcome};
 pub use random::{Domain, Philox4x64, Stream, TossUniforms, UniformSource, unit_interval};

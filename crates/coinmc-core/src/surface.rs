@@ -1,10 +1,8 @@
 //! The surface that the coin lands on.
 
-use crate::schema::{
-    Absent, Bounds, Condition, Fallback, ReadError, Rule, TableKind, Values, choice, default,
-    number,
-};
-use crate::{Coin, Roughness, RoughnessError};
+mod keys;
+
+use crate::{Roughness, RoughnessError};
 use thiserror::Error;
 
 /// Speed of approach at which the coefficient of restitution is meant if none is given.
@@ -101,133 +99,6 @@ pub enum SurfaceError {
 }
 
 impl Surface {
-    /// The keys of the table `[surface]` of a config.
-    pub fn schema() -> TableKind {
-        TableKind {
-            fields: vec![
-                number(
-                    "restitution",
-                    "Coefficient of restitution e at the contact point.",
-                    Bounds::closed(0.0, 1.0),
-                    Absent::Omitted,
-                ),
-                number(
-                    "friction",
-                    "Coefficient of friction μ.",
-                    Bounds::closed(0.0, 1e6),
-                    Absent::Omitted,
-                ),
-                number(
-                    "rolling_friction_m",
-                    "Rolling (contour) friction length, m: the power lost is normal force × this × rate \
-                     at which the contact point moves along the rim. Coins on hard surfaces: about \
-                     0.001 to 0.01 R.",
-                    Bounds::closed(0.0, 1e6),
-                    default(0.0),
-                ),
-                number(
-                    "pivoting_friction_m",
-                    "Pivoting friction length, m: the power lost is normal force × this × rate at which \
-                     the coin turns about the vertical.",
-                    Bounds::closed(0.0, 1e6),
-                    default(0.0),
-                ),
-                number(
-                    "restitution_threshold_m_s",
-                    "Speed of approach, m/s, below which a contact point does not bounce (restitution \
-                     0), as in game engines; nature has none.",
-                    Bounds::closed(0.0, 1e6),
-                    default(0.0),
-                ),
-                number(
-                    "restitution_exponent",
-                    "Exponent p with which restitution falls with the speed of approach v: \
-                     min(1, e (v/v_ref)^-p). Plastic impacts of metal: 0.25; 0: the same at every speed.",
-                    Bounds::closed(0.0, 1.0),
-                    Absent::Omitted,
-                ),
-                number(
-                    "restitution_reference_m_s",
-                    "Speed of approach v_ref, m/s, at which the coefficient of restitution is \
-                     `restitution` (1 if absent).",
-                    Bounds::above_zero(1e6),
-                    Absent::Omitted,
-                ),
-                number(
-                    "roughness_slope",
-                    "Root mean square slope of the ground along any direction; 0: a plane.",
-                    Bounds::closed(0.0, Roughness::MAX_SLOPE),
-                    Absent::Omitted,
-                ),
-                number(
-                    "roughness_wavelength_m",
-                    "Mean distance, m, between points where a profile of the ground crosses its mean \
-                     upwards: 2π × root mean square height / root mean square slope.",
-                    Bounds::above_zero(1e6),
-                    Absent::Omitted,
-                ),
-                choice(
-                    "landing",
-                    "What a contact does.",
-                    Landing::ALL.map(|landing| (landing.name(), landing.doc())),
-                    Landing::default().name(),
-                ),
-            ],
-            rules: vec![
-                Rule::Unless {
-                    condition: Condition::Word("landing", Landing::Adhesive.name()),
-                    keys: &["restitution", "friction"],
-                    fallback: Some(Fallback::Number(0.0)),
-                },
-                Rule::GoesWith {
-                    key: "restitution_reference_m_s",
-                    other: "restitution_exponent",
-                    fallback: Fallback::Number(DEFAULT_REFERENCE_M_S),
-                },
-                Rule::Together(&["roughness_slope", "roughness_wavelength_m"]),
-            ],
-        }
-    }
-
-    /// The surface that a config gives for a coin.
-    ///
-    /// # Errors
-    /// [`ReadError`] where [`SurfaceError`] applies.
-    pub fn read(values: &Values, coin: &Coin) -> Result<Self, ReadError> {
-        let number = |key| values.number(key);
-        let landing = values.one_of("landing", Landing::ALL, Landing::name)?;
-        let (rolling, pivoting) = (
-            number("rolling_friction_m")?,
-            number("pivoting_friction_m")?,
-        );
-        let threshold = number("restitution_threshold_m_s")?;
-        let exponent = values.optional("restitution_exponent")?.unwrap_or(0.0);
-        let reference = values.optional("restitution_reference_m_s")?;
-        let reference = reference.unwrap_or(DEFAULT_REFERENCE_M_S);
-        let roughness = Self::read_roughness(values, coin)?;
-        Self::new(number("restitution")?, number("friction")?)
-            .and_then(|surface| surface.with_friction_lengths(rolling, pivoting))
-            .and_then(|surface| surface.with_restitution_threshold(threshold))
-            .and_then(|surface| surface.with_speed_dependent_restitution(exponent, reference))
-            .map(|surface| surface.with_roughness(roughness).with_landing(landing))
-            .map_err(|error| ReadError::new(error.to_string()))
-    }
-
-    /// The roughness that a config gives for a coin.
-    fn read_roughness(values: &Values, coin: &Coin) -> Result<Option<Roughness>, ReadError> {
-        const WAVELENGTH: &str = "roughness_wavelength_m";
-        let (Some(slope), Some(wavelength)) = (
-            values.optional("roughness_slope")?,
-            values.optional(WAVELENGTH)?,
-        ) else {
-            return Ok(None);
-        };
-        let roughness = Roughness::new(slope, wavelength);
-        roughness
-            .and_then(|roughness| roughness.check_for(coin).map(|()| Some(roughness)))
-            .map_err(|error| ReadError::new(error.to_string()).at(WAVELENGTH))
-    }
-
     /// A surface that no coin leaves: the assumption of the closed forms.
     pub const fn adhesive() -> Self {
         Self {

@@ -28,7 +28,7 @@ pub const ENGINE: EngineDescriptor = EngineDescriptor {
     read: |values| Settings::read(values).map(EngineChoice::new),
 };
 
-const UNMODELLED: [Unmodelled; 8] = [
+const UNMODELLED: [Unmodelled; 9] = [
     Unmodelled {
         table: "surface",
         key: "rolling_friction_m",
@@ -40,6 +40,12 @@ const UNMODELLED: [Unmodelled; 8] = [
         key: "pivoting_friction_m",
         message: "engine.flat models no pivoting friction: `surface.pivoting_friction_m` must be 0",
         help: "remove `pivoting_friction_m`, or toss in space with [engine.volumetric]",
+    },
+    Unmodelled {
+        table: "surface",
+        key: "contact_patch_m",
+        message: "engine.flat models no pivoting friction: `surface.contact_patch_m` must be 0",
+        help: "remove `contact_patch_m`, or toss in space with [engine.volumetric]",
     },
     Unmodelled {
         table: "surface",

@@ -109,8 +109,15 @@ pub enum Rule {
         /// The default of the key if only the other one is given.
         fallback: Fallback,
     },
-    /// All of these are given, or none.
-    Together(&'static [&'static str]),
+    /// Both of these are given or none, unless a condition holds.
+    Together {
+        /// The keys.
+        keys: [&'static str; 2],
+        /// When one of them may be given alone.
+        unless: Condition,
+    },
+    /// At most one of these is given.
+    NotBoth([&'static str; 2]),
     /// These keys are required unless a condition holds; then they have a default.
     Unless {
         /// When they may be absent.
@@ -131,6 +138,8 @@ pub enum Condition {
     Word(&'static str, &'static str),
     /// It is a table with this key.
     Tag(&'static str, &'static str),
+    /// Any of these holds.
+    Either(&'static [Condition]),
 }
 
 impl Condition {
@@ -140,6 +149,10 @@ impl Condition {
             Self::Given(key) => format!("`{key}` is given"),
             Self::Word(key, word) => format!("{key} = \"{word}\""),
             Self::Tag(key, tag) => format!("the {key} is {tag}"),
+            Self::Either(conditions) => {
+                let texts: Vec<String> = conditions.iter().map(|one| one.text()).collect();
+                texts.join(" or ")
+            }
         }
     }
 }

@@ -8,7 +8,7 @@ use super::engines;
 use super::launch;
 use super::sweep::Sweep;
 use super::values::read;
-use crate::engines::{EngineDescriptor, EngineKind, engine};
+use crate::engines::EngineKind;
 use crate::plan::{Point, Sampling, Stop};
 use coinmc_core::{Coin, IntervalMethod, LaunchDistribution, Preset, Scene, Surface};
 use std::collections::HashSet;
@@ -110,7 +110,7 @@ fn launches(root: &Checked, at: &At<'_>) -> Result<LaunchDistribution, Fault> {
     launches
         .validate()
         .map_err(|error| Fault::problem(checked.span, error.to_string(), None))?;
-    if let Some(engine) = engine_of(root)
+    if let Some(engine) = engines::descriptor(root)
         && engine.kind == EngineKind::Planar
     {
         launch::require_planar(checked, &launches, engine.name)?;
@@ -118,13 +118,9 @@ fn launches(root: &Checked, at: &At<'_>) -> Result<LaunchDistribution, Fault> {
     Ok(launches)
 }
 
-fn engine_of(root: &Checked) -> Option<&'static EngineDescriptor> {
-    engine(root.get("engine")?.tag()?)
-}
-
 /// When to stop; `None` for a closed form.
 pub(super) fn stop(root: &Checked) -> Option<Stop> {
-    if engine_of(root)?.kind == EngineKind::ClosedForm {
+    if engines::descriptor(root)?.kind == EngineKind::ClosedForm {
         return Some(Stop::Tosses(0));
     }
     let checked = root.get("stop")?;

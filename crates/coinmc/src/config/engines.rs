@@ -5,7 +5,8 @@ use super::checked::{Checked, CheckedValue};
 use super::diagnostics::Problems;
 use super::quantity::Quantity;
 use super::values::read;
-use crate::engines::{EngineChoice, engine};
+use crate::engines::{EngineChoice, EngineDescriptor, engine};
+use coinmc_core::Unmodelled;
 
 /// The engine with its settings at one point.
 pub(super) fn choice(root: &Checked, at: &At<'_>) -> Result<EngineChoice, Fault> {
@@ -16,20 +17,30 @@ pub(super) fn choice(root: &Checked, at: &At<'_>) -> Result<EngineChoice, Fault>
     read(inner, at, |values| Ok((engine.read)(values)?))
 }
 
-/// Rejects everything in the config that its engine or law does not model. Otherwise it would be
-/// ignored, and the results would claim what was never computed.
-pub(super) fn refuse_unmodelled(root: &Checked, problems: &mut Problems) {
-    let Some(CheckedValue::Tagged(tag, inner)) = root.get("engine").map(|checked| &checked.value)
-    else {
-        return;
-    };
-    let Some(engine) = engine(tag) else {
-        return;
+/// The engine, if its name is valid.
+pub(super) fn descriptor(root: &Checked) -> Option<&'static EngineDescriptor> {
+    engine(root.get("engine")?.tag()?)
+}
+
+/// What the engine and the law of impact of the config do not model.
+pub(super) fn unmodelled(root: &Checked) -> Vec<&'static Unmodelled> {
+    let (Some(engine), Some(CheckedValue::Tagged(_, inner))) = (
+        descriptor(root),
+        root.get("engine").map(|checked| &checked.value),
+    ) else {
+        return vec![];
     };
     let law = inner.get("law").and_then(|law| law.word().or(law.tag()));
     let laws = engine.laws.iter().filter(|known| Some(known.name) == law);
-    let unmodelled = laws.flat_map(|law| law.unmodelled).chain(engine.unmodelled);
-    for refused in unmodelled {
+    laws.flat_map(|law| law.unmodelled)
+        .chain(engine.unmodelled)
+        .collect()
+}
+
+/// Rejects everything in the config that its engine or law does not model. Otherwise it would be
+/// ignored, and the results would claim what was never computed.
+pub(super) fn refuse_unmodelled(root: &Checked, problems: &mut Problems) {
+    for refused in unmodelled(root) {
         let given = root
             .get(refused.table)
             .and_then(|table| table.get(refused.key))

@@ -31,6 +31,7 @@ mod quantity;
 mod resolved;
 mod schema;
 mod source;
+mod surface;
 mod sweep;
 mod tree;
 mod values;
@@ -142,7 +143,7 @@ fn plan(
     }
     let end = sources.end(file);
     let mut root = walk::document(sources, problems, &schema::root(), &tree, end);
-    spell_out(&mut root);
+    let taken = spell_out(&mut root);
     engines::refuse_unmodelled(&root, problems);
     let sweep = Sweep::find(&mut root, problems)?;
     let points = build::points(&root, &sweep, problems);
@@ -162,19 +163,34 @@ fn plan(
         confidence,
         interval,
         axes: sweep.axes.into_iter().map(|axis| axis.name).collect(),
-        notes: notes::notes(&root, &points),
+        notes: taken
+            .into_iter()
+            .chain(notes::notes(&root, &points))
+            .collect(),
         points,
         resolved_toml,
     })
 }
 
-/// Expands the preset of the launch.
-fn spell_out(root: &mut Checked) {
+/// Expands the preset of the launch and the material of the surface; remarks on what was taken.
+fn spell_out(root: &mut Checked) -> Vec<String> {
+    let engine = engines::descriptor(root);
+    let unmodelled = engines::unmodelled(root);
+    let mut notes = Vec::new();
     if let CheckedValue::Table(entries) = &mut root.value {
-        for (_, checked) in entries.iter_mut().filter(|(key, _)| *key == "launch") {
-            *checked = launch::spelled_out(checked);
+        for (key, checked) in entries {
+            match *key {
+                "launch" => *checked = launch::spelled_out(checked),
+                "surface" => {
+                    let spelled = surface::spelled_out(checked, engine, &unmodelled);
+                    *checked = spelled.surface;
+                    notes = spelled.notes;
+                }
+                _ => {}
+            }
         }
     }
+    notes
 }
 
 /// A grid and a zip of fewer than two axes are the same sweep: write both as a grid.

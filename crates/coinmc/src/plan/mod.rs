@@ -49,8 +49,8 @@ pub struct Plan {
     pub axes: Vec<String>,
     /// The points, in order; a point's index is its place here.
     pub points: Vec<Point>,
-    /// The config as understood: every default and preset spelled out, overrides applied. TOML
-    /// that parses to this same plan.
+    /// The config as understood: every default, preset and material spelled out, overrides applied.
+    /// TOML that parses to this same plan, but for the notes on what it spells out.
     pub resolved_toml: String,
     /// Remarks on the config that are not errors: keys without effect, possible surprises.
     pub notes: Vec<String>,

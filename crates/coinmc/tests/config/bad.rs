@@ -165,7 +165,7 @@ const TABLES: &[Case] = &[
     ("seed = 1\n[coin]\nratio = 1.2", "coin = 3", &[(1, 8, "`coin` must be a table, found an integer: `3`")]),
     ("[coin]", "[[coin]]", &[(2, 1, "`coin` must be a table, found a list")]),
     ("[surface]\nrestitution = 0.5\nfriction = 0.3\n", "", &[(9, 14, "`surface` is missing (required unless the engine is analytic)")]),
-    ("restitution = 0.5\n", "", &[(4, 1, "`restitution` is missing in `surface` (required unless landing = \"adhesive\")")]),
+    ("restitution = 0.5\n", "", &[(4, 1, "`restitution` is missing in `surface` (required unless landing = \"adhesive\" or `material` is given)")]),
     ("friction = 0.3", "friction = 0.3\nlanding = 'sticky'", &[(7, 11, "must be one of \"bouncing\", \"adhesive\", found `sticky`")]),
     ("[launch]\npreset = 'robot'\n", "", &[(10, 14, "`launch` is missing")]),
     ("[stop]\ntosses = 1000\n", "", &[(10, 15, "`stop` is missing")]),

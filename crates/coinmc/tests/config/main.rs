@@ -9,3 +9,4 @@ mod render;
 mod schema;
 mod space;
 mod support;
+mod surface;

@@ -12,6 +12,8 @@ ratio = 2.0
 [surface]
 restitution = 0.5
 friction = 0.3
+rolling_friction_m = 0.0
+pivoting_friction_m = 0.0
 [launch]
 preset = 'clean'
 [engine.rapier]

@@ -80,6 +80,7 @@ fn an_impossible_moment() {
 fn one_of_two_roughness_keys() {
     let text =
         with("ratio = 1").replace("friction = 0.3", "friction = 0.3\nroughness_slope = 0.05");
+    let text = text.replace("[engine.flat]", "[engine.volumetric]");
     expect("half_roughness", &text, &[]);
 }
 
@@ -101,6 +102,23 @@ fn a_reference_speed_without_an_exponent() {
         "reference_alone",
         &text,
         &["surface.restitution_reference_m_s=2"],
+    );
+}
+
+#[test]
+fn an_unknown_material() {
+    let text = with("ratio = 1").replace("friction = 0.3", "material = 'woood'");
+    expect("unknown_material", &text, &[]);
+}
+
+#[test]
+fn pivoting_friction_twice() {
+    let twice = "friction = 0.3\ncontact_patch_m = 3e-5\npivoting_friction_m = 5e-6";
+    let text = with("ratio = 1").replace("friction = 0.3", twice);
+    expect(
+        "pivoting_twice",
+        &text.replace("[engine.flat]", "[engine.volumetric]"),
+        &[],
     );
 }
 

@@ -169,14 +169,17 @@ fn rule(rule: Rule) -> Vec<(&'static str, Json)> {
                 Json::Object(vec![(key, texts(&[other]))]),
             )]
         }
-        Rule::Together(keys) => {
-            let others = |key: &&'static str| {
-                let others: Vec<&str> = keys.iter().copied().filter(|one| one != key).collect();
-                (*key, texts(&others))
-            };
-            let requirements = keys.iter().map(others).collect();
-            vec![("dependentRequired", Json::Object(requirements))]
+        Rule::Together {
+            keys: [a, b],
+            unless,
+        } => {
+            let both = vec![(a, texts(&[b])), (b, texts(&[a]))];
+            any_of(vec![
+                Json::Object(condition(unless)),
+                Json::Object(vec![("dependentRequired", Json::Object(both))]),
+            ])
         }
+        Rule::NotBoth(keys) => vec![("not", Json::Object(vec![required(&keys)]))],
         Rule::Unless {
             condition: unless,
             keys,
@@ -202,6 +205,12 @@ fn condition(condition: Condition) -> Vec<(&'static str, Json)> {
         Condition::Given(key) => vec![required(&[key])],
         Condition::Word(key, word) => with(key, vec![("const", text(word))]),
         Condition::Tag(key, tag) => with(key, vec![required(&[tag])]),
+        Condition::Either(conditions) => {
+            let each = conditions
+                .iter()
+                .map(|one| Json::Object(self::condition(*one)));
+            any_of(each.collect())
+        }
     }
 }
 

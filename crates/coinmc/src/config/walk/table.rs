@@ -97,7 +97,8 @@ impl Walker<'_> {
     fn rule(&mut self, rule: Rule, slots: &mut Slots<'_>) {
         match rule {
             Rule::ExactlyOne(keys) => self.exactly_one(keys, slots),
-            Rule::Together(keys) => self.together(keys, slots),
+            Rule::Together { keys, unless } => self.together(keys, unless, slots),
+            Rule::NotBoth(keys) => self.not_both(keys, slots),
             Rule::GoesWith {
                 key,
                 other,
@@ -162,18 +163,32 @@ impl Walker<'_> {
         }
     }
 
-    fn together(&mut self, keys: &[&'static str], slots: &mut Slots<'_>) {
-        let Some(given) = keys.iter().find(|key| slots.get(key).is_some()) else {
+    fn together(&mut self, keys: [&'static str; 2], unless: Condition, slots: &mut Slots<'_>) {
+        if slots.holds(unless) != Some(false) {
+            return;
+        }
+        let [a, b] = keys.map(|key| slots.get(key).is_some());
+        let (given, absent) = match (a, b) {
+            (true, false) => (keys[0], keys[1]),
+            (false, true) => (keys[1], keys[0]),
+            _ => return,
+        };
+        if let Some(index) = slots.index(absent) {
+            self.missing(slots, index, &format!(" (required with `{given}`)"));
+        }
+    }
+
+    fn not_both(&mut self, keys: [&'static str; 2], slots: &Slots<'_>) {
+        let [Some(first), Some(second)] = keys.map(|key| slots.get(key)) else {
             return;
         };
-        for key in keys {
-            if slots.get(key).is_none()
-                && let Some(index) = slots.index(key)
-            {
-                let beside = format!(" (required with `{given}`)");
-                self.missing(slots, index, &beside);
-            }
-        }
+        let message = format!(
+            "only one of `{}`, `{}` is allowed in `{}`",
+            keys[0], keys[1], slots.path
+        );
+        let span = first.span.max(second.span);
+        self.problems
+            .add_with_help(span, message, "remove the other");
     }
 }
 
@@ -207,6 +222,16 @@ impl Slots<'_> {
             Condition::Given(key) => Some(self.get(key).is_some() || self.mistyped.contains(&key)),
             Condition::Word(key, word) => decided(key, &|checked| checked.word() == Some(word)),
             Condition::Tag(key, tag) => decided(key, &|checked| checked.tag() == Some(tag)),
+            Condition::Either(conditions) => {
+                let mut held: Vec<_> = conditions.iter().map(|one| self.holds(*one)).collect();
+                // true if any is, unknown if none is but one might be
+                held.sort_by_key(|holds| match holds {
+                    Some(true) => 0,
+                    None => 1,
+                    Some(false) => 2,
+                });
+                held.first().copied().flatten()
+            }
         }
     }
 }

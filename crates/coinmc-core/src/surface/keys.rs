@@ -1,0 +1,208 @@
+//! The keys of the table `[surface]` of a config.
+
+use super::{DEFAULT_REFERENCE_M_S, Landing, Surface};
+use crate::contact_patch::{ESTIMATED_RADIUS_M, ESTIMATED_ROLLING_M, pivoting_friction_of_patch_m};
+use crate::schema::{
+    Absent, Bounds, Condition, Fallback, Field, Kind, ReadError, Rule, TableKind, Value, Values,
+    Word, choice, default, field, number,
+};
+use crate::{Coin, EngineError, Material, Roughness};
+
+/// Lengths and speeds: typing errors end here.
+const LARGE: Bounds = Bounds::closed(0.0, 1e6);
+const WAVELENGTH: &str = "roughness_wavelength_m";
+
+impl Surface {
+    /// The keys of the table `[surface]` of a config.
+    pub fn schema() -> TableKind {
+        let mut fields = vec![material()];
+        fields.extend(friction());
+        fields.extend(restitution_by_speed());
+        fields.extend(ground());
+        fields.push(choice(
+            "landing",
+            "What a contact does.",
+            Landing::ALL.map(|landing| (landing.name(), landing.doc())),
+            Landing::default().name(),
+        ));
+        const FIRST_CONTACT_DECIDES: Condition =
+            Condition::Word("landing", Landing::Adhesive.name());
+        const OF_A_MATERIAL: Condition = Condition::Given("material");
+        TableKind {
+            fields,
+            rules: vec![
+                Rule::Unless {
+                    condition: Condition::Either(&[FIRST_CONTACT_DECIDES, OF_A_MATERIAL]),
+                    keys: &["restitution", "friction"],
+                    fallback: None,
+                },
+                Rule::NotBoth(["pivoting_friction_m", "contact_patch_m"]),
+                Rule::GoesWith {
+                    key: "restitution_reference_m_s",
+                    other: "restitution_exponent",
+                    fallback: Fallback::Number(DEFAULT_REFERENCE_M_S),
+                },
+                Rule::Together {
+                    keys: ["roughness_slope", WAVELENGTH],
+                    unless: OF_A_MATERIAL,
+                },
+            ],
+        }
+    }
+
+    /// What a surface in space has where neither the config nor a material says it: friction lengths
+    /// without which nothing would stop a coin that rolls or spins.
+    ///
+    /// # Example
+    /// ```
+    /// let estimates = coinmc_core::Surface::estimates();
+    /// assert_eq!(estimates.number("rolling_friction_m")?, 5e-5);
+    /// # Ok::<(), coinmc_core::EngineError>(())
+    /// ```
+    pub fn estimates() -> Values {
+        Values::new(vec![
+            ("rolling_friction_m", Value::Number(ESTIMATED_ROLLING_M)),
+            ("contact_patch_m", Value::Number(ESTIMATED_RADIUS_M)),
+        ])
+    }
+
+    /// The surface that a config gives for a coin, its material spelled out. Friction lengths that are
+    /// absent are 0.
+    ///
+    /// # Errors
+    /// [`ReadError`] where [`SurfaceError`](crate::SurfaceError) applies.
+    pub fn read(values: &Values, coin: &Coin) -> Result<Self, ReadError> {
+        let number = |key| values.number(key);
+        let or = |key, fallback| Ok::<_, ReadError>(values.optional(key)?.unwrap_or(fallback));
+        let landing = values.one_of("landing", Landing::ALL, Landing::name)?;
+        let (rolling, pivoting) = (or("rolling_friction_m", 0.0)?, pivoting_friction(values)?);
+        let threshold = number("restitution_threshold_m_s")?;
+        let exponent = or("restitution_exponent", 0.0)?;
+        let reference = or("restitution_reference_m_s", DEFAULT_REFERENCE_M_S)?;
+        let roughness = roughness(values, coin)?;
+        Self::new(number("restitution")?, number("friction")?)
+            .and_then(|surface| surface.with_friction_lengths(rolling, pivoting))
+            .and_then(|surface| surface.with_restitution_threshold(threshold))
+            .and_then(|surface| surface.with_speed_dependent_restitution(exponent, reference))
+            .map(|surface| surface.with_roughness(roughness).with_landing(landing))
+            .map_err(|error| ReadError::new(error.to_string()))
+    }
+}
+
+fn material() -> Field {
+    let words = Material::ALL.map(|material| Word {
+        name: material.name,
+        doc: material.doc,
+    });
+    field(
+        "material",
+        "A typical surface: it gives every number below that is not given here.",
+        Kind::Word(words.to_vec()),
+        Absent::Omitted,
+    )
+}
+
+/// Restitution, friction and the friction lengths.
+fn friction() -> [Field; 6] {
+    [
+        number(
+            "restitution",
+            "Coefficient of restitution e at the contact point.",
+            Bounds::closed(0.0, 1.0),
+            Absent::Omitted,
+        ),
+        number(
+            "friction",
+            "Coefficient of friction μ.",
+            LARGE,
+            Absent::Omitted,
+        ),
+        number(
+            "rolling_friction_m",
+            "Rolling (contour) friction length ρ_c, m: the power lost is normal force × this × rate at \
+             which the contact point moves along the rim. Coins on hard surfaces: about 0.001 to 0.01 R. \
+             In space 5e-5 if absent, an estimate; 0 lets a coin roll for ever.",
+            LARGE,
+            Absent::Omitted,
+        ),
+        number(
+            "pivoting_friction_m",
+            "Pivoting friction length ρ_p, m: the power lost is normal force × this × rate at which the \
+             coin turns about the vertical. In space that of the contact patch if absent.",
+            LARGE,
+            Absent::Omitted,
+        ),
+        number(
+            "contact_patch_m",
+            "Radius a of the contact patch, m, instead of `pivoting_friction_m`: ρ_p = (3π/16) μ a. In \
+             space 3e-5 if both are absent, an estimate.",
+            LARGE,
+            Absent::Omitted,
+        ),
+        number(
+            "restitution_threshold_m_s",
+            "Speed of approach, m/s, below which a contact point does not bounce (restitution 0), as in \
+             game engines; nature has none.",
+            LARGE,
+            default(0.0),
+        ),
+    ]
+}
+
+fn restitution_by_speed() -> [Field; 2] {
+    [
+        number(
+            "restitution_exponent",
+            "Exponent p with which restitution falls with the speed of approach v: min(1, e (v/v_ref)^-p). \
+             Plastic impacts of metal: 0.25; 0: the same at every speed.",
+            Bounds::closed(0.0, 1.0),
+            Absent::Omitted,
+        ),
+        number(
+            "restitution_reference_m_s",
+            "Speed of approach v_ref, m/s, at which the coefficient of restitution is `restitution` (1 if \
+             absent).",
+            Bounds::above_zero(1e6),
+            Absent::Omitted,
+        ),
+    ]
+}
+
+fn ground() -> [Field; 2] {
+    [
+        number(
+            "roughness_slope",
+            "Root mean square slope of the ground along any direction; 0: a plane.",
+            Bounds::closed(0.0, Roughness::MAX_SLOPE),
+            Absent::Omitted,
+        ),
+        number(
+            WAVELENGTH,
+            "Mean distance, m, between points where a profile of the ground crosses its mean upwards: 2π × \
+             root mean square height / root mean square slope.",
+            Bounds::above_zero(1e6),
+            Absent::Omitted,
+        ),
+    ]
+}
+
+/// The pivoting friction length as given, or that of the contact patch.
+fn pivoting_friction(values: &Values) -> Result<f64, EngineError> {
+    let patch_m = values.optional("contact_patch_m")?.unwrap_or(0.0);
+    let of_patch = pivoting_friction_of_patch_m(values.number("friction")?, patch_m);
+    Ok(values.optional("pivoting_friction_m")?.unwrap_or(of_patch))
+}
+
+/// The roughness that a config gives for a coin.
+fn roughness(values: &Values, coin: &Coin) -> Result<Option<Roughness>, ReadError> {
+    let (Some(slope), Some(wavelength)) = (
+        values.optional("roughness_slope")?,
+        values.optional(WAVELENGTH)?,
+    ) else {
+        return Ok(None);
+    };
+    let roughness = Roughness::new(slope, wavelength);
+    roughness
+        .and_then(|roughness| roughness.check_for(coin).map(|()| Some(roughness)))
+        .map_err(|error| ReadError::new(error.to_string()).at(WAVELENGTH))
+}
