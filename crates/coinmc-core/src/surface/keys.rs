@@ -12,6 +12,9 @@ use crate::{Coin, EngineError, Material, Roughness};
 const LARGE: Bounds = Bounds::closed(0.0, 1e6);
 const WAVELENGTH: &str = "roughness_wavelength_m";
 
+const FIRST_CONTACT_DECIDES: Condition = Condition::Word("landing", Landing::Adhesive.name());
+const OF_A_MATERIAL: Condition = Condition::Given("material");
+
 impl Surface {
     /// The keys of the table `[surface]` of a config.
     pub fn schema() -> TableKind {
@@ -25,9 +28,6 @@ impl Surface {
             Landing::ALL.map(|landing| (landing.name(), landing.doc())),
             Landing::default().name(),
         ));
-        const FIRST_CONTACT_DECIDES: Condition =
-            Condition::Word("landing", Landing::Adhesive.name());
-        const OF_A_MATERIAL: Condition = Condition::Given("material");
         TableKind {
             fields,
             rules: vec![
