@@ -79,7 +79,7 @@ fn cell(x: f64) -> (usize, f64) {
     let low = towards_zero - i64::from(scaled < towards_zero as f64);
     // the torus: a power of two, so that wrapping a negative cell is a mask
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-    let index = (low & (SIDE as i64 - 1)) as usize;
+    let index = low as usize & (SIDE - 1);
     (index, scaled - low as f64)
 }
 
