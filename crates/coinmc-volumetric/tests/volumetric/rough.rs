@@ -85,15 +85,15 @@ fn heads_and_tails_are_mirror_images_on_rough_ground_too() {
 /// Against the time-stepped coin on an explicit height field (`data/validation/`, 20 coins a cell):
 /// thin rolling coins topple on waves longer than they are thick, and stay on shorter or flatter
 /// ones. A cell in which all of the oracle's coins did the same is held to 90 % of 40 coins here; an
-/// engine of probability .97, which 20 coins cannot tell from 1, fails that once in 2,000 tests.
+/// engine of probability .98, which 20 coins cannot tell from 1, fails that once in 850 tests.
 #[test]
 fn rolling_coins_stay_or_topple_as_on_an_explicit_height_field() {
     let cells = [
         (0.2, 0.01, 1e-3, true),
         (0.2, 0.03, 1e-3, true),
         (0.2, 0.03, 0.01, false),
-        (0.7071, 0.01, 3e-3, true),
-        (0.7071, 0.03, 3e-3, true),
+        (0.7, 0.01, 3e-3, true),
+        (0.7, 0.03, 3e-3, true),
     ];
     for (ratio, slope, wavelength, stays) in cells {
         let count = stay(&scene(ratio, slope, wavelength), 0.3, 0.0, 40);
