@@ -40,16 +40,15 @@ impl<I: ImpactLaw> Model<I> {
         // a rim point that has just become the lowest may already recede, by rounding
         point.approach = point.approach.min(zero);
         let speed = -point.approach;
-        let slow = speed.lt(L::splat(self.threshold));
-        let e = L::select(slow, zero, L::splat(self.restitution));
-        let plastic = e.le(zero);
-        // the remaining bounces take 2 e v/(a(1 − e)), where a is the acceleration that closes the
-        // gap
-        let rest = two * e * speed;
-        let quick = L::splat(self.zeno) * (one - e);
+        let most = self.restitution.most(speed);
+        let plastic = most.le(zero);
+        // the remaining bounces take 2 e v/(a(1 − e)) at most, where a is the acceleration that
+        // closes the gap
+        let rest = two * most * speed;
+        let quick = L::splat(self.zeno) * (one - most);
         let short = rest.lt(quick * (two + two * dynamics.uplift(motion, spin)));
         let tries = (may_be_last & short) | plastic;
-        let e = L::select(tries, zero, e);
+        let e = L::select(tries, zero, self.restitution.at(speed, most));
         let (mut motion, spin) = self.after_impulse(motion, spin, &point, e, energy);
         let never = <L::Mask as Mask>::splat(false);
         let (mut stays, mut lifts_off, mut retry) = (never, never, never);

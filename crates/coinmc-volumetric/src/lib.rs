@@ -56,6 +56,7 @@ mod motion;
 mod observer_adapter;
 mod onto_side;
 mod place;
+mod restitution;
 mod rough;
 mod scalar;
 mod series;

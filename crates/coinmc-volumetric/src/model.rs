@@ -4,6 +4,7 @@ use crate::body::{Body, Friction, Units};
 use crate::contact::{ContactRules, ContactSolver, Dynamics, Usage};
 use crate::drag::Drag;
 use crate::limits::Limits;
+use crate::restitution::Restitution;
 use crate::rough::Ground;
 use crate::settings::{Decision, Settings, SettingsError};
 use crate::toss::Toss;
@@ -28,9 +29,7 @@ pub(crate) struct Model<L> {
     pub(crate) units: Units,
     pub(crate) limits: Limits,
     pub(crate) rule: DecisionRule,
-    pub(crate) restitution: f64,
-    /// Approach speed below which e = 0, in sqrt(g D).
-    pub(crate) threshold: f64,
+    pub(crate) restitution: Restitution,
     /// Whether the coin sticks where it first lands.
     pub(crate) adhesive: bool,
     /// The rough ground, if it is not a plane.
@@ -80,8 +79,8 @@ impl<L> Model<L> {
         let side = ground
             .as_ref()
             .map_or(FRAC_PI_2, |ground| libm::acos(ground.near(2.0 * body.half)));
-        let restitution = scene.surface.restitution();
-        let threshold = scene.surface.restitution_threshold_m_s() / units.speed_m_s();
+        let restitution = Restitution::new(&scene.surface, &units);
+        let keeps = rule.loses_nothing(scene.surface.restitution()) && restitution.is_constant();
         let dynamics = Dynamics::new(body, friction, drag, axial_factor, settings.smoothing_time);
         let held = if dynamics.holds() {
             HELD_TOLERANCE
@@ -95,12 +94,11 @@ impl<L> Model<L> {
             limits: Limits::new(settings),
             rule,
             restitution,
-            threshold,
             adhesive: scene.surface.landing() == Landing::Adhesive,
             ground,
             side,
             ground_step: settings.ground_step,
-            conserves: rule.loses_nothing(restitution) && threshold == 0.0,
+            conserves: keeps,
             zeno: settings.zeno,
             negligible_rocking,
             stick_speed: settings.stick_speed,

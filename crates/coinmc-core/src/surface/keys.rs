@@ -153,15 +153,15 @@ fn restitution_by_speed() -> [Field; 2] {
     [
         number(
             "restitution_exponent",
-            "Exponent p with which restitution falls with the speed of approach v: min(1, e (v/v_ref)^-p). \
+            "Exponent p with which restitution falls with the speed of approach v: e min(1, (v/v_ref)^-p). \
              Plastic impacts of metal: 0.25; 0: the same at every speed.",
             Bounds::closed(0.0, 1.0),
             Absent::Omitted,
         ),
         number(
             "restitution_reference_m_s",
-            "Speed of approach v_ref, m/s, at which the coefficient of restitution is `restitution` (1 if \
-             absent).",
+            "Speed of approach v_ref, m/s, up to which the coefficient of restitution is `restitution` (1 \
+             if absent).",
             Bounds::above_zero(1e6),
             Absent::Omitted,
         ),

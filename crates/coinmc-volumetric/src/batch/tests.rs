@@ -95,8 +95,10 @@ fn every_shape_surface_and_law() {
 fn drag_threshold_adhesion_no_gyroscopic_torque_and_high_or_held_friction() {
     let drag = Drag::new(0.5, 0.3).expect("valid rates");
     let threshold = surface(0.5, 0.3, 0.01).with_restitution_threshold(0.3);
+    let softer = surface(0.5, 0.3, 0.01).with_speed_dependent_restitution(0.25, 0.2);
     let scenes = [
         scene(0.85, surface(0.5, 0.3, 0.01)).with_drag(drag),
+        scene(0.85, softer.expect("a valid surface")),
         scene(0.25, surface(0.8, 0.0, 0.0)).with_drag(drag),
         scene(2.0, threshold.expect("a valid surface")),
         scene(1.0, surface(0.5, 0.3, 0.0).with_landing(Landing::Adhesive)),

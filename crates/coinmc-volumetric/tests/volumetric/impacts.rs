@@ -109,6 +109,41 @@ fn slow_impacts_below_the_threshold_do_not_bounce() {
     assert!(slow > 1000 && fast > 1000, "{slow} {fast}");
 }
 
+/// Restitution that falls with the speed: every impact that bounces has that of its own speed, above
+/// the reference speed and below it.
+#[test]
+fn fast_impacts_bounce_less_by_the_stated_power() {
+    let mut scene = rolling_scene(0.85, 0.6, 0.3, 0.01);
+    let speed = scene.coin.rim_distance_m() / scene.time_scale_s();
+    let (exponent, reference) = (0.25, 0.8);
+    scene.surface = scene
+        .surface
+        .with_speed_dependent_restitution(exponent, reference * speed)
+        .unwrap();
+    let (model, engine) = (Model::new(&scene), Tosser::new(&scene));
+    let (mut slow, mut fast) = (0, 0);
+    for trial in 0..1000 {
+        let start = Start::lively(&mut Dice::new(213, trial));
+        let (_, moments) = engine.record(&scene, &start.launch(&scene));
+        for (before, after, _) in impacts(&moments) {
+            let approach = -lowest_velocity(&model, &before.motion).z;
+            let back = lowest_velocity(&model, &after.motion).z;
+            let bounces = back > 1e-9 * approach;
+            if before.motion.sine() < 1e-4 || !bounces {
+                continue;
+            }
+            let e = 0.6 * (approach / reference).max(1.0).powf(-exponent);
+            assert!((back - e * approach).abs() <= 1e-11, "{approach} {back}");
+            if approach < reference {
+                slow += 1;
+            } else {
+                fast += 1;
+            }
+        }
+    }
+    assert!(slow > 1000 && fast > 1000, "{slow} {fast}");
+}
+
 /// No impact, flight or phase of contact ends with more energy than at its start, for all ratios,
 /// e, μ and friction lengths.
 #[test]

@@ -64,7 +64,7 @@ fn a_run_integrates_and_reports_it() {
     }
     let csv = fs::read_to_string(dir.path().join("results.csv")).unwrap();
     let mut lines = csv.lines();
-    assert!(lines.next().unwrap().ends_with(",sampling,evaluations"));
+    assert!(lines.next().unwrap().contains(",sampling,evaluations,"));
     // counts of tosses have no relative error where there are none
     assert!(lines.all(|line| line.contains(",student-t,,,,,") && line.contains(",quasi-random,")));
 }

@@ -103,7 +103,8 @@ fn closed_forms_are_exact_and_have_no_interval() {
 fn unity(more: &str, ratio: &str) -> Results {
     let config = format!(
         "coin = {{ ratio = {ratio}, radius_m = 0.5 }}\n\
-         surface = {{ restitution = 0.3, friction = 10, restitution_threshold_m_s = 2 }}\n\
+         surface = {{ restitution = 0.3, friction = 10, restitution_threshold_m_s = 2, \
+         rolling_friction_m = 0, pivoting_friction_m = 0 }}\n\
          environment = {{ linear_drag_per_s = 1, angular_drag_per_s = 0.05, \
          gyroscopic_torque = false }}\n\
          launch.preset = 'table1'\nengine.volumetric = {{}}\nstop.tosses = 10000\n"
