@@ -93,18 +93,25 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     fn pass_node_on_both(&mut self, state: &LineState) -> Next {
         let dynamics = &self.model.dynamics;
         let body = &dynamics.body;
-        self.balance();
         let old = self.tracks;
-        self.lay_out_tracks();
+        let state = self.descend_on_both(state, old.interval);
+        self.place_on_tracks(&state);
+        self.lead = 0.0;
+        self.balance();
+        let (after, energy) = (self.time_between_nodes(), self.energy());
+        let state = self.descend_on_both(&self.line_state(), after);
+        self.place_on_tracks(&state);
+        self.lead = self.energy() - energy;
+        self.lay_out_tracks_for(after);
         let new = &self.tracks;
         let time = 0.5 * (old.interval + new.interval);
         let bends = [new.own.rate - old.own.rate, new.other.rate - old.other.rate];
         let lean = (new.other.height - new.own.height) / (2.0 * body.half);
         let tilting = (bends[0] - bends[1]) / (2.0 * body.half * time);
         let normal = 1.0 + 0.5 * (bends[0] + bends[1]) / time;
-        let [_, vy, wa, wz] = *state;
+        let [_, vy, wa, wz] = state;
         let along =
-            line_rates(dynamics, state, self.model.contact_rules().stick_speed).rates[0] - wz * vy;
+            line_rates(dynamics, &state, self.model.contact_rules().stick_speed).rates[0] - wz * vy;
         let gyroscopic = -wz * dynamics.axial_factor * wa;
         let moment = body.kt * (tilting - gyroscopic)
             + body.radius * (lean * normal + along + body.radius * tilting);
@@ -113,7 +120,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
             return Next::Goes(Touch::Nothing);
         }
         if moment.abs() <= most {
-            self.place_on_tracks(state);
+            self.place_on_tracks(&state);
             self.balance();
             return Next::Goes(Touch::Both);
         }

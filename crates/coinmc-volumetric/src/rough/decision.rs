@@ -25,12 +25,14 @@ use coinmc_core::{Decided, Observer};
 const SPREAD: f64 = 3.0;
 /// Standard deviations of the kicks and heights that do not topple a decided coin.
 const KICKS: f64 = 7.0;
-/// A coin whose kinetic energy is below this share of its well's depth is at rest.
+/// A coin rests whose kinetic energy has been below this share of its well's depth for this time,
+/// in sqrt(D/g): one that turns round on a slope is slow only for a moment.
 const REST: f64 = 1e-3;
+const REST_TIME: f64 = 5.0;
 
 impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     /// The face, if it is decided.
-    pub(super) fn decide(&self, touch: Touch) -> Option<Decided> {
+    pub(super) fn decide(&mut self, touch: Touch) -> Option<Decided> {
         let (motion, body) = (&self.toss.motion, self.body());
         let (own, other) = (self.tracks.own.height, self.tracks.other.height);
         let kinetic = motion.kinetic(body, &self.toss.spin);
@@ -40,6 +42,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
             return (energy - own < 1.0 - SPREAD * sigma).then_some(Decided::Face);
         }
         if touch != Touch::Both {
+            self.at_rest_since = None;
             // a coin that rocks is decided once both rims are down, or it has toppled
             let low = own.min(other);
             let decided = energy - low < 1.0 - SPREAD * sigma;
@@ -48,9 +51,20 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         let highest = energy - own.min(other);
         let friction = self.model.dynamics.friction.contour / body.radius;
         let ahead = (kinetic / (friction * self.ground.length).max(f64::MIN_POSITIVE)).min(1.0);
-        let rests = kinetic < REST * (1.0 - body.radius);
+        let slow = kinetic < REST * (1.0 - body.radius);
+        let rests = self.rests(slow);
         let decided = highest < 1.0 - SPREAD * sigma * ahead || rests || self.is_safe();
         decided.then_some(Decided::Side)
+    }
+
+    /// Whether a coin on both rims, slow or not, has been slow for so long that it rests.
+    fn rests(&mut self, slow: bool) -> bool {
+        if !slow {
+            self.at_rest_since = None;
+            return false;
+        }
+        let now = self.usage.time;
+        now - *self.at_rest_since.get_or_insert(now) >= REST_TIME
     }
 
     /// Whether a coin on both rims will stay on its side although it rolls or spins on.
@@ -70,6 +84,9 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         let contrast = ground.contrast(thickness);
         let points = rim_points(body, &motion, &self.toss.spin);
         let speed = points[0].speed().max(points[1].speed());
+        // and what it may gain by rolling down to the deepest place
+        let drop = (mean + SPREAD * ground.height).max(0.0);
+        let speed = (speed * speed + 2.0 * drop).sqrt();
         let rate = KICKS * speed * ground.slope() * contrast / thickness;
         let lean = KICKS * ground.height * contrast / thickness;
         let brim = 1.0 - lean * body.radius / body.half;

@@ -67,6 +67,26 @@ impl HeightField {
         }
         sum
     }
+
+    /// The slopes along x and y at (`x`, `y`), in σ/ℓ.
+    pub(super) fn gradient(&self, x: f64, y: f64) -> [f64; 2] {
+        let (column, across) = cell(x);
+        let (row, along) = cell(y);
+        let (wx, wy) = (weights(across), weights(along));
+        let (dx, dy) = (weight_rates(across), weight_rates(along));
+        let [mut gx, mut gy] = [0.0; 2];
+        let lines = self.coefficients[row * WIDTH..].chunks_exact(WIDTH);
+        for (line, (wy, dy)) in lines.zip(wy.into_iter().zip(dy)) {
+            let (mut height, mut rate) = (0.0, 0.0);
+            for (coefficient, (wx, dx)) in line[column..column + 4].iter().zip(wx.iter().zip(dx)) {
+                height += wx * coefficient;
+                rate += dx * coefficient;
+            }
+            gx += wy * rate;
+            gy += dy * height;
+        }
+        [DENSITY * gx, DENSITY * gy]
+    }
 }
 
 /// The cell of a coordinate, as the first of its four coefficients, and the place within the cell.
@@ -93,6 +113,17 @@ fn weights(t: f64) -> [f64; 4] {
         2.0 / 3.0 - t2 * (1.0 - 0.5 * t),
         2.0 / 3.0 - u2 * (1.0 - 0.5 * u),
         t2 * t / 6.0,
+    ]
+}
+
+/// The rates of [`weights`] with the place.
+fn weight_rates(t: f64) -> [f64; 4] {
+    let u = 1.0 - t;
+    [
+        -0.5 * u * u,
+        t * (1.5 * t - 2.0),
+        u * (2.0 - 1.5 * u),
+        0.5 * t * t,
     ]
 }
 

@@ -27,6 +27,15 @@ pub(crate) struct Ground {
     pub(super) height: f64,
 }
 
+/// What carries a rim.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Support {
+    pub(super) height: f64,
+    /// The slope along the rim, of a rim that bridges hollows, and the place of the ground that
+    /// carries it.
+    pub(super) bridge: Option<(f64, [f64; 2])>,
+}
+
 impl Ground {
     /// A ground of this rms slope and correlation length.
     pub(crate) fn new(slope: f64, length: f64) -> Self {
@@ -58,28 +67,38 @@ impl Ground {
         (-2.0 * libm::expm1(-0.5 * distance * distance)).sqrt()
     }
 
+    /// The slopes of the ground along x and y.
+    pub(super) fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let field = HeightField::shared();
+        let [gx, gy] = field.gradient(x / self.length, y / self.length);
+        [self.slope() * gx, self.slope() * gy]
+    }
+
     fn at(&self, [x, y]: [f64; 2]) -> f64 {
         HeightField::shared().height(x / self.length, y / self.length)
     }
 
-    /// The height that carries a rim whose lowest point is above `point`.
+    /// What carries a rim whose lowest point is above `point`.
     ///
     /// Near its lowest point the rim is a parabola, ½κξ² above it at a distance ξ along the
     /// horizontal unit vector `along`. It rests where the ground under this parabola reaches
     /// highest: max over ξ of h(point + ξ along) − ½κξ². So a rim bridges hollows that are narrower
     /// than its own curvature fits into.
-    pub(super) fn under_rim(&self, point: [f64; 2], along: [f64; 2], curvature: f64) -> f64 {
+    pub(super) fn under_rim(&self, point: [f64; 2], along: [f64; 2], curvature: f64) -> Support {
         // in units of ℓ and σ
         let bend = 0.5 * curvature * self.length * self.length / self.height;
-        let at = |k: f64| {
+        let place = |k: f64| {
             let way = k * SPACING * self.length;
-            let place = [point[0] + way * along[0], point[1] + way * along[1]];
-            self.at(place) - bend * (k * SPACING) * (k * SPACING)
+            [point[0] + way * along[0], point[1] + way * along[1]]
         };
+        let at = |k: f64| self.at(place(k)) - bend * (k * SPACING) * (k * SPACING);
         // rms curvature √3 σ/ℓ²
         if 3.0_f64.sqrt() * BRIDGING.recip() < 2.0 * bend {
             // the rim follows the ground: the first order in h'/κ
-            return self.height * at(0.0);
+            return Support {
+                height: self.height * at(0.0),
+                bridge: None,
+            };
         }
         let reach = (HIGHEST / bend).sqrt() / SPACING;
         let mut best = (0.0, at(0.0));
@@ -98,12 +117,16 @@ impl Ground {
         // the top of the parabola through the best point and its neighbours
         let (before, after) = (at(best.0 - 1.0), at(best.0 + 1.0));
         let (rise, bow) = (0.5 * (after - before), 2.0 * best.1 - before - after);
-        let top = if bow > rise.abs() {
-            best.1 + 0.5 * rise * rise / bow
+        let (k, top) = if bow > rise.abs() {
+            (best.0 + rise / bow, best.1 + 0.5 * rise * rise / bow)
         } else {
-            best.1
+            best
         };
-        self.height * top
+        Support {
+            height: self.height * top,
+            // at its highest the ground is as steep as the rim
+            bridge: Some((curvature * k * SPACING * self.length, place(k))),
+        }
     }
 }
 
@@ -119,9 +142,9 @@ mod tests {
         for i in 0..200 {
             let point = [0.013 * f64::from(i), 0.007 * f64::from(i)];
             let below = ground.height * ground.at(point);
-            let sharp = ground.under_rim(point, along, 1e9);
+            let sharp = ground.under_rim(point, along, 1e9).height;
             assert!((sharp - below).abs() <= 1e-9);
-            let flat = ground.under_rim(point, along, 1e-3);
+            let flat = ground.under_rim(point, along, 1e-3).height;
             let highest = (-720..=720)
                 .map(|k| ground.at([point[0] + f64::from(k) * 2e-4, point[1]]))
                 .fold(f64::NEG_INFINITY, f64::max);

@@ -34,6 +34,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     /// Flies to the next node or to the first contact of a rim with its track.
     pub(super) fn hop(&mut self) -> Next {
         self.usage.steps += 1;
+        self.give_back_lead();
         let orbit = Orbit::new(&self.toss.motion, self.model.dynamics.drag);
         let (time, touches) = self.first_touch(&orbit);
         self.fly_on(&orbit, time);

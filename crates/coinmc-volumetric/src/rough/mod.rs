@@ -42,6 +42,7 @@ mod ground;
 mod hop;
 mod random_place;
 mod rim_contact;
+mod slopes;
 mod tracks;
 mod walk;
 

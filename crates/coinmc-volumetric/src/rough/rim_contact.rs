@@ -23,10 +23,10 @@ const NO_ROCKING: f64 = 0.05;
 const KINK: f64 = 1e-3;
 
 /// Contact in one mode.
-struct Contact {
-    state: RimState<f64>,
-    mode: Mode,
-    now: Rates<f64>,
+pub(super) struct Contact {
+    pub(super) state: RimState<f64>,
+    pub(super) mode: Mode,
+    pub(super) now: Rates<f64>,
 }
 
 impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
@@ -240,7 +240,10 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     }
 
     /// Applies an impulse at the lowest point of the own rim.
-    fn push(&mut self, impulse: impl FnOnce(&crate::impact::ContactPoint<f64>) -> Impulse<f64>) {
+    pub(super) fn push(
+        &mut self,
+        impulse: impl FnOnce(&crate::impact::ContactPoint<f64>) -> Impulse<f64>,
+    ) {
         let dynamics = &self.model.dynamics;
         let (mut motion, mut spin) = (self.relative_motion(), self.toss.spin);
         let point = motion.contact_point(&dynamics.body, &spin);
@@ -271,10 +274,16 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
 
     /// The next node: the track bends.
     fn pass_node(&mut self, contact: &Contact) -> Next {
-        self.balance();
         let (old, before) = (self.tracks.own.rate, self.tracks.interval);
-        self.lay_out_tracks();
-        let time = 0.5 * (before + self.tracks.interval);
+        self.descend_on_rim(contact, before);
+        self.lead = 0.0;
+        self.balance();
+        let after = self.time_between_nodes();
+        let energy = self.energy();
+        self.descend_on_rim(contact, after);
+        self.lead = self.energy() - energy;
+        self.lay_out_tracks_for(after);
+        let time = 0.5 * (before + after);
         self.follow_bend(self.tracks.own.rate - old, contact.now.press, time)
     }
 

@@ -5,7 +5,7 @@
 //! heights there; so they return to the ground at every node, and errors of the prediction do not
 //! add up.
 
-use super::ground::Ground;
+use super::ground::{Ground, Support};
 use crate::body::Body;
 use crate::motion::{Motion, Spin};
 use crate::place::Place;
@@ -23,6 +23,9 @@ const INSTANT: f64 = 1e-9;
 pub(super) struct Track {
     pub(super) height: f64,
     pub(super) rate: f64,
+    /// The slopes of the ground at the next node, along x and y of the coin's frame there. 0 if the
+    /// track does not follow the ground.
+    pub(super) slopes: [f64; 2],
     /// Whether the track follows the ground.
     near: bool,
 }
@@ -71,6 +74,14 @@ pub(super) fn rim_points(body: &Body, motion: &Motion<f64>, spin: &Spin<f64>) ->
     })
 }
 
+/// The slopes across and along a rim with its lowest point above `point`.
+fn slopes(ground: &Ground, support: &Support, (point, [ax, ay]): ([f64; 2], [f64; 2])) -> [f64; 2] {
+    let at = support.bridge.map_or(point, |(_, place)| place);
+    let [gx, gy] = ground.gradient(at);
+    let steep = support.bridge.map_or(gx * ax + gy * ay, |(slope, _)| slope);
+    [gx * ay - gy * ax, steep]
+}
+
 impl Tracks {
     /// Moves along both tracks.
     pub(super) fn advance(&mut self, time: f64) {
@@ -92,16 +103,34 @@ impl Tracks {
         self.left <= INSTANT * self.interval
     }
 
-    /// Exchanges the rims.
+    /// Exchanges the rims, and reverses the frame.
     pub(super) fn switch(&mut self) {
         std::mem::swap(&mut self.own, &mut self.other);
+        for track in [&mut self.own, &mut self.other] {
+            track.slopes = track.slopes.map(|slope| -slope);
+        }
     }
 
-    /// Lays out the tracks up to the next node. `step` is the longest way of a point between nodes.
+    /// The time to the next node. `step` is the longest way of a point between nodes.
+    pub(super) fn time_between_nodes(
+        step: f64,
+        body: &Body,
+        motion: &Motion<f64>,
+        spin: &Spin<f64>,
+    ) -> f64 {
+        let points = rim_points(body, motion, spin);
+        let turn = -spin.turn / motion.sin;
+        let fastest = points[0].speed().max(points[1].speed());
+        LONGEST
+            .min(step / fastest.max(f64::MIN_POSITIVE))
+            .min(LARGEST_TURN / turn.abs().max(f64::MIN_POSITIVE))
+    }
+
+    /// Lays out the tracks up to the next node, in `time` from now.
     pub(super) fn lay_out(
         &mut self,
         ground: &Ground,
-        step: f64,
+        time: f64,
         body: &Body,
         motion: &Motion<f64>,
         spin: &Spin<f64>,
@@ -109,29 +138,34 @@ impl Tracks {
     ) {
         let points = rim_points(body, motion, spin);
         let turn = -spin.turn / motion.sin;
-        let fastest = points[0].speed().max(points[1].speed());
-        let time = LONGEST
-            .min(step / fastest.max(f64::MIN_POSITIVE))
-            .min(LARGEST_TURN / turn.abs().max(f64::MIN_POSITIVE));
         (self.left, self.interval) = (time, time);
         let thickness = 2.0 * body.half;
         let near = motion.cos.abs() < ground.near(thickness) + spin.tilt.abs() * time;
-        let under = |point: &RimPoint, after: f64| {
+        let way = |point: &RimPoint, after: f64| {
             let (sin, cos) = sin_cos(turn * after);
             let x = point.rx * cos + (motion.vx + point.rz * spin.tilt) * after;
             let y = point.rx * sin + motion.vy * after;
-            let along = place.direction(-sin, cos);
-            ground.under_rim(place.point(x, y), along, motion.sin / body.radius)
+            (place.point(x, y), place.direction(-sin, cos))
+        };
+        let under = |point: &RimPoint, after: f64| {
+            let (at, along) = way(point, after);
+            ground.under_rim(at, along, motion.sin / body.radius)
         };
         let lead = |track: &mut Track, point: &RimPoint| {
-            track.rate = (under(point, time) - track.height) / time;
+            let support = under(point, time);
+            track.rate = (support.height - track.height) / time;
+            track.slopes = if near {
+                slopes(ground, &support, way(point, time))
+            } else {
+                [0.0; 2]
+            };
         };
         lead(&mut self.own, &points[0]);
         if near {
             if !self.other.near {
                 // the rim is still above the ground
                 let highest = self.own.height + thickness * motion.cos;
-                self.other.height = under(&points[1], 0.0).min(highest);
+                self.other.height = under(&points[1], 0.0).height.min(highest);
             }
             lead(&mut self.other, &points[1]);
         } else {
@@ -152,7 +186,9 @@ impl Tracks {
         let [own, _] = rim_points(body, motion, spin);
         let along = place.direction(0.0, 1.0);
         let curvature = motion.sin / body.radius;
-        tracks.own.height = ground.under_rim(place.point(own.rx, 0.0), along, curvature);
+        tracks.own.height = ground
+            .under_rim(place.point(own.rx, 0.0), along, curvature)
+            .height;
         tracks
     }
 }

@@ -57,6 +57,10 @@ pub(super) struct Walk<'a, I, O> {
     pub(super) tracks: Tracks,
     /// The mechanical energy that is left. It never grows; see [`balance`](Self::balance).
     pub(super) budget: f64,
+    /// Kinetic energy that slopes have given ahead of the way down: see [`slopes`](super::slopes).
+    pub(super) lead: f64,
+    /// Since when a coin with both rims down has been almost at rest.
+    pub(super) at_rest_since: Option<f64>,
 }
 
 impl<I: ImpactLaw> Model<I> {
@@ -116,6 +120,8 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
             place,
             tracks,
             budget,
+            lead: 0.0,
+            at_rest_since: None,
         }
     }
 
@@ -227,11 +233,21 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
     }
 
     pub(super) fn lay_out_tracks(&mut self) {
+        self.lay_out_tracks_for(self.time_between_nodes());
+    }
+
+    /// Lays out the tracks up to a node in `time` from now.
+    pub(super) fn lay_out_tracks_for(&mut self, time: f64) {
         let (motion, spin) = (&self.toss.motion, &self.toss.spin);
         let body = &self.model.dynamics.body;
-        let step = self.model.ground_step * self.ground.length;
         self.tracks
-            .lay_out(self.ground, step, body, motion, spin, &self.place);
+            .lay_out(self.ground, time, body, motion, spin, &self.place);
+    }
+
+    pub(super) fn time_between_nodes(&self) -> f64 {
+        let (motion, spin) = (&self.toss.motion, &self.toss.spin);
+        let step = self.model.ground_step * self.ground.length;
+        Tracks::time_between_nodes(step, self.body(), motion, spin)
     }
 
     /// Makes the other rim the own one, by reversing the axis of the folded frame.
@@ -258,12 +274,13 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
         let rate = self.tracks.own.rate;
         let mut motion = self.relative_motion();
         let kinetic = motion.kinetic(self.body(), &self.toss.spin);
-        let wanted = self.budget - self.toss.motion.z - 0.5 * rate * rate;
+        let wanted = self.budget + self.lead - self.toss.motion.z - 0.5 * rate * rate;
         let cross = motion.vz * rate;
         let discriminant = cross * cross + 4.0 * kinetic * wanted;
         let root = discriminant.max(0.0).sqrt() - cross;
         let scale = if discriminant < 0.0 || root <= 0.0 {
-            self.tracks.stop(self.toss.motion.z - self.budget);
+            self.tracks
+                .stop(self.toss.motion.z - self.budget - self.lead);
             0.0
         } else {
             (root / (2.0 * kinetic)).min(LARGEST)
@@ -277,6 +294,14 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
         }
         motion.set_spin(&spin, self.model.dynamics.axial_factor);
         self.set_relative(motion, spin);
+    }
+
+    /// Takes back what slopes have given ahead, of a coin that leaves the ground.
+    pub(super) fn give_back_lead(&mut self) {
+        if self.lead != 0.0 {
+            self.lead = 0.0;
+            self.balance();
+        }
     }
 
     /// Moves the place by half of the way that `motion` makes in `time`.
@@ -331,6 +356,7 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
         const FAR: f64 = 2.0;
         /// A rim that separates more slowly does so by its acceleration alone.
         const BY_ACCELERATION: f64 = 1e-9;
+        self.give_back_lead();
         let [own, _] = rim_points(self.body(), &self.toss.motion, &self.toss.spin);
         let speed = -self.approach() - self.tracks.own.rate;
         let departure = if speed > BY_ACCELERATION {
@@ -370,8 +396,8 @@ mod tests {
     use nalgebra::{UnitVector3, Vector3};
 
     /// Friction and impacts take energy, and nothing gives any: the budget never grows, and after
-    /// every event the coin has no more energy than its budget but for rounding, 1e-12 of it. (In
-    /// between, the energy may exceed it by what the next node takes back.)
+    /// every event the coin has no more energy than its budget and the lead of slopes but for
+    /// rounding, 1e-12 of it. (In between, the energy may exceed it by what the next node takes back.)
     #[test]
     fn no_event_gains_energy() {
         let mut events = 0;
@@ -408,7 +434,7 @@ mod tests {
                     // an impact is balanced once it has happened
                     if walk.tracks.left == walk.tracks.interval && next != Next::Impact {
                         events += 1;
-                        let gain = walk.energy() - budget;
+                        let gain = walk.energy() - budget - walk.lead;
                         assert!(gain <= 1e-12 * budget, "gain {gain:e} of {budget}");
                     }
                 }

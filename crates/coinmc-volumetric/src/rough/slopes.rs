@@ -1,0 +1,65 @@
+//! The pull of a slope on a coin in contact.
+//!
+//! The ground under a rim slopes by g_x across the coin's plane and g_y along it. The rim touches
+//! where it is parallel to the ground, g_y R/s ahead of its lowest point, and the normal force
+//! leans by as much:
+//!
+//! force (−g_x, −g_y, 1) N at the arm (r_x, g_y R/s, r_z).
+//!
+//! On an upright disc this passes through the centre. A contact point that sticks takes up the
+//! horizontal force, and what is left is the moment N g_y R/s about x: a coin at rest begins to roll
+//! downhill. A point that slips does not.
+//!
+//! The pull acts at the nodes, half of it before the way to the next node and half after it (the
+//! Störmer–Verlet method). In between the coin has kinetic energy ahead of the height that it is
+//! going to lose, the walk's `lead`.
+
+use super::rim_contact::Contact;
+use super::walk::Walk;
+use crate::contact::{LineState, Mode};
+use crate::impact::{ImpactLaw, Impulse};
+use coinmc_core::Observer;
+
+impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
+    /// Half of the pull of the slope under the own rim in `time`.
+    pub(super) fn descend_on_rim(&mut self, contact: &Contact, time: f64) {
+        let dynamics = &self.model.dynamics;
+        let [gx, gy] = self.tracks.own.slopes;
+        let push = 0.5 * contact.now.normal.max(0.0) * time;
+        let body = &dynamics.body;
+        self.push(|point| {
+            let k = point.matrix(body);
+            let moment = push * gy * body.radius / point.sin;
+            // the moment changes the slip, and a point that sticks takes that back
+            let slip =
+                moment * (body.radius * point.sin / body.ka + body.half * point.cos / body.kt);
+            let (x, y) = match contact.mode {
+                Mode::Stick => (0.0, -slip / k.yy),
+                Mode::Slip => (-push * gx, -push * gy),
+            };
+            Impulse {
+                x,
+                y,
+                z: -(k.xz / k.zz) * x,
+                contour: -point.sin * moment,
+                pivoting: 0.0,
+            }
+        });
+    }
+
+    /// The motion along the ground of a coin on both rims, after half of the pull of the slopes in
+    /// `time`.
+    pub(super) fn descend_on_both(&self, state: &LineState, time: f64) -> LineState {
+        let body = self.body();
+        let (own, other) = (self.tracks.own.slopes, self.tracks.other.slopes);
+        let [gx, gy] = [0, 1].map(|i| 0.25 * time * (own[i] + other[i]));
+        let [vx, vy, wa, wz] = *state;
+        if self.model.contact_rules().rolls_straight(state) {
+            let inertia = body.ka + body.radius * body.radius;
+            let turn = gy * body.radius / inertia;
+            [vx, vy - body.radius * turn, wa + turn, wz]
+        } else {
+            [vx - gx, vy - gy, wa, wz]
+        }
+    }
+}
