@@ -125,7 +125,10 @@ impl Material {
                 "estimate: a coin that whirrs for some seconds has ρ_c/R of about 0.003",
             ),
             contact_patch_m: of(4.7e-5, hertz!("1 GPa (across the grain)")),
-            roughness_slope: of(0.025, GUESS),
+            roughness_slope: of(
+                0.05,
+                "estimate: with it a nickel, H/R = 0.184, stands in about 1 of 700 tosses by hand, with 0.025 in 1 of 60",
+            ),
             roughness_wavelength_m: of(3e-3, GUESS),
         },
         Self {

@@ -17,6 +17,7 @@ pub const ENGINE: EngineDescriptor = EngineDescriptor {
     laws: &[],
     unmodelled: &UNMODELLED,
     remarks: &[
+        Remark::PERFECT_PLANE,
         Remark {
             applies: |scene| bounces(scene) && scene.surface.restitution() == 1.0,
             text: "restitution = 1 loses no energy in a frictionless impact: tosses may stay undecided \

@@ -20,6 +20,7 @@ pub const ENGINE: EngineDescriptor = EngineDescriptor {
     laws: &LAWS,
     unmodelled: &[],
     remarks: &[
+        Remark::PERFECT_PLANE,
         Remark {
             applies: |scene| {
                 let surface = &scene.surface;

@@ -100,33 +100,55 @@ impl Ground {
                 bridge: None,
             };
         }
-        let reach = (HIGHEST / bend).sqrt() / SPACING;
-        let mut best = (0.0, at(0.0));
-        for k in 1..=MOST_POINTS {
-            let k = f64::from(k);
-            if k > reach {
-                break;
-            }
-            for k in [-k, k] {
-                let height = at(k);
-                if height > best.1 {
-                    best = (k, height);
-                }
-            }
-        }
-        // the top of the parabola through the best point and its neighbours
-        let (before, after) = (at(best.0 - 1.0), at(best.0 + 1.0));
-        let (rise, bow) = (0.5 * (after - before), 2.0 * best.1 - before - after);
-        let (k, top) = if bow > rise.abs() {
-            (best.0 + rise / bow, best.1 + 0.5 * rise * rise / bow)
-        } else {
-            best
-        };
+        let (k, top) = highest(bend * SPACING * SPACING, at);
         Support {
             height: self.height * top,
             // at its highest the ground is as steep as the rim
             bridge: Some((curvature * k * SPACING * self.length, place(k))),
         }
+    }
+}
+
+/// Where and how high the arc's highest point is. `at(k)` is the height of point k, which lies
+/// `bend` k² lower than it would under a straight rim.
+fn highest(bend: f64, at: impl Fn(f64) -> f64) -> (f64, f64) {
+    let middle = at(0.0);
+    let mut best = (0.0, middle);
+    // the heights found last on either side, and those next to the best, nearer to the middle and
+    // farther from it; NaN: not yet known
+    let mut last = [middle; 2];
+    let (mut nearer, mut farther) = (f64::NAN, f64::NAN);
+    for k in 1..=MOST_POINTS {
+        let k = f64::from(k);
+        if HIGHEST - bend * k * k < best.1 {
+            break;
+        }
+        for (last, side) in last.iter_mut().zip([-k, k]) {
+            let height = at(side);
+            if height > best.1 {
+                best = (side, height);
+                (nearer, farther) = (*last, f64::NAN);
+            } else if side - best.0 == 1.0_f64.copysign(side) && best.0 != 0.0 {
+                farther = height;
+            }
+            *last = height;
+        }
+    }
+    let outwards = 1.0_f64.copysign(best.0);
+    let known = |height: f64, k: f64| if height.is_nan() { at(k) } else { height };
+    let (before, after) = (
+        known(nearer, best.0 - outwards),
+        known(farther, best.0 + outwards),
+    );
+    // the top of the parabola through the best point and its neighbours
+    let (rise, bow) = (0.5 * (after - before), 2.0 * best.1 - before - after);
+    if bow > rise.abs() {
+        (
+            best.0 + outwards * rise / bow,
+            best.1 + 0.5 * rise * rise / bow,
+        )
+    } else {
+        best
     }
 }
 

@@ -73,6 +73,10 @@ impl<I: ImpactLaw> Model<I> {
         usage: &mut Usage,
         observer: &mut O,
     ) -> Transition {
+        if self.limits.no_impact_left(toss.impacts) {
+            return Transition::End(Ended::ImpactLimit);
+        }
+        toss.impacts += 1;
         let mut walk = Walk::new(self, ground, toss, usage, observer);
         walk.lay_out_tracks();
         if walk.other_is_clear() && walk.approach() < SLOW * walk.speed_of_slopes() {
@@ -316,13 +320,11 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
         self.place.align(cos, sin);
     }
 
-    /// One impact of the own rim.
+    /// One impact of the own rim: with the ground on which it lands, or with a bump on its way. Bumps
+    /// are many, and count as steps.
     fn impact(&mut self) -> Next {
         let model = self.model;
-        if model.limits.no_impact_left(self.toss.impacts) {
-            return Next::Ends(Transition::End(Ended::ImpactLimit));
-        }
-        self.toss.impacts += 1;
+        self.usage.steps += 1;
         model.notify(self.toss, EventKind::Touching, self.observer);
         let stays = self.bounce();
         model.notify(self.toss, EventKind::Impact, self.observer);
