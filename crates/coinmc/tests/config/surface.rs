@@ -7,7 +7,7 @@ use coinmc_core::{Material, pivoting_friction_of_patch_m};
 /// A toss in space onto a surface with these keys.
 fn on(surface: &str) -> String {
     format!(
-        "[coin]\nratio = 0.2\n[surface]\n{surface}\n[launch]\npreset = 'clean'\n[engine.volumetric]\n\
+        "[coin]\nratio = 0.5\n[surface]\n{surface}\n[launch]\npreset = 'clean'\n[engine.volumetric]\n\
          [stop]\ntosses = 1000\n"
     )
 }
@@ -115,7 +115,7 @@ fn a_number_replaces_that_of_the_material_and_says_so() {
             "surface.friction is given and replaces the friction = 0.3 of material = \"wood\"",
             "surface.pivoting_friction_m is given and replaces the contact_patch_m = 4.7e-5 of material \
              = \"wood\"",
-            "surface.roughness_slope is given and replaces the roughness_slope = 0.025 of material = \
+            "surface.roughness_slope is given and replaces the roughness_slope = 0.05 of material = \
              \"wood\"",
         ]
     );
