@@ -132,7 +132,7 @@ fn fast_impacts_bounce_less_by_the_stated_power() {
             if before.motion.sine() < 1e-4 || !bounces {
                 continue;
             }
-            let e = 0.6 * (approach / reference).max(1.0).powf(-exponent);
+            let e = 0.6 * libm::pow((approach / reference).max(1.0), -exponent);
             assert!((back - e * approach).abs() <= 1e-11, "{approach} {back}");
             if approach < reference {
                 slow += 1;
