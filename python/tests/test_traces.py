@@ -40,7 +40,8 @@ def test_a_trace_equals_that_of_the_command_line(example, examples, command, tmp
 
 
 def test_energy_never_increases_and_axes_have_unit_length(examples):
-    trace = coinmc.trace(examples / "hand.toml", 5, rate_hz=1000)
+    # on a plane: over rough ground the engine balances the energy from node to node
+    trace = coinmc.trace(examples / "clean.toml", 5, rate_hz=1000)
     energy = trace.samples["energy_j_kg"]
     assert (np.diff(energy) <= 1e-9 * energy[0]).all()
     norms = np.linalg.norm(trace.samples["axis"], axis=1)
