@@ -3,7 +3,7 @@
 use crate::{Model, Motion};
 use coinmc_core::Face;
 
-/// The face, if it is decided: a coin with less energy than it takes to stand on its rim, 1, stays
+/// The face, if it is decided: a coin with less energy than it takes to stand on its rim, 1 + r, stays
 /// in the well it is in. A coin that has sunk in stands that much lower.
 ///
 /// Nothing is left out of the energy, so that the oracle does not share the errors of the engines'
@@ -11,7 +11,7 @@ use coinmc_core::Face;
 pub(crate) fn decided(model: &Model, motion: &Motion) -> Option<Face> {
     let energy = motion.energy(model) - motion.gap(model).min(0.0);
     let c = motion.axis.z;
-    (energy < 1.0).then(|| match () {
+    (energy < 1.0 + model.rim).then(|| match () {
         () if c.abs() < model.half => Face::Side,
         () if c > 0.0 => Face::Heads,
         () => Face::Tails,

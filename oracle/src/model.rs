@@ -6,10 +6,12 @@ use nalgebra::{Matrix3, Vector3};
 /// Coin, surface and air, without units: g = 1, D = 1, m = 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Model {
-    /// R/D.
+    /// R/D; of rounded rims (R − r)/D, the radius of their centre lines.
     pub radius: f64,
-    /// H/(2D).
+    /// H/(2D), or (H/2 − r)/D.
     pub half: f64,
+    /// r/D, the radius of the rims' rounding: the lowest point is this far below their centre line.
+    pub rim: f64,
     /// I_t/(m D²), about a diameter through the centre.
     pub transverse: f64,
     /// I_a/(m D²), about the axis.
@@ -38,8 +40,9 @@ impl Model {
         let (coin, surface, drag) = (&scene.coin, &scene.surface, scene.drag());
         let (d, time) = (coin.rim_distance_m(), scene.time_scale_s());
         Self {
-            radius: coin.radius_m() / d,
-            half: coin.height_m() / (2.0 * d),
+            radius: (coin.radius_m() - coin.rim_radius_m()) / d,
+            half: (0.5 * coin.height_m() - coin.rim_radius_m()) / d,
+            rim: coin.rim_radius_m() / d,
             transverse: coin.transverse_gyration_m2() / (d * d),
             axial: coin.axial_gyration_m2() / (d * d),
             restitution: surface.restitution(),

@@ -53,7 +53,8 @@ impl Motion {
 
     /// Height of the lowest point of the coin.
     pub fn gap(&self, model: &Model) -> f64 {
-        self.position.z - model.half * self.axis.z.abs() - model.radius * self.sine()
+        let centre_line = model.half * self.axis.z.abs() + model.radius * self.sine();
+        self.position.z - centre_line - model.rim
     }
 
     /// Kinetic energy of the translation and of the rotation, ½ω·Iω.

@@ -60,7 +60,8 @@ struct Lowest {
 }
 
 impl Lowest {
-    /// r = −b (H/2) u + R (c u − ẑ)/s and h = b (H/2) c + R s, b the sign of c.
+    /// r = −b (H/2) u + R (c u − ẑ)/s and h = b (H/2) c + R s, b the sign of c, of the centre line of
+    /// a rounded rim; and the rim's radius below that.
     fn new(model: &Model, motion: &Motion, axis_rate: &Vector3<f64>) -> Self {
         let (u, s) = (&motion.axis, motion.sine());
         let (c, c_rate) = (u.z, axis_rate.z);
@@ -69,7 +70,7 @@ impl Lowest {
         let along = u * c - Vector3::z();
         let along_rate = u * c_rate + axis_rate * c;
         Self {
-            arm: along * (model.radius / s) - u * face,
+            arm: along * (model.radius / s) - u * face - Vector3::z() * model.rim,
             arm_rate: (along_rate / s - along * (s_rate / (s * s))) * model.radius
                 - axis_rate * face,
             slope: face - model.radius * c / s,

@@ -59,7 +59,7 @@ pub(crate) fn points(model: &Model, motion: &Motion) -> [Point; POINTS] {
     let across = u.cross(&down);
     let still = Vector3::zeros();
     let place = |end: f64, along: Vector3<f64>, wander| Point {
-        arm: u * (end * model.half) + along * model.radius,
+        arm: u * (end * model.half) + along * model.radius - Vector3::z() * model.rim,
         wander,
     };
     [

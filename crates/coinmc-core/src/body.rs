@@ -7,6 +7,9 @@ use crate::{Coin, Scene};
 /// The coin's shape and its inertia divided by its mass m, in units of D = sqrt(R² + H²/4), the
 /// distance of the rim from the centre: radius² + half² = 1.
 ///
+/// A coin with rounded rims is a cylinder with a layer of thickness r all around: `radius` and `half`
+/// are those of the cylinder inside, and the lowest point of the coin is r below that cylinder's.
+///
 /// # Example
 /// ```
 /// use coinmc_core::{Body, Coin};
@@ -22,6 +25,8 @@ pub struct Body {
     pub radius: f64,
     /// H/(2D).
     pub half: f64,
+    /// r/D, the radius of the rims' rounding.
+    pub rim: f64,
     /// I_t/(m D²), about a diameter through the centre.
     pub kt: f64,
     /// I_a/(m D²), about the coin's axis.
@@ -32,13 +37,20 @@ impl Body {
     /// The body of a coin.
     pub fn new(coin: &Coin) -> Self {
         let (radius, half) = coin.shape_by_rim_distance();
-        let r2 = coin.radius_m() * coin.radius_m();
+        let inner = coin.radius_m() - coin.rim_radius_m();
+        let r2 = inner * inner;
         Self {
             radius,
             half,
+            rim: coin.rim_radius_m() / inner * radius,
             kt: coin.transverse_gyration_m2() / r2 * radius * radius,
             ka: coin.axial_gyration_m2() / r2 * radius * radius,
         }
+    }
+
+    /// The radius of the coin itself, R/D: where it touches when it rolls on its side.
+    pub fn outer_radius(&self) -> f64 {
+        self.radius + self.rim
     }
 
     /// Ω_a/ω_a with Ω = L/I_t, the rotation that a free flight keeps: I_a/I_t, or 1 without
@@ -79,6 +91,9 @@ impl Body {
 pub struct Units {
     /// D, m.
     pub length_m: f64,
+    /// r, m: engines measure the centre's height from r above the surface, where it is that of the
+    /// cylinder inside above its own lowest point.
+    pub rim_m: f64,
     /// sqrt(D/g), s.
     pub time_s: f64,
 }
@@ -88,6 +103,7 @@ impl Units {
     pub fn new(scene: &Scene) -> Self {
         Self {
             length_m: scene.coin.rim_distance_m(),
+            rim_m: scene.coin.rim_radius_m(),
             time_s: scene.time_scale_s(),
         }
     }

@@ -1,6 +1,9 @@
 //! The coin: a cylinder of revolution with its centre of mass at its geometric centre.
 
+mod rounded;
+
 use crate::schema::{Absent, Bounds, ReadError, TableKind, Values, default, fields, number};
+use nalgebra::Vector3;
 use thiserror::Error;
 
 /// Default mass. No outcome depends on it: under gravity, contact and Coulomb friction the mass cancels.
@@ -26,7 +29,9 @@ pub struct Coin {
     ratio: f64,
     radius_m: f64,
     mass_kg: f64,
-    /// I_t/m and I_a/m where they differ from the uniform cylinder's.
+    /// Radius r of the rounding of both rims; 0: sharp edges.
+    rim_radius_m: f64,
+    /// I_t/m and I_a/m.
     transverse_gyration_m2: f64,
     axial_gyration_m2: f64,
 }
@@ -43,6 +48,16 @@ pub enum CoinError {
     /// m is not a positive finite mass.
     #[error("mass must be positive and finite, not {0} kg")]
     Mass(f64),
+    /// The rims' rounding does not leave a cylinder inside: 0 <= r < min(R, H/2).
+    #[error(
+        "rim radius must be at least 0 and below both R and H/2, here below {most} m, not {found} m"
+    )]
+    RimRadius {
+        /// The requested radius, m.
+        found: f64,
+        /// min(R, H/2), m.
+        most: f64,
+    },
     /// No body inside the cylinder has this axial moment: 0 < I_a <= m R².
     #[error(
         "axial moment {found:e} kg m² is impossible: a body inside the cylinder has 0 < I_a <= {most:e}"
@@ -74,6 +89,7 @@ impl CoinError {
             Self::Ratio(_) => "ratio",
             Self::Radius(_) => "radius_m",
             Self::Mass(_) => "mass_kg",
+            Self::RimRadius { .. } => "rim_radius_m",
             Self::AxialMoment { .. } => "axial_moment_kg_m2",
             Self::TransverseMoment { .. } => "transverse_moment_kg_m2",
         }
@@ -103,6 +119,13 @@ impl Coin {
                  that name forces or stiffness.",
                 Bounds::closed(1e-12, 1e12),
                 default(0.01),
+            ),
+            number(
+                "rim_radius_m",
+                "Radius r of the rounding of both rims, m, below R and H/2: the coin is a smaller cylinder \
+                 with a layer of thickness r all around. 0, or absent: sharp edges.",
+                Bounds::closed(0.0, 1e6),
+                Absent::Omitted,
             ),
             number(
                 "axial_moment_kg_m2",
@@ -139,6 +162,8 @@ impl Coin {
         let coin = Self::cylinder(values.number("ratio")?, values.number("radius_m")?)
             .map_err(blame)?
             .with_mass(values.number("mass_kg")?)
+            .map_err(blame)?
+            .with_rim_radius(values.optional("rim_radius_m")?.unwrap_or(0.0))
             .map_err(blame)?;
         if axial.is_none() && transverse.is_none() {
             return Ok(coin);
@@ -163,6 +188,7 @@ impl Coin {
             ratio,
             radius_m,
             mass_kg: DEFAULT_MASS_KG,
+            rim_radius_m: 0.0,
             transverse_gyration_m2: r2 * (3.0 + ratio * ratio) / 12.0,
             axial_gyration_m2: r2 / 2.0,
         })
@@ -178,6 +204,46 @@ impl Coin {
         } else {
             Err(CoinError::Mass(mass_kg))
         }
+    }
+
+    /// The same coin, uniform and solid, with both rims rounded with the radius r: every point within
+    /// r of a cylinder of radius R − r and height H − 2r. R and H stay the outer measures.
+    ///
+    /// # Errors
+    /// [`CoinError::RimRadius`] unless 0 <= r < min(R, H/2).
+    ///
+    /// # Example
+    /// ```
+    /// use coinmc_core::Coin;
+    /// let euro = Coin::cylinder(0.2, 0.0116)?.with_rim_radius(3e-4)?;
+    /// // it balances where its centre is above the inner cylinder's edge
+    /// assert!((euro.inner_ratio() - (0.00232 - 0.0006) / 0.0113).abs() < 1e-12);
+    /// assert!(Coin::cylinder(0.2, 0.0116)?.with_rim_radius(0.0012).is_err());
+    /// # Ok::<(), coinmc_core::CoinError>(())
+    /// ```
+    pub fn with_rim_radius(self, rim_radius_m: f64) -> Result<Self, CoinError> {
+        let most = self.radius_m.min(self.height_m() / 2.0);
+        if !(rim_radius_m >= 0.0 && rim_radius_m < most) {
+            return Err(CoinError::RimRadius {
+                found: rim_radius_m,
+                most,
+            });
+        }
+        let coin = Self {
+            rim_radius_m,
+            ..self
+        };
+        if rim_radius_m == 0.0 {
+            return Ok(coin);
+        }
+        let (transverse, axial) =
+            rounded::gyrations(self.ratio / 2.0, rim_radius_m / self.radius_m);
+        let r2 = self.radius_m * self.radius_m;
+        Ok(Self {
+            transverse_gyration_m2: transverse * r2,
+            axial_gyration_m2: axial * r2,
+            ..coin
+        })
     }
 
     /// The same coin with other principal moments about its centre, in kg m², as a hollow or
@@ -239,18 +305,62 @@ impl Coin {
         self.mass_kg
     }
 
-    /// D = sqrt(R² + H²/4), the distance from the centre to the rim, m: the centre's height when
-    /// the coin balances on its rim, hence the barrier m g D between face and side.
-    pub fn rim_distance_m(&self) -> f64 {
-        let half = self.ratio / 2.0;
-        self.radius_m * (1.0 + half * half).sqrt()
+    /// Radius r of the rounding of both rims, m; 0: sharp edges.
+    pub fn rim_radius_m(&self) -> f64 {
+        self.rim_radius_m
     }
 
-    /// (R/D, H/2D) with D the [rim distance](Self::rim_distance_m): the coin's shape in units in which
-    /// its rim is at distance 1 from the centre. Computed from the ratio alone, so that a coin at another
-    /// scale has bit-identical values and no ratio overflows.
+    /// Height over radius of the cylinder to which the rims' rounding adds a layer of thickness r:
+    /// (H − 2r)/(R − r). H/R for sharp edges.
+    pub fn inner_ratio(&self) -> f64 {
+        let rim = self.rim_radius_m / self.radius_m;
+        (self.ratio - 2.0 * rim) / (1.0 - rim)
+    }
+
+    /// The coin's lowest point relative to its centre, m, where its axis points along the unit vector
+    /// `axis`. Of a coin that is level on its face or side, the middle of what is lowest.
+    ///
+    /// # Example
+    /// ```
+    /// use coinmc_core::Coin;
+    /// use nalgebra::Vector3;
+    /// let coin = Coin::cylinder(2.0, 0.01)?;
+    /// assert_eq!(coin.lowest_point_m(&Vector3::z()), Vector3::new(0.0, 0.0, -0.01));
+    /// let tilted = Vector3::new(0.6, 0.0, 0.8);
+    /// assert!((coin.lowest_point_m(&tilted).z + 0.01 * (0.8 + 0.6)).abs() < 1e-15);
+    /// # Ok::<(), coinmc_core::CoinError>(())
+    /// ```
+    pub fn lowest_point_m(&self, axis: &Vector3<f64>) -> Vector3<f64> {
+        /// Sine of a tilt that counts as none.
+        const LEVEL: f64 = 1e-9;
+        let rim = self.rim_radius_m;
+        let half = 0.5 * self.height_m() - rim;
+        let mut point = Vector3::new(0.0, 0.0, -rim);
+        if axis.z != 0.0 {
+            point -= axis * half.copysign(axis.z);
+        }
+        let across = (axis.x * axis.x + axis.y * axis.y).sqrt();
+        if across >= LEVEL {
+            point += (axis * axis.z - Vector3::z()) * ((self.radius_m - rim) / across);
+        }
+        point
+    }
+
+    /// D = sqrt(R² + H²/4), the distance from the centre to the rim, m: the centre's height when
+    /// the coin balances on its rim, hence the barrier m g D between face and side. With rounded rims
+    /// the distance to the edge of the cylinder inside, sqrt((R − r)² + (H/2 − r)²): then the coin
+    /// balances with its centre at D + r.
+    pub fn rim_distance_m(&self) -> f64 {
+        let half = self.inner_ratio() / 2.0;
+        (self.radius_m - self.rim_radius_m) * (1.0 + half * half).sqrt()
+    }
+
+    /// (R/D, H/2D) with D the [rim distance](Self::rim_distance_m), of the cylinder inside if the rims
+    /// are rounded: the coin's shape in units in which its rim is at distance 1 from the centre.
+    /// Computed from ratios alone, so that a coin at another scale has bit-identical values and no ratio
+    /// overflows.
     pub fn shape_by_rim_distance(&self) -> (f64, f64) {
-        let half = self.ratio / 2.0;
+        let half = self.inner_ratio() / 2.0;
         if half <= 1.0 {
             let hypotenuse = (1.0 + half * half).sqrt();
             (1.0 / hypotenuse, half / hypotenuse)

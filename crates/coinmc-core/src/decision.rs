@@ -52,6 +52,7 @@
 
 use crate::{Body, Scene};
 use coinmc_lanes::{Lane, Mask};
+use std::f64::consts::FRAC_PI_2;
 
 /// The state of the decision on a toss.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -131,6 +132,7 @@ impl DecisionRule {
         let body = Body::new(&scene.coin);
         let surface = &scene.surface;
         let mu = surface.friction();
+        let roller = body.outer_radius();
         let twists = surface.rolling_friction_m() > 0.0 || surface.pivoting_friction_m() > 0.0;
         Self {
             body,
@@ -138,14 +140,15 @@ impl DecisionRule {
             tilting,
             slides: mu == 0.0,
             traps: mu == 0.0 && !twists && scene.drag().is_none(),
-            rolling: 0.5 / (1.0 + body.ka / (body.radius * body.radius)),
-            lever: body.ka / body.radius,
-            flat_sine: if mu * body.half <= body.radius {
+            rolling: 0.5 / (1.0 + body.ka / (roller * roller)),
+            lever: body.ka / roller,
+            flat_sine: if mu * (body.half + body.rim) <= body.radius {
                 flat_sine
             } else {
                 0.0
             },
-            flat_barrier: (1.0 + mu * mu).sqrt() - mu * body.radius,
+            // at a rounded rim friction has the lever r more, over an angle of π/2 at most
+            flat_barrier: (1.0 + mu * mu).sqrt() - mu * (body.radius + FRAC_PI_2 * body.rim),
         }
     }
 

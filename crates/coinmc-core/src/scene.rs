@@ -73,7 +73,7 @@ pub struct SceneParameter {
 impl Scene {
     /// The parameters that every result states, swept or not, with their values: without them a toss is
     /// not defined.
-    pub const PARAMETERS: [SceneParameter; 13] = [
+    pub const PARAMETERS: [SceneParameter; 14] = [
         SceneParameter {
             name: "ratio",
             value: |scene| scene.coin.ratio(),
@@ -81,6 +81,10 @@ impl Scene {
         SceneParameter {
             name: "radius_m",
             value: |scene| scene.coin.radius_m(),
+        },
+        SceneParameter {
+            name: "rim_radius_m",
+            value: |scene| scene.coin.rim_radius_m(),
         },
         SceneParameter {
             name: "restitution",

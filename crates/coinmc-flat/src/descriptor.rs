@@ -28,7 +28,13 @@ pub const ENGINE: EngineDescriptor = EngineDescriptor {
     read: |values| Settings::read(values).map(EngineChoice::new),
 };
 
-const UNMODELLED: [Unmodelled; 9] = [
+const UNMODELLED: [Unmodelled; 10] = [
+    Unmodelled {
+        table: "coin",
+        key: "rim_radius_m",
+        message: "engine.flat models sharp rims: `coin.rim_radius_m` must be 0",
+        help: "remove `rim_radius_m`, or toss in space with [engine.volumetric]",
+    },
     Unmodelled {
         table: "surface",
         key: "rolling_friction_m",

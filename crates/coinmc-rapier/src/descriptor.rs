@@ -33,7 +33,13 @@ pub const ENGINE: EngineDescriptor = EngineDescriptor {
     read: |values| Settings::read(values).map(EngineChoice::new),
 };
 
-const UNMODELLED: [Unmodelled; 2] = [
+const UNMODELLED: [Unmodelled; 3] = [
+    Unmodelled {
+        table: "coin",
+        key: "rim_radius_m",
+        message: "engine.rapier tosses sharp rims: `coin.rim_radius_m` must be 0",
+        help: "remove `rim_radius_m`, or toss with [engine.volumetric]",
+    },
     Unmodelled {
         table: "surface",
         key: "restitution_exponent",

@@ -25,23 +25,7 @@ const PAINT: f64 = 0.02;
 
 /// The coin's lowest point, m; if a whole face or line is lowest, its middle.
 pub(super) fn contact_m(coin: &Coin, state: &State) -> Vector<f64> {
-    let u = state.axis.into_inner();
-    let up = if u.z > 0.0 {
-        u
-    } else if u.z < 0.0 {
-        -u
-    } else {
-        Vector::zeros()
-    };
-    // down along the face: the part of −z that is across u
-    let down = u * u.z - Vector::z();
-    let across = (u.x * u.x + u.y * u.y).sqrt();
-    let along = if across > 0.0 {
-        down / across
-    } else {
-        Vector::zeros()
-    };
-    state.position_m - up * (0.5 * coin.height_m()) + along * coin.radius_m()
+    state.position_m + coin.lowest_point_m(&state.axis)
 }
 
 /// The scene of a toss that begins at `start`, which replaces that of an earlier toss.

@@ -59,7 +59,9 @@ pub(super) fn rows(traces: &[Trace]) -> impl Iterator<Item = Row<'_>> {
 pub(super) fn lowest_m(coin: &Coin, state: &State) -> f64 {
     let u = &state.axis;
     let across = (u.x * u.x + u.y * u.y).sqrt();
-    state.position_m.z - 0.5 * coin.height_m() * u.z.abs() - coin.radius_m() * across
+    let rim = coin.rim_radius_m();
+    let centre_line = (0.5 * coin.height_m() - rim) * u.z.abs() + (coin.radius_m() - rim) * across;
+    state.position_m.z - centre_line - rim
 }
 
 /// The angle between the coin's axis and the vertical, regardless of which end is up, rad.

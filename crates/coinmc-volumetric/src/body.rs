@@ -5,6 +5,7 @@
 pub use coinmc_core::Body;
 use coinmc_core::Scene;
 pub(crate) use coinmc_core::Units;
+use coinmc_lanes::Lane;
 
 /// Friction of the contact; lengths in D = sqrt(R² + H²/4), as in [`Body`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,4 +33,16 @@ impl Friction {
     pub fn has_lengths(&self) -> bool {
         self.contour > 0.0 || self.pivoting > 0.0
     }
+}
+
+/// (R_c + s r, h_c + c r): the levers of a horizontal force across the coin at its lowest point, about
+/// u and e_θ. R and H/2 with sharp rims.
+#[inline(always)]
+pub(crate) fn levers<L: Lane>(body: &Body, s: L, c: L) -> (L, L) {
+    let (radius, half) = (L::splat(body.radius), L::splat(body.half));
+    if body.rim == 0.0 {
+        return (radius, half);
+    }
+    let rim = L::splat(body.rim);
+    (radius + rim * s, half + rim * c)
 }

@@ -95,7 +95,7 @@ impl<L> Model<L> {
         let speed = (m.vx * m.vx + m.vy * m.vy).sqrt();
         let turning = body.radius * toss.spin.axial;
         let slip = (speed * speed + turning * turning).sqrt();
-        if self.dynamics.friction.mu * speed * body.half <= body.radius * slip {
+        if self.dynamics.friction.mu * speed * (body.half + body.rim) <= body.radius * slip {
             return Transition::End(Ended::Decided(toss.face()));
         }
         let before = m.energy(body, &toss.spin);

@@ -12,13 +12,21 @@
 //! e_θ − h u (h = H/2), that is rx = c R − s h, rz = −c h − s R. No formula has a separate case for
 //! the other rim, and u → −u gives bit-identical numbers.
 //!
+//! # Rounded rims
+//! A coin with rims rounded with the radius r is a smaller cylinder with a layer of thickness r. Its
+//! lowest point is the smaller cylinder's, and r below that: r = R_c e_θ − h_c u − r z. So every height
+//! is measured from r above the surface, and flights, wells and energies are those of the smaller
+//! cylinder. What changes are the levers: rz = −c h_c − s R_c − r, and since z = c u − s e_θ,
+//!
+//! slip_y = v_y + (R_c + s r) ω_a + (h_c + c r) ω_θ.
+//!
 //! # The rotation vector
 //! The axis of a free symmetric top turns about the fixed angular momentum, at the angular velocity
 //! Ω = L/I_t with the components Ω_a = ω_a I_a/I_t along u and Ω_t = ω_θ, Ω_y = ω_y across u.
 //! Without gyroscopic torque it turns about the fixed ω. In both cases u turns about Ω, and only
 //! Ω_a/ω_a differs.
 
-use crate::body::Body;
+use crate::body::{Body, levers};
 use crate::impact::{ContactPoint, Impulse};
 use coinmc_core::DecisionState;
 use coinmc_lanes::{Lane, Mask};
@@ -177,7 +185,8 @@ impl<L: Lane> Motion<L> {
         (self.ox, self.oy) = (self.ox * nx + self.oy * ny, self.oy * nx - self.ox * ny);
     }
 
-    /// The height of the centre at which the lowest point touches the surface.
+    /// The height of the centre at which the lowest point touches the surface. (All heights are those
+    /// above r, see [`Units::rim_m`](coinmc_core::Units::rim_m).)
     #[inline(always)]
     pub(crate) fn rest_height(&self, body: &Body) -> L {
         L::splat(body.half) * self.cos + L::splat(body.radius) * self.sin
@@ -206,7 +215,8 @@ impl<L: Lane> Motion<L> {
     pub(crate) fn contact_point(&self, body: &Body, spin: &Spin<L>) -> ContactPoint<L> {
         let (radius, half) = (L::splat(body.radius), L::splat(body.half));
         let rx = radius * self.cos - half * self.sin;
-        let rz = -(half * self.cos + radius * self.sin);
+        let rz = -(half * self.cos + radius * self.sin) - L::splat(body.rim);
+        let (radius, half) = levers(body, self.sin, self.cos);
         ContactPoint {
             sin: self.sin,
             cos: self.cos,

@@ -42,9 +42,9 @@ impl<L> Model<L> {
 
     fn side_arrival(&self, toss: &Toss) -> SideArrival {
         let (body, m, spin) = (&self.dynamics.body, &toss.motion, &toss.spin);
-        let lasting = (m.vy - body.ka / body.radius * spin.axial).abs();
+        let lasting = (m.vy - body.ka / body.outer_radius() * spin.axial).abs();
         SideArrival {
-            rolling: lasting / (1.0 + body.ka / (body.radius * body.radius)),
+            rolling: lasting / (1.0 + body.ka / body.outer_radius().powi(2)),
             turning: (spin.axial * m.cos - spin.turn * m.sin).abs(),
         }
     }
@@ -62,7 +62,7 @@ impl<L> Model<L> {
         let onto_side = self.onto_side(arrival);
         Some(SideEnding::new(
             &onto_side,
-            self.dynamics.body.radius * self.units.length_m,
+            self.dynamics.body.outer_radius() * self.units.length_m,
         ))
     }
 
@@ -85,7 +85,7 @@ impl<L> Model<L> {
         } else {
             0.0
         };
-        let r2 = body.radius * body.radius;
+        let r2 = body.outer_radius().powi(2);
         let energies = [
             (1.0 + body.ka / r2) * rolling * rolling,
             body.kt * turning * turning,

@@ -99,7 +99,7 @@ impl Place {
         let [px, py] = self.position;
         State {
             time_s: self.time * units.time_s,
-            position_m: Vector3::new(px, py, m.z) * units.length_m,
+            position_m: Vector3::new(px, py, m.z) * units.length_m + Vector3::z() * units.rim_m,
             velocity_m_s: lab(m.vx, m.vy, m.vz) * units.speed_m_s(),
             axis: UnitVector3::new_unchecked(axis),
             spin_rad_s: spin / units.time_s,

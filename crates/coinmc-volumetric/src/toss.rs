@@ -88,7 +88,7 @@ impl Toss {
             tilt: wy,
         };
         motion.set_spin(&spin, axial_factor);
-        motion.z = (launch.height_m / units.length_m).max(motion.rest_height(body));
+        motion.z = ((launch.height_m - units.rim_m) / units.length_m).max(motion.rest_height(body));
         Self {
             motion,
             spin,

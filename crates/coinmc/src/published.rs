@@ -145,6 +145,7 @@ fn differences(scene: &Scene) -> Vec<&'static str> {
     let (surface, drag) = (&scene.surface, scene.drag());
     [
         ("radius_m", scene.coin.radius_m() == 0.5),
+        ("rim_radius_m", scene.coin.rim_radius_m() == 0.0),
         ("restitution", surface.restitution() == 0.3),
         ("friction", surface.friction() == 10.0),
         ("rolling_friction_m", surface.rolling_friction_m() == 0.0),

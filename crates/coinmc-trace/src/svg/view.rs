@@ -71,7 +71,7 @@ impl View {
         let state = &record.state;
         let (position, u) = (state.position_m, state.axis.into_inner());
         let towards = self.right.cross(&Vector3::z());
-        let foot = lowest(coin, &u);
+        let foot = coin.lowest_point_m(&u);
         let velocity = state.velocity_m_s + state.spin_rad_s.cross(&foot);
         Shot {
             time_s: state.time_s,
@@ -108,19 +108,4 @@ fn is_finite(record: &Record) -> bool {
     .flatten()
     .chain([&state.time_s])
     .all(|number| number.is_finite())
-}
-
-/// The lowest point relative to the centre; for a level face or side, its middle.
-fn lowest(coin: &Coin, u: &Vector3<f64>) -> Vector3<f64> {
-    let across = (u.x * u.x + u.y * u.y).sqrt();
-    let half = 0.5 * coin.height_m();
-    let face = if u.z == 0.0 {
-        Vector3::zeros()
-    } else {
-        -u * half.copysign(u.z)
-    };
-    if across < 1e-9 {
-        return face;
-    }
-    face + (u * u.z - Vector3::z()) * (coin.radius_m() / across)
 }

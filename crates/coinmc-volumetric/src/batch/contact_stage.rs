@@ -244,7 +244,7 @@ impl Rates<Block> {
 // not generic over impact laws, so that it is compiled once
 fn try_steps(stage: &mut ContactStage, lanes: Lanes, rules: ContactRules<'_>, mode: Mode) {
     // friction that holds is rare: one variant serves it with drag and without
-    let (drags, holds) = (rules.dynamics.drag.acts(), rules.dynamics.holds());
+    let (drags, holds) = (rules.dynamics.drags_or_rounds(), rules.dynamics.holds());
     match (mode, drags, holds) {
         (Mode::Stick, false, false) => lanes.enter(TrySteps::<true, false, false> { stage, rules }),
         (Mode::Slip, false, false) => lanes.enter(TrySteps::<false, false, false> { stage, rules }),

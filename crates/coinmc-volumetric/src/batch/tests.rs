@@ -17,6 +17,14 @@ fn surface(e: f64, mu: f64, rho: f64) -> Surface {
         .expect("a valid surface")
 }
 
+/// With rims rounded with the radius `rim`, in R.
+fn rounded(ratio: f64, rim: f64, surface: Surface) -> Scene {
+    let mut scene = scene(ratio, surface);
+    let rim_m = rim * scene.coin.radius_m();
+    scene.coin = scene.coin.with_rim_radius(rim_m).expect("a valid rim");
+    scene
+}
+
 fn scene(ratio: f64, surface: Surface) -> Scene {
     let coin = Coin::cylinder(ratio, 0.01).expect("a valid coin");
     Scene::new(coin, surface, 9.81).expect("a valid scene")
@@ -99,6 +107,9 @@ fn drag_threshold_adhesion_no_gyroscopic_torque_and_high_or_held_friction() {
     let scenes = [
         scene(0.85, surface(0.5, 0.3, 0.01)).with_drag(drag),
         scene(0.85, softer.expect("a valid surface")),
+        rounded(0.85, 0.3, surface(0.5, 0.3, 0.01)),
+        rounded(0.2, 0.09, surface(0.5, 0.3, 0.003)),
+        rounded(0.5, 0.2, surface(0.5, 0.0, 0.0)).with_drag(drag),
         scene(0.25, surface(0.8, 0.0, 0.0)).with_drag(drag),
         scene(2.0, threshold.expect("a valid surface")),
         scene(1.0, surface(0.5, 0.3, 0.0).with_landing(Landing::Adhesive)),

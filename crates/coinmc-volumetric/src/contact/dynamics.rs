@@ -17,10 +17,10 @@ pub(crate) struct Dynamics {
     /// 1/k_t and 1/k_a.
     pub(super) inverse_kt: f64,
     pub(super) inverse_ka: f64,
-    /// K_yy and 1/K_yy, which do not depend on the tilt.
+    /// K_yy and 1/K_yy, which with sharp rims do not depend on the tilt.
     pub(super) kyy: f64,
     pub(super) inverse_kyy: f64,
-    /// 1/(K_xx K_zz − K_xz²). It does not depend on the tilt either, as the distance of the rim
+    /// 1/(K_xx K_zz − K_xz²). With sharp rims it does not depend on the tilt either, as the distance of the rim
     /// from the centre is constant.
     pub(super) inverse_det: f64,
     /// 1/(ρ_c smoothing_time) and 1/(ρ_p smoothing_time), see [`smoothed_sign`].
@@ -85,17 +85,37 @@ impl Dynamics {
         }
     }
 
+    /// K_yy and 1/K_yy, given the levers about u and e_θ.
+    #[inline(always)]
+    pub(super) fn across<L: Lane>(&self, radius: L, half: L) -> (L, L) {
+        if self.body.rim == 0.0 {
+            return (L::splat(self.kyy), L::splat(self.inverse_kyy));
+        }
+        let turn = half * half * L::splat(self.inverse_kt);
+        let kyy = L::splat(1.0) + turn + radius * radius * L::splat(self.inverse_ka);
+        (kyy, L::splat(1.0) / kyy)
+    }
+
     /// Whether friction against rolling and pivoting holds at rest, instead of creeping.
     pub(crate) fn holds(&self) -> bool {
         self.holding_rate > 0.0
     }
 
-    /// The same dynamics, with the cases "no drag" and "friction that does not hold" known to the
-    /// compiler: `DRAGS` is whether drag acts (or may act), `HOLDS` is [`holds`](Self::holds).
+    /// Whether drag acts or the rims are rounded: the kernels for neither are faster.
+    pub(crate) fn drags_or_rounds(&self) -> bool {
+        self.drag.acts() || self.body.rim != 0.0
+    }
+
+    /// The same dynamics, with the cases "no drag and sharp rims" and "friction that does not hold" known to the
+    /// compiler: `DRAGS` is whether [one of them](Self::drags_or_rounds) acts (or may act), `HOLDS` is [`holds`](Self::holds).
     #[inline(always)]
     pub(crate) fn with_known<const DRAGS: bool, const HOLDS: bool>(&self) -> Self {
         Self {
             drag: self.drag.known::<DRAGS>(),
+            body: Body {
+                rim: if DRAGS { self.body.rim } else { 0.0 },
+                ..self.body
+            },
             holding_rate: if HOLDS { self.holding_rate } else { 0.0 },
             ..*self
         }

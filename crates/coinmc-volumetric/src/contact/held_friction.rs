@@ -33,6 +33,7 @@
 //! against pivoting in a coin that spins.
 
 use super::dynamics::{Dynamics, Quotients};
+use crate::body::levers;
 use coinmc_lanes::Lane;
 
 /// Half thickness over friction length below which friction holds a rocking coin. Measured: from 8
@@ -54,7 +55,7 @@ pub(super) struct Load<'a, L> {
     /// fy without friction lengths.
     pub(super) fy: L,
     /// How much fy follows the torques: 1/K_yy where the contact sticks, 0 in slip.
-    pub(super) follows: f64,
+    pub(super) follows: L,
 }
 
 /// Whether friction holds the rocking of a coin of this half thickness on its side.
@@ -74,13 +75,13 @@ impl Dynamics {
     pub(super) fn held_torques<L: Lane>(&self, load: &Load<'_, L>) -> (L, L) {
         let k = L::splat;
         let Load { s, c, wy, .. } = *load;
-        let (radius, half) = (k(self.body.radius), k(self.body.half));
+        let (radius, half) = levers(&self.body, s, c);
         let (ikt, ika) = (k(self.inverse_kt), k(self.inverse_ka));
         let (rx, rz) = (
             radius * s * ika + half * c * ikt,
             radius * c * ika - half * s * ikt,
         );
-        let follows = k(load.follows);
+        let follows = load.follows;
         let mxx = s * s * ika + c * c * ikt - rx * rx * follows;
         let mzz = c * c * ika + s * s * ikt - rz * rz * follows;
         let mxz = c * s * (ika - ikt) - rx * rz * follows;

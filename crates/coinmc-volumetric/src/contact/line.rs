@@ -30,9 +30,10 @@ pub(crate) struct LineRates {
 pub(crate) fn line_rates(dynamics: &Dynamics, state: &LineState, creep: f64) -> LineRates {
     let [vx, vy, wa, wz] = *state;
     let body = &dynamics.body;
+    let radius = body.outer_radius();
     let slip = [
-        vy + body.radius * wa - body.half * wz,
-        vy + body.radius * wa + body.half * wz,
+        vy + radius * wa - body.half * wz,
+        vy + radius * wa + body.half * wz,
     ];
     let slide = |y: f64| {
         let scale = -dynamics.friction.mu / (vx * vx + y * y + creep * creep).sqrt();
@@ -41,7 +42,7 @@ pub(crate) fn line_rates(dynamics: &Dynamics, state: &LineState, creep: f64) -> 
     let ((x1, y1), (x2, y2)) = (slide(slip[0]), slide(slip[1]));
     // h (2 N₁ − 1) = k_t Ω_a ω_z + R (N₁ x₁ + (1 − N₁) x₂)
     let gyro = body.kt * dynamics.axial_factor * wa * wz;
-    let share = (gyro + body.half + body.radius * x2) / (2.0 * body.half - body.radius * (x1 - x2));
+    let share = (gyro + body.half + radius * x2) / (2.0 * body.half - radius * (x1 - x2));
     let first = share.clamp(0.0, 1.0);
     let second = 1.0 - first;
     let (fx, f1, f2) = (
@@ -55,7 +56,7 @@ pub(crate) fn line_rates(dynamics: &Dynamics, state: &LineState, creep: f64) -> 
         rates: [
             wz * vy + fx - linear * vx,
             -wz * vx + f1 - linear * vy,
-            (body.radius * f1 - contour) / body.ka - angular * wa,
+            (radius * f1 - contour) / body.ka - angular * wa,
             (body.half * f2 + pivoting) / body.kt - angular * wz,
         ],
         share,

@@ -122,7 +122,7 @@ impl ContactSolver<'_> {
     fn tips(&self, state: &LineState, side: f64) -> bool {
         let [vx, vy, wa, wz] = *state;
         let body = &self.rules.dynamics.body;
-        let slip = side * (vy + body.radius * wa) - body.half * wz;
+        let slip = side * (vy + body.outer_radius() * wa) - body.half * wz;
         let rim = [FRAC_PI_2, 0.0, side * wa, -wz, side * vx, slip];
         self.tilts_from_side(rim)
     }
@@ -134,9 +134,9 @@ impl ContactSolver<'_> {
         let [vx, vy, wa, wz] = *state;
         let dynamics = self.rules.dynamics;
         let body = &dynamics.body;
-        let fastest = wa.abs().max((vx.abs() + vy.abs()) / body.radius);
+        let fastest = wa.abs().max((vx.abs() + vy.abs()) / body.outer_radius());
         let gyroscopic = body.kt * dynamics.axial_factor * fastest * wz.abs();
-        2.0 * (dynamics.friction.mu * body.radius + gyroscopic) <= body.half
+        2.0 * (dynamics.friction.mu * body.outer_radius() + gyroscopic) <= body.half
     }
 
     /// The state with no more kinetic energy than `ceiling`.

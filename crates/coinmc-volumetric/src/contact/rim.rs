@@ -22,6 +22,10 @@
 //! by = −φ'vx + h ω_y(φ'c − Ω_a) − N(R t_a/ka + h t_θ/kt),
 //! bz = −1 − rz ω_y² − rx G.
 //!
+//! With rims rounded with the radius r, (R, h) of the cylinder inside, the levers about u and e_θ are
+//! R + s r and h + c r instead of R and h, and rz is r less. As rx' = (rz + r) ω_y, and the levers
+//! change, r ω_y² is taken from −bz, and by gains r ω_y ω_z.
+//!
 //! Sticking requires γ' = 0, slipping f = −μ N γ/|γ|. Drag adds −k v to the acceleration of the
 //! centre and −k_ω ω to ω'. Without gyroscopic torque Ω_a = ω_a. (Le Saux, Leine & Glocker, J.
 //! Nonlinear Sci. 15 (2005) 27; contour and pivoting friction as in Leine, Arch. Appl. Mech. 79
@@ -30,6 +34,7 @@
 use super::dynamics::Dynamics;
 use super::held_friction::Load;
 use super::integrator::Flow;
+use crate::body::levers;
 use crate::series::sin_cos_tilt;
 use coinmc_lanes::Lane;
 
@@ -112,7 +117,9 @@ impl Dynamics {
         let (radius, half) = (k(self.body.radius), k(self.body.half));
         let (ikt, ika) = (k(self.inverse_kt), k(self.inverse_ka));
         let rx = radius * c - half * s;
-        let rz = -(half * c + radius * s);
+        let (rim, height) = (k(self.body.rim), half * c + radius * s);
+        let rz = -height - rim;
+        let (radius, half) = levers(&self.body, s, c);
         let inverse = self.quotients(s, c);
         let azimuth = -(wt * inverse.sin);
         let excess = k(self.axial_factor) * wa - azimuth * c;
@@ -122,7 +129,7 @@ impl Dynamics {
         let kxx = k(1.0) + rz * rz * ikt;
         let kxz = -(rx * rz * ikt);
         let kzz = k(1.0) + rx * rx * ikt;
-        let kyy = k(self.kyy);
+        let (kyy, inverse_kyy) = self.across(radius, half);
         let angular = k(self.drag.angular);
         let (mut slows_a, mut slows_t) = (k(0.0), k(0.0));
         if self.drag.acts() {
@@ -130,8 +137,11 @@ impl Dynamics {
             (slows_a, slows_t) = (angular * wa, angular * wt);
         }
         let mut bx = azimuth * vy + rz * gyro_y - rx * wy * wy;
-        let mut bz = -(k(1.0) + rz * wy * wy + rx * gyro_y);
+        let mut bz = -(k(1.0) - height * wy * wy + rx * gyro_y);
         let mut by = -(azimuth * vx) - half * wy * excess;
+        if self.body.rim != 0.0 {
+            by += rim * wy * (c * wa - s * wt);
+        }
         if self.drag.acts() {
             let linear = k(self.drag.linear);
             bx -= linear * vx;
@@ -144,7 +154,11 @@ impl Dynamics {
         let opposes = kzz * slip.speed - mu * kxz * slip.x;
         let (fx, normal, drive) = match mode {
             Mode::Stick => {
-                let inverse = k(self.inverse_det);
+                let inverse = if self.body.rim == 0.0 {
+                    k(self.inverse_det)
+                } else {
+                    k(1.0) / (kxx + kzz - k(1.0))
+                };
                 (
                     (kxz * bz - kzz * bx) * inverse,
                     (kxz * bx - kxx * bz) * inverse,
@@ -158,8 +172,8 @@ impl Dynamics {
         };
         let (torque_a, torque_t) = if self.holds() {
             let (fy, follows) = match mode {
-                Mode::Stick => (-(by * k(self.inverse_kyy)), self.inverse_kyy),
-                Mode::Slip => (mu * drive * slip.y, 0.0),
+                Mode::Stick => (-(by * inverse_kyy), inverse_kyy),
+                Mode::Slip => (mu * drive * slip.y, k(0.0)),
             };
             self.held_torques(&Load {
                 s,
@@ -178,7 +192,7 @@ impl Dynamics {
         };
         by -= normal * (radius * torque_a * ika + half * torque_t * ikt);
         let fy = match mode {
-            Mode::Stick => -(by * k(self.inverse_kyy)),
+            Mode::Stick => -(by * inverse_kyy),
             Mode::Slip => mu * drive * slip.y,
         };
         let (slide_x, slide_y) = match mode {

@@ -30,8 +30,9 @@ impl RollingStop {
             drag,
             ..
         } = dynamics;
-        let r2 = body.radius * body.radius;
-        let a = friction.contour * body.radius / (body.ka + r2);
+        let radius = body.outer_radius();
+        let r2 = radius * radius;
+        let a = friction.contour * radius / (body.ka + r2);
         let b = (drag.linear * r2 + drag.angular * body.ka) / (body.ka + r2);
         let dragged = b * speed >= NEGLIGIBLE_DRAG * a;
         let time = if dragged {

@@ -33,7 +33,7 @@ impl ContactRules<'_> {
     pub(crate) fn rolls_straight(&self, state: &LineState) -> bool {
         let [vx, vy, wa, wz] = *state;
         let body = &self.dynamics.body;
-        let slip = (vy + body.radius * wa).abs() + (body.half * wz).abs() + vx.abs();
+        let slip = (vy + body.outer_radius() * wa).abs() + (body.half * wz).abs() + vx.abs();
         self.dynamics.friction.mu > 0.0 && slip < self.stick_speed
     }
 }

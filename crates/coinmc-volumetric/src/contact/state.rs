@@ -2,6 +2,7 @@
 
 use super::dynamics::Dynamics;
 use super::rim::{OMEGA_A, OMEGA_T, OMEGA_Y, RimState, SLIP_X, SLIP_Y, TILT};
+use crate::body::levers;
 use crate::impact::{ContactPoint, Impulse};
 use crate::motion::{FLAT, Motion, Spin};
 use crate::series::sin_cos_tilt;
@@ -64,10 +65,11 @@ fn place_at_tilt<L: Lane>(
         turn: state[OMEGA_T],
     };
     set_tilt(motion, s, c);
-    motion.vx = state[SLIP_X] + spin.tilt * (half * c + radius * s);
-    motion.vy = state[SLIP_Y] - radius * spin.axial - half * spin.turn;
     motion.vz = spin.tilt * (radius * c - half * s);
     motion.z = half * c + radius * s;
+    motion.vx = state[SLIP_X] + spin.tilt * (motion.z + L::splat(dynamics.body.rim));
+    let (radius, half) = levers(&dynamics.body, s, c);
+    motion.vy = state[SLIP_Y] - radius * spin.axial - half * spin.turn;
     motion.set_spin(spin, dynamics.axial_factor);
 }
 

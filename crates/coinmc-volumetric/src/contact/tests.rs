@@ -31,6 +31,7 @@ fn model(dynamics: &Dynamics, gyroscopic: bool) -> Model {
     Model {
         radius: dynamics.body.radius,
         half: dynamics.body.half,
+        rim: dynamics.body.rim,
         transverse: dynamics.body.kt,
         axial: dynamics.body.ka,
         restitution: 0.0,

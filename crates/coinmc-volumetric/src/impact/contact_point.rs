@@ -1,6 +1,6 @@
 //! The contact point just before an impact, and its inertia.
 
-use crate::body::Body;
+use crate::body::{Body, levers};
 use coinmc_lanes::Lane;
 
 /// The inverse mass K of the contact point: an impulse p changes its velocity by K p.
@@ -52,7 +52,7 @@ pub struct ContactPoint<L> {
     pub cos: L,
     /// Position relative to the centre, x: c R − s h.
     pub rx: L,
-    /// Position relative to the centre, z: −c h − s R.
+    /// Position relative to the centre, z: −c h − s R, r less if the rims are rounded.
     pub rz: L,
     /// Velocity of the contact point, x.
     pub slip_x: L,
@@ -76,11 +76,28 @@ impl<L: Lane> ContactPoint<L> {
         ContactMatrix {
             xx: one + self.rz * z,
             xz: -(self.rx * z),
-            yy: L::splat(
-                1.0 + body.half * body.half / body.kt + body.radius * body.radius / body.ka,
-            ),
+            yy: self.across(body),
             zz: one + self.rx * x,
         }
+    }
+
+    /// K_yy, which with sharp rims does not depend on the tilt.
+    #[inline(always)]
+    fn across(&self, body: &Body) -> L {
+        if body.rim == 0.0 {
+            return L::splat(
+                1.0 + body.half * body.half / body.kt + body.radius * body.radius / body.ka,
+            );
+        }
+        let (radius, half) = self.levers(body);
+        let turn = half * half * L::splat(1.0 / body.kt);
+        L::splat(1.0) + turn + radius * radius * L::splat(1.0 / body.ka)
+    }
+
+    /// The levers of a force along y about u and e_θ.
+    #[inline(always)]
+    pub(crate) fn levers(&self, body: &Body) -> (L, L) {
+        levers(body, self.sin, self.cos)
     }
 
     /// The point in one lane.

@@ -121,10 +121,15 @@ impl<L: Lane> RimRates<L> {
     pub(crate) fn rates(body: &Body, point: &ContactPoint<L>) -> Self {
         let (s, c) = (point.sin, point.cos);
         let (axial, across) = (L::splat(1.0 / body.ka), L::splat(1.0 / body.kt));
-        let (radius, half) = (
-            L::splat(body.radius / body.ka),
-            L::splat(body.half / body.kt),
-        );
+        let (radius, half) = if body.rim == 0.0 {
+            (
+                L::splat(body.radius / body.ka),
+                L::splat(body.half / body.kt),
+            )
+        } else {
+            let (radius, half) = point.levers(body);
+            (radius * axial, half * across)
+        };
         Self {
             roll: s * point.spin + c * point.turn,
             pivot: c * point.spin - s * point.turn,
@@ -159,6 +164,7 @@ impl<L: Lane> RimRates<L> {
 impl<L: Lane> FrictionMoments<L> {
     #[inline(always)]
     pub(crate) fn new(body: &Body, friction: &Friction, point: &ContactPoint<L>, yy: L) -> Self {
+        let (radius, half) = point.levers(body);
         let (axial, across) = (
             L::splat(body.ka) * point.spin,
             L::splat(body.kt) * point.turn,
@@ -170,9 +176,7 @@ impl<L: Lane> FrictionMoments<L> {
             momentum: point.cos * axial - point.sin * across,
             rx: point.rx,
             slip_y: point.slip_y,
-            centre: point.slip_y
-                - L::splat(body.radius) * point.spin
-                - L::splat(body.half) * point.turn,
+            centre: point.slip_y - radius * point.spin - half * point.turn,
             yy,
         }
     }

@@ -62,6 +62,7 @@ impl<L: Lane> Impulse<L> {
     #[inline(always)]
     pub fn velocity_jump(self, body: &Body, point: &ContactPoint<L>) -> VelocityJump<L> {
         let (inverse_kt, inverse_ka) = (L::splat(1.0 / body.kt), L::splat(1.0 / body.ka));
+        let (radius, half) = point.levers(body);
         // J_c/s first: as J_c <= ρ_c p_z, this quotient stays finite as s → 0
         let rim = self.contour / point.sin;
         VelocityJump {
@@ -69,10 +70,8 @@ impl<L: Lane> Impulse<L> {
             vy: self.y,
             vz: self.z,
             omega_y: (point.rz * self.x - point.rx * self.z) * inverse_kt,
-            spin: (L::splat(body.radius) * self.y - self.contour - point.cos * self.pivoting)
-                * inverse_ka,
-            turn: (L::splat(body.half) * self.y - point.cos * rim + point.sin * self.pivoting)
-                * inverse_kt,
+            spin: (radius * self.y - self.contour - point.cos * self.pivoting) * inverse_ka,
+            turn: (half * self.y - point.cos * rim + point.sin * self.pivoting) * inverse_kt,
         }
     }
 

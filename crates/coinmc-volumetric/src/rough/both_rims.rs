@@ -114,7 +114,8 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
             line_rates(dynamics, &state, self.model.contact_rules().stick_speed).rates[0] - wz * vy;
         let gyroscopic = -wz * dynamics.axial_factor * wa;
         let moment = body.kt * (tilting - gyroscopic)
-            + body.radius * (lean * normal + along + body.radius * tilting);
+            + body.radius * lean * normal
+            + body.outer_radius() * (along + body.outer_radius() * tilting);
         let most = body.half * normal;
         if normal <= 0.0 {
             return Next::Goes(Touch::Nothing);
@@ -137,7 +138,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     /// The motion along the ground of a coin on its side.
     fn line_state(&self) -> LineState {
         let (motion, spin) = (&self.toss.motion, &self.toss.spin);
-        let lateral = motion.vx - self.body().radius * spin.tilt;
+        let lateral = motion.vx - self.body().outer_radius() * spin.tilt;
         [lateral, motion.vy, spin.axial, -spin.turn]
     }
 
@@ -157,7 +158,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         let mut motion = Motion {
             sin,
             cos,
-            vx: vx + body.radius * tilt,
+            vx: vx + body.outer_radius() * tilt,
             vy,
             vz: 0.5 * (own.rate + other.rate),
             z: 0.5 * (own.height + other.height) + body.radius * sin,

@@ -49,7 +49,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
             return decided.then_some(Decided::Side);
         }
         let highest = energy - own.min(other);
-        let friction = self.model.dynamics.friction.contour / body.radius;
+        let friction = self.model.dynamics.friction.contour / body.outer_radius();
         let ahead = (kinetic / (friction * self.ground.length).max(f64::MIN_POSITIVE)).min(1.0);
         let slow = kinetic < REST * (1.0 - body.radius);
         let rests = self.rests(slow);
@@ -91,7 +91,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         let lean = KICKS * ground.height * contrast / thickness;
         let brim = 1.0 - lean * body.radius / body.half;
         let well = (1.0 - body.radius) * brim * brim;
-        let inertia = body.kt + body.radius * body.radius;
+        let inertia = body.kt + body.outer_radius().powi(2);
         brim > 0.0 && 0.5 * inertia * rate * rate < well
     }
 }

@@ -301,7 +301,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         }
         let [own, _] = rim_points(self.body(), &self.toss.motion, &self.toss.spin);
         let speed = own.speed();
-        let curvature = self.toss.motion.sin / self.body().radius;
+        let curvature = self.toss.motion.sin / self.body().outer_radius();
         let smooth = speed * speed * time * curvature;
         if bend <= (1.0 + KINK) * smooth {
             self.change_normal_velocity(bend);

@@ -29,10 +29,10 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         let body = &dynamics.body;
         self.push(|point| {
             let k = point.matrix(body);
-            let moment = push * gy * body.radius / point.sin;
+            let (radius, half) = point.levers(body);
+            let moment = push * gy * body.outer_radius() / point.sin;
             // the moment changes the slip, and a point that sticks takes that back
-            let slip =
-                moment * (body.radius * point.sin / body.ka + body.half * point.cos / body.kt);
+            let slip = moment * (radius * point.sin / body.ka + half * point.cos / body.kt);
             let (x, y) = match contact.mode {
                 Mode::Stick => (0.0, -slip / k.yy),
                 Mode::Slip => (-push * gx, -push * gy),
@@ -55,9 +55,9 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         let [gx, gy] = [0, 1].map(|i| 0.25 * time * (own[i] + other[i]));
         let [vx, vy, wa, wz] = *state;
         if self.model.contact_rules().rolls_straight(state) {
-            let inertia = body.ka + body.radius * body.radius;
-            let turn = gy * body.radius / inertia;
-            [vx, vy - body.radius * turn, wa + turn, wz]
+            let radius = body.outer_radius();
+            let turn = gy * radius / (body.ka + radius * radius);
+            [vx, vy - radius * turn, wa + turn, wz]
         } else {
             [vx - gx, vy - gy, wa, wz]
         }

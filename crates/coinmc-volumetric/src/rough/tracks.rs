@@ -149,7 +149,7 @@ impl Tracks {
         };
         let under = |point: &RimPoint, after: f64| {
             let (at, along) = way(point, after);
-            ground.under_rim(at, along, motion.sin / body.radius)
+            ground.under_rim(at, along, motion.sin / body.outer_radius())
         };
         let lead = |track: &mut Track, point: &RimPoint| {
             let support = under(point, time);
@@ -185,7 +185,7 @@ impl Tracks {
         let mut tracks = Self::default();
         let [own, _] = rim_points(body, motion, spin);
         let along = place.direction(0.0, 1.0);
-        let curvature = motion.sin / body.radius;
+        let curvature = motion.sin / body.outer_radius();
         tracks.own.height = ground
             .under_rim(place.point(own.rx, 0.0), along, curvature)
             .height;

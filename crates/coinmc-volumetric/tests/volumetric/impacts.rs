@@ -11,7 +11,8 @@ use nalgebra::Vector3;
 fn lowest_velocity(model: &Model, motion: &Motion) -> Vector3<f64> {
     let u = &motion.axis;
     let across = (u * u.z - Vector3::z()) / motion.sine();
-    let arm = across * model.radius - u * model.half.copysign(u.z);
+    let centre_line = across * model.radius - u * model.half.copysign(u.z);
+    let arm = centre_line - Vector3::z() * model.rim;
     motion.velocity + motion.spin.cross(&arm)
 }
 
@@ -72,6 +73,37 @@ fn impacts_reverse_the_approach_by_e() {
     }
     println!("{bounced} bounced, {stopped} stopped");
     assert!(bounced > 10_000 && stopped > 500, "{bounced} {stopped}");
+}
+
+/// The contact point of a rounded rim is below its centre line: there e and friction act.
+#[test]
+fn rounded_rims_bounce_by_e_at_their_lowest_point() {
+    let mut bounced = 0;
+    for law in Law::ALL {
+        for (ratio, rim) in [(0.85, 0.3), (0.2, 0.09), (2.0, 0.9)] {
+            let mu = if law == Law::Stronge { 0.0 } else { 0.3 };
+            let mut scene = rolling_scene(ratio, 0.5, mu, 0.01);
+            let radius = scene.coin.radius_m();
+            scene.coin = scene.coin.with_rim_radius(rim * radius).unwrap();
+            let (model, engine) = (Model::new(&scene), Tosser::of(&scene, law));
+            for trial in 0..200 {
+                let start = Start::lively(&mut Dice::new(214, trial));
+                let (_, moments) = engine.record(&scene, &start.launch(&scene));
+                for (before, after, _) in impacts(&moments) {
+                    let approach = lowest_velocity(&model, &before.motion).z;
+                    let back = lowest_velocity(&model, &after.motion).z;
+                    if before.motion.sine() < 1e-4 || back <= 1e-9 {
+                        continue;
+                    }
+                    bounced += 1;
+                    assert!((back + 0.5 * approach).abs() <= 1e-11, "{approach} {back}");
+                    let gained = after.motion.energy(&model) / before.motion.energy(&model) - 1.0;
+                    assert!(gained <= 1e-12, "{gained:e}");
+                }
+            }
+        }
+    }
+    assert!(bounced > 3000, "{bounced}");
 }
 
 /// Below the threshold an impact does not bounce; above it an impact is the same as without a

@@ -196,8 +196,20 @@ fn contact(model: &Model, from: &Moment, within: &[Moment], seen: &mut Contacts)
 
 fn contacts(settings: &Settings) -> Contacts {
     let mut seen = Contacts::default();
-    for (ratio, mu) in [(0.85, 0.3), (0.3, 0.5), (2.0, 0.7), (0.1, 0.2)] {
-        let scene = rolling_scene(ratio, 0.0, mu, 0.0);
+    for (ratio, rim, mu) in [
+        (0.85, 0.0, 0.3),
+        (0.3, 0.0, 0.5),
+        (2.0, 0.0, 0.7),
+        (0.1, 0.0, 0.2),
+        (0.85, 0.3, 0.3),
+        (0.3, 0.1, 0.5),
+    ] {
+        let mut scene = rolling_scene(ratio, 0.0, mu, 0.0);
+        let rim_m = rim * scene.coin.radius_m();
+        scene.coin = scene
+            .coin
+            .with_rim_radius(rim_m)
+            .expect("a thin enough rim");
         let (tosser, model) = (Tosser::with(&scene, settings), Model::new(&scene));
         for toss in 0..40 {
             let mut start = Start::lively(&mut Dice::new(403, toss));

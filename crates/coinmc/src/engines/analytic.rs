@@ -4,6 +4,7 @@ use coinmc_analytic::Rule;
 use coinmc_core::schema::{Absent, Kind, TableKind, Word, field, fields};
 use coinmc_core::{
     Answer, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings, Scene,
+    Unmodelled,
 };
 
 /// The engine, as configs and results know it.
@@ -13,7 +14,12 @@ pub(super) const ENGINE: EngineDescriptor = EngineDescriptor {
     kind: EngineKind::ClosedForm,
     stepped: false,
     laws: &[],
-    unmodelled: &[],
+    unmodelled: &[Unmodelled {
+        table: "coin",
+        key: "rim_radius_m",
+        message: "closed forms know sharp rims only: `coin.rim_radius_m` must be 0",
+        help: "remove `rim_radius_m`, or toss in space with [engine.volumetric]",
+    }],
     remarks: &[],
     schema,
     read: |values| {

@@ -39,6 +39,7 @@ fn defaults_are_those_of_the_crates() {
         [
             ("ratio", 1.2),
             ("radius_m", 0.01),
+            ("rim_radius_m", 0.0),
             ("restitution", 0.5),
             ("friction", 0.3),
             ("rolling_friction_m", 0.0),

@@ -1,6 +1,7 @@
 //! Configs of the toss in space and their plans.
 
 use crate::support::{column, parse};
+use coinmc::config;
 use coinmc::plan::EngineChoice;
 use coinmc_core::Preset;
 use coinmc_volumetric as volumetric;
@@ -43,6 +44,22 @@ fn the_toss_in_space_has_the_defaults_of_its_crate() {
     assert_eq!(plan.tosses_planned(), 1000);
     assert!(plan.notes.is_empty(), "{:?}", plan.notes);
     assert_eq!(parse(&plan.resolved_toml, &[]), plan);
+}
+
+/// H/2 = 4.25 mm and R = 10 mm: what a rim's rounding leaves must be a cylinder.
+#[test]
+fn a_rim_rounded_by_half_the_thickness_is_refused() {
+    let plan = parse(IN_SPACE, &["coin.rim_radius_m=[0, 0.004]"]);
+    assert_eq!(column(&plan, "rim_radius_m"), [0.0, 0.004]);
+    for (ratio, radius) in [(0.85, 0.00425), (8.0, 0.01)] {
+        let text = IN_SPACE.replace("0.85", &format!("{ratio}\nrim_radius_m = {radius}"));
+        let problems = config::parse("rim.toml", &text, &[]).unwrap_err();
+        let [problem] = problems.problems() else {
+            panic!("{problems}")
+        };
+        let message = format!("below both R and H/2, here below {radius} m, not {radius} m");
+        assert!(problem.message.ends_with(&message), "{problems}");
+    }
 }
 
 #[test]
@@ -135,6 +152,7 @@ fn all_physics_and_settings_of_the_toss_in_space_are_in_the_hash() {
         "engine.volumetric.ground_step=0.4",
         "engine.volumetric.max_impacts=10",
         "surface.restitution_exponent=0.25",
+        "coin.rim_radius_m=0.001",
         "engine.volumetric.time_limit=10",
         "launch.preset=drop",
     ] {

@@ -192,6 +192,7 @@ fn every_result_names_the_law_and_all_that_defines_the_toss() {
         .map(|(name, cell)| (name.as_str(), cell.as_str()))
         .collect();
     let expected = [
+        ("rim_radius_m", "0.0"),
         ("restitution", "0.3"),
         ("friction", "10.0"),
         ("rolling_friction_m", "0.0001"),
@@ -207,7 +208,7 @@ fn every_result_names_the_law_and_all_that_defines_the_toss() {
         ("law", "stronge"),
         ("gyroscopic_torque", "false"),
     ];
-    assert_eq!(cells[3..17], expected);
+    assert_eq!(cells[3..18], expected);
     let published = results.rows[0].published.as_ref().unwrap();
     assert_eq!(
         published.differs,

@@ -97,23 +97,16 @@ fn row(trace: &Trace, record: &Record, event: String, rim_m_s: Option<f64>) -> R
     }
 }
 
-/// Energy as a fraction of that of a coin balanced at rest on its rim, g D.
+/// Energy as a fraction of that of a coin balanced at rest on its rim, g (D + r).
 pub(super) fn of_balance(trace: &Trace, record: &Record) -> f64 {
     let scene = &trace.scene;
-    record.energy_j_kg / (scene.gravity_m_s2() * scene.coin.rim_distance_m())
+    let balance = scene.coin.rim_distance_m() + scene.coin.rim_radius_m();
+    record.energy_j_kg / (scene.gravity_m_s2() * balance)
 }
 
 /// Downward speed and sliding speed of the lowest point, m/s.
 fn rim_speeds(coin: &Coin, state: &State) -> (f64, f64) {
-    let u = state.axis.into_inner();
-    let across = u.xy().norm();
-    let mut arm = -u * (0.5 * coin.height_m()).copysign(u.z);
-    // of a level coin, the middle of its face
-    if across > 1e-9 {
-        let mut down = u * u.z;
-        down.z -= 1.0;
-        arm += down * (coin.radius_m() / across);
-    }
+    let arm = coin.lowest_point_m(&state.axis);
     let velocity = state.velocity_m_s + state.spin_rad_s.cross(&arm);
     (-velocity.z, velocity.xy().norm())
 }
