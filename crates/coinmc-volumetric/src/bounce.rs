@@ -1,7 +1,7 @@
 //! One impact of the lowest point: an ordinary bounce, or the end of a sequence of bounces.
 //! Generic over lanes: one toss or several at once.
 
-use crate::contact;
+use crate::contact::{self, Dynamics};
 use crate::impact::{ContactPoint, ImpactLaw};
 use crate::model::Model;
 use crate::motion::{Motion, Spin};
@@ -34,6 +34,23 @@ impl<I: ImpactLaw> Model<I> {
         may_be_last: L::Mask,
     ) -> Bounced<L> {
         let dynamics = &self.dynamics;
+        // sharp rims, known to the compiler, take fewer operations
+        if dynamics.body.rim == 0.0 {
+            self.bounce_of(&dynamics.with_sharp_rims(), motion, spin, may_be_last)
+        } else {
+            self.bounce_of(dynamics, motion, spin, may_be_last)
+        }
+    }
+
+    /// The same, with the dynamics as the compiler knows them.
+    #[inline(always)]
+    fn bounce_of<L: Lane>(
+        &self,
+        dynamics: &Dynamics,
+        motion: &Motion<L>,
+        spin: &Spin<L>,
+        may_be_last: L::Mask,
+    ) -> Bounced<L> {
         let (zero, one, two) = (L::splat(0.0), L::splat(1.0), L::splat(2.0));
         let energy = motion.energy(&dynamics.body, spin);
         let mut point = motion.contact_point(&dynamics.body, spin);
@@ -49,7 +66,7 @@ impl<I: ImpactLaw> Model<I> {
         let short = rest.lt(quick * (two + two * dynamics.uplift(motion, spin)));
         let tries = (may_be_last & short) | plastic;
         let e = L::select(tries, zero, self.restitution.at(speed, most));
-        let (mut motion, spin) = self.after_impulse(motion, spin, &point, e, energy);
+        let (mut motion, spin) = self.after_impulse(dynamics, motion, spin, &point, e, energy);
         let never = <L::Mask as Mask>::splat(false);
         let (mut stays, mut lifts_off, mut retry) = (never, never, never);
         if tries.any() {
@@ -73,13 +90,13 @@ impl<I: ImpactLaw> Model<I> {
     #[inline(always)]
     fn after_impulse<L: Lane>(
         &self,
+        dynamics: &Dynamics,
         motion: &Motion<L>,
         spin: &Spin<L>,
         point: &ContactPoint<L>,
         e: L,
         energy: L,
     ) -> (Motion<L>, Spin<L>) {
-        let dynamics = &self.dynamics;
         let p = self
             .impact
             .impulse(&dynamics.body, &dynamics.friction, point, e);

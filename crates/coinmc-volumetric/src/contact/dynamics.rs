@@ -101,6 +101,16 @@ impl Dynamics {
         self.holding_rate > 0.0
     }
 
+    /// The same dynamics with sharp rims.
+    #[inline(always)]
+    pub(crate) fn with_sharp_rims(&self) -> Self {
+        let body = Body {
+            rim: 0.0,
+            ..self.body
+        };
+        Self { body, ..*self }
+    }
+
     /// Whether drag acts or the rims are rounded: the kernels for neither are faster.
     pub(crate) fn drags_or_rounds(&self) -> bool {
         self.drag.acts() || self.body.rim != 0.0

@@ -27,6 +27,8 @@ pub(crate) struct LineRates {
 }
 
 /// Rates of change of `state`, where sticking is a creep slower than `creep`.
+// inlined into each stage of the integrator: a call costs a sixth of a step
+#[inline(always)]
 pub(crate) fn line_rates(dynamics: &Dynamics, state: &LineState, creep: f64) -> LineRates {
     let [vx, vy, wa, wz] = *state;
     let body = &dynamics.body;

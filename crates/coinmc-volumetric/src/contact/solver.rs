@@ -1,5 +1,6 @@
 //! The state machine of contact on one rim point: entering, leaving and changing phases.
 
+use super::dynamics::Dynamics;
 use super::integrator::{Trial, step};
 use super::phase::{Exit, Phase, PhaseTransition};
 use super::rim::{Mode, OMEGA_Y, Rates, RimFlow, RimState, TILT};
@@ -130,9 +131,26 @@ impl ContactSolver<'_> {
 
     /// Tries a step of this length: the state and the rates at its end.
     pub(super) fn try_step(&self, phase: &Phase, length: f64) -> (Trial<f64, 6>, Rates<f64>) {
+        let dynamics = self.rules.dynamics;
+        // sharp rims, known to the compiler, take fewer operations
+        if dynamics.body.rim == 0.0 {
+            self.try_step_of(&dynamics.with_sharp_rims(), phase, length)
+        } else {
+            self.try_step_of(dynamics, phase, length)
+        }
+    }
+
+    /// The same, with the dynamics as the compiler knows them.
+    #[inline(always)]
+    fn try_step_of(
+        &self,
+        dynamics: &Dynamics,
+        phase: &Phase,
+        length: f64,
+    ) -> (Trial<f64, 6>, Rates<f64>) {
         let mut last = phase.now;
         let flow = RimFlow {
-            dynamics: self.rules.dynamics,
+            dynamics,
             mode: phase.mode,
             last: &mut last,
         };
