@@ -79,9 +79,12 @@ impl<I: ImpactLaw> Model<I> {
         toss.impacts += 1;
         let mut walk = Walk::new(self, ground, toss, usage, observer);
         walk.lay_out_tracks();
-        if walk.other_is_clear() && walk.approach() < SLOW * walk.speed_of_slopes() {
-            walk.tracks.own.rate = 0.0;
-        }
+        let slow = walk.approach() < SLOW * walk.speed_of_slopes();
+        walk.tracks.own.rate = if slow && walk.other_is_clear() {
+            0.0
+        } else {
+            walk.rate_of_landing()
+        };
         walk.follow(Next::Impact)
     }
 
@@ -207,6 +210,15 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
     fn approach(&self) -> f64 {
         let [own, _] = rim_points(self.body(), &self.toss.motion, &self.toss.spin);
         self.toss.spin.tilt * own.rx - self.toss.motion.vz
+    }
+
+    /// The rate at which the ground under the material point that lands rises: that point meets the
+    /// slope with its own velocity, not with that of the lowest point along the rim.
+    fn rate_of_landing(&self) -> f64 {
+        let point = self.toss.motion.contact_point(self.body(), &self.toss.spin);
+        let [x, y] = self.place.direction(point.slip_x, point.slip_y);
+        let [gx, gy] = self.ground.gradient(self.place.point(point.rx, 0.0));
+        gx * x + gy * y
     }
 
     /// The rms speed at which the ground under the own rim rises and falls.
@@ -344,7 +356,12 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
         }
         let lost =
             before.energy(self.body(), &spin) - bounced.motion.energy(self.body(), &bounced.spin);
-        self.budget -= lost.max(0.0);
+        // the loss is right to first order in the slope, so what little would be left of the kinetic
+        // energy is uncertain by the second order of it
+        let uncertain = self.ground.slope() * self.ground.slope();
+        let kinetic = self.toss.motion.kinetic(self.body(), &spin);
+        let least = self.toss.motion.z + uncertain * kinetic;
+        self.budget = (self.budget - lost.max(0.0)).max(least.min(self.budget));
         self.set_relative(bounced.motion, bounced.spin);
         self.balance();
         bounced.stays
