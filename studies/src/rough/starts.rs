@@ -1,9 +1,11 @@
 //! P(a coin that starts upright, rolling or spinning, stays on its side).
 
+use super::engine::Beside;
 use super::{Steps, Sums, ground_seed, scene};
 use crate::survey::survey;
 use clap::{Args, ValueEnum};
 use coinmc_bench::{Report, Table, number};
+use coinmc_core::{Launch, Scene};
 use coinmc_oracle::{RoughStepper, Start};
 use coinmc_testkit::Dice;
 
@@ -45,6 +47,9 @@ pub(crate) struct RoughStarts {
 
     #[command(flatten)]
     steps: Steps,
+
+    #[command(flatten)]
+    beside: Beside,
 }
 
 /// A cell of the grid.
@@ -62,6 +67,7 @@ impl RoughStarts {
         let found = survey(&cells, |cell| self.follow(cell, seed));
         let mut columns = vec!["start", "ratio", "slope", "wavelength_mm"];
         columns.extend(Sums::COLUMNS);
+        columns.extend(Beside::COLUMNS);
         let title = format!(
             "P(side) of coins that start upright, rolling at {SPEED_M_S} m/s or spinning at \
              {RATE_RAD_S} rad/s"
@@ -74,7 +80,13 @@ impl RoughStarts {
                 cell.slope.to_string(),
                 cell.wavelength_mm.to_string(),
             ];
-            row.extend(sums.cells(&self.steps, &scene(cell.ratio)));
+            let scene = scene(cell.ratio);
+            row.extend(sums.cells(&self.steps, &scene));
+            let ground = (cell.slope, cell.wavelength_mm);
+            row.extend(
+                self.beside
+                    .cells(&scene, ground, |coin| cell.launch(&scene, seed, coin)),
+            );
             record.push(row);
         }
         let mut report = Report::new(record);
@@ -108,13 +120,19 @@ impl RoughStarts {
         let mut stepper = RoughStepper::new(&scene, self.steps.settings());
         let mut sums = Sums::default();
         for coin in 0..self.coins {
-            let lean = Dice::new(seed, coin).between(-LEAN_RAD, LEAN_RAD);
-            let launch = cell.kind.start().launch(&scene.coin, lean);
+            let launch = cell.launch(&scene, seed, coin);
             let seed = ground_seed(seed, coin);
             let mut ground = stepper.ground(cell.slope, 1e-3 * cell.wavelength_mm, seed);
             sums.add(&stepper.placed(&launch, &mut ground));
         }
         sums
+    }
+}
+
+impl Cell {
+    fn launch(&self, scene: &Scene, seed: u64, coin: u64) -> Launch {
+        let lean = Dice::new(seed, coin).between(-LEAN_RAD, LEAN_RAD);
+        self.kind.start().launch(&scene.coin, lean)
     }
 }
 

@@ -1,5 +1,6 @@
 //! P(side) of whole tosses by hand onto rough ground.
 
+use super::engine::Beside;
 use super::{Steps, Sums, ground_seed, scene};
 use crate::survey::survey;
 use clap::Args;
@@ -25,6 +26,9 @@ pub(crate) struct RoughTosses {
 
     #[command(flatten)]
     steps: Steps,
+
+    #[command(flatten)]
+    beside: Beside,
 }
 
 impl RoughTosses {
@@ -34,6 +38,7 @@ impl RoughTosses {
         let found = survey(&scenes, |scene| self.follow(*scene, seed));
         let mut columns = vec!["ratio", "slope", "wavelength_mm"];
         columns.extend(Sums::COLUMNS);
+        columns.extend(Beside::COLUMNS);
         let title = format!("P(side) of tosses by hand, psi {PSI_DEG} degrees, on rough ground");
         let mut record = Table::new(title, &columns);
         for ((ratio, slope, wavelength_mm), sums) in scenes.iter().zip(&found) {
@@ -42,7 +47,12 @@ impl RoughTosses {
                 slope.to_string(),
                 wavelength_mm.to_string(),
             ];
-            row.extend(sums.cells(&self.steps, &scene(*ratio)));
+            let scene = scene(*ratio);
+            row.extend(sums.cells(&self.steps, &scene));
+            let launches = launches();
+            row.extend(self.beside.cells(&scene, (*slope, *wavelength_mm), |toss| {
+                launches.launch(&scene.coin, &mut Case::stream(seed).toss(toss))
+            }));
             record.push(row);
         }
         let mut report = Report::new(record);

@@ -17,6 +17,7 @@
 //!   of a hollow's bend is an impact by the impact law; beyond a bump the coin hops.
 //! * The other rim touches when it meets its own track. Both rims stay down while the normal forces
 //!   that this takes are positive.
+//! * A slope pulls a coin in contact downhill ([`slopes`]).
 //! * Mechanical energy is a budget that only impacts and friction reduce. What a coin gains by
 //!   climbing is taken from its velocities at every node, and returned on the way down.
 //!
@@ -33,7 +34,7 @@
 //! - `field` the random field in its own units · `ground` what a rim meets · `random_place` where
 //! - `tracks` the ground under both rims
 //! - `walk` the state of a coin, its energy and the loop; `hop`, `rim_contact`, `both_rims` its
-//!   three kinds of motion; `decision` its end
+//!   three kinds of motion; `slopes` their pull; `decision` its end
 
 mod both_rims;
 mod decision;
