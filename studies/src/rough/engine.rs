@@ -23,7 +23,7 @@ impl Beside {
 
     /// The engine's columns, for the coins that `launch` launches.
     pub(super) fn cells(
-        &self,
+        self,
         scene: &Scene,
         (slope, wavelength_mm): (f64, f64),
         launch: impl Fn(u64) -> Launch,

@@ -96,6 +96,16 @@ impl Dynamics {
         (kyy, L::splat(1.0) / kyy)
     }
 
+    /// 1/(K_xx K_zz − K_xz²) = 1/(K_xx + K_zz − 1).
+    #[inline(always)]
+    pub(super) fn inverse_along<L: Lane>(&self, kxx: L, kzz: L) -> L {
+        if self.body.rim == 0.0 {
+            L::splat(self.inverse_det)
+        } else {
+            L::splat(1.0) / (kxx + kzz - L::splat(1.0))
+        }
+    }
+
     /// Whether friction against rolling and pivoting holds at rest, instead of creeping.
     pub(crate) fn holds(&self) -> bool {
         self.holding_rate > 0.0

@@ -154,11 +154,7 @@ impl Dynamics {
         let opposes = kzz * slip.speed - mu * kxz * slip.x;
         let (fx, normal, drive) = match mode {
             Mode::Stick => {
-                let inverse = if self.body.rim == 0.0 {
-                    k(self.inverse_det)
-                } else {
-                    k(1.0) / (kxx + kzz - k(1.0))
-                };
+                let inverse = self.inverse_along(kxx, kzz);
                 (
                     (kxz * bz - kzz * bx) * inverse,
                     (kxz * bx - kxx * bz) * inverse,
