@@ -233,7 +233,7 @@ impl Coin {
             rim_radius_m,
             ..self
         };
-        if rim_radius_m == 0.0 {
+        if rim_radius_m == self.rim_radius_m {
             return Ok(coin);
         }
         let (transverse, axial) =

@@ -20,8 +20,8 @@ pub(crate) struct Dynamics {
     /// K_yy and 1/K_yy, which with sharp rims do not depend on the tilt.
     pub(super) kyy: f64,
     pub(super) inverse_kyy: f64,
-    /// 1/(K_xx K_zz − K_xz²). With sharp rims it does not depend on the tilt either, as the distance of the rim
-    /// from the centre is constant.
+    /// 1/(K_xx K_zz − K_xz²). With sharp rims it does not depend on the tilt either, as the distance
+    /// of the rim from the centre is constant.
     pub(super) inverse_det: f64,
     /// 1/(ρ_c smoothing_time) and 1/(ρ_p smoothing_time), see [`smoothed_sign`].
     contour_smoothing: f64,
@@ -126,8 +126,9 @@ impl Dynamics {
         self.drag.acts() || self.body.rim != 0.0
     }
 
-    /// The same dynamics, with the cases "no drag and sharp rims" and "friction that does not hold" known to the
-    /// compiler: `DRAGS` is whether [one of them](Self::drags_or_rounds) acts (or may act), `HOLDS` is [`holds`](Self::holds).
+    /// The same dynamics, with the cases "no drag and sharp rims" and "friction that does not hold"
+    /// known to the compiler: `DRAGS` is [`drags_or_rounds`](Self::drags_or_rounds) (or may be true
+    /// without), `HOLDS` is [`holds`](Self::holds).
     #[inline(always)]
     pub(crate) fn with_known<const DRAGS: bool, const HOLDS: bool>(&self) -> Self {
         Self {
