@@ -290,6 +290,8 @@ impl<L: Lane> Motion<L> {
         let allowed = before - self.z;
         let over = allowed.lt(kinetic);
         if over.any() {
+            // at rest the height alone may exceed the energy, by rounding
+            let kinetic = kinetic.max(L::splat(f64::MIN_POSITIVE));
             let scale = (allowed.max(L::splat(0.0)) / kinetic).sqrt();
             let scale = L::select(over, scale, L::splat(1.0));
             for velocity in [&mut self.vx, &mut self.vy, &mut self.vz] {

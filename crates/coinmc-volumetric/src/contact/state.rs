@@ -88,6 +88,8 @@ pub(super) fn place_below<L: Lane>(
     let allowed = ceiling - motion.z;
     let over = allowed.lt(kinetic);
     if over.any() {
+        // at rest the height alone may exceed the energy, by rounding
+        let kinetic = kinetic.max(L::splat(f64::MIN_POSITIVE));
         let scale = (allowed.max(L::splat(0.0)) / kinetic).sqrt();
         let scale = L::select(over, scale, L::splat(1.0));
         for component in &mut state[OMEGA_Y..=SLIP_Y] {

@@ -4,6 +4,7 @@
 use super::dynamics::Dynamics;
 use super::integrator::{is_accepted, next_length, shorter, step};
 use super::rim::{Mode, OMEGA_A, OMEGA_T, OMEGA_Y, RimState, SLIP_X, SLIP_Y, TILT};
+use super::state::{place, place_below};
 use crate::body::{Body, Friction};
 use crate::drag::Drag;
 use crate::four::Four;
@@ -451,4 +452,19 @@ fn energy_balances_over_contact_phases() {
         tight_median < 1e-9 && tight_worst < 1e-8,
         "{tight_median:e} {tight_worst:e}"
     );
+}
+
+/// A coin at rest that leans on its rim, with less energy than its height by a rounding error.
+#[test]
+fn a_coin_at_rest_stays_at_rest() {
+    let dynamics = dynamics(0.2, rough(0.3, 0.0, 0.0), STILL, true);
+    let mut state = [1.45, 0.0, 0.0, 0.0, 0.0, 0.0];
+    let (mut motion, mut spin) = (crate::motion::Motion::still(), crate::motion::Spin::still());
+    place(&dynamics, &state, &mut motion, &mut spin);
+    let less = motion.z * (1.0 - f64::EPSILON);
+    motion.cap_energy(&dynamics.body, &mut spin, less);
+    assert_eq!(motion.energy(&dynamics.body, &spin), motion.z);
+    place_below(&dynamics, &mut state, &mut motion, &mut spin, less);
+    assert_eq!(state, [1.45, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    assert_eq!(motion.energy(&dynamics.body, &spin), motion.z);
 }
