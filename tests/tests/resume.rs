@@ -37,7 +37,7 @@ pivoting_friction_m = 1e-4
 preset = \"clean\"
 [engine.volumetric]
 [stop]
-tosses = 80_000
+tosses = 160_000
 ";
 
 struct Bench {
