@@ -232,6 +232,18 @@ impl DecisionRule {
         decided
     }
 
+    /// The energy of a coin that leans towards its side but for what the rule leaves out: the energy
+    /// that may become tilt.
+    #[inline]
+    pub fn loose_energy(&self, state: &DecisionState<f64>) -> f64 {
+        if self.slides {
+            let sliding = 0.5 * (state.vx * state.vx + state.vy * state.vy);
+            state.energy - sliding - 0.5 * self.body.ka * state.axial * state.axial
+        } else {
+            state.energy - self.lasting_roll(state)
+        }
+    }
+
     /// Energy of straight rolling that cannot become tilt: see *Tilting* in the module
     /// documentation.
     #[inline(always)]

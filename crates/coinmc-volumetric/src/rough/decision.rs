@@ -8,12 +8,15 @@
 //! * *The side, by energy*: decided once the energy, above the ground of either rim, is below 1 less
 //!   what the ground can still change: 3σ, or in proportion less if contour friction stops the coin
 //!   within ℓ.
-//! * *The side, of a coin that rolls or spins on* (decision `tilting`): where the smooth rule holds
-//!   and no kick to be expected can topple the coin. Slopes under the two rims that differ by s_d,
-//!   passed at speed w, make it lean at the rate w s_d/2h, and heights that differ by σ_d lean it by
-//!   σ_d/2h at rest. With the correlation ρ of the ground over the coin's thickness, s_d² = 2s²(1 −
-//!   ρ), σ_d² = 2σ²(1 − ρ). The rule asks that KICKS standard deviations of both leave the coin
-//!   below the brim of its well. See docs/methods/rough.md.
+//! * *The side, of a coin that rolls, spins or hops on* (decision `tilting`): where no kick to be
+//!   expected can topple the coin. Slopes under the two rims that differ by s_d, passed at speed w,
+//!   make it lean at the rate w s_d/2h, and heights that differ by σ_d lean it by σ_d/2h at rest.
+//!   With the correlation ρ of the ground over the coin's thickness, s_d² = 2s²(1 − ρ), σ_d² = 2σ²(1
+//!   − ρ). A kick adds to the velocities that the coin already rocks and hops with, so the rule asks
+//!   that sqrt(E) + sqrt(E_kick) < sqrt(well): E is the energy above rest that may become tilt, by
+//!   the rule for a plane, and E_kick that of KICKS standard deviations of both. That much is rare
+//!   already, as a rim that lands or rolls meets the slope with the small velocity of its contact
+//!   point and not with w: see docs/methods/rough.md for what was measured.
 
 use super::tracks::rim_points;
 use super::walk::{Touch, Walk};
@@ -24,7 +27,7 @@ use coinmc_core::{Decided, Observer};
 /// Standard deviations of the ground's height that a decided coin may still meet.
 const SPREAD: f64 = 3.0;
 /// Standard deviations of the kicks and heights that do not topple a decided coin.
-const KICKS: f64 = 7.0;
+const KICKS: f64 = 3.0;
 /// A coin rests whose kinetic energy has been below this share of its well's depth for this time,
 /// in sqrt(D/g): one that turns round on a slope is slow only for a moment.
 const REST: f64 = 1e-3;
@@ -45,7 +48,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
             self.at_rest_since = None;
             // a coin that rocks is decided once both rims are down, or it has toppled
             let low = own.min(other);
-            let decided = energy - low < 1.0 - SPREAD * sigma;
+            let decided = energy - low < 1.0 - SPREAD * sigma || self.is_safe();
             return decided.then_some(Decided::Side);
         }
         let highest = energy - own.min(other);
@@ -67,7 +70,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         now - *self.at_rest_since.get_or_insert(now) >= REST_TIME
     }
 
-    /// Whether a coin on both rims will stay on its side although it rolls or spins on.
+    /// Whether a coin that leans towards its side will stay on it although it rolls, spins or hops on.
     fn is_safe(&self) -> bool {
         let rule = &self.model.rule;
         let (body, ground) = (self.body(), self.ground);
@@ -76,10 +79,11 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
             z: self.toss.motion.z - mean,
             ..self.toss.motion
         };
-        let state = motion.decision_state(body, &self.toss.spin);
-        if !rule.is_tilting() || rule.decide(&state) != Decided::Side {
+        if !rule.is_tilting() {
             return false;
         }
+        let state = motion.decision_state(body, &self.toss.spin);
+        let loose = (rule.loose_energy(&state) - body.radius).max(0.0);
         let thickness = 2.0 * body.half;
         let contrast = ground.contrast(thickness);
         let points = rim_points(body, &motion, &self.toss.spin);
@@ -92,6 +96,6 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         let brim = 1.0 - lean * body.radius / body.half;
         let well = (1.0 - body.radius) * brim * brim;
         let inertia = body.kt + body.outer_radius().powi(2);
-        brim > 0.0 && 0.5 * inertia * rate * rate < well
+        brim > 0.0 && loose.sqrt() + (0.5 * inertia).sqrt() * rate < well.sqrt()
     }
 }
