@@ -14,9 +14,8 @@
 //!   With the correlation ρ of the ground over the coin's thickness, s_d² = 2s²(1 − ρ), σ_d² = 2σ²(1
 //!   − ρ). A kick adds to the velocities that the coin already rocks and hops with, so the rule asks
 //!   that sqrt(E) + sqrt(E_kick) < sqrt(well): E is the energy above rest that may become tilt, by
-//!   the rule for a plane, and E_kick that of KICKS standard deviations of both. That much is rare
-//!   already, as a rim that lands or rolls meets the slope with the small velocity of its contact
-//!   point and not with w: see docs/methods/rough.md for what was measured.
+//!   the rule for a plane, and E_kick that of so many standard deviations of both as were measured
+//!   to be enough ([`kicks`]).
 
 use super::tracks::rim_points;
 use super::walk::{Touch, Walk};
@@ -26,12 +25,22 @@ use coinmc_core::{Decided, Observer};
 
 /// Standard deviations of the ground's height that a decided coin may still meet.
 const SPREAD: f64 = 3.0;
-/// Standard deviations of the kicks and heights that do not topple a decided coin.
-const KICKS: f64 = 3.0;
 /// A coin rests whose kinetic energy has been below this share of its well's depth for this time,
 /// in sqrt(D/g): one that turns round on a slope is slow only for a moment.
 const REST: f64 = 1e-3;
 const REST_TIME: f64 = 5.0;
+
+/// Standard deviations of the kicks and heights that do not topple a decided coin of this ratio H/R.
+///
+/// A coin rolls past a thousand correlation lengths and meets five standard deviations on the way. A
+/// thick one is not kicked that hard: its rims land and roll with the small velocity of the contact
+/// point, and not with w. Of 220,000 tosses of coins with a ratio from 0.5 to 1.2, on six grounds and
+/// by two launches, none ended on another face with 3 than with 7; of 12,000 with a ratio from 0.2 to
+/// 0.4 on long waves none did with 7 or with 10 against 20, but six with 5.
+fn kicks(ratio: f64) -> f64 {
+    const THICK: f64 = 0.6;
+    if ratio < THICK { 7.0 } else { 3.0 }
+}
 
 impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     /// The face, if it is decided.
@@ -91,8 +100,9 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         // and what it may gain by rolling down to the deepest place
         let drop = (mean + SPREAD * ground.height).max(0.0);
         let speed = (speed * speed + 2.0 * drop).sqrt();
-        let rate = KICKS * speed * ground.slope() * contrast / thickness;
-        let lean = KICKS * ground.height * contrast / thickness;
+        let kicks = kicks(thickness / body.outer_radius());
+        let rate = kicks * speed * ground.slope() * contrast / thickness;
+        let lean = kicks * ground.height * contrast / thickness;
         let brim = 1.0 - lean * body.radius / body.half;
         let well = (1.0 - body.radius) * brim * brim;
         let inertia = body.kt + body.outer_radius().powi(2);
