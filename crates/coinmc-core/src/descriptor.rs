@@ -25,10 +25,21 @@ pub struct EngineDescriptor {
     pub unmodelled: &'static [Unmodelled],
     /// What users should know about it in some scenes.
     pub remarks: &'static [Remark],
+    /// Settings whose numerical error is to be measured, and how to make them finer.
+    pub finer: &'static [(&'static str, Finer)],
     /// The keys of its table in a config.
     pub schema: fn() -> TableKind,
     /// Reads its settings from the values of that table.
     pub read: fn(&Values) -> Result<EngineChoice, EngineError>,
+}
+
+/// How a numerical setting is made finer, so that the difference between results shows its error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Finer {
+    /// Times this factor.
+    Times(f64),
+    /// This word instead.
+    Word(&'static str),
 }
 
 /// The kind of results of an engine.

@@ -49,8 +49,8 @@ pub use coinmc_lanes::Lanes;
 pub use contact_patch::{hertz_radius_m, pivoting_friction_of_patch_m};
 pub use decision::{Decided, DecisionRule, DecisionState};
 pub use descriptor::{
-    Answer, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings, LawDescriptor,
-    LawSettings, Remark, Unmodelled,
+    Answer, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings, Finer,
+    LawDescriptor, LawSettings, Remark, Unmodelled,
 };
 pub use dyn_engine::DynEngine;
 pub use engine::{Engine, Event, EventKind, OutcomeSink, State, run_tosses, toss_sequential};

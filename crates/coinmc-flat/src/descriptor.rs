@@ -4,7 +4,7 @@ use crate::laws::LAWS;
 use crate::settings::{Decision, Settings};
 use coinmc_core::schema::Values;
 use coinmc_core::{
-    Answer, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings, Landing,
+    Answer, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings, Finer, Landing,
     Remark, Scene, Unmodelled,
 };
 
@@ -16,6 +16,7 @@ pub const ENGINE: EngineDescriptor = EngineDescriptor {
     stepped: false,
     laws: &LAWS,
     unmodelled: &UNMODELLED,
+    finer: &[("zeno", Finer::Times(0.25)), ("tolerance", Finer::Times(0.1))],
     remarks: &[Remark {
         applies: |scene| {
             let surface = &scene.surface;

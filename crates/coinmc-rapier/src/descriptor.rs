@@ -4,7 +4,7 @@ use crate::engine::RapierEngine;
 use crate::settings::{Decision, Flight, Settings};
 use coinmc_core::schema::Values;
 use coinmc_core::{
-    Answer, DynEngine, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings,
+    Answer, DynEngine, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings, Finer,
     Landing, Remark, Scene, Unmodelled,
 };
 
@@ -16,6 +16,7 @@ pub const ENGINE: EngineDescriptor = EngineDescriptor {
     stepped: true,
     laws: &[],
     unmodelled: &UNMODELLED,
+    finer: &[("step_s", Finer::Times(0.5))],
     remarks: &[
         Remark::PERFECT_PLANE,
         Remark {

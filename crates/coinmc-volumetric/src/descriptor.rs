@@ -6,7 +6,7 @@ use crate::laws::{LAWS, LawVisitor};
 use crate::settings::{Decision, Settings, SettingsError};
 use coinmc_core::schema::Values;
 use coinmc_core::{
-    Answer, DynEngine, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings,
+    Answer, DynEngine, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings, Finer,
     Landing, Remark, Scene,
 };
 use std::fmt::Debug;
@@ -19,6 +19,14 @@ pub const ENGINE: EngineDescriptor = EngineDescriptor {
     stepped: false,
     laws: &LAWS,
     unmodelled: &[],
+    finer: &[
+        ("decision", Finer::Word("energy")),
+        ("zeno", Finer::Times(0.25)),
+        ("tolerance", Finer::Times(0.1)),
+        ("stick_speed", Finer::Times(0.25)),
+        ("smoothing_time", Finer::Times(0.25)),
+        ("ground_step", Finer::Times(0.5)),
+    ],
     remarks: &[
         Remark::PERFECT_PLANE,
         Remark {

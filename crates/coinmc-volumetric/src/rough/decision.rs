@@ -34,7 +34,7 @@ const REST_TIME: f64 = 5.0;
 ///
 /// A coin rolls past a thousand correlation lengths and meets five standard deviations on the way. A
 /// thick one is not kicked that hard: its rims land and roll with the small velocity of the contact
-/// point, and not with w. Of 220,000 tosses of coins with a ratio from 0.5 to 1.2, on six grounds and
+/// point, and not with w. Of 220,000 tosses of coins with a ratio from 0.5 to 1.2, on four grounds and
 /// by two launches, none ended on another face with 3 than with 7; of 12,000 with a ratio from 0.2 to
 /// 0.4 on long waves none did with 7 or with 10 against 20, but six with 5.
 fn kicks(ratio: f64) -> f64 {

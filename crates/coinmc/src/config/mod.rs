@@ -38,6 +38,7 @@ mod values;
 mod walk;
 
 pub use diagnostics::{Diagnostics, Problem};
+pub use nearest::nearest;
 pub use overrides::{Override, OverrideError};
 
 use crate::plan::Plan;

@@ -2,7 +2,7 @@
 
 /// The candidate that was most likely meant, if any is near: one that starts with the text
 /// (`gravity` for `gravity_m_s2`), or the one with the fewest typing errors.
-pub(super) fn nearest<'a>(
+pub fn nearest<'a>(
     word: &str,
     candidates: impl IntoIterator<Item = &'a str>,
 ) -> Option<&'a str> {

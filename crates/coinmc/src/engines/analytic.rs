@@ -20,6 +20,7 @@ pub(super) const ENGINE: EngineDescriptor = EngineDescriptor {
         message: "closed forms know sharp rims only: `coin.rim_radius_m` must be 0",
         help: "remove `rim_radius_m`, or toss in space with [engine.volumetric]",
     }],
+    finer: &[],
     remarks: &[],
     schema,
     read: |values| {

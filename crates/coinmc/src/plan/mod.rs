@@ -18,6 +18,7 @@ use coinmc_core::{Answer, DynEngine, EngineError, IntervalMethod, LaunchDistribu
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
 use std::sync::Arc;
+use toml::de::{DeTable, DeValue};
 
 /// Most points of a plan.
 pub const MAX_POINTS: u64 = 1_000_000;
@@ -70,6 +71,24 @@ impl Plan {
                 write!(hex, "{byte:02x}").expect("writing to a string cannot fail");
                 hex
             })
+    }
+
+    /// The number of the resolved config under a dotted key such as `surface.friction`; `None` if
+    /// there is none there, or a list or range.
+    pub fn number(&self, key: &str) -> Option<f64> {
+        let mut table = DeTable::parse(&self.resolved_toml).ok()?.into_inner();
+        let mut path = key.split('.').peekable();
+        loop {
+            let value = table.remove(path.next()?)?.into_inner();
+            match (value, path.peek()) {
+                (DeValue::Table(inner), Some(_)) => table = inner,
+                (DeValue::Float(number), None) => return number.as_str().parse().ok(),
+                (DeValue::Integer(number), None) => {
+                    return number.as_str().replace('_', "").parse().ok();
+                }
+                _ => return None,
+            }
+        }
     }
 
     /// Tosses that the run will make at most, over all points.

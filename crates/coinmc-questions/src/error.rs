@@ -1,0 +1,87 @@
+//! Why a question has no answer.
+
+use coinmc::config::{Diagnostics, OverrideError};
+use coinmc::run::RunError;
+use coinmc_core::EngineError;
+use thiserror::Error;
+
+/// Why a question has no answer.
+#[derive(Debug, Error)]
+pub enum QuestionError {
+    /// The key of the parameter is none.
+    #[error(transparent)]
+    Key(OverrideError),
+    /// The config has problems, at some value of the parameter.
+    #[error("the config has problems:\n{0}")]
+    Config(Diagnostics),
+    /// The engine refuses its settings.
+    #[error(transparent)]
+    Engine(EngineError),
+    /// A point cannot be computed.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// No thread can be started.
+    #[error("cannot start a thread: {0}")]
+    Thread(std::io::Error),
+    /// It was stopped.
+    #[error("stopped")]
+    Stopped,
+    /// The target is not a probability strictly between 0 and 1.
+    #[error("the target must be above 0 and below 1, not {0}")]
+    Target(f64),
+    /// The half width is not positive and finite.
+    #[error("the half width must be above 0 and finite, not {0}")]
+    HalfWidth(f64),
+    /// There are no tosses.
+    #[error("at least {least} tosses are needed, not {given}")]
+    TooFewTosses {
+        /// The fewest.
+        least: u64,
+        /// Those asked for.
+        given: u64,
+    },
+    /// The ends of the range are not finite, or in the wrong order.
+    #[error("the range must lead from a finite number to a larger one, not from {from} to {to}")]
+    Range {
+        /// The first end.
+        from: f64,
+        /// The last end.
+        to: f64,
+    },
+    /// A parameter without a range.
+    #[error("`{key}` has no natural range: say from where to where to search")]
+    NoRange {
+        /// Its key in configs.
+        key: String,
+    },
+    /// The size of the coin is not positive and finite.
+    #[error("the {what} of the coin must be above 0 and finite, not {given}")]
+    Size {
+        /// What of it.
+        what: &'static str,
+        /// The number.
+        given: f64,
+    },
+    /// The size is given twice.
+    #[error("the parameter is `{key}`, so the size of the coin cannot be given as well")]
+    SizeIsSought {
+        /// The key of the parameter.
+        key: String,
+    },
+    /// There is no such scene.
+    #[error("there is no scene `{name}`{}: known are {known}", nearest.map_or(String::new(), |near| format!(" (did you mean `{near}`?)")))]
+    NoScene {
+        /// The name given.
+        name: String,
+        /// The nearest name.
+        nearest: Option<&'static str>,
+        /// All names.
+        known: String,
+    },
+}
+
+impl From<Diagnostics> for QuestionError {
+    fn from(diagnostics: Diagnostics) -> Self {
+        Self::Config(diagnostics)
+    }
+}

@@ -1,0 +1,257 @@
+//! The value of a parameter at which a face has a given probability: how thick is a fair coin?
+//!
+//! # Method
+//! The whole range is scanned coarsely (`scan`), so that several roots, no root and plateaus are
+//! seen. Each crossing is then refined (`refine`) with fresh tosses near the root only, until the
+//! interval is as narrow as asked for. Where closed forms or integrals give the probabilities, the
+//! roots are those of the curve itself (`known`).
+//!
+//! Modules, each above those it uses: `solve` · `scan`, `refine` · `fit` · `axis`, `tosses`.
+
+mod axis;
+mod curve;
+mod fit;
+mod known;
+mod numerical;
+mod refine;
+mod scan;
+mod solve;
+mod tosses;
+
+pub use numerical::Numerical;
+pub use refine::Stage;
+
+use crate::{QuestionError, Template, Workers};
+use axis::Axis;
+use coinmc_core::{Coin, Face};
+
+/// Least number of tosses of a search.
+pub const LEAST_TOSSES: u64 = 4096;
+
+/// A question: at which value of a parameter does a face have this probability?
+///
+/// # Example
+/// ```
+/// use coinmc_questions::{Question, Template, Workers, fair};
+/// use std::sync::atomic::AtomicBool;
+/// let text = "surface = { restitution = 0.5, friction = 0.3 }\n\
+///             launch.preset = 'robot'\nengine.flat = {}";
+/// let question = Question { half_width: 0.03, ..Question::default() };
+/// let cancel = AtomicBool::new(false);
+/// let workers = Workers { threads: None, cancel: &cancel, made: &|_| () };
+/// let answer = fair(&Template::new("inline", text, &[]), &question, &workers)?;
+/// let root = answer.curves[0].roots().next().unwrap();
+/// assert!((root.value - 1.5).abs() < 0.2);
+/// assert!(root.half_width() <= 0.03 && root.slope > 0.0);
+/// # Ok::<(), coinmc_questions::QuestionError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Question {
+    /// The key of the parameter in configs.
+    pub key: String,
+    /// Where to search; `None` for the natural range of the parameter.
+    pub range: Option<[f64; 2]>,
+    /// The face.
+    pub face: Face,
+    /// Its probability.
+    pub target: f64,
+    /// Half width asked for of the interval of the parameter.
+    pub half_width: f64,
+    /// Tosses per root at which the search stops short of it.
+    pub max_tosses: u64,
+    /// Tosses of the comparison with finer numerical settings; 0 for none.
+    pub numerical_tosses: u64,
+}
+
+impl Default for Question {
+    /// How thick is a coin that lands on its side in a third of the tosses, to ± 0.005?
+    fn default() -> Self {
+        Self {
+            key: "coin.ratio".to_owned(),
+            range: None,
+            face: Face::Side,
+            target: 1.0 / 3.0,
+            half_width: 0.005,
+            max_tosses: 10_000_000,
+            numerical_tosses: 4096,
+        }
+    }
+}
+
+/// The answer to a [`Question`].
+#[derive(Debug, Clone)]
+pub struct Fair {
+    /// The question, its range filled in.
+    pub question: Question,
+    /// One curve for each combination of the other parameters that the config sweeps.
+    pub curves: Vec<Curve>,
+    /// Confidence of all intervals.
+    pub confidence: f64,
+    /// Name of the engine.
+    pub engine: &'static str,
+    /// Name of its law of impact, or of the closed form.
+    pub law: &'static str,
+    /// Whether the curve is known without tosses.
+    pub known: bool,
+    /// All tosses that were made.
+    pub tosses: u64,
+}
+
+/// What was found along one curve.
+#[derive(Debug, Clone)]
+pub struct Curve {
+    /// The other swept parameters.
+    pub at: Vec<(String, f64)>,
+    /// The values of the scan.
+    pub scan: Vec<Scanned>,
+    /// Roots and near misses, in order of the parameter.
+    pub findings: Vec<Finding>,
+}
+
+/// One value of the scan.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scanned {
+    /// The parameter.
+    pub value: f64,
+    /// Share of the tosses that showed the face, or its probability.
+    pub p: f64,
+    /// Tosses; 0 where none are needed.
+    pub tosses: u64,
+}
+
+/// What was found somewhere along a curve.
+#[derive(Debug, Clone)]
+pub enum Finding {
+    /// The probability crosses the target.
+    Root(Root),
+    /// It comes too near to the target between these values to be told from it, and was not seen to
+    /// cross.
+    Near {
+        /// First value.
+        from: f64,
+        /// Last value.
+        to: f64,
+    },
+}
+
+/// A value at which the face has the probability asked for.
+#[derive(Debug, Clone)]
+pub struct Root {
+    /// The value.
+    pub value: f64,
+    /// Lower end of its interval; `None` if it is open.
+    pub lo: Option<f64>,
+    /// Upper end.
+    pub hi: Option<f64>,
+    /// dP/d(parameter) there.
+    pub slope: f64,
+    /// Its standard error.
+    pub slope_error: f64,
+    /// Whether the interval is as narrow as asked for.
+    pub reached: bool,
+    /// Fresh tosses of this root.
+    pub tosses: u64,
+    /// Those without a face; the interval is wide enough for any they would have shown.
+    pub undecided: u64,
+    /// How the search went.
+    pub stages: Vec<Stage>,
+    /// How far finer numerical settings would move it.
+    pub numerical: Option<Numerical>,
+    /// The coin there.
+    pub coin: Coin,
+}
+
+impl Root {
+    /// The longer arm of the interval; infinite if an end is open.
+    pub fn half_width(&self) -> f64 {
+        match (self.lo, self.hi) {
+            (Some(lo), Some(hi)) => (self.value - lo).max(hi - self.value),
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// Whether the slope cannot be told from 0: the face's probability hardly depends on the
+    /// parameter here.
+    pub fn is_on_plateau(&self) -> bool {
+        self.slope.abs() <= 2.0 * self.slope_error
+    }
+}
+
+impl Curve {
+    /// The roots.
+    pub fn roots(&self) -> impl Iterator<Item = &Root> {
+        self.findings.iter().filter_map(|finding| match finding {
+            Finding::Root(root) => Some(root),
+            Finding::Near { .. } => None,
+        })
+    }
+
+    /// The smallest and the largest probability of the scan.
+    pub fn extremes(&self) -> [Scanned; 2] {
+        let by_p = |a: &&Scanned, b: &&Scanned| a.p.total_cmp(&b.p);
+        let none = Scanned {
+            value: f64::NAN,
+            p: f64::NAN,
+            tosses: 0,
+        };
+        [
+            self.scan.iter().min_by(by_p).copied().unwrap_or(none),
+            self.scan.iter().max_by(by_p).copied().unwrap_or(none),
+        ]
+    }
+}
+
+/// Answers a question.
+///
+/// # Errors
+/// [`QuestionError`] if the question or the config at a value has problems, or it was stopped.
+pub fn fair(
+    template: &Template,
+    question: &Question,
+    workers: &Workers<'_>,
+) -> Result<Fair, QuestionError> {
+    let range = checked(template, question)?;
+    let question = Question {
+        range: Some(range),
+        ..question.clone()
+    };
+    curve::answer(template, &question, Axis::new(range[0], range[1]), workers)
+}
+
+/// The range to search, once the question has been checked.
+fn checked(template: &Template, question: &Question) -> Result<[f64; 2], QuestionError> {
+    let Question {
+        key,
+        target,
+        half_width,
+        max_tosses,
+        ..
+    } = question;
+    if !(*target > 0.0 && *target < 1.0) {
+        return Err(QuestionError::Target(*target));
+    }
+    if !(*half_width > 0.0 && half_width.is_finite()) {
+        return Err(QuestionError::HalfWidth(*half_width));
+    }
+    if *max_tosses < LEAST_TOSSES {
+        return Err(QuestionError::TooFewTosses {
+            least: LEAST_TOSSES,
+            given: *max_tosses,
+        });
+    }
+    if template.is_sized() && key == "coin.radius_m" {
+        return Err(QuestionError::SizeIsSought { key: key.clone() });
+    }
+    let [from, to] = match (question.range, key.as_str()) {
+        (Some(range), _) => range,
+        (None, "coin.ratio") => [0.05, 4.0],
+        (None, "surface.restitution") => [0.0, 0.95],
+        (None, "surface.friction") => [0.0, 1.0],
+        (None, _) => return Err(QuestionError::NoRange { key: key.clone() }),
+    };
+    if from.is_finite() && to.is_finite() && from < to {
+        Ok([from, to])
+    } else {
+        Err(QuestionError::Range { from, to })
+    }
+}

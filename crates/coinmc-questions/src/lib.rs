@@ -1,0 +1,23 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Contents
+//! ```text
+//! Template (a config in which numbers are replaced) + Question ──fair──▶ Fair { curves, roots }
+//! ```
+//! * [`fair()`] finds the values of a parameter at which a face has a given probability.
+//! * [`scenes`] are everyday scenes, with where each of their numbers comes from.
+//! * [`assumptions`] tells how far each assumption moves the answer.
+
+pub mod assumptions;
+mod error;
+mod fair;
+pub mod scenes;
+mod template;
+mod workers;
+
+pub use error::QuestionError;
+pub use fair::{
+    Curve, Fair, Finding, LEAST_TOSSES, Numerical, Question, Root, Scanned, Stage, fair,
+};
+pub use template::{Size, Template};
+pub use workers::Workers;

@@ -1,0 +1,160 @@
+//! Everyday scenes: where people toss coins, for questions without a config.
+//!
+//! A scene is a config with the numbers of a [`Material`] and a launch, and an [`Assumption`] for
+//! each number: from where to where it may be in life, and where it comes from. All of them are
+//! metal coins of the size of a euro unless the question says otherwise.
+
+use crate::{QuestionError, Template};
+use coinmc_core::{Material, Preset};
+
+/// An everyday scene.
+///
+/// # Example
+/// ```
+/// use coinmc_questions::scenes::EverydayScene;
+/// let table = EverydayScene::named("table")?;
+/// assert!(table.config().contains("material = \"laminate\""));
+/// assert!(EverydayScene::named("tabel").unwrap_err().to_string().contains("`table`"));
+/// # Ok::<(), coinmc_questions::QuestionError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EverydayScene {
+    /// Its name.
+    pub name: &'static str,
+    /// What it is.
+    pub doc: &'static str,
+    /// The name of the material.
+    pub material: &'static str,
+    /// Height of the hand above the surface, m.
+    pub height_m: f64,
+}
+
+/// A number that a scene assumes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Assumption {
+    /// Its key in configs.
+    pub key: &'static str,
+    /// The number.
+    pub value: f64,
+    /// The least that it may be in life.
+    pub low: f64,
+    /// The most.
+    pub high: f64,
+    /// Where the number comes from.
+    pub source: &'static str,
+}
+
+/// Radius of a 1 euro coin, m: 23.25 mm in diameter.
+const EURO_RADIUS_M: f64 = 0.011_625;
+
+impl EverydayScene {
+    /// All scenes; the first is taken if none is named.
+    pub const ALL: [Self; 7] = [
+        Self::of("table", "a kitchen table or a desk, of laminate", "laminate", 0.3),
+        Self::of("wood", "a finished table top of solid wood", "wood", 0.3),
+        Self::of("glass", "a pane of glass on a firm base", "glass", 0.3),
+        Self::of("steel", "a plate of steel", "steel", 0.3),
+        Self::of("felt", "a table covered with loose felt", "felt", 0.3),
+        Self::of("billiards", "billiard cloth over slate", "cloth", 0.3),
+        Self::of("floor", "a floor of laminate, tossed while standing", "laminate", 1.0),
+    ];
+
+    const fn of(
+        name: &'static str,
+        doc: &'static str,
+        material: &'static str,
+        height_m: f64,
+    ) -> Self {
+        Self {
+            name,
+            doc,
+            material,
+            height_m,
+        }
+    }
+
+    /// The scene of this name.
+    ///
+    /// # Errors
+    /// [`QuestionError::NoScene`] with the nearest name.
+    pub fn named(name: &str) -> Result<Self, QuestionError> {
+        let found = Self::ALL.into_iter().find(|scene| scene.name == name);
+        found.ok_or_else(|| {
+            let names = Self::ALL.map(|scene| scene.name);
+            QuestionError::NoScene {
+                name: name.chars().take(60).collect(),
+                nearest: coinmc::config::nearest(name, names),
+                known: names.join(", "),
+            }
+        })
+    }
+
+    /// Its config.
+    pub fn config(&self) -> String {
+        format!(
+            "# {}: {}, tossed by hand from {} m above it.\n\
+             [coin]\nratio = 1.0\nradius_m = {EURO_RADIUS_M}\n\n\
+             [surface]\nmaterial = \"{}\"\n\n\
+             [launch]\npreset = \"hand\"\nheight_m = {:?}\n\n\
+             [engine.volumetric]\n\n[stop]\ntosses = 100_000\n",
+            self.name, self.doc, self.height_m, self.material, self.height_m
+        )
+    }
+
+    /// Its template.
+    pub fn template(&self, overrides: &[coinmc::config::Override]) -> Template {
+        Template::new(format!("scene {}", self.name), self.config(), overrides)
+    }
+
+    /// What it assumes, and within which limits.
+    pub fn assumptions(&self) -> Vec<Assumption> {
+        let material: Material = self.material.parse().expect("a scene's material exists");
+        let number = |key, sourced: coinmc_core::Sourced, low: f64, high: f64| Assumption {
+            key,
+            value: sourced.value,
+            low,
+            high,
+            source: sourced.source,
+        };
+        // an estimate may be wrong by a factor of 3 where nothing bounds it
+        let factor = |key, sourced: coinmc_core::Sourced| {
+            number(key, sourced, sourced.value / 3.0, sourced.value * 3.0)
+        };
+        let (e, mu) = (material.restitution, material.friction);
+        let slope = material.roughness_slope;
+        vec![
+            number(
+                "surface.restitution",
+                e,
+                (e.value - 0.15).max(0.05),
+                (e.value + 0.15).min(0.9),
+            ),
+            number("surface.friction", mu, 0.6 * mu.value, 1.6 * mu.value),
+            factor("surface.rolling_friction_m", material.rolling_friction_m),
+            factor("surface.contact_patch_m", material.contact_patch_m),
+            number("surface.roughness_slope", slope, slope.value / 3.0, (slope.value * 3.0).min(0.15)),
+            factor("surface.roughness_wavelength_m", material.roughness_wavelength_m),
+            Assumption {
+                key: "launch.height_m",
+                value: self.height_m,
+                low: 0.5 * self.height_m,
+                high: 2.0 * self.height_m,
+                source: "ours: the hand of somebody at the table, or standing",
+            },
+            Assumption {
+                key: "launch.spin.precessing.rate_rad_s",
+                value: 238.6,
+                low: 80.0,
+                high: 300.0,
+                source: Preset::Hand.source(),
+            },
+            Assumption {
+                key: "coin.radius_m",
+                value: EURO_RADIUS_M,
+                low: 0.5 * EURO_RADIUS_M,
+                high: 2.0 * EURO_RADIUS_M,
+                source: "a 1 euro coin, 23.25 mm in diameter",
+            },
+        ]
+    }
+}
