@@ -4,7 +4,7 @@
 use crate::commands::Film;
 #[cfg(feature = "robot")]
 use crate::commands::Robot;
-use crate::commands::{Analytic, Check, Completions, Merge, Run, Schema, Trace};
+use crate::commands::{Analytic, Check, Completions, Fair, Merge, Run, Schema, Trace};
 use crate::exit::{Failure, Outcome};
 use crate::output::{Console, Format};
 use clap::{ColorChoice, CommandFactory, Parser, Subcommand};
@@ -15,6 +15,7 @@ Examples:
   coinmc check examples/flat-fair.toml            what would be computed, and how long it takes
   coinmc run examples/flat-fair.toml              run it; the same command again resumes
   coinmc run toss.toml --set surface.friction=0.2 --format json
+  coinmc fair --scene wood                        how thick is a fair coin on a wooden table?
   coinmc analytic --fair                          fair ratios of the closed forms
   coinmc trace toss.toml --toss 42 --show          what happened in a toss
 
@@ -49,6 +50,7 @@ pub(crate) struct Arguments {
 enum Command {
     Run(Run),
     Check(Check),
+    Fair(Box<Fair>),
     Merge(Merge),
     Trace(Box<Trace>),
     #[cfg(feature = "film")]
@@ -77,6 +79,7 @@ impl Command {
         match self {
             Self::Run(run) => run.format(),
             Self::Check(check) => check.format(),
+            Self::Fair(fair) => fair.format(),
             Self::Merge(merge) => merge.format(),
             Self::Trace(trace) => trace.format(),
             #[cfg(feature = "film")]
@@ -92,6 +95,7 @@ impl Command {
         match self {
             Self::Run(run) => run.execute(console),
             Self::Check(check) => check.execute(console),
+            Self::Fair(fair) => fair.execute(console),
             Self::Merge(merge) => merge.execute(console),
             Self::Trace(trace) => trace.execute(console),
             #[cfg(feature = "film")]

@@ -6,6 +6,7 @@ use coinmc::config::Diagnostics;
 use coinmc::run::RunError;
 #[cfg(feature = "film")]
 use coinmc_film::text as film;
+use coinmc_questions::QuestionError;
 use coinmc_recording::Error as RecordingError;
 use coinmc_trace::TraceError;
 use serde_json::{Value, json};
@@ -75,6 +76,17 @@ impl From<RunError> for Failure {
             | RunError::Missing { .. }
             | RunError::Conflict { .. } => Self::Input(error.into()),
             _ => Self::Runtime(error.into()),
+        }
+    }
+}
+
+impl From<QuestionError> for Failure {
+    fn from(error: QuestionError) -> Self {
+        match error {
+            QuestionError::Config(diagnostics) => Self::Config(diagnostics),
+            QuestionError::Run(error) => error.into(),
+            QuestionError::Thread(_) => Self::Runtime(error.into()),
+            _ => Self::Input(error.into()),
         }
     }
 }

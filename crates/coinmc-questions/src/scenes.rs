@@ -47,16 +47,31 @@ pub struct Assumption {
 /// Radius of a 1 euro coin, m: 23.25 mm in diameter.
 const EURO_RADIUS_M: f64 = 0.011_625;
 
+/// Mean spin of a toss by hand, rad/s, and its mean angle to the axis: those of the preset `hand`,
+/// spelled out so that each can be varied.
+const HAND_RATE_RAD_S: f64 = 238.6;
+const HAND_PSI_DEG: f64 = 81.0;
+
 impl EverydayScene {
     /// All scenes; the first is taken if none is named.
     pub const ALL: [Self; 7] = [
-        Self::of("table", "a kitchen table or a desk, of laminate", "laminate", 0.3),
+        Self::of(
+            "table",
+            "a kitchen table or a desk, of laminate",
+            "laminate",
+            0.3,
+        ),
         Self::of("wood", "a finished table top of solid wood", "wood", 0.3),
         Self::of("glass", "a pane of glass on a firm base", "glass", 0.3),
         Self::of("steel", "a plate of steel", "steel", 0.3),
         Self::of("felt", "a table covered with loose felt", "felt", 0.3),
         Self::of("billiards", "billiard cloth over slate", "cloth", 0.3),
-        Self::of("floor", "a floor of laminate, tossed while standing", "laminate", 1.0),
+        Self::of(
+            "floor",
+            "a floor of laminate, tossed while standing",
+            "laminate",
+            1.0,
+        ),
     ];
 
     const fn of(
@@ -95,7 +110,9 @@ impl EverydayScene {
             "# {}: {}, tossed by hand from {} m above it.\n\
              [coin]\nratio = 1.0\nradius_m = {EURO_RADIUS_M}\n\n\
              [surface]\nmaterial = \"{}\"\n\n\
-             [launch]\npreset = \"hand\"\nheight_m = {:?}\n\n\
+             [launch]\npreset = \"hand\"\nheight_m = {:?}\n\
+             spin.precessing.rate_rad_s.normal = {{ mean = {HAND_RATE_RAD_S}, sd = 23.86 }}\n\
+             spin.precessing.psi_deg.normal = {{ mean = {HAND_PSI_DEG}, sd = 5.0 }}\n\n\
              [engine.volumetric]\n\n[stop]\ntosses = 100_000\n",
             self.name, self.doc, self.height_m, self.material, self.height_m
         )
@@ -132,8 +149,16 @@ impl EverydayScene {
             number("surface.friction", mu, 0.6 * mu.value, 1.6 * mu.value),
             factor("surface.rolling_friction_m", material.rolling_friction_m),
             factor("surface.contact_patch_m", material.contact_patch_m),
-            number("surface.roughness_slope", slope, slope.value / 3.0, (slope.value * 3.0).min(0.15)),
-            factor("surface.roughness_wavelength_m", material.roughness_wavelength_m),
+            number(
+                "surface.roughness_slope",
+                slope,
+                slope.value / 3.0,
+                (slope.value * 3.0).min(0.15),
+            ),
+            factor(
+                "surface.roughness_wavelength_m",
+                material.roughness_wavelength_m,
+            ),
             Assumption {
                 key: "launch.height_m",
                 value: self.height_m,
@@ -142,10 +167,17 @@ impl EverydayScene {
                 source: "ours: the hand of somebody at the table, or standing",
             },
             Assumption {
-                key: "launch.spin.precessing.rate_rad_s",
-                value: 238.6,
+                key: "launch.spin.precessing.rate_rad_s.normal.mean",
+                value: HAND_RATE_RAD_S,
                 low: 80.0,
                 high: 300.0,
+                source: Preset::Hand.source(),
+            },
+            Assumption {
+                key: "launch.spin.precessing.psi_deg.normal.mean",
+                value: HAND_PSI_DEG,
+                low: 60.0,
+                high: 90.0,
                 source: Preset::Hand.source(),
             },
             Assumption {
@@ -156,5 +188,27 @@ impl EverydayScene {
                 source: "a 1 euro coin, 23.25 mm in diameter",
             },
         ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The launch spelled out is that of the preset but for its height, and every assumption is a
+    /// number of the config.
+    #[test]
+    fn a_scene_assumes_what_its_config_says() {
+        for scene in EverydayScene::ALL {
+            let plan = scene.template(&[]).plan(&[]).expect("a valid config");
+            let mut hand = Preset::Hand.distribution();
+            hand.height_m = coinmc_core::Marginal::Constant(scene.height_m);
+            assert_eq!(plan.points[0].launches, hand, "{}", scene.name);
+            for assumption in scene.assumptions() {
+                assert!(assumption.low < assumption.value && assumption.value < assumption.high);
+                let number = plan.number(assumption.key);
+                assert_eq!(number, Some(assumption.value), "{}", assumption.key);
+            }
+        }
     }
 }

@@ -70,12 +70,13 @@ impl Workers<'_> {
                 before[place(toss)] = shown == face as usize;
             })?;
             let mut changes = [0; 2];
-            self.faces(second, tosses, &mut |toss, shown| {
-                match (before[place(toss)], shown == face as usize) {
-                    (false, true) => changes[0] += 1,
-                    (true, false) => changes[1] += 1,
-                    _ => {}
-                }
+            self.faces(second, tosses, &mut |toss, shown| match (
+                before[place(toss)],
+                shown == face as usize,
+            ) {
+                (false, true) => changes[0] += 1,
+                (true, false) => changes[1] += 1,
+                _ => {}
             })?;
             Ok(changes)
         })
@@ -93,10 +94,15 @@ impl Workers<'_> {
         let source = TossSource::Drawn(&stream);
         let made = tosses.end - tosses.start;
         let go_on = || !self.cancel.load(Ordering::Relaxed);
-        for_each_outcome(&at.plan.points[at.point], source, tosses, |toss, outcome| {
-            visit(toss, outcome.face().map_or(3, |face| face as usize));
-            go_on()
-        })
+        for_each_outcome(
+            &at.plan.points[at.point],
+            source,
+            tosses,
+            |toss, outcome| {
+                visit(toss, outcome.face().map_or(3, |face| face as usize));
+                go_on()
+            },
+        )
         .map_err(QuestionError::Engine)?;
         if !go_on() {
             return Err(QuestionError::Stopped);
@@ -124,7 +130,9 @@ impl Workers<'_> {
             }
             Ok(())
         };
-        let threads = self.threads.or_else(|| thread::available_parallelism().ok());
+        let threads = self
+            .threads
+            .or_else(|| thread::available_parallelism().ok());
         let threads = threads.map_or(1, NonZeroUsize::get).min(pieces.len());
         thread::scope(|scope| {
             let mut handles = vec![];

@@ -3,6 +3,7 @@
 mod analytic;
 mod check;
 mod completions;
+mod fair;
 #[cfg(feature = "film")]
 mod film;
 mod merge;
@@ -15,6 +16,7 @@ mod trace;
 pub(crate) use analytic::Analytic;
 pub(crate) use check::Check;
 pub(crate) use completions::Completions;
+pub(crate) use fair::Fair;
 #[cfg(feature = "film")]
 pub(crate) use film::Film;
 pub(crate) use merge::Merge;

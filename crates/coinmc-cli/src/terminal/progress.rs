@@ -83,6 +83,22 @@ impl Progress {
         }
     }
 
+    /// Shows that so many tosses have been made, of nobody knows how many.
+    pub(crate) fn tossed(&self, tosses: u64) {
+        let start = self.start.get_or_init(|| Start {
+            tosses: 0,
+            at: Instant::now(),
+        });
+        if !self.bar.is_hidden() {
+            let rate = tosses as f64 / start.at.elapsed().as_secs_f64();
+            self.bar.set_message(format!(
+                "{} tosses  {}/s",
+                grouped(tosses),
+                with_prefix(rate)
+            ));
+        }
+    }
+
     /// Removes the bar.
     pub(crate) fn finish(&self) {
         self.bar.finish_and_clear();

@@ -60,7 +60,11 @@ mod tests {
 
     #[test]
     fn u_and_value_are_inverse() {
-        for axis in [Axis::new(0.05, 4.0), Axis::new(0.0, 1.0), Axis::new(-2.0, 1.0)] {
+        for axis in [
+            Axis::new(0.05, 4.0),
+            Axis::new(0.0, 1.0),
+            Axis::new(-2.0, 1.0),
+        ] {
             let [from, to] = axis.ends();
             assert!(from < to);
             for share in [0.1, 0.5, 0.9] {

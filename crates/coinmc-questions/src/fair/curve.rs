@@ -38,7 +38,10 @@ pub(super) fn answer(
     let mut tosses = 0;
     for (point, parameters) in first.points.iter().enumerate() {
         let value = |name: &String| {
-            let found = parameters.parameters.iter().find(|(known, _)| **known == **name);
+            let found = parameters
+                .parameters
+                .iter()
+                .find(|(known, _)| **known == **name);
             (name.clone(), found.map_or(f64::NAN, |(_, value)| *value))
         };
         let mut along = Along {
@@ -115,12 +118,13 @@ impl Along<'_> {
                 (scan::Finding::Crossing { .. }, Some(refined)) => {
                     Finding::Root(self.root(refined, &goal)?)
                 }
-                (scan::Finding::Crossing { from, to, .. } | scan::Finding::Near { from, to }, _) => {
-                    Finding::Near {
-                        from: axis.value(from),
-                        to: axis.value(to),
-                    }
-                }
+                (
+                    scan::Finding::Crossing { from, to, .. } | scan::Finding::Near { from, to },
+                    _,
+                ) => Finding::Near {
+                    from: axis.value(from),
+                    to: axis.value(to),
+                },
             });
         }
         Ok((scanned.collect(), findings))
@@ -155,27 +159,43 @@ impl Along<'_> {
     }
 
     /// How far finer numerical settings would move the root.
-    fn numerical(&mut self, root: &Root, z: f64) -> Result<Option<numerical::Numerical>, QuestionError> {
+    fn numerical(
+        &mut self,
+        root: &Root,
+        z: f64,
+    ) -> Result<Option<numerical::Numerical>, QuestionError> {
         let usual = self.plan(root.value)?;
         let finer = numerical::finer(&usual);
         if finer.is_empty() {
             return Ok(None);
         }
         let mut values = vec![(self.question.key.as_str(), format!("{:?}", root.value))];
-        values.extend(finer.iter().map(|(key, value)| (key.as_str(), value.clone())));
+        values.extend(
+            finer
+                .iter()
+                .map(|(key, value)| (key.as_str(), value.clone())),
+        );
         let finer = self.template.plan(&values)?;
         let tosses = self.question.numerical_tosses;
         let pair = [&usual, &finer].map(|plan| At {
             plan,
             point: self.point,
         });
-        let changes = self.workers.compare(&[pair], 0..tosses, self.question.face)?;
+        let changes = self
+            .workers
+            .compare(&[pair], 0..tosses, self.question.face)?;
         self.made += 2 * tosses;
-        Ok(Some(numerical::Numerical::new(changes[0], tosses, root.slope, z)))
+        Ok(Some(numerical::Numerical::new(
+            changes[0], tosses, root.slope, z,
+        )))
     }
 
     fn known(&mut self, axis: Axis) -> Result<(Vec<Scanned>, Vec<Finding>), QuestionError> {
-        let found = known::solve(&mut |value| self.probability(value), axis, self.question.target)?;
+        let found = known::solve(
+            &mut |value| self.probability(value),
+            axis,
+            self.question.target,
+        )?;
         let scanned = found.scanned.iter().map(|(u, at)| Scanned {
             value: axis.value(*u),
             p: at.p,
@@ -197,7 +217,11 @@ impl Along<'_> {
                 coin,
             }))
         };
-        let roots = found.roots.iter().map(root).collect::<Result<_, QuestionError>>()?;
+        let roots = found
+            .roots
+            .iter()
+            .map(root)
+            .collect::<Result<_, QuestionError>>()?;
         Ok((scanned.collect(), roots))
     }
 

@@ -176,9 +176,9 @@ fn maximise(
         HELD
     };
     let prior = Matrix3::from_diagonal(&Vector3::new(FREE, FREE, held));
-    let (shown, tosses) = counts
-        .iter()
-        .fold((0.5, 1.0), |(k, n), c| (k + c.shown as f64, n + c.tosses as f64));
+    let (shown, tosses) = counts.iter().fold((0.5, 1.0), |(k, n), c| {
+        (k + c.shown as f64, n + c.tosses as f64)
+    });
     let mut b = Vector3::new(log_odds(shown / tosses), 0.0, 0.0);
     for _ in 0..MOST_STEPS {
         let (mut pull, mut precision) = (-prior * b, prior);
@@ -245,7 +245,10 @@ mod tests {
     fn the_error_is_that_of_binomial_counts() {
         let fit = Fit::new(&expected(|_| 0.0, 10_000), WINDOW).expect("four values");
         let error = fit.at(0.0025).1;
-        assert!((error - 1.0 / (4.0 * 2_500.0_f64).sqrt()).abs() < 1e-5, "{error}");
+        assert!(
+            (error - 1.0 / (4.0 * 2_500.0_f64).sqrt()).abs() < 1e-5,
+            "{error}"
+        );
     }
 
     #[test]

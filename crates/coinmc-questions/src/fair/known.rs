@@ -110,7 +110,11 @@ mod tests {
         };
         assert!((root.value - 0.5_f64.sqrt()).abs() < 1e-9, "{}", root.value);
         let slope = 4.0 / (0.5_f64 + 4.0).powf(1.5);
-        assert!((root.slope / slope - 1.0).abs() < 1e-4, "{} {slope}", root.slope);
+        assert!(
+            (root.slope / slope - 1.0).abs() < 1e-4,
+            "{} {slope}",
+            root.slope
+        );
         assert!(evaluations < 80);
     }
 }

@@ -247,7 +247,11 @@ fn checked(template: &Template, question: &Question) -> Result<[f64; 2], Questio
         (None, "coin.ratio") => [0.05, 4.0],
         (None, "surface.restitution") => [0.0, 0.95],
         (None, "surface.friction") => [0.0, 1.0],
-        (None, _) => return Err(QuestionError::NoRange { key: key.clone() }),
+        (None, _) => {
+            // a key that does not exist is reported as such
+            template.plan(&[(key, "1.0".to_owned())])?;
+            return Err(QuestionError::NoRange { key: key.clone() });
+        }
     };
     if from.is_finite() && to.is_finite() && from < to {
         Ok([from, to])

@@ -147,7 +147,10 @@ impl Refinement<'_> {
     /// What is known of the root, how many tosses the next stage needs (`None`: no more), and the
     /// slope.
     fn look(&mut self) -> (Stage, Option<u64>, Option<(f64, f64)>) {
-        let place = |place: f64| self.axis.value(self.window.middle + place * self.window.half);
+        let place = |place: f64| {
+            self.axis
+                .value(self.window.middle + place * self.window.half)
+        };
         let mut stage = Stage {
             from: place(-1.0),
             to: place(1.0),

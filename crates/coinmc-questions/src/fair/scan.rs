@@ -20,11 +20,7 @@ const SURE: f64 = 3.3;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Finding {
     /// The face's probability crosses the target between these two, in u.
-    Crossing {
-        from: f64,
-        to: f64,
-        rising: bool,
-    },
+    Crossing { from: f64, to: f64, rising: bool },
     /// It comes near the target between these two, and was not seen to cross.
     Near { from: f64, to: f64 },
 }

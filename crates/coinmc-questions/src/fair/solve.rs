@@ -16,11 +16,18 @@ pub(super) struct Solved {
 }
 
 /// Scans the range and refines every root.
-pub(super) fn solve<T: Tosses>(tosses: &mut T, axis: Axis, goal: &Goal) -> Result<Solved, T::Error> {
+pub(super) fn solve<T: Tosses>(
+    tosses: &mut T,
+    axis: Axis,
+    goal: &Goal,
+) -> Result<Solved, T::Error> {
     let scanned = scan::scan(tosses, axis, goal.target)?;
     let mut first = scan::MOST;
     let mut findings = vec![];
-    for finding in scan::findings(&scanned, goal.target).into_iter().take(MOST_ROOTS) {
+    for finding in scan::findings(&scanned, goal.target)
+        .into_iter()
+        .take(MOST_ROOTS)
+    {
         let refined = match finding {
             Finding::Crossing { from, to, .. } => {
                 let refined = refine(tosses, axis, goal, (from, to), first)?;
@@ -125,7 +132,12 @@ mod tests {
             let mut known = Known { curve, key };
             let Ok(solved) = solve(&mut known, Axis::new(1.0, 40.0), &goal(0.1, 0.2));
             let (_, found) = solved.findings.first().expect("a finding");
-            let last = *found.as_ref().expect("a root").stages.last().expect("a stage");
+            let last = *found
+                .as_ref()
+                .expect("a root")
+                .stages
+                .last()
+                .expect("a stage");
             outside += u32::from(last.lo > Some(root) || last.hi < Some(root));
         }
         // 2 are expected; more than 7 have a chance of 0.1 %
@@ -135,7 +147,10 @@ mod tests {
     #[test]
     fn two_roots_are_two() {
         let hump = |x: f64| 0.5 * (-(x - 1.0) * (x - 1.0) / 0.5).exp();
-        let mut known = Known { curve: hump, key: 1 };
+        let mut known = Known {
+            curve: hump,
+            key: 1,
+        };
         let Ok(solved) = solve(&mut known, Axis::new(0.05, 4.0), &goal(0.3, 0.02));
         let arm = (0.5 * (0.5_f64 / 0.3).ln()).sqrt();
         let roots = [1.0 - arm, 1.0 + arm];
@@ -174,6 +189,9 @@ mod tests {
             ..goal(1.0 / 3.0, 0.01)
         };
         let Ok(solved) = solve(&mut known, Axis::new(0.05, 4.0), &goal);
-        assert!(matches!(solved.findings[..], [(Finding::Near { .. }, None)]));
+        assert!(matches!(
+            solved.findings[..],
+            [(Finding::Near { .. }, None)]
+        ));
     }
 }

@@ -58,6 +58,14 @@ pub const MAX_BYTES: usize = 1 << 20;
 /// # Errors
 /// Every problem found, or that the file cannot be read.
 pub fn load(path: &Path, overrides: &[Override]) -> Result<Plan, Diagnostics> {
+    parse(&path.display().to_string(), &read_text(path)?, overrides)
+}
+
+/// The text of a config file, for [`parse`].
+///
+/// # Errors
+/// One problem, that the file cannot be read or is no text.
+pub fn read_text(path: &Path) -> Result<String, Diagnostics> {
     let name = path.display().to_string();
     let bytes = read(path).map_err(|error| {
         let (message, help) = match error.kind() {
@@ -70,16 +78,13 @@ pub fn load(path: &Path, overrides: &[Override]) -> Result<Plan, Diagnostics> {
         };
         Diagnostics::of_file(&name, message, help)
     })?;
-    match String::from_utf8(bytes) {
-        Ok(text) => parse(&name, &text, overrides),
-        Err(error) => {
-            let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-            let (line, column) = source::end_place(&String::from_utf8_lossy(good));
-            let message = "this is no UTF-8 text".to_owned();
-            let help = Some("save the file as UTF-8".to_owned());
-            Err(Diagnostics::of_file(&name, message, help).at(line, column))
-        }
-    }
+    String::from_utf8(bytes).map_err(|error| {
+        let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let (line, column) = source::end_place(&String::from_utf8_lossy(good));
+        let message = "this is no UTF-8 text".to_owned();
+        let help = Some("save the file as UTF-8".to_owned());
+        Diagnostics::of_file(&name, message, help).at(line, column)
+    })
 }
 
 /// Reads at most one byte more than allowed, to detect larger files without loading them.

@@ -99,6 +99,12 @@ fn key_path(text: &str) -> Option<Vec<(String, Range<usize>)>> {
 }
 
 impl Override {
+    /// Whether it gives a value to this dotted key, or to a table that holds it.
+    pub fn is_about(&self, key: &str) -> bool {
+        let mut wanted = key.split('.');
+        self.keys.iter().all(|(given, _)| wanted.next() == Some(given))
+    }
+
     /// Puts the value into the tree, or reports what is wrong with it.
     pub(super) fn apply(&self, sources: &mut Sources, root: &mut Table, problems: &mut Problems) {
         let source = sources.add("--set", &self.text);
@@ -169,5 +175,14 @@ mod tests {
         }
         let deep = format!("{}a=1", "a.".repeat(100_000));
         assert!(deep.parse::<Override>().is_err());
+    }
+
+    #[test]
+    fn an_override_is_about_its_key_and_what_is_in_it() {
+        let set: Override = "surface={friction=0.2}".parse().expect("an override");
+        assert!(set.is_about("surface.friction") && !set.is_about("coin.ratio"));
+        let set: Override = "surface.friction=0.2".parse().expect("an override");
+        assert!(set.is_about("surface.friction") && !set.is_about("surface.restitution"));
+        assert!(!set.is_about("surface"));
     }
 }

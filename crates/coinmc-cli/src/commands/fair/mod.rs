@@ -1,0 +1,255 @@
+//! `coinmc fair`: the value of a parameter at which a face has a given probability.
+
+mod quantity;
+mod report;
+mod to_json;
+
+use crate::exit::{Failure, Outcome};
+use crate::interrupt;
+use crate::output::{self, Console, Format};
+use crate::terminal::progress::Progress;
+use anyhow::{Context, anyhow};
+use clap::Args;
+use coinmc::config::{self, Override};
+use coinmc_core::Face;
+use coinmc_questions::assumptions::{self, Effect};
+use coinmc_questions::scenes::EverydayScene;
+use coinmc_questions::{self as questions, Fair as Answer, Question, QuestionError, Size};
+use coinmc_questions::{Template, Workers};
+use quantity::{Density, Length, Mass, Volume};
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+const EXAMPLES: &str = "\
+Examples:
+  coinmc fair                                       how thick is a fair coin on a table?
+  coinmc fair --scene felt --diameter 30mm          … one of 30 mm, on felt
+  coinmc fair toss.toml --show                      in the scene of a config
+  coinmc fair toss.toml --vary surface.restitution  which bounce makes this coin fair?
+  coinmc fair toss.toml --face heads --target 0.45
+
+Scenes: table, wood, glass, steel, felt, billiards, floor. What each assumes is printed with the
+answer.";
+
+/// Find how thick a fair coin is, with the error of the answer
+///
+/// Searches for the ratio H/R (or another parameter) at which a face comes up with a given
+/// probability: by default the side in a third of the tosses. Without a config it answers for an
+/// everyday scene and says what that assumes, and how far each assumption moves the answer.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Fair {
+    /// The config (TOML) of the scene; its ratio and its [stop] have no effect
+    config: Option<PathBuf>,
+
+    /// Everyday scene [default: table]
+    #[arg(long, value_name = "NAME", conflicts_with = "config")]
+    scene: Option<String>,
+
+    /// The face
+    #[arg(long, value_name = "FACE", value_parser = face, default_value = "side")]
+    face: Face,
+
+    /// Its probability [default: 1/3]
+    #[arg(long, value_name = "P", allow_negative_numbers = true)]
+    target: Option<f64>,
+
+    /// The parameter that is varied, by its key
+    #[arg(long, value_name = "KEY", default_value = "coin.ratio")]
+    vary: String,
+
+    /// Least value to search [default for coin.ratio: 0.05]
+    #[arg(long, value_name = "X", requires = "to", allow_negative_numbers = true)]
+    from: Option<f64>,
+
+    /// Largest value to search [default for coin.ratio: 4]
+    #[arg(
+        long,
+        value_name = "X",
+        requires = "from",
+        allow_negative_numbers = true
+    )]
+    to: Option<f64>,
+
+    /// Search until the interval is no wider than ± this
+    #[arg(
+        long,
+        value_name = "W",
+        default_value_t = 0.005,
+        allow_negative_numbers = true
+    )]
+    half_width: f64,
+
+    /// Tosses of each answer at which the search stops short of that
+    #[arg(long, value_name = "N", default_value_t = 10_000_000)]
+    max_tosses: u64,
+
+    /// Tosses with finer numerical settings, which show the numerical error; 0 for none
+    #[arg(long, value_name = "N", default_value_t = 2048)]
+    numerical: u64,
+
+    /// Tosses of each assumption of an everyday scene, which show its effect; 0 for none
+    #[arg(long, value_name = "N", default_value_t = 1024)]
+    assumptions: u64,
+
+    /// Diameter of the coin, such as 24mm
+    #[arg(long, value_name = "LENGTH", conflicts_with_all = ["volume", "mass"])]
+    diameter: Option<Length>,
+
+    /// Volume of the coin, such as 1.2cm3
+    #[arg(long, value_name = "VOLUME", conflicts_with = "mass")]
+    volume: Option<Volume>,
+
+    /// Mass of the coin, such as 7.5g; with its density
+    #[arg(long, value_name = "MASS", requires = "density")]
+    mass: Option<Mass>,
+
+    /// Density of the coin, such as 1.24g/cm3
+    #[arg(long, value_name = "DENSITY", requires = "mass")]
+    density: Option<Density>,
+
+    /// Show how the search went
+    #[arg(long)]
+    show: bool,
+
+    /// Number of threads [default: one per core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+
+    /// Replace or add a value of the config, as in `surface.friction=0.2`; repeatable
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    overrides: Vec<Override>,
+
+    /// How to write the result
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+
+    /// Show no progress and no remarks, only warnings and errors
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// The answer, and what it rests on.
+struct Answered {
+    scene: Option<EverydayScene>,
+    answer: Answer,
+    /// Effects of the scene's assumptions on its only root.
+    effects: Vec<Effect>,
+}
+
+fn face(name: &str) -> Result<Face, String> {
+    let found = Face::ALL.into_iter().find(|face| face.name() == name);
+    found.ok_or_else(|| "expected heads, tails or side".to_owned())
+}
+
+impl Fair {
+    pub(crate) fn format(&self) -> Format {
+        self.format
+    }
+
+    pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
+        let (scene, template) = self.template()?;
+        let progress = Progress::new(*console.stderr(), self.quiet);
+        let told = progress.clone();
+        let cancel =
+            interrupt::listen(move || told.note("stopping; press Ctrl-C again to stop at once"))
+                .context("cannot listen for signals")
+                .map_err(Failure::Runtime)?;
+        let made = AtomicU64::new(0);
+        let tell = |tosses| {
+            let made = made.fetch_add(tosses, Ordering::Relaxed) + tosses;
+            progress.tossed(made);
+        };
+        let workers = Workers {
+            threads: self.threads.and_then(|n| NonZeroUsize::new(n.into())),
+            cancel,
+            made: &tell,
+        };
+        let answered = self.answer(scene, &template, &workers);
+        progress.finish();
+        match answered {
+            Ok(answered) => self.present(&answered, console),
+            Err(QuestionError::Stopped) => Ok(Outcome::Interrupted),
+            Err(error) => Err(error.into()),
+        }
+    }
+
+    fn template(&self) -> Result<(Option<EverydayScene>, Template), Failure> {
+        let (scene, template) = if let Some(path) = &self.config {
+            let text = config::read_text(path)?;
+            let name = path.display().to_string();
+            (None, Template::new(name, text, &self.overrides))
+        } else {
+            let first = EverydayScene::ALL[0].name;
+            let scene = EverydayScene::named(self.scene.as_deref().unwrap_or(first))?;
+            (Some(scene), scene.template(&self.overrides))
+        };
+        let size = match (self.diameter, self.volume, self.mass, self.density) {
+            (Some(Length(diameter)), ..) => Size::Diameter(diameter),
+            (_, Some(Volume(volume)), ..) => Size::Volume(volume),
+            (_, _, Some(Mass(mass)), Some(Density(density))) => Size::Volume(mass / density),
+            _ => Size::OfConfig,
+        };
+        Ok((scene, template.with_size(size)?))
+    }
+
+    fn answer(
+        &self,
+        scene: Option<EverydayScene>,
+        template: &Template,
+        workers: &Workers<'_>,
+    ) -> Result<Answered, QuestionError> {
+        let question = Question {
+            key: self.vary.clone(),
+            range: self.from.zip(self.to).map(|(from, to)| [from, to]),
+            face: self.face,
+            target: self.target.unwrap_or(1.0 / 3.0),
+            half_width: self.half_width,
+            max_tosses: self.max_tosses,
+            numerical_tosses: self.numerical,
+        };
+        let answer = questions::fair(template, &question, workers)?;
+        let mut effects = vec![];
+        if let (Some(scene), [curve], true) = (scene, &answer.curves[..], self.assumptions > 0)
+            && let Some(root) = curve.roots().next()
+        {
+            let assumed = self.assumed(&scene);
+            effects =
+                assumptions::effects(template, &answer, root, assumed, self.assumptions, workers)?;
+        }
+        Ok(Answered {
+            scene,
+            answer,
+            effects,
+        })
+    }
+
+    /// What the scene assumes and the command line does not say otherwise.
+    fn assumed(&self, scene: &EverydayScene) -> Vec<coinmc_questions::scenes::Assumption> {
+        let sized = self.diameter.is_some() || self.volume.is_some() || self.mass.is_some();
+        let said = |key: &str| {
+            (sized && key == "coin.radius_m") || self.overrides.iter().any(|set| set.is_about(key))
+        };
+        let assumptions = scene.assumptions().into_iter();
+        assumptions.filter(|assumed| !said(assumed.key)).collect()
+    }
+
+    fn present(&self, answered: &Answered, console: &Console) -> Result<Outcome, Failure> {
+        match console.format() {
+            Format::Json => output::print_json(&to_json::document(answered)),
+            Format::Table => output::print(&report::text(answered, self.show, console.stdout())),
+        }
+        .map_err(|error| Failure::Runtime(anyhow!(error)))?;
+        let curves = &answered.answer.curves;
+        let short = curves
+            .iter()
+            .flat_map(|curve| curve.roots())
+            .any(|root| !root.reached);
+        Ok(if short {
+            Outcome::ShortOfTarget
+        } else {
+            Outcome::Done
+        })
+    }
+}

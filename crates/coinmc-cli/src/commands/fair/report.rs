@@ -1,0 +1,252 @@
+//! The answer as text.
+
+use super::Answered;
+use crate::terminal::table::{Column, Table};
+use crate::terminal::{Colors, Style, compact, decimals_for, grouped, in_ascii, wrapped};
+use coinmc_core::Coin;
+use coinmc_questions::assumptions::Effect;
+use coinmc_questions::{Curve, Fair, Finding, Root};
+
+/// The whole answer.
+pub(super) fn text(answered: &Answered, show: bool, style: &Style) -> String {
+    let Answered {
+        scene,
+        answer,
+        effects,
+    } = answered;
+    let mut text = String::new();
+    if let Some(scene) = scene {
+        let line = format!(
+            "Scene {}: {}; a coin of metal, tossed by hand from {} m above it.",
+            scene.name,
+            scene.doc,
+            compact(scene.height_m)
+        );
+        text += &wrapped(&line, style.width, 0);
+    }
+    let title = format!(
+        "{} such that P({}) = {} (engine {}, {}):",
+        name(&answer.question.key),
+        answer.question.face.name(),
+        target(answer.question.target),
+        answer.engine,
+        answer.law
+    );
+    text += &format!("{}\n", style.paint(Colors::Strong, &title));
+    for curve in &answer.curves {
+        text += &of_curve(answer, curve, show, style);
+    }
+    if !effects.is_empty() {
+        text += &assumptions(effects, style);
+    }
+    if style.unicode { text } else { in_ascii(&text) }
+}
+
+/// `H/R` for the ratio, else the key.
+fn name(key: &str) -> &str {
+    if key == "coin.ratio" { "H/R" } else { key }
+}
+
+fn target(p: f64) -> String {
+    if p == 1.0 / 3.0 {
+        "1/3".to_owned()
+    } else {
+        compact(p)
+    }
+}
+
+fn of_curve(answer: &Fair, curve: &Curve, show: bool, style: &Style) -> String {
+    let mut text = String::new();
+    if !curve.at.is_empty() {
+        let at = curve
+            .at
+            .iter()
+            .map(|(name, value)| format!("{name} = {}", compact(*value)));
+        text += &format!("at {}:\n", at.collect::<Vec<_>>().join(", "));
+    }
+    for finding in &curve.findings {
+        text += &match finding {
+            Finding::Root(root) => of_root(answer, root, style),
+            Finding::Near { from, to } => format!(
+                "    none seen, but P comes too near to the target to tell from {} to {}\n",
+                compact(*from),
+                compact(*to)
+            ),
+        };
+    }
+    if curve.findings.is_empty() {
+        text += &nowhere(answer, curve);
+    }
+    if show {
+        text += &history(answer, curve, style);
+    }
+    text
+}
+
+/// Where the target lies outside of what was seen.
+fn nowhere(answer: &Fair, curve: &Curve) -> String {
+    let [least, most] = curve.extremes();
+    let side = if most.p < answer.question.target {
+        "below"
+    } else {
+        "above"
+    };
+    format!(
+        "    none: P stays {side} the target, between {} at {} and {} at {}\n",
+        compact(round(least.p)),
+        compact(round(least.value)),
+        compact(round(most.p)),
+        compact(round(most.value))
+    )
+}
+
+/// To four decimals.
+fn round(x: f64) -> f64 {
+    libm::round(1e4 * x) / 1e4
+}
+
+fn of_root(answer: &Fair, root: &Root, style: &Style) -> String {
+    let key = name(&answer.question.key);
+    let arm = root.half_width();
+    let decimals = decimals_for(arm);
+    let number = |x: f64| format!("{x:.decimals$}");
+    let end = |end: Option<f64>| end.map_or_else(|| "open".to_owned(), number);
+    let mut text = format!("    {key} = {}", number(root.value));
+    if arm.is_finite() && arm > 0.0 {
+        text += &format!(" ± {arm:.decimals$}");
+    }
+    let percent = compact(100.0 * answer.confidence);
+    let tosses = if answer.known {
+        "without tosses".to_owned()
+    } else {
+        format!("{} tosses", grouped(root.tosses))
+    };
+    text = style.paint(Colors::Strong, &text);
+    text += &format!(
+        "    {percent} %: [{}, {}], {tosses}{}\n",
+        end(root.lo),
+        end(root.hi),
+        if root.reached {
+            ""
+        } else {
+            ", short of the half width asked for"
+        }
+    );
+    text += &slope(key, root);
+    if let Some(numerical) = root.numerical {
+        text += &format!(
+            "    finer numerical settings move it by {:+.3} [{:+.3}, {:+.3}], {} pairs of tosses\n",
+            numerical.shift,
+            numerical.lo,
+            numerical.hi,
+            grouped(numerical.tosses)
+        );
+    }
+    if root.undecided > 0 {
+        text += &format!(
+            "    {} tosses stayed undecided; the interval allows for any face of them\n",
+            grouped(root.undecided)
+        );
+    }
+    text + &size(&root.coin, arm)
+}
+
+fn slope(key: &str, root: &Root) -> String {
+    if root.is_on_plateau() {
+        return format!("    a plateau: P hardly depends on {key} here\n");
+    }
+    let decimals = decimals_for(root.slope_error).min(4);
+    let error = if root.slope_error > 0.0 {
+        format!(" ± {:.decimals$}", 1.96 * root.slope_error)
+    } else {
+        String::new()
+    };
+    format!("    dP/d({key}) = {:.decimals$}{error}\n", root.slope)
+}
+
+/// `a coin of 23.25 mm is 11.5 ± 0.06 mm thick`.
+fn size(coin: &Coin, arm: f64) -> String {
+    let (diameter, thickness) = (2e3 * coin.radius_m(), 1e3 * coin.height_m());
+    let error = 1e3 * arm * coin.radius_m();
+    let error = if error > 0.0 && error.is_finite() && error < thickness {
+        format!(" ± {error:.2}")
+    } else {
+        String::new()
+    };
+    format!("    a coin {diameter:.2} mm in diameter is then {thickness:.2}{error} mm thick\n")
+}
+
+/// How the search went.
+fn history(answer: &Fair, curve: &Curve, style: &Style) -> String {
+    let key = name(&answer.question.key);
+    let face = answer.question.face.name();
+    let mut scan = Table::new(vec![
+        Column::right(key),
+        Column::right(format!("P({face})")),
+        Column::right("tosses"),
+    ]);
+    for scanned in &curve.scan {
+        scan.push(vec![
+            compact(round(scanned.value)),
+            format!("{:.4}", scanned.p),
+            grouped(scanned.tosses),
+        ]);
+    }
+    let mut text = format!("Scan:\n{}", scan.render(style).text);
+    for root in curve.roots().filter(|root| !root.stages.is_empty()) {
+        let mut stages = Table::new(vec![
+            Column::left("tossed between"),
+            Column::right("tosses"),
+            Column::right(key),
+            Column::left(format!("{} % interval", compact(100.0 * answer.confidence))),
+        ]);
+        for stage in &root.stages {
+            let decimals = decimals_for(stage.half_width());
+            let end =
+                |end: Option<f64>| end.map_or("open".to_owned(), |x| format!("{x:.decimals$}"));
+            stages.push(vec![
+                format!("{:.4} and {:.4}", stage.from, stage.to),
+                grouped(stage.tosses),
+                format!("{:.decimals$}", stage.value),
+                format!("[{}, {}]", end(stage.lo), end(stage.hi)),
+            ]);
+        }
+        text += &format!("Stages:\n{}", stages.render(style).text);
+    }
+    text
+}
+
+/// What the scene assumes, and how far each assumption moves the root.
+fn assumptions(effects: &[Effect], style: &Style) -> String {
+    let mut table = Table::new(vec![
+        Column::left("assumed"),
+        Column::right("is"),
+        Column::left("may be"),
+        Column::left("answer then"),
+        Column::right("error"),
+        Column::left("source").droppable(1),
+    ]);
+    for effect in effects {
+        let assumption = &effect.assumption;
+        let [low, high] = &effect.roots;
+        table.push(vec![
+            assumption.key.to_owned(),
+            compact(assumption.value),
+            format!("{} to {}", three(assumption.low), three(assumption.high)),
+            format!("{:.2} to {:.2}", low.value, high.value),
+            format!("± {:.2}", low.half_width.max(high.half_width)),
+            assumption.source.to_owned(),
+        ]);
+    }
+    let title = style.paint(
+        Colors::Strong,
+        "What it rests on, and where the answer would be if that were otherwise:",
+    );
+    format!("{title}\n{}", table.render(style).text)
+}
+
+/// To three digits.
+fn three(x: f64) -> String {
+    let rounded: f64 = format!("{x:.2e}").parse().unwrap_or(x);
+    compact(rounded)
+}

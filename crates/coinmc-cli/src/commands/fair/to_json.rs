@@ -1,0 +1,100 @@
+//! The answer as JSON.
+
+use super::Answered;
+use crate::output::FORMAT_VERSION;
+use coinmc_questions::assumptions::Effect;
+use coinmc_questions::{Curve, Finding, Root};
+use serde_json::{Map, Value, json};
+
+/// The whole answer.
+pub(super) fn document(answered: &Answered) -> Value {
+    let answer = &answered.answer;
+    let question = &answer.question;
+    json!({
+        "format_version": FORMAT_VERSION,
+        "kind": "fair",
+        "scene": answered.scene.map(|scene| scene.name),
+        "parameter": question.key,
+        "searched": question.range,
+        "face": question.face.name(),
+        "target": question.target,
+        "half_width": question.half_width,
+        "confidence": answer.confidence,
+        "engine": answer.engine,
+        "law": answer.law,
+        "tosses": answer.tosses,
+        "curves": answer.curves.iter().map(curve).collect::<Vec<_>>(),
+        "assumptions": answered.effects.iter().map(effect).collect::<Vec<_>>(),
+    })
+}
+
+fn curve(curve: &Curve) -> Value {
+    let at: Map<String, Value> = curve
+        .at
+        .iter()
+        .map(|(name, value)| (name.clone(), json!(value)))
+        .collect();
+    let near = curve.findings.iter().filter_map(|finding| match finding {
+        Finding::Near { from, to } => Some(json!({ "from": from, "to": to })),
+        Finding::Root(_) => None,
+    });
+    let scan = curve
+        .scan
+        .iter()
+        .map(|scanned| json!({ "value": scanned.value, "p": scanned.p, "tosses": scanned.tosses }));
+    json!({
+        "at": at,
+        "roots": curve.roots().map(root).collect::<Vec<_>>(),
+        "near": near.collect::<Vec<_>>(),
+        "scan": scan.collect::<Vec<_>>(),
+    })
+}
+
+fn root(root: &Root) -> Value {
+    let stages = root.stages.iter().map(|stage| {
+        json!({
+            "from": stage.from,
+            "to": stage.to,
+            "tosses": stage.tosses,
+            "value": stage.value,
+            "lo": stage.lo,
+            "hi": stage.hi,
+        })
+    });
+    json!({
+        "value": root.value,
+        "lo": root.lo,
+        "hi": root.hi,
+        "reached": root.reached,
+        "slope": root.slope,
+        "slope_error": root.slope_error,
+        "plateau": root.is_on_plateau(),
+        "tosses": root.tosses,
+        "undecided": root.undecided,
+        "numerical": root.numerical.map(|numerical| json!({
+            "shift": numerical.shift,
+            "lo": numerical.lo,
+            "hi": numerical.hi,
+            "tosses": numerical.tosses,
+        })),
+        "diameter_m": 2.0 * root.coin.radius_m(),
+        "thickness_m": root.coin.height_m(),
+        "stages": stages.collect::<Vec<_>>(),
+    })
+}
+
+fn effect(effect: &Effect) -> Value {
+    let assumption = &effect.assumption;
+    let moved = effect
+        .roots
+        .map(|moved| json!({ "value": moved.value, "half_width": moved.half_width }));
+    json!({
+        "parameter": assumption.key,
+        "value": assumption.value,
+        "low": assumption.low,
+        "high": assumption.high,
+        "source": assumption.source,
+        "root_at_low": moved[0],
+        "root_at_high": moved[1],
+    })
+}
