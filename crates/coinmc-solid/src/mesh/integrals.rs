@@ -107,11 +107,10 @@ mod tests {
             assert!((found - expected).abs() < 1e-12);
         }
         let diagonal = [b * b + c * c, c * c + a * a, a * a + b * b].map(|x| volume * x / 12.0);
-        let inertia = mesh.inertia_m5();
-        for i in 0..3 {
-            for j in 0..3 {
+        for (i, row) in mesh.inertia_m5().into_iter().enumerate() {
+            for (j, found) in row.into_iter().enumerate() {
                 let expected = if i == j { diagonal[i] } else { 0.0 };
-                assert!((inertia[i][j] - expected).abs() < 1e-10, "{i} {j}");
+                assert!((found - expected).abs() < 1e-10, "{i} {j}");
             }
         }
     }
