@@ -131,8 +131,8 @@ mod tests {
             doubled.triangles.push(whole.triangles[k]);
             assert!(!doubled.is_watertight(), "the same triangle twice");
             let mut flat = whole.clone();
-            flat.triangles.push([0, 0, 0]);
-            assert!(!flat.is_watertight(), "a point");
+            flat.triangles.push([0, 0, 7]);
+            assert!(!flat.is_watertight(), "a line there and back");
         }
         let none = Mesh {
             vertices: Vec::new(),

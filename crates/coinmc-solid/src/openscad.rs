@@ -10,8 +10,8 @@ const PROGRAM: &str = include_str!("coin.scad");
 /// Writes the coin as OpenSCAD source, in millimetres. The same shape gives the same bytes.
 ///
 /// Its measures are variables at the top. OpenSCAD puts the corners of its polygons on the circles, which
-/// makes the coin lighter by 0.02 % with the 180 corners written here: for a mesh of the circles' area use
-/// the other formats.
+/// makes the coin lighter by 0.02 % with the 180 corners written here: for a mesh of the circles' area
+/// use the other formats.
 ///
 /// # Errors
 /// Those of `out`.

@@ -23,8 +23,8 @@ const RELATIONSHIPS: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 </Relationships>
 "#;
 
-/// Writes a mesh as a 3MF package, in millimetres, with a title for people to read. The same mesh and title
-/// give the same bytes.
+/// Writes a mesh as a 3MF package, in millimetres, with a title for people to read. The same mesh and
+/// title give the same bytes.
 ///
 /// The object's origin is the coin's centre; the build item moves it to where printers build, with all
 /// coordinates positive.

@@ -2,7 +2,7 @@
 //!
 //! 80 bytes of free text, the number of triangles, and for each its normal, three corners and two
 //! bytes of no meaning; all numbers in little endian, coordinates in single precision. The format has
-//! no unit: slicers take millimetres. (3D Systems, "StereoLithography Interface Specification", 1988.)
+//! no unit: slicers take millimetres. (3D Systems, "Stereolithography Interface Specification".)
 
 use crate::mesh::{Mesh, cross};
 use std::io::{self, Write};

@@ -10,7 +10,6 @@ use std::f64::consts::FRAC_PI_2;
 /// The mesh of a shape.
 pub(super) fn mesh(shape: &Shape, fineness: Fineness) -> Mesh {
     let mut lathe = Lathe::new(fineness.around, fineness.triangles(shape));
-    let half = shape.thickness_m() / 2.0;
     let rows: Vec<Row> = outline(shape, fineness.edge)
         .into_iter()
         .map(|[rho, z]| lathe.circle(rho, z))
@@ -19,42 +18,21 @@ pub(super) fn mesh(shape: &Shape, fineness: Fineness) -> Mesh {
         lathe.band(&pair[0], &pair[1]);
     }
     let (top, bottom) = (&rows[0], &rows[rows.len() - 1]);
+    let half = shape.thickness_m() / 2.0;
     let (heads, tails) = (lathe.centre(half), lathe.centre(-half));
-    match shape.marks() {
-        None => {
-            lathe.fan_out(heads, top);
-            lathe.fan_in(bottom, tails);
-        }
-        Some(Marks {
-            inner_m,
-            outer_m,
-            depth_m,
-        }) => {
-            let inner = lathe.circle(inner_m, half);
-            let outer = lathe.circle(outer_m, half);
-            lathe.fan_out(heads, &inner);
-            let floor = half - depth_m;
-            ring(
-                &mut lathe,
-                Marks::HEADS,
-                (&inner, inner_m),
-                (&outer, outer_m),
-                floor,
-            );
-            lathe.band(&outer, top);
-
-            let inner = lathe.circle(inner_m, -half);
-            let outer = lathe.circle(outer_m, -half);
-            lathe.band(bottom, &outer);
-            ring(
-                &mut lathe,
-                Marks::TAILS,
-                (&outer, outer_m),
-                (&inner, inner_m),
-                -floor,
-            );
-            lathe.fan_in(&inner, tails);
-        }
+    if let Some(marks) = shape.marks() {
+        let (inner, outer, floor) = (marks.inner_m, marks.outer_m, half - marks.depth_m);
+        let [inner_row, outer_row] = ring(&mut lathe, Marks::HEADS, [inner, outer], [half, floor]);
+        lathe.fan_out(heads, &inner_row);
+        lathe.band(&outer_row, top);
+        // inwards, as the outline runs at the bottom
+        let [outer_row, inner_row] =
+            ring(&mut lathe, Marks::TAILS, [outer, inner], [-half, -floor]);
+        lathe.band(bottom, &outer_row);
+        lathe.fan_in(&inner_row, tails);
+    } else {
+        lathe.fan_out(heads, top);
+        lathe.fan_in(bottom, tails);
     }
     lathe.finish()
 }
@@ -92,11 +70,18 @@ fn upper_edge(shape: &Shape, steps: u32) -> Vec<[f64; 2]> {
     }
 }
 
-/// The part of a face between two circles, each with its radius, of which `n` recesses take half.
+/// The part of a face from one radius to another, of which `n` recesses take half, with the heights of
+/// the face and of their floors. Returns its first and its last circle.
 ///
 /// The recess number i begins at the angle 2πi/n and ends at 2π(i + 1/2)/n.
-fn ring(lathe: &mut Lathe, n: u32, from: (&[u32], f64), to: (&[u32], f64), floor_z: f64) {
-    let ((from, from_rho), (to, to_rho)) = (from, to);
+fn ring(
+    lathe: &mut Lathe,
+    n: u32,
+    [from_rho, to_rho]: [f64; 2],
+    [face_z, floor_z]: [f64; 2],
+) -> [Row; 2] {
+    let from = lathe.circle(from_rho, face_z);
+    let to = lathe.circle(to_rho, face_z);
     let period = lathe.corners() / n as usize;
     for start in (0..lathe.corners()).step_by(period) {
         let (end, next) = (start + period / 2, start + period);
@@ -112,4 +97,5 @@ fn ring(lathe: &mut Lathe, n: u32, from: (&[u32], f64), to: (&[u32], f64), floor
         lathe.quad([down[last], foot[last], rise[last], up[last]]);
         lathe.band(&from[end..=next], &to[end..=next]);
     }
+    [from, to]
 }

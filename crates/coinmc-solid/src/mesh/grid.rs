@@ -4,9 +4,10 @@ use std::f64::consts::PI;
 
 /// The directions of a regular polygon's corners, longer than one so that it has the circle's area.
 ///
-/// A polygon of N corners at the distance R' has the area N R'²/2 sin ψ with ψ = 2π/N, so R' = R
-/// sqrt(ψ/sin ψ). Its corners lie R ψ²/12 outside the circle, the middles of its sides R ψ²/24 inside: less
-/// than the R ψ²/8 of an inscribed polygon. Its moment ∫ρ² dA is the circle's times 1 + ψ⁴/180 + …
+/// A polygon of N corners at the distance R' has the area N R'²/2 sin ψ with ψ = 2π/N, so that
+/// R' = R sqrt(ψ/sin ψ). Its corners lie R ψ²/12 outside the circle, the middles of its sides R ψ²/24
+/// inside: less than the R ψ²/8 of an inscribed polygon. Its moment ∫ρ² dA is the circle's times
+/// 1 + ψ⁴/180 + …
 pub(super) struct Grid {
     directions: Vec<[f64; 2]>,
 }

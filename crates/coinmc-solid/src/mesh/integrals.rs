@@ -1,14 +1,15 @@
 //! Volume, centre and inertia of a mesh as a solid of density one.
 //!
-//! Every triangle (a, b, c) spans a tetrahedron with the origin, of the volume det(a, b, c)/6 with the sign
-//! of its side. The sum over a closed surface is the integral over the solid. Over one tetrahedron of
+//! Every triangle (a, b, c) spans a tetrahedron with the origin, of the volume det(a, b, c)/6 with the
+//! sign of its side. The sum over a closed surface is the integral over the solid. Over one tetrahedron of
 //! volume v, with s = a + b + c,
 //!
 //! ∫x_i dV = v s_i/4,  ∫x_i x_j dV = v (a_i a_j + b_i b_j + c_i c_j + s_i s_j)/20.
 //!
 //! F. Tonon, "Explicit exact formulas for the 3-D tetrahedron inertia tensor in terms of its vertex
 //! coordinates", Journal of Mathematics and Statistics 1 (2005) 8–11; for any polyhedron: B. Mirtich,
-//! "Fast and accurate computation of polyhedral mass properties", Journal of Graphics Tools 1 (1996) 31–50.
+//! "Fast and accurate computation of polyhedral mass properties", Journal of Graphics Tools 1 (1996)
+//! 31–50.
 
 use super::Mesh;
 

@@ -1,8 +1,8 @@
 //! Surfaces between circles around the axis.
 //!
-//! The outline of the coin is a path that begins on the axis at the top, goes out to the rim, down
-//! the side and back to the axis at the bottom: the solid is on its right. Every part of it is turned about the
-//! axis, from row to row of vertices, into a band whose normals point away from the solid.
+//! The outline of the coin is a path that begins on the axis at the top, goes out to the rim, down the
+//! side and back to the axis at the bottom: the solid is on its right. Every part of it is turned about
+//! the axis, from row to row of vertices, into a band whose normals point away from the solid.
 
 use super::Mesh;
 use super::grid::Grid;
