@@ -5,9 +5,10 @@ The engines of coinmc at native speed, with NumPy arrays in and out:
 * `toss`, `launches`: individual tosses, with launches drawn at random or your own;
 * `estimate`: probabilities with intervals, in memory; `run`, `open`: in a run directory;
 * `trace`: the recorded motion of one toss;
+* `fair`: how thick is a fair coin, here or in everyday `scenes`?
 * `sensitivity`: how strongly probabilities depend on parameters;
 * `check`, `Config`: what a config means;
-** `coinmc.analytic`: closed forms; `coinmc.film`: drops on film; `coinmc.plot`: plots.
+* `coinmc.analytic`: closed forms; `coinmc.film`: drops on film; `coinmc.plot`: plots.
 
 All quantities are in SI units, and names carry their unit. *Ratio* always means H/R, height over
 **radius**. z points up, the surface is z = 0, and *heads* means that heads shows. The guide is
@@ -30,7 +31,7 @@ True
 import importlib
 from typing import TYPE_CHECKING, Any
 
-from coinmc import analytic
+from coinmc import _lib, analytic
 from coinmc._codes import Ended, Face
 from coinmc._config import Config, ConfigLike, Group, Scene, Stop, check
 from coinmc._errors import ConfigError, Error, FilmError, Problem, RunError, TraceError
@@ -43,6 +44,7 @@ from coinmc._trace import EVENT, SAMPLE, Trace, trace
 
 if TYPE_CHECKING:
     from coinmc import film, plot
+    from coinmc._fair import Fair, FairRoot, fair
     from coinmc._sensitivity import Sensitivity, sensitivity
 
 __all__ = [
@@ -58,6 +60,8 @@ __all__ = [
     "Error",
     "Estimate",
     "Face",
+    "Fair",
+    "FairRoot",
     "FilmError",
     "Group",
     "Problem",
@@ -74,11 +78,13 @@ __all__ = [
     "analytic",
     "check",
     "estimate",
+    "fair",
     "film",
     "launches",
     "open",
     "plot",
     "run",
+    "scenes",
     "sensitivity",
     "toss",
     "trace",
@@ -88,9 +94,24 @@ __all__ = [
 _LAZY = {
     "film": "coinmc.film",
     "plot": "coinmc.plot",
+    "Fair": "coinmc._fair",
+    "FairRoot": "coinmc._fair",
+    "fair": "coinmc._fair",
     "Sensitivity": "coinmc._sensitivity",
     "sensitivity": "coinmc._sensitivity",
 }
+
+
+def scenes() -> dict[str, str]:
+    """Return the everyday scenes of `fair`: what each is, by its name.
+
+    Examples
+    --------
+    >>> import coinmc
+    >>> coinmc.scenes()["wood"]
+    'a finished table top of solid wood'
+    """
+    return dict(_lib.scenes())
 
 
 def __getattr__(name: str) -> Any:

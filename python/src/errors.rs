@@ -3,6 +3,7 @@
 use coinmc::config::Diagnostics;
 use coinmc::run::RunError;
 use coinmc_film::text::Diagnostics as FilmDiagnostics;
+use coinmc_questions::QuestionError;
 use coinmc_trace::TraceError;
 use pyo3::PyErr;
 use pyo3::exceptions::PyValueError;
@@ -49,6 +50,18 @@ pub(crate) fn film(error: impl ToString) -> PyErr {
 /// Why a run stopped.
 pub(crate) fn run(error: &RunError) -> PyErr {
     python::RunError::new_err(error.to_string())
+}
+
+/// Why a question has no answer.
+pub(crate) fn question(error: &QuestionError) -> PyErr {
+    match error {
+        QuestionError::Config(found) => config(found),
+        QuestionError::Run(error) => run(error),
+        QuestionError::Engine(_) | QuestionError::Thread(_) => {
+            python::RunError::new_err(error.to_string())
+        }
+        _ => value(error),
+    }
 }
 
 /// Why there is no trace.

@@ -5,7 +5,7 @@
 //! `plan` configs · `supervise` long work, signals and progress · `share` threads · `launch`
 //! launches as rows of numbers · `columns` and `toss` individual tosses · `run` estimates and runs
 //! · `results` tables, also as Arrow · `interval` intervals of proportions · `trace` recorded
-//! motion of a toss ·
+//! motion of a toss · `fair` questions ·
 //! `analytic` closed forms · `film` drops on film · `errors` exceptions.
 
 // Arguments converted from Python are owned.
@@ -14,6 +14,7 @@
 mod analytic;
 mod columns;
 mod errors;
+mod fair;
 mod film;
 mod interval;
 mod launch;
@@ -32,6 +33,8 @@ use pyo3::prelude::*;
 mod _lib {
     #[pymodule_export]
     use super::analytic::{closed_form, no_bounce_rule};
+    #[pymodule_export]
+    use super::fair::{fair, scenes};
     #[pymodule_export]
     use super::film::{fit_film, read_film};
     #[pymodule_export]

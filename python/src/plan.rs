@@ -173,7 +173,7 @@ impl Plan {
     }
 }
 
-fn parsed(overrides: &[String]) -> PyResult<Vec<Override>> {
+pub(crate) fn parsed(overrides: &[String]) -> PyResult<Vec<Override>> {
     overrides
         .iter()
         .map(|text| text.parse::<Override>())

@@ -4,7 +4,7 @@
 use crate::commands::Film;
 #[cfg(feature = "robot")]
 use crate::commands::Robot;
-use crate::commands::{Analytic, Check, Completions, Fair, Merge, Run, Schema, Trace};
+use crate::commands::{Analytic, Check, Completions, Design, Fair, Merge, Run, Schema, Trace};
 use crate::exit::{Failure, Outcome};
 use crate::output::{Console, Format};
 use clap::{ColorChoice, CommandFactory, Parser, Subcommand};
@@ -51,6 +51,7 @@ enum Command {
     Run(Run),
     Check(Check),
     Fair(Box<Fair>),
+    Design(Box<Design>),
     Merge(Merge),
     Trace(Box<Trace>),
     #[cfg(feature = "film")]
@@ -80,6 +81,7 @@ impl Command {
             Self::Run(run) => run.format(),
             Self::Check(check) => check.format(),
             Self::Fair(fair) => fair.format(),
+            Self::Design(design) => design.format(),
             Self::Merge(merge) => merge.format(),
             Self::Trace(trace) => trace.format(),
             #[cfg(feature = "film")]
@@ -96,6 +98,7 @@ impl Command {
             Self::Run(run) => run.execute(console),
             Self::Check(check) => check.execute(console),
             Self::Fair(fair) => fair.execute(console),
+            Self::Design(design) => design.execute(console),
             Self::Merge(merge) => merge.execute(console),
             Self::Trace(trace) => trace.execute(console),
             #[cfg(feature = "film")]

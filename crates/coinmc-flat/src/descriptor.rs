@@ -4,8 +4,8 @@ use crate::laws::LAWS;
 use crate::settings::{Decision, Settings};
 use coinmc_core::schema::Values;
 use coinmc_core::{
-    Answer, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings, Finer, Landing,
-    Remark, Scene, Unmodelled,
+    Answer, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings, Finer,
+    Landing, Remark, Scene, Unmodelled,
 };
 
 /// The engine, as configs and results know it.
@@ -16,7 +16,10 @@ pub const ENGINE: EngineDescriptor = EngineDescriptor {
     stepped: false,
     laws: &LAWS,
     unmodelled: &UNMODELLED,
-    finer: &[("zeno", Finer::Times(0.25)), ("tolerance", Finer::Times(0.1))],
+    finer: &[
+        ("zeno", Finer::Times(0.25)),
+        ("tolerance", Finer::Times(0.1)),
+    ],
     remarks: &[Remark {
         applies: |scene| {
             let surface = &scene.surface;

@@ -7,17 +7,22 @@
 //! * [`fair()`] finds the values of a parameter at which a face has a given probability.
 //! * [`scenes`] are everyday scenes, with where each of their numbers comes from.
 //! * [`assumptions`] tells how far each assumption moves the answer.
+//! * [`tosses_for_power`] says how many tosses test a coin.
 
 pub mod assumptions;
+mod document;
 mod error;
 mod fair;
+mod power;
 pub mod scenes;
 mod template;
 mod workers;
 
+pub use document::document;
 pub use error::QuestionError;
 pub use fair::{
     Curve, Fair, Finding, LEAST_TOSSES, Numerical, Question, Root, Scanned, Stage, fair,
 };
-pub use template::{Size, Template};
+pub use power::{Test, tosses_for_power};
+pub use template::{CoinNumbers, Size, Template};
 pub use workers::Workers;

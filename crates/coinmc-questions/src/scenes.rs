@@ -5,7 +5,7 @@
 //! metal coins of the size of a euro unless the question says otherwise.
 
 use crate::{QuestionError, Template};
-use coinmc_core::{Material, Preset};
+use coinmc_core::{Material, Preset, Sourced};
 
 /// An everyday scene.
 ///
@@ -34,6 +34,8 @@ pub struct EverydayScene {
 pub struct Assumption {
     /// Its key in configs.
     pub key: &'static str,
+    /// What it is, in words.
+    pub name: &'static str,
     /// The number.
     pub value: f64,
     /// The least that it may be in life.
@@ -123,44 +125,64 @@ impl EverydayScene {
         Template::new(format!("scene {}", self.name), self.config(), overrides)
     }
 
+    fn material(&self) -> Material {
+        self.material.parse().expect("a scene's material exists")
+    }
+
     /// What it assumes, and within which limits.
     pub fn assumptions(&self) -> Vec<Assumption> {
-        let material: Material = self.material.parse().expect("a scene's material exists");
-        let number = |key, sourced: coinmc_core::Sourced, low: f64, high: f64| Assumption {
+        let material = self.material();
+        let number = |(key, name), sourced: Sourced, low: f64, high: f64| Assumption {
             key,
+            name,
             value: sourced.value,
             low,
             high,
             source: sourced.source,
         };
         // an estimate may be wrong by a factor of 3 where nothing bounds it
-        let factor = |key, sourced: coinmc_core::Sourced| {
-            number(key, sourced, sourced.value / 3.0, sourced.value * 3.0)
+        let factor = |named, sourced: Sourced| {
+            number(named, sourced, sourced.value / 3.0, sourced.value * 3.0)
         };
         let (e, mu) = (material.restitution, material.friction);
         let slope = material.roughness_slope;
         vec![
             number(
-                "surface.restitution",
+                ("surface.restitution", "coefficient of restitution"),
                 e,
                 (e.value - 0.15).max(0.05),
                 (e.value + 0.15).min(0.9),
             ),
-            number("surface.friction", mu, 0.6 * mu.value, 1.6 * mu.value),
-            factor("surface.rolling_friction_m", material.rolling_friction_m),
-            factor("surface.contact_patch_m", material.contact_patch_m),
             number(
-                "surface.roughness_slope",
+                ("surface.friction", "coefficient of friction"),
+                mu,
+                0.6 * mu.value,
+                1.6 * mu.value,
+            ),
+            factor(
+                ("surface.rolling_friction_m", "rolling friction length, m"),
+                material.rolling_friction_m,
+            ),
+            factor(
+                ("surface.contact_patch_m", "radius of the contact patch, m"),
+                material.contact_patch_m,
+            ),
+            number(
+                ("surface.roughness_slope", "slope of the ground"),
                 slope,
                 slope.value / 3.0,
                 (slope.value * 3.0).min(0.15),
             ),
             factor(
-                "surface.roughness_wavelength_m",
+                (
+                    "surface.roughness_wavelength_m",
+                    "wavelength of the ground, m",
+                ),
                 material.roughness_wavelength_m,
             ),
             Assumption {
                 key: "launch.height_m",
+                name: "height of the hand, m",
                 value: self.height_m,
                 low: 0.5 * self.height_m,
                 high: 2.0 * self.height_m,
@@ -168,6 +190,7 @@ impl EverydayScene {
             },
             Assumption {
                 key: "launch.spin.precessing.rate_rad_s.normal.mean",
+                name: "spin, rad/s",
                 value: HAND_RATE_RAD_S,
                 low: 80.0,
                 high: 300.0,
@@ -175,6 +198,7 @@ impl EverydayScene {
             },
             Assumption {
                 key: "launch.spin.precessing.psi_deg.normal.mean",
+                name: "angle between spin and axis, degrees",
                 value: HAND_PSI_DEG,
                 low: 60.0,
                 high: 90.0,
@@ -182,6 +206,7 @@ impl EverydayScene {
             },
             Assumption {
                 key: "coin.radius_m",
+                name: "radius of the coin, m",
                 value: EURO_RADIUS_M,
                 low: 0.5 * EURO_RADIUS_M,
                 high: 2.0 * EURO_RADIUS_M,

@@ -3,16 +3,35 @@
 use crate::QuestionError;
 use coinmc::config::{self, Override};
 use coinmc::plan::Plan;
+use coinmc_core::Coin;
 use std::f64::consts::PI;
+use std::fmt;
+use std::sync::Arc;
+
+/// Numbers of `[coin]`, by key.
+pub type CoinNumbers = Vec<(&'static str, f64)>;
+/// What else a coin of this ratio and radius has.
+type Make = Arc<dyn Fn(&Coin) -> CoinNumbers + Send + Sync>;
 
 /// A config in which a question replaces numbers. Its ratio, and what it says of stopping, may be
 /// anything or absent.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct Template {
     name: String,
     text: String,
     overrides: Vec<Override>,
     size: Size,
+    make: Option<Make>,
+}
+
+impl fmt::Debug for Template {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Template")
+            .field("name", &self.name)
+            .field("overrides", &self.overrides)
+            .field("size", &self.size)
+            .finish_non_exhaustive()
+    }
 }
 
 /// The size of a coin, whatever its ratio H/R.
@@ -60,6 +79,7 @@ impl Template {
             text: text.into(),
             overrides: overrides.to_vec(),
             size: Size::OfConfig,
+            make: None,
         }
     }
 
@@ -72,6 +92,18 @@ impl Template {
         Ok(Self { size, ..self })
     }
 
+    /// The same with coins that are made by a rule: `make` gives other numbers of `[coin]`, such as its
+    /// moments of inertia, for the coin of each ratio and radius.
+    pub fn with_coins_made(
+        self,
+        make: impl Fn(&Coin) -> CoinNumbers + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            make: Some(Arc::new(make)),
+            ..self
+        }
+    }
+
     /// Whether the size of the coin is not that of the config.
     pub(crate) fn is_sized(&self) -> bool {
         self.size != Size::OfConfig
@@ -81,15 +113,27 @@ impl Template {
     ///
     /// # Errors
     /// [`QuestionError::Config`].
-    pub(crate) fn plan(&self, values: &[(&str, String)]) -> Result<Plan, QuestionError> {
-        let plan = self.parse(values)?;
-        let ratio = plan.points[0].scene.coin.ratio();
-        let Some(radius) = self.size.radius_m(ratio) else {
-            return Ok(plan);
-        };
+    pub fn plan(&self, values: &[(&str, String)]) -> Result<Plan, QuestionError> {
+        let mut plan = self.parse(values)?;
         let mut values = values.to_vec();
-        values.push(("coin.radius_m", format!("{radius:?}")));
-        self.parse(&values)
+        let ratio = plan.points[0].scene.coin.ratio();
+        if let Some(radius) = self.size.radius_m(ratio) {
+            values.push(("coin.radius_m", format!("{radius:?}")));
+            plan = self.parse(&values)?;
+        }
+        if let Some(make) = &self.make {
+            let numbers = make(&plan.points[0].scene.coin);
+            let keys: Vec<_> = numbers
+                .iter()
+                .map(|(key, value)| (format!("coin.{key}"), format!("{value:?}")))
+                .collect();
+            values.extend(
+                keys.iter()
+                    .map(|(key, value)| (key.as_str(), value.clone())),
+            );
+            return self.parse(&values);
+        }
+        Ok(plan)
     }
 
     fn parse(&self, values: &[(&str, String)]) -> Result<Plan, QuestionError> {
@@ -107,6 +151,17 @@ impl Template {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn coins_are_made_by_their_rule() {
+        let text = "coin.ratio = 1\nsurface.material = 'wood'\nlaunch.preset = 'hand'\n\
+                    engine.volumetric = {}";
+        let template = Template::new("inline", text, &[]);
+        let rounded =
+            template.with_coins_made(|coin| vec![("rim_radius_m", 0.1 * coin.height_m())]);
+        let coin = rounded.plan(&[]).expect("a plan").points[0].scene.coin;
+        assert_eq!(coin.rim_radius_m(), 0.1 * coin.height_m());
+    }
 
     #[test]
     fn a_size_gives_the_radius() {

@@ -4,8 +4,8 @@ use crate::engine::RapierEngine;
 use crate::settings::{Decision, Flight, Settings};
 use coinmc_core::schema::Values;
 use coinmc_core::{
-    Answer, DynEngine, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings, Finer,
-    Landing, Remark, Scene, Unmodelled,
+    Answer, DynEngine, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings,
+    Finer, Landing, Remark, Scene, Unmodelled,
 };
 
 /// The engine, as configs and results know it.

@@ -6,8 +6,8 @@ use crate::laws::{LAWS, LawVisitor};
 use crate::settings::{Decision, Settings, SettingsError};
 use coinmc_core::schema::Values;
 use coinmc_core::{
-    Answer, DynEngine, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings, Finer,
-    Landing, Remark, Scene,
+    Answer, DynEngine, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings,
+    Finer, Landing, Remark, Scene,
 };
 use std::fmt::Debug;
 

@@ -3,10 +3,12 @@
 mod analytic;
 mod check;
 mod completions;
+mod design;
 mod fair;
 #[cfg(feature = "film")]
 mod film;
 mod merge;
+mod quantity;
 #[cfg(feature = "robot")]
 mod robot;
 mod run;
@@ -16,6 +18,7 @@ mod trace;
 pub(crate) use analytic::Analytic;
 pub(crate) use check::Check;
 pub(crate) use completions::Completions;
+pub(crate) use design::Design;
 pub(crate) use fair::Fair;
 #[cfg(feature = "film")]
 pub(crate) use film::Film;

@@ -205,6 +205,7 @@ mod tests {
     use super::*;
 
     /// Counts without noise: as many as expected.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // positive, below 2^53
     fn expected(log_odds: impl Fn(f64) -> f64, tosses: u64) -> Vec<Counts> {
         let count = |u: f64| Counts {
             u,

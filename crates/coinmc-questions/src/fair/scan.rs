@@ -120,6 +120,7 @@ fn side(seen: &Seen, target: f64) -> Side {
 mod tests {
     use super::*;
 
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 0 to 10,000
     fn scanned(shares: &[f64]) -> Vec<Scanned> {
         let at = |(i, share): (usize, &f64)| Scanned {
             u: i as f64,

@@ -2,10 +2,7 @@
 
 /// The candidate that was most likely meant, if any is near: one that starts with the text
 /// (`gravity` for `gravity_m_s2`), or the one with the fewest typing errors.
-pub fn nearest<'a>(
-    word: &str,
-    candidates: impl IntoIterator<Item = &'a str>,
-) -> Option<&'a str> {
+pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // longer words cannot be near; this also bounds the work
     if word.is_empty() || word.len() > 64 {
         return None;

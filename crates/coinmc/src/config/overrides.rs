@@ -102,7 +102,9 @@ impl Override {
     /// Whether it gives a value to this dotted key, or to a table that holds it.
     pub fn is_about(&self, key: &str) -> bool {
         let mut wanted = key.split('.');
-        self.keys.iter().all(|(given, _)| wanted.next() == Some(given))
+        self.keys
+            .iter()
+            .all(|(given, _)| wanted.next() == Some(given))
     }
 
     /// Puts the value into the tree, or reports what is wrong with it.

@@ -1,9 +1,8 @@
 //! `coinmc fair`: the value of a parameter at which a face has a given probability.
 
-mod quantity;
 mod report;
-mod to_json;
 
+use super::quantity::{Density, Length, Mass, Volume};
 use crate::exit::{Failure, Outcome};
 use crate::interrupt;
 use crate::output::{self, Console, Format};
@@ -16,7 +15,6 @@ use coinmc_questions::assumptions::{self, Effect};
 use coinmc_questions::scenes::EverydayScene;
 use coinmc_questions::{self as questions, Fair as Answer, Question, QuestionError, Size};
 use coinmc_questions::{Template, Workers};
-use quantity::{Density, Length, Mass, Volume};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -237,14 +235,18 @@ impl Fair {
 
     fn present(&self, answered: &Answered, console: &Console) -> Result<Outcome, Failure> {
         match console.format() {
-            Format::Json => output::print_json(&to_json::document(answered)),
+            Format::Json => output::print_json(&questions::document(
+                &answered.answer,
+                answered.scene.as_ref(),
+                &answered.effects,
+            )),
             Format::Table => output::print(&report::text(answered, self.show, console.stdout())),
         }
         .map_err(|error| Failure::Runtime(anyhow!(error)))?;
         let curves = &answered.answer.curves;
         let short = curves
             .iter()
-            .flat_map(|curve| curve.roots())
+            .flat_map(questions::Curve::roots)
             .any(|root| !root.reached);
         Ok(if short {
             Outcome::ShortOfTarget

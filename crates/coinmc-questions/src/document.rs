@@ -1,19 +1,22 @@
-//! The answer as JSON.
+//! An answer as a JSON document: what the command line prints and Python reads.
 
-use super::Answered;
-use crate::output::FORMAT_VERSION;
-use coinmc_questions::assumptions::Effect;
-use coinmc_questions::{Curve, Finding, Root};
+use crate::assumptions::Effect;
+use crate::scenes::EverydayScene;
+use crate::{Curve, Fair, Finding, Root};
 use serde_json::{Map, Value, json};
 
-/// The whole answer.
-pub(super) fn document(answered: &Answered) -> Value {
-    let answer = &answered.answer;
+/// Version of the document. It stays when fields are added, and changes when a field changes its
+/// meaning or is removed.
+const FORMAT_VERSION: u32 = 1;
+
+/// An answer, with the everyday scene it is for and the effects of that scene's assumptions, as a JSON
+/// document. docs/reference/formats.md describes its fields.
+pub fn document(answer: &Fair, scene: Option<&EverydayScene>, effects: &[Effect]) -> Value {
     let question = &answer.question;
     json!({
         "format_version": FORMAT_VERSION,
         "kind": "fair",
-        "scene": answered.scene.map(|scene| scene.name),
+        "scene": scene.map(|scene| scene.name),
         "parameter": question.key,
         "searched": question.range,
         "face": question.face.name(),
@@ -24,7 +27,7 @@ pub(super) fn document(answered: &Answered) -> Value {
         "law": answer.law,
         "tosses": answer.tosses,
         "curves": answer.curves.iter().map(curve).collect::<Vec<_>>(),
-        "assumptions": answered.effects.iter().map(effect).collect::<Vec<_>>(),
+        "assumptions": effects.iter().map(effect).collect::<Vec<_>>(),
     })
 }
 
@@ -90,6 +93,7 @@ fn effect(effect: &Effect) -> Value {
         .map(|moved| json!({ "value": moved.value, "half_width": moved.half_width }));
     json!({
         "parameter": assumption.key,
+        "name": assumption.name,
         "value": assumption.value,
         "low": assumption.low,
         "high": assumption.high,

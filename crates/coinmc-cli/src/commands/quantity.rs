@@ -4,19 +4,19 @@ use std::str::FromStr;
 
 /// A length, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Length(pub(super) f64);
+pub(crate) struct Length(pub(crate) f64);
 
 /// A volume, m³.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Volume(pub(super) f64);
+pub(crate) struct Volume(pub(crate) f64);
 
 /// A mass, kg.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Mass(pub(super) f64);
+pub(crate) struct Mass(pub(crate) f64);
 
 /// A density, kg/m³.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Density(pub(super) f64);
+pub(crate) struct Density(pub(crate) f64);
 
 const LENGTHS: &[(&str, f64)] = &[("mm", 1e-3), ("cm", 1e-2), ("m", 1.0), ("in", 0.0254)];
 const VOLUMES: &[(&str, f64)] = &[("mm3", 1e-9), ("cm3", 1e-6), ("ml", 1e-6), ("m3", 1.0)];
