@@ -78,6 +78,13 @@ impl Asked {
         })
     }
 
+    /// Whether a number is given, and so not assumed.
+    fn says(&self, key: &str) -> bool {
+        let sized = self.diameter_m.or(self.volume_m3).is_some();
+        let overrides = parsed(&self.overrides).unwrap_or_default();
+        (sized && key == "coin.radius_m") || overrides.iter().any(|set| set.is_about(key))
+    }
+
     /// The answer as a JSON document.
     fn answer(
         &self,
@@ -94,12 +101,8 @@ impl Asked {
         if let (Some(scene), Some(root)) = (scene, root)
             && self.assumption_tosses > 0
         {
-            let sized = self.diameter_m.or(self.volume_m3).is_some();
             let assumed = scene.assumptions().into_iter();
-            let assumed = assumed.filter(|assumed| {
-                let said = |set: &String| set.starts_with(&format!("{}=", assumed.key));
-                !(sized && assumed.key == "coin.radius_m") && !self.overrides.iter().any(said)
-            });
+            let assumed = assumed.filter(|assumed| !self.says(assumed.key));
             let tosses = self.assumption_tosses;
             found = effects(template, &fair, root, assumed, tosses, workers)?;
         }
