@@ -1,0 +1,174 @@
+//! Questions to the engines themselves.
+
+use coinmc_core::Face;
+use coinmc_questions::{
+    Fair, Question, QuestionError, Root, Size, Template, Workers, fair, scenes::EverydayScene,
+};
+use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+const ROBOT: &str = "surface = { restitution = 0.5, friction = 0.3 }\n\
+                     launch.preset = 'robot'\nengine.flat = {}";
+/// Nothing bounces and every landing angle is as likely: the arc rule.
+const ARC: &str = "surface = { landing = 'adhesive', restitution = 0.0, friction = 0.3 }\n\
+                   launch.preset = 'clean-flat'\nengine.flat = {}";
+
+fn ask(text: &str, question: &Question, threads: usize) -> Result<Fair, QuestionError> {
+    let cancel = AtomicBool::new(false);
+    let workers = Workers {
+        threads: NonZeroUsize::new(threads),
+        cancel: &cancel,
+        made: &|_| (),
+    };
+    fair(&Template::new("inline", text, &[]), question, &workers)
+}
+
+fn coarse() -> Question {
+    Question {
+        half_width: 0.03,
+        numerical_tosses: 256,
+        ..Question::default()
+    }
+}
+
+fn only_root(fair: &Fair) -> &Root {
+    let mut roots = fair.curves[0].roots();
+    let root = roots.next().expect("a root");
+    assert!(roots.next().is_none());
+    root
+}
+
+#[test]
+fn the_answer_does_not_depend_on_the_number_of_threads() {
+    let answers = [1, 3].map(|threads| ask(ROBOT, &coarse(), threads).expect("an answer"));
+    let [one, three] = answers.each_ref().map(only_root);
+    assert_eq!((one.value, one.lo, one.hi), (three.value, three.lo, three.hi));
+    assert_eq!(one.numerical, three.numerical);
+    assert_eq!(one.stages, three.stages);
+}
+
+/// The arc rule, P = (2/π) atan(x/2): by closed form, by quadrature, and by tosses within their
+/// intervals (of 99.9 %).
+#[test]
+fn tosses_integrals_and_closed_forms_agree() {
+    let exact = 2.0 / 3.0_f64.sqrt();
+    let closed = ask("engine.analytic.rule = 'arc'", &coarse(), 2).expect("an answer");
+    assert!((only_root(&closed).value - exact).abs() < 1e-9);
+    assert!(closed.known && closed.tosses == 0);
+    let integral = ask(ARC, &coarse(), 2).expect("an answer");
+    let root = only_root(&integral);
+    assert!(integral.known && (root.value - exact).abs() < 2e-3, "{}", root.value);
+    let text = format!("estimate.confidence = 0.999\nsampling.method = 'random'\n{ARC}");
+    let tossed = ask(&text, &coarse(), 2).expect("an answer");
+    let root = only_root(&tossed);
+    assert!(!tossed.known && root.reached);
+    assert!(root.lo < Some(integral_value(&integral)) && Some(integral_value(&integral)) < root.hi);
+    // dP/dx = (2/π) 2/(4 + x²)
+    let slope = (4.0 / std::f64::consts::PI) / (4.0 + exact * exact);
+    assert!((root.slope - slope).abs() < 3.5 * root.slope_error, "{} {slope}", root.slope);
+}
+
+fn integral_value(fair: &Fair) -> f64 {
+    only_root(fair).value
+}
+
+#[test]
+fn each_swept_value_has_its_own_answer() {
+    let text = "surface = { restitution = [0.3, 0.7], friction = 0.3 }\n\
+                launch.preset = 'robot'\nengine.flat = {}";
+    let both = ask(text, &coarse(), 2).expect("an answer");
+    let at: Vec<f64> = both.curves.iter().map(|curve| curve.at[0].1).collect();
+    assert_eq!(at, [0.3, 0.7]);
+    let alone = ask(&text.replace("[0.3, 0.7]", "0.7"), &coarse(), 2).expect("an answer");
+    let roots: Vec<&Root> = both.curves[1].roots().collect();
+    assert_eq!(roots[0].stages, only_root(&alone).stages);
+}
+
+#[test]
+fn any_face_along_any_parameter() {
+    let question = Question {
+        face: Face::Heads,
+        target: 0.4,
+        ..coarse()
+    };
+    let heads = ask(ROBOT, &question, 2).expect("an answer");
+    assert!(only_root(&heads).slope < 0.0);
+    let question = Question {
+        key: "surface.friction".to_owned(),
+        target: 0.99,
+        ..coarse()
+    };
+    let never = ask(&format!("coin.ratio = 1.5\n{ROBOT}"), &question, 2).expect("an answer");
+    assert!(never.curves[0].findings.is_empty());
+    assert!(never.curves[0].extremes()[1].p < 0.99);
+}
+
+#[test]
+fn the_size_is_that_asked_for() {
+    let cancel = AtomicBool::new(false);
+    let workers = Workers {
+        threads: None,
+        cancel: &cancel,
+        made: &|_| (),
+    };
+    let template = Template::new("inline", ROBOT, &[]);
+    let template = template.with_size(Size::Volume(2e-6)).expect("a size");
+    let answer = fair(&template, &coarse(), &workers).expect("an answer");
+    let coin = only_root(&answer).coin;
+    let volume = std::f64::consts::PI * coin.radius_m().powi(2) * coin.height_m();
+    assert!((volume / 2e-6 - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_search_can_be_stopped_and_tells_its_tosses() {
+    let cancel = AtomicBool::new(false);
+    let made = AtomicU64::new(0);
+    let workers = Workers {
+        threads: None,
+        cancel: &cancel,
+        made: &|tosses| {
+            if made.fetch_add(tosses, Ordering::Relaxed) > 5_000 {
+                cancel.store(true, Ordering::Relaxed);
+            }
+        },
+    };
+    let template = Template::new("inline", ROBOT, &[]);
+    let stopped = fair(&template, &Question::default(), &workers);
+    assert!(matches!(stopped, Err(QuestionError::Stopped)));
+    assert!(made.load(Ordering::Relaxed) < 20_000);
+}
+
+#[test]
+fn a_budget_is_kept_and_the_shortfall_said() {
+    let question = Question {
+        half_width: 1e-3,
+        max_tosses: 10_000,
+        ..coarse()
+    };
+    let answer = ask(ROBOT, &question, 2).expect("an answer");
+    let root = only_root(&answer);
+    assert!(!root.reached && root.half_width() > 1e-3);
+    // stages are whole batches of 64 tosses at 4 values
+    assert!(root.tosses <= 10_000 + 256);
+}
+
+#[test]
+fn questions_without_sense_are_refused() {
+    let text = format!("coin.ratio = 1.5\n{ROBOT}");
+    let refused = |question: Question| ask(&text, &question, 1).expect_err("refused").to_string();
+    let with = |change: fn(&mut Question)| {
+        let mut question = coarse();
+        change(&mut question);
+        refused(question)
+    };
+    assert!(with(|q| q.target = 1.0).starts_with("the target must be above 0 and below 1"));
+    assert!(with(|q| q.target = f64::NAN).starts_with("the target"));
+    assert!(with(|q| q.half_width = 0.0).starts_with("the half width"));
+    assert!(with(|q| q.max_tosses = 10).starts_with("at least 4096 tosses"));
+    assert!(with(|q| q.range = Some([2.0, 1.0])).starts_with("the range must lead"));
+    assert!(with(|q| q.key = "coin.mass_kg".to_owned()).contains("no natural range"));
+    assert!(with(|q| q.key = "coin.ratoi".to_owned()).contains("did you mean `ratio`"));
+    let sized = Template::new("inline", ROBOT, &[]).with_size(Size::Diameter(-1.0));
+    assert!(sized.is_err());
+    assert!(EverydayScene::named("woood").is_err());
+}
