@@ -1,4 +1,4 @@
-"""How thick is a fair coin: the answers themselves are tested in Rust, here what Python makes of them."""
+"""How thick is a fair coin: Rust tests the answers, these tests what Python makes of them."""
 
 import math
 
@@ -16,8 +16,12 @@ ROBOT = {
 def test_an_answer_has_its_interval_its_slope_and_the_coin():
     answer = coinmc.fair(ROBOT, half_width=0.03, diameter_m=0.03)
     [root] = answer.roots
-    assert root.lo < root.value < root.hi and root.half_width <= 0.03 and root.reached
-    assert root.slope > 0 and root.tosses > 4000 and root.at == {}
+    assert root.lo < root.value < root.hi
+    assert root.half_width <= 0.03
+    assert root.reached
+    assert root.slope > 0
+    assert root.tosses > 4000
+    assert root.at == {}
     assert root.diameter_m == 0.03
     assert math.isclose(root.thickness_m, root.value * 0.015)
     shift, lo, hi = root.numerical
@@ -26,7 +30,8 @@ def test_an_answer_has_its_interval_its_slope_and_the_coin():
     # the scan shows the whole curve
     assert answer.scan["value"][0] == pytest.approx(0.05)
     assert answer.scan["p"][0] < 1 / 3 < answer.scan["p"][-1]
-    assert "H/R = 1." in repr(answer) and "<table>" in answer._repr_html_()
+    assert "H/R = 1." in repr(answer)
+    assert "<table>" in answer._repr_html_()
 
 
 def test_a_sweep_gives_an_answer_for_each_value():
@@ -60,7 +65,8 @@ def test_no_answer_is_an_answer():
     answer = coinmc.fair(
         {"coin": {"ratio": 0.5}, **ROBOT}, parameter="surface.restitution", target=0.9
     )
-    assert answer.roots == [] and "none: P from" in repr(answer)
+    assert answer.roots == []
+    assert "none: P from" in repr(answer)
 
 
 @pytest.mark.parametrize(

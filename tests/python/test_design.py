@@ -28,7 +28,9 @@ def designed(request, coinmc, tmp_path_factory):
 def test_meshes_are_closed_and_have_the_volume_and_moments_of_the_coin(designed, ending):
     document, folder, name = designed
     mesh = trimesh.load(folder / f"{name}.{ending}", force="mesh")
-    assert mesh.is_watertight and mesh.is_winding_consistent and mesh.is_volume
+    assert mesh.is_watertight
+    assert mesh.is_winding_consistent
+    assert mesh.is_volume
     assert mesh.euler_number == 2
     # files are in millimetres
     assert mesh.volume == pytest.approx(1e9 * document["volume_m3"], rel=1e-3)
@@ -50,7 +52,8 @@ def test_meshes_are_closed_and_have_the_volume_and_moments_of_the_coin(designed,
 def test_a_sheet_is_one_page_of_svg(designed):
     document, folder, name = designed
     sheet = ElementTree.parse(folder / f"{name}.svg").getroot()
-    assert sheet.get("width") == "210mm" and sheet.get("height") == "297mm"
+    assert sheet.get("width") == "210mm"
+    assert sheet.get("height") == "297mm"
     words = [text.text for text in sheet.iter("{http://www.w3.org/2000/svg}text")]
     assert any(f"thickness {1e3 * document['thickness_m']:.2f}" in line for line in words)
     # nothing below the page
@@ -79,6 +82,7 @@ def test_a_hollow_coin_is_lighter_and_harder_to_turn_for_its_mass(coinmc, tmp_pa
 def test_nothing_is_overwritten(coinmc, tmp_path):
     (tmp_path / "mine.3mf").write_text("precious")
     said = coinmc("design", "--scene", "felt", "--out", "mine", cwd=tmp_path, check=False)
-    assert said.returncode == 2 and "mine.3mf exists already" in said.stderr
+    assert said.returncode == 2
+    assert "mine.3mf exists already" in said.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["mine.3mf"]
     assert (tmp_path / "mine.3mf").read_text() == "precious"

@@ -54,14 +54,14 @@ fn curve(curve: &Curve) -> Value {
 }
 
 fn root(root: &Root) -> Value {
-    let stages = root.stages.iter().map(|stage| {
+    let rounds = root.rounds.iter().map(|round| {
         json!({
-            "from": stage.from,
-            "to": stage.to,
-            "tosses": stage.tosses,
-            "value": stage.value,
-            "lo": stage.lo,
-            "hi": stage.hi,
+            "from": round.from,
+            "to": round.to,
+            "tosses": round.tosses,
+            "value": round.value,
+            "lo": round.lo,
+            "hi": round.hi,
         })
     });
     json!({
@@ -82,7 +82,7 @@ fn root(root: &Root) -> Value {
         })),
         "diameter_m": 2.0 * root.coin.radius_m(),
         "thickness_m": root.coin.height_m(),
-        "stages": stages.collect::<Vec<_>>(),
+        "rounds": rounds.collect::<Vec<_>>(),
     })
 }
 

@@ -21,7 +21,7 @@ mod workers;
 pub use document::document;
 pub use error::QuestionError;
 pub use fair::{
-    Curve, Fair, Finding, LEAST_TOSSES, Numerical, Question, Root, Scanned, Stage, fair,
+    Curve, Fair, Finding, LEAST_TOSSES, Numerical, Question, Root, Round, Scanned, fair,
 };
 pub use power::{Test, tosses_for_power};
 pub use template::{CoinNumbers, Size, Template};

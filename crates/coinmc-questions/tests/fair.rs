@@ -42,9 +42,12 @@ fn only_root(fair: &Fair) -> &Root {
 fn the_answer_does_not_depend_on_the_number_of_threads() {
     let answers = [1, 3].map(|threads| ask(ROBOT, &coarse(), threads).expect("an answer"));
     let [one, three] = answers.each_ref().map(only_root);
-    assert_eq!((one.value, one.lo, one.hi), (three.value, three.lo, three.hi));
+    assert_eq!(
+        (one.value, one.lo, one.hi),
+        (three.value, three.lo, three.hi)
+    );
     assert_eq!(one.numerical, three.numerical);
-    assert_eq!(one.stages, three.stages);
+    assert_eq!(one.rounds, three.rounds);
 }
 
 /// The arc rule, P = (2/π) atan(x/2): by closed form, by quadrature, and by tosses within their
@@ -57,7 +60,11 @@ fn tosses_integrals_and_closed_forms_agree() {
     assert!(closed.known && closed.tosses == 0);
     let integral = ask(ARC, &coarse(), 2).expect("an answer");
     let root = only_root(&integral);
-    assert!(integral.known && (root.value - exact).abs() < 2e-3, "{}", root.value);
+    assert!(
+        integral.known && (root.value - exact).abs() < 2e-3,
+        "{}",
+        root.value
+    );
     let text = format!("estimate.confidence = 0.999\nsampling.method = 'random'\n{ARC}");
     let tossed = ask(&text, &coarse(), 2).expect("an answer");
     let root = only_root(&tossed);
@@ -65,7 +72,11 @@ fn tosses_integrals_and_closed_forms_agree() {
     assert!(root.lo < Some(integral_value(&integral)) && Some(integral_value(&integral)) < root.hi);
     // dP/dx = (2/π) 2/(4 + x²)
     let slope = (4.0 / std::f64::consts::PI) / (4.0 + exact * exact);
-    assert!((root.slope - slope).abs() < 3.5 * root.slope_error, "{} {slope}", root.slope);
+    assert!(
+        (root.slope - slope).abs() < 3.5 * root.slope_error,
+        "{} {slope}",
+        root.slope
+    );
 }
 
 fn integral_value(fair: &Fair) -> f64 {
@@ -81,7 +92,7 @@ fn each_swept_value_has_its_own_answer() {
     assert_eq!(at, [0.3, 0.7]);
     let alone = ask(&text.replace("[0.3, 0.7]", "0.7"), &coarse(), 2).expect("an answer");
     let roots: Vec<&Root> = both.curves[1].roots().collect();
-    assert_eq!(roots[0].stages, only_root(&alone).stages);
+    assert_eq!(roots[0].rounds, only_root(&alone).rounds);
 }
 
 #[test]
@@ -148,7 +159,7 @@ fn a_budget_is_kept_and_the_shortfall_said() {
     let answer = ask(ROBOT, &question, 2).expect("an answer");
     let root = only_root(&answer);
     assert!(!root.reached && root.half_width() > 1e-3);
-    // stages are whole batches of 64 tosses at 4 values
+    // rounds are whole batches of 64 tosses at 4 values
     assert!(root.tosses <= 10_000 + 256);
 }
 

@@ -132,11 +132,11 @@ impl Along<'_> {
 
     fn root(&mut self, refined: Refined, goal: &Goal) -> Result<Root, QuestionError> {
         let Refined {
-            stages,
+            rounds,
             slope: (slope, slope_error),
             undecided,
         } = refined;
-        let last = *stages.last().expect("a search has a stage");
+        let last = *rounds.last().expect("a search has a round");
         let value = last.value;
         let coin = self.plan(value)?.points[self.point].scene.coin;
         let mut root = Root {
@@ -148,7 +148,7 @@ impl Along<'_> {
             reached: last.half_width() <= goal.half_width,
             tosses: last.tosses,
             undecided,
-            stages,
+            rounds,
             numerical: None,
             coin,
         };
@@ -212,7 +212,7 @@ impl Along<'_> {
                 reached: root.hi - root.value <= self.question.half_width,
                 tosses: 0,
                 undecided: 0,
-                stages: vec![],
+                rounds: vec![],
                 numerical: None,
                 coin,
             }))

@@ -19,7 +19,7 @@ mod solve;
 mod tosses;
 
 pub use numerical::Numerical;
-pub use refine::Stage;
+pub use refine::Round;
 
 use crate::{QuestionError, Template, Workers};
 use axis::Axis;
@@ -154,7 +154,7 @@ pub struct Root {
     /// Those without a face; the interval is wide enough for any they would have shown.
     pub undecided: u64,
     /// How the search went.
-    pub stages: Vec<Stage>,
+    pub rounds: Vec<Round>,
     /// How far finer numerical settings would move it.
     pub numerical: Option<Numerical>,
     /// The coin there.

@@ -1,30 +1,30 @@
 //! From a bracket to a root with its interval.
 //!
-//! Every stage spreads fresh tosses over four values in a window around the root that is known so
+//! Every round spreads fresh tosses over four values in a window around the root that is known so
 //! far, fits the log odds to all fresh tosses near it ([`fit`](super::fit)), and moves the window to
 //! the new root. All tosses then tell of the root: with n of them at about the root, its standard
 //! error is sqrt(P(1 − P)/n)/P', whatever the values in the window. The window shrinks with that
 //! error, down to a width in which the log odds bend little compared with the error that is asked
-//! for. The last stages are as large as the fit says is needed.
+//! for. The last rounds are as large as the fit says is needed.
 
 use super::axis::Axis;
 use super::fit::{Counts, Fit, Window, log_odds};
 use super::tosses::{Sample, Tosses};
 
-/// Values of a stage, in half widths of the window from its middle.
+/// Values of a round, in half widths of the window from its middle.
 const VALUES: [f64; 4] = [-1.0, -1.0 / 3.0, 1.0 / 3.0, 1.0];
-/// Tosses of the first stage.
+/// Tosses of the first round.
 const FIRST: u64 = 4096;
-/// Tosses of the smallest stage.
+/// Tosses of the smallest round.
 const LEAST: u64 = 512;
-/// After a stage there are at most this many times the tosses of before: what it aims at is itself
+/// After a round there are at most this many times the tosses of before: what it aims at is itself
 /// uncertain.
 const GROWTH: u64 = 4;
 /// The first window is wider than the bracket by this factor, as a slope is the better known the
 /// farther its ends lie apart.
 const WIDER: f64 = 1.5;
-/// Most stages.
-const MOST_STAGES: u32 = 24;
+/// Most rounds.
+const MOST_ROUNDS: u32 = 24;
 /// Half width of the window, in standard errors of the root.
 const ERRORS: f64 = 3.0;
 
@@ -41,14 +41,14 @@ pub(super) struct Goal {
     pub(super) tosses: u64,
 }
 
-/// What one stage found.
+/// What one round found.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stage {
+pub struct Round {
     /// First value of its tosses.
     pub from: f64,
     /// Last value.
     pub to: f64,
-    /// Fresh tosses up to and with this stage.
+    /// Fresh tosses up to and with this round.
     pub tosses: u64,
     /// The root as known after it; NaN if the fit has none near.
     pub value: f64,
@@ -61,7 +61,7 @@ pub struct Stage {
 /// A root.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Refined {
-    pub(super) stages: Vec<Stage>,
+    pub(super) rounds: Vec<Round>,
     /// dP/d(parameter) there, with its standard error; NaN without a root.
     pub(super) slope: (f64, f64),
     pub(super) undecided: u64,
@@ -99,13 +99,13 @@ pub(super) fn refine<T: Tosses>(
         tosses: 0,
         undecided: 0,
     };
-    let mut stages = vec![];
+    let mut rounds = vec![];
     let mut slope = (f64::NAN, f64::NAN);
     let mut size = FIRST.min(goal.tosses);
-    for _ in 0..MOST_STAGES {
+    for _ in 0..MOST_ROUNDS {
         search.toss(tosses, first, size)?;
-        let (stage, next, found) = search.look();
-        stages.push(stage);
+        let (round, next, found) = search.look();
+        rounds.push(round);
         slope = found.unwrap_or(slope);
         match next {
             Some(more) => size = more,
@@ -113,7 +113,7 @@ pub(super) fn refine<T: Tosses>(
         }
     }
     Ok(Refined {
-        stages,
+        rounds,
         slope,
         undecided: search.undecided,
     })
@@ -144,14 +144,14 @@ impl Refinement<'_> {
         Ok(())
     }
 
-    /// What is known of the root, how many tosses the next stage needs (`None`: no more), and the
+    /// What is known of the root, how many tosses the next round needs (`None`: no more), and the
     /// slope.
-    fn look(&mut self) -> (Stage, Option<u64>, Option<(f64, f64)>) {
+    fn look(&mut self) -> (Round, Option<u64>, Option<(f64, f64)>) {
         let place = |place: f64| {
             self.axis
                 .value(self.window.middle + place * self.window.half)
         };
-        let mut stage = Stage {
+        let mut round = Round {
             from: place(-1.0),
             to: place(1.0),
             tosses: self.tosses,
@@ -165,7 +165,7 @@ impl Refinement<'_> {
         let found = Fit::new(&self.counts, self.window)
             .and_then(|fit| Some((fit, self.within_reach(fit.root(target)?)?)));
         let Some((fit, root)) = found else {
-            return (stage, Some(grown.min(left)).filter(|&n| n > 0), None);
+            return (round, Some(grown.min(left)).filter(|&n| n > 0), None);
         };
         let value = self.axis.value(root);
         let (slope, slope_error) = fit.slope(root);
@@ -176,17 +176,17 @@ impl Refinement<'_> {
         let allowance = self.undecided as f64 / self.tosses as f64 / variance;
         let reach = 2.0 * self.bracket.half;
         let ends = fit.interval(root, target, self.goal.z, allowance, reach);
-        stage.value = value;
-        [stage.lo, stage.hi] = ends.map(|end| end.map(|u| self.axis.value(u)));
+        round.value = value;
+        [round.lo, round.hi] = ends.map(|end| end.map(|u| self.axis.value(u)));
         let slope = (slope * variance / rate, slope_error * variance / rate);
-        let half_width = stage.half_width();
+        let half_width = round.half_width();
         let enough = half_width <= self.goal.half_width;
         let error = fit.at(root).1 / fit.slope(root).0.abs();
         self.move_window(root, error, rate);
         let wanted = self.wanted(slope.0, half_width);
         let next = wanted.max(LEAST).min(grown).min(left);
         let next = (!enough && next > 0).then_some(next);
-        (stage, next, Some(slope))
+        (round, next, Some(slope))
     }
 
     /// Tosses that are still needed: as many as the slope says, or, once those were made, as the half
@@ -231,7 +231,7 @@ impl Refinement<'_> {
     }
 }
 
-impl Stage {
+impl Round {
     /// The longer arm of the interval; infinite if an end is open.
     pub fn half_width(&self) -> f64 {
         match (self.lo, self.hi) {

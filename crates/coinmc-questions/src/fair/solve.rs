@@ -31,7 +31,7 @@ pub(super) fn solve<T: Tosses>(
         let refined = match finding {
             Finding::Crossing { from, to, .. } => {
                 let refined = refine(tosses, axis, goal, (from, to), first)?;
-                first += refined.stages.last().map_or(0, |stage| stage.tosses);
+                first += refined.rounds.last().map_or(0, |round| round.tosses);
                 Some(refined)
             }
             Finding::Near { .. } => None,
@@ -109,7 +109,7 @@ mod tests {
         let (mut held, mut tosses) = (0, 0);
         for key in 0..400 {
             let found = only_root(zone, key, &goal);
-            let last = found.stages.last().expect("a stage");
+            let last = found.rounds.last().expect("a round");
             assert!(last.half_width() <= 0.01);
             held += u32::from(last.lo < Some(root) && Some(root) < last.hi);
             tosses += last.tosses;
@@ -135,9 +135,9 @@ mod tests {
             let last = *found
                 .as_ref()
                 .expect("a root")
-                .stages
+                .rounds
                 .last()
-                .expect("a stage");
+                .expect("a round");
             outside += u32::from(last.lo > Some(root) || last.hi < Some(root));
         }
         // 2 are expected; more than 7 have a chance of 0.1 %
@@ -160,7 +160,7 @@ mod tests {
                 panic!("{finding:?}");
             };
             let refined = refined.as_ref().expect("a root");
-            let last = refined.stages.last().expect("a stage");
+            let last = refined.rounds.last().expect("a round");
             assert!((last.value - root).abs() < 0.05, "{} {root}", last.value);
             assert_eq!(*rising, root < 1.0);
             assert_eq!(refined.slope.0 > 0.0, *rising);

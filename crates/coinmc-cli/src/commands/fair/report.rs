@@ -93,15 +93,15 @@ fn nowhere(answer: &Fair, curve: &Curve) -> String {
     };
     format!(
         "    none: P stays {side} the target, between {} at {} and {} at {}\n",
-        compact(round(least.p)),
-        compact(round(least.value)),
-        compact(round(most.p)),
-        compact(round(most.value))
+        compact(to_four(least.p)),
+        compact(to_four(least.value)),
+        compact(to_four(most.p)),
+        compact(to_four(most.value))
     )
 }
 
 /// To four decimals.
-fn round(x: f64) -> f64 {
+fn to_four(x: f64) -> f64 {
     libm::round(1e4 * x) / 1e4
 }
 
@@ -187,31 +187,31 @@ fn history(answer: &Fair, curve: &Curve, style: &Style) -> String {
     ]);
     for scanned in &curve.scan {
         scan.push(vec![
-            compact(round(scanned.value)),
+            compact(to_four(scanned.value)),
             format!("{:.4}", scanned.p),
             grouped(scanned.tosses),
         ]);
     }
     let mut text = format!("Scan:\n{}", scan.render(style).text);
-    for root in curve.roots().filter(|root| !root.stages.is_empty()) {
-        let mut stages = Table::new(vec![
+    for root in curve.roots().filter(|root| !root.rounds.is_empty()) {
+        let mut rounds = Table::new(vec![
             Column::left("tossed between"),
             Column::right("tosses"),
             Column::right(key),
             Column::left(format!("{} % interval", compact(100.0 * answer.confidence))),
         ]);
-        for stage in &root.stages {
-            let decimals = decimals_for(stage.half_width());
+        for round in &root.rounds {
+            let decimals = decimals_for(round.half_width());
             let end =
                 |end: Option<f64>| end.map_or("open".to_owned(), |x| format!("{x:.decimals$}"));
-            stages.push(vec![
-                format!("{:.4} and {:.4}", stage.from, stage.to),
-                grouped(stage.tosses),
-                format!("{:.decimals$}", stage.value),
-                format!("[{}, {}]", end(stage.lo), end(stage.hi)),
+            rounds.push(vec![
+                format!("{:.4} and {:.4}", round.from, round.to),
+                grouped(round.tosses),
+                format!("{:.decimals$}", round.value),
+                format!("[{}, {}]", end(round.lo), end(round.hi)),
             ]);
         }
-        text += &format!("Stages:\n{}", stages.render(style).text);
+        text += &format!("Rounds:\n{}", rounds.render(style).text);
     }
     text
 }
