@@ -108,7 +108,8 @@ fn to_four(x: f64) -> f64 {
 fn of_root(answer: &Fair, root: &Root, style: &Style) -> String {
     let key = name(&answer.question.key);
     let arm = root.half_width();
-    let decimals = decimals_for(arm);
+    // a closed form has no error
+    let decimals = if arm > 0.0 { decimals_for(arm) } else { 5 };
     let number = |x: f64| format!("{x:.decimals$}");
     let end = |end: Option<f64>| end.map_or_else(|| "open".to_owned(), number);
     let mut text = format!("    {key} = {}", number(root.value));
@@ -135,10 +136,10 @@ fn of_root(answer: &Fair, root: &Root, style: &Style) -> String {
     text += &slope(key, root);
     if let Some(numerical) = root.numerical {
         text += &format!(
-            "    finer numerical settings move it by {:+.3} [{:+.3}, {:+.3}], {} pairs of tosses\n",
-            numerical.shift,
-            numerical.lo,
-            numerical.hi,
+            "    finer numerical settings move it by {} [{}, {}], {} pairs of tosses\n",
+            signed(numerical.shift),
+            signed(numerical.lo),
+            signed(numerical.hi),
             grouped(numerical.tosses)
         );
     }
@@ -149,6 +150,16 @@ fn of_root(answer: &Fair, root: &Root, style: &Style) -> String {
         );
     }
     text + &size(&root.coin, arm)
+}
+
+/// With its sign and three decimals; 0 has no sign.
+fn signed(x: f64) -> String {
+    let rounded = libm::round(1e3 * x) / 1e3;
+    if rounded == 0.0 {
+        "0.000".to_owned()
+    } else {
+        format!("{rounded:+.3}")
+    }
 }
 
 fn slope(key: &str, root: &Root) -> String {
