@@ -38,13 +38,19 @@ class Stop(NamedTuple):
     Attributes
     ----------
     tosses : int
-        Tosses per point; an upper limit if there is a half width.
+        Tosses per point; an upper limit if there are targets.
     half_width : float or None
-        Half width that every interval must reach, if the point stops by precision.
+        Half width that every interval must reach, if that is a target.
+    relative_error : float or None
+        The same as a share of the probability.
+    events : int or None
+        Number of tosses that must show each face, if that is a target.
     """
 
     tosses: int
     half_width: float | None
+    relative_error: float | None = None
+    events: int | None = None
 
 
 class Group(NamedTuple):
@@ -166,7 +172,8 @@ class Config:
     @property
     def stop(self) -> Stop:
         """When a point has enough tosses."""
-        return Stop(self._plan.tosses, self._plan.half_width)
+        plan = self._plan
+        return Stop(plan.tosses, plan.half_width, plan.relative_error, plan.events)
 
     @property
     def confidence(self) -> float:
@@ -226,10 +233,18 @@ class Config:
         if self.tosses_planned == 0:
             tosses = self._plan.makes_tosses(0)
             return "none: points are integrated" if tosses else "none: closed forms are exact"
-        if self.stop.half_width is None:
-            return f"{self.stop.tosses:,} a point, {self.tosses_planned:,} in all"
-        most = f"{self.tosses_planned:,} at most"
-        return f"until every interval is within ±{self.stop.half_width}: {most}"
+        stop = self.stop
+        wanted = []
+        if stop.half_width is not None:
+            wanted.append(f"every interval is within ±{stop.half_width}")
+        if stop.relative_error is not None:
+            share = f"{100 * stop.relative_error:g} %"
+            wanted.append(f"every interval is within ±{share} of its probability")
+        if stop.events is not None:
+            wanted.append(f"every face was seen {stop.events:,} times")
+        if not wanted:
+            return f"{stop.tosses:,} a point, {self.tosses_planned:,} in all"
+        return f"until {' and '.join(wanted)}: {self.tosses_planned:,} at most"
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Config) and self.hash == other.hash

@@ -81,16 +81,32 @@ impl Plan {
     fn half_width(&self) -> Option<f64> {
         match self.0.stop {
             Stop::Tosses(_) => None,
-            Stop::HalfWidth { half_width, .. } => Some(half_width),
+            Stop::Targets(targets) => targets.half_width,
         }
     }
 
     /// Largest number of tosses of a point.
     #[getter]
+    fn relative_error(&self) -> Option<f64> {
+        match self.0.stop {
+            Stop::Tosses(_) => None,
+            Stop::Targets(targets) => targets.relative_error,
+        }
+    }
+
+    #[getter]
+    fn events(&self) -> Option<u64> {
+        match self.0.stop {
+            Stop::Tosses(_) => None,
+            Stop::Targets(targets) => targets.events,
+        }
+    }
+
+    #[getter]
     fn tosses(&self) -> u64 {
         match self.0.stop {
             Stop::Tosses(tosses) => tosses,
-            Stop::HalfWidth { max_tosses, .. } => max_tosses,
+            Stop::Targets(targets) => targets.max_tosses,
         }
     }
 

@@ -23,7 +23,7 @@ Exit status:
   0    done
   1    failure at run time (disk full, file unreadable, …)
   2    bad input: arguments, config, or a directory that belongs to another run
-  3    stopped short of the target: max_tosses came before half_width, a search found too few tosses
+  3    stopped short of the target: max_tosses came before the targets of [stop], a search found too few tosses
   130  stopped by Ctrl-C or SIGTERM; finished work is kept
 
 With --format json, standard output holds exactly one JSON document, whatever happens: the result,

@@ -17,7 +17,7 @@ use std::process::ExitCode;
 pub(crate) enum Outcome {
     /// Everything was done.
     Done,
-    /// `max_tosses` came before `half_width` at some point.
+    /// `max_tosses` came before the targets at some point.
     ShortOfTarget,
     /// Ctrl-C or SIGTERM.
     Interrupted,

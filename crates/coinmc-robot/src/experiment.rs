@@ -170,9 +170,9 @@ fn throws(plan: &Plan, problems: &mut Vec<String>) -> u32 {
             ));
             0
         }
-        Stop::HalfWidth { .. } => {
+        Stop::Targets(_) => {
             problems.push(
-                "stop.half_width does not fix the number of throws: give stop.tosses (1000 throws \
+                "the targets of [stop] do not fix the number of throws: give stop.tosses (1000 throws \
                  determine a probability of 1/2 to +- 0.03)"
                     .to_owned(),
             );

@@ -129,7 +129,7 @@ pub fn default_rate_hz(scene: &Scene, launch: &Launch) -> f64 {
 pub(super) fn max_tosses(plan: &Plan) -> u64 {
     let tosses = match plan.stop {
         Stop::Tosses(tosses) => tosses,
-        Stop::HalfWidth { max_tosses, .. } => max_tosses,
+        Stop::Targets(targets) => targets.max_tosses,
     };
     tosses.min(MAX_TOSSES)
 }

@@ -239,14 +239,14 @@ fn short_of_target(rows: &[Row], points: usize) -> String {
     let mut lines = vec![];
     if points > capped {
         lines.push(format!(
-            "coinmc: {} reached stop.max_tosses before stop.half_width: raise one of them",
+            "coinmc: {} reached stop.max_tosses before its targets in [stop]: raise it, or ask for less",
             count((points - capped) as u64, "point"),
         ));
     }
     if capped > 0 {
         lines.push(format!(
-            "coinmc: {} reached {} evaluations, the limit of an integral, before stop.half_width: \
-             raise it, or toss with sampling.method = \"random\"",
+            "coinmc: {} reached {} evaluations, the limit of an integral, before its target in [stop]: \
+             ask for less, or toss with sampling.method = \"random\"",
             count(capped as u64, "point"),
             grouped(MAX_EVALUATIONS),
         ));

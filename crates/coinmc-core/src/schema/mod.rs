@@ -100,13 +100,14 @@ pub struct TableKind {
 pub enum Rule {
     /// Exactly one of these is given.
     ExactlyOne(&'static [&'static str]),
-    /// The key is allowed only with another key, and has a default if that one is given alone.
+    /// The key is allowed only with one of some other keys, and has a default if it is not given with
+    /// them.
     GoesWith {
         /// The key.
         key: &'static str,
-        /// The key that it requires.
-        other: &'static str,
-        /// The default of the key if only the other one is given.
+        /// The keys of which it requires at least one.
+        others: &'static [&'static str],
+        /// The default of the key if any of the others is given.
         fallback: Fallback,
     },
     /// Both of these are given or none, unless a condition holds.

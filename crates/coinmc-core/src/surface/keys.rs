@@ -39,7 +39,7 @@ impl Surface {
                 Rule::NotBoth(["pivoting_friction_m", "contact_patch_m"]),
                 Rule::GoesWith {
                     key: "restitution_reference_m_s",
-                    other: "restitution_exponent",
+                    others: &["restitution_exponent"],
                     fallback: Fallback::Number(DEFAULT_REFERENCE_M_S),
                 },
                 Rule::Together {

@@ -9,7 +9,7 @@ use super::launch;
 use super::sweep::Sweep;
 use super::values::read;
 use crate::engines::EngineKind;
-use crate::plan::{Point, Sampling, Stop};
+use crate::plan::{Point, Sampling, Stop, Targets};
 use coinmc_core::{Coin, IntervalMethod, LaunchDistribution, Preset, Scene, Surface};
 use std::collections::HashSet;
 
@@ -127,11 +127,12 @@ pub(super) fn stop(root: &Checked) -> Option<Stop> {
     if let Some(tosses) = integer(checked, "tosses") {
         return Some(Stop::Tosses(tosses));
     }
-    let half_width = real(checked, "half_width")?;
-    Some(Stop::HalfWidth {
-        half_width,
+    Some(Stop::Targets(Targets {
+        half_width: real(checked, "half_width"),
+        relative_error: real(checked, "relative_error"),
+        events: integer(checked, "events"),
         max_tosses: integer(checked, "max_tosses")?,
-    })
+    }))
 }
 
 /// How launches are drawn.

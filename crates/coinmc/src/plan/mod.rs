@@ -11,8 +11,8 @@ pub use coinmc_core::EngineChoice;
 pub use coinmc_quadrature::{Goal, Integral, MAX_EVALUATIONS, Method};
 pub use explain::Explanation;
 pub use sampling::Sampling;
-pub use stop::Stop;
 pub(crate) use stop::{FIRST_LOOK, looks};
+pub use stop::{Stop, Targets};
 
 use coinmc_core::{Answer, DynEngine, EngineError, IntervalMethod, LaunchDistribution, Scene};
 use sha2::{Digest, Sha256};
@@ -95,7 +95,7 @@ impl Plan {
     pub fn tosses_planned(&self) -> u64 {
         let each = match self.stop {
             Stop::Tosses(tosses) => tosses,
-            Stop::HalfWidth { max_tosses, .. } => max_tosses,
+            Stop::Targets(Targets { max_tosses, .. }) => max_tosses,
         };
         // MAX_POINTS · MAX_TOSSES lies beyond u64
         each.saturating_mul(self.points_tossed())

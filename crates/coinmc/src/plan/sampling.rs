@@ -1,6 +1,6 @@
 //! Which points are tossed, and which are answered without tosses.
 
-use super::{Plan, Stop};
+use super::{Plan, Stop, Targets};
 use coinmc_quadrature::{Goal, Integral, MAX_EVALUATIONS, MIN_EVALUATIONS, Method};
 
 /// How launches are drawn where the first contact decides. Elsewhere they are random.
@@ -76,10 +76,11 @@ impl Plan {
     pub fn goal(&self) -> Goal {
         let (half_width, evaluations) = match self.stop {
             Stop::Tosses(tosses) => (HALF_WIDTH, tosses),
-            Stop::HalfWidth {
+            Stop::Targets(Targets {
                 half_width,
                 max_tosses,
-            } => (half_width, max_tosses),
+                ..
+            }) => (half_width.unwrap_or(HALF_WIDTH), max_tosses),
         };
         Goal {
             confidence: self.confidence,

@@ -1,26 +1,67 @@
 //! When a point has enough tosses.
 
+use coinmc_core::Estimate;
+
 /// When a point has enough tosses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stop {
     /// After this many.
     Tosses(u64),
-    /// When every face's interval is no wider than ± `half_width`, looked at only at toss counts
-    /// fixed beforehand (doubling), with the confidence shared out over all looks.
-    HalfWidth {
-        /// Longest arm allowed.
-        half_width: f64,
-        /// Tosses at which the point stops short of its target.
-        max_tosses: u64,
-    },
+    /// When it meets all targets, looked at only at toss counts fixed beforehand (doubling), with the
+    /// confidence shared out over all looks.
+    Targets(Targets),
 }
 
-/// Tosses at the first look at a point that stops at a half width: some 30 ms of work in the plane,
-/// more in space.
+/// What a point is to reach. Targets that are not given count as met.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Targets {
+    /// Longest arm allowed of any face's interval.
+    pub half_width: Option<f64>,
+    /// The same as a share of the face's probability.
+    pub relative_error: Option<f64>,
+    /// Least number of tosses that show each face.
+    pub events: Option<u64>,
+    /// Tosses at which the point stops short of them.
+    pub max_tosses: u64,
+}
+
+impl Targets {
+    /// Whether the estimates of all faces meet the targets.
+    pub fn are_met(&self, faces: &[Estimate; 3]) -> bool {
+        self.excess(faces) <= 1.0
+    }
+
+    /// By which factor there are too few tosses, as intervals shrink like 1/√n: 1 or less if the targets
+    /// are met, infinite if a face that was not seen yet must be.
+    pub(crate) fn excess(&self, faces: &[Estimate; 3]) -> f64 {
+        let of = |face: &Estimate| {
+            let arm = face.half_width();
+            let absolute = self.half_width.map_or(0.0, |target| arm / target);
+            // without tosses, or without the face, p is not above 0
+            let relative = self.relative_error.map_or(0.0, |target| {
+                if face.p > 0.0 {
+                    arm / face.p / target
+                } else {
+                    f64::INFINITY
+                }
+            });
+            // as counts, p n is within rounding of a whole number
+            let seen = libm::round(face.p * face.n as f64);
+            let events = self
+                .events
+                .map_or(0.0, |least| least as f64 / seen.max(0.0));
+            (absolute * absolute).max(relative * relative).max(events)
+        };
+        faces.iter().map(of).fold(0.0, f64::max)
+    }
+}
+
+/// Tosses at the first look at a point that stops at targets: some 30 ms of work in the plane, more
+/// in space.
 pub(crate) const FIRST_LOOK: u64 = 1 << 14;
 
-/// Toss counts at which a point that stops at a half width is looked at: [`FIRST_LOOK`], twice and
-/// four times that … below `max_tosses`, then `max_tosses`.
+/// Toss counts at which a point that stops at targets is looked at: [`FIRST_LOOK`], twice and four
+/// times that … below `max_tosses`, then `max_tosses`.
 pub(crate) fn looks(max_tosses: u64) -> impl Iterator<Item = u64> {
     let doubling = std::iter::successors(Some(FIRST_LOOK), |n| n.checked_mul(2));
     doubling
@@ -31,6 +72,7 @@ pub(crate) fn looks(max_tosses: u64) -> impl Iterator<Item = u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use coinmc_core::IntervalMethod::Wilson;
 
     #[test]
     fn looks_double_and_end_at_the_largest_number() {
@@ -38,5 +80,78 @@ mod tests {
         assert_eq!(looks(16_384).collect::<Vec<_>>(), [16_384]);
         assert_eq!(looks(40_000).collect::<Vec<_>>(), [16_384, 32_768, 40_000]);
         assert_eq!(looks(u64::MAX).last(), Some(u64::MAX));
+    }
+
+    const NONE: Targets = Targets {
+        half_width: None,
+        relative_error: None,
+        events: None,
+        max_tosses: 100,
+    };
+
+    fn faces(counts: [u64; 3]) -> [Estimate; 3] {
+        let n = counts.iter().sum();
+        counts.map(|count| Estimate::new(count, 0, n, 0.95, Wilson))
+    }
+
+    #[test]
+    fn every_target_must_be_met_by_every_face() {
+        let seen = faces([4500, 4500, 1000]);
+        let arm = seen.each_ref().map(Estimate::half_width);
+        let longest = arm[0].max(arm[2]);
+        let half_width = |half_width| Targets {
+            half_width: Some(half_width),
+            ..NONE
+        };
+        assert!(half_width(longest).are_met(&seen));
+        assert!(!half_width(0.99 * longest).are_met(&seen));
+        // the side is the least known for its size
+        let relative = |share| Targets {
+            relative_error: Some(share),
+            ..NONE
+        };
+        assert!(relative(10.0 * arm[2]).are_met(&seen));
+        assert!(!relative(9.9 * arm[2]).are_met(&seen));
+        let events = |least| Targets {
+            events: Some(least),
+            ..NONE
+        };
+        assert!(events(1000).are_met(&seen) && !events(1001).are_met(&seen));
+        let both = Targets {
+            events: Some(1001),
+            ..half_width(longest)
+        };
+        assert!(!both.are_met(&seen));
+    }
+
+    /// Four times the tosses halve an interval, and show a face four times as often.
+    #[test]
+    fn the_excess_forecasts_the_tosses() {
+        let seen = faces([4500, 4500, 1000]);
+        let targets = Targets {
+            half_width: Some(0.5 * seen[0].half_width()),
+            ..NONE
+        };
+        assert!((targets.excess(&seen) - 4.0).abs() < 1e-12);
+        let targets = Targets {
+            events: Some(4000),
+            ..NONE
+        };
+        assert!((targets.excess(&seen) - 4.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_face_that_was_never_seen_has_no_relative_error() {
+        let never = faces([50, 50, 0]);
+        let targets = Targets {
+            relative_error: Some(0.5),
+            ..NONE
+        };
+        assert!(!targets.are_met(&never) && targets.excess(&never).is_infinite());
+        let targets = Targets {
+            events: Some(1),
+            ..NONE
+        };
+        assert!(!targets.are_met(&never) && targets.excess(&never).is_infinite());
     }
 }

@@ -1,7 +1,7 @@
 //! From counts to probabilities with intervals, for points with a fixed number of tosses and for points
 //! that stop at a half width.
 
-use crate::plan::{Plan, Stop, looks};
+use crate::plan::{Plan, Stop, Targets, looks};
 use coinmc_core::{Estimate, Face, IntervalMethod, Tally};
 use coinmc_quadrature::{Integral, Share};
 
@@ -36,7 +36,7 @@ pub(crate) fn estimates(plan: &Plan, index: usize, tally: &Tally) -> [Estimate; 
     }
     let method = match plan.stop {
         Stop::Tosses(_) => plan.interval,
-        Stop::HalfWidth { .. } => IntervalMethod::ClopperPearson,
+        Stop::Targets(_) => IntervalMethod::ClopperPearson,
     };
     Face::ALL.map(|face| {
         let (count, undecided) = (tally.count(face), tally.undecided());
@@ -55,7 +55,7 @@ pub(crate) fn estimates(plan: &Plan, index: usize, tally: &Tally) -> [Estimate; 
 }
 
 /// The estimates of heads, tails and side of an integral; `n` counts its evaluations.
-pub(super) fn integrated(plan: &Plan, integral: &Integral) -> [Estimate; 3] {
+pub(crate) fn integrated(plan: &Plan, integral: &Integral) -> [Estimate; 3] {
     integral.faces.map(|Share { p, lo, hi }| Estimate {
         p,
         lo,
@@ -70,7 +70,7 @@ pub(super) fn integrated(plan: &Plan, integral: &Integral) -> [Estimate; 3] {
 pub(crate) fn look_confidence(plan: &Plan) -> f64 {
     match plan.stop {
         Stop::Tosses(_) => plan.confidence,
-        Stop::HalfWidth { max_tosses, .. } => {
+        Stop::Targets(Targets { max_tosses, .. }) => {
             1.0 - (1.0 - plan.confidence) / looks(max_tosses).count() as f64
         }
     }
@@ -81,6 +81,6 @@ pub(crate) fn interval_name(plan: &Plan, index: usize) -> &'static str {
     match plan.stop {
         _ if !plan.points[index].engine.makes_tosses() => EXACT,
         Stop::Tosses(_) => plan.interval.name(),
-        Stop::HalfWidth { .. } => "sequential-clopper-pearson",
+        Stop::Targets(_) => "sequential-clopper-pearson",
     }
 }

@@ -8,7 +8,7 @@ mod parquet;
 mod schema;
 
 pub use csv::{write_csv, write_csv_row};
-pub(crate) use estimates::{estimates, look_confidence};
+pub(crate) use estimates::{estimates, integrated, look_confidence};
 pub use fair::{FairRatio, fair_ratios, fair_values};
 pub use parquet::{arrow_array, arrow_field, parquet_error, record_batch, write_parquet};
 pub use schema::{Cell, Column, FORMAT, Kind, columns};

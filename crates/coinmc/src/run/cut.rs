@@ -2,7 +2,7 @@
 //! nor a restart change what is counted.
 
 use super::Chunk;
-use crate::plan::{FIRST_LOOK, Plan, Stop, looks};
+use crate::plan::{FIRST_LOOK, Plan, Stop, Targets, looks};
 use std::ops::Range;
 
 /// Fewest tosses of a chunk, except the last of a point: some 30 ms of work in the plane, more in
@@ -55,7 +55,7 @@ impl Cut {
                     fixed: Some(fixed_size(total, plan)),
                 }
             }
-            Stop::HalfWidth { max_tosses, .. } => Self {
+            Stop::Targets(Targets { max_tosses, .. }) => Self {
                 ends: looks(max_tosses).collect(),
                 fixed: None,
             },

@@ -27,7 +27,7 @@ pub enum Status {
     Interrupted,
     /// Its part is complete; the parts can be merged.
     Part,
-    /// Complete, but some points reached the largest number of tosses before the half width.
+    /// Complete, but some points reached the largest number of tosses before their targets.
     ShortOfTarget {
         /// How many.
         points: usize,

@@ -3,9 +3,9 @@
 use super::chunk_result::{ChunkResult, whole};
 use super::cut::Cut;
 use super::{Chunk, Part, Progress};
-use crate::plan::{Plan, Stop};
-use crate::results::estimates;
-use coinmc_core::{Face, IntervalMethod, Tally};
+use crate::plan::{Plan, Stop, Targets};
+use crate::results::{estimates, integrated};
+use coinmc_core::{Estimate, Face, IntervalMethod, Tally};
 use coinmc_quadrature::Integral;
 use std::collections::HashMap;
 
@@ -265,14 +265,16 @@ impl<'a> Schedule<'a> {
             // a single part integrates a point
             (Stop::Tosses(_), Some(_)) => true,
             (Stop::Tosses(_), None) => self.part == Part::WHOLE,
-            (Stop::HalfWidth { half_width, .. }, Some(integral)) => {
-                integral.half_width() <= half_width
+            (Stop::Targets(targets), Some(integral)) => {
+                // an integral shows no face
+                let targets = Targets {
+                    events: None,
+                    ..targets
+                };
+                targets.are_met(&integrated(self.plan, integral))
             }
-            (Stop::HalfWidth { half_width, .. }, None) => {
-                let faces = estimates(self.plan, index, &point.tally);
-                faces
-                    .iter()
-                    .all(|estimate| estimate.half_width() <= half_width)
+            (Stop::Targets(targets), None) => {
+                targets.are_met(&estimates(self.plan, index, &point.tally))
             }
         };
         if point.reached || last {
@@ -287,11 +289,13 @@ impl<'a> Schedule<'a> {
 
     /// Predicts which of the remaining looks will be the last, as intervals shrink like 1/√N.
     fn forecast(&mut self, index: usize) {
-        let Stop::HalfWidth { half_width, .. } = self.plan.stop else {
+        let Stop::Targets(targets) = self.plan.stop else {
             return;
         };
         let point = &self.points[index];
-        let excess = (point.half_width / half_width).powi(2).max(1.0);
+        let excess = targets
+            .excess(&quick_estimates(self.plan, &point.tally))
+            .max(1.0);
         let needed = point.tally.tosses() as f64 * excess;
         let mut looks = (point.stage..self.cut.stages()).map(|stage| self.cut.stage(stage).end);
         let look = looks.clone().find(|&end| end as f64 >= needed);
@@ -327,13 +331,16 @@ impl<'a> Schedule<'a> {
     }
 }
 
-/// The widest arm of the three faces by Wilson's formula: good enough to display and to forecast.
-fn quick_half_width(plan: &Plan, tally: &Tally) -> f64 {
+/// The estimates of the three faces by Wilson's formula: good enough to display and to forecast.
+fn quick_estimates(plan: &Plan, tally: &Tally) -> [Estimate; 3] {
     let confidence = crate::results::look_confidence(plan);
     let (undecided, n) = (tally.undecided(), tally.tosses());
-    let arm = |face| {
-        let method = IntervalMethod::Wilson;
-        coinmc_core::Estimate::new(tally.count(face), undecided, n, confidence, method).half_width()
-    };
-    Face::ALL.into_iter().map(arm).fold(0.0, f64::max)
+    let method = IntervalMethod::Wilson;
+    Face::ALL.map(|face| Estimate::new(tally.count(face), undecided, n, confidence, method))
+}
+
+/// The widest arm of these.
+fn quick_half_width(plan: &Plan, tally: &Tally) -> f64 {
+    let arms = quick_estimates(plan, tally).map(|face| face.half_width());
+    arms.into_iter().fold(0.0, f64::max)
 }

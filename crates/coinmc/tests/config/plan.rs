@@ -2,7 +2,7 @@
 
 use crate::support::{SMALL, column, parse};
 use coinmc::config;
-use coinmc::plan::{EngineChoice, Stop};
+use coinmc::plan::{EngineChoice, Stop, Targets};
 use coinmc_core::{IntervalMethod, Landing, Marginal, Orientation, Preset, Remark, Spin};
 use coinmc_flat::{Decision, Settings};
 use std::path::Path;
@@ -255,15 +255,30 @@ fn stop_and_estimate_are_read() {
     let plan = parse(&text, &sets);
     assert_eq!(
         plan.stop,
-        Stop::HalfWidth {
-            half_width: 0.01,
+        Stop::Targets(Targets {
+            half_width: Some(0.01),
+            relative_error: None,
+            events: None,
             max_tosses: 100_000_000
-        }
+        })
     );
     assert_eq!(
         (plan.confidence, plan.interval),
         (0.99, IntervalMethod::ClopperPearson)
     );
+}
+
+#[test]
+fn targets_can_be_combined() {
+    let targets = "relative_error = 0.1\nevents = 500\nmax_tosses = 1e6";
+    let plan = parse(&SMALL.replace("tosses = 1000", targets), &[]);
+    let expected = Targets {
+        half_width: None,
+        relative_error: Some(0.1),
+        events: Some(500),
+        max_tosses: 1_000_000,
+    };
+    assert_eq!(plan.stop, Stop::Targets(expected));
 }
 
 #[test]

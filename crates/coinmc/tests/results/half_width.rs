@@ -1,6 +1,6 @@
 //! Stopping as soon as the intervals are short keeps their promise.
 
-use coinmc::plan::{Plan, Stop};
+use coinmc::plan::{Plan, Stop, Targets};
 use coinmc::results::Row;
 use coinmc_core::{Face, Tally};
 
@@ -14,6 +14,15 @@ impl Source {
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
         let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
         z ^ (z >> 31)
+    }
+
+    /// Tosses to the next event of probability `p`, by inversion.
+    fn gap(&mut self, p: f64) -> u64 {
+        let u = coinmc_core::unit_interval(self.word());
+        // positive, and small for any u of a double
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let gap = (libm::log(u) / libm::log1p(-p)).ceil() as u64;
+        gap.max(1)
     }
 
     /// 64 tosses at a time.
@@ -56,10 +65,12 @@ fn optional_stopping_keeps_the_stated_coverage() {
     let plan = plan(half_width, max_tosses);
     assert_eq!(
         plan.stop,
-        Stop::HalfWidth {
-            half_width,
+        Stop::Targets(Targets {
+            half_width: Some(half_width),
+            relative_error: None,
+            events: None,
             max_tosses
-        }
+        })
     );
     let mut source = Source(20_26);
     let (mut missed, mut stopped_at) = ([0; 3], [0; 4]);
@@ -94,6 +105,57 @@ fn optional_stopping_keeps_the_stated_coverage() {
             "{missed} of {POINTS}"
         );
         assert!(missed > 0, "the intervals are far too long");
+    }
+}
+
+/// Rare faces by relative error: 1000 points each of P(side) = .1, .01 and .001, whose events are drawn by
+/// the gaps between them, which are geometric. At most 5 % may miss; the looks' share of the confidence
+/// and the discreteness of few events make it 1 % to 2 %, so above 3 % (4 standard deviations above
+/// 1.5 %) is an error.
+#[test]
+fn the_relative_error_of_rare_faces_keeps_the_stated_coverage() {
+    const POINTS: u32 = 1000;
+    let text = "seed = 1\n[coin]\nratio = 1.0\n[surface]\nrestitution = 0.5\nfriction = 0.3\n\
+                [launch]\npreset = \"robot\"\n[engine.flat]\n[stop]\nrelative_error = 0.2\n\
+                max_tosses = 1e7\n";
+    let plan = coinmc::config::parse("test", text, &[]).expect("a valid config");
+    let Stop::Targets(targets) = plan.stop else {
+        panic!("{:?}", plan.stop);
+    };
+    let mut source = Source(22);
+    for p in [0.1, 0.01, 0.001] {
+        let (mut missed, mut tosses) = (0, 0);
+        for _ in 0..POINTS {
+            let (mut tally, mut look) = (Tally::default(), 1_u64 << 14);
+            let mut next = source.gap(p);
+            let row = loop {
+                while next <= look {
+                    tally.side += 1;
+                    next += source.gap(p);
+                }
+                tally.heads = (look - tally.side) / 2;
+                tally.tails = look - tally.side - tally.heads;
+                let row = Row::new(&plan, 0, tally, true);
+                let faces = Face::ALL.map(|face| *row.estimate(face));
+                if targets.are_met(&faces) {
+                    break row;
+                }
+                look *= 2;
+            };
+            let side = row.estimate(Face::Side);
+            assert!(side.half_width() <= 0.2 * side.p);
+            missed += u32::from(!(side.lo <= p && p <= side.hi));
+            tosses += look;
+        }
+        let share = f64::from(missed) / f64::from(POINTS);
+        assert!(share <= 0.03 && missed > 0, "{missed} of {POINTS} at {p}");
+        // a fixed number of tosses that gives the same error without looks: z² (1 − p)/(p r²)
+        let fixed = 1.96 * 1.96 * (1.0 - p) / (p * 0.04);
+        let mean = tosses as f64 / f64::from(POINTS);
+        assert!(
+            mean < (5.0 * fixed).max(16_385.0),
+            "{mean} tosses at {p}, {fixed} fixed"
+        );
     }
 }
 

@@ -170,30 +170,34 @@ fn toss_for(plan: &Plan, point: usize, budget: Duration) -> Result<(Tally, Pace)
 
 /// Tosses that a point needs, judged by a few of them.
 ///
-/// Where it stops at a half width h: n = z² p (1 − p)/h² by the normal approximation, with the
-/// least sure face, rounded up to the next look (a power of two; each look has its share of the
+/// Where it stops at targets, by the normal approximation: n = z² p (1 − p)/h² for a half width h, z²
+/// (1 − p)/(p r²) for a relative error r, k/p for k events, the most of these and of all faces, rounded up to the next look (a power of two; each look has its share of the
 /// confidence).
 fn needed(plan: &Plan, tally: &Tally) -> u64 {
-    let (half_width, max_tosses) = match plan.stop {
+    let targets = match plan.stop {
         Stop::Tosses(tosses) => return tosses,
-        Stop::HalfWidth {
-            half_width,
-            max_tosses,
-        } => (half_width, max_tosses),
+        Stop::Targets(targets) => targets,
     };
+    let max_tosses = targets.max_tosses;
     let n = tally.tosses() as f64;
-    let variance = |face| {
-        // one more of each: a face that did not show yet may still do so
-        let p = (tally.count(face) as f64 + 1.0) / (n + 2.0);
-        p * (1.0 - p)
-    };
-    let variance = Face::ALL.into_iter().map(variance).fold(0.0, f64::max);
     // Some 10 to 40 looks: their number matters little under the logarithm of the tail.
     let looks = libm::log2(max_tosses as f64 / FIRST_LOOK as f64).max(0.0) + 1.0;
     let z = -inverse_normal_cdf((1.0 - plan.confidence) / (2.0 * looks));
+    let of = |face| {
+        // one more of each: a face that did not show yet may still do so
+        let p = (tally.count(face) as f64 + 1.0) / (n + 2.0);
+        let absolute = targets
+            .half_width
+            .map_or(0.0, |arm| p * (1.0 - p) / (arm * arm));
+        let share = targets.relative_error;
+        let relative = share.map_or(0.0, |share| (1.0 - p) / (p * share * share));
+        let events = targets.events.map_or(0.0, |least| least as f64 / p);
+        (z * z * absolute.max(relative)).max(events)
+    };
+    let wanted = Face::ALL.into_iter().map(of).fold(0.0, f64::max);
     // Saturates; then max_tosses is what stops.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-    let wanted = (z * z * variance / (half_width * half_width)) as u64;
+    let wanted = wanted as u64;
     wanted
         .checked_next_power_of_two()
         .unwrap_or(u64::MAX)

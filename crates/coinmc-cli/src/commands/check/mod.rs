@@ -9,7 +9,7 @@ use crate::terminal::{Colors, Style, compact, count, duration, grouped, in_ascii
 use calibration::{Cost, PointCost};
 use clap::Args;
 use coinmc::config::{self, Override};
-use coinmc::plan::{Plan, Stop};
+use coinmc::plan::{Plan, Stop, Targets};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -143,12 +143,33 @@ fn tosses(plan: &Plan, cost: &Cost) -> String {
     match plan.stop {
         _ if plan.tosses_planned() == 0 => "none".to_owned(),
         Stop::Tosses(each) => format!("{} a point, {total} in all", grouped(each)),
-        Stop::HalfWidth { half_width, .. } => format!(
-            "until every interval is within ±{}: about {}, {total} at most",
-            compact(half_width),
+        Stop::Targets(targets) => format!(
+            "until {}: about {}, {total} at most",
+            wanted(&targets),
             grouped(two_digits(cost.tosses))
         ),
     }
+}
+
+/// The targets in words.
+fn wanted(targets: &Targets) -> String {
+    let half_width = targets
+        .half_width
+        .map(|arm| format!("every interval is within ±{}", compact(arm)));
+    let relative = targets.relative_error.map(|share| {
+        format!(
+            "every interval is within ±{} % of its probability",
+            compact(100.0 * share)
+        )
+    });
+    let events = targets
+        .events
+        .map(|least| format!("every face was seen {} times", grouped(least)));
+    let all: Vec<String> = [half_width, relative, events]
+        .into_iter()
+        .flatten()
+        .collect();
+    all.join(" and ")
 }
 
 /// The first two digits, then zeros: a forecast has no more.
@@ -162,7 +183,7 @@ fn intervals(plan: &Plan) -> &'static str {
         _ if is_integrated(plan) => STUDENT,
         _ if plan.tosses_planned() == 0 => EXACT,
         Stop::Tosses(_) => plan.interval.name(),
-        Stop::HalfWidth { .. } => "sequential-clopper-pearson",
+        Stop::Targets(_) => "sequential-clopper-pearson",
     }
 }
 

@@ -154,17 +154,44 @@ fn stop() -> TableKind {
                 Omitted,
             ),
             field(
+                "relative_error",
+                "Toss until every face's interval is no wider than ± this share of its probability.",
+                Kind::Real(Bounds {
+                    low: 1e-6,
+                    high: 1.0,
+                    open: (false, true),
+                }),
+                Omitted,
+            ),
+            field(
+                "events",
+                "Toss until every face has been seen so many times.",
+                tosses.clone(),
+                Omitted,
+            ),
+            field(
                 "max_tosses",
-                "Tosses at which a point stops short of its half_width (100 million if absent).",
+                "Tosses at which a point stops short of these targets (100 million if absent).",
                 tosses,
                 Omitted,
             ),
         ],
         rules: vec![
-            Rule::ExactlyOne(&["tosses", "half_width"]),
+            Rule::Unless {
+                condition: Condition::Either(&[
+                    Condition::Given("half_width"),
+                    Condition::Given("relative_error"),
+                    Condition::Given("events"),
+                ]),
+                keys: &["tosses"],
+                fallback: None,
+            },
+            Rule::NotBoth(["tosses", "half_width"]),
+            Rule::NotBoth(["tosses", "relative_error"]),
+            Rule::NotBoth(["tosses", "events"]),
             Rule::GoesWith {
                 key: "max_tosses",
-                other: "half_width",
+                others: &["half_width", "relative_error", "events"],
                 fallback: Fallback::Integer(100_000_000),
             },
         ],

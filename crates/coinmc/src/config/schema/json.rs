@@ -163,11 +163,12 @@ fn rule(rule: Rule) -> Vec<(&'static str, Json)> {
             let one = |key: &&'static str| Json::Object(vec![required(&[key])]);
             vec![("oneOf", Json::List(keys.iter().map(one).collect()))]
         }
-        Rule::GoesWith { key, other, .. } => {
-            vec![(
-                "dependentRequired",
-                Json::Object(vec![(key, texts(&[other]))]),
-            )]
+        Rule::GoesWith { key, others, .. } => {
+            let with = |other: &&'static str| {
+                let required = Json::Object(vec![(key, texts(&[other]))]);
+                Json::Object(vec![("dependentRequired", required)])
+            };
+            any_of(others.iter().map(with).collect())
         }
         Rule::Together {
             keys: [a, b],

@@ -101,18 +101,20 @@ impl Walker<'_> {
             Rule::NotBoth(keys) => self.not_both(keys, slots),
             Rule::GoesWith {
                 key,
-                other,
+                others,
                 fallback,
             } => {
-                let (Some(at), Some(with)) = (slots.index(key), slots.index(other)) else {
+                let Some(at) = slots.index(key) else {
                     return;
                 };
-                match (&slots.forms[at], &slots.forms[with]) {
-                    (Some(checked), None) => {
-                        let message = format!("`{key}` goes with `{other}` only");
+                let with = others.iter().any(|other| slots.get(other).is_some());
+                match (&slots.forms[at], with) {
+                    (Some(checked), false) => {
+                        let others: Vec<_> = others.iter().map(|key| format!("`{key}`")).collect();
+                        let message = format!("`{key}` goes with {} only", others.join(" or "));
                         self.problems.add(checked.span, message);
                     }
-                    (None, Some(_)) => slots.fill(at, fallback),
+                    (None, true) => slots.fill(at, fallback),
                     _ => {}
                 }
             }
