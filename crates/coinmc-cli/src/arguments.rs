@@ -4,7 +4,9 @@
 use crate::commands::Film;
 #[cfg(feature = "robot")]
 use crate::commands::Robot;
-use crate::commands::{Analytic, Check, Completions, Design, Fair, Merge, Run, Schema, Trace};
+use crate::commands::{
+    Analytic, Check, Completions, Design, Fair, Merge, Run, Schema, SensitivityOf, Trace,
+};
 use crate::exit::{Failure, Outcome};
 use crate::output::{Console, Format};
 use clap::{ColorChoice, CommandFactory, Parser, Subcommand};
@@ -52,6 +54,7 @@ enum Command {
     Check(Check),
     Fair(Box<Fair>),
     Design(Box<Design>),
+    Sensitivity(SensitivityOf),
     Merge(Merge),
     Trace(Box<Trace>),
     #[cfg(feature = "film")]
@@ -82,6 +85,7 @@ impl Command {
             Self::Check(check) => check.format(),
             Self::Fair(fair) => fair.format(),
             Self::Design(design) => design.format(),
+            Self::Sensitivity(sensitivity) => sensitivity.format(),
             Self::Merge(merge) => merge.format(),
             Self::Trace(trace) => trace.format(),
             #[cfg(feature = "film")]
@@ -99,6 +103,7 @@ impl Command {
             Self::Check(check) => check.execute(console),
             Self::Fair(fair) => fair.execute(console),
             Self::Design(design) => design.execute(console),
+            Self::Sensitivity(sensitivity) => sensitivity.execute(console),
             Self::Merge(merge) => merge.execute(console),
             Self::Trace(trace) => trace.execute(console),
             #[cfg(feature = "film")]

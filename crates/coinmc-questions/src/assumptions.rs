@@ -83,11 +83,11 @@ pub fn effects(
         .iter()
         .map(|plan| [usual, At { plan, point: 0 }])
         .collect();
-    let changes = workers.compare(&pairs, 0..tosses, question.face)?;
+    let changes = workers.compare(&pairs, 0..tosses)?;
     let z = -inverse_normal_cdf((1.0 - fair.confidence) / 2.0);
     let moved: Vec<Moved> = changes
         .iter()
-        .map(|&changes| moved(root, question.target, changes, tosses, z))
+        .map(|changes| moved(root, question.target, changes.difference(question.face), z))
         .collect();
     let mut effects: Vec<Effect> = assumptions
         .into_iter()
@@ -101,13 +101,12 @@ pub fn effects(
     Ok(effects)
 }
 
-/// Where a root is once so many of the tosses gain and lose the face.
-fn moved(root: &Root, target: f64, [gained, lost]: [u64; 2], tosses: u64, z: f64) -> Moved {
-    let (gained, lost, n) = (gained as f64, lost as f64, tosses as f64);
-    let change = (gained - lost) / n;
-    let error = ((gained + lost + 1.0 - (gained - lost) * change) / (n * n)).sqrt();
+/// Where a root is once the face's probability has changed by so much, with this standard error.
+fn moved(root: &Root, target: f64, (change, error): (f64, f64), z: f64) -> Moved {
+    /// Probabilities this near to 0 and 1 have no log odds that a few tosses could tell.
+    const LEAST: f64 = 1e-3;
     let odds = |p: f64| {
-        let p = p.clamp(0.5 / n, 1.0 - 0.5 / n);
+        let p = p.clamp(LEAST, 1.0 - LEAST);
         libm::log(p / (1.0 - p))
     };
     // dP/dx = P(1 − P) dη/dx

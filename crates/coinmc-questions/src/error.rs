@@ -68,6 +68,20 @@ pub enum QuestionError {
         /// The key of the parameter.
         key: String,
     },
+    /// The config sweeps parameters.
+    #[error("the config sweeps {0}: give each one value with --set")]
+    Sweep(String),
+    /// A parameter that cannot be varied.
+    #[error("`{key}` is not a number of this config that can be varied; choose from {known}")]
+    NotVaried {
+        /// Its key.
+        key: String,
+        /// The keys that can be.
+        known: String,
+    },
+    /// The step of a difference.
+    #[error("the step must be above 0 and at most 1, not {0}")]
+    Step(f64),
     /// There is no such scene.
     #[error("there is no scene `{name}`{}: known are {known}", nearest.map_or(String::new(), |near| format!(" (did you mean `{near}`?)")))]
     NoScene {

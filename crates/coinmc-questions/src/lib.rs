@@ -7,6 +7,7 @@
 //! * [`fair()`] finds the values of a parameter at which a face has a given probability.
 //! * [`scenes`] are everyday scenes, with where each of their numbers comes from.
 //! * [`assumptions`] tells how far each assumption moves the answer.
+//! * [`sensitivity`] tells how the probabilities move with every number of a scene.
 //! * [`tosses_for_power`] says how many tosses test a coin.
 
 pub mod assumptions;
@@ -15,6 +16,7 @@ mod error;
 mod fair;
 mod power;
 pub mod scenes;
+pub mod sensitivity;
 mod template;
 mod workers;
 

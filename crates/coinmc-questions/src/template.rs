@@ -20,6 +20,7 @@ pub struct Template {
     name: String,
     text: String,
     overrides: Vec<Override>,
+    values: Vec<(String, f64)>,
     size: Size,
     make: Option<Make>,
 }
@@ -78,6 +79,7 @@ impl Template {
             name: name.into(),
             text: text.into(),
             overrides: overrides.to_vec(),
+            values: vec![],
             size: Size::OfConfig,
             make: None,
         }
@@ -92,6 +94,13 @@ impl Template {
         Ok(Self { size, ..self })
     }
 
+    /// The same with this number under a dotted key, unless a question replaces it.
+    #[must_use]
+    pub fn with_value(mut self, key: &str, value: f64) -> Self {
+        self.values.push((key.to_owned(), value));
+        self
+    }
+
     /// The same with coins that are made by a rule: `make` gives other numbers of `[coin]`, such as its
     /// moments of inertia, for the coin of each ratio and radius.
     pub fn with_coins_made(
@@ -102,6 +111,16 @@ impl Template {
             make: Some(Arc::new(make)),
             ..self
         }
+    }
+
+    /// The same scene spelled out, so that every number that it shows can be replaced: also those that
+    /// the config leaves to presets, materials and defaults.
+    ///
+    /// # Errors
+    /// [`QuestionError::Config`].
+    pub fn resolved(&self) -> Result<Self, QuestionError> {
+        let plan = self.plan(&[])?;
+        Ok(Self::new(&self.name, &plan.resolved_toml, &[]))
     }
 
     /// Whether the size of the coin is not that of the config.
@@ -140,7 +159,11 @@ impl Template {
         // a run's stop is not a question's, but a plan must have one
         let stop = ("stop", "{ tosses = 1 }".to_owned());
         let mut overrides = self.overrides.clone();
-        for (key, value) in values.iter().chain([&stop]) {
+        let own = self.values.iter();
+        let own: Vec<_> = own
+            .map(|(key, value)| (key.as_str(), format!("{value:?}")))
+            .collect();
+        for (key, value) in own.iter().chain(values).chain([&stop]) {
             let text = format!("{key}={value}");
             overrides.push(text.parse().map_err(QuestionError::Key)?);
         }

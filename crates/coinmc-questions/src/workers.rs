@@ -38,6 +38,47 @@ struct Piece {
     tosses: Range<u64>,
 }
 
+/// Tosses of a pair of points by the face at the first and the face at the second (3 for none).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Changes([u64; 16]);
+
+impl Changes {
+    fn with(&self, first: impl Fn(usize) -> bool, second: impl Fn(usize) -> bool) -> u64 {
+        let tosses = self.0.iter().enumerate();
+        let counted = tosses.filter(|(place, _)| first(place / 4) && second(place % 4));
+        counted.map(|(_, tosses)| tosses).sum()
+    }
+
+    /// All tosses.
+    pub(crate) fn tosses(&self) -> u64 {
+        self.0.iter().sum()
+    }
+
+    /// Tosses whose face differs.
+    pub(crate) fn changed(&self) -> u64 {
+        let same: u64 = (0..4).map(|face| self.0[5 * face]).sum();
+        self.tosses() - same
+    }
+
+    /// Share of the tosses that show a face at the first point.
+    pub(crate) fn share(&self, face: Face) -> f64 {
+        self.with(|first| first == face as usize, |_| true) as f64 / self.tosses() as f64
+    }
+
+    /// How far the probability of a face is higher at the second point, and the standard error of that, by
+    /// the variance of paired proportions (McNemar, Psychometrika 12 (1947) 153).
+    pub(crate) fn difference(&self, face: Face) -> (f64, f64) {
+        let is = |shown| shown == face as usize;
+        let gained = self.with(|first| !is(first), is) as f64;
+        let lost = self.with(is, |second| !is(second)) as f64;
+        let n = self.tosses() as f64;
+        let change = (gained - lost) / n;
+        // one more change of either kind, so that no change seen does not mean no error
+        let variance = (gained + lost + 1.0 - (gained - lost) * change) / (n * n);
+        (change, variance.sqrt())
+    }
+}
+
 impl Workers<'_> {
     /// Counts the faces of all work: heads, tails, side and undecided of each.
     pub(crate) fn count(
@@ -52,34 +93,28 @@ impl Workers<'_> {
         })
     }
 
-    /// Tosses pairs of points with the same random numbers; counts the tosses that show a face at the
-    /// second only, and those that show it at the first only.
+    /// Tosses pairs of points with the same random numbers.
     pub(crate) fn compare(
         &self,
         pairs: &[[At<'_>; 2]],
         tosses: Range<u64>,
-        face: Face,
-    ) -> Result<Vec<[u64; 2]>, QuestionError> {
+    ) -> Result<Vec<Changes>, QuestionError> {
         let ranges = vec![tosses; pairs.len()];
-        self.each_piece(&ranges, &|index, tosses| {
+        let tables = self.each_piece(&ranges, &|index, tosses| {
             let [first, second] = pairs[index];
             let start = tosses.start;
             let place = |toss: u64| usize::try_from(toss - start).expect("a piece is small");
-            let mut before = vec![false; place(tosses.end)];
+            let mut before = vec![3; place(tosses.end)];
             self.faces(first, tosses.clone(), &mut |toss, shown| {
-                before[place(toss)] = shown == face as usize;
+                before[place(toss)] = shown;
             })?;
-            let mut changes = [0; 2];
-            self.faces(second, tosses, &mut |toss, shown| match (
-                before[place(toss)],
-                shown == face as usize,
-            ) {
-                (false, true) => changes[0] += 1,
-                (true, false) => changes[1] += 1,
-                _ => {}
+            let mut table = [0; 16];
+            self.faces(second, tosses, &mut |toss, shown| {
+                table[4 * before[place(toss)] + shown] += 1;
             })?;
-            Ok(changes)
-        })
+            Ok(table)
+        })?;
+        Ok(tables.into_iter().map(Changes).collect())
     }
 
     /// Calls `visit` with the number and the face (3 for none) of each toss.
@@ -160,4 +195,24 @@ fn pieces((work, range): (usize, &Range<u64>)) -> impl Iterator<Item = Piece> + 
             tosses: first..end.min(first + PIECE),
         }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 80 tosses gain the side, 50 lose it, 30 only turn over.
+    #[test]
+    fn changes_are_those_of_one_face() {
+        let mut table = [0; 16];
+        table[0] = 5000;
+        (table[4], table[2], table[6]) = (30, 60, 20);
+        (table[10], table[8], table[11]) = (4840, 40, 10);
+        let changes = Changes(table);
+        assert_eq!((changes.tosses(), changes.changed()), (10_000, 160));
+        assert!((changes.share(Face::Side) - 0.489).abs() < 1e-12);
+        let (change, error) = changes.difference(Face::Side);
+        assert!((change - 0.003).abs() < 1e-12);
+        assert!((error - (131.0_f64 - 0.09).sqrt() / 1e4).abs() < 1e-12);
+    }
 }

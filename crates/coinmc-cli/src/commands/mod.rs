@@ -13,6 +13,7 @@ mod quantity;
 mod robot;
 mod run;
 mod schema;
+mod sensitivity;
 mod trace;
 
 pub(crate) use analytic::Analytic;
@@ -27,4 +28,13 @@ pub(crate) use merge::Merge;
 pub(crate) use robot::Robot;
 pub(crate) use run::Run;
 pub(crate) use schema::Schema;
+pub(crate) use sensitivity::SensitivityOf;
 pub(crate) use trace::Trace;
+
+use coinmc_core::Face;
+
+/// The face of a name, for arguments.
+fn face(name: &str) -> Result<Face, String> {
+    let found = Face::ALL.into_iter().find(|face| face.name() == name);
+    found.ok_or_else(|| "expected heads, tails or side".to_owned())
+}

@@ -65,7 +65,7 @@ mod tests {
     #[test]
     fn units_are_converted() {
         assert_eq!("24mm".parse(), Ok(Length(0.024)));
-        assert_eq!("1.5 in".parse(), Ok(Length(0.0381)));
+        assert_eq!("2 in".parse(), Ok(Length(0.0508)));
         assert_eq!("2cm3".parse(), Ok(Volume(2e-6)));
         assert_eq!("7.5g".parse(), Ok(Mass(0.0075)));
         assert_eq!("1.24g/cm3".parse(), Ok(Density(1240.0)));

@@ -181,12 +181,11 @@ impl Along<'_> {
             plan,
             point: self.point,
         });
-        let changes = self
-            .workers
-            .compare(&[pair], 0..tosses, self.question.face)?;
+        let changes = self.workers.compare(&[pair], 0..tosses)?;
+        let change = changes[0].difference(self.question.face);
         self.made += 2 * tosses;
         Ok(Some(numerical::Numerical::new(
-            changes[0], tosses, root.slope, z,
+            change, tosses, root.slope, z,
         )))
     }
 

@@ -17,15 +17,10 @@ pub struct Numerical {
 }
 
 impl Numerical {
-    /// From the tosses that gain and lose the face with finer settings, and the slope dP/d(parameter):
-    /// a probability higher by Δ moves the root by −Δ/slope. The variance of Δ is that of paired
-    /// proportions (McNemar, Psychometrika 12 (1947) 153).
-    pub(super) fn new([gained, lost]: [u64; 2], tosses: u64, slope: f64, z: f64) -> Self {
-        let (gained, lost, n) = (gained as f64, lost as f64, tosses as f64);
-        let change = (gained - lost) / n;
-        // one more change of either kind, so that no change seen does not mean no error
-        let variance = (gained + lost + 1.0 - (gained - lost) * change) / (n * n);
-        let (shift, arm) = (-change / slope, z * variance.sqrt() / slope.abs());
+    /// From the change of the face's probability with finer settings, its standard error, and the slope
+    /// dP/d(parameter): a probability higher by Δ moves the root by −Δ/slope.
+    pub(super) fn new((change, error): (f64, f64), tosses: u64, slope: f64, z: f64) -> Self {
+        let (shift, arm) = (-change / slope, z * error / slope.abs());
         Self {
             shift,
             lo: shift - arm,
@@ -53,18 +48,11 @@ pub(super) fn finer(plan: &Plan) -> Vec<(String, String)> {
 mod tests {
     use super::*;
 
-    /// 30 of 10,000 tosses more show the face, with 130 changes: Δ = .003, and its standard error
-    /// sqrt(131 − .09)/10,000.
     #[test]
-    fn changes_become_a_shift() {
-        let found = Numerical::new([80, 50], 10_000, -0.5, 2.0);
-        assert!((found.shift - 0.006).abs() < 1e-12);
-        let arm = 2.0 * (131.0_f64 - 0.09).sqrt() / 10_000.0 / 0.5;
-        assert!((found.hi - 0.006 - arm).abs() < 1e-12 && (found.lo - 0.006 + arm).abs() < 1e-12);
-    }
-
-    #[test]
-    fn no_change_leaves_an_error() {
-        assert!(Numerical::new([0, 0], 1000, 1.0, 2.0).hi > 0.0);
+    fn a_probability_that_rises_moves_a_rising_root_down() {
+        let found = Numerical::new((0.003, 0.001), 10_000, 0.5, 2.0);
+        assert!((found.shift + 0.006).abs() < 1e-12);
+        assert!((found.lo + 0.010).abs() < 1e-12 && (found.hi + 0.002).abs() < 1e-12);
+        assert!(Numerical::new((0.003, 0.001), 10_000, -0.5, 2.0).shift > 0.0);
     }
 }

@@ -46,7 +46,7 @@ pub(crate) struct Fair {
     scene: Option<String>,
 
     /// The face
-    #[arg(long, value_name = "FACE", value_parser = face, default_value = "side")]
+    #[arg(long, value_name = "FACE", value_parser = super::face, default_value = "side")]
     face: Face,
 
     /// Its probability [default: 1/3]
@@ -134,11 +134,6 @@ struct Answered {
     answer: Answer,
     /// Effects of the scene's assumptions on its only root.
     effects: Vec<Effect>,
-}
-
-fn face(name: &str) -> Result<Face, String> {
-    let found = Face::ALL.into_iter().find(|face| face.name() == name);
-    found.ok_or_else(|| "expected heads, tails or side".to_owned())
 }
 
 impl Fair {

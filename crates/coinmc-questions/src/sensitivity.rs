@@ -1,0 +1,253 @@
+//! How the probabilities of the faces move with every number of a scene.
+//!
+//! # Method
+//! Each parameter θ is decreased and increased by half a step, by the same factor, and the same tosses
+//! are made with both values. Only tosses whose face changes contribute to the difference, so its error
+//! is far smaller than that of two independent estimates:
+//!
+//! ```text
+//! dP/d ln θ = [P(θ sqrt(1 + s)) − P(θ/sqrt(1 + s))]/ln(1 + s),
+//! ```
+//!
+//! right to the second order of s. The elasticity is d ln P/d ln θ: by how many per cent P grows if θ
+//! does by one.
+//!
+//! Near a root x* of P(x, θ) = target, dx*/d ln θ = −(dP/d ln θ)/(dP/dx).
+
+use crate::workers::{At, Changes};
+use crate::{QuestionError, Root, Template, Workers};
+use coinmc::plan::Plan;
+use coinmc_core::{Face, inverse_normal_cdf};
+use toml::de::{DeTable, DeValue};
+
+/// Tables of a config whose numbers can be varied.
+const TABLES: [&str; 4] = ["coin", "surface", "environment", "launch"];
+/// Least number of tosses: with fewer the intervals mean nothing.
+pub const LEAST_TOSSES: u64 = 256;
+
+/// A number of a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    /// Its key in configs.
+    pub key: String,
+    /// The number.
+    pub value: f64,
+}
+
+/// A derivative and its interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Derivative {
+    /// The derivative.
+    pub value: f64,
+    /// Lower end of its interval.
+    pub lo: f64,
+    /// Upper end.
+    pub hi: f64,
+}
+
+/// How the probabilities move with one parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sensitivity {
+    /// The parameter.
+    pub parameter: Parameter,
+    /// dP/d ln(parameter) of heads, tails and side.
+    pub faces: [Derivative; 3],
+    /// Share of the tosses that show each face, with the smaller value.
+    pub p: [f64; 3],
+    /// Share of the tosses whose face changes.
+    pub changed: f64,
+    /// Tosses with either value.
+    pub tosses: u64,
+    /// Confidence of the intervals.
+    pub confidence: f64,
+}
+
+impl Sensitivity {
+    /// dP/d ln(parameter) of a face.
+    pub fn of(&self, face: Face) -> Derivative {
+        self.faces[face as usize]
+    }
+
+    /// d ln P/d ln(parameter) of a face; infinite or NaN if it was not seen.
+    pub fn elasticity(&self, face: Face) -> Derivative {
+        self.of(face).scaled(1.0 / self.p[face as usize])
+    }
+
+    /// dx*/d ln(parameter) of a root x* of the face's probability. The interval holds the error of the
+    /// derivative and that of the slope, added as independent.
+    pub fn shift(&self, face: Face, root: &Root) -> Derivative {
+        let derivative = self.of(face);
+        let z = -inverse_normal_cdf((1.0 - self.confidence) / 2.0);
+        let value = -derivative.value / root.slope;
+        let arm = 0.5 * (derivative.hi - derivative.lo) / root.slope.abs();
+        let of_slope = z * root.slope_error / root.slope * value;
+        let arm = (arm * arm + of_slope * of_slope).sqrt();
+        Derivative {
+            value,
+            lo: value - arm,
+            hi: value + arm,
+        }
+    }
+}
+
+impl Derivative {
+    /// Times a positive factor.
+    fn scaled(self, factor: f64) -> Self {
+        Self {
+            value: factor * self.value,
+            lo: factor * self.lo,
+            hi: factor * self.hi,
+        }
+    }
+}
+
+/// What to vary, and how.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Steps {
+    /// Keys of the parameters; empty for all that are not 0.
+    pub keys: Vec<String>,
+    /// Ratio of the two values minus 1.
+    pub step: f64,
+    /// Tosses with either value.
+    pub tosses: u64,
+}
+
+/// The numbers of a scene that can be varied: all but 0 in coin, surface, environment and launch. The
+/// mass of a uniform coin affects no probability and is left out.
+///
+/// # Errors
+/// [`QuestionError::Config`]; [`QuestionError::Sweep`] if the config sweeps parameters.
+pub fn parameters(template: &Template) -> Result<Vec<Parameter>, QuestionError> {
+    let plan = template.plan(&[])?;
+    if !plan.axes.is_empty() {
+        return Err(QuestionError::Sweep(plan.axes.join(", ")));
+    }
+    let mut found = vec![];
+    if let Ok(document) = DeTable::parse(&plan.resolved_toml) {
+        let document = document.into_inner();
+        for name in TABLES {
+            if let Some(table) = document.get(name) {
+                collect(table.get_ref(), name.to_owned(), &mut found);
+            }
+        }
+    }
+    let loaded = found
+        .iter()
+        .any(|number| number.key.ends_with("_moment_kg_m2"));
+    found.retain(|number| loaded || number.key != "coin.mass_kg");
+    Ok(found)
+}
+
+fn collect(value: &DeValue<'_>, key: String, found: &mut Vec<Parameter>) {
+    let text = match value {
+        DeValue::Table(table) => {
+            for (name, inner) in table {
+                collect(inner.get_ref(), format!("{key}.{}", name.get_ref()), found);
+            }
+            return;
+        }
+        DeValue::Float(number) => number.as_str().to_owned(),
+        DeValue::Integer(number) => number.as_str().replace('_', ""),
+        _ => return,
+    };
+    if let Ok(value) = text.parse::<f64>()
+        && value != 0.0
+    {
+        found.push(Parameter { key, value });
+    }
+}
+
+/// How the probabilities move with parameters of a scene, in the order of the config.
+///
+/// # Errors
+/// [`QuestionError`] if the question or the config with a changed value has problems, or it was stopped.
+///
+/// # Example
+/// ```
+/// use coinmc_core::Face;
+/// use coinmc_questions::{Template, Workers, sensitivity::{Steps, sensitivities}};
+/// use std::sync::atomic::AtomicBool;
+/// let text = "coin.ratio = 1.6\nsurface = { restitution = 0.5, friction = 0.3 }\n\
+///             launch.preset = 'robot'\nengine.flat = {}";
+/// let cancel = AtomicBool::new(false);
+/// let workers = Workers { threads: None, cancel: &cancel, made: &|_| () };
+/// let steps = Steps { keys: vec!["coin.ratio".to_owned()], step: 0.05, tosses: 4096 };
+/// let found = sensitivities(&Template::new("inline", text, &[]), &steps, &workers)?;
+/// assert!(found[0].of(Face::Side).lo > 0.0);
+/// # Ok::<(), coinmc_questions::QuestionError>(())
+/// ```
+pub fn sensitivities(
+    template: &Template,
+    steps: &Steps,
+    workers: &Workers<'_>,
+) -> Result<Vec<Sensitivity>, QuestionError> {
+    let template = template.resolved()?;
+    let chosen = chosen(&template, steps)?;
+    let root = (1.0 + steps.step).sqrt();
+    let mut plans = vec![];
+    for parameter in &chosen {
+        let at = |value: f64| template.plan(&[(&parameter.key, format!("{value:?}"))]);
+        plans.push([at(parameter.value / root)?, at(parameter.value * root)?]);
+    }
+    let pairs: Vec<_> = plans.iter().map(at_first_point).collect();
+    let changes = workers.compare(&pairs, 0..steps.tosses)?;
+    let confidence = plans.first().map_or(0.95, |[plan, _]| plan.confidence);
+    let found = chosen.into_iter().zip(&changes);
+    Ok(found
+        .map(|(parameter, changes)| sensitivity(parameter, changes, steps.step, confidence))
+        .collect())
+}
+
+fn at_first_point(plans: &[Plan; 2]) -> [At<'_>; 2] {
+    plans.each_ref().map(|plan| At { plan, point: 0 })
+}
+
+/// The parameters to vary, once the steps have been checked.
+fn chosen(template: &Template, steps: &Steps) -> Result<Vec<Parameter>, QuestionError> {
+    if !(steps.step > 0.0 && steps.step <= 1.0) {
+        return Err(QuestionError::Step(steps.step));
+    }
+    if steps.tosses < LEAST_TOSSES {
+        return Err(QuestionError::TooFewTosses {
+            least: LEAST_TOSSES,
+            given: steps.tosses,
+        });
+    }
+    let all = parameters(template)?;
+    if steps.keys.is_empty() {
+        return Ok(all);
+    }
+    let pick = |key: &String| {
+        let found = all.iter().find(|parameter| parameter.key == *key);
+        found.cloned().ok_or_else(|| {
+            let known: Vec<&str> = all.iter().map(|known| known.key.as_str()).collect();
+            QuestionError::NotVaried {
+                key: key.clone(),
+                known: known.join(", "),
+            }
+        })
+    };
+    steps.keys.iter().map(pick).collect()
+}
+
+fn sensitivity(parameter: Parameter, changes: &Changes, step: f64, confidence: f64) -> Sensitivity {
+    let z = -inverse_normal_cdf((1.0 - confidence) / 2.0);
+    let per_log = 1.0 / libm::log1p(step);
+    let faces = Face::ALL.map(|face| {
+        let (change, error) = changes.difference(face);
+        let derivative = Derivative {
+            value: change,
+            lo: change - z * error,
+            hi: change + z * error,
+        };
+        derivative.scaled(per_log)
+    });
+    Sensitivity {
+        parameter,
+        faces,
+        p: Face::ALL.map(|face| changes.share(face)),
+        changed: changes.changed() as f64 / changes.tosses() as f64,
+        tosses: changes.tosses(),
+        confidence,
+    }
+}

@@ -1,0 +1,157 @@
+//! Sensitivities of the engines themselves.
+
+use coinmc_core::Face;
+use coinmc_questions::sensitivity::{Sensitivity, Steps, parameters, sensitivities};
+use coinmc_questions::{Question, QuestionError, Template, Workers, fair};
+use std::f64::consts::PI;
+use std::num::NonZeroUsize;
+use std::sync::atomic::AtomicBool;
+
+/// Nothing bounces and every landing angle is as likely, P(side) = (2/π) atan(x/2); tossed at random.
+const ARC: &str = "seed = 3\ncoin.ratio = 1.0\nsampling.method = 'random'\n\
+                   surface = { landing = 'adhesive', restitution = 0.0, friction = 0.3 }\n\
+                   launch.preset = 'clean-flat'\nengine.flat = {}\nestimate.confidence = 0.999";
+
+fn ask(text: &str, steps: &Steps, threads: usize) -> Result<Vec<Sensitivity>, QuestionError> {
+    let cancel = AtomicBool::new(false);
+    let workers = Workers {
+        threads: NonZeroUsize::new(threads),
+        cancel: &cancel,
+        made: &|_| (),
+    };
+    sensitivities(&Template::new("inline", text, &[]), steps, &workers)
+}
+
+fn steps(keys: &[&str], tosses: u64) -> Steps {
+    Steps {
+        keys: keys.iter().map(|key| (*key).to_owned()).collect(),
+        step: 0.05,
+        tosses,
+    }
+}
+
+/// dP/d ln x = (2/π) 2x/(4 + x²), within an interval of 99.9 % and the error of the step, s²/24 of the third
+/// derivative: below 0.001.
+#[test]
+fn the_derivative_is_that_of_the_closed_form() {
+    let found = ask(ARC, &steps(&["coin.ratio"], 200_000), 2).expect("an answer");
+    let side = found[0].of(Face::Side);
+    let exact = (2.0 / PI) * 2.0 / 5.0;
+    assert!(
+        side.lo - 1e-3 < exact && exact < side.hi + 1e-3,
+        "{side:?} {exact}"
+    );
+    // the same tosses: few change, so the interval is short
+    // two independent estimates would have 2 · 3.29 · sqrt(2 · .21/200,000)/ln 1.05 = .2
+    assert!(side.hi - side.lo < 0.04, "{side:?}");
+    let p = (2.0 / PI) * libm::atan(0.5);
+    let elasticity = found[0].elasticity(Face::Side);
+    assert!(
+        (elasticity.value - exact / p).abs() < 0.05,
+        "{elasticity:?}"
+    );
+    let sum: f64 = Face::ALL.map(|face| found[0].of(face).value).iter().sum();
+    assert!(sum.abs() < 1e-12);
+}
+
+#[test]
+fn sensitivities_do_not_depend_on_threads() {
+    let all = steps(&[], 2048);
+    assert_eq!(
+        ask(ARC, &all, 1).expect("one"),
+        ask(ARC, &all, 3).expect("three")
+    );
+}
+
+/// All numbers but 0, and not the mass of a uniform coin. Where nothing bounces friction changes no toss.
+#[test]
+fn what_has_no_effect_changes_no_toss() {
+    let template = Template::new("inline", ARC, &[]);
+    let keys: Vec<String> = parameters(&template)
+        .expect("parameters")
+        .into_iter()
+        .map(|parameter| parameter.key)
+        .collect();
+    assert!(keys.contains(&"surface.friction".to_owned()), "{keys:?}");
+    assert!(
+        keys.contains(&"environment.gravity_m_s2".to_owned()),
+        "{keys:?}"
+    );
+    assert!(!keys.contains(&"coin.mass_kg".to_owned()), "{keys:?}");
+    assert!(
+        !keys.contains(&"surface.restitution".to_owned()),
+        "{keys:?}"
+    );
+    let found = ask(ARC, &steps(&["surface.friction"], 2048), 1).expect("an answer");
+    assert_eq!(
+        (found[0].changed, found[0].of(Face::Side).value),
+        (0.0, 0.0)
+    );
+    let loaded = ARC.replace(
+        "coin.ratio = 1.0",
+        "coin = { ratio = 1.0, axial_moment_kg_m2 = 4e-7 }",
+    );
+    let with_mass = parameters(&Template::new("inline", loaded, &[])).expect("parameters");
+    assert!(
+        with_mass
+            .iter()
+            .any(|parameter| parameter.key == "coin.mass_kg")
+    );
+}
+
+/// The fair ratio moves against what raises P(side), and by the ratio's own derivative one for one.
+#[test]
+fn a_root_moves_against_the_probability() {
+    let cancel = AtomicBool::new(false);
+    let workers = Workers {
+        threads: None,
+        cancel: &cancel,
+        made: &|_| (),
+    };
+    let template = Template::new("inline", ARC, &[]);
+    let question = Question {
+        half_width: 0.01,
+        numerical_tosses: 0,
+        ..Question::default()
+    };
+    let answer = fair(&template, &question, &workers).expect("an answer");
+    let root = answer.curves[0].roots().next().expect("a root").clone();
+    let at_root = ARC.replace("ratio = 1.0", &format!("ratio = {:?}", root.value));
+    let found = ask(&at_root, &steps(&["coin.ratio"], 100_000), 2).expect("an answer");
+    let shift = found[0].shift(Face::Side, &root);
+    // dx*/d ln x = −x
+    assert!(
+        shift.lo < -root.value && -root.value < shift.hi,
+        "{shift:?} {}",
+        root.value
+    );
+}
+
+#[test]
+fn questions_without_sense_are_refused() {
+    let refused = |text: &str, steps: &Steps| ask(text, steps, 1).expect_err("refused").to_string();
+    let ratio = steps(&["coin.ratio"], 1000);
+    assert!(
+        refused(
+            ARC,
+            &Steps {
+                step: 0.0,
+                ..ratio.clone()
+            }
+        )
+        .starts_with("the step must be")
+    );
+    assert!(
+        refused(
+            ARC,
+            &Steps {
+                tosses: 1,
+                ..ratio.clone()
+            }
+        )
+        .starts_with("at least 256 tosses")
+    );
+    assert!(refused(ARC, &steps(&["coin.ratoi"], 1000)).contains("choose from coin."));
+    let swept = ARC.replace("ratio = 1.0", "ratio = [1.0, 2.0]");
+    assert!(refused(&swept, &ratio).starts_with("the config sweeps ratio"));
+}
