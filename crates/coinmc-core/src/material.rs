@@ -70,7 +70,7 @@ macro_rules! hertz {
 
 impl Material {
     /// All of them, from hard to soft.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self {
             name: "glass",
             doc: "a pane of float glass on a firm base",
@@ -158,6 +158,16 @@ impl Material {
             contact_patch_m: of(2e-3, "estimate, as billiard cloth"),
             roughness_slope: of(0.05, GUESS),
             roughness_wavelength_m: of(3e-3, GUESS),
+        },
+        Self {
+            name: "carpet",
+            doc: "a short-pile carpet on a hard floor",
+            restitution: of(0.15, "estimate, below felt"),
+            friction: of(0.5, GUESS),
+            rolling_friction_m: of(2e-3, "estimate, twice that of felt"),
+            contact_patch_m: of(4e-3, "estimate, twice that of felt"),
+            roughness_slope: of(0.1, GUESS),
+            roughness_wavelength_m: of(5e-3, GUESS),
         },
     ];
 

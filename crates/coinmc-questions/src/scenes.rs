@@ -56,7 +56,7 @@ const HAND_PSI_DEG: f64 = 81.0;
 
 impl EverydayScene {
     /// All scenes; the first is taken if none is named.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::of(
             "table",
             "a kitchen table or a desk, of laminate",
@@ -72,6 +72,12 @@ impl EverydayScene {
             "floor",
             "a floor of laminate, tossed while standing",
             "laminate",
+            1.0,
+        ),
+        Self::of(
+            "carpet",
+            "a short-pile carpet, tossed while standing",
+            "carpet",
             1.0,
         ),
     ];

@@ -27,7 +27,7 @@ Examples:
   coinmc fair toss.toml --vary surface.restitution  which bounce makes this coin fair?
   coinmc fair toss.toml --face heads --target 0.45
 
-Scenes: table, wood, glass, steel, felt, billiards, floor. What each assumes is printed with the
+Scenes: table, wood, glass, steel, felt, billiards, floor, carpet. What each assumes is printed with the
 answer.";
 
 /// Find how thick a fair coin is, with the error of the answer
