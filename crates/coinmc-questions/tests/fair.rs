@@ -42,7 +42,10 @@ fn only_root(fair: &Fair) -> &Root {
 fn the_answer_does_not_depend_on_the_number_of_threads() {
     let answers = [1, 3].map(|threads| ask(ROBOT, &coarse(), threads).expect("an answer"));
     let [one, three] = answers.each_ref().map(only_root);
-    assert_eq!((one.value, one.lo, one.hi), (three.value, three.lo, three.hi));
+    assert_eq!(
+        (one.value, one.lo, one.hi),
+        (three.value, three.lo, three.hi)
+    );
     assert_eq!(one.numerical, three.numerical);
     assert_eq!(one.stages, three.stages);
 }
@@ -57,7 +60,11 @@ fn tosses_integrals_and_closed_forms_agree() {
     assert!(closed.known && closed.tosses == 0);
     let integral = ask(ARC, &coarse(), 2).expect("an answer");
     let root = only_root(&integral);
-    assert!(integral.known && (root.value - exact).abs() < 2e-3, "{}", root.value);
+    assert!(
+        integral.known && (root.value - exact).abs() < 2e-3,
+        "{}",
+        root.value
+    );
     let text = format!("estimate.confidence = 0.999\nsampling.method = 'random'\n{ARC}");
     let tossed = ask(&text, &coarse(), 2).expect("an answer");
     let root = only_root(&tossed);
@@ -65,7 +72,11 @@ fn tosses_integrals_and_closed_forms_agree() {
     assert!(root.lo < Some(integral_value(&integral)) && Some(integral_value(&integral)) < root.hi);
     // dP/dx = (2/π) 2/(4 + x²)
     let slope = (4.0 / std::f64::consts::PI) / (4.0 + exact * exact);
-    assert!((root.slope - slope).abs() < 3.5 * root.slope_error, "{} {slope}", root.slope);
+    assert!(
+        (root.slope - slope).abs() < 3.5 * root.slope_error,
+        "{} {slope}",
+        root.slope
+    );
 }
 
 fn integral_value(fair: &Fair) -> f64 {
