@@ -24,7 +24,7 @@ mod workers;
 
 pub use aim::{
     Aim, Aimed, Clumsy, MOST_FACTORS, MOST_PLACES, MOST_TOSSES, Parameter, Place, aim,
-    document_of_aim,
+    document_of_aim, picture,
 };
 pub use document::document;
 pub use error::QuestionError;

@@ -11,17 +11,19 @@
 //! own launch, and at the best place in clumsier hands is told by final tosses that took no part in
 //! the choice, so that none of these estimates has the winner's bias.
 //!
-//! Modules, each above those it uses: `document` · `answer` · `check` · `search`,
+//! Modules, each above those it uses: `document`, `picture` · `answer` · `check` · `search`,
 //! `launch`, `plane`.
 
 mod answer;
 mod check;
 mod document;
 mod launch;
+mod picture;
 mod plane;
 mod search;
 
 pub use document::document_of_aim;
+pub use picture::picture;
 
 use crate::{QuestionError, Template, Workers};
 use coinmc_core::{Estimate, Face};
@@ -41,7 +43,7 @@ pub const MOST_FACTORS: u64 = 100;
 /// hand holds within about 5°: level is best, and a clumsy hand spoils it.
 /// ```
 /// use coinmc_core::Face;
-/// use coinmc_questions::{Aim, Parameter, Template, Workers, aim};
+/// use coinmc_questions::{Aim, Parameter, Template, Workers, aim, picture};
 /// use std::sync::atomic::AtomicBool;
 /// let text = "coin.ratio = 1.0\nengine.flat = {}\n\
 ///             surface = { landing = 'adhesive', restitution = 0.0, friction = 0.3 }\n\
@@ -66,6 +68,7 @@ pub const MOST_FACTORS: u64 = 100;
 /// assert_eq!(answer.best.values, [0.0]);
 /// assert!(answer.best.estimate.p == 1.0 && answer.baseline.estimate.hi < 0.2);
 /// assert!(answer.clumsy[1].estimate.hi < 0.9);
+/// assert!(picture(&answer).starts_with("<svg"));
 /// # Ok::<(), coinmc_questions::QuestionError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
