@@ -3,8 +3,9 @@
 use super::launch::Launch;
 use super::plane::Plane;
 use super::{Aim, MOST_FACTORS, MOST_PLACES, MOST_TOSSES, Parameter};
-use crate::{QuestionError, Template};
+use crate::{QuestionError, Template, Workers};
 use coinmc::plan::Plan;
+use std::sync::atomic::Ordering;
 
 /// What is tossed.
 pub(super) struct Plans {
@@ -19,7 +20,11 @@ pub(super) struct Plans {
 }
 
 /// The plans of all places, once the question and all of them have been checked.
-pub(super) fn checked(template: &Template, question: &Aim) -> Result<Plans, QuestionError> {
+pub(super) fn checked(
+    template: &Template,
+    question: &Aim,
+    workers: &Workers<'_>,
+) -> Result<Plans, QuestionError> {
     check_numbers(question)?;
     let (own, spelled_out) = template.spelled_out()?;
     if own.points.len() > 1 {
@@ -41,6 +46,10 @@ pub(super) fn checked(template: &Template, question: &Aim) -> Result<Plans, Ques
         launch,
     };
     for place in 0..plans.plane.len() {
+        // 10,000 plans take seconds
+        if workers.cancel.load(Ordering::Relaxed) {
+            return Err(QuestionError::Stopped);
+        }
         let plan = plans.plan(&plans.launch_at(question, place))?;
         plans.places.push(plan);
     }

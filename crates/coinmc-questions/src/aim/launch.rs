@@ -142,8 +142,11 @@ impl Launch {
 }
 
 fn spread_each<'a>(parts: impl Iterator<Item = &'a mut Launch>, factor: f64) -> bool {
-    // every part, not only those before the first with a spread
-    parts.fold(false, |spread, part| part.spread(factor) || spread)
+    let mut spread = false;
+    for part in parts {
+        spread |= part.spread(factor);
+    }
+    spread
 }
 
 /// A uniform distribution of another width about the same middle; without any width a number.

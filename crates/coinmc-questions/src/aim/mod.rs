@@ -206,7 +206,7 @@ pub fn aim(
     question: &Aim,
     workers: &Workers<'_>,
 ) -> Result<Aimed, QuestionError> {
-    let plans = check::checked(template, question)?;
+    let plans = check::checked(template, question, workers)?;
     answer::answer(question, &plans, workers)
 }
 

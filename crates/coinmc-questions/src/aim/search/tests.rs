@@ -17,7 +17,7 @@ impl<F: Fn(usize) -> f64> Places for Known<F> {
 
     fn count(&mut self, places: &[usize], tosses: Range<u64>) -> Result<Vec<Seen>, Infallible> {
         // four tosses a block
-        assert!(tosses.start % 4 == 0 && tosses.end % 4 == 0);
+        assert!(tosses.start.is_multiple_of(4) && tosses.end.is_multiple_of(4));
         self.made += places.len() as u64 * (tosses.end - tosses.start);
         let philox = Philox4x64::new([self.key, 31]);
         let count = |&place: &usize| {
