@@ -9,7 +9,8 @@
 //! often with the same random numbers, which gives the `map`. Successive halving (`search`) then
 //! finds the places where the face is most and least likely. How likely it is there, at the config's
 //! own launch, and at the best place in clumsier hands is told by final tosses that took no part in
-//! the choice, so that none of these estimates has the winner's bias.
+//! the choice, so that none of these estimates has the winner's bias. Everything is tossed, also
+//! where an integral would give the probability.
 //!
 //! Modules, each above those it uses: `document`, `picture` · `answer` · `check` · `search`,
 //! `launch`, `plane`.
@@ -160,7 +161,7 @@ pub struct Aimed {
     pub question: Aim,
     /// All places, the first parameter varying slowest.
     pub map: Vec<Place>,
-    /// Where the face is most likely, estimated by final tosses.
+    /// Where the face is most likely (of equally good places the first), estimated by final tosses.
     pub best: Place,
     /// Where it is least likely, estimated by final tosses.
     pub worst: Place,

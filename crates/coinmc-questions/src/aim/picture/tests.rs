@@ -58,7 +58,7 @@ fn fills(svg: &str) -> Vec<&str> {
 fn a_plane_is_a_heat_map() {
     let plane = vec![
         parameter("launch.height_m", 0.1, 2.0, 2),
-        parameter("launch.a<b", 0.0, 2.0, 3),
+        parameter("launch.a<b", 0.0, 4.0, 3),
     ];
     let svg = picture(&answer(plane, vec![0.5, 1.0]));
     let shares = [0.0, 0.2, 0.4, 0.6, 0.8, 1.0];

@@ -51,11 +51,11 @@ fn holds(seen: &Seen, p: f64) -> bool {
     (estimate.lo..=estimate.hi).contains(&p)
 }
 
-/// Where all places are equally good, the final interval of 95 % holds their probability in about
-/// 190 ± 3.1 of 200 repeats; fewer than 180 have a chance of 0.1 % (binomial distribution). The
-/// interval of the map's highest place does not: it holds P only if none of the 32 places is too
-/// high by two standard errors, the chance of which is .975^32 = 0.44, and more than 120 of 200 have
-/// a chance below 1e-5.
+/// Where all places are equally good, the final interval of 95 % (exactly 94.6 %, by the binomial
+/// distribution of 512 tosses) holds their probability in about 189 ± 3.2 of 200 repeats; fewer than
+/// 180 have a chance of 0.3 %. The interval of the map's highest place does not: it holds P only if
+/// none of the 32 places is too high for it, as each is with a chance of 2.4 %. So it holds P with a
+/// chance of .976^32 = 0.46, and in more than 120 of 200 repeats with one of 4e-5.
 #[test]
 fn the_final_tosses_are_free_of_the_winners_bias() {
     let effort = Effort {
