@@ -68,9 +68,6 @@ pub enum QuestionError {
         /// The key of the parameter.
         key: String,
     },
-    /// The config sweeps parameters.
-    #[error("the config sweeps {0}: give each one value with --set")]
-    Sweep(String),
     /// A parameter that cannot be varied.
     #[error("`{key}` is not a number of this config that can be varied; choose from {known}")]
     NotVaried {
@@ -82,6 +79,55 @@ pub enum QuestionError {
     /// The step of a difference.
     #[error("the step must be above 0 and at most 1, not {0}")]
     Step(f64),
+    /// Not one or two parameters of the launch.
+    #[error("one or two different parameters of the launch are needed, not {0}")]
+    Parameters(usize),
+    /// A key that is not that of a number of the launch.
+    #[error("`{key}` is no number of the launch; its numbers are {known}")]
+    NotOfLaunch {
+        /// The key given.
+        key: String,
+        /// All keys of numbers.
+        known: String,
+    },
+    /// Too few values of a parameter.
+    #[error("at least 2 values of `{key}` are needed, not {given}")]
+    TooFewValues {
+        /// The key of the parameter.
+        key: String,
+        /// Those asked for.
+        given: usize,
+    },
+    /// More work than a question may ask for.
+    #[error("at most {most} {what} are allowed, not {given}")]
+    TooMany {
+        /// Of what.
+        what: &'static str,
+        /// The most.
+        most: u64,
+        /// Those asked for.
+        given: u64,
+    },
+    /// The config is a sweep.
+    #[error("the config must be a single point, but sweeps {0}")]
+    Swept(String),
+    /// The config's engine is a closed form.
+    #[error("a closed form has no launch: choose an engine that tosses")]
+    NoLaunch,
+    /// A factor of the spread is negative or not finite.
+    #[error("a factor for the spread of the hand must be 0 or more and finite, not {0}")]
+    Factor(f64),
+    /// Every number of the launch is certain.
+    #[error("nothing of the launch is spread, so there is no spread to multiply")]
+    NoSpread,
+    /// The config refuses the spread of a clumsier hand.
+    #[error("with {factor} times the spread of the hand the config has problems:\n{problems}")]
+    Clumsy {
+        /// The factor.
+        factor: f64,
+        /// The problems.
+        problems: Diagnostics,
+    },
     /// There is no such scene.
     #[error("there is no scene `{name}`{}: known are {known}", nearest.map_or(String::new(), |near| format!(" (did you mean `{near}`?)")))]
     NoScene {

@@ -3,23 +3,31 @@
 //! # Contents
 //! ```text
 //! Template (a config in which numbers are replaced) + Question ──fair──▶ Fair { curves, roots }
+//!                                                   + Aim      ──aim───▶ Aimed { map, best, worst, … }
 //! ```
 //! * [`fair()`] finds the values of a parameter at which a face has a given probability.
+//! * [`aim()`] finds the launches that force a face.
 //! * [`scenes`] are everyday scenes, with where each of their numbers comes from.
 //! * [`assumptions`] tells how far each assumption moves the answer.
 //! * [`sensitivity`] tells how the probabilities move with every number of a scene.
 //! * [`tosses_for_power`] says how many tosses test a coin.
 
+mod aim;
 pub mod assumptions;
 mod document;
 mod error;
 mod fair;
 mod power;
 pub mod scenes;
+mod seen;
 pub mod sensitivity;
 mod template;
 mod workers;
 
+pub use aim::{
+    Aim, Aimed, Clumsy, MOST_FACTORS, MOST_PLACES, MOST_TOSSES, Parameter, Place, aim,
+    document_of_aim, picture,
+};
 pub use document::document;
 pub use error::QuestionError;
 pub use fair::{

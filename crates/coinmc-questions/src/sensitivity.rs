@@ -116,11 +116,11 @@ pub struct Steps {
 /// mass of a uniform coin affects no probability and is left out.
 ///
 /// # Errors
-/// [`QuestionError::Config`]; [`QuestionError::Sweep`] if the config sweeps parameters.
+/// [`QuestionError::Config`]; [`QuestionError::Swept`] if the config sweeps parameters.
 pub fn parameters(template: &Template) -> Result<Vec<Parameter>, QuestionError> {
     let plan = template.plan(&[])?;
     if !plan.axes.is_empty() {
-        return Err(QuestionError::Sweep(plan.axes.join(", ")));
+        return Err(QuestionError::Swept(plan.axes.join(", ")));
     }
     let mut found = vec![];
     if let Ok(document) = DeTable::parse(&plan.resolved_toml) {

@@ -155,6 +155,17 @@ impl Template {
         Ok(plan)
     }
 
+    /// The plan of the config itself, and a template in which all that the config leaves to presets
+    /// and defaults is spelled out.
+    ///
+    /// # Errors
+    /// [`QuestionError::Config`].
+    pub(crate) fn spelled_out(&self) -> Result<(Plan, Self), QuestionError> {
+        let plan = self.plan(&[])?;
+        let spelled = Self::new(&*self.name, &*plan.resolved_toml, &[]);
+        Ok((plan, spelled))
+    }
+
     fn parse(&self, values: &[(&str, String)]) -> Result<Plan, QuestionError> {
         // a run's stop is not a question's, but a plan must have one
         let stop = ("stop", "{ tosses = 1 }".to_owned());

@@ -151,7 +151,7 @@ impl SensitivityOf {
             };
             let answer = questions::fair(&template, &question, workers)?;
             let [curve] = &answer.curves[..] else {
-                return Err(QuestionError::Sweep("parameters".to_owned()));
+                return Err(QuestionError::Swept("parameters".to_owned()));
             };
             root = curve.roots().next().cloned();
         }

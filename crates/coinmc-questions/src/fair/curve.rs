@@ -262,14 +262,12 @@ impl Tosses for Along<'_> {
             (at, sample.first..sample.first + sample.tosses)
         });
         let work: Vec<_> = work.collect();
-        let face = self.question.face as usize;
+        let face = self.question.face;
         let counts = self.workers.count(&work)?;
         self.made += samples.iter().map(|sample| sample.tosses).sum::<u64>();
-        let seen = counts.iter().map(|counts| Seen {
-            tosses: counts.iter().sum(),
-            shown: counts[face],
-            undecided: counts[3],
-        });
-        Ok(seen.collect())
+        Ok(counts
+            .into_iter()
+            .map(|counts| Seen::of(counts, face))
+            .collect())
     }
 }
