@@ -5,7 +5,7 @@ use crate::commands::Film;
 #[cfg(feature = "robot")]
 use crate::commands::Robot;
 use crate::commands::{
-    Analytic, Check, Completions, Design, Fair, Merge, Run, Schema, SensitivityOf, Trace,
+    AimAt, Analytic, Check, Completions, Design, Fair, Merge, Run, Schema, SensitivityOf, Trace,
 };
 use crate::exit::{Failure, Outcome};
 use crate::output::{Console, Format};
@@ -55,6 +55,7 @@ enum Command {
     Fair(Box<Fair>),
     Design(Box<Design>),
     Sensitivity(SensitivityOf),
+    Aim(AimAt),
     Merge(Merge),
     Trace(Box<Trace>),
     #[cfg(feature = "film")]
@@ -86,6 +87,7 @@ impl Command {
             Self::Fair(fair) => fair.format(),
             Self::Design(design) => design.format(),
             Self::Sensitivity(sensitivity) => sensitivity.format(),
+            Self::Aim(aim) => aim.format(),
             Self::Merge(merge) => merge.format(),
             Self::Trace(trace) => trace.format(),
             #[cfg(feature = "film")]
@@ -104,6 +106,7 @@ impl Command {
             Self::Fair(fair) => fair.execute(console),
             Self::Design(design) => design.execute(console),
             Self::Sensitivity(sensitivity) => sensitivity.execute(console),
+            Self::Aim(aim) => aim.execute(console),
             Self::Merge(merge) => merge.execute(console),
             Self::Trace(trace) => trace.execute(console),
             #[cfg(feature = "film")]

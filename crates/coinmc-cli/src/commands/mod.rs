@@ -1,5 +1,6 @@
 //! One file per verb.
 
+mod aim;
 mod analytic;
 mod check;
 mod completions;
@@ -16,6 +17,7 @@ mod schema;
 mod sensitivity;
 mod trace;
 
+pub(crate) use aim::AimAt;
 pub(crate) use analytic::Analytic;
 pub(crate) use check::Check;
 pub(crate) use completions::Completions;

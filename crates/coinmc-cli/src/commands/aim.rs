@@ -1,0 +1,257 @@
+//! `coinmc aim`: the launch that forces a face.
+
+use crate::exit::{Failure, Outcome};
+use crate::interrupt;
+use crate::output::{self, Console, Format};
+use crate::terminal::progress::Progress;
+use crate::terminal::table::{Column, Table};
+use crate::terminal::{Colors, Style, compact, decimals_for, grouped, in_ascii};
+use anyhow::{Context, anyhow};
+use clap::Args;
+use coinmc::config::{self, Override};
+use coinmc_core::{Estimate, Face};
+use coinmc_questions::scenes::EverydayScene;
+use coinmc_questions::{
+    self as questions, Aim, Aimed, Parameter, QuestionError, Template, Workers,
+};
+use coinmc_recording::NewFile;
+use std::io::Write;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::str::FromStr;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+const EXAMPLES: &str = "\
+Examples:
+  coinmc aim --scene felt --face heads --over launch.height_m=0.05..1
+  coinmc aim toss.toml --face side --over launch.height_m=0.1..2:15 \\
+    --over launch.spin.precessing.psi_deg.normal.mean=20..90:15 --picture side.svg
+
+The spread of the hand is that of the config's own distributions.";
+
+/// Values of a parameter of which the number is not given.
+const VALUES: usize = 11;
+
+/// Find the launch that forces a face
+///
+/// Tosses with every value of one or two numbers of the launch, finds where the face is most and
+/// least likely, and tells how likely with fresh tosses that took no part in the choice; also in
+/// clumsier hands.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct AimAt {
+    /// The config (TOML); its [stop] has no effect
+    config: Option<PathBuf>,
+
+    /// Everyday scene, see `coinmc fair --help` [default: table]
+    #[arg(long, value_name = "NAME", conflicts_with = "config")]
+    scene: Option<String>,
+
+    /// The face
+    #[arg(long, value_name = "FACE", value_parser = super::face, default_value = "side")]
+    face: Face,
+
+    /// A number of the launch and its values, as in `launch.height_m=0.1..2` or `…=0.1..2:15`; once
+    /// or twice
+    #[arg(long, value_name = "KEY=FROM..TO[:N]", required = true)]
+    over: Vec<Over>,
+
+    /// Tosses of every launch of the map
+    #[arg(long, value_name = "N", default_value_t = 256)]
+    tosses: u64,
+
+    /// Tosses of the launches in the answer
+    #[arg(long, value_name = "N", default_value_t = 10_000)]
+    final_tosses: u64,
+
+    /// Times the spread of the hand, separated by commas
+    #[arg(
+        long,
+        value_name = "FACTORS",
+        value_delimiter = ',',
+        default_value = "2,4"
+    )]
+    clumsy: Vec<f64>,
+
+    /// New file (.svg) for a picture of the map
+    #[arg(long, value_name = "FILE")]
+    picture: Option<PathBuf>,
+
+    /// Number of threads [default: one per core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+
+    /// Replace or add a value of the config, as in `surface.friction=0.2`; repeatable
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    overrides: Vec<Override>,
+
+    /// How to write the result
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+
+    /// Show no progress, only warnings and errors
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// A number of the launch and its values.
+#[derive(Debug, Clone)]
+struct Over(Parameter);
+
+impl FromStr for Over {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong =
+            || "expected a key and its values, as in `launch.height_m=0.1..2:15`".to_owned();
+        let (key, values) = text.split_once('=').ok_or_else(wrong)?;
+        let (range, count) = match values.split_once(':') {
+            Some((range, count)) => (range, count.parse().map_err(|_| wrong())?),
+            None => (values, VALUES),
+        };
+        let (from, to) = range.split_once("..").ok_or_else(wrong)?;
+        Ok(Self(Parameter {
+            key: key.trim().to_owned(),
+            from: from.trim().parse().map_err(|_| wrong())?,
+            to: to.trim().parse().map_err(|_| wrong())?,
+            values: count,
+        }))
+    }
+}
+
+impl AimAt {
+    pub(crate) fn format(&self) -> Format {
+        self.format
+    }
+
+    pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
+        let template = self.template()?;
+        let picture = self.picture.as_deref().map(NewFile::begin).transpose()?;
+        let progress = Progress::new(*console.stderr(), self.quiet);
+        let told = progress.clone();
+        let cancel =
+            interrupt::listen(move || told.note("stopping; press Ctrl-C again to stop at once"))
+                .context("cannot listen for signals")
+                .map_err(Failure::Runtime)?;
+        let made = AtomicU64::new(0);
+        let tell = |tosses| progress.tossed(made.fetch_add(tosses, Ordering::Relaxed) + tosses);
+        let workers = Workers {
+            threads: self.threads.and_then(|n| NonZeroUsize::new(n.into())),
+            cancel,
+            made: &tell,
+        };
+        let answer = questions::aim(&template, &self.question(), &workers);
+        progress.finish();
+        let answer = match answer {
+            Err(QuestionError::Stopped) => return Ok(Outcome::Interrupted),
+            answer => answer?,
+        };
+        if let Some(mut file) = picture {
+            let written = file.write_all(questions::picture(&answer).as_bytes());
+            written
+                .and_then(|()| file.flush())
+                .map_err(|error| Failure::Runtime(anyhow!(error)))?;
+            file.finish()?;
+        }
+        match console.format() {
+            Format::Json => output::print_json(&questions::document_of_aim(&answer)),
+            Format::Table => output::print(&text(&answer, console.stdout())),
+        }
+        .map_err(|error| Failure::Runtime(anyhow!(error)))?;
+        Ok(Outcome::Done)
+    }
+
+    fn template(&self) -> Result<Template, Failure> {
+        if let Some(path) = &self.config {
+            let text = config::read_text(path)?;
+            let name = path.display().to_string();
+            return Ok(Template::new(name, text, &self.overrides));
+        }
+        let first = EverydayScene::ALL[0].name;
+        let scene = EverydayScene::named(self.scene.as_deref().unwrap_or(first))?;
+        Ok(scene.template(&self.overrides))
+    }
+
+    fn question(&self) -> Aim {
+        Aim {
+            face: self.face,
+            parameters: self.over.iter().map(|over| over.0.clone()).collect(),
+            tosses: self.tosses,
+            final_tosses: self.final_tosses,
+            clumsiness: self.clumsy.clone(),
+        }
+    }
+}
+
+fn text(answer: &Aimed, style: &Style) -> String {
+    let question = &answer.question;
+    let face = question.face.name();
+    let keys = question
+        .parameters
+        .iter()
+        .map(|parameter| parameter.key.as_str());
+    let mut columns = vec![Column::left("launch")];
+    columns.extend(keys.clone().map(Column::right));
+    columns.push(Column::right(format!("P({face})")));
+    columns.push(Column::left("interval"));
+    let mut table = Table::new(columns);
+    let mut row = |name: String, values: &[f64], estimate: &Estimate| {
+        let mut cells = vec![name];
+        cells.extend(values.iter().map(|value| compact(*value)));
+        let decimals = decimals_for(estimate.half_width()).min(4);
+        cells.push(format!("{:.decimals$}", estimate.p));
+        cells.push(format!(
+            "[{:.decimals$}, {:.decimals$}]",
+            estimate.lo, estimate.hi
+        ));
+        table.push(cells);
+    };
+    let own = ("the config's own", &answer.baseline);
+    for (name, place) in [
+        ("most likely", &answer.best),
+        ("least likely", &answer.worst),
+        own,
+    ] {
+        row(name.to_owned(), &place.values, &place.estimate);
+    }
+    for clumsy in &answer.clumsy {
+        let name = format!("most likely, {} times the spread", compact(clumsy.factor));
+        row(name, &answer.best.values, &clumsy.estimate);
+    }
+    let title = format!(
+        "P({face}) over {} launches:",
+        grouped(answer.map.len() as u64)
+    );
+    let mut text = format!("{}\n", style.paint(Colors::Strong, &title));
+    text += &table.render(style).text;
+    let note = format!(
+        "{} fresh tosses of each, {} in all (engine {}, {})",
+        grouped(question.final_tosses),
+        grouped(answer.tosses),
+        answer.engine,
+        answer.law
+    );
+    text += &format!("{}\n", style.paint(Colors::Faint, &note));
+    if style.unicode { text } else { in_ascii(&text) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_parameter_has_a_key_and_a_range() {
+        let Over(parameter) = "launch.height_m=0.1..2:15".parse().expect("a range");
+        assert_eq!(
+            (parameter.from, parameter.to, parameter.values),
+            (0.1, 2.0, 15)
+        );
+        let Over(parameter) = "launch.velocity_m_s.z=-1..1".parse().expect("a range");
+        assert_eq!((parameter.from, parameter.values), (-1.0, VALUES));
+        for wrong in [
+            "", "a", "a=1", "a=1..", "a=1..2:", "a=1..2:x", "=..", "a=b..c",
+        ] {
+            assert!(wrong.parse::<Over>().is_err(), "{wrong}");
+        }
+    }
+}
