@@ -317,7 +317,7 @@ mod tests {
         .unwrap_err();
         let words = [
             "2 points (swept: ratio)",
-            "stop.half_width",
+            "the targets of [stop]",
             "normal",
             "rev/s",
         ];
