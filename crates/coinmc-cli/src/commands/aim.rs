@@ -1,25 +1,19 @@
 //! `coinmc aim`: the launch that forces a face.
 
+use super::question::{ask, template};
 use crate::exit::{Failure, Outcome};
-use crate::interrupt;
 use crate::output::{self, Console, Format};
-use crate::terminal::progress::Progress;
 use crate::terminal::table::{Column, Table};
 use crate::terminal::{Colors, Style, compact, decimals_for, grouped, in_ascii};
-use anyhow::{Context, anyhow};
+use anyhow::anyhow;
 use clap::Args;
-use coinmc::config::{self, Override};
+use coinmc::config::Override;
 use coinmc_core::{Estimate, Face};
-use coinmc_questions::scenes::EverydayScene;
-use coinmc_questions::{
-    self as questions, Aim, Aimed, Parameter, QuestionError, Template, Workers,
-};
+use coinmc_questions::{self as questions, Aim, Aimed, Parameter};
 use coinmc_recording::NewFile;
 use std::io::Write;
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::str::FromStr;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -125,26 +119,18 @@ impl AimAt {
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
-        let template = self.template()?;
+        let (_, template) = template(
+            self.config.as_deref(),
+            self.scene.as_deref(),
+            &self.overrides,
+        )?;
         let picture = self.picture.as_deref().map(NewFile::begin).transpose()?;
-        let progress = Progress::new(*console.stderr(), self.quiet);
-        let told = progress.clone();
-        let cancel =
-            interrupt::listen(move || told.note("stopping; press Ctrl-C again to stop at once"))
-                .context("cannot listen for signals")
-                .map_err(Failure::Runtime)?;
-        let made = AtomicU64::new(0);
-        let tell = |tosses| progress.tossed(made.fetch_add(tosses, Ordering::Relaxed) + tosses);
-        let workers = Workers {
-            threads: self.threads.and_then(|n| NonZeroUsize::new(n.into())),
-            cancel,
-            made: &tell,
-        };
-        let answer = questions::aim(&template, &self.question(), &workers);
-        progress.finish();
-        let answer = match answer {
-            Err(QuestionError::Stopped) => return Ok(Outcome::Interrupted),
-            answer => answer?,
+        let question = self.question();
+        let answer = ask(console, self.quiet, self.threads, |workers| {
+            questions::aim(&template, &question, workers)
+        })?;
+        let Some(answer) = answer else {
+            return Ok(Outcome::Interrupted);
         };
         if let Some(mut file) = picture {
             let written = file.write_all(questions::picture(&answer).as_bytes());
@@ -159,17 +145,6 @@ impl AimAt {
         }
         .map_err(|error| Failure::Runtime(anyhow!(error)))?;
         Ok(Outcome::Done)
-    }
-
-    fn template(&self) -> Result<Template, Failure> {
-        if let Some(path) = &self.config {
-            let text = config::read_text(path)?;
-            let name = path.display().to_string();
-            return Ok(Template::new(name, text, &self.overrides));
-        }
-        let first = EverydayScene::ALL[0].name;
-        let scene = EverydayScene::named(self.scene.as_deref().unwrap_or(first))?;
-        Ok(scene.template(&self.overrides))
     }
 
     fn question(&self) -> Aim {

@@ -10,6 +10,7 @@ mod fair;
 mod film;
 mod merge;
 mod quantity;
+mod question;
 #[cfg(feature = "robot")]
 mod robot;
 mod run;

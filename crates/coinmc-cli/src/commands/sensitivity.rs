@@ -1,22 +1,18 @@
 //! `coinmc sensitivity`: how the probabilities, and the fair ratio, move with every number of a scene.
 
+use super::question::{ask, template};
 use crate::exit::{Failure, Outcome};
-use crate::interrupt;
 use crate::output::{self, Console, FORMAT_VERSION, Format};
-use crate::terminal::progress::Progress;
 use crate::terminal::table::{Column, Table};
 use crate::terminal::{Colors, Style, compact, decimals_for, grouped, in_ascii};
-use anyhow::{Context, anyhow};
+use anyhow::anyhow;
 use clap::Args;
-use coinmc::config::{self, Override};
+use coinmc::config::Override;
 use coinmc_core::Face;
-use coinmc_questions::scenes::EverydayScene;
 use coinmc_questions::sensitivity::{Derivative, Sensitivity, Steps, sensitivities};
 use coinmc_questions::{self as questions, Question, QuestionError, Root, Template, Workers};
 use serde_json::{Value, json};
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -100,25 +96,16 @@ impl SensitivityOf {
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
-        let template = self.template()?;
-        let progress = Progress::new(*console.stderr(), self.quiet);
-        let told = progress.clone();
-        let cancel =
-            interrupt::listen(move || told.note("stopping; press Ctrl-C again to stop at once"))
-                .context("cannot listen for signals")
-                .map_err(Failure::Runtime)?;
-        let made = AtomicU64::new(0);
-        let tell = |tosses| progress.tossed(made.fetch_add(tosses, Ordering::Relaxed) + tosses);
-        let workers = Workers {
-            threads: self.threads.and_then(|n| NonZeroUsize::new(n.into())),
-            cancel,
-            made: &tell,
-        };
-        let found = self.find(&template, &workers);
-        progress.finish();
-        let found = match found {
-            Err(QuestionError::Stopped) => return Ok(Outcome::Interrupted),
-            found => found?,
+        let (_, template) = template(
+            self.config.as_deref(),
+            self.scene.as_deref(),
+            &self.overrides,
+        )?;
+        let found = ask(console, self.quiet, self.threads, |workers| {
+            self.find(&template, workers)
+        })?;
+        let Some(found) = found else {
+            return Ok(Outcome::Interrupted);
         };
         match console.format() {
             Format::Json => output::print_json(&self.document(&found)),
@@ -126,17 +113,6 @@ impl SensitivityOf {
         }
         .map_err(|error| Failure::Runtime(anyhow!(error)))?;
         Ok(Outcome::Done)
-    }
-
-    fn template(&self) -> Result<Template, Failure> {
-        if let Some(path) = &self.config {
-            let text = config::read_text(path)?;
-            let name = path.display().to_string();
-            return Ok(Template::new(name, text, &self.overrides));
-        }
-        let first = EverydayScene::ALL[0].name;
-        let scene = EverydayScene::named(self.scene.as_deref().unwrap_or(first))?;
-        Ok(scene.template(&self.overrides))
     }
 
     fn find(&self, template: &Template, workers: &Workers<'_>) -> Result<Found, QuestionError> {

@@ -6,13 +6,12 @@ mod sheet;
 mod solid;
 
 use super::quantity::{Density, Length};
+use super::question::{ask, template};
 use crate::exit::{Failure, Outcome};
-use crate::interrupt;
 use crate::output::{self, Console, Format};
-use crate::terminal::progress::Progress;
-use anyhow::{Context, anyhow};
+use anyhow::anyhow;
 use clap::Args;
-use coinmc::config::{self, Override};
+use coinmc::config::Override;
 use coinmc_questions::assumptions::{self, Effect};
 use coinmc_questions::scenes::EverydayScene;
 use coinmc_questions::{self as questions, Fair, Question, QuestionError, Root, Size};
@@ -21,7 +20,6 @@ use coinmc_solid::{Mass, Shape};
 use files::Files;
 use solid::Solid;
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -131,25 +129,13 @@ impl Design {
         let solid = self.solid()?;
         let files = Files::begin(&self.out)?;
         let (scene, template) = self.template(&solid)?;
-        let progress = Progress::new(*console.stderr(), self.quiet);
-        let told = progress.clone();
-        let cancel =
-            interrupt::listen(move || told.note("stopping; press Ctrl-C again to stop at once"))
-                .context("cannot listen for signals")
-                .map_err(Failure::Runtime)?;
-        let made = AtomicU64::new(0);
-        let tell = |tosses| progress.tossed(made.fetch_add(tosses, Ordering::Relaxed) + tosses);
-        let workers = Workers {
-            threads: None,
-            cancel,
-            made: &tell,
+        let found = ask(console, self.quiet, None, |workers| {
+            self.find(scene, &template, &solid, workers)
+        })?;
+        let Some(found) = found else {
+            return Ok(Outcome::Interrupted);
         };
-        let designed = self.design(scene, &template, &solid, &workers);
-        progress.finish();
-        let designed = match designed {
-            Err(Failure::Input(error)) if stopped(&error) => return Ok(Outcome::Interrupted),
-            designed => designed?,
-        };
+        let designed = designed(scene, found, &solid)?;
         let written = files.write(&designed)?;
         match console.format() {
             Format::Json => output::print_json(&report::document(&designed, &written)),
@@ -181,15 +167,11 @@ impl Design {
     }
 
     fn template(&self, solid: &Solid) -> Result<(Option<EverydayScene>, Template), Failure> {
-        let (scene, template) = if let Some(path) = &self.config {
-            let text = config::read_text(path)?;
-            let name = path.display().to_string();
-            (None, Template::new(name, text, &self.overrides))
-        } else {
-            let first = EverydayScene::ALL[0].name;
-            let scene = EverydayScene::named(self.scene.as_deref().unwrap_or(first))?;
-            (Some(scene), scene.template(&self.overrides))
-        };
+        let (scene, template) = template(
+            self.config.as_deref(),
+            self.scene.as_deref(),
+            &self.overrides,
+        )?;
         let template = template.with_size(Size::Diameter(self.diameter.0))?;
         let solid = *solid;
         Ok((
@@ -198,13 +180,14 @@ impl Design {
         ))
     }
 
-    fn design(
+    /// The fair ratio, and what it rests on.
+    fn find(
         &self,
         scene: Option<EverydayScene>,
         template: &Template,
         solid: &Solid,
         workers: &Workers<'_>,
-    ) -> Result<Designed, Failure> {
+    ) -> Result<Found, QuestionError> {
         let question = Question {
             target: self.target.unwrap_or(1.0 / 3.0),
             half_width: self.half_width,
@@ -213,48 +196,63 @@ impl Design {
             ..Question::default()
         };
         let fair = questions::fair(template, &question, workers)?;
-        let root = only_root(&fair)?;
+        let root = only_root(&fair);
         let mut effects = vec![];
-        if let Some(scene) = scene {
+        if let (Some(scene), Some(root)) = (scene, &root) {
             let assumed = scene.assumptions().into_iter().filter(|assumed| {
                 assumed.key != "coin.radius_m"
                     && !self.overrides.iter().any(|set| set.is_about(assumed.key))
             });
             let assumed: Vec<_> = assumed.collect();
             let tosses = ASSUMPTION_TOSSES;
-            effects = assumptions::effects(template, &fair, &root, assumed, tosses, workers)?;
+            effects = assumptions::effects(template, &fair, root, assumed, tosses, workers)?;
         }
-        let shape = solid.shape(root.coin.height_m())?;
-        let mass = solid.mass(&shape)?;
-        Ok(Designed {
-            scene,
+        Ok(Found {
             fair,
             root,
             effects,
-            shape,
-            mass,
         })
     }
 }
 
-/// The root of a design: a single one.
-fn only_root(fair: &Fair) -> Result<Root, Failure> {
-    let [curve] = &fair.curves[..] else {
-        return Err(Failure::Input(anyhow!(
-            "the config sweeps parameters: give each one value with --set"
-        )));
-    };
-    let mut roots = curve.roots();
-    match (roots.next(), roots.next()) {
-        (Some(root), None) => Ok(root.clone()),
-        _ => Err(Failure::Input(anyhow!(
-            "no single thickness gives the side this probability; `coinmc fair` shows the curve"
-        ))),
-    }
+/// What the tosses say.
+struct Found {
+    fair: Fair,
+    root: Option<Root>,
+    effects: Vec<Effect>,
 }
 
-fn stopped(error: &anyhow::Error) -> bool {
-    matches!(error.downcast_ref(), Some(QuestionError::Stopped))
+/// The only root of a single curve.
+fn only_root(fair: &Fair) -> Option<Root> {
+    let [curve] = &fair.curves[..] else {
+        return None;
+    };
+    let mut roots = curve.roots();
+    let root = roots.next().cloned();
+    root.filter(|_| roots.next().is_none())
+}
+
+/// The coin of the ratio that was found.
+fn designed(
+    scene: Option<EverydayScene>,
+    found: Found,
+    solid: &Solid,
+) -> Result<Designed, Failure> {
+    let root = found.root.ok_or_else(|| {
+        Failure::Input(anyhow!(
+            "no single thickness gives the side this probability; `coinmc fair` shows the curve"
+        ))
+    })?;
+    let shape = solid.shape(root.coin.height_m())?;
+    let mass = solid.mass(&shape)?;
+    Ok(Designed {
+        scene,
+        fair: found.fair,
+        root,
+        effects: found.effects,
+        shape,
+        mass,
+    })
 }
 
 impl Designed {

@@ -3,21 +3,18 @@
 mod report;
 
 use super::quantity::{Density, Length, Mass, Volume};
+use super::question::{ask, template};
 use crate::exit::{Failure, Outcome};
-use crate::interrupt;
 use crate::output::{self, Console, Format};
-use crate::terminal::progress::Progress;
-use anyhow::{Context, anyhow};
+use anyhow::anyhow;
 use clap::Args;
-use coinmc::config::{self, Override};
+use coinmc::config::Override;
 use coinmc_core::Face;
 use coinmc_questions::assumptions::{self, Effect};
 use coinmc_questions::scenes::EverydayScene;
 use coinmc_questions::{self as questions, Fair as Answer, Question, QuestionError, Size};
 use coinmc_questions::{Template, Workers};
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -143,41 +140,21 @@ impl Fair {
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let (scene, template) = self.template()?;
-        let progress = Progress::new(*console.stderr(), self.quiet);
-        let told = progress.clone();
-        let cancel =
-            interrupt::listen(move || told.note("stopping; press Ctrl-C again to stop at once"))
-                .context("cannot listen for signals")
-                .map_err(Failure::Runtime)?;
-        let made = AtomicU64::new(0);
-        let tell = |tosses| {
-            let made = made.fetch_add(tosses, Ordering::Relaxed) + tosses;
-            progress.tossed(made);
-        };
-        let workers = Workers {
-            threads: self.threads.and_then(|n| NonZeroUsize::new(n.into())),
-            cancel,
-            made: &tell,
-        };
-        let answered = self.answer(scene, &template, &workers);
-        progress.finish();
+        let answered = ask(console, self.quiet, self.threads, |workers| {
+            self.answer(scene, &template, workers)
+        })?;
         match answered {
-            Ok(answered) => self.present(&answered, console),
-            Err(QuestionError::Stopped) => Ok(Outcome::Interrupted),
-            Err(error) => Err(error.into()),
+            Some(answered) => self.present(&answered, console),
+            None => Ok(Outcome::Interrupted),
         }
     }
 
     fn template(&self) -> Result<(Option<EverydayScene>, Template), Failure> {
-        let (scene, template) = if let Some(path) = &self.config {
-            let text = config::read_text(path)?;
-            let name = path.display().to_string();
-            (None, Template::new(name, text, &self.overrides))
-        } else {
-            let first = EverydayScene::ALL[0].name;
-            let scene = EverydayScene::named(self.scene.as_deref().unwrap_or(first))?;
-            (Some(scene), scene.template(&self.overrides))
-        };
+        let (scene, template) = template(
+            self.config.as_deref(),
+            self.scene.as_deref(),
+            &self.overrides,
+        )?;
         let size = match (self.diameter, self.volume, self.mass, self.density) {
             (Some(Length(diameter)), ..) => Size::Diameter(diameter),
             (_, Some(Volume(volume)), ..) => Size::Volume(volume),
