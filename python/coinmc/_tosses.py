@@ -198,6 +198,6 @@ def _count(config: Config, n: int | None, launches: np.ndarray | None) -> int:
         return len(launches)
     if n is not None:
         return natural(n, "n")
-    if config.stop.half_width is not None:
-        raise ValueError("this config stops at a half width: give the number of tosses, n")
+    if config.stop[1:] != (None, None, None):
+        raise ValueError("this config stops at targets: give the number of tosses, n")
     return config.stop.tosses

@@ -107,3 +107,15 @@ def test_overrides_cannot_inject_toml():
         coinmc.check(rule, ["seed=1"])
     quoted = coinmc.check(rule, {"engine": {"analytic": {"rule": "zone"}}})
     assert "zone" in quoted.groups[0].computed
+
+
+def test_targets_of_a_stop_are_told(scene):
+    targets = {"relative_error": 0.1, "events": 50, "max_tosses": 2_000_000}
+    config = coinmc.check({**scene, "stop": targets})
+    assert config.stop == coinmc.Stop(2_000_000, None, 0.1, 50)
+    assert "±10 % of its probability and every face was seen 50 times" in str(config)
+    result = coinmc.estimate(config)
+    assert (result["p_side_hi"] - result["p_side"] <= 0.1 * result["p_side"]).all()
+    assert (result["side"] >= 50).all()
+    with pytest.raises(coinmc.ConfigError, match="only one of `tosses`, `events`"):
+        coinmc.check({**scene, "stop": {"tosses": 5, "events": 1}})

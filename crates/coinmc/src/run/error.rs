@@ -118,7 +118,7 @@ pub enum RunError {
     /// A run that stops at a half width chooses after each look which points to continue; parts on
     /// different machines cannot do that.
     #[error(
-        "a run that stops at a half width cannot be cut into parts: give a fixed number of tosses"
+        "a run that stops at targets cannot be cut into parts: give a fixed number of tosses"
     )]
     PartsNeedFixedTosses,
     /// The chunk is outside the plan.
