@@ -1,5 +1,5 @@
 //! From counts to probabilities with intervals, for points with a fixed number of tosses and for points
-//! that stop at a half width.
+//! that stop at targets.
 
 use crate::plan::{Plan, Stop, Targets, looks};
 use coinmc_core::{Estimate, Face, IntervalMethod, Tally};
@@ -18,7 +18,7 @@ pub(super) const CLOSED_FORM: &str = "closed-form";
 ///
 /// A closed form's are exact: `lo = p = hi`, no tosses.
 ///
-/// A point that stops at a half width is looked at up to K times, at toss counts fixed
+/// A point that stops at targets is looked at up to K times, at toss counts fixed
 /// beforehand. If each look's interval misses the truth with probability at most α/K, then the
 /// chance that any of them does is at most α, and so is that of the one it stops at, however the
 /// decision to stop depends on the data (Bonferroni). This requires an interval with at least nominal

@@ -58,7 +58,7 @@ pub struct Row {
     /// Probability of the side.
     pub side: Estimate,
     /// How the intervals were computed: `wilson`, `clopper-pearson`, `sequential-clopper-pearson`
-    /// where the point stopped at a half width, `student-t` of an integral, `exact` for a closed
+    /// where the point stopped at targets, `student-t` of an integral, `exact` for a closed
     /// form.
     pub interval: &'static str,
     /// How the launches were drawn: `random`, `quasi-random`, or `closed-form` where there was

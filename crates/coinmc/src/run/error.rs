@@ -115,7 +115,7 @@ pub enum RunError {
         /// The directory.
         dir: PathBuf,
     },
-    /// A run that stops at a half width chooses after each look which points to continue; parts on
+    /// A run that stops at targets chooses after each look which points to continue; parts on
     /// different machines cannot do that.
     #[error(
         "a run that stops at targets cannot be cut into parts: give a fixed number of tosses"

@@ -9,7 +9,7 @@ pub struct Progress {
     pub points: usize,
     /// Tosses counted so far, those of an earlier run included.
     pub tosses_done: u64,
-    /// Tosses the run will count in all. Where points stop at a half width this is a forecast and
+    /// Tosses the run will count in all. Where points stop at targets this is a forecast and
     /// changes.
     pub tosses_planned: u64,
     /// Of `tosses_done`, those that an earlier run had counted.

@@ -16,7 +16,7 @@ const BUDGET: Duration = Duration::from_millis(800);
 /// A forecast should be right within this factor.
 const SURE: f64 = 1.5;
 
-/// Tosses before a point that stops at a half width is first looked at.
+/// Tosses before a point that stops at targets is first looked at.
 const FIRST_LOOK: u64 = 1 << 14;
 
 /// A forecast.
