@@ -117,9 +117,7 @@ pub enum RunError {
     },
     /// A run that stops at targets chooses after each look which points to continue; parts on
     /// different machines cannot do that.
-    #[error(
-        "a run that stops at targets cannot be cut into parts: give a fixed number of tosses"
-    )]
+    #[error("a run that stops at targets cannot be cut into parts: give a fixed number of tosses")]
     PartsNeedFixedTosses,
     /// The chunk is outside the plan.
     #[error("{chunk} lies outside the plan, which has {points} points")]
