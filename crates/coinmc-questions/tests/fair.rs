@@ -227,3 +227,36 @@ fn an_assumption_moves_the_root_to_where_it_would_be() {
     );
     assert!((same.value - root.value).abs() < 1e-12, "{same:?}");
 }
+
+/// A coin thinner than its rims cannot be, so the natural range begins above them.
+#[test]
+fn a_coin_with_rounded_rims_has_its_own_range() {
+    let text = "coin = { ratio = 1.0, radius_m = 0.01, rim_radius_m = 1e-3 }\n\
+                surface.material = 'felt'\nlaunch.preset = 'clean'\nengine.volumetric = {}";
+    let question = Question {
+        half_width: 0.2,
+        numerical_tosses: 0,
+        ..Question::default()
+    };
+    let answer = ask(text, &question, 2).expect("an answer");
+    assert!((answer.question.range.expect("a range")[0] - 0.22).abs() < 1e-12);
+    only_root(&answer);
+}
+
+/// However little the budget leaves for the last round, the answer is no worse than before it.
+#[test]
+fn a_small_last_round_spoils_nothing() {
+    for max_tosses in [4200, 5000, 6000, 9000] {
+        let question = Question {
+            half_width: 1e-9,
+            max_tosses,
+            numerical_tosses: 0,
+            ..Question::default()
+        };
+        let answer = ask(ROBOT, &question, 2).expect("an answer");
+        let root = only_root(&answer);
+        let before = root.rounds[root.rounds.len() - 2].half_width();
+        assert!(root.half_width() < 1.02 * before, "{max_tosses}: {root:?}");
+        assert!(!root.is_on_plateau());
+    }
+}

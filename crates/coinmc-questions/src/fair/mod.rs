@@ -244,7 +244,7 @@ fn checked(template: &Template, question: &Question) -> Result<[f64; 2], Questio
     }
     let [from, to] = match (question.range, key.as_str()) {
         (Some(range), _) => range,
-        (None, "coin.ratio") => [0.05, 4.0],
+        (None, "coin.ratio") => ratios(template)?,
         (None, "surface.restitution") => [0.0, 0.95],
         (None, "surface.friction") => [0.0, 1.0],
         (None, _) => {
@@ -258,4 +258,19 @@ fn checked(template: &Template, question: &Question) -> Result<[f64; 2], Questio
     } else {
         Err(QuestionError::Range { from, to })
     }
+}
+
+/// The natural range of the ratio: no coin thinner than its own rims.
+fn ratios(template: &Template) -> Result<[f64; 2], QuestionError> {
+    const RANGE: [f64; 2] = [0.05, 4.0];
+    /// A thickness above that of both rims, H = 2r.
+    const CLEAR: f64 = 1.1;
+    let [from, to] = RANGE;
+    // where the radius depends on the ratio, it is the least for the thickest coin
+    let plan = template.plan(&[("coin.ratio", format!("{to:?}"))])?;
+    let rims = plan.points.iter().map(|point| {
+        let coin = &point.scene.coin;
+        2.0 * coin.rim_radius_m() / coin.radius_m()
+    });
+    Ok([from.max(CLEAR * rims.fold(0.0, f64::max)), to])
 }

@@ -182,9 +182,14 @@ impl Refinement<'_> {
         let half_width = round.half_width();
         let enough = half_width <= self.goal.half_width;
         let error = fit.at(root).1 / fit.slope(root).0.abs();
-        self.move_window(root, error, rate);
         let wanted = self.wanted(slope.0, half_width);
         let next = wanted.max(LEAST).min(grown).min(left);
+        // The few tosses that a budget may leave for the end do not tell the slope anew: they stay in
+        // the window in which the tosses before told it.
+        let few = next == left && next < self.tosses;
+        if !few {
+            self.move_window(root, error, rate);
+        }
         let next = (!enough && next > 0).then_some(next);
         (round, next, Some(slope))
     }

@@ -130,7 +130,7 @@ impl Design {
         let files = Files::begin(&self.out)?;
         let (scene, template) = self.template(&solid)?;
         let found = ask(console, self.quiet, None, |workers| {
-            self.find(scene, &template, &solid, workers)
+            self.find(scene, &template, workers)
         })?;
         let Some(found) = found else {
             return Ok(Outcome::Interrupted);
@@ -185,13 +185,11 @@ impl Design {
         &self,
         scene: Option<EverydayScene>,
         template: &Template,
-        solid: &Solid,
         workers: &Workers<'_>,
     ) -> Result<Found, QuestionError> {
         let question = Question {
             target: self.target.unwrap_or(1.0 / 3.0),
             half_width: self.half_width,
-            range: Some([solid.least_ratio(), 4.0]),
             numerical_tosses: 0,
             ..Question::default()
         };

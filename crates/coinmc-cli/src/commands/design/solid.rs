@@ -67,10 +67,4 @@ impl Solid {
         }
         numbers
     }
-
-    /// The least ratio H/R to search: thinner coins have no room for the rims.
-    pub(super) fn least_ratio(&self) -> f64 {
-        let edge = self.rim_m.or(self.chamfer_m).unwrap_or(0.0);
-        (4.4 * edge / self.diameter_m).max(0.05)
-    }
 }

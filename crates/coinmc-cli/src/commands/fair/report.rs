@@ -145,11 +145,12 @@ fn of_root(answer: &Fair, root: &Root, style: &Style) -> String {
     }
     if root.undecided > 0 {
         text += &format!(
-            "    {} tosses stayed undecided; the interval allows for any face of them\n",
+            "    undecided: {}; the interval allows for any face of these tosses\n",
             grouped(root.undecided)
         );
     }
-    text + &size(&root.coin, arm)
+    let of_ratio = answer.question.key == "coin.ratio";
+    text + &size(&root.coin, of_ratio.then_some(arm))
 }
 
 /// With its sign and three decimals; 0 has no sign.
@@ -176,13 +177,12 @@ fn slope(key: &str, root: &Root) -> String {
 }
 
 /// `a coin of 23.25 mm is 11.5 ± 0.06 mm thick`.
-fn size(coin: &Coin, arm: f64) -> String {
+fn size(coin: &Coin, arm: Option<f64>) -> String {
     let (diameter, thickness) = (2e3 * coin.radius_m(), 1e3 * coin.height_m());
-    let error = 1e3 * arm * coin.radius_m();
-    let error = if error > 0.0 && error.is_finite() && error < thickness {
-        format!(" ± {error:.2}")
-    } else {
-        String::new()
+    let error = arm.map(|arm| 1e3 * arm * coin.radius_m());
+    let error = match error {
+        Some(error) if error > 0.0 && error < thickness => format!(" ± {error:.2}"),
+        _ => String::new(),
     };
     format!("    a coin {diameter:.2} mm in diameter is then {thickness:.2}{error} mm thick\n")
 }
