@@ -9,7 +9,7 @@ use crate::terminal::{count, duration, grouped};
 use anyhow::Context;
 use clap::Args;
 use coinmc::config::{self, Override};
-use coinmc::plan::{MAX_EVALUATIONS, Plan};
+use coinmc::plan::{MAX_EVALUATIONS, Plan, StoppedBy};
 use coinmc::published::TABLE1_SOURCE;
 use coinmc::results::{FairRatio, Row, fair_ratios};
 use coinmc::run::{Options, Part, Report, Status};
@@ -213,7 +213,10 @@ fn advice(report: &Report, out: &Path) -> Option<String> {
         Status::Complete => None,
         Status::Interrupted => {
             let rows = &report.results.rows;
-            let done = rows.iter().filter(|row| row.reached_target).count();
+            let done = rows
+                .iter()
+                .filter(|row| row.stopped_by.is_reached())
+                .count();
             Some(format!(
                 "coinmc: stopped with {done} of {} finished; all counts are kept in {}.\n\
                  Go on with: {}",
@@ -227,27 +230,33 @@ fn advice(report: &Report, out: &Path) -> Option<String> {
              `coinmc merge PART… --out WHOLE`"
                 .to_owned(),
         ),
-        Status::ShortOfTarget { points } => Some(short_of_target(&report.results.rows, points)),
+        Status::ShortOfTarget { .. } => Some(short_of_target(&report.results.rows)),
     }
 }
 
-/// What to do about points that stopped short of the half width. An integral has a limit of its own
-/// that no `max_tosses` raises.
-fn short_of_target(rows: &[Row], points: usize) -> String {
-    let is_capped = |row: &&Row| !row.reached_target && row.evaluations == MAX_EVALUATIONS;
-    let capped = rows.iter().filter(is_capped).count();
+/// What to do about points that stopped short of their targets, by the rule that stopped them.
+fn short_of_target(rows: &[Row]) -> String {
+    let of = |by| rows.iter().filter(|row| row.stopped_by == by).count() as u64;
     let mut lines = vec![];
-    if points > capped {
-        lines.push(format!(
-            "coinmc: {} reached stop.max_tosses before its targets in [stop]: raise it, or ask for less",
-            count((points - capped) as u64, "point"),
-        ));
+    for (by, key) in [
+        (StoppedBy::MaxTosses, "stop.max_tosses"),
+        (StoppedBy::TotalTosses, "the run's stop.total_tosses"),
+    ] {
+        if of(by) > 0 {
+            lines.push(format!(
+                "coinmc: {} reached {key} before its targets in [stop]: raise it, or ask for less",
+                count(of(by), "point"),
+            ));
+        }
     }
+    let capped = of(StoppedBy::Evaluations);
     if capped > 0 {
+        // a limit of its own that no number of tosses raises
+        let help = "ask for less, or toss with sampling.method = \"random\"";
         lines.push(format!(
-            "coinmc: {} reached {} evaluations, the limit of an integral, before its target in [stop]: \
-             ask for less, or toss with sampling.method = \"random\"",
-            count(capped as u64, "point"),
+            "coinmc: {} reached the limit of an integral, {} evaluations or max_tosses, before its target \
+             in [stop]: {help}",
+            count(capped, "point"),
             grouped(MAX_EVALUATIONS),
         ));
     }
@@ -344,7 +353,7 @@ mod tests {
             side: 495,
             ..Tally::default()
         };
-        let json = |i| published_to_json(&Row::new(&plan, i, tally, true));
+        let json = |i| published_to_json(&Row::new(&plan, i, tally, StoppedBy::Tosses));
         let at_1 = json(0).unwrap();
         assert_eq!((&at_1["side"], &at_1["z"]), (&json!(495), &json!(0.0)));
         assert_eq!(at_1["p_side"], json!(495.0 / 1103.0));
@@ -358,20 +367,26 @@ mod tests {
                       engine.volumetric = {}\nstop = { half_width = 1e-7, max_tosses = 1e15 }";
         let plan = config::parse("test", config, &[]).unwrap();
         let mut rows: Vec<Row> = (0..2)
-            .map(|i| Row::new(&plan, i, Tally::default(), false))
+            .map(|i| Row::new(&plan, i, Tally::default(), StoppedBy::MaxTosses))
             .collect();
-        let text = short_of_target(&rows, 2);
+        let text = short_of_target(&rows);
         assert!(text.contains("2 points reached stop.max_tosses"), "{text}");
-        rows[1].evaluations = MAX_EVALUATIONS;
-        let text = short_of_target(&rows, 2);
+        rows[1].stopped_by = StoppedBy::Evaluations;
+        let text = short_of_target(&rows);
         assert!(text.contains("1 point reached stop.max_tosses"), "{text}");
         assert!(
-            text.contains("\ncoinmc: 1 point reached 4 194 304 evaluations"),
+            text.contains("\ncoinmc: 1 point reached the limit of an integral"),
             "{text}"
         );
-        rows[0].reached_target = true;
-        let text = short_of_target(&rows, 1);
-        assert!(!text.contains("max_tosses"), "{text}");
+        rows[0].stopped_by = StoppedBy::TotalTosses;
+        let text = short_of_target(&rows);
+        assert!(
+            text.contains("1 point reached the run's stop.total_tosses"),
+            "{text}"
+        );
+        rows[0].stopped_by = StoppedBy::Targets;
+        let text = short_of_target(&rows);
+        assert!(!text.contains("total_tosses"), "{text}");
     }
 
     #[test]

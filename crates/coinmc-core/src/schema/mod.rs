@@ -100,15 +100,15 @@ pub struct TableKind {
 pub enum Rule {
     /// Exactly one of these is given.
     ExactlyOne(&'static [&'static str]),
-    /// The key is allowed only with one of some other keys, and has a default if it is not given with
-    /// them.
+    /// The key is allowed only with one of some other keys, and may have a default where it is not
+    /// given with them.
     GoesWith {
         /// The key.
         key: &'static str,
         /// The keys of which it requires at least one.
         others: &'static [&'static str],
         /// The default of the key if any of the others is given.
-        fallback: Fallback,
+        fallback: Option<Fallback>,
     },
     /// Both of these are given or none, unless a condition holds.
     Together {

@@ -40,7 +40,7 @@ impl Surface {
                 Rule::GoesWith {
                     key: "restitution_reference_m_s",
                     others: &["restitution_exponent"],
-                    fallback: Fallback::Number(DEFAULT_REFERENCE_M_S),
+                    fallback: Some(Fallback::Number(DEFAULT_REFERENCE_M_S)),
                 },
                 Rule::Together {
                     keys: ["roughness_slope", WAVELENGTH],

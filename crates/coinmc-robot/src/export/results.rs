@@ -2,6 +2,7 @@
 
 use crate::Experiment;
 use crate::journal::{History, Resolution};
+use coinmc::plan::StoppedBy;
 use coinmc::results::{Results, Row};
 use coinmc_core::{Breaks, Ended, Outcome, Tally};
 
@@ -33,10 +34,15 @@ pub fn results(experiment: &Experiment, history: &History) -> Results {
         });
     }
     let complete = tally.tosses() >= u64::from(experiment.throws());
+    let stopped_by = if complete {
+        StoppedBy::Tosses
+    } else {
+        StoppedBy::Unfinished
+    };
     let row = Row {
         engine: ENGINE,
         law: LAW,
-        ..Row::new(experiment.plan(), 0, tally, complete)
+        ..Row::new(experiment.plan(), 0, tally, stopped_by)
     };
     Results::new(experiment.plan(), vec![row])
 }

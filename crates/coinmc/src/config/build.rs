@@ -132,7 +132,20 @@ pub(super) fn stop(root: &Checked) -> Option<Stop> {
         relative_error: real(checked, "relative_error"),
         events: integer(checked, "events"),
         max_tosses: integer(checked, "max_tosses")?,
+        total_tosses: integer(checked, "total_tosses"),
     }))
+}
+
+/// Reports a limit of tosses for the whole run that leaves some point without any.
+pub(super) fn refuse_small_total(root: &Checked, points: usize, problems: &mut Problems) {
+    let total = root.get("stop").and_then(|stop| stop.get("total_tosses"));
+    if let Some(found) = total
+        && let CheckedValue::Integer(tosses) = found.value
+        && tosses < points as u64
+    {
+        let message = format!("`total_tosses` is {tosses}, but there are {points} points");
+        problems.push(found.span, message, None);
+    }
 }
 
 /// How launches are drawn.

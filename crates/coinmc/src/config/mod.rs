@@ -153,6 +153,7 @@ fn plan(
     engines::refuse_unmodelled(&root, problems);
     let sweep = Sweep::find(&mut root, problems)?;
     let points = build::points(&root, &sweep, problems);
+    build::refuse_small_total(&root, points.len(), problems);
     if !problems.is_empty() {
         return None;
     }

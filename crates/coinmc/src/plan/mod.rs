@@ -4,15 +4,17 @@
 //! [`Plan::hash`] give the same results to the byte.
 
 mod explain;
+mod looks;
 mod sampling;
 mod stop;
 
 pub use coinmc_core::EngineChoice;
 pub use coinmc_quadrature::{Goal, Integral, MAX_EVALUATIONS, Method};
 pub use explain::Explanation;
+pub use looks::{Looks, Verdict};
+pub(crate) use looks::{PILOT, faces};
 pub use sampling::Sampling;
-pub(crate) use stop::{FIRST_LOOK, looks};
-pub use stop::{Stop, Targets};
+pub use stop::{Stop, StoppedBy, Targets};
 
 use coinmc_core::{Answer, DynEngine, EngineError, IntervalMethod, LaunchDistribution, Scene};
 use sha2::{Digest, Sha256};
@@ -28,6 +30,9 @@ pub const MAX_TOSSES: u64 = 1_000_000_000_000_000;
 
 /// Version of the meaning of a resolved config. It changes when the same text gives other results.
 const PLAN_FORMAT: u32 = 2;
+
+/// Version of the rule by which points stop at targets.
+const LOOKS_FORMAT: u32 = 2;
 
 /// Everything a run will do.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,6 +68,9 @@ impl Plan {
     pub fn hash(&self) -> String {
         let mut hasher = Sha256::new();
         hasher.update(format!("coinmc plan {PLAN_FORMAT}\n"));
+        if matches!(self.stop, Stop::Targets(_)) {
+            hasher.update(format!("looks {LOOKS_FORMAT}\n"));
+        }
         hasher.update(&self.resolved_toml);
         hasher
             .finalize()
@@ -93,12 +101,13 @@ impl Plan {
 
     /// Tosses that the run will make at most, over all points.
     pub fn tosses_planned(&self) -> u64 {
-        let each = match self.stop {
-            Stop::Tosses(tosses) => tosses,
-            Stop::Targets(Targets { max_tosses, .. }) => max_tosses,
+        let (each, total) = match self.stop {
+            Stop::Tosses(tosses) => (tosses, None),
+            Stop::Targets(targets) => (targets.max_tosses, targets.total_tosses),
         };
         // MAX_POINTS · MAX_TOSSES lies beyond u64
-        each.saturating_mul(self.points_tossed())
+        let all = each.saturating_mul(self.points_tossed());
+        total.map_or(all, |total| total.min(all))
     }
 }
 

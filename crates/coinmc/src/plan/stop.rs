@@ -7,8 +7,7 @@ use coinmc_core::Estimate;
 pub enum Stop {
     /// After this many.
     Tosses(u64),
-    /// When it meets all targets, looked at only at toss counts fixed beforehand (doubling), with the
-    /// confidence shared out over all looks.
+    /// When it meets all targets: see [`Looks`](super::Looks).
     Targets(Targets),
 }
 
@@ -23,6 +22,47 @@ pub struct Targets {
     pub events: Option<u64>,
     /// Tosses at which the point stops short of them.
     pub max_tosses: u64,
+    /// Tosses of all points together at which the run stops short of them.
+    pub total_tosses: Option<u64>,
+}
+
+/// The rule that ended a point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum StoppedBy {
+    /// It has the tosses asked for.
+    Tosses,
+    /// It meets its targets.
+    Targets,
+    /// Nothing was to be tossed: a closed form.
+    ClosedForm,
+    /// The limit of tosses of a point.
+    MaxTosses,
+    /// The limit of tosses of the run.
+    TotalTosses,
+    /// The limit of evaluations of an integral.
+    Evaluations,
+    /// None yet: more tosses are to come.
+    Unfinished,
+}
+
+impl StoppedBy {
+    /// The name used in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Tosses => "tosses",
+            Self::Targets => "targets",
+            Self::ClosedForm => "closed-form",
+            Self::MaxTosses => "max_tosses",
+            Self::TotalTosses => "total_tosses",
+            Self::Evaluations => "evaluations",
+            Self::Unfinished => "unfinished",
+        }
+    }
+
+    /// Whether the point has what was asked for.
+    pub fn is_reached(self) -> bool {
+        matches!(self, Self::Tosses | Self::Targets | Self::ClosedForm)
+    }
 }
 
 impl Targets {
@@ -33,7 +73,7 @@ impl Targets {
 
     /// By which factor there are too few tosses, as intervals shrink like 1/√n: 1 or less if the targets
     /// are met, infinite if a face that was not seen yet must be.
-    pub(crate) fn excess(&self, faces: &[Estimate; 3]) -> f64 {
+    pub(crate) fn excess(&self, faces: &[Estimate]) -> f64 {
         let of = |face: &Estimate| {
             let arm = face.half_width();
             let absolute = self.half_width.map_or(0.0, |target| arm / target);
@@ -56,37 +96,17 @@ impl Targets {
     }
 }
 
-/// Tosses at the first look at a point that stops at targets: some 30 ms of work in the plane, more
-/// in space.
-pub(crate) const FIRST_LOOK: u64 = 1 << 14;
-
-/// Toss counts at which a point that stops at targets is looked at: [`FIRST_LOOK`], twice and four
-/// times that … below `max_tosses`, then `max_tosses`.
-pub(crate) fn looks(max_tosses: u64) -> impl Iterator<Item = u64> {
-    let doubling = std::iter::successors(Some(FIRST_LOOK), |n| n.checked_mul(2));
-    doubling
-        .take_while(move |&n| n < max_tosses)
-        .chain([max_tosses])
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use coinmc_core::IntervalMethod::Wilson;
-
-    #[test]
-    fn looks_double_and_end_at_the_largest_number() {
-        assert_eq!(looks(100).collect::<Vec<_>>(), [100]);
-        assert_eq!(looks(16_384).collect::<Vec<_>>(), [16_384]);
-        assert_eq!(looks(40_000).collect::<Vec<_>>(), [16_384, 32_768, 40_000]);
-        assert_eq!(looks(u64::MAX).last(), Some(u64::MAX));
-    }
 
     const NONE: Targets = Targets {
         half_width: None,
         relative_error: None,
         events: None,
         max_tosses: 100,
+        total_tosses: None,
     };
 
     fn faces(counts: [u64; 3]) -> [Estimate; 3] {

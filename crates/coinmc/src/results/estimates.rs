@@ -1,8 +1,8 @@
 //! From counts to probabilities with intervals, for points with a fixed number of tosses and for points
 //! that stop at targets.
 
-use crate::plan::{Plan, Stop, Targets, looks};
-use coinmc_core::{Estimate, Face, IntervalMethod, Tally};
+use crate::plan::{Plan, Stop, faces};
+use coinmc_core::{Estimate, Face, Tally};
 use coinmc_quadrature::{Integral, Share};
 
 /// Name of the interval of a closed form.
@@ -16,14 +16,9 @@ pub(super) const CLOSED_FORM: &str = "closed-form";
 
 /// The estimates of heads, tails and side at point `index`, given its tosses so far.
 ///
-/// A closed form's are exact: `lo = p = hi`, no tosses.
-///
-/// A point that stops at targets is looked at up to K times, at toss counts fixed
-/// beforehand. If each look's interval misses the truth with probability at most α/K, then the
-/// chance that any of them does is at most α, and so is that of the one it stops at, however the
-/// decision to stop depends on the data (Bonferroni). This requires an interval with at least nominal
-/// coverage at every p and n: Clopper and Pearson's, whatever the plan says.
-pub(crate) fn estimates(plan: &Plan, index: usize, tally: &Tally) -> [Estimate; 3] {
+/// A closed form's are exact: `lo = p = hi`, no tosses. A point that stops at targets is looked at with
+/// the confidence `at_look`, so that all looks together have that of the plan.
+pub(crate) fn estimates(plan: &Plan, index: usize, tally: &Tally, at_look: f64) -> [Estimate; 3] {
     if let Some(faces) = plan.points[index].exact() {
         return faces.map(|p| Estimate {
             p,
@@ -34,23 +29,17 @@ pub(crate) fn estimates(plan: &Plan, index: usize, tally: &Tally) -> [Estimate; 
             method: plan.interval,
         });
     }
-    let method = match plan.stop {
-        Stop::Tosses(_) => plan.interval,
-        Stop::Targets(_) => IntervalMethod::ClopperPearson,
+    let (undecided, n) = (tally.undecided(), tally.tosses());
+    let found = match plan.stop {
+        Stop::Tosses(_) => Face::ALL.map(|face| {
+            let count = tally.count(face);
+            Estimate::new(count, undecided, n, plan.confidence, plan.interval)
+        }),
+        Stop::Targets(_) => faces(tally, at_look),
     };
-    Face::ALL.map(|face| {
-        let (count, undecided) = (tally.count(face), tally.undecided());
-        let at_look = Estimate::new(
-            count,
-            undecided,
-            tally.tosses(),
-            look_confidence(plan),
-            method,
-        );
-        Estimate {
-            confidence: plan.confidence,
-            ..at_look
-        }
+    found.map(|estimate| Estimate {
+        confidence: plan.confidence,
+        ..estimate
     })
 }
 
@@ -64,16 +53,6 @@ pub(crate) fn integrated(plan: &Plan, integral: &Integral) -> [Estimate; 3] {
         confidence: plan.confidence,
         method: plan.interval,
     })
-}
-
-/// Confidence of the interval of a single look, so that all looks together have the plan's.
-pub(crate) fn look_confidence(plan: &Plan) -> f64 {
-    match plan.stop {
-        Stop::Tosses(_) => plan.confidence,
-        Stop::Targets(Targets { max_tosses, .. }) => {
-            1.0 - (1.0 - plan.confidence) / looks(max_tosses).count() as f64
-        }
-    }
 }
 
 /// Name of the interval method of a point, as results show it.

@@ -8,12 +8,12 @@ mod parquet;
 mod schema;
 
 pub use csv::{write_csv, write_csv_row};
-pub(crate) use estimates::{estimates, integrated, look_confidence};
+pub(crate) use estimates::integrated;
 pub use fair::{FairRatio, fair_ratios, fair_values};
 pub use parquet::{arrow_array, arrow_field, parquet_error, record_batch, write_parquet};
 pub use schema::{Cell, Column, FORMAT, Kind, columns};
 
-use crate::plan::Plan;
+use crate::plan::{Looks, Plan, StoppedBy};
 use crate::published::Published;
 use coinmc_core::{Estimate, Face, Tally};
 use coinmc_quadrature::Integral;
@@ -66,8 +66,10 @@ pub struct Row {
     pub sampling: &'static str,
     /// Evaluations of a point that was integrated, else 0.
     pub evaluations: u64,
-    /// Whether the point has the requested tosses or half width.
-    pub reached_target: bool,
+    /// The rule that ended the point.
+    pub stopped_by: StoppedBy,
+    /// Tosses of the pilot, which only say how many were to follow and are not counted.
+    pub pilot_tosses: u64,
     /// Published counts for the same launch and ratio; not a column of the table.
     pub published: Option<Published>,
 }
@@ -87,13 +89,40 @@ impl Results {
 }
 
 impl Row {
-    /// The row of point `index`, given all its tosses.
+    /// The row of point `index`, given all its tosses, whose number nothing seen has decided.
     ///
     /// # Panics
     /// If the plan has no such point.
-    pub fn new(plan: &Plan, index: usize, tally: Tally, reached_target: bool) -> Self {
+    pub fn new(plan: &Plan, index: usize, tally: Tally, stopped_by: StoppedBy) -> Self {
+        Self::with_confidence(plan, index, tally, stopped_by, plan.confidence)
+    }
+
+    /// The row of point `index`, given the tosses that count at the end of the present stage of its looks.
+    ///
+    /// # Panics
+    /// If the plan has no such point.
+    pub fn at_look(
+        plan: &Plan,
+        index: usize,
+        tally: Tally,
+        stopped_by: StoppedBy,
+        looks: &Looks,
+    ) -> Self {
+        Self {
+            pilot_tosses: looks.pilot(),
+            ..Self::with_confidence(plan, index, tally, stopped_by, looks.confidence())
+        }
+    }
+
+    fn with_confidence(
+        plan: &Plan,
+        index: usize,
+        tally: Tally,
+        stopped_by: StoppedBy,
+        at_look: f64,
+    ) -> Self {
         let point = &plan.points[index];
-        let [heads, tails, side] = estimates(plan, index, &tally);
+        let [heads, tails, side] = estimates::estimates(plan, index, &tally, at_look);
         Self {
             point: index,
             parameters: point.parameters.clone(),
@@ -111,7 +140,8 @@ impl Row {
                 estimates::CLOSED_FORM
             },
             evaluations: 0,
-            reached_target,
+            stopped_by,
+            pilot_tosses: 0,
             published: Published::of(point),
         }
     }
@@ -124,7 +154,7 @@ impl Row {
         plan: &Plan,
         index: usize,
         integral: &Integral,
-        reached_target: bool,
+        stopped_by: StoppedBy,
     ) -> Self {
         let [heads, tails, side] = estimates::integrated(plan, integral);
         let (interval, sampling) = if integral.exact {
@@ -141,7 +171,7 @@ impl Row {
             evaluations: integral.evaluations,
             // published counts are compared with counts
             published: None,
-            ..Self::new(plan, index, Tally::default(), reached_target)
+            ..Self::new(plan, index, Tally::default(), stopped_by)
         }
     }
 

@@ -202,8 +202,8 @@ fn work() -> Vec<Column> {
         counter("overruled"),
         flag(
             "reached_target",
-            "Whether the point has the requested tosses or half width.",
-            |row| Cell::Flag(row.reached_target),
+            "Whether the point has the tosses asked for or meets its targets.",
+            |row| Cell::Flag(row.stopped_by.is_reached()),
         ),
         counter("negative_heights"),
         counter("energy_gains"),
@@ -228,6 +228,22 @@ fn side_endings() -> Vec<Column> {
     let counters = Tally::COUNTERS.iter();
     let counters = counters.filter(|counter| counter.kind == CounterKind::SideEnding);
     counters.map(|found| counter(found.name)).collect()
+}
+
+/// When points stopped.
+fn stopping() -> Vec<Column> {
+    vec![
+        text(
+            "stopped_by",
+            "The rule that ended the point, see below.",
+            |row| Cell::Text(row.stopped_by.name()),
+        ),
+        count(
+            "pilot_tosses",
+            "Tosses before those that count, which only say how many the targets need.",
+            |row| Cell::Count(row.pilot_tosses),
+        ),
+    ]
 }
 
 /// The column of one of the tally's counters.
@@ -286,6 +302,7 @@ pub fn columns<'a>(parameters: impl IntoIterator<Item = &'a str>) -> Vec<Column>
         .chain(probabilities())
         .chain(work())
         .chain(side_endings())
+        .chain(stopping())
         .collect()
 }
 

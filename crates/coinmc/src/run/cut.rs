@@ -2,12 +2,12 @@
 //! nor a restart change what is counted.
 
 use super::Chunk;
-use crate::plan::{FIRST_LOOK, Plan, Stop, Targets, looks};
+use crate::plan::{PILOT, Plan, Stop, Targets};
 use std::ops::Range;
 
 /// Fewest tosses of a chunk, except the last of a point: some 30 ms of work in the plane, more in
 /// space, which hides the cost of a file.
-const LEAST: u64 = FIRST_LOOK;
+const LEAST: u64 = 1 << 14;
 /// Most tosses of a chunk of a run of fixed length, unless that made too many chunks: a tenth of a
 /// second of work in the plane, up to a few seconds in space.
 const LARGE: u64 = 1 << 17;
@@ -16,8 +16,8 @@ const ENOUGH_CHUNKS: u64 = 256;
 /// … and at most this many, or one per point. Time-stepped tosses are so slow that their runs have as
 /// many from the start.
 const MOST_CHUNKS: u64 = 8192;
-/// Most chunks of a stage after the first.
-const CHUNKS_A_STAGE: u64 = 16;
+/// Most chunks from a power of two of tosses to the next where points stop at targets.
+const CHUNKS_AN_OCTAVE: u64 = 16;
 
 /// Tosses per chunk of a run that makes `total` tosses.
 fn fixed_size(total: u64, plan: &Plan) -> u64 {
@@ -32,15 +32,15 @@ fn fixed_size(total: u64, plan: &Plan) -> u64 {
     size.max(of_at_most(MOST_CHUNKS))
 }
 
-/// The cut of one plan.
+/// The cut of one plan: where chunks end.
 ///
-/// A point's tosses are divided into stages, each of which ends with a look at the point: one stage for
-/// a fixed number of tosses, otherwise one per look. A stage is divided into chunks of equal size; the
-/// last may be shorter.
+/// A point that stops at targets is tossed in stages (see [`Looks`](crate::plan::Looks)) of which the plan
+/// does not know where they end. There the toss at which a chunk begins says where it ends at the latest,
+/// so that what an earlier run counted can be checked without its history.
 #[derive(Debug, Clone)]
 pub(super) struct Cut {
-    /// Where each stage ends.
-    ends: Vec<u64>,
+    /// Tosses of a point at most.
+    tosses: u64,
     /// Size of a chunk where the number of tosses is fixed.
     fixed: Option<u64>,
 }
@@ -51,74 +51,75 @@ impl Cut {
             Stop::Tosses(tosses) => {
                 let total = tosses.saturating_mul(plan.points_tossed());
                 Self {
-                    ends: vec![tosses],
+                    tosses,
                     fixed: Some(fixed_size(total, plan)),
                 }
             }
             Stop::Targets(Targets { max_tosses, .. }) => Self {
-                ends: looks(max_tosses).collect(),
+                tosses: max_tosses,
                 fixed: None,
             },
         }
     }
 
-    /// Number of stages of a point.
-    pub(super) fn stages(&self) -> usize {
-        self.ends.len()
-    }
-
-    /// Tosses of a stage.
-    pub(super) fn stage(&self, stage: usize) -> Range<u64> {
-        let start = if stage == 0 { 0 } else { self.ends[stage - 1] };
-        start..self.ends[stage]
-    }
-
     /// The chunks of a stage of a point, in order. An iterator, as the chunks of a long run would not fit
     /// into memory.
-    pub(super) fn chunks(&self, point: usize, stage: usize) -> impl Iterator<Item = Chunk> + use<> {
-        let Range { start, end } = self.stage(stage);
-        let size = self.size(start);
-        let starts = std::iter::successors(Some(start), move |start| start.checked_add(size));
+    pub(super) fn chunks(
+        &self,
+        point: usize,
+        stage: Range<u64>,
+    ) -> impl Iterator<Item = Chunk> + use<> {
+        let (cut, Range { start, end }) = (self.clone(), stage);
+        let starts = std::iter::successors(Some(start), move |&start| Some(cut.end(start)));
+        let cut = self.clone();
         starts
             .take_while(move |&start| start < end)
             .map(move |start| Chunk {
                 point,
-                tosses: start..end.min(start.saturating_add(size)),
+                tosses: start..end.min(cut.end(start)),
             })
     }
 
-    /// The chunk of this point that begins at toss `start`, if there is one.
+    /// The longest chunk of this point that begins at toss `start`, if there is one.
     pub(super) fn chunk_at(&self, point: usize, start: u64) -> Option<Chunk> {
-        let stage = self.ends.partition_point(|&end| end <= start);
-        (stage < self.stages()).then_some(())?;
-        let range = self.stage(stage);
-        let size = self.size(range.start);
-        (start - range.start).is_multiple_of(size).then(|| {
-            let end = range.end.min(start.saturating_add(size));
-            Chunk {
-                point,
-                tosses: start..end,
-            }
+        let aligned = self.fixed.is_none_or(|size| start.is_multiple_of(size));
+        (aligned && start < self.tosses).then(|| Chunk {
+            point,
+            tosses: start..self.end(start).min(self.tosses),
         })
+    }
+
+    /// Whether chunks may be shorter than [`chunk_at`](Self::chunk_at) says, where a stage ends.
+    pub(super) fn may_be_shorter(&self) -> bool {
+        self.fixed.is_none()
     }
 
     /// The chunk's number in the whole run, which decides the part that it belongs to. Only a run of fixed
     /// length has parts.
     pub(super) fn number(&self, chunk: &Chunk) -> u64 {
+        let Some(size) = self.fixed else { return 0 };
         if chunk.tosses.is_empty() {
             // integrated: one chunk per point
             return chunk.point as u64;
         }
-        let size = self.size(0);
-        let chunks_a_point = self.ends[0].div_ceil(size);
+        let chunks_a_point = self.tosses.div_ceil(size);
         (chunk.point as u64)
             .wrapping_mul(chunks_a_point)
             .wrapping_add(chunk.tosses.start / size)
     }
 
-    fn size(&self, stage_start: u64) -> u64 {
-        self.fixed
-            .unwrap_or_else(|| LEAST.max(stage_start / CHUNKS_A_STAGE))
+    /// Where the chunk that begins at `start` ends at the latest.
+    fn end(&self, start: u64) -> u64 {
+        if let Some(size) = self.fixed {
+            return start.saturating_add(size);
+        }
+        if start < PILOT {
+            return PILOT;
+        }
+        // from a power of two to the next 16 chunks, or fewer that are large enough
+        let octave = 1_u64 << start.ilog2();
+        let size = LEAST.max(octave / CHUNKS_AN_OCTAVE).min(octave);
+        (start - start % size).saturating_add(size)
     }
 }
 
@@ -151,22 +152,35 @@ mod tests {
             ("half_width = 0.01\nmax_tosses = 10_000_001", 10_000_001),
         ] {
             let cut = Cut::new(&plan(3, stop));
-            let chunks = (0..cut.stages()).flat_map(|stage| cut.chunks(1, stage));
             let mut end = 0;
-            for chunk in chunks {
+            for chunk in cut.chunks(1, 0..tosses) {
                 assert_eq!(chunk.tosses.start, end);
                 assert!(chunk.tosses.end > end);
                 end = chunk.tosses.end;
                 assert_eq!(cut.chunk_at(1, chunk.tosses.start), Some(chunk.clone()));
-                assert_eq!(
-                    cut.chunk_at(1, chunk.tosses.start + 1).is_some(),
-                    chunk.tosses.end - chunk.tosses.start == 1 && end < tosses
-                );
             }
             assert_eq!(end, tosses, "{stop}");
             assert_eq!(cut.chunk_at(1, tosses), None);
             assert_eq!(cut.chunk_at(1, u64::MAX), None);
         }
+    }
+
+    /// A stage may begin and end between the ends of longer chunks.
+    #[test]
+    fn stages_are_cut_at_the_same_places() {
+        let cut = Cut::new(&plan(3, "half_width = 0.01"));
+        let ends = |stage| {
+            let chunks = cut.chunks(0, stage);
+            chunks.map(|chunk| chunk.tosses.end).collect::<Vec<_>>()
+        };
+        assert_eq!(ends(0..1024), [1024]);
+        assert_eq!(ends(1024..2048), [2048]);
+        assert_eq!(ends(4096..50_000), [8192, 16_384, 32_768, 49_152, 50_000]);
+        assert_eq!(ends(50_000..70_000), [65_536, 70_000]);
+        assert_eq!(ends(1 << 20..(1 << 20) + 100_000), [1_114_112, 1_148_576]);
+        assert!(cut.chunk_at(0, 50_000).is_some() && cut.may_be_shorter());
+        let fixed = Cut::new(&plan(3, "tosses = 1e6"));
+        assert!(fixed.chunk_at(0, 50_000).is_none() && !fixed.may_be_shorter());
     }
 
     #[test]
@@ -179,24 +193,24 @@ mod tests {
         ] {
             let plan = plan(points, &format!("tosses = {tosses}"));
             let cut = Cut::new(&plan);
-            let chunks = (0..plan.points.len()).flat_map(|point| cut.chunks(point, 0));
+            let chunks = (0..plan.points.len()).flat_map(|point| cut.chunks(point, 0..tosses));
             let numbers: Vec<u64> = chunks.map(|chunk| cut.number(&chunk)).collect();
             assert!(numbers.len() as u64 <= MOST_CHUNKS + u64::from(points));
             assert_eq!(numbers.iter().collect::<HashSet<_>>().len(), numbers.len());
-            assert!(cut.size(0).is_power_of_two());
+            assert!(cut.end(0).is_power_of_two());
         }
-        // adaptive: bounded by the number of looks
+        // adaptive: bounded by the number of octaves
         let cut = Cut::new(&plan(
             2,
             "half_width = 1e-6\nmax_tosses = 1_000_000_000_000",
         ));
-        let chunks = (0..cut.stages()).map(|stage| cut.chunks(0, stage).count());
-        assert!(chunks.sum::<usize>() as u64 <= cut.stages() as u64 * CHUNKS_A_STAGE);
+        let chunks = cut.chunks(0, 0..1_000_000_000_000).count() as u64;
+        assert!(chunks <= 30 * CHUNKS_AN_OCTAVE);
     }
 
     #[test]
     fn chunks_are_large_enough_to_hide_what_a_file_costs() {
-        let size = |tosses: u64| Cut::new(&plan(2, &format!("tosses = {tosses}"))).size(0);
+        let size = |tosses: u64| Cut::new(&plan(2, &format!("tosses = {tosses}"))).end(0);
         for (tosses_a_point, expected) in [
             (1, 1 << 14),
             (1 << 21, 1 << 14),
@@ -209,6 +223,6 @@ mod tests {
             assert_eq!(size(tosses_a_point), expected, "{tosses_a_point}");
         }
         let stepped = Cut::new(&plan_of("rapier", 2, "tosses = 5_000_000"));
-        assert_eq!(stepped.size(0), 1 << 14);
+        assert_eq!(stepped.end(0), 1 << 14);
     }
 }

@@ -39,8 +39,13 @@ pub(super) fn report(plan: &Plan, part: Part, schedule: &Schedule<'_>) -> Report
     let points = schedule.points().iter().enumerate();
     let rows = points
         .map(|(i, point)| match &point.integral {
-            Some(integral) => Row::integrated(plan, i, integral, point.reached),
-            None => Row::new(plan, i, point.tally, point.reached),
+            Some(integral) => Row::integrated(plan, i, integral, point.stopped_by),
+            None => match &point.looks {
+                Some(looks) if !looks.is_pilot() => {
+                    Row::at_look(plan, i, point.tally, point.stopped_by, looks)
+                }
+                _ => Row::new(plan, i, *point.shown(), point.stopped_by),
+            },
         })
         .collect();
     let progress = schedule.progress();
@@ -62,7 +67,7 @@ fn status(part: Part, schedule: &Schedule<'_>) -> Status {
     match schedule
         .points()
         .iter()
-        .filter(|point| !point.reached)
+        .filter(|point| !point.stopped_by.is_reached())
         .count()
     {
         0 => Status::Complete,

@@ -2,11 +2,11 @@
 
 use super::chunk_result::{ChunkResult, whole};
 use super::cut::Cut;
+use super::point_state::PointState;
+use super::shares::{Need, shares};
 use super::{Chunk, Part, Progress};
-use crate::plan::{Plan, Stop, Targets};
-use crate::results::{estimates, integrated};
-use coinmc_core::{Estimate, Face, IntervalMethod, Tally};
-use coinmc_quadrature::Integral;
+use crate::plan::{Looks, Plan, Stop, StoppedBy, Targets, Verdict};
+use crate::results::integrated;
 use std::collections::HashMap;
 
 /// Results of chunks that an earlier run finished, by point and first toss.
@@ -15,8 +15,9 @@ pub(super) type Finished = HashMap<(usize, u64), ChunkResult>;
 /// Hands out chunks and collects their results, in whatever order they arrive.
 ///
 /// Points are opened in order, a stage at a time; the next stage of an open point comes before
-/// the next point. Only the next stage of the same point waits for all chunks of a stage. Memory
-/// holds one tally per point, not per chunk.
+/// the next point. Only the next stage of the same point waits for all chunks of a stage; where the tosses
+/// of the whole run are limited, all points wait for each other after every stage that counts, as what is
+/// left is shared among those that need more. Memory holds two tallies per point, not one per chunk.
 #[derive(Debug)]
 pub(super) struct Schedule<'a> {
     plan: &'a Plan,
@@ -28,30 +29,14 @@ pub(super) struct Schedule<'a> {
     unopened: usize,
     /// Open points whose next stage can be handed out.
     ready: Vec<usize>,
+    /// Open points whose next stage waits for its share of the tosses of the whole run.
+    waiting: Vec<usize>,
     /// The stage whose chunks are being handed out.
     current: Option<Stage>,
     in_flight: u64,
     progress: Progress,
     /// The point with the widest interval so far.
     worst: Option<usize>,
-}
-
-#[derive(Debug, Clone, Default)]
-pub(super) struct PointState {
-    /// All tosses so far.
-    pub(super) tally: Tally,
-    /// The result of a point without tosses.
-    pub(super) integral: Option<Integral>,
-    /// The stop rule is met.
-    pub(super) reached: bool,
-    stage: usize,
-    /// Chunks of the stage that are handed out and not yet complete.
-    outstanding: u64,
-    /// All chunks of the stage are handed out.
-    handed_out: bool,
-    half_width: f64,
-    /// Tosses that the point is expected to need.
-    forecast: u64,
 }
 
 struct Stage {
@@ -82,21 +67,27 @@ impl<'a> Schedule<'a> {
     /// The schedule of a part of a plan, given the chunks that an earlier run finished.
     pub(super) fn new(plan: &'a Plan, part: Part, finished: Finished) -> Self {
         let cut = Cut::new(plan);
-        let forecast = if part == Part::WHOLE {
-            cut.stage(0).end
-        } else {
-            // the other parts forecast their own share
-            cut.stage(0).end / u64::from(part.of())
-        };
         let tossed = plan.points_tossed();
-        let points = (0..plan.points.len()).map(|index| PointState {
-            // such a point adds nothing to the sum, so nothing may be subtracted for it later
-            forecast: if plan.makes_tosses(index) {
-                forecast
-            } else {
-                0
-            },
-            ..PointState::default()
+        let (looks, limited_by) = match plan.stop {
+            Stop::Tosses(_) => (None, StoppedBy::Tosses),
+            Stop::Targets(targets) => {
+                let (looks, limited_by) = first_looks(plan, targets, tossed);
+                (Some(looks), limited_by)
+            }
+        };
+        // the other parts forecast their own share
+        let forecast = match (&looks, plan.stop) {
+            (None, Stop::Tosses(tosses)) => tosses / u64::from(part.of()),
+            (Some(looks), _) => looks.stage().end,
+            _ => 0,
+        };
+        let points = (0..plan.points.len()).map(|index| {
+            let mut point = PointState::new(looks.clone(), limited_by);
+            // others add nothing to the sum, so nothing may be subtracted for them later
+            if plan.makes_tosses(index) {
+                point.forecast = forecast;
+            }
+            point
         });
         let points = points.collect();
         let reused = finished
@@ -120,6 +111,7 @@ impl<'a> Schedule<'a> {
             points,
             unopened: 0,
             ready: Vec::new(),
+            waiting: Vec::new(),
             current: None,
             in_flight: 0,
             progress,
@@ -131,7 +123,7 @@ impl<'a> Schedule<'a> {
     pub(super) fn next(&mut self) -> Next {
         loop {
             let Some(stage) = &mut self.current else {
-                if self.open_stage() {
+                if self.open_stage() || self.share_out() {
                     continue;
                 }
                 return if self.in_flight == 0 {
@@ -163,7 +155,7 @@ impl<'a> Schedule<'a> {
     pub(super) fn complete(&mut self, chunk: &Chunk, result: &ChunkResult) {
         let point = &mut self.points[chunk.point];
         match result {
-            ChunkResult::Tossed(tally) => point.tally.merge(tally),
+            ChunkResult::Tossed(tally) => point.of_stage().merge(tally),
             ChunkResult::Integrated(integral) => point.integral = Some(*integral),
         }
         point.outstanding -= 1;
@@ -187,6 +179,7 @@ impl<'a> Schedule<'a> {
     pub(super) fn is_done(&self) -> bool {
         self.unopened == self.points.len()
             && self.ready.is_empty()
+            && self.waiting.is_empty()
             && self.current.is_none()
             && self.in_flight == 0
     }
@@ -224,30 +217,38 @@ impl<'a> Schedule<'a> {
             let chunks = Box::new(std::iter::once(whole(point)));
             self.current = Some(Stage { point, chunks });
         } else if self.plan.makes_tosses(point) {
-            let chunks = Box::new(self.cut.chunks(point, self.points[point].stage));
+            let stage = match (&self.points[point].looks, self.plan.stop) {
+                (None, Stop::Tosses(tosses)) => 0..tosses,
+                (Some(looks), _) => looks.stage(),
+                (None, Stop::Targets(_)) => unreachable!("every such point has looks"),
+            };
+            let chunks = Box::new(self.cut.chunks(point, stage));
             self.current = Some(Stage { point, chunks });
         } else {
-            self.points[point].integral = self.plan.known(point);
-            self.points[point].reached = true;
-            self.progress.points_done += 1;
+            let known = self.plan.known(point);
+            self.points[point].integral = known;
+            self.end(point, StoppedBy::ClosedForm);
         }
         true
     }
 
+    /// Counts a chunk that an earlier run finished, if it did, and with as many tosses.
     fn take_finished(&mut self, chunk: &Chunk) -> bool {
         let Some(result) = self.finished.remove(&(chunk.point, chunk.tosses.start)) else {
             return false;
         };
         let point = &mut self.points[chunk.point];
-        match result {
-            ChunkResult::Integrated(integral) => point.integral = Some(integral),
+        match &result {
+            ChunkResult::Integrated(integral) => point.integral = Some(*integral),
             ChunkResult::Tossed(tally) => {
-                let Some(sum) = point.tally.checked_merge(&tally) else {
-                    // only forged counts overflow: repeat the chunk
+                let sum = point.of_stage().checked_merge(tally);
+                let is_whole = tally.tosses() == chunk.tosses.end - chunk.tosses.start;
+                let Some(sum) = sum.filter(|_| is_whole) else {
+                    // only forged counts are not whole or overflow: repeat the chunk
                     self.forget_reused(&result);
                     return false;
                 };
-                point.tally = sum;
+                *point.of_stage() = sum;
             }
         }
         self.update_worst(chunk.point);
@@ -260,47 +261,102 @@ impl<'a> Schedule<'a> {
             return;
         }
         point.handed_out = false;
-        let last = self.plan.integrates(index) || point.stage + 1 == self.cut.stages();
-        point.reached = match (self.plan.stop, &point.integral) {
-            // a single part integrates a point
-            (Stop::Tosses(_), Some(_)) => true,
-            (Stop::Tosses(_), None) => self.part == Part::WHOLE,
-            (Stop::Targets(targets), Some(integral)) => {
-                // an integral shows no face
-                let targets = Targets {
-                    events: None,
-                    ..targets
-                };
-                targets.are_met(&integrated(self.plan, integral))
+        if let Some(integral) = &point.integral {
+            let by = match self.plan.stop {
+                Stop::Tosses(_) => StoppedBy::Tosses,
+                Stop::Targets(targets) => {
+                    // an integral shows no face
+                    let targets = Targets {
+                        events: None,
+                        ..targets
+                    };
+                    if targets.are_met(&integrated(self.plan, integral)) {
+                        StoppedBy::Targets
+                    } else {
+                        StoppedBy::Evaluations
+                    }
+                }
+            };
+            self.end(index, by);
+            return;
+        }
+        let of_whole = self.part == Part::WHOLE;
+        match point.look() {
+            // the other parts have the other tosses
+            None if of_whole => self.end(index, StoppedBy::Tosses),
+            None => self.end(index, StoppedBy::Unfinished),
+            Some(Verdict::Met) => self.end(index, StoppedBy::Targets),
+            Some(Verdict::Short) => {
+                let by = point.limited_by;
+                self.end(index, by);
             }
-            (Stop::Targets(targets), None) => {
-                targets.are_met(&estimates(self.plan, index, &point.tally))
+            Some(Verdict::More) => {
+                let forecast = point.tosses() + point.next_tosses();
+                let counts = !point.is_in_pilot();
+                let waits = counts && self.total().is_some();
+                self.set_forecast(index, forecast);
+                if waits {
+                    self.waiting.push(index);
+                } else {
+                    self.ready.push(index);
+                }
             }
-        };
-        if point.reached || last {
-            self.progress.points_done += 1;
-            self.set_forecast(index, self.points[index].tally.tosses());
-        } else {
-            point.stage += 1;
-            self.ready.push(index);
-            self.forecast(index);
         }
     }
 
-    /// Predicts which of the remaining looks will be the last, as intervals shrink like 1/√N.
-    fn forecast(&mut self, index: usize) {
-        let Stop::Targets(targets) = self.plan.stop else {
-            return;
+    fn end(&mut self, index: usize, by: StoppedBy) {
+        self.points[index].stopped_by = by;
+        self.progress.points_done += 1;
+        if self.plan.makes_tosses(index) {
+            self.set_forecast(index, self.points[index].tosses());
+        }
+    }
+
+    /// Limit of the tosses of the whole run.
+    fn total(&self) -> Option<u64> {
+        match self.plan.stop {
+            Stop::Tosses(_) => None,
+            Stop::Targets(targets) => targets.total_tosses,
+        }
+    }
+
+    /// Shares the tosses that the whole run may still make among the points that need more, once all have
+    /// been looked at. What they need of course shrinks their intervals to the targets; if there is less,
+    /// each gets the same part of its need, so that all intervals end as long in units of their targets, and
+    /// the longest is as short as can be.
+    fn share_out(&mut self) -> bool {
+        let (Some(total), 0) = (self.total(), self.in_flight) else {
+            return false;
         };
-        let point = &self.points[index];
-        let excess = targets
-            .excess(&quick_estimates(self.plan, &point.tally))
-            .max(1.0);
-        let needed = point.tally.tosses() as f64 * excess;
-        let mut looks = (point.stage..self.cut.stages()).map(|stage| self.cut.stage(stage).end);
-        let look = looks.clone().find(|&end| end as f64 >= needed);
-        let forecast = look.or(looks.next_back()).unwrap_or(point.forecast);
-        self.set_forecast(index, forecast);
+        let mut waiting = std::mem::take(&mut self.waiting);
+        if waiting.is_empty() {
+            return false;
+        }
+        // they came in the order in which threads were done
+        waiting.sort_unstable();
+        let made: u64 = self.points.iter().map(PointState::tosses).sum();
+        let states = waiting.iter().map(|&point| &self.points[point]);
+        let needs: Vec<Need> = states
+            .map(|point| Need {
+                most: point.next_tosses(),
+                wanted: point.wanted(),
+            })
+            .collect();
+        let shares = shares(&needs, total.saturating_sub(made));
+        for (point, (need, share)) in waiting.into_iter().zip(needs.into_iter().zip(shares)) {
+            if share < need.most {
+                let state = &mut self.points[point];
+                state.limit(share, StoppedBy::TotalTosses);
+                let forecast = state.tosses() + share;
+                self.set_forecast(point, forecast);
+            }
+            if share == 0 {
+                self.end(point, StoppedBy::TotalTosses);
+            } else {
+                self.ready.push(point);
+            }
+        }
+        true
     }
 
     fn set_forecast(&mut self, index: usize, forecast: u64) {
@@ -311,10 +367,7 @@ impl<'a> Schedule<'a> {
     }
 
     fn update_worst(&mut self, index: usize) {
-        let half_width = match &self.points[index].integral {
-            Some(integral) => integral.half_width(),
-            None => quick_half_width(self.plan, &self.points[index].tally),
-        };
+        let half_width = self.points[index].quick_half_width(self.plan);
         self.points[index].half_width = half_width;
         self.worst = match self.worst {
             Some(worst) if worst != index && self.points[worst].half_width >= half_width => {
@@ -331,16 +384,19 @@ impl<'a> Schedule<'a> {
     }
 }
 
-/// The estimates of the three faces by Wilson's formula: good enough to display and to forecast.
-fn quick_estimates(plan: &Plan, tally: &Tally) -> [Estimate; 3] {
-    let confidence = crate::results::look_confidence(plan);
-    let (undecided, n) = (tally.undecided(), tally.tosses());
-    let method = IntervalMethod::Wilson;
-    Face::ALL.map(|face| Estimate::new(tally.count(face), undecided, n, confidence, method))
-}
-
-/// The widest arm of these.
-fn quick_half_width(plan: &Plan, tally: &Tally) -> f64 {
-    let arms = quick_estimates(plan, tally).map(|face| face.half_width());
-    arms.into_iter().fold(0.0, f64::max)
+/// The looks at a point before its first, and the rule that ends it without more tosses. Where the tosses
+/// of the whole run are limited, no pilot may take more than a part of the point's equal share.
+fn first_looks(plan: &Plan, targets: Targets, points: u64) -> (Looks, StoppedBy) {
+    let each = targets.total_tosses.map(|total| total / points.max(1));
+    match each {
+        Some(each) if each < targets.max_tosses => {
+            let looks = Looks::within(targets, plan.confidence, each);
+            if looks.is_pilot() {
+                (looks, StoppedBy::MaxTosses)
+            } else {
+                (looks, StoppedBy::TotalTosses)
+            }
+        }
+        _ => (Looks::new(targets, plan.confidence), StoppedBy::MaxTosses),
+    }
 }

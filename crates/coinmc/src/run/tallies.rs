@@ -62,7 +62,7 @@ impl Tallies {
             if let Some((point, start)) = tally_file::parse_name(name) {
                 let read = chunk_at(plan, cut, point, start)
                     .ok_or(Damage::NoSuchChunk)
-                    .map(|chunk| self.read(&path, chunk, plan));
+                    .map(|chunk| self.read(&path, chunk, plan, cut.may_be_shorter()));
                 found(match read {
                     Ok(entry) => entry?,
                     Err(damage) => Entry::Damaged(path, damage),
@@ -78,7 +78,14 @@ impl Tallies {
         Ok(())
     }
 
-    fn read(&self, path: &Path, chunk: Chunk, plan: &Plan) -> Result<Entry, RunError> {
+    /// Reads the file of a chunk, or of one that begins like it and is shorter, if it may be.
+    fn read(
+        &self,
+        path: &Path,
+        mut chunk: Chunk,
+        plan: &Plan,
+        may_be_shorter: bool,
+    ) -> Result<Entry, RunError> {
         if !replace::is_file(path) {
             return Ok(Entry::Damaged(path.to_owned(), Damage::NotAFile));
         }
@@ -89,6 +96,9 @@ impl Tallies {
             if let Some(method) = plan.method(chunk.point) {
                 let integral = integral_file::decode(&bytes, chunk.point, method, hash);
                 return integral.map(ChunkResult::Integrated);
+            }
+            if may_be_shorter && let Some(end) = tally_file::end(&bytes) {
+                chunk.tosses.end = chunk.tosses.end.min(end);
             }
             tally_file::decode(&bytes, &chunk, hash).map(ChunkResult::Tossed)
         });

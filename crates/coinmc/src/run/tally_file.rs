@@ -56,6 +56,13 @@ pub(super) fn encode(chunk: &Chunk, tally: &Tally, plan_hash: &str) -> String {
     seal(text)
 }
 
+/// The number that the file gives for the toss after its last, if it gives one.
+pub(super) fn end(bytes: &[u8]) -> Option<u64> {
+    let text = std::str::from_utf8(bytes).ok()?;
+    let range = text.lines().find_map(|line| line.strip_prefix("tosses "))?;
+    range.split_once(' ')?.1.parse().ok()
+}
+
 /// Reads the file of `chunk`. Any bytes other than those that [`encode`] would write are rejected.
 pub(super) fn decode(bytes: &[u8], chunk: &Chunk, plan_hash: &str) -> Result<Tally, Damage> {
     let mut lines = unseal(bytes)?.lines();

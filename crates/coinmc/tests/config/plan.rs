@@ -259,7 +259,8 @@ fn stop_and_estimate_are_read() {
             half_width: Some(0.01),
             relative_error: None,
             events: None,
-            max_tosses: 100_000_000
+            max_tosses: 100_000_000,
+            total_tosses: None,
         })
     );
     assert_eq!(
@@ -277,6 +278,7 @@ fn targets_can_be_combined() {
         relative_error: Some(0.1),
         events: Some(500),
         max_tosses: 1_000_000,
+        total_tosses: None,
     };
     assert_eq!(plan.stop, Stop::Targets(expected));
 }

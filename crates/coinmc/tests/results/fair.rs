@@ -1,5 +1,6 @@
 //! Fair ratios of curves whose crossings are known.
 
+use coinmc::plan::StoppedBy;
 use coinmc::results::{FairRatio, Results, Row, fair_ratios, fair_values};
 use coinmc_core::{Estimate, Face, IntervalMethod, Tally, unit_interval};
 
@@ -22,7 +23,8 @@ fn row(parameters: &[(&str, f64)], side: Estimate) -> Row {
         tails: side,
         side,
         interval: "wilson",
-        reached_target: true,
+        stopped_by: StoppedBy::Tosses,
+        pilot_tosses: 0,
         published: None,
     }
 }

@@ -4,7 +4,7 @@ use crate::support::{plan, plan_of, run_whole};
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, UInt64Type};
 use arrow_array::{Array, RecordBatch};
-use coinmc::plan::Plan;
+use coinmc::plan::{Plan, StoppedBy};
 use coinmc::results::{Kind, Results, Row, columns, record_batch, write_csv, write_parquet};
 use coinmc_core::{Tally, relative_error};
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
@@ -49,10 +49,14 @@ fn example(plan: &Plan) -> Results {
             ..Tally::default()
         },
     ];
-    let rows = tallies
-        .iter()
-        .enumerate()
-        .map(|(i, tally)| Row::new(plan, i, *tally, i != 3));
+    let rows = tallies.iter().enumerate().map(|(i, tally)| {
+        let by = if i == 3 {
+            StoppedBy::Unfinished
+        } else {
+            StoppedBy::Tosses
+        };
+        Row::new(plan, i, *tally, by)
+    });
     Results::new(plan, rows.collect())
 }
 
@@ -183,7 +187,7 @@ fn every_result_names_the_law_and_all_that_defines_the_toss() {
                 [launch]\npreset = \"table1\"\n[engine.volumetric]\nlaw = \"stronge\"\n\
                 [stop]\ntosses = 1\n";
     let plan = coinmc::config::parse("test", text, &[]).unwrap();
-    let row = Row::new(&plan, 0, Tally::default(), false);
+    let row = Row::new(&plan, 0, Tally::default(), StoppedBy::Unfinished);
     let results = Results::new(&plan, vec![row]);
     let table = csv(&results);
     let cells: Vec<(&str, &str)> = table[0]

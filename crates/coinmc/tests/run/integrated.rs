@@ -2,7 +2,7 @@
 //! interrupted or resumed, and those of random tosses.
 
 use crate::support::{Ear, assert_same, contents, run_whole, run_with};
-use coinmc::plan::Plan;
+use coinmc::plan::{Plan, StoppedBy};
 use coinmc::results::{Row, fair_ratios};
 use coinmc::run::{Count, Part, Progress, ProgressSink, Status, count, integrate_point, merge};
 use std::fs;
@@ -47,7 +47,8 @@ fn a_run_integrates_and_reports_it() {
     assert_eq!(plan.tosses_planned(), 0);
     for (point, row) in report.results.rows.iter().enumerate() {
         let alone = integrate_point(&plan, point, u64::MAX).unwrap().unwrap();
-        assert_eq!(*row, Row::integrated(&plan, point, &alone, true));
+        let by = StoppedBy::Tosses;
+        assert_eq!(*row, Row::integrated(&plan, point, &alone, by));
         assert_eq!((row.interval, row.sampling), ("student-t", "quasi-random"));
         assert!(
             row.evaluations >= 1024 && row.evaluations <= 20_000,
@@ -117,7 +118,7 @@ fn parts_of_a_run_merge_to_the_whole() {
             assert_eq!(report.status, Status::Part);
             // nothing more is to come of what this part integrated
             for row in &report.results.rows {
-                assert_eq!(row.reached_target, row.evaluations > 0, "{row:?}");
+                assert_eq!(row.stopped_by.is_reached(), row.evaluations > 0, "{row:?}");
             }
             out
         })
@@ -145,7 +146,8 @@ fn exact_rules_need_no_work_and_no_file() {
         for (point, row) in report.results.rows.iter().enumerate() {
             let alone = integrate_point(&plan, point, u64::MAX).unwrap().unwrap();
             assert_eq!(Some(alone), plan.known(point));
-            assert_eq!(*row, Row::integrated(&plan, point, &alone, true));
+            let by = StoppedBy::ClosedForm;
+            assert_eq!(*row, Row::integrated(&plan, point, &alone, by));
             assert_eq!((row.interval, row.sampling), ("exact", "closed-form"));
         }
         assert_eq!(run_whole(&plan, &out).results, report.results);
@@ -319,6 +321,8 @@ fn a_half_width_is_reached_or_reported_as_missed() {
     for (wide, narrow) in wide.results.rows.iter().zip(&narrow.results.rows) {
         assert!(wide.half_width() <= 1e-2 && narrow.half_width() > 1e-7);
         assert!(wide.evaluations <= narrow.evaluations);
+        let by = [wide.stopped_by, narrow.stopped_by];
+        assert_eq!(by, [StoppedBy::Targets, StoppedBy::Evaluations]);
     }
 }
 

@@ -6,4 +6,5 @@ mod in_memory;
 mod integrated;
 mod merge;
 mod resume;
+mod stopping;
 mod support;

@@ -4,6 +4,7 @@ use crate::support::{
     Ear, FIXED, HALF_WIDTH, assert_same, contents, plan, plan_in_space, run_as_build, run_whole,
     run_with,
 };
+use coinmc::plan::StoppedBy;
 use coinmc::results::Row;
 use coinmc::run::{Chunk, Part, Status, run_chunk};
 use coinmc_core::Tally;
@@ -35,7 +36,7 @@ fn a_run_equals_the_sum_of_its_chunks() {
             sum.merge(&run_chunk(&plan, &Chunk { point, tosses }).unwrap());
         }
         assert_eq!(sum, row.tally);
-        assert_eq!(*row, Row::new(&plan, point, sum, true));
+        assert_eq!(*row, Row::new(&plan, point, sum, StoppedBy::Tosses));
     }
 }
 

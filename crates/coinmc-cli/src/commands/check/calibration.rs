@@ -2,9 +2,9 @@
 
 mod integrals;
 
-use coinmc::plan::{Plan, Stop};
+use coinmc::plan::{Looks, Plan, Stop};
 use coinmc::run::{Chunk, RunError, run_chunk};
-use coinmc_core::{Face, Tally, inverse_normal_cdf};
+use coinmc_core::Tally;
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -15,9 +15,6 @@ const BUDGET: Duration = Duration::from_millis(800);
 
 /// A forecast should be right within this factor.
 const SURE: f64 = 1.5;
-
-/// Tosses before a point that stops at targets is first looked at.
-const FIRST_LOOK: u64 = 1 << 14;
 
 /// A forecast.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,6 +60,7 @@ pub(super) fn estimate(plan: &Plan) -> Result<Cost, RunError> {
         with_batch[1] += tosses * pace.last;
         Ok((tosses, tosses * pace.last))
     })?;
+    limit_total(plan, &mut points);
     let sum = |points: &[PointCost], of: fn(&PointCost) -> f64| points.iter().map(of).sum::<f64>();
     let tosses = sum(&points, |point| point.tosses);
     let tosses_per_s = if points.is_empty() {
@@ -86,6 +84,21 @@ pub(super) fn estimate(plan: &Plan) -> Result<Cost, RunError> {
         unsure: is_unsure(with_batch),
         points,
     })
+}
+
+/// Where the tosses of the run are limited, every point is short of them by the same factor.
+fn limit_total(plan: &Plan, points: &mut [PointCost]) {
+    let Stop::Targets(targets) = plan.stop else {
+        return;
+    };
+    let all: f64 = points.iter().map(|point| point.tosses).sum();
+    let factor = targets.total_tosses.map_or(1.0, |total| total as f64 / all);
+    if factor < 1.0 {
+        for point in points {
+            point.tosses *= factor;
+            point.seconds *= factor;
+        }
+    }
 }
 
 /// Whether two forecasts from different tosses differ by more than a forecast may differ from the run.
@@ -169,40 +182,20 @@ fn toss_for(plan: &Plan, point: usize, budget: Duration) -> Result<(Tally, Pace)
 }
 
 /// Tosses that a point needs, judged by a few of them.
-///
-/// Where it stops at targets, by the normal approximation: n = z² p (1 − p)/h² for a half width h, z²
-/// (1 − p)/(p r²) for a relative error r, k/p for k events, the most of these and of all faces, rounded up to the next look (a power of two; each look has its share of the
-/// confidence).
 fn needed(plan: &Plan, tally: &Tally) -> u64 {
-    let targets = match plan.stop {
-        Stop::Tosses(tosses) => return tosses,
-        Stop::Targets(targets) => targets,
-    };
-    let max_tosses = targets.max_tosses;
-    let n = tally.tosses() as f64;
-    // Some 10 to 40 looks: their number matters little under the logarithm of the tail.
-    let looks = libm::log2(max_tosses as f64 / FIRST_LOOK as f64).max(0.0) + 1.0;
-    let z = -inverse_normal_cdf((1.0 - plan.confidence) / (2.0 * looks));
-    let of = |face| {
-        // one more of each: a face that did not show yet may still do so
-        let p = (tally.count(face) as f64 + 1.0) / (n + 2.0);
-        let absolute = targets
-            .half_width
-            .map_or(0.0, |arm| p * (1.0 - p) / (arm * arm));
-        let share = targets.relative_error;
-        let relative = share.map_or(0.0, |share| (1.0 - p) / (p * share * share));
-        let events = targets.events.map_or(0.0, |least| least as f64 / p);
-        (z * z * absolute.max(relative)).max(events)
-    };
-    let wanted = Face::ALL.into_iter().map(of).fold(0.0, f64::max);
-    // Saturates; then max_tosses is what stops.
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-    let wanted = wanted as u64;
-    wanted
-        .checked_next_power_of_two()
-        .unwrap_or(u64::MAX)
-        .max(FIRST_LOOK)
-        .min(max_tosses)
+    match plan.stop {
+        Stop::Tosses(tosses) => tosses,
+        Stop::Targets(targets) => {
+            // one more of each face: one that did not show yet may still do so
+            let shown = Tally {
+                heads: tally.heads + 1,
+                tails: tally.tails + 1,
+                side: tally.side + 1,
+                ..*tally
+            };
+            Looks::new(targets, plan.confidence).forecast(&shown)
+        }
+    }
 }
 
 #[cfg(test)]
@@ -270,21 +263,21 @@ mod tests {
             ..Tally::default()
         };
         let needed = |stop| needed(&plan(stop), &tally);
-        // 13 looks: z = 2.89 at 95 %, 8.4 · 0.222/1e-6 = 1.86e6, next power of two
-        assert_eq!(
-            needed("half_width = 1e-3, max_tosses = 100_000_000"),
-            1 << 21
-        );
+        // 4.5 % for the first look: z² p (1 − p)/h² = 2.005² · 0.222/1e-6, and a pilot of 2^15
+        let tosses = needed("half_width = 1e-3, max_tosses = 100_000_000");
+        assert!(tosses.abs_diff(893_000 + (1 << 15)) < 5000, "{tosses}");
         assert_eq!(
             needed("half_width = 1e-3, max_tosses = 1_000_000"),
-            1_000_000
+            tosses.min(1_000_000)
         );
-        assert_eq!(needed("half_width = 0.1, max_tosses = 5000"), 5000);
-        assert_eq!(needed("half_width = 0.1"), 1 << 14);
-        assert_eq!(
-            needed("half_width = 1e-6, max_tosses = 100_000_000_000_000"),
-            1 << 42
-        );
+        assert_eq!(needed("half_width = 0.001, max_tosses = 5000"), 5000);
+        assert!(needed("half_width = 0.1") < 2048);
+    }
+
+    #[test]
+    fn the_run_has_a_limit_too() {
+        let plan = plan("half_width = 1e-4, total_tosses = 1_000_000");
+        assert_eq!(estimate(&plan).unwrap().tosses, 1_000_000);
     }
 
     #[test]

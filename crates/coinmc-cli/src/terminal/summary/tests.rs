@@ -27,7 +27,7 @@ fn results(config: &str, share: f64) -> Results {
                     time_limit: 1,
                     ..Tally::default()
                 },
-                true,
+                StoppedBy::Tosses,
             )
         })
         .collect();
@@ -92,7 +92,7 @@ fn closed_forms_are_exact_and_have_no_interval() {
     let config = "coin.ratio = [1.0, 2.0]\nengine.analytic.rule = 'arc'";
     let plan = config::parse("test", config, &[]).unwrap();
     let rows = (0..2)
-        .map(|i| Row::new(&plan, i, Tally::default(), true))
+        .map(|i| Row::new(&plan, i, Tally::default(), StoppedBy::Tosses))
         .collect();
     let text = text(&Results::new(&plan, rows), &Style::plain(80));
     assert!(text.contains("0.500000 exact"), "{text}");
@@ -117,7 +117,7 @@ fn unity(more: &str, ratio: &str) -> Results {
         side: 100,
         ..Tally::default()
     };
-    let rows = (0..plan.points.len()).map(|i| Row::new(&plan, i, tally, true));
+    let rows = (0..plan.points.len()).map(|i| Row::new(&plan, i, tally, StoppedBy::Tosses));
     Results::new(&plan, rows.collect())
 }
 

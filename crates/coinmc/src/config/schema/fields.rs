@@ -175,6 +175,15 @@ fn stop() -> TableKind {
                 tosses,
                 Omitted,
             ),
+            field(
+                "total_tosses",
+                "Tosses of all points together at which the run stops short of these targets.",
+                Kind::Integer(Whole {
+                    low: 1,
+                    high: MAX_TOSSES,
+                }),
+                Omitted,
+            ),
         ],
         rules: vec![
             Rule::Unless {
@@ -192,7 +201,12 @@ fn stop() -> TableKind {
             Rule::GoesWith {
                 key: "max_tosses",
                 others: &["half_width", "relative_error", "events"],
-                fallback: Fallback::Integer(100_000_000),
+                fallback: Some(Fallback::Integer(100_000_000)),
+            },
+            Rule::GoesWith {
+                key: "total_tosses",
+                others: &["half_width", "relative_error", "events"],
+                fallback: None,
             },
         ],
     }

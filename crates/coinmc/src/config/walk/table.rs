@@ -108,13 +108,13 @@ impl Walker<'_> {
                     return;
                 };
                 let with = others.iter().any(|other| slots.get(other).is_some());
-                match (&slots.forms[at], with) {
-                    (Some(checked), false) => {
+                match (&slots.forms[at], with, fallback) {
+                    (Some(checked), false, _) => {
                         let others: Vec<_> = others.iter().map(|key| format!("`{key}`")).collect();
                         let message = format!("`{key}` goes with {} only", others.join(" or "));
                         self.problems.add(checked.span, message);
                     }
-                    (None, true) => slots.fill(at, fallback),
+                    (None, true, Some(fallback)) => slots.fill(at, fallback),
                     _ => {}
                 }
             }

@@ -1,0 +1,431 @@
+//! At which toss counts a point that stops at targets is looked at.
+//!
+//! # Why a pilot
+//! Whoever looks again and again, and stops when an interval happens to be short, must share the error
+//! probability α over all looks, and pays for it: with a dozen looks at doubling counts 3.2 times the
+//! tosses of a design that knew the probabilities. A *pilot* learns them instead:
+//!
+//! 1. The pilot's tosses only say how many tosses the targets need. It doubles until it has a thirty-second
+//!    of these, or, where a face is rare, an eighth.
+//! 2. So many tosses follow, with a margin of 2.5 standard errors of the pilot. Only these are counted.
+//!    Given the pilot their number is fixed, so that their interval is as valid as that of any fixed number
+//!    of tosses; the pilot's own tosses had to go, as chance in them decides that number.
+//! 3. Chance seldom leaves the targets unmet. Then the point is looked at again at twice, four times … as
+//!    many counted tosses. The first look has the share .9 of α, the others .05, .025, …, and the last, at
+//!    the limit of tosses, all that is left: in all no more than α (Bonferroni).
+//!
+//! For P = .3 and a half width of .001 that takes 1.1 times the tosses of the fixed design
+//! (`benches/python/stopping.py`).
+//!
+//! The two stages are Stein's (Ann. Math. Stat. 16 (1945) 243), for proportions, without his use of the
+//! pilot in the estimate.
+
+use super::{MAX_TOSSES, Targets};
+use coinmc_core::{Estimate, Face, IntervalMethod, Tally};
+use std::ops::Range;
+
+/// Tosses of the pilot's first stage.
+pub(crate) const PILOT: u64 = 1 << 10;
+/// Least limit of tosses with which a pilot pays.
+const LEAST_WITH_PILOT: u64 = 4 * PILOT;
+/// Share of α of the first look.
+const FIRST_SHARE: f64 = 0.9;
+/// Standard errors of the pilot by which the first look is later than the pilot says.
+const MARGIN: f64 = 2.5;
+/// More tosses than any point may make.
+const MOST: f64 = MAX_TOSSES as f64;
+/// Counted tosses are a multiple of this, but for those at the limit.
+const MULTIPLE: u64 = 256;
+
+/// The looks at a point that stops at targets.
+///
+/// # Example
+/// ```
+/// use coinmc::plan::{Looks, Stop, Targets, Verdict};
+/// use coinmc_core::Tally;
+/// let plan = coinmc::config::parse(
+///     "inline",
+///     "coin.ratio = 1\nsurface = { restitution = 0.5, friction = 0.3 }\nlaunch.preset = 'robot'\n\
+///      engine.flat = {}\nstop.half_width = 0.01",
+///     &[],
+/// ).unwrap();
+/// let Stop::Targets(targets) = plan.stop else { unreachable!() };
+/// let mut looks = Looks::new(targets, plan.confidence);
+/// assert_eq!((looks.stage(), looks.is_pilot()), (0..1024, true));
+/// // whatever the pilot shows, its tosses do not count
+/// let shown = |tosses| Tally { heads: tosses / 2, tails: tosses - tosses / 2, ..Tally::default() };
+/// assert_eq!(looks.look(&shown(1024)), Verdict::More);
+/// assert_eq!(looks.stage(), 1024..11_520);
+/// assert_eq!(looks.look(&shown(looks.counted())), Verdict::Met);
+/// # assert_eq!(looks.counted(), 10_496);
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Looks {
+    targets: Targets,
+    /// α: probability allowed that the final interval misses.
+    alpha: f64,
+    /// Tosses at most, those of the pilot included.
+    limit: u64,
+    /// Of how many tosses in all the pilot may be a part.
+    limit_of_pilot: u64,
+    /// Tosses of the pilot, once it has ended.
+    pilot: Option<u64>,
+    /// Looks at counted tosses so far.
+    looked: i32,
+    /// Where the stage begins and ends.
+    stage: Range<u64>,
+    /// Tosses that the stage would have without a limit.
+    wanted: f64,
+}
+
+/// What a look shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// Make the tosses of the next stage.
+    More,
+    /// The targets are met.
+    Met,
+    /// They are not, and no more tosses are allowed.
+    Short,
+}
+
+impl Looks {
+    /// The looks at a point, for intervals of this confidence.
+    pub fn new(targets: Targets, confidence: f64) -> Self {
+        Self::within(targets, confidence, targets.max_tosses)
+    }
+
+    /// The same with a pilot that is limited as if this were the limit of all tosses; without a pilot, all
+    /// tosses are.
+    pub(crate) fn within(targets: Targets, confidence: f64, limit: u64) -> Self {
+        let limit = limit.min(targets.max_tosses);
+        let with_pilot = limit >= LEAST_WITH_PILOT;
+        Self {
+            targets,
+            alpha: 1.0 - confidence,
+            limit: if with_pilot {
+                targets.max_tosses
+            } else {
+                limit
+            },
+            limit_of_pilot: limit,
+            pilot: (!with_pilot).then_some(0),
+            looked: 0,
+            stage: 0..if with_pilot { PILOT } else { limit },
+            wanted: f64::INFINITY,
+        }
+    }
+
+    /// Numbers of the tosses of the present stage.
+    pub fn stage(&self) -> Range<u64> {
+        self.stage.clone()
+    }
+
+    /// Whether the tosses of the present stage belong to the pilot.
+    pub fn is_pilot(&self) -> bool {
+        self.pilot.is_none()
+    }
+
+    /// Tosses of the pilot, up to the end of the present stage while it lasts.
+    pub fn pilot(&self) -> u64 {
+        self.pilot.unwrap_or(self.stage.end)
+    }
+
+    /// Tosses that count at the end of the present stage.
+    pub fn counted(&self) -> u64 {
+        self.stage.end - self.pilot()
+    }
+
+    /// Tosses that the present stage would have without a limit; infinite if no number meets the targets, as
+    /// far as the pilot can tell.
+    pub(crate) fn wanted(&self) -> f64 {
+        self.wanted
+    }
+
+    /// Confidence of the intervals at the end of the present stage, so that all looks together have that
+    /// of the plan.
+    pub fn confidence(&self) -> f64 {
+        1.0 - self.alpha * self.share()
+    }
+
+    fn share(&self) -> f64 {
+        let left = if self.looked == 0 {
+            1.0
+        } else {
+            (1.0 - FIRST_SHARE) * 0.5_f64.powi(self.looked - 1)
+        };
+        match self.looked {
+            _ if self.stage.end == self.limit => left,
+            0 => FIRST_SHARE,
+            _ => 0.5 * left,
+        }
+    }
+
+    /// Looks at the tally of the tosses that count, or of the pilot, at the end of the present stage, and
+    /// goes on to the next.
+    pub fn look(&mut self, tally: &Tally) -> Verdict {
+        let Some(pilot) = self.pilot else {
+            self.size(tally);
+            return Verdict::More;
+        };
+        let faces = faces(tally, self.confidence());
+        if self.targets.are_met(&faces) {
+            return Verdict::Met;
+        }
+        if self.stage.end == self.limit {
+            return Verdict::Short;
+        }
+        self.looked += 1;
+        let counted = self.stage.end - pilot;
+        self.wanted = counted as f64;
+        self.stage = self.stage.end..self.limit.min(self.stage.end.saturating_add(counted));
+        Verdict::More
+    }
+
+    /// Lets the present stage, which must not have begun, make at most `tosses`, and be the last.
+    pub(crate) fn end_after(&mut self, tosses: u64) {
+        if tosses == 0 && self.looked > 0 {
+            // what was seen last is final
+            self.looked -= 1;
+        }
+        self.stage.end = self.stage.end.min(self.stage.start.saturating_add(tosses));
+        self.limit = self.stage.end;
+    }
+
+    /// Tosses, those of the pilot included, after which the targets are met or the limit is reached, judged
+    /// by some of them.
+    ///
+    /// # Panics
+    /// If the tally is empty.
+    pub fn forecast(&self, tally: &Tally) -> u64 {
+        assert!(tally.tosses() > 0);
+        let confidence = 1.0 - FIRST_SHARE * self.alpha;
+        let needed = self.needed(tally, 0.0, confidence);
+        let needed = ceil(needed).min(self.limit);
+        let pilot = (needed / 32).clamp(PILOT, 1 << 62).next_power_of_two();
+        let pilot = if self.limit < LEAST_WITH_PILOT {
+            0
+        } else {
+            pilot
+        };
+        needed.saturating_add(pilot).min(self.limit)
+    }
+
+    /// Makes the pilot twice as long, or sizes the first stage that counts.
+    fn size(&mut self, tally: &Tally) {
+        let made = self.stage.end;
+        // as the first look would have it
+        let confidence = 1.0 - FIRST_SHARE * self.alpha;
+        let needed = self.needed(tally, 0.0, confidence);
+        let needed_at_most = self.needed(tally, MARGIN, confidence).min(3.0 * needed);
+        let most = self.limit_of_pilot as f64;
+        let is_short = made as f64 * 32.0 < needed.min(most);
+        let is_vague = needed_at_most > 1.1 * needed && made as f64 * 8.0 < needed && needed < most;
+        let has_room = made <= self.limit_of_pilot / 8;
+        if (is_short || is_vague) && has_room {
+            self.stage = made..2 * made;
+            return;
+        }
+        self.pilot = Some(made);
+        self.wanted = needed_at_most;
+        let counted = ceil(needed_at_most).checked_next_multiple_of(MULTIPLE);
+        let end = made.saturating_add(counted.unwrap_or(u64::MAX));
+        self.stage = made..end.min(self.limit);
+    }
+
+    /// Tosses after which the targets are met, if the probabilities are those of the tally, or any that
+    /// `errors` standard errors allow; infinite if no number will do.
+    fn needed(&self, tally: &Tally, errors: f64, confidence: f64) -> f64 {
+        let n = tally.tosses() as f64;
+        let undecided = tally.undecided() as f64 / n;
+        let of_face = |face| {
+            let k = tally.count(face) as f64;
+            let arm = errors * (k * (n - k) / n).sqrt();
+            let [least, most] = [k - arm, k + arm].map(|count| (count / n).clamp(0.0, 1.0));
+            [least, k / n, most, 0.5_f64.clamp(least, most)]
+        };
+        let ps = Face::ALL.into_iter().flat_map(of_face);
+        let needed = ps.map(|p| Self::solve(p, |n| self.excess_at(p, undecided, n, confidence)));
+        // what whole counts leave
+        1.003 * needed.fold(0.0, f64::max)
+    }
+
+    /// The number of tosses whose excess is 1; infinite if it is beyond reason.
+    fn solve(p: f64, excess: impl Fn(f64) -> f64) -> f64 {
+        // no count is 0 where the face was seen
+        let least = if p > 0.0 { 4.0 / p } else { 0.0 };
+        let mut n = least.clamp(MULTIPLE as f64, MOST);
+        // An excess e of intervals that shrink like 1/√n asks for e n tosses, of those of a face that is
+        // never seen, like 1/n, for √e n: the latter converges for both.
+        for _ in 0..12 {
+            n = (n * excess(n).sqrt()).max(1.0);
+            if n > MOST {
+                return f64::INFINITY;
+            }
+        }
+        n
+    }
+
+    /// By which factor `n` tosses are too few for a face of this probability: by Wilson's interval, and one
+    /// toss more on either side. So much longer, or a little less, is the interval that counts, which costs a
+    /// hundred times as much to compute.
+    fn excess_at(&self, p: f64, undecided: f64, n: f64, confidence: f64) -> f64 {
+        // at most 1e15, so whole numbers are exact; a count is never more than is left
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let [seen, unseen, tosses] =
+            [p * n, (undecided * n).min(n - p * n), n].map(|count| libm::floor(count) as u64);
+        let wilson = Estimate::new(seen, unseen, tosses, confidence, IntervalMethod::Wilson);
+        self.targets.excess(&[Estimate {
+            lo: wilson.lo - 1.0 / n,
+            hi: wilson.hi + 1.0 / n,
+            ..wilson
+        }])
+    }
+}
+
+/// At least 1; saturates, and then a limit is what stops.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+fn ceil(tosses: f64) -> u64 {
+    tosses.ceil().max(1.0) as u64
+}
+
+/// The estimates of all faces at a look. Only Clopper and Pearson's interval has at least the stated
+/// confidence at every probability and number of tosses, which the sum over looks requires.
+pub(crate) fn faces(tally: &Tally, confidence: f64) -> [Estimate; 3] {
+    let (undecided, n) = (tally.undecided(), tally.tosses());
+    let method = IntervalMethod::ClopperPearson;
+    Face::ALL.map(|face| Estimate::new(tally.count(face), undecided, n, confidence, method))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NONE: Targets = Targets {
+        half_width: None,
+        relative_error: None,
+        events: None,
+        max_tosses: 100_000_000,
+        total_tosses: None,
+    };
+
+    /// What tosses with these probabilities of heads and side show on average.
+    fn mean(tosses: u64, heads: f64, side: f64) -> Tally {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let of = |p: f64| libm::round(p * tosses as f64) as u64;
+        let (heads, side) = (of(heads), of(side));
+        let tails = tosses - heads - side;
+        Tally {
+            heads,
+            tails,
+            side,
+            ..Tally::default()
+        }
+    }
+
+    /// The looks until the verdict, if every look shows the mean.
+    fn follow(targets: Targets, heads: f64, side: f64) -> (Looks, Verdict) {
+        let mut looks = Looks::new(targets, 0.95);
+        loop {
+            let shown = if looks.is_pilot() {
+                looks.pilot()
+            } else {
+                looks.counted()
+            };
+            match looks.look(&mean(shown, heads, side)) {
+                Verdict::More => {}
+                verdict => return (looks, verdict),
+            }
+        }
+    }
+
+    /// z² p (1 − p)/h² tosses have the half width h.
+    fn fixed(p: f64, half_width: f64) -> f64 {
+        1.959_964_f64.powi(2) * p * (1.0 - p) / (half_width * half_width)
+    }
+
+    #[test]
+    fn hardly_more_tosses_than_by_a_design_that_knew_the_probability() {
+        for (half_width, most) in [(2e-4, 1.12), (1e-3, 1.15), (5e-3, 1.3), (0.02, 2.1)] {
+            for (heads, side) in [(0.3, 0.4), (0.45, 0.1), (0.1, 0.8), (0.5, 0.0)] {
+                let targets = Targets {
+                    half_width: Some(half_width),
+                    ..NONE
+                };
+                let (looks, verdict) = follow(targets, heads, side);
+                let worst = [heads, side, 1.0 - heads - side]
+                    .map(|p| fixed(p, half_width))
+                    .into_iter()
+                    .fold(0.0, f64::max);
+                let ratio = looks.stage().end as f64 / worst;
+                assert_eq!(
+                    (verdict, looks.looked),
+                    (Verdict::Met, 0),
+                    "{half_width} {heads} {looks:?}"
+                );
+                assert!(ratio > 1.0 && ratio < most, "{half_width} {heads}: {ratio}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_rare_face_needs_a_longer_pilot() {
+        let targets = Targets {
+            relative_error: Some(0.1),
+            ..NONE
+        };
+        for side in [0.01, 1e-3, 1e-4] {
+            let (looks, verdict) = follow(targets, 0.5 * (1.0 - side), side);
+            let fixed = 1.959_964_f64.powi(2) * (1.0 - side) / (side * 0.01);
+            let ratio = looks.stage().end as f64 / fixed;
+            assert_eq!(verdict, Verdict::Met);
+            assert!(ratio < 2.1, "{side}: {ratio}");
+            assert!(looks.pilot() as f64 > 0.1 * fixed);
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_reached_ends_at_the_limit_with_a_short_pilot() {
+        let targets = Targets {
+            relative_error: Some(0.1),
+            max_tosses: 1_000_003,
+            ..NONE
+        };
+        let (looks, verdict) = follow(targets, 0.5, 0.0);
+        assert_eq!(verdict, Verdict::Short);
+        assert_eq!(looks.stage().end, 1_000_003);
+        assert!(looks.pilot() <= 1_000_003 / 8);
+        // one look only, which has all of α
+        assert_eq!((looks.looked, looks.confidence()), (0, 0.95));
+    }
+
+    #[test]
+    fn few_tosses_have_no_pilot() {
+        let targets = Targets {
+            half_width: Some(1e-3),
+            max_tosses: 4095,
+            ..NONE
+        };
+        let looks = Looks::new(targets, 0.9);
+        assert_eq!((looks.stage(), looks.is_pilot()), (0..4095, false));
+        assert!((looks.confidence() - 0.9).abs() < 1e-15);
+    }
+
+    #[test]
+    fn all_looks_together_have_the_confidence() {
+        let targets = Targets {
+            half_width: Some(1e-9),
+            max_tosses: 1 << 40,
+            ..NONE
+        };
+        let mut looks = Looks::new(targets, 0.95);
+        looks.pilot = Some(1024);
+        looks.stage = 1024..2048;
+        let mut sum = 1.0 - looks.confidence();
+        while looks.look(&mean(looks.counted(), 0.3, 0.4)) == Verdict::More {
+            sum += 1.0 - looks.confidence();
+        }
+        assert!(looks.looked > 20);
+        assert!((sum - 0.05).abs() < 1e-12, "{sum}");
+    }
+}

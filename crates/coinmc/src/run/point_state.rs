@@ -1,0 +1,119 @@
+//! How far a point has come.
+
+use crate::plan::{Looks, Plan, StoppedBy, Verdict};
+use coinmc_core::{Estimate, Face, IntervalMethod, Tally};
+use coinmc_quadrature::Integral;
+
+/// A point's counts, and what is next.
+#[derive(Debug, Clone)]
+pub(super) struct PointState {
+    /// The tosses that count.
+    pub(super) tally: Tally,
+    /// Those of the pilot.
+    pilot: Tally,
+    /// Where the point stops at targets, when it is looked at.
+    pub(super) looks: Option<Looks>,
+    /// The result of a point without tosses.
+    pub(super) integral: Option<Integral>,
+    /// The rule that ended it.
+    pub(super) stopped_by: StoppedBy,
+    /// The rule that ends it if no more tosses are allowed.
+    pub(super) limited_by: StoppedBy,
+    /// Chunks of the stage that are handed out and not yet complete.
+    pub(super) outstanding: u64,
+    /// All chunks of the stage are handed out.
+    pub(super) handed_out: bool,
+    /// The widest arm of an interval.
+    pub(super) half_width: f64,
+    /// Tosses that the point is expected to need.
+    pub(super) forecast: u64,
+}
+
+impl PointState {
+    /// A point of which no toss was made.
+    pub(super) fn new(looks: Option<Looks>, limited_by: StoppedBy) -> Self {
+        Self {
+            tally: Tally::default(),
+            pilot: Tally::default(),
+            looks,
+            integral: None,
+            stopped_by: StoppedBy::Unfinished,
+            limited_by,
+            outstanding: 0,
+            handed_out: false,
+            half_width: 0.0,
+            forecast: 0,
+        }
+    }
+
+    /// The tally to which the tosses of the present stage belong.
+    pub(super) fn of_stage(&mut self) -> &mut Tally {
+        if self.is_in_pilot() {
+            &mut self.pilot
+        } else {
+            &mut self.tally
+        }
+    }
+
+    /// Whether the pilot has not ended.
+    pub(super) fn is_in_pilot(&self) -> bool {
+        self.looks.as_ref().is_some_and(Looks::is_pilot)
+    }
+
+    /// What to show: the tosses that count, or those of the pilot while it lasts.
+    pub(super) fn shown(&self) -> &Tally {
+        if self.is_in_pilot() {
+            &self.pilot
+        } else {
+            &self.tally
+        }
+    }
+
+    /// All tosses made.
+    pub(super) fn tosses(&self) -> u64 {
+        self.pilot.tosses() + self.tally.tosses()
+    }
+
+    /// Tosses of the next stage.
+    pub(super) fn next_tosses(&self) -> u64 {
+        let stage = self.looks.as_ref().map_or(0..0, Looks::stage);
+        stage.end - stage.start
+    }
+
+    /// Tosses that the next stage would have without any limit.
+    pub(super) fn wanted(&self) -> f64 {
+        self.looks.as_ref().map_or(0.0, Looks::wanted)
+    }
+
+    /// Lets the next stage have this many tosses at most, and be the last.
+    pub(super) fn limit(&mut self, tosses: u64, by: StoppedBy) {
+        if let Some(looks) = &mut self.looks {
+            looks.end_after(tosses);
+        }
+        self.limited_by = by;
+    }
+
+    /// Looks at the point at the end of a stage; `None` if the number of its tosses is fixed.
+    pub(super) fn look(&mut self) -> Option<Verdict> {
+        let tally = *self.shown();
+        self.looks.as_mut().map(|looks| looks.look(&tally))
+    }
+
+    /// The widest arm of any face's interval, by Wilson's formula: good enough to display.
+    pub(super) fn quick_half_width(&self, plan: &Plan) -> f64 {
+        if let Some(integral) = &self.integral {
+            return integral.half_width();
+        }
+        let confidence = match &self.looks {
+            Some(looks) => looks.confidence(),
+            None => plan.confidence,
+        };
+        let tally = self.shown();
+        let (undecided, n) = (tally.undecided(), tally.tosses());
+        let arm = |face| {
+            let count = tally.count(face);
+            Estimate::new(count, undecided, n, confidence, IntervalMethod::Wilson).half_width()
+        };
+        Face::ALL.into_iter().map(arm).fold(0.0, f64::max)
+    }
+}
