@@ -240,7 +240,12 @@ fn short_of_target(rows: &[Row]) -> String {
     let mut lines = vec![];
     for (by, key) in [
         (StoppedBy::MaxTosses, "stop.max_tosses"),
+        (StoppedBy::MaxCoreSeconds, "stop.max_core_seconds"),
         (StoppedBy::TotalTosses, "the run's stop.total_tosses"),
+        (
+            StoppedBy::TotalCoreSeconds,
+            "the run's stop.total_core_seconds",
+        ),
     ] {
         if of(by) > 0 {
             lines.push(format!(

@@ -133,6 +133,8 @@ pub(super) fn stop(root: &Checked) -> Option<Stop> {
         events: integer(checked, "events"),
         max_tosses: integer(checked, "max_tosses")?,
         total_tosses: integer(checked, "total_tosses"),
+        max_core_seconds: real(checked, "max_core_seconds"),
+        total_core_seconds: real(checked, "total_core_seconds"),
     }))
 }
 

@@ -211,6 +211,11 @@ impl Looks {
         needed.saturating_add(pilot).min(self.limit)
     }
 
+    /// Lets the pilot be a part of at most `tosses` in all.
+    pub(crate) fn limit_pilot(&mut self, tosses: u64) {
+        self.limit_of_pilot = self.limit_of_pilot.min(tosses);
+    }
+
     /// Makes the pilot twice as long, or sizes the first stage that counts.
     fn size(&mut self, tally: &Tally) {
         let made = self.stage.end;
@@ -307,6 +312,8 @@ mod tests {
         events: None,
         max_tosses: 100_000_000,
         total_tosses: None,
+        max_core_seconds: None,
+        total_core_seconds: None,
     };
 
     /// What tosses with these probabilities of heads and side show on average.

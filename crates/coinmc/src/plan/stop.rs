@@ -24,6 +24,10 @@ pub struct Targets {
     pub max_tosses: u64,
     /// Tosses of all points together at which the run stops short of them.
     pub total_tosses: Option<u64>,
+    /// Computing time, in seconds of one core, at which the point stops short of them.
+    pub max_core_seconds: Option<f64>,
+    /// Computing time of all points together, in seconds of one core, at which the run stops short of them.
+    pub total_core_seconds: Option<f64>,
 }
 
 /// The rule that ended a point.
@@ -39,6 +43,10 @@ pub enum StoppedBy {
     MaxTosses,
     /// The limit of tosses of the run.
     TotalTosses,
+    /// The limit of computing time of a point.
+    MaxCoreSeconds,
+    /// The limit of computing time of the run.
+    TotalCoreSeconds,
     /// The limit of evaluations of an integral.
     Evaluations,
     /// None yet: more tosses are to come.
@@ -54,6 +62,8 @@ impl StoppedBy {
             Self::ClosedForm => "closed-form",
             Self::MaxTosses => "max_tosses",
             Self::TotalTosses => "total_tosses",
+            Self::MaxCoreSeconds => "max_core_seconds",
+            Self::TotalCoreSeconds => "total_core_seconds",
             Self::Evaluations => "evaluations",
             Self::Unfinished => "unfinished",
         }
@@ -66,6 +76,11 @@ impl StoppedBy {
 }
 
 impl Targets {
+    /// Whether computing time is limited, so that counts depend on the speed of the machine.
+    pub fn is_timed(&self) -> bool {
+        self.max_core_seconds.is_some() || self.total_core_seconds.is_some()
+    }
+
     /// Whether the estimates of all faces meet the targets.
     pub fn are_met(&self, faces: &[Estimate; 3]) -> bool {
         self.excess(faces) <= 1.0
@@ -107,6 +122,8 @@ mod tests {
         events: None,
         max_tosses: 100,
         total_tosses: None,
+        max_core_seconds: None,
+        total_core_seconds: None,
     };
 
     fn faces(counts: [u64; 3]) -> [Estimate; 3] {

@@ -1,11 +1,12 @@
 //! The unit of work.
 
-use super::chunk_result::{ChunkResult, integrate_while};
+use super::chunk_result::{ChunkResult, Tossed, integrate_while};
 use super::{RunError, TossSource, for_some_outcomes, stream};
-use crate::plan::Plan;
+use crate::plan::{Plan, Stop};
 use coinmc_core::{EngineError, Tally};
 use std::fmt;
 use std::ops::{ControlFlow, Range};
+use std::time::Instant;
 
 /// A range of tosses of one point: the only unit of work. Threads, machines and resumed runs all
 /// compute chunks, and the counts of chunks add up to the same total however the run is divided.
@@ -54,7 +55,20 @@ pub(super) fn compute_chunk(
         let found = integrate_while(plan, chunk.point, plan.goal(), go_on)?;
         return Ok(found.map(ChunkResult::Integrated));
     }
-    Ok(run_chunk_while(plan, chunk, go_on)?.map(ChunkResult::Tossed))
+    let is_timed = matches!(plan.stop, Stop::Targets(targets) if targets.is_timed());
+    let begun = Instant::now();
+    let tally = run_chunk_while(plan, chunk, go_on)?;
+    let microseconds = if is_timed {
+        u64::try_from(begun.elapsed().as_micros()).unwrap_or(u64::MAX)
+    } else {
+        0
+    };
+    Ok(tally.map(|tally| {
+        ChunkResult::Tossed(Tossed {
+            tally,
+            microseconds,
+        })
+    }))
 }
 
 fn run_chunk_while(

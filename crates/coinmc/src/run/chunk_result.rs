@@ -9,16 +9,24 @@ use coinmc_quadrature::{Goal, Integral, integrate};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum ChunkResult {
     /// The counts of a range of tosses.
-    Tossed(Tally),
+    Tossed(Tossed),
     /// The integral of a whole point, whose chunk is an empty range.
     Integrated(Integral),
+}
+
+/// Tosses that were made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Tossed {
+    pub(super) tally: Tally,
+    /// Computing time, where it is limited, else 0: the same tosses never take exactly the same time.
+    pub(super) microseconds: u64,
 }
 
 impl ChunkResult {
     /// Number of tosses counted.
     pub(super) fn tosses(&self) -> u64 {
         match self {
-            Self::Tossed(tally) => tally.tosses(),
+            Self::Tossed(tossed) => tossed.tally.tosses(),
             Self::Integrated(_) => 0,
         }
     }

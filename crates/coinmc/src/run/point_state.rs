@@ -1,8 +1,15 @@
 //! How far a point has come.
 
+use super::chunk_result::Tossed;
 use crate::plan::{Looks, Plan, StoppedBy, Verdict};
 use coinmc_core::{Estimate, Face, IntervalMethod, Tally};
 use coinmc_quadrature::Integral;
+
+/// Rounded down; saturates.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+fn whole(tosses: f64) -> u64 {
+    tosses as u64
+}
 
 /// A point's counts, and what is next.
 #[derive(Debug, Clone)]
@@ -11,6 +18,8 @@ pub(super) struct PointState {
     pub(super) tally: Tally,
     /// Those of the pilot.
     pilot: Tally,
+    /// Computing time of all tosses, where it is limited.
+    microseconds: u64,
     /// Where the point stops at targets, when it is looked at.
     pub(super) looks: Option<Looks>,
     /// The result of a point without tosses.
@@ -35,6 +44,7 @@ impl PointState {
         Self {
             tally: Tally::default(),
             pilot: Tally::default(),
+            microseconds: 0,
             looks,
             integral: None,
             stopped_by: StoppedBy::Unfinished,
@@ -46,13 +56,19 @@ impl PointState {
         }
     }
 
-    /// The tally to which the tosses of the present stage belong.
-    pub(super) fn of_stage(&mut self) -> &mut Tally {
-        if self.is_in_pilot() {
+    /// Counts tosses of the present stage; false if a counter would overflow, which only forged counts do.
+    pub(super) fn count(&mut self, tossed: &Tossed) -> bool {
+        let of_stage = if self.is_in_pilot() {
             &mut self.pilot
         } else {
             &mut self.tally
-        }
+        };
+        let Some(sum) = of_stage.checked_merge(&tossed.tally) else {
+            return false;
+        };
+        *of_stage = sum;
+        self.microseconds = self.microseconds.saturating_add(tossed.microseconds);
+        true
     }
 
     /// Whether the pilot has not ended.
@@ -72,6 +88,35 @@ impl PointState {
     /// All tosses made.
     pub(super) fn tosses(&self) -> u64 {
         self.pilot.tosses() + self.tally.tosses()
+    }
+
+    /// Computing time so far, s.
+    pub(super) fn seconds(&self) -> f64 {
+        1e-6 * self.microseconds as f64
+    }
+
+    /// Computing time of a toss, s.
+    pub(super) fn seconds_per_toss(&self) -> f64 {
+        self.seconds() / self.tosses() as f64
+    }
+
+    /// Lets the pilot take its part of this computing time, in all, s.
+    pub(super) fn limit_pilot(&mut self, seconds: f64) {
+        let tosses = whole(seconds / self.seconds_per_toss());
+        if let Some(looks) = &mut self.looks {
+            looks.limit_pilot(tosses);
+        }
+    }
+
+    /// Lets the next stage take at most this computing time, if it is limited.
+    pub(super) fn limit_seconds(&mut self, limit: Option<f64>) {
+        if let Some(limit) = limit {
+            let left = (limit - self.seconds()).max(0.0);
+            let tosses = whole(left / self.seconds_per_toss());
+            if tosses < self.next_tosses() {
+                self.limit(tosses, StoppedBy::MaxCoreSeconds);
+            }
+        }
     }
 
     /// Tosses of the next stage.

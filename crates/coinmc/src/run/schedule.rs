@@ -3,7 +3,7 @@
 use super::chunk_result::{ChunkResult, whole};
 use super::cut::Cut;
 use super::point_state::PointState;
-use super::shares::{Need, shares};
+use super::shares::{Left, Need, Shares, shares};
 use super::{Chunk, Part, Progress};
 use crate::plan::{Looks, Plan, Stop, StoppedBy, Targets, Verdict};
 use crate::results::integrated;
@@ -155,7 +155,9 @@ impl<'a> Schedule<'a> {
     pub(super) fn complete(&mut self, chunk: &Chunk, result: &ChunkResult) {
         let point = &mut self.points[chunk.point];
         match result {
-            ChunkResult::Tossed(tally) => point.of_stage().merge(tally),
+            ChunkResult::Tossed(tossed) => {
+                assert!(point.count(tossed), "fewer than 2^64 tosses");
+            }
             ChunkResult::Integrated(integral) => point.integral = Some(*integral),
         }
         point.outstanding -= 1;
@@ -240,15 +242,13 @@ impl<'a> Schedule<'a> {
         let point = &mut self.points[chunk.point];
         match &result {
             ChunkResult::Integrated(integral) => point.integral = Some(*integral),
-            ChunkResult::Tossed(tally) => {
-                let sum = point.of_stage().checked_merge(tally);
-                let is_whole = tally.tosses() == chunk.tosses.end - chunk.tosses.start;
-                let Some(sum) = sum.filter(|_| is_whole) else {
+            ChunkResult::Tossed(tossed) => {
+                let is_whole = tossed.tally.tosses() == chunk.tosses.end - chunk.tosses.start;
+                if !(is_whole && point.count(tossed)) {
                     // only forged counts are not whole or overflow: repeat the chunk
                     self.forget_reused(&result);
                     return false;
-                };
-                *point.of_stage() = sum;
+                }
             }
         }
         self.update_worst(chunk.point);
@@ -281,27 +281,52 @@ impl<'a> Schedule<'a> {
             return;
         }
         let of_whole = self.part == Part::WHOLE;
-        match point.look() {
+        let timed = self.targets().filter(Targets::is_timed);
+        if let Some(targets) = timed {
+            self.limit_pilot(index, &targets);
+        }
+        match self.points[index].look() {
             // the other parts have the other tosses
             None if of_whole => self.end(index, StoppedBy::Tosses),
             None => self.end(index, StoppedBy::Unfinished),
             Some(Verdict::Met) => self.end(index, StoppedBy::Targets),
-            Some(Verdict::Short) => {
-                let by = point.limited_by;
-                self.end(index, by);
-            }
-            Some(Verdict::More) => {
-                let forecast = point.tosses() + point.next_tosses();
-                let counts = !point.is_in_pilot();
-                let waits = counts && self.total().is_some();
-                self.set_forecast(index, forecast);
-                if waits {
-                    self.waiting.push(index);
-                } else {
-                    self.ready.push(index);
-                }
-            }
+            Some(Verdict::Short) => self.end(index, self.points[index].limited_by),
+            Some(Verdict::More) => self.go_on(index),
         }
+    }
+
+    /// Hands out the next stage of a point, or lets it wait for its share.
+    fn go_on(&mut self, index: usize) {
+        let point = &mut self.points[index];
+        let counts = !point.is_in_pilot();
+        let targets = match self.plan.stop {
+            Stop::Targets(targets) if counts => targets,
+            _ => {
+                self.ready.push(index);
+                return;
+            }
+        };
+        point.limit_seconds(targets.max_core_seconds);
+        let forecast = point.tosses() + point.next_tosses();
+        if targets.total_tosses.is_some() || targets.total_core_seconds.is_some() {
+            self.waiting.push(index);
+        } else if point.next_tosses() == 0 {
+            let by = point.limited_by;
+            self.end(index, by);
+            return;
+        } else {
+            self.ready.push(index);
+        }
+        self.set_forecast(index, forecast);
+    }
+
+    /// Lets a pilot be no more than a part of the time that the point may take.
+    fn limit_pilot(&mut self, index: usize, targets: &Targets) {
+        let points = self.plan.points_tossed() as f64;
+        let of_run = targets.total_core_seconds.map(|total| total / points);
+        let limits = [targets.max_core_seconds, of_run];
+        let least = limits.into_iter().flatten().fold(f64::INFINITY, f64::min);
+        self.points[index].limit_pilot(least);
     }
 
     fn end(&mut self, index: usize, by: StoppedBy) {
@@ -312,51 +337,63 @@ impl<'a> Schedule<'a> {
         }
     }
 
-    /// Limit of the tosses of the whole run.
-    fn total(&self) -> Option<u64> {
+    /// What points are to reach, if they stop at targets.
+    fn targets(&self) -> Option<Targets> {
         match self.plan.stop {
             Stop::Tosses(_) => None,
-            Stop::Targets(targets) => targets.total_tosses,
+            Stop::Targets(targets) => Some(targets),
         }
     }
 
-    /// Shares the tosses that the whole run may still make among the points that need more, once all have
-    /// been looked at. What they need of course shrinks their intervals to the targets; if there is less,
-    /// each gets the same part of its need, so that all intervals end as long in units of their targets, and
-    /// the longest is as short as can be.
+    /// Shares what the whole run may still spend among the points that need more, once all have been looked
+    /// at. What they need of course shrinks their intervals to the targets; if there is less, each gets the
+    /// same part of its need, so that all intervals end as long in units of their targets, and the longest is
+    /// as short as can be.
     fn share_out(&mut self) -> bool {
-        let (Some(total), 0) = (self.total(), self.in_flight) else {
+        let (Some(targets), 0, false) = (self.targets(), self.in_flight, self.waiting.is_empty())
+        else {
             return false;
         };
         let mut waiting = std::mem::take(&mut self.waiting);
-        if waiting.is_empty() {
-            return false;
-        }
         // they came in the order in which threads were done
         waiting.sort_unstable();
-        let made: u64 = self.points.iter().map(PointState::tosses).sum();
+        let left = self.left(&targets);
         let states = waiting.iter().map(|&point| &self.points[point]);
         let needs: Vec<Need> = states
             .map(|point| Need {
                 most: point.next_tosses(),
                 wanted: point.wanted(),
+                seconds: point.seconds_per_toss(),
             })
             .collect();
-        let shares = shares(&needs, total.saturating_sub(made));
-        for (point, (need, share)) in waiting.into_iter().zip(needs.into_iter().zip(shares)) {
-            if share < need.most {
-                let state = &mut self.points[point];
-                state.limit(share, StoppedBy::TotalTosses);
-                let forecast = state.tosses() + share;
-                self.set_forecast(point, forecast);
+        let Shares { tosses, by } = shares(&needs, left);
+        for (point, (need, share)) in waiting.into_iter().zip(needs.into_iter().zip(tosses)) {
+            let state = &mut self.points[point];
+            if share < need.most
+                && let Some(by) = by
+            {
+                state.limit(share, by);
             }
+            let (by, forecast) = (state.limited_by, state.tosses() + share);
             if share == 0 {
-                self.end(point, StoppedBy::TotalTosses);
+                self.end(point, by);
             } else {
+                self.set_forecast(point, forecast);
                 self.ready.push(point);
             }
         }
         true
+    }
+
+    /// What the whole run may still spend.
+    fn left(&self, targets: &Targets) -> Left {
+        let made: u64 = self.points.iter().map(PointState::tosses).sum();
+        let spent: f64 = self.points.iter().map(PointState::seconds).sum();
+        let left = |limit: Option<f64>, spent| limit.map_or(f64::INFINITY, |limit| limit - spent);
+        Left {
+            tosses: left(targets.total_tosses.map(|total| total as f64), made as f64),
+            seconds: left(targets.total_core_seconds, spent),
+        }
     }
 
     fn set_forecast(&mut self, index: usize, forecast: u64) {

@@ -114,7 +114,7 @@ impl Tallies {
         for (chunk, result) in batch {
             let mut file = Replacement::begin(&self.path.join(tally_file::name(chunk)))?;
             let text = match result {
-                ChunkResult::Tossed(tally) => tally_file::encode(chunk, tally, &self.plan_hash),
+                ChunkResult::Tossed(tossed) => tally_file::encode(chunk, tossed, &self.plan_hash),
                 ChunkResult::Integrated(integral) => {
                     integral_file::encode(chunk.point, integral, &self.plan_hash)
                 }

@@ -2,6 +2,7 @@
 //! docs/reference/formats.md.
 
 use super::Chunk;
+use super::chunk_result::Tossed;
 use super::damage::Damage;
 use super::sealed::{seal, unseal};
 use coinmc_core::{Counter, CounterKind, Tally};
@@ -11,6 +12,8 @@ use std::fmt::Write;
 const FORMAT: u64 = 1;
 const TITLE: &str = "coinmc tally";
 const EXTENSION: &str = ".tally";
+/// The line of the computing time.
+const TIME: &str = "microseconds";
 
 /// Name of the file of a chunk.
 pub(super) fn name(chunk: &Chunk) -> String {
@@ -42,16 +45,19 @@ fn is_always_written(counter: &Counter) -> bool {
 }
 
 /// The file's content.
-pub(super) fn encode(chunk: &Chunk, tally: &Tally, plan_hash: &str) -> String {
+pub(super) fn encode(chunk: &Chunk, tossed: &Tossed, plan_hash: &str) -> String {
     let Chunk { point, tosses } = chunk;
     let mut text = format!(
         "{TITLE} {FORMAT}\nplan {plan_hash}\npoint {point}\ntosses {} {}\n",
         tosses.start, tosses.end
     );
-    for (counter, count) in Tally::COUNTERS.iter().zip(tally.to_array()) {
+    for (counter, count) in Tally::COUNTERS.iter().zip(tossed.tally.to_array()) {
         if is_always_written(counter) || count > 0 {
             writeln!(text, "{} {count}", counter.name).expect("a String takes all text");
         }
+    }
+    if tossed.microseconds > 0 {
+        writeln!(text, "{TIME} {}", tossed.microseconds).expect("a String takes all text");
     }
     seal(text)
 }
@@ -64,7 +70,7 @@ pub(super) fn end(bytes: &[u8]) -> Option<u64> {
 }
 
 /// Reads the file of `chunk`. Any bytes other than those that [`encode`] would write are rejected.
-pub(super) fn decode(bytes: &[u8], chunk: &Chunk, plan_hash: &str) -> Result<Tally, Damage> {
+pub(super) fn decode(bytes: &[u8], chunk: &Chunk, plan_hash: &str) -> Result<Tossed, Damage> {
     let mut lines = unseal(bytes)?.lines();
     let title = lines
         .next()
@@ -100,11 +106,19 @@ pub(super) fn decode(bytes: &[u8], chunk: &Chunk, plan_hash: &str) -> Result<Tal
         line = lines.next();
     }
     let tally = Tally::from_array(counts);
+    let microseconds = match line.and_then(|line| line.strip_prefix(TIME)?.strip_prefix(' ')) {
+        Some(value) => value.parse().map_err(|_| Damage::Form)?,
+        None => 0,
+    };
+    let tossed = Tossed {
+        tally,
+        microseconds,
+    };
     if !is_possible(&tally, chunk.tosses.end - chunk.tosses.start) {
         return Err(Damage::Counts);
     }
-    if encode(chunk, &tally, plan_hash).as_bytes() == bytes {
-        Ok(tally)
+    if encode(chunk, &tossed, plan_hash).as_bytes() == bytes {
+        Ok(tossed)
     } else {
         Err(Damage::Form)
     }
@@ -139,6 +153,13 @@ mod tests {
     use proptest::prelude::*;
 
     const HASH: &str = "0123456789abcdef";
+
+    fn untimed(tally: Tally) -> Tossed {
+        Tossed {
+            tally,
+            microseconds: 0,
+        }
+    }
 
     fn example() -> (Chunk, Tally) {
         let chunk = Chunk {
@@ -201,7 +222,7 @@ mod tests {
                 ..tally
             },
         ] {
-            let text = encode(&chunk, &forged, HASH);
+            let text = encode(&chunk, &untimed(forged), HASH);
             assert_eq!(decode(text.as_bytes(), &chunk, HASH), Err(Damage::Counts));
         }
     }
@@ -209,12 +230,12 @@ mod tests {
     #[test]
     fn foreign_files_with_a_valid_checksum_are_rejected() {
         let (chunk, tally) = example();
-        let text = encode(&chunk, &tally, HASH);
+        let text = encode(&chunk, &untimed(tally), HASH);
         let other = Chunk {
             point: 4,
             ..chunk.clone()
         };
-        assert_eq!(decode(text.as_bytes(), &chunk, HASH), Ok(tally));
+        assert_eq!(decode(text.as_bytes(), &chunk, HASH), Ok(untimed(tally)));
         assert_eq!(
             decode(text.as_bytes(), &chunk, "f00"),
             Err(Damage::OtherPlan)
@@ -232,6 +253,12 @@ mod tests {
             ("sinkings 9\n", "sinkings 9\nunresolved 0\n", Damage::Form),
             ("sinkings 9\n", "unresolved 1\nsinkings 9\n", Damage::Form),
             ("sinkings 9\n", "sinkings 701\n", Damage::Counts),
+            ("sinkings 9\n", "sinkings 9\nmicroseconds 0\n", Damage::Form),
+            (
+                "sinkings 9\n",
+                "sinkings 9\nmicroseconds -1\n",
+                Damage::Form,
+            ),
             ("coinmc", "someone", Damage::Form),
         ] {
             let forged = seal(body.replace(from, to));
@@ -247,7 +274,10 @@ mod tests {
         };
         let text = encode(
             &chunk,
-            &Tally::from_array([u64::MAX; Tally::COUNTERS.len()]),
+            &Tossed {
+                tally: Tally::from_array([u64::MAX; Tally::COUNTERS.len()]),
+                microseconds: u64::MAX,
+            },
             &"f".repeat(128),
         );
         assert!(text.len() <= MAX_BYTES);
@@ -262,14 +292,16 @@ mod tests {
             place in any::<prop::sample::Index>(),
             flip in 1..=u8::MAX,
             inserted in any::<u8>(),
+            microseconds in prop::sample::select(vec![0, 1, 77, u64::MAX]),
         ) {
             let [heads, tails, side, time_limit, never_settles, impact_limit, failed] = faces;
             let tally = Tally {
                 heads, tails, side, time_limit, never_settles, impact_limit, failed, ..Tally::default()
             };
             let chunk = Chunk { point, tosses: start..start + tally.tosses() };
-            let bytes = encode(&chunk, &tally, HASH).into_bytes();
-            prop_assert_eq!(decode(&bytes, &chunk, HASH), Ok(tally));
+            let tossed = Tossed { tally, microseconds };
+            let bytes = encode(&chunk, &tossed, HASH).into_bytes();
+            prop_assert_eq!(decode(&bytes, &chunk, HASH), Ok(tossed));
             prop_assert_eq!(parse_name(&name(&chunk)), Some((point, start)));
 
             let place = place.index(bytes.len());

@@ -261,6 +261,8 @@ fn stop_and_estimate_are_read() {
             events: None,
             max_tosses: 100_000_000,
             total_tosses: None,
+            max_core_seconds: None,
+            total_core_seconds: None,
         })
     );
     assert_eq!(
@@ -279,6 +281,8 @@ fn targets_can_be_combined() {
         events: Some(500),
         max_tosses: 1_000_000,
         total_tosses: None,
+        max_core_seconds: None,
+        total_core_seconds: None,
     };
     assert_eq!(plan.stop, Stop::Targets(expected));
 }

@@ -78,6 +78,8 @@ fn looks_keep_the_stated_coverage_and_cost_little() {
         events: None,
         max_tosses: 100_000_000,
         total_tosses: None,
+        max_core_seconds: None,
+        total_core_seconds: None,
     };
     let absolute = |arm| targets(Some(arm), None);
     let mut source = Source(20_26);

@@ -5,6 +5,7 @@ use coinmc::plan::StoppedBy;
 use coinmc::results::Row;
 use coinmc::run::{Part, Status};
 use coinmc_core::Estimate;
+use std::time::{Duration, Instant};
 use tempfile::tempdir;
 
 /// The longest arm of any face's interval as a share of its probability.
@@ -101,4 +102,45 @@ fn threads_and_interruptions_change_nothing_within_a_limit_for_the_run() {
         }
         assert!(!contents(&whole).is_empty());
     }
+}
+
+/// Computing time decides what is counted, so a run is repeated by its files: what a stopped run measured
+/// still holds when it goes on.
+#[test]
+fn limits_of_time_hold_and_survive_interruptions() {
+    for (stop, by) in [
+        (
+            "half_width = 1e-5\ntotal_core_seconds = 0.6",
+            StoppedBy::TotalCoreSeconds,
+        ),
+        (
+            "half_width = 1e-5\nmax_core_seconds = 0.1",
+            StoppedBy::MaxCoreSeconds,
+        ),
+    ] {
+        let (plan, dir) = (plan(stop), tempdir().unwrap());
+        let broken = dir.path().join("broken");
+        let begun = Instant::now();
+        run_with(&plan, &broken, Part::WHOLE, 2, &Ear::that_cancels_at(20)).unwrap();
+        let report = run_with(&plan, &broken, Part::WHOLE, 2, &Ear::default()).unwrap();
+        // far more would be needed; a busy machine takes longer than its processors compute
+        assert!(begun.elapsed() < Duration::from_secs(30));
+        assert_eq!(report.status, Status::ShortOfTarget { points: 6 });
+        for row in &report.results.rows {
+            assert_eq!(row.stopped_by, by);
+            assert!(row.tally.tosses() > 1024 && row.pilot_tosses * 2 < row.tally.tosses());
+        }
+        let before = contents(&broken);
+        run_with(&plan, &broken, Part::WHOLE, 1, &Ear::default()).unwrap();
+        assert_eq!(contents(&broken), before);
+    }
+}
+
+#[test]
+fn limits_of_time_that_are_not_reached_change_no_count() {
+    let dir = tempdir().unwrap();
+    let free = run_whole(&plan("half_width = 0.006"), &dir.path().join("free"));
+    let timed = plan("half_width = 0.006\nmax_core_seconds = 1e6\ntotal_core_seconds = 1e6");
+    let timed = run_whole(&timed, &dir.path().join("timed"));
+    assert_eq!(free.results.rows, timed.results.rows);
 }

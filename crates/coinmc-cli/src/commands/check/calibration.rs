@@ -60,7 +60,7 @@ pub(super) fn estimate(plan: &Plan) -> Result<Cost, RunError> {
         with_batch[1] += tosses * pace.last;
         Ok((tosses, tosses * pace.last))
     })?;
-    limit_total(plan, &mut points);
+    limit(plan, &mut points);
     let sum = |points: &[PointCost], of: fn(&PointCost) -> f64| points.iter().map(of).sum::<f64>();
     let tosses = sum(&points, |point| point.tosses);
     let tosses_per_s = if points.is_empty() {
@@ -86,18 +86,31 @@ pub(super) fn estimate(plan: &Plan) -> Result<Cost, RunError> {
     })
 }
 
-/// Where the tosses of the run are limited, every point is short of them by the same factor.
-fn limit_total(plan: &Plan, points: &mut [PointCost]) {
+/// Lowers the forecasts to the limits of time, and of the whole run, where every point is short of what it
+/// needs by the same factor.
+fn limit(plan: &Plan, points: &mut [PointCost]) {
     let Stop::Targets(targets) = plan.stop else {
         return;
     };
-    let all: f64 = points.iter().map(|point| point.tosses).sum();
-    let factor = targets.total_tosses.map_or(1.0, |total| total as f64 / all);
-    if factor < 1.0 {
+    let lower = |points: &mut [PointCost], factor: f64| {
         for point in points {
-            point.tosses *= factor;
-            point.seconds *= factor;
+            point.tosses *= factor.min(1.0);
+            point.seconds *= factor.min(1.0);
         }
+    };
+    if let Some(most) = targets.max_core_seconds {
+        for point in &mut *points {
+            let factor = most / point.seconds;
+            lower(std::slice::from_mut(point), factor);
+        }
+    }
+    if let Some(total) = targets.total_tosses {
+        let all: f64 = points.iter().map(|point| point.tosses).sum();
+        lower(points, total as f64 / all);
+    }
+    if let Some(total) = targets.total_core_seconds {
+        let all: f64 = points.iter().map(|point| point.seconds).sum();
+        lower(points, total / all);
     }
 }
 
@@ -278,6 +291,16 @@ mod tests {
     fn the_run_has_a_limit_too() {
         let plan = plan("half_width = 1e-4, total_tosses = 1_000_000");
         assert_eq!(estimate(&plan).unwrap().tosses, 1_000_000);
+    }
+
+    #[test]
+    fn limits_of_time_are_those_of_the_forecast() {
+        for stop in ["total_core_seconds = 20", "max_core_seconds = 0.5"] {
+            let plan = plan(&format!("half_width = 1e-6, max_tosses = 1e12, {stop}"));
+            let cost = estimate(&plan).unwrap();
+            let seconds: f64 = cost.points.iter().map(|point| point.seconds).sum();
+            assert!((seconds - 20.0).abs() < 1e-9, "{stop}: {seconds}");
+        }
     }
 
     #[test]

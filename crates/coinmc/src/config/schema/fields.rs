@@ -140,6 +140,16 @@ fn stop() -> TableKind {
         low: 1,
         high: MAX_TOSSES,
     });
+    let seconds = Kind::Real(Bounds {
+        low: 0.0,
+        high: 1e9,
+        open: (true, false),
+    });
+    let goes_with_targets = |key| Rule::GoesWith {
+        key,
+        others: &["half_width", "relative_error", "events"],
+        fallback: None,
+    };
     TableKind {
         fields: vec![
             field("tosses", "Tosses per point.", tosses.clone(), Omitted),
@@ -184,6 +194,19 @@ fn stop() -> TableKind {
                 }),
                 Omitted,
             ),
+            field(
+                "max_core_seconds",
+                "Computing time, in seconds of one core, at which a point stops short of these targets.",
+                seconds.clone(),
+                Omitted,
+            ),
+            field(
+                "total_core_seconds",
+                "Computing time of all points together, in seconds of one core, at which the run stops short \
+                 of these targets.",
+                seconds,
+                Omitted,
+            ),
         ],
         rules: vec![
             Rule::Unless {
@@ -203,11 +226,9 @@ fn stop() -> TableKind {
                 others: &["half_width", "relative_error", "events"],
                 fallback: Some(Fallback::Integer(100_000_000)),
             },
-            Rule::GoesWith {
-                key: "total_tosses",
-                others: &["half_width", "relative_error", "events"],
-                fallback: None,
-            },
+            goes_with_targets("total_tosses"),
+            goes_with_targets("max_core_seconds"),
+            goes_with_targets("total_core_seconds"),
         ],
     }
 }
