@@ -44,6 +44,7 @@ from coinmc._trace import EVENT, SAMPLE, Trace, trace
 
 if TYPE_CHECKING:
     from coinmc import film, plot
+    from coinmc._aim import Aimed, AimedLaunch, aim
     from coinmc._fair import Fair, FairRoot, fair
     from coinmc._sensitivity import Sensitivity, sensitivity
 
@@ -52,6 +53,8 @@ __all__ = [
     "LAUNCH",
     "SAMPLE",
     "STATE",
+    "Aimed",
+    "AimedLaunch",
     "Config",
     "ConfigError",
     "ConfigLike",
@@ -75,6 +78,7 @@ __all__ = [
     "TraceError",
     "__build__",
     "__version__",
+    "aim",
     "analytic",
     "check",
     "estimate",
@@ -94,6 +98,9 @@ __all__ = [
 _LAZY = {
     "film": "coinmc.film",
     "plot": "coinmc.plot",
+    "Aimed": "coinmc._aim",
+    "AimedLaunch": "coinmc._aim",
+    "aim": "coinmc._aim",
     "Fair": "coinmc._fair",
     "FairRoot": "coinmc._fair",
     "fair": "coinmc._fair",

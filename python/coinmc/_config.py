@@ -45,12 +45,19 @@ class Stop(NamedTuple):
         The same as a share of the probability.
     events : int or None
         Number of tosses that must show each face, if that is a target.
+    total_tosses : int or None
+        Tosses of all points at which the run stops short of its targets.
+    max_core_seconds, total_core_seconds : float or None
+        The same for the computing time of a point and of all, in seconds of one core.
     """
 
     tosses: int
     half_width: float | None
     relative_error: float | None = None
     events: int | None = None
+    total_tosses: int | None = None
+    max_core_seconds: float | None = None
+    total_core_seconds: float | None = None
 
 
 class Group(NamedTuple):
@@ -173,7 +180,8 @@ class Config:
     def stop(self) -> Stop:
         """When a point has enough tosses."""
         plan = self._plan
-        return Stop(plan.tosses, plan.half_width, plan.relative_error, plan.events)
+        targets = (getattr(plan, name) for name in Stop._fields[1:])
+        return Stop(plan.tosses, *targets)
 
     @property
     def confidence(self) -> float:

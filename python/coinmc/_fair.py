@@ -7,10 +7,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from coinmc import _lib, _toml
-from coinmc._config import Config, ConfigLike, _source
+from coinmc import _lib
+from coinmc._config import ConfigLike
 from coinmc._launches import natural, threads_of
 from coinmc._progress import reporting
+from coinmc._question import html_table, source_of
 
 __all__ = ["Fair", "FairRoot", "fair"]
 
@@ -122,7 +123,7 @@ class Fair:
             ]
             for root in self.roots
         ]
-        text = f"<p>{html.escape(self._title())}</p>{_table(heads, rows)}"
+        text = f"<p>{html.escape(self._title())}</p>{html_table(heads, rows)}"
         if self.assumptions:
             heads = ["assumed", "is", "may be", "answer then", "source"]
             rows = [
@@ -135,7 +136,7 @@ class Fair:
                 ]
                 for a in self.assumptions
             ]
-            text += _table(heads, rows)
+            text += html_table(heads, rows)
         return text
 
     def _name(self) -> str:
@@ -218,17 +219,9 @@ def fair(
     >>> 1.6 < root.lo < root.value < root.hi < 1.75
     True
     """
-    if config is not None and scene is not None:
-        raise ValueError("give a config or the name of a scene, not both")
     if diameter_m is not None and volume_m3 is not None:
         raise ValueError("give the diameter or the volume, not both")
-    sets = _toml.overrides_of(overrides)
-    if isinstance(config, Config):
-        source, sets = config._source, config._overrides + sets
-    elif config is not None:
-        source = _source(config)
-    else:
-        source = ("scene", scene or _lib.scenes()[0][0])
+    source, sets = source_of(config, scene, overrides)
     asked = {
         "source": source,
         "overrides": sets,
@@ -266,11 +259,3 @@ def _interval(root: FairRoot) -> str:
 
 def _end(end: float | None) -> str:
     return "open" if end is None else f"{end:.4f}"
-
-
-def _table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    def line(cells: Sequence[str], tag: str) -> str:
-        return "<tr>" + "".join(f"<{tag}>{html.escape(c)}</{tag}>" for c in cells) + "</tr>"
-
-    body = "".join(line(row, "td") for row in rows)
-    return f"<table><thead>{line(heads, 'th')}</thead><tbody>{body}</tbody></table>"

@@ -2,9 +2,7 @@
 
 use crate::errors;
 use crate::plan::parsed;
-use crate::supervise::supervise;
-use coinmc::config;
-use coinmc_core::Face;
+use crate::question::{self, Source};
 use coinmc_questions::assumptions::effects;
 use coinmc_questions::scenes::EverydayScene;
 use coinmc_questions::{
@@ -12,15 +10,12 @@ use coinmc_questions::{
 };
 use pyo3::prelude::*;
 use std::num::NonZeroUsize;
-use std::path::Path;
-use std::sync::atomic::Ordering::Relaxed;
 
 /// What is asked, as Python says it.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Asked {
-    /// The kind of the source ("path", "text", "dict" or "scene"), and the path, text or name.
-    source: (String, String),
+    source: Source,
     overrides: Vec<String>,
     parameter: String,
     between: Option<[f64; 2]>,
@@ -37,24 +32,7 @@ pub(crate) struct Asked {
 
 impl Asked {
     fn template(&self) -> PyResult<(Option<EverydayScene>, Template)> {
-        let (kind, source) = &self.source;
-        let overrides = parsed(&self.overrides)?;
-        let (scene, template) = match kind.as_str() {
-            "scene" => {
-                let scene = EverydayScene::named(source).map_err(|e| errors::question(&e))?;
-                (Some(scene), scene.template(&overrides))
-            }
-            "path" => {
-                let text = config::read_text(Path::new(source));
-                let text = text.map_err(|found| errors::config(&found))?;
-                (None, Template::new(source, text, &overrides))
-            }
-            "text" => (None, Template::new("TOML text", source, &overrides)),
-            _ => (
-                None,
-                Template::new("config from a dict", source, &overrides),
-            ),
-        };
+        let (scene, template) = question::template(&self.source, &self.overrides)?;
         let size = match (self.diameter_m, self.volume_m3) {
             (Some(diameter), _) => Size::Diameter(diameter),
             (None, Some(volume)) => Size::Volume(volume),
@@ -65,12 +43,10 @@ impl Asked {
     }
 
     fn question(&self) -> PyResult<Question> {
-        let face = Face::ALL.into_iter().find(|face| face.name() == self.face);
-        let unknown = || errors::value("the face must be heads, tails or side");
         Ok(Question {
             key: self.parameter.clone(),
             range: self.between,
-            face: face.ok_or_else(unknown)?,
+            face: question::face(&self.face)?,
             target: self.target,
             half_width: self.half_width,
             max_tosses: self.max_tosses,
@@ -116,17 +92,9 @@ impl Asked {
 pub(crate) fn fair(py: Python<'_>, asked: Asked, progress: Option<Py<PyAny>>) -> PyResult<String> {
     let (scene, template) = asked.template()?;
     let question = asked.question()?;
-    let (answered, _) = supervise(py, progress, |supervision| {
-        let workers = Workers {
-            threads: asked.threads,
-            cancel: &supervision.stop,
-            made: &|tosses| {
-                supervision.done.fetch_add(tosses, Relaxed);
-            },
-        };
-        asked.answer((scene, &template), &question, &workers)
-    })?;
-    answered.map_err(|error| errors::question(&error))
+    question::answered(py, asked.threads, progress, |workers| {
+        asked.answer((scene, &template), &question, workers)
+    })
 }
 
 /// Names and descriptions of the everyday scenes.

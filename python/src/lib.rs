@@ -5,12 +5,13 @@
 //! `plan` configs · `supervise` long work, signals and progress · `share` threads · `launch`
 //! launches as rows of numbers · `columns` and `toss` individual tosses · `run` estimates and runs
 //! · `results` tables, also as Arrow · `interval` intervals of proportions · `trace` recorded
-//! motion of a toss · `fair` questions ·
+//! motion of a toss · `question`, `fair`, `aim` questions ·
 //! `analytic` closed forms · `film` drops on film · `errors` exceptions.
 
 // Arguments converted from Python are owned.
 #![allow(clippy::needless_pass_by_value)]
 
+mod aim;
 mod analytic;
 mod columns;
 mod errors;
@@ -19,6 +20,7 @@ mod film;
 mod interval;
 mod launch;
 mod plan;
+mod question;
 mod results;
 mod run;
 mod share;
@@ -31,6 +33,8 @@ use pyo3::prelude::*;
 /// The Rust part of coinmc.
 #[pymodule]
 mod _lib {
+    #[pymodule_export]
+    use super::aim::aim;
     #[pymodule_export]
     use super::analytic::{closed_form, no_bounce_rule};
     #[pymodule_export]

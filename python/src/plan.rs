@@ -2,7 +2,7 @@
 
 use crate::errors;
 use coinmc::config::{self, Override};
-use coinmc::plan::{Plan as Planned, Point, Stop};
+use coinmc::plan::{Plan as Planned, Point, Stop, Targets};
 use pyo3::exceptions::{PyIndexError, PyTypeError};
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -79,29 +79,40 @@ impl Plan {
     /// The half width at which a point stops, if there is one.
     #[getter]
     fn half_width(&self) -> Option<f64> {
-        match self.0.stop {
-            Stop::Tosses(_) => None,
-            Stop::Targets(targets) => targets.half_width,
-        }
+        self.targets()?.half_width
+    }
+
+    /// The same as a share of the probability.
+    #[getter]
+    fn relative_error(&self) -> Option<f64> {
+        self.targets()?.relative_error
+    }
+
+    /// Tosses that must show each face.
+    #[getter]
+    fn events(&self) -> Option<u64> {
+        self.targets()?.events
+    }
+
+    /// Limit of the tosses of all points.
+    #[getter]
+    fn total_tosses(&self) -> Option<u64> {
+        self.targets()?.total_tosses
+    }
+
+    /// Limit of the computing time of a point.
+    #[getter]
+    fn max_core_seconds(&self) -> Option<f64> {
+        self.targets()?.max_core_seconds
+    }
+
+    /// Limit of the computing time of all points.
+    #[getter]
+    fn total_core_seconds(&self) -> Option<f64> {
+        self.targets()?.total_core_seconds
     }
 
     /// Largest number of tosses of a point.
-    #[getter]
-    fn relative_error(&self) -> Option<f64> {
-        match self.0.stop {
-            Stop::Tosses(_) => None,
-            Stop::Targets(targets) => targets.relative_error,
-        }
-    }
-
-    #[getter]
-    fn events(&self) -> Option<u64> {
-        match self.0.stop {
-            Stop::Tosses(_) => None,
-            Stop::Targets(targets) => targets.events,
-        }
-    }
-
     #[getter]
     fn tosses(&self) -> u64 {
         match self.0.stop {
@@ -166,6 +177,14 @@ impl From<Planned> for Plan {
 }
 
 impl Plan {
+    /// What points are to reach, if they stop at targets.
+    fn targets(&self) -> Option<Targets> {
+        match self.0.stop {
+            Stop::Tosses(_) => None,
+            Stop::Targets(targets) => Some(targets),
+        }
+    }
+
     /// The point with this index, or an `IndexError`.
     pub(crate) fn point(&self, point: usize) -> PyResult<&Point> {
         let points = self.0.points.len();

@@ -113,6 +113,10 @@ def test_targets_of_a_stop_are_told(scene):
     targets = {"relative_error": 0.1, "events": 50, "max_tosses": 2_000_000}
     config = coinmc.check({**scene, "stop": targets})
     assert config.stop == coinmc.Stop(2_000_000, None, 0.1, 50)
+    limits = {"total_tosses": 10_000, "max_core_seconds": 5.0, "total_core_seconds": 9.0}
+    limited = coinmc.check({**scene, "stop": {**targets, **limits}})
+    assert limited.stop == coinmc.Stop(2_000_000, None, 0.1, 50, 10_000, 5.0, 9.0)
+    assert limited.tosses_planned == 10_000
     assert "±10 % of its probability and every face was seen 50 times" in str(config)
     result = coinmc.estimate(config)
     assert (result["p_side_hi"] - result["p_side"] <= 0.1 * result["p_side"]).all()

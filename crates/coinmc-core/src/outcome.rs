@@ -25,6 +25,18 @@ impl Face {
             Self::Side => "side",
         }
     }
+
+    /// The face of this name.
+    ///
+    /// # Example
+    /// ```
+    /// use coinmc_core::Face;
+    /// assert_eq!(Face::named("side"), Some(Face::Side));
+    /// assert_eq!(Face::named("edge"), None);
+    /// ```
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|face| face.name() == name)
+    }
 }
 
 /// Why the engine stopped following the toss.

@@ -36,10 +36,7 @@ impl FromStr for Condition {
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let found = match text.split_once('=') {
-            Some(("face", name)) => {
-                let face = Face::ALL.into_iter().find(|face| face.name() == name);
-                face.map(Self::Face)
-            }
+            Some(("face", name)) => Face::named(name).map(Self::Face),
             Some(("ended", name)) => {
                 let end = EndKind::ALL.into_iter().find(|end| end.name() == name);
                 end.map(Self::Ended)

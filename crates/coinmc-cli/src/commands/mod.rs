@@ -38,6 +38,5 @@ use coinmc_core::Face;
 
 /// The face of a name, for arguments.
 fn face(name: &str) -> Result<Face, String> {
-    let found = Face::ALL.into_iter().find(|face| face.name() == name);
-    found.ok_or_else(|| "expected heads, tails or side".to_owned())
+    Face::named(name).ok_or_else(|| "expected heads, tails or side".to_owned())
 }

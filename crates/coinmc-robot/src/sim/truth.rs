@@ -26,8 +26,7 @@ const LONGEST: u64 = 512;
 impl Truth {
     /// The face, if its name is valid.
     pub fn face(&self) -> Option<Face> {
-        let name = self.face.as_deref()?;
-        Face::ALL.into_iter().find(|face| face.name() == name)
+        self.face.as_deref().and_then(Face::named)
     }
 }
 

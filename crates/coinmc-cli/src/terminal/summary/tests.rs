@@ -1,5 +1,6 @@
 use super::*;
 use coinmc::config;
+use coinmc::plan::StoppedBy;
 use coinmc::results::fair_ratios;
 use coinmc_analytic::Rule;
 use coinmc_core::Tally;
