@@ -64,7 +64,7 @@ def test_bad_questions_are_told():
         coinmc.aim(FLAT, over={TILT: (1,)})
     with pytest.raises(ValueError, match="heads, tails or side"):
         coinmc.aim(FLAT, over={TILT: (0, 1)}, face="edge")
-    with pytest.raises(ValueError, match="launch.nowhere"):
+    with pytest.raises(ValueError, match=r"launch\.nowhere"):
         coinmc.aim(FLAT, over={"launch.nowhere": (0, 1)})
     with pytest.raises(ValueError, match="not both"):
         coinmc.aim(FLAT, "felt", over={TILT: (0, 1)})
