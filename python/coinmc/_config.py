@@ -59,6 +59,11 @@ class Stop(NamedTuple):
     max_core_seconds: float | None = None
     total_core_seconds: float | None = None
 
+    @property
+    def has_targets(self) -> bool:
+        """Whether a point stops once its intervals are short enough or its counts high enough."""
+        return (self.half_width, self.relative_error, self.events) != (None, None, None)
+
 
 class Group(NamedTuple):
     """Points that are computed in the same way.

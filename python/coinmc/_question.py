@@ -7,6 +7,8 @@ from typing import Any
 from coinmc import _lib, _toml
 from coinmc._config import Config, ConfigLike, _source
 
+__all__ = ["html_table", "source_of"]
+
 
 def source_of(
     config: ConfigLike | None, scene: str | None, overrides: Mapping[str, Any] | None

@@ -198,6 +198,6 @@ def _count(config: Config, n: int | None, launches: np.ndarray | None) -> int:
         return len(launches)
     if n is not None:
         return natural(n, "n")
-    if config.stop[1:] != (None, None, None):
+    if config.stop.has_targets:
         raise ValueError("this config stops at targets: give the number of tosses, n")
     return config.stop.tosses
