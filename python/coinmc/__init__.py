@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from coinmc import film, plot
     from coinmc._aim import Aimed, AimedLaunch, aim
     from coinmc._fair import Fair, FairRoot, fair
+    from coinmc._ranking import Ranking, rank
     from coinmc._sensitivity import Sensitivity, sensitivity
 
 __all__ = [
@@ -68,6 +69,7 @@ __all__ = [
     "FilmError",
     "Group",
     "Problem",
+    "Ranking",
     "Result",
     "RunError",
     "Scene",
@@ -87,6 +89,7 @@ __all__ = [
     "launches",
     "open",
     "plot",
+    "rank",
     "run",
     "scenes",
     "sensitivity",
@@ -104,6 +107,8 @@ _LAZY = {
     "Fair": "coinmc._fair",
     "FairRoot": "coinmc._fair",
     "fair": "coinmc._fair",
+    "Ranking": "coinmc._ranking",
+    "rank": "coinmc._ranking",
     "Sensitivity": "coinmc._sensitivity",
     "sensitivity": "coinmc._sensitivity",
 }

@@ -54,13 +54,6 @@ impl Asked {
         })
     }
 
-    /// Whether a number is given, and so not assumed.
-    fn says(&self, key: &str) -> bool {
-        let sized = self.diameter_m.or(self.volume_m3).is_some();
-        let overrides = parsed(&self.overrides).unwrap_or_default();
-        (sized && key == "coin.radius_m") || overrides.iter().any(|set| set.is_about(key))
-    }
-
     /// The answer as a JSON document.
     fn answer(
         &self,
@@ -77,8 +70,10 @@ impl Asked {
         if let (Some(scene), Some(root)) = (scene, root)
             && self.assumption_tosses > 0
         {
-            let assumed = scene.assumptions().into_iter();
-            let assumed = assumed.filter(|assumed| !self.says(assumed.key));
+            let sized = self.diameter_m.or(self.volume_m3).is_some();
+            let overrides = parsed(&self.overrides).unwrap_or_default();
+            let assumed = scene.assumed(&overrides);
+            let assumed = assumed.filter(|assumed| !(sized && assumed.key == "coin.radius_m"));
             let tosses = self.assumption_tosses;
             found = effects(template, &fair, root, assumed, tosses, workers)?;
         }

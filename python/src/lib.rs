@@ -5,7 +5,8 @@
 //! `plan` configs · `supervise` long work, signals and progress · `share` threads · `launch`
 //! launches as rows of numbers · `columns` and `toss` individual tosses · `run` estimates and runs
 //! · `results` tables, also as Arrow · `interval` intervals of proportions · `trace` recorded
-//! motion of a toss · `question`, `fair`, `aim` questions ·
+//! motion of a toss · `question`, `fair`, `aim`, `ranking`
+//! questions ·
 //! `analytic` closed forms · `film` drops on film · `errors` exceptions.
 
 // Arguments converted from Python are owned.
@@ -21,6 +22,7 @@ mod interval;
 mod launch;
 mod plan;
 mod question;
+mod ranking;
 mod results;
 mod run;
 mod share;
@@ -45,6 +47,8 @@ mod _lib {
     use super::interval::{inverse_normal_cdf, wilson};
     #[pymodule_export]
     use super::plan::Plan;
+    #[pymodule_export]
+    use super::ranking::rank;
     #[pymodule_export]
     use super::results::Results;
     #[pymodule_export]

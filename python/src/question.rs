@@ -5,8 +5,8 @@ use crate::plan::parsed;
 use crate::supervise::supervise;
 use coinmc::config;
 use coinmc_core::Face;
-use coinmc_questions::scenes::EverydayScene;
-use coinmc_questions::{QuestionError, Template, Workers};
+use coinmc_questions::scenes::{Assumption, EverydayScene};
+use coinmc_questions::{QuestionError, Template, Unknown, Workers};
 use pyo3::prelude::*;
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -38,6 +38,17 @@ pub(crate) fn template(
             Template::new("config from a dict", source, &overrides),
         ),
     })
+}
+
+/// What an everyday scene assumes and nothing says otherwise.
+pub(crate) fn unknowns(scene: &EverydayScene, overrides: &[String]) -> PyResult<Vec<Unknown>> {
+    let overrides = parsed(overrides)?;
+    let unknown = |assumed: Assumption| Unknown {
+        key: assumed.key.to_owned(),
+        from: assumed.low,
+        to: assumed.high,
+    };
+    Ok(scene.assumed(&overrides).map(unknown).collect())
 }
 
 /// The face of a name.

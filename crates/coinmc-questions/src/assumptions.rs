@@ -4,10 +4,10 @@
 //! value, with the same random numbers. The change ΔP of the face's probability moves the root: with
 //! the log odds η of the probability, linear in the parameter near the root, by −Δη/η'.
 
+use crate::interval::normal_quantile;
 use crate::scenes::Assumption;
 use crate::workers::At;
 use crate::{Fair, QuestionError, Root, Template, Workers};
-use coinmc_core::inverse_normal_cdf;
 
 /// How far an assumption moves a root.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,12 +79,9 @@ pub fn effects(
         plan: &usual,
         point: 0,
     };
-    let pairs: Vec<_> = plans
-        .iter()
-        .map(|plan| [usual, At { plan, point: 0 }])
-        .collect();
-    let changes = workers.compare(&pairs, 0..tosses)?;
-    let z = -inverse_normal_cdf((1.0 - fair.confidence) / 2.0);
+    let others: Vec<_> = plans.iter().map(|plan| At { plan, point: 0 }).collect();
+    let changes = workers.compare_with(usual, &others, 0..tosses)?;
+    let z = normal_quantile(fair.confidence);
     let moved: Vec<Moved> = changes
         .iter()
         .map(|changes| moved(root, question.target, changes.difference(question.face), z))

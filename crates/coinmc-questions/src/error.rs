@@ -68,6 +68,20 @@ pub enum QuestionError {
         /// The key of the parameter.
         key: String,
     },
+    /// Nothing is unknown.
+    #[error("say what is unknown, and from where to where it may be")]
+    NoUnknown,
+    /// The range of a number is given twice.
+    #[error("the range of `{0}` is given twice")]
+    Twice(String),
+    /// There are too few samples.
+    #[error("at least {least} samples are needed, not {given}")]
+    TooFewSamples {
+        /// The fewest.
+        least: u64,
+        /// Those asked for.
+        given: u64,
+    },
     /// A parameter that cannot be varied.
     #[error("`{key}` is not a number of this config that can be varied; choose from {known}")]
     NotVaried {

@@ -4,23 +4,30 @@
 //! ```text
 //! Template (a config in which numbers are replaced) + Question ──fair──▶ Fair { curves, roots }
 //!                                                   + Aim      ──aim───▶ Aimed { map, best, worst, … }
+//!                                                   + Rank     ──rank──▶ Ranking { numbers, … }
 //! ```
 //! * [`fair()`] finds the values of a parameter at which a face has a given probability.
 //! * [`aim()`] finds the launches that force a face.
 //! * [`scenes`] are everyday scenes, with where each of their numbers comes from.
 //! * [`assumptions`] tells how far each assumption moves the answer.
+//! * [`rank()`] finds which unknown of a scene matters most.
 //! * [`sensitivity`] tells how the probabilities move with every number of a scene.
 //! * [`tosses_for_power`] says how many tosses test a coin.
 
 mod aim;
 pub mod assumptions;
 mod document;
+mod drawing;
 mod error;
 mod fair;
+mod interval;
 mod power;
+mod ranking;
+mod rows;
 pub mod scenes;
 mod seen;
 pub mod sensitivity;
+mod span;
 mod template;
 mod workers;
 
@@ -33,6 +40,12 @@ pub use error::QuestionError;
 pub use fair::{
     Curve, Fair, Finding, LEAST_TOSSES, Numerical, Question, Root, Round, Scanned, fair,
 };
+pub use interval::Interval;
 pub use power::{Test, tosses_for_power};
+pub use ranking::{
+    LEAST_SAMPLES, MOST_SAMPLES, MOST_UNKNOWNS, Rank, Ranked, Ranking, Unknown,
+    document_of_ranking, picture_of_ranking, rank,
+};
+pub use rows::csv_of_rows;
 pub use template::{CoinNumbers, Size, Template};
 pub use workers::Workers;

@@ -5,6 +5,7 @@
 //! metal coins of the size of a euro unless the question says otherwise.
 
 use crate::{QuestionError, Template};
+use coinmc::config::Override;
 use coinmc_core::{Material, Preset, Sourced};
 
 /// An everyday scene.
@@ -127,12 +128,18 @@ impl EverydayScene {
     }
 
     /// Its template.
-    pub fn template(&self, overrides: &[coinmc::config::Override]) -> Template {
+    pub fn template(&self, overrides: &[Override]) -> Template {
         Template::new(format!("scene {}", self.name), self.config(), overrides)
     }
 
     fn material(&self) -> Material {
         self.material.parse().expect("a scene's material exists")
+    }
+
+    /// What it assumes and `overrides` do not say otherwise.
+    pub fn assumed(&self, overrides: &[Override]) -> impl Iterator<Item = Assumption> {
+        let assumptions = self.assumptions().into_iter();
+        assumptions.filter(|assumed| !overrides.iter().any(|set| set.is_about(assumed.key)))
     }
 
     /// What it assumes, and within which limits.

@@ -14,10 +14,11 @@
 //!
 //! Near a root x* of P(x, θ) = target, dx*/d ln θ = −(dP/d ln θ)/(dP/dx).
 
+use crate::interval::normal_quantile;
 use crate::workers::{At, Changes};
-use crate::{QuestionError, Root, Template, Workers};
+use crate::{Interval, QuestionError, Root, Template, Workers};
 use coinmc::plan::Plan;
-use coinmc_core::{Face, inverse_normal_cdf};
+use coinmc_core::Face;
 use toml::de::{DeTable, DeValue};
 
 /// Tables of a config whose numbers can be varied.
@@ -34,24 +35,13 @@ pub struct Parameter {
     pub value: f64,
 }
 
-/// A derivative and its interval.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Derivative {
-    /// The derivative.
-    pub value: f64,
-    /// Lower end of its interval.
-    pub lo: f64,
-    /// Upper end.
-    pub hi: f64,
-}
-
 /// How the probabilities move with one parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sensitivity {
     /// The parameter.
     pub parameter: Parameter,
     /// dP/d ln(parameter) of heads, tails and side.
-    pub faces: [Derivative; 3],
+    pub faces: [Interval; 3],
     /// Share of the tosses that show each face, with the smaller value.
     pub p: [f64; 3],
     /// Share of the tosses whose face changes.
@@ -64,39 +54,28 @@ pub struct Sensitivity {
 
 impl Sensitivity {
     /// dP/d ln(parameter) of a face.
-    pub fn of(&self, face: Face) -> Derivative {
+    pub fn of(&self, face: Face) -> Interval {
         self.faces[face as usize]
     }
 
     /// d ln P/d ln(parameter) of a face; infinite or NaN if it was not seen.
-    pub fn elasticity(&self, face: Face) -> Derivative {
+    pub fn elasticity(&self, face: Face) -> Interval {
         self.of(face).scaled(1.0 / self.p[face as usize])
     }
 
     /// dx*/d ln(parameter) of a root x* of the face's probability. The interval holds the error of the
     /// derivative and that of the slope, added as independent.
-    pub fn shift(&self, face: Face, root: &Root) -> Derivative {
+    pub fn shift(&self, face: Face, root: &Root) -> Interval {
         let derivative = self.of(face);
-        let z = -inverse_normal_cdf((1.0 - self.confidence) / 2.0);
+        let z = normal_quantile(self.confidence);
         let value = -derivative.value / root.slope;
-        let arm = 0.5 * (derivative.hi - derivative.lo) / root.slope.abs();
+        let arm = derivative.half_width() / root.slope.abs();
         let of_slope = z * root.slope_error / root.slope * value;
         let arm = (arm * arm + of_slope * of_slope).sqrt();
-        Derivative {
+        Interval {
             value,
             lo: value - arm,
             hi: value + arm,
-        }
-    }
-}
-
-impl Derivative {
-    /// Times a positive factor.
-    fn scaled(self, factor: f64) -> Self {
-        Self {
-            value: factor * self.value,
-            lo: factor * self.lo,
-            hi: factor * self.hi,
         }
     }
 }
@@ -231,16 +210,10 @@ fn chosen(template: &Template, steps: &Steps) -> Result<Vec<Parameter>, Question
 }
 
 fn sensitivity(parameter: Parameter, changes: &Changes, step: f64, confidence: f64) -> Sensitivity {
-    let z = -inverse_normal_cdf((1.0 - confidence) / 2.0);
     let per_log = 1.0 / libm::log1p(step);
     let faces = Face::ALL.map(|face| {
         let (change, error) = changes.difference(face);
-        let derivative = Derivative {
-            value: change,
-            lo: change - z * error,
-            hi: change + z * error,
-        };
-        derivative.scaled(per_log)
+        Interval::normal(change, error, confidence).scaled(per_log)
     });
     Sensitivity {
         parameter,

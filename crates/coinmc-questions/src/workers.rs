@@ -1,13 +1,13 @@
 //! Tosses on all cores, counted in memory.
 
 use crate::QuestionError;
+use crate::seen::Seen;
 use coinmc::plan::Plan;
 use coinmc::run::{TossSource, for_each_outcome, stream};
 use coinmc_core::Face;
 use std::num::NonZeroUsize;
 use std::ops::Range;
 use std::panic::resume_unwind;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread;
 
@@ -60,9 +60,18 @@ impl Changes {
         self.tosses() - same
     }
 
+    /// The tosses at the first point.
+    pub(crate) fn seen(&self, face: Face) -> Seen {
+        Seen {
+            tosses: self.tosses(),
+            shown: self.with(|first| first == face as usize, |_| true),
+            undecided: self.with(|first| first == 3, |_| true),
+        }
+    }
+
     /// Share of the tosses that show a face at the first point.
     pub(crate) fn share(&self, face: Face) -> f64 {
-        self.with(|first| first == face as usize, |_| true) as f64 / self.tosses() as f64
+        self.seen(face).share()
     }
 
     /// How far the probability of a face is higher at the second point, and the standard error of that, by
@@ -102,23 +111,62 @@ impl Workers<'_> {
         let ranges = vec![tosses; pairs.len()];
         let tables = self.each_piece(&ranges, &|index, tosses| {
             let [first, second] = pairs[index];
-            let start = tosses.start;
-            let place = |toss: u64| usize::try_from(toss - start).expect("a piece is small");
-            let mut before = vec![3; place(tosses.end)];
-            self.faces(first, tosses.clone(), &mut |toss, shown| {
-                before[place(toss)] = shown;
-            })?;
-            let mut table = [0; 16];
-            self.faces(second, tosses, &mut |toss, shown| {
-                table[4 * before[place(toss)] + shown] += 1;
-            })?;
-            Ok(table)
+            let before = self.faces_of(first, tosses.clone())?;
+            self.table(&before, second, tosses)
         })?;
         Ok(tables.into_iter().map(Changes).collect())
     }
 
+    /// Tosses one point and others with the same random numbers.
+    pub(crate) fn compare_with(
+        &self,
+        first: At<'_>,
+        others: &[At<'_>],
+        tosses: Range<u64>,
+    ) -> Result<Vec<Changes>, QuestionError> {
+        let pieces: Vec<_> = pieces((0, &tosses)).collect();
+        let tables = self.each(pieces.len(), &|index| {
+            let tosses = &pieces[index].tosses;
+            let before = self.faces_of(first, tosses.clone())?;
+            let others = others.iter();
+            let tables = others.map(|&other| self.table(&before, other, tosses.clone()));
+            tables.collect::<Result<Vec<_>, _>>()
+        })?;
+        let mut sums = vec![[0; 16]; others.len()];
+        for tables in &tables {
+            for (sum, table) in sums.iter_mut().zip(tables) {
+                add(sum, table);
+            }
+        }
+        Ok(sums.into_iter().map(Changes).collect())
+    }
+
+    /// The face of each toss, 3 for none.
+    fn faces_of(&self, at: At<'_>, tosses: Range<u64>) -> Result<Vec<usize>, QuestionError> {
+        let start = tosses.start;
+        let place = |toss: u64| usize::try_from(toss - start).expect("a piece is small");
+        let mut faces = vec![3; place(tosses.end)];
+        self.faces(at, tosses, &mut |toss, face| faces[place(toss)] = face)?;
+        Ok(faces)
+    }
+
+    /// Tosses by their face before and their face at another point.
+    fn table(
+        &self,
+        before: &[usize],
+        at: At<'_>,
+        tosses: Range<u64>,
+    ) -> Result<[u64; 16], QuestionError> {
+        let mut table = [0; 16];
+        let after = self.faces_of(at, tosses)?;
+        for (before, after) in before.iter().zip(after) {
+            table[4 * before + after] += 1;
+        }
+        Ok(table)
+    }
+
     /// Calls `visit` with the number and the face (3 for none) of each toss.
-    fn faces(
+    pub(crate) fn faces(
         &self,
         at: At<'_>,
         tosses: Range<u64>,
@@ -153,36 +201,62 @@ impl Workers<'_> {
         compute: &(dyn Fn(usize, Range<u64>) -> Result<[u64; N], QuestionError> + Sync),
     ) -> Result<Vec<[u64; N]>, QuestionError> {
         let pieces: Vec<Piece> = ranges.iter().enumerate().flat_map(pieces).collect();
+        let counts = self.each(pieces.len(), &|index| {
+            let piece = &pieces[index];
+            compute(piece.work, piece.tosses.clone())
+        })?;
+        let mut sums = vec![[0; N]; ranges.len()];
+        for (piece, counts) in pieces.iter().zip(&counts) {
+            add(&mut sums[piece.work], counts);
+        }
+        Ok(sums)
+    }
+
+    /// Computes pieces of work on all threads, in this order as far as there are threads.
+    pub(crate) fn each<T: Send>(
+        &self,
+        pieces: usize,
+        compute: &(dyn Fn(usize) -> Result<T, QuestionError> + Sync),
+    ) -> Result<Vec<T>, QuestionError> {
         let next = AtomicUsize::new(0);
-        let sums = Mutex::new(vec![[0; N]; ranges.len()]);
-        let toss = || {
-            while let Some(piece) = pieces.get(next.fetch_add(1, Ordering::Relaxed)) {
-                let counts = compute(piece.work, piece.tosses.clone())?;
-                let mut sums = sums.lock().expect("no thread panics while it adds");
-                for (sum, count) in sums[piece.work].iter_mut().zip(counts) {
-                    *sum += count;
+        let work = || -> Result<Vec<(usize, T)>, QuestionError> {
+            let mut done = vec![];
+            loop {
+                let piece = next.fetch_add(1, Ordering::Relaxed);
+                if piece >= pieces {
+                    return Ok(done);
                 }
+                done.push((piece, compute(piece)?));
             }
-            Ok(())
         };
         let threads = self
             .threads
             .or_else(|| thread::available_parallelism().ok());
-        let threads = threads.map_or(1, NonZeroUsize::get).min(pieces.len());
-        thread::scope(|scope| {
+        let threads = threads.map_or(1, NonZeroUsize::get).min(pieces);
+        let results = thread::scope(|scope| {
             let mut handles = vec![];
             for _ in 0..threads {
-                let handle = thread::Builder::new().spawn_scoped(scope, toss);
+                let handle = thread::Builder::new().spawn_scoped(scope, work);
                 handles.push(handle.map_err(QuestionError::Thread)?);
             }
             let join = |handle: thread::ScopedJoinHandle<'_, _>| {
                 handle.join().unwrap_or_else(|panic| resume_unwind(panic))
             };
             // all are joined before the first error is returned
-            let results: Vec<Result<(), QuestionError>> = handles.into_iter().map(join).collect();
-            results.into_iter().collect::<Result<(), _>>()
+            Ok::<Vec<_>, QuestionError>(handles.into_iter().map(join).collect())
         })?;
-        Ok(sums.into_inner().expect("no thread panics while it adds"))
+        let mut done = vec![];
+        for result in results {
+            done.extend(result?);
+        }
+        done.sort_by_key(|(piece, _)| *piece);
+        Ok(done.into_iter().map(|(_, result)| result).collect())
+    }
+}
+
+fn add<const N: usize>(sum: &mut [u64; N], counts: &[u64; N]) {
+    for (sum, count) in sum.iter_mut().zip(counts) {
+        *sum += count;
     }
 }
 

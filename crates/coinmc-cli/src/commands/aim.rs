@@ -1,13 +1,12 @@
 //! `coinmc aim`: the launch that forces a face.
 
-use super::question::{ask, template};
+use super::question::{AnswerArgs, KeyRange, SceneArgs, ask};
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format};
 use crate::terminal::table::{Column, Table};
 use crate::terminal::{Colors, Style, compact, decimals_for, grouped, in_ascii};
 use anyhow::anyhow;
 use clap::Args;
-use coinmc::config::Override;
 use coinmc_core::{Estimate, Face};
 use coinmc_questions::{self as questions, Aim, Aimed, Parameter};
 use coinmc_recording::NewFile;
@@ -34,12 +33,8 @@ const VALUES: usize = 11;
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct AimAt {
-    /// The config (TOML); its [stop] has no effect
-    config: Option<PathBuf>,
-
-    /// Everyday scene, see `coinmc fair --help` [default: table]
-    #[arg(long, value_name = "NAME", conflicts_with = "config")]
-    scene: Option<String>,
+    #[command(flatten)]
+    scene: SceneArgs,
 
     /// The face
     #[arg(long, value_name = "FACE", value_parser = super::face, default_value = "side")]
@@ -71,21 +66,8 @@ pub(crate) struct AimAt {
     #[arg(long, value_name = "FILE")]
     picture: Option<PathBuf>,
 
-    /// Number of threads [default: one per core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
-
-    /// Replace or add a value of the config, as in `surface.friction=0.2`; repeatable
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    overrides: Vec<Override>,
-
-    /// How to write the result
-    #[arg(long, value_enum, default_value_t = Format::Table)]
-    format: Format,
-
-    /// Show no progress, only warnings and errors
-    #[arg(long, short)]
-    quiet: bool,
+    #[command(flatten)]
+    answer: AnswerArgs,
 }
 
 /// A number of the launch and its values.
@@ -96,37 +78,33 @@ impl FromStr for Over {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let wrong =
-            || "expected a key and its values, as in `launch.height_m=0.1..2:15`".to_owned();
-        let (key, values) = text.split_once('=').ok_or_else(wrong)?;
-        let (range, count) = match values.split_once(':') {
-            Some((range, count)) => (range, count.parse().map_err(|_| wrong())?),
-            None => (values, VALUES),
+        let (range, values) = match text.split_once(':') {
+            Some((range, count)) => {
+                let wrong = |_| "expected the number of values behind the colon".to_owned();
+                (range, count.parse().map_err(wrong)?)
+            }
+            None => (text, VALUES),
         };
-        let (from, to) = range.split_once("..").ok_or_else(wrong)?;
+        let KeyRange { key, from, to } = range.parse()?;
         Ok(Self(Parameter {
-            key: key.trim().to_owned(),
-            from: from.trim().parse().map_err(|_| wrong())?,
-            to: to.trim().parse().map_err(|_| wrong())?,
-            values: count,
+            key,
+            from,
+            to,
+            values,
         }))
     }
 }
 
 impl AimAt {
     pub(crate) fn format(&self) -> Format {
-        self.format
+        self.answer.format
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
-        let (_, template) = template(
-            self.config.as_deref(),
-            self.scene.as_deref(),
-            &self.overrides,
-        )?;
+        let (_, template) = self.scene.template()?;
         let picture = self.picture.as_deref().map(NewFile::begin).transpose()?;
         let question = self.question();
-        let answer = ask(console, self.quiet, self.threads, |workers| {
+        let answer = ask(console, &self.answer, |workers| {
             questions::aim(&template, &question, workers)
         })?;
         let Some(answer) = answer else {

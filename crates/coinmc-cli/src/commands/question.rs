@@ -2,39 +2,111 @@
 
 use crate::exit::Failure;
 use crate::interrupt;
-use crate::output::Console;
+use crate::output::{Console, Format};
 use crate::terminal::progress::Progress;
 use anyhow::Context;
+use clap::Args;
 use coinmc::config::{self, Override};
-use coinmc_questions::scenes::EverydayScene;
-use coinmc_questions::{QuestionError, Template, Workers};
+use coinmc_questions::scenes::{Assumption, EverydayScene};
+use coinmc_questions::{QuestionError, Template, Unknown, Workers};
 use std::num::NonZeroUsize;
-use std::path::Path;
+use std::path::PathBuf;
+use std::str::FromStr;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The scene of a config, or the everyday scene of a name; the first of them without either.
-pub(super) fn template(
-    config: Option<&Path>,
-    scene: Option<&str>,
-    overrides: &[Override],
-) -> Result<(Option<EverydayScene>, Template), Failure> {
-    if let Some(path) = config {
-        let text = config::read_text(path)?;
-        let name = path.display().to_string();
-        return Ok((None, Template::new(name, text, overrides)));
+/// Which scene a question is about.
+#[derive(Debug, Args)]
+pub(super) struct SceneArgs {
+    /// The config (TOML) of the scene; its [stop] has no effect
+    config: Option<PathBuf>,
+
+    /// Everyday scene, see `coinmc fair --help` [default: table]
+    #[arg(long, value_name = "NAME", conflicts_with = "config")]
+    scene: Option<String>,
+
+    /// Replace or add a value of the config, as in `surface.friction=0.2`; repeatable
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    overrides: Vec<Override>,
+}
+
+impl SceneArgs {
+    /// The scene of the config, or the everyday scene of this name; the first of them without either.
+    pub(super) fn template(&self) -> Result<(Option<EverydayScene>, Template), Failure> {
+        if let Some(path) = &self.config {
+            let text = config::read_text(path)?;
+            let name = path.display().to_string();
+            return Ok((None, Template::new(name, text, &self.overrides)));
+        }
+        let name = self.scene.as_deref().unwrap_or(EverydayScene::ALL[0].name);
+        let scene = EverydayScene::named(name)?;
+        Ok((Some(scene), scene.template(&self.overrides)))
     }
-    let scene = EverydayScene::named(scene.unwrap_or(EverydayScene::ALL[0].name))?;
-    Ok((Some(scene), scene.template(overrides)))
+
+    /// What an everyday scene assumes and the command line does not say otherwise.
+    pub(super) fn assumed(&self, scene: &EverydayScene) -> impl Iterator<Item = Assumption> {
+        scene.assumed(&self.overrides)
+    }
+}
+
+/// How to work on a question, and how to answer it.
+#[derive(Debug, Args)]
+pub(super) struct AnswerArgs {
+    /// Number of threads [default: one per core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+
+    /// How to write the result
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    pub(super) format: Format,
+
+    /// Show no progress and no remarks, only warnings and errors
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// A number of a scene and its range, as in `launch.height_m=0.1..2`.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct KeyRange {
+    pub(super) key: String,
+    pub(super) from: f64,
+    pub(super) to: f64,
+}
+
+impl KeyRange {
+    pub(super) fn unknown(&self) -> Unknown {
+        Unknown {
+            key: self.key.clone(),
+            from: self.from,
+            to: self.to,
+        }
+    }
+}
+
+impl FromStr for KeyRange {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let parsed = text.split_once('=').and_then(|(key, range)| {
+            let (from, to) = range.split_once("..")?;
+            Some(Self {
+                key: key.trim().to_owned(),
+                from: from.trim().parse().ok()?,
+                to: to.trim().parse().ok()?,
+            })
+        });
+        parsed.ok_or_else(|| {
+            "expected a key and its range, as in `launch.height_m=0.1..2`".to_owned()
+        })
+    }
 }
 
 /// Asks, with progress on standard error; `None` if Ctrl-C stopped it.
 pub(super) fn ask<T>(
     console: &Console,
-    quiet: bool,
-    threads: Option<u16>,
+    args: &AnswerArgs,
     question: impl FnOnce(&Workers<'_>) -> Result<T, QuestionError>,
 ) -> Result<Option<T>, Failure> {
-    let progress = Progress::new(*console.stderr(), quiet);
+    let progress = Progress::new(*console.stderr(), args.quiet);
     let told = progress.clone();
     let cancel =
         interrupt::listen(move || told.note("stopping; press Ctrl-C again to stop at once"))
@@ -42,7 +114,7 @@ pub(super) fn ask<T>(
             .map_err(Failure::Runtime)?;
     let made = AtomicU64::new(0);
     let answer = question(&Workers {
-        threads: threads.and_then(|n| NonZeroUsize::new(n.into())),
+        threads: args.threads.and_then(|n| NonZeroUsize::new(n.into())),
         cancel,
         made: &|tosses| progress.tossed(made.fetch_add(tosses, Ordering::Relaxed) + tosses),
     });

@@ -32,6 +32,16 @@ fn trimmed(number: &str) -> &str {
     }
 }
 
+/// With its sign and so many decimals; 0 has no sign.
+pub(crate) fn signed(x: f64, decimals: usize) -> String {
+    let text = format!("{x:+.decimals$}");
+    if text.contains(|c: char| c.is_ascii_digit() && c != '0') || !x.is_finite() {
+        text
+    } else {
+        text[1..].to_owned()
+    }
+}
+
 /// A whole number in groups of three: 1_234_567 reads `1 234 567`.
 pub(crate) fn grouped(n: u64) -> String {
     let digits = n.to_string();
@@ -101,6 +111,15 @@ mod tests {
         ] {
             assert_eq!(compact(x), text);
         }
+    }
+
+    #[test]
+    fn zero_has_no_sign() {
+        assert_eq!(signed(-0.000_01, 3), "0.000");
+        assert_eq!(signed(-0.01, 3), "-0.010");
+        assert_eq!(signed(0.0, 1), "0.0");
+        assert_eq!(signed(0.25, 2), "+0.25");
+        assert_eq!(signed(f64::INFINITY, 2), "+inf");
     }
 
     #[test]

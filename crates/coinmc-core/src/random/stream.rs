@@ -10,6 +10,8 @@ pub enum Domain {
     Launch,
     /// Scrambles of low-discrepancy points.
     Scramble,
+    /// Values of numbers that are unknown.
+    Parameters,
 }
 
 impl Domain {
@@ -18,6 +20,7 @@ impl Domain {
         match self {
             Self::Launch => 0,
             Self::Scramble => 1,
+            Self::Parameters => 2,
         }
     }
 }

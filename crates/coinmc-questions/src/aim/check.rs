@@ -86,23 +86,13 @@ pub(super) fn check_numbers(question: &Aim) -> Result<(), QuestionError> {
 }
 
 fn check_parameter(parameter: &Parameter) -> Result<(), QuestionError> {
-    let &Parameter {
-        ref key,
-        from,
-        to,
-        values,
-    } = parameter;
-    if values < 2 {
+    if parameter.values < 2 {
         return Err(QuestionError::TooFewValues {
-            key: key.clone(),
-            given: values,
+            key: parameter.key.clone(),
+            given: parameter.values,
         });
     }
-    if from.is_finite() && to.is_finite() && from < to {
-        Ok(())
-    } else {
-        Err(QuestionError::Range { from, to })
-    }
+    parameter.span().check()
 }
 
 fn at_most(given: u64, most: u64, what: &'static str) -> Result<(), QuestionError> {

@@ -26,9 +26,9 @@ mod search;
 pub use document::document_of_aim;
 pub use picture::picture;
 
+use crate::span::{Span, rounded};
 use crate::{QuestionError, Template, Workers};
 use coinmc_core::{Estimate, Face};
-use libm::{exp, log};
 
 /// Most places of a question.
 pub const MOST_PLACES: u64 = 10_000;
@@ -107,7 +107,7 @@ pub struct Parameter {
 impl Parameter {
     /// Whether the values are evenly spaced in the logarithm.
     pub fn is_logarithmic(&self) -> bool {
-        self.from > 0.0 && self.to > 10.0 * self.from
+        self.span().is_logarithmic()
     }
 
     /// The values, in order.
@@ -124,23 +124,17 @@ impl Parameter {
         let value = |i: usize| match i {
             0 => self.from,
             i if i == last => self.to,
-            i => rounded(self.between(i as f64 / last as f64)),
+            i => rounded(self.span().at(i as f64 / last as f64)),
         };
         (0..self.values).map(value).collect()
     }
 
-    fn between(&self, share: f64) -> f64 {
-        if self.is_logarithmic() {
-            exp(log(self.from) + share * (log(self.to) - log(self.from)))
-        } else {
-            self.from + share * (self.to - self.from)
+    fn span(&self) -> Span {
+        Span {
+            from: self.from,
+            to: self.to,
         }
     }
-}
-
-/// To 12 digits, so that 0.1 does not become 0.10000000000000002.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.11e}").parse().unwrap_or(value)
 }
 
 impl Aim {

@@ -8,11 +8,11 @@ use super::scan::{self};
 use super::solve::solve;
 use super::tosses::{Sample, Seen, Tosses};
 use super::{Curve, Fair, Finding, Question, Root, Scanned};
+use crate::interval::normal_quantile;
 use crate::workers::At;
 use crate::{QuestionError, Template, Workers};
 use coinmc::plan::Plan;
 use coinmc::run::{Count, count};
-use coinmc_core::inverse_normal_cdf;
 
 /// One curve: a point of the config's other parameters.
 struct Along<'a> {
@@ -103,7 +103,7 @@ impl Along<'_> {
         let goal = Goal {
             target,
             half_width,
-            z: -inverse_normal_cdf((1.0 - confidence) / 2.0),
+            z: normal_quantile(confidence),
             tosses: max_tosses,
         };
         let solved = solve(self, axis, &goal)?;

@@ -6,12 +6,11 @@ mod sheet;
 mod solid;
 
 use super::quantity::{Density, Length};
-use super::question::{ask, template};
+use super::question::{AnswerArgs, SceneArgs, ask};
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format};
 use anyhow::anyhow;
 use clap::Args;
-use coinmc::config::Override;
 use coinmc_questions::assumptions::{self, Effect};
 use coinmc_questions::scenes::EverydayScene;
 use coinmc_questions::{self as questions, Fair, Question, QuestionError, Root, Size};
@@ -44,12 +43,8 @@ const TEST: Test = Test {
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Design {
-    /// The config (TOML) of the scene; its coin's ratio and its [stop] have no effect
-    config: Option<PathBuf>,
-
-    /// Everyday scene [default: table]
-    #[arg(long, value_name = "NAME", conflicts_with = "config")]
-    scene: Option<String>,
+    #[command(flatten)]
+    scene: SceneArgs,
 
     /// Diameter
     #[arg(long, value_name = "LENGTH", default_value = "24mm")]
@@ -97,17 +92,8 @@ pub(crate) struct Design {
     #[arg(short, long, value_name = "NAME", default_value = "fair-coin")]
     out: PathBuf,
 
-    /// Replace or add a value of the config, as in `surface.friction=0.2`; repeatable
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    overrides: Vec<Override>,
-
-    /// How to write the result
-    #[arg(long, value_enum, default_value_t = Format::Table)]
-    format: Format,
-
-    /// Show no progress, only warnings and errors
-    #[arg(long, short)]
-    quiet: bool,
+    #[command(flatten)]
+    answer: AnswerArgs,
 }
 
 /// A coin that has been designed, and what is known of it.
@@ -122,14 +108,14 @@ struct Designed {
 
 impl Design {
     pub(crate) fn format(&self) -> Format {
-        self.format
+        self.answer.format
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let solid = self.solid()?;
         let files = Files::begin(&self.out)?;
         let (scene, template) = self.template(&solid)?;
-        let found = ask(console, self.quiet, None, |workers| {
+        let found = ask(console, &self.answer, |workers| {
             self.find(scene, &template, workers)
         })?;
         let Some(found) = found else {
@@ -167,11 +153,7 @@ impl Design {
     }
 
     fn template(&self, solid: &Solid) -> Result<(Option<EverydayScene>, Template), Failure> {
-        let (scene, template) = template(
-            self.config.as_deref(),
-            self.scene.as_deref(),
-            &self.overrides,
-        )?;
+        let (scene, template) = self.scene.template()?;
         let template = template.with_size(Size::Diameter(self.diameter.0))?;
         let solid = *solid;
         Ok((
@@ -197,11 +179,8 @@ impl Design {
         let root = only_root(&fair);
         let mut effects = vec![];
         if let (Some(scene), Some(root)) = (scene, &root) {
-            let assumed = scene.assumptions().into_iter().filter(|assumed| {
-                assumed.key != "coin.radius_m"
-                    && !self.overrides.iter().any(|set| set.is_about(assumed.key))
-            });
-            let assumed: Vec<_> = assumed.collect();
+            let assumed = self.scene.assumed(&scene);
+            let assumed = assumed.filter(|assumed| assumed.key != "coin.radius_m");
             let tosses = ASSUMPTION_TOSSES;
             effects = assumptions::effects(template, &fair, root, assumed, tosses, workers)?;
         }

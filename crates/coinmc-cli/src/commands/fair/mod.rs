@@ -3,18 +3,16 @@
 mod report;
 
 use super::quantity::{Density, Length, Mass, Volume};
-use super::question::{ask, template};
+use super::question::{AnswerArgs, SceneArgs, ask};
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format};
 use anyhow::anyhow;
 use clap::Args;
-use coinmc::config::Override;
 use coinmc_core::Face;
 use coinmc_questions::assumptions::{self, Effect};
-use coinmc_questions::scenes::EverydayScene;
+use coinmc_questions::scenes::{Assumption, EverydayScene};
 use coinmc_questions::{self as questions, Fair as Answer, Question, QuestionError, Size};
 use coinmc_questions::{Template, Workers};
-use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -35,12 +33,8 @@ answer.";
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Fair {
-    /// The config (TOML) of the scene; its ratio and its [stop] have no effect
-    config: Option<PathBuf>,
-
-    /// Everyday scene [default: table]
-    #[arg(long, value_name = "NAME", conflicts_with = "config")]
-    scene: Option<String>,
+    #[command(flatten)]
+    scene: SceneArgs,
 
     /// The face
     #[arg(long, value_name = "FACE", value_parser = super::face, default_value = "side")]
@@ -108,21 +102,8 @@ pub(crate) struct Fair {
     #[arg(long)]
     show: bool,
 
-    /// Number of threads [default: one per core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
-
-    /// Replace or add a value of the config, as in `surface.friction=0.2`; repeatable
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    overrides: Vec<Override>,
-
-    /// How to write the result
-    #[arg(long, value_enum, default_value_t = Format::Table)]
-    format: Format,
-
-    /// Show no progress and no remarks, only warnings and errors
-    #[arg(long, short)]
-    quiet: bool,
+    #[command(flatten)]
+    answer: AnswerArgs,
 }
 
 /// The answer, and what it rests on.
@@ -135,12 +116,12 @@ struct Answered {
 
 impl Fair {
     pub(crate) fn format(&self) -> Format {
-        self.format
+        self.answer.format
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let (scene, template) = self.template()?;
-        let answered = ask(console, self.quiet, self.threads, |workers| {
+        let answered = ask(console, &self.answer, |workers| {
             self.answer(scene, &template, workers)
         })?;
         match answered {
@@ -150,11 +131,7 @@ impl Fair {
     }
 
     fn template(&self) -> Result<(Option<EverydayScene>, Template), Failure> {
-        let (scene, template) = template(
-            self.config.as_deref(),
-            self.scene.as_deref(),
-            &self.overrides,
-        )?;
+        let (scene, template) = self.scene.template()?;
         let size = match (self.diameter, self.volume, self.mass, self.density) {
             (Some(Length(diameter)), ..) => Size::Diameter(diameter),
             (_, Some(Volume(volume)), ..) => Size::Volume(volume),
@@ -196,13 +173,10 @@ impl Fair {
     }
 
     /// What the scene assumes and the command line does not say otherwise.
-    fn assumed(&self, scene: &EverydayScene) -> Vec<coinmc_questions::scenes::Assumption> {
+    fn assumed(&self, scene: &EverydayScene) -> impl Iterator<Item = Assumption> {
         let sized = self.diameter.is_some() || self.volume.is_some() || self.mass.is_some();
-        let said = |key: &str| {
-            (sized && key == "coin.radius_m") || self.overrides.iter().any(|set| set.is_about(key))
-        };
-        let assumptions = scene.assumptions().into_iter();
-        assumptions.filter(|assumed| !said(assumed.key)).collect()
+        let assumed = self.scene.assumed(scene);
+        assumed.filter(move |assumed| !(sized && assumed.key == "coin.radius_m"))
     }
 
     fn present(&self, answered: &Answered, console: &Console) -> Result<Outcome, Failure> {

@@ -2,7 +2,7 @@
 
 use super::Answered;
 use crate::terminal::table::{Column, Table};
-use crate::terminal::{Colors, Style, compact, decimals_for, grouped, in_ascii, wrapped};
+use crate::terminal::{Colors, Style, compact, decimals_for, grouped, in_ascii, signed, wrapped};
 use coinmc_core::Coin;
 use coinmc_questions::assumptions::Effect;
 use coinmc_questions::{Curve, Fair, Finding, Root};
@@ -137,9 +137,9 @@ fn of_root(answer: &Fair, root: &Root, style: &Style) -> String {
     if let Some(numerical) = root.numerical {
         text += &format!(
             "    finer numerical settings move it by {} [{}, {}], {} pairs of tosses\n",
-            signed(numerical.shift),
-            signed(numerical.lo),
-            signed(numerical.hi),
+            signed(numerical.shift, 3),
+            signed(numerical.lo, 3),
+            signed(numerical.hi, 3),
             grouped(numerical.tosses)
         );
     }
@@ -151,16 +151,6 @@ fn of_root(answer: &Fair, root: &Root, style: &Style) -> String {
     }
     let of_ratio = answer.question.key == "coin.ratio";
     text + &size(&root.coin, of_ratio.then_some(arm))
-}
-
-/// With its sign and three decimals; 0 has no sign.
-fn signed(x: f64) -> String {
-    let rounded = libm::round(1e3 * x) / 1e3;
-    if rounded == 0.0 {
-        "0.000".to_owned()
-    } else {
-        format!("{rounded:+.3}")
-    }
 }
 
 fn slope(key: &str, root: &Root) -> String {

@@ -1,9 +1,8 @@
 //! The curve along one parameter, with the band of its intervals.
 
-use super::canvas::Canvas;
-use super::scale::Scale;
-use super::{frame, marks};
+use super::{axis, frame, marks};
 use crate::aim::{Aimed, Place};
+use crate::drawing::{Canvas, Scale};
 
 /// The blue of Okabe & Ito (2008), which colour-blind readers tell from the marks.
 const LINE: &str = "fill=\"none\" stroke=\"#0072b2\" stroke-width=\"2\"";
@@ -11,7 +10,7 @@ const BAND: &str = "fill=\"#9ccbe6\" stroke=\"none\"";
 
 pub(super) fn draw(canvas: &mut Canvas, answer: &Aimed) {
     let parameter = &answer.question.parameters[0];
-    let x = Scale::of(parameter, frame::X);
+    let x = axis(parameter, frame::X);
     let final_ones = [&answer.best, &answer.worst, &answer.baseline];
     let ends = answer.map.iter().chain(final_ones);
     let ends = ends.flat_map(|place| [place.estimate.lo, place.estimate.hi]);

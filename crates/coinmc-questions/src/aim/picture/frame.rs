@@ -1,7 +1,6 @@
 //! The frame around a plot, with its ticks and labels.
 
-use super::canvas::{Anchor, Canvas, LINE};
-use super::scale::{Scale, label};
+use crate::drawing::{Anchor, Canvas, LINE, Scale, label};
 
 /// The whole picture, px.
 pub(super) const SIZE: [f64; 2] = [720.0, 560.0];

@@ -1,10 +1,9 @@
 //! The heat map of a plane.
 
-use super::canvas::{Anchor, Canvas, LINE};
 use super::colour::viridis;
-use super::scale::{Scale, label};
-use super::{frame, marks};
+use super::{axis, frame, marks};
 use crate::aim::{Aimed, Parameter, Place};
+use crate::drawing::{Anchor, Canvas, LINE, Scale, label};
 
 /// The bar of colours: its left edge and its width, px.
 const BAR: [f64; 2] = [frame::LEFT + frame::WIDTH + 24.0, 18.0];
@@ -13,7 +12,7 @@ const STOPS: u32 = 10;
 
 pub(super) fn draw(canvas: &mut Canvas, answer: &Aimed, parameters: [&Parameter; 2]) {
     let [x, y] = [(parameters[0], frame::X), (parameters[1], frame::Y)]
-        .map(|(parameter, pixels)| Scale::of(parameter, pixels));
+        .map(|(parameter, pixels)| axis(parameter, pixels));
     let p = answer.map.iter().map(|place| place.estimate.p);
     let colours = Scale::of_probabilities(p, frame::Y);
     let cell = [

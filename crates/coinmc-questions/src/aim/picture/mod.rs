@@ -1,16 +1,13 @@
 //! An answer as a picture: a heat map of a plane, or a curve along one parameter.
 
-mod canvas;
 mod colour;
 mod curve;
 mod frame;
 mod heat;
-mod scale;
 
-use super::{Aimed, Place};
-use canvas::{Anchor, Canvas};
+use super::{Aimed, Parameter, Place};
+use crate::drawing::{Anchor, Canvas, Scale, label};
 use coinmc_core::Estimate;
-use scale::label;
 
 /// The answer to an [`Aim`](super::Aim) as SVG.
 ///
@@ -49,6 +46,11 @@ pub fn picture(answer: &Aimed) -> String {
         curve::draw(&mut canvas, answer);
     }
     canvas.finish()
+}
+
+/// The axis of a parameter.
+fn axis(parameter: &Parameter, pixels: [f64; 2]) -> Scale {
+    Scale::of_values(parameter.span(), parameter.values, pixels)
 }
 
 /// What was found, in words.

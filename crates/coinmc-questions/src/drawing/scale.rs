@@ -1,6 +1,6 @@
 //! Axes: where a value stands, and which values are labelled.
 
-use crate::aim::{Parameter, rounded};
+use crate::span::{Span, rounded};
 use libm::{ceil, floor, log, log10, pow};
 
 /// Most ticks of an axis without decades.
@@ -8,30 +8,30 @@ const MOST_TICKS: f64 = 6.0;
 
 /// An axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Scale {
-    pub(super) from: f64,
-    pub(super) to: f64,
+pub(crate) struct Scale {
+    pub(crate) from: f64,
+    pub(crate) to: f64,
     logarithmic: bool,
     /// Space before the first and behind the last value, as a share of the way between them.
     margin: f64,
     /// Where the axis begins and ends, px.
-    pub(super) pixels: [f64; 2],
+    pub(crate) pixels: [f64; 2],
 }
 
 impl Scale {
-    /// The axis of a parameter, with half a cell of space at either end.
-    pub(super) fn of(parameter: &Parameter, pixels: [f64; 2]) -> Self {
+    /// The axis of so many values of a parameter, with half a cell of space at either end.
+    pub(crate) fn of_values(span: Span, values: usize, pixels: [f64; 2]) -> Self {
         Self {
-            from: parameter.from,
-            to: parameter.to,
-            logarithmic: parameter.is_logarithmic(),
-            margin: 0.5 / (parameter.values.max(2) - 1) as f64,
+            from: span.from,
+            to: span.to,
+            logarithmic: span.is_logarithmic(),
+            margin: 0.5 / (values.max(2) - 1) as f64,
             pixels,
         }
     }
 
     /// An axis of probabilities that holds all of these, with ends that can be labelled.
-    pub(super) fn of_probabilities(p: impl Iterator<Item = f64>, pixels: [f64; 2]) -> Self {
+    pub(crate) fn of_probabilities(p: impl Iterator<Item = f64>, pixels: [f64; 2]) -> Self {
         let (low, high) = p.fold((1.0_f64, 0.0_f64), |(low, high), p| {
             (low.min(p), high.max(p))
         });
@@ -48,7 +48,7 @@ impl Scale {
     }
 
     /// How far a value is on the way between the ends.
-    pub(super) fn share(&self, value: f64) -> f64 {
+    pub(crate) fn share(&self, value: f64) -> f64 {
         if self.logarithmic {
             log(value / self.from) / log(self.to / self.from)
         } else {
@@ -57,18 +57,18 @@ impl Scale {
     }
 
     /// Where a value stands, px.
-    pub(super) fn at(&self, value: f64) -> f64 {
+    pub(crate) fn at(&self, value: f64) -> f64 {
         let share = (self.share(value) + self.margin) / (1.0 + 2.0 * self.margin);
         self.pixels[0] + share * (self.pixels[1] - self.pixels[0])
     }
 
     /// Whether a value lies between the ends.
-    pub(super) fn holds(&self, value: f64) -> bool {
+    pub(crate) fn holds(&self, value: f64) -> bool {
         (self.from..=self.to).contains(&value)
     }
 
     /// Values with labels: multiples of 1, 2 or 5 times a power of ten, or of powers of ten.
-    pub(super) fn ticks(&self) -> Vec<f64> {
+    pub(crate) fn ticks(&self) -> Vec<f64> {
         if self.logarithmic {
             return decades(self.from, self.to);
         }
@@ -114,7 +114,7 @@ fn decades(from: f64, to: f64) -> Vec<f64> {
 }
 
 /// A number as a label.
-pub(super) fn label(value: f64) -> String {
+pub(crate) fn label(value: f64) -> String {
     let value: f64 = format!("{value:.5e}").parse().unwrap_or(value);
     if value != 0.0 && !(1e-4..1e6).contains(&value.abs()) {
         format!("{value:e}")
@@ -128,14 +128,7 @@ mod tests {
     use super::*;
 
     fn scale(from: f64, to: f64) -> Scale {
-        let key = String::new();
-        let parameter = Parameter {
-            key,
-            from,
-            to,
-            values: 5,
-        };
-        Scale::of(&parameter, [0.0, 100.0])
+        Scale::of_values(Span { from, to }, 5, [0.0, 100.0])
     }
 
     #[test]

@@ -1,0 +1,7 @@
+//! Pictures as SVG: elements, and axes with their labels.
+
+mod canvas;
+mod scale;
+
+pub(crate) use canvas::{Anchor, Canvas, LINE};
+pub(crate) use scale::{Scale, label};
