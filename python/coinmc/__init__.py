@@ -47,6 +47,7 @@ if TYPE_CHECKING:
     from coinmc._aim import Aimed, AimedLaunch, aim
     from coinmc._fair import Fair, FairRoot, fair
     from coinmc._ranking import Ranking, rank
+    from coinmc._rare import Rare, rare
     from coinmc._sensitivity import Sensitivity, sensitivity
 
 __all__ = [
@@ -70,6 +71,7 @@ __all__ = [
     "Group",
     "Problem",
     "Ranking",
+    "Rare",
     "Result",
     "RunError",
     "Scene",
@@ -90,6 +92,7 @@ __all__ = [
     "open",
     "plot",
     "rank",
+    "rare",
     "run",
     "scenes",
     "sensitivity",
@@ -109,6 +112,8 @@ _LAZY = {
     "fair": "coinmc._fair",
     "Ranking": "coinmc._ranking",
     "rank": "coinmc._ranking",
+    "Rare": "coinmc._rare",
+    "rare": "coinmc._rare",
     "Sensitivity": "coinmc._sensitivity",
     "sensitivity": "coinmc._sensitivity",
 }

@@ -5,8 +5,8 @@
 //! `plan` configs · `supervise` long work, signals and progress · `share` threads · `launch`
 //! launches as rows of numbers · `columns` and `toss` individual tosses · `run` estimates and runs
 //! · `results` tables, also as Arrow · `interval` intervals of proportions · `trace` recorded
-//! motion of a toss · `question`, `fair`, `aim`, `ranking`
-//! questions ·
+//! motion of a toss · `question`, `fair`, `aim`, `ranking`,
+//! `rare` questions ·
 //! `analytic` closed forms · `film` drops on film · `errors` exceptions.
 
 // Arguments converted from Python are owned.
@@ -23,6 +23,7 @@ mod launch;
 mod plan;
 mod question;
 mod ranking;
+mod rare;
 mod results;
 mod run;
 mod share;
@@ -49,6 +50,8 @@ mod _lib {
     use super::plan::Plan;
     #[pymodule_export]
     use super::ranking::rank;
+    #[pymodule_export]
+    use super::rare::rare;
     #[pymodule_export]
     use super::results::Results;
     #[pymodule_export]

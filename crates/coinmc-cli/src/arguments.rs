@@ -5,7 +5,8 @@ use crate::commands::Film;
 #[cfg(feature = "robot")]
 use crate::commands::Robot;
 use crate::commands::{
-    AimAt, Analytic, Check, Completions, Design, Fair, Merge, Run, Schema, SensitivityOf, Trace,
+    AimAt, Analytic, Check, Completions, Design, Fair, Merge, Rare, Run, Schema, SensitivityOf,
+    Trace,
 };
 use crate::exit::{Failure, Outcome};
 use crate::output::{Console, Format};
@@ -56,6 +57,7 @@ enum Command {
     Design(Box<Design>),
     Sensitivity(SensitivityOf),
     Aim(AimAt),
+    Rare(Rare),
     Merge(Merge),
     Trace(Box<Trace>),
     #[cfg(feature = "film")]
@@ -88,6 +90,7 @@ impl Command {
             Self::Design(design) => design.format(),
             Self::Sensitivity(sensitivity) => sensitivity.format(),
             Self::Aim(aim) => aim.format(),
+            Self::Rare(rare) => rare.format(),
             Self::Merge(merge) => merge.format(),
             Self::Trace(trace) => trace.format(),
             #[cfg(feature = "film")]
@@ -107,6 +110,7 @@ impl Command {
             Self::Design(design) => design.execute(console),
             Self::Sensitivity(sensitivity) => sensitivity.execute(console),
             Self::Aim(aim) => aim.execute(console),
+            Self::Rare(rare) => rare.execute(console),
             Self::Merge(merge) => merge.execute(console),
             Self::Trace(trace) => trace.execute(console),
             #[cfg(feature = "film")]

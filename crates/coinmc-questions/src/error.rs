@@ -68,6 +68,9 @@ pub enum QuestionError {
         /// The key of the parameter.
         key: String,
     },
+    /// The relative error is no share.
+    #[error("the relative error must be above 0 and at most 0.5, not {0}")]
+    RelativeError(f64),
     /// Nothing is unknown.
     #[error("say what is unknown, and from where to where it may be")]
     NoUnknown,

@@ -5,11 +5,13 @@
 //! Template (a config in which numbers are replaced) + Question ──fair──▶ Fair { curves, roots }
 //!                                                   + Aim      ──aim───▶ Aimed { map, best, worst, … }
 //!                                                   + Rank     ──rank──▶ Ranking { numbers, … }
+//!                                                   + HowRare  ─how_rare▶ Rareness { p, gain, … }
 //! ```
 //! * [`fair()`] finds the values of a parameter at which a face has a given probability.
 //! * [`aim()`] finds the launches that force a face.
 //! * [`scenes`] are everyday scenes, with where each of their numbers comes from.
 //! * [`assumptions`] tells how far each assumption moves the answer.
+//! * [`how_rare`] estimates the probability of a rare face with fewer tosses.
 //! * [`rank()`] finds which unknown of a scene matters most.
 //! * [`sensitivity`] tells how the probabilities move with every number of a scene.
 //! * [`tosses_for_power`] says how many tosses test a coin.
@@ -23,6 +25,7 @@ mod fair;
 mod interval;
 mod power;
 mod ranking;
+mod rare;
 mod rows;
 pub mod scenes;
 mod seen;
@@ -46,6 +49,7 @@ pub use ranking::{
     LEAST_SAMPLES, MOST_SAMPLES, MOST_UNKNOWNS, Rank, Ranked, Ranking, Unknown,
     document_of_ranking, picture_of_ranking, rank,
 };
+pub use rare::{HowRare, Rareness, Stratum, document_of_rare, gain_expected, how_rare};
 pub use rows::csv_of_rows;
 pub use template::{CoinNumbers, Size, Template};
 pub use workers::Workers;

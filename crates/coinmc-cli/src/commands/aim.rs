@@ -46,11 +46,11 @@ pub(crate) struct AimAt {
     over: Vec<Over>,
 
     /// Tosses of every launch of the map
-    #[arg(long, value_name = "N", default_value_t = 256)]
+    #[arg(long, value_name = "N", default_value = "256", value_parser = super::count)]
     tosses: u64,
 
     /// Tosses of the launches in the answer
-    #[arg(long, value_name = "N", default_value_t = 10_000)]
+    #[arg(long, value_name = "N", default_value = "10_000", value_parser = super::count)]
     final_tosses: u64,
 
     /// Times the spread of the hand, separated by commas

@@ -11,6 +11,7 @@ mod film;
 mod merge;
 mod quantity;
 mod question;
+mod rare;
 #[cfg(feature = "robot")]
 mod robot;
 mod run;
@@ -27,6 +28,7 @@ pub(crate) use fair::Fair;
 #[cfg(feature = "film")]
 pub(crate) use film::Film;
 pub(crate) use merge::Merge;
+pub(crate) use rare::Rare;
 #[cfg(feature = "robot")]
 pub(crate) use robot::Robot;
 pub(crate) use run::Run;
@@ -35,6 +37,13 @@ pub(crate) use sensitivity::SensitivityOf;
 pub(crate) use trace::Trace;
 
 use coinmc_core::Face;
+
+/// A whole number, in which digits may be grouped by `_`.
+fn count(text: &str) -> Result<u64, String> {
+    text.replace('_', "")
+        .parse()
+        .map_err(|_| "expected a whole number".to_owned())
+}
 
 /// The face of a name, for arguments.
 fn face(name: &str) -> Result<Face, String> {

@@ -12,6 +12,8 @@ pub enum Domain {
     Scramble,
     /// Values of numbers that are unknown.
     Parameters,
+    /// Which launches are tossed.
+    Acceptance,
 }
 
 impl Domain {
@@ -21,6 +23,7 @@ impl Domain {
             Self::Launch => 0,
             Self::Scramble => 1,
             Self::Parameters => 2,
+            Self::Acceptance => 3,
         }
     }
 }

@@ -4,7 +4,7 @@ mod integrals;
 
 use coinmc::plan::{Looks, Plan, Stop};
 use coinmc::run::{Chunk, RunError, run_chunk};
-use coinmc_core::Tally;
+use coinmc_core::{Face, Tally};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -29,6 +29,8 @@ pub(super) struct Cost {
     pub(super) time: Option<Duration>,
     /// Whether the times of the tried tosses varied so much that the forecast is unsure.
     pub(super) unsure: bool,
+    /// The face that the last point tried showed least.
+    pub(super) rarest: Option<Face>,
     /// The cost of each tossed point, in the order of the sweep.
     pub(super) points: Vec<PointCost>,
 }
@@ -53,9 +55,11 @@ pub(super) fn estimate(plan: &Plan) -> Result<Cost, RunError> {
     let integrated = points.filter(|&point| plan.integrates(point));
     let budget = BUDGET / u32::try_from(tossed.len().clamp(1, POINTS)).unwrap_or(u32::MAX);
     let mut with_batch = [0.0; 2];
+    let mut rarest = None;
     let mut points = costs(&tossed, |point| {
         let (tally, pace) = toss_for(plan, point, budget)?;
         let tosses = needed(plan, &tally) as f64;
+        rarest = Face::ALL.into_iter().min_by_key(|&face| tally.count(face));
         with_batch[0] += tosses * pace.before;
         with_batch[1] += tosses * pace.last;
         Ok((tosses, tosses * pace.last))
@@ -82,6 +86,7 @@ pub(super) fn estimate(plan: &Plan) -> Result<Cost, RunError> {
         threads,
         time: (!points.is_empty()).then_some(time),
         unsure: is_unsure(with_batch),
+        rarest,
         points,
     })
 }

@@ -1,6 +1,7 @@
 //! `coinmc check`: explains a config before it is run.
 
 mod calibration;
+mod rare;
 
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, FORMAT_VERSION, Format};
@@ -10,6 +11,8 @@ use calibration::{Cost, PointCost};
 use clap::Args;
 use coinmc::config::{self, Override};
 use coinmc::plan::{Plan, Stop, Targets};
+use coinmc_questions::Template;
+use rare::RareFace;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -56,16 +59,30 @@ impl Check {
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let plan = config::load(&self.config, &self.overrides)?;
         let cost = calibration::estimate(&plan)?;
+        let rare = self.rare(&plan, &cost)?;
         match self.format {
-            Format::Table => output::print(&to_text(&plan, &cost, console.stdout())),
-            Format::Json => output::print_json(&to_json(&plan, &cost)),
+            Format::Table => output::print(&to_text(&plan, &cost, rare.as_ref(), console.stdout())),
+            Format::Json => output::print_json(&to_json(&plan, &cost, rare.as_ref())),
         }
         .map_err(|error| Failure::Runtime(error.into()))?;
         Ok(Outcome::Done)
     }
+
+    /// What another way of tossing would gain for the rarest face.
+    fn rare(&self, plan: &Plan, cost: &Cost) -> Result<Option<RareFace>, Failure> {
+        match (rare::relative_error(plan), cost.rarest) {
+            (Some(error), Some(face)) => {
+                let text = config::read_text(&self.config)?;
+                let name = self.config.display().to_string();
+                let template = Template::new(name, text, &self.overrides);
+                RareFace::of(face, error, cost.tosses_per_s, &template).map(Some)
+            }
+            _ => Ok(None),
+        }
+    }
 }
 
-fn to_text(plan: &Plan, cost: &Cost, style: &Style) -> String {
+fn to_text(plan: &Plan, cost: &Cost, rare: Option<&RareFace>, style: &Style) -> String {
     let mut text = String::new();
     let mut item = |title: &str, value: &str| {
         text += &style.paint(Colors::Strong, &format!("{title:<INDENT$}"));
@@ -97,6 +114,9 @@ fn to_text(plan: &Plan, cost: &Cost, style: &Style) -> String {
     item("cost", &in_words(cost));
     if let Some(range) = cheapest_and_dearest(plan, cost) {
         item("a point", &range);
+    }
+    if let Some(rare) = rare {
+        item("rare", &rare.in_words());
     }
     if style.unicode { text } else { in_ascii(&text) }
 }
@@ -258,7 +278,7 @@ fn cheapest_and_dearest(plan: &Plan, cost: &Cost) -> Option<String> {
 }
 
 /// The document of `--format json`; docs/reference/formats.md describes it.
-fn to_json(plan: &Plan, cost: &Cost) -> Value {
+fn to_json(plan: &Plan, cost: &Cost, rare: Option<&RareFace>) -> Value {
     let groups = plan.explain().into_iter().map(|group| {
         json!({ "points": group.points, "computed": group.computed, "skipped": group.skipped })
     });
@@ -285,6 +305,7 @@ fn to_json(plan: &Plan, cost: &Cost) -> Value {
             "unsure": cost.unsure,
             "points": points_cost.collect::<Vec<_>>(),
         },
+        "rare": rare.map(|rare| json!({ "face": rare.face.name(), "gain": rare.gain })),
         "resolved_config": plan.resolved_toml,
     })
 }

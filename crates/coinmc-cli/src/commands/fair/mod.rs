@@ -71,15 +71,15 @@ pub(crate) struct Fair {
     half_width: f64,
 
     /// Tosses of each answer at which the search stops short of that
-    #[arg(long, value_name = "N", default_value_t = 10_000_000)]
+    #[arg(long, value_name = "N", default_value = "10_000_000", value_parser = super::count)]
     max_tosses: u64,
 
     /// Tosses with finer numerical settings, which show the numerical error; 0 for none
-    #[arg(long, value_name = "N", default_value_t = 2048)]
+    #[arg(long, value_name = "N", default_value = "2048", value_parser = super::count)]
     numerical: u64,
 
     /// Tosses of each assumption of an everyday scene, which show its effect; 0 for none
-    #[arg(long, value_name = "N", default_value_t = 1024)]
+    #[arg(long, value_name = "N", default_value = "1024", value_parser = super::count)]
     assumptions: u64,
 
     /// Diameter of the coin, such as 24mm

@@ -56,7 +56,7 @@ pub(crate) struct SensitivityOf {
     step: f64,
 
     /// Tosses with either value of each number [default: 20_000; with ranges 4096]
-    #[arg(long, value_name = "N", value_parser = count)]
+    #[arg(long, value_name = "N", value_parser = super::count)]
     tosses: Option<u64>,
 
     /// Find the fair ratio first, and show how it moves: P(side) = 1/3
@@ -72,7 +72,7 @@ pub(crate) struct SensitivityOf {
     over: Vec<KeyRange>,
 
     /// Samples of all ranges
-    #[arg(long, value_name = "N", default_value = "500", value_parser = count)]
+    #[arg(long, value_name = "N", default_value = "500", value_parser = super::count)]
     samples: u64,
 
     /// New file (.svg) for a tornado plot of the ranking
@@ -85,13 +85,6 @@ pub(crate) struct SensitivityOf {
 
     #[command(flatten)]
     answer: AnswerArgs,
-}
-
-/// A whole number, in which digits may be grouped by `_`.
-fn count(text: &str) -> Result<u64, String> {
-    text.replace('_', "")
-        .parse()
-        .map_err(|_| "expected a whole number".to_owned())
 }
 
 /// The scene, and its fair ratio if that was asked for.

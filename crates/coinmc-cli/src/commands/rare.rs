@@ -1,0 +1,166 @@
+//! `coinmc rare`: the probability of a face that hardly ever comes up.
+
+use super::question::{AnswerArgs, SceneArgs, ask};
+use crate::exit::{Failure, Outcome};
+use crate::output::{self, Console, Format};
+use crate::terminal::table::{Column, Table};
+use crate::terminal::{Colors, Style, compact, grouped, in_ascii};
+use anyhow::anyhow;
+use clap::Args;
+use coinmc_core::Face;
+use coinmc_questions::{self as questions, HowRare, Rareness};
+
+const EXAMPLES: &str = "\
+Examples:
+  coinmc rare --scene felt --set coin.ratio=0.1     how often does a thin coin stand on felt?
+  coinmc rare toss.toml --face heads --relative-error 0.05 --show";
+
+/// Estimate the probability of a rare face with fewer tosses
+///
+/// Brute force takes some 400/P tosses for an error of 10 %. This draws as many launches, but tosses mostly those
+/// whose first touch with the ground makes the face likely, and weights them so that the estimate is
+/// unbiased. Where the coin bounces high, nothing is gained; the answer says how much was.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Rare {
+    #[command(flatten)]
+    scene: SceneArgs,
+
+    /// The face
+    #[arg(long, value_name = "FACE", value_parser = super::face, default_value = "side")]
+    face: Face,
+
+    /// Toss until the interval is no wider than ± this share of the probability
+    #[arg(
+        long,
+        value_name = "E",
+        default_value_t = 0.1,
+        allow_negative_numbers = true
+    )]
+    relative_error: f64,
+
+    /// Tosses at which the answer stops short of that
+    #[arg(long, value_name = "N", default_value = "10_000_000", value_parser = super::count)]
+    max_tosses: u64,
+
+    /// Show the strata of launches
+    #[arg(long)]
+    show: bool,
+
+    #[command(flatten)]
+    answer: AnswerArgs,
+}
+
+impl Rare {
+    pub(crate) fn format(&self) -> Format {
+        self.answer.format
+    }
+
+    pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
+        let (_, template) = self.scene.template()?;
+        let question = HowRare {
+            face: self.face,
+            relative_error: self.relative_error,
+            max_tosses: self.max_tosses,
+        };
+        let answer = ask(console, &self.answer, |workers| {
+            questions::how_rare(&template, &question, workers)
+        })?;
+        let Some(answer) = answer else {
+            return Ok(Outcome::Interrupted);
+        };
+        match console.format() {
+            Format::Json => output::print_json(&questions::document_of_rare(&answer)),
+            Format::Table => output::print(&text(&answer, self.show, console.stdout())),
+        }
+        .map_err(|error| Failure::Runtime(anyhow!(error)))?;
+        Ok(if answer.reached {
+            Outcome::Done
+        } else {
+            Outcome::ShortOfTarget
+        })
+    }
+}
+
+fn text(answer: &Rareness, show: bool, style: &Style) -> String {
+    let p = &answer.p;
+    let percent = compact(100.0 * answer.confidence);
+    let face = answer.question.face.name();
+    let mut headline = format!("P({face}) = {:.3e}", p.value);
+    if p.value > 0.0 {
+        let error = 100.0 * p.half_width() / p.value;
+        headline += &format!(" ± {error:.1} %");
+    }
+    let mut text = style.paint(Colors::Strong, &headline);
+    text += &format!("    {percent} %: [{:.3e}, {:.3e}]\n", p.lo, p.hi);
+    text += &format!(
+        "{} of {} launches tossed, of which {} showed it, after a pilot of {} tosses\n",
+        grouped(answer.tosses),
+        grouped(answer.launches),
+        grouped(answer.shown),
+        grouped(answer.pilot_tosses),
+    );
+    let gain = answer.gain();
+    if gain.is_finite() {
+        let brute_force = gain * (answer.tosses + answer.pilot_tosses) as f64;
+        text += &format!(
+            "Brute force would take {} tosses: {gain:.1} times as many\n",
+            grouped(rounded(brute_force))
+        );
+    }
+    text += &problems(answer);
+    if show {
+        text += &strata(answer, style);
+    }
+    let note = format!("engine {}, {}", answer.engine, answer.law);
+    text += &format!("{}\n", style.paint(Colors::Faint, &note));
+    if style.unicode { text } else { in_ascii(&text) }
+}
+
+/// Why the answer is short of the error asked for.
+fn problems(answer: &Rareness) -> String {
+    let mut text = String::new();
+    if answer.undecided > 0 {
+        text += &format!(
+            "{} tosses without a face, which the upper end counts as if they showed it\n",
+            grouped(answer.undecided)
+        );
+    }
+    if !answer.reached {
+        let error = compact(100.0 * answer.question.relative_error);
+        text += &format!("Short of the ± {error} % asked for: all tosses are spent\n");
+    }
+    text
+}
+
+fn strata(answer: &Rareness, style: &Style) -> String {
+    let mut table = Table::new(vec![
+        Column::left("first touch at"),
+        Column::right("launches"),
+        Column::right("tossed"),
+        Column::right("chance"),
+        Column::right("showed it"),
+    ]);
+    for stratum in &answer.strata {
+        let tilt = |cos: f64| 90.0 - libm::acos(cos.clamp(0.0, 1.0)).to_degrees();
+        table.push(vec![
+            format!("{:.2}° to {:.2}°", tilt(stratum.from), tilt(stratum.to)),
+            grouped(stratum.launches),
+            grouped(stratum.tosses),
+            format!("{:.3}", stratum.chance),
+            grouped(stratum.shown),
+        ]);
+    }
+    table.render(style).text
+        + "Angles between the faces and the vertical: 0° on the rim, 90° flat.\n"
+}
+
+/// To three digits.
+fn rounded(tosses: f64) -> u64 {
+    let text = format!("{tosses:.2e}");
+    let rounded: f64 = text.parse().expect("`e` format is a number");
+    // a number of tosses; `as` saturates
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let rounded = rounded as u64;
+    rounded
+}

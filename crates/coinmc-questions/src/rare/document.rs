@@ -1,0 +1,46 @@
+//! An answer as a JSON document.
+
+use super::{Rareness, Stratum};
+use serde_json::{Value, json};
+
+/// Version of the document. It stays when fields are added, and changes when a field changes its
+/// meaning or is removed.
+const FORMAT_VERSION: u32 = 1;
+
+/// The answer to a [`HowRare`](super::HowRare) as a JSON document. docs/reference/formats.md describes
+/// its fields.
+pub fn document_of_rare(answer: &Rareness) -> Value {
+    let question = &answer.question;
+    json!({
+        "format_version": FORMAT_VERSION,
+        "kind": "rare",
+        "face": question.face.name(),
+        "relative_error": question.relative_error,
+        "confidence": answer.confidence,
+        "engine": answer.engine,
+        "law": answer.law,
+        "p": answer.p.value,
+        "lo": answer.p.lo,
+        "hi": answer.p.hi,
+        "reached": answer.reached,
+        "launches": answer.launches,
+        "tosses": answer.tosses,
+        "shown": answer.shown,
+        "undecided": answer.undecided,
+        "pilot_tosses": answer.pilot_tosses,
+        // NaN is null
+        "gain": answer.gain(),
+        "rows": answer.strata.iter().map(stratum).collect::<Vec<_>>(),
+    })
+}
+
+fn stratum(stratum: &Stratum) -> Value {
+    json!({
+        "cos_from": stratum.from,
+        "cos_to": stratum.to,
+        "launches": stratum.launches,
+        "chance": stratum.chance,
+        "tosses": stratum.tosses,
+        "shown": stratum.shown,
+    })
+}
