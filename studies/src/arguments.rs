@@ -12,6 +12,7 @@ use crate::oracle::Oracle;
 use crate::rapier::{RapierEnergy, RapierRestitution, RapierStep, RapierStress};
 use crate::robot_soak::RobotSoak;
 use crate::rough::{RoughStarts, RoughTosses};
+use crate::same_side::SameSide;
 use crate::space::{SpaceDecision, SpaceLaws, SpacePeers, SpaceReferences};
 use crate::stability::Stability;
 use crate::stopping_rule::StoppingRule;
@@ -72,6 +73,8 @@ enum Command {
     SpacePeers(SpacePeers),
     /// In space: the decision by tilting energy against the rigorous one
     SpaceDecision(SpaceDecision),
+    /// Flips of 48 people: how often the same side, and the angle ψ of each
+    SameSide(SameSide),
     /// On explicit rough ground, time-stepped: do coins that start rolling or spinning stay upright
     RoughStarts(RoughStarts),
     /// On explicit rough ground, time-stepped: P(side) of whole tosses
@@ -114,6 +117,7 @@ impl Arguments {
                 Command::SpaceReferences(study) => study.execute(seed),
                 Command::SpacePeers(study) => study.execute(seed)?,
                 Command::SpaceDecision(study) => study.execute(seed)?,
+                Command::SameSide(study) => study.execute(seed)?,
                 Command::RoughStarts(study) => study.execute(seed),
                 Command::RoughTosses(study) => study.execute(seed),
                 Command::LinkFuzz(study) => study.execute(seed)?,

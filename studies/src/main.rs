@@ -19,6 +19,7 @@ mod phases;
 mod rapier;
 mod robot_soak;
 mod rough;
+mod same_side;
 mod sample;
 mod space;
 mod stability;

@@ -1,6 +1,8 @@
 //! The trait of all engines.
 
-use crate::{Launch, LaunchDistribution, LaunchSource, Observer, Outcome, Scene, Stream, Tally};
+use crate::{
+    Launch, LaunchDistribution, LaunchSource, Observer, Outcome, Scene, Starts, Stream, Tally,
+};
 use coinmc_lanes::{Lanes, NoSuchLanes};
 use nalgebra::{UnitVector3, Vector3};
 use std::ops::{ControlFlow, Range};
@@ -175,10 +177,13 @@ pub fn run_tosses<E: Engine>(
     tosses: Range<u64>,
 ) -> Tally {
     let mut tally = Tally::default();
+    let starts = Starts::default();
     let launches = launches.launches(&scene.coin, stream, tosses, engine.lanes());
-    engine.toss_many(workspace, launches.into(), &mut |outcomes| {
-        for (_, outcome) in outcomes {
+    let launches = LaunchSource::from(launches).noting(&starts);
+    engine.toss_many(workspace, launches, &mut |outcomes| {
+        for (number, outcome) in outcomes {
             tally.add(outcome);
+            tally.same += u64::from(starts.is_same(*number, outcome));
         }
         ControlFlow::Continue(())
     });

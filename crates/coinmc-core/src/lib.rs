@@ -59,7 +59,7 @@ pub use estimate::{
 };
 pub use launch::{
     Launch, LaunchDistribution, LaunchError, LaunchSource, Launches, Marginal, Orientation, Preset,
-    Spin, inverse_normal_cdf,
+    Spin, Starts, inverse_normal_cdf,
 };
 pub use material::{Material, Sourced};
 pub use observer::{DynObserver, Observer, sample_between};

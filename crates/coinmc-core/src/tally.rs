@@ -103,6 +103,7 @@ tally! {
     rolled_1_m: SideEnding, "Tosses on the side that rolled more than 1 m.";
     rolled_3_m: SideEnding, "Tosses on the side that rolled more than 3 m.";
     rolled_10_m: SideEnding, "Tosses on the side that rolled more than 10 m.";
+    same: Toss, "Tosses that show the face that was up at their launch.";
 }
 
 impl Tally {

@@ -9,6 +9,7 @@ mod preset;
 mod sincos;
 mod source;
 mod spin;
+mod starts;
 
 pub use lanes::Launches;
 pub use marginal::{Marginal, inverse_normal_cdf};
@@ -16,6 +17,7 @@ pub use orientation::Orientation;
 pub use preset::Preset;
 pub use source::LaunchSource;
 pub use spin::Spin;
+pub use starts::Starts;
 
 use crate::{Coin, Stream, UniformSource};
 use coinmc_lanes::{Lane, Lanes};

@@ -1,6 +1,6 @@
 //! The source of an engine's launches.
 
-use super::{Launch, Launches};
+use super::{Launch, Launches, Starts};
 
 /// Number of launches per call of an iterator behind a pointer.
 const BLOCK: usize = 64;
@@ -20,7 +20,11 @@ const BLOCK: usize = 64;
 /// assert!(drawn.eq(LaunchSource::new(&mut own)));
 /// # Ok::<(), coinmc_core::CoinError>(())
 /// ```
-pub struct LaunchSource<'a>(Source<'a>);
+pub struct LaunchSource<'a> {
+    source: Source<'a>,
+    /// Where each launch is noted.
+    noted: Option<&'a Starts>,
+}
 
 // There is one per batch, so its size has no cost; a pointer to follow at every launch would.
 #[allow(clippy::large_enum_variant)]
@@ -47,17 +51,33 @@ impl<I: Iterator<Item = Launch>> Blocks for I {
 impl<'a> LaunchSource<'a> {
     /// Uses these launches. More of them may be taken than are tossed.
     pub fn new(launches: &'a mut impl Iterator<Item = Launch>) -> Self {
-        Self(Source::Own {
+        Self::of(Source::Own {
             launches,
             block: Vec::new(),
             next: 0,
         })
     }
+
+    /// The same launches, noting which face is up at each, after those that were noted before.
+    #[must_use]
+    pub fn noting(self, starts: &'a Starts) -> Self {
+        Self {
+            noted: Some(starts),
+            ..self
+        }
+    }
+
+    fn of(source: Source<'a>) -> Self {
+        Self {
+            source,
+            noted: None,
+        }
+    }
 }
 
 impl From<Launches> for LaunchSource<'_> {
     fn from(launches: Launches) -> Self {
-        Self(Source::Drawn(launches))
+        Self::of(Source::Drawn(launches))
     }
 }
 
@@ -66,9 +86,20 @@ impl Iterator for LaunchSource<'_> {
 
     #[inline]
     fn next(&mut self) -> Option<Launch> {
-        match &mut self.0 {
-            Source::Drawn(launches) => launches.next(),
-            Source::Own {
+        let launch = self.source.next();
+        if let (Some(starts), Some(launch)) = (self.noted, &launch) {
+            starts.note(launch);
+        }
+        launch
+    }
+}
+
+impl Source<'_> {
+    #[inline]
+    fn next(&mut self) -> Option<Launch> {
+        match self {
+            Self::Drawn(launches) => launches.next(),
+            Self::Own {
                 launches,
                 block,
                 next,

@@ -42,6 +42,8 @@ pub fn results(experiment: &Experiment, history: &History) -> Results {
     let row = Row {
         engine: ENGINE,
         law: LAW,
+        // which face was up in the robot's hand is not known
+        same: None,
         ..Row::new(experiment.plan(), 0, tally, stopped_by)
     };
     Results::new(experiment.plan(), vec![row])

@@ -296,7 +296,7 @@ fn ceil(tosses: f64) -> u64 {
 
 /// The estimates of all faces at a look. Only Clopper and Pearson's interval has at least the stated
 /// confidence at every probability and number of tosses, which the sum over looks requires.
-pub(crate) fn faces(tally: &Tally, confidence: f64) -> [Estimate; 3] {
+fn faces(tally: &Tally, confidence: f64) -> [Estimate; 3] {
     let (undecided, n) = (tally.undecided(), tally.tosses());
     let method = IntervalMethod::ClopperPearson;
     Face::ALL.map(|face| Estimate::new(tally.count(face), undecided, n, confidence, method))

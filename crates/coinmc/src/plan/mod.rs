@@ -11,8 +11,8 @@ mod stop;
 pub use coinmc_core::EngineChoice;
 pub use coinmc_quadrature::{Goal, Integral, MAX_EVALUATIONS, Method};
 pub use explain::Explanation;
+pub(crate) use looks::PILOT;
 pub use looks::{Looks, Verdict};
-pub(crate) use looks::{PILOT, faces};
 pub use sampling::Sampling;
 pub use stop::{Stop, StoppedBy, Targets};
 

@@ -1,8 +1,8 @@
 //! From counts to probabilities with intervals, for points with a fixed number of tosses and for points
 //! that stop at targets.
 
-use crate::plan::{Plan, Stop, faces};
-use coinmc_core::{Estimate, Face, Tally};
+use crate::plan::{Plan, Stop};
+use coinmc_core::{Estimate, Face, IntervalMethod, Tally};
 use coinmc_quadrature::{Integral, Share};
 
 /// Name of the interval of a closed form.
@@ -29,18 +29,20 @@ pub(crate) fn estimates(plan: &Plan, index: usize, tally: &Tally, at_look: f64) 
             method: plan.interval,
         });
     }
-    let (undecided, n) = (tally.undecided(), tally.tosses());
-    let found = match plan.stop {
-        Stop::Tosses(_) => Face::ALL.map(|face| {
-            let count = tally.count(face);
-            Estimate::new(count, undecided, n, plan.confidence, plan.interval)
-        }),
-        Stop::Targets(_) => faces(tally, at_look),
+    Face::ALL.map(|face| of_count(plan, tally, tally.count(face), at_look))
+}
+
+/// The estimate of what `count` of the tosses show, and the undecided ones may have shown.
+pub(crate) fn of_count(plan: &Plan, tally: &Tally, count: u64, at_look: f64) -> Estimate {
+    let (confidence, method) = match plan.stop {
+        Stop::Tosses(_) => (plan.confidence, plan.interval),
+        Stop::Targets(_) => (at_look, IntervalMethod::ClopperPearson),
     };
-    found.map(|estimate| Estimate {
+    let found = Estimate::new(count, tally.undecided(), tally.tosses(), confidence, method);
+    Estimate {
         confidence: plan.confidence,
-        ..estimate
-    })
+        ..found
+    }
 }
 
 /// The estimates of heads, tails and side of an integral; `n` counts its evaluations.

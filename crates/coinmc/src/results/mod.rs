@@ -57,6 +57,8 @@ pub struct Row {
     pub tails: Estimate,
     /// Probability of the side.
     pub side: Estimate,
+    /// Probability of the face that was up at the launch; `None` where tosses do not tell it.
+    pub same: Option<Estimate>,
     /// How the intervals were computed: `wilson`, `clopper-pearson`, `sequential-clopper-pearson`
     /// where the point stopped at targets, `student-t` of an integral, `exact` for a closed
     /// form.
@@ -133,6 +135,10 @@ impl Row {
             heads,
             tails,
             side,
+            same: point
+                .engine
+                .makes_tosses()
+                .then(|| estimates::of_count(plan, &tally, tally.same, at_look)),
             interval: estimates::interval_name(plan, index),
             sampling: if point.engine.makes_tosses() {
                 estimates::RANDOM
@@ -169,6 +175,7 @@ impl Row {
             interval,
             sampling,
             evaluations: integral.evaluations,
+            same: None,
             // published counts are compared with counts
             published: None,
             ..Self::new(plan, index, Tally::default(), stopped_by)

@@ -1,7 +1,7 @@
 //! The one definition of the results table: CSV, Parquet, JSON and docs/reference/formats.md follow it.
 
 use super::{Results, Row};
-use coinmc_core::{CounterKind, Tally, relative_error, rule_of_thumb_relative_error};
+use coinmc_core::{CounterKind, Estimate, Tally, relative_error, rule_of_thumb_relative_error};
 
 /// Version of the table.
 pub const FORMAT: u64 = 1;
@@ -246,6 +246,27 @@ fn stopping() -> Vec<Column> {
     ]
 }
 
+/// How tosses ended by how they began.
+fn same_side() -> Vec<Column> {
+    fn of(row: &Row, number: fn(&Estimate) -> f64) -> Cell<'_> {
+        Cell::finite(row.same.as_ref().map_or(f64::NAN, number))
+    }
+    vec![
+        counter("same"),
+        number(
+            "p_same",
+            "Probability of that: same/tosses; empty where it is not known.",
+            |row| of(row, |same| same.p),
+        ),
+        number("p_same_lo", "Lower end of its interval.", |row| {
+            of(row, |same| same.lo)
+        }),
+        number("p_same_hi", "Upper end of its interval.", |row| {
+            of(row, |same| same.hi)
+        }),
+    ]
+}
+
 /// The column of one of the tally's counters.
 fn counter(name: &str) -> Column {
     let mut counters = Tally::COUNTERS.iter().enumerate();
@@ -303,6 +324,7 @@ pub fn columns<'a>(parameters: impl IntoIterator<Item = &'a str>) -> Vec<Column>
         .chain(work())
         .chain(side_endings())
         .chain(stopping())
+        .chain(same_side())
         .collect()
 }
 

@@ -3,7 +3,7 @@
 use super::chunk_result::{ChunkResult, Tossed, integrate_while};
 use super::{RunError, TossSource, for_some_outcomes, stream};
 use crate::plan::{Plan, Stop};
-use coinmc_core::{EngineError, Tally};
+use coinmc_core::{EngineError, Starts, Tally};
 use std::fmt;
 use std::ops::{ControlFlow, Range};
 use std::time::Instant;
@@ -104,16 +104,24 @@ fn tally(
     if go_on() {
         let stream = stream(plan, chunk.point);
         let source = TossSource::Drawn(&stream);
-        for_some_outcomes(point, source, tosses.clone(), &mut |outcomes| {
-            for (_, outcome) in outcomes {
-                tally.add(outcome);
-            }
-            if go_on() {
-                ControlFlow::Continue(())
-            } else {
-                ControlFlow::Break(())
-            }
-        })?;
+        let starts = Starts::default();
+        for_some_outcomes(
+            point,
+            source,
+            tosses.clone(),
+            Some(&starts),
+            &mut |outcomes| {
+                for (number, outcome) in outcomes {
+                    tally.add(outcome);
+                    tally.same += u64::from(starts.is_same(*number, outcome));
+                }
+                if go_on() {
+                    ControlFlow::Continue(())
+                } else {
+                    ControlFlow::Break(())
+                }
+            },
+        )?;
     }
     Ok((tally.tosses() == tosses.end - tosses.start).then_some(tally))
 }

@@ -3,7 +3,7 @@
 use crate::plan::Point;
 use coinmc_core::{
     Engine, EngineError, Event, EventKind, Launch, LaunchSource, Observer, Outcome, OutcomeSink,
-    State, Stream,
+    Starts, State, Stream,
 };
 use nalgebra::Vector3;
 use std::ops::{ControlFlow, Range};
@@ -73,7 +73,7 @@ pub fn for_each_outcome(
     mut visit: impl FnMut(u64, &Outcome) -> bool,
 ) -> Result<bool, EngineError> {
     let first = tosses.start;
-    for_some_outcomes(point, source, tosses, &mut |outcomes| {
+    for_some_outcomes(point, source, tosses, None, &mut |outcomes| {
         let mut outcomes = outcomes.iter();
         if outcomes.all(|(number, outcome)| visit(first + number, outcome)) {
             ControlFlow::Continue(())
@@ -83,11 +83,13 @@ pub fn for_each_outcome(
     })
 }
 
-/// Like [`for_each_outcome`], several outcomes at a time, with the numbers counted from 0.
+/// Like [`for_each_outcome`], several outcomes at a time, with the numbers counted from 0; notes
+/// which face is up at each launch.
 pub(super) fn for_some_outcomes(
     point: &Point,
     source: TossSource<'_>,
     tosses: Range<u64>,
+    starts: Option<&Starts>,
     sink: &mut OutcomeSink<'_>,
 ) -> Result<bool, EngineError> {
     let Some(engine) = point.build_engine()? else {
@@ -97,13 +99,27 @@ pub(super) fn for_some_outcomes(
         TossSource::Drawn(stream) => {
             let (coin, lanes) = (&point.scene.coin, engine.lanes());
             let launches = point.launches.launches(coin, stream, tosses, lanes);
-            engine.toss_many(&mut (), launches.into(), sink);
+            toss_noting(&engine, launches.into(), starts, sink);
         }
         TossSource::Given(launch) => {
-            engine.toss_many(&mut (), LaunchSource::new(&mut tosses.map(launch)), sink);
+            let mut launches = tosses.map(launch);
+            toss_noting(&engine, LaunchSource::new(&mut launches), starts, sink);
         }
     }
     Ok(true)
+}
+
+fn toss_noting<'a>(
+    engine: &impl Engine<Workspace = ()>,
+    launches: LaunchSource<'a>,
+    starts: Option<&'a Starts>,
+    sink: &mut OutcomeSink<'_>,
+) {
+    let launches = match starts {
+        Some(starts) => launches.noting(starts),
+        None => launches,
+    };
+    engine.toss_many(&mut (), launches, sink);
 }
 
 /// Like [`for_each_outcome`], with the final state of the coin. Tosses use the scalar path, which

@@ -9,7 +9,7 @@ use coinmc_core::{Counter, CounterKind, Tally};
 use std::fmt::Write;
 
 /// Version of the format.
-const FORMAT: u64 = 1;
+const FORMAT: u64 = 2;
 const TITLE: &str = "coinmc tally";
 const EXTENSION: &str = ".tally";
 /// The line of the computing time.
@@ -246,7 +246,7 @@ mod tests {
         );
         let body = unseal(text.as_bytes()).unwrap();
         for (from, to, damage) in [
-            ("tally 1", "tally 2", Damage::Version),
+            ("tally 2", "tally 1", Damage::Version),
             ("heads 50", "heads +50", Damage::Form),
             ("heads 50", "heads 050", Damage::Form),
             ("overruled 0\n", "overruled 0\nmore 1\n", Damage::Form),

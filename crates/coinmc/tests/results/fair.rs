@@ -22,6 +22,7 @@ fn row(parameters: &[(&str, f64)], side: Estimate) -> Row {
         heads: side,
         tails: side,
         side,
+        same: None,
         interval: "wilson",
         stopped_by: StoppedBy::Tosses,
         pilot_tosses: 0,

@@ -6,5 +6,6 @@ mod in_memory;
 mod integrated;
 mod merge;
 mod resume;
+mod same_side;
 mod stopping;
 mod support;

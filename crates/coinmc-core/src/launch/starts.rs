@@ -1,0 +1,51 @@
+//! Which face is up at each launch.
+
+use super::Launch;
+use crate::{Face, Outcome};
+use std::cell::RefCell;
+
+/// Which face is up at each of the launches that a [`LaunchSource`](super::LaunchSource) hands to an
+/// engine, noted while it does: a byte for each launch.
+///
+/// # Example
+/// ```
+/// use coinmc_core::{Coin, Domain, Face, LaunchSource, Lanes, Preset, Starts, Stream};
+/// let (coin, stream) = (Coin::cylinder(0.2, 0.01)?, Stream::new(1, Domain::Launch, 0));
+/// let hand = Preset::Hand.distribution();
+/// let starts = Starts::default();
+/// let launches = hand.launches(&coin, &stream, 0..100, Lanes::best());
+/// let tossed = LaunchSource::from(launches).noting(&starts).count();
+/// assert_eq!((tossed, starts.up(99)), (100, Some(Face::Heads)));
+/// # Ok::<(), coinmc_core::CoinError>(())
+/// ```
+#[derive(Debug, Default)]
+pub struct Starts {
+    /// The sign of the axis' z: 1 for heads up, −1 for tails up.
+    signs: RefCell<Vec<i8>>,
+}
+
+impl Starts {
+    /// The face that was up at the launch of this number, from 0; `None` if it was not seen or the coin
+    /// stood upright.
+    pub fn up(&self, launch: u64) -> Option<Face> {
+        let launch = usize::try_from(launch).ok()?;
+        match *self.signs.borrow().get(launch)? {
+            1 => Some(Face::Heads),
+            -1 => Some(Face::Tails),
+            _ => None,
+        }
+    }
+
+    /// Whether the outcome of the launch of this number shows the face that was up.
+    pub fn is_same(&self, launch: u64, outcome: &Outcome) -> bool {
+        outcome.face().is_some() && outcome.face() == self.up(launch)
+    }
+
+    /// Notes the next launch.
+    #[inline]
+    pub(super) fn note(&self, launch: &Launch) {
+        let z = launch.axis.z;
+        let sign = i8::from(z > 0.0) - i8::from(z < 0.0);
+        self.signs.borrow_mut().push(sign);
+    }
+}
