@@ -45,6 +45,7 @@ from coinmc._trace import EVENT, SAMPLE, Trace, trace
 if TYPE_CHECKING:
     from coinmc import film, plot
     from coinmc._aim import Aimed, AimedLaunch, aim
+    from coinmc._design import Design, design
     from coinmc._fair import Fair, FairRoot, fair
     from coinmc._ranking import Ranking, rank
     from coinmc._rare import Rare, rare
@@ -61,6 +62,7 @@ __all__ = [
     "ConfigError",
     "ConfigLike",
     "Crossing",
+    "Design",
     "Ended",
     "Error",
     "Estimate",
@@ -85,6 +87,7 @@ __all__ = [
     "aim",
     "analytic",
     "check",
+    "design",
     "estimate",
     "fair",
     "film",
@@ -107,6 +110,8 @@ _LAZY = {
     "Aimed": "coinmc._aim",
     "AimedLaunch": "coinmc._aim",
     "aim": "coinmc._aim",
+    "Design": "coinmc._design",
+    "design": "coinmc._design",
     "Fair": "coinmc._fair",
     "FairRoot": "coinmc._fair",
     "fair": "coinmc._fair",

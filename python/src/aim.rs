@@ -1,7 +1,7 @@
 //! Questions: which launch forces a face?
 
 use crate::question::{self, Source};
-use coinmc_questions::{Aim, Parameter, aim as answer, document_of_aim, picture};
+use coinmc_questions::{Aim, Parameter, QuestionError, aim as answer, document_of_aim, picture};
 use pyo3::prelude::*;
 use std::num::NonZeroUsize;
 
@@ -48,6 +48,6 @@ pub(crate) fn aim(
         let answer = answer(&template, &question, workers)?;
         let mut document = document_of_aim(&answer);
         document["picture"] = picture(&answer).into();
-        Ok(document.to_string())
+        Ok::<_, QuestionError>(document.to_string())
     })
 }

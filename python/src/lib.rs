@@ -5,8 +5,8 @@
 //! `plan` configs · `supervise` long work, signals and progress · `share` threads · `launch`
 //! launches as rows of numbers · `columns` and `toss` individual tosses · `run` estimates and runs
 //! · `results` tables, also as Arrow · `interval` intervals of proportions · `trace` recorded
-//! motion of a toss · `question`, `fair`, `aim`, `ranking`,
-//! `rare` questions ·
+//! motion of a toss · `question`, `fair`, `design`, `aim`,
+//! `ranking`, `rare` questions ·
 //! `analytic` closed forms · `film` drops on film · `errors` exceptions.
 
 // Arguments converted from Python are owned.
@@ -15,6 +15,7 @@
 mod aim;
 mod analytic;
 mod columns;
+mod design;
 mod errors;
 mod fair;
 mod film;
@@ -40,6 +41,8 @@ mod _lib {
     use super::aim::aim;
     #[pymodule_export]
     use super::analytic::{closed_form, no_bounce_rule};
+    #[pymodule_export]
+    use super::design::design;
     #[pymodule_export]
     use super::fair::{fair, scenes};
     #[pymodule_export]

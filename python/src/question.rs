@@ -6,7 +6,7 @@ use crate::supervise::supervise;
 use coinmc::config;
 use coinmc_core::Face;
 use coinmc_questions::scenes::{Assumption, EverydayScene};
-use coinmc_questions::{QuestionError, Template, Unknown, Workers};
+use coinmc_questions::{DesignError, Template, Unknown, Workers};
 use pyo3::prelude::*;
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -56,14 +56,13 @@ pub(crate) fn face(name: &str) -> PyResult<Face> {
     Face::named(name).ok_or_else(|| errors::value("the face must be heads, tails or side"))
 }
 
-/// Answers a question on other threads while Python may stop it and is told how far it is; returns the JSON
-/// document of the answer.
-pub(crate) fn answered(
+/// Answers a question on other threads while Python may stop it and is told how far it is.
+pub(crate) fn answered<T: Send, E: Into<DesignError> + Send>(
     py: Python<'_>,
     threads: Option<NonZeroUsize>,
     progress: Option<Py<PyAny>>,
-    answer: impl FnOnce(&Workers<'_>) -> Result<String, QuestionError> + Send,
-) -> PyResult<String> {
+    answer: impl FnOnce(&Workers<'_>) -> Result<T, E> + Send,
+) -> PyResult<T> {
     let (answered, _) = supervise(py, progress, |supervision| {
         let workers = Workers {
             threads,
@@ -74,5 +73,8 @@ pub(crate) fn answered(
         };
         answer(&workers)
     })?;
-    answered.map_err(|error| errors::question(&error))
+    answered.map_err(|error| match error.into() {
+        DesignError::Question(error) => errors::question(&error),
+        error => errors::value(error),
+    })
 }

@@ -1,7 +1,9 @@
 //! Questions: which unknown matters most?
 
 use crate::question::{self, Source};
-use coinmc_questions::{Rank, Unknown, document_of_ranking, picture_of_ranking, rank as answer};
+use coinmc_questions::{
+    QuestionError, Rank, Unknown, document_of_ranking, picture_of_ranking, rank as answer,
+};
 use pyo3::prelude::*;
 use std::num::NonZeroUsize;
 
@@ -46,6 +48,6 @@ pub(crate) fn rank(
         let ranking = answer(&template, &question, workers)?;
         let mut document = document_of_ranking(&ranking);
         document["picture"] = picture_of_ranking(&ranking).into();
-        Ok(document.to_string())
+        Ok::<_, QuestionError>(document.to_string())
     })
 }

@@ -1,7 +1,7 @@
 //! Questions: how rare is a face?
 
 use crate::question::{self, Source};
-use coinmc_questions::{HowRare, document_of_rare, how_rare};
+use coinmc_questions::{HowRare, QuestionError, document_of_rare, how_rare};
 use pyo3::prelude::*;
 use std::num::NonZeroUsize;
 
@@ -33,6 +33,6 @@ pub(crate) fn rare(
     };
     question::answered(py, asked.threads, progress, |workers| {
         let answer = how_rare(&template, &question, workers)?;
-        Ok(document_of_rare(&answer).to_string())
+        Ok::<_, QuestionError>(document_of_rare(&answer).to_string())
     })
 }

@@ -5,7 +5,7 @@ use crate::commands::Film;
 #[cfg(feature = "robot")]
 use crate::commands::Robot;
 use crate::commands::{
-    AimAt, Analytic, Check, Completions, Design, Fair, Merge, Rare, Run, Schema, SensitivityOf,
+    AimAt, Analytic, Check, Completions, DesignArgs, Fair, Merge, Rare, Run, Schema, SensitivityOf,
     Trace,
 };
 use crate::exit::{Failure, Outcome};
@@ -54,7 +54,7 @@ enum Command {
     Run(Run),
     Check(Check),
     Fair(Box<Fair>),
-    Design(Box<Design>),
+    Design(Box<DesignArgs>),
     Sensitivity(SensitivityOf),
     Aim(AimAt),
     Rare(Rare),

@@ -6,7 +6,7 @@ use coinmc::config::Diagnostics;
 use coinmc::run::RunError;
 #[cfg(feature = "film")]
 use coinmc_film::text as film;
-use coinmc_questions::QuestionError;
+use coinmc_questions::{DesignError, QuestionError};
 use coinmc_recording::Error as RecordingError;
 use coinmc_trace::TraceError;
 use serde_json::{Value, json};
@@ -87,6 +87,18 @@ impl From<QuestionError> for Failure {
             QuestionError::Run(error) => error.into(),
             QuestionError::Thread(_) => Self::Runtime(error.into()),
             _ => Self::Input(error.into()),
+        }
+    }
+}
+
+impl From<DesignError> for Failure {
+    fn from(error: DesignError) -> Self {
+        match error {
+            DesignError::Question(error) => error.into(),
+            DesignError::Mesh(_) => Self::Runtime(error.into()),
+            DesignError::Shape(_) | DesignError::Mass(_) | DesignError::NoSingleRoot => {
+                Self::Input(error.into())
+            }
         }
     }
 }

@@ -9,6 +9,7 @@
 //! ```
 //! * [`fair()`] finds the values of a parameter at which a face has a given probability.
 //! * [`aim()`] finds the launches that force a face.
+//! * [`design()`] makes a fair coin to print.
 //! * [`scenes`] are everyday scenes, with where each of their numbers comes from.
 //! * [`assumptions`] tells how far each assumption moves the answer.
 //! * [`how_rare`] estimates the probability of a rare face with fewer tosses.
@@ -18,11 +19,13 @@
 
 mod aim;
 pub mod assumptions;
+mod design;
 mod document;
 mod drawing;
 mod error;
 mod fair;
 mod interval;
+pub mod number;
 mod power;
 mod ranking;
 mod rare;
@@ -37,6 +40,10 @@ mod workers;
 pub use aim::{
     Aim, Aimed, Clumsy, MOST_FACTORS, MOST_PLACES, MOST_TOSSES, Parameter, Place, aim,
     document_of_aim, picture,
+};
+pub use design::{
+    Design, DesignError, DesignFile, Designed, PrintedCoin, TEST, THICKNESS_ERRORS_M, design,
+    document_of_design,
 };
 pub use document::document;
 pub use error::QuestionError;

@@ -23,7 +23,7 @@ pub(crate) use aim::AimAt;
 pub(crate) use analytic::Analytic;
 pub(crate) use check::Check;
 pub(crate) use completions::Completions;
-pub(crate) use design::Design;
+pub(crate) use design::DesignArgs;
 pub(crate) use fair::Fair;
 #[cfg(feature = "film")]
 pub(crate) use film::Film;

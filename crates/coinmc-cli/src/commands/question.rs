@@ -8,7 +8,7 @@ use anyhow::Context;
 use clap::Args;
 use coinmc::config::{self, Override};
 use coinmc_questions::scenes::{Assumption, EverydayScene};
-use coinmc_questions::{QuestionError, Template, Unknown, Workers};
+use coinmc_questions::{DesignError, QuestionError, Template, Unknown, Workers};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -40,6 +40,11 @@ impl SceneArgs {
         let name = self.scene.as_deref().unwrap_or(EverydayScene::ALL[0].name);
         let scene = EverydayScene::named(name)?;
         Ok((Some(scene), scene.template(&self.overrides)))
+    }
+
+    /// What the command line replaces.
+    pub(super) fn overrides(&self) -> &[Override] {
+        &self.overrides
     }
 
     /// What an everyday scene assumes and the command line does not say otherwise.
@@ -100,11 +105,36 @@ impl FromStr for KeyRange {
     }
 }
 
+/// Why there is no answer.
+pub(super) enum Unanswered {
+    /// Ctrl-C.
+    Stopped,
+    Failed(Failure),
+}
+
+impl From<QuestionError> for Unanswered {
+    fn from(error: QuestionError) -> Self {
+        match error {
+            QuestionError::Stopped => Self::Stopped,
+            error => Self::Failed(error.into()),
+        }
+    }
+}
+
+impl From<DesignError> for Unanswered {
+    fn from(error: DesignError) -> Self {
+        match error {
+            DesignError::Question(error) => error.into(),
+            error => Self::Failed(error.into()),
+        }
+    }
+}
+
 /// Asks, with progress on standard error; `None` if Ctrl-C stopped it.
-pub(super) fn ask<T>(
+pub(super) fn ask<T, E: Into<Unanswered>>(
     console: &Console,
     args: &AnswerArgs,
-    question: impl FnOnce(&Workers<'_>) -> Result<T, QuestionError>,
+    question: impl FnOnce(&Workers<'_>) -> Result<T, E>,
 ) -> Result<Option<T>, Failure> {
     let progress = Progress::new(*console.stderr(), args.quiet);
     let told = progress.clone();
@@ -119,8 +149,9 @@ pub(super) fn ask<T>(
         made: &|tosses| progress.tossed(made.fetch_add(tosses, Ordering::Relaxed) + tosses),
     });
     progress.finish();
-    match answer {
-        Err(QuestionError::Stopped) => Ok(None),
-        answer => Ok(Some(answer?)),
+    match answer.map_err(Into::into) {
+        Ok(answer) => Ok(Some(answer)),
+        Err(Unanswered::Stopped) => Ok(None),
+        Err(Unanswered::Failed(failure)) => Err(failure),
     }
 }

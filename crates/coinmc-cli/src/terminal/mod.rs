@@ -11,6 +11,7 @@ pub(crate) mod table;
 mod wrap;
 
 pub(crate) use ascii::in_ascii;
-pub(crate) use number::{compact, count, decimals_for, duration, grouped, signed};
+pub(crate) use coinmc_questions::number::{compact, grouped};
+pub(crate) use number::{count, decimals_for, duration, signed};
 pub(crate) use style::{Colors, Style};
 pub(crate) use wrap::wrapped;

@@ -100,7 +100,8 @@ impl Canvas {
     }
 }
 
-fn escaped(text: &str) -> String {
+/// Text as XML holds it.
+pub(crate) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('>', "&gt;")

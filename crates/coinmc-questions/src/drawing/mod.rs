@@ -3,5 +3,5 @@
 mod canvas;
 mod scale;
 
-pub(crate) use canvas::{Anchor, Canvas, LINE};
-pub(crate) use scale::{Scale, label};
+pub(crate) use canvas::{Anchor, Canvas, LINE, escaped};
+pub(crate) use scale::Scale;

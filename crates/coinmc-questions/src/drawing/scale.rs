@@ -113,16 +113,6 @@ fn decades(from: f64, to: f64) -> Vec<f64> {
     ticks
 }
 
-/// A number as a label.
-pub(crate) fn label(value: f64) -> String {
-    let value: f64 = format!("{value:.5e}").parse().unwrap_or(value);
-    if value != 0.0 && !(1e-4..1e6).contains(&value.abs()) {
-        format!("{value:e}")
-    } else {
-        format!("{value}")
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -163,12 +153,5 @@ mod tests {
         assert_eq!(ends(&[0.01, 0.99]), [0.0, 1.0]);
         assert_eq!(ends(&[1.0, 1.0]), [0.0, 1.0]);
         assert_eq!(ends(&[0.3, 0.3]), [0.0, 1.0]);
-    }
-
-    #[test]
-    fn labels_are_short() {
-        assert_eq!(label(0.1 + 0.2), "0.3");
-        assert_eq!(label(2_000_000.0), "2e6");
-        assert_eq!(label(0.0), "0");
     }
 }

@@ -1,7 +1,8 @@
 //! A ranking as a picture: a tornado.
 
 use super::{Ranked, Ranking};
-use crate::drawing::{Anchor, Canvas, LINE, Scale, label};
+use crate::drawing::{Anchor, Canvas, LINE, Scale};
+use crate::number::compact;
 
 /// Where the bars begin and end, and the widths of the texts on either side, px.
 const X: [f64; 2] = [330.0, 730.0];
@@ -51,7 +52,7 @@ fn title(canvas: &mut Canvas, ranking: &Ranking) {
         ranking.question.face.name(),
         ranking.engine,
         ranking.law,
-        label(100.0 * ranking.confidence)
+        compact(100.0 * ranking.confidence)
     );
     canvas.label([20.0, 24.0], Anchor::Start, &title);
     let (mean, deviation) = (ranking.mean.value, ranking.deviation.value);
@@ -76,7 +77,7 @@ fn axis(canvas: &mut Canvas, x: &Scale, bottom: f64, ranking: &Ranking) {
     for tick in x.ticks() {
         let at = x.at(tick);
         canvas.line([at, TOP], [at, bottom], "stroke=\"#e0e0e0\"");
-        canvas.label([at, bottom + 19.0], Anchor::Middle, &label(tick));
+        canvas.label([at, bottom + 19.0], Anchor::Middle, &compact(tick));
     }
     let name = format!("P({})", ranking.question.face.name());
     canvas.label([0.5 * (X[0] + X[1]), bottom + 42.0], Anchor::Middle, &name);
@@ -89,7 +90,7 @@ fn bar(canvas: &mut Canvas, x: &Scale, middle: f64, own: f64, ranked: &Ranked) {
         Anchor::End,
         short(&unknown.key),
     );
-    let range = format!("{} to {}", label(unknown.from), label(unknown.to));
+    let range = format!("{} to {}", compact(unknown.from), compact(unknown.to));
     canvas.label([X[0] - 12.0, middle + 11.0], Anchor::End, &range);
     for (end, colour) in ranked.ends.iter().zip([TO_FROM, TO_TO]) {
         let [left, right] = [own.min(end.value), own.max(end.value)].map(|p| x.at(p));

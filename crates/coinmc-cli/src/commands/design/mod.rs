@@ -2,8 +2,6 @@
 
 mod files;
 mod report;
-mod sheet;
-mod solid;
 
 use super::quantity::{Density, Length};
 use super::question::{AnswerArgs, SceneArgs, ask};
@@ -11,13 +9,10 @@ use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format};
 use anyhow::anyhow;
 use clap::Args;
-use coinmc_questions::assumptions::{self, Effect};
-use coinmc_questions::scenes::EverydayScene;
-use coinmc_questions::{self as questions, Fair, Question, QuestionError, Root, Size};
-use coinmc_questions::{Template, Test, Workers, tosses_for_power};
-use coinmc_solid::{Mass, Shape};
+use coinmc_questions::{self as questions, Design, DesignError, Designed, PrintedCoin};
+use coinmc_solid::{Edge, Infill};
 use files::Files;
-use solid::Solid;
+use serde_json::Value;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -28,21 +23,13 @@ Examples:
 
 The mesh is in millimetres, as slicers expect. The sheet (.svg) is one page to print.";
 
-/// Tosses that show the effect of each assumption.
-const ASSUMPTION_TOSSES: u64 = 1024;
-/// The test of the printed coin that the sheet speaks of.
-const TEST: Test = Test {
-    false_alarm: 0.05,
-    power: 0.8,
-};
-
 /// Design a fair coin for a 3D printer: STL, 3MF, OpenSCAD, and a sheet with its tolerances
 ///
 /// Finds the thickness at which the coin lands on its side in a third of the tosses, as `coinmc fair`
 /// does, with the rim and the infill that it will have. Nothing is overwritten.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub(crate) struct Design {
+pub(crate) struct DesignArgs {
     #[command(flatten)]
     scene: SceneArgs,
 
@@ -96,36 +83,29 @@ pub(crate) struct Design {
     answer: AnswerArgs,
 }
 
-/// A coin that has been designed, and what is known of it.
-struct Designed {
-    scene: Option<EverydayScene>,
-    fair: Fair,
-    root: Root,
-    effects: Vec<Effect>,
-    shape: Shape,
-    mass: Mass,
-}
-
-impl Design {
+impl DesignArgs {
     pub(crate) fn format(&self) -> Format {
         self.answer.format
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
-        let solid = self.solid()?;
+        let question = self.question();
+        // what is wrong with any coin of this kind is said before files are begun
+        let coin = &question.coin;
+        coin.shape(coin.diameter_m).map_err(DesignError::from)?;
         let files = Files::begin(&self.out)?;
-        let (scene, template) = self.template(&solid)?;
-        let found = ask(console, &self.answer, |workers| {
-            self.find(scene, &template, workers)
+        let (scene, template) = self.scene.template()?;
+        let overrides = self.scene.overrides();
+        let designed = ask(console, &self.answer, |workers| {
+            questions::design(&template, scene, overrides, &question, workers)
         })?;
-        let Some(found) = found else {
+        let Some(designed) = designed else {
             return Ok(Outcome::Interrupted);
         };
-        let designed = designed(scene, found, &solid)?;
-        let written = files.write(&designed)?;
+        let paths = files.write(&designed)?;
         match console.format() {
-            Format::Json => output::print_json(&report::document(&designed, &written)),
-            Format::Table => output::print(&report::text(&designed, &written, console.stdout())),
+            Format::Json => output::print_json(&document(&designed, &paths)),
+            Format::Table => output::print(&report::text(&designed, &paths, console.stdout())),
         }
         .map_err(|error| Failure::Runtime(anyhow!(error)))?;
         Ok(if designed.root.reached {
@@ -135,113 +115,33 @@ impl Design {
         })
     }
 
-    fn solid(&self) -> Result<Solid, Failure> {
-        let solid = Solid {
-            diameter_m: self.diameter.0,
-            rim_m: self.rim.map(|rim| rim.0),
-            chamfer_m: self.chamfer.map(|chamfer| chamfer.0),
-            marks: self.marks,
-            density_kg_m3: self.density.0,
-            infill: self
-                .walls
-                .zip(self.infill)
-                .map(|(walls, percent)| (walls.0, f64::from(percent) / 100.0)),
+    fn question(&self) -> Design {
+        let edge = match (self.rim, self.chamfer) {
+            (Some(Length(radius_m)), _) => Edge::Rounded { radius_m },
+            (None, Some(Length(size_m))) => Edge::Chamfered { size_m },
+            (None, None) => Edge::Sharp,
         };
-        // a coin as thick as wide shows what is wrong with all others
-        solid.shape(self.diameter.0)?;
-        Ok(solid)
-    }
-
-    fn template(&self, solid: &Solid) -> Result<(Option<EverydayScene>, Template), Failure> {
-        let (scene, template) = self.scene.template()?;
-        let template = template.with_size(Size::Diameter(self.diameter.0))?;
-        let solid = *solid;
-        Ok((
-            scene,
-            template.with_coins_made(move |coin| solid.numbers(coin)),
-        ))
-    }
-
-    /// The fair ratio, and what it rests on.
-    fn find(
-        &self,
-        scene: Option<EverydayScene>,
-        template: &Template,
-        workers: &Workers<'_>,
-    ) -> Result<Found, QuestionError> {
-        let question = Question {
+        let infill = self.walls.zip(self.infill);
+        Design {
+            coin: PrintedCoin {
+                diameter_m: self.diameter.0,
+                edge,
+                marks: self.marks,
+                density_kg_m3: self.density.0,
+                infill: infill.map(|(walls, percent)| Infill {
+                    walls_m: walls.0,
+                    density_fraction: f64::from(percent) / 100.0,
+                }),
+            },
             target: self.target.unwrap_or(1.0 / 3.0),
             half_width: self.half_width,
-            numerical_tosses: 0,
-            ..Question::default()
-        };
-        let fair = questions::fair(template, &question, workers)?;
-        let root = only_root(&fair);
-        let mut effects = vec![];
-        if let (Some(scene), Some(root)) = (scene, &root) {
-            let assumed = self.scene.assumed(&scene);
-            let assumed = assumed.filter(|assumed| assumed.key != "coin.radius_m");
-            let tosses = ASSUMPTION_TOSSES;
-            effects = assumptions::effects(template, &fair, root, assumed, tosses, workers)?;
         }
-        Ok(Found {
-            fair,
-            root,
-            effects,
-        })
     }
 }
 
-/// What the tosses say.
-struct Found {
-    fair: Fair,
-    root: Option<Root>,
-    effects: Vec<Effect>,
-}
-
-/// The only root of a single curve.
-fn only_root(fair: &Fair) -> Option<Root> {
-    let [curve] = &fair.curves[..] else {
-        return None;
-    };
-    let mut roots = curve.roots();
-    let root = roots.next().cloned();
-    root.filter(|_| roots.next().is_none())
-}
-
-/// The coin of the ratio that was found.
-fn designed(
-    scene: Option<EverydayScene>,
-    found: Found,
-    solid: &Solid,
-) -> Result<Designed, Failure> {
-    let root = found.root.ok_or_else(|| {
-        Failure::Input(anyhow!(
-            "no single thickness gives the side this probability; `coinmc fair` shows the curve"
-        ))
-    })?;
-    let shape = solid.shape(root.coin.height_m())?;
-    let mass = solid.mass(&shape)?;
-    Ok(Designed {
-        scene,
-        fair: found.fair,
-        root,
-        effects: found.effects,
-        shape,
-        mass,
-    })
-}
-
-impl Designed {
-    /// Change of P(side) with a thickness greater by `error_m`, at the same diameter.
-    fn change(&self, error_m: f64) -> f64 {
-        self.root.slope * error_m / self.root.coin.radius_m()
-    }
-
-    /// Tosses that tell a coin whose P(side) is off by `change` from the one asked for.
-    fn tosses_to_tell(&self, change: f64) -> u64 {
-        let side = self.fair.question.target;
-        let faces = |side: f64| [0.5 * (1.0 - side), 0.5 * (1.0 - side), side];
-        tosses_for_power(faces(side), faces(side + change), TEST)
-    }
+fn document(designed: &Designed, paths: &[PathBuf]) -> Value {
+    let mut document = questions::document_of_design(designed);
+    let paths = paths.iter().map(|path| path.display().to_string());
+    document["files"] = paths.collect();
+    document
 }

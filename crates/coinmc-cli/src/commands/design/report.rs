@@ -1,19 +1,12 @@
-//! What was designed, as text and as JSON.
+//! What was designed, as text.
 
-use super::files::Written;
-use super::{Designed, TEST};
-use crate::output::FORMAT_VERSION;
 use crate::terminal::table::{Column, Table};
 use crate::terminal::{Colors, Style, compact, grouped, in_ascii};
-use serde_json::{Value, json};
-
-/// Errors of the thickness that are spoken of, m.
-pub(super) const ERRORS_M: [f64; 3] = [5e-5, 1e-4, 2e-4];
-/// Errors of P(side) that a test is to find.
-pub(super) const CHANGES: [f64; 4] = [0.02, 0.03, 0.05, 0.1];
+use coinmc_questions::{Designed, TEST, THICKNESS_ERRORS_M};
+use std::path::PathBuf;
 
 /// The design as text.
-pub(super) fn text(designed: &Designed, written: &Written, style: &Style) -> String {
+pub(super) fn text(designed: &Designed, paths: &[PathBuf], style: &Style) -> String {
     let Designed {
         root, shape, mass, ..
     } = designed;
@@ -34,7 +27,7 @@ pub(super) fn text(designed: &Designed, written: &Written, style: &Style) -> Str
         Column::right("P(side) off by"),
         Column::right("tosses to tell"),
     ]);
-    for off in ERRORS_M {
+    for off in THICKNESS_ERRORS_M {
         let change = designed.change(off).abs();
         tolerance.push(vec![
             format!("{} mm", compact(1e3 * off)),
@@ -48,44 +41,8 @@ pub(super) fn text(designed: &Designed, written: &Written, style: &Style) -> Str
         compact(100.0 * TEST.false_alarm),
         compact(100.0 * TEST.power)
     );
-    for path in &written.paths {
+    for path in paths {
         text += &format!("wrote {}\n", path.display());
     }
     if style.unicode { text } else { in_ascii(&text) }
-}
-
-/// The design as JSON.
-pub(super) fn document(designed: &Designed, written: &Written) -> Value {
-    let Designed {
-        root, shape, mass, ..
-    } = designed;
-    let tolerances = ERRORS_M.map(|off| {
-        let change = designed.change(off);
-        json!({
-            "thickness_error_m": off,
-            "p_side_error": change,
-            "tosses_to_tell": designed.tosses_to_tell(change),
-        })
-    });
-    json!({
-        "format_version": FORMAT_VERSION,
-        "kind": "design",
-        "scene": designed.scene.map(|scene| scene.name),
-        "target": designed.fair.question.target,
-        "ratio": root.value,
-        "ratio_lo": root.lo,
-        "ratio_hi": root.hi,
-        "confidence": designed.fair.confidence,
-        "slope": root.slope,
-        "diameter_m": shape.diameter_m(),
-        "thickness_m": shape.thickness_m(),
-        "volume_m3": shape.volume_m3(),
-        "mass_kg": mass.mass_kg,
-        "axial_moment_kg_m2": mass.axial_kg_m2,
-        "transverse_moment_kg_m2": mass.transverse_kg_m2,
-        "triangles": written.triangles,
-        "tolerances": tolerances,
-        "test": { "false_alarm": TEST.false_alarm, "power": TEST.power },
-        "files": written.paths.iter().map(|path| path.display().to_string()).collect::<Vec<_>>(),
-    })
 }

@@ -1,6 +1,7 @@
 //! The frame around a plot, with its ticks and labels.
 
-use crate::drawing::{Anchor, Canvas, LINE, Scale, label};
+use crate::drawing::{Anchor, Canvas, LINE, Scale};
+use crate::number::compact;
 
 /// The whole picture, px.
 pub(super) const SIZE: [f64; 2] = [720.0, 560.0];
@@ -26,12 +27,12 @@ pub(super) fn draw(canvas: &mut Canvas, [x, y]: [&Scale; 2], names: [&str; 2]) {
     for tick in x.ticks() {
         let at = x.at(tick);
         canvas.line([at, bottom], [at, bottom + 5.0], &style);
-        canvas.label([at, bottom + 19.0], Anchor::Middle, &label(tick));
+        canvas.label([at, bottom + 19.0], Anchor::Middle, &compact(tick));
     }
     for tick in y.ticks() {
         let at = y.at(tick);
         canvas.line([LEFT - 5.0, at], [LEFT, at], &style);
-        canvas.label([LEFT - 9.0, at + 4.0], Anchor::End, &label(tick));
+        canvas.label([LEFT - 9.0, at + 4.0], Anchor::End, &compact(tick));
     }
     canvas.label(
         [LEFT + 0.5 * WIDTH, bottom + 42.0],

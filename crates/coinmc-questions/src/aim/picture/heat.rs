@@ -3,7 +3,8 @@
 use super::colour::viridis;
 use super::{axis, frame, marks};
 use crate::aim::{Aimed, Parameter, Place};
-use crate::drawing::{Anchor, Canvas, LINE, Scale, label};
+use crate::drawing::{Anchor, Canvas, LINE, Scale};
+use crate::number::compact;
 
 /// The bar of colours: its left edge and its width, px.
 const BAR: [f64; 2] = [frame::LEFT + frame::WIDTH + 24.0, 18.0];
@@ -55,7 +56,7 @@ fn bar(canvas: &mut Canvas, colours: &Scale, face: &str) {
         let y = colours.at(tick);
         let right = left + width;
         canvas.line([right, y], [right + 5.0, y], &format!("stroke=\"{LINE}\""));
-        canvas.label([right + 9.0, y + 4.0], Anchor::Start, &label(tick));
+        canvas.label([right + 9.0, y + 4.0], Anchor::Start, &compact(tick));
     }
     canvas.label(
         [left, frame::TOP - 8.0],

@@ -6,7 +6,8 @@ mod frame;
 mod heat;
 
 use super::{Aimed, Parameter, Place};
-use crate::drawing::{Anchor, Canvas, Scale, label};
+use crate::drawing::{Anchor, Canvas, Scale};
+use crate::number::compact;
 use coinmc_core::Estimate;
 
 /// The answer to an [`Aim`](super::Aim) as SVG.
@@ -60,10 +61,10 @@ fn text(canvas: &mut Canvas, answer: &Aimed) {
         "P({face}) by launch; engine {}, {}; intervals of {} %",
         answer.engine,
         answer.law,
-        label(100.0 * answer.confidence)
+        compact(100.0 * answer.confidence)
     );
     let line = |mark: &str, what: &str, place: &Place| {
-        let values: Vec<String> = place.values.iter().map(|value| label(*value)).collect();
+        let values: Vec<String> = place.values.iter().map(|value| compact(*value)).collect();
         let (p, at) = (probability(&place.estimate), values.join(", "));
         format!("{mark} {what}: {p} at ({at})")
     };

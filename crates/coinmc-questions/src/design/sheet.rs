@@ -1,8 +1,8 @@
 //! The sheet of a design: one page (A4, in millimetres) to print and keep with the coin.
 
-use super::report::{CHANGES, ERRORS_M};
-use super::{Designed, TEST};
-use crate::terminal::{compact, grouped};
+use super::{CHANGES, Designed, TEST, THICKNESS_ERRORS_M};
+use crate::drawing::escaped;
+use crate::number::{compact, grouped};
 use coinmc_solid::Edge;
 
 /// Left edge of the text, mm.
@@ -37,22 +37,26 @@ pub(super) fn svg(designed: &Designed) -> String {
 }
 
 impl Page {
+    fn add(&mut self, svg: &str) {
+        self.svg.push_str(svg);
+    }
+
     fn title(&mut self, text: &str) {
         let y = self.y;
-        self.svg += &format!(
+        self.add(&format!(
             "<text x=\"{LEFT}\" y=\"{y}\" font-size=\"7\">{}</text>\n",
             escaped(text)
-        );
+        ));
         self.y += 2.0 * LINE;
     }
 
     fn heading(&mut self, text: &str) {
         self.y += 0.6 * LINE;
         let y = self.y;
-        self.svg += &format!(
+        self.add(&format!(
             "<text x=\"{LEFT}\" y=\"{y:.1}\" font-weight=\"bold\">{}</text>\n",
             escaped(text)
-        );
+        ));
         self.y += LINE;
     }
 
@@ -60,7 +64,10 @@ impl Page {
         let y = self.y;
         for (x, cell) in cells {
             let x = LEFT + x;
-            self.svg += &format!("<text x=\"{x}\" y=\"{y:.1}\">{}</text>\n", escaped(cell));
+            self.add(&format!(
+                "<text x=\"{x}\" y=\"{y:.1}\">{}</text>\n",
+                escaped(cell)
+            ));
         }
         self.y += LINE;
     }
@@ -118,19 +125,19 @@ impl Page {
         );
         let (x, y) = (LEFT + 0.5 * d, self.y + 4.0 + 0.5 * d.max(t));
         let (side, middle) = (LEFT + d + 20.0, y);
-        self.svg += &format!(
+        self.add(&format!(
             "<g fill=\"none\" stroke=\"black\" stroke-width=\"0.3\">\n\
              <circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{:.2}\"/>\n\
              <circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{:.2}\" stroke-width=\"0.1\"/>\n",
             0.5 * d,
             (0.5 * d - edge).max(0.0)
-        );
+        ));
         if let Some(marks) = shape.marks() {
             for radius in [marks.inner_m, marks.outer_m] {
                 let r = 1e3 * scale * radius;
-                self.svg += &format!(
+                self.add(&format!(
                     "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{r:.2}\" stroke-dasharray=\"1\" stroke-width=\"0.15\"/>\n"
-                );
+                ));
             }
         }
         let round = if matches!(shape.edge(), Edge::Rounded { .. }) {
@@ -138,10 +145,10 @@ impl Page {
         } else {
             0.0
         };
-        self.svg += &format!(
+        self.add(&format!(
             "<rect x=\"{side:.2}\" y=\"{:.2}\" width=\"{d:.2}\" height=\"{t:.2}\" rx=\"{round:.2}\"/>\n</g>\n",
             middle - 0.5 * t
-        );
+        ));
         self.y = y + 0.5 * d.max(t) + LINE;
         let drawn = if scale < 1.0 {
             format!("drawn at {scale:.2} of its size")
@@ -153,7 +160,7 @@ impl Page {
 
     fn tolerances(&mut self, designed: &Designed) {
         self.heading("Printed too thick or too thin");
-        for off in ERRORS_M {
+        for off in THICKNESS_ERRORS_M {
             let change = designed.change(off).abs();
             self.row(&[
                 (0.0, format!("± {} mm", compact(1e3 * off))),
@@ -208,11 +215,4 @@ impl Page {
 /// To three digits.
 fn short(x: f64) -> String {
     compact(format!("{x:.2e}").parse().unwrap_or(x))
-}
-
-/// Text as XML holds it.
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
 }

@@ -1,0 +1,44 @@
+//! A design as a JSON document.
+
+use super::{Designed, TEST, THICKNESS_ERRORS_M};
+use serde_json::{Value, json};
+
+/// Version of the document. It stays when fields are added, and changes when a field changes its
+/// meaning or is removed.
+const FORMAT_VERSION: u32 = 1;
+
+/// A design as a JSON document, but for the names of its files. docs/reference/formats.md describes its
+/// fields.
+pub fn document_of_design(designed: &Designed) -> Value {
+    let Designed {
+        root, shape, mass, ..
+    } = designed;
+    let tolerances = THICKNESS_ERRORS_M.map(|off| {
+        let change = designed.change(off);
+        json!({
+            "thickness_error_m": off,
+            "p_side_error": change,
+            "tosses_to_tell": designed.tosses_to_tell(change),
+        })
+    });
+    json!({
+        "format_version": FORMAT_VERSION,
+        "kind": "design",
+        "scene": designed.scene.map(|scene| scene.name),
+        "target": designed.fair.question.target,
+        "ratio": root.value,
+        "ratio_lo": root.lo,
+        "ratio_hi": root.hi,
+        "confidence": designed.fair.confidence,
+        "slope": root.slope,
+        "diameter_m": shape.diameter_m(),
+        "thickness_m": shape.thickness_m(),
+        "volume_m3": shape.volume_m3(),
+        "mass_kg": mass.mass_kg,
+        "axial_moment_kg_m2": mass.axial_kg_m2,
+        "transverse_moment_kg_m2": mass.transverse_kg_m2,
+        "triangles": designed.mesh.triangles().len(),
+        "tolerances": tolerances,
+        "test": { "false_alarm": TEST.false_alarm, "power": TEST.power },
+    })
+}
