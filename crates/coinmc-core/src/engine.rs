@@ -182,8 +182,7 @@ pub fn run_tosses<E: Engine>(
     let launches = LaunchSource::from(launches).noting(&starts);
     engine.toss_many(workspace, launches, &mut |outcomes| {
         for (number, outcome) in outcomes {
-            tally.add(outcome);
-            tally.same += u64::from(starts.is_same(*number, outcome));
+            tally.add_started(outcome, starts.up(*number));
         }
         ControlFlow::Continue(())
     });

@@ -107,7 +107,13 @@ tally! {
 }
 
 impl Tally {
-    /// Counts one toss.
+    /// Counts one toss, and whether it shows the face that was up at its launch.
+    pub fn add_started(&mut self, outcome: &Outcome, up: Option<Face>) {
+        self.add(outcome);
+        self.same += u64::from(up.is_some() && outcome.face() == up);
+    }
+
+    /// Counts one toss of which it is not known how it began.
     pub fn add(&mut self, outcome: &Outcome) {
         match outcome.ended {
             Ended::Decided(Face::Heads) => self.heads += 1,

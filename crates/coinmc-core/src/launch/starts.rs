@@ -1,7 +1,7 @@
 //! Which face is up at each launch.
 
 use super::Launch;
-use crate::{Face, Outcome};
+use crate::Face;
 use std::cell::RefCell;
 
 /// Which face is up at each of the launches that a [`LaunchSource`](super::LaunchSource) hands to an
@@ -29,16 +29,7 @@ impl Starts {
     /// stood upright.
     pub fn up(&self, launch: u64) -> Option<Face> {
         let launch = usize::try_from(launch).ok()?;
-        match *self.signs.borrow().get(launch)? {
-            1 => Some(Face::Heads),
-            -1 => Some(Face::Tails),
-            _ => None,
-        }
-    }
-
-    /// Whether the outcome of the launch of this number shows the face that was up.
-    pub fn is_same(&self, launch: u64, outcome: &Outcome) -> bool {
-        outcome.face().is_some() && outcome.face() == self.up(launch)
+        face_up(f64::from(*self.signs.borrow().get(launch)?))
     }
 
     /// Notes the next launch.
@@ -47,5 +38,23 @@ impl Starts {
         let z = launch.axis.z;
         let sign = i8::from(z > 0.0) - i8::from(z < 0.0);
         self.signs.borrow_mut().push(sign);
+    }
+}
+
+impl Launch {
+    /// The face that is up; `None` if the coin stands upright.
+    pub fn up(&self) -> Option<Face> {
+        face_up(self.axis.z)
+    }
+}
+
+/// The face that is up, by the height of the axis' tip.
+fn face_up(z: f64) -> Option<Face> {
+    if z > 0.0 {
+        Some(Face::Heads)
+    } else if z < 0.0 {
+        Some(Face::Tails)
+    } else {
+        None
     }
 }

@@ -58,7 +58,7 @@ fn a_toss_does_not_depend_on_its_batch() {
         let mut one_by_one = Tally::default();
         for toss in (0..2000).rev() {
             let launch = preset_launch(Preset::Robot, &scene, 91, toss);
-            one_by_one.add(&engine.toss(&mut (), &launch, &mut ()));
+            one_by_one.add_started(&engine.toss(&mut (), &launch, &mut ()), launch.up());
         }
         assert_eq!(whole, one_by_one);
         assert_eq!(whole.tosses(), 2000);

@@ -1,7 +1,7 @@
 //! A replayed toss is the toss of the run.
 
 use crate::plans::{all, flat, space};
-use coinmc::run::{Chunk, FinishedToss, TossSource, for_each_end, run_chunk};
+use coinmc::run::{Chunk, FinishedToss, TossSource, for_each_end, run_chunk, stream};
 use coinmc_core::{EventKind, Tally};
 use coinmc_trace::{RecordKind, outcome, replay, replay_within};
 
@@ -15,10 +15,12 @@ fn replayed_outcomes_are_those_of_the_run_toss_by_toss() {
                     tosses: toss..toss + 1,
                 };
                 let run = run_chunk(&plan, &chunk).unwrap();
+                let launch =
+                    TossSource::Drawn(&stream(&plan, point)).launch(&plan.points[point], toss);
                 for rate_hz in [0.0, 317.0] {
                     let trace = replay(&plan, point, toss, rate_hz).unwrap();
                     let mut tally = Tally::default();
-                    tally.add(&trace.outcome);
+                    tally.add_started(&trace.outcome, launch.up());
                     assert_eq!(tally, run, "{} {chunk}", trace.engine);
                 }
             }

@@ -112,8 +112,7 @@ fn tally(
             Some(&starts),
             &mut |outcomes| {
                 for (number, outcome) in outcomes {
-                    tally.add(outcome);
-                    tally.same += u64::from(starts.is_same(*number, outcome));
+                    tally.add_started(outcome, starts.up(*number));
                 }
                 if go_on() {
                     ControlFlow::Continue(())

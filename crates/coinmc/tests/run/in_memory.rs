@@ -9,7 +9,7 @@ use coinmc::run::{
     Chunk, Count, Part, RunError, Status, TossSource, count, for_each_end, for_each_outcome,
     run_chunk, stored_report, stream, toss as toss_alone,
 };
-use coinmc_core::{Face, Launch, Outcome, Tally};
+use coinmc_core::{Launch, Outcome, Tally};
 use std::num::NonZeroUsize;
 use tempfile::tempdir;
 
@@ -109,13 +109,7 @@ fn individual_tosses_equal_those_of_a_chunk() {
                 toss_alone(found, &source.launch(found, toss)).unwrap()
             );
             numbers.push(toss);
-            tally.add(outcome);
-            let up = source.launch(found, toss).axis.z;
-            tally.same += u64::from(match outcome.face() {
-                Some(Face::Heads) => up > 0.0,
-                Some(Face::Tails) => up < 0.0,
-                _ => false,
-            });
+            tally.add_started(outcome, source.launch(found, toss).up());
             true
         };
         assert!(for_each_outcome(found, source, tosses.clone(), &mut add).unwrap());
