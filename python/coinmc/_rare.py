@@ -27,8 +27,9 @@ class Rare:
         Whether the interval is as short as asked for.
     tosses, pilot_tosses, launches : int
         Tosses of the answer and of its pilot, and launches drawn for the answer.
-    gain : float
-        How many times as many tosses brute force takes; NaN if the face was not seen.
+    gain, gain_of_work : float
+        How many times as many tosses brute force takes, and how many times the work (impacts, steps
+        in contact and one for each toss), the pilot included; NaN if the face was not seen.
     strata : dict of str to ndarray
         Launches that first touch the ground alike: |cos| of the angle between the axis and the
         vertical ``cos_from`` and ``cos_to``, ``launches``, the ``chance`` with which they were
@@ -46,8 +47,10 @@ class Rare:
         self.tosses: int = document["tosses"]
         self.pilot_tosses: int = document["pilot_tosses"]
         self.launches: int = document["launches"]
-        gain = document["gain"]
-        self.gain = float("nan") if gain is None else gain
+        self.gain, self.gain_of_work = (
+            float("nan") if document[name] is None else float(document[name])
+            for name in ("gain", "gain_of_work")
+        )
         rows = document["rows"]
         self.strata = {name: np.array([row[name] for row in rows]) for name in rows[0]}
 

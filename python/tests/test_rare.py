@@ -21,6 +21,7 @@ def test_an_answer_says_what_it_gained():
     assert 0.0 < answer.lo < answer.p < answer.hi
     assert answer.hi - answer.lo <= 0.4 * answer.p
     assert answer.gain > 1.5
+    assert answer.gain_of_work > 0.5
     assert answer.strata["tosses"].sum() == answer.tosses <= answer.launches
     assert answer.strata["launches"].sum() == answer.launches
     assert (answer.strata["cos_from"][1:] == answer.strata["cos_to"][:-1]).all()

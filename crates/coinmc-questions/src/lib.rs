@@ -56,7 +56,7 @@ pub use ranking::{
     LEAST_SAMPLES, MOST_SAMPLES, MOST_UNKNOWNS, Rank, Ranked, Ranking, Unknown,
     document_of_ranking, picture_of_ranking, rank,
 };
-pub use rare::{HowRare, Rareness, Stratum, document_of_rare, gain_expected, how_rare};
+pub use rare::{Gain, HowRare, Rareness, Stratum, document_of_rare, gain_expected, how_rare};
 pub use rows::csv_of_rows;
 pub use template::{CoinNumbers, Size, Template};
 pub use workers::Workers;

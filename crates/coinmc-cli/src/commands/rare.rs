@@ -19,7 +19,7 @@ Examples:
 ///
 /// Brute force takes some 400/P tosses for an error of 10 %. This draws as many launches, but tosses mostly those
 /// whose first touch with the ground makes the face likely, and weights them so that the estimate is
-/// unbiased. Where the coin bounces high, nothing is gained; the answer says how much was.
+/// unbiased. Where the coin bounces high or rolls far, nothing is gained; the answer says how much was.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Rare {
@@ -86,11 +86,12 @@ fn text(answer: &Rareness, show: bool, style: &Style) -> String {
     let p = &answer.p;
     let percent = compact(100.0 * answer.confidence);
     let face = answer.question.face.name();
-    let mut headline = format!("P({face}) = {:.3e}", p.value);
-    if p.value > 0.0 {
+    let headline = if p.value > 0.0 {
         let error = 100.0 * p.half_width() / p.value;
-        headline += &format!(" ± {error:.1} %");
-    }
+        format!("P({face}) = {:.3e} ± {error:.1} %", p.value)
+    } else {
+        format!("P({face}) was not seen")
+    };
     let mut text = style.paint(Colors::Strong, &headline);
     text += &format!("    {percent} %: [{:.3e}, {:.3e}]\n", p.lo, p.hi);
     text += &format!(
@@ -101,11 +102,13 @@ fn text(answer: &Rareness, show: bool, style: &Style) -> String {
         grouped(answer.pilot_tosses),
     );
     let gain = answer.gain();
-    if gain.is_finite() {
-        let brute_force = gain * (answer.tosses + answer.pilot_tosses) as f64;
+    if gain.tosses.is_finite() {
+        let brute_force = gain.tosses * (answer.tosses + answer.pilot_tosses) as f64;
         text += &format!(
-            "Brute force would take {} tosses: {gain:.1} times as many\n",
-            grouped(rounded(brute_force))
+            "Brute force would take {} tosses, {:.1} times as many, and {:.1} times the work\n",
+            grouped(rounded(brute_force)),
+            gain.tosses,
+            gain.work
         );
     }
     text += &problems(answer);

@@ -29,7 +29,8 @@ pub fn document_of_rare(answer: &Rareness) -> Value {
         "undecided": answer.undecided,
         "pilot_tosses": answer.pilot_tosses,
         // NaN is null
-        "gain": answer.gain(),
+        "gain": answer.gain().tosses,
+        "gain_of_work": answer.gain().work,
         "rows": answer.strata.iter().map(stratum).collect::<Vec<_>>(),
     })
 }

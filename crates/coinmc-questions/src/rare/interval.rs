@@ -9,6 +9,8 @@ pub(super) struct Counted {
     pub(super) tosses: u64,
     pub(super) shown: u64,
     pub(super) undecided: u64,
+    /// Their impacts and steps in contact, and one for each toss: what they cost.
+    pub(super) work: u64,
 }
 
 /// The probability that a launch is tossed and shows the face, divided by that with which it is tossed
@@ -79,6 +81,7 @@ mod tests {
             tosses,
             shown,
             undecided,
+            work: 0,
         }
     }
 

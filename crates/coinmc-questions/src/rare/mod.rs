@@ -25,6 +25,7 @@ mod strata;
 mod tosses;
 mod touch;
 
+pub use chances::Gain;
 pub use document::document_of_rare;
 
 use crate::{Interval, QuestionError, Template, Workers};
@@ -67,7 +68,7 @@ const MOST_LAUNCHES: f64 = 1e13;
 /// let answer = how_rare(&Template::new("inline", text, &[]), &question, &workers)?;
 /// let known = std::f64::consts::FRAC_2_PI * 0.05_f64.atan();
 /// assert!(answer.reached && answer.p.lo < known && known < answer.p.hi);
-/// assert!(answer.gain() > 2.0);
+/// assert!(answer.gain().tosses > 2.0);
 /// # Ok::<(), coinmc_questions::QuestionError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -99,8 +100,12 @@ pub struct Rareness {
     pub shown: u64,
     /// Tosses without a face.
     pub undecided: u64,
-    /// Tosses of the pilot, which are in no other number.
+    /// Tosses of the pilot, which are in no other number but the work.
     pub pilot_tosses: u64,
+    /// Impacts, steps in sustained contact and one for each toss, the pilot included: it goes with the time.
+    pub work: u64,
+    /// The same of a toss by brute force, estimated.
+    pub work_of_a_toss: f64,
     /// The strata, from the rim to flat.
     pub strata: Vec<Stratum>,
     /// Name of the engine.
@@ -127,14 +132,21 @@ pub struct Stratum {
 }
 
 impl Rareness {
-    /// Tosses of brute force with the same half width, by those that were made, the pilot included: how
-    /// many times fewer tosses it took. NaN if the face was not seen.
-    pub fn gain(&self) -> f64 {
+    /// What brute force takes for the same half width, by what was done, the pilot included: how many times
+    /// fewer tosses, and less work, it took. NaN if the face was not seen.
+    pub fn gain(&self) -> Gain {
         let z = crate::interval::normal_quantile(self.confidence);
         let arm = self.p.half_width() / z;
         let brute_force = self.p.value * (1.0 - self.p.value) / (arm * arm);
-        let gain = brute_force / (self.tosses + self.pilot_tosses) as f64;
-        if self.shown > 0 { gain } else { f64::NAN }
+        let brute_force = if self.shown > 0 {
+            brute_force
+        } else {
+            f64::NAN
+        };
+        Gain {
+            tosses: brute_force / (self.tosses + self.pilot_tosses) as f64,
+            work: brute_force * self.work_of_a_toss / self.work as f64,
+        }
     }
 }
 
@@ -154,7 +166,7 @@ pub fn how_rare(
     work.sample()
 }
 
-/// How many times fewer tosses [`how_rare`] takes than brute force beside its pilot, by `tosses` tosses from
+/// How many times fewer tosses, and less work, [`how_rare`] takes than brute force beside its pilot, by `tosses` tosses from
 /// which it learns and about as many by which that is measured, to some 30 %; `None` if these show the face in
 /// fewer than 50 tosses, which tell nothing.
 ///
@@ -165,7 +177,7 @@ pub fn gain_expected(
     question: &HowRare,
     tosses: u64,
     workers: &Workers<'_>,
-) -> Result<Option<f64>, QuestionError> {
+) -> Result<Option<Gain>, QuestionError> {
     let plan = checked(template, question)?;
     let mut work = Work::begin(&plan, question, workers)?;
     work.pilot(|_| tosses as f64)?;
@@ -317,6 +329,8 @@ impl<'a> Work<'a> {
                 shown: sample.counts[index].shown,
             }
         };
+        let works = sample.counts.iter().zip(chances);
+        let weighted_work: f64 = works.map(|(counted, q)| counted.work as f64 / q).sum();
         let sum = |of: fn(&interval::Counted) -> u64| sample.counts.iter().map(of).sum();
         Rareness {
             question: *self.question,
@@ -328,6 +342,14 @@ impl<'a> Work<'a> {
             shown: sum(|counted| counted.shown),
             undecided: sum(|counted| counted.undecided),
             pilot_tosses: self.learned.tosses(),
+            work: sum(|counted| counted.work)
+                + self
+                    .learned
+                    .counts
+                    .iter()
+                    .map(|counted| counted.work)
+                    .sum::<u64>(),
+            work_of_a_toss: weighted_work / launches as f64,
             strata: (0..STRATA).map(stratum).collect(),
             engine: point.engine.descriptor().name,
             law: point.engine.law(),

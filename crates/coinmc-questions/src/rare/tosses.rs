@@ -47,6 +47,7 @@ impl Tossed {
             sum.tosses += counted.tosses;
             sum.shown += counted.shown;
             sum.undecided += counted.undecided;
+            sum.work += counted.work;
         }
     }
 
@@ -138,6 +139,7 @@ impl<'a> Launches<'a> {
             |toss, outcome| {
                 let counted = &mut counts[accepted[index(toss)].1];
                 counted.tosses += 1;
+                counted.work += 1 + u64::from(outcome.impacts) + u64::from(outcome.contact_steps);
                 match outcome.face() {
                     Some(face) => counted.shown += u64::from(face == self.face),
                     None => counted.undecided += 1,

@@ -305,7 +305,7 @@ fn to_json(plan: &Plan, cost: &Cost, rare: Option<&RareFace>) -> Value {
             "unsure": cost.unsure,
             "points": points_cost.collect::<Vec<_>>(),
         },
-        "rare": rare.map(|rare| json!({ "face": rare.face.name(), "gain": rare.gain })),
+        "rare": rare.map(|rare| json!({ "face": rare.face.name(), "gain": rare.gain.map(|gain| gain.tosses), "gain_of_work": rare.gain.map(|gain| gain.work) })),
         "resolved_config": plan.resolved_toml,
     })
 }

@@ -3,21 +3,21 @@
 use crate::exit::Failure;
 use coinmc::plan::{Plan, Stop};
 use coinmc_core::Face;
-use coinmc_questions::{HowRare, Template, Workers, gain_expected};
+use coinmc_questions::{Gain, HowRare, Template, Workers, gain_expected};
 use std::sync::atomic::AtomicBool;
 
 /// Seconds of one core in which the gain is learnt, and about as many in which it is measured.
 const SECONDS: f64 = 1.0;
 /// Least and most tosses in these.
 const TOSSES: [f64; 2] = [2048.0, 131_072.0];
-/// A gain below this is none.
-const WORTH: f64 = 1.3;
+/// Less work than this factor is no gain.
+const WORTH: f64 = 1.2;
 
 /// A face of which the run would need many tosses.
 pub(super) struct RareFace {
     pub(super) face: Face,
-    /// How many times fewer tosses `coinmc rare` takes; `None` if the face was hardly seen.
-    pub(super) gain: Option<f64>,
+    /// What `coinmc rare` gains; `None` if the face was hardly seen.
+    pub(super) gain: Option<Gain>,
 }
 
 /// The relative error that a plan of a single point asks for.
@@ -62,12 +62,11 @@ impl RareFace {
     pub(super) fn in_words(&self) -> String {
         let face = self.face.name();
         match self.gain {
-            Some(gain) if gain >= WORTH => format!(
-                "`coinmc rare --face {face}` takes about {gain:.1} times fewer tosses for P({face})"
+            Some(gain) if gain.work >= WORTH => format!(
+                "`coinmc rare --face {face}` takes about {:.1} times fewer tosses, {:.1} times less work, for P({face})",
+                gain.tosses, gain.work
             ),
-            Some(_) => format!(
-                "`coinmc rare` would gain nothing for P({face}): how the coin lands first decides little here"
-            ),
+            Some(_) => format!("`coinmc rare` would gain little for P({face})"),
             None => {
                 format!("P({face}) is too small to tell at a glance what `coinmc rare` would gain")
             }
