@@ -39,7 +39,7 @@ def test_bad_questions_are_told():
         coinmc.design(**COIN, rim_m=0.001, chamfer_m=0.001)
     with pytest.raises(ValueError, match="go together"):
         coinmc.design(**COIN, infill=0.2)
-    with pytest.raises(ValueError, match="rim"):
+    with pytest.raises(ValueError, match="the edge must take"):
         coinmc.design(**COIN, rim_m=0.02)
     with pytest.raises(ValueError, match="target"):
         coinmc.design(**COIN, target=1.5)
