@@ -24,6 +24,7 @@ CASES = [
     ("soft", SOFT, "drop", 0.5),
     ("soft", SOFT, "drop", 0.1),
     ("soft", SOFT, "drop", 0.02),
+    ("soft", SOFT, "drop", 0.004),
     ("felt", {"material": "felt"}, "drop", 0.25),
     ("felt", {"material": "felt"}, "hand", 0.1),
     ("carpet", {"material": "carpet"}, "hand", 0.3),
