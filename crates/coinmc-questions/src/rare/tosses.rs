@@ -12,6 +12,8 @@ use std::sync::atomic::Ordering;
 
 /// Launches of one piece of work.
 const PIECE: u64 = 4096;
+/// Launches whose pieces are held in memory at a time: some 16 MB.
+const BLOCK: u64 = 1 << 26;
 
 /// The launches of a scene by number: those of its first point, as in a run of it.
 pub(super) struct Launches<'a> {
@@ -93,7 +95,25 @@ impl<'a> Launches<'a> {
         strata: &Strata,
         chances: &[f64],
     ) -> Result<Tossed, QuestionError> {
-        let pieces = self.in_pieces(numbers, &|numbers| {
+        let mut all = Tossed::none();
+        let mut first = numbers.start;
+        while first < numbers.end {
+            let end = numbers.end.min(first + BLOCK);
+            for piece in self.toss_block(first..end, strata, chances)? {
+                all.add(&piece);
+            }
+            first = end;
+        }
+        Ok(all)
+    }
+
+    fn toss_block(
+        &self,
+        numbers: Range<u64>,
+        strata: &Strata,
+        chances: &[f64],
+    ) -> Result<Vec<Tossed>, QuestionError> {
+        self.in_pieces(numbers, &|numbers| {
             let mut tossed = Tossed::none();
             let mut accepted = vec![];
             for number in numbers {
@@ -107,12 +127,7 @@ impl<'a> Launches<'a> {
             }
             self.count(&accepted, &mut tossed.counts)?;
             Ok(tossed)
-        })?;
-        let mut all = Tossed::none();
-        for piece in &pieces {
-            all.add(piece);
-        }
-        Ok(all)
+        })
     }
 
     fn drawn(&self, number: u64) -> (Launch, f64) {
