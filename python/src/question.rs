@@ -5,7 +5,7 @@ use crate::plan::parsed;
 use crate::supervise::supervise;
 use coinmc::config;
 use coinmc_core::Face;
-use coinmc_questions::scenes::{Assumption, EverydayScene};
+use coinmc_questions::scenes::EverydayScene;
 use coinmc_questions::{DesignError, Template, Unknown, Workers};
 use pyo3::prelude::*;
 use std::num::NonZeroUsize;
@@ -43,12 +43,7 @@ pub(crate) fn template(
 /// What an everyday scene assumes and nothing says otherwise.
 pub(crate) fn unknowns(scene: &EverydayScene, overrides: &[String]) -> PyResult<Vec<Unknown>> {
     let overrides = parsed(overrides)?;
-    let unknown = |assumed: Assumption| Unknown {
-        key: assumed.key.to_owned(),
-        from: assumed.low,
-        to: assumed.high,
-    };
-    Ok(scene.assumed(&overrides).map(unknown).collect())
+    Ok(scene.assumed(&overrides).map(Unknown::from).collect())
 }
 
 /// The face of a name.

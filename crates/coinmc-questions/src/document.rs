@@ -5,9 +5,9 @@ use crate::scenes::EverydayScene;
 use crate::{Curve, Fair, Finding, Root};
 use serde_json::{Map, Value, json};
 
-/// Version of the document. It stays when fields are added, and changes when a field changes its
+/// Version of all documents of answers. It stays when fields are added, and changes when a field changes its
 /// meaning or is removed.
-const FORMAT_VERSION: u32 = 1;
+pub(crate) const FORMAT_VERSION: u32 = 1;
 
 /// An answer, with the everyday scene it is for and the effects of that scene's assumptions, as a JSON
 /// document. docs/reference/formats.md describes its fields.

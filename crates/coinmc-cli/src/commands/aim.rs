@@ -1,6 +1,6 @@
 //! `coinmc aim`: the launch that forces a face.
 
-use super::question::{AnswerArgs, KeyRange, SceneArgs, ask};
+use super::question::{AnswerArgs, KeyRange, SceneArgs, ask, write_file};
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format};
 use crate::terminal::table::{Column, Table};
@@ -10,7 +10,6 @@ use clap::Args;
 use coinmc_core::{Estimate, Face};
 use coinmc_questions::{self as questions, Aim, Aimed, Parameter};
 use coinmc_recording::NewFile;
-use std::io::Write;
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -110,12 +109,8 @@ impl AimAt {
         let Some(answer) = answer else {
             return Ok(Outcome::Interrupted);
         };
-        if let Some(mut file) = picture {
-            let written = file.write_all(questions::picture(&answer).as_bytes());
-            written
-                .and_then(|()| file.flush())
-                .map_err(|error| Failure::Runtime(anyhow!(error)))?;
-            file.finish()?;
+        if let Some(file) = picture {
+            write_file(file, &questions::picture(&answer))?;
         }
         match console.format() {
             Format::Json => output::print_json(&questions::document_of_aim(&answer)),

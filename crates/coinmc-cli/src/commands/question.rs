@@ -4,11 +4,13 @@ use crate::exit::Failure;
 use crate::interrupt;
 use crate::output::{Console, Format};
 use crate::terminal::progress::Progress;
-use anyhow::Context;
+use anyhow::{Context, anyhow};
 use clap::Args;
 use coinmc::config::{self, Override};
 use coinmc_questions::scenes::{Assumption, EverydayScene};
 use coinmc_questions::{DesignError, QuestionError, Template, Unknown, Workers};
+use coinmc_recording::NewFile;
+use std::io::Write;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -154,4 +156,14 @@ pub(super) fn ask<T, E: Into<Unanswered>>(
         Err(Unanswered::Stopped) => Ok(None),
         Err(Unanswered::Failed(failure)) => Err(failure),
     }
+}
+
+/// Writes a new file that was begun.
+pub(super) fn write_file(mut file: NewFile, text: &str) -> Result<(), Failure> {
+    let written = file.write_all(text.as_bytes());
+    written
+        .and_then(|()| file.flush())
+        .map_err(|error| Failure::Runtime(anyhow!(error)))?;
+    file.finish()?;
+    Ok(())
 }

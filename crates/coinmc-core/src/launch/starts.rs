@@ -20,8 +20,7 @@ use std::cell::RefCell;
 /// ```
 #[derive(Debug, Default)]
 pub struct Starts {
-    /// The sign of the axis' z: 1 for heads up, −1 for tails up.
-    signs: RefCell<Vec<i8>>,
+    up: RefCell<Vec<Option<Face>>>,
 }
 
 impl Starts {
@@ -29,32 +28,27 @@ impl Starts {
     /// stood upright.
     pub fn up(&self, launch: u64) -> Option<Face> {
         let launch = usize::try_from(launch).ok()?;
-        face_up(f64::from(*self.signs.borrow().get(launch)?))
+        *self.up.borrow().get(launch)?
     }
 
     /// Notes the next launch.
     #[inline]
     pub(super) fn note(&self, launch: &Launch) {
-        let z = launch.axis.z;
-        let sign = i8::from(z > 0.0) - i8::from(z < 0.0);
-        self.signs.borrow_mut().push(sign);
+        self.up.borrow_mut().push(launch.up());
     }
 }
 
 impl Launch {
     /// The face that is up; `None` if the coin stands upright.
+    #[inline]
     pub fn up(&self) -> Option<Face> {
-        face_up(self.axis.z)
-    }
-}
-
-/// The face that is up, by the height of the axis' tip.
-fn face_up(z: f64) -> Option<Face> {
-    if z > 0.0 {
-        Some(Face::Heads)
-    } else if z < 0.0 {
-        Some(Face::Tails)
-    } else {
-        None
+        let z = self.axis.z;
+        if z > 0.0 {
+            Some(Face::Heads)
+        } else if z < 0.0 {
+            Some(Face::Tails)
+        } else {
+            None
+        }
     }
 }

@@ -1,12 +1,9 @@
 //! An answer as a JSON document.
 
 use super::{Aimed, Clumsy, Parameter, Place};
+use crate::document::FORMAT_VERSION;
 use coinmc_core::Estimate;
 use serde_json::{Value, json};
-
-/// Version of the document. It stays when fields are added, and changes when a field changes its
-/// meaning or is removed.
-const FORMAT_VERSION: u32 = 1;
 
 /// The answer to an [`Aim`](super::Aim) as a JSON document. `values` are those of `parameters`, in
 /// the units of their keys, and `p`, `lo` and `hi` the face's probability and its interval in

@@ -1,11 +1,8 @@
 //! A design as a JSON document.
 
 use super::{Designed, TEST, THICKNESS_ERRORS_M};
+use crate::document::FORMAT_VERSION;
 use serde_json::{Value, json};
-
-/// Version of the document. It stays when fields are added, and changes when a field changes its
-/// meaning or is removed.
-const FORMAT_VERSION: u32 = 1;
 
 /// A design as a JSON document, but for the names of its files. docs/reference/formats.md describes its
 /// fields.

@@ -2,11 +2,8 @@
 
 use super::{Ranked, Ranking};
 use crate::Interval;
+use crate::document::FORMAT_VERSION;
 use serde_json::{Value, json};
-
-/// Version of the document. It stays when fields are added, and changes when a field changes its
-/// meaning or is removed.
-const FORMAT_VERSION: u32 = 1;
 
 /// The answer to a [`Rank`](super::Rank) as a JSON document. docs/reference/formats.md describes its
 /// fields.

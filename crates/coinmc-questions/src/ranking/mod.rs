@@ -28,6 +28,7 @@ pub use document::document_of_ranking;
 pub use picture::picture_of_ranking;
 
 use crate::interval::Interval;
+use crate::scenes::Assumption;
 use crate::sensitivity::{LEAST_TOSSES, parameters};
 use crate::span::Span;
 use crate::workers::At;
@@ -52,6 +53,16 @@ pub struct Unknown {
     pub from: f64,
     /// The most. All values are as likely, or all logarithms where to > 10 · from > 0.
     pub to: f64,
+}
+
+impl From<Assumption> for Unknown {
+    fn from(assumed: Assumption) -> Self {
+        Self {
+            key: assumed.key.to_owned(),
+            from: assumed.low,
+            to: assumed.high,
+        }
+    }
 }
 
 impl Unknown {
@@ -171,7 +182,7 @@ pub fn rank(
     // every problem at an end of a range is found before the first toss
     let ends = ends(&spelled_out, unknowns)?;
     let (p, at_ends) = tornado(question, &own, &ends, workers)?;
-    let samples = Samples::make(&spelled_out, question, workers)?;
+    let samples = Samples::make(&spelled_out, question, own.seed, workers)?;
     let (mean, deviation) = samples.moments(own.confidence);
     let moves = deviation.lo > 0.0;
     let ranked = |(k, (unknown, value)): (usize, (&Unknown, f64))| Ranked {

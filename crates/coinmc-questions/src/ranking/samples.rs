@@ -32,9 +32,9 @@ impl Samples {
     pub(super) fn make(
         template: &Template,
         question: &Rank,
+        seed: u64,
         workers: &Workers<'_>,
     ) -> Result<Self, QuestionError> {
-        let seed = template.plan(&[])?.seed;
         let stream = Stream::new(seed, Domain::Parameters, 0);
         let samples = usize::try_from(question.samples).expect("checked");
         let counted = workers.each(samples, &|sample| {

@@ -1,11 +1,8 @@
 //! An answer as a JSON document.
 
 use super::{Rareness, Stratum};
+use crate::document::FORMAT_VERSION;
 use serde_json::{Value, json};
-
-/// Version of the document. It stays when fields are added, and changes when a field changes its
-/// meaning or is removed.
-const FORMAT_VERSION: u32 = 1;
 
 /// The answer to a [`HowRare`](super::HowRare) as a JSON document. docs/reference/formats.md describes
 /// its fields.

@@ -3,7 +3,7 @@
 mod local;
 mod ranking;
 
-use super::question::{AnswerArgs, KeyRange, SceneArgs, ask};
+use super::question::{AnswerArgs, KeyRange, SceneArgs, ask, write_file};
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format};
 use anyhow::anyhow;
@@ -14,7 +14,6 @@ use coinmc_questions::{self as questions, Question, QuestionError, Rank, Root, U
 use coinmc_questions::{Template, Workers};
 use coinmc_recording::NewFile;
 use local::Local;
-use std::io::Write;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -111,12 +110,7 @@ impl SensitivityOf {
         let (scene, template) = self.scene.template()?;
         let mut unknowns: Vec<Unknown> = self.over.iter().map(KeyRange::unknown).collect();
         if let (true, Some(scene)) = (self.rank, scene) {
-            let assumed = self.scene.assumed(&scene);
-            let assumed = assumed.map(|assumed| Unknown {
-                key: assumed.key.to_owned(),
-                from: assumed.low,
-                to: assumed.high,
-            });
+            let assumed = self.scene.assumed(&scene).map(Unknown::from);
             let given: Vec<String> = unknowns.iter().map(|unknown| unknown.key.clone()).collect();
             unknowns.extend(assumed.filter(|assumed| !given.contains(&assumed.key)));
         }
@@ -133,10 +127,10 @@ impl SensitivityOf {
             return Ok(Outcome::Interrupted);
         };
         if let (Some(file), Some(svg)) = (picture, &answer.picture) {
-            write(file, svg)?;
+            write_file(file, svg)?;
         }
         if let Some(file) = csv {
-            write(file, &questions::csv_of_rows(&answer.document))?;
+            write_file(file, &questions::csv_of_rows(&answer.document))?;
         }
         match console.format() {
             Format::Json => output::print_json(&answer.document),
@@ -222,13 +216,4 @@ impl Fair {
             None => String::new(),
         }
     }
-}
-
-fn write(mut file: NewFile, text: &str) -> Result<(), Failure> {
-    let written = file.write_all(text.as_bytes());
-    written
-        .and_then(|()| file.flush())
-        .map_err(|error| Failure::Runtime(anyhow!(error)))?;
-    file.finish()?;
-    Ok(())
 }
