@@ -23,6 +23,8 @@ class Face(IntEnum):
     SIDE = 2
     #: The toss ended without a face; `Ended` says why.
     UNDECIDED = 3
+    #: The coin left the table over its edge.
+    LEFT = 4
 
 
 class Ended(IntEnum):
@@ -38,3 +40,5 @@ class Ended(IntEnum):
     IMPACT_LIMIT = 3
     #: The state became infinite or NaN.
     FAILED = 4
+    #: The coin left the table over its edge.
+    LEFT = 5

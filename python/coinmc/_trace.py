@@ -43,9 +43,9 @@ class Trace:
         All events, including launch and end; times are exact.
     outcome : str
         The face (``heads``, ``tails``, ``side``), or the reason why there is none
-        (``time_limit``, ``never_settles``, ``impact_limit``, ``failed``).
+        (``left``, ``time_limit``, ``never_settles``, ``impact_limit``, ``failed``).
     face : Face
-        The face, or ``Face.UNDECIDED``.
+        The face, ``Face.LEFT`` or ``Face.UNDECIDED``.
     scene : dict
         ``ratio``, ``radius_m``, ``height_m``, ``mass_kg``, ``gravity_m_s2``.
     engine : str
@@ -86,7 +86,8 @@ class Trace:
         self.engine: str = recorded["engine"]
         self.rate_hz: float = recorded["rate_hz"]
         self.outcome: str = recorded["outcome"]
-        self.face = Face[(recorded["face"] or "undecided").upper()]
+        left = self.outcome == "left"
+        self.face = Face.LEFT if left else Face[(recorded["face"] or "undecided").upper()]
         self.impacts: int = recorded["impacts"]
         self.contact_steps: int = recorded["contact_steps"]
         self.jams: int = recorded["jams"]

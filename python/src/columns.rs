@@ -3,11 +3,12 @@
 use crate::launch::{ROW, write_state};
 use crate::share::Splittable;
 use coinmc::run::FinishedToss;
-use coinmc_core::{Face, Outcome};
+use coinmc_core::{Ended, Face, Outcome};
 use coinmc_trace::EndKind;
 
 /// Code of a toss without a face, after those of [`Face::ALL`].
 const UNDECIDED: u8 = 3;
+const LEFT: u8 = 4;
 
 /// The columns to fill, for a range of tosses.
 #[derive(Default)]
@@ -97,6 +98,7 @@ pub(crate) fn face_code(outcome: &Outcome) -> u8 {
         Some(Face::Heads) => 0,
         Some(Face::Tails) => 1,
         Some(Face::Side) => 2,
+        None if outcome.ended == Ended::Left => LEFT,
         None => UNDECIDED,
     }
 }
@@ -108,5 +110,6 @@ fn end_code(outcome: &Outcome) -> u8 {
         EndKind::NeverSettles => 2,
         EndKind::ImpactLimit => 3,
         EndKind::Failed => 4,
+        EndKind::Left => 5,
     }
 }

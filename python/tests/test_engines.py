@@ -152,6 +152,19 @@ def test_launches_with_nan_fail_and_are_counted(scene):
     assert tosses.face[2] != coinmc.Face.UNDECIDED
 
 
+def test_a_coin_that_leaves_the_table_is_an_end_of_its_own(examples):
+    overrides = {"surface.table_radius_m": 0.1, "stop.tosses": 2000}
+    tosses = coinmc.toss(examples / "hand.toml", overrides=overrides)
+    left = tosses.face == coinmc.Face.LEFT
+    assert 200 < left.sum() == tosses.counts["left"] < 2000
+    assert np.array_equal(left, tosses.ended == coinmc.Ended.LEFT)
+    # seen within a hundredth of the coin's radius in contact, within one flight otherwise
+    where = np.hypot(*tosses.final["position_m"][:, :2].T)
+    assert where[left].min() > 0.1 > where[~left].max()
+    result = coinmc.estimate(examples / "hand.toml", overrides=overrides)
+    assert result["p_left"][0] == left.mean()
+
+
 def test_a_closed_form_makes_no_toss(examples):
     with pytest.raises(ValueError, match="closed form, which makes no tosses"):
         coinmc.toss(examples / "closed-forms.toml", 10)

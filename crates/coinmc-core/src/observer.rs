@@ -31,6 +31,12 @@ pub trait Observer {
     /// in sustained contact from a step of the engine's own integrator. In order of time among the
     /// events; at the instant of events, after them.
     fn sample(&mut self, _: &State) {}
+
+    /// Whether the rest of the toss does not matter to the observer, and neither does its outcome: an
+    /// engine may then end it at once, in any way.
+    fn has_seen_enough(&self) -> bool {
+        false
+    }
 }
 
 /// Shows an observer the coin at every instant it asks for from `from_s` up to, but not including,
@@ -107,6 +113,10 @@ impl<O: Observer> Observer for &mut O {
     fn sample(&mut self, state: &State) {
         (**self).sample(state);
     }
+
+    fn has_seen_enough(&self) -> bool {
+        (**self).has_seen_enough()
+    }
 }
 
 /// Any active [`Observer`] behind a pointer: an engine that uses it is compiled once for all observers.
@@ -141,6 +151,7 @@ trait ErasedObserver {
     fn see_event(&mut self, event: &Event);
     fn instant_s(&self) -> f64;
     fn see_sample(&mut self, state: &State);
+    fn is_done(&self) -> bool;
 }
 
 impl<O: Observer> ErasedObserver for O {
@@ -154,6 +165,10 @@ impl<O: Observer> ErasedObserver for O {
 
     fn see_sample(&mut self, state: &State) {
         self.sample(state);
+    }
+
+    fn is_done(&self) -> bool {
+        self.has_seen_enough()
     }
 }
 
@@ -175,5 +190,9 @@ impl Observer for DynObserver<'_> {
 
     fn sample(&mut self, state: &State) {
         self.0.see_sample(state);
+    }
+
+    fn has_seen_enough(&self) -> bool {
+        self.0.is_done()
     }
 }

@@ -44,6 +44,8 @@ impl Face {
 pub enum Ended {
     /// The face is decided, by the energy that is left or by the stopping rule that the user chose.
     Decided(Face),
+    /// The coin left the table over its edge ([`Surface::table_radius_m`](crate::Surface::table_radius_m)).
+    Left,
     /// The toss was still undecided at the engine's limit of simulated time.
     TimeLimit,
     /// The coin provably never comes to rest on a face: it stands balanced on its rim, or rolls or
@@ -110,5 +112,10 @@ impl Outcome {
             Ended::Decided(face) => Some(face),
             _ => None,
         }
+    }
+
+    /// Whether it is not known how the toss ends. (A coin that left the table is no such toss.)
+    pub fn is_undecided(&self) -> bool {
+        !matches!(self.ended, Ended::Decided(_) | Ended::Left)
     }
 }

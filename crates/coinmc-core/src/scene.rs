@@ -73,7 +73,7 @@ pub struct SceneParameter {
 impl Scene {
     /// The parameters that every result states, swept or not, with their values: without them a toss is
     /// not defined.
-    pub const PARAMETERS: [SceneParameter; 14] = [
+    pub const PARAMETERS: [SceneParameter; 15] = [
         SceneParameter {
             name: "ratio",
             value: |scene| scene.coin.ratio(),
@@ -134,6 +134,10 @@ impl Scene {
                     .given_roughness()
                     .map_or(0.0, |r| r.wavelength_m())
             },
+        },
+        SceneParameter {
+            name: "table_radius_m",
+            value: |scene| scene.surface.table_radius_m().unwrap_or(0.0),
         },
     ];
 

@@ -64,6 +64,7 @@ pub struct Surface {
     reference_m_s: f64,
     roughness: Option<Roughness>,
     landing: Landing,
+    table_radius_m: Option<f64>,
 }
 
 /// Why a surface or scene cannot be built.
@@ -87,6 +88,9 @@ pub enum SurfaceError {
     /// The reference speed of restitution is not a positive finite speed.
     #[error("restitution reference must be positive and finite, not {0} m/s")]
     Reference(f64),
+    /// The radius of the table is not a positive finite length.
+    #[error("the radius of the table must be positive and finite, not {0} m")]
+    TableRadius(f64),
     /// The roughness cannot be modelled.
     #[error(transparent)]
     Roughness(#[from] RoughnessError),
@@ -111,6 +115,7 @@ impl Surface {
             reference_m_s: DEFAULT_REFERENCE_M_S,
             roughness: None,
             landing: Landing::Adhesive,
+            table_radius_m: None,
         }
     }
 
@@ -136,6 +141,7 @@ impl Surface {
             reference_m_s: DEFAULT_REFERENCE_M_S,
             roughness: None,
             landing: Landing::Bouncing,
+            table_radius_m: None,
         })
     }
 
@@ -222,6 +228,41 @@ impl Surface {
     /// The same surface with another way of landing.
     pub fn with_landing(self, landing: Landing) -> Self {
         Self { landing, ..self }
+    }
+
+    /// The same surface as a round table of this radius, above whose middle the centre of the coin is
+    /// launched. A coin leaves it, [`Ended::Left`](crate::Ended::Left), once its centre is beyond the
+    /// edge.
+    ///
+    /// What a rim does at the edge itself is not modelled: a coin that hangs over the edge with its
+    /// centre inside is still held by all of its rim. So the radius is meant to within the size of the
+    /// coin.
+    ///
+    /// # Errors
+    /// [`SurfaceError::TableRadius`] unless positive and finite.
+    ///
+    /// # Example
+    /// ```
+    /// use coinmc_core::Surface;
+    /// let tray = Surface::new(0.5, 0.3)?.with_table_radius(0.2)?;
+    /// assert_eq!(tray.table_radius_m(), Some(0.2));
+    /// # Ok::<(), coinmc_core::SurfaceError>(())
+    /// ```
+    pub fn with_table_radius(self, radius_m: f64) -> Result<Self, SurfaceError> {
+        if radius_m > 0.0 && radius_m.is_finite() {
+            let table_radius_m = Some(radius_m);
+            Ok(Self {
+                table_radius_m,
+                ..self
+            })
+        } else {
+            Err(SurfaceError::TableRadius(radius_m))
+        }
+    }
+
+    /// Radius of the table, m; `None`: it is endless.
+    pub fn table_radius_m(&self) -> Option<f64> {
+        self.table_radius_m
     }
 
     /// Coefficient of restitution e, dimensionless, 0 to 1.

@@ -16,7 +16,7 @@ pub struct Counter {
 /// How a toss moves a counter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CounterKind {
-    /// Every toss adds 1 to exactly one counter of this kind.
+    /// Every toss adds 1 to exactly one counter of this kind or of [`EdgeEnding`](Self::EdgeEnding).
     Ending,
     /// A toss adds at most 1.
     Toss,
@@ -26,6 +26,8 @@ pub enum CounterKind {
     Breakdown,
     /// A toss on the side adds at most 1, in an engine that knows how it came to end there.
     SideEnding,
+    /// An ending that only a table with an edge has.
+    EdgeEnding,
 }
 
 /// Defines [`Tally`] from one list of counters: name, kind, and what each counts.
@@ -104,6 +106,7 @@ tally! {
     rolled_3_m: SideEnding, "Tosses on the side that rolled more than 3 m.";
     rolled_10_m: SideEnding, "Tosses on the side that rolled more than 10 m.";
     same: Toss, "Tosses that show the face that was up at their launch.";
+    left: EdgeEnding, "Tosses that left the table over its edge.";
 }
 
 impl Tally {
@@ -119,6 +122,7 @@ impl Tally {
             Ended::Decided(Face::Heads) => self.heads += 1,
             Ended::Decided(Face::Tails) => self.tails += 1,
             Ended::Decided(Face::Side) => self.side += 1,
+            Ended::Left => self.left += 1,
             Ended::TimeLimit => self.time_limit += 1,
             Ended::NeverSettles => self.never_settles += 1,
             Ended::ImpactLimit => self.impact_limit += 1,
@@ -201,13 +205,14 @@ impl Tally {
         }
     }
 
-    /// Tosses that ended without a face, for whatever reason.
+    /// Tosses of which it is not known how they end, for whatever reason. (Those that left the table
+    /// are no such tosses.)
     pub fn undecided(&self) -> u64 {
         self.time_limit + self.never_settles + self.impact_limit + self.failed
     }
 
-    /// All tosses, undecided ones included.
+    /// All tosses, those that left the table and undecided ones included.
     pub fn tosses(&self) -> u64 {
-        self.heads + self.tails + self.side + self.undecided()
+        self.heads + self.tails + self.side + self.left + self.undecided()
     }
 }

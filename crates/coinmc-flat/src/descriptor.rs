@@ -32,7 +32,7 @@ pub const ENGINE: EngineDescriptor = EngineDescriptor {
     read: |values| Settings::read(values).map(EngineChoice::new),
 };
 
-const UNMODELLED: [Unmodelled; 10] = [
+const UNMODELLED: [Unmodelled; 11] = [
     Unmodelled {
         table: "coin",
         key: "rim_radius_m",
@@ -77,6 +77,12 @@ const UNMODELLED: [Unmodelled; 10] = [
         message: "engine.flat models no roughness: `surface.roughness_slope` must be 0",
         help: "remove `roughness_slope` and `roughness_wavelength_m`, or toss in space with \
                [engine.volumetric]",
+    },
+    Unmodelled {
+        table: "surface",
+        key: "table_radius_m",
+        message: "engine.flat models no edge of the table: `surface.table_radius_m` must be absent",
+        help: "remove `table_radius_m`, or toss with [engine.volumetric]",
     },
     Unmodelled {
         table: "environment",

@@ -65,7 +65,11 @@ impl Method {
     /// The best method for a scene; `None` where random tosses are as good, as for every coin that
     /// bounces. `time_limit_s` is the simulated time, s, at which the engine gives up a toss.
     pub fn of(scene: &Scene, launches: &LaunchDistribution, time_limit_s: f64) -> Option<Self> {
-        if scene.surface.landing() != Landing::Adhesive || scene.coin.rim_radius_m() > 0.0 {
+        let table = scene.surface.table_radius_m();
+        if scene.surface.landing() != Landing::Adhesive
+            || scene.coin.rim_radius_m() > 0.0
+            || table.is_some()
+        {
             return None;
         }
         let tossed = Self::Tossed.dimensions_left(launches) <= MAX_TOSSED_DIMENSIONS;

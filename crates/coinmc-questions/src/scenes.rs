@@ -28,6 +28,8 @@ pub struct EverydayScene {
     pub material: &'static str,
     /// Height of the hand above the surface, m.
     pub height_m: f64,
+    /// Radius of a round table, m; `None` where no coin comes to the edge.
+    pub table_radius_m: Option<f64>,
 }
 
 /// A number that a scene assumes.
@@ -57,7 +59,7 @@ const HAND_PSI_DEG: f64 = 81.0;
 
 impl EverydayScene {
     /// All scenes; the first is taken if none is named.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::of(
             "table",
             "a kitchen table or a desk, of laminate",
@@ -68,6 +70,15 @@ impl EverydayScene {
         Self::of("glass", "a pane of glass on a firm base", "glass", 0.3),
         Self::of("steel", "a plate of steel", "steel", 0.3),
         Self::of("felt", "a table covered with loose felt", "felt", 0.3),
+        Self {
+            table_radius_m: Some(0.2),
+            ..Self::of(
+                "tray",
+                "a flat round tray, lined with felt, without a rim (a coin that leaves it shows no face)",
+                "felt",
+                0.3,
+            )
+        },
         Self::of("billiards", "billiard cloth over slate", "cloth", 0.3),
         Self::of(
             "floor",
@@ -94,6 +105,7 @@ impl EverydayScene {
             doc,
             material,
             height_m,
+            table_radius_m: None,
         }
     }
 
@@ -115,10 +127,13 @@ impl EverydayScene {
 
     /// Its config.
     pub fn config(&self) -> String {
+        let edge = self.table_radius_m.map_or(String::new(), |radius_m| {
+            format!("table_radius_m = {radius_m:?}\n")
+        });
         format!(
             "# {}: {}, tossed by hand from {} m above it.\n\
              [coin]\nratio = 1.0\nradius_m = {EURO_RADIUS_M}\n\n\
-             [surface]\nmaterial = \"{}\"\n\n\
+             [surface]\nmaterial = \"{}\"\n{edge}\n\
              [launch]\npreset = \"hand\"\nheight_m = {:?}\n\
              spin.precessing.rate_rad_s.normal = {{ mean = {HAND_RATE_RAD_S}, sd = 23.86 }}\n\
              spin.precessing.psi_deg.normal = {{ mean = {HAND_PSI_DEG}, sd = 5.0 }}\n\n\
@@ -159,7 +174,7 @@ impl EverydayScene {
         };
         let (e, mu) = (material.restitution, material.friction);
         let slope = material.roughness_slope;
-        vec![
+        let mut assumptions = vec![
             number(
                 ("surface.restitution", "coefficient of restitution"),
                 e,
@@ -225,7 +240,16 @@ impl EverydayScene {
                 high: 2.0 * EURO_RADIUS_M,
                 source: "a 1 euro coin, 23.25 mm in diameter",
             },
-        ]
+        ];
+        assumptions.extend(self.table_radius_m.map(|radius_m| Assumption {
+            key: "surface.table_radius_m",
+            name: "radius of the table, m",
+            value: radius_m,
+            low: 0.5 * radius_m,
+            high: 2.0 * radius_m,
+            source: "ours: a tray that somebody carries",
+        }));
+        assumptions
     }
 }
 

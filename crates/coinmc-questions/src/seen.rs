@@ -1,5 +1,6 @@
 //! Tosses that were counted.
 
+use crate::workers::{ENDS, UNDECIDED};
 use coinmc::plan::Plan;
 use coinmc_core::Estimate;
 
@@ -9,17 +10,17 @@ pub(crate) struct Seen {
     pub(crate) tosses: u64,
     /// Tosses that showed the face.
     pub(crate) shown: u64,
-    /// Tosses without a face.
+    /// Tosses of which it is not known how they end.
     pub(crate) undecided: u64,
 }
 
 impl Seen {
-    /// Of the counts of heads, tails, side and undecided, those of this face.
-    pub(crate) fn of(counts: [u64; 4], face: coinmc_core::Face) -> Self {
+    /// Of the counts of all ends, those of this face.
+    pub(crate) fn of(counts: [u64; ENDS], face: coinmc_core::Face) -> Self {
         Self {
             tosses: counts.iter().sum(),
             shown: counts[face as usize],
-            undecided: counts[3],
+            undecided: counts[UNDECIDED],
         }
     }
 

@@ -4,7 +4,7 @@ use crate::QuestionError;
 use crate::seen::Seen;
 use coinmc::plan::Plan;
 use coinmc::run::{TossSource, for_each_outcome, stream};
-use coinmc_core::Face;
+use coinmc_core::{Face, Outcome};
 use std::num::NonZeroUsize;
 use std::ops::Range;
 use std::panic::resume_unwind;
@@ -38,14 +38,29 @@ struct Piece {
     tosses: Range<u64>,
 }
 
-/// Tosses of a pair of points by the face at the first and the face at the second (3 for none).
+/// The ends that are told apart: heads, tails, side, undecided and left, as numbers from 0.
+pub(crate) const ENDS: usize = 5;
+pub(crate) const UNDECIDED: usize = 3;
+const LEFT: usize = 4;
+const PAIRS: usize = ENDS * ENDS;
+
+/// The number of a toss's end.
+fn end_of(outcome: &Outcome) -> usize {
+    match outcome.face() {
+        Some(face) => face as usize,
+        None if outcome.is_undecided() => UNDECIDED,
+        None => LEFT,
+    }
+}
+
+/// Tosses of a pair of points by the end at the first and the end at the second.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Changes([u64; 16]);
+pub(crate) struct Changes([u64; PAIRS]);
 
 impl Changes {
     fn with(&self, first: impl Fn(usize) -> bool, second: impl Fn(usize) -> bool) -> u64 {
         let tosses = self.0.iter().enumerate();
-        let counted = tosses.filter(|(place, _)| first(place / 4) && second(place % 4));
+        let counted = tosses.filter(|(place, _)| first(place / ENDS) && second(place % ENDS));
         counted.map(|(_, tosses)| tosses).sum()
     }
 
@@ -54,9 +69,9 @@ impl Changes {
         self.0.iter().sum()
     }
 
-    /// Tosses whose face differs.
+    /// Tosses whose end differs.
     pub(crate) fn changed(&self) -> u64 {
-        let same: u64 = (0..4).map(|face| self.0[5 * face]).sum();
+        let same: u64 = (0..ENDS).map(|end| self.0[(ENDS + 1) * end]).sum();
         self.tosses() - same
     }
 
@@ -65,7 +80,7 @@ impl Changes {
         Seen {
             tosses: self.tosses(),
             shown: self.with(|first| first == face as usize, |_| true),
-            undecided: self.with(|first| first == 3, |_| true),
+            undecided: self.with(|first| first == UNDECIDED, |_| true),
         }
     }
 
@@ -89,15 +104,15 @@ impl Changes {
 }
 
 impl Workers<'_> {
-    /// Counts the faces of all work: heads, tails, side and undecided of each.
+    /// Counts the ends of all work.
     pub(crate) fn count(
         &self,
         work: &[(At<'_>, Range<u64>)],
-    ) -> Result<Vec<[u64; 4]>, QuestionError> {
+    ) -> Result<Vec<[u64; ENDS]>, QuestionError> {
         let ranges: Vec<_> = work.iter().map(|(_, tosses)| tosses.clone()).collect();
         self.each_piece(&ranges, &|index, tosses| {
-            let mut counts = [0; 4];
-            self.faces(work[index].0, tosses, &mut |_, face| counts[face] += 1)?;
+            let mut counts = [0; ENDS];
+            self.ends(work[index].0, tosses, &mut |_, end| counts[end] += 1)?;
             Ok(counts)
         })
     }
@@ -111,7 +126,7 @@ impl Workers<'_> {
         let ranges = vec![tosses; pairs.len()];
         let tables = self.each_piece(&ranges, &|index, tosses| {
             let [first, second] = pairs[index];
-            let before = self.faces_of(first, tosses.clone())?;
+            let before = self.ends_of(first, tosses.clone())?;
             self.table(&before, second, tosses)
         })?;
         Ok(tables.into_iter().map(Changes).collect())
@@ -127,12 +142,12 @@ impl Workers<'_> {
         let pieces: Vec<_> = pieces((0, &tosses)).collect();
         let tables = self.each(pieces.len(), &|index| {
             let tosses = &pieces[index].tosses;
-            let before = self.faces_of(first, tosses.clone())?;
+            let before = self.ends_of(first, tosses.clone())?;
             let others = others.iter();
             let tables = others.map(|&other| self.table(&before, other, tosses.clone()));
             tables.collect::<Result<Vec<_>, _>>()
         })?;
-        let mut sums = vec![[0; 16]; others.len()];
+        let mut sums = vec![[0; PAIRS]; others.len()];
         for tables in &tables {
             for (sum, table) in sums.iter_mut().zip(tables) {
                 add(sum, table);
@@ -141,32 +156,32 @@ impl Workers<'_> {
         Ok(sums.into_iter().map(Changes).collect())
     }
 
-    /// The face of each toss, 3 for none.
-    fn faces_of(&self, at: At<'_>, tosses: Range<u64>) -> Result<Vec<usize>, QuestionError> {
+    /// The end of each toss.
+    fn ends_of(&self, at: At<'_>, tosses: Range<u64>) -> Result<Vec<usize>, QuestionError> {
         let start = tosses.start;
         let place = |toss: u64| usize::try_from(toss - start).expect("a piece is small");
-        let mut faces = vec![3; place(tosses.end)];
-        self.faces(at, tosses, &mut |toss, face| faces[place(toss)] = face)?;
-        Ok(faces)
+        let mut ends = vec![UNDECIDED; place(tosses.end)];
+        self.ends(at, tosses, &mut |toss, end| ends[place(toss)] = end)?;
+        Ok(ends)
     }
 
-    /// Tosses by their face before and their face at another point.
+    /// Tosses by their end before and their end at another point.
     fn table(
         &self,
         before: &[usize],
         at: At<'_>,
         tosses: Range<u64>,
-    ) -> Result<[u64; 16], QuestionError> {
-        let mut table = [0; 16];
-        let after = self.faces_of(at, tosses)?;
+    ) -> Result<[u64; PAIRS], QuestionError> {
+        let mut table = [0; PAIRS];
+        let after = self.ends_of(at, tosses)?;
         for (before, after) in before.iter().zip(after) {
-            table[4 * before + after] += 1;
+            table[ENDS * before + after] += 1;
         }
         Ok(table)
     }
 
-    /// Calls `visit` with the number and the face (3 for none) of each toss.
-    pub(crate) fn faces(
+    /// Calls `visit` with the number and the end of each toss.
+    pub(crate) fn ends(
         &self,
         at: At<'_>,
         tosses: Range<u64>,
@@ -182,7 +197,7 @@ impl Workers<'_> {
             source,
             tosses,
             |toss, outcome| {
-                visit(toss, outcome.face().map_or(3, |face| face as usize));
+                visit(toss, end_of(outcome));
                 go_on()
             },
         )
@@ -278,15 +293,19 @@ mod tests {
     /// 80 tosses gain the side, 50 lose it, 30 only turn over.
     #[test]
     fn changes_are_those_of_one_face() {
-        let mut table = [0; 16];
-        table[0] = 5000;
-        (table[4], table[2], table[6]) = (30, 60, 20);
-        (table[10], table[8], table[11]) = (4840, 40, 10);
-        let changes = Changes(table);
-        assert_eq!((changes.tosses(), changes.changed()), (10_000, 160));
-        assert!((changes.share(Face::Side) - 0.489).abs() < 1e-12);
+        let [heads, tails, side] = [0, 1, 2];
+        let mut table = [[0; ENDS]; ENDS];
+        (table[heads][heads], table[side][side]) = (5000, 4840);
+        (table[tails][heads], table[heads][side], table[tails][side]) = (30, 60, 20);
+        (table[side][heads], table[side][LEFT]) = (40, 10);
+        (table[UNDECIDED][UNDECIDED], table[LEFT][LEFT]) = (3, 7);
+        let mut pairs = table.concat().into_iter();
+        let changes = Changes([(); PAIRS].map(|()| pairs.next().expect("a pair of ends")));
+        assert_eq!((changes.tosses(), changes.changed()), (10_010, 160));
+        assert_eq!(changes.seen(Face::Side).undecided, 3);
+        assert!((changes.share(Face::Side) - 4890.0 / 10_010.0).abs() < 1e-12);
         let (change, error) = changes.difference(Face::Side);
-        assert!((change - 0.003).abs() < 1e-12);
-        assert!((error - (131.0_f64 - 0.09).sqrt() / 1e4).abs() < 1e-12);
+        assert!((change - 30.0 / 10_010.0).abs() < 1e-12);
+        assert!((error - (131.0_f64 - 900.0 / 10_010.0).sqrt() / 10_010.0).abs() < 1e-12);
     }
 }

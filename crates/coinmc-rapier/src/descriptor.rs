@@ -34,7 +34,7 @@ pub const ENGINE: EngineDescriptor = EngineDescriptor {
     read: |values| Settings::read(values).map(EngineChoice::new),
 };
 
-const UNMODELLED: [Unmodelled; 3] = [
+const UNMODELLED: [Unmodelled; 4] = [
     Unmodelled {
         table: "coin",
         key: "rim_radius_m",
@@ -53,6 +53,12 @@ const UNMODELLED: [Unmodelled; 3] = [
         key: "roughness_slope",
         message: "engine.rapier models no roughness: `surface.roughness_slope` must be 0",
         help: "remove `roughness_slope` and `roughness_wavelength_m`, or toss with [engine.volumetric]",
+    },
+    Unmodelled {
+        table: "surface",
+        key: "table_radius_m",
+        message: "engine.rapier models no edge of the table: `surface.table_radius_m` must be absent",
+        help: "remove `table_radius_m`, or toss with [engine.volumetric]",
     },
 ];
 

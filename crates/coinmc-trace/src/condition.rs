@@ -26,7 +26,7 @@ pub enum Condition {
 /// The text is not a condition.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error(
-    "a condition is `face=heads`, `face=tails`, `face=side`, `ended=decided`, \
+    "a condition is `face=heads`, `face=tails`, `face=side`, `ended=decided`, `ended=left`, \
      `ended=time_limit`, `ended=never_settles`, `ended=impact_limit` or `ended=failed`"
 )]
 pub struct ConditionError;

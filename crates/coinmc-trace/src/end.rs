@@ -7,6 +7,8 @@ use coinmc_core::{Ended, Outcome};
 pub enum EndKind {
     /// With a face.
     Decided,
+    /// It left the table over its edge.
+    Left,
     /// Undecided at the limit of simulated time.
     TimeLimit,
     /// Proven never to settle.
@@ -19,8 +21,9 @@ pub enum EndKind {
 
 impl EndKind {
     /// All of them.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Decided,
+        Self::Left,
         Self::TimeLimit,
         Self::NeverSettles,
         Self::ImpactLimit,
@@ -31,6 +34,7 @@ impl EndKind {
     pub fn of(ended: Ended) -> Self {
         match ended {
             Ended::Decided(_) => Self::Decided,
+            Ended::Left => Self::Left,
             Ended::TimeLimit => Self::TimeLimit,
             Ended::NeverSettles => Self::NeverSettles,
             Ended::ImpactLimit => Self::ImpactLimit,
@@ -42,6 +46,7 @@ impl EndKind {
     pub fn name(self) -> &'static str {
         match self {
             Self::Decided => "decided",
+            Self::Left => "left",
             Self::TimeLimit => "time_limit",
             Self::NeverSettles => "never_settles",
             Self::ImpactLimit => "impact_limit",

@@ -3,7 +3,8 @@
 use crate::contact::{ContactSolver, Exit, SideExit};
 use crate::flight::Departure;
 use crate::model::Model;
-use crate::motion::FLAT;
+use crate::motion::{FLAT, Spin};
+use crate::slide::way_and_time;
 use crate::toss::Toss;
 use crate::transition::Transition;
 use coinmc_core::{Decided, Ended, EventKind, Observer};
@@ -96,6 +97,9 @@ impl<L> Model<L> {
         let turning = body.radius * toss.spin.axial;
         let slip = (speed * speed + turning * turning).sqrt();
         if self.dynamics.friction.mu * speed * (body.half + body.rim) <= body.radius * slip {
+            if self.rule.awaits_rest() {
+                self.slide_to_rest(toss);
+            }
             return Transition::End(Ended::Decided(toss.face()));
         }
         let before = m.energy(body, &toss.spin);
@@ -109,5 +113,20 @@ impl<L> Model<L> {
         m.set_spin(&toss.spin, self.dynamics.axial_factor);
         toss.place.align(nx, ny);
         Transition::Contact
+    }
+
+    /// Slides a coin that stays flat on its face to where it rests.
+    fn slide_to_rest(&self, toss: &mut Toss) {
+        let (body, m) = (&self.dynamics.body, &mut toss.motion);
+        let speed = (m.vx * m.vx + m.vy * m.vy).sqrt();
+        let turning = body.radius * toss.spin.axial;
+        let (way, time) = way_and_time(body, self.dynamics.friction.mu, speed, turning);
+        if speed > 0.0 {
+            toss.place.shift(way * m.vx / speed, way * m.vy / speed);
+        }
+        toss.place.time += time;
+        (m.vx, m.vy, m.vz) = (0.0, 0.0, 0.0);
+        toss.spin = Spin::still();
+        m.set_spin(&toss.spin, self.dynamics.axial_factor);
     }
 }

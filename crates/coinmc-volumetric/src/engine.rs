@@ -4,6 +4,7 @@ use crate::batch::Batch;
 use crate::impact::ImpactLaw;
 use crate::model::Model;
 use crate::settings::{Settings, SettingsError};
+use crate::table::Table;
 use coinmc_core::{
     Engine, Launch, LaunchSource, Observer, Outcome, OutcomeSink, Scene, TossBatch, toss_sequential,
 };
@@ -29,6 +30,7 @@ use coinmc_lanes::{Lanes, NoSuchLanes};
 #[derive(Debug, Clone)]
 pub struct VolumetricEngine<L> {
     pub(crate) model: Model<L>,
+    table: Option<Table>,
     lanes: Lanes,
 }
 
@@ -40,13 +42,15 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
     pub fn new(scene: &Scene, settings: &Settings, law: L) -> Result<Self, SettingsError> {
         Ok(Self {
             model: Model::new(scene, settings, law)?,
+            table: Table::new(scene),
             lanes: Lanes::best(),
         })
     }
 
-    /// A batch for many tosses; `None` if the lanes are [`Lanes::Scalar`].
+    /// A batch for many tosses; `None` if the lanes are [`Lanes::Scalar`], or on a table with an edge.
     pub(crate) fn batch(&self) -> Option<Batch<'_, L>> {
-        (self.lanes != Lanes::Scalar).then(|| Batch::new(&self.model, self.lanes))
+        (self.lanes != Lanes::Scalar && self.table.is_none())
+            .then(|| Batch::new(&self.model, self.lanes))
     }
 }
 
@@ -65,7 +69,11 @@ impl<L: ImpactLaw> Engine for VolumetricEngine<L> {
     }
 
     fn toss(&self, (): &mut (), launch: &Launch, observer: &mut impl Observer) -> Outcome {
-        self.model.run(launch, observer).outcome
+        match &self.table {
+            None => self.model.run(launch, observer),
+            Some(table) => self.model.run_on(table, launch, observer),
+        }
+        .outcome
     }
 
     fn toss_many(&self, (): &mut (), launches: LaunchSource<'_>, sink: &mut OutcomeSink<'_>) {

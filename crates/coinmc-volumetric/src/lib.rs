@@ -29,6 +29,7 @@
 //! - `rough` rough ground: contact and low hops on a random height field
 //! - `flight_phase`, `contact_phase`, `impact_phase` one toss through each phase
 //! - `scalar` one toss from launch to end · `batch` many tosses in lanes
+//! - `slide` the last slide of a flat coin, `table` tosses on a table with an edge
 //! - `engine` the public engine · `descriptor` what the rest of the program knows of it
 //!
 //! The rule that decides a face is [`coinmc_core::DecisionRule`].
@@ -61,6 +62,8 @@ mod rough;
 mod scalar;
 mod series;
 mod settings;
+mod slide;
+mod table;
 mod toss;
 mod transition;
 

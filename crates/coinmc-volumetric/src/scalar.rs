@@ -32,7 +32,8 @@ impl<L: ImpactLaw> Model<L> {
     ) -> Ended {
         let mut departure = Departure::Launched;
         loop {
-            if !self.fly(toss, &mut solver.usage, departure, observer) {
+            let gave_up = !self.fly(toss, &mut solver.usage, departure, observer);
+            if gave_up || (O::ACTIVE && observer.has_seen_enough()) {
                 return self.end_given_up(toss);
             }
             if let Some(ended) = self.end_at_landing(toss, solver.usage.time) {

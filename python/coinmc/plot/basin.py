@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from coinmc._config import Config, ConfigLike
 from coinmc._launches import as_launches, launches
 from coinmc._tosses import toss
-from coinmc.plot.style import FACES, UNDECIDED, axes_for, axis_label
+from coinmc.plot.style import FACES, LEFT, UNDECIDED, axes_for, axis_label
 
 __all__ = ["VARIABLES", "basin", "basin_faces", "show_faces"]
 
@@ -202,9 +202,9 @@ def show_faces(
         extent=extent,
         origin="lower",
         aspect="auto",
-        cmap=ListedColormap([*FACES.values(), UNDECIDED]),
+        cmap=ListedColormap([*FACES.values(), UNDECIDED, LEFT]),
         vmin=-0.5,
-        vmax=3.5,
+        vmax=4.5,
         # average colours, not codes
         interpolation_stage="rgba",
     )
@@ -213,7 +213,7 @@ def show_faces(
         handles=_key(faces),
         loc="lower center",
         bbox_to_anchor=(0.5, 1.0),
-        ncols=4,
+        ncols=5,
         fontsize="small",
         frameon=False,
     )
@@ -256,9 +256,9 @@ def _set(launches: NDArray[Any], name: str, values: NDArray[np.float64]) -> None
 
 def _key(faces: NDArray[np.uint8]) -> list[Patch]:
     """Make the legend: the faces that occur, with their share of the pixels."""
-    counts = np.bincount(faces.ravel(), minlength=4)
-    names = [*FACES, "undecided"]
-    colours = [*FACES.values(), UNDECIDED]
+    counts = np.bincount(faces.ravel(), minlength=5)
+    names = [*FACES, "undecided", "left"]
+    colours = [*FACES.values(), UNDECIDED, LEFT]
     return [
         Patch(color=colour, label=f"{name} {100 * count / faces.size:.1f} %")
         for name, colour, count in zip(names, colours, counts, strict=True)

@@ -16,6 +16,7 @@ __all__ = [
     "CYCLE",
     "FACES",
     "FACE_MARKERS",
+    "LEFT",
     "MODES",
     "NEUTRAL",
     "UNDECIDED",
@@ -29,6 +30,8 @@ FACES = {"heads": "#0072B2", "tails": "#D55E00", "side": "#009E73"}
 FACE_MARKERS = {"heads": "o", "tails": "s", "side": "^"}
 #: Colour of tosses without a face.
 UNDECIDED = "#BBBBBB"
+#: Colour of tosses that left the table.
+LEFT = "#CC79A7"
 #: Colour of each mode of motion.
 MODES = {"flight": "#56B4E9", "sticking": "#009E73", "sliding": "#E69F00", "ended": "#999999"}
 #: Reference lines, bands, the ground: readable on white and on black.

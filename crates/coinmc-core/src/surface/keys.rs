@@ -11,6 +11,7 @@ use crate::{Coin, EngineError, Material, Roughness};
 /// Lengths and speeds: typing errors end here.
 const LARGE: Bounds = Bounds::closed(0.0, 1e6);
 const WAVELENGTH: &str = "roughness_wavelength_m";
+const TABLE_RADIUS: &str = "table_radius_m";
 
 const FIRST_CONTACT_DECIDES: Condition = Condition::Word("landing", Landing::Adhesive.name());
 const OF_A_MATERIAL: Condition = Condition::Given("material");
@@ -22,6 +23,7 @@ impl Surface {
         fields.extend(friction());
         fields.extend(restitution_by_speed());
         fields.extend(ground());
+        fields.push(table_radius());
         fields.push(choice(
             "landing",
             "What a contact does.",
@@ -80,11 +82,16 @@ impl Surface {
         let exponent = or("restitution_exponent", 0.0)?;
         let reference = or("restitution_reference_m_s", DEFAULT_REFERENCE_M_S)?;
         let roughness = roughness(values, coin)?;
+        let table_radius = values.optional(TABLE_RADIUS)?;
         Self::new(number("restitution")?, number("friction")?)
             .and_then(|surface| surface.with_friction_lengths(rolling, pivoting))
             .and_then(|surface| surface.with_restitution_threshold(threshold))
             .and_then(|surface| surface.with_speed_dependent_restitution(exponent, reference))
             .map(|surface| surface.with_roughness(roughness).with_landing(landing))
+            .and_then(|surface| match table_radius {
+                Some(radius_m) => surface.with_table_radius(radius_m),
+                None => Ok(surface),
+            })
             .map_err(|error| ReadError::new(error.to_string()))
     }
 }
@@ -184,6 +191,16 @@ fn ground() -> [Field; 2] {
             Absent::Omitted,
         ),
     ]
+}
+
+fn table_radius() -> Field {
+    number(
+        TABLE_RADIUS,
+        "Radius of a round table, m, above whose middle the coin is launched. A coin whose centre \
+         passes the edge has left the table, an outcome of its own. Absent: the table is endless.",
+        Bounds::above_zero(1e6),
+        Absent::Omitted,
+    )
 }
 
 /// The pivoting friction length as given, or that of the contact patch.

@@ -37,7 +37,7 @@ fn extreme_launches_end_and_launches_that_are_not_finite_fail() {
             let outcome = engine.toss(&mut (), &launch, &mut ());
             let end = match outcome.ended {
                 Ended::Decided(_) => 0,
-                Ended::TimeLimit | Ended::NeverSettles => 1,
+                Ended::TimeLimit | Ended::NeverSettles | Ended::Left => 1,
                 Ended::ImpactLimit => 2,
                 Ended::Failed => 3,
             };

@@ -2,7 +2,7 @@
 
 use super::indices::Pairs;
 use super::{Interval, Rank};
-use crate::workers::At;
+use crate::workers::{At, ENDS, UNDECIDED};
 use crate::{QuestionError, Template, Workers};
 use coinmc_core::{Domain, Stream, UniformSource};
 
@@ -147,7 +147,7 @@ fn shown(
         plan: &plan,
         point: 0,
     };
-    let mut counts = [0; 4];
-    workers.faces(at, first..first + TOSSES, &mut |_, face| counts[face] += 1)?;
-    Ok((counts[question.face as usize], counts[3]))
+    let mut counts = [0; ENDS];
+    workers.ends(at, first..first + TOSSES, &mut |_, end| counts[end] += 1)?;
+    Ok((counts[question.face as usize], counts[UNDECIDED]))
 }

@@ -155,10 +155,8 @@ impl<'a> Launches<'a> {
                 let counted = &mut counts[accepted[index(toss)].1];
                 counted.tosses += 1;
                 counted.work += 1 + u64::from(outcome.impacts) + u64::from(outcome.contact_steps);
-                match outcome.face() {
-                    Some(face) => counted.shown += u64::from(face == self.face),
-                    None => counted.undecided += 1,
-                }
+                counted.shown += u64::from(outcome.face() == Some(self.face));
+                counted.undecided += u64::from(outcome.is_undecided());
                 go_on()
             },
         )

@@ -30,6 +30,7 @@ fn outcome(trace: &Trace) -> String {
             };
             format!("{face}, {how}")
         }
+        Ended::Left => "Left the table".to_owned(),
         Ended::NeverSettles => "Proven never to settle".to_owned(),
         Ended::TimeLimit => "Undecided at the limit of time".to_owned(),
         Ended::ImpactLimit => "Undecided at the limit of impacts".to_owned(),

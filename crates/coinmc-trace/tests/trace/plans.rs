@@ -25,6 +25,13 @@ pub(crate) fn space(law: &str, tosses: u64) -> Plan {
     plan(&engine, "clean", tosses)
 }
 
+/// In space, onto a table that most coins leave.
+pub(crate) fn table(tosses: u64) -> Plan {
+    let engine = "rolling_friction_m = 1e-4\npivoting_friction_m = 1e-4\ntable_radius_m = 0.05\n\
+                  [engine.volumetric]";
+    plan(engine, "clean", tosses)
+}
+
 /// In space, with drag and without gyroscopic torque.
 pub(crate) fn dragged(tosses: u64) -> Plan {
     let engine = "[environment]\nlinear_drag_per_s = 0.7\nangular_drag_per_s = 0.3\n\

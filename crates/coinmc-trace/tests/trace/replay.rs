@@ -1,6 +1,6 @@
 //! A replayed toss is the toss of the run.
 
-use crate::plans::{all, flat, space};
+use crate::plans::{all, flat, space, table};
 use coinmc::run::{Chunk, FinishedToss, TossSource, for_each_end, run_chunk, stream};
 use coinmc_core::{EventKind, Tally};
 use coinmc_trace::{RecordKind, outcome, replay, replay_within};
@@ -115,12 +115,14 @@ fn memory_is_bounded_and_the_trace_reports_it() {
 
 #[test]
 fn a_trace_ends_like_the_toss_in_a_run() {
-    for plan in [flat("moreau", 20), space("moreau", 20)] {
+    for plan in [flat("moreau", 20), space("moreau", 20), table(20)] {
         let stream = coinmc::run::stream(&plan, 0);
         let mut compare = |toss: &FinishedToss| {
-            let trace = replay(&plan, 0, toss.toss, 0.0).unwrap();
-            assert_eq!(trace.outcome, toss.outcome);
-            assert_eq!(trace.records.last().unwrap().state, toss.end);
+            for rate_hz in [0.0, 3000.0] {
+                let trace = replay(&plan, 0, toss.toss, rate_hz).unwrap();
+                assert_eq!(trace.outcome, toss.outcome);
+                assert_eq!(trace.records.last().unwrap().state, toss.end);
+            }
             true
         };
         let begin = TossSource::Drawn(&stream);

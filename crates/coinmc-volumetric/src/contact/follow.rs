@@ -35,6 +35,9 @@ impl ContactSolver<'_> {
             self.move_to_phase(&mut phase, length, motion, spin);
             if let Some(start) = before {
                 adapter.step(length, |t| self.within_step(&start, t, ceiling));
+                if adapter.observer.has_seen_enough() {
+                    return Exit::GivenUp;
+                }
             }
             if let Some(exit) = self.apply(next, &mut phase, motion, spin) {
                 return exit;

@@ -88,7 +88,8 @@ impl ContactSolver<'_> {
         if now.share <= 0.0 && self.tips(state, -1.0) {
             return Some(SideExit::TipsOntoOtherRim);
         }
-        let held = self.rules.rule.is_tilting() && self.is_held_down(state);
+        let rule = self.rules.rule;
+        let held = rule.is_tilting() && !rule.awaits_rest() && self.is_held_down(state);
         held.then_some(SideExit::Leaves(Exit::Decided(Decided::Side)))
     }
 
@@ -166,6 +167,8 @@ impl ContactSolver<'_> {
         if !rolling.stops() {
             // drag alone never quite stops the coin; without drag it rolls forever
             return if rolling.slows() {
+                let way = rolling.distance().copysign(state[1]);
+                adapter.place.shift(0.0, way);
                 Exit::Decided(Decided::Side)
             } else {
                 Exit::NeverSettles

@@ -46,6 +46,9 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     /// The face, if it is decided.
     pub(super) fn decide(&mut self, touch: Touch) -> Option<Decided> {
         let (motion, body) = (&self.toss.motion, self.body());
+        if self.model.rule.awaits_rest() {
+            return self.decide_at_rest();
+        }
         let (own, other) = (self.tracks.own.height, self.tracks.other.height);
         let kinetic = motion.kinetic(body, &self.toss.spin);
         let energy = kinetic + motion.z;
@@ -69,7 +72,16 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         decided.then_some(Decided::Side)
     }
 
-    /// Whether a coin on both rims, slow or not, has been slow for so long that it rests.
+    /// The face of a coin that has come to rest, on a table with an edge, whatever touches: a coin at
+    /// rest on a slope may go on to leave and to touch it with either rim.
+    fn decide_at_rest(&mut self) -> Option<Decided> {
+        let kinetic = self.toss.motion.kinetic(self.body(), &self.toss.spin);
+        let well = self.model.rule.well(self.toss.motion.cos.abs());
+        self.rests(kinetic < REST * (1.0 - self.body().radius))
+            .then_some(well)
+    }
+
+    /// Whether a coin, slow or not, has been slow for so long that it rests.
     fn rests(&mut self, slow: bool) -> bool {
         if !slow {
             self.at_rest_since = None;

@@ -170,7 +170,10 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
     /// The end of a toss that is decided or at a limit.
     fn end_now(&mut self, touch: Touch) -> Option<Transition> {
         let limits = &self.model.limits;
-        if limits.no_step_left(self.usage.steps) || !self.budget.is_finite() {
+        let given_up = limits.no_step_left(self.usage.steps)
+            || !self.budget.is_finite()
+            || (O::ACTIVE && self.observer.has_seen_enough());
+        if given_up {
             Some(Transition::End(self.model.end_given_up(self.toss)))
         } else if limits.is_late(self.usage.time) {
             Some(Transition::End(Ended::TimeLimit))

@@ -156,7 +156,7 @@ fn extreme_launches_end_and_launches_that_are_not_finite_fail() {
                 Ended::TimeLimit => 1,
                 Ended::ImpactLimit => 2,
                 Ended::Failed => 3,
-                Ended::NeverSettles => 4,
+                Ended::NeverSettles | Ended::Left => 4,
             };
             ends[end] += 1;
             if !is_finite(&launch) {

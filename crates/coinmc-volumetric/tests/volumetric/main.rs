@@ -15,4 +15,5 @@ mod rough;
 mod sampling;
 mod side_ending;
 mod symmetry;
+mod table;
 mod textbook;

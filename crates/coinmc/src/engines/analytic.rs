@@ -14,12 +14,20 @@ pub(super) const ENGINE: EngineDescriptor = EngineDescriptor {
     kind: EngineKind::ClosedForm,
     stepped: false,
     laws: &[],
-    unmodelled: &[Unmodelled {
-        table: "coin",
-        key: "rim_radius_m",
-        message: "closed forms know sharp rims only: `coin.rim_radius_m` must be 0",
-        help: "remove `rim_radius_m`, or toss in space with [engine.volumetric]",
-    }],
+    unmodelled: &[
+        Unmodelled {
+            table: "coin",
+            key: "rim_radius_m",
+            message: "closed forms know sharp rims only: `coin.rim_radius_m` must be 0",
+            help: "remove `rim_radius_m`, or toss in space with [engine.volumetric]",
+        },
+        Unmodelled {
+            table: "surface",
+            key: "table_radius_m",
+            message: "closed forms know no edge of the table: `surface.table_radius_m` must be absent",
+            help: "remove `table_radius_m`, or toss in space with [engine.volumetric]",
+        },
+    ],
     finer: &[],
     remarks: &[],
     schema,

@@ -59,6 +59,8 @@ pub struct Row {
     pub side: Estimate,
     /// Probability of the face that was up at the launch; `None` where tosses do not tell it.
     pub same: Option<Estimate>,
+    /// Probability that the coin leaves the table; `None` where the table has no edge.
+    pub left: Option<Estimate>,
     /// How the intervals were computed: `wilson`, `clopper-pearson`, `sequential-clopper-pearson`
     /// where the point stopped at targets, `student-t` of an integral, `exact` for a closed
     /// form.
@@ -125,6 +127,9 @@ impl Row {
     ) -> Self {
         let point = &plan.points[index];
         let [heads, tails, side] = estimates::estimates(plan, index, &tally, at_look);
+        let tossed = point.engine.makes_tosses();
+        let share = |count| estimates::of_count(plan, &tally, count, at_look);
+        let has_edge = point.scene.surface.table_radius_m().is_some();
         Self {
             point: index,
             parameters: point.parameters.clone(),
@@ -135,12 +140,10 @@ impl Row {
             heads,
             tails,
             side,
-            same: point
-                .engine
-                .makes_tosses()
-                .then(|| estimates::of_count(plan, &tally, tally.same, at_look)),
+            same: tossed.then(|| share(tally.same)),
+            left: (tossed && has_edge).then(|| share(tally.left)),
             interval: estimates::interval_name(plan, index),
-            sampling: if point.engine.makes_tosses() {
+            sampling: if tossed {
                 estimates::RANDOM
             } else {
                 estimates::CLOSED_FORM
@@ -176,6 +179,7 @@ impl Row {
             sampling,
             evaluations: integral.evaluations,
             same: None,
+            left: None,
             // published counts are compared with counts
             published: None,
             ..Self::new(plan, index, Tally::default(), stopped_by)

@@ -120,7 +120,7 @@ fn endings() -> Vec<Column> {
         counter("side"),
         count(
             "undecided",
-            "Tosses without a face: the sum of the next four.",
+            "Tosses of which it is not known how they end: the sum of the next four.",
             |row| Cell::Count(row.tally.undecided()),
         ),
         counter("time_limit"),
@@ -246,23 +246,43 @@ fn stopping() -> Vec<Column> {
     ]
 }
 
+/// A number of an estimate that not every row has.
+fn of(estimate: Option<&Estimate>, number: fn(&Estimate) -> f64) -> Cell<'_> {
+    Cell::finite(estimate.map_or(f64::NAN, number))
+}
+
 /// How tosses ended by how they began.
 fn same_side() -> Vec<Column> {
-    fn of(row: &Row, number: fn(&Estimate) -> f64) -> Cell<'_> {
-        Cell::finite(row.same.as_ref().map_or(f64::NAN, number))
-    }
     vec![
         counter("same"),
         number(
             "p_same",
             "Probability of that: same/tosses; empty where it is not known.",
-            |row| of(row, |same| same.p),
+            |row| of(row.same.as_ref(), |same| same.p),
         ),
         number("p_same_lo", "Lower end of its interval.", |row| {
-            of(row, |same| same.lo)
+            of(row.same.as_ref(), |same| same.lo)
         }),
         number("p_same_hi", "Upper end of its interval.", |row| {
-            of(row, |same| same.hi)
+            of(row.same.as_ref(), |same| same.hi)
+        }),
+    ]
+}
+
+/// Tosses that left a table with an edge.
+fn left() -> Vec<Column> {
+    vec![
+        counter("left"),
+        number(
+            "p_left",
+            "Probability of that: left/tosses; empty where the table has no edge.",
+            |row| of(row.left.as_ref(), |left| left.p),
+        ),
+        number("p_left_lo", "Lower end of its interval.", |row| {
+            of(row.left.as_ref(), |left| left.lo)
+        }),
+        number("p_left_hi", "Upper end of its interval.", |row| {
+            of(row.left.as_ref(), |left| left.hi)
         }),
     ]
 }
@@ -325,6 +345,7 @@ pub fn columns<'a>(parameters: impl IntoIterator<Item = &'a str>) -> Vec<Column>
         .chain(side_endings())
         .chain(stopping())
         .chain(same_side())
+        .chain(left())
         .collect()
 }
 

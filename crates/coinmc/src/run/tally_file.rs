@@ -40,7 +40,7 @@ pub(super) fn parse_name(file: &str) -> Option<(usize, u64)> {
 fn is_always_written(counter: &Counter) -> bool {
     !matches!(
         counter.kind,
-        CounterKind::Breakdown | CounterKind::SideEnding
+        CounterKind::Breakdown | CounterKind::SideEnding | CounterKind::EdgeEnding
     )
 }
 
@@ -130,7 +130,7 @@ fn is_possible(tally: &Tally, tosses: u64) -> bool {
     let mut endings = Some(0_u64);
     for (counter, count) in Tally::COUNTERS.iter().zip(tally.to_array()) {
         let most = match counter.kind {
-            CounterKind::Ending => {
+            CounterKind::Ending | CounterKind::EdgeEnding => {
                 endings = endings.and_then(|sum| sum.checked_add(count));
                 tosses
             }

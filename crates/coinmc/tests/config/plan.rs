@@ -51,6 +51,7 @@ fn defaults_are_those_of_the_crates() {
             ("restitution_reference_m_s", 1.0),
             ("roughness_slope", 0.0),
             ("roughness_wavelength_m", 0.0),
+            ("table_radius_m", 0.0),
         ]
     );
     assert!(point.scene.has_gyroscopic_torque());

@@ -1,6 +1,7 @@
 //! Materials, and what a surface has where the config does not say it.
 
 use crate::support::{SMALL, column, parse};
+use coinmc::config;
 use coinmc::plan::Plan;
 use coinmc_core::{Material, pivoting_friction_of_patch_m};
 
@@ -145,4 +146,32 @@ fn engines_take_of_a_material_what_they_model() {
     let adhesive = parse(&on("material = 'wood'\nlanding = 'adhesive'"), &[]);
     assert_eq!(column(&adhesive, "friction"), [0.0]);
     assert!(adhesive.notes[0].starts_with("surface.material = \"wood\" changes nothing"));
+}
+
+/// Whatever does not know the edge of a table refuses it, and says who does.
+#[test]
+fn the_edge_of_a_table_is_refused_where_it_is_not_modelled() {
+    let table = |keys: &str| on(&format!("material = 'felt'\n{keys}"));
+    let good = table("table_radius_m = [0.1, 0.2]");
+    assert_eq!(column(&parse(&good, &[]), "table_radius_m"), [0.1, 0.2]);
+    assert_eq!(column(&parse(&table(""), &[]), "table_radius_m"), [0.0]);
+    for engine in ["flat", "rapier", "analytic"] {
+        let text = good.replace("engine.volumetric", &format!("engine.{engine}"));
+        let problems = config::parse("bad.toml", &text, &[])
+            .unwrap_err()
+            .to_string();
+        assert!(
+            problems.contains("table_radius_m` must be absent")
+                && problems.contains("bad.toml:5:")
+                && problems.contains("[engine.volumetric]"),
+            "{problems}"
+        );
+    }
+    for radius in ["0", "-1", "1e9", "'wide'"] {
+        let text = table(&format!("table_radius_m = {radius}"));
+        let problems = config::parse("bad.toml", &text, &[])
+            .unwrap_err()
+            .to_string();
+        assert!(problems.contains("`surface.table_radius_m`"), "{problems}");
+    }
 }

@@ -23,6 +23,7 @@ fn row(parameters: &[(&str, f64)], side: Estimate) -> Row {
         tails: side,
         side,
         same: None,
+        left: None,
         interval: "wilson",
         stopped_by: StoppedBy::Tosses,
         pilot_tosses: 0,

@@ -182,7 +182,7 @@ fn every_result_names_the_law_and_all_that_defines_the_toss() {
     let text = "[coin]\nratio = 1\n[surface]\nrestitution = 0.3\nfriction = 10\nrolling_friction_m = 1e-4\n\
                 pivoting_friction_m = 2e-4\nrestitution_threshold_m_s = 2\n\
                 restitution_exponent = 0.25\nrestitution_reference_m_s = 2\nroughness_slope = 0.06\n\
-                roughness_wavelength_m = 3e-3\n[environment]\n\
+                roughness_wavelength_m = 3e-3\ntable_radius_m = 0.2\n[environment]\n\
                 linear_drag_per_s = 1\nangular_drag_per_s = 0.05\ngyroscopic_torque = false\n\
                 [launch]\npreset = \"table1\"\n[engine.volumetric]\nlaw = \"stronge\"\n\
                 [stop]\ntosses = 1\n";
@@ -208,11 +208,12 @@ fn every_result_names_the_law_and_all_that_defines_the_toss() {
         ("restitution_reference_m_s", "2.0"),
         ("roughness_slope", "0.06"),
         ("roughness_wavelength_m", "0.003"),
+        ("table_radius_m", "0.2"),
         ("engine", "volumetric"),
         ("law", "stronge"),
         ("gyroscopic_torque", "false"),
     ];
-    assert_eq!(cells[3..18], expected);
+    assert_eq!(cells[3..19], expected);
     let published = results.rows[0].published.as_ref().unwrap();
     assert_eq!(
         published.differs,
@@ -221,7 +222,8 @@ fn every_result_names_the_law_and_all_that_defines_the_toss() {
             "rolling_friction_m",
             "pivoting_friction_m",
             "restitution_exponent",
-            "roughness_slope"
+            "roughness_slope",
+            "table_radius_m"
         ]
     );
 }

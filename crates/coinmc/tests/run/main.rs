@@ -1,6 +1,7 @@
 //! Runs: cut into chunks, broken off, merged and damaged, they count the same.
 
 mod damage;
+mod edge;
 mod full_disk;
 mod in_memory;
 mod integrated;

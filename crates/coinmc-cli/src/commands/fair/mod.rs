@@ -22,8 +22,8 @@ Examples:
   coinmc fair toss.toml --vary surface.restitution  which bounce makes this coin fair?
   coinmc fair toss.toml --face heads --target 0.45
 
-Scenes: table, wood, glass, steel, felt, billiards, floor, carpet. What each assumes is printed with the
-answer.";
+Scenes: table, wood, glass, steel, felt, tray, billiards, floor, carpet. What each assumes is printed with
+the answer.";
 
 /// Find how thick a fair coin is, with the error of the answer
 ///

@@ -23,6 +23,7 @@ pub(super) fn decision(trace: &Trace) -> String {
             )
         }
         Ended::Decided(face) => decided(trace, &when, face),
+        Ended::Left => format!("The coin left the table {when}: its centre passed the edge."),
         Ended::NeverSettles => format!(
             "Undecided: it is proven {when} that the coin never settles. It loses no energy: it \
              stands balanced, or bounces or rolls forever."

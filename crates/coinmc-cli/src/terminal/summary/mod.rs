@@ -45,6 +45,10 @@ fn table(results: &Results, csv: &Path, style: &Style) -> String {
         Column::right("P(heads)").droppable(2),
         Column::right("P(tails)").droppable(3),
         Column::right("P(side)"),
+    ]);
+    let has_edge = results.rows.iter().any(|row| row.left.is_some());
+    columns.extend(has_edge.then(|| Column::right("P(left)")));
+    columns.extend([
         Column::right("tosses").droppable(4),
         Column::right("undecided").droppable(1),
     ]);
@@ -61,7 +65,7 @@ fn table(results: &Results, csv: &Path, style: &Style) -> String {
             table.push_gap(hidden as u64);
         }
         if hidden == 0 || i < END || i >= END + hidden {
-            table.push(cells(row, &shown, decimals, style));
+            table.push(cells(row, &shown, has_edge, decimals, style));
         }
     }
     let rendered = table.render(style);
@@ -89,10 +93,14 @@ fn shown_parameters(results: &Results) -> Vec<&str> {
     }
 }
 
-fn cells(row: &Row, shown: &[&str], decimals: usize, style: &Style) -> Vec<String> {
+fn cells(row: &Row, shown: &[&str], has_edge: bool, decimals: usize, style: &Style) -> Vec<String> {
     let parameter = |name: &&str| row.parameter(name).map_or("-".to_owned(), compact);
     let mut cells: Vec<String> = shown.iter().map(parameter).collect();
-    cells.extend([&row.heads, &row.tails, &row.side].map(|p| probability(p, row, decimals, style)));
+    let show = |p| probability(p, row, decimals, style);
+    cells.extend([&row.heads, &row.tails, &row.side].map(show));
+    if has_edge {
+        cells.push(row.left.as_ref().map_or("-".to_owned(), show));
+    }
     cells.extend([tosses(row), grouped(row.tally.undecided())]);
     cells
 }

@@ -191,6 +191,28 @@ fn tosses_on_the_side_are_told_by_how_they_came_there() {
     assert!(text.contains(sentence), "{text}");
 }
 
+/// A column of its own, where a table has an edge.
+#[test]
+fn tosses_that_left_are_a_probability() {
+    let space = sweep("[0.5, 1.0]", "0.5").replace("flat", "volumetric");
+    let plain = Style::plain(200);
+    assert!(!text(&results(&space, 1.0), &plain).contains("left"));
+    let edge = space.replace("friction = 0.3", "friction = 0.3, table_radius_m = 0.2");
+    let mut results = results(&edge, 1.0);
+    let left = results.rows[0].side;
+    results.rows[0].left = Some(left);
+    let text = text(&results, &plain);
+    let shown = format!("{:.4} ± {:.4}", left.p, left.half_width());
+    let row = text
+        .lines()
+        .find(|line| line.contains("0.5 "))
+        .expect("a row");
+    assert!(
+        text.contains("P(left)") && row.matches(&shown).count() == 2,
+        "{text}"
+    );
+}
+
 #[test]
 fn axes_side_by_side_make_one_curve() {
     let config = sweep("[0.5, 1.0, 1.5]", "[0.3, 0.4, 0.5]") + "\nsweep.mode = 'zip'";
