@@ -260,6 +260,14 @@ impl Surface {
         }
     }
 
+    /// The same surface without an edge.
+    pub fn without_edge(self) -> Self {
+        Self {
+            table_radius_m: None,
+            ..self
+        }
+    }
+
     /// Radius of the table, m; `None`: it is endless.
     pub fn table_radius_m(&self) -> Option<f64> {
         self.table_radius_m

@@ -30,7 +30,7 @@ use coinmc_lanes::{Lanes, NoSuchLanes};
 #[derive(Debug, Clone)]
 pub struct VolumetricEngine<L> {
     pub(crate) model: Model<L>,
-    table: Option<Table>,
+    table: Option<Table<L>>,
     lanes: Lanes,
 }
 
@@ -40,9 +40,11 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
     /// # Errors
     /// [`SettingsError`] if a setting is out of range.
     pub fn new(scene: &Scene, settings: &Settings, law: L) -> Result<Self, SettingsError> {
+        let mut endless = *scene;
+        endless.surface = scene.surface.without_edge();
         Ok(Self {
-            model: Model::new(scene, settings, law)?,
-            table: Table::new(scene),
+            model: Model::new(&endless, settings, law)?,
+            table: Table::new(scene, settings, law)?,
             lanes: Lanes::best(),
         })
     }
@@ -71,7 +73,7 @@ impl<L: ImpactLaw> Engine for VolumetricEngine<L> {
     fn toss(&self, (): &mut (), launch: &Launch, observer: &mut impl Observer) -> Outcome {
         match &self.table {
             None => self.model.run(launch, observer),
-            Some(table) => self.model.run_on(table, launch, observer),
+            Some(table) => table.run(&self.model, launch, observer),
         }
         .outcome
     }
