@@ -45,6 +45,7 @@ from coinmc._trace import EVENT, SAMPLE, Trace, trace
 if TYPE_CHECKING:
     from coinmc import film, plot
     from coinmc._aim import Aimed, AimedLaunch, aim
+    from coinmc._compare import Comparison, compare
     from coinmc._design import Design, design
     from coinmc._fair import Fair, FairRoot, fair
     from coinmc._ranking import Ranking, rank
@@ -58,6 +59,7 @@ __all__ = [
     "STATE",
     "Aimed",
     "AimedLaunch",
+    "Comparison",
     "Config",
     "ConfigError",
     "ConfigLike",
@@ -87,6 +89,7 @@ __all__ = [
     "aim",
     "analytic",
     "check",
+    "compare",
     "design",
     "estimate",
     "fair",
@@ -110,6 +113,8 @@ _LAZY = {
     "Aimed": "coinmc._aim",
     "AimedLaunch": "coinmc._aim",
     "aim": "coinmc._aim",
+    "Comparison": "coinmc._compare",
+    "compare": "coinmc._compare",
     "Design": "coinmc._design",
     "design": "coinmc._design",
     "Fair": "coinmc._fair",

@@ -6,7 +6,7 @@
 //! launches as rows of numbers · `columns` and `toss` individual tosses · `run` estimates and runs
 //! · `results` tables, also as Arrow · `interval` intervals of proportions · `trace` recorded
 //! motion of a toss · `question`, `fair`, `design`, `aim`,
-//! `ranking`, `rare` questions ·
+//! `ranking`, `rare`, `compare` questions ·
 //! `analytic` closed forms · `film` drops on film · `errors` exceptions.
 
 // Arguments converted from Python are owned.
@@ -15,6 +15,7 @@
 mod aim;
 mod analytic;
 mod columns;
+mod compare;
 mod design;
 mod errors;
 mod fair;
@@ -41,6 +42,8 @@ mod _lib {
     use super::aim::aim;
     #[pymodule_export]
     use super::analytic::{closed_form, no_bounce_rule};
+    #[pymodule_export]
+    use super::compare::compare;
     #[pymodule_export]
     use super::design::design;
     #[pymodule_export]

@@ -48,6 +48,10 @@ impl Results {
             tosses: report.tosses,
         })
     }
+
+    pub(crate) fn table(&self) -> &Table {
+        &self.table
+    }
 }
 
 #[pymethods]

@@ -248,6 +248,18 @@ fn noise_resets_disconnections_and_kills_lose_or_double_no_throw() {
         text(&output)
     );
 
+    // the journal's counts against the model
+    let mut model = command(bench.dir.path());
+    model.args(["run", "day/experiment.toml", "--out", "model", "--quiet"]);
+    let model = model.output().expect("it starts");
+    assert!(model.status.success(), "{}", text(&model));
+    let mut compare = command(bench.dir.path());
+    compare.args(["compare", "model", "--journal", "day"]);
+    let compared = text(&compare.output().expect("it starts"));
+    assert!(compared.contains(&format!("{done} tosses: ")), "{compared}");
+    let voids = format!("{void} void throws are left out");
+    assert_eq!(compared.contains(&voids), void > 0, "{compared}");
+
     // tables from the journal: the same as for simulated runs, and one row per throw
     let mut export = command(bench.dir.path());
     export.args(["robot", "export", "day"]);

@@ -5,8 +5,8 @@ use crate::commands::Film;
 #[cfg(feature = "robot")]
 use crate::commands::Robot;
 use crate::commands::{
-    AimAt, Analytic, Check, Completions, DesignArgs, Fair, Merge, Rare, Run, Schema, SensitivityOf,
-    Trace,
+    AimAt, Analytic, Check, Compare, Completions, DesignArgs, Fair, Merge, Rare, Run, Schema,
+    SensitivityOf, Trace,
 };
 use crate::exit::{Failure, Outcome};
 use crate::output::{Console, Format};
@@ -58,6 +58,7 @@ enum Command {
     Sensitivity(SensitivityOf),
     Aim(AimAt),
     Rare(Rare),
+    Compare(Compare),
     Merge(Merge),
     Trace(Box<Trace>),
     #[cfg(feature = "film")]
@@ -91,6 +92,7 @@ impl Command {
             Self::Sensitivity(sensitivity) => sensitivity.format(),
             Self::Aim(aim) => aim.format(),
             Self::Rare(rare) => rare.format(),
+            Self::Compare(compare) => compare.format(),
             Self::Merge(merge) => merge.format(),
             Self::Trace(trace) => trace.format(),
             #[cfg(feature = "film")]
@@ -111,6 +113,7 @@ impl Command {
             Self::Sensitivity(sensitivity) => sensitivity.execute(console),
             Self::Aim(aim) => aim.execute(console),
             Self::Rare(rare) => rare.execute(console),
+            Self::Compare(compare) => compare.execute(console),
             Self::Merge(merge) => merge.execute(console),
             Self::Trace(trace) => trace.execute(console),
             #[cfg(feature = "film")]

@@ -145,6 +145,12 @@ pub enum QuestionError {
         /// The problems.
         problems: Diagnostics,
     },
+    /// There are no counts.
+    #[error("at least one toss must be counted")]
+    NoCounts,
+    /// No point of a run has tosses.
+    #[error("no point has tosses yet: finish the run")]
+    NoModel,
     /// There is no such scene.
     #[error("there is no scene `{name}`{}: known are {known}", nearest.map_or(String::new(), |near| format!(" (did you mean `{near}`?)")))]
     NoScene {

@@ -8,6 +8,7 @@
 //!                                                   + HowRare  ─how_rare▶ Rareness { p, gain, … }
 //! ```
 //! * [`fair()`] finds the values of a parameter at which a face has a given probability.
+//! * [`compare()`] compares counts of real tosses with the points of a run.
 //! * [`aim()`] finds the launches that force a face.
 //! * [`design()`] makes a fair coin to print.
 //! * [`scenes`] are everyday scenes, with where each of their numbers comes from.
@@ -19,6 +20,7 @@
 
 mod aim;
 pub mod assumptions;
+mod compare;
 mod design;
 mod document;
 mod drawing;
@@ -40,6 +42,9 @@ mod workers;
 pub use aim::{
     Aim, Aimed, Clumsy, MOST_FACTORS, MOST_PLACES, MOST_TOSSES, Parameter, Place, aim,
     document_of_aim, picture,
+};
+pub use compare::{
+    Compared, Comparison, MOST_COUNTED, MOST_MODELS, Model, compare, document_of_comparison,
 };
 pub use design::{
     Design, DesignError, DesignFile, Designed, PrintedCoin, TEST, THICKNESS_ERRORS_M, design,

@@ -3,6 +3,7 @@
 mod aim;
 mod analytic;
 mod check;
+mod compare;
 mod completions;
 mod design;
 mod fair;
@@ -22,6 +23,7 @@ mod trace;
 pub(crate) use aim::AimAt;
 pub(crate) use analytic::Analytic;
 pub(crate) use check::Check;
+pub(crate) use compare::Compare;
 pub(crate) use completions::Completions;
 pub(crate) use design::DesignArgs;
 pub(crate) use fair::Fair;

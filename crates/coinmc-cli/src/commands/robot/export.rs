@@ -67,7 +67,7 @@ impl Export {
 }
 
 /// The experiment in a directory and its journal, even while it is running.
-pub(super) fn read(path: &Path) -> Result<(Experiment, History), Failure> {
+pub(in crate::commands) fn read(path: &Path) -> Result<(Experiment, History), Failure> {
     let directory = Directory::at(path);
     let experiment = directory.experiment().map_err(failure)?;
     let (theirs, history) = Journal::read(&directory.journal())

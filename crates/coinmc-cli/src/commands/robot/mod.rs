@@ -10,6 +10,8 @@ mod run;
 mod sim;
 mod throw;
 
+pub(in crate::commands) use export::read;
+
 use crate::exit::{Failure, Outcome};
 use crate::output::{Console, Format};
 use anyhow::anyhow;

@@ -1,0 +1,54 @@
+//! An answer as a JSON document.
+
+use super::{Compared, Comparison};
+use crate::document::FORMAT_VERSION;
+use coinmc_core::{Estimate, Face};
+use serde_json::{Map, Value, json};
+
+/// A [`Comparison`] as a JSON document. docs/reference/formats.md describes its fields.
+pub fn document_of_comparison(comparison: &Comparison<'_>) -> Value {
+    let [heads, tails, side] = comparison.counts;
+    json!({
+        "format_version": FORMAT_VERSION,
+        "kind": "compare",
+        "heads": heads,
+        "tails": tails,
+        "side": side,
+        "confidence": comparison.seen[0].confidence,
+        "seen": faces(|face| &comparison.seen[face as usize]),
+        "rows": comparison.models.iter().map(row).collect::<Vec<_>>(),
+    })
+}
+
+fn faces<'a>(estimate: impl Fn(Face) -> &'a Estimate) -> Value {
+    let of = |face: Face| {
+        let Estimate { p, lo, hi, .. } = estimate(face);
+        (
+            face.name().to_owned(),
+            json!({ "p": p, "lo": lo, "hi": hi }),
+        )
+    };
+    Value::Object(Face::ALL.into_iter().map(of).collect())
+}
+
+fn row(compared: &Compared<'_>) -> Value {
+    let row = compared.model.row;
+    let parameters: Map<String, Value> = row
+        .parameters
+        .iter()
+        .map(|(name, value)| (name.to_string(), json!(value)))
+        .collect();
+    json!({
+        "run": compared.model.run,
+        "point": row.point,
+        "parameters": parameters,
+        "engine": row.engine,
+        "law": row.law,
+        "tosses": row.tally.tosses(),
+        "model": faces(|face| row.estimate(face)),
+        "p_value": compared.p_value,
+        "evidence": compared.evidence,
+        "share": compared.share,
+        "tosses_to_tell": compared.tosses_to_tell,
+    })
+}
