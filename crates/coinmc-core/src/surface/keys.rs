@@ -6,12 +6,14 @@ use crate::schema::{
     Absent, Bounds, Condition, Fallback, Field, Kind, ReadError, Rule, TableKind, Value, Values,
     Word, choice, default, field, number,
 };
-use crate::{Coin, EngineError, Material, Roughness};
+use crate::{Coin, EngineError, Material, Roughness, TableTilt};
 
 /// Lengths and speeds: typing errors end here.
 const LARGE: Bounds = Bounds::closed(0.0, 1e6);
 const WAVELENGTH: &str = "roughness_wavelength_m";
 const TABLE_RADIUS: &str = "table_radius_m";
+const TILT: &str = "table_tilt_deg";
+const DOWNHILL: &str = "table_downhill_deg";
 
 const FIRST_CONTACT_DECIDES: Condition = Condition::Word("landing", Landing::Adhesive.name());
 const OF_A_MATERIAL: Condition = Condition::Given("material");
@@ -24,6 +26,7 @@ impl Surface {
         fields.extend(restitution_by_speed());
         fields.extend(ground());
         fields.push(table_radius());
+        fields.extend(table_tilt());
         fields.push(choice(
             "landing",
             "What a contact does.",
@@ -43,6 +46,11 @@ impl Surface {
                     key: "restitution_reference_m_s",
                     others: &["restitution_exponent"],
                     fallback: Some(Fallback::Number(DEFAULT_REFERENCE_M_S)),
+                },
+                Rule::GoesWith {
+                    key: DOWNHILL,
+                    others: &[TILT],
+                    fallback: Some(Fallback::Number(0.0)),
                 },
                 Rule::Together {
                     keys: ["roughness_slope", WAVELENGTH],
@@ -83,6 +91,8 @@ impl Surface {
         let reference = or("restitution_reference_m_s", DEFAULT_REFERENCE_M_S)?;
         let roughness = roughness(values, coin)?;
         let table_radius = values.optional(TABLE_RADIUS)?;
+        let tilt = TableTilt::new(or(TILT, 0.0)?, or(DOWNHILL, 0.0)?)
+            .map_err(|error| ReadError::new(error.to_string()).at(TILT))?;
         Self::new(number("restitution")?, number("friction")?)
             .and_then(|surface| surface.with_friction_lengths(rolling, pivoting))
             .and_then(|surface| surface.with_restitution_threshold(threshold))
@@ -92,7 +102,9 @@ impl Surface {
                 Some(radius_m) => surface.with_table_radius(radius_m),
                 None => Ok(surface),
             })
-            .map_err(|error| ReadError::new(error.to_string()))
+            .map_err(|error| ReadError::new(error.to_string()))?
+            .with_tilt(tilt)
+            .map_err(|error| ReadError::new(error.to_string()).at(TILT))
     }
 }
 
@@ -201,6 +213,25 @@ fn table_radius() -> Field {
         Bounds::above_zero(1e6),
         Absent::Omitted,
     )
+}
+
+fn table_tilt() -> [Field; 2] {
+    [
+        number(
+            TILT,
+            "Angle of the table to the horizontal, degrees; its tangent must be below `friction`. The coin \
+             is launched straight above the middle of the table. In space only.",
+            Bounds::closed(0.0, TableTilt::MAX_DEG),
+            Absent::Omitted,
+        ),
+        number(
+            DOWNHILL,
+            "Direction in which a tilted table descends, degrees from the x axis towards the y axis (0 if \
+             absent).",
+            Bounds::closed(-360.0, 360.0),
+            Absent::Omitted,
+        ),
+    ]
 }
 
 /// The pivoting friction length as given, or that of the contact patch.
