@@ -34,7 +34,7 @@ from typing import TYPE_CHECKING, Any
 from coinmc import _lib, analytic
 from coinmc._codes import Ended, Face
 from coinmc._config import Config, ConfigLike, Group, Scene, Stop, check
-from coinmc._errors import ConfigError, Error, FilmError, Problem, RunError, TraceError
+from coinmc._errors import ConfigError, Error, FilmError, Problem, RunError, TraceError, VisionError
 from coinmc._intervals import Estimate
 from coinmc._launches import LAUNCH, STATE, launches
 from coinmc._lib import __build__, __version__
@@ -84,6 +84,7 @@ __all__ = [
     "Tosses",
     "Trace",
     "TraceError",
+    "VisionError",
     "__build__",
     "__version__",
     "aim",

@@ -2,7 +2,15 @@
 
 from typing import NamedTuple
 
-__all__ = ["ConfigError", "Error", "FilmError", "Problem", "RunError", "TraceError"]
+__all__ = [
+    "ConfigError",
+    "Error",
+    "FilmError",
+    "Problem",
+    "RunError",
+    "TraceError",
+    "VisionError",
+]
 
 
 class Problem(NamedTuple):
@@ -66,3 +74,7 @@ class RunError(Error, RuntimeError):
 
 class TraceError(Error, ValueError):
     """There is no such toss, or it cannot be traced with these options."""
+
+
+class VisionError(Error, ValueError):
+    """A photo, a coin description or a camera file cannot be used; the message says why."""

@@ -52,6 +52,11 @@ pub(crate) fn run(error: &RunError) -> PyErr {
     python::RunError::new_err(error.to_string())
 }
 
+/// Why a robot's journal cannot be read.
+pub(crate) fn journal(error: impl ToString) -> PyErr {
+    python::RunError::new_err(error.to_string())
+}
+
 /// Why a question has no answer.
 pub(crate) fn question(error: &QuestionError) -> PyErr {
     match error {

@@ -4,7 +4,7 @@
 //! # Files
 //! `plan` configs · `supervise` long work, signals and progress · `share` threads · `launch`
 //! launches as rows of numbers · `columns` and `toss` individual tosses · `run` estimates and runs
-//! · `results` tables, also as Arrow · `interval` intervals of proportions · `trace` recorded
+//! · `results` and `throws` tables, `arrow` tables for Python · `interval` intervals of proportions · `trace` recorded
 //! motion of a toss · `question`, `fair`, `design`, `aim`,
 //! `ranking`, `rare`, `compare` questions ·
 //! `analytic` closed forms · `film` drops on film · `errors` exceptions.
@@ -14,6 +14,7 @@
 
 mod aim;
 mod analytic;
+mod arrow;
 mod columns;
 mod compare;
 mod design;
@@ -30,6 +31,7 @@ mod results;
 mod run;
 mod share;
 mod supervise;
+mod throws;
 mod toss;
 mod trace;
 
@@ -62,6 +64,8 @@ mod _lib {
     use super::results::Results;
     #[pymodule_export]
     use super::run::{estimate, open, run};
+    #[pymodule_export]
+    use super::throws::Throws;
     #[pymodule_export]
     use super::toss::{launches, toss};
     #[pymodule_export]

@@ -11,7 +11,7 @@
 //! ```
 
 use crate::Experiment;
-use crate::journal::{Header, Journal, JournalError};
+use crate::journal::{Header, History, Journal, JournalError};
 use coinmc::config;
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File, OpenOptions};
@@ -169,6 +169,22 @@ impl Directory {
         };
         let plan = config::load(&path, &[]).map_err(|problems| damaged(problems.to_string()))?;
         Experiment::new(plan).map_err(|problems| damaged(problems.to_string()))
+    }
+
+    /// The experiment in this directory and its journal, which is only read: the experiment can
+    /// continue meanwhile.
+    ///
+    /// # Errors
+    /// [`DirectoryError`] if there is none, a file is damaged, or the journal is another's.
+    pub fn read(&self) -> Result<(Experiment, History), DirectoryError> {
+        let experiment = self.experiment()?;
+        let path = self.journal();
+        let (theirs, history) = Journal::read(&path)?;
+        let ours = Self::header(&experiment);
+        if theirs != ours {
+            return Err(JournalError::OtherExperiment { path, theirs, ours }.into());
+        }
+        Ok((experiment, history))
     }
 
     /// Port and camera of the last session, if they can be read.

@@ -1,14 +1,12 @@
 //! `coinmc robot export`: tables from the journal.
 
-use super::failure;
+use super::read;
 use crate::exit::{Failure, Outcome};
 use crate::output;
 use anyhow::{Context, anyhow};
 use clap::Args;
 use coinmc::results::{write_csv, write_parquet};
 use coinmc_robot::export::{results, rows, write_throws_csv, write_throws_parquet};
-use coinmc_robot::journal::{History, Journal, JournalError};
-use coinmc_robot::{Directory, Experiment};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -64,21 +62,6 @@ impl Export {
         ));
         Ok(Outcome::Done)
     }
-}
-
-/// The experiment in a directory and its journal, even while it is running.
-pub(in crate::commands) fn read(path: &Path) -> Result<(Experiment, History), Failure> {
-    let directory = Directory::at(path);
-    let experiment = directory.experiment().map_err(failure)?;
-    let (theirs, history) = Journal::read(&directory.journal())
-        .map_err(|error| failure(coinmc_robot::DirectoryError::Journal(error)))?;
-    let ours = Directory::header(&experiment);
-    if theirs != ours {
-        let path = directory.journal();
-        let error = JournalError::OtherExperiment { path, theirs, ours };
-        return Err(failure(coinmc_robot::DirectoryError::Journal(error)));
-    }
-    Ok((experiment, history))
 }
 
 /// Writes a table atomically.

@@ -1,6 +1,6 @@
 //! `coinmc robot fairness`: is the robot fair?
 
-use super::export::read;
+use super::read;
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, FORMAT_VERSION, Format};
 use crate::terminal::table::{Column, Table};

@@ -10,15 +10,14 @@ mod run;
 mod sim;
 mod throw;
 
-pub(in crate::commands) use export::read;
-
 use crate::exit::{Failure, Outcome};
 use crate::output::{Console, Format};
 use anyhow::anyhow;
 use clap::{Args, Subcommand};
+use coinmc_robot::journal::History;
 use coinmc_robot::port::ConnectionError;
-use coinmc_robot::{DirectoryError, SessionError};
-use std::path::PathBuf;
+use coinmc_robot::{Directory, DirectoryError, Experiment, SessionError};
+use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -117,6 +116,11 @@ impl PortArgument {
             ))),
         }
     }
+}
+
+/// The experiment in a directory and its journal, even while it is running.
+pub(in crate::commands) fn read(path: &Path) -> Result<(Experiment, History), Failure> {
+    Directory::at(path).read().map_err(failure)
 }
 
 /// Classifies an error: wrong input by the user, or a failure at run time.
