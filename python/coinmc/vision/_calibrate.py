@@ -58,7 +58,9 @@ def calibrate(
         size = size or (grey.shape[1], grey.shape[0])
         corners = _corners(detector, grey)
         if (grey.shape[1], grey.shape[0]) != size:
-            problems.append(f"{path} is {grey.shape[1]} x {grey.shape[0]}, not {size[0]} x {size[1]}")
+            problems.append(
+                f"{path} is {grey.shape[1]} x {grey.shape[0]}, not {size[0]} x {size[1]}"
+            )
         elif corners is None:
             problems.append(f"{path} shows fewer than {CORNERS} corners of the board")
         else:

@@ -10,7 +10,7 @@ from coinmc.vision._camera import Camera
 from coinmc.vision._coin import FACES, MarkedCoin
 from coinmc.vision._detect import Detector, Sightings, looks
 from coinmc.vision._photo import read_photo
-from coinmc.vision._pose import Fit, free_fit, refined, tolerance_px
+from coinmc.vision._pose import Fit, free_fit, refined, tolerance_px, vote
 from coinmc.vision._rest import deviation_deg, rest_fit
 
 __all__ = ["Classifier", "Reading"]
@@ -117,24 +117,27 @@ class Classifier:
         A photo that cannot be read as it is is looked at again in other ways. The first look that
         shows a face, or a leaning coin by several markers, decides.
         """
-        best = Reading("none", reason="no marker of the coin is seen")
+        seen: Sightings = {}
+        reading = Reading("none", reason="no marker of the coin is seen")
         for look in looks(grey):
-            seen, twice = self._detector.find(grey, look())
+            more, twice = self._detector.find(grey, look())
             if twice:
-                return Reading("none", others=len(seen), reason="a marker is seen twice")
+                return Reading("none", others=len(more), reason="a marker is seen twice")
+            # what earlier looks have seen stays: they see corners more sharply
+            if more.keys() <= seen.keys():
+                continue
+            seen = more | seen
             reading = self._judge(seen)
             if reading.face != "none" or reading.shows == "leaning":
-                return reading
-            if reading.markers + reading.others > best.markers + best.others:
-                best = reading
-        return best
+                break
+        return reading
 
     def _judge(self, seen: Sightings) -> Reading:
-        if not seen:
-            return Reading("none", reason="no marker of the coin is seen")
         free = free_fit(self.coin, self.camera, seen)
         if free is None:
             return Reading("none", others=len(seen), reason="no marker gives a pose")
+        if len(free.agreeing) < len(seen):
+            free = self._at_rest(seen, free)
         others = len(seen) - len(free.agreeing)
         if len(free.agreeing) < MARKERS:
             reason = "only one marker is seen" if others == 0 else "no two markers agree"
@@ -142,6 +145,23 @@ class Classifier:
         if others >= len(free.agreeing):
             return self._told("none", free, others, reason="as many markers disagree as agree")
         return self._face(seen, free, others)
+
+    def _at_rest(self, seen: Sightings, free: Fit) -> Fit:
+        """Look for a coin at rest with which more markers agree.
+
+        Where markers are hardly seen, a pose from one of them is too uncertain for the others to
+        agree with. At rest it has three numbers instead of six.
+        """
+        for number in sorted(seen):
+            alone = free_fit(self.coin, self.camera, {number: seen[number]})
+            if alone is None:
+                continue
+            for face in FACES:
+                rest = rest_fit(self.coin, self.camera, seen, alone, face)
+                fit = vote(self.coin, self.camera, seen, rest.pose)
+                if len(fit.agreeing) > len(free.agreeing):
+                    free = refined(self.coin, self.camera, seen, fit)
+        return free
 
     def _face(self, seen: Sightings, free: Fit, others: int) -> Reading:
         """Tell a coin at rest, which explains all corners, from a leaning one, which needs a tilt."""

@@ -242,17 +242,13 @@ def _on_faces(radius_mm: float, height_mm: float) -> list[Marker]:
 def from_face(flat: np.ndarray, face: str, height_mm: float) -> np.ndarray:
     """Place points of a face's paper, right and up, on the coin."""
     mirror, z = (1.0, 0.5) if face == "heads" else (-1.0, -0.5)
-    return np.column_stack(
-        [mirror * flat[:, 0], flat[:, 1], np.full(len(flat), z * height_mm)]
-    )
+    return np.column_stack([mirror * flat[:, 0], flat[:, 1], np.full(len(flat), z * height_mm)])
 
 
 def from_strip(flat: np.ndarray, radius_mm: float) -> np.ndarray:
     """Wrap points of the strip's paper, along and up from its middle, around the coin."""
     angle = flat[:, 0] / radius_mm
-    return np.column_stack(
-        [radius_mm * np.cos(angle), radius_mm * np.sin(angle), flat[:, 1]]
-    )
+    return np.column_stack([radius_mm * np.cos(angle), radius_mm * np.sin(angle), flat[:, 1]])
 
 
 def _on_side(radius_mm: float, height_mm: float) -> list[Marker]:

@@ -47,7 +47,7 @@ class Detector:
         # a marker seen obliquely, with a bulging edge
         settings.polygonalApproxAccuracyRate = 0.05
         # no bit is guessed: a wrong marker is worse than none
-        settings.errorCorrectionRate = 0.0
+        settings.errorCorrectionRate = 1.0
         settings.maxErroneousBitsInBorderRate = 0.2
         family = aruco.getPredefinedDictionary(getattr(aruco, coin.dictionary))
         self._detector: Any = aruco.ArucoDetector(family, settings)

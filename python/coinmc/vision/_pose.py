@@ -9,7 +9,7 @@ from coinmc.vision._coin import MarkedCoin
 from coinmc.vision._detect import Sightings
 from coinmc.vision._needs import cv2
 
-__all__ = ["Fit", "errors_px", "free_fit", "refined", "stacked"]
+__all__ = ["Fit", "errors_px", "free_fit", "refined", "stacked", "tolerance_px", "vote"]
 
 #: A marker agrees with a pose if none of its corners is further away than this part of the
 #: coin's radius in the photo, and never less than some pixels.
@@ -36,13 +36,17 @@ class Fit:
     rms_px: float
 
 
-def stacked(coin: MarkedCoin, seen: Sightings, ids: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray]:
+def stacked(
+    coin: MarkedCoin, seen: Sightings, ids: tuple[int, ...]
+) -> tuple[np.ndarray, np.ndarray]:
     """Return the corners of markers on the coin and in the photo; shapes (4 n, 3) and (4 n, 2)."""
     points = np.concatenate([coin.marker(number).corners_mm for number in ids])
     return points, np.concatenate([seen[number] for number in ids])
 
 
-def errors_px(camera: Camera, pose: np.ndarray, points: np.ndarray, shown: np.ndarray) -> np.ndarray:
+def errors_px(
+    camera: Camera, pose: np.ndarray, points: np.ndarray, shown: np.ndarray
+) -> np.ndarray:
     """Return how far each corner is from where a pose puts it, pixels."""
     placed = points @ pose[:3, :3].T + pose[:3, 3]
     return np.linalg.norm(camera.project(placed) - shown, axis=1)
@@ -60,17 +64,16 @@ def free_fit(coin: MarkedCoin, camera: Camera, seen: Sightings) -> Fit | None:
 
     Every marker proposes poses by itself, the others vote, and all that agree settle it together.
     """
-    ids = tuple(sorted(seen))
     best: Fit | None = None
-    for number in ids:
+    for number in sorted(seen):
         for pose in _proposals(coin, camera, seen, number):
-            fit = _vote(coin, camera, seen, ids, pose)
+            fit = vote(coin, camera, seen, pose)
             if best is None or _merit(fit) > _merit(best):
                 best = fit
     if best is None or not best.agreeing:
         return None
     again = refined(coin, camera, seen, best)
-    final = _vote(coin, camera, seen, ids, again.pose)
+    final = vote(coin, camera, seen, again.pose)
     return refined(coin, camera, seen, final) if final.agreeing else again
 
 
@@ -125,9 +128,9 @@ def _on_table(camera: Camera, turn: np.ndarray, shift: np.ndarray) -> np.ndarray
     return np.linalg.inv(camera.table) @ inside
 
 
-def _vote(
-    coin: MarkedCoin, camera: Camera, seen: Sightings, ids: tuple[int, ...], pose: np.ndarray
-) -> Fit:
+def vote(coin: MarkedCoin, camera: Camera, seen: Sightings, pose: np.ndarray) -> Fit:
+    """Return which markers agree with a pose."""
+    ids = tuple(sorted(seen))
     points, shown = stacked(coin, seen, ids)
     error = errors_px(camera, pose, points, shown).reshape(-1, 4)
     agrees = error.max(axis=1) <= tolerance_px(coin, camera, pose)

@@ -16,9 +16,7 @@ _ROUNDS = 8
 _STEP = 1e-4
 
 
-def rest_pose(
-    face: str, height_mm: float, radius_mm: float, at: np.ndarray
-) -> np.ndarray:
+def rest_pose(face: str, height_mm: float, radius_mm: float, at: np.ndarray) -> np.ndarray:
     """Return the pose of a coin at rest.
 
     Parameters
@@ -78,9 +76,7 @@ def _start(face: str, pose: np.ndarray) -> np.ndarray:
     return np.array([pose[0, 3], pose[1, 3], about])
 
 
-def rest_fit(
-    coin: MarkedCoin, camera: Camera, seen: Sightings, free: Fit, face: str
-) -> Fit:
+def rest_fit(coin: MarkedCoin, camera: Camera, seen: Sightings, free: Fit, face: str) -> Fit:
     """Fit a coin at rest with this face up to the markers that agree with a free fit.
 
     Three numbers, four on the side, are fitted by Gauss and Newton's method.

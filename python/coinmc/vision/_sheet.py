@@ -13,7 +13,7 @@ from coinmc.vision._board import Board
 from coinmc.vision._coin import MODULES, STRIP_PLACES, MarkedCoin
 from coinmc.vision._needs import cv2, matplotlib
 
-__all__ = ["print_sheets"]
+__all__ = ["along_strip", "marker_cells", "print_sheets", "remarks"]
 
 _PAPERS = {"A4": (210.0, 297.0), "A3": (297.0, 420.0), "A2": (420.0, 594.0)}
 _CUT = {"color": "0.6", "linewidth": 0.2}
@@ -82,7 +82,8 @@ def _pieces(coin: MarkedCoin, room: float) -> list[tuple[float, float]]:
     starts = range(0, STRIP_PLACES, each)
     ends = (min(start + each, STRIP_PLACES) for start in starts)
     return [
-        ((start - 0.5) * pitch, (end - 0.5) * pitch) for start, end in zip(starts, ends, strict=True)
+        ((start - 0.5) * pitch, (end - 0.5) * pitch)
+        for start, end in zip(starts, ends, strict=True)
     ]
 
 
@@ -125,10 +126,20 @@ def _save(size: tuple[float, float], paths: list[Path], draw: Callable[[Any], No
 
 def _coin_page(page: Any, coin: MarkedCoin, at: _Page) -> None:
     width, height = at.size
-    page.text(_EDGE, height - 9, f"Coin of radius {coin.radius_mm:g} mm, height "
-              f"{coin.height_mm:.4g} mm (H/R = {coin.ratio:.4g}), paper {at.paper}", fontsize=9)
-    page.text(_EDGE, height - 13.5, "Print at 100 %, without fitting to the page; the bar is 100 mm. "
-              "Cut along grey lines. Glue so that the marks 0 meet.", fontsize=7)
+    page.text(
+        _EDGE,
+        height - 9,
+        f"Coin of radius {coin.radius_mm:g} mm, height "
+        f"{coin.height_mm:.4g} mm (H/R = {coin.ratio:.4g}), paper {at.paper}",
+        fontsize=9,
+    )
+    page.text(
+        _EDGE,
+        height - 13.5,
+        "Print at 100 %, without fitting to the page; the bar is 100 mm. "
+        "Cut along grey lines. Glue so that the marks 0 meet.",
+        fontsize=7,
+    )
     _bar(page, _EDGE, height - 17.0)
     for face, (x, y) in zip(("heads", "tails"), at.faces, strict=True):
         mirror = 1.0 if face == "heads" else -1.0
@@ -165,8 +176,13 @@ def _board_page(page: Any, board: Board, size: tuple[float, float]) -> None:
     x, y = (size[0] - width) / 2.0, (size[1] - height) / 2.0
     corners = np.array([[x, y + height], [x + width, y + height], [x + width, y], [x, y]])
     _cells(page, board.modules(), corners)
-    page.text(x, y + height + 3.0, f"Board for the table: {board.columns} x {board.rows} squares of "
-              f"{board.square_mm:g} mm. Print at 100 %; measure a square.", fontsize=8)
+    page.text(
+        x,
+        y + height + 3.0,
+        f"Board for the table: {board.columns} x {board.rows} squares of "
+        f"{board.square_mm:g} mm. Print at 100 %; measure a square.",
+        fontsize=8,
+    )
     _bar(page, x, y - 6.0)
 
 
@@ -220,3 +236,19 @@ def _bar(page: Any, x: float, y: float) -> None:
     page.plot([x, x + 100.0], [y, y], color="black", linewidth=0.6, solid_capstyle="butt")
     for end in (x, x + 100.0):
         page.plot([end, end], [y - 1.0, y + 1.0], color="black", linewidth=0.3)
+
+
+def remarks(coin: MarkedCoin) -> list[str]:
+    """Return what to know before printing: how fine a camera must see, and what is missing."""
+    side = coin.on("side")
+    if not side:
+        return [
+            f"the side is too low for markers ({coin.height_mm:g} mm): a coin that stands on it is "
+            "read only where the camera sees a face"
+        ]
+    least = min(marker.width_mm for marker in coin.markers)
+    # three pixels a module
+    return [
+        f"the smallest marker is {least:.2g} mm wide: the camera should see at least "
+        f"{3.0 * MODULES / least:.2g} pixels per mm"
+    ]

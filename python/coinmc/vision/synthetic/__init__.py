@@ -28,6 +28,7 @@ __all__ = [
     "board_picture",
     "drawn_camera",
     "jpeg",
+    "miscalibrated",
 ]
 
 #: Photos of the synthetic camera, pixels.
@@ -96,16 +97,19 @@ class SyntheticCamera:
     coin : MarkedCoin
         The coin.
     camera : Camera
-        The camera as it is. `measured` is what its calibration says.
+        The camera as it is; `miscalibrated` is what a calibration finds.
+    seed : int
+        Seed of the grain of the table.
     """
 
     coin: MarkedCoin
     camera: Camera
+    seed: int = 0
 
     def __post_init__(self) -> None:
         self._view = View(self.camera)
         self._marked = printed(self.coin)
-        self._table: np.ndarray | None = None
+        self._table = table_picture(self._view, np.random.default_rng(self.seed))
 
     @property
     def direction_rad(self) -> float:
@@ -115,8 +119,6 @@ class SyntheticCamera:
 
     def photo(self, scene: Scene, effects: Effects, rng: np.random.Generator) -> np.ndarray:
         """Render a photo; ndarray of uint8, shape (height, width)."""
-        if self._table is None:
-            self._table = table_picture(self._view, rng)
         picture = self._table
         solids = [
             Cylinder(radius, height, pose, blank(height / radius, float(rng.uniform(0.2, 0.8))))

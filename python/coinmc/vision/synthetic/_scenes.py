@@ -78,9 +78,7 @@ class Ends:
         number %= len(self.face)
         return self.lying(Face(self.face[number]).name.lower(), rng, self.axis[number])
 
-    def lying(
-        self, face: str, rng: np.random.Generator, axis: np.ndarray | None = None
-    ) -> Scene:
+    def lying(self, face: str, rng: np.random.Generator, axis: np.ndarray | None = None) -> Scene:
         """Return a coin at rest with this face up.
 
         Which way its axis points comes from the toss, if there is one, and how it is turned about
