@@ -2,10 +2,10 @@
 
     python benches/python/vision.py --out FILE [--set held-out] [--part 1]
 
-The set is fixed by its seed and was rendered for the first time when the settings of
-python/coinmc/vision had been fixed on the set `tuning`, whose seed is another. Every finished batch of photos, all by
-one camera, is a line of FILE; started again, the command continues. The table is printed at the
-end. Needs coinmc[vision].
+The set is fixed by its seed, and was first rendered when the settings of python/coinmc/vision had
+been fixed, on the set `tuning`, whose seed is another. Every finished batch of photos, all by one
+camera, is a line of FILE; started again, the command continues. The table is printed at the end.
+Needs coinmc[vision].
 """
 
 import argparse

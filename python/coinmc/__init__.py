@@ -8,7 +8,8 @@ The engines of coinmc at native speed, with NumPy arrays in and out:
 * `fair`: how thick is a fair coin, here or in everyday `scenes`?
 * `sensitivity`: how strongly probabilities depend on parameters;
 * `check`, `Config`: what a config means;
-* `coinmc.analytic`: closed forms; `coinmc.film`: drops on film; `coinmc.plot`: plots.
+* `coinmc.analytic`: closed forms; `coinmc.film`: drops on film; `coinmc.plot`: plots;
+* `coinmc.vision`: photos of real coins; `coinmc.experiment`: a robot's throws.
 
 All quantities are in SI units, and names carry their unit. *Ratio* always means H/R, height over
 **radius**. z points up, the surface is z = 0, and *heads* means that heads shows. The guide is
@@ -43,7 +44,7 @@ from coinmc._tosses import Tosses, toss
 from coinmc._trace import EVENT, SAMPLE, Trace, trace
 
 if TYPE_CHECKING:
-    from coinmc import film, plot
+    from coinmc import experiment, film, plot, vision
     from coinmc._aim import Aimed, AimedLaunch, aim
     from coinmc._compare import Comparison, compare
     from coinmc._design import Design, design
@@ -93,6 +94,7 @@ __all__ = [
     "compare",
     "design",
     "estimate",
+    "experiment",
     "fair",
     "film",
     "launches",
@@ -105,12 +107,15 @@ __all__ = [
     "sensitivity",
     "toss",
     "trace",
+    "vision",
 ]
 
 #: Imported on first use, to keep `import coinmc` fast.
 _LAZY = {
+    "experiment": "coinmc.experiment",
     "film": "coinmc.film",
     "plot": "coinmc.plot",
+    "vision": "coinmc.vision",
     "Aimed": "coinmc._aim",
     "AimedLaunch": "coinmc._aim",
     "aim": "coinmc._aim",
@@ -146,7 +151,7 @@ def __getattr__(name: str) -> Any:
     if name not in _LAZY:
         raise AttributeError(f"module 'coinmc' has no attribute {name!r}")
     module = importlib.import_module(_LAZY[name])
-    return module if name in ("film", "plot") else getattr(module, name)
+    return module if module.__name__ == f"coinmc.{name}" else getattr(module, name)
 
 
 def __dir__() -> list[str]:

@@ -58,7 +58,7 @@ class Day:
 
     @cached_property
     def columns(self) -> dict[str, np.ndarray]:
-        """Columns by name, each of shape (throws,). Missing numbers are NaN, missing texts empty."""
+        """Columns by name, each of shape (throws,). Missing numbers are NaN, texts empty."""
         return {name: np.asarray(column) for name, column in self._table.columns().items()}
 
     @property

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from coinmc._config import Config, ConfigLike, as_config
-from coinmc._intervals import Estimate, normal_quantile
+from coinmc._intervals import Estimate, wilson
 from coinmc._launches import launches, natural
 from coinmc._tosses import toss
 from coinmc.experiment._misread import FACES
@@ -60,20 +60,20 @@ class Prediction:
     def estimate(self, confidence: float = 0.95) -> dict[str, Estimate]:
         """Return the probability of each face over all throws.
 
-        The interval is that of a new day with the same spins and angles: it has the error of
-        as many throws, and that of the prediction.
+        The interval is that of the model's probability for launches like these: throws differ from
+        each other by more than the tosses of one throw do, so it has the error of as many throws.
         """
         n = len(self.p)
-        z = normal_quantile(confidence)
         by_face = {}
         for column, face in enumerate(FACES):
             p = self.p[:, column]
-            mean = float(p.mean()) if n else math.nan
-            spread = float(np.sum(p * (1.0 - p)) * (1.0 + 1.0 / self.repeats)) if n else 0.0
-            half = z * math.sqrt(spread) / n if n else 1.0
-            by_face[face] = Estimate(
-                mean, max(0.0, mean - half), min(1.0, mean + half), n, confidence
-            )
+            mean = float(p.mean()) if n else 0.0
+            # as many independent tosses as have the variance that the throws show
+            alike = mean * (1.0 - mean) * n / float(p.var()) if n and p.var() > 0.0 else float(n)
+            tosses = round(min(max(alike, n), n * self.repeats))
+            lost = round(tosses * float(self.counts[:, 3].mean()) / self.repeats) if n else 0
+            told = wilson(min(round(mean * tosses), tosses - lost), lost, tosses, confidence)
+            by_face[face] = Estimate(*told, tosses, confidence)
         return by_face
 
     def log_likelihood(self, faces: np.ndarray) -> LogLikelihood:

@@ -1,4 +1,4 @@
-"""``python -m coinmc.vision``: sheets to print, calibration, reading photos, and a camera to serve."""
+"""``python -m coinmc.vision``: sheets to print, calibration, reading photos, a camera to serve."""
 
 import argparse
 import json

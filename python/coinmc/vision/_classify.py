@@ -164,7 +164,7 @@ class Classifier:
         return free
 
     def _face(self, seen: Sightings, free: Fit, others: int) -> Reading:
-        """Tell a coin at rest, which explains all corners, from a leaning one, which needs a tilt."""
+        """Tell a coin at rest, which explains all corners, from a leaning one."""
         rests = {face: rest_fit(self.coin, self.camera, seen, free, face) for face in FACES}
         face = min(rests, key=lambda face: rests[face].rms_px)
         rest = rests[face]

@@ -220,8 +220,8 @@ def _marker(entry: Any, place: int, most: int, problems: list[str]) -> Marker | 
 
 def _square(x: float, y: float, width: float) -> np.ndarray:
     """Corners of a square on paper, clockwise from the upper left one."""
-    half = width / 2.0
-    return np.array([[-half, half], [half, half], [half, -half], [-half, -half]]) + (x, y)
+    left, right, low, high = (at + width * side for at in (x, y) for side in (-0.5, 0.5))
+    return np.array([[left, high], [right, high], [right, low], [left, low]])
 
 
 def _on_faces(radius_mm: float, height_mm: float) -> list[Marker]:

@@ -15,7 +15,8 @@ MOST_BYTES = 64 << 20
 MOST_PIXELS = 50_000_000
 #: Smallest edge, pixels.
 LEAST_EDGE = 16
-_KINDS = ("JPEG", "PNG", "MPO")
+# (a phone's JPEG with two pictures, MPO, is opened as a JPEG: the first is read)
+_KINDS = ("JPEG", "PNG")
 
 
 def read_photo(path: Path | str, size: tuple[int, int] | None = None) -> np.ndarray:

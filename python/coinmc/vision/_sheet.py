@@ -125,7 +125,7 @@ def _save(size: tuple[float, float], paths: list[Path], draw: Callable[[Any], No
 
 
 def _coin_page(page: Any, coin: MarkedCoin, at: _Page) -> None:
-    width, height = at.size
+    height = at.size[1]
     page.text(
         _EDGE,
         height - 9,
@@ -159,7 +159,8 @@ def _strip(page: Any, coin: MarkedCoin, piece: tuple[float, float], top: float) 
     for marker in coin.on("side"):
         flat = along_strip(marker.corners_mm, coin.radius_mm)
         if start < flat[:, 0].mean() < end:
-            _cells(page, marker_cells(coin.dictionary, marker.id), flat + (left - start, middle))
+            flat += np.array([left - start, middle])
+            _cells(page, marker_cells(coin.dictionary, marker.id), flat)
     right, bottom = left + end - start, top - coin.height_mm
     overlap = right + _OVERLAP
     page.plot([left, overlap, overlap, left, left], [top, top, bottom, bottom, top], **_CUT)

@@ -7,7 +7,6 @@ from typing import Any, Protocol
 
 import numpy as np
 
-
 from coinmc._errors import VisionError
 from coinmc.vision._camera import Camera
 from coinmc.vision._coin import FACES, MarkedCoin

@@ -118,7 +118,7 @@ def _hide(
     side, depth = int(rng.integers(4)), part * np.array([right - left, bottom - top])
     wide = {0: (left, left + depth[0]), 1: (right - depth[0], right)}.get(side, (left, right))
     high = {2: (top, top + depth[1]), 3: (bottom - depth[1], bottom)}.get(side, (top, bottom))
-    corners = np.array([[x, y] for x, y in zip((*wide, *wide[::-1]), np.repeat(high, 2))])
+    corners = np.column_stack([(*wide, *wide[::-1]), np.repeat(high, 2)])
     corners += rng.normal(0.0, 0.02 * (right - left), corners.shape)
     cv2().fillConvexPoly(picture, corners.astype(np.int32), float(rng.uniform(0.05, 0.7)))
 
@@ -159,7 +159,7 @@ _FIELD: list[np.ndarray] = []
 
 
 def _noise(high: int, wide: int, rng: np.random.Generator) -> np.ndarray:
-    """Return normal noise: a window of a field that is drawn once, because drawing takes longest."""
+    """Return normal noise: a window of a field that is drawn once: drawing takes long."""
     if not _FIELD:
         drawn = np.random.default_rng(0).standard_normal(_NOISE)
         _FIELD.append(drawn.astype(np.float32))
