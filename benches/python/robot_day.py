@@ -22,18 +22,7 @@ import coinmc
 from coinmc import experiment
 
 ROOT = Path(__file__).resolve().parents[2]
-FAULTS = [
-    "--noise",
-    "0.002",
-    "--reset-every",
-    "25",
-    "--unplug-every",
-    "40",
-    "--stuck",
-    "0.005",
-    "--seed",
-    "26",
-]
+FAULTS = ["--noise", "0.002", "--reset-every", "25", "--unplug-every", "40", "--stuck", "0.005"]
 PHOTOS = ["--hard", "0.5", "--moving", "0.05", "--seed", "26"]
 #: Seconds after which the host is killed.
 KILL_EVERY_S = 45.0
@@ -44,15 +33,8 @@ TOSSES = 200_000
 def camera() -> str:
     """Return the command of the camera."""
     serve = [sys.executable, "-m", "coinmc.vision", "serve", "--camera", "synthetic"]
-    files = [
-        "--coin",
-        "sheet/coin.json",
-        "--calibration",
-        "rendered/camera.json",
-        "--truth",
-        "truth.jsonl",
-    ]
-    return "exec " + " ".join([*serve, *files, *PHOTOS])
+    serve += ["--coin", "sheet/coin.json", "--calibration", "rendered/camera.json"]
+    return "exec " + " ".join([*serve, "--truth", "truth.jsonl", *PHOTOS])
 
 
 def prepare(folder: Path) -> None:
@@ -102,9 +84,8 @@ def audit(folder: Path, throws: int) -> bool:
     truth = [json.loads(line) for line in lines]
     released = Counter(entry["throw_id"] for entry in truth)
     fell = {entry["throw_id"]: entry["face"] for entry in truth}
-    read = [
-        (int(i), f) for i, f, v in zip(day["id"], day["face"], day["void"], strict=True) if not v
-    ]
+    done = day["void"] == ""
+    read = list(zip(day["id"][done].astype(int).tolist(), day["face"][done], strict=True))
     wrong = [number for number, face in read if fell.get(number) != face]
     lost = throws - len(set(day["id"].astype(int)) & set(range(1, throws + 1)))
     doubled = [number for number, times in released.items() if times > 1]

@@ -21,10 +21,8 @@ def main(words: list[str] | None = None) -> int:
         print(f"{'':6} {'throws':>8}  {'P':24} {'model, same throws'}")
         for face, seen in day.estimate().items():
             own = prediction.estimate()[face]
-            told = f"{seen.p:.4f} [{seen.lo:.4f}, {seen.hi:.4f}]"
-            print(
-                f"{face:6} {day.counts[face]:8,}  {told:24} {own.p:.4f} [{own.lo:.4f}, {own.hi:.4f}]"
-            )
+            both = [f"{e.p:.4f} [{e.lo:.4f}, {e.hi:.4f}]" for e in (seen, own)]
+            print(f"{face:6} {day.counts[face]:8,}  {both[0]:24} {both[1]}")
         for problem in day.check_photos():
             print(f"coinmc: {problem}", file=sys.stderr)
         if given.page is not None:

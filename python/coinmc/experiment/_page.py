@@ -19,13 +19,15 @@ __all__ = ["page"]
 _STYLE = """
 body { font: 15px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem;
   color: #1b2733; background: #fff }
-table { border-collapse: collapse; margin: 1rem 0 } th, td { padding: .2rem .8rem; text-align: right;
-  border-bottom: 1px solid #d7dee5 } th:first-child, td:first-child { text-align: left }
+table { border-collapse: collapse; margin: 1rem 0 }
+th, td { padding: .2rem .8rem; text-align: right; border-bottom: 1px solid #d7dee5 } th:first-child, td:first-child { text-align: left }
 figure { margin: 1rem 0 } figcaption, .small { color: #55636f; font-size: 13px }
-img { width: 220px; border: 1px solid #d7dee5 } .photos { display: flex; flex-wrap: wrap; gap: .6rem }
+img { width: 220px; border: 1px solid #d7dee5 }
+.photos { display: flex; flex-wrap: wrap; gap: .6rem }
 svg { max-width: 100%; height: auto } svg text { font: 12px system-ui, sans-serif; fill: #1b2733 }
 @media (prefers-color-scheme: dark) { body { color: #dfe6ec; background: #14191e }
-  svg text { fill: #dfe6ec } th, td { border-color: #36414b } figcaption, .small { color: #9fb0be } }
+  svg text { fill: #dfe6ec } th, td { border-color: #36414b }
+  figcaption, .small { color: #9fb0be } }
 """
 # of Okabe and Ito: told apart with any kind of colour vision
 _COLORS = {"heads": "#0072b2", "tails": "#e69f00", "side": "#009e73", "": "#999999"}
