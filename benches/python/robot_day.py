@@ -2,8 +2,8 @@
 
     python benches/python/robot_day.py --program target/release/coinmc --folder NEW [--throws 2000]
 
-The robot's line is noisy, it restarts, is unplugged and gets stuck; a part of the photos is bad, in
-some the coin still moves; the host is killed again and again. Afterwards every throw must be in the
+The robot's line is noisy, it is reset, unplugged and gets stuck; half of the photos are bad, in some
+the coin still moves; the host is killed again and again. Afterwards every throw must be in the
 journal once, have been released at most once, and be read as it fell or be void. Frequencies are
 compared with the engine's probability. Needs coinmc[vision].
 """
@@ -22,10 +22,13 @@ import coinmc
 from coinmc import experiment
 
 ROOT = Path(__file__).resolve().parents[2]
-FAULTS = ["--noise", "0.002", "--reset-every", "25", "--unplug-every", "40", "--stuck", "0.005"]
+FAULTS = ["--noise", "0.002", "--stuck", "0.005", "--seed", "26"]
 PHOTOS = ["--hard", "0.5", "--moving", "0.05", "--seed", "26"]
-#: Seconds after which the host is killed.
-KILL_EVERY_S = 45.0
+#: After every so many throws one of these happens, in turn.
+EVERY = 25
+MISHAPS = ("reset", "kill", "unplug")
+#: A busy machine takes its time.
+PATIENCE_S = "40"
 #: Tosses for the engine's probability: its error is a tenth of that of the day.
 TOSSES = 200_000
 
@@ -48,33 +51,45 @@ def prepare(folder: Path) -> None:
         subprocess.run([*vision, *words], cwd=folder, check=True, stdout=subprocess.DEVNULL)
 
 
+def resolved(folder: Path) -> int:
+    """Return how many throws the journal has resolved."""
+    journal = folder / "day" / "journal.txt"
+    if not journal.exists():
+        return 0
+    return sum(line.startswith(("D", "V")) for line in journal.read_text().splitlines())
+
+
 def throw(program: Path, folder: Path, throws: int) -> int:
-    """Throw until all throws are resolved; return how often the host was killed."""
+    """Throw until all throws are resolved; return the number of mishaps."""
     stop = ["--set", f"stop.tosses={throws}"]
     sim = [program, "robot", "sim", "robot.toml", *stop, "--name", "port", "--truth", "truth.jsonl"]
     more = ["--memory", "memory", "--speed", "200", *FAULTS]
-    quiet = ["--quiet", "--max-voids", "100"]
+    quiet = ["--quiet", "--max-voids", "20", "--camera-timeout", PATIENCE_S]
     first = [program, "robot", "run", "robot.toml", *stop, "--out", "day", "--port", "port"]
     first += ["--speed", "200", "--camera", camera(), *quiet]
-    kills = 0
-    with subprocess.Popen([*sim, *more], cwd=folder, stdin=subprocess.PIPE,
-                          stdout=subprocess.PIPE) as robot:  # fmt: skip
+    again = [program, "robot", "resume", "day", *quiet]
+    pipe = subprocess.PIPE
+    with subprocess.Popen([*sim, *more], cwd=folder, stdin=pipe, stdout=pipe, text=True) as robot:
         robot.stdout.readline()
-        try:
-            while True:
-                again = (folder / "day" / "journal.txt").exists()
-                words = [program, "robot", "resume", "day", *quiet] if again else first
-                host = subprocess.Popen(words, cwd=folder, stdin=subprocess.DEVNULL)
-                try:
-                    if host.wait(KILL_EVERY_S) != 0:
-                        raise SystemExit(f"the host ended with {host.returncode}")
-                    return kills
-                except subprocess.TimeoutExpired:
-                    host.kill()
-                    host.wait()
-                    kills += 1
-        finally:
-            robot.kill()
+        host = subprocess.Popen(first, cwd=folder, stdin=subprocess.DEVNULL)
+        mishaps = 0
+        while host.poll() is None:
+            time.sleep(0.05)
+            if resolved(folder) < (mishaps + 1) * EVERY:
+                continue
+            mishap = MISHAPS[mishaps % len(MISHAPS)]
+            mishaps += 1
+            if mishap == "kill":
+                host.kill()
+                host.wait()
+                host = subprocess.Popen(again, cwd=folder, stdin=subprocess.DEVNULL)
+            else:
+                robot.stdin.write(f"{mishap}\n")
+                robot.stdin.flush()
+        robot.kill()
+    if host.returncode != 0:
+        raise SystemExit(f"the host ended with {host.returncode}")
+    return mishaps
 
 
 def audit(folder: Path, throws: int) -> bool:
@@ -113,8 +128,8 @@ def main() -> int:
     given = arguments.parse_args()
     prepare(given.folder)
     begun = time.monotonic()
-    kills = throw(given.program.resolve(), given.folder, given.throws)
-    print(f"{time.monotonic() - begun:.0f} s, the host was killed {kills} times")
+    mishaps = throw(given.program.resolve(), given.folder, given.throws)
+    print(f"{time.monotonic() - begun:.0f} s, {mishaps} times {', '.join(MISHAPS)} in turn")
     well = audit(given.folder, given.throws)
     experiment.open(given.folder / "day").page(given.folder / "day.html")
     return 0 if well else 1

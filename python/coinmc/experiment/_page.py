@@ -20,7 +20,8 @@ _STYLE = """
 body { font: 15px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem;
   color: #1b2733; background: #fff }
 table { border-collapse: collapse; margin: 1rem 0 }
-th, td { padding: .2rem .8rem; text-align: right; border-bottom: 1px solid #d7dee5 } th:first-child, td:first-child { text-align: left }
+th, td { padding: .2rem .8rem; text-align: right; border-bottom: 1px solid #d7dee5 }
+th:first-child, td:first-child { text-align: left }
 figure { margin: 1rem 0 } figcaption, .small { color: #55636f; font-size: 13px }
 img { width: 220px; border: 1px solid #d7dee5 }
 .photos { display: flex; flex-wrap: wrap; gap: .6rem }
