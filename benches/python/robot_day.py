@@ -2,8 +2,8 @@
 
     python benches/python/robot_day.py --program target/release/coinmc --folder NEW [--throws 2000]
 
-The robot's line is noisy, it is reset, unplugged and gets stuck; half of the photos are bad, in some
-the coin still moves; the host is killed again and again. Afterwards every throw must be in the
+The robot's line is noisy, it is reset, unplugged and gets stuck; half of the photos are bad, in
+some the coin still moves; the host is killed again and again. Afterwards every throw must be in the
 journal once, have been released at most once, and be read as it fell or be void. Frequencies are
 compared with the engine's probability. Needs coinmc[vision].
 """
