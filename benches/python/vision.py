@@ -5,7 +5,7 @@
 The set is fixed by its seed, and was first rendered when the settings of python/coinmc/vision had
 been fixed, on the set `tuning`, whose seed is another. Every finished batch of photos, all by one
 camera, is a line of FILE; started again, the command continues. The table is printed at the end.
-Needs coinmc[vision].
+Times are those of the processor, in one thread. Needs coinmc[vision].
 """
 
 import argparse
@@ -72,12 +72,12 @@ def measure(seed: int, index: int, kind: str, number: int) -> list[dict]:
             if hard and rng.random() < WALLS:
                 scene = ends.walled(scene, rng, renderer.direction_rad)
         effects = Effects.drawn(rng, hard)
-        begun = time.perf_counter()
+        begun = time.process_time()
         photo = renderer.photo(scene, effects, rng)
         photo = cv2.imdecode(np.frombuffer(jpeg(photo, effects.quality), np.uint8), 0)
-        rendered = time.perf_counter()
+        rendered = time.process_time()
         reading = classifier.classify(photo)
-        read = time.perf_counter()
+        read = time.process_time()
         row = {
             "truth": scene.truth,
             "kind": scene.kind,
