@@ -4,6 +4,8 @@ import hashlib
 import io
 import json
 import os
+import re
+import shlex
 import subprocess
 import sys
 
@@ -147,3 +149,16 @@ def test_without_opencv_the_extra_is_named(made):
     assert done.stderr == (
         'error: coinmc.vision needs cv2, which is not installed: pip install "coinmc[vision]"\n'
     )
+
+
+def test_the_commands_of_the_guide_print_what_it_shows(root, tmp_path):
+    text = (root / "docs" / "guide" / "vision.md").read_text()
+    [block] = re.findall(r"^```console\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+    commands = re.findall(r"^\$ python (.*)\n((?:[^$].*\n)*)", block, re.MULTILINE)
+    assert len(commands) == 5
+    for command, shown in commands:
+        words = ["sh", "-c", f"{shlex.quote(sys.executable)} {command}"]
+        done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        assert done.stdout.startswith(shown)
+    assert len(done.stdout.splitlines()) == 3
