@@ -161,6 +161,18 @@ def test_a_coin_shows_its_face_up_to_a_small_tilt_and_none_beyond(ratio):
                 assert reading.reason
 
 
+def test_a_lean_of_ten_degrees_is_seen_with_two_markers_of_a_thin_coin():
+    """Its corners are hardly off: here the axis decides."""
+    rng = np.random.default_rng(7)
+    coin = MarkedCoin.of(25.0, 0.1)
+    ends = Ends(25.0, coin.height_mm, seed=1, tosses=10)
+    for _ in range(20):
+        camera = drawn_camera(25.0, rng, hard=True)
+        pose = ends.tilted(math.radians(10.5), rng.uniform(0.0, 7.0), rng)
+        seen = sightings(coin, camera, pose, visible(coin, camera, pose)[:2])
+        assert Classifier(coin, camera)._judge(seen).face == "none"
+
+
 def test_one_marker_is_never_a_face_nor_are_two_that_disagree():
     rng = np.random.default_rng(3)
     coin = MarkedCoin.of(25.0, 0.577)

@@ -7,6 +7,8 @@ from pathlib import Path
 from coinmc._errors import Error
 from coinmc.experiment import open as open_day
 
+__all__ = ["main"]
+
 
 def main(words: list[str] | None = None) -> int:
     """Print the counts and probabilities of a day; return the exit status."""

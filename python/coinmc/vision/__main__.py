@@ -8,6 +8,8 @@ from pathlib import Path
 
 from coinmc._errors import Error, VisionError
 
+__all__ = ["main"]
+
 
 def main(words: list[str] | None = None) -> int:
     """Run a command; return its exit status: 0, 1 without a needed library, 2 for bad input."""
