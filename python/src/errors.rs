@@ -53,6 +53,7 @@ pub(crate) fn run(error: &RunError) -> PyErr {
 }
 
 /// Why a robot's journal cannot be read.
+#[cfg(unix)]
 pub(crate) fn journal(error: impl ToString) -> PyErr {
     python::RunError::new_err(error.to_string())
 }

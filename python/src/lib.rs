@@ -31,6 +31,7 @@ mod results;
 mod run;
 mod share;
 mod supervise;
+#[cfg(unix)]
 mod throws;
 mod toss;
 mod trace;
@@ -64,6 +65,7 @@ mod _lib {
     use super::results::Results;
     #[pymodule_export]
     use super::run::{estimate, open, run};
+    #[cfg(unix)]
     #[pymodule_export]
     use super::throws::Throws;
     #[pymodule_export]

@@ -12,6 +12,7 @@ import numpy as np
 
 from coinmc import _lib
 from coinmc._config import Config
+from coinmc._errors import RunError
 from coinmc._intervals import Estimate, estimates
 from coinmc.experiment._misread import FACES, Confusion, Corrected
 from coinmc.experiment._model import LogLikelihood, Prediction, predict
@@ -49,6 +50,8 @@ class Day:
 
     def __init__(self, path: Path) -> None:
         self.path = path
+        if not hasattr(_lib, "Throws"):
+            raise RunError("the journal of a robot is read on Linux and macOS only")
         table = _lib.Throws.read(path)
         self.config = Config.from_toml(table.config)
         self.planned = table.planned

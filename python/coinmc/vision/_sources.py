@@ -30,20 +30,18 @@ class Source(Protocol):
 
 
 class DeviceSource:
-    """A camera of the computer, or a film, frame by frame."""
+    """A camera of the computer, by its number."""
 
-    def __init__(self, device: int | str, size: tuple[int, int]) -> None:
-        self._live = isinstance(device, int)
+    def __init__(self, device: int, size: tuple[int, int]) -> None:
         self._capture: Any = cv2().VideoCapture(device)
         if not self._capture.isOpened():
             raise VisionError(f"camera {device} cannot be opened")
-        if self._live:
-            self._capture.set(cv2().CAP_PROP_FRAME_WIDTH, size[0])
-            self._capture.set(cv2().CAP_PROP_FRAME_HEIGHT, size[1])
+        self._capture.set(cv2().CAP_PROP_FRAME_WIDTH, size[0])
+        self._capture.set(cv2().CAP_PROP_FRAME_HEIGHT, size[1])
 
     def take(self, throw: int, attempt: int) -> tuple[bytes, str]:
         """Take a photo now."""
-        for _ in range(_STALE if self._live else 0):
+        for _ in range(_STALE):
             self._capture.grab()
         done, frame = self._capture.read()
         if not done:
