@@ -1,11 +1,11 @@
 """A long day of the simulated robot with rendered photos and faults, audited against the truth.
 
-    python benches/python/robot_day.py --program target/release/coinmc --folder NEW [--throws 2000]
+    python benches/python/robot_day.py --program target/release/coinmc --folder DIR [--throws 2000]
 
 The robot's line is noisy, it is reset, unplugged and gets stuck; half of the photos are bad, in
 some the coin still moves; the host is killed again and again. Afterwards every throw must be in the
 journal once, have been released at most once, and be read as it fell or be void. Frequencies are
-compared with the engine's probability. Needs coinmc[vision].
+compared with the engine's probability. Started again, it continues. Needs coinmc[vision].
 """
 
 import argparse
@@ -28,7 +28,7 @@ PHOTOS = ["--hard", "0.5", "--moving", "0.05", "--seed", "26"]
 EVERY = 25
 MISHAPS = ("reset", "kill", "unplug")
 #: A busy machine takes its time.
-PATIENCE_S = "40"
+PATIENCE_S = "55"
 #: Tosses for the engine's probability: its error is a tenth of that of the day.
 TOSSES = 200_000
 
@@ -42,6 +42,8 @@ def camera() -> str:
 
 def prepare(folder: Path) -> None:
     """Make the sheet, the camera's file and the config."""
+    if (folder / "rendered" / "camera.json").exists():
+        return
     folder.mkdir(parents=True)
     shutil.copy(ROOT / "examples" / "robot.toml", folder)
     vision = [sys.executable, "-m", "coinmc.vision"]
@@ -71,8 +73,10 @@ def throw(program: Path, folder: Path, throws: int) -> int:
     pipe = subprocess.PIPE
     with subprocess.Popen([*sim, *more], cwd=folder, stdin=pipe, stdout=pipe, text=True) as robot:
         robot.stdout.readline()
-        host = subprocess.Popen(first, cwd=folder, stdin=subprocess.DEVNULL)
-        mishaps = 0
+        started = (folder / "day" / "journal.txt").exists()
+        words = again if started else first
+        host = subprocess.Popen(words, cwd=folder, stdin=subprocess.DEVNULL)
+        mishaps = resolved(folder) // EVERY
         while host.poll() is None:
             time.sleep(0.05)
             if resolved(folder) < (mishaps + 1) * EVERY:
