@@ -46,7 +46,7 @@ class Detector:
         settings.minMarkerPerimeterRate = 0.025
         # a marker seen obliquely, with a bulging edge
         settings.polygonalApproxAccuracyRate = 0.05
-        # one bit of sixteen may be wrong, under dirt: the other markers tell if it is another marker
+        # one bit of sixteen may be wrong, under dirt: the other markers tell if it is another one
         settings.errorCorrectionRate = 1.0
         settings.maxErroneousBitsInBorderRate = 0.2
         family = aruco.getPredefinedDictionary(getattr(aruco, coin.dictionary))
