@@ -111,9 +111,11 @@ class SyntheticSource:
             trap = self._ends.moving(rng, self._renderer.direction_rad)
             if trap is not None:
                 return trap
-        like = np.flatnonzero(self._ends.face == FACES.index(face)) if face else np.arange(0)
+        if face is None:
+            return Scene("none", "empty", None)
+        like = np.flatnonzero(self._ends.face == FACES.index(face))
         axis = self._ends.axis[rng.choice(like)] if len(like) else None
-        return self._ends.lying(face or "side", rng, axis)
+        return self._ends.lying(face, rng, axis)
 
     def _face(self) -> str | None:
         """Return the face of the last throw in the truth file."""
