@@ -63,7 +63,7 @@ def page(day: "Day", confusion: Confusion | None, prediction: Prediction) -> str
 
 
 def _probabilities(day: "Day", confusion: Confusion | None, prediction: Prediction) -> str:
-    rows = [("experiment", _COLORS["heads"], day.estimate())]
+    rows = [("experiment, of all throws", _COLORS["heads"], day.estimate())]
     if confusion is not None:
         rows.append(("corrected for wrong readings", _COLORS["side"], day.corrected(confusion)))
     rows.append(("model, same spins and angles", _COLORS["tails"], prediction.estimate()))
@@ -99,7 +99,7 @@ def _bars(rows: list[tuple[str, str, dict]]) -> str:
         x = left + scale * tick
         drawn.append(f'<text x="{x:.1f}" y="{y + 6}" text-anchor="middle">{tick:.3g}</text>')
     for place, (title, color, _) in enumerate(rows):
-        x = left + place * 180
+        x = left + place * 190
         drawn.append(f'<circle cx="{x}" cy="{y + 26}" r="6" fill="{color}"/>')
         drawn.append(f'<text x="{x + 12}" y="{y + 30}">{title}</text>')
     return _svg(wide, y + 44, drawn, "Probabilities of the faces with their intervals")
