@@ -181,15 +181,13 @@ def test_a_robot_throws_and_its_photos_are_read(program, examples, tmp_path):
     """The simulated robot, with a noisy line and a reset, and rendered photos."""
     throws = 10
     vision = [sys.executable, "-m", "coinmc.vision"]
-    sheet = [*vision, "sheet", "--radius-mm", "12.5", "--ratio", "1.5", "--out", "sheet"]
-    render = [*vision, "synthetic", "--coin", "sheet/coin.json", "--photos", "1", "--out", "x"]
-    for words in (sheet, render):
-        subprocess.run(words, cwd=tmp_path, check=True, capture_output=True)
+    sheet = [*vision, "sheet", "--radius-mm", "12.5", "--ratio", "1.5"]
+    subprocess.run(sheet, cwd=tmp_path, check=True, capture_output=True)
     config = [examples / "robot.toml", "--set", f"stop.tosses={throws}"]
     sim = [program, "robot", "sim", *config, "--name", "port", "--truth", "truth.jsonl"]
     sim += ["--memory", "memory", "--speed", "200", "--noise", "0.005"]
-    serve = [*vision, "serve", "--camera", "synthetic", "--coin", "sheet/coin.json"]
-    serve += ["--calibration", "x/camera.json", "--truth", "truth.jsonl", "--moving", "0.2"]
+    serve = [*vision, "serve", "--camera", "synthetic", "--truth", "truth.jsonl"]
+    serve += ["--moving", "0.2"]
     run = [program, "robot", "run", *config, "--out", "day", "--port", "port", "--speed", "200"]
     run += ["--camera", "exec " + shlex.join(serve), "--camera-timeout", "50", "--quiet"]
     pipe = subprocess.PIPE

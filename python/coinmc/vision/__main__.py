@@ -37,7 +37,7 @@ def _parser() -> argparse.ArgumentParser:
     sheet = commands.add_parser("sheet", help="markers and a board to print, and the coin's file")
     sheet.add_argument("--radius-mm", type=float, required=True)
     sheet.add_argument("--ratio", type=float, required=True, help="height over radius")
-    sheet.add_argument("--out", type=Path, required=True, metavar="DIR")
+    sheet.add_argument("--out", type=Path, default=Path(), metavar="DIR", help="default: here")
     sheet.set_defaults(command=_sheet)
 
     calibrate = commands.add_parser("calibrate", help="a camera, from photos of the board")
@@ -99,14 +99,18 @@ def _parser() -> argparse.ArgumentParser:
 
 def _coin_and_calibration(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "--coin", type=Path, required=True, metavar="FILE", help="the coin's file, of `sheet`"
+        "--coin",
+        type=Path,
+        default=Path("coin.json"),
+        metavar="FILE",
+        help="the coin's file, of `sheet` (default: coin.json)",
     )
     parser.add_argument(
         "--calibration",
         type=Path,
-        required=True,
         metavar="FILE",
-        help="the camera's file, of `calibrate`",
+        help="the camera's file, of `calibrate` (default: camera.json; any camera for rendered "
+        "photos)",
     )
 
 
@@ -163,7 +167,19 @@ def _classifier(given: argparse.Namespace):
     from coinmc.vision._classify import Classifier
     from coinmc.vision._coin import MarkedCoin
 
-    return Classifier(MarkedCoin.load(given.coin), Camera.load(given.calibration))
+    coin = MarkedCoin.load(given.coin)
+    return Classifier(coin, Camera.load(given.calibration or "camera.json"))
+
+
+def _any_camera(given: argparse.Namespace):
+    import numpy as np
+
+    from coinmc.vision._classify import Classifier
+    from coinmc.vision._coin import MarkedCoin
+    from coinmc.vision.synthetic import drawn_camera
+
+    coin = MarkedCoin.load(given.coin)
+    return Classifier(coin, drawn_camera(coin.radius_mm, np.random.default_rng(given.seed)))
 
 
 def _classify(given: argparse.Namespace) -> int:
@@ -184,10 +200,13 @@ def _serve(given: argparse.Namespace) -> int:
     from coinmc.vision._serve import serve
     from coinmc.vision._sources import DeviceSource, FileSource, SyntheticSource
 
-    classifier = _classifier(given)
+    if given.camera == "synthetic" and given.truth is None:
+        raise VisionError("rendered photos need --truth, the file of `coinmc robot sim`")
+    if given.camera == "synthetic" and given.calibration is None:
+        classifier = _any_camera(given)
+    else:
+        classifier = _classifier(given)
     if given.camera == "synthetic":
-        if given.truth is None:
-            raise VisionError("rendered photos need --truth, the file of `coinmc robot sim`")
         source = SyntheticSource(
             classifier.coin, classifier.camera, given.truth, given.seed, given.hard, given.moving
         )
