@@ -61,13 +61,21 @@ pub enum Command {
     Unplug(f64),
     /// Make the next motion never end.
     Stick,
+    /// Press the emergency stop.
+    Press,
+    /// Release the emergency stop.
+    Release,
+    /// Erase the memory and reset the robot.
+    Erase,
+    /// Put another robot in its place.
+    Swap,
     /// End the simulation.
     Quit,
 }
 
 /// Not a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-#[error("commands are: reset, unplug [SECONDS], stick, quit")]
+#[error("commands are: reset, unplug [SECONDS], stick, press, release, erase, swap, quit")]
 pub struct UnknownCommand;
 
 impl FromStr for Command {
@@ -83,6 +91,10 @@ impl FromStr for Command {
                 _ => return Err(UnknownCommand),
             },
             ["stick"] => Self::Stick,
+            ["press"] => Self::Press,
+            ["release"] => Self::Release,
+            ["erase"] => Self::Erase,
+            ["swap"] => Self::Swap,
             ["quit"] => Self::Quit,
             _ => return Err(UnknownCommand),
         })
@@ -243,6 +255,16 @@ impl Robot {
             Command::Reset => self.reset(),
             Command::Unplug(seconds) => self.unplug(seconds)?,
             Command::Stick => self.device().hardware_mut().stick(),
+            Command::Press => self.device().hardware_mut().press(true),
+            Command::Release => self.device().hardware_mut().press(false),
+            Command::Erase => {
+                self.device().hardware_mut().erase();
+                self.reset();
+            }
+            Command::Swap => {
+                self.device().hardware_mut().swap();
+                self.reset();
+            }
             Command::Quit => {}
         }
         Ok(())

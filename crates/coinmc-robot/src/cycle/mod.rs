@@ -5,145 +5,68 @@
 //!
 //! | journal | robot | step |
 //! |---|---|---|
+//! | no session | any | who is it? `S` |
+//! | nothing open | Idle, does not know the experiment yet | tell it |
 //! | nothing open | Idle | announce the next throw (`I`) |
 //! | `I p` | counter < p, Idle | send the throw (again) |
 //! | `I p` | counter = p, moving | wait |
 //! | `I p` | counter = p, AtCoin | photograph; face read: `R`; no face in any photo: `V unread` |
 //! | `I p` | counter = p, Fault | `V fault-N` |
 //! | `I p` | counter = p, Idle | `V lost` |
+//! | `I p` | counter = p, of another experiment or with another setting | `V mismatch` |
+//! | `I p` | another robot, or without memory | ask the user, or `V foreign` after `--adopt` |
 //! | `R p` | AtCoin | collect |
 //! | `R p` | Idle or Fault | `D` |
 //! | any | counter ahead | ask the user, or `A` after `--adopt` |
 //! | nothing open | AtCoin, Fault | collect, clear the fault |
 
-use crate::journal::{Entry, History, ImageName, Measured, Pending, Reading, VoidReason};
+use crate::journal::{Digest, Entry, History, ImageName, Measured, Pending, Reading, VoidReason};
 use crate::{Face, Setting};
-use coinmc_link::{Greeting, Nak, Reply, Request, State, Status};
-use thiserror::Error;
+use coinmc_link::{Greeting, Info, Nak, Reply, Request, State, Status, fault};
+
+mod halt;
+mod step;
+mod whose;
+
+pub use halt::{Halt, Stranger};
+pub use step::{Photo, Rules, Shown, Step};
+use whose::Whose;
 
 /// Attempts to clear a fault before the user is asked.
 const MAX_CLEARS: u32 = 20;
-
-/// Settings that do not change during a session.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Rules {
-    /// Throws planned.
-    pub throws: u32,
-    /// Photos of one throw without a face before the throw is void.
-    pub max_photos: u32,
-    /// Consecutive void throws before the user is asked.
-    pub max_voids: u32,
-    /// If the robot's counter is ahead of the journal, continue from the counter.
-    pub adopt: bool,
-}
-
-/// What to do next.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Step {
-    /// Send this request to the robot now.
-    Request(Request),
-    /// Nothing to do: request the status after the polling interval.
-    Wait,
-    /// Announce throw number `throw` of the plan under this id: `I`.
-    Announce {
-        /// Number in the plan, from 0.
-        throw: u32,
-        /// Number on the link.
-        id: u32,
-    },
-    /// Write this entry.
-    Write(Entry),
-    /// Photograph the coin of this throw; the attempts count from 1.
-    Photograph {
-        /// The throw.
-        id: u32,
-        /// Number of the photo of this throw.
-        attempt: u32,
-    },
-    /// All throws are resolved, or the cycle was stopped and no throw is open.
-    Finished,
-    /// The user must decide.
-    Halt(Halt),
-}
-
-/// Why the user must decide.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-pub enum Halt {
-    /// The robot was used for something else.
-    #[error(
-        "the robot has counted {robot} throws and this journal {journal}: the robot was used with \
-         another journal. If that is intended, continue from its counter with --adopt; if not, \
-         use the journal that it was used with"
-    )]
-    Ahead {
-        /// The robot's counter.
-        robot: u32,
-        /// The last number in the journal.
-        journal: u32,
-    },
-    /// The robot's own limits are narrower than the protocol's.
-    #[error(
-        "the robot rejects {} rev/s from {} degrees: its own range is narrower (`coinmc robot \
-         info` shows it). Narrow the config's launch and start another experiment",
-        setting.spin_rev_s(), setting.angle_deg()
-    )]
-    OutOfRange {
-        /// The rejected setting.
-        setting: Setting,
-    },
-    /// The robot does not know a required message.
-    #[error("the robot does not understand this program: update its firmware")]
-    Misunderstood,
-    /// A fault that cannot be cleared.
-    #[error("the robot stays in fault {code}: check it, then resume")]
-    FaultStays {
-        /// The fault.
-        code: u16,
-    },
-    /// Probably something is wrong with robot or camera.
-    #[error(
-        "{count} consecutive throws have no result (the last: {last}): check robot and camera, then \
-         resume"
-    )]
-    TooManyVoids {
-        /// Number of void throws.
-        count: u32,
-        /// Why the last one has no result.
-        last: VoidReason,
-    },
-    /// No id is left on the link.
-    #[error(
-        "the ids of the link are used up: clear the robot's memory and start another experiment"
-    )]
-    NoNumberLeft,
-}
-
-/// The result of one photo.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Photo {
-    /// The throw.
-    pub id: u32,
-    /// Number of the photo of this throw.
-    pub attempt: u32,
-    /// The face and the photo, which is synced to disk; `None` if no face could be read.
-    pub read: Option<(Face, ImageName)>,
-}
 
 /// The state beyond the journal: the latest messages of robot and camera.
 #[derive(Debug, Clone)]
 pub struct Cycle {
     rules: Rules,
+    /// Version of this program, for the journal.
+    program: String,
+    /// Who the robot is, since the last connection.
+    info: Option<Info>,
+    /// The journal names this robot and this program.
+    named: bool,
     status: Option<Status>,
-    /// Id, measurements and boot number of the last released throw; a reset clears it.
-    release: Option<(u32, Measured, u16)>,
+    /// The last throw released for this experiment; a reset clears it.
+    release: Option<Release>,
     boot: u16,
     /// The robot rejected a request: wait before sending it again.
     rejected: bool,
     camera: Camera,
+    camera_failures: u32,
     stopping: bool,
     clears: u32,
     voids: u32,
     halt: Option<Halt>,
+}
+
+/// A released throw.
+#[derive(Debug, Clone, Copy)]
+struct Release {
+    id: u32,
+    /// Spin and angle that the robot was asked for.
+    asked: (u16, u16),
+    measured: Measured,
+    boot: u16,
 }
 
 /// State of the camera.
@@ -154,27 +77,38 @@ enum Camera {
         id: u32,
         attempt: u32,
     },
+    /// No face in this many photos.
+    Unread {
+        id: u32,
+        photos: u32,
+    },
+    /// The last photo failed.
     Failed {
         id: u32,
-        attempt: u32,
+        photos: u32,
     },
     Read {
         id: u32,
         face: Face,
         image: ImageName,
+        digest: Digest,
     },
 }
 
 impl Cycle {
-    /// A cycle before the first message of robot or camera.
-    pub fn new(rules: Rules) -> Self {
+    /// A cycle before the first message of robot or camera. `program` is the version of this program.
+    pub fn new(rules: Rules, program: &str) -> Self {
         Self {
             rules,
+            program: program.to_owned(),
+            info: None,
+            named: false,
             status: None,
             release: None,
             boot: 0,
             rejected: false,
             camera: Camera::Idle,
+            camera_failures: 0,
             stopping: false,
             clears: 0,
             voids: 0,
@@ -182,9 +116,11 @@ impl Cycle {
         }
     }
 
-    /// Notes that a session with the robot was opened (again): earlier messages are stale.
+    /// Notes that a session with the robot was opened (again): earlier messages are stale, and it may
+    /// be another robot.
     pub fn connected(&mut self, greeting: &Greeting) {
         self.boot = greeting.boot;
+        self.info = None;
         self.status = None;
     }
 
@@ -197,18 +133,38 @@ impl Cycle {
                 if status.state == State::Idle {
                     self.clears = 0;
                 }
-                if status.state.in_cycle() && status.released {
-                    let measured = Measured {
-                        spin_mrev_s: status.meas_spin_mrev_s,
-                        angle_cdeg: status.meas_angle_cdeg,
-                    };
-                    self.release = Some((status.throw_id, measured, self.boot));
+                if status.state.in_cycle()
+                    && status.released
+                    && status.experiment == self.rules.experiment
+                {
+                    self.release = Some(Release {
+                        id: status.throw_id,
+                        asked: (status.spin_mrev_s, status.angle_cdeg),
+                        measured: Measured {
+                            spin_mrev_s: status.meas_spin_mrev_s,
+                            angle_cdeg: status.meas_angle_cdeg,
+                        },
+                        boot: self.boot,
+                    });
                 }
                 self.status = Some(*status);
             }
+            Reply::Info(info) => self.introduced(info),
             Reply::Nak(nak) => self.note_rejection(request, *nak),
-            Reply::Ok { .. } | Reply::Hello(_) | Reply::Info(_) => {}
+            Reply::Ok { .. } | Reply::Hello(_) => {}
         }
+    }
+
+    fn introduced(&mut self, info: &Info) {
+        let (limits, planned) = (info.limits, self.rules.reach);
+        if limits.spin_mrev_s < planned.spin_mrev_s() || limits.angle_cdeg < planned.angle_cdeg() {
+            self.halt = Some(Halt::OutOfReach {
+                planned,
+                spin_mrev_s: limits.spin_mrev_s,
+                angle_cdeg: limits.angle_cdeg,
+            });
+        }
+        self.info = Some(*info);
     }
 
     fn note_rejection(&mut self, request: &Request, nak: Nak) {
@@ -245,13 +201,37 @@ impl Cycle {
 
     /// Notes the result of a photo.
     pub fn photographed(&mut self, photo: Photo) {
-        let Photo { id, attempt, read } = photo;
+        let Photo { id, attempt, shown } = photo;
         if self.camera != (Camera::Busy { id, attempt }) {
             return; // its throw is resolved already
         }
-        self.camera = match read {
-            Some((face, image)) => Camera::Read { id, face, image },
-            None => Camera::Failed { id, attempt },
+        let failures = std::mem::take(&mut self.camera_failures);
+        self.camera = match shown {
+            Shown::Face {
+                face,
+                image,
+                digest,
+            } => Camera::Read {
+                id,
+                face,
+                image,
+                digest,
+            },
+            Shown::Nothing => Camera::Unread {
+                id,
+                photos: attempt,
+            },
+            Shown::Failure(last) => {
+                let count = failures + 1;
+                self.camera_failures = count;
+                if count >= self.rules.max_camera_failures {
+                    self.halt = Some(Halt::CameraFails { id, count, last });
+                }
+                Camera::Failed {
+                    id,
+                    photos: attempt,
+                }
+            }
         };
     }
 
@@ -261,7 +241,9 @@ impl Cycle {
             Entry::Void { reason, .. } => {
                 self.camera = Camera::Idle;
                 self.voids += 1;
-                if self.voids >= self.rules.max_voids {
+                // a person has adopted the robot in spite of the throw: it says nothing of the robot
+                let adopted = matches!(reason, VoidReason::Foreign | VoidReason::Superseded);
+                if self.voids >= self.rules.max_voids && !adopted {
                     self.halt = Some(Halt::TooManyVoids {
                         count: self.voids,
                         last: *reason,
@@ -272,7 +254,9 @@ impl Cycle {
                 self.camera = Camera::Idle;
                 self.voids = 0;
             }
-            Entry::Adopted { .. } | Entry::Announced { .. } | Entry::Done { .. } => {}
+            Entry::Session { .. } => self.named = true,
+            Entry::Adopted { .. } => self.named = false,
+            Entry::Announced { .. } | Entry::Done { .. } => {}
         }
     }
 
@@ -288,31 +272,48 @@ impl Cycle {
 
     /// The next step. `now_ms` is the timestamp for entries.
     pub fn step(&mut self, history: &History, now_ms: u64) -> Step {
-        if let Some(halt) = self.halt {
-            return Step::Halt(halt);
+        if let Some(halt) = &self.halt {
+            return Step::Halt(halt.clone());
         }
         if self.rejected {
             return Step::Wait;
         }
+        let Some(info) = self.info else {
+            return Step::Request(Request::Info);
+        };
         let Some(status) = self.status else {
             return Step::Request(Request::Status);
         };
-        let pending = history.pending();
+        let whose = self.whose(&status, &info, history);
+        let (ours, pending) = (matches!(whose, Whose::Ours), history.pending());
         if let Pending::Read { id } = pending
-            && (status.throw_id != id || !status.state.in_cycle() && status.state != State::Boot)
+            && (!ours
+                || status.throw_id != id
+                || !status.state.in_cycle() && status.state != State::Boot)
         {
             // a reading is valid whatever has happened to the robot since
             return Step::Write(Entry::Done { id });
+        }
+        if let Whose::Strange(how) = whose {
+            return self.strange(how, &status, history);
+        }
+        if let Some(entry) = self.naming(&info, history, now_ms) {
+            return Step::Write(entry);
         }
         if status.throw_id > history.last_id() {
             return self.ahead(status.throw_id, history, pending);
         }
         match pending {
-            Pending::Nothing => self.nothing_open(&status, history),
+            Pending::Nothing => self.nothing_open(&status, history, ours),
+            // announced by a program that did not note the robot: nobody knows
+            Pending::Announced { id, .. } if !ours => Step::Write(Entry::Void {
+                id,
+                reason: VoidReason::Foreign,
+            }),
             Pending::Announced { id, setting } if status.throw_id < id => {
                 self.not_thrown_yet(&status, id, setting)
             }
-            Pending::Announced { id, .. } => self.thrown(&status, id, now_ms),
+            Pending::Announced { id, setting } => self.thrown(&status, id, setting, now_ms),
             Pending::Read { .. } => self.bring_to_idle(&status),
         }
     }
@@ -333,13 +334,19 @@ impl Cycle {
         }
     }
 
-    fn nothing_open(&mut self, status: &Status, history: &History) -> Step {
+    fn nothing_open(&mut self, status: &Status, history: &History, ours: bool) -> Step {
         let throw = history.announced();
         if status.state != State::Idle {
             return self.bring_to_idle(status);
         }
         if self.stopping || throw >= self.rules.throws {
             return Step::Finished;
+        }
+        if !ours {
+            return Step::Request(Request::SetCounter {
+                throw_id: history.last_id(),
+                experiment: self.rules.experiment,
+            });
         }
         history
             .next_id()
@@ -355,6 +362,7 @@ impl Cycle {
         }
         Step::Request(Request::Throw {
             throw_id: id,
+            experiment: self.rules.experiment,
             spin_mrev_s: setting.spin_mrev_s(),
             angle_cdeg: setting.angle_cdeg(),
         })
@@ -362,39 +370,40 @@ impl Cycle {
 
     /// The next step when the robot has accepted the open throw and the journal has no reading of
     /// it.
-    fn thrown(&self, status: &Status, id: u32, at_ms: u64) -> Step {
+    fn thrown(&self, status: &Status, id: u32, setting: Setting, at_ms: u64) -> Step {
         let void = |reason| Step::Write(Entry::Void { id, reason });
+        let wanted = (setting.spin_mrev_s(), setting.angle_cdeg());
+        if status.state.in_cycle() && (status.spin_mrev_s, status.angle_cdeg) != wanted {
+            return void(VoidReason::Mismatch);
+        }
         if let (
             Camera::Read {
                 id: of,
                 face,
                 image,
+                digest,
             },
-            Some((released, measured, boot)),
+            Some(release),
         ) = (&self.camera, self.release)
-            && (*of, released) == (id, id)
+            && (*of, release.id) == (id, id)
         {
+            if release.asked != wanted {
+                return void(VoidReason::Mismatch);
+            }
+            if !self.is_on_target(&release) {
+                return void(VoidReason::OffTarget);
+            }
             let reading = Reading {
                 face: *face,
-                measured,
-                boot,
+                measured: release.measured,
+                boot: release.boot,
                 image: image.clone(),
+                digest: Some(*digest),
             };
             return Step::Write(Entry::Read { id, reading, at_ms });
         }
         match status.state {
-            State::AtCoin => match self.camera {
-                Camera::Busy { id: of, .. } if of == id => Step::Wait,
-                Camera::Failed { id: of, attempt } if of == id => {
-                    if attempt >= self.rules.max_photos {
-                        void(VoidReason::Unread)
-                    } else {
-                        let attempt = attempt + 1;
-                        Step::Photograph { id, attempt }
-                    }
-                }
-                _ => Step::Photograph { id, attempt: 1 },
-            },
+            State::AtCoin => self.at_coin(id),
             State::Fault => void(VoidReason::Fault(status.fault)),
             State::Idle => void(VoidReason::Lost),
             State::Boot | State::Aiming | State::Flying | State::Driving | State::Returning => {
@@ -403,12 +412,42 @@ impl Cycle {
         }
     }
 
+    fn at_coin(&self, id: u32) -> Step {
+        match self.camera {
+            Camera::Busy { id: of, .. } if of == id => Step::Wait,
+            Camera::Unread { id: of, photos } if of == id && photos >= self.rules.max_photos => {
+                Step::Write(Entry::Void {
+                    id,
+                    reason: VoidReason::Unread,
+                })
+            }
+            Camera::Unread { id: of, photos } if of == id => Step::Photograph {
+                id,
+                attempt: photos + 1,
+            },
+            // a camera that failed has not looked at the coin: the same photo again
+            Camera::Failed { id: of, photos } if of == id => Step::Photograph {
+                id,
+                attempt: photos,
+            },
+            _ => Step::Photograph { id, attempt: 1 },
+        }
+    }
+
+    fn is_on_target(&self, release: &Release) -> bool {
+        let (spin, angle) = release.asked;
+        let measured = release.measured;
+        measured.spin_mrev_s.abs_diff(spin) <= self.rules.spin_tolerance_mrev_s
+            && measured.angle_cdeg.abs_diff(angle) <= self.rules.angle_tolerance_cdeg
+    }
+
     /// The next step that brings the robot to Idle.
     fn bring_to_idle(&mut self, status: &Status) -> Step {
         match status.state {
             State::AtCoin => Step::Request(Request::Collect {
                 throw_id: status.throw_id,
             }),
+            State::Fault if status.fault == fault::EMERGENCY => Step::Halt(Halt::EmergencyStop),
             State::Fault => {
                 self.clears += 1;
                 if self.clears > MAX_CLEARS {
