@@ -4,7 +4,7 @@
 
 mod bench;
 
-use bench::{Bench, TIMEOUT, finish, text};
+use bench::{Bench, finish, text};
 use coinmc_robot::Directory;
 use coinmc_robot::journal::{Entry, Journal, Pending, Resolution, VoidReason};
 use coinmc_robot::sim::read_truths;
@@ -120,16 +120,7 @@ fn a_camera_with_every_vice_gives_no_wrong_face() {
         "--max-voids",
         "30",
     ];
-    // the test photo may fail, too: that costs no throw
-    let begun = Instant::now();
-    loop {
-        let output = finish(bench.run_with("day", &camera, &more));
-        if output.status.success() {
-            break;
-        }
-        said(&output, 1, &["No throw was made"]);
-        assert!(begun.elapsed() < TIMEOUT);
-    }
+    bench.run_until_it_starts(&camera, &more);
     let (done, void) = bench.audit("day");
     assert!(done >= 20 && done + void == 30, "{done} done, {void} void");
 }

@@ -129,6 +129,20 @@ impl Bench {
         command
     }
 
+    /// Runs an experiment whose camera may fail even the test photo, which costs no throw.
+    pub fn run_until_it_starts(&self, camera: &str, more: &[&str]) {
+        let begun = Instant::now();
+        loop {
+            let output = finish(self.run_with("day", camera, more));
+            if output.status.success() {
+                return;
+            }
+            let text = text(&output);
+            assert!(text.contains("No throw was made"), "{text}");
+            assert!(begun.elapsed() < TIMEOUT, "{text}");
+        }
+    }
+
     /// Waits until the coin of this throw has been released.
     pub fn wait_for(&self, throw: u32, host: &mut Child) {
         let begun = Instant::now();

@@ -3,6 +3,8 @@
 
 pub mod bed;
 pub mod campaign;
+#[cfg(target_os = "linux")]
+pub mod simulator;
 
 use coinmc_link::{Hardware, Info, Limits, Motion, Record, Sensors, capability};
 use std::path::PathBuf;

@@ -3,6 +3,7 @@
 use super::dice::Dice;
 use super::line::Noise;
 use super::memory::Memory;
+use super::nemesis::Nemesis;
 use super::plant::Plant;
 use super::pty::{Pty, StableName};
 use super::truth::TruthFile;
@@ -44,6 +45,8 @@ pub struct SimOptions {
 pub struct Faults {
     /// Fraction of bytes that are damaged, dropped or followed by a random byte.
     pub noise: f64,
+    /// Fraction of frames that are attacked; see [`Nemesis`].
+    pub hostile: f64,
     /// Mean time between resets, s in the robot's time; `None`: never.
     pub reset_every_s: Option<f64>,
     /// Mean time between disconnections, likewise.
@@ -156,8 +159,8 @@ struct Robot {
     device: Option<Device<Plant>>,
     pty: Pty,
     name: Option<StableName>,
-    into: Noise,
-    out: Noise,
+    into: (Noise, Nemesis),
+    out: (Noise, Nemesis),
     dice: Dice,
     origin: Instant,
     speed: f64,
@@ -196,6 +199,14 @@ impl Schedule {
     }
 }
 
+/// The bytes that arrive over a line.
+fn attacked((noise, nemesis): &mut (Noise, Nemesis), bytes: &[u8]) -> Vec<u8> {
+    let (mut whole, mut arrived) = (Vec::new(), Vec::new());
+    nemesis.pass(bytes, Instant::now(), &mut whole);
+    noise.pass(&whole, &mut arrived);
+    arrived
+}
+
 impl Robot {
     fn new(experiment: Experiment, options: &SimOptions) -> Result<Self, SimError> {
         let SimOptions {
@@ -219,8 +230,14 @@ impl Robot {
             device: Some(Device::boot(plant, 0)),
             pty,
             name,
-            into: Noise::new(faults.noise, seed, 2),
-            out: Noise::new(faults.noise, seed, 3),
+            into: (
+                Noise::new(faults.noise, seed, 2),
+                Nemesis::new(faults.hostile, seed, 4),
+            ),
+            out: (
+                Noise::new(faults.noise, seed, 3),
+                Nemesis::new(faults.hostile, seed, 5),
+            ),
             origin: Instant::now(),
             speed,
             resets: Schedule::new(faults.reset_every_s, speed, &mut dice),
@@ -321,8 +338,7 @@ impl Robot {
             .pty
             .read(&mut bytes, wait.min(TICK))
             .map_err(cannot("read from the pseudo-terminal"))?;
-        let mut arrived = Vec::new();
-        self.into.pass(&bytes[..count], &mut arrived);
+        let arrived = attacked(&mut self.into, &bytes[..count]);
         let now = self.now_ms();
         self.device().tick(now);
         let mut replies = Vec::new();
@@ -331,8 +347,7 @@ impl Robot {
                 replies.extend_from_slice(reply);
             }
         }
-        let mut sent = Vec::new();
-        self.out.pass(&replies, &mut sent);
+        let sent = attacked(&mut self.out, &replies);
         if !sent.is_empty() {
             self.pty
                 .write(&sent)

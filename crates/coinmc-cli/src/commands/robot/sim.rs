@@ -58,6 +58,11 @@ pub(super) struct Sim {
     #[arg(long, value_name = "FRACTION", default_value_t = 0.0, value_parser = fraction)]
     noise: f64,
 
+    /// Fraction of frames, each way, that are dropped, doubled, swapped, delayed, cut, sent again later
+    /// or preceded by a forged one
+    #[arg(long, value_name = "FRACTION", default_value_t = 0.0, value_parser = fraction)]
+    hostile: f64,
+
     /// Fraction of motions that never end
     #[arg(long, value_name = "FRACTION", default_value_t = 0.0, value_parser = fraction)]
     stuck: f64,
@@ -91,6 +96,7 @@ impl Sim {
             speed: self.speed,
             faults: Faults {
                 noise: self.noise,
+                hostile: self.hostile,
                 reset_every_s: self.reset_every,
                 unplug_every_s: self.unplug_every,
                 stuck: self.stuck,

@@ -1,0 +1,132 @@
+//! A simulated microcontroller as a process: its terminal, and orders to it.
+
+use std::fs::{File, OpenOptions};
+use std::io::{BufRead, BufReader, Read, Write};
+use std::process::{Child, Command, Stdio};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
+
+pub struct Simulator {
+    child: Child,
+    said: Receiver<String>,
+    /// QEMU, which has its own orders, and no measure of time but ours.
+    pub qemu: bool,
+}
+
+impl Simulator {
+    /// Starts the simulator; also returns its serial line, and what arrives from it.
+    pub fn start(command: &str) -> (Self, File, Receiver<Vec<u8>>) {
+        let mut words = command.split_whitespace();
+        let mut child = Command::new(words.next().expect("a command"))
+            .args(words)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("the simulator starts");
+        let mut lines = BufReader::new(child.stdout.take().expect("its output")).lines();
+        let name = lines.find_map(|line| {
+            let line = line.expect("text");
+            let name = line.split_whitespace().find(|w| w.starts_with("/dev/"));
+            name.map(str::to_owned)
+        });
+        let name = name.expect("the name of a terminal");
+        // keep reading, so that its pipe does not fill up
+        let (sender, said) = channel();
+        std::thread::spawn(move || {
+            lines
+                .map_while(Result::ok)
+                .all(|line| sender.send(line).is_ok())
+        });
+        let status = Command::new("stty")
+            .args(["-F", &name, "raw", "-echo"])
+            .status();
+        assert!(status.expect("stty runs").success());
+        let line = OpenOptions::new().read(true).write(true).open(&name);
+        let line = line.expect("the terminal opens");
+        let mut reader = line.try_clone().expect("a second handle");
+        let (sender, arriving) = channel();
+        std::thread::spawn(move || {
+            let mut buffer = [0; 256];
+            while let Ok(length @ 1..) = reader.read(&mut buffer) {
+                if sender.send(buffer[..length].to_vec()).is_err() {
+                    break;
+                }
+            }
+        });
+        let qemu = command.contains("qemu");
+        (Self { child, said, qemu }, line, arriving)
+    }
+
+    pub fn tell(&mut self, order: &str) {
+        let input = self.child.stdin.as_mut().expect("its input");
+        writeln!(input, "{order}").expect("the simulator obeys");
+    }
+
+    /// Whether the motors have current.
+    pub fn motors_on(&mut self) -> bool {
+        // port D of the LM3S, pin 0
+        let (order, mark) = if self.qemu {
+            ("xp /1wx 0x40007004", "0000000040007004:")
+        } else {
+            ("motors", "motors ")
+        };
+        self.tell(order);
+        loop {
+            let line = self.said.recv_timeout(Duration::from_secs(20));
+            let line = line.expect("the simulator answers");
+            if let Some((_, rest)) = line.split_once(mark) {
+                let word = rest.split_whitespace().next().expect("a number");
+                return !matches!(word, "0" | "0x00000000");
+            }
+        }
+    }
+
+    /// Presses the emergency stop, or holds every motion, for long enough.
+    pub fn press(&mut self) {
+        self.tell(if self.qemu {
+            "sendkey ctrl 3000"
+        } else {
+            "press"
+        });
+    }
+
+    pub fn release(&mut self) {
+        if self.qemu {
+            std::thread::sleep(Duration::from_millis(3_500));
+        } else {
+            self.tell("release");
+        }
+    }
+
+    pub fn stick(&mut self) {
+        self.tell(if self.qemu {
+            "sendkey up 14000"
+        } else {
+            "stick"
+        });
+        std::thread::sleep(Duration::from_millis(100));
+    }
+
+    pub fn unstick(&mut self, stuck: Instant) {
+        if self.qemu {
+            std::thread::sleep(Duration::from_millis(14_500).saturating_sub(stuck.elapsed()));
+        } else {
+            self.tell("unstick");
+        }
+    }
+}
+
+impl Drop for Simulator {
+    fn drop(&mut self) {
+        // one simulator exits at the end of its input, the other must be killed
+        drop(self.child.stdin.take());
+        for _ in 0..20 {
+            if self.child.try_wait().is_ok_and(|ended| ended.is_some()) {
+                return;
+            }
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
