@@ -100,8 +100,12 @@ static void set_inputs(void)
 {
     avr_ioport_external_t external = {.name = 'D', .mask = 0x0C, .value = inputs};
     avr_ioctl(avr, AVR_IOCTL_IOPORT_SET_EXTERNAL('D'), &external);
-    for (int i = 2; i <= 3; i++)
-        avr_raise_irq(avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('D'), i), inputs >> i & 1);
+    for (int i = 2; i <= 3; i++) {
+        avr_irq_t *pin_irq = avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('D'), i);
+        /* a value that has not changed would not be passed on, and after a reset it must be */
+        avr_raise_irq(pin_irq, !(inputs >> i & 1));
+        avr_raise_irq(pin_irq, inputs >> i & 1);
+    }
 }
 
 static void open_pty(void)
