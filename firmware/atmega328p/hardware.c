@@ -2,7 +2,7 @@
  * time, and less than a robot would. The contract is in hardware.h; the journal can be used as it is.
  *
  * Two pins are real: PD4 enables all motor drivers (high; a pull-down of 10 kOhm keeps them off while
- * the chip is in reset or being flashed), and PD2 reads the emergency stop, a normally closed contact
+ * the chip is in reset or being flashed), and PD5 reads the emergency stop, a normally closed contact
  * to ground: a pressed button and a cut wire read the same. The contact must also cut the motors'
  * supply by itself: the pin only tells the firmware. */
 #include "clock.h"
@@ -20,7 +20,7 @@ static int32_t x_um, y_um;
 
 void hardware_begin(void)
 {
-    PORTD = (uint8_t)((PORTD & ~_BV(PORTD4)) | _BV(PORTD2) | _BV(PORTD3)); /* motors off; pull-ups */
+    PORTD = (uint8_t)((PORTD & ~_BV(PORTD4)) | _BV(PORTD5) | _BV(PORTD6)); /* motors off; pull-ups */
     DDRD |= _BV(DDD4);
 }
 
@@ -83,8 +83,8 @@ static void arrive(void)
 
 void hardware_sense(sensors *now)
 {
-    /* PD3 pulled low: the motion is stuck, for tests */
-    bool stuck = (PIND & _BV(PIND3)) == 0;
+    /* PD6 pulled low: the motion is stuck, for tests */
+    bool stuck = (PIND & _BV(PIND6)) == 0;
     if (moving && !stuck && clock_ms() - began_ms >= duration_ms[last.kind])
         arrive();
     now->settled = !moving;
@@ -94,5 +94,5 @@ void hardware_sense(sensors *now)
     now->x_um = x_um;
     now->y_um = y_um;
     now->failure = 0;
-    now->stopped = (PIND & _BV(PIND2)) != 0;
+    now->stopped = (PIND & _BV(PIND5)) != 0;
 }

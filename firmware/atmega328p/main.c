@@ -12,12 +12,12 @@
 /* Bytes handled between two checks of the limits, 5.6 ms of them: however many arrive. */
 #define BYTES_A_TICK 64
 
-/* Written with `avrdude -U lfuse:w:… -U hfuse:w:… -U efuse:w:…` (scripts/firmware prints them), not by
- * a bootloader: crystal of 16 MHz; the bootloader of an Uno is kept, and the EEPROM survives flashing;
- * reset below 4.3 V, because this clock needs 3.8 V and an EEPROM written at less is not to be trusted. */
+/* Written with a programmer, not by a bootloader (docs/reference/robot-protocol.md has the command):
+ * crystal of 16 MHz; the bootloader of an Uno is kept, and the EEPROM survives flashing; reset below
+ * 4.3 V, because this clock needs 3.8 V and an EEPROM written at less is not to be trusted. */
 FUSES = {
     .low = 0xFF,
-    .high = (FUSE_SPIEN & FUSE_EESAVE & FUSE_BOOTSZ1 & FUSE_BOOTRST),
+    .high = (FUSE_SPIEN & FUSE_EESAVE & FUSE_BOOTRST),
     .extended = 0xFC, /* BODLEVEL 100: 4.3 V */
 };
 

@@ -183,17 +183,20 @@ fn stop_reaches_a_running_host_and_its_robot() {
     let bench = Bench::new(500);
     let _robot = bench.robot(&[]);
     let mut host = bench
-        .run("day", &["--speed", "20"])
+        .run("day", &[])
         .spawn()
         .expect("it starts");
     bench.wait_for(2, &mut host);
     said(
         &bench.robot_command(&["stop", "day"]),
         0,
-        &["has sent Stop"],
+        &["has stopped the robot"],
     );
     let output = host.wait_with_output().expect("its output");
-    said(&output, 130, &["its motors are off"]);
+    // or it was just between two throws
+    said(&output, 130, &[]);
+    let said_so = text(&output);
+    assert!(said_so.contains("motors are off") || said_so.contains("coinmc robot resume"));
     let output = bench.robot_command(&["status", "--port", "port"]);
     let stopped = text(&output);
     assert!(

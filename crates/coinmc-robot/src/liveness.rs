@@ -59,3 +59,36 @@ impl Liveness {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::thread::sleep;
+
+    #[test]
+    fn only_a_change_is_progress() {
+        let limit = Duration::from_millis(200);
+        let mut liveness = Liveness::new(limit);
+        let mut status = Status {
+            throw_id: 7,
+            ..Status::default()
+        };
+        liveness.note(3, Some(&status));
+        sleep(limit);
+        // the time goes on, the robot answers, and nothing happens
+        status.t_ms += 200;
+        liveness.note(3, Some(&status));
+        assert!(liveness.is_stalled());
+        assert!(liveness.halt().to_string().contains("at throw 7, starting"));
+        // unplugged and plugged in again: nothing happens either
+        liveness.note(3, None);
+        assert!(liveness.is_stalled());
+        assert!(liveness.halt().to_string().contains("does not answer"));
+        liveness.note(4, None);
+        assert!(!liveness.is_stalled());
+        sleep(limit);
+        status.state = State::Idle;
+        liveness.note(4, Some(&status));
+        assert!(!liveness.is_stalled());
+    }
+}

@@ -43,9 +43,9 @@ typedef struct {
 
 static pin handling, storing, motors;
 
-/* Inputs of port D: the emergency stop (2), closed to ground until it is pressed, and the stuck motion
- * (3), pulled up until a motion is to stick. */
-static uint8_t inputs = 1 << 3;
+/* Inputs of port D: the emergency stop (5), closed to ground until it is pressed, and the stuck motion
+ * (6), pulled up until a motion is to stick. */
+static uint8_t inputs = 1 << 6;
 static avr_cycle_count_t stored_before, longest_without_journal;
 
 static void on_pin(struct avr_irq_t *irq, uint32_t value, void *parameter)
@@ -98,9 +98,9 @@ static void on_xoff(struct avr_irq_t *irq, uint32_t value, void *parameter)
 
 static void set_inputs(void)
 {
-    avr_ioport_external_t external = {.name = 'D', .mask = 0x0C, .value = inputs};
+    avr_ioport_external_t external = {.name = 'D', .mask = 0x60, .value = inputs};
     avr_ioctl(avr, AVR_IOCTL_IOPORT_SET_EXTERNAL('D'), &external);
-    for (int i = 2; i <= 3; i++) {
+    for (int i = 5; i <= 6; i++) {
         avr_irq_t *pin_irq = avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('D'), i);
         /* a value that has not changed would not be passed on, and after a reset it must be */
         avr_raise_irq(pin_irq, !(inputs >> i & 1));
@@ -178,7 +178,24 @@ static void print_motors(void)
     motors.longest = 0;
 }
 
-/* Executes a command, if there is one; false at the end of input. */
+static void obey(const char *command)
+{
+    if (strcmp(command, "system_reset") == 0)
+        reset_board();
+    else if (strcmp(command, "motors") == 0)
+        print_motors();
+    else if (strcmp(command, "press") == 0)
+        inputs |= 1 << 5;
+    else if (strcmp(command, "release") == 0)
+        inputs &= (uint8_t)~(1 << 5);
+    else if (strcmp(command, "stick") == 0)
+        inputs &= (uint8_t)~(1 << 6);
+    else if (strcmp(command, "unstick") == 0)
+        inputs |= 1 << 6;
+    set_inputs();
+}
+
+/* Executes the commands that have arrived; false at the end of input. */
 static bool execute_command(void)
 {
     struct pollfd input = {STDIN_FILENO, POLLIN, 0};
@@ -186,20 +203,8 @@ static bool execute_command(void)
     if (poll(&input, 1, 0) <= 0)
         return true;
     ssize_t length = read(STDIN_FILENO, line, sizeof line - 1);
-    if (strncmp(line, "system_reset", 12) == 0)
-        reset_board();
-    else if (strncmp(line, "motors", 6) == 0)
-        print_motors();
-    else if (strncmp(line, "press", 5) == 0)
-        inputs |= 1 << 2;
-    else if (strncmp(line, "release", 7) == 0)
-        inputs &= (uint8_t)~(1 << 2);
-    else if (strncmp(line, "stick", 5) == 0)
-        inputs &= (uint8_t)~(1 << 3);
-    else if (strncmp(line, "unstick", 7) == 0)
-        inputs |= 1 << 3;
-    if (length > 0)
-        set_inputs();
+    for (char *word = strtok(line, "\n"); word != NULL; word = strtok(NULL, "\n"))
+        obey(word);
     return length > 0;
 }
 

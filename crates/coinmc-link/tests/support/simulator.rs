@@ -11,6 +11,8 @@ pub struct Simulator {
     said: Receiver<String>,
     /// QEMU, which has its own orders, and no measure of time but ours.
     pub qemu: bool,
+    /// Longest time with current since this was taken, ms of the simulation, if it is measured there.
+    pub longest_ms: Option<u64>,
 }
 
 impl Simulator {
@@ -54,7 +56,13 @@ impl Simulator {
             }
         });
         let qemu = command.contains("qemu");
-        (Self { child, said, qemu }, line, arriving)
+        let simulator = Self {
+            child,
+            said,
+            qemu,
+            longest_ms: None,
+        };
+        (simulator, line, arriving)
     }
 
     pub fn tell(&mut self, order: &str) {
@@ -75,8 +83,13 @@ impl Simulator {
             let line = self.said.recv_timeout(Duration::from_secs(20));
             let line = line.expect("the simulator answers");
             if let Some((_, rest)) = line.split_once(mark) {
-                let word = rest.split_whitespace().next().expect("a number");
-                return !matches!(word, "0" | "0x00000000");
+                let mut words = rest.split_whitespace();
+                let now = words.next().expect("a number");
+                if let Some(longest) = words.next() {
+                    let longest = longest.parse().expect("a number");
+                    self.longest_ms = self.longest_ms.max(Some(longest));
+                }
+                return !matches!(now, "0" | "0x00000000");
             }
         }
     }

@@ -69,14 +69,16 @@ impl Stop {
 fn stop_host(directory: &Directory, process: u32) -> Result<Outcome, Failure> {
     let begun = Instant::now();
     for _ in 0..2 {
-        directory.interrupt_host(process).map_err(|error| {
-            Failure::Runtime(anyhow!(
+        if let Err(error) = directory.interrupt_host(process)
+            && directory.host().is_some()
+        {
+            return Err(Failure::Runtime(anyhow!(
                 "cannot stop process {process} ({error}): press Ctrl-C twice where it runs, or the \
                  emergency stop"
-            ))
-        })?;
+            )));
+        }
         // two signals at once would be one
-        sleep(Duration::from_millis(100));
+        sleep(Duration::from_millis(50));
     }
     while directory.host().is_some() {
         if begun.elapsed() > PATIENCE {
@@ -88,7 +90,7 @@ fn stop_host(directory: &Directory, process: u32) -> Result<Outcome, Failure> {
         sleep(Duration::from_millis(50));
     }
     output::note(&format!(
-        "the host (process {process}) has sent Stop and ended"
+        "the host (process {process}) has stopped the robot and ended"
     ));
     Ok(Outcome::Done)
 }
