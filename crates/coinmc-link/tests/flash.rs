@@ -27,7 +27,7 @@ impl Nor {
             // as delivered, or with anything in it
             words: (0..PAGES * PAGE_WORDS)
                 .map(|_| {
-                    if seed % 2 == 0 {
+                    if seed.is_multiple_of(2) {
                         u32::MAX
                     } else {
                         random.below(u32::MAX)
@@ -45,11 +45,10 @@ impl Nor {
         if self.dead.contains(&word) {
             return 0;
         }
-        match &mut self.left {
-            None => u32::MAX,
+        match self.left {
             Some(0) => 0,
             Some(1) => self.random.below(u32::MAX),
-            Some(_) => u32::MAX,
+            None | Some(_) => u32::MAX,
         }
     }
 

@@ -200,8 +200,8 @@ impl Bench {
                 Action::Transmit(bytes) => self.line.write_all(bytes).expect("the line is open"),
                 Action::Wait { .. } => {
                     if let Ok(bytes) = self.arriving.recv_timeout(Duration::from_millis(20)) {
-                        self.host
-                            .receive(&bytes, self.begun.elapsed().as_millis() as u64);
+                        let now_ms = self.real_ms();
+                        self.host.receive(&bytes, now_ms);
                     }
                 }
                 Action::Reply(reply) => return Some(reply),

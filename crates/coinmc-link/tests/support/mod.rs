@@ -24,6 +24,7 @@ pub const INFO: Info = Info {
 
 /// A simulated robot: motions take time, and every release is counted.
 #[derive(Debug, Clone)]
+#[allow(clippy::struct_excessive_bools)] // inputs of a board
 pub struct Bench {
     pub now_ms: u32,
     done_ms: Option<u32>,
