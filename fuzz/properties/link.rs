@@ -198,6 +198,7 @@ impl Course<'_> {
 }
 
 #[derive(Debug, Default)]
+#[allow(clippy::struct_excessive_bools)] // inputs and outputs of a board
 struct Bench {
     settled: bool,
     store_fails: bool,

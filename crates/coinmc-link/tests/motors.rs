@@ -6,7 +6,7 @@
 mod support;
 
 use coinmc_link::{
-    Action, Host, PROTOCOL, Reply, Request, SILENCE_LIMIT_MS, State, Status, Version,
+    Action, Host, PROTOCOL, Reply, Request, SILENCE_LIMIT_MS, State, Status, Version, fault,
 };
 use std::fs::File;
 use std::io::Write;
@@ -101,24 +101,23 @@ fn motors_have_no_current_longer_than_their_limit_after_any_fault() {
         // the throw until there takes a third of a second
         u64::from(SILENCE_LIMIT_MS) + 400,
     );
-    for (what, reset) in [("the emergency stop", false), ("a reset", true)] {
+    for (what, throw_id) in [("the emergency stop", 4), ("a reset", 5)] {
         bench.ready();
-        let stuck = Instant::now();
-        bench.simulator.stick();
-        bench.ask(&home);
+        bench.ask(&throw(throw_id));
+        while bench.status().state != State::AtCoin {}
         assert!(bench.simulator.motors_on());
         let before = bench.simulator.longest_ms.take().unwrap_or(0);
         let begun = bench.now_ms();
-        if reset {
+        if throw_id == 5 {
             bench.simulator.tell("system_reset");
         } else {
             bench.simulator.press();
         }
         let taken = bench.until_off(begun, Then::Polls).saturating_sub(before);
-        if !reset {
+        if throw_id == 4 {
+            assert_eq!(bench.status().fault, fault::EMERGENCY);
             bench.simulator.release();
         }
-        bench.simulator.unstick(stuck);
         report(what, taken, 50);
     }
 }

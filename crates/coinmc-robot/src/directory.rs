@@ -251,8 +251,9 @@ impl Directory {
                 .file_name();
             let ours = [CONFIG, SETUP, PHOTOS, SESSIONS];
             let left = |name: &str, our: &str| {
-                name.strip_prefix(our)
-                    .is_some_and(|rest| rest.starts_with('.') && rest.ends_with(".tmp"))
+                name.strip_prefix(our).is_some_and(|rest| {
+                    rest.starts_with('.') && rest.strip_suffix(".tmp").is_some()
+                })
             };
             let is_ours = |name: &str| ours.iter().any(|our| name == *our || left(name, our));
             if !name.to_str().is_some_and(is_ours) {

@@ -104,10 +104,10 @@ impl Hardware for Robot {
     }
 
     fn sense(&mut self) -> Sensors {
-        let now_ms = self.clock.now_ms();
+        let (now_ms, stuck) = (self.clock.now_ms(), pins::is_stuck());
         if let Some((motion, done_ms)) = self.moving
             && now_ms.wrapping_sub(done_ms) < u32::MAX / 2
-            && !pins::is_stuck()
+            && !stuck
         {
             self.moving = None;
             self.arrive(motion, now_ms);

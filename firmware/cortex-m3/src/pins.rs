@@ -37,10 +37,28 @@ pub fn enable_motors(on: bool) {
 
 /// Whether the emergency stop is pressed.
 pub fn is_stopped() -> bool {
-    get(PORT_F + PIN_1) == 0
+    is_low(PORT_F + PIN_1, 2)
 }
 
 /// Whether motions are stuck, for tests: the evaluation board's button `up` is pressed.
 pub fn is_stuck() -> bool {
-    get(PORT_E + PIN_0) == 0
+    is_low(PORT_E + PIN_0, 1)
+}
+
+#[cfg(not(feature = "simulator"))]
+fn is_low(input: usize, _: u32) -> bool {
+    get(input) == 0
+}
+
+/// QEMU has no pull-ups: a button reads low until it was used once.
+#[cfg(feature = "simulator")]
+fn is_low(input: usize, button: u32) -> bool {
+    use core::sync::atomic::{AtomicU32, Ordering};
+    static USED: AtomicU32 = AtomicU32::new(0);
+    let used = USED.load(Ordering::Relaxed);
+    if get(input) != 0 {
+        USED.store(used | button, Ordering::Relaxed);
+        return false;
+    }
+    used & button != 0
 }

@@ -75,12 +75,12 @@ impl RobotSoak {
                 noise,
                 hostile,
                 vice,
-                resets,
-                unplugs,
-                kills,
                 pauses,
                 erasures,
                 swaps,
+                resets,
+                unplugs,
+                kills,
                 ..self.clone()
             };
             let place = dir.join(number.to_string());

@@ -56,12 +56,17 @@ impl Simulator {
             }
         });
         let qemu = command.contains("qemu");
-        let simulator = Self {
+        let mut simulator = Self {
             child,
             said,
             qemu,
             longest_ms: None,
         };
+        if qemu {
+            // its buttons read low until they were used once
+            simulator.tell("sendkey up-ctrl 50");
+            std::thread::sleep(Duration::from_millis(300));
+        }
         (simulator, line, arriving)
     }
 

@@ -136,7 +136,7 @@ impl Worker {
     /// A photo before the first throw, whatever it shows.
     fn test(&mut self) -> Result<(), CameraFailure> {
         let name = self.roll.name("test", 1);
-        match self.try_photo(0, 1, name) {
+        match self.try_photo(0, 1, &name) {
             Ok(_) | Err(CameraError::NoFace) => Ok(()),
             Err(error) => Err(self.failure(error)),
         }
@@ -146,7 +146,7 @@ impl Worker {
     /// ended and started again for the next photo.
     fn photo(&mut self, id: u32, attempt: u32) -> Result<(Face, ImageName, Digest), CameraFailure> {
         let name = self.roll.name(&format!("{id:06}"), attempt);
-        let result = self.try_photo(id, attempt, name);
+        let result = self.try_photo(id, attempt, &name);
         self.pause = match result {
             Ok(_) | Err(CameraError::NoFace) => Duration::ZERO,
             Err(_) => (self.pause * 2).clamp(FIRST_PAUSE, LONGEST_PAUSE),
@@ -170,28 +170,25 @@ impl Worker {
         &mut self,
         throw_id: u32,
         attempt: u32,
-        name: String,
+        name: &str,
     ) -> Result<(Face, ImageName, Digest), CameraError> {
         let (folder, timeout) = (self.options.folder.clone(), self.options.timeout);
-        let child = match &mut self.child {
-            Some(child) => child,
-            None => {
-                thread::sleep(self.pause);
-                let child = CameraChild::start(&self.options.command, &self.log)?;
-                self.child.insert(child)
-            }
-        };
+        if self.child.is_none() {
+            thread::sleep(self.pause);
+            self.child = Some(CameraChild::start(&self.options.command, &self.log)?);
+        }
+        let child = self.child.as_mut().ok_or(CameraError::Ended)?;
         let asked_ms = unix_ms();
         let take = Take {
             throw_id,
             attempt,
             folder: folder.clone(),
-            name: name.clone(),
+            name: name.to_owned(),
         };
         let reply = child.request(&Request::Take { take }, timeout)?;
         let image = reply
             .check_time(asked_ms, unix_ms())
-            .and_then(|()| reply.image(&folder, &name))
+            .and_then(|()| reply.image(&folder, name))
             .map_err(CameraError::CameraReply)?;
         let digest = self.roll.add(&image).map_err(|error| CameraError::Photo {
             name: image.as_str().to_owned(),
