@@ -4,7 +4,7 @@ use std::fs::{File, OpenOptions};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 pub struct Simulator {
     child: Child,
@@ -77,32 +77,38 @@ impl Simulator {
 
     /// Whether the motors have current.
     pub fn motors_on(&mut self) -> bool {
-        // port D of the LM3S, pin 0
-        let (order, mark) = if self.qemu {
-            ("xp /1wx 0x40007004", "0000000040007004:")
-        } else {
-            ("motors", "motors ")
-        };
+        if self.qemu {
+            // port D of the LM3S, pin 0
+            return self.pin("40007004");
+        }
+        let words = self.answer("motors", "motors ");
+        let [now, longest] = [0, 1].map(|word| words[word].parse().expect("a number"));
+        self.longest_ms = self.longest_ms.max(Some(longest));
+        now > 0
+    }
+
+    /// Whether a pin is high, by the address of its register.
+    fn pin(&mut self, address: &str) -> bool {
+        let words = self.answer(&format!("xp /1wx 0x{address}"), &format!("{address}: "));
+        words[0] != "0x00000000"
+    }
+
+    /// The words behind a mark, in what the simulator says to an order.
+    fn answer(&mut self, order: &str, mark: &str) -> Vec<String> {
         self.tell(order);
         loop {
             let line = self.said.recv_timeout(Duration::from_secs(20));
             let line = line.expect("the simulator answers");
             if let Some((_, rest)) = line.split_once(mark) {
-                let mut words = rest.split_whitespace();
-                let now = words.next().expect("a number");
-                if let Some(longest) = words.next() {
-                    let longest = longest.parse().expect("a number");
-                    self.longest_ms = self.longest_ms.max(Some(longest));
-                }
-                return !matches!(now, "0" | "0x00000000");
+                return rest.split_whitespace().map(str::to_owned).collect();
             }
         }
     }
 
-    /// Presses the emergency stop, or holds every motion, for long enough.
+    /// Presses the emergency stop.
     pub fn press(&mut self) {
         self.tell(if self.qemu {
-            "sendkey ctrl 3000"
+            "sendkey ctrl 2000"
         } else {
             "press"
         });
@@ -110,26 +116,35 @@ impl Simulator {
 
     pub fn release(&mut self) {
         if self.qemu {
-            std::thread::sleep(Duration::from_millis(3_500));
+            // port F, pin 1
+            self.wait_for("40025008", true);
         } else {
             self.tell("release");
         }
     }
 
+    /// Holds every motion; QEMU only for 13 s of its time, longer than any limit.
     pub fn stick(&mut self) {
-        self.tell(if self.qemu {
-            "sendkey up 14000"
+        if self.qemu {
+            self.tell("sendkey up 13000");
+            // port E, pin 0
+            self.wait_for("40024004", false);
         } else {
-            "stick"
-        });
-        std::thread::sleep(Duration::from_millis(100));
+            self.tell("stick");
+        }
     }
 
-    pub fn unstick(&mut self, stuck: Instant) {
+    pub fn unstick(&mut self) {
         if self.qemu {
-            std::thread::sleep(Duration::from_millis(14_500).saturating_sub(stuck.elapsed()));
+            self.wait_for("40024004", true);
         } else {
             self.tell("unstick");
+        }
+    }
+
+    fn wait_for(&mut self, address: &str, high: bool) {
+        while self.pin(address) != high {
+            std::thread::sleep(Duration::from_millis(20));
         }
     }
 }

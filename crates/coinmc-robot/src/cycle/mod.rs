@@ -76,16 +76,13 @@ enum Camera {
     Busy {
         id: u32,
         attempt: u32,
+        unread: u32,
     },
-    /// No face in this many photos.
-    Unread {
+    /// No face yet, after this many attempts; in so many of them the camera looked and read none.
+    Tried {
         id: u32,
-        photos: u32,
-    },
-    /// The last photo failed.
-    Failed {
-        id: u32,
-        photos: u32,
+        attempts: u32,
+        unread: u32,
     },
     Read {
         id: u32,
@@ -196,15 +193,28 @@ impl Cycle {
 
     /// Notes that a photo was started.
     pub fn photographing(&mut self, id: u32, attempt: u32) {
-        self.camera = Camera::Busy { id, attempt };
+        let unread = match self.camera {
+            Camera::Tried { id: of, unread, .. } if of == id => unread,
+            _ => 0,
+        };
+        self.camera = Camera::Busy {
+            id,
+            attempt,
+            unread,
+        };
     }
 
     /// Notes the result of a photo.
     pub fn photographed(&mut self, photo: Photo) {
         let Photo { id, attempt, shown } = photo;
-        if self.camera != (Camera::Busy { id, attempt }) {
-            return; // its throw is resolved already
-        }
+        let unread = match self.camera {
+            Camera::Busy {
+                id: of,
+                attempt: number,
+                unread,
+            } if (of, number) == (id, attempt) => unread,
+            _ => return, // its throw is resolved already
+        };
         let failures = std::mem::take(&mut self.camera_failures);
         self.camera = match shown {
             Shown::Face {
@@ -217,19 +227,22 @@ impl Cycle {
                 image,
                 digest,
             },
-            Shown::Nothing => Camera::Unread {
+            Shown::Nothing => Camera::Tried {
                 id,
-                photos: attempt,
+                attempts: attempt,
+                unread: unread + 1,
             },
+            // a camera that failed has not looked at the coin
             Shown::Failure(last) => {
                 let count = failures + 1;
                 self.camera_failures = count;
                 if count >= self.rules.max_camera_failures {
                     self.halt = Some(Halt::CameraFails { id, count, last });
                 }
-                Camera::Failed {
+                Camera::Tried {
                     id,
-                    photos: attempt,
+                    attempts: attempt,
+                    unread,
                 }
             }
         };
@@ -415,21 +428,19 @@ impl Cycle {
     fn at_coin(&self, id: u32) -> Step {
         match self.camera {
             Camera::Busy { id: of, .. } if of == id => Step::Wait,
-            Camera::Unread { id: of, photos } if of == id && photos >= self.rules.max_photos => {
-                Step::Write(Entry::Void {
-                    id,
-                    reason: VoidReason::Unread,
-                })
+            Camera::Tried {
+                id: of,
+                attempts,
+                unread,
+            } if of == id => {
+                if unread >= self.rules.max_photos {
+                    let reason = VoidReason::Unread;
+                    Step::Write(Entry::Void { id, reason })
+                } else {
+                    let attempt = attempts + 1;
+                    Step::Photograph { id, attempt }
+                }
             }
-            Camera::Unread { id: of, photos } if of == id => Step::Photograph {
-                id,
-                attempt: photos + 1,
-            },
-            // a camera that failed has not looked at the coin: the same photo again
-            Camera::Failed { id: of, photos } if of == id => Step::Photograph {
-                id,
-                attempt: photos,
-            },
             _ => Step::Photograph { id, attempt: 1 },
         }
     }
