@@ -36,11 +36,7 @@ fn unread_throws_are_void_and_not_repeated() {
     {
         match step {
             Step::Request(request) => {
-                let ready = host.is_ready();
-                match world.request(&mut host, ready.then_some(&request)) {
-                    Ok(reply) => cycle.replied(&request, &reply),
-                    Err(greeting) => cycle.connected(&greeting),
-                }
+                world.ask(&mut cycle, &mut host, &request);
             }
             Step::Wait => {
                 world.pass(100);

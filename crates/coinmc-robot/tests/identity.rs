@@ -17,11 +17,7 @@ fn announced() -> World {
     loop {
         match cycle.step(&history, 0) {
             Step::Request(request) => {
-                let ready = host.is_ready();
-                match world.request(&mut host, ready.then_some(&request)) {
-                    Ok(reply) => cycle.replied(&request, &reply),
-                    Err(greeting) => cycle.connected(&greeting),
-                }
+                world.ask(&mut cycle, &mut host, &request);
             }
             Step::Wait => {
                 world.pass(100);

@@ -223,6 +223,15 @@ impl World {
         }
     }
 
+    /// Sends the request that the cycle asks for, and tells it what came of it.
+    pub fn ask(&mut self, cycle: &mut Cycle, host: &mut Host, request: &Request) {
+        let ready = host.is_ready();
+        match self.request(host, ready.then_some(request)) {
+            Ok(reply) => cycle.replied(request, &reply),
+            Err(greeting) => cycle.connected(&greeting),
+        }
+    }
+
     /// Appends to the journal; a crash leaves any beginning of the line.
     pub fn append(
         &mut self,
@@ -259,11 +268,7 @@ impl World {
             }
             match cycle.step(&history, u64::from(self.now_ms)) {
                 Step::Request(request) => {
-                    let ready = host.is_ready();
-                    match self.request(&mut host, ready.then_some(&request)) {
-                        Ok(reply) => cycle.replied(&request, &reply),
-                        Err(greeting) => cycle.connected(&greeting),
-                    }
+                    self.ask(&mut cycle, &mut host, &request);
                 }
                 Step::Wait => {
                     self.pass(100);

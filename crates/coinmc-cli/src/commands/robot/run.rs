@@ -370,7 +370,8 @@ fn agreed(camera: &str, directory: &Directory) -> Result<String, Failure> {
 
 /// Runs the command for a person to come, with the reason in its environment.
 fn alert(command: Option<&str>, failure: &Failure) {
-    let (Some(command), Failure::Halted(error) | Failure::Runtime(error)) = (command, failure)
+    let (Some(command), Failure::Halted(error) | Failure::Runtime(error) | Failure::Input(error)) =
+        (command, failure)
     else {
         return;
     };
