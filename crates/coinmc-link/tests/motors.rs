@@ -104,17 +104,19 @@ fn motors_have_no_current_longer_than_their_limit_after_any_fault() {
         u64::from(SILENCE_LIMIT_MS) + 400,
     );
     for (what, throw_id) in [("the emergency stop", 4), ("a reset", 5)] {
+        bench.simulator.settle();
         bench.ready();
         bench.ask(&throw(throw_id));
         while bench.status().state != State::AtCoin {}
         assert!(bench.simulator.motors_on());
         let before = bench.simulator.longest_ms.take().unwrap_or(0);
+        if throw_id == 4 {
+            bench.simulator.press();
+        }
         let begun = bench.begin();
         if throw_id == 5 {
             bench.chip_ms = None;
             bench.simulator.tell("system_reset");
-        } else {
-            bench.simulator.press();
         }
         let taken = bench.until_off(begun, Then::Polls).saturating_sub(before);
         if throw_id == 4 {

@@ -33,6 +33,7 @@ mod liveness;
 mod lock;
 pub mod port;
 mod recording;
+mod reporter;
 mod session;
 mod setting;
 pub mod sim;
@@ -43,9 +44,7 @@ pub use coinmc_core::Face;
 pub use directory::{Directory, DirectoryError, Setup};
 pub use experiment::{Experiment, MAX_THROWS, UnsuitablePlan};
 pub use files::{free_bytes, make_folder, replace_file};
-pub use session::{
-    POLL, Progress, ProgressSink, RoundTrips, SessionError, SessionOptions, SessionReport,
-    run_session,
-};
+pub use reporter::{Progress, ProgressSink, RoundTrips};
+pub use session::{POLL, SessionError, SessionOptions, SessionReport, run_session};
 pub use setting::{MAX_ANGLE_CDEG, MAX_SPIN_MREV_S, Setting, SettingError};
 pub use words::{fault_text, state_name};

@@ -7,12 +7,12 @@ use crate::cycle::{Cycle, Halt, Photo, Rules, Shown, Step};
 use crate::files::free_bytes;
 use crate::journal::{Entry, Journal, JournalError, Resolution};
 use crate::liveness::Liveness;
-use crate::port::{Connection, ConnectionError, LinkEvent, RequestOutcome};
+use crate::port::{Connection, ConnectionError, RequestOutcome};
 use crate::recording::SessionRecorder;
-use crate::words::{state_name, void_text};
-use crate::{Directory, Experiment, Face};
-use coinmc_link::{Counters, Reply, Request, Seen, Status};
-use coinmc_recording::foxglove::LogLevel;
+use crate::reporter::{Progress, ProgressSink, Reporter, RoundTrips, index, journal_progress};
+use crate::words::void_text;
+use crate::{Directory, Experiment};
+use coinmc_link::{Counters, Reply, Request};
 use std::cell::Cell;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -62,40 +62,6 @@ pub struct SessionOptions<'a> {
     pub sink: &'a dyn ProgressSink,
 }
 
-/// Receives the progress of a session.
-pub trait ProgressSink {
-    /// The progress changed.
-    fn progress(&self, progress: &Progress);
-    /// Information for the user.
-    fn note(&self, text: &str);
-    /// A warning for the user.
-    fn warning(&self, text: &str);
-}
-
-/// Progress of a session.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Progress {
-    /// The robot's last status; `None` while it is disconnected.
-    pub status: Option<Status>,
-    /// Throws planned.
-    pub planned: u32,
-    /// Throws done, by face in the order of [`Face::ALL`].
-    pub faces: [u32; 3],
-    /// Void throws.
-    pub voids: u32,
-    /// Throws resolved in this session.
-    pub this_session: u32,
-    /// Losses of the connection in this session.
-    pub losses: u32,
-}
-
-impl Progress {
-    /// Throws resolved.
-    pub fn resolved(&self) -> u32 {
-        self.faces.iter().sum::<u32>() + self.voids
-    }
-}
-
 /// Result of a session.
 #[derive(Debug, Clone)]
 pub struct SessionReport {
@@ -109,17 +75,6 @@ pub struct SessionReport {
     pub counters: Counters,
     /// Round-trip times of requests.
     pub round_trips: RoundTrips,
-}
-
-/// Statistics of round-trip times, wall time.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct RoundTrips {
-    /// Number of requests with a reply.
-    pub count: u64,
-    /// Sum of their times.
-    pub sum: Duration,
-    /// The longest time.
-    pub longest: Duration,
 }
 
 /// Why a session ended early. The journal is correct in any case.
@@ -186,6 +141,7 @@ pub fn run_session(
         },
         liveness: Liveness::new(options.stall),
         entries: 0,
+        cancelled_at: Cell::new(None),
     };
     let ended = session.run();
     session.finish();
@@ -236,6 +192,8 @@ struct Session<'a> {
     liveness: Liveness,
     /// Entries written in this session.
     entries: u64,
+    /// When the cancelled session first waited for a reply.
+    cancelled_at: Cell<Option<Instant>>,
 }
 
 impl Session<'_> {
@@ -290,7 +248,7 @@ impl Session<'_> {
     /// Sends a request; why it was given up, if it was.
     fn request(&mut self, request: &Request) -> Result<Option<Leave>, SessionError> {
         let (options, liveness) = (self.options, &self.liveness);
-        let (cancelled_at, leave) = (Cell::new(None), Cell::new(None));
+        let (cancelled_at, leave) = (&self.cancelled_at, Cell::new(None));
         let given_up = || {
             if options.stop.load(Ordering::Relaxed) {
                 leave.set(Some(Leave::Stop));
@@ -298,7 +256,7 @@ impl Session<'_> {
                 leave.set(Some(Leave::Stalled));
             } else if options.cancel.load(Ordering::Relaxed) {
                 let now = Instant::now();
-                let first: Instant = cancelled_at.get().unwrap_or(now);
+                let first = cancelled_at.get().unwrap_or(now);
                 cancelled_at.set(Some(first));
                 if now - first > CANCEL_TIMEOUT {
                     leave.set(Some(Leave::Cancelled));
@@ -441,112 +399,5 @@ impl Session<'_> {
             self.reporter
                 .warning(&format!("the recording cannot be finished: {error}"));
         }
-    }
-}
-
-/// Reports to the sink, the log and the recording.
-struct Reporter<'a> {
-    sink: &'a dyn ProgressSink,
-    recorder: Option<SessionRecorder>,
-    progress: Progress,
-    round_trips: RoundTrips,
-}
-
-impl Reporter<'_> {
-    fn note(&mut self, text: &str) {
-        self.sink.note(text);
-        self.record(|to, now| to.log(LogLevel::Info, text, now));
-    }
-
-    fn warning(&mut self, text: &str) {
-        self.sink.warning(text);
-        self.record(|to, now| to.log(LogLevel::Warning, text, now));
-    }
-
-    /// Records until recording fails; throws then continue without, because the journal is what
-    /// counts.
-    fn record(
-        &mut self,
-        what: impl FnOnce(&mut SessionRecorder, u64) -> Result<(), coinmc_recording::Error>,
-    ) {
-        let Some(recorder) = &mut self.recorder else {
-            return;
-        };
-        if let Err(error) = what(recorder, unix_ms().saturating_mul(1_000_000)) {
-            self.recorder = None;
-            self.sink.warning(&format!(
-                "{error}. The session continues without a recording; the journal is complete"
-            ));
-        }
-    }
-
-    fn link_event(&mut self, event: &LinkEvent<'_>) {
-        match event {
-            LinkEvent::Exchanged {
-                request,
-                reply,
-                took,
-            } => {
-                self.count(*took);
-                self.record(|to, now| to.exchange(request, reply, *took, now));
-            }
-            LinkEvent::Opened(_) => {}
-            LinkEvent::Lost { why, .. } => {
-                // every failed attempt to reconnect is another event; report only the first
-                if self.progress.status.take().is_some() {
-                    self.progress.losses += 1;
-                    self.note(&format!(
-                        "the connection to the robot is lost ({why}); trying again"
-                    ));
-                    self.sink.progress(&self.progress);
-                }
-            }
-            LinkEvent::Connected { greeting, seen } => {
-                let state = format!("boot {}, {}", greeting.boot, state_name(greeting.state));
-                match seen {
-                    Seen::First => self.note(&format!("connected to the robot ({state})")),
-                    Seen::Same => self.note(&format!("reconnected ({state})")),
-                    Seen::NewBoot => {
-                        self.note(&format!("reconnected; the robot was reset ({state})"));
-                    }
-                    Seen::Taken => {
-                        self.warning("another program uses the same robot; end it");
-                    }
-                }
-            }
-        }
-    }
-
-    fn count(&mut self, took: Duration) {
-        let trips = &mut self.round_trips;
-        trips.count += 1;
-        trips.sum += took;
-        trips.longest = trips.longest.max(took);
-    }
-}
-
-/// Progress according to the journal.
-fn journal_progress(journal: &Journal, planned: u32) -> Progress {
-    let mut progress = Progress {
-        planned,
-        ..Progress::default()
-    };
-    for throw in journal.history().throws() {
-        match (throw.resolution, &throw.reading) {
-            (Some(Resolution::Void(_)), _) => progress.voids += 1,
-            (Some(Resolution::Done), Some((reading, _))) => {
-                progress.faces[index(reading.face)] += 1;
-            }
-            _ => {}
-        }
-    }
-    progress
-}
-
-fn index(face: Face) -> usize {
-    match face {
-        Face::Heads => 0,
-        Face::Tails => 1,
-        Face::Side => 2,
     }
 }

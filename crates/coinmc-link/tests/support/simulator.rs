@@ -107,16 +107,27 @@ impl Simulator {
 
     /// Presses the emergency stop.
     pub fn press(&mut self) {
-        self.tell(if self.qemu {
-            "sendkey ctrl 2000"
+        if self.qemu {
+            self.tell("sendkey ctrl 2000");
+            // port F, pin 1
+            self.wait_for("40025008", false);
         } else {
-            "press"
-        });
+            self.tell("press");
+        }
+    }
+
+    /// Waits until a key can be pressed at once: QEMU pauses after a key for as long as it was held.
+    pub fn settle(&mut self) {
+        if self.qemu {
+            self.tell("sendkey up 300");
+            self.wait_for("40024004", false);
+            self.wait_for("40024004", true);
+            std::thread::sleep(Duration::from_millis(500));
+        }
     }
 
     pub fn release(&mut self) {
         if self.qemu {
-            // port F, pin 1
             self.wait_for("40025008", true);
         } else {
             self.tell("release");
