@@ -27,6 +27,7 @@ Exit status:
   1    failure at run time (disk full, file unreadable, …)
   2    bad input: arguments, config, or a directory that belongs to another run
   3    stopped short of the target: max_tosses came before the targets of [stop], a search found too few tosses
+  4    a robot's experiment has halted and needs a person
   130  stopped by Ctrl-C or SIGTERM; finished work is kept
 
 With --format json, standard output holds exactly one JSON document, whatever happens: the result,

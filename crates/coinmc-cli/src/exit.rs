@@ -33,6 +33,9 @@ pub(crate) enum Failure {
     Film(film::Diagnostics),
     /// An argument, or a directory it names, is wrong.
     Input(anyhow::Error),
+    /// A robot needs a person.
+    #[cfg(feature = "robot")]
+    Halted(anyhow::Error),
     /// The input was right, but reading, writing or computing failed.
     Runtime(anyhow::Error),
 }
@@ -41,6 +44,8 @@ pub(crate) enum Failure {
 const FAILED: u8 = 1;
 const BAD_INPUT: u8 = 2;
 const SHORT_OF_TARGET: u8 = 3;
+#[cfg(feature = "robot")]
+const HALTED: u8 = 4;
 /// 128 + SIGINT, as shells report it. Also the code of a second Ctrl-C.
 pub(crate) const INTERRUPTED: u8 = 130;
 
@@ -122,7 +127,7 @@ impl From<RecordingError> for Failure {
 }
 
 /// An error and its causes, without repetition: many errors quote their cause themselves.
-fn words(error: &anyhow::Error) -> String {
+pub(crate) fn words(error: &anyhow::Error) -> String {
     let mut words = error.to_string();
     for cause in error.chain().skip(1) {
         let cause = cause.to_string();
@@ -150,6 +155,8 @@ impl Failure {
             #[cfg(feature = "film")]
             Self::Film(_) => BAD_INPUT,
             Self::Runtime(_) => FAILED,
+            #[cfg(feature = "robot")]
+            Self::Halted(_) => HALTED,
         }
     }
 
@@ -172,10 +179,9 @@ impl Failure {
                     if problems == 1 { "" } else { "s" }
                 ));
             }
-            Self::Input(error) | Self::Runtime(error) => {
-                let title = console.stderr().paint(Colors::Warning, "error:");
-                output::note(&format!("{title} {}", words(error)));
-            }
+            #[cfg(feature = "robot")]
+            Self::Halted(error) => report_error(error, console),
+            Self::Input(error) | Self::Runtime(error) => report_error(error, console),
         }
     }
 
@@ -204,12 +210,23 @@ impl Failure {
                     "help": problem.help,
                 })).collect::<Vec<_>>(),
             }),
-            Self::Input(error) | Self::Runtime(error) => json!({
-                "format_version": output::FORMAT_VERSION,
-                "kind": "error",
-                "exit_code": self.code(),
-                "message": words(error),
-            }),
+            #[cfg(feature = "robot")]
+            Self::Halted(error) => self.error_json(error),
+            Self::Input(error) | Self::Runtime(error) => self.error_json(error),
         }
     }
+
+    fn error_json(&self, error: &anyhow::Error) -> Value {
+        json!({
+            "format_version": output::FORMAT_VERSION,
+            "kind": "error",
+            "exit_code": self.code(),
+            "message": words(error),
+        })
+    }
+}
+
+fn report_error(error: &anyhow::Error, console: &Console) {
+    let title = console.stderr().paint(Colors::Warning, "error:");
+    output::note(&format!("{title} {}", words(error)));
 }

@@ -1,6 +1,6 @@
 //! The output streams: results go to standard output, everything else to standard error.
 
-use crate::terminal::Style;
+use crate::terminal::{Style, harmless};
 use clap::{ColorChoice, ValueEnum};
 use serde_json::Value;
 use std::io::{self, Write};
@@ -49,11 +49,11 @@ impl Console {
     }
 }
 
-/// Writes to standard output. A closed pipe (`| head`) is no error.
+/// Writes to standard output, without what a terminal would obey. A closed pipe (`| head`) is no error.
 pub(crate) fn print(text: &str) -> io::Result<()> {
     let mut stdout = io::stdout().lock();
     match stdout
-        .write_all(text.as_bytes())
+        .write_all(harmless(text).as_bytes())
         .and_then(|()| stdout.flush())
     {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
@@ -68,5 +68,5 @@ pub(crate) fn print_json(document: &Value) -> io::Result<()> {
 
 /// Writes a line to standard error; a failure to do so cannot be reported anywhere.
 pub(crate) fn note(text: &str) {
-    let _ = writeln!(io::stderr().lock(), "{text}");
+    let _ = writeln!(io::stderr().lock(), "{}", harmless(text));
 }

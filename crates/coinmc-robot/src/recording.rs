@@ -82,7 +82,8 @@ const REPLY: &str = r#"{"title": "coinmc.RobotReply", "type": "object", "propert
   "reply": {"description": "Name and fields of the reply, as in the protocol"},
   "took_ms": {"type": "number"}}}"#;
 const STATUS: &str = r#"{"title": "coinmc.RobotStatus", "type": "object", "properties": {
-  "state": {"type": "string"}, "throw_id": {"type": "integer"}, "released": {"type": "boolean"},
+  "state": {"type": "string"}, "throw_id": {"type": "integer"}, "experiment": {"type": "integer"},
+  "spin_mrev_s": {"type": "integer"}, "angle_cdeg": {"type": "integer"}, "released": {"type": "boolean"},
   "meas_spin_mrev_s": {"type": "integer"}, "meas_angle_cdeg": {"type": "integer"},
   "x_um": {"type": "integer"}, "y_um": {"type": "integer"}, "t_ms": {"type": "integer"},
   "t_release_ms": {"type": "integer"}, "fault": {"type": "integer"},

@@ -7,8 +7,8 @@ use anyhow::{Context, anyhow};
 use clap::Args;
 use coinmc::results::{write_csv, write_parquet};
 use coinmc_robot::export::{results, rows, write_throws_csv, write_throws_parquet};
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use coinmc_robot::{make_folder, replace_file};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Write the throws and the results of an experiment as CSV and Parquet
@@ -43,7 +43,7 @@ impl Export {
         }
         let rows = rows(&experiment, &history).map_err(|error| Failure::Input(error.into()))?;
         let results = results(&experiment, &history);
-        let written = fs::create_dir_all(&out)
+        let written = make_folder(&out)
             .and_then(|()| write(&out, "throws.csv", |to| write_throws_csv(&rows, to)))
             .and_then(|()| {
                 write(&out, "throws.parquet", |to| {
@@ -70,10 +70,5 @@ fn write(
     name: &str,
     content: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> io::Result<()> {
-    let next = folder.join(format!("{name}.tmp"));
-    let mut file = BufWriter::new(File::create(&next)?);
-    content(&mut file)?;
-    file.flush()?;
-    file.get_ref().sync_all()?;
-    fs::rename(&next, folder.join(name))
+    replace_file(&folder.join(name), content)
 }
