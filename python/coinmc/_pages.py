@@ -19,9 +19,9 @@ _MADE_BY = 'content="coinmc '
 
 
 class Page:
-    """A page in one file, which loads nothing from a network. Made by `report`, `replay` and `basins`.
+    """A page in one file, which loads nothing from a network.
 
-    Notebooks show it in a frame.
+    Made by `report`, `replay` and `basins`. Notebooks show it in a frame.
 
     Attributes
     ----------
@@ -191,7 +191,8 @@ def basins(
     Examples
     --------
     >>> import coinmc
-    >>> page = coinmc.basins("examples/first.toml", "wy_rad_s", "height_m", (0, 30, 0.1, 1), shape=(4, 6))
+    >>> extent = (0, 30, 0.1, 1)
+    >>> page = coinmc.basins("examples/first.toml", "wy_rad_s", "height_m", extent, shape=(4, 6))
     >>> "wy_rad_s" in page.html
     True
     """

@@ -8,7 +8,7 @@ use crate::supervise::{supervise, wait_for};
 use coinmc::config;
 use coinmc_report::{Map, Quantity, Run, Samples, inner, map, report as page, tosses};
 use coinmc_trace::{MAX_RECORDS, default_rate_hz, launch as launch_of, record, replay};
-use numpy::{PyReadonlyArray1, PyReadonlyArrayMethods};
+use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! Which records of a trace a page keeps: every event, and of the samples those without which the motion
+//! Which records of a trace a page keeps: events, and of the samples those without which the motion
 //! between keyframes would be visibly another.
 
 use crate::motion::between;
@@ -6,21 +6,46 @@ use coinmc_core::Scene;
 use coinmc_trace::{Record, RecordKind, Trace};
 use nalgebra::Vector3;
 
-/// Largest error of the direction of the coin's axis, rad: a quarter of a degree.
-const MOST_TURN: f64 = 0.25 * std::f64::consts::PI / 180.0;
-/// Largest error of the centre, in distances from the centre to the rim.
-const MOST_SHIFT: f64 = 0.004;
+/// How closely the motion between keyframes follows the records.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Fineness {
+    /// Largest error of the direction of the coin's axis, rad.
+    turn: f64,
+    /// Largest error of the centre, in distances from the centre to the rim.
+    shift: f64,
+    /// Whether every event is kept, or only those that the motion needs.
+    pub(crate) all_events: bool,
+}
+
+impl Fineness {
+    /// For a toss to look at closely: a quarter of a degree.
+    pub(crate) const FINE: Self = Self {
+        turn: 0.25 * std::f64::consts::PI / 180.0,
+        shift: 0.004,
+        all_events: true,
+    };
+    /// For hundreds of tosses in one page: two degrees.
+    pub(crate) const COARSE: Self = Self {
+        turn: 2.0 * std::f64::consts::PI / 180.0,
+        shift: 0.03,
+        all_events: false,
+    };
+}
 
 /// The numbers of the records to keep, in order.
-pub(crate) fn keyframes(trace: &Trace) -> Vec<usize> {
+pub(crate) fn keyframes(trace: &Trace, fineness: Fineness) -> Vec<usize> {
     let records = &trace.records;
-    let is_event = |i: &usize| matches!(records[*i].kind, RecordKind::Event(_));
-    let events: Vec<usize> = (0..records.len()).filter(is_event).collect();
+    let last = records.len().saturating_sub(1);
+    let is_kept = |i: &usize| {
+        let is_event = matches!(records[*i].kind, RecordKind::Event(_));
+        is_event && fineness.all_events || *i == 0 || *i == last
+    };
+    let events: Vec<usize> = (0..records.len()).filter(is_kept).collect();
     let mut kept = events.clone();
-    // stretches between events, and parts of them, in which no sample is kept yet
+    // stretches between those, and parts of them, in which no record is kept yet
     let mut stretches: Vec<(usize, usize)> = events.windows(2).map(|w| (w[0], w[1])).collect();
     while let Some((from, to)) = stretches.pop() {
-        if let Some(worst) = worst(&trace.scene, records, from, to) {
+        if let Some(worst) = worst(&trace.scene, records, from, to, fineness) {
             kept.push(worst);
             stretches.extend([(from, worst), (worst, to)]);
         }
@@ -29,8 +54,14 @@ pub(crate) fn keyframes(trace: &Trace) -> Vec<usize> {
     kept
 }
 
-/// The sample that the motion between two records misses most; `None` if it meets all.
-fn worst(scene: &Scene, records: &[Record], from: usize, to: usize) -> Option<usize> {
+/// The record that the motion between two records misses most; `None` if it meets all.
+fn worst(
+    scene: &Scene,
+    records: &[Record],
+    from: usize,
+    to: usize,
+    fineness: Fineness,
+) -> Option<usize> {
     let (a, b) = (&records[from], &records[to]);
     let h = b.state.time_s - a.state.time_s;
     let size = scene.coin.rim_distance_m();
@@ -46,7 +77,7 @@ fn worst(scene: &Scene, records: &[Record], from: usize, to: usize) -> Option<us
             turned
         };
         let shifted = (place - record.state.position_m).norm() / size;
-        (turned / MOST_TURN).max(shifted / MOST_SHIFT)
+        (turned / fineness.turn).max(shifted / fineness.shift)
     };
     let misses = (from + 1..to).map(|i| (i, miss(i)));
     let (worst, error) = misses.max_by(|a, b| a.1.total_cmp(&b.1))?;
@@ -90,10 +121,14 @@ mod tests {
     fn the_motion_between_keyframes_meets_all_samples() {
         let (mut all, mut kept) = (0, 0);
         for trace in traces() {
-            let keys = keyframes(&trace);
+            let fine = Fineness::FINE;
+            let keys = keyframes(&trace, fine);
             (all, kept) = (all + trace.records.len(), kept + keys.len());
             for pair in keys.windows(2) {
-                assert_eq!(worst(&trace.scene, &trace.records, pair[0], pair[1]), None);
+                assert_eq!(
+                    worst(&trace.scene, &trace.records, pair[0], pair[1], fine),
+                    None
+                );
                 let samples = pair[1] - pair[0] - 1;
                 let from = &trace.records[pair[0]];
                 assert!(samples == 0 || from.state.time_s < trace.records[pair[1]].state.time_s);
@@ -105,5 +140,26 @@ mod tests {
             assert_eq!(in_flight.count(), 0, "the closed form of flight is exact");
         }
         assert!(kept * 8 < all, "{kept} of {all}");
+    }
+
+    /// A toss among hundreds keeps its first and its last record, and far fewer between.
+    #[test]
+    fn coarse_keyframes_are_few() {
+        let traces = traces();
+        let count = |fineness| -> usize {
+            traces
+                .iter()
+                .map(|trace| keyframes(trace, fineness).len())
+                .sum()
+        };
+        for trace in &traces {
+            let keys = keyframes(trace, Fineness::COARSE);
+            assert_eq!(
+                (keys[0], *keys.last().unwrap()),
+                (0, trace.records.len() - 1)
+            );
+        }
+        let (coarse, fine) = (count(Fineness::COARSE), count(Fineness::FINE));
+        assert!(2 * coarse < fine, "{coarse} of {fine}");
     }
 }

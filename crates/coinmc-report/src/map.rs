@@ -1,5 +1,6 @@
 //! A map of basins: the face over two quantities of the launch, a toss for every pixel.
 
+use crate::keyframes::Fineness;
 use crate::quantity::Quantity;
 use crate::replay;
 use crate::samples::MOST_RECORDS;
@@ -113,7 +114,7 @@ impl Map {
             json!({
                 "outcome": outcome_name(&trace.outcome),
                 "impacts": trace.records.iter().filter(|record| replay::is_impact(record)).count(),
-                "keys": replay::keys(trace),
+                "keys": replay::keys(trace, Fineness::COARSE),
             })
         });
         json!({

@@ -85,6 +85,14 @@ pub fn tosses(traces: &[(&Plan, &Trace)]) -> String {
 /// The parameters that tell tosses apart: swept ones, and those in which their points differ.
 fn telling(traces: &[(&Plan, &Trace)]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
+    if let Some((first, _)) = traces.first()
+        && traces
+            .iter()
+            .all(|(plan, _)| plan.resolved_toml == first.resolved_toml)
+    {
+        // what follows from swept parameters tells nothing new
+        return first.axes.clone();
+    }
     for (plan, trace) in traces {
         for (name, value) in &plan.points[trace.point].parameters {
             let differs = |(plan, trace): &(&Plan, &Trace)| {

@@ -1,7 +1,9 @@
 //! A toss for the page: coin, ground, keyframes and events.
 
-use crate::keyframes::keyframes;
+use crate::keyframes::{Fineness, keyframes};
 use crate::motion::axial_factor;
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use coinmc::plan::Plan;
 use coinmc_core::{EventKind, Scene};
 use coinmc_trace::{Mode, Record, RecordKind, Trace, outcome_name};
@@ -24,7 +26,7 @@ pub(crate) fn toss(plan: &Plan, trace: &Trace, names: &[String]) -> Value {
         "impacts": trace.outcome.impacts,
         "complete": trace.samples_until_s.is_none() && trace.events_until_s.is_none(),
         "scene": scene(&trace.scene),
-        "keys": keys(trace),
+        "keys": keys(trace, Fineness::FINE),
     })
 }
 
@@ -52,21 +54,71 @@ pub(crate) fn scene(scene: &Scene) -> Value {
     })
 }
 
-/// The keyframes: times, kinds, modes, and thirteen numbers each, one after the other: centre, orientation (w,
-/// x, y, z), velocity, angular velocity.
-pub(crate) fn keys(trace: &Trace) -> Value {
-    let kept = keyframes(trace);
+/// The keyframes: times, kinds and modes (a digit each), and [`NUMBERS`] numbers each, one after the other:
+/// centre, orientation (w, x, y, z), velocity, angular velocity. Coarse ones are packed, see [`packed`].
+pub(crate) fn keys(trace: &Trace, fineness: Fineness) -> Value {
+    let kept = keyframes(trace, fineness);
     let records: Vec<&Record> = kept.iter().map(|&i| &trace.records[i]).collect();
-    let numbers = records.iter().flat_map(|record| numbers(record));
+    let numbers: Vec<[f64; NUMBERS]> = records.iter().map(|record| numbers(record)).collect();
+    let numbers = if fineness.all_events {
+        json!(
+            numbers
+                .as_flattened()
+                .iter()
+                .map(|&x| rounded(x, 7))
+                .collect::<Vec<_>>()
+        )
+    } else {
+        packed(&numbers)
+    };
     json!({
         "time_s": records.iter().map(|r| rounded(r.state.time_s, 9)).collect::<Vec<_>>(),
-        "kind": records.iter().map(|r| kind(r)).collect::<Vec<_>>(),
-        "mode": records.iter().map(|r| mode(r)).collect::<Vec<_>>(),
-        "numbers": numbers.map(|x| rounded(x, 7)).collect::<Vec<_>>(),
+        "kind": records.iter().map(|r| digit(kind(r))).collect::<String>(),
+        "mode": records.iter().map(|r| digit(mode(r))).collect::<String>(),
+        "numbers": numbers,
     })
 }
 
-fn numbers(record: &Record) -> [f64; 13] {
+/// Numbers of a keyframe.
+const NUMBERS: usize = 13;
+
+/// Each number as a share, in 65 535ths, of the range of its kind: 16 bits each, the lower byte first, as
+/// base64; with the least of each kind and the size of a step.
+fn packed(numbers: &[[f64; NUMBERS]]) -> Value {
+    let mut least = [f64::INFINITY; NUMBERS];
+    let mut most = [f64::NEG_INFINITY; NUMBERS];
+    for row in numbers {
+        for (i, x) in row.iter().enumerate() {
+            (least[i], most[i]) = (least[i].min(*x), most[i].max(*x));
+        }
+    }
+    let steps: Vec<f64> = (0..NUMBERS)
+        .map(|i| rounded((most[i] - least[i]) / 65_535.0, 9))
+        .collect();
+    let mut bytes = Vec::with_capacity(numbers.len() * NUMBERS * 2);
+    for row in numbers {
+        for (i, x) in row.iter().enumerate() {
+            let share = if steps[i] > 0.0 {
+                (x - least[i]) / steps[i]
+            } else {
+                0.0
+            };
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // from 0 to 65 535
+            let share = libm::round(share.clamp(0.0, 65_535.0)) as u16;
+            bytes.extend(share.to_le_bytes());
+        }
+    }
+    json!({ "least": least, "steps": steps, "data": STANDARD.encode(bytes) })
+}
+
+fn digit(code: usize) -> char {
+    u32::try_from(code)
+        .ok()
+        .and_then(|code| char::from_digit(code, 10))
+        .unwrap_or('0')
+}
+
+fn numbers(record: &Record) -> [f64; NUMBERS] {
     let (p, q) = (&record.state.position_m, &record.orientation);
     let (v, w) = (&record.state.velocity_m_s, &record.state.spin_rad_s);
     [
@@ -121,6 +173,21 @@ mod tests {
             .chain([RecordKind::Sample]);
         for kind in kinds {
             assert!(KINDS.contains(&kind.name()), "{}", kind.name());
+        }
+    }
+
+    /// What the page reads: least + step · share, within half a step of the number.
+    #[test]
+    fn packed_numbers_are_within_half_a_step() {
+        let row = |x: f64| std::array::from_fn(|i| x * (i as f64 - 6.0) + 0.25);
+        let rows = [row(0.0), row(1.0), row(-0.37), row(0.123)];
+        let told = packed(&rows);
+        let bytes = STANDARD.decode(told["data"].as_str().unwrap()).unwrap();
+        for (place, x) in rows.as_flattened().iter().enumerate() {
+            let share = u16::from_le_bytes([bytes[2 * place], bytes[2 * place + 1]]);
+            let of = |key: &str| told[key][place % NUMBERS].as_f64().unwrap();
+            let read = of("least") + of("steps") * f64::from(share);
+            assert!((read - x).abs() <= 0.51 * of("steps"), "{read} {x}");
         }
     }
 

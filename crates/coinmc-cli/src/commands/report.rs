@@ -7,6 +7,7 @@ use crate::terminal::grouped;
 use crate::terminal::progress::Progress;
 use anyhow::{Context, anyhow};
 use clap::Args;
+use coinmc::run::RunError;
 use coinmc_recording::NewFile;
 use coinmc_report::{Run, Samples, report};
 use serde_json::json;
@@ -76,8 +77,7 @@ impl ReportOf {
         }
         let page = Page::begin(&self.out, self.force)?;
         let progress = Progress::new(*console.stderr(), true);
-        let runs = self.runs.iter().map(|dir| Run::open(dir, &progress));
-        let runs: Vec<Run> = runs.collect::<Result<_, _>>()?;
+        let runs = self.open(&progress)?;
         let samples = Samples {
             point: self.point,
             tosses: self.tosses.clone(),
@@ -85,6 +85,25 @@ impl ReportOf {
         let text = report(&runs, self.title.as_deref(), &samples)?;
         page.write(&text)?;
         self.tell(text.len() as u64, console)
+    }
+
+    /// All runs, or what is wrong with every directory that holds none.
+    fn open(&self, progress: &Progress) -> Result<Vec<Run>, Failure> {
+        let (mut runs, mut failures) = (Vec::new(), Vec::new());
+        for dir in &self.runs {
+            match Run::open(dir, progress) {
+                Ok(run) => runs.push(run),
+                Err(error) => failures.push(unreadable(error)),
+            }
+        }
+        match failures.len() {
+            0 => Ok(runs),
+            1 => Err(failures.remove(0)),
+            _ => {
+                let words: Vec<String> = failures.iter().map(Failure::message).collect();
+                Err(Failure::Input(anyhow!("{}", words.join("\n"))))
+            }
+        }
     }
 
     fn tell(&self, bytes: u64, console: &Console) -> Result<Outcome, Failure> {
@@ -108,6 +127,23 @@ impl ReportOf {
     }
 }
 
+/// Why a run directory cannot be read: a directory that is none is not to be filled, here.
+pub(super) fn unreadable(error: RunError) -> Failure {
+    match error {
+        RunError::NotARunDirectory { dir, found } => Failure::Input(anyhow!(
+            "{} is not a run directory: it holds {found}. Name the directory of `coinmc run`: its --out, or \
+             runs/NAME-HASH",
+            dir.display()
+        )),
+        RunError::OtherVersion { dir, theirs, ours } => Failure::Input(anyhow!(
+            "{} is a run of coinmc {theirs}, this is {ours}: its tosses may be others. Read it with {theirs}, or \
+             run the config.toml found there again",
+            dir.display()
+        )),
+        error => error.into(),
+    }
+}
+
 /// A page that appears when it is complete: a new file, or in place of an earlier page.
 pub(super) struct Page {
     path: PathBuf,
@@ -116,14 +152,22 @@ pub(super) struct Page {
 }
 
 impl Page {
-    /// Begins a page. What stands there is replaced only if `replace` and if coinmc made it.
-    pub(super) fn begin(path: &Path, replace: bool) -> Result<Self, Failure> {
-        let replaces = replace && path.exists();
-        if replaces && !is_page(path) {
+    /// Whether there is a file that is not to be replaced, as coinmc did not make it.
+    pub(super) fn check(path: &Path) -> Result<(), Failure> {
+        if path.exists() && !is_page(path) {
             return Err(Failure::Input(anyhow!(
                 "{} is no page of coinmc and is not replaced: choose another name, or move it away",
                 path.display()
             )));
+        }
+        Ok(())
+    }
+
+    /// Begins a page. What stands there is replaced only if `replace` and if coinmc made it.
+    pub(super) fn begin(path: &Path, replace: bool) -> Result<Self, Failure> {
+        let replaces = replace && path.exists();
+        if replaces {
+            Self::check(path)?;
         }
         let file = if replaces {
             NewFile::begin(&beside(path))?

@@ -62,8 +62,8 @@ pub(crate) struct Run {
     plot: Plotted,
 
     /// Also make a page of the run, see `coinmc report` [default: report.html in the run directory]
-    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = "")]
-    report: Option<PathBuf>,
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true)]
+    report: Option<Option<PathBuf>>,
 
     /// How to write the result
     #[arg(long, value_enum, default_value_t = Format::Table)]
@@ -83,6 +83,9 @@ impl Run {
         let plan = config::load(&self.config, &self.overrides)?;
         self.plot.check(&plan.axes).map_err(Failure::Input)?;
         let out = self.out.clone().unwrap_or_else(|| self.default_out(&plan));
+        if let Some(Some(page)) = &self.report {
+            Page::check(page)?;
+        }
         let progress = Progress::new(*console.stderr(), self.quiet);
         if !self.quiet {
             plan.notes
@@ -112,19 +115,15 @@ impl Run {
         }
         let outcome = present(&report, &out, &self.plot, console, self.quiet)?;
         if let Some(file) = &self.report {
-            self.make_page(file, &out)?;
+            let file = file.clone().unwrap_or_else(|| out.join("report.html"));
+            self.make_page(&file, &out)?;
         }
         Ok(outcome)
     }
 
     /// The page of the run, in place of that of an earlier call of the same command.
     fn make_page(&self, file: &Path, out: &Path) -> Result<(), Failure> {
-        let file = if file.as_os_str().is_empty() {
-            out.join("report.html")
-        } else {
-            file.to_owned()
-        };
-        let page = Page::begin(&file, true)?;
+        let page = Page::begin(file, true)?;
         let run = coinmc_report::Run::open(out, &())?;
         page.write(&coinmc_report::report(
             &[run],

@@ -1,5 +1,6 @@
 //! `coinmc show`: the summary of a run again.
 
+use super::report::unreadable;
 use super::run::show;
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format};
@@ -42,7 +43,7 @@ impl Show {
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let progress = Progress::new(*console.stderr(), true);
-        let (plan, report) = stored_report(&self.run, &progress)?;
+        let (plan, report) = stored_report(&self.run, &progress).map_err(unreadable)?;
         self.plot.check(&plan.axes).map_err(Failure::Input)?;
         show(&report, &self.run, &self.plot, console)?;
         let rows = &report.results.rows;

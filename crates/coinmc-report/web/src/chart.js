@@ -1,7 +1,7 @@
 // A plot of curves with intervals, drawn by uPlot; markers, dashes and intervals are our own.
 
 import uPlot from "uplot";
-import { el } from "./dom.js";
+import { el, onResize } from "./dom.js";
 import { compact } from "./format.js";
 import { curveColour, DASHES, drawMarker, MARKERS, onTheme, styleColour } from "./palette.js";
 
@@ -18,7 +18,7 @@ export class Chart {
     this.legend = el("div", { class: "legend flat" });
     this.readout = el("div", { class: "chart-readout faint", "aria-hidden": "true" }, "\u00a0");
     this.node = el("div", {}, this.legend, this.box, this.readout);
-    new ResizeObserver(() => this.fit()).observe(this.box);
+    onResize(this.box, () => this.fit());
     onTheme(() => this.build());
   }
 

@@ -66,6 +66,11 @@ export function slider(label, values, at, show, change) {
   return el("span", { class: "control" }, el("label", { for: id }, label), input, output);
 }
 
+/** Calls back when a node changes its size, at the next frame: what is then drawn may change it again. */
+export function onResize(node, callback) {
+  new ResizeObserver(() => requestAnimationFrame(() => callback())).observe(node);
+}
+
 /** Hands a text to the reader as a file. */
 export function download(name, type, text) {
   const address = URL.createObjectURL(new Blob([text], { type }));

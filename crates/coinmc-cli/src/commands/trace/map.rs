@@ -25,7 +25,7 @@ Quantities: height_m, vx_m_s, vy_m_s, vz_m_s, wx_rad_s, wy_rad_s, wz_rad_s, and 
 angle of the heads normal from the vertical towards x. All else is as in the toss.";
 
 /// Pixels of a side of which the number is not given.
-const PIXELS: usize = 40;
+const PIXELS: usize = 24;
 
 /// Make a page of the basins of heads, tails and side, each pixel a toss to watch
 ///

@@ -1,6 +1,6 @@
 // P(face) over two axes as a map, with sliders for the others; one map for each run, on one scale.
 
-import { el } from "../dom.js";
+import { el, onResize } from "../dom.js";
 import { axisLabel, compact, probability } from "../format.js";
 import { onTheme, styleColour } from "../palette.js";
 import { axisChoice, faceChoice, heldSliders, section } from "./controls.js";
@@ -57,7 +57,7 @@ class HeatMap {
     this.canvas = el("canvas", { tabindex: 0, role: "application", onkeydown: (event) => this.key(event), onpointermove: (event) => this.point(event), onclick: (event) => this.point(event) });
     this.told = el("p", { role: "status", class: "faint" }, "\u00a0");
     this.node = el("figure", {}, named && el("figcaption", {}, run.name), el("div", { class: "plot" }, this.canvas), this.told);
-    new ResizeObserver(() => this.draw()).observe(this.canvas.parentElement);
+    onResize(this.canvas.parentElement, () => this.draw());
     onTheme(() => this.draw());
   }
 
@@ -125,7 +125,8 @@ class HeatMap {
     if (!found) return;
     const share = this.share(found.p);
     context.fillStyle = colour(share);
-    context.fillRect(x, y, w + 0.5, h + 0.5);
+    const [left, top] = [Math.floor(x), Math.floor(y)];
+    context.fillRect(left, top, Math.ceil(x + w) - left, Math.ceil(y + h) - top);
     if (w < 44 || h < 17) return;
     context.fillStyle = share > 0.55 ? "#000000" : "#ffffff";
     context.textAlign = "center";

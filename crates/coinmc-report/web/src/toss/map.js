@@ -1,6 +1,6 @@
 // A map of basins: the outcome over two quantities of the launch. A pixel that is chosen shows its toss.
 
-import { el } from "../dom.js";
+import { el, onResize } from "../dom.js";
 import { axisLabel, compact, ticks } from "../format.js";
 import { onTheme, outcomeColour, styleColour } from "../palette.js";
 import { prepare, Viewer } from "./viewer.js";
@@ -24,7 +24,7 @@ export class BasinMap {
     this.told = el("p", { role: "status" });
     this.below = el("div");
     this.node = el("div", { class: "map" }, this.legend(), el("div", { class: "plot" }, this.canvas), this.told, this.below);
-    new ResizeObserver(() => this.draw()).observe(this.canvas.parentElement);
+    onResize(this.canvas.parentElement, () => this.draw());
     onTheme(() => this.draw());
   }
 
@@ -62,8 +62,9 @@ export class BasinMap {
     this.map.pixels.forEach(({ outcome }, i) => {
       const [x, y, w, h] = this.box(i);
       context.fillStyle = outcomeColour(outcome);
-      // a hair of overlap hides the seams
-      context.fillRect(x, y, w + 0.5, h + 0.5);
+      // whole pixels of the screen, so that no seams show
+      const [left, top] = [Math.floor(x), Math.floor(y)];
+      context.fillRect(left, top, Math.ceil(x + w) - left, Math.ceil(y + h) - top);
       if (outcome === "side" && w > 5 && h > 5) {
         context.fillStyle = styleColour("page");
         context.fillRect(x + w / 2 - 1, y + h / 2 - 1, 2, 2);

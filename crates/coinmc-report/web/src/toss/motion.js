@@ -46,14 +46,21 @@ export function turn(q, x, y, z) {
 /** The time in which a coin without drag would do what one with drag `k` does in `t`. */
 const effective = (k, t) => (k > 0 ? -Math.expm1(-k * t) / k : t);
 
+/** Numbers that were packed into 16 bits each. */
+function unpacked({ least, steps, data }) {
+  const bytes = Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0));
+  const share = (i) => bytes[2 * i] + 256 * bytes[2 * i + 1];
+  return Array.from({ length: bytes.length / 2 }, (_, i) => least[i % SIZE] + steps[i % SIZE] * share(i));
+}
+
 export class Motion {
   /** The motion of a toss of the page's data. */
   constructor(scene, keys) {
     this.scene = scene;
     this.times = keys.time_s;
-    this.kinds = keys.kind;
-    this.modes = keys.mode;
-    this.numbers = keys.numbers;
+    this.kinds = Array.from(keys.kind, Number);
+    this.modes = Array.from(keys.mode, Number);
+    this.numbers = Array.isArray(keys.numbers) ? keys.numbers : unpacked(keys.numbers);
   }
 
   get duration() {

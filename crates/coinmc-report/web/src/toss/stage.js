@@ -1,6 +1,7 @@
 // The picture: coins, ground, paths and marks, drawn by OGL.
 
 import { Camera, Geometry, Mat4, Mesh, Program, Renderer, Transform } from "ogl";
+import { onResize } from "../dom.js";
 import { curveColour, outcomeColour, styleColour } from "../palette.js";
 import * as geometry from "./geometry.js";
 import { Orbit } from "./orbit.js";
@@ -26,7 +27,7 @@ export class Stage {
     this.orbit = new Orbit(canvas, () => this.redraw());
     this.measure();
     this.build();
-    new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
+    onResize(canvas.parentElement, () => this.resize());
     this.resize();
   }
 

@@ -1,6 +1,6 @@
 // Energy and height of the lowest point over time, with the events and the time shown; one may pull it.
 
-import { el } from "../dom.js";
+import { el, onResize } from "../dom.js";
 import { compact, ticks } from "../format.js";
 import { curveColour, DASHES, styleColour } from "../palette.js";
 
@@ -33,7 +33,7 @@ export class Timeline {
       pull(event);
     });
     this.canvas.addEventListener("pointermove", pull);
-    new ResizeObserver(() => this.resize()).observe(this.node);
+    onResize(this.node, () => this.resize());
   }
 
   pull(event) {

@@ -40,6 +40,8 @@ export class Viewer {
     this.node.addEventListener("keydown", (event) => this.key(event));
     onTheme(() => this.recolour());
     this.show(0);
+    // the page first, then the picture, once it stands in the page
+    requestAnimationFrame(() => setTimeout(() => this.begin()));
     const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     if (autoplay && !calm) this.clock.play();
   }
@@ -131,9 +133,8 @@ export class Viewer {
     this.clock.toggle();
   }
 
-  /** Shows the tosses at a time. The picture is begun once it stands in the page. */
+  /** Shows the tosses at a time. */
   show(time) {
-    if (!this.stage && !this.failed && this.canvas.isConnected) this.begin();
     this.stage?.show(time);
     this.timeline.show(time);
     this.slider.value = this.duration > 0 ? Math.round((1000 * time) / this.duration) : 0;
@@ -143,10 +144,11 @@ export class Viewer {
   }
 
   begin() {
+    if (!this.canvas.isConnected) return;
     try {
       this.stage = new Stage(this.canvas, this.tosses);
+      this.stage.show(this.clock.time);
     } catch {
-      this.failed = true;
       const sorry = "This browser draws no three-dimensional pictures (WebGL): the time line and the events are below.";
       this.canvas.replaceWith(el("p", { class: "sorry" }, sorry));
     }
