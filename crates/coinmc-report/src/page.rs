@@ -163,3 +163,95 @@ fn status(status: Status) -> &'static str {
         Status::ShortOfTarget { .. } => "short_of_target",
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc::plan::StoppedBy;
+    use coinmc::results::Row;
+    use coinmc::run::Report;
+    use coinmc_core::Tally;
+    use coinmc_trace::replay;
+
+    fn run(config: &str, tally: Tally, status: Status) -> Run {
+        let plan = coinmc::config::parse("test", config, &[]).unwrap_or_else(|e| panic!("{e}"));
+        let row = |i| Row::new(&plan, i, tally, StoppedBy::Tosses);
+        let report = Report {
+            results: Results::new(&plan, (0..plan.points.len()).map(row).collect()),
+            status,
+            reused_chunks: 0,
+            tosses: 0,
+        };
+        Run::in_memory("a", plan, report)
+    }
+
+    fn counted() -> Tally {
+        Tally {
+            heads: 300,
+            tails: 308,
+            side: 495,
+            ..Tally::default()
+        }
+    }
+
+    #[test]
+    fn published_counts_stand_beside_those_of_the_same_launch() {
+        let config = "coin.ratio = [1, 2]\nsurface = { restitution = 0.3, friction = 10 }\n\
+            launch.preset = 'table1'\nengine.volumetric = {}\nstop.tosses = 1103";
+        let run = run(config, counted(), Status::Complete);
+        let told = run_to_json(&run, &Samples::default()).unwrap();
+        let [one] = &told["published"]["counts"].as_array().unwrap()[..] else {
+            panic!("{}", told["published"])
+        };
+        assert_eq!(
+            (&one["ratio"], &one["side"], &one["z"]),
+            (&json!(1.0), &json!(495), &json!(0.0))
+        );
+        assert_eq!(told["published"]["fair_ratios"][0]["ratio"], 0.8);
+        // an example of each face, where one is found soon
+        assert!(!told["samples"].as_array().unwrap().is_empty());
+        assert_eq!(
+            told["rule"]["rows"],
+            json!([0.447_213_595_499_957_94, 0.707_106_781_186_547_5])
+        );
+    }
+
+    #[test]
+    fn closed_forms_have_no_tosses_to_show() {
+        let config = "coin.ratio = [1.0, 2.0]\nengine.analytic.rule = 'arc'";
+        let run = run(config, Tally::default(), Status::Complete);
+        let told = run_to_json(&run, &Samples::default()).unwrap();
+        assert_eq!(
+            (&told["samples"], &told["rule"]),
+            (&json!([]), &Value::Null)
+        );
+        // P(side) = 1/2 and about 0.295 lie on both sides of 1/3
+        assert_eq!(told["fair"][0]["found"], 1);
+        let asked = Samples {
+            point: Some(0),
+            tosses: vec![1],
+        };
+        assert!(run_to_json(&run, &asked).is_err());
+    }
+
+    /// Of a config swept, by its axes; of two configs, by what differs.
+    #[test]
+    fn tosses_are_told_apart_by_what_differs() {
+        let config = |e: &str| {
+            let text = format!(
+                "coin.ratio = 1\nsurface = {{ restitution = {e}, friction = 0.3 }}\n\
+                 launch.preset = 'robot'\nengine.flat = {{}}\nstop.tosses = 10"
+            );
+            coinmc::config::parse("test", &text, &[]).unwrap_or_else(|e| panic!("{e}"))
+        };
+        let (a, b, swept) = (config("0.3"), config("0.7"), config("[0.3, 0.7]"));
+        let trace = |plan, point| replay(plan, point, 3, 100.0).unwrap();
+        let (x, y) = (trace(&a, 0), trace(&b, 0));
+        assert_eq!(telling(&[(&a, &x), (&b, &y)]), ["restitution"]);
+        assert_eq!(telling(&[(&a, &x)]), [""; 0]);
+        let z = trace(&swept, 1);
+        assert_eq!(telling(&[(&swept, &z)]), ["restitution"]);
+        let page = tosses(&[(&a, &x), (&b, &y)]);
+        assert!(page.contains("\"at\":[[\"restitution\",0.7]]"));
+    }
+}

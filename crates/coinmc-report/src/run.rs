@@ -72,3 +72,50 @@ fn manifest(dir: &Path) -> Value {
     text.and_then(|text| serde_json::from_str(&text).ok())
         .unwrap_or(Value::Null)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc::run::{Options, Part, run};
+    use coinmc_core::Tally;
+    use std::sync::atomic::AtomicBool;
+
+    fn opened(stop: &str) -> Run {
+        let config = format!(
+            "coin.ratio = [1.0, 2.0]\nsurface = {{ restitution = 0.5, friction = 0 }}\n\
+             launch.preset = 'robot'\nengine.flat = {{}}\n{stop}"
+        );
+        let plan = coinmc::config::parse("test", &config, &[]).unwrap_or_else(|e| panic!("{e}"));
+        let dir = tempfile::tempdir().unwrap();
+        let cancel = AtomicBool::new(false);
+        let options = Options {
+            out: dir.path(),
+            build: "test",
+            part: Part::WHOLE,
+            threads: None,
+            cancel: &cancel,
+            sink: &(),
+        };
+        run(&plan, &options).unwrap();
+        Run::open(dir.path(), &()).unwrap()
+    }
+
+    /// Of runs with a fixed number of tosses, and of runs that stop at targets, whose pilots do not count.
+    #[test]
+    fn the_history_of_a_point_grows_to_its_counts() {
+        for stop in [
+            "stop.tosses = 60000",
+            "stop = { half_width = 0.004, max_tosses = 1e6 }",
+        ] {
+            let run = opened(stop);
+            assert_eq!(run.history.len(), 2, "{stop}");
+            for (point, steps) in &run.history {
+                assert!(steps.len() > 1, "{stop}: {}", steps.len());
+                assert!(steps.windows(2).all(|w| w[0].tosses() < w[1].tosses()));
+                let last: &Tally = steps.last().unwrap();
+                assert_eq!(*last, run.report.results.rows[*point].tally, "{stop}");
+            }
+            assert_eq!(run.manifest["builds"][0], "test");
+        }
+    }
+}

@@ -74,7 +74,7 @@ export class Chart {
         x: { time: false, distr: logX ? 3 : 1, range: (_, a, b) => spread(a, b, logX) },
         y: { range: () => yRange ?? extent(series, this.content.levels ?? []) },
       },
-      axes: [{ ...axis(xLabel, 38), ...(logX ? { splits: (_, __, a, b) => decades(a, b) } : {}) }, axis(yLabel, 58)],
+      axes: [{ ...axis(xLabel, 38), ...(logX ? { splits: (_, __, a, b) => decades(a, b), filter: (_, splits) => splits } : {}) }, axis(yLabel, 58)],
       series: [
         {},
         ...series.map((one, n) => ({

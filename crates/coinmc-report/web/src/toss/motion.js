@@ -4,8 +4,8 @@
 
 /** Places of the numbers of a keyframe. */
 const PLACE = 0, TURN = 3, VELOCITY = 7, SPIN = 10, SIZE = 13;
-export const MODES = ["flight", "sticking", "sliding", "ended"];
-const FLIGHT = 0;
+/** Codes of the modes of motion. */
+export const FLIGHT = 0, STICKING = 1, SLIDING = 2;
 
 /** The product of two quaternions (w, x, y, z). */
 export function multiply(a, b) {

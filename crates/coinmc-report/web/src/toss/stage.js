@@ -4,6 +4,7 @@ import { Camera, Geometry, Mat4, Mesh, Program, Renderer, Transform } from "ogl"
 import { onResize } from "../dom.js";
 import { curveColour, outcomeColour, styleColour } from "../palette.js";
 import * as geometry from "./geometry.js";
+import { FLIGHT, SLIDING, STICKING } from "./motion.js";
 import { Orbit } from "./orbit.js";
 import * as shaders from "./shaders.js";
 
@@ -124,7 +125,11 @@ export class Stage {
         uAbove: 2e-4 * this.span,
       }),
     );
-    return { body, shadow };
+    const contact = this.add(
+      geometry.rings([[0, 0]], 0.16 * this.size, 0),
+      this.program(shaders.plainVertex, shaders.plainFragment, { uColour: rgb(styleColour("text")), uAlpha: 1 }),
+    );
+    return { body, shadow, contact };
   }
 
   /** The way of the centre, that of the contact point, and a ring at each impact. */
@@ -160,6 +165,10 @@ export class Stage {
         mesh.matrix.copy(matrix);
         mesh.worldMatrixNeedsUpdate = true;
       }
+      const { contact } = this.coins[n];
+      contact.visible = state.mode === STICKING || state.mode === SLIDING;
+      const [across, along] = motion.lowest(state);
+      contact.position.set(across, along, 1.5e-3 * this.span);
       return state.place;
     });
     this.aim(places);
@@ -224,7 +233,7 @@ function sampled(motion, most) {
   for (let key = 0; key + 1 < motion.times.length; key += 1) {
     const [from, to] = [motion.times[key], motion.times[key + 1]];
     const share = (to - from) / motion.duration;
-    const steps = motion.modes[key] === 0 ? Math.ceil(Math.min(60, 4 + most * share)) : 2;
+    const steps = motion.modes[key] === FLIGHT ? Math.ceil(Math.min(60, 4 + most * share)) : 2;
     for (let i = 0; i < steps && to > from; i += 1) times.push(from + ((to - from) * i) / steps);
   }
   times.push(motion.duration);
@@ -237,7 +246,7 @@ function touching(motion, times) {
   let way = [];
   for (const t of times) {
     const state = motion.at(t);
-    if (state.mode === 1 || state.mode === 2) way.push(motion.lowest(state));
+    if (state.mode === STICKING || state.mode === SLIDING) way.push(motion.lowest(state));
     else if (way.length) {
       ways.push(way);
       way = [];

@@ -2,6 +2,7 @@
 
 import { el, onResize } from "../dom.js";
 import { compact, ticks } from "../format.js";
+import { FLIGHT } from "./motion.js";
 import { curveColour, DASHES, styleColour } from "../palette.js";
 
 const LEFT = 62, RIGHT = 10, GAP = 20, ROW = 84, AXIS = 26, TOP = 8;
@@ -168,7 +169,7 @@ function curve(motion, of) {
     put(motion.times[key], motion.atKey(key));
     if (key + 1 === keys) break;
     const [from, to] = [motion.times[key], motion.times[key + 1]];
-    const steps = motion.modes[key] === 0 ? Math.ceil((SAMPLES * (to - from)) / motion.duration) : 1;
+    const steps = motion.modes[key] === FLIGHT ? Math.ceil((SAMPLES * (to - from)) / motion.duration) : 1;
     for (let i = 1; i < steps; i += 1) {
       const t = from + ((to - from) * i) / steps;
       put(t, motion.at(t));
