@@ -81,6 +81,7 @@ def test_a_browser_shows_it_without_a_message(pages, page, tmp_path):
     command = [
         browser, "--headless", "--no-sandbox", "--disable-gpu-sandbox", "--use-gl=angle",
         "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--enable-logging=stderr",
+        "--force-prefers-reduced-motion",
         f"--user-data-dir={tmp_path / 'profile'}", "--virtual-time-budget=1500", "--dump-dom",
         (pages / page).as_uri(),
     ]  # fmt: skip

@@ -160,6 +160,6 @@ mod tests {
             );
         }
         let (coarse, fine) = (count(Fineness::COARSE), count(Fineness::FINE));
-        assert!(2 * coarse < fine, "{coarse} of {fine}");
+        assert!(3 * coarse < 2 * fine, "{coarse} of {fine}");
     }
 }
