@@ -4,7 +4,8 @@ The engines of coinmc at native speed, with NumPy arrays in and out:
 
 * `toss`, `launches`: individual tosses, with launches drawn at random or your own;
 * `estimate`: probabilities with intervals, in memory; `run`, `open`: in a run directory;
-* `trace`: the recorded motion of one toss;
+* `trace`: the recorded motion of one toss; `replay`: tosses in three dimensions;
+* `report`: a page of runs that opens anywhere;
 * `fair`: how thick is a fair coin, here or in everyday `scenes`?
 * `sensitivity`: how strongly probabilities depend on parameters;
 * `check`, `Config`: what a config means;
@@ -49,6 +50,7 @@ if TYPE_CHECKING:
     from coinmc._compare import Comparison, compare
     from coinmc._design import Design, design
     from coinmc._fair import Fair, FairRoot, fair
+    from coinmc._pages import Page, basins, replay, report
     from coinmc._ranking import Ranking, rank
     from coinmc._rare import Rare, rare
     from coinmc._sensitivity import Sensitivity, sensitivity
@@ -74,6 +76,7 @@ __all__ = [
     "FairRoot",
     "FilmError",
     "Group",
+    "Page",
     "Problem",
     "Ranking",
     "Rare",
@@ -90,6 +93,7 @@ __all__ = [
     "__version__",
     "aim",
     "analytic",
+    "basins",
     "check",
     "compare",
     "design",
@@ -102,6 +106,8 @@ __all__ = [
     "plot",
     "rank",
     "rare",
+    "replay",
+    "report",
     "run",
     "scenes",
     "sensitivity",
@@ -126,6 +132,10 @@ _LAZY = {
     "Fair": "coinmc._fair",
     "FairRoot": "coinmc._fair",
     "fair": "coinmc._fair",
+    "Page": "coinmc._pages",
+    "basins": "coinmc._pages",
+    "replay": "coinmc._pages",
+    "report": "coinmc._pages",
     "Ranking": "coinmc._ranking",
     "rank": "coinmc._ranking",
     "Rare": "coinmc._rare",

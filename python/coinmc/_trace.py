@@ -59,6 +59,8 @@ class Trace:
         configurations.
     complete : bool
         Whether everything was recorded; the limit is a million records and the end.
+    source : tuple
+        What repeats the toss: config, point, toss, and launch as a row or None.
     """
 
     __slots__ = (
@@ -74,12 +76,19 @@ class Trace:
         "rate_hz",
         "samples",
         "scene",
+        "source",
         "toss",
     )
 
     def __init__(
-        self, config: Config, point: int, toss: int | None, recorded: dict[str, Any]
+        self,
+        config: Config,
+        point: int,
+        toss: int | None,
+        recorded: dict[str, Any],
+        row: np.ndarray | None = None,
     ) -> None:
+        self.source = (config, point, toss or 0, row)
         self.point = point
         self.toss = toss
         self.scene = config.scene(point)._asdict()
@@ -103,6 +112,12 @@ class Trace:
     def __len__(self) -> int:
         """Return the number of samples."""
         return len(self.samples)
+
+    def _repr_html_(self) -> str:
+        """Show the toss in three dimensions, in notebooks."""
+        from coinmc._pages import replay
+
+        return replay(self)._repr_html_()
 
     def __repr__(self) -> str:
         toss = "a launch" if self.toss is None else f"toss {self.toss}"
@@ -168,7 +183,7 @@ def trace(
         row = rows(launches)[0]
     rate = None if rate_hz is None else float(rate_hz)
     recorded = _lib.trace(plan_of(config), point, toss, row, rate)
-    return Trace(config, point, None if launch is not None else toss, recorded)
+    return Trace(config, point, None if launch is not None else toss, recorded, row)
 
 
 def _records(columns: dict[str, Any], dtype: np.dtype) -> np.ndarray:

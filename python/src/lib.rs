@@ -6,7 +6,7 @@
 //! launches as rows of numbers · `columns` and `toss` individual tosses · `run` estimates and runs
 //! · `results` and `throws` tables, `arrow` tables for Python · `interval` intervals of proportions · `trace` recorded
 //! motion of a toss · `question`, `fair`, `design`, `aim`,
-//! `ranking`, `rare`, `compare` questions ·
+//! `ranking`, `rare`, `compare` questions · `report` pages ·
 //! `analytic` closed forms · `film` drops on film · `errors` exceptions.
 
 // Arguments converted from Python are owned.
@@ -27,6 +27,7 @@ mod plan;
 mod question;
 mod ranking;
 mod rare;
+mod report;
 mod results;
 mod run;
 mod share;
@@ -61,6 +62,8 @@ mod _lib {
     use super::ranking::rank;
     #[pymodule_export]
     use super::rare::rare;
+    #[pymodule_export]
+    use super::report::{frame, map_page, report, toss_page};
     #[pymodule_export]
     use super::results::Results;
     #[pymodule_export]

@@ -44,6 +44,16 @@ impl Results {
     pub(crate) fn table(&self) -> &Table {
         &self.table
     }
+
+    /// The report that it was made of, as far as pages need it.
+    pub(crate) fn report(&self) -> Report {
+        Report {
+            results: self.table.clone(),
+            status: self.status,
+            reused_chunks: 0,
+            tosses: self.tosses,
+        }
+    }
 }
 
 #[pymethods]

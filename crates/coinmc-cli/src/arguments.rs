@@ -5,8 +5,8 @@ use crate::commands::Film;
 #[cfg(feature = "robot")]
 use crate::commands::Robot;
 use crate::commands::{
-    AimAt, Analytic, Check, Compare, Completions, DesignArgs, Fair, Merge, Rare, Run, Schema,
-    SensitivityOf, Trace,
+    AimAt, Analytic, Check, Compare, Completions, DesignArgs, Fair, Merge, Rare, ReportOf, Run,
+    Schema, SensitivityOf, Show, Trace,
 };
 use crate::exit::{Failure, Outcome};
 use crate::output::{Console, Format};
@@ -53,6 +53,8 @@ pub(crate) struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(Run),
+    Show(Show),
+    Report(ReportOf),
     Check(Check),
     Fair(Box<Fair>),
     Design(Box<DesignArgs>),
@@ -87,6 +89,8 @@ impl Command {
     fn format(&self) -> Format {
         match self {
             Self::Run(run) => run.format(),
+            Self::Show(show) => show.format(),
+            Self::Report(report) => report.format(),
             Self::Check(check) => check.format(),
             Self::Fair(fair) => fair.format(),
             Self::Design(design) => design.format(),
@@ -108,6 +112,8 @@ impl Command {
     fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         match self {
             Self::Run(run) => run.execute(console),
+            Self::Show(show) => show.execute(console),
+            Self::Report(report) => report.execute(console),
             Self::Check(check) => check.execute(console),
             Self::Fair(fair) => fair.execute(console),
             Self::Design(design) => design.execute(console),

@@ -149,6 +149,16 @@ impl Failure {
         self.code()
     }
 
+    /// What happened, in one text.
+    pub(crate) fn message(&self) -> String {
+        match self {
+            Self::Config(diagnostics) => diagnostics.render(false),
+            #[cfg(feature = "film")]
+            Self::Film(diagnostics) => diagnostics.render(false),
+            Self::Input(error) | Self::Runtime(error) => words(error),
+        }
+    }
+
     fn code(&self) -> u8 {
         match self {
             Self::Config(_) | Self::Input(_) => BAD_INPUT,

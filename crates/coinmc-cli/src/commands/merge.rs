@@ -3,6 +3,7 @@
 use super::run::present;
 use crate::exit::{Failure, Outcome};
 use crate::output::{Console, Format};
+use crate::terminal::plot::Plotted;
 use crate::terminal::progress::Progress;
 use clap::Args;
 use std::path::PathBuf;
@@ -41,6 +42,6 @@ impl Merge {
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let progress = Progress::new(*console.stderr(), true);
         let report = coinmc::run::merge(&self.parts, &self.out, &progress)?;
-        present(&report, &self.out, console, false)
+        present(&report, &self.out, &Plotted::default(), console, false)
     }
 }

@@ -1,8 +1,10 @@
 //! `coinmc run`: from a config to probabilities.
 
+use super::report::Page;
 use crate::exit::{Failure, Outcome};
 use crate::interrupt;
 use crate::output::{self, Console, FORMAT_VERSION, Format};
+use crate::terminal::plot::Plotted;
 use crate::terminal::progress::{Progress, with_prefix};
 use crate::terminal::summary::{FAIR, summary};
 use crate::terminal::{count, duration, grouped};
@@ -24,6 +26,7 @@ Examples:
   coinmc run toss.toml --set stop.tosses=1e5 --set 'surface.restitution=[0.3, 0.5]'
   coinmc run toss.toml --shard 1/4 --out part-1     one of four machines; see `coinmc merge`
   coinmc run toss.toml --format json > toss.json
+  coinmc run toss.toml --report                     and make a page of it, see `coinmc report`
 
 The same command again goes on where the last one stopped, and reports a finished run at once.";
 
@@ -54,6 +57,14 @@ pub(crate) struct Run {
     #[arg(long = "set", value_name = "KEY=VALUE")]
     overrides: Vec<Override>,
 
+    /// What to plot: a swept parameter, a face, both (`friction,heads`), or `none`
+    #[arg(long, value_name = "AXIS,FACE", default_value_t)]
+    plot: Plotted,
+
+    /// Also make a page of the run, see `coinmc report` [default: report.html in the run directory]
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true)]
+    report: Option<Option<PathBuf>>,
+
     /// How to write the result
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
@@ -70,7 +81,11 @@ impl Run {
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let plan = config::load(&self.config, &self.overrides)?;
+        self.plot.check(&plan.axes).map_err(Failure::Input)?;
         let out = self.out.clone().unwrap_or_else(|| self.default_out(&plan));
+        if let Some(Some(page)) = &self.report {
+            Page::check(page)?;
+        }
         let progress = Progress::new(*console.stderr(), self.quiet);
         if !self.quiet {
             plan.notes
@@ -98,7 +113,27 @@ impl Run {
         if !self.quiet {
             output::note(&closing_line(&report, &progress));
         }
-        present(&report, &out, console, self.quiet)
+        let outcome = present(&report, &out, &self.plot, console, self.quiet)?;
+        if let Some(file) = &self.report {
+            let file = file.clone().unwrap_or_else(|| out.join("report.html"));
+            self.make_page(&file, &out)?;
+        }
+        Ok(outcome)
+    }
+
+    /// The page of the run, in place of that of an earlier call of the same command.
+    fn make_page(&self, file: &Path, out: &Path) -> Result<(), Failure> {
+        let page = Page::begin(file, true)?;
+        let run = coinmc_report::Run::open(out, &())?;
+        page.write(&coinmc_report::report(
+            &[run],
+            None,
+            &coinmc_report::Samples::default(),
+        )?)?;
+        if !self.quiet {
+            output::note(&format!("Report: {}", file.display()));
+        }
+        Ok(())
     }
 
     fn default_out(&self, plan: &Plan) -> PathBuf {
@@ -119,18 +154,11 @@ impl Run {
 pub(super) fn present(
     report: &Report,
     out: &Path,
+    plotted: &Plotted,
     console: &Console,
     quiet: bool,
 ) -> Result<Outcome, Failure> {
-    let fair = fair_ratios(&report.results, FAIR);
-    match console.format() {
-        Format::Json => output::print_json(&to_json(report, &fair, out)),
-        Format::Table => {
-            let csv = out.join(csv_name(report.status));
-            output::print(&summary(&report.results, &fair, &csv, console.stdout()))
-        }
-    }
-    .map_err(|error| Failure::Runtime(error.into()))?;
+    show(report, out, plotted, console)?;
     if let Some(advice) = advice(report, out).filter(|_| !quiet) {
         output::note(&advice);
     }
@@ -139,6 +167,25 @@ pub(super) fn present(
         Status::Interrupted => Outcome::Interrupted,
         Status::ShortOfTarget { .. } => Outcome::ShortOfTarget,
     })
+}
+
+/// Result on standard output.
+pub(super) fn show(
+    report: &Report,
+    out: &Path,
+    plotted: &Plotted,
+    console: &Console,
+) -> Result<(), Failure> {
+    let fair = fair_ratios(&report.results, FAIR);
+    match console.format() {
+        Format::Json => output::print_json(&to_json(report, &fair, out)),
+        Format::Table => {
+            let csv = out.join(csv_name(report.status));
+            let text = summary(&report.results, &fair, &csv, plotted, console.stdout());
+            output::print(&text)
+        }
+    }
+    .map_err(|error| Failure::Runtime(error.into()))
 }
 
 fn csv_name(status: Status) -> &'static str {

@@ -4,8 +4,9 @@ use crate::exit::Failure;
 use anyhow::anyhow;
 use coinmc::plan::Plan;
 use coinmc_recording::{Compression, Error, NewFile};
+use coinmc_report::MAX_TOSSES;
 use coinmc_trace::{Trace, svg, write_csv, write_jsonl, write_mcap, write_parquet};
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,6 +16,7 @@ enum Kind {
     Parquet,
     Jsonl,
     Svg,
+    Html,
 }
 
 /// New files, created before the work begins, which appear only when complete.
@@ -31,6 +33,12 @@ impl Files {
             if kind == Kind::Svg && traces > 1 {
                 return Err(Failure::Input(anyhow!(
                     "{} can only show one toss, but {traces} were requested: request one",
+                    path.display()
+                )));
+            }
+            if kind == Kind::Html && traces > MAX_TOSSES {
+                return Err(Failure::Input(anyhow!(
+                    "{} shows at most {MAX_TOSSES} tosses at once, but {traces} were requested",
                     path.display()
                 )));
             }
@@ -57,6 +65,12 @@ impl Files {
                 Kind::Csv => write_csv(traces, out).map_err(Error::Stream),
                 Kind::Parquet => write_parquet(plan, traces, out).map_err(Error::Stream),
                 Kind::Jsonl => write_jsonl(plan, traces, out).map_err(Error::Stream),
+                Kind::Html => {
+                    let page = coinmc_report::tosses(
+                        &traces.iter().map(|trace| (plan, trace)).collect::<Vec<_>>(),
+                    );
+                    out.write_all(page.as_bytes()).map_err(Error::Stream)
+                }
                 Kind::Svg => picture(traces, out).map_err(Error::Stream),
             };
             written.map_err(|error| error.with_path(&path))?;
@@ -82,8 +96,9 @@ fn kind(path: &Path) -> Result<Kind, Failure> {
         Some("parquet") => Ok(Kind::Parquet),
         Some("jsonl") => Ok(Kind::Jsonl),
         Some("svg") => Ok(Kind::Svg),
+        Some("html") => Ok(Kind::Html),
         _ => Err(Failure::Input(anyhow!(
-            "{} has no known extension: use .mcap, .csv, .parquet, .jsonl or .svg",
+            "{} has no known extension: use .mcap, .csv, .parquet, .jsonl, .svg or .html",
             path.display()
         ))),
     }

@@ -1,8 +1,8 @@
 //! Where the curves cross 1/3.
 
 use super::curves::{label, others};
-use super::{Curve, FAIR};
-use crate::terminal::plot::Mark;
+use super::{FAIR, RATIO};
+use crate::terminal::plot::{Curve, Mark};
 use crate::terminal::table::{Column, Table};
 use crate::terminal::{Colors, Style, compact, decimals_for, in_ascii};
 use coinmc::engines::no_bounce_rule;
@@ -34,7 +34,10 @@ pub(super) fn table(
         // points without a toss say nothing
         return tossed.then(|| format!("Fair ratio: none in this sweep, {never}\n"));
     }
-    let mut columns: Vec<Column> = others(results).into_iter().map(Column::right).collect();
+    let mut columns: Vec<Column> = others(results, RATIO)
+        .into_iter()
+        .map(Column::right)
+        .collect();
     let percent = compact(fair[0].confidence * 100.0);
     columns.push(Column::right("fair H/R"));
     // Closed forms have no error but that of the interpolation.

@@ -6,30 +6,43 @@ mod fair;
 mod published;
 mod side_endings;
 
-use super::plot::{Curve, Level, Plot, Reference};
+use super::plot::{Level, Plot, Plotted, Reference};
 use super::table::{Column, Table};
 use super::{Colors, Style, compact, count, decimals_for, grouped, wrapped};
 use coinmc::engines::no_bounce_rule;
 use coinmc::results::{FairRatio, Results, Row};
-use coinmc_core::Estimate;
+use coinmc_core::{Estimate, Face};
 use curves::curves;
 use std::path::Path;
 
 /// P(side) of a fair coin.
 pub(crate) const FAIR: f64 = 1.0 / 3.0;
 
-/// The parameter that plots are drawn over.
+/// The parameter that plots are drawn over unless another is asked for.
 const RATIO: &str = "ratio";
 /// Longer tables show only the first and last `END` points.
 const LONG: usize = 60;
 const END: usize = 20;
 
 /// The whole summary of the results in the file `csv`.
-pub(crate) fn summary(results: &Results, fair: &[FairRatio], csv: &Path, style: &Style) -> String {
+pub(crate) fn summary(
+    results: &Results,
+    fair: &[FairRatio],
+    csv: &Path,
+    plotted: &Plotted,
+    style: &Style,
+) -> String {
     let mut parts = vec![table(results, csv, style)];
+    if let Plotted::Face { face, along } = plotted {
+        parts.extend(plot(
+            results,
+            *face,
+            along.as_deref().unwrap_or(RATIO),
+            style,
+        ));
+    }
     if results.axes.iter().any(|axis| axis == RATIO) {
-        let curves = curves(results);
-        parts.extend(plot(results, &curves, style));
+        let curves = curves(results, RATIO, Face::Side);
         parts.extend(fair::table(results, fair, &curves, style));
     }
     parts.extend(published::table(results, style));
@@ -144,24 +157,36 @@ fn probability(p: &Estimate, row: &Row, decimals: usize, style: &Style) -> Strin
     }
 }
 
-/// P(side) over the ratio, a curve for each combination of the other axes.
-fn plot(results: &Results, curves: &[Curve], style: &Style) -> Option<String> {
+/// P(face) along an axis, a curve for each combination of the other axes; `None` if it is not swept.
+fn plot(results: &Results, face: Face, along: &str, style: &Style) -> Option<String> {
+    if !results.axes.iter().any(|axis| axis == along) {
+        return None;
+    }
+    // the closed forms depend on the ratio alone
     let rule = results
         .rows
         .iter()
-        .find_map(|row| no_bounce_rule(row.engine));
+        .find_map(|row| no_bounce_rule(row.engine))
+        .filter(|_| along == RATIO);
     let label = rule.map_or(String::new(), |rule| format!("{rule} rule (no bounce)"));
-    let p_side = |ratio| rule.map_or(f64::NAN, |rule| rule.p_side(ratio));
+    let p_face = |ratio| {
+        let p_side = rule.map_or(f64::NAN, |rule| rule.p_side(ratio));
+        if face == Face::Side {
+            p_side
+        } else {
+            0.5 * (1.0 - p_side)
+        }
+    };
     let reference = Reference {
         label: &label,
-        y: &p_side,
+        y: &p_face,
     };
     Plot {
-        x_label: "ratio H/R",
-        y_label: "P(side)",
-        curves,
+        x_label: if along == RATIO { "ratio H/R" } else { along },
+        y_label: &format!("P({})", face.name()),
+        curves: &curves(results, along, face),
         reference: rule.is_some().then_some(reference),
-        level: Some(Level {
+        level: (face == Face::Side).then_some(Level {
             label: "1/3",
             y: FAIR,
         }),
