@@ -9,6 +9,7 @@ use crate::port::{Connection, ConnectionError, LinkEvent, RequestOutcome};
 use crate::recording::SessionRecorder;
 use crate::{Directory, Experiment, Face};
 use coinmc_link::{Counters, Request, Seen, State, Status};
+use coinmc_recording::Encoding;
 use coinmc_recording::foxglove::LogLevel;
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
@@ -40,8 +41,8 @@ pub struct SessionOptions<'a> {
     pub rules: Rules,
     /// Speed of a simulated robot relative to real time; 1 for a real robot.
     pub speed: f64,
-    /// Whether to record the session.
-    pub record: bool,
+    /// How to encode the recording of the session; `None` for no recording.
+    pub record: Option<Encoding>,
     /// Set it to finish the open throw and stop.
     pub cancel: &'a AtomicBool,
     /// Receives progress, notes and warnings.
@@ -139,12 +140,11 @@ pub fn run_session(
 ) -> Result<SessionReport, SessionError> {
     let clock = Clock::new(options.speed.min(FASTEST_LINK));
     let connection = Connection::open(options.port, clock).map_err(ConnectionError::Port)?;
-    let recorder = if options.record {
-        let recorder = SessionRecorder::begin(&directory.sessions());
-        Some(recorder.map_err(SessionError::Recording)?)
-    } else {
-        None
-    };
+    let recorder = options
+        .record
+        .map(|encoding| SessionRecorder::begin(&directory.sessions(), encoding))
+        .transpose()
+        .map_err(SessionError::Recording)?;
     let mut session = Session {
         experiment,
         options,

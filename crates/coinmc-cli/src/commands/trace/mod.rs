@@ -1,6 +1,7 @@
 //! `coinmc trace`: replaying tosses.
 
 mod files;
+mod layout;
 mod recover;
 mod report;
 mod select;
@@ -14,10 +15,11 @@ use clap::{ArgGroup, Args, Subcommand};
 use coinmc::config::{self, Override};
 use coinmc::plan::Plan;
 use coinmc::run::stored_plan;
-use coinmc_recording::Compression;
+use coinmc_recording::{Compression, Encoding};
 use coinmc_trace::replay_within;
 use coinmc_trace::{Condition, Length, MAX_RECORDS, Trace as Recorded, default_rate_hz, launch};
 use files::Files;
+use layout::Layout;
 use recover::Recover;
 use select::{Selected, Status};
 use std::path::{Path, PathBuf};
@@ -27,6 +29,7 @@ const EXAMPLES: &str = "\
 Examples:
   coinmc trace examples/flat-fair.toml --toss 42 --show              what happened, event by event
   coinmc trace toss.toml --point 3 --toss 0,1,2 -o tosses.mcap       for a viewer of MCAP
+  coinmc trace layout > layout.json                                  … which shows it like this
   coinmc trace runs/first --where face=side --count 3 -o sides.csv   the first three on the side
   coinmc trace toss.toml --longest --rate 2000 -o long.parquet -o long.svg
   coinmc trace recover torn.mcap                                     what a crash has left";
@@ -46,7 +49,7 @@ const MAX_TOTAL_RECORDS: usize = 2_000_000;
 ))]
 pub(crate) struct Trace {
     #[command(subcommand)]
-    recover: Option<Verb>,
+    verb: Option<Verb>,
 
     /// The config (TOML), or the directory of a run
     #[arg(required = true, value_name = "CONFIG|RUN_DIR")]
@@ -98,6 +101,10 @@ pub(crate) struct Trace {
     #[arg(long, requires = "show")]
     all: bool,
 
+    /// Encoding of the messages in .mcap files: protobuf or json
+    #[arg(long, value_name = "HOW", default_value_t)]
+    encoding: Encoding,
+
     /// Compression of .mcap files: none or lz4
     #[arg(long, value_name = "HOW", default_value_t = Compression::None)]
     compression: Compression,
@@ -118,6 +125,7 @@ pub(crate) struct Trace {
 #[derive(Debug, Subcommand)]
 enum Verb {
     Recover(Recover),
+    Layout(Layout),
 }
 
 /// The measure of a toss's length.
@@ -131,15 +139,17 @@ enum By {
 
 impl Trace {
     pub(crate) fn format(&self) -> Format {
-        match &self.recover {
+        match &self.verb {
             Some(Verb::Recover(recover)) => recover.format(),
+            Some(Verb::Layout(_)) => Format::Table,
             None => self.format,
         }
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
-        match (&self.recover, &self.config) {
+        match (&self.verb, &self.config) {
             (Some(Verb::Recover(recover)), _) => recover.execute(console),
+            (Some(Verb::Layout(layout)), _) => layout.execute(),
             (None, Some(config)) => self.trace(config, console),
             (None, None) => Err(Failure::Input(anyhow!("give a config or a run directory"))),
         }
@@ -172,7 +182,7 @@ impl Trace {
         let files = if traces.is_empty() || selected.status == Status::Interrupted {
             Vec::new()
         } else {
-            files.write(&plan, &traces, self.compression)?
+            files.write(&plan, &traces, self.encoding, self.compression)?
         };
         report::present(self, &plan, &selected, &traces, &files, console)
     }
