@@ -16,7 +16,8 @@ coinmc.Kernel = class {
   ask(question) {
     const { memory, coinmc_question, coinmc_answer, coinmc_answer_at } = this.module;
     const text = new TextEncoder().encode(JSON.stringify(question));
-    new Uint8Array(memory.buffer).set(text, coinmc_question(text.length));
+    const at = coinmc_question(text.length); // may move the memory: a view of it is made after
+    new Uint8Array(memory.buffer, at, text.length).set(text);
     const length = coinmc_answer();
     const bytes = new Uint8Array(memory.buffer, coinmc_answer_at(), length);
     const answer = JSON.parse(new TextDecoder().decode(bytes));

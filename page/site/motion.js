@@ -53,8 +53,7 @@ coinmc.Player = class {
   show(motion, playing) {
     this.motion = motion;
     this.time = 0;
-    const reach = Math.max(...motion.states.map((state) => state[Z]));
-    this.size = Math.max(reach, 4 * motion.radius_m) + motion.radius_m;
+    this.highest = Math.max(...motion.states.map((state) => state[Z]), motion.radius_m);
     this.play(playing);
     this.draw();
   }
@@ -92,8 +91,8 @@ coinmc.Player = class {
     pen.scale(density, density);
     const colour = (name) => getComputedStyle(canvas).getPropertyValue(name);
     const state = coinmc.stateAt(motion.states, this.time);
-    const view = this.view(state, width, height);
-    this.ground(pen, view, width, colour);
+    const view = this.view(state, height);
+    this.ground(pen, view, state, colour);
     pen.strokeStyle = colour("--ink");
     pen.lineWidth = 1;
     pen.lineJoin = "round";
@@ -105,28 +104,41 @@ coinmc.Player = class {
       pen.fill();
       pen.stroke();
     }
+    this.ruler(pen, state, height, colour);
   }
 
-  /** A camera that follows the coin from slightly above, and comes nearer with it. */
-  view(state, width, height) {
-    const near = 5 * this.motion.radius_m + Math.max(state[Z], 0) * 0.5;
-    const far = Math.max(near * 2, state[Z] + 3 * this.motion.radius_m);
-    const scale = Math.min(width / near, height / far);
+  /** A camera slightly above the coin, which follows it; near the surface it stands still. */
+  view(state, height) {
+    const { radius_m, height_m } = this.motion;
+    const reach = Math.hypot(radius_m, height_m / 2);
+    const scale = height / (6 * reach);
     const [sin, cos] = [Math.sin(0.35), Math.cos(0.35)];
-    const baseline = height - 2.2 * this.motion.radius_m * scale;
+    const standing = height - 1.7 * reach * scale;
+    const ground = Math.max(standing, 0.45 * height + state[Z] * cos * scale);
     return ([x, y, z]) => [
-      width / 2 + (x - state[X]) * scale,
-      baseline - (z * cos + (y - state[Y]) * sin) * scale,
-      (y - state[Y]) * cos - z * sin, // depth: the larger, the farther away
+      this.canvas.clientWidth / 2 + (x - state[X]) * scale,
+      ground - (z * cos + (y - state[Y]) * sin) * scale,
     ];
   }
 
-  ground(pen, view, width, colour) {
+  /** How high the coin is, on a ruler at the left. */
+  ruler(pen, state, height, colour) {
+    const [top, bottom] = [14, height - 14];
+    const y = bottom - (Math.max(state[Z], 0) / this.highest) * (bottom - top);
+    pen.strokeStyle = colour("--soft");
+    pen.strokeRect(14, top, 0, bottom - top);
+    pen.fillStyle = colour("--ink");
+    pen.fillRect(9, y - 1.5, 11, 3);
+    pen.font = "13px system-ui, sans-serif";
+    const text = `${(state[Z] * 100).toFixed(state[Z] < 0.1 ? 2 : 1)} cm`;
+    pen.fillText(text, 24, Math.min(Math.max(y + 4, 14), height - 6));
+  }
+
+  ground(pen, view, state, colour) {
     const { radius_m: r } = this.motion;
-    const state = coinmc.stateAt(this.motion.states, this.time);
     pen.fillStyle = colour("--ground");
     const [, horizon] = view([0, state[Y] + 6 * r, 0]);
-    pen.fillRect(0, horizon, width, pen.canvas.height);
+    pen.fillRect(0, horizon, this.canvas.clientWidth, this.canvas.clientHeight);
     // lines across, which move past: the surface is seen to stay where it is
     pen.strokeStyle = colour("--line");
     pen.lineWidth = 1;

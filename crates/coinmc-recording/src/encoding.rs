@@ -14,7 +14,7 @@ use std::str::FromStr;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Encoding {
-    /// Protocol Buffers: a third of the size, and what most viewers draw.
+    /// Protocol Buffers: less than half the size, and what most viewers draw.
     #[default]
     Protobuf,
     /// JSON: readable without its schema.
