@@ -93,7 +93,6 @@ coinmc.Player = class {
     const state = coinmc.stateAt(motion.states, this.time);
     const view = this.view(state, height);
     this.ground(pen, view, state, colour);
-    pen.strokeStyle = colour("--ink");
     pen.lineWidth = 1;
     pen.lineJoin = "round";
     for (const [points, fill] of this.faces(state, view)) {
@@ -102,6 +101,7 @@ coinmc.Player = class {
       pen.closePath();
       pen.fillStyle = colour(fill);
       pen.fill();
+      pen.strokeStyle = colour(fill.startsWith("--side") ? fill : "--ink");
       pen.stroke();
     }
     this.ruler(pen, state, height, colour);

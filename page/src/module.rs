@@ -17,7 +17,7 @@ fn text() -> MutexGuard<'static, Vec<u8>> {
 
 /// Makes room for a question of `length` bytes; the address to write it to.
 #[unsafe(no_mangle)]
-pub extern "C" fn coinmc_question(length: usize) -> *mut u8 {
+pub(crate) extern "C" fn coinmc_question(length: usize) -> *mut u8 {
     let mut text = text();
     text.clear();
     text.resize(length, 0);
@@ -26,7 +26,7 @@ pub extern "C" fn coinmc_question(length: usize) -> *mut u8 {
 
 /// Answers the question; the number of bytes of the answer.
 #[unsafe(no_mangle)]
-pub extern "C" fn coinmc_answer() -> usize {
+pub(crate) extern "C" fn coinmc_answer() -> usize {
     let mut text = text();
     let answer = crate::answer(&String::from_utf8_lossy(&text));
     *text = answer.into_bytes();
@@ -35,6 +35,6 @@ pub extern "C" fn coinmc_answer() -> usize {
 
 /// The address of the answer.
 #[unsafe(no_mangle)]
-pub extern "C" fn coinmc_answer_at() -> *const u8 {
+pub(crate) extern "C" fn coinmc_answer_at() -> *const u8 {
     text().as_ptr()
 }
