@@ -1,4 +1,4 @@
-"""Traces read back by independent readers: mcap, protobuf, pyarrow, csv, json; schemas validated."""
+"""Traces read back by independent readers: mcap with protobuf or json, pyarrow, csv; schemas too."""
 
 import csv
 import importlib
