@@ -10,7 +10,7 @@ const MOST_TOSSES = 2_000_000;
 /**
  * Searches in a worker of its own, and tells of each answer.
  *
- * @param {(found: {roots: object[], halfWidth: number, tosses: number, done: boolean}) => void} tell
+ * @param {(found: {roots: object[], confidence: number, tosses: number, done: boolean}) => void} tell
  * @returns a function that stops it
  */
 coinmc.findFair = function (module, config, tell, failed) {
@@ -22,7 +22,7 @@ coinmc.findFair = function (module, config, tell, failed) {
       const [{ roots }] = answer.curves;
       const done =
         halfWidth === coinmc.HALF_WIDTHS.at(-1) || !roots.length || roots.some((r) => !r.reached);
-      tell({ roots, halfWidth, tosses: answer.tosses, done });
+      tell({ roots, confidence: answer.confidence, tosses: answer.tosses, done });
       if (done) break;
     }
     worker.end();

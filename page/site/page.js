@@ -177,10 +177,11 @@ coinmc.Page = class {
     $("fair").textContent = "Find the fair ratio";
   }
 
-  fair({ roots, tosses, done }) {
-    const one = ({ value, lo, hi }) => `${value.toFixed(4)} [${lo?.toFixed(4) ?? "open"}, ${hi?.toFixed(4) ?? "open"}]`;
+  fair({ roots, confidence, tosses, done }) {
+    const end = (x) => x?.toFixed(4) ?? "open";
+    const one = ({ value, lo, hi }) => `${value.toFixed(4)} [${end(lo)}, ${end(hi)}]`;
     const answer = roots.length
-      ? `H/R = ${roots.map(one).join(" and ")}, 95 % interval, ${coinmc.grouped(tosses)} tosses`
+      ? `H/R = ${roots.map(one).join(" and ")}, ${confidence * 100} % interval, ${coinmc.grouped(tosses)} tosses`
       : "No ratio between 0.05 and 4 makes this coin three-way fair.";
     $("fair-answer").textContent = done ? `${answer}.` : `${answer}; searching on …`;
     this.root = roots[0]?.value;

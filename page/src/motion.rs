@@ -16,14 +16,17 @@ pub(crate) fn motion(config: &str, point: usize, toss: u64, most: usize) -> Answ
     let rate = default_rate_hz(scene, &launch);
     let trace = replay_within(&plan, point, toss, rate, MOST_RECORDS).map_err(text)?;
     let coin = &scene.coin;
-    // every event is drawn, of the samples as many as there is room for
+    // of the samples as many as there is room for; events too, so that no bounce is cut off
     let room = most.clamp(2, MOST_RECORDS);
     let step = trace.records.len().div_ceil(room).max(1);
+    let is_event = |record: &Record| record.kind != RecordKind::Sample;
+    let events_fit = trace.records.iter().filter(|r| is_event(r)).count() <= room;
     let last = trace.records.len().saturating_sub(1);
-    let drawn = trace.records.iter().enumerate();
-    let drawn = drawn.filter(|(i, record)| {
-        i % step == 0 || *i == last || (step == 1 && record.kind != RecordKind::Sample)
-    });
+    let drawn = trace
+        .records
+        .iter()
+        .enumerate()
+        .filter(|(i, record)| i % step == 0 || *i == last || (events_fit && is_event(record)));
     let states: Vec<Value> = drawn.map(|(_, record)| state(record)).collect();
     let events = trace.records.iter().filter_map(|record| match record.kind {
         RecordKind::Event(_) => Some(json!([record.state.time_s, record.kind.name()])),

@@ -70,10 +70,13 @@ fn a_toss_is_drawn_from_its_launch_to_its_end() {
     let drawn = ask(&json!({ "ask": "motion", "config": SPACE, "toss": 5, "most": 200 }));
     assert_eq!(drawn["outcome"], coinmc_trace::outcome_name(&outcome));
     let states = drawn["states"].as_array().unwrap();
-    assert!((100..=201).contains(&states.len()), "{}", states.len());
+    let events = drawn["events"].as_array().unwrap();
+    let most = 201 + events.len();
+    assert!((100..=most).contains(&states.len()), "{}", states.len());
+    let drawn_at: Vec<&Value> = states.iter().map(|state| &state[0]).collect();
+    assert!(events.iter().all(|event| drawn_at.contains(&&event[0])));
     assert_eq!(states[0][0], 0.0);
     assert_eq!(states.last().unwrap()[0], drawn["duration_s"]);
-    let events = drawn["events"].as_array().unwrap();
     assert_eq!(events[0][1], "launched");
     assert_eq!(events.last().unwrap()[1], "ended");
 }

@@ -1,4 +1,4 @@
-"""Traces read back by independent readers: mcap with protobuf or json, pyarrow, csv; schemas too."""
+"""Traces read back by independent readers: mcap with protobuf and json, pyarrow, csv."""
 
 import csv
 import importlib
