@@ -112,8 +112,8 @@ fn what_is_wrong_is_said() {
         error(json!({ "ask": "toss", "config": config, "point": point, "from": from, "to": to }))
     };
     assert!(toss("coin.ratoi = 1", 0, 0, 1).contains("did you mean `ratio`?"));
-    assert!(toss(FLAT, 1, 0, 1).contains("chunk"));
-    assert!(toss(FLAT, 0, 2, 1).contains("chunk"));
+    assert!(toss(FLAT, 1, 0, 1).contains("outside the plan"));
+    assert!(toss(FLAT, 0, 2, 1).contains("outside the plan"));
     let exact = "coin.ratio = 1\nengine.analytic.rule = 'arc'";
     assert!(toss(exact, 0, 0, 1).contains("closed form"));
     let tally = json!({ "heads": 1_u64 << 54 });

@@ -55,9 +55,44 @@ pub(crate) fn encode(
     json: &Value,
     out: &mut Vec<u8>,
 ) -> Result<(), SchemaError> {
-    let encoded = dynamic(message, json.as_object().unwrap_or(&Map::new()))?;
-    encoded.encode(out).expect("a vector grows as is needed");
+    let none = Map::new();
+    let (maps, others): (Map<_, _>, Map<_, _>) = json
+        .as_object()
+        .unwrap_or(&none)
+        .iter()
+        .map(|(name, value)| (name.clone(), value.clone()))
+        .partition(|(name, _)| message.get_field_by_name(name).is_some_and(|f| f.is_map()));
+    append(&dynamic(message, &others)?, out);
+    for (name, entries) in &maps {
+        let field = message.get_field_by_name(name).expect("found above");
+        let entries = entries.as_object().ok_or_else(|| wrong_type(&field))?;
+        for (key, value) in entries {
+            append(&with_entry(message, &field, key, value)?, out);
+        }
+    }
     Ok(())
+}
+
+fn append(message: &DynamicMessage, out: &mut Vec<u8>) {
+    message.encode(out).expect("a vector grows as is needed");
+}
+
+/// The message with one entry of a map and nothing else. Parts of a message that follow one another are one
+/// message; so entries keep their order, which a whole map of the library does not.
+fn with_entry(
+    message: &MessageDescriptor,
+    field: &FieldDescriptor,
+    key: &str,
+    value: &Value,
+) -> Result<DynamicMessage, SchemaError> {
+    let Kind::Message(entry) = field.kind() else {
+        return Err(wrong_type(field));
+    };
+    let value = one(&entry.map_entry_value_field(), value)?;
+    let map = HashMap::from([(MapKey::String(key.to_owned()), value)]);
+    let mut part = DynamicMessage::new(message.clone());
+    part.set_field(field, Field::Map(map));
+    Ok(part)
 }
 
 fn dynamic(
@@ -98,18 +133,11 @@ fn time(message: &MessageDescriptor, json: &Map<String, Value>) -> DynamicMessag
     fields
 }
 
-/// The value of a whole field: one, a list, or a map.
+/// The value of a whole field: one, or a list. (Maps are for whole messages, not within others.)
 fn whole(field: &FieldDescriptor, json: &Value) -> Result<Field, SchemaError> {
     let wrong = || wrong_type(field);
     if field.is_map() {
-        let Kind::Message(entry) = field.kind() else {
-            return Err(wrong());
-        };
-        let values = entry.map_entry_value_field();
-        let pairs = json.as_object().ok_or_else(wrong)?.iter();
-        let pairs =
-            pairs.map(|(key, value)| Ok((MapKey::String(key.clone()), one(&values, value)?)));
-        return Ok(Field::Map(pairs.collect::<Result<HashMap<_, _>, _>>()?));
+        return Err(wrong());
     }
     if field.is_list() {
         let items = json.as_array().ok_or_else(wrong)?.iter();
