@@ -13,6 +13,7 @@ use crate::reporter::{Progress, ProgressSink, Reporter, RoundTrips, index, journ
 use crate::words::void_text;
 use crate::{Directory, Experiment};
 use coinmc_link::{Counters, Reply, Request};
+use coinmc_recording::Encoding;
 use std::cell::Cell;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -46,8 +47,8 @@ pub struct SessionOptions<'a> {
     pub rules: Rules,
     /// Speed of a simulated robot relative to real time; 1 for a real robot.
     pub speed: f64,
-    /// Whether to record the session.
-    pub record: bool,
+    /// How to encode the recording of the session; `None` for no recording.
+    pub record: Option<Encoding>,
     /// Set it to finish the open throw and stop.
     pub cancel: &'a AtomicBool,
     /// Set it to switch off the robot's motors at once and leave.
@@ -112,12 +113,11 @@ pub fn run_session(
     let left = || options.cancel.load(Ordering::Relaxed) || options.stop.load(Ordering::Relaxed);
     let connection = Connection::open_within(options.port, clock, options.wait, &left)
         .map_err(ConnectionError::Port)?;
-    let recorder = if options.record {
-        let recorder = SessionRecorder::begin(&directory.sessions());
-        Some(recorder.map_err(SessionError::Recording)?)
-    } else {
-        None
-    };
+    let recorder = options
+        .record
+        .map(|encoding| SessionRecorder::begin(&directory.sessions(), encoding))
+        .transpose()
+        .map_err(SessionError::Recording)?;
     let mut camera = options.camera.clone();
     camera.seen = journal.history().digests().collect();
     let rules = Rules {

@@ -20,6 +20,7 @@ mod end;
 mod error;
 mod jsonl;
 mod mcap;
+#[cfg(feature = "parquet")]
 mod parquet;
 mod record;
 mod recorder;
@@ -37,7 +38,8 @@ pub use csv::write_csv;
 pub use end::{EndKind, outcome_name};
 pub use error::TraceError;
 pub use jsonl::write_jsonl;
-pub use mcap::write_mcap;
+pub use mcap::{LAYOUT, write_mcap};
+#[cfg(feature = "parquet")]
 pub use parquet::write_parquet;
 pub use record::{Mode, Record, RecordKind};
 pub use recorder::{MAX_RECORDS, Recorder};

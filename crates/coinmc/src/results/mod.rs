@@ -4,12 +4,14 @@ mod csv;
 mod estimates;
 mod fair;
 mod json;
+#[cfg(feature = "parquet")]
 mod parquet;
 mod schema;
 
 pub use csv::{write_csv, write_csv_row};
 pub(crate) use estimates::integrated;
 pub use fair::{FairRatio, fair_ratios, fair_values};
+#[cfg(feature = "parquet")]
 pub use parquet::{arrow_array, arrow_field, parquet_error, record_batch, write_parquet};
 pub use schema::{Cell, Column, FORMAT, Kind, columns};
 

@@ -7,7 +7,7 @@ use super::schedule::Finished;
 use super::tallies::{self, Entry, Tallies};
 use super::{Part, ProgressSink, RunError};
 use crate::plan::Plan;
-use crate::results::{Results, write_csv, write_parquet};
+use crate::results::{Results, write_csv};
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -143,7 +143,10 @@ impl RunDirectory {
         sink: &dyn ProgressSink,
     ) -> Result<(), RunError> {
         replace::remove(&self.path.join(PARTIAL))?;
-        self.write(PARQUET, sink, |file| write_parquet(results, file))?;
+        #[cfg(feature = "parquet")]
+        self.write(PARQUET, sink, |file| {
+            crate::results::write_parquet(results, file)
+        })?;
         self.write(CSV, sink, |file| write_csv(results, file))?;
         replace::sync_directory(&self.path)
     }

@@ -10,6 +10,7 @@ use anyhow::{Context, anyhow};
 use clap::Args;
 use coinmc::config::{self, Override};
 use coinmc_core::Face;
+use coinmc_recording::Encoding;
 use coinmc_robot::camera::CameraOptions;
 use coinmc_robot::cycle::Rules;
 use coinmc_robot::{
@@ -139,6 +140,15 @@ pub(super) struct Session {
     #[arg(long)]
     no_recording: bool,
 
+    /// Encoding of the recording: protobuf or json
+    #[arg(
+        long,
+        value_name = "HOW",
+        default_value_t,
+        conflicts_with = "no_recording"
+    )]
+    encoding: Encoding,
+
     /// Format of the result
     #[arg(long, value_enum, default_value_t = Format::Table)]
     pub(super) format: Format,
@@ -205,7 +215,7 @@ impl Session {
                 camera: self.camera_options(&setup, directory),
                 rules: self.rules(experiment),
                 speed: setup.speed,
-                record: !self.no_recording,
+                record: (!self.no_recording).then_some(self.encoding),
                 cancel,
                 stop,
                 wait: self.wait.map(|s| Duration::from_secs(s.into())),

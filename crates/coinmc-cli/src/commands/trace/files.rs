@@ -3,7 +3,7 @@
 use crate::exit::Failure;
 use anyhow::anyhow;
 use coinmc::plan::Plan;
-use coinmc_recording::{Compression, Error, NewFile};
+use coinmc_recording::{Compression, Encoding, Error, NewFile};
 use coinmc_report::MAX_TOSSES;
 use coinmc_trace::{Trace, svg, write_csv, write_jsonl, write_mcap, write_parquet};
 use std::io::{self, Write};
@@ -55,13 +55,14 @@ impl Files {
         self,
         plan: &Plan,
         traces: &[Trace],
+        encoding: Encoding,
         compression: Compression,
     ) -> Result<Vec<PathBuf>, Failure> {
         let mut paths = Vec::new();
         for (path, kind, mut file) in self.files {
             let out = &mut file;
             let written = match kind {
-                Kind::Mcap => write_mcap(plan, traces, compression, out),
+                Kind::Mcap => write_mcap(plan, traces, encoding, compression, out),
                 Kind::Csv => write_csv(traces, out).map_err(Error::Stream),
                 Kind::Parquet => write_parquet(plan, traces, out).map_err(Error::Stream),
                 Kind::Jsonl => write_jsonl(plan, traces, out).map_err(Error::Stream),

@@ -1,6 +1,7 @@
 //! `coinmc trace`: replaying tosses.
 
 mod files;
+mod layout;
 mod map;
 mod recover;
 mod report;
@@ -15,10 +16,11 @@ use clap::{ArgGroup, Args, Subcommand};
 use coinmc::config::{self, Override};
 use coinmc::plan::Plan;
 use coinmc::run::stored_plan;
-use coinmc_recording::Compression;
+use coinmc_recording::{Compression, Encoding};
 use coinmc_trace::replay_within;
 use coinmc_trace::{Condition, Length, MAX_RECORDS, Trace as Recorded, default_rate_hz, launch};
 use files::Files;
+use layout::Layout;
 use map::MapOf;
 use recover::Recover;
 use select::{Selected, Status};
@@ -29,6 +31,7 @@ const EXAMPLES: &str = "\
 Examples:
   coinmc trace examples/flat-fair.toml --toss 42 --show              what happened, event by event
   coinmc trace toss.toml --point 3 --toss 0,1,2 -o tosses.mcap       for a viewer of MCAP
+  coinmc trace layout > layout.json                                  … which shows it like this
   coinmc trace runs/first --where face=side --count 3 -o sides.csv   the first three on the side
   coinmc trace toss.toml --longest --rate 2000 -o long.parquet -o long.svg
   coinmc trace toss.toml --toss 42 -o toss.html                      to turn about in a browser
@@ -103,6 +106,10 @@ pub(crate) struct Trace {
     #[arg(long, requires = "show")]
     all: bool,
 
+    /// Encoding of the messages in .mcap files: protobuf or json
+    #[arg(long, value_name = "HOW", default_value_t)]
+    encoding: Encoding,
+
     /// Compression of .mcap files: none or lz4
     #[arg(long, value_name = "HOW", default_value_t = Compression::None)]
     compression: Compression,
@@ -124,6 +131,7 @@ pub(crate) struct Trace {
 enum Verb {
     Map(MapOf),
     Recover(Recover),
+    Layout(Layout),
 }
 
 /// The measure of a toss's length.
@@ -140,6 +148,7 @@ impl Trace {
         match &self.verb {
             Some(Verb::Map(map)) => map.format(),
             Some(Verb::Recover(recover)) => recover.format(),
+            Some(Verb::Layout(_)) => Format::Table,
             None => self.format,
         }
     }
@@ -148,6 +157,7 @@ impl Trace {
         match (&self.verb, &self.config) {
             (Some(Verb::Map(map)), _) => map.execute(console),
             (Some(Verb::Recover(recover)), _) => recover.execute(console),
+            (Some(Verb::Layout(layout)), _) => layout.execute(),
             (None, Some(config)) => self.trace(config, console),
             (None, None) => Err(Failure::Input(anyhow!("give a config or a run directory"))),
         }
@@ -180,7 +190,7 @@ impl Trace {
         let files = if traces.is_empty() || selected.status == Status::Interrupted {
             Vec::new()
         } else {
-            files.write(&plan, &traces, self.compression)?
+            files.write(&plan, &traces, self.encoding, self.compression)?
         };
         report::present(self, &plan, &selected, &traces, &files, console)
     }
