@@ -1,20 +1,20 @@
 //! `coinmc run`: from a config to probabilities.
 
+use crate::command_line::this_command;
 use crate::exit::{Failure, Outcome};
 use crate::interrupt;
-use crate::output::{self, Console, FORMAT_VERSION, Format};
+use crate::output::{self, Console, FORMAT_VERSION, Format, ResultFormat};
 use crate::terminal::progress::{Progress, with_prefix};
-use crate::terminal::summary::{FAIR, summary};
+use crate::terminal::summary::{FAIR, markdown, summary};
 use crate::terminal::{count, duration, grouped};
 use anyhow::Context;
 use clap::Args;
 use coinmc::config::{self, Override};
 use coinmc::plan::{MAX_EVALUATIONS, Plan, StoppedBy};
 use coinmc::published::TABLE1_SOURCE;
-use coinmc::results::{FairRatio, Row, fair_ratios};
+use coinmc::results::{FairRatio, Row, fair_ratios, write_csv};
 use coinmc::run::{Options, Part, Report, Status};
 use serde_json::{Map, Value, json};
-use std::env;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
@@ -55,8 +55,8 @@ pub(crate) struct Run {
     overrides: Vec<Override>,
 
     /// How to write the result
-    #[arg(long, value_enum, default_value_t = Format::Table)]
-    format: Format,
+    #[arg(long, value_enum, default_value_t = ResultFormat::Table)]
+    format: ResultFormat,
 
     /// Show no progress and no remarks, only warnings and errors
     #[arg(long, short)]
@@ -65,7 +65,7 @@ pub(crate) struct Run {
 
 impl Run {
     pub(crate) fn format(&self) -> Format {
-        self.format
+        self.format.of_failures()
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
@@ -98,7 +98,7 @@ impl Run {
         if !self.quiet {
             output::note(&closing_line(&report, &progress));
         }
-        present(&report, &out, console, self.quiet)
+        present(&report, &out, console, self.format, self.quiet)
     }
 
     fn default_out(&self, plan: &Plan) -> PathBuf {
@@ -120,15 +120,22 @@ pub(super) fn present(
     report: &Report,
     out: &Path,
     console: &Console,
+    format: ResultFormat,
     quiet: bool,
 ) -> Result<Outcome, Failure> {
-    let fair = fair_ratios(&report.results, FAIR);
-    match console.format() {
-        Format::Json => output::print_json(&to_json(report, &fair, out)),
-        Format::Table => {
+    let results = &report.results;
+    let fair = fair_ratios(results, FAIR);
+    match format {
+        ResultFormat::Json => output::print_json(&to_json(report, &fair, out)),
+        ResultFormat::Table => {
             let csv = out.join(csv_name(report.status));
-            output::print(&summary(&report.results, &fair, &csv, console.stdout()))
+            output::print(&summary(results, &fair, &csv, console.stdout()))
         }
+        ResultFormat::Csv => {
+            let mut text = Vec::new();
+            write_csv(results, &mut text).and_then(|()| output::print_bytes(&text))
+        }
+        ResultFormat::Markdown => output::print(&markdown(results, console.stdout())),
     }
     .map_err(|error| Failure::Runtime(error.into()))?;
     if let Some(advice) = advice(report, out).filter(|_| !quiet) {
@@ -268,21 +275,6 @@ fn short_of_target(rows: &[Row]) -> String {
     lines.join("\n")
 }
 
-/// The command line that started this process, for a shell.
-fn this_command() -> String {
-    let words = env::args_os().map(|word| quoted(&word.to_string_lossy()));
-    words.collect::<Vec<_>>().join(" ")
-}
-
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_alphanumeric() || "-_./=:,+@%".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', r"'\''"))
-    }
-}
-
 /// The document of `--format json`; docs/reference/formats.md describes it.
 fn to_json(report: &Report, fair: &[FairRatio], out: &Path) -> Value {
     let mut table = report.results.to_json();
@@ -392,14 +384,5 @@ mod tests {
         rows[0].stopped_by = StoppedBy::Targets;
         let text = short_of_target(&rows);
         assert!(!text.contains("total_tosses"), "{text}");
-    }
-
-    #[test]
-    fn words_are_quoted_only_where_a_shell_needs_it() {
-        assert_eq!(quoted("--set=coin.ratio=1.2"), "--set=coin.ratio=1.2");
-        assert_eq!(quoted("a b"), "'a b'");
-        assert_eq!(quoted("it's"), r"'it'\''s'");
-        assert_eq!(quoted(""), "''");
-        assert_eq!(quoted("[1, 2]"), "'[1, 2]'");
     }
 }
