@@ -1,14 +1,17 @@
 """The recorded motion of one toss."""
 
+import os
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from coinmc import _lib
 from coinmc._codes import Face
 from coinmc._config import Config, ConfigLike, as_config, plan_of
-from coinmc._launches import STATE, as_launches, natural, rows
+from coinmc._launches import STATE, LaunchesLike, as_launches, natural, rows
+from coinmc._table import ArrowTable, flattened
 
 __all__ = ["EVENT", "SAMPLE", "Trace", "trace"]
 
@@ -31,8 +34,10 @@ SAMPLE = np.dtype(_FIELDS)
 EVENT = np.dtype([*_FIELDS, ("kind", "U8")])
 
 
-class Trace:
+class Trace(ArrowTable):
     """The recorded motion of a toss. Made by `trace`.
+
+    Libraries that support Arrow read its samples as a table: ``polars.DataFrame(trace)``.
 
     Attributes
     ----------
@@ -62,6 +67,8 @@ class Trace:
     """
 
     __slots__ = (
+        "_config",
+        "_row",
         "complete",
         "contact_steps",
         "engine",
@@ -78,8 +85,15 @@ class Trace:
     )
 
     def __init__(
-        self, config: Config, point: int, toss: int | None, recorded: dict[str, Any]
+        self,
+        config: Config,
+        point: int,
+        toss: int | None,
+        row: NDArray[np.float64] | None,
+        recorded: dict[str, Any],
     ) -> None:
+        self._config = config
+        self._row = row
         self.point = point
         self.toss = toss
         self.scene = config.scene(point)._asdict()
@@ -94,6 +108,34 @@ class Trace:
         self.complete = recorded["samples_until_s"] is None and recorded["events_until_s"] is None
         self.samples = _records(recorded["samples"], SAMPLE)
         self.events = _records(recorded["events"], EVENT)
+
+    @property
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """The samples as columns of a table, one per component: ``position_x_m``."""
+        return flattened(self.samples)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Save the trace as ``coinmc trace -o`` does.
+
+        Parameters
+        ----------
+        path : path
+            A new file: ``.mcap`` (for Foxglove), ``.csv``, ``.parquet``, ``.jsonl`` or ``.svg``.
+
+        Raises
+        ------
+        FileExistsError
+            If the file exists.
+        OSError
+            If it cannot be written.
+
+        Examples
+        --------
+        >>> import coinmc
+        >>> coinmc.trace("examples/first.toml", 7).save("toss.mcap")
+        """
+        plan = plan_of(self._config)
+        _lib.save_trace(plan, self.point, self.toss or 0, self._row, self.rate_hz, os.fspath(path))
 
     @property
     def duration_s(self) -> float:
@@ -116,7 +158,7 @@ def trace(
     config: ConfigLike,
     toss: int = 0,
     *,
-    launch: np.ndarray | None = None,
+    launch: LaunchesLike | None = None,
     point: int = 0,
     rate_hz: float | None = 240.0,
     overrides: Mapping[str, Any] | None = None,
@@ -129,8 +171,8 @@ def trace(
         The config.
     toss : int, optional
         Index of the toss.
-    launch : ndarray of `LAUNCH` with one element, optional
-        Your own launch, instead of a toss by its index.
+    launch : ndarray of `LAUNCH` with one element or dict of arrays, optional
+        Your own launch, instead of a toss by its index; the config then needs no ``[launch]``.
     point : int, optional
         Index of the point in the sweep.
     rate_hz : float or None, optional
@@ -158,8 +200,11 @@ def trace(
     >>> bool(trace.face == coinmc.toss(scene, 1, first=42).face[0])
     True
     """
-    config = as_config(config, overrides)
     toss, point = natural(toss, "toss"), natural(point, "point")
+    absent: dict[str, Any] = {"stop.tosses": toss + 1}
+    if launch is not None:
+        absent["launch.preset"] = "robot"
+    config = as_config(config, overrides, absent)
     row = None
     if launch is not None:
         launches = as_launches(launch)
@@ -168,10 +213,10 @@ def trace(
         row = rows(launches)[0]
     rate = None if rate_hz is None else float(rate_hz)
     recorded = _lib.trace(plan_of(config), point, toss, row, rate)
-    return Trace(config, point, None if launch is not None else toss, recorded)
+    return Trace(config, point, None if launch is not None else toss, row, recorded)
 
 
-def _records(columns: dict[str, Any], dtype: np.dtype) -> np.ndarray:
+def _records(columns: dict[str, Any], dtype: np.dtype[np.void]) -> NDArray[np.void]:
     records = np.empty(len(columns["time_s"]), dtype)
     for at, name in enumerate(STATE.names):
         records[name] = columns["state"][:, 3 * at : 3 * at + 3]

@@ -4,10 +4,11 @@
 //! # Files
 //! `plan` configs · `supervise` long work, signals and progress · `share` threads · `launch`
 //! launches as rows of numbers · `columns` and `toss` individual tosses · `run` estimates and runs
-//! · `results` tables, also as Arrow · `interval` intervals of proportions · `trace` recorded
-//! motion of a toss · `question`, `fair`, `design`, `aim`,
+//! · `results` tables, also as Arrow · `pickled` the same as plain values · `table` any columns as
+//! Arrow · `interval` intervals of proportions · `trace` recorded motion of a toss · `question`, `fair`, `design`, `aim`,
 //! `ranking`, `rare`, `compare` questions ·
-//! `analytic` closed forms · `film` drops on film · `errors` exceptions.
+//! `analytic` closed forms · `film` drops on film · `command` the command line · `errors`
+//! exceptions.
 
 // Arguments converted from Python are owned.
 #![allow(clippy::needless_pass_by_value)]
@@ -15,6 +16,7 @@
 mod aim;
 mod analytic;
 mod columns;
+mod command;
 mod compare;
 mod design;
 mod errors;
@@ -22,6 +24,7 @@ mod fair;
 mod film;
 mod interval;
 mod launch;
+mod pickled;
 mod plan;
 mod question;
 mod ranking;
@@ -30,6 +33,7 @@ mod results;
 mod run;
 mod share;
 mod supervise;
+mod table;
 mod toss;
 mod trace;
 
@@ -43,6 +47,8 @@ mod _lib {
     #[pymodule_export]
     use super::analytic::{closed_form, no_bounce_rule};
     #[pymodule_export]
+    use super::command::main;
+    #[pymodule_export]
     use super::compare::compare;
     #[pymodule_export]
     use super::design::design;
@@ -52,6 +58,8 @@ mod _lib {
     use super::film::{fit_film, read_film};
     #[pymodule_export]
     use super::interval::{inverse_normal_cdf, wilson};
+    #[pymodule_export]
+    use super::pickled::unpickled;
     #[pymodule_export]
     use super::plan::Plan;
     #[pymodule_export]
@@ -63,9 +71,11 @@ mod _lib {
     #[pymodule_export]
     use super::run::{estimate, open, run};
     #[pymodule_export]
+    use super::table::arrow_stream;
+    #[pymodule_export]
     use super::toss::{launches, toss};
     #[pymodule_export]
-    use super::trace::trace;
+    use super::trace::{save_trace, trace};
     use pyo3::prelude::*;
 
     #[pymodule_init]

@@ -1,10 +1,11 @@
 //! The table of results for Python: as NumPy arrays, and as Arrow without copying.
 
 use crate::errors;
+use crate::pickled::{Plain, plain};
+use crate::table::stream;
 use arrow_array::cast::AsArray;
-use arrow_array::ffi_stream::FFI_ArrowArrayStream;
 use arrow_array::types::{Float64Type, UInt64Type};
-use arrow_array::{Array, ArrayRef, RecordBatch, RecordBatchIterator};
+use arrow_array::{Array, ArrayRef, RecordBatch};
 use arrow_schema::DataType;
 use coinmc::results::{FairRatio, Results as Table, fair_values, record_batch};
 use coinmc::run::{Report, Status};
@@ -13,16 +14,13 @@ use numpy::IntoPyArray;
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyDict};
 
-/// Name of stream capsules in the Arrow PyCapsule interface.
-const STREAM: &std::ffi::CStr = c"arrow_array_stream";
-
 /// The results of a run or an estimate.
 #[pyclass(frozen, module = "coinmc._lib")]
 pub(crate) struct Results {
     table: Table,
     batch: RecordBatch,
-    status: Status,
-    tosses: u64,
+    pub(crate) status: Status,
+    pub(crate) tosses: u64,
 }
 
 /// A crossing: the other parameters, engine, law, value, its interval, confidence, rising.
@@ -52,6 +50,15 @@ impl Results {
     pub(crate) fn table(&self) -> &Table {
         &self.table
     }
+
+    pub(crate) fn status_name(&self) -> &'static str {
+        match self.status {
+            Status::Complete => "complete",
+            Status::Interrupted => "interrupted",
+            Status::Part => "part",
+            Status::ShortOfTarget { .. } => "short",
+        }
+    }
 }
 
 #[pymethods]
@@ -68,12 +75,12 @@ impl Results {
     /// `complete`, `interrupted`, `part` or `short`.
     #[getter]
     fn status(&self) -> &'static str {
-        match self.status {
-            Status::Complete => "complete",
-            Status::Interrupted => "interrupted",
-            Status::Part => "part",
-            Status::ShortOfTarget { .. } => "short",
-        }
+        self.status_name()
+    }
+
+    /// Plain values, from which [`unpickled`](crate::pickled::unpickled) makes the results again.
+    fn plain(&self) -> Plain {
+        plain(self)
     }
 
     #[getter]
@@ -133,10 +140,7 @@ impl Results {
         requested_schema: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyCapsule>> {
         let _ = requested_schema;
-        // arrays are shared, not copied
-        let batches = RecordBatchIterator::new([Ok(self.batch.clone())], self.batch.schema());
-        let stream = FFI_ArrowArrayStream::new(Box::new(batches));
-        PyCapsule::new_with_value(py, stream, STREAM)
+        stream(py, &self.batch)
     }
 
     /// Where the probability of a face crosses a target along a swept parameter.

@@ -1,12 +1,13 @@
 """Fits of impact laws to drops."""
 
+import warnings
 from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from coinmc import _lib
-from coinmc._config import ConfigLike, as_config, plan_of
+from coinmc._config import Config, ConfigLike, as_config, plan_of
 from coinmc._launches import natural
 from coinmc.film._drop import Drop
 
@@ -264,11 +265,36 @@ def fit(
         (drop.name, drop.time_s, np.column_stack([drop.x_m, drop.z_m, drop.theta_rad]))
         for drop in drops
     ]
-    config = None if coin is None else plan_of(as_config(coin))
-    fits = [Fit(fields) for fields in _lib.fit_film(films, options, config)]
+    config = None if coin is None else as_config(coin)
+    if config is not None:
+        _warn_of_other_coins(config, given=(ratio, radius_m, gravity_m_s2))
+    plan = None if config is None else plan_of(config)
+    fits = [Fit(fields) for fields in _lib.fit_film(films, options, plan)]
     for fit_of_law in fits:
         fit_of_law.all = fits
     return fits[0]
+
+
+def _warn_of_other_coins(config: Config, given: Sequence[float | None]) -> None:
+    """Warn if the config is a sweep over coins: that of the film may not be the first."""
+    scenes = [config.scene(point) for point in range(len(config))]
+    swept = [
+        f"{name} = {first:g}"
+        for name, value, first in zip(
+            ("ratio", "radius_m", "gravity_m_s2"),
+            given,
+            (scenes[0].ratio, scenes[0].radius_m, scenes[0].gravity_m_s2),
+            strict=True,
+        )
+        if value is None and len({getattr(scene, name) for scene in scenes}) > 1
+    ]
+    if swept:
+        warnings.warn(
+            f"the config has several coins: this fit is for the first, {', '.join(swept)}; if "
+            "another was filmed, give it",
+            UserWarning,
+            stacklevel=3,
+        )
 
 
 def compare(fits: Iterable[Fit]) -> list[Ranked]:
