@@ -94,20 +94,22 @@ class Trace(ArrowTable):
     ) -> None:
         self._config = config
         self._row = row
-        self.point = point
-        self.toss = toss
-        self.scene = config.scene(point)._asdict()
+        self.point: int = point
+        self.toss: int | None = toss
+        self.scene: dict[str, float] = config.scene(point)._asdict()
         self.engine: str = recorded["engine"]
         self.rate_hz: float = recorded["rate_hz"]
         self.outcome: str = recorded["outcome"]
         left = self.outcome == "left"
-        self.face = Face.LEFT if left else Face[(recorded["face"] or "undecided").upper()]
+        self.face: Face = Face.LEFT if left else Face[(recorded["face"] or "undecided").upper()]
         self.impacts: int = recorded["impacts"]
         self.contact_steps: int = recorded["contact_steps"]
         self.jams: int = recorded["jams"]
-        self.complete = recorded["samples_until_s"] is None and recorded["events_until_s"] is None
-        self.samples = _records(recorded["samples"], SAMPLE)
-        self.events = _records(recorded["events"], EVENT)
+        self.complete: bool = (
+            recorded["samples_until_s"] is None and recorded["events_until_s"] is None
+        )
+        self.samples: NDArray[np.void] = _records(recorded["samples"], SAMPLE)
+        self.events: NDArray[np.void] = _records(recorded["events"], EVENT)
 
     @property
     def columns(self) -> dict[str, NDArray[Any]]:

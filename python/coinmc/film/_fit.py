@@ -5,6 +5,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from coinmc import _lib
 from coinmc._config import Config, ConfigLike, as_config, plan_of
@@ -154,11 +155,13 @@ class Fit:
 
     def __init__(self, fields: dict[str, Any]) -> None:
         self.law: str = fields["law"]
-        self.parameters = {row[0]: Parameter(*row) for row in fields["parameters"]}
+        self.parameters: dict[str, Parameter] = {
+            row[0]: Parameter(*row) for row in fields["parameters"]
+        }
         self.values: dict[str, float] = dict(fields["values"])
-        self.noise = [Noise(*row) for row in fields["noise"]]
-        self.drops = [FittedDrop(*row) for row in fields["drops"]]
-        self.residuals = _residuals(fields["residuals"])
+        self.noise: list[Noise] = [Noise(*row) for row in fields["noise"]]
+        self.drops: list[FittedDrop] = [FittedDrop(*row) for row in fields["drops"]]
+        self.residuals: NDArray[np.void] = _residuals(fields["residuals"])
         self.remarks: list[str] = fields["remarks"]
         self.n: int = fields["n"]
         self.fitted: int = fields["fitted"]
@@ -166,7 +169,7 @@ class Fit:
         self.aic: float = fields["aic"]
         self.bic: float = fields["bic"]
         self.confidence: float = fields["confidence"]
-        self.all = [self]
+        self.all: list[Fit] = [self]
         self._rank = Ranked(self.law, *(fields[name] for name in Ranked._fields[1:]))
 
     def compare(self) -> list[Ranked]:
@@ -306,7 +309,7 @@ def _number(value: float | None) -> float | None:
     return None if value is None else float(value)
 
 
-def _residuals(columns: dict[str, np.ndarray]) -> np.ndarray:
+def _residuals(columns: dict[str, NDArray[Any]]) -> NDArray[np.void]:
     residuals = np.empty(len(columns["time_s"]), RESIDUAL)
     for name in RESIDUAL.names:
         residuals[name] = _COORDINATES[columns[name]] if name == "coordinate" else columns[name]

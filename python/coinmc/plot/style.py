@@ -75,10 +75,10 @@ class Palette:
         def on(colour: str) -> str:
             return _LIGHT.get(colour, colour) if dark else colour
 
-        self.dark = dark
-        self.faces = {face: on(colour) for face, colour in FACES.items()}
-        self.modes = {mode: on(colour) for mode, colour in MODES.items()}
-        self.cycle = [on(colour) for colour in CYCLE]
+        self.dark: bool = dark
+        self.faces: dict[str, str] = {face: on(colour) for face, colour in FACES.items()}
+        self.modes: dict[str, str] = {mode: on(colour) for mode, colour in MODES.items()}
+        self.cycle: list[str] = [on(colour) for colour in CYCLE]
 
 
 def colours(ax: Any) -> Palette:
