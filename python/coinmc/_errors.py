@@ -42,7 +42,7 @@ class Error(Exception):
 class _Diagnosed(Error, ValueError):
     def __init__(self, message: str, problems: "list[tuple] | tuple[()]" = ()) -> None:
         super().__init__(message)
-        self.problems = [Problem(*problem) for problem in problems]
+        self.problems: list[Problem] = [Problem(*problem) for problem in problems]
 
     def __reduce__(self):  # exceptions can be pickled
         return type(self), (str(self), [tuple(problem) for problem in self.problems])

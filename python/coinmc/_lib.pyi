@@ -11,6 +11,11 @@ __version__: str
 __build__: str
 
 _Progress = Callable[[int, int], None] | None
+_Columns = (
+    NDArray[np.uint8]
+    | tuple[NDArray[np.uint8], NDArray[np.uint8], NDArray[np.uint32]]
+    | tuple[NDArray[np.float64], NDArray[np.float64]]
+)
 
 @final
 class Plan:
@@ -87,6 +92,7 @@ class Results:
     def __len__(self) -> int: ...
     def describe(self) -> list[tuple[str, str, str]]: ...
     def columns(self) -> dict[str, NDArray[Any] | list[str]]: ...
+    def plain(self) -> tuple[Any, ...]: ...
     def __arrow_c_stream__(self, requested_schema: object = None) -> object: ...
     def fair(
         self, target: float, face: str, along: str
@@ -95,6 +101,7 @@ class Results:
     ]: ...
 
 def aim(asked: dict[str, Any], progress: _Progress = None) -> str: ...
+def arrow_stream(columns: list[tuple[str, str, str, Any]], metadata: dict[str, str]) -> object: ...
 def compare(counts: list[int], results: list[tuple[str, Results]], confidence: float) -> str: ...
 def design(
     asked: dict[str, Any], progress: _Progress = None
@@ -114,6 +121,8 @@ def map_page(
 ) -> str: ...
 def frame(page: str, height_px: int) -> str: ...
 def scenes() -> list[tuple[str, str]]: ...
+def main(arguments: list[str]) -> int: ...
+def unpickled(plan: Plan, plain: tuple[Any, ...]) -> Results: ...
 def no_bounce_rule(engine: str) -> str | None: ...
 def closed_form(
     name: str, arguments: list[NDArray[np.float64]], out: NDArray[np.float64]
@@ -133,13 +142,17 @@ def toss(
     point: int,
     first: int,
     rows: NDArray[np.float64] | None,
-    face: NDArray[np.uint8],
-    details: tuple[NDArray[np.uint8], NDArray[np.uint32], NDArray[np.float64], NDArray[np.float64]]
-    | None = None,
+    columns: _Columns,
     threads: int | None = None,
     progress: _Progress = None,
 ) -> None: ...
-def launches(plan: Plan, point: int, first: int, rows: NDArray[np.float64]) -> None: ...
+def launches(
+    plan: Plan,
+    point: int,
+    first: int,
+    rows: NDArray[np.float64],
+    threads: int | None = None,
+) -> None: ...
 def wilson(
     successes: int, undecided: int, n: int, confidence: float
 ) -> tuple[float, float, float]: ...
@@ -151,6 +164,14 @@ def trace(
     row: NDArray[np.float64] | None = None,
     rate_hz: float | None = None,
 ) -> dict[str, Any]: ...
+def save_trace(
+    plan: Plan,
+    point: int,
+    toss: int,
+    row: NDArray[np.float64] | None,
+    rate_hz: float | None,
+    path: str | os.PathLike[str],
+) -> None: ...
 def read_film(name: str, bytes: bytes, options: dict[str, Any]) -> dict[str, Any]: ...
 def fit_film(
     drops: list[tuple[str, NDArray[np.float64], NDArray[np.float64]]],

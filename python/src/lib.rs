@@ -4,10 +4,10 @@
 //! # Files
 //! `plan` configs · `supervise` long work, signals and progress · `share` threads · `launch`
 //! launches as rows of numbers · `columns` and `toss` individual tosses · `run` estimates and runs
-//! · `results` and `throws` tables, `arrow` tables for Python · `interval` intervals of proportions · `trace` recorded
-//! motion of a toss · `question`, `fair`, `design`, `aim`,
-//! `ranking`, `rare`, `compare` questions · `report` pages ·
-//! `analytic` closed forms · `film` drops on film · `errors` exceptions.
+//! · `results` and `throws` tables, `arrow` tables for Python · `pickled` results as plain values · `table` any
+//! columns as Arrow · `interval` intervals of proportions · `trace` recorded motion of a toss · `question`, `fair`,
+//! `design`, `aim`, `ranking`, `rare`, `compare` questions · `report` pages · `analytic` closed forms · `film` drops on
+//! film · `command` the command line · `errors` exceptions.
 
 // Arguments converted from Python are owned.
 #![allow(clippy::needless_pass_by_value)]
@@ -16,6 +16,7 @@ mod aim;
 mod analytic;
 mod arrow;
 mod columns;
+mod command;
 mod compare;
 mod design;
 mod errors;
@@ -23,6 +24,7 @@ mod fair;
 mod film;
 mod interval;
 mod launch;
+mod pickled;
 mod plan;
 mod question;
 mod ranking;
@@ -32,6 +34,7 @@ mod results;
 mod run;
 mod share;
 mod supervise;
+mod table;
 #[cfg(unix)]
 mod throws;
 mod toss;
@@ -47,6 +50,8 @@ mod _lib {
     #[pymodule_export]
     use super::analytic::{closed_form, no_bounce_rule};
     #[pymodule_export]
+    use super::command::main;
+    #[pymodule_export]
     use super::compare::compare;
     #[pymodule_export]
     use super::design::design;
@@ -56,6 +61,8 @@ mod _lib {
     use super::film::{fit_film, read_film};
     #[pymodule_export]
     use super::interval::{inverse_normal_cdf, wilson};
+    #[pymodule_export]
+    use super::pickled::unpickled;
     #[pymodule_export]
     use super::plan::Plan;
     #[pymodule_export]
@@ -72,9 +79,11 @@ mod _lib {
     #[pymodule_export]
     use super::throws::Throws;
     #[pymodule_export]
+    use super::table::arrow_stream;
+    #[pymodule_export]
     use super::toss::{launches, toss};
     #[pymodule_export]
-    use super::trace::trace;
+    use super::trace::{save_trace, trace};
     use pyo3::prelude::*;
 
     #[pymodule_init]

@@ -1,5 +1,6 @@
 //! The table of results for Python: as NumPy arrays, and as Arrow without copying.
 
+use crate::pickled::{Plain, plain};
 use crate::{arrow, errors};
 use arrow_array::RecordBatch;
 use coinmc::results::{FairRatio, Results as Table, fair_values, record_batch};
@@ -13,8 +14,8 @@ use pyo3::types::{PyCapsule, PyDict};
 pub(crate) struct Results {
     table: Table,
     batch: RecordBatch,
-    status: Status,
-    tosses: u64,
+    pub(crate) status: Status,
+    pub(crate) tosses: u64,
 }
 
 /// A crossing: the other parameters, engine, law, value, its interval, confidence, rising.
@@ -54,6 +55,15 @@ impl Results {
             tosses: self.tosses,
         }
     }
+
+    pub(crate) fn status_name(&self) -> &'static str {
+        match self.status {
+            Status::Complete => "complete",
+            Status::Interrupted => "interrupted",
+            Status::Part => "part",
+            Status::ShortOfTarget { .. } => "short",
+        }
+    }
 }
 
 #[pymethods]
@@ -70,12 +80,12 @@ impl Results {
     /// `complete`, `interrupted`, `part` or `short`.
     #[getter]
     fn status(&self) -> &'static str {
-        match self.status {
-            Status::Complete => "complete",
-            Status::Interrupted => "interrupted",
-            Status::Part => "part",
-            Status::ShortOfTarget { .. } => "short",
-        }
+        self.status_name()
+    }
+
+    /// Plain values, from which [`unpickled`](crate::pickled::unpickled) makes the results again.
+    fn plain(&self) -> Plain {
+        plain(self)
     }
 
     #[getter]

@@ -11,7 +11,6 @@ use crate::commands::{
 use crate::exit::{Failure, Outcome};
 use crate::output::{Console, Format};
 use clap::{ColorChoice, CommandFactory, Parser, Subcommand};
-use std::process::ExitCode;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -75,12 +74,12 @@ enum Command {
 
 impl Arguments {
     /// Executes the command and reports failures; returns the exit status.
-    pub(crate) fn execute(self) -> ExitCode {
+    pub(crate) fn execute(self) -> u8 {
         let format = self.command.format();
         let console = Console::new(self.color, format);
         match self.command.execute(&console) {
             Ok(outcome) => outcome.into(),
-            Err(failure) => failure.report(&console).into(),
+            Err(failure) => failure.report(&console),
         }
     }
 }

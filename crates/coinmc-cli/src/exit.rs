@@ -10,7 +10,6 @@ use coinmc_questions::{DesignError, QuestionError};
 use coinmc_recording::Error as RecordingError;
 use coinmc_trace::TraceError;
 use serde_json::{Value, json};
-use std::process::ExitCode;
 
 /// Ways to end without a failure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,20 +40,21 @@ pub(crate) enum Failure {
 }
 
 /// Exit codes; `arguments.rs` documents them for users.
+const DONE: u8 = 0;
 const FAILED: u8 = 1;
-const BAD_INPUT: u8 = 2;
+pub(crate) const BAD_INPUT: u8 = 2;
 const SHORT_OF_TARGET: u8 = 3;
 #[cfg(feature = "robot")]
 const HALTED: u8 = 4;
 /// 128 + SIGINT, as shells report it. Also the code of a second Ctrl-C.
 pub(crate) const INTERRUPTED: u8 = 130;
 
-impl From<Outcome> for ExitCode {
+impl From<Outcome> for u8 {
     fn from(outcome: Outcome) -> Self {
         match outcome {
-            Outcome::Done => Self::SUCCESS,
-            Outcome::ShortOfTarget => Self::from(SHORT_OF_TARGET),
-            Outcome::Interrupted => Self::from(INTERRUPTED),
+            Outcome::Done => DONE,
+            Outcome::ShortOfTarget => SHORT_OF_TARGET,
+            Outcome::Interrupted => INTERRUPTED,
         }
     }
 }

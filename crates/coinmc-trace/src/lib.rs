@@ -7,7 +7,8 @@
 //!
 //! * [`replay()`] repeats a toss and returns its [`Trace`]; [`record()`] does the same for any launch.
 //! * [`search()`] finds tosses by how they end.
-//! * [`write_csv`], [`write_parquet`], [`write_jsonl`], [`write_mcap`] and [`svg`] write traces.
+//! * [`write_csv`], [`write_parquet`], [`write_jsonl`], [`write_mcap`] and [`svg`] write traces;
+//!   [`FileKind`] chooses by the name of a file.
 //! * [`Recorder`] is the observer that records; it works with any engine.
 //!
 //! States between events are computed by the engine itself (in flight in closed form, in contact by a
@@ -18,6 +19,7 @@ mod condition;
 mod csv;
 mod end;
 mod error;
+mod file;
 mod jsonl;
 mod mcap;
 #[cfg(feature = "parquet")]
@@ -37,6 +39,7 @@ pub use condition::{Condition, ConditionError};
 pub use csv::write_csv;
 pub use end::{EndKind, outcome_name};
 pub use error::TraceError;
+pub use file::{FileKind, UnknownKind};
 pub use jsonl::write_jsonl;
 pub use mcap::{LAYOUT, write_mcap};
 #[cfg(feature = "parquet")]

@@ -1,22 +1,22 @@
 //! `coinmc run`: from a config to probabilities.
 
 use super::report::Page;
+use crate::command_line::this_command;
 use crate::exit::{Failure, Outcome};
 use crate::interrupt;
-use crate::output::{self, Console, FORMAT_VERSION, Format};
+use crate::output::{self, Console, FORMAT_VERSION, Format, ResultFormat};
 use crate::terminal::plot::Plotted;
 use crate::terminal::progress::{Progress, with_prefix};
-use crate::terminal::summary::{FAIR, summary};
+use crate::terminal::summary::{FAIR, markdown, summary};
 use crate::terminal::{count, duration, grouped};
 use anyhow::Context;
 use clap::Args;
 use coinmc::config::{self, Override};
 use coinmc::plan::{MAX_EVALUATIONS, Plan, StoppedBy};
 use coinmc::published::TABLE1_SOURCE;
-use coinmc::results::{FairRatio, Row, fair_ratios};
+use coinmc::results::{FairRatio, Row, fair_ratios, write_csv};
 use coinmc::run::{Options, Part, Report, Status};
 use serde_json::{Map, Value, json};
-use std::env;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
@@ -66,8 +66,8 @@ pub(crate) struct Run {
     report: Option<Option<PathBuf>>,
 
     /// How to write the result
-    #[arg(long, value_enum, default_value_t = Format::Table)]
-    format: Format,
+    #[arg(long, value_enum, default_value_t = ResultFormat::Table)]
+    format: ResultFormat,
 
     /// Show no progress and no remarks, only warnings and errors
     #[arg(long, short)]
@@ -76,7 +76,7 @@ pub(crate) struct Run {
 
 impl Run {
     pub(crate) fn format(&self) -> Format {
-        self.format
+        self.format.of_failures()
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
@@ -113,7 +113,7 @@ impl Run {
         if !self.quiet {
             output::note(&closing_line(&report, &progress));
         }
-        let outcome = present(&report, &out, &self.plot, console, self.quiet)?;
+        let outcome = present(&report, &out, &self.plot, console, self.format, self.quiet)?;
         if let Some(file) = &self.report {
             let file = file.clone().unwrap_or_else(|| out.join("report.html"));
             self.make_page(&file, &out)?;
@@ -156,9 +156,10 @@ pub(super) fn present(
     out: &Path,
     plotted: &Plotted,
     console: &Console,
+    format: ResultFormat,
     quiet: bool,
 ) -> Result<Outcome, Failure> {
-    show(report, out, plotted, console)?;
+    show(report, out, plotted, console, format)?;
     if let Some(advice) = advice(report, out).filter(|_| !quiet) {
         output::note(&advice);
     }
@@ -175,15 +176,21 @@ pub(super) fn show(
     out: &Path,
     plotted: &Plotted,
     console: &Console,
+    format: ResultFormat,
 ) -> Result<(), Failure> {
-    let fair = fair_ratios(&report.results, FAIR);
-    match console.format() {
-        Format::Json => output::print_json(&to_json(report, &fair, out)),
-        Format::Table => {
+    let results = &report.results;
+    let fair = fair_ratios(results, FAIR);
+    match format {
+        ResultFormat::Json => output::print_json(&to_json(report, &fair, out)),
+        ResultFormat::Table => {
             let csv = out.join(csv_name(report.status));
-            let text = summary(&report.results, &fair, &csv, plotted, console.stdout());
-            output::print(&text)
+            output::print(&summary(results, &fair, &csv, plotted, console.stdout()))
         }
+        ResultFormat::Csv => {
+            let mut text = Vec::new();
+            write_csv(results, &mut text).and_then(|()| output::print_bytes(&text))
+        }
+        ResultFormat::Markdown => output::print(&markdown(results, console.stdout())),
     }
     .map_err(|error| Failure::Runtime(error.into()))
 }
@@ -315,21 +322,6 @@ fn short_of_target(rows: &[Row]) -> String {
     lines.join("\n")
 }
 
-/// The command line that started this process, for a shell.
-fn this_command() -> String {
-    let words = env::args_os().map(|word| quoted(&word.to_string_lossy()));
-    words.collect::<Vec<_>>().join(" ")
-}
-
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_alphanumeric() || "-_./=:,+@%".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', r"'\''"))
-    }
-}
-
 /// The document of `--format json`; docs/reference/formats.md describes it.
 fn to_json(report: &Report, fair: &[FairRatio], out: &Path) -> Value {
     let mut table = report.results.to_json();
@@ -439,14 +431,5 @@ mod tests {
         rows[0].stopped_by = StoppedBy::Targets;
         let text = short_of_target(&rows);
         assert!(!text.contains("total_tosses"), "{text}");
-    }
-
-    #[test]
-    fn words_are_quoted_only_where_a_shell_needs_it() {
-        assert_eq!(quoted("--set=coin.ratio=1.2"), "--set=coin.ratio=1.2");
-        assert_eq!(quoted("a b"), "'a b'");
-        assert_eq!(quoted("it's"), r"'it'\''s'");
-        assert_eq!(quoted(""), "''");
-        assert_eq!(quoted("[1, 2]"), "'[1, 2]'");
     }
 }

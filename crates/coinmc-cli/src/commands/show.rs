@@ -3,7 +3,7 @@
 use super::report::unreadable;
 use super::run::show;
 use crate::exit::{Failure, Outcome};
-use crate::output::{self, Console, Format};
+use crate::output::{self, Console, Format, ResultFormat};
 use crate::terminal::count;
 use crate::terminal::plot::Plotted;
 use crate::terminal::progress::Progress;
@@ -32,20 +32,20 @@ pub(crate) struct Show {
     plot: Plotted,
 
     /// How to write the result
-    #[arg(long, value_enum, default_value_t = Format::Table)]
-    format: Format,
+    #[arg(long, value_enum, default_value_t = ResultFormat::Table)]
+    format: ResultFormat,
 }
 
 impl Show {
     pub(crate) fn format(&self) -> Format {
-        self.format
+        self.format.of_failures()
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let progress = Progress::new(*console.stderr(), true);
         let (plan, report) = stored_report(&self.run, &progress).map_err(unreadable)?;
         self.plot.check(&plan.axes).map_err(Failure::Input)?;
-        show(&report, &self.run, &self.plot, console)?;
+        show(&report, &self.run, &self.plot, console, self.format)?;
         let rows = &report.results.rows;
         let done = rows
             .iter()

@@ -188,6 +188,20 @@ impl Row {
         }
     }
 
+    /// The method of intervals of this name, as in [`interval`](Self::interval).
+    pub fn interval_named(name: &str) -> Option<&'static str> {
+        estimates::INTERVALS
+            .into_iter()
+            .find(|known| *known == name)
+    }
+
+    /// The way of drawing launches of this name, as in [`sampling`](Self::sampling).
+    pub fn sampling_named(name: &str) -> Option<&'static str> {
+        estimates::SAMPLINGS
+            .into_iter()
+            .find(|known| *known == name)
+    }
+
     /// The parameter of this name.
     pub fn parameter(&self, name: &str) -> Option<f64> {
         self.parameters

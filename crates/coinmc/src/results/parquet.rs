@@ -22,7 +22,8 @@ const GROUP: usize = 1 << 16;
 /// Those of `out`.
 pub fn write_parquet(results: &Results, out: &mut (dyn Write + Send)) -> io::Result<()> {
     let columns = columns_of(results);
-    let schema = Arc::new(Schema::new(columns.iter().map(field).collect::<Vec<_>>()));
+    // in the schema for those who read Arrow's, in the file for others
+    let schema = Arc::new(schema(results, &columns));
     let properties = WriterProperties::builder()
         .set_created_by(format!("coinmc {}", results.program_version))
         .set_compression(Compression::SNAPPY)
@@ -47,11 +48,16 @@ pub fn write_parquet(results: &Results, out: &mut (dyn Write + Send)) -> io::Res
 /// [`ArrowError`] if the table is beyond what Arrow can hold.
 pub fn record_batch(results: &Results) -> Result<RecordBatch, ArrowError> {
     let columns = columns_of(results);
+    let schema = schema(results, &columns);
+    batch(&Arc::new(schema), &columns, &results.rows)
+}
+
+/// The schema, with what the table says of itself.
+fn schema(results: &Results, columns: &[Column]) -> Schema {
     let entries = metadata(results).into_iter();
     let entries = entries.filter_map(|entry| Some((entry.key, entry.value?)));
     let fields: Vec<_> = columns.iter().map(field).collect();
-    let schema = Schema::new_with_metadata(fields, entries.collect::<HashMap<_, _>>());
-    batch(&Arc::new(schema), &columns, &results.rows)
+    Schema::new_with_metadata(fields, entries.collect::<HashMap<_, _>>())
 }
 
 fn batch(

@@ -46,6 +46,10 @@ pub(crate) struct Check {
     #[arg(long = "set", value_name = "KEY=VALUE")]
     overrides: Vec<Override>,
 
+    /// Print the whole config as it is understood, with every default and preset spelled out, as TOML
+    #[arg(long, conflicts_with = "format")]
+    defaults: bool,
+
     /// How to write the plan
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
@@ -58,6 +62,11 @@ impl Check {
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let plan = config::load(&self.config, &self.overrides)?;
+        if self.defaults {
+            let printed = output::print(&plan.resolved_toml);
+            printed.map_err(|error| Failure::Runtime(error.into()))?;
+            return Ok(Outcome::Done);
+        }
         let cost = calibration::estimate(&plan)?;
         let rare = self.rare(&plan, &cost)?;
         match self.format {

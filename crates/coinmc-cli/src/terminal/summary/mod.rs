@@ -50,8 +50,38 @@ pub(crate) fn summary(
     parts.join("\n")
 }
 
+/// The table of the points as Markdown, whole.
+pub(crate) fn markdown(results: &Results, style: &Style) -> String {
+    points(results, style, 0).markdown()
+}
+
 /// One row per point.
 fn table(results: &Results, csv: &Path, style: &Style) -> String {
+    let rows = &results.rows;
+    let hidden = if rows.len() > LONG && !style.whole {
+        rows.len() - 2 * END
+    } else {
+        0
+    };
+    let rendered = points(results, style, hidden).render(style);
+    let mut text = rendered.text;
+    if hidden > 0 {
+        text += &format!(
+            "All {} points: {}\n",
+            grouped(rows.len() as u64),
+            csv.display()
+        );
+    }
+    if !rendered.left_out.is_empty() {
+        let note = format!("Too narrow to show: {}", rendered.left_out.join(", "));
+        let note = wrapped(&note, style.width, 4);
+        text += &format!("{}\n", style.paint(Colors::Faint, note.trim_end()));
+    }
+    text
+}
+
+/// A row for each point, but for so many in the middle.
+fn points(results: &Results, style: &Style, hidden: usize) -> Table {
     let shown = shown_parameters(results);
     let mut columns: Vec<Column> = shown.iter().map(|name| Column::right(*name)).collect();
     columns.extend([
@@ -67,13 +97,7 @@ fn table(results: &Results, csv: &Path, style: &Style) -> String {
     ]);
     let mut table = Table::new(columns);
     let decimals = decimals(results);
-    let rows = &results.rows;
-    let hidden = if rows.len() > LONG {
-        rows.len() - 2 * END
-    } else {
-        0
-    };
-    for (i, row) in rows.iter().enumerate() {
+    for (i, row) in results.rows.iter().enumerate() {
         if hidden > 0 && i == END {
             table.push_gap(hidden as u64);
         }
@@ -81,20 +105,7 @@ fn table(results: &Results, csv: &Path, style: &Style) -> String {
             table.push(cells(row, &shown, has_edge, decimals, style));
         }
     }
-    let rendered = table.render(style);
-    let mut text = rendered.text;
-    if hidden > 0 {
-        text += &format!(
-            "All {} points: {}\n",
-            grouped(rows.len() as u64),
-            csv.display()
-        );
-    }
-    if !rendered.left_out.is_empty() {
-        let note = format!("Too narrow to show: {}", rendered.left_out.join(", "));
-        text += &format!("{}\n", style.paint(Colors::Faint, &note));
-    }
-    text
+    table
 }
 
 /// Swept parameters, or the ratio where nothing is swept.
@@ -148,12 +159,15 @@ fn probability(p: &Estimate, row: &Row, decimals: usize, style: &Style) -> Strin
     } else if p.n == 0 {
         "-".to_owned()
     } else {
-        format!(
-            "{:.decimals$} {} {:.decimals$}",
-            p.p,
-            style.plus_minus(),
-            p.half_width()
-        )
+        let arm = p.half_width();
+        // an arm that would leave 0 to 1 is not that of the interval
+        if p.p - arm < 0.0 || p.p + arm > 1.0 {
+            return format!(
+                "{:.decimals$} [{:.decimals$}, {:.decimals$}]",
+                p.p, p.lo, p.hi
+            );
+        }
+        format!("{:.decimals$} {} {arm:.decimals$}", p.p, style.plus_minus())
     }
 }
 

@@ -73,7 +73,7 @@ fn a_curve_that_never_crosses_is_told() {
     let results = results(&sweep("[0.1, 0.2, 0.3]", "0.5"), 1.0);
     let text = text(&results, &Style::plain(80));
     assert!(
-        text.contains("Fair ratio: none in this sweep, 1 curve stays below 1/3\n"),
+        text.contains("Fair ratio: none found in this sweep: the curve stays below 1/3\n"),
         "{text}"
     );
 }
