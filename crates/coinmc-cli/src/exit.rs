@@ -156,6 +156,8 @@ impl Failure {
             #[cfg(feature = "film")]
             Self::Film(diagnostics) => diagnostics.render(false),
             Self::Input(error) | Self::Runtime(error) => words(error),
+            #[cfg(feature = "robot")]
+            Self::Halted(error) => words(error),
         }
     }
 

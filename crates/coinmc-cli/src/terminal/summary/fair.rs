@@ -2,7 +2,7 @@
 
 use super::curves::{label, others};
 use super::{FAIR, RATIO};
-use crate::terminal::plot::{Curve, Mark};
+use crate::terminal::plot::Curve;
 use crate::terminal::table::{Column, Table};
 use crate::terminal::{Colors, Style, compact, decimals_for, in_ascii, wrapped};
 use coinmc::engines::no_bounce_rule;
