@@ -75,11 +75,11 @@ mod _lib {
     use super::results::Results;
     #[pymodule_export]
     use super::run::{estimate, open, run};
+    #[pymodule_export]
+    use super::table::arrow_stream;
     #[cfg(unix)]
     #[pymodule_export]
     use super::throws::Throws;
-    #[pymodule_export]
-    use super::table::arrow_stream;
     #[pymodule_export]
     use super::toss::{launches, toss};
     #[pymodule_export]

@@ -3,9 +3,7 @@
 use crate::arrow::stream;
 use crate::errors;
 use arrow_array::types::{Float64Type, Int64Type, UInt8Type, UInt32Type, UInt64Type};
-use arrow_array::{
-    ArrayRef, BooleanArray, PrimitiveArray, RecordBatch, StringArray,
-};
+use arrow_array::{ArrayRef, BooleanArray, PrimitiveArray, RecordBatch, StringArray};
 use arrow_schema::{Field, Schema};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;

@@ -58,8 +58,7 @@ pub(crate) fn save_trace(
             Compression::default(),
             &mut file,
         )
-       
-            .map_err(|error| error.with_path(&path))?;
+        .map_err(|error| error.with_path(&path))?;
         file.finish()
     };
     py.detach(write).map_err(|error| errors::file(&error))

@@ -182,10 +182,7 @@ fn the_camera_and_its_children_die_with_the_host() {
 fn stop_reaches_a_running_host_and_its_robot() {
     let bench = Bench::new(500);
     let _robot = bench.robot(&[]);
-    let mut host = bench
-        .run("day", &[])
-        .spawn()
-        .expect("it starts");
+    let mut host = bench.run("day", &[]).spawn().expect("it starts");
     bench.wait_for(2, &mut host);
     said(
         &bench.robot_command(&["stop", "day"]),

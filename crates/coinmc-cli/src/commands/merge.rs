@@ -42,6 +42,13 @@ impl Merge {
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let progress = Progress::new(*console.stderr(), true);
         let report = coinmc::run::merge(&self.parts, &self.out, &progress)?;
-        present(&report, &self.out, &Plotted::default(), console, self.format, false)
+        present(
+            &report,
+            &self.out,
+            &Plotted::default(),
+            console,
+            self.format,
+            false,
+        )
     }
 }
