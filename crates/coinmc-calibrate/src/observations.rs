@@ -254,32 +254,30 @@ fn check(plan: &Plan) -> Result<(), CalibrationError> {
 }
 
 fn priors(plan: &Plan, parameters: &[Parameter], given: Option<&PriorGiven>) -> Vec<Prior> {
-    let surface = &plan.points[0].scene.surface;
-    let material = given.and_then(|given| given.material);
-    let of = |parameter: Parameter| {
-        let range = given.and_then(|given| given.ranges.iter().find(|(of, _)| *of == parameter));
-        if let Some((_, [low, high])) = range {
-            return Prior {
-                parameter,
+    let around = || Prior::around(parameters, &plan.points[0].scene.surface);
+    let of = |of: &dyn Fn(Parameter) -> Prior| parameters.iter().map(|p| of(*p)).collect();
+    let mut priors: Vec<Prior> = match given.and_then(|given| given.material) {
+        Some(ANY) => of(&Prior::of_any),
+        Some(name) => match name.parse::<Material>() {
+            Ok(material) => of(&|parameter| Prior::of_material(parameter, &material)),
+            Err(_) => around(),
+        },
+        None => around(),
+    };
+    for (parameter, [low, high]) in given.map_or(&[][..], |given| &given.ranges) {
+        for prior in priors
+            .iter_mut()
+            .filter(|prior| prior.parameter == *parameter)
+        {
+            *prior = Prior {
+                parameter: *parameter,
                 low: *low,
                 high: *high,
                 source: "[prior] of the config".to_owned(),
             };
         }
-        match material {
-            Some(ANY) => Prior::of_any(parameter),
-            Some(name) => match name.parse::<Material>() {
-                Ok(material) => Prior::of_material(parameter, &material),
-                Err(_) => Prior::around(parameter, surface),
-            },
-            None if parameter.allows(parameter.of_surface(surface)) => {
-                Prior::around(parameter, surface)
-            }
-            // a config without friction says nothing of the real surface
-            None => Prior::of_any(parameter),
-        }
-    };
-    parameters.iter().map(|parameter| of(*parameter)).collect()
+    }
+    priors
 }
 
 /// The sections of a config of a calibration.

@@ -67,21 +67,29 @@ impl Prior {
         -0.5 * z * z - 0.5 * libm::log(TAU) - libm::log(sd) + stretch
     }
 
-    /// The prior for a surface such as this one: its number is typical, and about as uncertain as those of
-    /// [`Material`].
-    pub fn around(parameter: Parameter, surface: &Surface) -> Self {
-        let typical = parameter.of_surface(surface);
-        let (low, high) = spread(parameter, typical);
-        let source = match named(parameter, typical, surface) {
-            Some((material, source)) => format!("{material}: {source}"),
-            None => format!("around the {} of the config", parameter.key()),
-        };
-        Self {
-            parameter,
-            low,
-            high,
-            source,
+    /// The priors for a surface such as this one: its numbers are typical, and about as uncertain as those
+    /// of [`Material`]. A number that a config leaves at 0 says nothing: it is as of any material.
+    pub fn around(parameters: &[Parameter], surface: &Surface) -> Vec<Self> {
+        if let Some(material) = named(parameters, surface) {
+            let of = |parameter: &Parameter| Self::of_material(*parameter, material);
+            return parameters.iter().map(of).collect();
         }
+        let of = |parameter: &Parameter| {
+            let parameter = *parameter;
+            let number = parameter.of_surface(surface);
+            if !parameter.allows(number) {
+                return Self::of_any(parameter);
+            }
+            let (low, high) = spread(parameter, number);
+            let source = format!("around the {} of the config", parameter.key());
+            Self {
+                parameter,
+                low,
+                high,
+                source,
+            }
+        };
+        parameters.iter().map(of).collect()
     }
 
     /// The prior for a material of the table.
@@ -147,22 +155,19 @@ fn spread(parameter: Parameter, typical: f64) -> (f64, f64) {
     }
 }
 
-/// The material whose number this is.
-fn named(
-    parameter: Parameter,
-    number: f64,
-    surface: &Surface,
-) -> Option<(&'static str, &'static str)> {
+/// The material of which a surface has all numbers that are calibrated, the one with its ground if there is
+/// one.
+fn named(parameters: &[Parameter], surface: &Surface) -> Option<&'static Material> {
     let slope = surface.roughness().map(|roughness| roughness.slope());
-    let mut same = Material::ALL.iter().filter(|material| {
-        let (typical, _) = typical(parameter, material);
-        (typical / number - 1.0).abs() < 1e-9
-    });
-    // several materials share numbers: the one whose ground is this, if any
-    let first = same.clone().next();
-    let alike = same.find(|material| slope == Some(material.roughness_slope.value));
-    let material = alike.or(first)?;
-    Some((material.name, typical(parameter, material).1))
+    let is_of = |material: &&Material| {
+        parameters.iter().all(|parameter| {
+            let (typical, _) = typical(*parameter, material);
+            (typical / parameter.of_surface(surface) - 1.0).abs() < 1e-9
+        })
+    };
+    let same = || Material::ALL.iter().filter(is_of);
+    let alike = same().find(|material| slope == Some(material.roughness_slope.value));
+    alike.or_else(|| same().next())
 }
 
 #[cfg(test)]
@@ -188,5 +193,18 @@ mod tests {
             let any = Prior::of_any(parameter);
             assert!(any.low <= prior.low && prior.high <= any.high);
         }
+    }
+
+    #[test]
+    fn a_material_is_named_only_for_all_of_its_numbers() {
+        let source = |friction: f64, pivoting: f64| {
+            let surface = Surface::new(0.5, friction).unwrap();
+            let surface = surface.with_friction_lengths(5e-5, pivoting).unwrap();
+            Prior::around(&Parameter::ALL, &surface)[0].source.clone()
+        };
+        let patch = pivoting_friction_of_patch_m(0.3, 4.7e-5);
+        assert!(source(0.3, patch).starts_with("wood: "));
+        assert_eq!(source(0.31, patch), "around the restitution of the config");
+        assert_eq!(source(0.3, 0.0), "around the restitution of the config");
     }
 }

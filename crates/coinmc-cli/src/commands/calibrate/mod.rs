@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
 Examples:
-  coinmc calibrate examples/calibrate.toml
+  coinmc calibrate examples/calibrate/thick-coin.toml
   coinmc calibrate my-coin.toml --posterior draws.parquet
   coinmc calibrate my-coin.toml --set coin.ratio=1.2      … another coin on the same surface
   coinmc calibrate my-coin.toml --format json
