@@ -79,7 +79,7 @@ pub fn document(model: &Model, calibration: &Calibration) -> Value {
         "remarks": calibration.remarks,
         "fits": fits.collect::<Vec<_>>(),
         "tosses": calibration.tosses,
-        "notes": observed.plan.notes,
+        "notes": observed.notes().collect::<Vec<_>>(),
     })
 }
 

@@ -13,10 +13,10 @@ use nalgebra::{DMatrix, DVector};
 
 /// The probability of each face of a fair coin.
 const TARGET: f64 = 1.0 / 3.0;
-/// Ratios of the scan, evenly spaced in their logarithm, and tosses at each.
+/// Ratios of the scan, evenly spaced in their logarithm, and tosses at each in those at a point of the design.
 const SCAN: [f64; 2] = [0.2, 4.0];
 const SCANNED: u64 = 18;
-const SCAN_TOSSES: u64 = 1024;
+const SCAN_TOSSES: u64 = 4;
 /// P(side) at the ends of the ratios that are tossed.
 const AROUND: [f64; 2] = [0.2, 0.5];
 /// Draws of the posterior for which a ratio is sought.
@@ -92,7 +92,7 @@ impl FairRatio {
             statistical,
             numerical: numerical.map(|(shift, error)| (-shift / slope, error / slope.abs())),
             radius_m: model.observed.predicted.points[0].scene.coin.radius_m(),
-            tosses: SCANNED * SCAN_TOSSES + coins.points() * coins.tosses(),
+            tosses: SCANNED * coins.scanned() + coins.points() * coins.tosses(),
         }))
     }
 }
@@ -182,6 +182,11 @@ impl<'a> Coins<'a> {
         self.model.settings.tosses
     }
 
+    /// Tosses at a ratio of the scan.
+    fn scanned(&self) -> u64 {
+        SCAN_TOSSES * self.tosses()
+    }
+
     fn work(
         &self,
         ratio: f64,
@@ -215,8 +220,8 @@ impl<'a> Coins<'a> {
             .collect();
         let mut work = vec![];
         for (k, ratio) in ratios.iter().enumerate() {
-            let first = k as u64 * SCAN_TOSSES;
-            match self.work(*ratio, centre, first..first + SCAN_TOSSES) {
+            let first = k as u64 * self.scanned();
+            match self.work(*ratio, centre, first..first + self.scanned()) {
                 Ok(at) => work.push(at),
                 // such as moments of inertia that no coin of this ratio can have
                 Err(CalibrationError::Question(QuestionError::Config(_))) => return Ok(None),
@@ -256,7 +261,7 @@ impl<'a> Coins<'a> {
                 .map(|u| coinmc_core::inverse_normal_cdf(*u));
             let standard: Vec<f64> = normal.collect();
             let ratio = f64::midpoint(from, to) + 0.5 * (to - from) * t;
-            let first = SCANNED * SCAN_TOSSES + k as u64 * self.tosses();
+            let first = SCANNED * self.scanned() + k as u64 * self.tosses();
             let scores = frame.scores(&standard);
             work.push(self.work(ratio, &scores, first..first + self.tosses())?);
             points.push(coordinates(&standard, t));

@@ -232,6 +232,16 @@ impl Observations {
         Ok(())
     }
 
+    /// What was taken for the scene, without what is calibrated.
+    pub fn notes(&self) -> impl Iterator<Item = &str> {
+        let calibrated = |note: &&str| {
+            let mut keys = self.priors.iter().map(|prior| prior.parameter.key());
+            keys.any(|key| note.starts_with(&format!("surface.{key} is not given")))
+        };
+        let notes = self.plan.notes.iter().map(String::as_str);
+        notes.filter(move |note| !calibrated(note))
+    }
+
     /// The parameters, in the order of every table and array.
     pub fn parameters(&self) -> Vec<Parameter> {
         self.priors.iter().map(|prior| prior.parameter).collect()

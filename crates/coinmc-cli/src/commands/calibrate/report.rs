@@ -216,7 +216,7 @@ fn assumed(model: &Model) -> impl Iterator<Item = String> {
         "one surface for all measurements, on which friction lengths do not depend on the coin";
     [ground, same.to_owned()]
         .into_iter()
-        .chain(observed.plan.notes.clone())
+        .chain(observed.notes().map(str::to_owned))
 }
 
 /// A title and lines below it; nothing without lines.
