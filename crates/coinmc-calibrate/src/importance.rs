@@ -50,25 +50,25 @@ impl Weighted {
         while (resampled.len() as u64) < draws {
             resampled.extend(resampled.last().cloned().or(self.points.last().cloned()));
         }
-        spread_out(resampled)
+        spread_out(&resampled)
     }
 }
 
 /// The same draws in an order in which equal ones lie apart, so that any part of them is a sample.
-fn spread_out(draws: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+fn spread_out(draws: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let n = draws.len();
-    // a stride without common divisor visits every draw
-    let gcd = |mut a: usize, mut b: usize| {
-        while b > 0 {
-            (a, b) = (b, a % b);
-        }
-        a
-    };
-    let golden = (n as f64 * 0.618) as usize;
-    let stride = (golden.max(1)..)
-        .find(|stride| gcd(*stride, n) == 1)
-        .unwrap_or(1);
+    // a stride without common divisor visits every draw; that of the golden section spreads them evenly
+    let stride = (n * 618 / 1000..n).find(|stride| gcd(*stride, n) == 1);
+    let stride = stride.unwrap_or(1);
     (0..n).map(|k| draws[k * stride % n].clone()).collect()
+}
+
+/// The greatest common divisor.
+fn gcd(mut a: usize, mut b: usize) -> usize {
+    while b > 0 {
+        (a, b) = (b, a % b);
+    }
+    a
 }
 
 /// A normal distribution.
@@ -148,7 +148,9 @@ impl Round {
         let most = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let mut weights: Vec<f64> = logs.iter().map(|log| libm::exp(log - most)).collect();
         let sum: f64 = weights.iter().sum();
-        weights.iter_mut().for_each(|weight| *weight /= sum);
+        for weight in &mut weights {
+            *weight /= sum;
+        }
         (weights, most + libm::log(sum / logs.len() as f64))
     }
 

@@ -80,11 +80,11 @@ impl Model {
             .map(|counted| chances(&counted.name, &counted.plan))
             .collect::<Result<_, _>>()?;
         Ok(Self {
+            observed,
+            settings,
             counted,
             predicted,
             tosses,
-            observed,
-            settings,
         })
     }
 

@@ -50,10 +50,12 @@ impl CountsGiven {
         if let Some(tosses) = optional("tosses")?
             && tosses != sum
         {
-            let mut parts = format!("{heads} heads, {tails} tails and {side} on the side");
-            if lost > 0 {
-                parts += &format!(", {lost} lost,");
-            }
+            let without = if lost > 0 {
+                format!(", {lost} lost,")
+            } else {
+                String::new()
+            };
+            let parts = format!("{heads} heads, {tails} tails and {side} on the side{without}");
             return Err(ReadError::new(format!(
                 "the counts do not add up: {parts} are {sum}, not {tosses} tosses"
             ))

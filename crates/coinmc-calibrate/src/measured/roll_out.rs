@@ -16,11 +16,12 @@ pub(crate) struct RollOut {
     slope_error: f64,
 }
 
+/// Height of the ramp and distances there and back, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Roll {
-    height_m: f64,
-    distance_m: f64,
-    back_m: Option<f64>,
+    ramp: f64,
+    there: f64,
+    back: Option<f64>,
 }
 
 impl RollOut {
@@ -70,10 +71,10 @@ impl RollOut {
             None => vec![None; distances.len()],
         };
         let rolls = heights.into_iter().zip(distances).zip(back);
-        let rolls = rolls.map(|((height_m, distance_m), back_m)| Roll {
-            height_m,
-            distance_m: *distance_m,
-            back_m,
+        let rolls = rolls.map(|((ramp, there), back)| Roll {
+            ramp,
+            there: *there,
+            back,
         });
         Ok(Self {
             rolls: rolls.collect(),
@@ -91,13 +92,13 @@ impl Reduce for RollOut {
     /// scatter is not.
     fn reduce(&self, scene: &Scene) -> Vec<Reduced> {
         let n = self.rolls.len() as f64;
-        let slopes = self.rolls.iter().map(|roll| match roll.back_m {
-            Some(back) => 0.5 * roll.height_m * (1.0 / roll.distance_m + 1.0 / back),
-            None => roll.height_m / roll.distance_m,
+        let slopes = self.rolls.iter().map(|roll| match roll.back {
+            Some(back) => 0.5 * roll.ramp * (1.0 / roll.there + 1.0 / back),
+            None => roll.ramp / roll.there,
         });
-        let heights = self.rolls.iter().map(|roll| roll.height_m);
+        let heights = self.rolls.iter().map(|roll| roll.ramp);
         let height = self.height_error_m / (heights.sum::<f64>() / n);
-        let one_way = self.rolls.iter().filter(|roll| roll.back_m.is_none());
+        let one_way = self.rolls.iter().filter(|roll| roll.back.is_none());
         let one_way = one_way.count() as f64;
         // each way of a roll scatters by itself
         let scatter = self.distance_error / (n + (n - one_way)).sqrt();

@@ -57,7 +57,7 @@ fn value(text: &mut String, checked: &Checked) {
         CheckedValue::Boolean(value) => put(text, format_args!("{value}")),
         CheckedValue::Word(word) => put(text, format_args!("\"{word}\"")),
         CheckedValue::Texts(texts) => list(text, texts, |text, value| {
-            put(text, format_args!("{value:?}"))
+            put(text, format_args!("{value:?}"));
         }),
         CheckedValue::Vector(components) => list(text, components, value),
         CheckedValue::Tagged(tag, inner) => {

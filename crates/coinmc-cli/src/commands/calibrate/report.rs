@@ -221,13 +221,15 @@ fn assumed(model: &Model) -> impl Iterator<Item = String> {
 
 /// A title and lines below it; nothing without lines.
 fn listed(title: &str, lines: impl Iterator<Item = String>, style: &Style) -> String {
-    let lines: String = lines
-        .map(|line| format!("  {}", wrapped(&line, style.width.saturating_sub(2), 4)))
-        .collect();
-    if lines.is_empty() {
-        return lines;
+    let mut text = String::new();
+    for line in lines {
+        text += "  ";
+        text += &wrapped(&line, style.width.saturating_sub(2), 4);
     }
-    format!("{}\n{lines}", style.paint(Colors::Strong, title))
+    if text.is_empty() {
+        return text;
+    }
+    format!("{}\n{text}", style.paint(Colors::Strong, title))
 }
 
 /// Two independent errors together.
