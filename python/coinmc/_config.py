@@ -2,10 +2,12 @@
 
 import os
 from collections.abc import Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
 
 from coinmc import _lib, _toml
+from coinmc._errors import Error
 
 __all__ = ["Config", "ConfigLike", "Group", "Scene", "Stop", "check"]
 
@@ -266,7 +268,7 @@ class Config:
         return hash(self.hash)
 
     def __reduce__(self):  # configs can be pickled
-        return _from_resolved, (self.resolved,)
+        return _from_resolved, (self.resolved, self.hash)
 
 
 #: Anything that a function accepts as a config.
@@ -319,8 +321,15 @@ def default_directory(config: Config) -> Path:
     return Path("runs") / f"{stem}-{config.hash[:8]}"
 
 
-def _from_resolved(text: str) -> Config:
-    return Config.from_toml(text)
+@lru_cache(maxsize=8)  # a worker gets the same config again and again
+def _from_resolved(text: str, hash_: str) -> Config:
+    config = Config.from_toml(text)
+    if config.hash != hash_:
+        raise Error(
+            f"this config was pickled by a version of coinmc that understands it differently "
+            f"(plan {hash_[:8]}, here {config.hash[:8]}): use the same version on both sides"
+        )
+    return config
 
 
 def _source(config: Any) -> tuple[str, str]:

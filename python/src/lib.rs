@@ -4,7 +4,7 @@
 //! # Files
 //! `plan` configs · `supervise` long work, signals and progress · `share` threads · `launch`
 //! launches as rows of numbers · `columns` and `toss` individual tosses · `run` estimates and runs
-//! · `results` tables, also as Arrow · `interval` intervals of proportions · `trace` recorded
+//! · `session` runs on other machines · `results` tables, also as Arrow · `interval` intervals of proportions · `trace` recorded
 //! motion of a toss · `question`, `fair`, `design`, `aim`,
 //! `ranking`, `rare`, `compare` questions ·
 //! `analytic` closed forms · `film` drops on film · `errors` exceptions.
@@ -28,6 +28,7 @@ mod ranking;
 mod rare;
 mod results;
 mod run;
+mod session;
 mod share;
 mod supervise;
 mod toss;
@@ -62,6 +63,8 @@ mod _lib {
     use super::results::Results;
     #[pymodule_export]
     use super::run::{estimate, open, run};
+    #[pymodule_export]
+    use super::session::{Session, chunk, chunk_of_number, tally_of};
     #[pymodule_export]
     use super::toss::{launches, toss};
     #[pymodule_export]

@@ -96,7 +96,7 @@ fn tally(
     chunk: &Chunk,
     go_on: impl Fn() -> bool,
 ) -> Result<Option<Tally>, EngineError> {
-    let (point, tosses) = (&plan.points[chunk.point], &chunk.tosses);
+    let (point, tosses) = (&plan.points.at(chunk.point), &chunk.tosses);
     let mut tally = Tally::default();
     if !point.engine.makes_tosses() {
         return Ok(Some(tally));

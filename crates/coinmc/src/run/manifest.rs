@@ -8,7 +8,7 @@ use std::io;
 use std::path::Path;
 
 /// Version of the run directory's format.
-pub(super) const FORMAT: u64 = 1;
+pub(super) const FORMAT: u64 = 2;
 pub(super) const FILE: &str = "manifest.json";
 /// Largest manifest that is read, bytes.
 const MAX_BYTES: usize = 64 << 10;
@@ -37,10 +37,9 @@ struct AnyFormat {
 
 impl Manifest {
     pub(super) fn new(plan: &Plan, part: Part) -> Self {
-        let engines = plan
-            .points
-            .iter()
-            .map(|point| point.engine.name().to_owned());
+        // a config names one engine
+        let engines = (0..plan.points.len().min(1)).map(|first| plan.points.at(first));
+        let engines = engines.map(|point| point.engine.name().to_owned());
         Self {
             format: FORMAT,
             plan_hash: plan.hash(),
@@ -69,6 +68,13 @@ impl Manifest {
             serde_json::from_slice(&bytes).map_err(|e| bad(e.to_string()))?;
         if format > FORMAT {
             return Err(RunError::NewerFormat {
+                path,
+                found: format,
+                known: FORMAT,
+            });
+        }
+        if format < FORMAT {
+            return Err(RunError::OlderFormat {
                 path,
                 found: format,
                 known: FORMAT,
@@ -128,7 +134,7 @@ impl Manifest {
         ))
     }
 
-    fn part(&self, dir: &Path) -> Result<Part, RunError> {
+    pub(super) fn part(&self, dir: &Path) -> Result<Part, RunError> {
         let path = dir.join(FILE);
         self.part.parse().map_err(|e| RunError::BadManifest {
             path,

@@ -2,7 +2,7 @@
 //! finish.
 //!
 //! ```text
-//! Plan ──cut──▶ chunks ──workers──▶ tallies/*.tally ──▶ results.csv, results.parquet
+//! Plan ──cut──▶ chunks ──workers──▶ tallies.txt ──▶ results.csv, results.parquet
 //!                           ▲             │
 //!                           └── a later run resumes from them
 //! ```
@@ -31,6 +31,7 @@
 //! # }
 //! ```
 
+mod blocks;
 mod chunk;
 mod chunk_result;
 mod count;
@@ -39,11 +40,14 @@ mod damage;
 mod directory;
 mod each;
 mod error;
+mod finished;
 mod in_directory;
-mod integral_file;
+mod integral_text;
 mod manifest;
 mod merge;
+mod missing;
 mod options;
+mod packed;
 mod part;
 mod point_state;
 mod progress;
@@ -51,10 +55,12 @@ mod replace;
 mod report;
 mod schedule;
 mod sealed;
+mod session;
 mod shares;
+mod states;
 mod stored;
 mod tallies;
-mod tally_file;
+mod tally_text;
 mod toss;
 mod workers;
 
@@ -65,10 +71,12 @@ use each::for_some_outcomes;
 pub use each::{FinishedToss, TossSource, for_each_end, for_each_outcome};
 pub use error::RunError;
 pub use in_directory::run;
-pub use merge::merge;
+pub use merge::{merge, missing};
+pub use missing::Missing;
 pub use options::Options;
 pub use part::{Part, PartError};
 pub use progress::{Progress, ProgressSink};
 pub use report::{Report, Status};
+pub use session::{Session, Step, chunk_text, chunks, numbered_chunk, text_of_tally};
 pub use stored::{stored_plan, stored_report};
 pub use toss::{stream, toss};

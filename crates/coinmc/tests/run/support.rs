@@ -117,6 +117,34 @@ impl ProgressSink for Ear {
     }
 }
 
+/// The texts of the finished chunks of a run directory, in the order of its file.
+pub(crate) fn tallies(dir: &Path) -> Vec<String> {
+    let Ok(text) = std::fs::read_to_string(dir.join("tallies.txt")) else {
+        return vec![];
+    };
+    let (mut all, mut tally) = (Vec::new(), String::new());
+    for line in text.lines() {
+        tally += &format!("{line}\n");
+        if line.starts_with("crc32 ") {
+            all.push(std::mem::take(&mut tally));
+        }
+    }
+    assert_eq!(tally, "", "the file ends with a whole text");
+    all
+}
+
+/// Puts texts in the place of those of a run directory.
+pub(crate) fn put_tallies(dir: &Path, texts: &[String]) {
+    std::fs::write(dir.join("tallies.txt"), texts.concat()).unwrap();
+}
+
+/// Alters a text and gives it a right checksum again.
+pub(crate) fn resealed(text: &str, alter: impl Fn(&str) -> String) -> String {
+    let text = alter(text);
+    let (body, _) = text.rsplit_once("crc32 ").unwrap();
+    format!("{body}crc32 {:08x}\n", crc32fast::hash(body.as_bytes()))
+}
+
 /// Every file of a directory by its path there.
 pub(crate) fn contents(dir: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut all = BTreeMap::new();

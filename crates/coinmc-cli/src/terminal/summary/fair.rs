@@ -1,6 +1,7 @@
 //! Where the curves cross 1/3.
 
 use super::curves::{label, others};
+use super::totals::Totals;
 use super::{Curve, FAIR};
 use crate::terminal::plot::Mark;
 use crate::terminal::table::{Column, Table};
@@ -17,6 +18,7 @@ const MOST: usize = 20;
 /// two ratios to interpolate between.
 pub(super) fn table(
     results: &Results,
+    totals: &Totals,
     fair: &[FairRatio],
     curves: &[Curve],
     style: &Style,
@@ -24,7 +26,7 @@ pub(super) fn table(
     if curves.iter().all(|curve| curve.marks.len() < 2) {
         return None;
     }
-    let tossed = results.rows.iter().all(|row| row.side.p.is_finite());
+    let tossed = totals.is_tossed;
     let never = if tossed {
         never(fair, curves)
     } else {
