@@ -174,7 +174,7 @@ def simulate(arguments: argparse.Namespace, _: Path) -> None:
     speed, restart_s, message_s = 1e6, 600.0, 0.01
     for name, stop in {
         "a fixed number": {"tosses": int(arguments.tosses)},
-        "to targets": {"half_width": 1e-12, "max_tosses": int(arguments.tosses)},
+        "to targets": {"half_width": 1e-7, "max_tosses": int(arguments.tosses)},
     }.items():
         config = coinmc.Config({**SCENE, "stop": stop})
         plan, chance = config._plan, random.Random(1)
