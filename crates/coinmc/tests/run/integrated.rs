@@ -91,7 +91,9 @@ fn a_run_killed_or_damaged_anywhere_has_the_same_results() {
 
     // one of another version, and half a text
     let mut texts = tallies(other.path());
-    texts[0] = resealed(&texts[0], |text| text.replacen("integral 1", "integral 2", 1));
+    texts[0] = resealed(&texts[0], |text| {
+        text.replacen("integral 1", "integral 2", 1)
+    });
     texts[1] = format!("{}\n", &texts[1][..texts[1].len() / 2]);
     put_tallies(other.path(), &texts);
     let ear = Ear::default();
