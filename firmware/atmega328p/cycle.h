@@ -6,10 +6,13 @@
 
 typedef struct {
     uint8_t state;
-    uint32_t throw_id;
+    uint32_t throw_id, experiment;
+    uint16_t asked_spin, asked_angle; /* 0 after a start */
     uint16_t boot, fault;
     uint32_t since_ms, heard_ms;
     bool silent;   /* the host has been silent for too long, or has never sent a valid frame */
+    bool moving;   /* a motion on request, since and with a limit: */
+    uint32_t moving_since_ms, moving_limit_ms;
     bool released; /* the coin may have been released */
     bool measured; /* it was released since the start, with these measurements: */
     uint32_t release_ms;
@@ -26,7 +29,7 @@ void cycle_tick(uint32_t now_ms);
 void cycle_heard(uint32_t now_ms);
 
 /* Requests; they return CYCLE_DONE or a coinmc_nak. */
-uint8_t cycle_move(const coinmc_request *request, uint8_t kind);
+uint8_t cycle_move(const coinmc_request *request, uint8_t kind, uint32_t now_ms);
 uint8_t cycle_throw(const coinmc_request *request, uint32_t now_ms);
 uint8_t cycle_collect(const coinmc_request *request, uint32_t now_ms);
 uint8_t cycle_clear_fault(const coinmc_request *request);

@@ -1,6 +1,10 @@
-/* REPLACE THIS FILE for a real robot. Instead of driving pins, motors and sensors, this stand-in only
- * takes time, and less than a robot would. The contract is in hardware.h; the journal can be used
- * as it is. */
+/* REPLACE THIS FILE for a real robot. Instead of driving motors and sensors, this stand-in only takes
+ * time, and less than a robot would. The contract is in hardware.h; the journal can be used as it is.
+ *
+ * Two pins are real: PD4 enables all motor drivers (high; a pull-down of 10 kOhm keeps them off while
+ * the chip is in reset or being flashed), and PD5 reads the emergency stop, a normally closed contact
+ * to ground: a pressed button and a cut wire read the same. The contact must also cut the motors'
+ * supply by itself: the pin only tells the firmware. */
 #include "clock.h"
 #include "journal.h"
 
@@ -14,10 +18,16 @@ static uint32_t began_ms;
 static bool moving;
 static int32_t x_um, y_um;
 
+void hardware_begin(void)
+{
+    PORTD = (uint8_t)((PORTD & ~_BV(PORTD4)) | _BV(PORTD5) | _BV(PORTD6)); /* motors off; pull-ups */
+    DDRD |= _BV(DDD4);
+}
+
 void hardware_info(coinmc_info *info)
 {
     static const coinmc_info this_robot = {
-        {'a', 't', 'm', 'e', 'g', 'a', '-', '1'}, {0, 1, 0}, COINMC_HAS_LIGHT | COINMC_HAS_CARRIAGE,
+        {'a', 't', 'm', 'e', 'g', 'a', '-', '1'}, {0, 2, 0}, COINMC_HAS_LIGHT | COINMC_HAS_CARRIAGE,
         5000, 18000, 400000, 300000};
     *info = this_robot;
 }
@@ -40,10 +50,13 @@ void hardware_start(const motion *next)
     last = *next;
     began_ms = clock_ms();
     moving = true;
+    /* stays on until switched off: motors hold their place */
+    PORTD |= _BV(PORTD4);
 }
 
 void hardware_motors_off(void)
 {
+    PORTD &= (uint8_t)~_BV(PORTD4);
     moving = false;
 }
 
@@ -70,7 +83,9 @@ static void arrive(void)
 
 void hardware_sense(sensors *now)
 {
-    if (moving && clock_ms() - began_ms >= duration_ms[last.kind])
+    /* PD6 pulled low: the motion is stuck, for tests */
+    bool stuck = (PIND & _BV(PIND6)) == 0;
+    if (moving && !stuck && clock_ms() - began_ms >= duration_ms[last.kind])
         arrive();
     now->settled = !moving;
     bool aimed = last.kind == MOTION_AIM;
@@ -79,4 +94,5 @@ void hardware_sense(sensors *now)
     now->x_um = x_um;
     now->y_um = y_um;
     now->failure = 0;
+    now->stopped = (PIND & _BV(PIND5)) != 0;
 }

@@ -26,15 +26,18 @@ typedef struct {
     uint16_t spin_mrev_s, angle_cdeg;
     int32_t x_um, y_um;
     uint8_t failure; /* 0: none; otherwise the fault code is 300 plus this */
+    bool stopped;    /* the emergency stop is pressed */
 } sensors;
 
 /* A journal record, which survives a reset. */
 typedef struct {
-    uint32_t throw_id;
+    uint32_t throw_id, experiment;
     uint16_t boot;
-    uint8_t phase;
+    uint8_t phase; /* idle, the phase of the unfinished throw, or fault after an emergency stop */
 } record;
 
+/* Sets the pins; motors off. Called first of all. */
+void hardware_begin(void);
 void hardware_info(coinmc_info *info);
 /* Loads the newest completely stored record; leaves `last` unchanged if there is none. */
 void hardware_load(record *last);
@@ -42,6 +45,7 @@ void hardware_load(record *last);
  * readable. */
 bool hardware_store(const record *next);
 void hardware_start(const motion *next);
+/* Switches off the current of all motors and ends the motion. */
 void hardware_motors_off(void);
 void hardware_light(uint16_t permille);
 void hardware_sense(sensors *now);

@@ -55,6 +55,9 @@ static void fill_status(coinmc_status *status, uint32_t now_ms)
     memset(status, 0, sizeof *status);
     status->state = cycle.state;
     status->throw_id = cycle.throw_id;
+    status->experiment = cycle.experiment;
+    status->spin_mrev_s = cycle.asked_spin;
+    status->angle_cdeg = cycle.asked_angle;
     status->released = cycle.released;
     status->meas_spin_mrev_s = cycle.measured ? cycle.release_spin : now.spin_mrev_s;
     status->meas_angle_cdeg = cycle.measured ? cycle.release_angle : now.angle_cdeg;
@@ -87,13 +90,13 @@ static void execute(const coinmc_request *request, uint32_t now_ms, coinmc_reply
             nak = cycle_stop();
             break;
         case COINMC_REQUEST_HOME:
-            nak = cycle_move(request, MOTION_HOME);
+            nak = cycle_move(request, MOTION_HOME, now_ms);
             break;
         case COINMC_REQUEST_THROW:
             nak = cycle_throw(request, now_ms);
             break;
         case COINMC_REQUEST_MOVE_CARRIAGE:
-            nak = cycle_move(request, MOTION_MOVE_CARRIAGE);
+            nak = cycle_move(request, MOTION_MOVE_CARRIAGE, now_ms);
             break;
         case COINMC_REQUEST_LIGHT:
             hardware_light(request->permille);

@@ -109,6 +109,7 @@ impl Course<'_> {
                 self.device.hardware_mut().settled = order & 8 != 0;
                 self.device.hardware_mut().store_fails = order & 0x30 == 0x30;
                 self.device.hardware_mut().failure = u8::from(order & 0xC0 == 0xC0);
+                self.device.hardware_mut().stopped = order & 0xB0 == 0xA0;
                 self.tick(u32::from(order));
             }
             _ if order > 200 => self.reset(),
@@ -120,6 +121,10 @@ impl Course<'_> {
     fn tick(&mut self, ms: u32) {
         self.now_ms += ms;
         self.device.tick(self.now_ms);
+        if self.device.hardware().stopped {
+            assert_eq!(self.device.state(), State::Fault);
+            assert!(!self.device.hardware().motors_on, "current in an emergency");
+        }
     }
 
     fn hello(&mut self) {
@@ -166,7 +171,8 @@ impl Course<'_> {
 
     fn reset(&mut self) {
         let stored = self.device.hardware().stored;
-        let caught = stored.is_some_and(|record| record.phase.in_cycle());
+        let caught =
+            stored.is_some_and(|record| record.phase.in_cycle() || record.phase == State::Fault);
         let bench = std::mem::take(self.device.hardware_mut());
         self.device = Device::boot(bench, self.now_ms);
         assert_eq!(self.device.state() == State::Fault, caught || self.broken());
@@ -192,10 +198,12 @@ impl Course<'_> {
 }
 
 #[derive(Debug, Default)]
+#[allow(clippy::struct_excessive_bools)] // inputs and outputs of a board
 struct Bench {
     settled: bool,
     store_fails: bool,
     failure: u8,
+    stopped: bool,
     motors_on: bool,
     stored: Option<Record>,
     releases: u32,
@@ -259,6 +267,7 @@ impl Hardware for Bench {
         Sensors {
             settled: self.settled,
             failure: self.failure,
+            stopped: self.stopped,
             ..Sensors::default()
         }
     }

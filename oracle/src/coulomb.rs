@@ -148,9 +148,9 @@ impl Contacts {
         self.count * ROWS
     }
 
-    /// What gravity adds to a row's velocity in a time.
-    pub(crate) fn fall(&self, row: usize, time: f64) -> f64 {
-        -time * self.linear[row].z
+    /// What the weight adds to a row's velocity in a time.
+    pub(crate) fn weigh(&self, row: usize, model: &Model, time: f64) -> f64 {
+        self.linear[row].dot(&(model.pull - Vector3::z())) * time
     }
 
     /// How the velocity of a row responds to the impulse of another.

@@ -10,10 +10,15 @@ use coinmc_core::Face;
 /// decision rule. A coin that rolls has to be followed until friction has used up its energy.
 pub(crate) fn decided(model: &Model, motion: &Motion) -> Option<Face> {
     let energy = motion.energy(model) - motion.gap(model).min(0.0);
+    (energy < 1.0 + model.rim).then(|| leans_towards(model, motion))
+}
+
+/// The face towards which the coin leans.
+pub(crate) fn leans_towards(model: &Model, motion: &Motion) -> Face {
     let c = motion.axis.z;
-    (energy < 1.0 + model.rim).then(|| match () {
+    match () {
         () if c.abs() < model.half => Face::Side,
         () if c > 0.0 => Face::Heads,
         () => Face::Tails,
-    })
+    }
 }

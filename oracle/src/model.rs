@@ -32,11 +32,14 @@ pub struct Model {
     pub angular_drag: f64,
     /// Whether ω × Iω acts.
     pub gyroscopic: bool,
+    /// The part of the weight along a tilted table, in axes of the table, over that which presses on it.
+    pub pull: Vector3<f64>,
 }
 
 impl Model {
     /// The model of a scene. Adhesive landing is ignored: the coin bounces.
     pub fn new(scene: &Scene) -> Self {
+        let scene = &scene.pressed_onto_table();
         let (coin, surface, drag) = (&scene.coin, &scene.surface, scene.drag());
         let (d, time) = (coin.rim_distance_m(), scene.time_scale_s());
         Self {
@@ -53,6 +56,10 @@ impl Model {
             linear_drag: drag.linear_per_s() * time,
             angular_drag: drag.angular_per_s() * time,
             gyroscopic: scene.has_gyroscopic_torque(),
+            pull: surface.tilt().map_or(Vector3::zeros(), |tilt| {
+                let weight = tilt.in_table_axes(&-Vector3::z());
+                Vector3::new(weight.x, weight.y, 0.0) / -weight.z
+            }),
         }
     }
 

@@ -18,11 +18,17 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// The motion at launch. A coin that would begin inside the surface is lifted until it touches.
+    /// The motion at launch, in axes of the table. A coin that would begin inside the surface is lifted
+    /// until it touches.
     pub fn launched(scene: &Scene, launch: &Launch) -> Self {
+        let scene = &scene.pressed_onto_table();
         let (d, time) = (scene.coin.rim_distance_m(), scene.time_scale_s());
+        let (launch, [x, y]) = match scene.surface.tilt() {
+            Some(tilt) => tilt.launch_in_table_axes(launch),
+            None => (*launch, [0.0; 2]),
+        };
         let mut motion = Self {
-            position: Vector3::new(0.0, 0.0, launch.height_m / d),
+            position: Vector3::new(x, y, launch.height_m) / d,
             velocity: launch.velocity_m_s * (time / d),
             axis: launch.axis.into_inner(),
             spin: launch.spin_rad_s * time,
@@ -34,6 +40,7 @@ impl Motion {
 
     /// The same state in SI units.
     pub fn state(&self, scene: &Scene, time: f64) -> State {
+        let scene = &scene.pressed_onto_table();
         let (d, unit) = (scene.coin.rim_distance_m(), scene.time_scale_s());
         State {
             time_s: time * unit,
@@ -79,9 +86,10 @@ impl Motion {
             (time - once) / k
         };
         self.position += self.velocity * once;
-        self.position.z -= twice;
+        let weight = model.pull - Vector3::z();
+        self.position += weight * twice;
         self.velocity *= decay;
-        self.velocity.z -= once;
+        self.velocity += weight * once;
         self.turn(model, time);
     }
 

@@ -17,11 +17,12 @@
 //! non-smooth contact dynamics method", Comput. Methods Appl. Mech. Engrg. 177 (1999) 235.
 
 use crate::coulomb::{Contacts, LAWS, NORMAL, ROWS};
-use crate::decision::decided;
+use crate::decision::{decided, leans_towards};
 use crate::impact::collide;
 use crate::points::{OPPOSITE, POINTS, Point, points};
 use crate::{Model, Motion};
 use coinmc_core::{Face, Launch, Scene, State};
+use nalgebra::Vector3;
 
 /// Gap at which a point touches.
 const TOUCH: f64 = 1e-8;
@@ -37,6 +38,10 @@ const SWING: f64 = 0.2;
 /// Sine of the tilt below which `SWING` no longer shortens steps: the gap is of the order of
 /// `TOUCH`.
 const LEVEL: f64 = 5e-8;
+
+/// Kinetic energy below which a coin on a tilted table rests, if it stays there for this time.
+const AT_REST: f64 = 1e-6;
+const REST_TIME: f64 = 3.0;
 
 /// How finely tosses are followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -100,15 +105,25 @@ impl TimeStepper {
         &self.model
     }
 
-    /// Follows a toss until energy decides its face.
+    /// Follows a toss until energy decides its face; on a tilted table, where it does not, until the coin
+    /// rests. A coin that moves there until the limit of time, most likely rolling down, counts as it leans
+    /// then.
     pub fn toss(&mut self, launch: &Launch) -> History {
         let mut toss = Toss::new(Motion::launched(&self.scene, launch));
+        let tilted = self.model.pull != Vector3::zeros();
+        let mut moved_at = 0.0;
         let face = loop {
-            if let Some(face) = decided(&self.model, &toss.motion) {
+            if !tilted && let Some(face) = decided(&self.model, &toss.motion) {
                 break Some(face);
             }
+            if toss.motion.kinetic(&self.model) > AT_REST {
+                moved_at = toss.time;
+            }
+            if tilted && toss.time > moved_at + REST_TIME {
+                break Some(leans_towards(&self.model, &toss.motion));
+            }
             if toss.time >= self.settings.time_limit || toss.time.is_nan() {
-                break None;
+                break tilted.then(|| leans_towards(&self.model, &toss.motion));
             }
             self.advance(&mut toss);
         };
@@ -206,7 +221,7 @@ impl TimeStepper {
         }
         let converged = solve_step(&self.model, contacts, &toss.resting, h);
         contacts.apply(&mut motion);
-        motion.velocity.z -= h;
+        motion.velocity += (self.model.pull - Vector3::z()) * h;
         motion.drift(&self.model, h / 2.0);
         toss.take_over(&self.model, contacts, motion);
         toss.time += h;
@@ -224,8 +239,7 @@ fn solve_step(
     h: f64,
 ) -> bool {
     for row in 0..contacts.rows() {
-        let gravity = if row % ROWS == NORMAL { h } else { 0.0 };
-        contacts.offset[row] = 2.0 * contacts.before[row] - gravity;
+        contacts.offset[row] = 2.0 * contacts.before[row] + contacts.weigh(row, model, h);
     }
     let mut converged = contacts.solve(model);
     let mut again = false;
@@ -235,7 +249,7 @@ fn solve_step(
             if stuck[law] && !rest.stuck[law] {
                 for row in rows.clone() {
                     let row = contact * ROWS + row;
-                    contacts.offset[row] = contacts.before[row];
+                    contacts.offset[row] = contacts.before[row] + contacts.weigh(row, model, h);
                 }
                 again = true;
             }

@@ -5,11 +5,13 @@ The engines of coinmc at native speed, with NumPy arrays in and out:
 * `toss`, `launches`: individual tosses, with launches drawn at random or your own;
 * `estimate`: probabilities with intervals, in memory; `run`, `open`: in a run directory, also on
   other processes and clusters (`chunk`);
-* `trace`: the recorded motion of one toss;
+* `trace`: the recorded motion of one toss; `replay`: tosses in three dimensions;
+* `report`: a page of runs that opens anywhere;
 * `fair`: how thick is a fair coin, here or in everyday `scenes`?
 * `sensitivity`: how strongly probabilities depend on parameters;
 * `check`, `Config`: what a config means;
-* `coinmc.analytic`: closed forms; `coinmc.film`: drops on film; `coinmc.plot`: plots.
+* `coinmc.analytic`: closed forms; `coinmc.film`: drops on film; `coinmc.plot`: plots;
+* `coinmc.vision`: photos of real coins; `coinmc.experiment`: a robot's throws.
 
 All quantities are in SI units, and names carry their unit. *Ratio* always means H/R, height over
 **radius**. z points up, the surface is z = 0, and *heads* means that heads shows. The guide is
@@ -35,7 +37,7 @@ from typing import TYPE_CHECKING, Any
 from coinmc import _lib, analytic
 from coinmc._codes import Ended, Face
 from coinmc._config import Config, ConfigLike, Group, Scene, Stop, check
-from coinmc._errors import ConfigError, Error, FilmError, Problem, RunError, TraceError
+from coinmc._errors import ConfigError, Error, FilmError, Problem, RunError, TraceError, VisionError
 from coinmc._intervals import Estimate
 from coinmc._launches import LAUNCH, STATE, launches
 from coinmc._lib import __build__, __version__
@@ -44,12 +46,13 @@ from coinmc._tosses import Tosses, toss
 from coinmc._trace import EVENT, SAMPLE, Trace, trace
 
 if TYPE_CHECKING:
-    from coinmc import film, plot
+    from coinmc import experiment, film, plot, vision
     from coinmc._aim import Aimed, AimedLaunch, aim
     from coinmc._compare import Comparison, compare
     from coinmc._design import Design, design
     from coinmc._executors import chunk
     from coinmc._fair import Fair, FairRoot, fair
+    from coinmc._pages import Page, basins, replay, report
     from coinmc._ranking import Ranking, rank
     from coinmc._rare import Rare, rare
     from coinmc._sensitivity import Sensitivity, sensitivity
@@ -75,6 +78,7 @@ __all__ = [
     "FairRoot",
     "FilmError",
     "Group",
+    "Page",
     "Problem",
     "Ranking",
     "Rare",
@@ -86,15 +90,18 @@ __all__ = [
     "Tosses",
     "Trace",
     "TraceError",
+    "VisionError",
     "__build__",
     "__version__",
     "aim",
     "analytic",
+    "basins",
     "check",
     "chunk",
     "compare",
     "design",
     "estimate",
+    "experiment",
     "fair",
     "film",
     "launches",
@@ -102,17 +109,22 @@ __all__ = [
     "plot",
     "rank",
     "rare",
+    "replay",
+    "report",
     "run",
     "scenes",
     "sensitivity",
     "toss",
     "trace",
+    "vision",
 ]
 
 #: Imported on first use, to keep `import coinmc` fast.
 _LAZY = {
+    "experiment": "coinmc.experiment",
     "film": "coinmc.film",
     "plot": "coinmc.plot",
+    "vision": "coinmc.vision",
     "Aimed": "coinmc._aim",
     "AimedLaunch": "coinmc._aim",
     "aim": "coinmc._aim",
@@ -124,6 +136,10 @@ _LAZY = {
     "Fair": "coinmc._fair",
     "FairRoot": "coinmc._fair",
     "fair": "coinmc._fair",
+    "Page": "coinmc._pages",
+    "basins": "coinmc._pages",
+    "replay": "coinmc._pages",
+    "report": "coinmc._pages",
     "Ranking": "coinmc._ranking",
     "rank": "coinmc._ranking",
     "Rare": "coinmc._rare",
@@ -149,7 +165,7 @@ def __getattr__(name: str) -> Any:
     if name not in _LAZY:
         raise AttributeError(f"module 'coinmc' has no attribute {name!r}")
     module = importlib.import_module(_LAZY[name])
-    return module if name in ("film", "plot") else getattr(module, name)
+    return module if module.__name__ == f"coinmc.{name}" else getattr(module, name)
 
 
 def __dir__() -> list[str]:

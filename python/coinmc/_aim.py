@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from coinmc import _lib
 from coinmc._config import ConfigLike
@@ -65,15 +66,15 @@ class Aimed:
         self._picture = document.pop("picture")
         self.document = document
         self._keys = [parameter["parameter"] for parameter in document["parameters"]]
-        self.best = self._launch(document["best"])
-        self.worst = self._launch(document["worst"])
-        self.baseline = self._launch(document["baseline"])
-        self.clumsy = [
+        self.best: AimedLaunch = self._launch(document["best"])
+        self.worst: AimedLaunch = self._launch(document["worst"])
+        self.baseline: AimedLaunch = self._launch(document["baseline"])
+        self.clumsy: list[AimedLaunch] = [
             self._launch({**hand, "values": document["best"]["values"]}, hand["factor"])
             for hand in document["clumsy"]
         ]
         places = document["map"]
-        self.map = {
+        self.map: dict[str, NDArray[Any]] = {
             key: np.array([place["values"][i] for place in places])
             for i, key in enumerate(self._keys)
         }

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from coinmc import _lib
 from coinmc._intervals import Estimate, _between_0_and_1
@@ -46,13 +47,15 @@ class Comparison:
         self.document = document
         self.counts: dict[str, int] = {face: document[face] for face in _FACES}
         n = sum(self.counts.values())
-        self.seen = {
+        self.seen: dict[str, Estimate] = {
             face: Estimate(at["p"], at["lo"], at["hi"], n, document["confidence"])
             for face, at in document["seen"].items()
         }
         rows = document["rows"]
         self.parameters: list[dict[str, float]] = [row["parameters"] for row in rows]
-        self.columns = {name: np.array([row[name] for row in rows]) for name in ("run", "point")}
+        self.columns: dict[str, NDArray[Any]] = {
+            name: np.array([row[name] for row in rows]) for name in ("run", "point")
+        }
         for face in _FACES:
             self.columns[f"p_{face}"] = np.array([row["model"][face]["p"] for row in rows])
         for name in ("p_value", "evidence", "share", "tosses_to_tell"):

@@ -1,6 +1,7 @@
 """Configs: the coin, the surface, the launch, the engine and the number of tosses."""
 
 import os
+import tomllib
 from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
@@ -267,7 +268,7 @@ class Config:
     def __hash__(self) -> int:
         return hash(self.hash)
 
-    def __reduce__(self):  # configs can be pickled
+    def __reduce__(self) -> tuple[Any, ...]:
         return _from_resolved, (self.resolved, self.hash)
 
 
@@ -302,11 +303,32 @@ def check(config: ConfigLike, overrides: Mapping[str, Any] | None = None) -> Con
     return as_config(config, overrides)
 
 
-def as_config(config: ConfigLike, overrides: Mapping[str, Any] | None = None) -> Config:
-    """Convert anything accepted as a config to a `Config`."""
-    if isinstance(config, Config) and not overrides:
-        return config
+def as_config(
+    config: ConfigLike,
+    overrides: Mapping[str, Any] | None = None,
+    absent: Mapping[str, Any] | None = None,
+) -> Config:
+    """Convert anything accepted as a config to a `Config`.
+
+    Values of `absent`, by dotted key, are used where the config has no such table.
+    """
+    if isinstance(config, Config):
+        return Config(config, overrides) if overrides else config
+    if absent and (overrides is None or isinstance(overrides, Mapping)):
+        there = {*_tables(config), *(str(key).partition(".")[0] for key in overrides or ())}
+        absent = {k: v for k, v in absent.items() if k.partition(".")[0] not in there}
+        overrides = {**absent, **(overrides or {})}
     return Config(config, overrides)
+
+
+def _tables(config: Any) -> set[str]:
+    """Return the tables of a config that need not be valid: what is wrong is said elsewhere."""
+    if isinstance(config, Mapping):
+        return {str(key) for key in config}
+    try:
+        return set(tomllib.loads(Path(config).read_text(encoding="utf-8")))
+    except (OSError, TypeError, ValueError):
+        return set()
 
 
 def plan_of(config: Config) -> _lib.Plan:

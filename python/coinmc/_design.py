@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from coinmc import _lib
 from coinmc._config import ConfigLike
@@ -45,13 +46,17 @@ class Design:
         self.diameter_m: float = document["diameter_m"]
         self.thickness_m: float = document["thickness_m"]
         self.ratio: float = document["ratio"]
+        self.ratio_lo: float
+        self.ratio_hi: float
         self.ratio_lo, self.ratio_hi = (
             float("nan") if document[end] is None else document[end]
             for end in ("ratio_lo", "ratio_hi")
         )
         self.mass_kg: float = document["mass_kg"]
         rows = document["tolerances"]
-        self.tolerances = {name: np.array([row[name] for row in rows]) for name in rows[0]}
+        self.tolerances: dict[str, NDArray[Any]] = {
+            name: np.array([row[name] for row in rows]) for name in rows[0]
+        }
 
     def sheet(self) -> str:
         """Return the page to print and keep with the coin: the text of an SVG file."""

@@ -2,7 +2,15 @@
 
 from typing import NamedTuple
 
-__all__ = ["ConfigError", "Error", "FilmError", "Problem", "RunError", "TraceError"]
+__all__ = [
+    "ConfigError",
+    "Error",
+    "FilmError",
+    "Problem",
+    "RunError",
+    "TraceError",
+    "VisionError",
+]
 
 
 class Problem(NamedTuple):
@@ -34,7 +42,7 @@ class Error(Exception):
 class _Diagnosed(Error, ValueError):
     def __init__(self, message: str, problems: "list[tuple] | tuple[()]" = ()) -> None:
         super().__init__(message)
-        self.problems = [Problem(*problem) for problem in problems]
+        self.problems: list[Problem] = [Problem(*problem) for problem in problems]
 
     def __reduce__(self):  # exceptions can be pickled
         return type(self), (str(self), [tuple(problem) for problem in self.problems])
@@ -66,3 +74,7 @@ class RunError(Error, RuntimeError):
 
 class TraceError(Error, ValueError):
     """There is no such toss, or it cannot be traced with these options."""
+
+
+class VisionError(Error, ValueError):
+    """A photo, a coin description or a camera file cannot be used; the message says why."""

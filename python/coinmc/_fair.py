@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from coinmc import _lib
 from coinmc._config import ConfigLike
@@ -86,10 +87,16 @@ class Fair:
     def __init__(self, document: dict[str, Any]) -> None:
         self.document = document
         curves = document["curves"]
-        self.roots = [_root(curve["at"], root) for curve in curves for root in curve["roots"]]
-        self.near = [(n["from"], n["to"]) for curve in curves for n in curve["near"]]
+        self.roots: list[FairRoot] = [
+            _root(curve["at"], root) for curve in curves for root in curve["roots"]
+        ]
+        self.near: list[tuple[float, float]] = [
+            (n["from"], n["to"]) for curve in curves for n in curve["near"]
+        ]
         scan = [point for curve in curves for point in curve["scan"]]
-        self.scan = {name: np.array([p[name] for p in scan]) for name in ("value", "p", "tosses")}
+        self.scan: dict[str, NDArray[Any]] = {
+            name: np.array([p[name] for p in scan]) for name in ("value", "p", "tosses")
+        }
         self.assumptions: list[dict[str, Any]] = document["assumptions"]
 
     @property

@@ -1,14 +1,16 @@
 """Launches, the initial states of tosses, as structured arrays."""
 
+import os
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from coinmc import _lib
 from coinmc._config import ConfigLike, as_config, plan_of
 
-__all__ = ["LAUNCH", "STATE", "launches"]
+__all__ = ["LAUNCH", "STATE", "LaunchesLike", "launches"]
 
 #: The coin at one instant: position of the centre (m; z is its height above the surface), velocity
 #: (m/s), axis (unit vector out of the heads face), angular velocity (rad/s); each x, y, z in the
@@ -25,7 +27,13 @@ STATE = np.dtype(
 #: A launch is the initial state of a toss.
 LAUNCH = STATE
 
+#: Anything that a function accepts as launches: an array with the fields of `LAUNCH`, or a dict of
+#: arrays of shape (n, 3), or (3,) for all, by the names of these fields.
+LaunchesLike: TypeAlias = NDArray[Any] | Mapping[str, ArrayLike]
+
 _NUMBERS = STATE.itemsize // 8
+#: What says how many threads toss where `threads=` does not.
+_VARIABLE = "COINMC_THREADS"
 
 
 def launches(
@@ -34,8 +42,9 @@ def launches(
     *,
     first: int = 0,
     point: int = 0,
+    threads: int | None = None,
     overrides: Mapping[str, Any] | None = None,
-) -> np.ndarray:
+) -> NDArray[np.void]:
     """Draw the launches of tosses ``first`` to ``first + n - 1`` of a point.
 
     Parameters
@@ -48,6 +57,9 @@ def launches(
         Index of the first toss.
     point : int, optional
         Index of the point in the sweep.
+    threads : int, optional
+        Number of threads; by default what the environment variable ``COINMC_THREADS`` says, or one
+        per core.
     overrides : dict, optional
         Values that replace those of the config, by dotted key.
 
@@ -68,17 +80,20 @@ def launches(
     >>> bool((coinmc.toss(scene, launches=drawn).face == coinmc.toss(scene, 100).face).all())
     True
     """
-    plan = plan_of(as_config(config, overrides))
-    drawn = np.empty(natural(n, "n"), LAUNCH)
-    _lib.launches(plan, natural(point, "point"), natural(first, "first"), rows(drawn))
+    n, threads = natural(n, "n"), threads_of(threads)
+    plan = plan_of(as_config(config, overrides, absent={"stop.tosses": max(n, 1)}))
+    drawn = np.empty(n, LAUNCH)
+    _lib.launches(plan, natural(point, "point"), natural(first, "first"), rows(drawn), threads)
     return drawn
 
 
-def as_launches(given: Any) -> np.ndarray:
+def as_launches(given: Any) -> NDArray[np.void]:
     """Check launches given by the user and return them as a contiguous array of `LAUNCH`.
 
     An array that is already in that form is not copied.
     """
+    if isinstance(given, Mapping):
+        return _from_dict(given)
     array = plain(given)
     if array.dtype.names is None or set(array.dtype.names) != set(LAUNCH.names):
         raise TypeError(
@@ -92,14 +107,34 @@ def as_launches(given: Any) -> np.ndarray:
     return _converted(array)
 
 
-def plain(given: Any) -> np.ndarray:
+def _from_dict(given: Mapping[str, Any]) -> NDArray[np.void]:
+    wanted = ", ".join(LAUNCH.names)
+    if set(given) != set(LAUNCH.names):
+        raise TypeError(f"a dict of launches needs the arrays {wanted}")
+    arrays = {name: np.atleast_2d(plain(given[name])) for name in LAUNCH.names}
+    for name, array in arrays.items():
+        if array.dtype.kind not in "fiu" or array.ndim != 2 or array.shape[1] != 3:
+            raise TypeError(f"{name} must be an array of real numbers of shape (n, 3) or (3,)")
+    lengths = {name: len(array) for name, array in arrays.items()}
+    n = max(lengths.values())
+    if any(length not in (1, n) for length in lengths.values()):
+        told = ", ".join(f"{length} of {name}" for name, length in lengths.items())
+        raise ValueError(f"the arrays of launches must be equally long, not {told}")
+    launches = np.empty(n, LAUNCH)
+    for name, array in arrays.items():
+        launches[name] = array
+    return launches
+
+
+def plain(given: Any) -> NDArray[Any]:
     """Convert to a plain array, dropping what subclasses add."""
-    if np.any(getattr(given, "mask", False)):
+    # a pandas Series has a method of the name `mask`
+    if np.ma.is_masked(given):
         raise ValueError("masked values are not supported: fill or drop them")
     return np.asarray(given)
 
 
-def _converted(array: np.ndarray) -> np.ndarray:
+def _converted(array: NDArray[Any]) -> NDArray[np.void]:
     launches = np.empty(array.shape, LAUNCH)
     for name in LAUNCH.names:
         field = array[name]
@@ -109,7 +144,7 @@ def _converted(array: np.ndarray) -> np.ndarray:
     return launches
 
 
-def rows(states: np.ndarray) -> np.ndarray:
+def rows(states: NDArray[Any]) -> NDArray[np.float64]:
     """Return a view of states as rows of twelve numbers, without copying."""
     return states.view(np.float64).reshape(len(states), _NUMBERS)
 
@@ -129,11 +164,16 @@ def natural(number: Any, name: str) -> int:
 
 
 def threads_of(threads: Any) -> int | None:
-    """Check a number of threads and return it."""
-    most = 1024
+    """Check a number of threads and return it; None is what the environment says, if it does."""
+    most, name = 1024, "threads"
     if threads is None:
-        return None
-    threads = natural(threads, "threads")
+        said = os.environ.get(_VARIABLE, "").strip()
+        if not said:
+            return None
+        if not (said.isascii() and said.isdigit() and len(said) < 9):
+            raise ValueError(f"{_VARIABLE} must be from 1 to {most}, not {said!r}")
+        threads, name = int(said), _VARIABLE
+    threads = natural(threads, name)
     if not 1 <= threads <= most:
-        raise ValueError(f"threads must be from 1 to {most}, not {threads}")
+        raise ValueError(f"{name} must be from 1 to {most}, not {threads}")
     return threads

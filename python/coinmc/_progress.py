@@ -2,12 +2,26 @@
 
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from typing import Any
 
 __all__ = ["reporting"]
 
 #: Called with the number of tosses done and the number planned.
 Report = Callable[[int, int], None]
+
+
+class _NoBar:
+    """A bar for those who would not see it."""
+
+    n = 0
+    total: int | None = None
+
+    def close(self) -> None:
+        pass
+
+    def update(self, more: int) -> None:
+        self.n += more
 
 
 @contextmanager
@@ -28,26 +42,42 @@ def reporting(progress: bool | Report | None, what: str) -> Iterator[Report | No
     if callable(progress):
         yield progress
         return
-    bar = _bar(what)
+    try:
+        bar = _bar(what)
+    except OSError:
+        # the descriptor is closed
+        bar = _NoBar()
     if bar is None:
         if progress:
             raise ImportError('progress bars need tqdm: pip install "coinmc[progress]"')
         yield None
         return
-    with bar:
 
-        def report(done: int, planned: int) -> None:
-            bar.total = planned or None
+    def report(done: int, planned: int) -> None:
+        bar.total = planned or None
+        # whoever read it may be gone: that is no reason to stop
+        with suppress(OSError, ValueError):
             bar.update(done - bar.n)
 
+    try:
         yield report
+    finally:
+        with suppress(OSError, ValueError):
+            bar.close()
 
 
 def _is_interactive() -> bool:
-    return hasattr(sys, "ps1") or (sys.stderr is not None and sys.stderr.isatty())
+    return hasattr(sys, "ps1") or (_has_stderr() and sys.stderr.isatty())
 
 
-def _bar(what: str):  # tqdm is optional
+def _has_stderr() -> bool:
+    """Whether there is a standard error to write to: services close it."""
+    return sys.stderr is not None and not sys.stderr.closed
+
+
+def _bar(what: str) -> Any:  # tqdm is optional
+    if not _has_stderr():
+        return _NoBar()
     try:
         from tqdm.auto import tqdm
     except ImportError:

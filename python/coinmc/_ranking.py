@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from coinmc import _lib
 from coinmc._config import ConfigLike
@@ -41,7 +42,9 @@ class Ranking:
         self._picture = document.pop("picture")
         self.document = document
         rows = document["rows"]
-        self.columns = {"parameter": np.array([row["parameter"] for row in rows])}
+        self.columns: dict[str, NDArray[Any]] = {
+            "parameter": np.array([row["parameter"] for row in rows])
+        }
         for name in _NUMBERS:
             self.columns[name] = np.array([row[name] for row in rows])
         for name in _INTERVALS:
@@ -65,7 +68,7 @@ class Ranking:
         """Return the number of unknowns."""
         return len(self.columns["parameter"])
 
-    def __getitem__(self, name: str) -> np.ndarray:
+    def __getitem__(self, name: str) -> NDArray[Any]:
         """Return a column."""
         return self.columns[name]
 

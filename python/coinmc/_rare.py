@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from coinmc import _lib
 from coinmc._config import ConfigLike
@@ -47,12 +48,16 @@ class Rare:
         self.tosses: int = document["tosses"]
         self.pilot_tosses: int = document["pilot_tosses"]
         self.launches: int = document["launches"]
+        self.gain: float
+        self.gain_of_work: float
         self.gain, self.gain_of_work = (
             float("nan") if document[name] is None else float(document[name])
             for name in ("gain", "gain_of_work")
         )
         rows = document["rows"]
-        self.strata = {name: np.array([row[name] for row in rows]) for name in rows[0]}
+        self.strata: dict[str, NDArray[Any]] = {
+            name: np.array([row[name] for row in rows]) for name in rows[0]
+        }
 
     @property
     def face(self) -> str:

@@ -1,24 +1,35 @@
 """Results of estimates and runs, as tables with one row per point."""
 
 import html
+import json
 import os
 import warnings
 from collections.abc import Callable, Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from coinmc import _lib
 from coinmc._config import Config, ConfigLike, as_config, default_directory, plan_of
 from coinmc._launches import natural, threads_of
 from coinmc._progress import reporting
+from coinmc._table import ArrowTable
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from coinmc._sensitivity import Sensitivity
 
 __all__ = ["Crossing", "Result", "estimate", "open", "run"]
 
 #: Number of rows shown by `repr`.
 _SHOWN = 12
+_FACES = ("heads", "tails", "side")
+#: Columns that count undecided tosses by their reason.
+_UNDECIDED = ("time_limit", "never_settles", "impact_limit", "failed")
 
 
 class Crossing(NamedTuple):
@@ -50,13 +61,13 @@ class Crossing(NamedTuple):
     rising: bool
 
 
-class Result:
+class Result(ArrowTable):
     """Probabilities with intervals, one row per point. Made by `run`, `estimate` and `open`.
 
     Libraries that support Arrow read it as a table without copying: ``pyarrow.table(result)``,
-    ``polars.DataFrame(result)``, ``duckdb.sql("select … from result")``;
-    ``pyarrow.table(result).to_pandas()`` for pandas. Columns are described in
-    docs/reference/formats.md.
+    ``polars.DataFrame(result)``, ``duckdb.sql("select … from result")``. It behaves like a dict of
+    its columns, described in docs/reference/formats.md, except that its length is the number of
+    points. It can be pickled: a result in a directory as the absolute path of that.
 
     Attributes
     ----------
@@ -66,13 +77,16 @@ class Result:
         The run directory, if there is one.
     """
 
-    def __init__(self, table: _lib.Results, config: Config, path: Path | None = None) -> None:
+    def __init__(
+        self, table: _lib.Results, config: Config, path: Path | None = None, *, part: bool = False
+    ) -> None:
         self._table = table
+        self._part = part
         self.config = config
         self.path = path
 
     @cached_property
-    def columns(self) -> dict[str, np.ndarray]:
+    def columns(self) -> dict[str, NDArray[Any]]:
         """Columns by name, each of shape (points,). Missing numbers are NaN."""
         columns = self._table.columns()
         # columns of text are lists
@@ -107,18 +121,47 @@ class Result:
 
     @property
     def status(self) -> str:
-        """``complete``; ``interrupted`` or ``part`` if some tosses are missing; ``short`` if the
-        run is finished but some points did not reach the requested half width.
+        """``complete``; ``interrupted`` if some tosses are missing; ``part`` in the directory of a
+        part of a run that is split; ``short`` if the run is finished but some points did not reach
+        the requested half width.
         """
-        return self._table.status
+        status = self._table.status
+        return "part" if self._part and status == "interrupted" else status
 
     def __len__(self) -> int:
         """Return the number of points."""
         return len(self._table)
 
-    def __getitem__(self, name: str) -> np.ndarray:
-        """Return a column."""
-        return self.columns[name]
+    @property
+    def undecided(self) -> NDArray[np.uint64]:
+        """Undecided tosses of each point: they have no face, and widen the intervals."""
+        return sum((self.columns[name] for name in _UNDECIDED), np.zeros(len(self), np.uint64))
+
+    def to_xarray(self) -> "xr.Dataset":
+        """Return the table as an xarray Dataset, with a dimension for each axis of the sweep.
+
+        A result without axes has the dimension ``point``. Units and descriptions are attributes of
+        the variables. Needs xarray.
+        """
+        import xarray as xr
+
+        columns, axes = self.columns, self.axes
+        values = {axis: np.array(list(dict.fromkeys(columns[axis].tolist()))) for axis in axes}
+        shape = tuple(len(value) for value in values.values())
+        if not axes or int(np.prod(shape)) != len(self):
+            axes, values, shape = ["point"], {"point": columns["point"]}, (len(self),)
+        about = {name: (unit, text) for name, unit, text in self._table.describe()}
+        variables = {}
+        for name, column in columns.items():
+            if name not in axes:
+                unit, text = about[name]
+                attributes = {"units": unit, "long_name": text}
+                variables[name] = (axes, column.reshape(shape), attributes)
+        coordinates = {
+            axis: (axis, value, {"units": about[axis][0], "long_name": about[axis][1]})
+            for axis, value in values.items()
+        }
+        return xr.Dataset(variables, coordinates, attrs=dict(self.metadata))
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
         """Export the table as an Arrow stream (the Arrow PyCapsule interface)."""
@@ -163,7 +206,7 @@ class Result:
         crossings = self._table.fair(target, face, column)
         return [Crossing(dict(at), *fields) for at, *fields in crossings]
 
-    def sensitivity(self, parameters: "list[str] | None" = None, **options: Any) -> Any:
+    def sensitivity(self, parameters: "list[str] | None" = None, **options: Any) -> "Sensitivity":
         """Compute how strongly probabilities depend on parameters, by `coinmc.sensitivity`.
 
         Parameters
@@ -202,18 +245,22 @@ class Result:
 
     def _names(self) -> list[str]:
         axes = self.axes or ["ratio"]
-        return [*axes, "tosses", *(f"P({face})" for face in ("heads", "tails", "side"))]
+        undecided = ["undecided"] if self.undecided.any() else []
+        return [*axes, "tosses", *undecided, *(f"P({face})" for face in _FACES)]
 
     def _rows(self) -> list[list[str]]:
         columns = self.columns
         axes = self.axes or ["ratio"]
+        undecided = self.undecided
         rows = []
         for row in range(min(len(self), _SHOWN)):
             cells = [f"{columns[axis][row]:.6g}" for axis in axes]
             evaluations = columns["evaluations"][row]
             shown = f"{evaluations:,} evaluations" if evaluations else f"{columns['tosses'][row]:,}"
             cells.append(shown)
-            for face in ("heads", "tails", "side"):
+            if undecided.any():
+                cells.append(f"{undecided[row]:,}")
+            for face in _FACES:
                 p, lo, hi = (columns[f"p_{face}{end}"][row] for end in ("", "_lo", "_hi"))
                 cells.append(f"{p:.5f}" if lo == hi else f"{p:.5f} [{lo:.5f}, {hi:.5f}]")
             rows.append(cells)
@@ -222,10 +269,15 @@ class Result:
     def _more(self) -> list[str]:
         return [f"… {len(self) - _SHOWN} more points"] if len(self) > _SHOWN else []
 
-    def __reduce__(self):  # pickled as the path of its directory
-        if self.path is None:
-            raise TypeError("a result without a directory cannot be pickled: pickle its columns")
-        return open, (self.path,)
+    def __reduce__(self) -> tuple[Any, ...]:
+        if self.path is not None:
+            # what is there when it is unpickled: here or in another process, wherever that works
+            return open, (self.path.absolute(),)
+        return _unpickled, (self.config, self._table.plain())
+
+
+def _unpickled(config: Config, plain: Any) -> Result:
+    return Result(_lib.unpickled(plan_of(config), plain), config)
 
 
 def estimate(
@@ -276,7 +328,7 @@ def estimate(
     with reporting(progress, "estimate") as report:
         table, messages = _lib.estimate(plan_of(config), threads_of(threads), report)
     _warn(messages)
-    return Result(table, config)
+    return _checked(Result(table, config))
 
 
 def run(
@@ -334,7 +386,7 @@ def run(
 
             table, messages = run_with(executor, config, path, report)
     _warn(messages)
-    return Result(table, config, path)
+    return _checked(Result(table, config, path))
 
 
 def open(path: str | os.PathLike[str]) -> Result:
@@ -358,7 +410,32 @@ def open(path: str | os.PathLike[str]) -> Result:
     path = Path(path)
     (plan, table), messages = _lib.open(path)
     _warn(messages)
-    return Result(table, Config.from_toml(plan.resolved), path)
+    return Result(table, Config.from_toml(plan.resolved), path, part=_holds_a_part(path))
+
+
+def _holds_a_part(directory: Path) -> bool:
+    """Whether a run directory, which has just been read, is that of a part of a split run."""
+    manifest = json.loads((directory / "manifest.json").read_text(encoding="utf-8"))
+    return manifest.get("part", "1/1") != "1/1"
+
+
+def _checked(result: Result) -> Result:
+    """Warn of points whose intervals are as wide as they are because of undecided tosses."""
+    undecided, tosses = result.undecided, result.columns["tosses"]
+    # the width that undecided tosses add, over that of a binomial interval at most
+    wide = np.flatnonzero(undecided > np.sqrt(tosses))
+    if len(wide):
+        worst = wide[np.argmax(undecided[wide] / tosses[wide])]
+        share = 100.0 * undecided[worst] / tosses[worst]
+        points = f"{len(wide)} point" + ("s" if len(wide) != 1 else "")
+        warnings.warn(
+            f"at {points} undecided tosses widen the intervals by more than chance does: "
+            f"{share:.2g} % of the tosses of point {worst} have no face; the columns "
+            f"{', '.join(_UNDECIDED)} say why",
+            RuntimeWarning,
+            stacklevel=3,
+        )
+    return result
 
 
 def _warn(messages: list[str]) -> None:

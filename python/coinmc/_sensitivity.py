@@ -6,52 +6,64 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from coinmc import _lib
 from coinmc._codes import Face
 from coinmc._config import Config, ConfigLike, as_config, plan_of
+from coinmc._errors import ConfigError
 from coinmc._intervals import normal_quantile
 from coinmc._launches import natural, threads_of
 from coinmc._progress import reporting
+from coinmc._table import ArrowTable
 
 __all__ = ["Sensitivity", "sensitivity"]
 
 #: Tosses compared at once.
 _BLOCK = 1 << 20
 _FACES = (Face.HEADS, Face.TAILS, Face.SIDE)
+#: Steps to choose from, each twice the one before, and the part of the tosses that tries them out.
+_STEPS = (0.025, 0.05, 0.1, 0.2, 0.4)
+_PILOT = 20
+_MAX_PILOT = 1 << 18
 #: Parameters that affect no probability.
 _WITHOUT_EFFECT = {"coin.mass_kg"}
 
 
-class Sensitivity:
+class Sensitivity(ArrowTable):
     """Derivatives of probabilities, one row per parameter. Made by `sensitivity`.
+
+    Libraries that support Arrow read it as a table.
 
     Attributes
     ----------
-    columns : dict of str to ndarray
-        ``parameter`` and its ``value``; ``tosses``, the number compared; for each face
-        ``d_p_<face>``, the derivative dP(face)/d ln(parameter), with its interval
-        ``d_p_<face>_lo`` and ``d_p_<face>_hi``; and ``changed``, the fraction of tosses whose
-        outcome changed.
     confidence : float
         Confidence level of the intervals.
-    step : float
-        Relative change of each parameter.
+    step : float or None
+        Relative change of each parameter that was asked for.
     """
 
-    def __init__(self, rows: list[dict[str, Any]], confidence: float, step: float) -> None:
+    def __init__(self, rows: list[dict[str, Any]], confidence: float, step: float | None) -> None:
         names = rows[0] if rows else ()
-        self.columns = {name: np.array([row[name] for row in rows]) for name in names}
+        self._columns = {name: np.array([row[name] for row in rows]) for name in names}
         self.confidence = confidence
         self.step = step
+
+    @property
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """Columns by name.
+
+        ``parameter``, its ``value`` and the ``step`` by which it was changed; ``tosses``, the
+        number compared; ``changed``, the fraction of them whose outcome changed; for each face
+        ``d_p_<face>``, the derivative dP(face)/d ln(parameter), with its interval
+        ``d_p_<face>_lo`` and ``d_p_<face>_hi``, and ``gain_<face>``: how many times more tosses
+        independent ones would need for the same error.
+        """
+        return self._columns
 
     def __len__(self) -> int:
         """Return the number of parameters."""
         return len(self.columns.get("parameter", ()))
-
-    def __getitem__(self, name: str) -> np.ndarray:
-        """Return a column."""
-        return self.columns[name]
 
     def __repr__(self) -> str:
         lines = [f"<coinmc.Sensitivity {len(self)} parameters, dP/d ln(parameter)>"]
@@ -61,6 +73,7 @@ class Sensitivity:
                 name = face.name.lower()
                 value, lo, hi = (self[f"d_p_{name}{end}"][row] for end in ("", "_lo", "_hi"))
                 cells.append(f"{name} {value:+.4f} [{lo:+.4f}, {hi:+.4f}]")
+            cells.append(f"step {self['step'][row]:g}, pairs worth {self['gain_side'][row]:.3g}×")
             lines.append("  ".join(cells))
         return "\n".join(lines)
 
@@ -70,7 +83,7 @@ def sensitivity(
     parameters: Sequence[str] | None = None,
     *,
     tosses: int | None = None,
-    step: float = 0.05,
+    step: float | None = None,
     point: int = 0,
     confidence: float = 0.95,
     threads: int | None = None,
@@ -81,8 +94,9 @@ def sensitivity(
 
     Each parameter is decreased and increased by half a step (by the same factor), and the same
     tosses, with the same random numbers, are computed with both values. Only the tosses whose face
-    changes contribute to the difference, so its error is far smaller than that of two independent
-    estimates.
+    changes contribute to the error of the difference. Where a coin bounces often nearly every toss
+    changes, and pairs are worth little more than independent tosses; where it does not they are
+    worth many times as much. The columns ``changed`` and ``gain_<face>`` say it.
 
     Parameters
     ----------
@@ -94,8 +108,12 @@ def sensitivity(
     tosses : int, optional
         Tosses with each value; by default the number per point in the config.
     step : float, optional
-        Ratio of the two values minus 1. The discretization error of the derivative is proportional
-        to the square of the step, the statistical error to the inverse of its square root.
+        Ratio of the two values minus 1; by default it is chosen for each parameter. The bias of the
+        derivative is proportional to the square of the step. Its statistical error falls with the
+        step: as the inverse of the square root where few tosses change, as the inverse where most
+        do. So a twentieth of the tosses, 2^18 at most, is made with steps from 0.025 to 0.4, and
+        that is taken for which variance and squared bias, from the difference of neighbouring
+        steps, are least together.
     point : int, optional
         Index of the point in the sweep: every swept parameter takes its value there.
     confidence : float, optional
@@ -130,9 +148,9 @@ def sensitivity(
     >>> bool(table["d_p_side_lo"][0] > 0)
     True
     """
-    step, confidence = float(step), float(confidence)
+    step, confidence = None if step is None else float(step), float(confidence)
     z = normal_quantile(confidence)
-    if not 0.0 < step <= 1.0:
+    if step is not None and not 0.0 < step <= 1.0:
         raise ValueError(f"the step must be greater than 0 and at most 1, not {step}")
     if isinstance(parameters, str):
         parameters = [parameters]
@@ -144,50 +162,110 @@ def sensitivity(
     n = config.stop.tosses
     values = _numbers(config)
     names = list(values) if parameters is None else list(parameters)
-    pairs = {name: _pair(config, name, values, step) for name in names}
+    tried = _STEPS if step is None else (step,)
+    ladders = {name: _pairs(config, name, values, tried) for name in names}
+    threads = threads_of(threads)
+    pilot = 0 if step is not None else min(max(n // _PILOT, 1), _MAX_PILOT)
+    planned = 2 * sum(n + pilot * len(pairs) for pairs in ladders.values())
     rows = []
     with reporting(progress, "sensitivity") as report:
-        for number, (name, pair) in enumerate(pairs.items()):
-            table = _cross(pair, n, threads_of(threads), report, (number, len(pairs)))
-            rows.append({"parameter": name, "value": values[name], **_row(table, step, z)})
+        count = _Count(planned, report)
+        for name, pairs in ladders.items():
+            chosen = _best_step(pairs, pilot, n, threads, count) if step is None else step
+            row = {"parameter": name, "value": values[name], "step": chosen}
+            rows.append({**row, **_row(_cross(pairs[chosen], n, threads, count), chosen, z)})
     return Sensitivity(rows, confidence, step)
+
+
+class _Count:
+    """Counts tosses and reports them."""
+
+    def __init__(self, planned: int, report: Callable[[int, int], None] | None) -> None:
+        self.done = 0
+        self.planned = planned
+        self.report = report
+
+    def add(self, tosses: int) -> None:
+        self.done += tosses
+        if self.report:
+            self.report(self.done, self.planned)
+
+
+def _best_step(
+    pairs: Mapping[float, tuple[Config, Config]],
+    pilot: int,
+    n: int,
+    threads: int | None,
+    count: _Count,
+) -> float:
+    """Return the step of least variance and squared bias together, for the worst face."""
+    steps = list(pairs)
+    tables = [_cross(pair, pilot, threads, count) for pair in pairs.values()]
+    errors = np.zeros(len(steps))
+    for face in _FACES:
+        found = [_difference(table, face) for table in tables]
+        scale = [1.0 / math.log1p(step) for step in steps]
+        slope = np.array([a * b for (a, _), b in zip(found, scale, strict=True)])
+        variance = np.array([(a * b) ** 2 for (_, a), b in zip(found, scale, strict=True)])
+        # slopes differ by three times the bias of the shorter step; what their noise makes of it
+        # is taken off
+        noise = variance[1:] + variance[:-1]
+        squared_bias = np.maximum(np.diff(slope) ** 2 - noise, 0.0) / 9.0
+        # twice the step: four times the bias
+        last = 16.0 * squared_bias[-1:] if len(squared_bias) else np.zeros(1)
+        face_errors = variance * pilot / n + np.append(squared_bias, last)
+        errors = np.maximum(errors, face_errors)
+    # without any change all are alike: the longest sees most
+    return steps[len(steps) - 1 - int(np.argmin(errors[::-1]))]
 
 
 def _cross(
     pair: tuple[Config, Config],
     n: int,
     threads: int | None,
-    report: Callable[[int, int], None] | None,
-    place: tuple[int, int],
-) -> np.ndarray:
+    count: _Count,
+) -> NDArray[np.int64]:
     """Count tosses by face with the smaller value (rows) and with the larger value (columns)."""
-    table = np.zeros((len(Face), len(Face)), np.int64)
-    number, pairs = place
+    table: NDArray[np.int64] = np.zeros((len(Face), len(Face)), np.int64)
     for first in range(0, n, _BLOCK):
         size = min(_BLOCK, n - first)
         faces = np.empty((2, size), np.uint8)
         for row, config in zip(faces, pair, strict=True):
-            _lib.toss(plan_of(config), 0, first, None, row, None, threads, None)
+            _lib.toss(plan_of(config), 0, first, None, row, threads, None)
         both = faces[0] * len(Face) + faces[1]
         table += np.bincount(both, minlength=table.size).reshape(table.shape)
-        if report:
-            report(2 * (number * n + first + size), 2 * pairs * n)
+        count.add(2 * size)
     return table
 
 
-def _row(table: np.ndarray, step: float, z: float) -> dict[str, Any]:
+def _difference(table: NDArray[np.int64], face: Face) -> tuple[float, float]:
+    """Return by how much the share of a face differs, and the standard error of that."""
+    n = int(table.sum())
+    stays = table[face, face]
+    gains, losses = int(table[:, face].sum() - stays), int(table[face].sum() - stays)
+    error = math.sqrt(max(gains + losses - (gains - losses) ** 2 / n, 0.0)) / n
+    return (gains - losses) / n, error
+
+
+def _gain(table: NDArray[np.int64], face: Face, error: float) -> float:
+    """Return the variance of independent tosses over that of these."""
+    n = int(table.sum())
+    shares = table[:, face].sum() / n, table[face].sum() / n
+    independent = sum(p * (1.0 - p) for p in shares) / n
+    return float(independent / error**2) if error > 0.0 else math.inf
+
+
+def _row(table: NDArray[np.int64], step: float, z: float) -> dict[str, Any]:
     n = int(table.sum())
     row: dict[str, Any] = {"tosses": n, "changed": 1.0 - float(np.trace(table)) / n}
+    per_log = 1.0 / math.log1p(step)
     for face in _FACES:
-        stays = table[face, face]
-        gains, losses = table[:, face].sum() - stays, table[face].sum() - stays
-        difference = (gains - losses) / n
-        error = math.sqrt(max(gains + losses - (gains - losses) ** 2 / n, 0.0)) / n
-        per_log = 1.0 / math.log1p(step)
-        name = f"d_p_{face.name.lower()}"
-        row[name] = float(difference * per_log)
-        row[f"{name}_lo"] = float((difference - z * error) * per_log)
-        row[f"{name}_hi"] = float((difference + z * error) * per_log)
+        difference, error = _difference(table, face)
+        name = face.name.lower()
+        row[f"d_p_{name}"] = difference * per_log
+        row[f"d_p_{name}_lo"] = (difference - z * error) * per_log
+        row[f"d_p_{name}_hi"] = (difference + z * error) * per_log
+        row[f"gain_{name}"] = _gain(table, face, error)
     return row
 
 
@@ -230,15 +308,25 @@ def _is_number(item: Any) -> bool:
     return isinstance(item, (int, float)) and not isinstance(item, bool) and item != 0
 
 
-def _pair(
-    config: Config, name: str, values: Mapping[str, float], step: float
-) -> tuple[Config, Config]:
+def _pairs(
+    config: Config, name: str, values: Mapping[str, float], steps: Sequence[float]
+) -> dict[float, tuple[Config, Config]]:
+    """Return the configs with the smaller and the larger value, for each step that is allowed."""
     if name not in values:
         known = ", ".join(values)
         raise ValueError(
             f"{name} is not a number of this config that can be varied; choose from {known}"
         )
     base = Config.from_toml(config.resolved)
-    root = math.sqrt(1.0 + step)
-    smaller, larger = values[name] / root, values[name] * root
-    return Config(base, {name: smaller}), Config(base, {name: larger})
+    pairs = {}
+    for step in steps:
+        root = math.sqrt(1.0 + step)
+        smaller, larger = values[name] / root, values[name] * root
+        try:
+            pairs[step] = Config(base, {name: smaller}), Config(base, {name: larger})
+        except ConfigError:
+            if not pairs:
+                raise
+            # longer ones are not allowed either
+            break
+    return pairs

@@ -1,22 +1,35 @@
 """Individual tosses."""
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from functools import cached_property
+from typing import Any, Literal, overload
 
 import numpy as np
+from numpy.typing import NDArray
 
 from coinmc import _lib
-from coinmc._codes import Face
+from coinmc._codes import Ended, Face
 from coinmc._config import Config, ConfigLike, as_config, plan_of
 from coinmc._intervals import Estimate, estimates
-from coinmc._launches import STATE, as_launches, launches, natural, rows, threads_of
+from coinmc._launches import (
+    STATE,
+    LaunchesLike,
+    as_launches,
+    launches,
+    natural,
+    rows,
+    threads_of,
+)
 from coinmc._progress import reporting
+from coinmc._table import ArrowTable, flattened
 
 __all__ = ["Tosses", "toss"]
 
 
-class Tosses:
+class Tosses(ArrowTable):
     """Individual tosses of one point. Made by `toss`.
+
+    Libraries that support Arrow read it as a table, one row per toss: ``polars.DataFrame(tosses)``.
 
     Attributes
     ----------
@@ -26,61 +39,90 @@ class Tosses:
         Reason why each toss ended: codes of `Ended`.
     impacts : ndarray of uint32, shape (n,)
         Number of impacts.
-    time_s : ndarray of float64, shape (n,)
-        Time at which the toss ended, s since launch. A toss ends as soon as its face is decided,
-        before the coin comes to rest.
-    final : ndarray of `STATE`, shape (n,)
-        State of the coin at that time.
     config : Config
         The config.
     point, first : int
         Index of the point in the sweep, and index of the first toss.
     """
 
-    __slots__ = (
-        "_given",
-        "config",
-        "ended",
-        "face",
-        "final",
-        "first",
-        "impacts",
-        "point",
-        "time_s",
-    )
-
     config: Config
-    face: np.ndarray
-    ended: np.ndarray
-    impacts: np.ndarray
-    time_s: np.ndarray
-    final: np.ndarray
+    face: NDArray[np.uint8]
+    ended: NDArray[np.uint8]
+    impacts: NDArray[np.uint32]
     point: int
     first: int
 
     def __init__(
-        self, config: Config, point: int, first: int, n: int, given: np.ndarray | None
+        self,
+        config: Config,
+        point: int,
+        first: int,
+        n: int,
+        given: NDArray[np.void] | None,
+        threads: int | None = None,
     ) -> None:
         self.config = config
         self.point = point
         self.first = first
         self._given = given
+        self._threads = threads
         self.face = np.empty(n, np.uint8)
         self.ended = np.empty(n, np.uint8)
         self.impacts = np.empty(n, np.uint32)
-        self.time_s = np.empty(n, np.float64)
-        self.final = np.empty(n, STATE)
 
     def __len__(self) -> int:
         """Return the number of tosses."""
         return len(self.face)
 
+    @cached_property
+    def _ends(self) -> tuple[NDArray[np.float64], NDArray[np.void]]:
+        """Compute the tosses again, one at a time, as only that path knows where coins are."""
+        time_s, final = np.empty(len(self)), np.empty(len(self), STATE)
+        given = None if self._given is None else rows(self._given)
+        ends = (time_s, rows(final))
+        _lib.toss(plan_of(self.config), self.point, self.first, given, ends, self._threads, None)
+        return time_s, final
+
     @property
-    def launches(self) -> np.ndarray:
+    def time_s(self) -> NDArray[np.float64]:
+        """Time at which each toss ended, s since launch, shape (n,).
+
+        A toss ends as soon as its face is decided, before the coin comes to rest. Times and final
+        states are computed when they are first asked for: that takes several times as long as the
+        faces.
+        """
+        return self._ends[0]
+
+    @property
+    def final(self) -> NDArray[np.void]:
+        """State of the coin when each toss ended, dtype `STATE`, shape (n,). See `time_s`."""
+        return self._ends[1]
+
+    @property
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """What `face`, `ended`, `impacts`, `time_s` and `final` hold, as columns of a table.
+
+        ``face`` and ``ended`` are names, ``toss`` is the number of the toss, and ``final`` has a
+        column per component, such as ``position_x_m``.
+        """
+        names = np.array([face.name.lower() for face in Face])
+        reasons = np.array([reason.name.lower() for reason in Ended])
+        return {
+            "toss": np.arange(self.first, self.first + len(self), dtype=np.uint64),
+            "face": names[self.face],
+            "ended": reasons[self.ended],
+            "impacts": self.impacts,
+            "time_s": self.time_s,
+            **flattened(self.final),
+        }
+
+    @property
+    def launches(self) -> NDArray[np.void]:
         """Launches of the tosses, dtype `LAUNCH`: those given, or the drawn ones, drawn again."""
         if self._given is not None:
             return self._given
-        return launches(self.config, len(self), first=self.first, point=self.point)
+        drawn: dict[str, Any] = {"first": self.first, "point": self.point}
+        return launches(self.config, len(self), **drawn, threads=self._threads)
 
     @property
     def counts(self) -> dict[str, int]:
@@ -109,38 +151,71 @@ class Tosses:
         return f"<coinmc.Tosses {len(self):,}: {counts or 'none'}>"
 
 
+@overload
 def toss(
     config: ConfigLike,
     n: int | None = None,
     *,
-    launches: np.ndarray | None = None,
+    launches: LaunchesLike | None = None,
+    first: int = 0,
+    point: int = 0,
+    faces_only: Literal[False] = False,
+    threads: int | None = None,
+    progress: bool | Callable[[int, int], None] | None = None,
+    overrides: Mapping[str, Any] | None = None,
+) -> Tosses: ...
+
+
+@overload
+def toss(
+    config: ConfigLike,
+    n: int | None = None,
+    *,
+    launches: LaunchesLike | None = None,
+    first: int = 0,
+    point: int = 0,
+    faces_only: Literal[True],
+    threads: int | None = None,
+    progress: bool | Callable[[int, int], None] | None = None,
+    overrides: Mapping[str, Any] | None = None,
+) -> NDArray[np.uint8]: ...
+
+
+def toss(
+    config: ConfigLike,
+    n: int | None = None,
+    *,
+    launches: LaunchesLike | None = None,
     first: int = 0,
     point: int = 0,
     faces_only: bool = False,
     threads: int | None = None,
     progress: bool | Callable[[int, int], None] | None = None,
     overrides: Mapping[str, Any] | None = None,
-) -> "Tosses | np.ndarray":
+) -> Tosses | NDArray[np.uint8]:
     """Compute tosses and return the outcome of each.
 
     Parameters
     ----------
     config : path, dict or Config
-        The config.
+        The config. It needs no ``[stop]`` if n is given, and no ``[launch]`` if launches are.
     n : int, optional
         Number of tosses; by default the number per point in the config.
-    launches : ndarray of `LAUNCH`, optional
-        Your own launches, instead of n drawn ones. Axes need not have unit length. Any dtype with
-        the same fields is accepted; a contiguous array of native byte order is not copied.
+    launches : ndarray of `LAUNCH` or dict of arrays, optional
+        Your own launches, instead of n drawn ones: an array, or a dict with an array of shape
+        (n, 3), or (3,) for all, for each field of `LAUNCH`. Axes need not have unit length. Any
+        dtype with the same fields is accepted; a contiguous array of native byte order is not
+        copied.
     first : int, optional
         Index of the first toss: toss k is the same toss in every call, in every run and on every
         machine.
     point : int, optional
         Index of the point in the sweep.
     faces_only : bool, optional
-        Return only the array of faces: one byte per toss instead of 110, and slightly faster.
+        Return only the array of faces.
     threads : int, optional
-        Number of threads; by default one per core. It does not affect the results.
+        Number of threads; by default what the environment variable ``COINMC_THREADS`` says, or one
+        per core. It does not affect the results.
     progress : bool or callable, optional
         Whether to show progress; see the guide.
     overrides : dict, optional
@@ -173,29 +248,37 @@ def toss(
     >>> bool(tosses.estimate()["side"].lo < 0.13 < tosses.estimate()["side"].hi)
     True
     """
-    config = as_config(config, overrides)
+    given = None if launches is None else as_launches(launches)
+    if n is not None and given is not None and natural(n, "n") != len(given):
+        raise ValueError(f"n = {n}, but there are {len(given)} launches: omit n")
+    config = as_config(config, overrides, _absent(n, given))
     first, point = natural(first, "first"), natural(point, "point")
-    if launches is not None:
-        launches = as_launches(launches)
-        if n is not None and natural(n, "n") != len(launches):
-            raise ValueError(f"n = {n}, but there are {len(launches)} launches: omit n")
-    count = _count(config, n, launches)
-    source = (plan_of(config), point, first, None if launches is None else rows(launches))
-    threads = threads_of(threads)
+    count, threads = _count(config, n, given), threads_of(threads)
+    source = (plan_of(config), point, first, None if given is None else rows(given))
     with reporting(progress, "toss") as report:
         if faces_only:
             face = np.empty(count, np.uint8)
-            _lib.toss(*source, face, None, threads, report)
+            _lib.toss(*source, face, threads, report)
             return face
-        tosses = Tosses(config, point, first, count, launches)
-        details = (tosses.ended, tosses.impacts, tosses.time_s, rows(tosses.final))
-        _lib.toss(*source, tosses.face, details, threads, report)
+        tosses = Tosses(config, point, first, count, given, threads)
+        outcomes = (tosses.face, tosses.ended, tosses.impacts)
+        _lib.toss(*source, outcomes, threads, report)
     return tosses
 
 
-def _count(config: Config, n: int | None, launches: np.ndarray | None) -> int:
-    if launches is not None:
-        return len(launches)
+def _absent(n: int | None, given: NDArray[np.void] | None) -> dict[str, Any]:
+    """Return what a config need not say of launches and their number if they are given."""
+    absent: dict[str, Any] = {}
+    if n is not None or given is not None:
+        absent["stop.tosses"] = 1
+    if given is not None:
+        absent["launch.preset"] = "robot"
+    return absent
+
+
+def _count(config: Config, n: int | None, given: NDArray[np.void] | None) -> int:
+    if given is not None:
+        return len(given)
     if n is not None:
         return natural(n, "n")
     if config.stop.has_targets:

@@ -1,14 +1,17 @@
 """The recorded motion of one toss."""
 
+import os
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from coinmc import _lib
 from coinmc._codes import Face
 from coinmc._config import Config, ConfigLike, as_config, plan_of
-from coinmc._launches import STATE, as_launches, natural, rows
+from coinmc._launches import STATE, LaunchesLike, as_launches, natural, rows
+from coinmc._table import ArrowTable, flattened
 
 __all__ = ["EVENT", "SAMPLE", "Trace", "trace"]
 
@@ -31,8 +34,10 @@ SAMPLE = np.dtype(_FIELDS)
 EVENT = np.dtype([*_FIELDS, ("kind", "U8")])
 
 
-class Trace:
+class Trace(ArrowTable):
     """The recorded motion of a toss. Made by `trace`.
+
+    Libraries that support Arrow read its samples as a table: ``polars.DataFrame(trace)``.
 
     Attributes
     ----------
@@ -59,6 +64,8 @@ class Trace:
         configurations.
     complete : bool
         Whether everything was recorded; the limit is a million records and the end.
+    source : tuple
+        What repeats the toss: config, point, toss, and launch as a row or None.
     """
 
     __slots__ = (
@@ -74,26 +81,64 @@ class Trace:
         "rate_hz",
         "samples",
         "scene",
+        "source",
         "toss",
     )
 
     def __init__(
-        self, config: Config, point: int, toss: int | None, recorded: dict[str, Any]
+        self,
+        config: Config,
+        point: int,
+        toss: int | None,
+        row: NDArray[np.float64] | None,
+        recorded: dict[str, Any],
     ) -> None:
-        self.point = point
-        self.toss = toss
-        self.scene = config.scene(point)._asdict()
+        self.source = (config, point, toss or 0, row)
+        self.point: int = point
+        self.toss: int | None = toss
+        self.scene: dict[str, float] = config.scene(point)._asdict()
         self.engine: str = recorded["engine"]
         self.rate_hz: float = recorded["rate_hz"]
         self.outcome: str = recorded["outcome"]
         left = self.outcome == "left"
-        self.face = Face.LEFT if left else Face[(recorded["face"] or "undecided").upper()]
+        self.face: Face = Face.LEFT if left else Face[(recorded["face"] or "undecided").upper()]
         self.impacts: int = recorded["impacts"]
         self.contact_steps: int = recorded["contact_steps"]
         self.jams: int = recorded["jams"]
-        self.complete = recorded["samples_until_s"] is None and recorded["events_until_s"] is None
-        self.samples = _records(recorded["samples"], SAMPLE)
-        self.events = _records(recorded["events"], EVENT)
+        self.complete: bool = (
+            recorded["samples_until_s"] is None and recorded["events_until_s"] is None
+        )
+        self.samples: NDArray[np.void] = _records(recorded["samples"], SAMPLE)
+        self.events: NDArray[np.void] = _records(recorded["events"], EVENT)
+
+    @property
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """The samples as columns of a table, one per component: ``position_x_m``."""
+        return flattened(self.samples)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Save the trace as ``coinmc trace -o`` does.
+
+        Parameters
+        ----------
+        path : path
+            A new file: ``.mcap`` (for Foxglove), ``.csv``, ``.parquet``, ``.jsonl`` or ``.svg``.
+
+        Raises
+        ------
+        FileExistsError
+            If the file exists.
+        OSError
+            If it cannot be written.
+
+        Examples
+        --------
+        >>> import coinmc
+        >>> coinmc.trace("examples/first.toml", 7).save("toss.mcap")
+        """
+        config, point, toss, row = self.source
+        plan = plan_of(config)
+        _lib.save_trace(plan, point, toss, row, self.rate_hz, os.fspath(path))
 
     @property
     def duration_s(self) -> float:
@@ -103,6 +148,12 @@ class Trace:
     def __len__(self) -> int:
         """Return the number of samples."""
         return len(self.samples)
+
+    def _repr_html_(self) -> str:
+        """Show the toss in three dimensions, in notebooks."""
+        from coinmc._pages import replay
+
+        return replay(self)._repr_html_()
 
     def __repr__(self) -> str:
         toss = "a launch" if self.toss is None else f"toss {self.toss}"
@@ -116,7 +167,7 @@ def trace(
     config: ConfigLike,
     toss: int = 0,
     *,
-    launch: np.ndarray | None = None,
+    launch: LaunchesLike | None = None,
     point: int = 0,
     rate_hz: float | None = 240.0,
     overrides: Mapping[str, Any] | None = None,
@@ -129,8 +180,8 @@ def trace(
         The config.
     toss : int, optional
         Index of the toss.
-    launch : ndarray of `LAUNCH` with one element, optional
-        Your own launch, instead of a toss by its index.
+    launch : ndarray of `LAUNCH` with one element or dict of arrays, optional
+        Your own launch, instead of a toss by its index; the config then needs no ``[launch]``.
     point : int, optional
         Index of the point in the sweep.
     rate_hz : float or None, optional
@@ -158,8 +209,11 @@ def trace(
     >>> bool(trace.face == coinmc.toss(scene, 1, first=42).face[0])
     True
     """
-    config = as_config(config, overrides)
     toss, point = natural(toss, "toss"), natural(point, "point")
+    absent: dict[str, Any] = {"stop.tosses": toss + 1}
+    if launch is not None:
+        absent["launch.preset"] = "robot"
+    config = as_config(config, overrides, absent)
     row = None
     if launch is not None:
         launches = as_launches(launch)
@@ -168,10 +222,10 @@ def trace(
         row = rows(launches)[0]
     rate = None if rate_hz is None else float(rate_hz)
     recorded = _lib.trace(plan_of(config), point, toss, row, rate)
-    return Trace(config, point, None if launch is not None else toss, recorded)
+    return Trace(config, point, None if launch is not None else toss, row, recorded)
 
 
-def _records(columns: dict[str, Any], dtype: np.dtype) -> np.ndarray:
+def _records(columns: dict[str, Any], dtype: np.dtype[np.void]) -> NDArray[np.void]:
     records = np.empty(len(columns["time_s"]), dtype)
     for at, name in enumerate(STATE.names):
         records[name] = columns["state"][:, 3 * at : 3 * at + 3]

@@ -17,10 +17,10 @@ array([0. , 0.5, nan])
 1.1547
 """
 
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from coinmc import _lib
 from coinmc._launches import plain
@@ -54,7 +54,8 @@ __all__ = [
 #: Names of the rules: closed forms in the ratio alone.
 RULES = ("arc", "zone", "surface-area", "cross-section", "well-depth-flat", "well-depth-solid")
 
-Real: TypeAlias = "float | np.ndarray"
+#: A number for numbers, an array for arrays: as for NumPy's functions, types cannot tell which.
+Real: TypeAlias = Any
 
 
 class Faces(NamedTuple):
@@ -313,7 +314,7 @@ def half_turns(
     return _form("half_turns", upward_speed_m_s, spin_rad_s, gravity_m_s2)
 
 
-def is_heads(half_turns: ArrayLike) -> "bool | np.ndarray":
+def is_heads(half_turns: ArrayLike) -> bool | NDArray[np.bool_]:
     """Whether a thin coin that started heads up shows heads after these half turns (Keller).
 
     Parameters
@@ -382,7 +383,7 @@ def _form(name: str, *arguments: ArrayLike) -> Real:
     return float(out[0]) if shape == () else out.reshape(shape)
 
 
-def _real(argument: ArrayLike) -> np.ndarray:
+def _real(argument: ArrayLike) -> NDArray[Any]:
     array = plain(argument)
     if array.dtype.kind not in "fiub":
         raise TypeError(f"closed forms take real numbers, not {array.dtype}")

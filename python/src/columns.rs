@@ -11,67 +11,119 @@ const UNDECIDED: u8 = 3;
 const LEFT: u8 = 4;
 
 /// The columns to fill, for a range of tosses.
-#[derive(Default)]
-pub(crate) struct Columns<'a> {
-    pub(crate) face: &'a mut [u8],
-    pub(crate) details: Option<Details<'a>>,
+pub(crate) enum Columns<'a> {
+    /// Faces alone.
+    Faces(&'a mut [u8]),
+    /// What the lanes of an engine know.
+    Outcomes(Outcomes<'a>),
+    /// What only the scalar path knows.
+    Ends(Ends<'a>),
 }
 
-/// The columns besides the face.
-pub(crate) struct Details<'a> {
-    pub(crate) ended: &'a mut [u8],
-    pub(crate) impacts: &'a mut [u32],
-    pub(crate) time_s: &'a mut [f64],
-    pub(crate) last: &'a mut [f64],
+/// Outcomes of tosses.
+pub(crate) struct Outcomes<'a> {
+    face: &'a mut [u8],
+    ended: &'a mut [u8],
+    impacts: &'a mut [u32],
+}
+
+/// Times and states at the end of tosses.
+pub(crate) struct Ends<'a> {
+    time_s: &'a mut [f64],
+    last: &'a mut [f64],
+}
+
+impl Default for Columns<'_> {
+    fn default() -> Self {
+        Self::Faces(&mut [])
+    }
 }
 
 impl Splittable for Columns<'_> {
     fn len(&self) -> usize {
-        self.face.len()
+        match self {
+            Self::Faces(face) => face.len(),
+            Self::Outcomes(outcomes) => outcomes.face.len(),
+            Self::Ends(ends) => ends.time_s.len(),
+        }
     }
 
     fn split(self, n: usize) -> (Self, Self) {
-        let (face, later) = self.face.split_at_mut(n);
-        let (details, after) = self.details.map(|details| details.split(n)).unzip();
-        let later = Self {
-            face: later,
-            details: after,
-        };
-        (Self { face, details }, later)
+        match self {
+            Self::Faces(face) => {
+                let (now, later) = face.split_at_mut(n);
+                (Self::Faces(now), Self::Faces(later))
+            }
+            Self::Outcomes(outcomes) => {
+                let (now, later) = outcomes.split(n);
+                (Self::Outcomes(now), Self::Outcomes(later))
+            }
+            Self::Ends(ends) => {
+                let (now, later) = ends.split(n);
+                (Self::Ends(now), Self::Ends(later))
+            }
+        }
     }
 }
 
-impl Details<'_> {
-    fn split(self, n: usize) -> (Self, Self) {
-        let (ended, later_ended) = self.ended.split_at_mut(n);
-        let (impacts, later_impacts) = self.impacts.split_at_mut(n);
-        let (time_s, later_time_s) = self.time_s.split_at_mut(n);
-        let (last, later_last) = self.last.split_at_mut(n * ROW);
-        let now = Self {
+impl<'a> Outcomes<'a> {
+    /// The columns; `None` if they are not equally long.
+    pub(crate) fn new(
+        face: &'a mut [u8],
+        ended: &'a mut [u8],
+        impacts: &'a mut [u32],
+    ) -> Option<Self> {
+        let equal = ended.len() == face.len() && impacts.len() == face.len();
+        equal.then_some(Self {
+            face,
             ended,
             impacts,
-            time_s,
-            last,
+        })
+    }
+
+    fn split(self, n: usize) -> (Self, Self) {
+        let (face, later_face) = self.face.split_at_mut(n);
+        let (ended, later_ended) = self.ended.split_at_mut(n);
+        let (impacts, later_impacts) = self.impacts.split_at_mut(n);
+        let now = Self {
+            face,
+            ended,
+            impacts,
         };
         let later = Self {
+            face: later_face,
             ended: later_ended,
             impacts: later_impacts,
-            time_s: later_time_s,
-            last: later_last,
         };
         (now, later)
     }
 
-    /// Whether all columns have `n` tosses.
-    pub(crate) fn has_len(&self, n: usize) -> bool {
-        let lengths = [self.ended.len(), self.impacts.len(), self.time_s.len()];
-        lengths == [n; 3] && self.last.len() == n * ROW
+    /// Writes an outcome to index `i`.
+    pub(crate) fn write(&mut self, i: usize, outcome: &Outcome) {
+        self.face[i] = face_code(outcome);
+        self.ended[i] = end_code(outcome);
+        self.impacts[i] = outcome.impacts;
+    }
+}
+
+impl<'a> Ends<'a> {
+    /// The columns; `None` if they are not equally long.
+    pub(crate) fn new(time_s: &'a mut [f64], last: &'a mut [f64]) -> Option<Self> {
+        (last.len() == time_s.len() * ROW).then_some(Self { time_s, last })
+    }
+
+    fn split(self, n: usize) -> (Self, Self) {
+        let (time_s, later_time_s) = self.time_s.split_at_mut(n);
+        let (last, later_last) = self.last.split_at_mut(n * ROW);
+        let later = Self {
+            time_s: later_time_s,
+            last: later_last,
+        };
+        (Self { time_s, last }, later)
     }
 
     /// Writes a toss to index `i`; `from` is the horizontal position of the launch.
     pub(crate) fn write(&mut self, i: usize, toss: &FinishedToss, from: [f64; 2]) {
-        self.ended[i] = end_code(&toss.outcome);
-        self.impacts[i] = toss.outcome.impacts;
         self.time_s[i] = toss.end.time_s;
         write_state(&toss.end, from, &mut self.last[i * ROW..(i + 1) * ROW]);
     }

@@ -4,9 +4,10 @@ use coinmc::config::Diagnostics;
 use coinmc::run::RunError;
 use coinmc_film::text::Diagnostics as FilmDiagnostics;
 use coinmc_questions::QuestionError;
+use coinmc_recording::Error as RecordingError;
 use coinmc_trace::TraceError;
 use pyo3::PyErr;
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyFileExistsError, PyOSError, PyValueError};
 
 mod python {
     #![allow(missing_docs)] // documented in Python
@@ -52,6 +53,12 @@ pub(crate) fn run(error: &RunError) -> PyErr {
     python::RunError::new_err(error.to_string())
 }
 
+/// Why a robot's journal cannot be read.
+#[cfg(unix)]
+pub(crate) fn journal(error: impl ToString) -> PyErr {
+    python::RunError::new_err(error.to_string())
+}
+
 /// Why a question has no answer.
 pub(crate) fn question(error: &QuestionError) -> PyErr {
     match error {
@@ -67,6 +74,14 @@ pub(crate) fn question(error: &QuestionError) -> PyErr {
 /// Why there is no trace.
 pub(crate) fn trace(error: &TraceError) -> PyErr {
     python::TraceError::new_err(error.to_string())
+}
+
+/// Why a file cannot be written.
+pub(crate) fn file(error: &RecordingError) -> PyErr {
+    match error {
+        RecordingError::Exists { .. } => PyFileExistsError::new_err(error.to_string()),
+        _ => PyOSError::new_err(error.to_string()),
+    }
 }
 
 /// An argument is invalid.

@@ -4,17 +4,19 @@
 //! # Files
 //! `plan` configs · `supervise` long work, signals and progress · `share` threads · `launch`
 //! launches as rows of numbers · `columns` and `toss` individual tosses · `run` estimates and runs
-//! · `session` runs on other machines · `results` tables, also as Arrow · `interval` intervals of proportions · `trace` recorded
-//! motion of a toss · `question`, `fair`, `design`, `aim`,
-//! `ranking`, `rare`, `compare` questions ·
-//! `analytic` closed forms · `film` drops on film · `errors` exceptions.
+//! · `session` runs on other machines · `results` and `throws` tables, `arrow` tables for Python · `pickled` results
+//! as plain values · `table` any columns as Arrow · `interval` intervals of proportions · `trace` recorded motion of a
+//! toss · `question`, `fair`, `design`, `aim`, `ranking`, `rare`, `compare` questions · `report` pages · `analytic`
+//! closed forms · `film` drops on film · `command` the command line · `errors` exceptions.
 
 // Arguments converted from Python are owned.
 #![allow(clippy::needless_pass_by_value)]
 
 mod aim;
 mod analytic;
+mod arrow;
 mod columns;
+mod command;
 mod compare;
 mod design;
 mod errors;
@@ -22,15 +24,20 @@ mod fair;
 mod film;
 mod interval;
 mod launch;
+mod pickled;
 mod plan;
 mod question;
 mod ranking;
 mod rare;
+mod report;
 mod results;
 mod run;
 mod session;
 mod share;
 mod supervise;
+mod table;
+#[cfg(unix)]
+mod throws;
 mod toss;
 mod trace;
 
@@ -44,6 +51,8 @@ mod _lib {
     #[pymodule_export]
     use super::analytic::{closed_form, no_bounce_rule};
     #[pymodule_export]
+    use super::command::main;
+    #[pymodule_export]
     use super::compare::compare;
     #[pymodule_export]
     use super::design::design;
@@ -54,11 +63,15 @@ mod _lib {
     #[pymodule_export]
     use super::interval::{inverse_normal_cdf, wilson};
     #[pymodule_export]
+    use super::pickled::unpickled;
+    #[pymodule_export]
     use super::plan::Plan;
     #[pymodule_export]
     use super::ranking::rank;
     #[pymodule_export]
     use super::rare::rare;
+    #[pymodule_export]
+    use super::report::{frame, map_page, report, toss_page};
     #[pymodule_export]
     use super::results::Results;
     #[pymodule_export]
@@ -66,9 +79,14 @@ mod _lib {
     #[pymodule_export]
     use super::session::{Session, chunk, chunk_of_number, tally_of};
     #[pymodule_export]
+    use super::table::arrow_stream;
+    #[cfg(unix)]
+    #[pymodule_export]
+    use super::throws::Throws;
+    #[pymodule_export]
     use super::toss::{launches, toss};
     #[pymodule_export]
-    use super::trace::trace;
+    use super::trace::{save_trace, trace};
     use pyo3::prelude::*;
 
     #[pymodule_init]

@@ -1,28 +1,21 @@
 //! The table of results for Python: as NumPy arrays, and as Arrow without copying.
 
-use crate::errors;
-use arrow_array::cast::AsArray;
-use arrow_array::ffi_stream::FFI_ArrowArrayStream;
-use arrow_array::types::{Float64Type, UInt64Type};
-use arrow_array::{Array, ArrayRef, RecordBatch, RecordBatchIterator};
-use arrow_schema::DataType;
+use crate::pickled::{Plain, plain};
+use crate::{arrow, errors};
+use arrow_array::RecordBatch;
 use coinmc::results::{FairRatio, Results as Table, fair_values, record_batch};
 use coinmc::run::{Report, Status};
 use coinmc_core::Face;
-use numpy::IntoPyArray;
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyDict};
-
-/// Name of stream capsules in the Arrow PyCapsule interface.
-const STREAM: &std::ffi::CStr = c"arrow_array_stream";
 
 /// The results of a run or an estimate.
 #[pyclass(frozen, module = "coinmc._lib")]
 pub(crate) struct Results {
     table: Table,
     batch: RecordBatch,
-    status: Status,
-    tosses: u64,
+    pub(crate) status: Status,
+    pub(crate) tosses: u64,
 }
 
 /// A crossing: the other parameters, engine, law, value, its interval, confidence, rising.
@@ -52,6 +45,25 @@ impl Results {
     pub(crate) fn table(&self) -> &Table {
         &self.table
     }
+
+    /// The report that it was made of, as far as pages need it.
+    pub(crate) fn report(&self) -> Report {
+        Report {
+            results: self.table.clone(),
+            status: self.status,
+            reused_chunks: 0,
+            tosses: self.tosses,
+        }
+    }
+
+    pub(crate) fn status_name(&self) -> &'static str {
+        match self.status {
+            Status::Complete => "complete",
+            Status::Interrupted => "interrupted",
+            Status::Part => "part",
+            Status::ShortOfTarget { .. } => "short",
+        }
+    }
 }
 
 #[pymethods]
@@ -68,12 +80,12 @@ impl Results {
     /// `complete`, `interrupted`, `part` or `short`.
     #[getter]
     fn status(&self) -> &'static str {
-        match self.status {
-            Status::Complete => "complete",
-            Status::Interrupted => "interrupted",
-            Status::Part => "part",
-            Status::ShortOfTarget { .. } => "short",
-        }
+        self.status_name()
+    }
+
+    /// Plain values, from which [`unpickled`](crate::pickled::unpickled) makes the results again.
+    fn plain(&self) -> Plain {
+        plain(self)
     }
 
     #[getter]
@@ -101,27 +113,12 @@ impl Results {
 
     /// Name, unit and meaning of every column.
     fn describe(&self) -> Vec<(String, String, String)> {
-        let schema = self.batch.schema();
-        let about = |field: &arrow_schema::Field, key: &str| {
-            field.metadata().get(key).cloned().unwrap_or_default()
-        };
-        let fields = schema.fields().iter();
-        fields
-            .map(|field| {
-                let name = field.name().clone();
-                (name, about(field, "unit"), about(field, "description"))
-            })
-            .collect()
+        arrow::describe(&self.batch)
     }
 
     /// The columns: arrays of numbers and booleans, lists of strings.
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let columns = PyDict::new(py);
-        let schema = self.batch.schema();
-        for (field, array) in schema.fields().iter().zip(self.batch.columns()) {
-            columns.set_item(field.name(), numpy(py, array)?)?;
-        }
-        Ok(columns)
+        arrow::columns(py, &self.batch)
     }
 
     /// The stream of the Arrow PyCapsule interface. A requested schema is ignored, as the interface
@@ -133,10 +130,7 @@ impl Results {
         requested_schema: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyCapsule>> {
         let _ = requested_schema;
-        // arrays are shared, not copied
-        let batches = RecordBatchIterator::new([Ok(self.batch.clone())], self.batch.schema());
-        let stream = FFI_ArrowArrayStream::new(Box::new(batches));
-        PyCapsule::new_with_value(py, stream, STREAM)
+        arrow::stream(py, &self.batch)
     }
 
     /// Where the probability of a face crosses a target along a swept parameter.
@@ -159,29 +153,4 @@ fn crossing(fair: FairRatio) -> Crossing {
         fair.confidence,
         fair.rising,
     )
-}
-
-/// A column; missing numbers become NaN.
-fn numpy<'py>(py: Python<'py>, array: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
-    Ok(match array.data_type() {
-        DataType::UInt64 => {
-            let values = array.as_primitive::<UInt64Type>().values().to_vec();
-            values.into_pyarray(py).into_any()
-        }
-        DataType::Float64 => {
-            let values = array.as_primitive::<Float64Type>().iter();
-            let values: Vec<f64> = values.map(|value| value.unwrap_or(f64::NAN)).collect();
-            values.into_pyarray(py).into_any()
-        }
-        DataType::Boolean => {
-            let values = array.as_boolean().iter();
-            let values: Vec<bool> = values.map(Option::unwrap_or_default).collect();
-            values.into_pyarray(py).into_any()
-        }
-        _ => {
-            let values = array.as_string::<i32>().iter();
-            let values: Vec<&str> = values.map(Option::unwrap_or_default).collect();
-            values.into_pyobject(py)?
-        }
-    })
 }

@@ -1,6 +1,6 @@
 //! Individual tosses: each worker fills its own part of the columns.
 
-use crate::columns::{Columns, Details, Rows, face_code};
+use crate::columns::{Columns, Ends, Outcomes, Rows, face_code};
 use crate::errors;
 use crate::launch::{Fault, ROW, check, launch, write_launch};
 use crate::plan::Plan;
@@ -93,16 +93,23 @@ impl Job<'_> {
         from: impl Fn(u64) -> [f64; 2],
         supervision: &Supervision,
     ) -> Result<(), TossError> {
-        let (face, first) = (columns.face, tosses.start);
-        let tossed = match columns.details {
-            None => for_each_outcome(self.point, source, tosses, |toss, outcome| {
-                face[index(toss - first)] = face_code(outcome);
-                supervision.may_continue()
-            }),
-            Some(mut details) => for_each_end(self.point, source, tosses, &mut |finished| {
+        let first = tosses.start;
+        let tossed = match columns {
+            Columns::Faces(face) => {
+                for_each_outcome(self.point, source, tosses, |toss, outcome| {
+                    face[index(toss - first)] = face_code(outcome);
+                    supervision.may_continue()
+                })
+            }
+            Columns::Outcomes(mut outcomes) => {
+                for_each_outcome(self.point, source, tosses, |toss, outcome| {
+                    outcomes.write(index(toss - first), outcome);
+                    supervision.may_continue()
+                })
+            }
+            Columns::Ends(mut ends) => for_each_end(self.point, source, tosses, &mut |finished| {
                 let i = index(finished.toss - first);
-                face[i] = face_code(&finished.outcome);
-                details.write(i, finished, from(finished.toss));
+                ends.write(i, finished, from(finished.toss));
                 supervision.may_continue()
             }),
         };
@@ -187,19 +194,40 @@ fn workers(asked: Option<NonZeroUsize>, n: usize) -> usize {
     threads(asked).get().min(n.max(1))
 }
 
-/// The columns besides the face, as Python arrays: ended, impacts, time and twelve numbers per
-/// toss.
-type DetailArrays<'py> = (
-    PyReadwriteArray1<'py, u8>,
-    PyReadwriteArray1<'py, u32>,
-    PyReadwriteArray1<'py, f64>,
-    PyReadwriteArray2<'py, f64>,
-);
+/// The columns to fill, as Python arrays of one element per toss (of `last`, twelve): the face, why
+/// it ended and its impacts, or the time and the state at the end.
+#[derive(FromPyObject)]
+pub(crate) enum Arrays<'py> {
+    Outcomes(
+        PyReadwriteArray1<'py, u8>,
+        PyReadwriteArray1<'py, u8>,
+        PyReadwriteArray1<'py, u32>,
+    ),
+    Ends(PyReadwriteArray1<'py, f64>, PyReadwriteArray2<'py, f64>),
+    Faces(PyReadwriteArray1<'py, u8>),
+}
 
-/// Fills `face`, and the other columns if given, with `len(face)` tosses: from index `first`, or of
-/// the launches in `rows`.
+impl Arrays<'_> {
+    fn columns(&mut self) -> PyResult<Columns<'_>> {
+        let columns = match self {
+            Self::Faces(face) => Some(Columns::Faces(face.as_slice_mut()?)),
+            Self::Outcomes(face, ended, impacts) => Outcomes::new(
+                face.as_slice_mut()?,
+                ended.as_slice_mut()?,
+                impacts.as_slice_mut()?,
+            )
+            .map(Columns::Outcomes),
+            Self::Ends(time_s, last) => {
+                Ends::new(time_s.as_slice_mut()?, last.as_slice_mut()?).map(Columns::Ends)
+            }
+        };
+        columns.ok_or_else(|| errors::value("columns must be equally long"))
+    }
+}
+
+/// Fills columns with as many tosses: from index `first`, or of the launches in `rows`.
 #[pyfunction]
-#[pyo3(signature = (plan, point, first, rows, face, details=None, threads=None, progress=None))]
+#[pyo3(signature = (plan, point, first, rows, columns, threads=None, progress=None))]
 #[allow(clippy::too_many_arguments)] // Python's arguments
 pub(crate) fn toss(
     py: Python<'_>,
@@ -207,19 +235,10 @@ pub(crate) fn toss(
     point: usize,
     first: u64,
     rows: Option<PyReadonlyArray2<'_, f64>>,
-    mut face: PyReadwriteArray1<'_, u8>,
-    mut details: Option<DetailArrays<'_>>,
+    mut columns: Arrays<'_>,
     threads: Option<NonZeroUsize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<()> {
-    let face = face.as_slice_mut()?;
-    let details = details.as_mut().map(slices).transpose()?;
-    if details
-        .as_ref()
-        .is_some_and(|details| !details.has_len(face.len()))
-    {
-        return Err(errors::value("columns must be equally long"));
-    }
     let rows = rows.as_ref().map(PyReadonlyArray2::as_slice).transpose()?;
     let call = Call {
         plan,
@@ -229,26 +248,19 @@ pub(crate) fn toss(
         threads,
         progress,
     };
-    call.fill(py, Columns { face, details })
-}
-
-fn slices<'a>((ended, impacts, time_s, last): &'a mut DetailArrays<'_>) -> PyResult<Details<'a>> {
-    Ok(Details {
-        ended: ended.as_slice_mut()?,
-        impacts: impacts.as_slice_mut()?,
-        time_s: time_s.as_slice_mut()?,
-        last: last.as_slice_mut()?,
-    })
+    call.fill(py, columns.columns()?)
 }
 
 /// Fills rows with the launches of a point from toss `first`.
 #[pyfunction]
+#[pyo3(signature = (plan, point, first, rows, threads=None))]
 pub(crate) fn launches(
     py: Python<'_>,
     plan: &Plan,
     point: usize,
     first: u64,
     mut rows: PyReadwriteArray2<'_, f64>,
+    threads: Option<NonZeroUsize>,
 ) -> PyResult<()> {
     let rows = rows.as_slice_mut()?;
     if !rows.len().is_multiple_of(ROW) {
@@ -264,7 +276,7 @@ pub(crate) fn launches(
         }
         Ok(())
     };
-    let workers = workers(None, rows.len());
+    let workers = workers(threads, rows.len());
     let (drawn, _) = supervise(py, None, |supervision| {
         fill_in_parallel(rows, workers, supervision, draw)
     })?;

@@ -5,13 +5,15 @@ use crate::launch::{ROW, check, launch, write_state};
 use crate::plan::Plan;
 use crate::supervise::wait_for;
 use coinmc_core::EventKind;
+use coinmc_recording::{Compression, Encoding, Error as RecordingError, NewFile};
 use coinmc_trace::{
-    MAX_RECORDS, Record, RecordKind, Trace, default_rate_hz, launch as launch_of, outcome_name,
-    record, replay,
+    FileKind, MAX_RECORDS, Record, RecordKind, Trace, default_rate_hz, launch as launch_of,
+    outcome_name, record, replay,
 };
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Replays a toss of a point, or tosses a launch given as a row, and records it with `rate_hz`
@@ -27,6 +29,48 @@ pub(crate) fn trace<'py>(
     rate_hz: Option<f64>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let row = row.as_ref().map(PyReadonlyArray1::as_slice).transpose()?;
+    let trace = recorded(py, plan, (point, toss), row, rate_hz)?;
+    let from = row.map_or([0.0; 2], |row| [row[0], row[1]]);
+    as_dict(py, &trace, from)
+}
+
+/// Records a toss like [`trace`], into a new file whose extension says the format.
+#[pyfunction]
+#[pyo3(signature = (plan, point, toss, row, rate_hz, path))]
+pub(crate) fn save_trace(
+    py: Python<'_>,
+    plan: &Plan,
+    point: usize,
+    toss: u64,
+    row: Option<PyReadonlyArray1<'_, f64>>,
+    rate_hz: Option<f64>,
+    path: PathBuf,
+) -> PyResult<()> {
+    let row = row.as_ref().map(PyReadonlyArray1::as_slice).transpose()?;
+    let kind = FileKind::of(&path).map_err(errors::value)?;
+    let trace = recorded(py, plan, (point, toss), row, rate_hz)?;
+    let write = || -> Result<(), RecordingError> {
+        let mut file = NewFile::begin(&path)?;
+        kind.write(
+            &plan.0,
+            &[trace],
+            Encoding::default(),
+            Compression::default(),
+            &mut file,
+        )
+        .map_err(|error| error.with_path(&path))?;
+        file.finish()
+    };
+    py.detach(write).map_err(|error| errors::file(&error))
+}
+
+fn recorded(
+    py: Python<'_>,
+    plan: &Plan,
+    (point, toss): (usize, u64),
+    row: Option<&[f64]>,
+    rate_hz: Option<f64>,
+) -> PyResult<Trace> {
     let scene = plan.tossed_point(point)?.scene;
     if let Some(row) = row {
         if row.len() != ROW {
@@ -47,9 +91,7 @@ pub(crate) fn trace<'py>(
             None => replay(&plan, point, toss, rate_hz),
         }
     })?;
-    let trace = trace.map_err(|error| errors::trace(&error))?;
-    let from = row.map_or([0.0; 2], |row| [row[0], row[1]]);
-    as_dict(py, &trace, from)
+    trace.map_err(|error| errors::trace(&error))
 }
 
 fn as_dict<'py>(py: Python<'py>, trace: &Trace, from: [f64; 2]) -> PyResult<Bound<'py, PyDict>> {

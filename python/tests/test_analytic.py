@@ -120,3 +120,12 @@ def test_probabilities_stay_within_bounds():
         for p in typing.cast("tuple", faces):
             assert np.all(np.isnan(p) | ((p >= 0) & (p <= 1)))
             assert np.isnan(p[[0, 5, 6]]).all()
+
+
+def test_a_column_of_pandas_is_an_array():
+    import pandas as pd
+
+    column = pd.Series([0.0, 1.0, 2.0])
+    np.testing.assert_array_equal(analytic.arc(column), analytic.arc([0.0, 1.0, 2.0]))
+    with pytest.raises(ValueError, match="masked"):
+        analytic.arc(np.ma.masked_array([1.0, 2.0], mask=[False, True]))

@@ -123,3 +123,15 @@ def test_targets_of_a_stop_are_told(scene):
     assert (result["side"] >= 50).all()
     with pytest.raises(coinmc.ConfigError, match="only one of `tosses`, `events`"):
         coinmc.check({**scene, "stop": {"tosses": 5, "events": 1}})
+
+
+@pytest.mark.parametrize("seed", [0, 2**63 - 1, 2**63, 2**64 - 1])
+def test_any_seed_of_64_bits(scene, seed, tmp_path):
+    config = coinmc.Config({**scene, "seed": seed})
+    assert config.seed == seed
+    assert coinmc.Config.from_toml(config.resolved) == config
+    result = coinmc.run(config, tmp_path / "run", overrides={"stop.tosses": 100})
+    assert coinmc.open(tmp_path / "run").config.seed == seed
+    assert result.tosses == 100
+    with pytest.raises(coinmc.ConfigError, match="64 bits"):
+        coinmc.Config({**scene, "seed": 2**64})

@@ -1,6 +1,7 @@
 """Tosses from Python are the tosses of a run, to the last bit."""
 
 import csv
+import subprocess
 import sys
 import threading
 
@@ -242,3 +243,20 @@ def test_a_bar_is_shown_if_tqdm_is_installed(scene, capsys, monkeypatch):
     with pytest.raises(ImportError, match="pip install"):
         coinmc.toss(scene, 10, progress=True)
     coinmc.toss(scene, 10)
+
+
+@pytest.mark.parametrize("close", ["sys.stderr.close()", "sys.stderr = None", "os.close(2)"])
+def test_a_closed_standard_error_stops_nothing(close):
+    program = f"""
+import os, sys
+{close}
+import coinmc
+scene = {{"coin": {{"ratio": 1}}, "surface": {{"restitution": 0.5, "friction": 0.3}},
+         "launch": {{"preset": "robot"}}, "engine": {{"flat": {{}}}}}}
+print(coinmc.estimate(scene, tosses=1000, progress=True).tosses)
+print(coinmc.toss(scene, 10).counts["undecided"])
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", program], check=True, capture_output=True, text=True
+    )
+    assert done.stdout.split() == ["1000", "0"]

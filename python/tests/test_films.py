@@ -18,7 +18,8 @@ def drop(root):
 @pytest.fixture(scope="module")
 def fit(root, drop):
     """Its fit."""
-    return film.fit(drop, root / "examples" / "drop.toml")
+    with pytest.warns(UserWarning, match=r"for the first, ratio = 0\.5"):
+        return film.fit(drop, root / "examples" / "drop.toml")
 
 
 def test_a_fit_equals_that_of_the_command_line(fit, command, examples, tmp_path):

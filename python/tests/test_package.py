@@ -72,7 +72,7 @@ def test_stubs_match_the_module(package):
     classes = {node.name: node for node in stub.body if isinstance(node, ast.ClassDef)}
     public = {name for name in dir(_lib) if not name.startswith("_")}
     assert {*functions, *classes} == public
-    assert {"__build__", "__version__", "_Progress"} == {
+    assert {"__build__", "__version__", "_Columns", "_Progress"} == {
         target.id
         for node in stub.body
         if isinstance(node, (ast.AnnAssign, ast.Assign))
@@ -167,7 +167,8 @@ def test_the_wheel_is_small(package):
 
     files = distribution("coinmc").files
     size = sum((package.parent / file).stat().st_size for file in files)
-    assert size < 15 << 20
+    # a quarter of it is the command line
+    assert size < 24 << 20
     needed = [line for line in requires("coinmc") if "extra" not in line]
     assert [line.split(">")[0] for line in needed] == ["numpy"]
 

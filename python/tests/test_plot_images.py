@@ -228,17 +228,17 @@ WORDS = {
     "path": (
         "x, m",
         "z, m",
-        ["flight", "sliding", "2 impacts", "rim of heads", "rim of tails", "ends: heads"],
+        ["flight", "sliding", "2 impacts", "heads", "tails", "ends: heads"],
     ),
     "path-space": (
         "x, m",
         "y, m",
-        ["flight", "sliding", "2 impacts", "rim of heads", "rim of tails", "ends: heads"],
+        ["flight", "sliding", "2 impacts", "heads", "tails", "ends: heads"],
     ),
     "energy": (
         "time since launch, s",
         "energy per mass, J/kg",
-        ["energy", "sliding", "impact"],
+        ["can tilt the coin", "all energy", "sliding", "impact"],
     ),
     "residuals": (
         "time since the first frame, s",

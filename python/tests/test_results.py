@@ -2,6 +2,9 @@
 
 import json
 import pickle
+import warnings
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 
 import numpy as np
 import pandas as pd
@@ -23,7 +26,7 @@ def test_arrow_and_parquet_hold_the_same_table(sweep, tmp_path):
     result = coinmc.run(sweep, tmp_path / "run")
     table = pa.table(result)
     written = pq.read_table(tmp_path / "run" / "results.parquet")
-    assert table.schema.equals(written.schema)
+    assert table.schema.equals(written.schema, check_metadata=True)
     assert table.equals(written)
     for ours, theirs in zip(table.schema, written.schema, strict=True):
         assert ours.metadata == theirs.metadata, ours.name
@@ -90,8 +93,72 @@ def test_a_run_equals_the_estimate_and_its_directory_opens(sweep, tmp_path):
     assert (result.status, opened.status, opened.path) == ("complete",) * 2 + (tmp_path / "run",)
     assert opened.config == result.config
     assert pa.table(pickle.loads(pickle.dumps(opened))).equals(pa.table(opened))
-    with pytest.raises(TypeError, match="cannot be pickled"):
-        pickle.dumps(estimate)
+
+
+def test_results_go_to_other_processes(sweep, tmp_path, monkeypatch):
+    """In memory with every number, in a directory by its absolute path."""
+    rule = {"coin": {"ratio": [1, 2]}, "engine": {"analytic": {"rule": "arc"}}}
+    integrated = {**sweep, "surface": {"landing": "adhesive"}}
+    targets = {**sweep, "stop": {"half_width": 0.02, "max_tosses": 5000}}
+    for config in (sweep, rule, integrated, targets):
+        result = coinmc.estimate(config)
+        again = pickle.loads(pickle.dumps(result))
+        assert pa.table(again).equals(pa.table(result), check_metadata=True)
+        assert (again.status, again.tosses, again.path) == (result.status, result.tosses, None)
+        assert again.config == result.config
+    monkeypatch.chdir(tmp_path)
+    there = pickle.dumps(coinmc.run(sweep, "run"))
+    (tmp_path / "elsewhere").mkdir()
+    monkeypatch.chdir(tmp_path / "elsewhere")
+    assert pickle.loads(there).tosses == 9000
+    with ProcessPoolExecutor(1, get_context("spawn")) as pool:
+        assert pool.submit(coinmc.estimate, sweep).result().tosses == 9000
+
+
+def test_a_part_is_a_part(sweep, command, tmp_path):
+    config = tmp_path / "toss.toml"
+    config.write_text(coinmc.Config(sweep).resolved)
+    command("run", config, "--out", tmp_path / "part", "--shard", "1/2", "--quiet")
+    assert coinmc.open(tmp_path / "part").status == "part"
+
+
+def test_a_result_is_a_mapping_of_columns(sweep):
+    result = coinmc.estimate(sweep)
+    assert list(result) == list(result.keys()) == list(result.columns)
+    assert "p_side" in result
+    assert "p_edge" not in result
+    assert dict(result).keys() == dict(result.items()).keys()
+    assert result.get("p_edge", 0) == 0
+    assert len(result) == 3
+    assert pd.DataFrame(dict(result)).equals(result.to_pandas())
+    assert result.to_polars().equals(pl.DataFrame(result))
+
+
+def test_a_sweep_has_the_dimensions_of_its_axes(sweep):
+    two = {**sweep, "surface": {"restitution": [0.3, 0.5], "friction": 0.3}}
+    result = coinmc.estimate(two)
+    data = result.to_xarray()
+    assert data.sizes == {"ratio": 3, "restitution": 2}
+    assert data["p_side"].dims == ("ratio", "restitution")
+    there = (result["ratio"] == 1.2) & (result["restitution"] == 0.3)
+    assert float(data["p_side"].sel(ratio=1.2, restitution=0.3)) == result["p_side"][there][0]
+    assert data["radius_m"].attrs["units"] == "m"
+    assert data.attrs["plan_hash"] == result.config.hash
+    alone = coinmc.estimate({**sweep, "coin": {"ratio": 1}}).to_xarray()
+    assert alone.sizes == {"point": 1}
+
+
+def test_undecided_tosses_are_shown_and_warned_of(sweep):
+    """No friction: what slides does so for ever, and a limit of impacts ends the rest."""
+    cut = {**sweep, "engine": {"flat": {"max_impacts": 2}}}
+    with pytest.warns(RuntimeWarning, match=r"at 3 points undecided .* have no face"):
+        result = coinmc.estimate(cut)
+    assert result.undecided.sum() > 0
+    assert "undecided" in repr(result)
+    assert "undecided" in result._repr_html_()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert "undecided" not in repr(coinmc.estimate(sweep))
 
 
 def test_the_command_line_resumes_a_run_and_vice_versa(scene, command, tmp_path):

@@ -82,3 +82,32 @@ def test_tosses_that_cannot_be_traced_are_reported(scene, command, tmp_path):
         coinmc.trace(scene, rate_hz=float("nan"))
     with pytest.raises(ValueError, match="exactly one launch"):
         coinmc.trace(scene, launch=coinmc.launches(scene, 2))
+
+
+def test_a_trace_is_saved_as_on_the_command_line(examples, command, tmp_path):
+    """Every format but the recording, whose bytes hold no more, byte for byte."""
+    path = examples / "first.toml"
+    trace = coinmc.trace(path, 3, rate_hz=100)
+    for ending in ("mcap", "csv", "parquet", "jsonl", "svg"):
+        ours, theirs = (tmp_path / f"{who}.{ending}" for who in ("ours", "theirs"))
+        trace.save(ours)
+        command("trace", path, "--toss", 3, "--rate", 100, "--out", theirs, "--quiet")
+        assert ours.read_bytes() == theirs.read_bytes(), ending
+    with pytest.raises(FileExistsError, match="exists already"):
+        trace.save(tmp_path / "ours.csv")
+    with pytest.raises(ValueError, match=r"use \.mcap"):
+        trace.save(tmp_path / "ours.png")
+    with pytest.raises(OSError, match="nowhere"):
+        trace.save(tmp_path / "nowhere" / "ours.csv")
+
+
+def test_a_launch_of_ones_own_is_saved_as_it_was_recorded(scene, tmp_path):
+    launches = coinmc.launches(scene, 3)
+    trace = coinmc.trace(scene, launch=launches[2:], rate_hz=50)
+    trace.save(tmp_path / "own.csv")
+    with (tmp_path / "own.csv").open(newline="") as file:
+        rows = [row for row in csv.DictReader(file) if row["kind"] in ("sample", "launched")]
+    times = trace.samples["time_s"][:-1]
+    assert [float(row["time_s"]) for row in rows] == times.tolist()
+    drawn = coinmc.trace(scene, 2, rate_hz=50)
+    assert [float(row["z_m"]) for row in rows] == drawn.samples["position_m"][:-1, 2].tolist()

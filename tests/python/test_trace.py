@@ -1,17 +1,24 @@
-"""Traces read back by independent readers: mcap, pyarrow, csv, json; schemas validated."""
+"""Traces read back by independent readers: mcap with protobuf and json, pyarrow, csv."""
 
 import csv
+import importlib
 import json
 import math
+import re
 import shutil
 import subprocess
 from itertools import pairwise
 
+import foxglove_schemas_protobuf
 import jsonschema
 import pyarrow.parquet as pq
 import pytest
+from google.protobuf.descriptor_pb2 import FileDescriptorSet
+from google.protobuf.descriptor_pool import DescriptorPool
+from grpc_tools import protoc
 from mcap.reader import make_reader
 from mcap.stream_reader import StreamReader
+from mcap_protobuf.decoder import DecoderFactory
 
 CONFIG = """
 [coin]
@@ -33,6 +40,7 @@ RADIUS = 0.01
 TOSSES = [(0, 3), (0, 8), (1, 3), (1, 8)]
 TOPICS = {
     "/tf": "foxglove.FrameTransform",
+    "/pose": "foxglove.PoseInFrame",
     "/scene": "foxglove.SceneUpdate",
     "/toss": "coinmc.Toss",
     "/state": "coinmc.State",
@@ -44,25 +52,27 @@ TOPICS = {
 
 @pytest.fixture(scope="module")
 def folder(coinmc, tmp_path_factory):
-    """Traces of four tosses in all formats, the MCAP in both compressions."""
+    """Traces of four tosses in all formats, the MCAP in both encodings and compressions."""
     folder = tmp_path_factory.mktemp("trace")
     (folder / "toss.toml").write_text(CONFIG)
     outs = [part for name in ("csv", "jsonl", "parquet", "mcap") for part in ("-o", f"t.{name}")]
     tosses = ("toss.toml", "--point", "0,1", "--toss", "3,8", "--rate", "300")
     coinmc("trace", *tosses, *outs, cwd=folder)
     coinmc("trace", *tosses, "-o", "lz4.mcap", "--compression", "lz4", cwd=folder)
+    json = ("-o", "json.mcap", "--encoding", "json")
+    coinmc("trace", *tosses, *json, cwd=folder)
     return folder
 
 
-@pytest.fixture(scope="module", params=["t.mcap", "lz4.mcap"])
+@pytest.fixture(scope="module", params=["t.mcap", "lz4.mcap", "json.mcap"])
 def mcap(request, folder):
     return folder / request.param
 
 
 @pytest.fixture(scope="module")
 def messages(folder):
-    """Every message of the MCAP: topic, log time, JSON."""
-    with (folder / "t.mcap").open("rb") as file:
+    """Every message of the MCAP in JSON: topic, log time, JSON."""
+    with (folder / "json.mcap").open("rb") as file:
         reader = make_reader(file, validate_crcs=True)
         return [
             (channel.topic, message.log_time, json.loads(message.data))
@@ -70,9 +80,9 @@ def messages(folder):
         ]
 
 
-def test_every_message_is_what_its_schema_says(mcap):
+def test_every_message_is_what_its_schema_says(folder):
     validators = {}
-    with mcap.open("rb") as file:
+    with (folder / "json.mcap").open("rb") as file:
         counted = 0
         for schema, channel, message in make_reader(file, validate_crcs=True).iter_messages():
             assert (channel.message_encoding, schema.encoding) == ("json", "jsonschema")
@@ -87,6 +97,122 @@ def test_every_message_is_what_its_schema_says(mcap):
         summary = make_reader(file).get_summary()
         assert summary.statistics.message_count == counted > 1000
         assert {channel.topic for channel in summary.channels.values()} == set(TOPICS)
+
+
+def same(of_json, decoded) -> bool:
+    """Whether a value of a message is the same in JSON and as decoded from Protobuf."""
+    if isinstance(of_json, dict) and set(of_json) == {"sec", "nsec"}:
+        return (of_json["sec"], of_json["nsec"]) == (decoded.seconds, decoded.nanos)
+    if isinstance(of_json, dict) and hasattr(decoded, "keys"):
+        return of_json.keys() == decoded.keys() and all(
+            same(value, decoded[name]) for name, value in of_json.items()
+        )
+    if isinstance(of_json, dict):
+        return all(
+            not decoded.HasField(name) if value is None else same(value, getattr(decoded, name))
+            for name, value in of_json.items()
+        )
+    if isinstance(of_json, list):
+        return len(of_json) == len(decoded) and all(map(same, of_json, decoded))
+    return of_json == decoded
+
+
+@pytest.mark.parametrize("name", ["t.mcap", "lz4.mcap"])
+def test_protobuf_says_the_same_as_json(folder, messages, name):
+    with (folder / name).open("rb") as file:
+        reader = make_reader(file, validate_crcs=True, decoder_factories=[DecoderFactory()])
+        decoded = list(reader.iter_decoded_messages(log_time_order=False))
+    assert len(decoded) == len(messages) > 1000
+    for (schema, channel, message, found), (topic, time, of_json) in zip(
+        decoded, messages, strict=True
+    ):
+        assert (channel.message_encoding, schema.encoding) == ("protobuf", "protobuf")
+        assert (channel.topic, message.log_time) == (topic, time)
+        assert schema.name == TOPICS[topic] == found.DESCRIPTOR.full_name
+        assert same(of_json, found), (topic, of_json, found)
+        # nothing beside what JSON has
+        assert {field.name for field, _ in found.ListFields()} <= of_json.keys()
+
+
+def test_protobuf_schemas_are_those_of_foxglove_and_of_the_sources(folder, root, tmp_path):
+    """Field by field: Foxglove's own package for theirs, the compiler of Protobuf for ours."""
+    compiled = tmp_path / "trace.bin"
+    sources = root / "crates/coinmc-trace/src/schemas"
+    arguments = ["", f"-I{sources}", f"--descriptor_set_out={compiled}", "trace.proto"]
+    assert protoc.main(arguments) == 0
+    ours = FileDescriptorSet.FromString(compiled.read_bytes())
+    with (folder / "t.mcap").open("rb") as file:
+        schemas = make_reader(file).get_summary().schemas.values()
+    assert {schema.name for schema in schemas} == set(TOPICS.values())
+    for schema in schemas:
+        found = FileDescriptorSet.FromString(schema.data)
+        if schema.name.startswith("coinmc."):
+            assert found == ours
+            continue
+        pool = DescriptorPool()
+        for described in found.file:
+            pool.Add(described)
+        message = pool.FindMessageTypeByName(schema.name)
+        name = schema.name.removeprefix("foxglove.")
+        module = importlib.import_module(f"{foxglove_schemas_protobuf.__name__}.{name}_pb2")
+        theirs = getattr(module, name).DESCRIPTOR
+        assert fields(message) == fields(theirs)
+
+
+def fields(message) -> dict:
+    """What a message is on the wire: numbers and types of its fields, and of those within."""
+    return {
+        field.name: (
+            field.number,
+            field.type,
+            field.is_repeated,
+            fields(field.message_type) if field.message_type else None,
+        )
+        for field in message.fields
+    }
+
+
+def test_the_robots_schema_is_that_of_its_source(root, tmp_path):
+    compiled = tmp_path / "robot.bin"
+    sources = root / "crates/coinmc-robot/src"
+    arguments = ["", f"-I{sources}", f"--descriptor_set_out={compiled}", "robot.proto"]
+    assert protoc.main(arguments) == 0
+    assert (sources / "robot.bin").read_bytes() == compiled.read_bytes()
+
+
+def test_the_layout_shows_what_is_in_the_file(coinmc, messages):
+    """Every topic and field that the viewer's layout names is there."""
+    layout = json.loads(coinmc("trace", "layout").stdout)
+    shown = set(re.findall(r'"(/[a-z_.]+)"', json.dumps(layout)))
+    there = {}
+    for topic, _, message in messages:
+        there.setdefault(topic, message)
+    assert {path.partition(".")[0] for path in shown} <= set(TOPICS)
+    for path in shown:
+        topic, _, field = path.partition(".")
+        assert not field or field in there[topic], path
+    panels = set(re.findall(r'"([A-Za-z0-9]+![a-z]+)"', json.dumps(layout["layout"])))
+    assert panels == set(layout["configById"])
+
+
+def test_rerun_shows_the_pose(folder, messages, tmp_path):
+    tool = shutil.which("rerun")
+    if tool is None:
+        pytest.skip("the command `rerun` is not installed (pip install rerun-sdk)")
+    recording = tmp_path / "t.rrd"
+    convert = [tool, "mcap", "convert", folder / "t.mcap", "-o", recording]
+    subprocess.run(convert, check=True, capture_output=True)
+    printed = [tool, "rrd", "print", recording]
+    told = subprocess.run(printed, check=True, capture_output=True, text=True).stdout
+
+    def rows(entity, component) -> int:
+        """Rows that Rerun has of a component that it draws."""
+        found = re.findall(rf"with (\d+) rows .* - {entity} - .*\b{component}\b", told)
+        return sum(map(int, found))
+
+    records = sum(topic == "/tf" for topic, _, _ in messages)
+    assert rows("/tf", "Transform3D:translation") == records > 500
+    assert rows("/pose", "InstancePoses3D:quaternions") == records
 
 
 def test_every_record_can_be_read_front_to_back(mcap):

@@ -58,7 +58,7 @@ fn a_robot_of_another_protocol_version_is_rejected() {
     robot.join().expect("the host says Hello and no more");
     let text = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{text}");
-    for word in ["9.1", "1.0", "firmware"] {
+    for word in ["9.1", "2.0", "firmware"] {
         assert!(text.contains(word), "`{word}` is not in:\n{text}");
     }
 }

@@ -5,13 +5,12 @@ use crate::commands::Film;
 #[cfg(feature = "robot")]
 use crate::commands::Robot;
 use crate::commands::{
-    AimAt, Analytic, Check, Compare, Completions, DesignArgs, Fair, Merge, Rare, Run, Schema,
-    SensitivityOf, Trace,
+    AimAt, Analytic, Check, Compare, Completions, DesignArgs, Fair, Merge, Rare, ReportOf, Run,
+    Schema, SensitivityOf, Show, Trace,
 };
 use crate::exit::{Failure, Outcome};
 use crate::output::{Console, Format};
 use clap::{ColorChoice, CommandFactory, Parser, Subcommand};
-use std::process::ExitCode;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -27,6 +26,7 @@ Exit status:
   1    failure at run time (disk full, file unreadable, …)
   2    bad input: arguments, config, or a directory that belongs to another run
   3    stopped short of the target: max_tosses came before the targets of [stop], a search found too few tosses
+  4    a robot's experiment has halted and needs a person
   130  stopped by Ctrl-C or SIGTERM; finished work is kept
 
 With --format json, standard output holds exactly one JSON document, whatever happens: the result,
@@ -52,6 +52,8 @@ pub(crate) struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(Run),
+    Show(Show),
+    Report(ReportOf),
     Check(Check),
     Fair(Box<Fair>),
     Design(Box<DesignArgs>),
@@ -72,12 +74,12 @@ enum Command {
 
 impl Arguments {
     /// Executes the command and reports failures; returns the exit status.
-    pub(crate) fn execute(self) -> ExitCode {
+    pub(crate) fn execute(self) -> u8 {
         let format = self.command.format();
         let console = Console::new(self.color, format);
         match self.command.execute(&console) {
             Ok(outcome) => outcome.into(),
-            Err(failure) => failure.report(&console).into(),
+            Err(failure) => failure.report(&console),
         }
     }
 }
@@ -86,6 +88,8 @@ impl Command {
     fn format(&self) -> Format {
         match self {
             Self::Run(run) => run.format(),
+            Self::Show(show) => show.format(),
+            Self::Report(report) => report.format(),
             Self::Check(check) => check.format(),
             Self::Fair(fair) => fair.format(),
             Self::Design(design) => design.format(),
@@ -107,6 +111,8 @@ impl Command {
     fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         match self {
             Self::Run(run) => run.execute(console),
+            Self::Show(show) => show.execute(console),
+            Self::Report(report) => report.execute(console),
             Self::Check(check) => check.execute(console),
             Self::Fair(fair) => fair.execute(console),
             Self::Design(design) => design.execute(console),

@@ -10,7 +10,6 @@ use coinmc_questions::{DesignError, QuestionError};
 use coinmc_recording::Error as RecordingError;
 use coinmc_trace::TraceError;
 use serde_json::{Value, json};
-use std::process::ExitCode;
 
 /// Ways to end without a failure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,23 +32,29 @@ pub(crate) enum Failure {
     Film(film::Diagnostics),
     /// An argument, or a directory it names, is wrong.
     Input(anyhow::Error),
+    /// A robot needs a person.
+    #[cfg(feature = "robot")]
+    Halted(anyhow::Error),
     /// The input was right, but reading, writing or computing failed.
     Runtime(anyhow::Error),
 }
 
 /// Exit codes; `arguments.rs` documents them for users.
+const DONE: u8 = 0;
 const FAILED: u8 = 1;
-const BAD_INPUT: u8 = 2;
+pub(crate) const BAD_INPUT: u8 = 2;
 const SHORT_OF_TARGET: u8 = 3;
+#[cfg(feature = "robot")]
+const HALTED: u8 = 4;
 /// 128 + SIGINT, as shells report it. Also the code of a second Ctrl-C.
 pub(crate) const INTERRUPTED: u8 = 130;
 
-impl From<Outcome> for ExitCode {
+impl From<Outcome> for u8 {
     fn from(outcome: Outcome) -> Self {
         match outcome {
-            Outcome::Done => Self::SUCCESS,
-            Outcome::ShortOfTarget => Self::from(SHORT_OF_TARGET),
-            Outcome::Interrupted => Self::from(INTERRUPTED),
+            Outcome::Done => DONE,
+            Outcome::ShortOfTarget => SHORT_OF_TARGET,
+            Outcome::Interrupted => INTERRUPTED,
         }
     }
 }
@@ -123,7 +128,7 @@ impl From<RecordingError> for Failure {
 }
 
 /// An error and its causes, without repetition: many errors quote their cause themselves.
-fn words(error: &anyhow::Error) -> String {
+pub(crate) fn words(error: &anyhow::Error) -> String {
     let mut words = error.to_string();
     for cause in error.chain().skip(1) {
         let cause = cause.to_string();
@@ -145,12 +150,26 @@ impl Failure {
         self.code()
     }
 
+    /// What happened, in one text.
+    pub(crate) fn message(&self) -> String {
+        match self {
+            Self::Config(diagnostics) => diagnostics.render(false),
+            #[cfg(feature = "film")]
+            Self::Film(diagnostics) => diagnostics.render(false),
+            Self::Input(error) | Self::Runtime(error) => words(error),
+            #[cfg(feature = "robot")]
+            Self::Halted(error) => words(error),
+        }
+    }
+
     fn code(&self) -> u8 {
         match self {
             Self::Config(_) | Self::Input(_) => BAD_INPUT,
             #[cfg(feature = "film")]
             Self::Film(_) => BAD_INPUT,
             Self::Runtime(_) => FAILED,
+            #[cfg(feature = "robot")]
+            Self::Halted(_) => HALTED,
         }
     }
 
@@ -173,10 +192,9 @@ impl Failure {
                     if problems == 1 { "" } else { "s" }
                 ));
             }
-            Self::Input(error) | Self::Runtime(error) => {
-                let title = console.stderr().paint(Colors::Warning, "error:");
-                output::note(&format!("{title} {}", words(error)));
-            }
+            #[cfg(feature = "robot")]
+            Self::Halted(error) => report_error(error, console),
+            Self::Input(error) | Self::Runtime(error) => report_error(error, console),
         }
     }
 
@@ -205,12 +223,23 @@ impl Failure {
                     "help": problem.help,
                 })).collect::<Vec<_>>(),
             }),
-            Self::Input(error) | Self::Runtime(error) => json!({
-                "format_version": output::FORMAT_VERSION,
-                "kind": "error",
-                "exit_code": self.code(),
-                "message": words(error),
-            }),
+            #[cfg(feature = "robot")]
+            Self::Halted(error) => self.error_json(error),
+            Self::Input(error) | Self::Runtime(error) => self.error_json(error),
         }
     }
+
+    fn error_json(&self, error: &anyhow::Error) -> Value {
+        json!({
+            "format_version": output::FORMAT_VERSION,
+            "kind": "error",
+            "exit_code": self.code(),
+            "message": words(error),
+        })
+    }
+}
+
+fn report_error(error: &anyhow::Error, console: &Console) {
+    let title = console.stderr().paint(Colors::Warning, "error:");
+    output::note(&format!("{title} {}", words(error)));
 }

@@ -6,6 +6,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Set by the first signal.
 static CANCEL: AtomicBool = AtomicBool::new(false);
+/// Set by the second signal, where it has something to do.
+#[cfg(feature = "robot")]
+static STOP: AtomicBool = AtomicBool::new(false);
 
 /// Starts listening and returns the flag that a signal sets. `on_first` is called once, at the
 /// first signal, on its own thread.
@@ -22,4 +25,23 @@ pub(crate) fn listen(
         on_first();
     })?;
     Ok(&CANCEL)
+}
+
+/// Like [`listen`], but also the second signal only sets a flag; the third ends the process. Returns
+/// the flags of the first and of the second signal.
+#[cfg(feature = "robot")]
+pub(crate) fn listen_twice(
+    mut on_first: impl FnMut() + Send + 'static,
+    mut on_second: impl FnMut() + Send + 'static,
+) -> Result<(&'static AtomicBool, &'static AtomicBool), ctrlc::Error> {
+    ctrlc::set_handler(move || {
+        if !CANCEL.swap(true, Ordering::Relaxed) {
+            on_first();
+        } else if !STOP.swap(true, Ordering::Relaxed) {
+            on_second();
+        } else {
+            process::exit(i32::from(INTERRUPTED));
+        }
+    })?;
+    Ok((&CANCEL, &STOP))
 }

@@ -1,6 +1,6 @@
 //! The output streams: results go to standard output, everything else to standard error.
 
-use crate::terminal::Style;
+use crate::terminal::{Style, harmless};
 use clap::{ColorChoice, ValueEnum};
 use serde_json::Value;
 use std::io::{self, Write};
@@ -16,6 +16,29 @@ pub(crate) enum Format {
     Table,
     /// One JSON document
     Json,
+}
+
+/// How a table of results is written to standard output.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ResultFormat {
+    /// For people
+    Table,
+    /// One JSON document
+    Json,
+    /// Every column of every point, as in results.csv
+    Csv,
+    /// The table for people, whole, to be pasted
+    Markdown,
+}
+
+impl ResultFormat {
+    /// How failures are written: as the only document, where programs read.
+    pub(crate) fn of_failures(self) -> Format {
+        match self {
+            Self::Json => Format::Json,
+            Self::Table | Self::Csv | Self::Markdown => Format::Table,
+        }
+    }
 }
 
 /// Both streams, and how to write to them.
@@ -49,13 +72,15 @@ impl Console {
     }
 }
 
-/// Writes to standard output. A closed pipe (`| head`) is no error.
+/// Writes to standard output, without what a terminal would obey. A closed pipe (`| head`) is no error.
 pub(crate) fn print(text: &str) -> io::Result<()> {
+    print_bytes(harmless(text).as_bytes())
+}
+
+/// The same for the bytes of a table, as they are.
+pub(crate) fn print_bytes(bytes: &[u8]) -> io::Result<()> {
     let mut stdout = io::stdout().lock();
-    match stdout
-        .write_all(text.as_bytes())
-        .and_then(|()| stdout.flush())
-    {
+    match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         result => result,
     }
@@ -68,5 +93,5 @@ pub(crate) fn print_json(document: &Value) -> io::Result<()> {
 
 /// Writes a line to standard error; a failure to do so cannot be reported anywhere.
 pub(crate) fn note(text: &str) {
-    let _ = writeln!(io::stderr().lock(), "{text}");
+    let _ = writeln!(io::stderr().lock(), "{}", harmless(text));
 }

@@ -1,8 +1,8 @@
 //! The coin: a cylinder of revolution with its centre of mass at its geometric centre.
 
+mod keys;
 mod rounded;
 
-use crate::schema::{Absent, Bounds, ReadError, TableKind, Values, default, fields, number};
 use nalgebra::Vector3;
 use thiserror::Error;
 
@@ -82,95 +82,7 @@ pub enum CoinError {
     },
 }
 
-impl CoinError {
-    /// The key of a config that gives the quantity.
-    fn key(&self) -> &'static str {
-        match self {
-            Self::Ratio(_) => "ratio",
-            Self::Radius(_) => "radius_m",
-            Self::Mass(_) => "mass_kg",
-            Self::RimRadius { .. } => "rim_radius_m",
-            Self::AxialMoment { .. } => "axial_moment_kg_m2",
-            Self::TransverseMoment { .. } => "transverse_moment_kg_m2",
-        }
-    }
-}
-
 impl Coin {
-    /// The keys of the table `[coin]` of a config.
-    pub fn schema() -> TableKind {
-        let moment = Bounds::open(0.0, 1e30);
-        fields(vec![
-            number(
-                "ratio",
-                "Height over radius, H/R.",
-                Bounds::closed(1e-12, 1e12),
-                Absent::Required,
-            ),
-            number(
-                "radius_m",
-                "Radius R, m.",
-                Bounds::closed(1e-9, 1e6),
-                default(0.01),
-            ),
-            number(
-                "mass_kg",
-                "Mass, kg. It cancels everywhere but in given moments of inertia and in laws of impact \
-                 that name forces or stiffness.",
-                Bounds::closed(1e-12, 1e12),
-                default(0.01),
-            ),
-            number(
-                "rim_radius_m",
-                "Radius r of the rounding of both rims, m, below R and H/2: the coin is a smaller cylinder \
-                 with a layer of thickness r all around. 0, or absent: sharp edges.",
-                Bounds::closed(0.0, 1e6),
-                Absent::Omitted,
-            ),
-            number(
-                "axial_moment_kg_m2",
-                "Moment of inertia about the coin's axis, kg m², of a hollow or loaded coin; a uniform \
-                 cylinder's if absent.",
-                moment,
-                Absent::Omitted,
-            ),
-            number(
-                "transverse_moment_kg_m2",
-                "Moment of inertia about a diameter through the centre, kg m²; a uniform cylinder's if \
-                 absent.",
-                moment,
-                Absent::Omitted,
-            ),
-        ])
-    }
-
-    /// The coin that a config gives.
-    ///
-    /// # Errors
-    /// [`ReadError`] where [`CoinError`] applies; it blames the key of the quantity.
-    pub fn read(values: &Values) -> Result<Self, ReadError> {
-        let axial = values.optional("axial_moment_kg_m2")?;
-        let transverse = values.optional("transverse_moment_kg_m2")?;
-        let blame = |error: CoinError| {
-            // a given axial moment alone can rule out the uniform cylinder's transverse one
-            let key = match error {
-                CoinError::TransverseMoment { .. } if transverse.is_none() => "axial_moment_kg_m2",
-                error => error.key(),
-            };
-            ReadError::new(error.to_string()).at(key)
-        };
-        let coin = Self::cylinder(values.number("ratio")?, values.number("radius_m")?)
-            .map_err(blame)?
-            .with_mass(values.number("mass_kg")?)
-            .map_err(blame)?
-            .with_rim_radius(values.optional("rim_radius_m")?.unwrap_or(0.0))
-            .map_err(blame)?;
-        if axial.is_none() && transverse.is_none() {
-            return Ok(coin);
-        }
-        coin.with_moments(axial, transverse).map_err(blame)
-    }
-
     /// A uniform solid cylinder of ratio H/R and radius `radius_m`, 10 g unless
     /// [`with_mass`](Self::with_mass) says otherwise.
     ///

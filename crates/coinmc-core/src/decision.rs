@@ -44,6 +44,13 @@
 //! its face it slides for ε/μ, and a coin that leans and rolls falls flat within about the time 1, so that
 //! ε < `WAY`²/2 is enough.
 //!
+//! # On a tilted table
+//! The pull downhill works on a coin that moves, so no energy decides for good, and a toss goes on to
+//! rest here as well. On its side a coin rolls on or holds: the engine that follows it says so, not
+//! this rule. On its face it rests as on a table with an edge, once the pull, tan β of the weight,
+//! cannot carry it over its rim either: the centre is |r_x| short of the balance, and may go on by
+//! some `WAY` with the coin.
+//!
 //! # Without friction
 //! With μ = 0 the horizontal velocity never changes, and the rule leaves its energy out under every
 //! decision. Rolling then cannot tilt the coin, so on the side `tilting` leaves out the energy of
@@ -57,7 +64,7 @@
 //! and L_z slightly in every contact, and does not use this part of the rule
 //! ([`DecisionRule::in_time_steps`]).
 
-use crate::{Body, Scene};
+use crate::{Body, Scene, Surface};
 use coinmc_lanes::{Lane, Mask};
 use std::f64::consts::FRAC_PI_2;
 
@@ -128,6 +135,8 @@ pub struct DecisionRule {
     /// Energies above rest below which a decided coin on its side and on its face counts as at rest;
     /// infinite where motion that goes on does not matter.
     resting: [f64; 2],
+    /// tan β of a tilted table, else 0.
+    slope: f64,
 }
 
 /// Square of the time, in sqrt(D/g), in which a rolling coin that turns topples: a choice. With 1
@@ -137,6 +146,8 @@ const TOPPLING: f64 = 2.0;
 
 /// The way, in D, that a coin that rests on a table with an edge may still make.
 const WAY: f64 = 0.03;
+/// How many times that way the pull of a tilted table may act on a coin that rests.
+const SPARE_WAYS: f64 = 2.0;
 /// Energy above rest below which a coin without rolling friction counts as at rest.
 const LEAST_RESTING: f64 = 1e-6;
 
@@ -165,17 +176,8 @@ impl DecisionRule {
             },
             // at a rounded rim friction has the lever r more, over an angle of π/2 at most
             flat_barrier: (1.0 + mu * mu).sqrt() - mu * (body.radius + FRAC_PI_2 * body.rim),
-            // without friction nothing changes the horizontal velocity, and nothing need be waited for
-            resting: match surface.table_radius_m() {
-                Some(_) if mu > 0.0 => {
-                    let contour = surface.rolling_friction_m() / coin_radius_m;
-                    [
-                        (WAY * contour).max(LEAST_RESTING),
-                        (WAY * mu).min(0.5 * WAY * WAY),
-                    ]
-                }
-                _ => [f64::INFINITY; 2],
-            },
+            resting: resting(surface, coin_radius_m),
+            slope: surface.tilt().map_or(0.0, |tilt| tilt.slope()),
         }
     }
 
@@ -222,9 +224,16 @@ impl DecisionRule {
         }
     }
 
+    /// Whether a coin with this sine of the tilt and these rates of rocking lies flat on its face, apart
+    /// from negligible rocking, and friction will not tip it as it slides.
+    pub fn lies_flat(&self, sin: f64, rocking: [f64; 3]) -> bool {
+        let small = self.flat_sine * self.body.radius;
+        sin < small && rocking.iter().all(|rate| rate.abs() < small)
+    }
+
     /// Whether the toss goes on until the coin rests.
     pub fn awaits_rest(&self) -> bool {
-        self.resting[0] < f64::INFINITY
+        self.resting[1] < f64::INFINITY
     }
 
     /// Whether the coin rests, if that is waited for.
@@ -232,7 +241,13 @@ impl DecisionRule {
     fn rests(&self, state: &DecisionState<f64>) -> bool {
         let lowest = self.body.half * state.cos + self.body.radius * state.sin;
         let resting = self.resting[usize::from(!self.on_side(state.cos))];
-        state.energy - lowest < resting
+        state.energy - lowest < resting && self.holds_on_slope(state)
+    }
+
+    /// Whether the pull of a tilted table cannot carry the coin over its rim.
+    fn holds_on_slope(&self, state: &DecisionState<f64>) -> bool {
+        let short = (self.body.radius * state.cos - self.body.half * state.sin).abs();
+        self.slope == 0.0 || state.energy + self.slope * (short + SPARE_WAYS * WAY) < 1.0
     }
 
     /// Whether the face can no longer change. (Motion that goes on is left to
@@ -313,6 +328,21 @@ impl DecisionRule {
     pub fn loses_nothing(&self, restitution: f64) -> bool {
         self.traps && restitution == 1.0
     }
+}
+
+/// [`DecisionRule::resting`] of a surface.
+fn resting(surface: &Surface, coin_radius_m: f64) -> [f64; 2] {
+    let mu = surface.friction();
+    let face = |friction: f64| (WAY * friction).min(0.5 * WAY * WAY);
+    if let Some(tilt) = surface.tilt() {
+        return [f64::NEG_INFINITY, face(mu - tilt.slope())];
+    }
+    // without friction nothing changes the horizontal velocity, and nothing need be waited for
+    if surface.table_radius_m().is_none() || mu == 0.0 {
+        return [f64::INFINITY; 2];
+    }
+    let contour = surface.rolling_friction_m() / coin_radius_m;
+    [(WAY * contour).max(LEAST_RESTING), face(mu)]
 }
 
 #[cfg(test)]

@@ -41,6 +41,7 @@ pub mod schema;
 mod side_ending;
 mod surface;
 mod tally;
+mod tilt;
 
 pub use batch::TossBatch;
 pub use body::{Body, Units};
@@ -70,6 +71,7 @@ pub use scene::{Drag, Scene, SceneParameter};
 pub use side_ending::{OntoSide, ROLL_BOUNDS_M, SideEnding, SideMotion};
 pub use surface::{Landing, Surface, SurfaceError};
 pub use tally::{Counter, CounterKind, Tally};
+pub use tilt::{TableTilt, TableTiltError};
 
 /// The code of the walk-through is tested.
 #[cfg(doctest)]

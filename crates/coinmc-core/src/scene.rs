@@ -73,7 +73,7 @@ pub struct SceneParameter {
 impl Scene {
     /// The parameters that every result states, swept or not, with their values: without them a toss is
     /// not defined.
-    pub const PARAMETERS: [SceneParameter; 15] = [
+    pub const PARAMETERS: [SceneParameter; 17] = [
         SceneParameter {
             name: "ratio",
             value: |scene| scene.coin.ratio(),
@@ -138,6 +138,19 @@ impl Scene {
         SceneParameter {
             name: "table_radius_m",
             value: |scene| scene.surface.table_radius_m().unwrap_or(0.0),
+        },
+        SceneParameter {
+            name: "table_tilt_deg",
+            value: |scene| scene.surface.tilt().map_or(0.0, |tilt| tilt.angle_deg()),
+        },
+        SceneParameter {
+            name: "table_downhill_deg",
+            value: |scene| {
+                scene
+                    .surface
+                    .tilt()
+                    .map_or(0.0, |tilt| tilt.direction_deg())
+            },
         },
     ];
 
@@ -240,6 +253,25 @@ impl Scene {
     /// Acceleration of gravity g, m/s².
     pub fn gravity_m_s2(&self) -> f64 {
         self.gravity_m_s2
+    }
+
+    /// The same scene with the gravity that presses a coin onto a tilted table, g cos β.
+    ///
+    /// # Example
+    /// ```
+    /// use coinmc_core::{Coin, Scene, Surface, TableTilt};
+    /// let surface = Surface::new(0.5, 0.3)?.with_tilt(TableTilt::new(10.0, 0.0)?)?;
+    /// let scene = Scene::new(Coin::cylinder(0.2, 0.01)?, surface, 10.0)?;
+    /// assert!((scene.pressed_onto_table().gravity_m_s2() - 9.848).abs() < 1e-3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn pressed_onto_table(&self) -> Self {
+        let cos = self.surface.tilt().map_or(1.0, |tilt| tilt.cos());
+        Self {
+            gravity_m_s2: self.gravity_m_s2 * cos,
+            ..*self
+        }
     }
 
     /// sqrt(D/g), s: the time scale of a coin toppling over its rim.

@@ -2,7 +2,7 @@
 
 mod keys;
 
-use crate::{Roughness, RoughnessError};
+use crate::{Roughness, RoughnessError, TableTilt, TableTiltError};
 use thiserror::Error;
 
 /// Speed of approach at which the coefficient of restitution is meant if none is given.
@@ -65,6 +65,7 @@ pub struct Surface {
     roughness: Option<Roughness>,
     landing: Landing,
     table_radius_m: Option<f64>,
+    tilt: Option<TableTilt>,
 }
 
 /// Why a surface or scene cannot be built.
@@ -91,6 +92,24 @@ pub enum SurfaceError {
     /// The radius of the table is not a positive finite length.
     #[error("the radius of the table must be positive and finite, not {0} m")]
     TableRadius(f64),
+    /// The tilt of the table cannot be modelled.
+    #[error(transparent)]
+    Tilt(#[from] TableTiltError),
+    /// The table is so steep that coins slide off.
+    #[error(
+        "a table tilted by {tilt_deg}° needs friction above tan {tilt_deg}° = {slope:.4}, not {friction}"
+    )]
+    Steep {
+        /// The tilt, degrees.
+        tilt_deg: f64,
+        /// Its tangent.
+        slope: f64,
+        /// μ.
+        friction: f64,
+    },
+    /// An adhesive landing on a tilted table.
+    #[error("an adhesive landing on a tilted table is not modelled")]
+    TiltedAdhesive,
     /// The roughness cannot be modelled.
     #[error(transparent)]
     Roughness(#[from] RoughnessError),
@@ -116,6 +135,7 @@ impl Surface {
             roughness: None,
             landing: Landing::Adhesive,
             table_radius_m: None,
+            tilt: None,
         }
     }
 
@@ -142,6 +162,7 @@ impl Surface {
             roughness: None,
             landing: Landing::Bouncing,
             table_radius_m: None,
+            tilt: None,
         })
     }
 
@@ -258,6 +279,42 @@ impl Surface {
         } else {
             Err(SurfaceError::TableRadius(radius_m))
         }
+    }
+
+    /// The same surface as a tilted table. Launches keep their meaning in the laboratory, with the
+    /// vertical as it is; the coin begins straight above the middle of the table.
+    ///
+    /// # Errors
+    /// [`SurfaceError::Steep`] unless tan β < μ (a coin would slide for ever);
+    /// [`SurfaceError::TiltedAdhesive`] if the landing is adhesive.
+    ///
+    /// # Example
+    /// ```
+    /// use coinmc_core::{Surface, TableTilt};
+    /// let tilt = TableTilt::new(1.0, 0.0)?;
+    /// let table = Surface::new(0.5, 0.3)?.with_tilt(tilt)?;
+    /// assert_eq!(table.tilt(), Some(tilt));
+    /// assert!(Surface::new(0.5, 0.01)?.with_tilt(tilt).is_err());
+    /// # Ok::<(), coinmc_core::SurfaceError>(())
+    /// ```
+    pub fn with_tilt(self, tilt: TableTilt) -> Result<Self, SurfaceError> {
+        if self.landing == Landing::Adhesive && !tilt.is_level() {
+            return Err(SurfaceError::TiltedAdhesive);
+        }
+        if tilt.slope() >= self.friction && !tilt.is_level() {
+            return Err(SurfaceError::Steep {
+                tilt_deg: tilt.angle_deg(),
+                slope: tilt.slope(),
+                friction: self.friction,
+            });
+        }
+        let tilt = Some(tilt);
+        Ok(Self { tilt, ..self })
+    }
+
+    /// The tilt of the table; `None`: it is level.
+    pub fn tilt(&self) -> Option<TableTilt> {
+        self.tilt.filter(|tilt| !tilt.is_level())
     }
 
     /// The same surface without an edge.

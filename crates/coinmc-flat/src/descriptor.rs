@@ -32,7 +32,7 @@ pub const ENGINE: EngineDescriptor = EngineDescriptor {
     read: |values| Settings::read(values).map(EngineChoice::new),
 };
 
-const UNMODELLED: [Unmodelled; 11] = [
+const UNMODELLED: [Unmodelled; 12] = [
     Unmodelled {
         table: "coin",
         key: "rim_radius_m",
@@ -83,6 +83,12 @@ const UNMODELLED: [Unmodelled; 11] = [
         key: "table_radius_m",
         message: "engine.flat models no edge of the table: `surface.table_radius_m` must be absent",
         help: "remove `table_radius_m`, or toss with [engine.volumetric]",
+    },
+    Unmodelled {
+        table: "surface",
+        key: "table_tilt_deg",
+        message: "engine.flat models level tables only: `surface.table_tilt_deg` must be 0",
+        help: "remove `table_tilt_deg`, or toss in space with [engine.volumetric]",
     },
     Unmodelled {
         table: "environment",

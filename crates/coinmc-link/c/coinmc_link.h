@@ -1,4 +1,4 @@
-/* The robot's serial link for firmware in C: frames and messages, protocol 1.0.
+/* The robot's serial link for firmware in C: frames and messages, protocol 2.0.
  *
  * Plain C99 in this one file. It allocates no memory and needs only <stdint.h>, <stdbool.h>,
  * <stddef.h> and <string.h>. It implements docs/reference/robot-protocol.md and is tested against the same
@@ -13,7 +13,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#define COINMC_MAJOR 1
+#define COINMC_MAJOR 2
 #define COINMC_MINOR 0
 
 /* ---- frames: 0x00 | COBS( session u16 | seq u16 | body | CRC-32 ) | 0x00, little-endian ---- */
@@ -172,11 +172,12 @@ typedef enum {
 enum { COINMC_AXIS_X = 1, COINMC_AXIS_Y = 2, COINMC_AXIS_LIFT = 4, COINMC_AXIS_SPINDLE = 8 };
 /* Bits of Info's capabilities. */
 enum { COINMC_HAS_LIGHT = 1, COINMC_HAS_CARRIAGE = 2 };
-/* Fault codes; the number of the phase or of the failure is added to the last three. */
+/* Fault codes; the number of the phase, state or failure is added to the last three. */
 enum {
     COINMC_FAULT_STOPPED = 1,
     COINMC_FAULT_SILENCE = 2,
     COINMC_FAULT_JOURNAL = 3,
+    COINMC_FAULT_EMERGENCY = 4,
     COINMC_FAULT_RESET = 100,
     COINMC_FAULT_LIMIT = 200,
     COINMC_FAULT_HARDWARE = 300
@@ -188,6 +189,7 @@ typedef struct {
     uint16_t session;      /* Hello */
     uint8_t axes;          /* Home */
     uint32_t throw_id;     /* Throw, Collect, SetCounter */
+    uint32_t experiment;   /* Throw, SetCounter; 0 for none */
     uint16_t spin_mrev_s;  /* Throw: 0 to 5000 */
     uint16_t angle_cdeg;   /* Throw: 0 to 18000 */
     int32_t x_um, y_um;    /* MoveCarriage: within 2 m of home */
@@ -211,7 +213,8 @@ typedef struct {
 
 typedef struct {
     uint8_t state;
-    uint32_t throw_id;
+    uint32_t throw_id, experiment;
+    uint16_t spin_mrev_s, angle_cdeg; /* asked for; 0 after a start */
     bool released;
     uint16_t meas_spin_mrev_s, meas_angle_cdeg;
     int32_t x_um, y_um;
@@ -353,6 +356,7 @@ static inline coinmc_read coinmc_read_request(const uint8_t *bytes, uint8_t leng
         break;
     case COINMC_REQUEST_THROW:
         request->throw_id = coinmc_get_u32(&body);
+        request->experiment = coinmc_get_u32(&body);
         request->spin_mrev_s = coinmc_get_u16(&body);
         request->angle_cdeg = coinmc_get_u16(&body);
         break;
@@ -364,8 +368,11 @@ static inline coinmc_read coinmc_read_request(const uint8_t *bytes, uint8_t leng
         request->permille = coinmc_get_u16(&body);
         break;
     case COINMC_REQUEST_COLLECT:
+        request->throw_id = coinmc_get_u32(&body);
+        break;
     case COINMC_REQUEST_SET_COUNTER:
         request->throw_id = coinmc_get_u32(&body);
+        request->experiment = coinmc_get_u32(&body);
         break;
     case COINMC_REQUEST_CLEAR_FAULT:
         request->code = coinmc_get_u16(&body);
@@ -416,6 +423,9 @@ static inline uint8_t coinmc_write_reply(const coinmc_reply *reply, uint8_t byte
     default:
         coinmc_put_u8(&body, reply->as.status.state);
         coinmc_put_u32(&body, reply->as.status.throw_id);
+        coinmc_put_u32(&body, reply->as.status.experiment);
+        coinmc_put_u32(&body, reply->as.status.spin_mrev_s);
+        coinmc_put_u32(&body, reply->as.status.angle_cdeg);
         coinmc_put_u8(&body, reply->as.status.released);
         coinmc_put_u32(&body, reply->as.status.meas_spin_mrev_s);
         coinmc_put_u32(&body, reply->as.status.meas_angle_cdeg);

@@ -147,6 +147,15 @@ impl Host {
         self.outstanding = Outstanding::Closed;
     }
 
+    /// Drops the outstanding request: a reply that still comes is ignored, and another request can be
+    /// made.
+    pub fn give_up(&mut self) {
+        self.event = None;
+        if self.outstanding == Outstanding::Request {
+            self.outstanding = Outstanding::Nothing;
+        }
+    }
+
     /// Sends a request.
     ///
     /// # Errors

@@ -10,6 +10,7 @@
 //! * [`Request`] and [`Reply`]: the messages of host and robot.
 //! * [`Device`]: the robot's side, generic over a [`Hardware`] that drives motors and reads
 //!   sensors.
+//! * [`FlashLog`]: the robot's journal as a log in flash memory.
 //! * [`Host`]: the host's side, with handshake, retransmission and detection of a lost connection.
 #![no_std]
 // Nobody is there to restart a robot: nothing in this crate may panic, whatever arrives.
@@ -26,13 +27,16 @@
 )]
 
 mod device;
+mod flash;
 mod frame;
 mod host;
 mod message;
 
 pub use device::{
-    AT_COIN_LIMIT_MS, Device, Hardware, Motion, Record, SILENCE_LIMIT_MS, Sensors, fault,
+    AT_COIN_LIMIT_MS, BOOT_LIMIT_MS, Device, HOME_LIMIT_MS, Hardware, MOVE_LIMIT_MS, Motion,
+    Record, SILENCE_LIMIT_MS, Sensors, fault,
 };
+pub use flash::{Flash, FlashLog};
 pub use frame::{Decoder, Frame, Header, MAX_BODY, MAX_PLAIN, MAX_WIRE, Reject, TooLong, Wire};
 pub use host::{Action, Counters, Host, LOST_AFTER_MS, REPLY_TIMEOUT_MS, RequestError, Seen};
 pub use message::{

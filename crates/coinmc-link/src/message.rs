@@ -23,7 +23,7 @@ pub struct Version {
 }
 
 /// The version implemented by this crate.
-pub const PROTOCOL: Version = Version { major: 1, minor: 0 };
+pub const PROTOCOL: Version = Version { major: 2, minor: 0 };
 
 /// Axes of [`Request::Home`], one bit each.
 pub mod axis {
@@ -72,6 +72,8 @@ pub enum Request {
     Throw {
         /// At least 1 and greater than any before, except to repeat the last.
         throw_id: u32,
+        /// The experiment that the throw belongs to; 0 for none.
+        experiment: u32,
         /// Spin at release, 1/1000 rev/s, 0 to 5000.
         spin_mrev_s: u16,
         /// Angle at release, 1/100 degree, 0 to 18000.
@@ -99,10 +101,13 @@ pub enum Request {
         /// The fault that the host saw.
         code: u16,
     },
-    /// Sets the number of the last throw. Idle only.
+    /// Sets the number of the last throw and the experiment that it belongs to: from then on the
+    /// robot is known to be that of the experiment. Idle only.
     SetCounter {
         /// The new last throw.
         throw_id: u32,
+        /// The experiment; 0 for none.
+        experiment: u32,
     },
 }
 
@@ -253,6 +258,12 @@ pub struct Status {
     pub state: State,
     /// The last throw accepted.
     pub throw_id: u32,
+    /// The experiment that it belongs to; 0 for none.
+    pub experiment: u32,
+    /// Spin asked for, 1/1000 rev/s; 0 if this throw was accepted before the last start.
+    pub spin_mrev_s: u16,
+    /// Angle asked for, 1/100 degree, likewise.
+    pub angle_cdeg: u16,
     /// Whether the coin of this throw was released (after a reset: may have been released).
     pub released: bool,
     /// Measured spin, 1/1000 rev/s: present value before the release, then the value at release.
@@ -311,7 +322,9 @@ impl Request {
     /// # Example
     /// ```
     /// use coinmc_link::Request;
-    /// let throw = |spin_mrev_s| Request::Throw { throw_id: 1, spin_mrev_s, angle_cdeg: 9000 };
+    /// let throw = |spin_mrev_s| {
+    ///     Request::Throw { throw_id: 1, experiment: 7, spin_mrev_s, angle_cdeg: 9000 }
+    /// };
     /// assert!(throw(5000).check().is_ok() && throw(5001).check().is_err());
     /// ```
     pub fn check(&self) -> Result<(), BadMessage> {
@@ -323,6 +336,7 @@ impl Request {
                 throw_id,
                 spin_mrev_s,
                 angle_cdeg,
+                ..
             } => throw_id != 0 && spin_mrev_s <= 5000 && angle_cdeg <= 18_000,
             Self::MoveCarriage { x_um, y_um } => {
                 let reach = -REACH_UM..=REACH_UM;

@@ -40,7 +40,7 @@ fn the_firmware_in_c_behaves_like_this_crate() {
             "no motion {motion}"
         );
     }
-    for phase in 1..7 {
+    for phase in 1..8 {
         assert!(
             ours.lines()
                 .any(|l| l.starts_with("store") && l.ends_with(&format!(" {phase}")))
@@ -128,6 +128,7 @@ fn sensors(read: &[i64]) -> Sensors {
         x_um: i32::try_from(read[3]).expect("a position"),
         y_um: i32::try_from(read[4]).expect("a position"),
         failure: u8::try_from(read[5]).expect("a failure"),
+        stopped: read[6] != 0,
     }
 }
 
@@ -156,10 +157,12 @@ impl Hardware for Logged {
     fn store(&mut self, next: &Record) -> bool {
         let Record {
             throw_id,
+            experiment,
             boot,
             phase,
         } = *next;
-        let _ = writeln!(self.log, "store {throw_id} {boot} {}", phase.number());
+        let phase = phase.number();
+        let _ = writeln!(self.log, "store {throw_id} {experiment} {boot} {phase}");
         if !self.broken {
             self.stored = Some(*next);
         }
@@ -248,13 +251,14 @@ impl Author {
     fn sensors(&mut self) -> String {
         let r = &mut self.random;
         format!(
-            "s {} {} {} {} {} {}",
+            "s {} {} {} {} {} {} {}",
             u8::from(r.chance(850)),
             r.below(65_536),
             r.below(18_001),
             i64::from(r.below(4_000)) - 2_000,
             i64::from(r.below(4_000)) - 2_000,
             if r.chance(20) { 1 + r.below(255) } else { 0 },
+            u8::from(r.chance(10)),
         )
     }
 
@@ -305,7 +309,7 @@ impl Author {
                 self.header.session = session;
                 Request::Hello {
                     version: Version {
-                        major: if r.chance(100) { 2 } else { PROTOCOL.major },
+                        major: if r.chance(100) { 1 } else { PROTOCOL.major },
                         minor: 0,
                     },
                     session: if r.chance(50) { 9 } else { session },
@@ -321,6 +325,7 @@ impl Author {
                 self.throw_id = self.throw_id.wrapping_add(r.below(3));
                 Request::Throw {
                     throw_id: self.throw_id,
+                    experiment: r.below(2),
                     spin_mrev_s: number(r, 5_100),
                     angle_cdeg: number(r, 18_100),
                 }
@@ -337,11 +342,12 @@ impl Author {
             },
             85..97 => Request::ClearFault {
                 code: r.pick(&[
-                    0, 1, 2, 2, 3, 102, 103, 104, 105, 106, 202, 203, 204, 205, 206,
+                    0, 1, 2, 2, 3, 4, 4, 102, 103, 104, 105, 106, 202, 203, 204, 205, 206, 200, 201,
                 ]),
             },
             _ => Request::SetCounter {
                 throw_id: self.throw_id.wrapping_sub(r.below(3)),
+                experiment: r.below(3),
             },
         }
     }

@@ -157,6 +157,7 @@ fn one_or_two_flipped_bits_are_detected() {
         seq: 7,
     };
     let request = Request::Throw {
+        experiment: 3,
         throw_id: 1000,
         spin_mrev_s: 3200,
         angle_cdeg: 9000,

@@ -10,13 +10,13 @@
 mod support;
 
 use coinmc_link::{Action, Host, Reply, Request};
-use std::fs::{File, OpenOptions};
-use std::io::{BufRead, BufReader, Read, Write};
-use std::process::{Child, Command, Stdio};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::fs::File;
+use std::io::Write;
+use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 use support::Random;
 use support::campaign::{Campaign, End, Noise};
+use support::simulator::Simulator;
 
 #[test]
 fn an_experiment_on_a_simulated_microcontroller() {
@@ -62,22 +62,7 @@ struct Bench {
 
 impl Bench {
     fn new(command: &str) -> Self {
-        let (simulator, name) = Simulator::start(command);
-        let raw = ["-F", &name, "raw", "-echo"];
-        let status = Command::new("stty").args(raw).status();
-        assert!(status.expect("stty runs").success());
-        let line = OpenOptions::new().read(true).write(true).open(&name);
-        let line = line.expect("the terminal opens");
-        let mut reader = line.try_clone().expect("a second handle");
-        let (sender, arriving) = channel();
-        std::thread::spawn(move || {
-            let mut buffer = [0; 256];
-            while let Ok(length @ 1..) = reader.read(&mut buffer) {
-                if sender.send(buffer[..length].to_vec()).is_err() {
-                    break;
-                }
-            }
-        });
+        let (simulator, line, arriving) = Simulator::start(command);
         Self {
             simulator,
             line,
@@ -106,7 +91,7 @@ impl Bench {
             if reset < resets && resolved * (resets + 1) >= throws * (reset + 1) {
                 reset += 1;
                 self.wait_within_a_throw(&mut host);
-                self.simulator.reset();
+                self.simulator.tell("system_reset");
             }
             if killed < kills && (2 * resolved + 1) * (kills + 1) >= 2 * throws * (killed + 1) {
                 killed += 1;
@@ -164,49 +149,5 @@ impl Bench {
             }
             assert!(self.begun.elapsed() < Duration::from_secs(580), "too slow");
         }
-    }
-}
-
-struct Simulator(Child);
-
-impl Simulator {
-    /// Starts the simulator; also returns the name of its terminal.
-    fn start(command: &str) -> (Self, String) {
-        let mut words = command.split_whitespace();
-        let mut child = Command::new(words.next().expect("a command"))
-            .args(words)
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .spawn()
-            .expect("the simulator starts");
-        let mut lines = BufReader::new(child.stdout.take().expect("its output")).lines();
-        let name = lines.find_map(|line| {
-            let line = line.expect("text");
-            let name = line.split_whitespace().find(|w| w.starts_with("/dev/"));
-            name.map(str::to_owned)
-        });
-        // keep reading, so that its pipe does not fill up
-        std::thread::spawn(move || lines.map_while(Result::ok).for_each(drop));
-        (Self(child), name.expect("the name of a terminal"))
-    }
-
-    fn reset(&mut self) {
-        let input = self.0.stdin.as_mut().expect("its input");
-        writeln!(input, "system_reset").expect("the simulator obeys");
-    }
-}
-
-impl Drop for Simulator {
-    fn drop(&mut self) {
-        // one simulator exits at the end of its input, the other must be killed
-        drop(self.0.stdin.take());
-        for _ in 0..20 {
-            if self.0.try_wait().is_ok_and(|ended| ended.is_some()) {
-                return;
-            }
-            std::thread::sleep(Duration::from_millis(10));
-        }
-        let _ = self.0.kill();
-        let _ = self.0.wait();
     }
 }

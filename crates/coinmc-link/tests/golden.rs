@@ -15,6 +15,8 @@ const HEADER: Header = Header {
     seq: 0x00FF,
 };
 
+const EXPERIMENT: u32 = 2_809_463_210;
+
 fn golden_file() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
         .join("../../docs/reference/robot-protocol/golden-frames.txt")
@@ -126,7 +128,12 @@ fn requests() -> Vec<Request> {
         Request::Home { axes: axis::ALL },
         throw(1, 0, 0),
         throw(300, 3200, 9000),
-        throw(u32::MAX, 5000, 18_000),
+        Request::Throw {
+            throw_id: u32::MAX,
+            experiment: u32::MAX,
+            spin_mrev_s: 5000,
+            angle_cdeg: 18_000,
+        },
         Request::MoveCarriage { x_um: 0, y_um: -1 },
         Request::MoveCarriage {
             x_um: -2_000_000,
@@ -135,13 +142,17 @@ fn requests() -> Vec<Request> {
         Request::Light { permille: 1000 },
         Request::Collect { throw_id: 300 },
         Request::ClearFault { code: 103 },
-        Request::SetCounter { throw_id: 70_000 },
+        Request::SetCounter {
+            throw_id: 70_000,
+            experiment: EXPERIMENT,
+        },
     ]
 }
 
 fn throw(throw_id: u32, spin_mrev_s: u16, angle_cdeg: u16) -> Request {
     Request::Throw {
         throw_id,
+        experiment: EXPERIMENT,
         spin_mrev_s,
         angle_cdeg,
     }
@@ -189,6 +200,9 @@ fn replies() -> Vec<Reply> {
         Reply::Status(Status {
             state: State::AtCoin,
             throw_id: 300,
+            experiment: EXPERIMENT,
+            spin_mrev_s: 3200,
+            angle_cdeg: 9000,
             released: true,
             meas_spin_mrev_s: 3187,
             meas_angle_cdeg: 9012,
@@ -207,6 +221,9 @@ fn replies() -> Vec<Reply> {
 const LONGEST: Status = Status {
     state: State::Fault,
     throw_id: u32::MAX,
+    experiment: u32::MAX,
+    spin_mrev_s: u16::MAX,
+    angle_cdeg: u16::MAX,
     released: true,
     meas_spin_mrev_s: u16::MAX,
     meas_angle_cdeg: u16::MAX,
@@ -225,7 +242,7 @@ fn bad_bodies() -> Vec<(&'static str, Vec<u8>, BadMessage)> {
         ("empty", vec![], Malformed),
         ("unknown-variant", vec![11], Malformed),
         ("trailing-byte", vec![2, 0], Malformed),
-        ("field-missing", vec![5, 1, 0], Malformed),
+        ("field-missing", vec![5, 1, 0, 0], Malformed),
         ("varint-not-shortest", vec![8, 0x81, 0x00], Malformed),
         ("varint-too-large", vec![7, 0x80, 0x80, 0x04], Malformed),
         (
@@ -234,8 +251,8 @@ fn bad_bodies() -> Vec<(&'static str, Vec<u8>, BadMessage)> {
             Malformed,
         ),
         ("session-0", vec![0, 1, 0, 0], OutOfRange),
-        ("throw-id-0", vec![5, 0, 0, 0], OutOfRange),
-        ("spin-5001", vec![5, 1, 0x89, 0x27, 0], OutOfRange),
+        ("throw-id-0", vec![5, 0, 0, 0, 0], OutOfRange),
+        ("spin-5001", vec![5, 1, 0, 0x89, 0x27, 0], OutOfRange),
         ("no-axis", vec![4, 0], OutOfRange),
         ("axis-unknown", vec![4, 16], OutOfRange),
     ]
@@ -274,10 +291,11 @@ fn request_text(request: &Request) -> String {
         Request::Home { axes } => format!("home {at} axes={axes}"),
         Request::Throw {
             throw_id,
+            experiment,
             spin_mrev_s,
             angle_cdeg,
         } => format!(
-            "throw {at} throw_id={throw_id} spin_mrev_s={spin_mrev_s} angle_cdeg={angle_cdeg}"
+            "throw {at} throw_id={throw_id} experiment={experiment} spin_mrev_s={spin_mrev_s} angle_cdeg={angle_cdeg}"
         ),
         Request::MoveCarriage { x_um, y_um } => {
             format!("move_carriage {at} x_um={x_um} y_um={y_um}")
@@ -285,7 +303,10 @@ fn request_text(request: &Request) -> String {
         Request::Light { permille } => format!("light {at} permille={permille}"),
         Request::Collect { throw_id } => format!("collect {at} throw_id={throw_id}"),
         Request::ClearFault { code } => format!("clear_fault {at} code={code}"),
-        Request::SetCounter { throw_id } => format!("set_counter {at} throw_id={throw_id}"),
+        Request::SetCounter {
+            throw_id,
+            experiment,
+        } => format!("set_counter {at} throw_id={throw_id} experiment={experiment}"),
     }
 }
 
@@ -321,10 +342,14 @@ fn reply_text(reply: &Reply) -> String {
         }
         Reply::Nak(nak) => format!("nak {at} reason={}", nak as u8),
         Reply::Status(status) => format!(
-            "status {at} state={} throw_id={} released={} meas_spin_mrev_s={} meas_angle_cdeg={} \
+            "status {at} state={} throw_id={} experiment={} spin_mrev_s={} angle_cdeg={} \
+             released={} meas_spin_mrev_s={} meas_angle_cdeg={} \
              x_um={} y_um={} t_ms={} t_release_ms={} fault={} rx_bad={}",
             status.state.number(),
             status.throw_id,
+            status.experiment,
+            status.spin_mrev_s,
+            status.angle_cdeg,
             u8::from(status.released),
             status.meas_spin_mrev_s,
             status.meas_angle_cdeg,
@@ -342,7 +367,7 @@ fn reply_text(reply: &Reply) -> String {
 fn the_longest_message_fits() {
     let wire = Reply::Status(LONGEST).to_wire(HEADER).unwrap();
     assert!(
-        wire.as_bytes().len() <= 40 + 8 + 3,
+        wire.as_bytes().len() <= 51 + 8 + 3,
         "{}",
         wire.as_bytes().len()
     );

@@ -124,7 +124,7 @@ fn another_major_version_is_rejected() {
     let mut host = Host::new();
     host.open(9, 0);
     let (header, _) = sent(&mut host, 0);
-    let version = Version { major: 2, minor: 5 };
+    let version = Version { major: 1, minor: 5 };
     let greeting = Greeting {
         version,
         ..GREETING

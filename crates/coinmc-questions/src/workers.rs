@@ -248,18 +248,23 @@ impl Workers<'_> {
             .threads
             .or_else(|| thread::available_parallelism().ok());
         let threads = threads.map_or(1, NonZeroUsize::get).min(pieces);
-        let results = thread::scope(|scope| {
-            let mut handles = vec![];
-            for _ in 0..threads {
-                let handle = thread::Builder::new().spawn_scoped(scope, work);
-                handles.push(handle.map_err(QuestionError::Thread)?);
-            }
-            let join = |handle: thread::ScopedJoinHandle<'_, _>| {
-                handle.join().unwrap_or_else(|panic| resume_unwind(panic))
-            };
-            // all are joined before the first error is returned
-            Ok::<Vec<_>, QuestionError>(handles.into_iter().map(join).collect())
-        })?;
+        // a WebAssembly module has no threads: its only one does the work
+        let results = if threads < 2 {
+            vec![work()]
+        } else {
+            thread::scope(|scope| {
+                let mut handles = vec![];
+                for _ in 0..threads {
+                    let handle = thread::Builder::new().spawn_scoped(scope, work);
+                    handles.push(handle.map_err(QuestionError::Thread)?);
+                }
+                let join = |handle: thread::ScopedJoinHandle<'_, _>| {
+                    handle.join().unwrap_or_else(|panic| resume_unwind(panic))
+                };
+                // all are joined before the first error is returned
+                Ok::<Vec<_>, QuestionError>(handles.into_iter().map(join).collect())
+            })?
+        };
         let mut done = vec![];
         for result in results {
             done.extend(result?);

@@ -34,7 +34,7 @@ pub const ENGINE: EngineDescriptor = EngineDescriptor {
     read: |values| Settings::read(values).map(EngineChoice::new),
 };
 
-const UNMODELLED: [Unmodelled; 4] = [
+const UNMODELLED: [Unmodelled; 5] = [
     Unmodelled {
         table: "coin",
         key: "rim_radius_m",
@@ -59,6 +59,12 @@ const UNMODELLED: [Unmodelled; 4] = [
         key: "table_radius_m",
         message: "engine.rapier models no edge of the table: `surface.table_radius_m` must be absent",
         help: "remove `table_radius_m`, or toss with [engine.volumetric]",
+    },
+    Unmodelled {
+        table: "surface",
+        key: "table_tilt_deg",
+        message: "engine.rapier models level tables only: `surface.table_tilt_deg` must be 0",
+        help: "remove `table_tilt_deg`, or toss with [engine.volumetric]",
     },
 ];
 

@@ -1,5 +1,6 @@
 //! Why a recording cannot be written or recovered.
 
+use crate::protobuf::SchemaError;
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -35,13 +36,21 @@ pub enum Error {
     /// Writing to a stream failed.
     #[error("cannot write the recording: {0}")]
     Stream(#[from] io::Error),
-    /// A message cannot be serialised to JSON.
-    #[error("a message for {topic} cannot be written as JSON: {source}")]
+    /// A message cannot be serialised.
+    #[error("a message for {topic} cannot be serialised: {source}")]
     Message {
         /// The channel's topic.
         topic: String,
         /// Serde's error.
         source: serde_json::Error,
+    },
+    /// A message, or the schema of a channel, is not what it should be.
+    #[error("a message for {topic} cannot be written as Protobuf: {source}")]
+    Schema {
+        /// The channel's topic.
+        topic: String,
+        /// What is wrong.
+        source: SchemaError,
     },
     /// A record is longer than the format or this crate allows.
     #[error("{what} is too long for a recording: at most {limit} bytes")]

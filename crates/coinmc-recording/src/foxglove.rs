@@ -2,6 +2,8 @@
 //!
 //! Lengths are in metres, angles in radians, colours from 0 to 1.
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD as BASE64;
 use serde::Serialize;
 
 /// A point in time.
@@ -117,6 +119,17 @@ pub struct FrameTransform {
     pub translation: Vector3,
     /// Orientation of the child frame in the parent frame.
     pub rotation: Quaternion,
+}
+
+/// Position and orientation of a body in a frame of reference.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PoseInFrame {
+    /// Time.
+    pub timestamp: Time,
+    /// The frame of reference.
+    pub frame_id: String,
+    /// Position and orientation in it.
+    pub pose: Pose,
 }
 
 /// Entities to add to or remove from the drawn scene.
@@ -312,50 +325,15 @@ impl Serialize for CompressedImage {
         let mut fields = serializer.serialize_struct("CompressedImage", 4)?;
         fields.serialize_field("timestamp", &self.timestamp)?;
         fields.serialize_field("frame_id", &self.frame_id)?;
-        fields.serialize_field("data", &base64(&self.data))?;
+        fields.serialize_field("data", &BASE64.encode(&self.data))?;
         fields.serialize_field("format", &self.format)?;
         fields.end()
     }
 }
 
-/// Base64 (RFC 4648, with padding), in which the schemas expect bytes.
-fn base64(bytes: &[u8]) -> String {
-    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for three in bytes.chunks(3) {
-        let mut word = [0; 4];
-        word[1..=three.len()].copy_from_slice(three);
-        let word = u32::from_be_bytes(word);
-        for place in 0..4 {
-            text.push(if place <= three.len() {
-                char::from(DIGITS[(word >> (18 - 6 * place)) as usize & 63])
-            } else {
-                '='
-            });
-        }
-    }
-    text
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn base64_matches_the_test_vectors_of_rfc_4648() {
-        for (plain, coded) in [
-            ("", ""),
-            ("f", "Zg=="),
-            ("fo", "Zm8="),
-            ("foo", "Zm9v"),
-            ("foob", "Zm9vYg=="),
-            ("fooba", "Zm9vYmE="),
-            ("foobar", "Zm9vYmFy"),
-        ] {
-            assert_eq!(base64(plain.as_bytes()), coded);
-        }
-        assert_eq!(base64(&[0xff, 0xfe, 0xfb]), "//77");
-    }
 
     #[test]
     fn an_entity_has_every_list_the_schema_requires() {

@@ -1,8 +1,8 @@
 #![doc = include_str!("../README.md")]
 //!
 //! # Contents
-//! * [`Recorder`] writes. Messages are serialised to JSON by serde; chunks can be compressed with
-//!   LZ4, in pure Rust. Everything that was flushed survives a crash.
+//! * [`Recorder`] writes. Messages are encoded as Protocol Buffers or as JSON, from what serde makes of
+//!   them; chunks can be compressed with LZ4, in pure Rust. Everything that was flushed survives a crash.
 //! * [`recover()`] copies what is readable in a truncated or damaged file to a new one.
 //! * [`foxglove`] holds the messages that viewers draw.
 //! * [`NewFile`] is a file that appears complete or not at all.
@@ -15,9 +15,11 @@ mod chunk;
 mod compression;
 mod decode;
 mod encode;
+mod encoding;
 mod error;
 pub mod foxglove;
 mod new_file;
+mod protobuf;
 mod recorder;
 mod recover;
 mod schema;
@@ -26,8 +28,10 @@ mod summary;
 mod writer;
 
 pub use compression::{Compression, UnknownCompression};
+pub use encoding::{Encoding, UnknownEncoding};
 pub use error::Error;
 pub use new_file::NewFile;
+pub use protobuf::SchemaError;
 pub use recorder::{Channel, Recorder};
 pub use recover::{Recovered, recover, salvage};
 pub use schema::Schema;

@@ -1,10 +1,13 @@
-//! The typed recorder: serialises messages to JSON and writes them.
+//! The typed recorder: encodes messages and writes them.
 
 use crate::chunk::{RawChannel, RawMessage, RawSchema};
+use crate::encoding::Encoding;
 use crate::error::Error;
+use crate::protobuf;
 use crate::schema::Schema;
 use crate::sink::Sink;
 use crate::writer::{Attachment, Options, Writer};
+use prost_reflect::MessageDescriptor;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
@@ -47,13 +50,17 @@ pub struct Recorder<S: Sink = BufWriter<File>> {
     writer: Writer<S>,
     /// Path of the sink, for errors.
     path: Option<PathBuf>,
-    json: Vec<u8>,
+    encoding: Encoding,
+    /// The message that is being written.
+    encoded: Vec<u8>,
 }
 
 /// A channel for messages of type `T`, valid for the recorder that created it.
 #[derive(Debug)]
 pub struct Channel<T> {
     id: u16,
+    /// What a message is in Protobuf; `None` for JSON.
+    protobuf: Option<MessageDescriptor>,
     messages: PhantomData<fn(&T)>,
 }
 
@@ -70,7 +77,8 @@ impl Recorder {
         Ok(Self {
             writer,
             path: Some(path.to_owned()),
-            json: Vec::new(),
+            encoding: options.encoding,
+            encoded: Vec::new(),
         })
     }
 }
@@ -84,33 +92,47 @@ impl<S: Sink> Recorder<S> {
         Ok(Self {
             writer: Writer::new(sink, options)?,
             path: None,
-            json: Vec::new(),
+            encoding: options.encoding,
+            encoded: Vec::new(),
         })
     }
 
-    /// Adds a channel for messages of this type, as JSON. The same topic and schema give the same
-    /// channel.
+    /// Adds a channel for messages of this type. The same topic and schema give the same channel.
     ///
     /// # Errors
-    /// [`Error::TooMany`] or [`Error::TooLong`].
+    /// [`Error::Schema`] if the schema does not define the message; [`Error::TooMany`] or
+    /// [`Error::TooLong`].
     pub fn channel<T: Serialize>(
         &mut self,
         topic: &str,
         schema: &Schema,
     ) -> Result<Channel<T>, Error> {
+        let name = schema.name.clone().into_owned();
+        let (data, protobuf) = match self.encoding {
+            Encoding::Json => (schema.json.as_bytes(), None),
+            Encoding::Protobuf => {
+                let message = protobuf::message_of(&schema.protobuf, &name);
+                let message = message.map_err(|source| Error::Schema {
+                    topic: topic.to_owned(),
+                    source,
+                })?;
+                (&*schema.protobuf, Some(message))
+            }
+        };
         let schema = self.writer.schema(RawSchema {
-            name: schema.name.clone().into_owned(),
-            encoding: "jsonschema".to_owned(),
-            data: schema.text.as_bytes().to_vec(),
+            name,
+            encoding: self.encoding.of_schemas().to_owned(),
+            data: data.to_vec(),
         })?;
         let id = self.writer.channel(RawChannel {
             schema,
             topic: topic.to_owned(),
-            encoding: "json".to_owned(),
+            encoding: self.encoding.of_messages().to_owned(),
             metadata: BTreeMap::new(),
         })?;
         Ok(Channel {
             id,
+            protobuf,
             messages: PhantomData,
         })
     }
@@ -118,7 +140,8 @@ impl<S: Sink> Recorder<S> {
     /// Records a message with its log time, ns. Times on a channel should not decrease.
     ///
     /// # Errors
-    /// [`Error::Message`] if the message cannot be serialised to JSON; errors of the sink.
+    /// [`Error::Message`] if the message cannot be serialised, [`Error::Schema`] if its schema does not
+    /// describe it; errors of the sink.
     ///
     /// # Panics
     /// If the channel belongs to another recorder.
@@ -128,11 +151,7 @@ impl<S: Sink> Recorder<S> {
         time_ns: u64,
         message: &T,
     ) -> Result<(), Error> {
-        self.json.clear();
-        serde_json::to_writer(&mut self.json, message).map_err(|source| Error::Message {
-            topic: self.writer.topic(channel.id).to_owned(),
-            source,
-        })?;
+        self.encode(channel, message)?;
         // sequence numbers of the format wrap at 32 bits
         #[allow(clippy::cast_possible_truncation)]
         let sequence = self.writer.count(channel.id) as u32;
@@ -141,9 +160,27 @@ impl<S: Sink> Recorder<S> {
             sequence,
             log_time: time_ns,
             publish_time: time_ns,
-            data: &self.json,
+            data: &self.encoded,
         });
         with_path(written, self.path.as_deref())
+    }
+
+    /// Encodes a message.
+    fn encode<T: Serialize>(&mut self, channel: &Channel<T>, message: &T) -> Result<(), Error> {
+        self.encoded.clear();
+        let topic = || self.writer.topic(channel.id).to_owned();
+        let unserialisable = |source| Error::Message {
+            topic: topic(),
+            source,
+        };
+        let Some(protobuf) = &channel.protobuf else {
+            return serde_json::to_writer(&mut self.encoded, message).map_err(unserialisable);
+        };
+        let json = serde_json::to_value(message).map_err(unserialisable)?;
+        protobuf::encode(protobuf, &json, &mut self.encoded).map_err(|source| Error::Schema {
+            topic: topic(),
+            source,
+        })
     }
 
     /// Ends the chunk and syncs everything so far to disk, so that it survives a crash.

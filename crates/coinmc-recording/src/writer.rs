@@ -3,6 +3,7 @@
 use crate::chunk::{Chunk, RawChannel, RawMessage, RawSchema};
 use crate::compression::Compression;
 use crate::encode::{MAGIC, Put, op, record};
+use crate::encoding::Encoding;
 use crate::error::Error;
 use crate::sink::Sink;
 use crate::summary::{AttachmentIndex, MetadataIndex, Summary, UsedChannel};
@@ -19,7 +20,7 @@ const MAX_PIECE: u64 = 64 << 20;
 /// A chunk ends once it holds this many uncompressed bytes.
 const CHUNK: usize = 1 << 20;
 
-/// A recording's header and compression.
+/// A recording's header, and how its messages are written.
 #[derive(Debug, Clone, Default)]
 pub struct Options {
     /// The MCAP profile, a name for conventions that the recording follows; may be empty.
@@ -28,6 +29,8 @@ pub struct Options {
     pub library: String,
     /// Compression of the chunks.
     pub compression: Compression,
+    /// Encoding of the messages.
+    pub encoding: Encoding,
 }
 
 /// Data that is not a message, such as a config, an image or a log.

@@ -7,15 +7,19 @@
 //!   journal.txt         the source of truth; see `journal`
 //!   photos/             one file per photo
 //!   sessions/           recordings (MCAP), one or more per session
-//!   camera.log          standard error of the camera program
+//!   camera.log          standard error of the camera program, at most 1 MiB; before that: camera.log.1
+//!   host.pid            process of the last session, for `stop`
 //! ```
 
 use crate::Experiment;
-use crate::journal::{Header, Journal, JournalError};
+use crate::clock::unix_ms;
+use crate::files::{make_folder, read_text, replace_file};
+use crate::journal::{Header, History, Journal, JournalError};
 use coinmc::config;
+use rustix::process::{Pid, Signal, kill_process};
 use serde::{Deserialize, Serialize};
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, Read, Write};
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -25,9 +29,12 @@ const JOURNAL: &str = "journal.txt";
 const PHOTOS: &str = "photos";
 const SESSIONS: &str = "sessions";
 const CAMERA_LOG: &str = "camera.log";
+const HOST: &str = "host.pid";
 
 /// Greatest length of the setup file, bytes.
 const SETUP_BYTES: u64 = 1 << 16;
+/// Greatest length of the file with the process, bytes.
+const HOST_BYTES: u64 = 32;
 
 /// Robot and camera of an experiment, which `resume` needs in addition to the plan.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -118,12 +125,43 @@ impl Directory {
         self.path.join(JOURNAL)
     }
 
-    /// The first line of an experiment's journal.
+    /// The first line of a new journal of this experiment.
     pub fn header(experiment: &Experiment) -> Header {
+        let plan_hash = experiment.plan().hash();
+        // two journals of one plan must not be taken for each other by a robot
+        let unique = format!("{plan_hash} {} {}", unix_ms(), std::process::id());
         Header {
-            plan_hash: experiment.plan().hash(),
+            plan_hash,
             throws: experiment.throws(),
+            experiment: crc32fast::hash(unique.as_bytes()).max(1),
         }
+    }
+
+    /// Notes this process as the one that runs the experiment.
+    ///
+    /// # Errors
+    /// System errors.
+    pub fn note_host(&self) -> Result<(), DirectoryError> {
+        self.write(HOST, format!("{}\n", std::process::id()).as_bytes())
+    }
+
+    /// Interrupts the process that runs the experiment, like Ctrl-C.
+    ///
+    /// # Errors
+    /// System errors; [`io::ErrorKind::NotFound`] if the process that is named is none of this program.
+    pub fn interrupt_host(&self, process: u32) -> io::Result<()> {
+        let name = fs::read_to_string(format!("/proc/{process}/comm"));
+        let other = name.is_ok_and(|name| !name.starts_with("coinmc"));
+        let pid = i32::try_from(process).ok().and_then(Pid::from_raw);
+        let pid = pid.filter(|_| !other).ok_or(io::ErrorKind::NotFound)?;
+        Ok(kill_process(pid, Signal::INT)?)
+    }
+
+    /// The process that runs the experiment, if one does.
+    pub fn host(&self) -> Option<u32> {
+        let process = read_text(&self.path.join(HOST), HOST_BYTES).ok()?;
+        let process = process.trim().parse().ok()?;
+        Journal::is_in_use(&self.journal()).then_some(process)
     }
 
     /// Starts an experiment here or continues it, and saves port and camera for the next session.
@@ -140,18 +178,25 @@ impl Directory {
         let header = Self::header(experiment);
         let journal = self.journal();
         if journal.exists() {
+            self.make_folders()?;
             let opened = Journal::open(&journal, &header)?;
             self.save_setup(setup)?;
             return Ok(opened);
         }
         self.check_free()?;
-        for folder in [self.path.clone(), self.photos(), self.sessions()] {
-            fs::create_dir_all(&folder).map_err(|e| io_error("create", &folder, e))?;
-        }
+        self.make_folders()?;
         self.write(CONFIG, experiment.plan().resolved_toml.as_bytes())?;
         // before the journal, so that every directory with a journal can be resumed
         self.save_setup(setup)?;
         Ok((Journal::create(&journal, &header)?, 0))
+    }
+
+    fn make_folders(&self) -> Result<(), DirectoryError> {
+        fs::create_dir_all(&self.path).map_err(|e| io_error("create", &self.path, e))?;
+        for folder in [self.photos(), self.sessions()] {
+            make_folder(&folder).map_err(|e| io_error("use", &folder, e))?;
+        }
+        Ok(())
     }
 
     /// The experiment in this directory.
@@ -163,6 +208,14 @@ impl Directory {
         if !path.exists() {
             return Err(DirectoryError::Missing(self.path.clone()));
         }
+        // anything else, such as a named pipe, is not opened
+        if !path.is_file() {
+            return Err(io_error(
+                "read",
+                &path,
+                io::Error::other("it is not a regular file"),
+            ));
+        }
         let damaged = |problem: String| DirectoryError::Damaged {
             path: path.clone(),
             problem,
@@ -171,11 +224,25 @@ impl Directory {
         Experiment::new(plan).map_err(|problems| damaged(problems.to_string()))
     }
 
+    /// The experiment in this directory and its journal, which is only read: the experiment can
+    /// continue meanwhile.
+    ///
+    /// # Errors
+    /// [`DirectoryError`] if there is none, a file is damaged, or the journal is another's.
+    pub fn read(&self) -> Result<(Experiment, History), DirectoryError> {
+        let experiment = self.experiment()?;
+        let path = self.journal();
+        let (theirs, history) = Journal::read(&path)?;
+        let ours = Self::header(&experiment);
+        if !theirs.is_same_plan(&ours) {
+            return Err(JournalError::OtherExperiment { path, theirs, ours }.into());
+        }
+        Ok((experiment, history))
+    }
+
     /// Port and camera of the last session, if they can be read.
     pub fn setup(&self) -> Option<Setup> {
-        let mut text = String::new();
-        let file = File::open(self.path.join(SETUP)).ok()?;
-        file.take(SETUP_BYTES).read_to_string(&mut text).ok()?;
+        let text = read_text(&self.path.join(SETUP), SETUP_BYTES).ok()?;
         serde_json::from_str(&text).ok()
     }
 
@@ -199,7 +266,12 @@ impl Directory {
                 .map_err(|e| io_error("list", &self.path, e))?
                 .file_name();
             let ours = [CONFIG, SETUP, PHOTOS, SESSIONS];
-            let is_ours = |name: &str| ours.contains(&name.strip_suffix(".tmp").unwrap_or(name));
+            let left = |name: &str, our: &str| {
+                name.strip_prefix(our).is_some_and(|rest| {
+                    rest.starts_with('.') && rest.strip_suffix(".tmp").is_some()
+                })
+            };
+            let is_ours = |name: &str| ours.iter().any(|our| name == *our || left(name, our));
             if !name.to_str().is_some_and(is_ours) {
                 return Err(DirectoryError::NotAnExperiment {
                     path: self.path.clone(),
@@ -212,16 +284,8 @@ impl Directory {
 
     /// Writes a file atomically.
     fn write(&self, name: &str, content: &[u8]) -> Result<(), DirectoryError> {
-        let (place, next) = (self.path.join(name), self.path.join(format!("{name}.tmp")));
-        let mut options = OpenOptions::new();
-        options.write(true).create(true).truncate(true);
-        let written = options.open(&next).and_then(|mut file| {
-            file.write_all(content)?;
-            file.sync_all()
-        });
-        written
-            .and_then(|()| fs::rename(&next, &place))
-            .map_err(|e| io_error("write", &place, e))
+        let place = self.path.join(name);
+        replace_file(&place, |to| to.write_all(content)).map_err(|e| io_error("write", &place, e))
     }
 }
 

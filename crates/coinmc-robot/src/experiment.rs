@@ -133,6 +133,13 @@ impl Experiment {
         (scaled(spin, 1.0 / TAU), scaled(angle, 180.0 / PI))
     }
 
+    /// The greatest spin and the greatest start angle that are planned.
+    pub fn reach(&self) -> Setting {
+        let (spin, angle) = self.marginals();
+        let greatest = |of: Marginal| bounds(of).map_or(0.0, |(_, to)| to);
+        Setting::nearest(greatest(spin), greatest(angle)).unwrap_or_default()
+    }
+
     fn point(&self) -> &Point {
         &self.plan.points[0]
     }
@@ -213,13 +220,7 @@ fn check_launches(point: &Point, problems: &mut Vec<String>) {
 /// Reports a marginal that can leave the range from 0 to `max`.
 fn check_range(what: &str, of: Marginal, (max, unit): (f64, &str), problems: &mut Vec<String>) {
     const SLACK: f64 = 1e-9;
-    let range = match of {
-        Marginal::Constant(value) => Some((value, value)),
-        Marginal::Uniform { from, to } => Some((from, to)),
-        Marginal::Normal { mean, sd: 0.0 } => Some((mean, mean)),
-        Marginal::Normal { .. } => None,
-    };
-    match range {
+    match bounds(of) {
         None => problems.push(format!(
             "{what} is normal and so has no bounds, but the robot's range is 0 to {max} {unit}: give \
              a constant or a uniform distribution within it"
@@ -229,6 +230,16 @@ fn check_range(what: &str, of: Marginal, (max, unit): (f64, &str), problems: &mu
              narrow it"
         )),
         Some(_) => {}
+    }
+}
+
+/// The least and the greatest value, if there are bounds.
+fn bounds(of: Marginal) -> Option<(f64, f64)> {
+    match of {
+        Marginal::Constant(value) => Some((value, value)),
+        Marginal::Uniform { from, to } => Some((from, to)),
+        Marginal::Normal { mean, sd: 0.0 } => Some((mean, mean)),
+        Marginal::Normal { .. } => None,
     }
 }
 

@@ -27,20 +27,24 @@ mod directory;
 mod experiment;
 pub mod export;
 pub mod fairness;
+mod files;
 pub mod journal;
+mod liveness;
 mod lock;
 pub mod port;
 mod recording;
+mod reporter;
 mod session;
 mod setting;
 pub mod sim;
+mod words;
 
 pub use clock::{Clock, unix_ms};
 pub use coinmc_core::Face;
 pub use directory::{Directory, DirectoryError, Setup};
 pub use experiment::{Experiment, MAX_THROWS, UnsuitablePlan};
-pub use session::{
-    POLL, Progress, ProgressSink, RoundTrips, SessionError, SessionOptions, SessionReport,
-    fault_text, run_session, state_name,
-};
+pub use files::{free_bytes, make_folder, replace_file};
+pub use reporter::{Progress, ProgressSink, RoundTrips};
+pub use session::{POLL, SessionError, SessionOptions, SessionReport, run_session};
 pub use setting::{MAX_ANGLE_CDEG, MAX_SPIN_MREV_S, Setting, SettingError};
+pub use words::{fault_text, state_name};

@@ -3,7 +3,7 @@
 use crate::journal::{Resolution, Throw};
 use coinmc_link::{Reply, Request, Status};
 use coinmc_recording::foxglove::{CompressedImage, Log, LogLevel, Time};
-use coinmc_recording::{Channel, Compression, Error, Options, Recorder, Schema};
+use coinmc_recording::{Channel, Compression, Encoding, Error, Options, Recorder, Schema};
 use serde::Serialize;
 use std::fs;
 use std::io;
@@ -26,6 +26,7 @@ pub(crate) struct SessionRecorder {
     folder: PathBuf,
     session: u32,
     part: u32,
+    encoding: Encoding,
     file: Option<OpenFile>,
     last_status: Option<(Status, Instant)>,
 }
@@ -76,13 +77,17 @@ struct ThrowResult {
     void: Option<String>,
 }
 
+/// The messages below, from `robot.proto`.
+const PROTOBUF: &[u8] = include_bytes!("robot.bin");
+
 const COMMAND: &str = r#"{"title": "coinmc.RobotCommand", "type": "object", "properties": {
   "request": {"description": "Name and fields of the request, as in the protocol"}}}"#;
 const REPLY: &str = r#"{"title": "coinmc.RobotReply", "type": "object", "properties": {
   "reply": {"description": "Name and fields of the reply, as in the protocol"},
   "took_ms": {"type": "number"}}}"#;
 const STATUS: &str = r#"{"title": "coinmc.RobotStatus", "type": "object", "properties": {
-  "state": {"type": "string"}, "throw_id": {"type": "integer"}, "released": {"type": "boolean"},
+  "state": {"type": "string"}, "throw_id": {"type": "integer"}, "experiment": {"type": "integer"},
+  "spin_mrev_s": {"type": "integer"}, "angle_cdeg": {"type": "integer"}, "released": {"type": "boolean"},
   "meas_spin_mrev_s": {"type": "integer"}, "meas_angle_cdeg": {"type": "integer"},
   "x_um": {"type": "integer"}, "y_um": {"type": "integer"}, "t_ms": {"type": "integer"},
   "t_release_ms": {"type": "integer"}, "fault": {"type": "integer"},
@@ -98,7 +103,7 @@ impl SessionRecorder {
     ///
     /// # Errors
     /// System errors.
-    pub(crate) fn begin(folder: &Path) -> Result<Self, Error> {
+    pub(crate) fn begin(folder: &Path, encoding: Encoding) -> Result<Self, Error> {
         let last = last_session(folder).map_err(|source| Error::Io {
             action: "list",
             path: folder.to_owned(),
@@ -108,6 +113,7 @@ impl SessionRecorder {
             folder: folder.to_owned(),
             session: last + 1,
             part: 0,
+            encoding,
             file: None,
             last_status: None,
         };
@@ -122,6 +128,7 @@ impl SessionRecorder {
             profile: String::new(),
             library: concat!("coinmc ", env!("CARGO_PKG_VERSION")).to_owned(),
             compression: Compression::Lz4,
+            encoding: self.encoding,
         };
         let mut recorder = Recorder::create(&self.folder.join(name), &options)?;
         let channels = Channels::new(&mut recorder)?;
@@ -286,16 +293,13 @@ impl SessionRecorder {
 
 impl Channels {
     fn new(recorder: &mut Recorder) -> Result<Self, Error> {
+        let own = |name, json| Schema::new(name, json, PROTOBUF);
         Ok(Self {
-            command: recorder.channel(
-                "/robot/command",
-                &Schema::new("coinmc.RobotCommand", COMMAND),
-            )?,
-            reply: recorder.channel("/robot/reply", &Schema::new("coinmc.RobotReply", REPLY))?,
-            status: recorder
-                .channel("/robot/status", &Schema::new("coinmc.RobotStatus", STATUS))?,
+            command: recorder.channel("/robot/command", &own("coinmc.RobotCommand", COMMAND))?,
+            reply: recorder.channel("/robot/reply", &own("coinmc.RobotReply", REPLY))?,
+            status: recorder.channel("/robot/status", &own("coinmc.RobotStatus", STATUS))?,
             image: recorder.channel("/camera/image", &Schema::COMPRESSED_IMAGE)?,
-            result: recorder.channel("/throw/result", &Schema::new("coinmc.TossResult", RESULT))?,
+            result: recorder.channel("/throw/result", &own("coinmc.TossResult", RESULT))?,
             log: recorder.channel("/log", &Schema::LOG)?,
         })
     }

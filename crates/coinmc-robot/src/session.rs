@@ -1,17 +1,21 @@
 //! One session of an experiment: runs robot, camera, journal and recording until all throws are
 //! made or the session is cancelled.
 
-use crate::camera::{Camera, CameraError, CameraOptions, PhotoResult};
+use crate::camera::{Camera, CameraError, CameraFailure, CameraOptions, PhotoResult};
 use crate::clock::{Clock, unix_ms};
-use crate::cycle::{Cycle, Halt, Photo, Rules, Step};
-use crate::journal::{Entry, Journal, JournalError, Resolution, VoidReason};
-use crate::port::{Connection, ConnectionError, LinkEvent, RequestOutcome};
+use crate::cycle::{Cycle, Halt, Photo, Rules, Shown, Step};
+use crate::files::free_bytes;
+use crate::journal::{Entry, Journal, JournalError, Resolution};
+use crate::liveness::Liveness;
+use crate::port::{Connection, ConnectionError, RequestOutcome};
 use crate::recording::SessionRecorder;
-use crate::{Directory, Experiment, Face};
-use coinmc_link::{Counters, Request, Seen, State, Status};
-use coinmc_recording::foxglove::LogLevel;
+use crate::reporter::{Progress, ProgressSink, Reporter, RoundTrips, index, journal_progress};
+use crate::words::void_text;
+use crate::{Directory, Experiment};
+use coinmc_link::{Counters, Reply, Request};
+use coinmc_recording::Encoding;
 use std::cell::Cell;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -30,6 +34,9 @@ const SHORTEST_POLL: Duration = Duration::from_millis(1);
 /// A cancelled session waits at most this long for a robot that does not reply.
 const CANCEL_TIMEOUT: Duration = Duration::from_secs(30);
 
+/// A robot that does not answer Stop for this long stops by itself: no valid frame arrives.
+const STOP_TIMEOUT: Duration = Duration::from_secs(6);
+
 /// Options of a session.
 pub struct SessionOptions<'a> {
     /// The serial port.
@@ -40,46 +47,20 @@ pub struct SessionOptions<'a> {
     pub rules: Rules,
     /// Speed of a simulated robot relative to real time; 1 for a real robot.
     pub speed: f64,
-    /// Whether to record the session.
-    pub record: bool,
+    /// How to encode the recording of the session; `None` for no recording.
+    pub record: Option<Encoding>,
     /// Set it to finish the open throw and stop.
     pub cancel: &'a AtomicBool,
+    /// Set it to switch off the robot's motors at once and leave.
+    pub stop: &'a AtomicBool,
+    /// How long to wait for the port at the start; `None`: not at all.
+    pub wait: Option<Duration>,
+    /// Without any progress for this long the session halts.
+    pub stall: Duration,
+    /// Free space below which no throw begins, bytes.
+    pub min_free: u64,
     /// Receives progress, notes and warnings.
     pub sink: &'a dyn ProgressSink,
-}
-
-/// Receives the progress of a session.
-pub trait ProgressSink {
-    /// The progress changed.
-    fn progress(&self, progress: &Progress);
-    /// Information for the user.
-    fn note(&self, text: &str);
-    /// A warning for the user.
-    fn warning(&self, text: &str);
-}
-
-/// Progress of a session.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Progress {
-    /// The robot's last status; `None` while it is disconnected.
-    pub status: Option<Status>,
-    /// Throws planned.
-    pub planned: u32,
-    /// Throws done, by face in the order of [`Face::ALL`].
-    pub faces: [u32; 3],
-    /// Void throws.
-    pub voids: u32,
-    /// Throws resolved in this session.
-    pub this_session: u32,
-    /// Losses of the connection in this session.
-    pub losses: u32,
-}
-
-impl Progress {
-    /// Throws resolved.
-    pub fn resolved(&self) -> u32 {
-        self.faces.iter().sum::<u32>() + self.voids
-    }
 }
 
 /// Result of a session.
@@ -87,23 +68,14 @@ impl Progress {
 pub struct SessionReport {
     /// Whether all planned throws are resolved.
     pub complete: bool,
+    /// Whether it was stopped at once, and if so, whether the robot has confirmed it.
+    pub stopped: Option<bool>,
     /// Progress at the end.
     pub progress: Progress,
     /// Statistics of the connection.
     pub counters: Counters,
     /// Round-trip times of requests.
     pub round_trips: RoundTrips,
-}
-
-/// Statistics of round-trip times, wall time.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct RoundTrips {
-    /// Number of requests with a reply.
-    pub count: u64,
-    /// Sum of their times.
-    pub sum: Duration,
-    /// The longest time.
-    pub longest: Duration,
 }
 
 /// Why a session ended early. The journal is correct in any case.
@@ -116,9 +88,9 @@ pub enum SessionError {
     /// No communication with the robot is possible.
     #[error(transparent)]
     Connection(#[from] ConnectionError),
-    /// The camera cannot be started.
-    #[error(transparent)]
-    Camera(#[from] CameraError),
+    /// The camera cannot be started, or its test photo failed. No throw was made.
+    #[error("{0}. No throw was made")]
+    Camera(#[from] CameraFailure),
     /// The user must decide.
     #[error(transparent)]
     Halt(#[from] Halt),
@@ -138,21 +110,28 @@ pub fn run_session(
     options: &SessionOptions<'_>,
 ) -> Result<SessionReport, SessionError> {
     let clock = Clock::new(options.speed.min(FASTEST_LINK));
-    let connection = Connection::open(options.port, clock).map_err(ConnectionError::Port)?;
-    let recorder = if options.record {
-        let recorder = SessionRecorder::begin(&directory.sessions());
-        Some(recorder.map_err(SessionError::Recording)?)
-    } else {
-        None
+    let left = || options.cancel.load(Ordering::Relaxed) || options.stop.load(Ordering::Relaxed);
+    let connection = Connection::open_within(options.port, clock, options.wait, &left)
+        .map_err(ConnectionError::Port)?;
+    let recorder = options
+        .record
+        .map(|encoding| SessionRecorder::begin(&directory.sessions(), encoding))
+        .transpose()
+        .map_err(SessionError::Recording)?;
+    let mut camera = options.camera.clone();
+    camera.seen = journal.history().digests().collect();
+    let rules = Rules {
+        experiment: journal.header().experiment,
+        ..options.rules.clone()
     };
     let mut session = Session {
         experiment,
         options,
-        photos: directory.photos(),
+        directory,
         journal,
-        cycle: Cycle::new(options.rules),
+        cycle: Cycle::new(rules, env!("CARGO_PKG_VERSION")),
         connection,
-        camera: Camera::start(options.camera.clone())?,
+        camera: Camera::start(camera)?,
         pending_photos: 0,
         reporter: Reporter {
             sink: options.sink,
@@ -160,23 +139,48 @@ pub fn run_session(
             progress: Progress::default(),
             round_trips: RoundTrips::default(),
         },
+        liveness: Liveness::new(options.stall),
+        entries: 0,
         cancelled_at: Cell::new(None),
     };
     let ended = session.run();
     session.finish();
-    let complete = ended?;
+    let end = ended?;
     Ok(SessionReport {
-        complete,
+        complete: end == End::Complete,
+        stopped: match end {
+            End::Stopped { confirmed } => Some(confirmed),
+            End::Complete | End::Cancelled => None,
+        },
         progress: session.reporter.progress.clone(),
         counters: session.connection.counters(),
         round_trips: session.reporter.round_trips,
     })
 }
 
+/// How a session ends without an error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum End {
+    Complete,
+    Cancelled,
+    /// At once, and whether the robot has answered Stop.
+    Stopped {
+        confirmed: bool,
+    },
+}
+
+/// Why a request is given up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Leave {
+    Cancelled,
+    Stop,
+    Stalled,
+}
+
 struct Session<'a> {
     experiment: &'a Experiment,
     options: &'a SessionOptions<'a>,
-    photos: PathBuf,
+    directory: &'a Directory,
     journal: Journal,
     cycle: Cycle,
     connection: Connection,
@@ -185,25 +189,38 @@ struct Session<'a> {
     /// with the next throw's photo queued behind it.
     pending_photos: u32,
     reporter: Reporter<'a>,
+    liveness: Liveness,
+    /// Entries written in this session.
+    entries: u64,
+    /// When the cancelled session first waited for a reply.
     cancelled_at: Cell<Option<Instant>>,
 }
 
 impl Session<'_> {
-    fn run(&mut self) -> Result<bool, SessionError> {
+    fn run(&mut self) -> Result<End, SessionError> {
         self.reporter.progress = journal_progress(&self.journal, self.options.rules.throws);
         self.options.sink.progress(&self.reporter.progress);
         loop {
+            if self.options.stop.load(Ordering::Relaxed) {
+                return self.stop_now();
+            }
             if self.options.cancel.load(Ordering::Relaxed) {
                 self.cycle.stop();
             }
+            self.liveness.note(self.entries, self.cycle.status());
+            if self.liveness.is_stalled() {
+                return Err(self.liveness.halt().into());
+            }
             match self.cycle.step(self.journal.history(), unix_ms()) {
-                Step::Request(request) => {
-                    if !self.request(&request)? {
-                        return Ok(false);
-                    }
-                }
+                Step::Request(request) => match self.request(&request)? {
+                    None => {}
+                    Some(Leave::Cancelled) => return Ok(End::Cancelled),
+                    Some(Leave::Stop) => return self.stop_now(),
+                    Some(Leave::Stalled) => return Err(self.liveness.halt().into()),
+                },
                 Step::Wait => self.wait(),
                 Step::Announce { throw, id } => {
+                    self.check_space()?;
                     let setting = self.experiment.setting(throw);
                     let at_ms = unix_ms();
                     self.write(&Entry::Announced { id, setting, at_ms })?;
@@ -216,24 +233,36 @@ impl Session<'_> {
                 }
                 Step::Finished => {
                     let announced = self.journal.history().announced();
-                    return Ok(announced >= self.options.rules.throws);
+                    let complete = announced >= self.options.rules.throws;
+                    return Ok(if complete {
+                        End::Complete
+                    } else {
+                        End::Cancelled
+                    });
                 }
                 Step::Halt(halt) => return Err(halt.into()),
             }
         }
     }
 
-    /// Sends a request; whether the session continues.
-    fn request(&mut self, request: &Request) -> Result<bool, SessionError> {
-        let (cancel, since) = (self.options.cancel, &self.cancelled_at);
+    /// Sends a request; why it was given up, if it was.
+    fn request(&mut self, request: &Request) -> Result<Option<Leave>, SessionError> {
+        let (options, liveness) = (self.options, &self.liveness);
+        let (cancelled_at, leave) = (&self.cancelled_at, Cell::new(None));
         let given_up = || {
-            if !cancel.load(Ordering::Relaxed) {
-                return false;
+            if options.stop.load(Ordering::Relaxed) {
+                leave.set(Some(Leave::Stop));
+            } else if liveness.is_stalled() {
+                leave.set(Some(Leave::Stalled));
+            } else if options.cancel.load(Ordering::Relaxed) {
+                let now = Instant::now();
+                let first = cancelled_at.get().unwrap_or(now);
+                cancelled_at.set(Some(first));
+                if now - first > CANCEL_TIMEOUT {
+                    leave.set(Some(Leave::Cancelled));
+                }
             }
-            let now = Instant::now();
-            let first = since.get().unwrap_or(now);
-            since.set(Some(first));
-            now - first > CANCEL_TIMEOUT
+            leave.get().is_some()
         };
         let reporter = &mut self.reporter;
         let outcome = self
@@ -249,9 +278,45 @@ impl Session<'_> {
                 }
             }
             RequestOutcome::Connected { greeting, .. } => self.cycle.connected(&greeting),
-            RequestOutcome::GivenUp => return Ok(false),
+            RequestOutcome::GivenUp => return Ok(leave.get()),
         }
-        Ok(true)
+        Ok(None)
+    }
+
+    /// Switches off the robot's motors, if it answers. The open throw stays open in the journal.
+    fn stop_now(&mut self) -> Result<End, SessionError> {
+        let begun = Instant::now();
+        let late = || begun.elapsed() > STOP_TIMEOUT;
+        let reporter = &mut self.reporter;
+        self.connection.give_up();
+        let confirmed = loop {
+            let outcome = self
+                .connection
+                .request(&Request::Stop, &late, &mut |event| {
+                    reporter.link_event(event);
+                })?;
+            match outcome {
+                RequestOutcome::Reply(Reply::Ok { .. }) => break true,
+                RequestOutcome::GivenUp => break false,
+                RequestOutcome::Reply(_) | RequestOutcome::Connected { .. } => {}
+            }
+        };
+        Ok(End::Stopped { confirmed })
+    }
+
+    /// A throw begins only if its photo and its lines will fit.
+    fn check_space(&self) -> Result<(), SessionError> {
+        let directory = self.directory.path();
+        // where the system does not tell, the journal's own error has to do
+        let free = free_bytes(directory).unwrap_or(u64::MAX);
+        if free >= self.options.min_free {
+            return Ok(());
+        }
+        Err(SessionError::Halt(Halt::DiskFull {
+            directory: directory.to_owned(),
+            free_mib: free >> 20,
+            least_mib: self.options.min_free >> 20,
+        }))
     }
 
     /// Waits for the polling interval, or until a photo is finished.
@@ -274,31 +339,39 @@ impl Session<'_> {
             attempt,
             result,
         } = taken;
-        let read = match result {
-            Ok((face, image)) => {
-                let path = self.photos.join(image.as_str());
+        let shown = match result {
+            Ok((face, image, digest)) => {
+                let path = self.directory.photos().join(image.as_str());
                 self.reporter.record(|to, now| to.photo(&path, now));
-                Some((face, image))
+                Shown::Face {
+                    face,
+                    image,
+                    digest,
+                }
             }
-            Err(error) => {
+            Err(failure) => {
                 self.reporter
-                    .note(&format!("throw {id}, photo {attempt}: {error}"));
-                None
+                    .note(&format!("throw {id}, photo {attempt}: {failure}"));
+                match failure.error {
+                    CameraError::NoFace => Shown::Nothing,
+                    _ => Shown::Failure(failure.to_string()),
+                }
             }
         };
-        self.cycle.photographed(Photo { id, attempt, read });
+        self.cycle.photographed(Photo { id, attempt, shown });
     }
 
     fn write(&mut self, entry: &Entry) -> Result<(), SessionError> {
         self.journal.append(entry)?;
+        self.entries += 1;
         self.cycle.written(entry);
         match entry {
             Entry::Done { .. } | Entry::Void { .. } => self.resolved(),
             Entry::Adopted { counter } => self.reporter.warning(&format!(
-                "the robot's counter is adopted: throws continue with number {}",
-                u64::from(*counter) + 1
+                "the robot is taken over at throw {counter}: throws continue with number {}",
+                u64::from(self.journal.history().last_id()) + 1
             )),
-            Entry::Announced { .. } | Entry::Read { .. } => {}
+            Entry::Session { .. } | Entry::Announced { .. } | Entry::Read { .. } => {}
         }
         Ok(())
     }
@@ -327,156 +400,4 @@ impl Session<'_> {
                 .warning(&format!("the recording cannot be finished: {error}"));
         }
     }
-}
-
-/// Reports to the sink, the log and the recording.
-struct Reporter<'a> {
-    sink: &'a dyn ProgressSink,
-    recorder: Option<SessionRecorder>,
-    progress: Progress,
-    round_trips: RoundTrips,
-}
-
-impl Reporter<'_> {
-    fn note(&mut self, text: &str) {
-        self.sink.note(text);
-        self.record(|to, now| to.log(LogLevel::Info, text, now));
-    }
-
-    fn warning(&mut self, text: &str) {
-        self.sink.warning(text);
-        self.record(|to, now| to.log(LogLevel::Warning, text, now));
-    }
-
-    /// Records until recording fails; throws then continue without, because the journal is what
-    /// counts.
-    fn record(
-        &mut self,
-        what: impl FnOnce(&mut SessionRecorder, u64) -> Result<(), coinmc_recording::Error>,
-    ) {
-        let Some(recorder) = &mut self.recorder else {
-            return;
-        };
-        if let Err(error) = what(recorder, unix_ms().saturating_mul(1_000_000)) {
-            self.recorder = None;
-            self.sink.warning(&format!(
-                "{error}. The session continues without a recording; the journal is complete"
-            ));
-        }
-    }
-
-    fn link_event(&mut self, event: &LinkEvent<'_>) {
-        match event {
-            LinkEvent::Exchanged {
-                request,
-                reply,
-                took,
-            } => {
-                self.count(*took);
-                self.record(|to, now| to.exchange(request, reply, *took, now));
-            }
-            LinkEvent::Opened(_) => {}
-            LinkEvent::Lost { why, .. } => {
-                // every failed attempt to reconnect is another event; report only the first
-                if self.progress.status.take().is_some() {
-                    self.progress.losses += 1;
-                    self.note(&format!(
-                        "the connection to the robot is lost ({why}); trying again"
-                    ));
-                    self.sink.progress(&self.progress);
-                }
-            }
-            LinkEvent::Connected { greeting, seen } => {
-                let state = format!("boot {}, {}", greeting.boot, state_name(greeting.state));
-                match seen {
-                    Seen::First => self.note(&format!("connected to the robot ({state})")),
-                    Seen::Same => self.note(&format!("reconnected ({state})")),
-                    Seen::NewBoot => {
-                        self.note(&format!("reconnected; the robot was reset ({state})"));
-                    }
-                    Seen::Taken => {
-                        self.warning("another program uses the same robot; end it");
-                    }
-                }
-            }
-        }
-    }
-
-    fn count(&mut self, took: Duration) {
-        let trips = &mut self.round_trips;
-        trips.count += 1;
-        trips.sum += took;
-        trips.longest = trips.longest.max(took);
-    }
-}
-
-/// Progress according to the journal.
-fn journal_progress(journal: &Journal, planned: u32) -> Progress {
-    let mut progress = Progress {
-        planned,
-        ..Progress::default()
-    };
-    for throw in journal.history().throws() {
-        match (throw.resolution, &throw.reading) {
-            (Some(Resolution::Void(_)), _) => progress.voids += 1,
-            (Some(Resolution::Done), Some((reading, _))) => {
-                progress.faces[index(reading.face)] += 1;
-            }
-            _ => {}
-        }
-    }
-    progress
-}
-
-fn index(face: Face) -> usize {
-    match face {
-        Face::Heads => 0,
-        Face::Tails => 1,
-        Face::Side => 2,
-    }
-}
-
-/// Describes the reason of a void throw.
-fn void_text(reason: VoidReason) -> String {
-    match reason {
-        VoidReason::Unread => "no photo showed a face".to_owned(),
-        VoidReason::Fault(code) => format!("the robot stopped with {}", fault_text(code)),
-        VoidReason::Lost => "the coin was collected before its face was read".to_owned(),
-        VoidReason::Superseded => "the robot's counter is ahead of it".to_owned(),
-    }
-}
-
-/// Describes a state.
-pub fn state_name(state: State) -> &'static str {
-    match state {
-        State::Boot => "starting",
-        State::Idle => "ready",
-        State::Aiming => "aiming",
-        State::Flying => "flying",
-        State::Driving => "driving",
-        State::AtCoin => "at the coin",
-        State::Returning => "returning",
-        State::Fault => "fault",
-    }
-}
-
-/// Describes a fault.
-pub fn fault_text(code: u16) -> String {
-    use coinmc_link::fault::{HARDWARE, JOURNAL, LIMIT, RESET, SILENCE, STOPPED};
-    let phase = |base: u16| {
-        u8::try_from(code - base)
-            .ok()
-            .and_then(State::from_number)
-            .map_or("an unknown phase", state_name)
-    };
-    let text = match code {
-        STOPPED => "stopped".to_owned(),
-        SILENCE => "the host was silent".to_owned(),
-        JOURNAL => "its memory cannot be written".to_owned(),
-        _ if code >= HARDWARE => format!("hardware failure {}", code - HARDWARE),
-        _ if code >= LIMIT => format!("{} took too long", phase(LIMIT)),
-        _ if code >= RESET => format!("reset while {}", phase(RESET)),
-        _ => "unknown".to_owned(),
-    };
-    format!("fault {code} ({text})")
 }

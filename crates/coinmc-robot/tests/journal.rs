@@ -1,8 +1,8 @@
 //! The journal's file: incomplete, damaged, of another experiment, in use, on a full disk.
 
 use coinmc_robot::journal::{
-    Damage, Entry, Header, History, Journal, JournalError, LineChecksum, Measured, Reading,
-    Resolution, VoidReason, parse,
+    Damage, Digest, Entry, Header, History, Journal, JournalError, LineChecksum, Measured, Reading,
+    Resolution, RobotName, VoidReason, parse,
 };
 use coinmc_robot::{Face, Setting};
 use proptest::prelude::*;
@@ -14,6 +14,7 @@ fn header() -> Header {
     Header {
         plan_hash: "5d41402abc4b2a76b9719d911017c592".to_owned(),
         throws: 100,
+        experiment: 77,
     }
 }
 
@@ -34,15 +35,29 @@ fn read(id: u32) -> Entry {
             },
             boot: 4,
             image: "000001-1.png".parse().unwrap(),
+            digest: Some(Digest(0x5f)),
         },
         at_ms: 1_795_281_741_008,
     }
 }
 
+fn session() -> Entry {
+    Entry::Session {
+        robot: RobotName {
+            uid: 0x636f_696e_2d73_696d,
+            firmware: [2, 0, 13],
+        },
+        boot: 4,
+        program: "0.1.0".to_owned(),
+        at_ms: 1_795_281_733_003,
+    }
+}
+
 /// A journal of two throws: one done, one void.
-fn entries() -> [Entry; 5] {
+fn entries() -> [Entry; 6] {
     let reason = VoidReason::Fault(103);
     [
+        session(),
         announced(1),
         read(1),
         Entry::Done { id: 1 },
@@ -79,9 +94,10 @@ fn the_journal_reads_back_and_has_the_documented_format() {
     assert_eq!(
         bodies,
         [
-            "coinmc-robot-journal 1 5d41402abc4b2a76b9719d911017c592 100",
+            "coinmc-robot-journal 2 5d41402abc4b2a76b9719d911017c592 100 77",
+            "S 636f696e2d73696d 2.0.13 4 0.1.0 1795281733003",
             "I 1 3200 9000 1795281733123",
-            "R 1 side 3198 18003 4 000001-1.png 1795281741008",
+            "R 1 side 3198 18003 4 000001-1.png 000000000000005f 1795281741008",
             "D 1",
             "I 2 3200 9000 1795281733123",
             "V 2 fault-103",
@@ -138,12 +154,14 @@ fn damage_before_the_last_line_is_rejected_with_its_line_and_a_remedy() {
     let lines: Vec<&str> = text.lines().collect();
     let write = |lines: &[&str]| fs::write(&path, lines.join("\n") + "\n").unwrap();
 
-    let flipped = lines[2].replace("side", "tide");
-    write(&[lines[0], lines[1], &flipped, lines[3], lines[4], lines[5]]);
-    assert_eq!(damage(&path), Damage::Line(3));
+    let flipped = lines[3].replace("side", "tide");
+    write(&[
+        lines[0], lines[1], lines[2], &flipped, lines[4], lines[5], lines[6],
+    ]);
+    assert_eq!(damage(&path), Damage::Line(4));
     let message = Journal::open(&path, &header()).unwrap_err().to_string();
     assert!(
-        message.contains("line 3") && message.contains("head -n 2"),
+        message.contains("line 4") && message.contains("head -n 3"),
         "{message}"
     );
     // a missing, repeated or swapped line
@@ -153,10 +171,10 @@ fn damage_before_the_last_line_is_rejected_with_its_line_and_a_remedy() {
     assert_eq!(damage(&path), Damage::Line(3));
     fs::write(&path, "something else\n").unwrap();
     assert_eq!(damage(&path), Damage::NotAJournal);
-    fs::write(&path, "coinmc-robot-journal 2 x 1 00000000\n").unwrap();
-    assert_eq!(damage(&path), Damage::Newer(2));
+    fs::write(&path, "coinmc-robot-journal 3 x 1 00000000\n").unwrap();
+    assert_eq!(damage(&path), Damage::Newer(3));
     let nothing_was_changed = fs::read_to_string(&path).unwrap();
-    assert!(nothing_was_changed.starts_with("coinmc-robot-journal 2"));
+    assert!(nothing_was_changed.starts_with("coinmc-robot-journal 3"));
 }
 
 #[test]
@@ -169,6 +187,57 @@ fn contradictory_lines_are_rejected() {
     }
     let error = parse(text.as_bytes()).unwrap_err();
     assert!(matches!(error, Damage::Order { line: 3, .. }), "{error}");
+}
+
+/// As the first release wrote them: without robots, programs and digests.
+#[test]
+fn a_journal_of_format_1_is_read_and_continued() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("journal.txt");
+    let (mut text, mut checksum) =
+        LineChecksum::default().line("coinmc-robot-journal 1 5d41402abc4b2a76b9719d911017c592 100");
+    for body in [
+        "I 1 3200 9000 1795281733123",
+        "R 1 side 3198 18003 4 000001-1.png 1795281741008",
+        "D 1",
+    ] {
+        let (line, next) = checksum.line(body);
+        text.push_str(&line);
+        checksum = next;
+    }
+    fs::write(&path, &text).unwrap();
+    let (mut journal, _) = Journal::open(&path, &header()).unwrap();
+    let throws = journal.history().throws();
+    assert_eq!(throws[0].resolution, Some(Resolution::Done));
+    assert_eq!(throws[0].reading.as_ref().unwrap().0.digest, None);
+    // its robot is not known, so that it has to be told the experiment's number first
+    assert!(!journal.history().is_claimed());
+    let number = journal.header().experiment;
+    assert_ne!(number, 0);
+    for entry in [session(), announced(2)] {
+        journal.append(&entry).unwrap();
+    }
+    assert!(journal.history().is_claimed());
+    drop(journal);
+    let (again, _) = Journal::open(&path, &header()).unwrap();
+    assert_eq!(again.history().throws().len(), 2);
+    assert_eq!(again.header().experiment, number);
+}
+
+#[test]
+fn a_link_or_a_pipe_is_not_opened_as_a_journal() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = written(&dir);
+    let link = dir.path().join("link.txt");
+    std::os::unix::fs::symlink(&path, &link).unwrap();
+    assert!(matches!(
+        Journal::open(&link, &header()),
+        Err(JournalError::Io { .. })
+    ));
+    let pipe = dir.path().join("pipe");
+    let status = std::process::Command::new("mkfifo").arg(&pipe).status();
+    assert!(status.unwrap().success());
+    assert!(Journal::read(&pipe).is_err() && Journal::open(&pipe, &header()).is_err());
 }
 
 #[test]
@@ -206,9 +275,10 @@ fn entries_out_of_order_change_nothing() {
             "{wrong}"
         );
     }
-    assert!(journal.append(&Entry::Adopted { counter: 2 }).is_err());
     assert_eq!(fs::read(&path).unwrap(), before);
     journal.append(&Entry::Adopted { counter: 40 }).unwrap();
+    // a robot that is behind is taken over without counting back
+    journal.append(&Entry::Adopted { counter: 2 }).unwrap();
     journal.append(&announced(41)).unwrap();
 }
 

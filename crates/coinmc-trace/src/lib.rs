@@ -7,7 +7,8 @@
 //!
 //! * [`replay()`] repeats a toss and returns its [`Trace`]; [`record()`] does the same for any launch.
 //! * [`search()`] finds tosses by how they end.
-//! * [`write_csv`], [`write_parquet`], [`write_jsonl`], [`write_mcap`] and [`svg`] write traces.
+//! * [`write_csv`], [`write_parquet`], [`write_jsonl`], [`write_mcap`] and [`svg`] write traces;
+//!   [`FileKind`] chooses by the name of a file.
 //! * [`Recorder`] is the observer that records; it works with any engine.
 //!
 //! States between events are computed by the engine itself (in flight in closed form, in contact by a
@@ -18,8 +19,10 @@ mod condition;
 mod csv;
 mod end;
 mod error;
+mod file;
 mod jsonl;
 mod mcap;
+#[cfg(feature = "parquet")]
 mod parquet;
 mod record;
 mod recorder;
@@ -36,8 +39,10 @@ pub use condition::{Condition, ConditionError};
 pub use csv::write_csv;
 pub use end::{EndKind, outcome_name};
 pub use error::TraceError;
+pub use file::{FileKind, UnknownKind};
 pub use jsonl::write_jsonl;
-pub use mcap::write_mcap;
+pub use mcap::{LAYOUT, write_mcap};
+#[cfg(feature = "parquet")]
 pub use parquet::write_parquet;
 pub use record::{Mode, Record, RecordKind};
 pub use recorder::{MAX_RECORDS, Recorder};

@@ -10,18 +10,30 @@ use crate::trace::Trace;
 use crate::{table, to_json};
 use coinmc::plan::Plan;
 use coinmc_core::{EventKind, Scene, State};
-use coinmc_recording::foxglove::{FrameTransform, Quaternion, SceneUpdate, Time};
-use coinmc_recording::{Channel, Compression, Error, Options, Recorder, Schema, Unsynced};
+use coinmc_recording::foxglove::{
+    FrameTransform, Pose, PoseInFrame, Quaternion, SceneUpdate, Time,
+};
+use coinmc_recording::{
+    Channel, Compression, Encoding, Error, Options, Recorder, Schema, Unsynced,
+};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::io::Write;
 
+/// A layout for Lichtblick and Foxglove that shows a trace's MCAP: the coin, its height and energy, its
+/// mode and its events.
+pub const LAYOUT: &str = include_str!("layout.json");
+
 /// Log time of the first launch, and the pause between tosses, ns.
 const PAUSE_NS: u64 = 1_000_000_000;
+
+/// coinmc's own messages, from `schemas/trace.proto`.
+const PROTOBUF: &[u8] = include_bytes!("schemas/trace.bin");
 
 /// The channels of a file.
 struct Channels {
     transforms: Channel<FrameTransform>,
+    poses: Channel<PoseInFrame>,
     scene: Channel<SceneUpdate>,
     tosses: Channel<Value>,
     states: Channel<Value>,
@@ -37,6 +49,7 @@ struct Channels {
 pub fn write_mcap(
     plan: &Plan,
     traces: &[Trace],
+    encoding: Encoding,
     compression: Compression,
     out: impl Write,
 ) -> Result<(), Error> {
@@ -44,6 +57,7 @@ pub fn write_mcap(
         profile: String::new(),
         library: format!("coinmc {}", env!("CARGO_PKG_VERSION")),
         compression,
+        encoding,
     };
     let mut recorder = Recorder::new(Unsynced(out), &options)?;
     recorder.metadata("coinmc", &file_metadata(plan))?;
@@ -62,13 +76,14 @@ pub fn write_mcap(
 
 impl Channels {
     fn open<W: Write>(recorder: &mut Recorder<Unsynced<W>>) -> Result<Self, Error> {
-        let own = |name, text| Schema::new(name, text);
+        let own = |name, json: &'static str| Schema::new(name, json, PROTOBUF);
         Ok(Self {
             tosses: recorder.channel(
                 "/toss",
                 &own("coinmc.Toss", include_str!("schemas/Toss.json")),
             )?,
             transforms: recorder.channel("/tf", &Schema::FRAME_TRANSFORM)?,
+            poses: recorder.channel("/pose", &Schema::POSE_IN_FRAME)?,
             scene: recorder.channel("/scene", &Schema::SCENE_UPDATE)?,
             states: recorder.channel(
                 "/state",
@@ -110,6 +125,7 @@ fn write_toss<W: Write>(
         now = now.max(start.saturating_add(nanoseconds(record.state.time_s)));
         if is_finite(record) {
             recorder.write(&channels.transforms, now, &transform(record, now))?;
+            recorder.write(&channels.poses, now, &pose(record, now))?;
         }
         recorder.write(&channels.states, now, &to_json::record(&row).into())?;
         recorder.write(&channels.energies, now, &energy(trace, record))?;
@@ -138,18 +154,34 @@ fn is_finite(record: &Record) -> bool {
 }
 
 fn transform(record: &Record, now: u64) -> FrameTransform {
-    let q = record.orientation;
     FrameTransform {
         timestamp: Time::from_ns(now),
         parent_frame_id: WORLD.to_owned(),
         child_frame_id: COIN.to_owned(),
         translation: vector(&record.state.position_m),
-        rotation: Quaternion {
-            x: q.i,
-            y: q.j,
-            z: q.k,
-            w: q.w,
+        rotation: quaternion(record),
+    }
+}
+
+/// The same, for viewers without frames.
+fn pose(record: &Record, now: u64) -> PoseInFrame {
+    PoseInFrame {
+        timestamp: Time::from_ns(now),
+        frame_id: WORLD.to_owned(),
+        pose: Pose {
+            position: vector(&record.state.position_m),
+            orientation: quaternion(record),
         },
+    }
+}
+
+fn quaternion(record: &Record) -> Quaternion {
+    let q = record.orientation;
+    Quaternion {
+        x: q.i,
+        y: q.j,
+        z: q.k,
+        w: q.w,
     }
 }
 

@@ -4,7 +4,7 @@ use crate::contact::{ContactSolver, Exit, SideExit};
 use crate::flight::Departure;
 use crate::model::Model;
 use crate::motion::{FLAT, Spin};
-use crate::slide::way_and_time;
+use crate::slide::{pulled_way_and_time, way_and_time};
 use crate::toss::Toss;
 use crate::transition::Transition;
 use coinmc_core::{Decided, Ended, EventKind, Observer};
@@ -19,7 +19,10 @@ impl<L> Model<L> {
     ) -> Transition {
         self.note_contact(toss);
         let (motion, spin, mut adapter) = toss.observed(&self.units, observer);
-        let exit = solver.follow(motion, spin, &mut adapter);
+        let exit = match &self.pull {
+            None => solver.follow(motion, spin, &mut adapter),
+            Some(pull) => solver.follow_pulled(pull, motion, spin, &mut adapter),
+        };
         if exit == Exit::LiftOff {
             self.notify(toss, EventKind::LiftOff, observer);
         }
@@ -65,7 +68,11 @@ impl<L> Model<L> {
     ) -> Transition {
         self.note_contact(toss);
         let (motion, spin, mut adapter) = toss.observed(&self.units, observer);
-        match solver.follow_on_side(motion, spin, &mut adapter) {
+        let exit = match &self.pull {
+            None => solver.follow_on_side(motion, spin, &mut adapter),
+            Some(pull) => solver.follow_on_side_pulled(pull, motion, spin, &mut adapter),
+        };
+        match exit {
             SideExit::TipsOntoThisRim => Transition::Contact,
             SideExit::TipsOntoOtherRim => {
                 toss.switch_rim();
@@ -120,10 +127,16 @@ impl<L> Model<L> {
         let (body, m) = (&self.dynamics.body, &mut toss.motion);
         let speed = (m.vx * m.vx + m.vy * m.vy).sqrt();
         let turning = body.radius * toss.spin.axial;
-        let (way, time) = way_and_time(body, self.dynamics.friction.mu, speed, turning);
-        if speed > 0.0 {
-            toss.place.shift(way * m.vx / speed, way * m.vy / speed);
-        }
+        let mu = self.dynamics.friction.mu;
+        let (way, time) = if let Some(pull) = &self.pull {
+            let pull = pull.in_frame(&toss.place, 0.0);
+            pulled_way_and_time(body, mu, [m.vx, m.vy], turning, pull)
+        } else {
+            let (way, time) = way_and_time(body, mu, speed, turning);
+            let along = |v: f64| if speed > 0.0 { way * v / speed } else { 0.0 };
+            ([along(m.vx), along(m.vy)], time)
+        };
+        toss.place.shift(way[0], way[1]);
         toss.place.time += time;
         (m.vx, m.vy, m.vz) = (0.0, 0.0, 0.0);
         toss.spin = Spin::still();

@@ -38,6 +38,15 @@ pub const ENGINE: EngineDescriptor = EngineDescriptor {
                    up to engine.volumetric.max_impacts",
         },
         Remark {
+            applies: |scene| {
+                let surface = &scene.surface;
+                let endless = surface.table_radius_m().is_none();
+                endless && surface.tilt().is_some() && surface.roughness().is_some()
+            },
+            text: "surface.table_tilt_deg on endless rough ground: thick coins roll down up to \
+                   engine.volumetric.max_steps and stay undecided; surface.table_radius_m lets them leave",
+        },
+        Remark {
             applies: rolls_for_ever,
             text: "surface.rolling_friction_m = 0: nothing stops a coin that rolls on its rim; tosses \
                    that roll from face to side and back stay undecided, never_settles or up to \

@@ -63,12 +63,14 @@ impl<L> Model<L> {
             return false;
         }
         let duration = orbit.since_start(found.time);
+        let mut motion = toss.motion;
         if O::ACTIVE {
             self.show_flight(toss, &whole, duration, observer);
-            let (dx, dy) = orbit.drift(&toss.motion, duration);
+            let ([dx, dy], pulled) = self.glide(toss, &orbit, duration);
             toss.place.shift(dx, dy);
+            motion = pulled;
         }
-        let landed = land(dynamics, &orbit, &toss.motion, toss.spin.axial, found.time);
+        let landed = land(dynamics, &orbit, &motion, toss.spin.axial, found.time);
         (toss.motion, toss.spin) = (landed.motion, landed.spin);
         toss.heads_up ^= landed.reflected;
         usage.time += duration;
@@ -78,6 +80,18 @@ impl<L> Model<L> {
             toss.place.time = usage.time;
         }
         true
+    }
+
+    /// The way of the centre along the ground in a flight of time `t` that begins with `toss`, in the
+    /// frame of the departure; and the motion from which `orbit` leads to the motion after it: that of
+    /// `toss`, but for the pull of a tilted table.
+    pub(crate) fn glide(&self, toss: &Toss, orbit: &Orbit<f64>, t: f64) -> ([f64; 2], Motion<f64>) {
+        let (dx, dy) = orbit.drift(&toss.motion, t);
+        let Some(pull) = &self.pull else {
+            return ([dx, dy], toss.motion);
+        };
+        let ([px, py], motion) = pull.in_flight(&toss.place, &self.dynamics.drag, &toss.motion, t);
+        ([dx + px, dy + py], motion)
     }
 
     /// Shows a flight of length `duration`, which begins with `toss`, at the requested instants.
@@ -107,9 +121,9 @@ impl<L> Model<L> {
     /// The toss a time `t` into the flight that begins with `toss`.
     fn in_flight(&self, toss: &Toss, orbit: &Orbit<f64>, t: f64) -> Toss {
         let axial_factor = self.dynamics.axial_factor;
-        let (motion, [nx, ny], reflected) = orbit.at(&toss.motion, t);
+        let ([dx, dy], pulled) = self.glide(toss, orbit, t);
+        let (motion, [nx, ny], reflected) = orbit.at(&pulled, t);
         let mut after = Toss { motion, ..*toss };
-        let (dx, dy) = orbit.drift(&toss.motion, t);
         after.place.shift(dx, dy);
         after.place.align(nx, ny);
         // as at the landing: the initial axial spin, less what drag took of it

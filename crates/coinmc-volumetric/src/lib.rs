@@ -57,6 +57,7 @@ mod motion;
 mod observer_adapter;
 mod onto_side;
 mod place;
+mod pull;
 mod restitution;
 mod rough;
 mod scalar;

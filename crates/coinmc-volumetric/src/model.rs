@@ -4,6 +4,7 @@ use crate::body::{Body, Friction, Units};
 use crate::contact::{ContactRules, ContactSolver, Dynamics, Usage};
 use crate::drag::Drag;
 use crate::limits::Limits;
+use crate::pull::Pull;
 use crate::restitution::Restitution;
 use crate::rough::Ground;
 use crate::settings::{Decision, Settings, SettingsError};
@@ -34,6 +35,8 @@ pub(crate) struct Model<L> {
     pub(crate) adhesive: bool,
     /// The rough ground, if it is not a plane.
     pub(crate) ground: Option<Ground>,
+    /// The pull of a tilted table.
+    pub(crate) pull: Option<Pull>,
     /// [`ContactRules::side`].
     side: f64,
     /// [`Settings::ground_step`].
@@ -61,6 +64,7 @@ impl<L> Model<L> {
         impact: L,
     ) -> Result<Self, SettingsError> {
         settings.validate()?;
+        let scene = &scene.pressed_onto_table();
         let units = Units::new(scene);
         let body = Body::new(&scene.coin);
         let friction = Friction::new(scene);
@@ -96,6 +100,7 @@ impl<L> Model<L> {
             restitution,
             adhesive: scene.surface.landing() == Landing::Adhesive,
             ground,
+            pull: scene.surface.tilt().as_ref().map(Pull::new),
             side,
             ground_step: settings.ground_step,
             conserves: keeps,
@@ -121,8 +126,20 @@ impl<L> Model<L> {
             limits: &self.limits,
             side: self.side,
             stick_speed: self.stick_speed,
+            creep: self.creep(),
             tolerance: self.tolerance,
         }
+    }
+
+    /// The slip of a coin on its side that friction holds: below `stick_speed`, or as much more as
+    /// friction needs to hold it on a tilted table. With the creep γ friction is μ γ/sqrt(γ² + ε²) of the
+    /// weight, which is the pull at γ = ε q/sqrt(1 − q²), q = tan β/μ.
+    fn creep(&self) -> f64 {
+        let Some(pull) = &self.pull else {
+            return self.stick_speed;
+        };
+        let share = pull.slope / self.dynamics.friction.mu;
+        self.stick_speed * (1.0 + 2.0 * share / (1.0 - share * share).sqrt())
     }
 
     /// A solver for the contact of a toss that has used this much so far.

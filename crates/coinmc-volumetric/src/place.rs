@@ -49,6 +49,23 @@ impl Place {
         [self.position[0] + dx, self.position[1] + dy]
     }
 
+    /// The components in the frame of a horizontal vector of the laboratory.
+    pub(crate) fn in_frame(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let [nx, ny] = self.heading;
+        [nx * x + ny * y, nx * y - ny * x]
+    }
+
+    /// The way of the centre from an earlier place to this one, in the laboratory.
+    pub(crate) fn way_from(&self, earlier: &Self) -> [f64; 2] {
+        let (now, then) = (self.position, earlier.position);
+        [now[0] - then[0], now[1] - then[1]]
+    }
+
+    /// The same place, with the centre elsewhere.
+    pub(crate) fn with_centre_at(self, position: [f64; 2]) -> Self {
+        Self { position, ..self }
+    }
+
     /// Turns the frame so that its new x axis is (`nx`, `ny`) in the old frame.
     pub(crate) fn align(&mut self, nx: f64, ny: f64) {
         let [x, y] = self.heading;

@@ -12,7 +12,16 @@ use coinmc_core::{Ended, EventKind, Launch, Observer};
 impl<L: ImpactLaw> Model<L> {
     /// Simulates one toss.
     pub(crate) fn run<O: Observer>(&self, launch: &Launch, observer: &mut O) -> FinishedToss {
-        let mut toss = self.launch(launch);
+        self.run_from(self.launch(launch), launch, observer)
+    }
+
+    /// Simulates the toss that begins like this.
+    pub(crate) fn run_from<O: Observer>(
+        &self,
+        mut toss: Toss,
+        launch: &Launch,
+        observer: &mut O,
+    ) -> FinishedToss {
         let mut solver = self.contact_solver(Usage::default());
         self.notify(&toss, EventKind::Launched, observer);
         let ended = match self.end_at_launch(&toss, launch) {

@@ -48,6 +48,43 @@ pub(crate) fn way_and_time(body: &Body, mu: f64, v: f64, w: f64) -> (f64, f64) {
     (way, time)
 }
 
+/// The same on a tilted table: the way along x and y of the frame, from the velocity `v`, with the pull
+/// in it. A coin that spins is held less, and slides down as long as it spins.
+pub(crate) fn pulled_way_and_time(
+    body: &Body,
+    mu: f64,
+    v: [f64; 2],
+    w: f64,
+    pull: [f64; 2],
+) -> ([f64; 2], f64) {
+    let (mut v, mut w) = (v, w.abs());
+    let (mut way, mut time) = ([0.0; 2], 0.0);
+    let inertia = body.radius * body.radius / body.ka;
+    let rim = rim_sines_and_cosines();
+    let slip = |v: [f64; 2], w: f64| (v[0] * v[0] + v[1] * v[1]).sqrt() + w;
+    let slope = (pull[0] * pull[0] + pull[1] * pull[1]).sqrt();
+    let end = END * slip(v, w).max(NEGLIGIBLE);
+    while slip(v, w) > end {
+        // friction less the pull slows down, at the least
+        let step = STEP * slip(v, w) / ((mu + slope) * inertia.max(1.0));
+        let speed = (v[0] * v[0] + v[1] * v[1]).sqrt();
+        let (along, about) = means(&rim, speed, w);
+        // where friction would stop the centre within the step, it holds it as far as it can
+        let held = (mu * along * step / speed.max(f64::MIN_POSITIVE)).min(1.0);
+        let next = [0, 1].map(|i| v[i] * (1.0 - held) + step * pull[i]);
+        for i in 0..2 {
+            way[i] += 0.5 * step * (v[i] + next[i]);
+        }
+        v = next;
+        w = (w - step * mu * inertia * about).max(0.0);
+        time += step;
+        if w == 0.0 && slip(v, 0.0) <= 2.0 * step * slope {
+            break;
+        }
+    }
+    (way, time)
+}
+
 type Rim = [[f64; 2]; POINTS as usize];
 
 /// Of points spread evenly over half the rim.

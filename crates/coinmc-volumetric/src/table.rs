@@ -1,61 +1,110 @@
-//! A table with an edge: tosses whose coin leaves it.
+//! Tables with an edge, which coins leave, and tilted tables.
 //!
 //! The motion of a coin does not depend on where it is until it is beyond the edge. So a toss on a
 //! table is followed as on an endless one, to rest, by the scalar path with an observer that watches
 //! where the centre is; and where it was beyond the edge, the coin has left, whatever it would have
-//! done there. A coin that stays shows the face that is decided on an endless table: what a decision
-//! rules out cannot happen afterwards, whatever small errors of long motion may do. A centre that is beyond the edge in flight lands beyond it: flights are straight seen
-//! from above, and the table is convex.
+//! done there. A coin that stays on a level table shows the face that is decided on an endless one:
+//! what a decision rules out cannot happen afterwards, whatever small errors of long motion may do. A
+//! centre that is beyond the edge in flight lands beyond it: flights are parabolas seen from above,
+//! straight on a level table, and the table is convex.
 //!
 //! In contact the centre is looked at so often that it cannot pass the edge in between by more than
 //! [`RESOLUTION`] of the coin's radius: no later than a coin as fast as its energy allows would need
 //! to the edge.
+//!
+//! On a tilted table (see `pull`) the motion depends on the direction in the laboratory, which only
+//! tosses with an observer know, and no energy decides for good. So they are followed in the same way.
 
 use crate::finished_toss::FinishedToss;
 use crate::impact::ImpactLaw;
 use crate::model::Model;
 use crate::settings::{Settings, SettingsError};
-use coinmc_core::{Ended, Event, EventKind, Launch, Observer, Scene, State};
+use crate::toss::Toss;
+use coinmc_core::{
+    Ended, Event, EventKind, Face, Launch, Observer, OntoSide, Scene, SideEnding, State, TableTilt,
+};
 
 /// Smallest way between two looks at the centre, in radii of the coin.
 const RESOLUTION: f64 = 0.01;
 
-/// A round table, above whose middle coins are launched.
+/// A round or endless table, above whose middle coins are launched.
 #[derive(Debug, Clone)]
 pub(crate) struct Table<L> {
     /// What follows tosses to rest.
     model: Model<L>,
+    /// Infinite if the table is endless.
     radius_m: f64,
+    tilt: Option<TableTilt>,
     /// Smallest way between two looks, m.
     resolution_m: f64,
     scene: Scene,
 }
 
 impl<L: ImpactLaw> Table<L> {
-    /// The table of a scene; `None` if it is endless.
+    /// The table of a scene; `None` if it is endless and level.
     pub(crate) fn new(
         scene: &Scene,
         settings: &Settings,
         law: L,
     ) -> Result<Option<Self>, SettingsError> {
-        let Some(radius_m) = scene.surface.table_radius_m() else {
+        let (radius_m, tilt) = (scene.surface.table_radius_m(), scene.surface.tilt());
+        if radius_m.is_none() && tilt.is_none() {
             return Ok(None);
-        };
+        }
         Ok(Some(Self {
             model: Model::new(scene, settings, law)?,
-            radius_m,
+            radius_m: radius_m.unwrap_or(f64::INFINITY),
+            tilt,
             resolution_m: RESOLUTION * scene.coin.radius_m(),
             scene: *scene,
         }))
     }
 
-    /// Whether a coin that slides on for ever without friction, slowed down by drag alone if at all,
-    /// comes to rest beyond the edge.
+    /// Whether a coin that slides on for ever without friction, slowed down by drag alone if at all, or
+    /// that rolls down a slope for ever, does so beyond the edge.
     fn coasts_away(&self, state: &State) -> bool {
+        if self.tilt.is_some() {
+            return self.radius_m < f64::INFINITY;
+        }
         let velocity = state.velocity_m_s.xy();
         let drag = self.scene.drag().linear_per_s();
         velocity.norm() > 0.0
             && (drag == 0.0 || (state.position_m.xy() + velocity / drag).norm() > self.radius_m)
+    }
+}
+
+impl<L> Table<L> {
+    /// A speed that a coin in this state does not exceed as long as it is on the table.
+    fn fastest_m_s(&self, state: &State) -> f64 {
+        let mut energy = state.energy_j_kg(&self.scene);
+        if let Some(tilt) = &self.tilt {
+            // as if it were to go down to the lowest place of the edge
+            let descent = tilt.slope() * tilt.cos() * self.radius_m;
+            energy += self.scene.gravity_m_s2() * descent;
+        }
+        (2.0 * energy.max(0.0)).sqrt()
+    }
+
+    /// How a coin ends on its side that rolls down the table.
+    fn rolls_for_ever(&self) -> SideEnding {
+        let onto_side = OntoSide {
+            rolls_m: f64::INFINITY,
+            turns: 0.0,
+            turning_prevails: false,
+        };
+        SideEnding::new(&onto_side, self.scene.coin.radius_m())
+    }
+
+    /// A toss at its launch, in axes of the table.
+    fn launch(&self, launch: &Launch) -> (Launch, Toss) {
+        let Some(tilt) = &self.tilt else {
+            return (*launch, self.model.launch(launch));
+        };
+        let (launch, centre_m) = tilt.launch_in_table_axes(launch);
+        let mut toss = self.model.launch(&launch);
+        let centre = centre_m.map(|x| x / self.model.units.length_m);
+        toss.place = toss.place.with_centre_at(centre);
+        (launch, toss)
     }
 }
 
@@ -85,7 +134,7 @@ impl<L, O: Observer> EdgeWatch<'_, L, O> {
             }
         }
         if self.left.is_none() {
-            let fastest = (2.0 * state.energy_j_kg(&self.table.scene).max(0.0)).sqrt();
+            let fastest = self.table.fastest_m_s(state);
             let way = inside_m.max(self.table.resolution_m);
             self.look_at_s = state.time_s + way / fastest;
         }
@@ -142,7 +191,8 @@ impl<L: ImpactLaw> Table<L> {
             left: None,
             last: None,
         };
-        let mut toss = self.model.run(launch, &mut watch);
+        let (on_table, begun) = self.launch(launch);
+        let mut toss = self.model.run_from(begun, &on_table, &mut watch);
         let waits = self.model.rule.awaits_rest();
         let outcome = &mut toss.outcome;
         let goes_on = match outcome.ended {
@@ -154,6 +204,12 @@ impl<L: ImpactLaw> Table<L> {
         if watch.left.is_some() || coasts {
             outcome.ended = Ended::Left;
             outcome.side_ending = None;
+        } else if self.tilt.is_some() {
+            // a coin that rolls down for ever on its side is on its side
+            if outcome.ended == Ended::NeverSettles && self.model.rule.is_tilting() {
+                outcome.ended = Ended::Decided(Face::Side);
+                outcome.side_ending = Some(self.rolls_for_ever());
+            }
         } else if waits && outcome.face().is_some() {
             let decided = endless.run(launch, &mut ()).outcome;
             if decided.face().is_some() {

@@ -160,6 +160,7 @@ fn differences(scene: &Scene) -> Vec<&'static str> {
         ),
         ("roughness_slope", surface.roughness().is_none()),
         ("table_radius_m", surface.table_radius_m().is_none()),
+        ("table_tilt_deg", surface.tilt().is_none()),
         ("landing", surface.landing() == Landing::Bouncing),
         ("gravity_m_s2", scene.gravity_m_s2() == 9.81),
         ("linear_drag_per_s", drag.linear_per_s() == 1.0),

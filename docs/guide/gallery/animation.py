@@ -9,4 +9,4 @@ import coinmc
 from coinmc import plot
 
 toss = coinmc.trace("examples/own-launch.toml", toss=3, overrides={"coin.ratio": 1.0})
-film = plot.animation(toss, sys.argv[1], slow=2, fps=12, dpi=60, overwrite=True)
+film = plot.animation(toss, sys.argv[1], slow=2, fps=12, dpi=60, follow=True, overwrite=True)

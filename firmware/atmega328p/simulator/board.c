@@ -6,7 +6,9 @@
  *   board FIRMWARE.elf SPEED
  *
  * Prints "pty NAME", then reads commands from standard input: `system_reset` resets the board (as in
- * QEMU's monitor); the end of input ends the program. SPEED is simulated time over real time. At the
+ * QEMU's monitor); `press` and `release` work the emergency stop, `stick` and `unstick` hold every
+ * motion; `motors` prints for how many milliseconds the motors have had current now, and at most, and
+ * begins that anew; the end of input ends the program. SPEED is simulated time over real time. At the
  * end it prints the longest time that the firmware took for a byte, measured by the pins that the
  * firmware sets meanwhile. */
 #define _GNU_SOURCE
@@ -39,7 +41,11 @@ typedef struct {
     bool high;
 } pin;
 
-static pin handling, storing;
+static pin handling, storing, motors;
+
+/* Inputs of port D: the emergency stop (5), closed to ground until it is pressed, and the stuck motion
+ * (6), pulled up until a motion is to stick. */
+static uint8_t inputs = 1 << 6;
 static avr_cycle_count_t stored_before, longest_without_journal;
 
 static void on_pin(struct avr_irq_t *irq, uint32_t value, void *parameter)
@@ -90,6 +96,18 @@ static void on_xoff(struct avr_irq_t *irq, uint32_t value, void *parameter)
     ready = false;
 }
 
+static void set_inputs(void)
+{
+    avr_ioport_external_t external = {.name = 'D', .mask = 0x60, .value = inputs};
+    avr_ioctl(avr, AVR_IOCTL_IOPORT_SET_EXTERNAL('D'), &external);
+    for (int i = 5; i <= 6; i++) {
+        avr_irq_t *pin_irq = avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('D'), i);
+        /* a value that has not changed would not be passed on, and after a reset it must be */
+        avr_raise_irq(pin_irq, !(inputs >> i & 1));
+        avr_raise_irq(pin_irq, inputs >> i & 1);
+    }
+}
+
 static void open_pty(void)
 {
     pty = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
@@ -131,6 +149,8 @@ static void begin(const char *path)
                             on_xoff, NULL);
     avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('B'), 5), on_pin, &handling);
     avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('B'), 4), on_pin, &storing);
+    avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('D'), 4), on_pin, &motors);
+    set_inputs();
 }
 
 static void no_sleep(avr_t *this_avr, avr_cycle_count_t cycles)
@@ -139,19 +159,52 @@ static void no_sleep(avr_t *this_avr, avr_cycle_count_t cycles)
     (void)cycles;
 }
 
-/* Executes a command, if there is one; false at the end of input. */
+static void reset_board(void)
+{
+    avr_reset(avr);
+    ready = true;
+    handling.high = storing.high = false;
+    on_pin(NULL, 0, &motors);
+    set_inputs();
+}
+
+static void print_motors(void)
+{
+    const double per_ms = HERTZ / 1000.0;
+    avr_cycle_count_t now = motors.high ? avr->cycle - motors.since : 0;
+    avr_cycle_count_t longest = now > motors.longest ? now : motors.longest;
+    printf("motors %.0f %.0f\n", (double)now / per_ms, (double)longest / per_ms);
+    fflush(stdout);
+    motors.longest = 0;
+}
+
+static void obey(const char *command)
+{
+    if (strcmp(command, "system_reset") == 0)
+        reset_board();
+    else if (strcmp(command, "motors") == 0)
+        print_motors();
+    else if (strcmp(command, "press") == 0)
+        inputs |= 1 << 5;
+    else if (strcmp(command, "release") == 0)
+        inputs &= (uint8_t)~(1 << 5);
+    else if (strcmp(command, "stick") == 0)
+        inputs &= (uint8_t)~(1 << 6);
+    else if (strcmp(command, "unstick") == 0)
+        inputs |= 1 << 6;
+    set_inputs();
+}
+
+/* Executes the commands that have arrived; false at the end of input. */
 static bool execute_command(void)
 {
     struct pollfd input = {STDIN_FILENO, POLLIN, 0};
-    char line[64];
+    char line[64] = {0};
     if (poll(&input, 1, 0) <= 0)
         return true;
-    ssize_t length = read(STDIN_FILENO, line, sizeof line);
-    if (length > 0 && memchr(line, 'r', (size_t)length) != NULL) {
-        avr_reset(avr);
-        ready = true;
-        handling.high = storing.high = false;
-    }
+    ssize_t length = read(STDIN_FILENO, line, sizeof line - 1);
+    for (char *word = strtok(line, "\n"); word != NULL; word = strtok(NULL, "\n"))
+        obey(word);
     return length > 0;
 }
 

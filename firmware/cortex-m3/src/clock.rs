@@ -5,7 +5,7 @@ use cortex_m::peripheral::{SYST, syst::SystClkSource};
 use cortex_m_rt::exception;
 
 /// The LM3S6965 starts on its 12 MHz oscillator.
-const HERTZ: u32 = 12_000_000;
+pub const HERTZ: u32 = 12_000_000;
 
 static ELAPSED_MS: AtomicU32 = AtomicU32::new(0);
 

@@ -1,13 +1,16 @@
-//! REPLACE THIS FILE for a real robot. Instead of driving pins, motors and sensors, this stand-in
-//! only takes time, and less than a robot would. The contract is that of [`Hardware`].
+//! REPLACE THIS FILE for a real robot. Instead of driving motors and sensors, this stand-in only takes
+//! time, and less than a robot would; the pins that enable the motors and read the emergency stop are
+//! real. The contract is that of [`Hardware`].
 
 use crate::clock::Clock;
-use crate::journal;
+use crate::journal::{self, Journal};
+use crate::pins;
 use coinmc_link::{Hardware, Info, Limits, Motion, Record, Sensors, capability};
 
 /// The stand-in.
 pub struct Robot {
     clock: Clock,
+    journal: Journal,
     /// The last motion and when it will be complete; none while the motors are off.
     moving: Option<(Motion, u32)>,
     aim: (u16, u16),
@@ -20,6 +23,7 @@ impl Robot {
     pub fn new(clock: Clock) -> Self {
         Self {
             clock,
+            journal: journal::open(),
             moving: None,
             aim: (0, 0),
             x_um: 0,
@@ -57,7 +61,7 @@ impl Hardware for Robot {
     fn info(&self) -> Info {
         Info {
             uid: *b"lm3s69-1",
-            firmware: [0, 1, 0],
+            firmware: [0, 2, 0],
             capabilities: capability::LIGHT | capability::CARRIAGE,
             limits: Limits {
                 spin_mrev_s: 5000,
@@ -69,11 +73,11 @@ impl Hardware for Robot {
     }
 
     fn load(&mut self) -> Option<Record> {
-        journal::load()
+        journal::load(&self.journal)
     }
 
     fn store(&mut self, record: &Record) -> bool {
-        journal::store(record)
+        self.journal.store(record)
     }
 
     fn start(&mut self, motion: Motion) {
@@ -86,9 +90,12 @@ impl Hardware for Robot {
         }
         let done_ms = self.clock.now_ms().wrapping_add(duration_ms(motion));
         self.moving = Some((motion, done_ms));
+        // stays on until switched off: motors hold their place
+        pins::enable_motors(true);
     }
 
     fn motors_off(&mut self) {
+        pins::enable_motors(false);
         self.moving = None;
     }
 
@@ -97,9 +104,10 @@ impl Hardware for Robot {
     }
 
     fn sense(&mut self) -> Sensors {
-        let now_ms = self.clock.now_ms();
+        let (now_ms, stuck) = (self.clock.now_ms(), pins::is_stuck());
         if let Some((motion, done_ms)) = self.moving
             && now_ms.wrapping_sub(done_ms) < u32::MAX / 2
+            && !stuck
         {
             self.moving = None;
             self.arrive(motion, now_ms);
@@ -111,6 +119,7 @@ impl Hardware for Robot {
             x_um: self.x_um,
             y_um: self.y_um,
             failure: 0,
+            stopped: pins::is_stopped(),
         }
     }
 }

@@ -1,78 +1,143 @@
-//! The journal, in memory that survives a reset.
+//! The journal: a log in the last 8 KiB of flash, by the chip's own flash controller.
 //!
-//! REPLACE THIS FILE for a real robot with EEPROM, FRAM or a log in flash: this stand-in is for the
-//! simulator, where there are resets but no loss of power. Two slots alternate, so that one record
-//! is always intact.
+//! With the feature `simulator` the same log lies in memory that survives a reset and behaves like
+//! flash: QEMU does not have this controller.
 
-use coinmc_link::{Record, State};
-use core::mem::MaybeUninit;
-use core::ptr::{addr_of_mut, read_volatile, write_volatile};
-use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
+use coinmc_link::{Flash, FlashLog, Record};
 
-/// Serial number, throw, boot and phase, CRC.
-type Slot = [u32; 4];
+/// The log of this board.
+pub type Journal = FlashLog<LogFlash>;
 
-const CHECKSUM: Crc<u32, NoTable> = Crc::<u32, NoTable>::new(&CRC_32_ISO_HDLC);
-
-#[unsafe(link_section = ".uninit.journal")]
-static mut SLOTS: [MaybeUninit<Slot>; 2] = [MaybeUninit::uninit(); 2];
-
-/// The newest intact record.
-pub fn load() -> Option<Record> {
-    let [serial_phase, throw_id, boot, _] = newest()?;
-    Some(Record {
-        throw_id,
-        boot: u16::try_from(boot).ok()?,
-        phase: State::from_number(serial_phase.to_le_bytes()[0])?,
-    })
+/// Opens the log. Call it once.
+pub fn open() -> Journal {
+    FlashLog::open(LogFlash::begin())
 }
 
-/// Stores a record over the older one.
-pub fn store(record: &Record) -> bool {
-    let serial = newest().map_or(0, |slot| slot[0] >> 8).wrapping_add(1) & 0x00FF_FFFF;
-    let serial_phase = serial << 8 | u32::from(record.phase.number());
-    let content = [serial_phase, record.throw_id, u32::from(record.boot)];
-    let [a, b, c] = content;
-    let slot = [a, b, c, checksum(content)];
-    let odd = serial & 1 == 1;
-    // SAFETY: one core, no interrupt uses it, and the pointer is to a static.
-    unsafe { write_volatile(address(odd), slot) };
-    read(odd) == Some(slot)
+/// The newest record.
+pub fn load(journal: &Journal) -> Option<Record> {
+    journal.newest()
 }
 
-fn newest() -> Option<Slot> {
-    match (read(false), read(true)) {
-        (Some(even), Some(odd)) => {
-            let ahead = (odd[0] >> 8).wrapping_sub(even[0] >> 8) & 0x00FF_FFFF;
-            Some(if ahead == 1 { odd } else { even })
+/// Pages and words of a page: 8 pages of 1 KiB, 51 records each. With 10,000 cycles a page lasts for
+/// 4 million records: 680,000 throws of six.
+const PAGES: usize = 8;
+const PAGE_WORDS: usize = 256;
+
+#[cfg(not(feature = "simulator"))]
+pub use controller::LogFlash;
+#[cfg(feature = "simulator")]
+pub use simulated::LogFlash;
+
+#[cfg(not(feature = "simulator"))]
+mod controller {
+    use super::{Flash, PAGE_WORDS, PAGES};
+    use crate::register::{get, set};
+
+    /// `memory.x` leaves it free.
+    const START: usize = 0x0003_E000;
+    const ADDRESS: usize = 0x400F_D000;
+    const DATA: usize = 0x400F_D004;
+    const CONTROL: usize = 0x400F_D008;
+    const KEY: u32 = 0xA442_0000;
+    const WRITE: u32 = 1;
+    const ERASE: u32 = 2;
+    /// Timing of the controller: the clock in MHz, less one.
+    const MICROSECOND: usize = 0x400F_E140;
+    /// Longer than any operation: then the watchdog ends it.
+    const PATIENCE: u32 = 12_000_000;
+
+    /// The flash controller of the LM3S.
+    pub struct LogFlash(());
+
+    impl LogFlash {
+        /// Sets its timing.
+        pub fn begin() -> Self {
+            set(MICROSECOND, crate::clock::HERTZ / 1_000_000 - 1);
+            Self(())
         }
-        (even, odd) => even.or(odd),
+    }
+
+    fn operate(address: usize, what: u32) {
+        // 18 bits: the whole flash
+        set(ADDRESS, u32::try_from(address).unwrap_or(0));
+        set(CONTROL, KEY | what);
+        for _ in 0..PATIENCE {
+            if get(CONTROL) & what == 0 {
+                return;
+            }
+        }
+    }
+
+    impl Flash for LogFlash {
+        const PAGES: usize = PAGES;
+        const PAGE_WORDS: usize = PAGE_WORDS;
+
+        fn read(&self, word: usize) -> u32 {
+            get(START + 4 * word)
+        }
+
+        fn program(&mut self, word: usize, value: u32) {
+            set(DATA, value);
+            operate(START + 4 * word, WRITE);
+        }
+
+        fn erase(&mut self, page: usize) {
+            operate(START + 4 * PAGE_WORDS * page, ERASE);
+        }
     }
 }
 
-/// The content of the slot, if it is intact.
-fn read(odd: bool) -> Option<Slot> {
-    // SAFETY: one core, no interrupt uses it; any bits are a valid array of numbers, and those of
-    // memory after power-on do not pass the CRC.
-    let slot: Slot = unsafe { read_volatile(address(odd)) };
-    let [a, b, c, crc] = slot;
-    (crc == checksum([a, b, c])).then_some(slot)
-}
+#[cfg(feature = "simulator")]
+mod simulated {
+    use super::{Flash, PAGE_WORDS, PAGES};
+    use core::mem::MaybeUninit;
+    use core::ptr::{addr_of, addr_of_mut, read_volatile, write_volatile};
 
-fn address(odd: bool) -> *mut Slot {
-    if odd {
-        // SAFETY: within the static.
-        unsafe { addr_of_mut!(SLOTS).cast::<Slot>().add(1) }
-    } else {
-        addr_of_mut!(SLOTS).cast()
-    }
-}
+    #[unsafe(link_section = ".uninit.journal")]
+    static mut WORDS: MaybeUninit<[u32; PAGES * PAGE_WORDS]> = MaybeUninit::uninit();
 
-fn checksum(content: [u32; 3]) -> u32 {
-    let mut digest = CHECKSUM.digest();
-    for word in content {
-        digest.update(&word.to_le_bytes());
+    /// Memory that only clears bits, except for whole pages.
+    pub struct LogFlash(());
+
+    impl LogFlash {
+        /// Takes the memory.
+        pub fn begin() -> Self {
+            Self(())
+        }
     }
-    // so that all zeros are not a valid record
-    digest.finalize() ^ 0x636F_696E
+
+    fn inside(word: usize) -> bool {
+        word < PAGES * PAGE_WORDS
+    }
+
+    fn write(word: usize, value: u32) {
+        if inside(word) {
+            // SAFETY: within the static; one core, and no interrupt uses it.
+            unsafe { write_volatile(addr_of_mut!(WORDS).cast::<u32>().add(word), value) };
+        }
+    }
+
+    impl Flash for LogFlash {
+        const PAGES: usize = PAGES;
+        const PAGE_WORDS: usize = PAGE_WORDS;
+
+        fn read(&self, word: usize) -> u32 {
+            if !inside(word) {
+                return 0;
+            }
+            // SAFETY: as above; any bits are a number.
+            unsafe { read_volatile(addr_of!(WORDS).cast::<u32>().add(word)) }
+        }
+
+        fn program(&mut self, word: usize, value: u32) {
+            let before = self.read(word);
+            write(word, before & value);
+        }
+
+        fn erase(&mut self, page: usize) {
+            for word in 0..PAGE_WORDS {
+                write(page * PAGE_WORDS + word, u32::MAX);
+            }
+        }
+    }
 }

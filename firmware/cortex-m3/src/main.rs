@@ -8,15 +8,23 @@
 mod clock;
 mod hardware;
 mod journal;
+mod pins;
+mod register;
 mod uart;
+mod watchdog;
 
 use clock::Clock;
 use coinmc_link::Device;
 use hardware::Robot;
 use uart::Uart;
+use watchdog::Watchdog;
+
+/// Bytes handled between two checks of the limits, 2.8 ms of them: however many arrive.
+const BYTES_A_TICK: u32 = 32;
 
 #[cortex_m_rt::entry]
 fn main() -> ! {
+    pins::begin();
     let Some(core) = cortex_m::Peripherals::take() else {
         // they are taken only here: this never fails
         loop {
@@ -24,15 +32,18 @@ fn main() -> ! {
         }
     };
     let clock = Clock::begin(core.SYST);
+    let watchdog = Watchdog::begin();
     let uart = Uart::begin();
     let mut device = Device::boot(Robot::new(clock), clock.now_ms());
     loop {
-        while let Some(byte) = uart.read() {
+        for _ in 0..BYTES_A_TICK {
+            let Some(byte) = uart.read() else { break };
             if let Some(reply) = device.receive(byte, clock.now_ms()) {
                 uart.write(reply);
             }
         }
         device.tick(clock.now_ms());
+        watchdog.feed();
         // until the next byte or millisecond
         cortex_m::asm::wfi();
     }

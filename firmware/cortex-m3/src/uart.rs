@@ -1,6 +1,6 @@
 //! The serial line: UART 0 (an ARM PL011), 115200 baud, 8 bits, no parity, one stop bit.
 
-use core::ptr::{read_volatile, write_volatile};
+use crate::register::{get, set};
 
 const UART0: usize = 0x4000_C000;
 const DATA: usize = UART0;
@@ -16,6 +16,8 @@ const PORT_A_DIGITAL: usize = 0x4000_451C;
 
 const RECEIVE_EMPTY: u32 = 1 << 4;
 const TRANSMIT_FULL: u32 = 1 << 5;
+/// Readings of a register in about a millisecond.
+const PATIENCE: u32 = 2_000;
 
 /// The running UART. Its queue of 16 bytes takes 1.4 ms to fill, and the main loop runs every
 /// millisecond: no interrupt is needed.
@@ -47,18 +49,11 @@ impl Uart {
     #[allow(clippy::unused_self)]
     pub fn write(&self, bytes: &[u8]) {
         for byte in bytes {
-            while get(FLAGS) & TRANSMIT_FULL != 0 {}
+            // a byte takes 90 µs: if the line is dead for ten times that, the reply is lost
+            if (0..PATIENCE).all(|_| get(FLAGS) & TRANSMIT_FULL != 0) {
+                return;
+            }
             set(DATA, u32::from(*byte));
         }
     }
-}
-
-fn get(register: usize) -> u32 {
-    // SAFETY: only the registers above, which this file alone uses and which are always there.
-    unsafe { read_volatile(register as *const u32) }
-}
-
-fn set(register: usize, value: u32) {
-    // SAFETY: as above.
-    unsafe { write_volatile(register as *mut u32, value) }
 }

@@ -89,7 +89,7 @@ impl State {
         }
         let converged = self.solve(model, contacts, h);
         contacts.apply(&mut self.motion);
-        self.motion.velocity.z -= h;
+        self.motion.velocity += (model.pull - Vector3::z()) * h;
         self.motion.drift(model, h / 2.0);
         self.keep_pressed(model, contacts, h);
         self.follow(model, ground);
@@ -100,12 +100,12 @@ impl State {
     /// The impulses. Rows that newly stick do so with their velocity after the step.
     fn solve(&self, model: &Model, contacts: &mut Contacts, h: f64) -> bool {
         for row in 0..contacts.rows() {
-            contacts.offset[row] = 2.0 * contacts.before[row] + contacts.fall(row, h);
+            contacts.offset[row] = 2.0 * contacts.before[row] + contacts.weigh(row, model, h);
         }
         for (contact, resting) in self.resting.iter().enumerate() {
             if resting.new {
                 let row = contact * ROWS + NORMAL;
-                contacts.offset[row] = contacts.before[row] + contacts.fall(row, h);
+                contacts.offset[row] = contacts.before[row] + contacts.weigh(row, model, h);
             }
         }
         let mut converged = contacts.solve(model);
@@ -116,7 +116,7 @@ impl State {
                 if stuck[law] && !resting.stuck[law] {
                     for row in rows.clone() {
                         let row = contact * ROWS + row;
-                        contacts.offset[row] = contacts.before[row] + contacts.fall(row, h);
+                        contacts.offset[row] = contacts.before[row] + contacts.weigh(row, model, h);
                     }
                     again = true;
                 }

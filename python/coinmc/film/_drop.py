@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from coinmc import _lib
 from coinmc._errors import FilmError
@@ -43,7 +44,11 @@ class Drop:
     __slots__ = ("name", "theta_rad", "time_s", "used", "x_m", "z_m")
 
     def __init__(self, time_s: Any, x_m: Any, z_m: Any, theta_rad: Any, name: str = "drop") -> None:
-        self.name = str(name)
+        self.name: str = str(name)
+        self.time_s: NDArray[np.float64]
+        self.x_m: NDArray[np.float64]
+        self.z_m: NDArray[np.float64]
+        self.theta_rad: NDArray[np.float64]
         self.time_s, self.x_m, self.z_m, self.theta_rad = (
             _numbers(values) for values in (time_s, x_m, z_m, theta_rad)
         )
@@ -56,7 +61,7 @@ class Drop:
             raise ValueError("times of a drop must be finite and increase from frame to frame")
 
     @property
-    def columns(self) -> dict[str, np.ndarray]:
+    def columns(self) -> dict[str, NDArray[np.float64]]:
         """The columns by name."""
         names = ("time_s", "x_m", "z_m", "theta_rad")
         return {name: getattr(self, name) for name in names}
@@ -165,7 +170,7 @@ def _unit(units: dict[str | None, float | None], name: str | None) -> float | No
     return units[name]
 
 
-def _numbers(values: Any) -> np.ndarray:
+def _numbers(values: Any) -> NDArray[np.float64]:
     array = np.asarray(values)
     if array.dtype.kind not in "fiu" or array.ndim != 1:
         raise TypeError("a column of a drop must be a 1-D array of real numbers")

@@ -1,12 +1,14 @@
 """Fits of impact laws to drops."""
 
+import warnings
 from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from coinmc import _lib
-from coinmc._config import ConfigLike, as_config, plan_of
+from coinmc._config import Config, ConfigLike, as_config, plan_of
 from coinmc._launches import natural
 from coinmc.film._drop import Drop
 
@@ -153,11 +155,13 @@ class Fit:
 
     def __init__(self, fields: dict[str, Any]) -> None:
         self.law: str = fields["law"]
-        self.parameters = {row[0]: Parameter(*row) for row in fields["parameters"]}
+        self.parameters: dict[str, Parameter] = {
+            row[0]: Parameter(*row) for row in fields["parameters"]
+        }
         self.values: dict[str, float] = dict(fields["values"])
-        self.noise = [Noise(*row) for row in fields["noise"]]
-        self.drops = [FittedDrop(*row) for row in fields["drops"]]
-        self.residuals = _residuals(fields["residuals"])
+        self.noise: list[Noise] = [Noise(*row) for row in fields["noise"]]
+        self.drops: list[FittedDrop] = [FittedDrop(*row) for row in fields["drops"]]
+        self.residuals: NDArray[np.void] = _residuals(fields["residuals"])
         self.remarks: list[str] = fields["remarks"]
         self.n: int = fields["n"]
         self.fitted: int = fields["fitted"]
@@ -165,7 +169,7 @@ class Fit:
         self.aic: float = fields["aic"]
         self.bic: float = fields["bic"]
         self.confidence: float = fields["confidence"]
-        self.all = [self]
+        self.all: list[Fit] = [self]
         self._rank = Ranked(self.law, *(fields[name] for name in Ranked._fields[1:]))
 
     def compare(self) -> list[Ranked]:
@@ -264,11 +268,36 @@ def fit(
         (drop.name, drop.time_s, np.column_stack([drop.x_m, drop.z_m, drop.theta_rad]))
         for drop in drops
     ]
-    config = None if coin is None else plan_of(as_config(coin))
-    fits = [Fit(fields) for fields in _lib.fit_film(films, options, config)]
+    config = None if coin is None else as_config(coin)
+    if config is not None:
+        _warn_of_other_coins(config, given=(ratio, radius_m, gravity_m_s2))
+    plan = None if config is None else plan_of(config)
+    fits = [Fit(fields) for fields in _lib.fit_film(films, options, plan)]
     for fit_of_law in fits:
         fit_of_law.all = fits
     return fits[0]
+
+
+def _warn_of_other_coins(config: Config, given: Sequence[float | None]) -> None:
+    """Warn if the config is a sweep over coins: that of the film may not be the first."""
+    scenes = [config.scene(point) for point in range(len(config))]
+    swept = [
+        f"{name} = {first:g}"
+        for name, value, first in zip(
+            ("ratio", "radius_m", "gravity_m_s2"),
+            given,
+            (scenes[0].ratio, scenes[0].radius_m, scenes[0].gravity_m_s2),
+            strict=True,
+        )
+        if value is None and len({getattr(scene, name) for scene in scenes}) > 1
+    ]
+    if swept:
+        warnings.warn(
+            f"the config has several coins: this fit is for the first, {', '.join(swept)}; if "
+            "another was filmed, give it",
+            UserWarning,
+            stacklevel=3,
+        )
 
 
 def compare(fits: Iterable[Fit]) -> list[Ranked]:
@@ -280,7 +309,7 @@ def _number(value: float | None) -> float | None:
     return None if value is None else float(value)
 
 
-def _residuals(columns: dict[str, np.ndarray]) -> np.ndarray:
+def _residuals(columns: dict[str, NDArray[Any]]) -> NDArray[np.void]:
     residuals = np.empty(len(columns["time_s"]), RESIDUAL)
     for name in RESIDUAL.names:
         residuals[name] = _COORDINATES[columns[name]] if name == "coordinate" else columns[name]

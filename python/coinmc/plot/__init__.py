@@ -23,10 +23,10 @@ Needs matplotlib: ``pip install coinmc[plot]``.
 
 try:
     import matplotlib  # noqa: F401
-except ModuleNotFoundError as missing:
+except ModuleNotFoundError as _missing:
     raise ModuleNotFoundError(
         "coinmc.plot needs matplotlib: pip install 'coinmc[plot]'", name="matplotlib"
-    ) from missing
+    ) from _missing
 
 from coinmc.plot.accuracy import time_against_error
 from coinmc.plot.animation import animation

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from coinmc.plot.style import CYCLE, CYCLE_MARKERS, NEUTRAL, axes_for, axis_label
+from coinmc.plot.style import CYCLE_MARKERS, NEUTRAL, axes_for, axis_label, colours
 from coinmc.plot.table import columns, need
 
 __all__ = ["time_against_error"]
@@ -22,6 +22,8 @@ def time_against_error(
     low: str | None = None,
     high: str | None = None,
     slope: bool = True,
+    label: str | None = None,
+    color: Any = None,
     ax: Axes | None = None,
 ) -> Axes:
     """Plot error against run time, both logarithmic, with one curve per method.
@@ -42,6 +44,10 @@ def time_against_error(
     slope : bool
         Whether to draw the decrease of a statistical error, 1/sqrt(time), from the first point of
         the first curve.
+    label : str, optional
+        Name of the table in the legend, before that of each curve.
+    color : color, optional
+        Colour of all curves, instead of one for each.
     ax : Axes, optional
         Axes to draw into; a new figure if absent.
 
@@ -62,6 +68,7 @@ def time_against_error(
     low, high = low or f"{error}_lo", high or f"{error}_hi"
     ax = axes_for(ax)
     ax.set(xscale="log", yscale="log", xlabel=axis_label(time), ylabel=axis_label(error))
+    cycle = colours(ax).cycle
     groups = list(dict.fromkeys(held[by].tolist())) if by else [None]
     for number, group in enumerate(groups):
         rows = (held[time] > 0) & (held[error] > 0)
@@ -76,12 +83,12 @@ def time_against_error(
             work,
             value,
             yerr=np.maximum([value - ends[0], ends[1] - value], 0),
-            color=CYCLE[number % len(CYCLE)],
+            color=cycle[number % len(cycle)] if color is None else color,
             marker=CYCLE_MARKERS[number % len(CYCLE_MARKERS)],
             markersize=4,
             linewidth=1,
             capsize=2.5,
-            label=None if group is None else f"{group}",
+            label=", ".join(str(part) for part in (label, group) if part is not None) or None,
         )
     if ax.get_legend_handles_labels()[1]:
         ax.legend(fontsize="small", frameon=False)

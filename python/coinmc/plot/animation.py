@@ -13,12 +13,14 @@ from numpy.typing import NDArray
 
 from coinmc.plot.motion import Motion, motion_of
 from coinmc.plot.path import draw_coin
-from coinmc.plot.style import MODES, NEUTRAL, axes_for
+from coinmc.plot.style import NEUTRAL, axes_for, colours
 
 __all__ = ["animation"]
 
 # More frames take long to draw and make a file too large for a web page.
 _MAX_FRAMES = 2000
+# Half the width of a frame that follows the coin, in radii.
+_FOLLOWED = 6.0
 
 
 def animation(
@@ -29,6 +31,8 @@ def animation(
     fps: int = 25,
     dpi: float = 80,
     view: Literal["side", "top"] = "side",
+    follow: bool = False,
+    color: Any = None,
     overwrite: bool = False,
     ax: Axes | None = None,
 ) -> FuncAnimation:
@@ -49,6 +53,11 @@ def animation(
         Dots per inch.
     view : {"side", "top"}
         Direction of view.
+    follow : bool
+        Let the frame follow the coin, twelve radii wide, so that the coin is seen to turn.
+        Otherwise the frame holds the whole path.
+    color : color, optional
+        Colour of the path.
     overwrite : bool
         Replace an existing file.
     ax : Axes, optional
@@ -79,7 +88,7 @@ def animation(
     frames = _frames(motion, slow, fps)
     writer = None if path is None else _writer(Path(path), fps, overwrite)
     own, ax = ax is None, axes_for(ax, size=(4.8, 4.8))
-    film = _film(ax, motion, frames, view, fps)
+    film = _film(ax, motion, frames, view, fps, follow=follow, color=color)
     if own:
         # all frames share the layout: computing it for each takes longer than drawing
         ax.figure.draw_without_rendering()
@@ -120,13 +129,24 @@ def _writer(path: Path, fps: int, overwrite: bool) -> Any:
 
 
 def _film(
-    ax: Axes, motion: Motion, frames: NDArray[np.int64], view: str, fps: int
+    ax: Axes,
+    motion: Motion,
+    frames: NDArray[np.int64],
+    view: str,
+    fps: int,
+    *,
+    follow: bool,
+    color: Any,
 ) -> FuncAnimation:
     if view not in ("side", "top"):
         raise ValueError(f"unknown view {view!r}: use side or top")
     up = 2 if view == "side" else 1
     _limits(ax, motion, up)
-    (trail,) = ax.plot([], [], color=MODES["flight"], linewidth=1)
+    color = colours(ax).modes["flight"] if color is None else color
+    (trail,) = ax.plot([], [], color=color, linewidth=1)
+    if follow:
+        # the layout is that of the first frame
+        _follow(ax, motion, int(frames[0]), up)
     clock = ax.set_title(" ", fontsize="medium", loc="left")
     drawn: list[Any] = []
 
@@ -135,6 +155,8 @@ def _film(
             artist.remove()
         drawn[:] = draw_coin(ax, motion, at, view)
         trail.set_data(motion.position_m[: at + 1, 0], motion.position_m[: at + 1, up])
+        if follow:
+            _follow(ax, motion, at, up)
         hits = int((motion.impacts <= at).sum())
         state = (
             motion.outcome.replace("_", " ") if at == len(motion.time_s) - 1 else motion.mode[at]
@@ -148,6 +170,15 @@ def _film(
     )
 
 
+def _follow(ax: Axes, motion: Motion, at: int, up: int) -> None:
+    """Move the frame to the coin, but not far below the ground."""
+    half = _FOLLOWED * max(motion.radius_m, motion.height_m / 2)
+    x, y = motion.position_m[at, 0], motion.position_m[at, up]
+    if up == 2:
+        y = max(y, 0.8 * half)
+    ax.set(xlim=(x - half, x + half), ylim=(y - half, y + half))
+
+
 def _limits(ax: Axes, motion: Motion, up: int) -> None:
     """Set square limits that hold the coin throughout its motion."""
     reach = np.hypot(motion.radius_m, motion.height_m / 2)
@@ -156,6 +187,7 @@ def _limits(ax: Axes, motion: Motion, up: int) -> None:
     if up == 2:
         low[1] = min(low[1], -0.2 * reach)
         ax.axhline(0, color=NEUTRAL, linewidth=1)
+        ax.axhspan(-1e3, 0, color=NEUTRAL, alpha=0.25, linewidth=0, zorder=0)
     middle, half = (low + high) / 2, (high - low).max() / 2
     ax.set(
         xlim=(middle[0] - half, middle[0] + half),

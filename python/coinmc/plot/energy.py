@@ -10,13 +10,24 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from coinmc.plot.motion import Motion, motion_of
-from coinmc.plot.style import CYCLE, MODES, NEUTRAL, axes_for
+from coinmc.plot.style import NEUTRAL, axes_for, colours
 
 __all__ = ["energy"]
 
 
-def energy(trace: Any, *, barriers: bool = True, ax: Axes | None = None) -> Axes:
+def energy(
+    trace: Any,
+    *,
+    barriers: bool = True,
+    label: str | None = None,
+    color: Any = None,
+    ax: Axes | None = None,
+) -> Axes:
     """Plot energy per unit mass against time, with shaded modes and marked impacts.
+
+    The thick line is what can still tilt the coin: its height, its vertical motion and its turning
+    about a diameter. The thin line is all energy, with that of moving along the surface and of
+    turning about the coin's own axis, by those of a uniform cylinder.
 
     Parameters
     ----------
@@ -25,6 +36,10 @@ def energy(trace: Any, *, barriers: bool = True, ax: Axes | None = None) -> Axes
     barriers : bool
         Draw the energies of the coin at rest on a face, on its side, and balanced on its rim:
         once the energy is below the last of these, the face cannot change.
+    label : str, optional
+        Name of the toss in the legend.
+    color : color, optional
+        Colour of both lines.
     ax : Axes, optional
         Axes to draw into; a new figure if absent.
 
@@ -45,17 +60,24 @@ def energy(trace: Any, *, barriers: bool = True, ax: Axes | None = None) -> Axes
     'energy per mass, J/kg'
     """
     motion = motion_of(trace)
-    values = _energies(trace)
+    time, whole, tilting = _energies(trace, motion.radius_m)
     ax = axes_for(ax)
     ax.set(yscale="log", xlabel="time since launch, s", ylabel="energy per mass, J/kg")
-    key = [Line2D([], [], color=CYCLE[0], label="energy")]
-    ax.plot(values[0], values[1], color=CYCLE[0], linewidth=1.5)
+    palette = colours(ax)
+    color = palette.cycle[0] if color is None else color
+    name = f"{label}: " if label else ""
+    ax.plot(time, whole, color=color, linewidth=0.8, alpha=0.8)
+    ax.plot(time, tilting, color=color, linewidth=1.8)
+    key = [
+        Line2D([], [], color=color, linewidth=1.8, label=f"{name}can tilt the coin"),
+        Line2D([], [], color=color, linewidth=0.8, label=f"{name}all energy"),
+    ]
     shaded = dict.fromkeys(mode for mode, _ in motion.phases() if mode in ("sticking", "sliding"))
     for mode, phase in motion.phases():
         if mode in shaded:
             begin, end = motion.time_s[phase][[0, -1]]
-            ax.axvspan(begin, end, color=MODES[mode], alpha=0.3, linewidth=0)
-    key += [Patch(color=MODES[mode], alpha=0.3, label=mode) for mode in shaded]
+            ax.axvspan(begin, end, color=palette.modes[mode], alpha=0.3, linewidth=0)
+    key += [Patch(color=palette.modes[mode], alpha=0.3, label=mode) for mode in shaded]
     if len(motion.impacts):
         times = motion.time_s[motion.impacts]
         # along the lower edge on any scale
@@ -64,17 +86,26 @@ def energy(trace: Any, *, barriers: bool = True, ax: Axes | None = None) -> Axes
         key.append(Line2D([], [], color=NEUTRAL, marker="^", linestyle="none", label="impact"))
     if barriers:
         _barriers(ax, motion, trace.scene["gravity_m_s2"])
+    before = ax.get_legend()
+    if before and label:
+        key = [*before.legend_handles[:1], *key]
     ax.legend(handles=key, fontsize="small", frameon=False, loc="upper right")
     return ax
 
 
-def _energies(trace: Any) -> tuple[Any, Any]:
-    """Return times and energies of samples and events in order of time."""
-    time = np.concatenate([trace.samples["time_s"], trace.events["time_s"]])
-    value = np.concatenate([trace.samples["energy_j_kg"], trace.events["energy_j_kg"]])
+def _energies(trace: Any, radius_m: float) -> tuple[Any, Any, Any]:
+    """Return times, energies, and what of them can tilt, of all records in order of time."""
+
+    def both(name: str) -> Any:
+        return np.concatenate([trace.samples[name], trace.events[name]])
+
+    time, whole = both("time_s"), both("energy_j_kg")
+    along = (both("velocity_m_s")[:, :2] ** 2).sum(axis=1)
+    axial = (both("spin_rad_s") * both("axis")).sum(axis=1)
+    tilting = whole - along / 2 - (radius_m * axial) ** 2 / 4
     # records at one instant are ordered by decreasing energy: impacts only dissipate
-    order = np.lexsort((-value, time))
-    return time[order], value[order]
+    order = np.lexsort((-whole, time))
+    return time[order], whole[order], tilting[order]
 
 
 def _barriers(ax: Axes, motion: Motion, gravity_m_s2: float) -> None:
@@ -82,9 +113,9 @@ def _barriers(ax: Axes, motion: Motion, gravity_m_s2: float) -> None:
     rim = np.hypot(radius, half)
     # the level of the rim is the highest: its name goes above the line, the others go below
     for name, height, place in (
-        ("on its rim", rim, (3, 2)),
-        ("on its side", radius, (3, -11)),
-        ("on a face", half, (80, -11)),
+        ("balanced on its rim", rim, (3, 2)),
+        ("at rest on its side", radius, (3, -11)),
+        ("at rest on a face", half, (3, -11) if half < 0.8 * radius else (120, -11)),
     ):
         level = gravity_m_s2 * height
         ax.axhline(level, color=NEUTRAL, linewidth=0.8, linestyle=":", zorder=0)

@@ -12,12 +12,13 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 from numpy.typing import NDArray
 
-from coinmc.plot.style import NEUTRAL, axes_for, axis_label, face_list
+from coinmc.plot.style import NEUTRAL, axes_for, axis_label, face_list, scene_text
 from coinmc.plot.table import columns, need, parameters, select
 
 __all__ = ["heat"]
 
 _SETTINGS = ("", "_lo", "_hi")
+_SMALL: dict[str, Any] = {"fontsize": "small", "color": NEUTRAL}
 
 
 def heat(
@@ -29,6 +30,8 @@ def heat(
     where: Mapping[str, Any] | None = None,
     target: float = 1 / 3,
     bar: bool = True,
+    label: str | None = None,
+    color: Any = "white",
     ax: Axes | None = None,
 ) -> Axes:
     """Map a probability over two parameters, with its contour at a target.
@@ -50,7 +53,12 @@ def heat(
     target : float
         The probability whose contour is drawn.
     bar : bool
-        Whether to draw a colour bar.
+        Whether to draw a colour bar. Its label says the widest interval of the map: what differs by
+        less is noise.
+    label : str, optional
+        Name of the contour in the legend; by default the probability.
+    color : color
+        Colour of the contour and of the hatches.
     ax : Axes, optional
         Axes to draw into; a new figure if absent.
 
@@ -80,17 +88,23 @@ def heat(
     ax = axes_for(ax)
     mesh = ax.pcolormesh(_edges(xs), _edges(ys), p, cmap="cividis", rasterized=True)
     name = "1/3" if abs(target - 1 / 3) < 1e-9 else f"{target:g}"
-    key = _hatch(ax, _edges(xs), _edges(ys), (low <= target) & (target <= high), name)
+    key = _hatch(ax, _edges(xs), _edges(ys), (low <= target) & (target <= high), name, color)
     if min(p.shape) > 1 and np.nanmin(p) < target < np.nanmax(p):
-        ax.contour(xs, ys, p, levels=[target], colors="white", linewidths=2.2)
+        ax.contour(xs, ys, p, levels=[target], colors=[color], linewidths=2.2)
         # white on the map, grey in the legend, which has no map behind it
-        key.append(Line2D([], [], color=NEUTRAL, linewidth=2.2, label=f"P({face}) = {name}"))
+        in_key = {"color": NEUTRAL if color == "white" else color, "linewidth": 2.2}
+        key.append(Line2D([], [], label=label or f"P({face}) = {name}", **in_key))
     ax.set(xlabel=axis_label(x), ylabel=axis_label(y))
     if key:
         place = {"loc": "lower left", "bbox_to_anchor": (0, 1), "ncols": 2}
         ax.legend(handles=key, frameon=False, fontsize="small", **place)
     if bar:
-        ax.figure.colorbar(mesh, ax=ax, label=f"P({face})")
+        reach = np.nanmax(np.maximum(high - p, p - low))
+        within = f", within ± {reach:.1g}" if reach > 0 else ""
+        ax.figure.colorbar(mesh, ax=ax, label=f"P({face}){within}")
+    scene = scene_text({key: column for key, column in table.items() if key not in (x, y)})
+    if scene:
+        ax.text(1, -0.16, scene, transform=ax.transAxes, ha="right", va="top", **_SMALL)
     return ax
 
 
@@ -135,6 +149,7 @@ def _hatch(
     ys: NDArray[np.float64],
     cells: NDArray[np.bool_],
     name: str,
+    color: Any,
 ) -> list[Any]:
     """Hatch cells and return their entries of the legend."""
     if not cells.any():
@@ -143,6 +158,7 @@ def _hatch(
         Rectangle((xs[i], ys[j]), xs[i + 1] - xs[i], ys[j + 1] - ys[j])
         for j, i in np.argwhere(cells)
     ]
-    look = {"facecolor": "none", "edgecolor": "white", "linewidth": 0, "hatch": "////"}
+    look = {"facecolor": "none", "edgecolor": color, "linewidth": 0, "hatch": "////"}
     ax.add_collection(PatchCollection(rectangles, **look))
-    return [Patch(**{**look, "edgecolor": NEUTRAL}, label=f"interval holds {name}")]
+    seen = NEUTRAL if color == "white" else color
+    return [Patch(**{**look, "edgecolor": seen}, label=f"interval holds {name}")]

@@ -9,11 +9,12 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
 from matplotlib.ticker import MaxNLocator
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from numpy.typing import NDArray
 
 from coinmc.plot.motion import Motion, motion_of
 from coinmc.plot.outline import hull, rims
-from coinmc.plot.style import FACES, MODES, NEUTRAL, axes_for
+from coinmc.plot.style import NEUTRAL, Palette, axes_for, colours
 
 __all__ = ["View", "path"]
 
@@ -29,13 +30,15 @@ def path(
     view: View | None = None,
     coins: int = 16,
     times: tuple[float, float] | None = None,
+    label: str | None = None,
+    color: Any = None,
     ax: Axes | None = None,
 ) -> Axes:
     """Draw the trajectory, with the coin at regular times, its impacts and its modes.
 
     The line is the path of the centre, coloured by mode: flight, sticking, sliding. The rim of
-    heads is blue, that of tails orange. Triangles mark the contact points of impacts, larger for
-    harder impacts.
+    heads has the colour of heads, that of tails that of tails. Triangles mark the contact points of
+    impacts, larger for harder impacts. The coin is drawn to scale.
 
     Parameters
     ----------
@@ -48,6 +51,10 @@ def path(
         Number of positions of the coin to draw, evenly spaced in time from first to last.
     times : tuple of float, optional
         Draw only this interval of time, s since launch.
+    label : str, optional
+        Name of the toss in the legend.
+    color : color, optional
+        Colour of the line, instead of one for each mode.
     ax : Axes, optional
         Axes to draw into, 3-D axes for the view in space; a new figure if absent.
 
@@ -71,14 +78,51 @@ def path(
         raise ValueError(f"unknown view {view!r}: use side, top or space")
     if coins < 0:
         raise ValueError(f"coins must not be negative, found {coins}")
-    ax = axes_for(ax, space=view == "space", size=(6.0, 5.0))
+    own = ax is None
+    ax = axes_for(ax, space=view == "space", size=_size(motion, view))
+    palette = colours(ax)
+    if color is not None:
+        palette.modes = dict.fromkeys(palette.modes, color)
     if view == "space":
-        _in_space(ax, motion, coins)
+        _in_space(ax, motion, coins, palette)
     else:
-        _in_plane(ax, motion, view, coins)
-    place = "upper left" if view == "space" else "best"
-    ax.legend(handles=_key(motion), fontsize="small", frameon=False, loc=place)
+        _in_plane(ax, motion, view, coins, palette)
+    key = _key(motion, palette, label, one=color is not None)
+    if view == "space":
+        ax.legend(handles=key, fontsize="small", frameon=False, loc="upper left", ncols=2)
+    elif own:
+        # beside the path, which fills its frame
+        place = {"loc": "upper left", "bbox_to_anchor": (1, 1)}
+        ax.legend(handles=key, fontsize="small", frameon=False, **place)
+    else:
+        # above: the path fills its frame
+        place = {"loc": "lower left", "bbox_to_anchor": (0, 1), "ncols": 3}
+        ax.legend(handles=key, fontsize="small", frameon=False, **place)
     return ax
+
+
+def _size(motion: Motion, view: str) -> tuple[float, float]:
+    """Return a size of a figure in whose frame the path fits at equal scales, inches."""
+    if view == "space":
+        return (7.2, 5.4)
+    across, up = _PLANES[view][0]
+    low, high = _limits(motion, across, up)
+    wide, tall = high - low
+    # room for labels and the legend beside the frame
+    return (4.4 * np.clip(wide / tall, 0.4, 2.0) + 2.4, 4.4 * np.clip(tall / wide, 0.4, 1.0) + 0.7)
+
+
+def _limits(
+    motion: Motion, across: int, up: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the lowest and highest coordinates that the coin reaches, with a margin."""
+    reach = 1.15 * np.hypot(motion.radius_m, motion.height_m / 2)
+    way = motion.position_m[:, [across, up]]
+    low, high = way.min(axis=0) - reach, way.max(axis=0) + reach
+    if up == 2:
+        # nothing is below the ground
+        low[1] = max(low[1], -0.35 * motion.radius_m)
+    return low, high
 
 
 def strobe(motion: Motion, coins: int) -> NDArray[np.int64]:
@@ -97,53 +141,79 @@ def draw_coin(ax: Axes, motion: Motion, at: int, view: str, alpha: float = 1.0) 
     body = Polygon(
         hull(np.concatenate(flat)), facecolor=NEUTRAL, edgecolor=NEUTRAL, alpha=0.35 * alpha
     )
+    palette = colours(ax)
     artists: list[Any] = [ax.add_patch(body)]
     # a face turned away is hidden; a face on edge is a line
     facing = motion.axis[at] @ towards
     for ring, face, visible in zip(flat, ("heads", "tails"), (facing, -facing), strict=True):
         if visible > -1e-9:
-            rim = Polygon(ring, fill=False, edgecolor=FACES[face], linewidth=1.4, alpha=alpha)
+            look = {"edgecolor": palette.faces[face], "linewidth": 1.6, "alpha": alpha}
+            rim = Polygon(ring, fill=False, **look)
             artists.append(ax.add_patch(rim))
     return artists
 
 
-def _in_plane(ax: Axes, motion: Motion, view: str, coins: int) -> None:
+def _in_plane(ax: Axes, motion: Motion, view: str, coins: int, palette: Palette) -> None:
     across, up = _PLANES[view][0]
     drawn = strobe(motion, coins)
     for at, alpha in zip(drawn, np.linspace(0.4, 1, len(drawn)), strict=True):
         draw_coin(ax, motion, int(at), view, float(alpha))
     for mode, phase in motion.phases():
         line = motion.position_m[phase]
-        ax.plot(line[:, across], line[:, up], color=MODES[mode], linewidth=1.3)
+        ax.plot(line[:, across], line[:, up], color=palette.modes[mode], linewidth=1.3)
     hits = motion.feet_m()[motion.impacts]
     ax.scatter(hits[:, across], hits[:, up], s=_sizes(motion), c=NEUTRAL, marker="^", zorder=3)
+    low, high = _limits(motion, across, up)
     if view == "side":
         ax.axhline(0, color=NEUTRAL, linewidth=1, zorder=0)
+        ax.axhspan(low[1], 0, color=NEUTRAL, alpha=0.25, linewidth=0, zorder=0)
     ax.set(xlabel="x, m", ylabel="z, m" if view == "side" else "y, m")
-    # equal scales keep the coin round; the limits follow from the shape of the frame
-    ax.set_aspect("equal", adjustable="datalim")
+    ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
+    # equal scales keep the coin round; the shape of the frame follows from the path
+    ax.set_aspect("equal", adjustable="box", anchor="S")
+    wide, tall = high - low
+    ax.xaxis.set_major_locator(MaxNLocator(int(np.clip(6 * wide / tall, 2, 6))))
+    ax.yaxis.set_major_locator(MaxNLocator(int(np.clip(6 * tall / wide, 2, 6))))
 
 
-def _in_space(ax: Any, motion: Motion, coins: int) -> None:
+def _in_space(ax: Any, motion: Motion, coins: int, palette: Palette) -> None:
+    # as from far away: what is as large is drawn as large
+    ax.set_proj_type("ortho")
     drawn = strobe(motion, coins)
-    for at, alpha in zip(drawn, np.linspace(0.4, 1, len(drawn)), strict=True):
-        rings = rims(motion.position_m[at], motion.axis[at], motion.radius_m, motion.height_m)
-        for ring, face in zip(rings, ("heads", "tails"), strict=True):
-            closed = np.concatenate([ring, ring[:1]])
-            ax.plot(*closed.T, color=FACES[face], linewidth=1.1, alpha=alpha)
+    for at, alpha in zip(drawn, np.linspace(0.45, 1, len(drawn)), strict=True):
+        _solid(ax, motion, int(at), palette, float(alpha))
     for mode, phase in motion.phases():
-        ax.plot(*motion.position_m[phase].T, color=MODES[mode], linewidth=1.3)
+        ax.plot(*motion.position_m[phase].T, color=palette.modes[mode], linewidth=1.5)
     hits = motion.feet_m()[motion.impacts]
     ax.scatter(*hits.T, s=_sizes(motion), c=NEUTRAL, marker="^", depthshade=False)
-    ax.set_xlabel("x, m", labelpad=8)
-    ax.set_ylabel("y, m", labelpad=8)
-    ax.set_zlabel("z, m")
-    # the same scale along all axes, and room for the labels
-    spans = [high - low for low, high in (ax.get_xlim3d(), ax.get_ylim3d(), ax.get_zlim3d())]
-    ax.set_box_aspect(spans, zoom=0.85)
-    # few ticks: a toss is often much longer than wide
-    for axis in (ax.xaxis, ax.yaxis):
-        axis.set_major_locator(MaxNLocator(3))
+    low = motion.position_m.min(axis=0) - motion.radius_m
+    high = motion.position_m.max(axis=0) + motion.radius_m
+    low[2] = min(low[2], 0.0)
+    ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
+    # the same scale along all axes
+    ax.set_box_aspect(high - low, zoom=1.0)
+    # few ticks, and their labels clear of those of the axes: a toss is often longer than wide
+    longest = (high - low).max()
+    for axis, name, span in zip((ax.xaxis, ax.yaxis, ax.zaxis), "xyz", high - low, strict=True):
+        axis.set_major_locator(MaxNLocator(max(2, round(5 * span / longest))))
+        axis.set_tick_params(labelsize="small", pad=0)
+        axis.set_label_text(f"{name}, m")
+        axis.labelpad = 6
+        axis.pane.set_visible(name == "z")
+        axis.pane.set_alpha(0.3)
+    ax.grid(False)
+
+
+def _solid(ax: Any, motion: Motion, at: int, palette: Palette, alpha: float) -> None:
+    """Draw the coin in space: both faces in their colours, and its side."""
+    rings = rims(motion.position_m[at], motion.axis[at], motion.radius_m, motion.height_m)
+    heads, tails = rings
+    after = np.roll(np.arange(len(heads)), -1)
+    side = np.stack([heads, tails, tails[after], heads[after]], axis=1)
+    ax.add_collection3d(Poly3DCollection(side, facecolor=NEUTRAL, alpha=0.3 * alpha, linewidth=0))
+    for ring, face in zip(rings, ("heads", "tails"), strict=True):
+        look = {"facecolor": palette.faces[face], "edgecolor": palette.faces[face]}
+        ax.add_collection3d(Poly3DCollection([ring], alpha=0.7 * alpha, linewidth=0.8, **look))
 
 
 def _sizes(motion: Motion) -> NDArray[np.float64]:
@@ -162,16 +232,22 @@ def _approach_m_s(motion: Motion) -> NDArray[np.float64]:
     return np.maximum(-velocity[:, 2], 0.0)
 
 
-def _key(motion: Motion) -> list[Line2D]:
-    """Make the legend of what occurs in the motion."""
+def _key(motion: Motion, palette: Palette, label: str | None, *, one: bool) -> list[Line2D]:
+    """Make the legend of what occurs in the motion; `one` line for all modes."""
     occurring = dict.fromkeys(mode for mode, _ in motion.phases())
-    key = [Line2D([], [], color=MODES[mode], label=mode) for mode in occurring]
+    key = [Line2D([], [], linestyle="none", label=label)] if label else []
+    if one:
+        color = palette.modes["flight"]
+        key = [Line2D([], [], color=color, label=label or "centre")]
+    else:
+        key += [Line2D([], [], color=palette.modes[mode], label=mode) for mode in occurring]
     count = len(motion.impacts)
     if count:
-        label = f"{count} impact{'s' if count > 1 else ''}"
-        key.append(Line2D([], [], color=NEUTRAL, marker="^", linestyle="none", label=label))
+        name = f"{count} impact{'s' if count > 1 else ''}"
+        key.append(Line2D([], [], color=NEUTRAL, marker="^", linestyle="none", label=name))
     key += [
-        Line2D([], [], color=FACES[face], label=f"rim of {face}") for face in ("heads", "tails")
+        Line2D([], [], color=palette.faces[face], linewidth=3, label=face)
+        for face in ("heads", "tails")
     ]
     key.append(Line2D([], [], linestyle="none", label=f"ends: {motion.outcome.replace('_', ' ')}"))
     return key

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable, Mapping
-from itertools import cycle
 from typing import Any
 
 import numpy as np
@@ -14,14 +14,15 @@ from coinmc import _lib, analytic
 from coinmc._intervals import wilson
 from coinmc.plot import published as others
 from coinmc.plot.style import (
-    CYCLE,
     CYCLE_MARKERS,
     FACE_MARKERS,
-    FACES,
     NEUTRAL,
+    Palette,
     axes_for,
     axis_label,
+    colours,
     face_list,
+    scene_text,
 )
 from coinmc.plot.table import columns, need, parameters, select
 
@@ -46,6 +47,8 @@ def probability(
     where: Mapping[str, Any] | None = None,
     closed_forms: bool | Iterable[str] = True,
     published: bool = True,
+    label: str | None = None,
+    color: Any = None,
     ax: Axes | None = None,
 ) -> Axes:
     """Plot the probability of faces with their intervals against a parameter.
@@ -68,6 +71,10 @@ def probability(
     published : bool
         Show published values: fair ratios with their errors and, for results of the same scene, the
         counts of table 1 of arXiv 2401.03557. Drawn only against the ratio.
+    label : str, optional
+        Name of the result in the legend, before what distinguishes its curves.
+    color : color, optional
+        Colour of all curves, instead of one for each.
     ax : Axes, optional
         Axes to draw into; a new figure if absent.
 
@@ -95,17 +102,42 @@ def probability(
     curves = _curves(table, x)
     for number, (name, curve) in enumerate(curves):
         for face in shown:
-            _curve(ax, curve, x, face, _style(number, face, len(shown)), _label(name, face, shown))
+            style = _style(number, face, len(shown), colours(ax))
+            if color is not None:
+                style["color"] = color
+            named = ", ".join(part for part in (label, _label(name, face, shown)) if part)
+            _curve(ax, curve, x, face, style, named)
     span = (np.nanmin(table[x]), np.nanmax(table[x]))
     if x == "ratio":
         _closed_forms(ax, _rules(closed_forms, table), span, shown)
         if published:
             _published(ax, table, span, shown)
-    ax.axhline(1 / 3, color=NEUTRAL, linewidth=0.8, zorder=0)
+    _third(ax)
     ax.set(xlabel=axis_label(x), ylabel=_y_label(table, shown), ylim=(0, None))
+    if not ax.get_title(loc="left"):
+        ax.set_title(scene_text(table), loc="left", fontsize="small", color=NEUTRAL)
     if ax.get_legend_handles_labels()[1]:
         ax.legend(fontsize="small", frameon=False)
     return ax
+
+
+def _third(ax: Axes) -> None:
+    """Draw and name the line of a fair three-sided coin, once."""
+    name = "1/3"
+    if any(text.get_text() == name for text in ax.texts):
+        return
+    ax.axhline(1 / 3, color=NEUTRAL, linewidth=0.8, zorder=0)
+    ax.annotate(
+        name,
+        (1, 1 / 3),
+        xycoords=ax.get_yaxis_transform(),
+        xytext=(3, 0),
+        textcoords="offset points",
+        va="center",
+        fontsize="small",
+        color=NEUTRAL,
+        annotation_clip=False,
+    )
 
 
 def _curves(table: Table, x: str) -> list[tuple[str, Table]]:
@@ -150,14 +182,15 @@ def _label(name: str, face: str, shown: list[str]) -> str:
     return ", ".join(parts + ([name] if name else []))
 
 
-def _style(number: int, face: str, faces: int) -> dict[str, Any]:
+def _style(number: int, face: str, faces: int, palette: Palette) -> dict[str, Any]:
     """Style a curve: colours by face if there are several faces, else colours by curve."""
     if faces > 1:
         line = _LINES[number % len(_LINES)]
-        return {"color": FACES[face], "marker": FACE_MARKERS[face], "linestyle": line}
-    line = _LINES[number // len(CYCLE) % len(_LINES)]
-    at = number % len(CYCLE)
-    return {"color": CYCLE[at], "marker": CYCLE_MARKERS[at], "linestyle": line}
+        return {"color": palette.faces[face], "marker": FACE_MARKERS[face], "linestyle": line}
+    cycle = palette.cycle
+    line = _LINES[number // len(cycle) % len(_LINES)]
+    at = number % len(cycle)
+    return {"color": cycle[at], "marker": CYCLE_MARKERS[at], "linestyle": line}
 
 
 def _curve(ax: Axes, curve: Table, x: str, face: str, style: dict[str, Any], label: str) -> None:
@@ -167,10 +200,10 @@ def _curve(ax: Axes, curve: Table, x: str, face: str, style: dict[str, Any], lab
         p,
         # a closed form has no interval; rounding must not make a bar negative
         yerr=np.nan_to_num(np.maximum([p - low, high - p], 0)),
-        markersize=4,
+        markersize=3.5,
         linewidth=1,
-        elinewidth=1.2,
-        capsize=2.5,
+        elinewidth=1,
+        capsize=2,
         label=label or None,
         **style,
     )
@@ -191,7 +224,7 @@ def _rules(wanted: bool | Iterable[str], table: Table) -> list[str]:
 
 def _closed_forms(ax: Axes, rules: list[str], span: tuple[float, float], shown: list[str]) -> None:
     ratio = np.linspace(*span, 200)
-    for rule, line in zip(rules, cycle([":", "--", "-.", "-"])):
+    for rule, line in zip(rules, itertools.cycle([":", "--", "-.", "-"])):
         p = analytic.rule(rule, ratio)
         for face in shown:
             label = f"{rule} rule, no bounce" if rule in _NO_BOUNCE else f"{rule} rule"

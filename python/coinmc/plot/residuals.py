@@ -8,14 +8,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from coinmc.plot.style import CYCLE, CYCLE_MARKERS, NEUTRAL, axes_for
+from coinmc.plot.style import CYCLE_MARKERS, NEUTRAL, axes_for, colours
 from coinmc.plot.table import columns, need, select
 
 __all__ = ["residuals"]
 
-# Name, colour and marker of each coordinate, the same in every plot.
+# Name, and number of colour and marker, of each coordinate, the same in every plot.
 _COORDINATES = {
-    coordinate: (name, CYCLE[number], CYCLE_MARKERS[number])
+    coordinate: (name, number)
     for number, (coordinate, name) in enumerate({"x_m": "x", "z_m": "z", "theta_rad": "θ"}.items())
 }
 
@@ -26,6 +26,8 @@ def residuals(
     coordinate: str | None = None,
     law: str | None = None,
     reach: float = 5.0,
+    label: str | None = None,
+    color: Any = None,
     ax: Axes | None = None,
 ) -> Axes:
     """Plot residuals of a film fit in standard deviations against time.
@@ -45,6 +47,10 @@ def residuals(
         The law to plot, if the table has several; the first if absent.
     reach : float
         Limit of the vertical axis, standard deviations. Residuals beyond it are drawn at the edge.
+    label : str, optional
+        Name of the fit, before that of the coordinate in the legend.
+    color : color, optional
+        Colour of all coordinates, instead of one for each; their markers still differ.
     ax : Axes, optional
         Axes to draw into; a new figure if absent.
 
@@ -69,19 +75,24 @@ def residuals(
     time, coordinates, values, drop = need(table, names)
     time = _since_first_frame(time, drop)
     ax = axes_for(ax)
+    cycle = colours(ax).cycle
     ax.axhspan(-2, 2, color=NEUTRAL, alpha=0.15, linewidth=0, zorder=0)
     ax.axhline(0, color=NEUTRAL, linewidth=0.8, zorder=0)
     for held in dict.fromkeys(coordinates.tolist()):
         rows = coordinates == held
-        name, colour, marker = _COORDINATES.get(held, (held, CYCLE[-1], CYCLE_MARKERS[-1]))
+        name, number = _COORDINATES.get(held, (held, len(cycle) - 1))
         beyond = np.abs(values[rows]) > reach
         ax.plot(
             time[rows],
             values[rows].clip(-reach, reach),
-            marker,
-            color=colour,
+            CYCLE_MARKERS[number],
+            color=cycle[number] if color is None else color,
             markersize=3.5,
-            label=name + (f" ({beyond.sum()} beyond ± {reach:g})" if beyond.any() else ""),
+            markeredgewidth=0,
+            alpha=0.85,
+            label=(f"{label}, " if label else "")
+            + name
+            + (f" ({beyond.sum()} beyond ± {reach:g})" if beyond.any() else ""),
         )
     _impacts(ax, fit)
     ax.set(

@@ -7,13 +7,20 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from coinmc.plot.style import FACES, NEUTRAL, axes_for, face_list
+from coinmc.plot.style import NEUTRAL, axes_for, colours, face_list
 from coinmc.plot.table import columns, need
 
 __all__ = ["sensitivity"]
 
 
-def sensitivity(table: Any, face: str = "side", *, ax: Axes | None = None) -> Axes:
+def sensitivity(
+    table: Any,
+    face: str = "side",
+    *,
+    label: str | None = None,
+    color: Any = None,
+    ax: Axes | None = None,
+) -> Axes:
     """Plot how much P(face) changes with each parameter, with intervals, largest first.
 
     Parameters
@@ -23,6 +30,10 @@ def sensitivity(table: Any, face: str = "side", *, ax: Axes | None = None) -> Ax
         ``d_p_<face>``, ``d_p_<face>_lo`` and ``d_p_<face>_hi``.
     face : str
         ``heads``, ``tails`` or ``side``.
+    label : str, optional
+        Name of the bars in the legend, which is drawn if there is one.
+    color : color, optional
+        Colour of the bars; by default that of the face.
     ax : Axes, optional
         Axes to draw into; a new figure if absent.
 
@@ -56,7 +67,8 @@ def sensitivity(table: Any, face: str = "side", *, ax: Axes | None = None) -> Ax
         np.arange(len(value)),
         value,
         xerr=np.maximum([value - low, high - value], 0),
-        color=FACES[face],
+        color=colours(ax).faces[face] if color is None else color,
+        label=label,
         ecolor=NEUTRAL,
         height=0.6,
         capsize=3,
@@ -64,4 +76,6 @@ def sensitivity(table: Any, face: str = "side", *, ax: Axes | None = None) -> Ax
     ax.axvline(0, color=NEUTRAL, linewidth=0.8)
     ax.set_yticks(np.arange(len(value)), [str(name) for name in parameter[order]])
     ax.set_xlabel(f"dP({face})/d ln(parameter)")
+    if label:
+        ax.legend(fontsize="small", frameon=False)
     return ax

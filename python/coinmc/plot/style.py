@@ -1,8 +1,9 @@
 """Colours, markers and labels of all plots, and the axes that a plot is drawn into.
 
-The colours are those of Okabe & Ito, which colour-blind readers can distinguish and which suit
-light and dark backgrounds. Faces also differ by marker. Everything but data and text is mid-grey;
-text and frames follow matplotlib's settings, so that dark styles work.
+The colours are those of Paul Tol's schemes *high contrast* and *medium contrast*: colour-blind
+readers can distinguish them, and so can a print in grey, since they differ in lightness. On a dark
+background their light partners take their place, which `colours` chooses. Faces also differ by
+marker. Everything but data and text is mid-grey; text and frames follow matplotlib's settings.
 """
 
 from __future__ import annotations
@@ -10,7 +11,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import to_rgb
+from numpy.typing import NDArray
 
 __all__ = [
     "CYCLE",
@@ -20,12 +24,15 @@ __all__ = [
     "MODES",
     "NEUTRAL",
     "UNDECIDED",
+    "Palette",
     "axis_label",
+    "colours",
     "face_list",
+    "scene_text",
 ]
 
 #: Colour of each face, in the order of every table.
-FACES = {"heads": "#0072B2", "tails": "#D55E00", "side": "#009E73"}
+FACES = {"heads": "#004488", "tails": "#DDAA33", "side": "#BB5566"}
 #: Marker of each face, to distinguish faces without colour.
 FACE_MARKERS = {"heads": "o", "tails": "s", "side": "^"}
 #: Colour of tosses without a face.
@@ -33,13 +40,116 @@ UNDECIDED = "#BBBBBB"
 #: Colour of tosses that left the table.
 LEFT = "#CC79A7"
 #: Colour of each mode of motion.
-MODES = {"flight": "#56B4E9", "sticking": "#009E73", "sliding": "#E69F00", "ended": "#999999"}
+MODES = {"flight": "#6699CC", "sticking": "#997700", "sliding": "#EE99AA", "ended": "#999999"}
 #: Reference lines, bands, the ground: readable on white and on black.
 NEUTRAL = "#808080"
 #: Colours of curves that do not stand for a face.
-CYCLE = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#999999"]
+CYCLE = ["#004488", "#BB5566", "#DDAA33", "#6699CC", "#994455", "#997700", "#999999"]
 #: Markers of curves that do not stand for a face.
 CYCLE_MARKERS = ["o", "s", "^", "D", "v", "P", "X"]
+
+# The same on dark backgrounds.
+_LIGHT = {
+    "#004488": "#6699CC",
+    "#DDAA33": "#EECC66",
+    "#BB5566": "#EE99AA",
+    "#994455": "#EE7788",
+    "#997700": "#CCBB44",
+}
+
+
+class Palette:
+    """The colours on the background of some axes. Made by `colours`.
+
+    Attributes
+    ----------
+    faces, modes : dict of str to str
+        Colour of each face, of each mode of motion.
+    cycle : list of str
+        Colours of curves that do not stand for a face.
+    dark : bool
+        Whether the background is dark.
+    """
+
+    def __init__(self, dark: bool) -> None:
+        def on(colour: str) -> str:
+            return _LIGHT.get(colour, colour) if dark else colour
+
+        self.dark: bool = dark
+        self.faces: dict[str, str] = {face: on(colour) for face, colour in FACES.items()}
+        self.modes: dict[str, str] = {mode: on(colour) for mode, colour in MODES.items()}
+        self.cycle: list[str] = [on(colour) for colour in CYCLE]
+
+
+def colours(ax: Any) -> Palette:
+    """Return the colours that are seen on the background of axes.
+
+    Parameters
+    ----------
+    ax : Axes
+        The axes. If they are transparent, their figure is what is behind them.
+
+    Returns
+    -------
+    Palette
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from coinmc.plot.style import colours
+    >>> ax = Figure(facecolor="black").add_subplot(facecolor="black")
+    >>> colours(ax).faces["heads"]
+    '#6699CC'
+    """
+    behind = ax.get_facecolor()
+    if behind[3] < 0.5:
+        behind = ax.figure.get_facecolor()
+    # the share of each primary in the luminance (Rec. 709), of the display's values as they are
+    luminance = float(np.dot(to_rgb(behind), (0.2126, 0.7152, 0.0722)))
+    return Palette(dark=luminance < 0.4)
+
+
+def scene_text(table: dict[str, NDArray[Any]]) -> str:
+    """Return in a line what is the same in all rows of a result: coin, surface, engine, tosses.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from coinmc.plot.style import scene_text
+    >>> scene_text({"ratio": np.array([1.0, 2.0]), "radius_m": np.full(2, 0.01),
+    ...             "restitution": np.full(2, 0.5), "engine": np.full(2, "flat")})
+    'R = 10 mm, e = 0.5, flat'
+    """
+
+    def only(name: str) -> Any:
+        values = np.unique(table[name]) if name in table else ()
+        return values[0] if len(values) == 1 else None
+
+    parts = []
+    for name, symbol, scale, unit in _SCENE:
+        value = only(name)
+        if value is not None and value == value and (value != 0 or name in _SHOWN_AT_0):
+            parts.append(f"{symbol} = {value * scale:.4g}{unit}")
+    how = [only(name) for name in ("engine", "law")]
+    if any(how):
+        parts.append(" ".join(name for name in how if name))
+    tosses = only("tosses")
+    if tosses:
+        parts.append(f"{tosses:,} tosses a point".replace(",", "\u202f"))
+    return ", ".join(parts)
+
+
+# Columns that make a scene: symbol, factor, unit.
+_SCENE = (
+    ("ratio", "H/R", 1, ""),
+    ("radius_m", "R", 1e3, " mm"),
+    ("restitution", "e", 1, ""),
+    ("friction", "μ", 1, ""),
+    ("rolling_friction_m", "ρ_c", 1e3, " mm"),
+    ("roughness_slope", "slope", 1, ""),
+    ("linear_drag_per_s", "drag", 1, "/s"),
+)
+_SHOWN_AT_0 = ("restitution", "friction")
 
 # Longest first: the first suffix that matches gives the unit.
 _UNITS = {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Mapping
 from typing import Any
 
@@ -10,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Polygon
 from numpy.typing import NDArray
 
-from coinmc.plot.style import CYCLE, NEUTRAL, axes_for, axis_label
+from coinmc.plot.style import NEUTRAL, axes_for, axis_label, colours, scene_text
 from coinmc.plot.table import columns, need, parameters, select
 
 __all__ = ["ternary"]
@@ -18,6 +19,8 @@ __all__ = ["ternary"]
 # Where each face has probability 1: heads, tails, side.
 _CORNERS = np.array([[0.0, 0.0], [1.0, 0.0], [0.5, np.sqrt(0.75)]])
 _FACES = ("heads", "tails", "side")
+# Characters of a line of the title.
+_WIDEST_LINE = 60
 
 
 def ternary(
@@ -25,6 +28,8 @@ def ternary(
     *,
     where: Mapping[str, Any] | None = None,
     along: str | None = None,
+    label: str | None = None,
+    color: Any = None,
     ax: Axes | None = None,
 ) -> Axes:
     """Draw the probabilities of the three faces in a triangle, with their intervals.
@@ -42,6 +47,10 @@ def ternary(
     along : str, optional
         Column along which the points are joined, and whose values are written beside them; by
         default the parameter that varies, if there is only one.
+    label : str, optional
+        Name of the points in the legend, which is drawn if there is one.
+    color : color, optional
+        Colour of points and regions.
     ax : Axes, optional
         Axes to draw into; a new figure if absent.
 
@@ -71,22 +80,32 @@ def ternary(
     known = np.isfinite(p).all(axis=1) & (p.sum(axis=1) > 0)
     table = {name: column[known] for name, column in table.items()}
     p, low, high = p[known], low[known], high[known]
-    ax = axes_for(ax, size=(5.6, 5.0))
-    _frame(ax)
+    ax = axes_for(ax, size=(5.2, 4.8))
+    if not ax.patches:
+        _frame(ax)
+    color = colours(ax).cycle[0] if color is None else color
     along = along or _only_varied(table)
     order = np.argsort(table[along], kind="stable") if along else np.arange(len(p))
     points = (p / p.sum(axis=1, keepdims=True)) @ _CORNERS
     for lo, hi in zip(low, high, strict=True):
         corners = _region(lo, hi)
         if len(corners) > 2:
-            ax.add_patch(Polygon(corners, color=CYCLE[0], alpha=0.35, linewidth=0.8))
+            ax.add_patch(Polygon(corners, color=color, alpha=0.3, linewidth=0.8))
     line = "-" if along else "none"
-    ax.plot(
-        *points[order].T, color=CYCLE[0], linestyle=line, linewidth=0.8, marker="o", markersize=3
-    )
+    look = {"linestyle": line, "linewidth": 1.2, "marker": "o", "markersize": 4}
+    ax.plot(*points[order].T, color=color, label=label, zorder=3, **look)
     if along:
         _name_points(ax, points[order], table[along][order], along)
+    if label:
+        ax.legend(fontsize="small", frameon=False, loc="upper left")
+    ax.set_title(_title(table, along), fontsize="small", color=NEUTRAL)
     return ax
+
+
+def _title(table: Mapping[str, NDArray[Any]], along: str | None) -> str:
+    scene = scene_text({name: column for name, column in table.items() if name != along})
+    numbers = f"numbers: {axis_label(along)}" if along else ""
+    return "\n".join([*textwrap.wrap(scene, _WIDEST_LINE), *([numbers] if numbers else [])])
 
 
 def _only_varied(table: Mapping[str, NDArray[Any]]) -> str | None:
@@ -95,17 +114,16 @@ def _only_varied(table: Mapping[str, NDArray[Any]]) -> str | None:
 
 
 def _name_points(ax: Axes, points: NDArray[Any], values: NDArray[Any], along: str) -> None:
-    """Write the first, the last and some intermediate values, and name them in the title."""
+    """Write the first, the last and some intermediate values."""
     for at in np.unique(np.linspace(0, len(values) - 1, 6).round().astype(int)):
         ax.annotate(
             f"{values[at]:g}",
             points[at],
-            xytext=(6, 0),
+            xytext=(11, 0),
             textcoords="offset points",
             fontsize="small",
             va="center",
         )
-    ax.set_title(f"numbers: {axis_label(along)}", fontsize="small")
 
 
 def _frame(ax: Axes) -> None:
@@ -117,8 +135,20 @@ def _frame(ax: Axes) -> None:
             ends = np.zeros((2, 3))
             ends[:, face] = share
             ends[0, (face + 1) % 3] = ends[1, (face + 2) % 3] = 1 - share
-            ax.plot(*(ends @ _CORNERS).T, color=NEUTRAL, linewidth=0.4, alpha=0.6, zorder=0)
-    ax.plot(*_CORNERS.mean(axis=0), marker="*", color=NEUTRAL, markersize=10, linestyle="none")
+            ax.plot(*(ends @ _CORNERS).T, color=NEUTRAL, linewidth=0.5, alpha=0.6, zorder=0)
+            _tick(ax, ends[0] @ _CORNERS, share, face)
+    fair = _CORNERS.mean(axis=0)
+    ax.plot(*fair, marker="*", color=NEUTRAL, markersize=10, linestyle="none")
+    ax.annotate(
+        "1/3 each",
+        fair,
+        xytext=(-8, 0),
+        textcoords="offset points",
+        ha="right",
+        va="center",
+        fontsize="small",
+        color=NEUTRAL,
+    )
     places = [("right", "top"), ("left", "top"), ("center", "bottom")]
     for corner, face, (ha, va) in zip(_CORNERS, _FACES, places, strict=True):
         ax.annotate(
@@ -126,12 +156,27 @@ def _frame(ax: Axes) -> None:
             corner,
             ha=ha,
             va=va,
-            xytext=(0, 4 if va == "bottom" else -4),
+            xytext=(0, 4 if va == "bottom" else -13),
             textcoords="offset points",
         )
-    ax.set(xlim=(-0.12, 1.12), ylim=(-0.1, 0.96))
+    ax.set(xlim=(-0.14, 1.14), ylim=(-0.11, 0.94))
     ax.set_aspect("equal")
     ax.set_axis_off()
+
+
+def _tick(ax: Axes, at: NDArray[np.float64], share: float, face: int) -> None:
+    """Write a share of a face where its line meets the edge from which it is read."""
+    towards, ha = {0: ((0, -9), "center"), 1: ((5, 2), "left"), 2: ((-5, 2), "right")}[face]
+    ax.annotate(
+        f"{share:g}",
+        at,
+        xytext=towards,
+        textcoords="offset points",
+        ha=ha,
+        va="center",
+        fontsize="x-small",
+        color=NEUTRAL,
+    )
 
 
 def _region(low: NDArray[np.float64], high: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -1,6 +1,6 @@
 //! `coinmc aim`: the launch that forces a face.
 
-use super::question::{AnswerArgs, KeyRange, SceneArgs, ask, write_file};
+use super::question::{AnswerArgs, KeyRange, SceneArgs, ask, range_and_count, write_file};
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format};
 use crate::terminal::table::{Column, Table};
@@ -77,14 +77,7 @@ impl FromStr for Over {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let (range, values) = match text.split_once(':') {
-            Some((range, count)) => {
-                let wrong = |_| "expected the number of values behind the colon".to_owned();
-                (range, count.parse().map_err(wrong)?)
-            }
-            None => (text, VALUES),
-        };
-        let KeyRange { key, from, to } = range.parse()?;
+        let (KeyRange { key, from, to }, values) = range_and_count(text, VALUES)?;
         Ok(Self(Parameter {
             key,
             from,

@@ -2,7 +2,8 @@
 
 use super::run::present;
 use crate::exit::{Failure, Outcome};
-use crate::output::{Console, Format};
+use crate::output::{Console, Format, ResultFormat};
+use crate::terminal::plot::Plotted;
 use crate::terminal::progress::Progress;
 use clap::Args;
 use std::path::PathBuf;
@@ -29,18 +30,25 @@ pub(crate) struct Merge {
     out: PathBuf,
 
     /// How to write the result
-    #[arg(long, value_enum, default_value_t = Format::Table)]
-    format: Format,
+    #[arg(long, value_enum, default_value_t = ResultFormat::Table)]
+    format: ResultFormat,
 }
 
 impl Merge {
     pub(crate) fn format(&self) -> Format {
-        self.format
+        self.format.of_failures()
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let progress = Progress::new(*console.stderr(), true);
         let report = coinmc::run::merge(&self.parts, &self.out, &progress)?;
-        present(&report, &self.out, console, false)
+        present(
+            &report,
+            &self.out,
+            &Plotted::default(),
+            console,
+            self.format,
+            false,
+        )
     }
 }

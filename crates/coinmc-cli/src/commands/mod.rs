@@ -13,11 +13,13 @@ mod merge;
 mod quantity;
 mod question;
 mod rare;
+mod report;
 #[cfg(feature = "robot")]
 mod robot;
 mod run;
 mod schema;
 mod sensitivity;
+mod show;
 mod trace;
 
 pub(crate) use aim::AimAt;
@@ -31,11 +33,13 @@ pub(crate) use fair::Fair;
 pub(crate) use film::Film;
 pub(crate) use merge::Merge;
 pub(crate) use rare::Rare;
+pub(crate) use report::ReportOf;
 #[cfg(feature = "robot")]
 pub(crate) use robot::Robot;
 pub(crate) use run::Run;
 pub(crate) use schema::Schema;
 pub(crate) use sensitivity::SensitivityOf;
+pub(crate) use show::Show;
 pub(crate) use trace::Trace;
 
 use coinmc_core::Face;

@@ -107,6 +107,18 @@ impl FromStr for KeyRange {
     }
 }
 
+/// A range and the number of its values behind a colon, as in `launch.height_m=0.1..2:15`.
+pub(super) fn range_and_count(text: &str, default: usize) -> Result<(KeyRange, usize), String> {
+    let (range, values) = match text.split_once(':') {
+        Some((range, count)) => {
+            let wrong = |_| "expected the number of values behind the colon".to_owned();
+            (range, count.parse().map_err(wrong)?)
+        }
+        None => (text, default),
+    };
+    Ok((range.parse()?, values))
+}
+
 /// Why there is no answer.
 pub(super) enum Unanswered {
     /// Ctrl-C.

@@ -1,10 +1,13 @@
 //! `coinmc run`: from a config to probabilities.
 
+use super::report::Page;
+use crate::command_line::this_command;
 use crate::exit::{Failure, Outcome};
 use crate::interrupt;
-use crate::output::{self, Console, FORMAT_VERSION, Format};
+use crate::output::{self, Console, FORMAT_VERSION, Format, ResultFormat};
+use crate::terminal::plot::Plotted;
 use crate::terminal::progress::{Progress, with_prefix};
-use crate::terminal::summary::{FAIR, summary};
+use crate::terminal::summary::{FAIR, markdown, summary};
 use crate::terminal::{count, duration, grouped};
 use anyhow::Context;
 use clap::Args;
@@ -12,11 +15,10 @@ use coinmc::OnDemand;
 use coinmc::config::{self, Override};
 use coinmc::plan::{MAX_EVALUATIONS, Plan, StoppedBy};
 use coinmc::published::TABLE1_SOURCE;
-use coinmc::results::{FairRatio, Row, fair_ratios};
+use coinmc::results::{FairRatio, Row, fair_ratios, write_csv};
 use coinmc::run::{Options, Part, Report, Status};
 use serde_json::{Map, Value, json};
 use std::borrow::Cow;
-use std::env;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
@@ -26,6 +28,7 @@ Examples:
   coinmc run toss.toml --set stop.tosses=1e5 --set 'surface.restitution=[0.3, 0.5]'
   coinmc run toss.toml --shard 1/4 --out part-1     one of four machines; see `coinmc merge`
   coinmc run toss.toml --format json > toss.json
+  coinmc run toss.toml --report                     and make a page of it, see `coinmc report`
 
 The same command again goes on where the last one stopped, and reports a finished run at once.";
 
@@ -56,9 +59,17 @@ pub(crate) struct Run {
     #[arg(long = "set", value_name = "KEY=VALUE")]
     overrides: Vec<Override>,
 
+    /// What to plot: a swept parameter, a face, both (`friction,heads`), or `none`
+    #[arg(long, value_name = "AXIS,FACE", default_value_t)]
+    plot: Plotted,
+
+    /// Also make a page of the run, see `coinmc report` [default: report.html in the run directory]
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true)]
+    report: Option<Option<PathBuf>>,
+
     /// How to write the result
-    #[arg(long, value_enum, default_value_t = Format::Table)]
-    format: Format,
+    #[arg(long, value_enum, default_value_t = ResultFormat::Table)]
+    format: ResultFormat,
 
     /// Show no progress and no remarks, only warnings and errors
     #[arg(long, short)]
@@ -67,12 +78,16 @@ pub(crate) struct Run {
 
 impl Run {
     pub(crate) fn format(&self) -> Format {
-        self.format
+        self.format.of_failures()
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let plan = config::load(&self.config, &self.overrides)?;
+        self.plot.check(&plan.axes).map_err(Failure::Input)?;
         let out = self.out.clone().unwrap_or_else(|| self.default_out(&plan));
+        if let Some(Some(page)) = &self.report {
+            Page::check(page)?;
+        }
         let progress = Progress::new(*console.stderr(), self.quiet);
         if !self.quiet {
             plan.notes
@@ -100,7 +115,27 @@ impl Run {
         if !self.quiet {
             output::note(&closing_line(&report, &progress));
         }
-        present(&report, &out, console, self.quiet)
+        let outcome = present(&report, &out, &self.plot, console, self.format, self.quiet)?;
+        if let Some(file) = &self.report {
+            let file = file.clone().unwrap_or_else(|| out.join("report.html"));
+            self.make_page(&file, &out)?;
+        }
+        Ok(outcome)
+    }
+
+    /// The page of the run, in place of that of an earlier call of the same command.
+    fn make_page(&self, file: &Path, out: &Path) -> Result<(), Failure> {
+        let page = Page::begin(file, true)?;
+        let run = coinmc_report::Run::open(out, &())?;
+        page.write(&coinmc_report::report(
+            &[run],
+            None,
+            &coinmc_report::Samples::default(),
+        )?)?;
+        if !self.quiet {
+            output::note(&format!("Report: {}", file.display()));
+        }
+        Ok(())
     }
 
     fn default_out(&self, plan: &Plan) -> PathBuf {
@@ -121,18 +156,12 @@ impl Run {
 pub(super) fn present(
     report: &Report,
     out: &Path,
+    plotted: &Plotted,
     console: &Console,
+    format: ResultFormat,
     quiet: bool,
 ) -> Result<Outcome, Failure> {
-    let fair = fair_ratios(&report.results, FAIR);
-    match console.format() {
-        Format::Json => output::print_json(&to_json(report, &fair, out)),
-        Format::Table => {
-            let csv = out.join(csv_name(report.status));
-            output::print(&summary(&report.results, &fair, &csv, console.stdout()))
-        }
-    }
-    .map_err(|error| Failure::Runtime(error.into()))?;
+    show(report, out, plotted, console, format)?;
     if let Some(advice) = advice(report, out).filter(|_| !quiet) {
         output::note(&advice);
     }
@@ -141,6 +170,31 @@ pub(super) fn present(
         Status::Interrupted => Outcome::Interrupted,
         Status::ShortOfTarget { .. } => Outcome::ShortOfTarget,
     })
+}
+
+/// Result on standard output.
+pub(super) fn show(
+    report: &Report,
+    out: &Path,
+    plotted: &Plotted,
+    console: &Console,
+    format: ResultFormat,
+) -> Result<(), Failure> {
+    let results = &report.results;
+    let fair = fair_ratios(results, FAIR);
+    match format {
+        ResultFormat::Json => output::print_json(&to_json(report, &fair, out)),
+        ResultFormat::Table => {
+            let csv = out.join(csv_name(report.status));
+            output::print(&summary(results, &fair, &csv, plotted, console.stdout()))
+        }
+        ResultFormat::Csv => {
+            let mut text = Vec::new();
+            write_csv(results, &mut text).and_then(|()| output::print_bytes(&text))
+        }
+        ResultFormat::Markdown => output::print(&markdown(results, console.stdout())),
+    }
+    .map_err(|error| Failure::Runtime(error.into()))
 }
 
 fn csv_name(status: Status) -> &'static str {
@@ -268,22 +322,6 @@ fn short_of_target(rows: &OnDemand<Row>) -> String {
     lines.join("\n")
 }
 
-/// The command line that started this process, for a shell.
-fn this_command() -> String {
-    let words = env::args_os().map(|word| quoted(&word.to_string_lossy()));
-    words.collect::<Vec<_>>().join(" ")
-}
-
-/// A word as a shell reads it back.
-pub(super) fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_alphanumeric() || "-_./=:,+@%".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', r"'\''"))
-    }
-}
-
 /// The document of `--format json`; docs/reference/formats.md describes it.
 fn to_json(report: &Report, fair: &[FairRatio], out: &Path) -> Value {
     let mut table = report.results.to_json();
@@ -393,14 +431,5 @@ mod tests {
         rows[0].stopped_by = StoppedBy::Targets;
         let text = short_of_target(&rows);
         assert!(!text.contains("total_tosses"), "{text}");
-    }
-
-    #[test]
-    fn words_are_quoted_only_where_a_shell_needs_it() {
-        assert_eq!(quoted("--set=coin.ratio=1.2"), "--set=coin.ratio=1.2");
-        assert_eq!(quoted("a b"), "'a b'");
-        assert_eq!(quoted("it's"), r"'it'\''s'");
-        assert_eq!(quoted(""), "''");
-        assert_eq!(quoted("[1, 2]"), "'[1, 2]'");
     }
 }

@@ -2,6 +2,7 @@
 
 mod ascii;
 pub(crate) mod events;
+mod harmless;
 mod number;
 pub(crate) mod plot;
 pub(crate) mod progress;
@@ -12,6 +13,7 @@ mod wrap;
 
 pub(crate) use ascii::in_ascii;
 pub(crate) use coinmc_questions::number::{compact, grouped};
+pub(crate) use harmless::harmless;
 pub(crate) use number::{count, decimals_for, duration, signed};
 pub(crate) use style::{Colors, Style};
 pub(crate) use wrap::wrapped;

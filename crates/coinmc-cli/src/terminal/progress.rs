@@ -1,6 +1,6 @@
 //! Progress bars on standard error.
 
-use super::{Style, compact, duration, grouped};
+use super::{Style, compact, duration, grouped, harmless};
 use coinmc::run::{Progress as Counts, ProgressSink};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, IsTerminal, Write};
@@ -45,7 +45,7 @@ pub(crate) fn bar(style: Style, quiet: bool) -> ProgressBar {
 pub(crate) fn note_above(bar: &ProgressBar, text: &str) {
     bar.suspend(|| {
         // a failure to write cannot be reported anywhere
-        let _ = writeln!(io::stderr().lock(), "{text}");
+        let _ = writeln!(io::stderr().lock(), "{}", harmless(text));
     });
 }
 

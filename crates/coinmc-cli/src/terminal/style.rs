@@ -31,6 +31,8 @@ pub(crate) struct Style {
     pub(crate) unicode: bool,
     /// Columns.
     pub(crate) width: usize,
+    /// Whether tables are written whole, however wide and long: for programs and files.
+    pub(crate) whole: bool,
 }
 
 /// What a colour marks.
@@ -78,6 +80,7 @@ impl Style {
                 .or_else(|| is_terminal.then(terminal_width).flatten())
                 .unwrap_or(DEFAULT_WIDTH)
                 .clamp(MIN_WIDTH, MAX_WIDTH),
+            whole: !is_terminal && variable("COLUMNS").is_none(),
         }
     }
 
@@ -131,6 +134,7 @@ impl Style {
             color: false,
             unicode: true,
             width,
+            whole: false,
         }
     }
 

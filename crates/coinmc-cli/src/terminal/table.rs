@@ -96,7 +96,8 @@ impl Table {
 
     /// Lays the table out within the style's width.
     pub(crate) fn render(&self, style: &Style) -> Rendered {
-        let (kept, left_out) = self.fit(style.width);
+        let width = if style.whole { usize::MAX } else { style.width };
+        let (kept, left_out) = self.fit(width);
         let widths: Vec<usize> = kept.iter().map(|&column| self.width(column)).collect();
         let titles: Vec<&str> = self.columns.iter().map(|c| c.title.as_str()).collect();
         let mut text = style.paint(Colors::Strong, &self.line(&kept, &widths, &titles));
@@ -115,12 +116,54 @@ impl Table {
             text,
             left_out: left_out
                 .into_iter()
-                .map(|c| self.columns[c].title.clone())
+                .map(|c| {
+                    let title = &self.columns[c].title;
+                    match self.constant(c) {
+                        Some(value) => format!("{title} ({value} in every row)"),
+                        None => title.clone(),
+                    }
+                })
                 .collect(),
         }
     }
 
-    /// The columns that fit, in order, and those that do not.
+    /// The table in the Markdown of most sites, whole.
+    pub(crate) fn markdown(&self) -> String {
+        let escaped = |cell: &str| cell.replace('|', "\\|");
+        let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
+        let mut text = line(self.columns.iter().map(|c| escaped(&c.title)).collect());
+        text += &line(
+            self.columns
+                .iter()
+                .map(|column| match column.align {
+                    Align::Left => "---".to_owned(),
+                    Align::Right => "---:".to_owned(),
+                })
+                .collect(),
+        );
+        for cells in self.rows() {
+            text += &line(cells.iter().map(|cell| escaped(cell)).collect());
+        }
+        text
+    }
+
+    fn rows(&self) -> impl Iterator<Item = &[String]> {
+        self.lines.iter().filter_map(|line| match line {
+            Line::Cells(cells) => Some(cells.as_slice()),
+            Line::Note(_) => None,
+        })
+    }
+
+    /// What all of several rows say in a column.
+    fn constant(&self, column: usize) -> Option<&str> {
+        let mut rows = self.rows();
+        let first = rows.next()?[column].as_str();
+        let mut others = rows.map(|cells| cells[column].as_str()).peekable();
+        (others.peek().is_some() && others.all(|cell| cell == first)).then_some(first)
+    }
+
+    /// The columns that fit, in order, and those that do not. What is the same in every row goes
+    /// first: a line says it as well.
     fn fit(&self, width: usize) -> (Vec<usize>, Vec<usize>) {
         let mut kept: Vec<usize> = (0..self.columns.len()).collect();
         let mut left_out = Vec::new();
@@ -132,9 +175,10 @@ impl Table {
         };
         while needed(&kept) > width {
             let rank = |&column: &usize| self.columns[column].droppable;
+            let folds = |&column: &usize| self.constant(column).is_some();
             let Some(place) = (0..kept.len())
                 .filter(|&place| rank(&kept[place]) > 0)
-                .max_by_key(|&place| (rank(&kept[place]), place))
+                .max_by_key(|&place| (folds(&kept[place]), rank(&kept[place]), place))
             else {
                 break;
             };
@@ -145,10 +189,7 @@ impl Table {
     }
 
     fn width(&self, column: usize) -> usize {
-        let cells = self.lines.iter().filter_map(|line| match line {
-            Line::Cells(cells) => Some(cells[column].chars().count()),
-            Line::Note(_) => None,
-        });
+        let cells = self.rows().map(|cells| cells[column].chars().count());
         cells
             .max()
             .unwrap_or(0)
@@ -224,6 +265,32 @@ ratio          P(side)     tosses  why
         assert_eq!(
             sample(2).render(&Style::plain(5)).left_out,
             ["tosses", "why"]
+        );
+    }
+
+    #[test]
+    fn what_is_the_same_everywhere_goes_before_what_is_not() {
+        let mut table = Table::new(vec![
+            Column::right("ratio"),
+            Column::right("P(heads)").droppable(2),
+            Column::right("undecided").droppable(1),
+        ]);
+        for (ratio, heads) in [("1", "0.4 ± 0.1"), ("2", "0.3 ± 0.1")] {
+            table.push([ratio, heads, "0"].map(str::to_owned).to_vec());
+        }
+        let rendered = table.render(&Style::plain(20));
+        assert_eq!(rendered.left_out, ["undecided (0 in every row)"]);
+        assert!(rendered.text.contains("0.3 ± 0.1"), "{}", rendered.text);
+        // nothing is left out where programs read
+        let whole = Style {
+            whole: true,
+            ..Style::plain(20)
+        };
+        assert!(table.render(&whole).left_out.is_empty());
+        assert_eq!(
+            table.markdown(),
+            "| ratio | P(heads) | undecided |\n| ---: | ---: | ---: |\n\
+             | 1 | 0.4 ± 0.1 | 0 |\n| 2 | 0.3 ± 0.1 | 0 |\n"
         );
     }
 

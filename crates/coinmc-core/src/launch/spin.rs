@@ -42,7 +42,19 @@ pub enum Spin {
 /// Limit of every rate of turning, rad/s.
 const RATE: Bounds = Bounds::closed(-1e9, 1e9);
 
+/// The key of the standard deviation of an isotropic spin.
+const ISOTROPIC: &str = "isotropic_sd_rad_s";
+
 impl Spin {
+    /// A spin in any direction alike: components normal about 0 with this standard deviation.
+    fn isotropic(sd: f64) -> Self {
+        let component = match sd {
+            0.0 => Marginal::Constant(0.0),
+            sd => Marginal::Normal { mean: 0.0, sd },
+        };
+        Self::Components([component; 3])
+    }
+
     /// The value of the key `spin` of a config.
     pub(super) fn kind() -> Kind {
         let about = fields(vec![
@@ -75,6 +87,13 @@ impl Spin {
                 vector_kind(RATE),
                 Absent::Required,
             ),
+            field(
+                ISOTROPIC,
+                "In any direction alike: every component is normal about 0 with this standard \
+                 deviation, rad/s.",
+                Kind::Number(Bounds::closed(0.0, 1e9)),
+                Absent::Required,
+            ),
             table(
                 "about",
                 "About a fixed axis of the laboratory.",
@@ -101,6 +120,7 @@ impl Spin {
         };
         match *name {
             "components_rad_s" => Ok(Self::Components(read_vector(inner)?)),
+            ISOTROPIC => Ok(Self::isotropic(inner.number()?)),
             "about" => {
                 let values = inner.table()?;
                 let axis = read_direction(values.required("axis")?);

@@ -6,17 +6,33 @@ use crate::schema::{
     Absent, Bounds, Condition, Fallback, Field, Kind, ReadError, Rule, TableKind, Value, Values,
     Word, choice, default, field, number,
 };
-use crate::{Coin, EngineError, Material, Roughness};
+use crate::{Coin, EngineError, Material, Roughness, TableTilt};
 
 /// Lengths and speeds: typing errors end here.
 const LARGE: Bounds = Bounds::closed(0.0, 1e6);
+/// Friction lengths over R.
+const FRACTION: Bounds = Bounds::closed(0.0, 1e6);
 const WAVELENGTH: &str = "roughness_wavelength_m";
 const TABLE_RADIUS: &str = "table_radius_m";
+const TILT: &str = "table_tilt_deg";
+const DOWNHILL: &str = "table_downhill_deg";
+const ROLLING_OVER_RADIUS: &str = "rolling_friction_over_radius";
+const PIVOTING_OVER_RADIUS: &str = "pivoting_friction_over_radius";
 
 const FIRST_CONTACT_DECIDES: Condition = Condition::Word("landing", Landing::Adhesive.name());
 const OF_A_MATERIAL: Condition = Condition::Given("material");
 
 impl Surface {
+    /// Keys of configs that say the same: of each list, a config has one at most.
+    pub const ALTERNATIVES: [&'static [&'static str]; 2] = [
+        &["rolling_friction_m", ROLLING_OVER_RADIUS],
+        &[
+            "pivoting_friction_m",
+            PIVOTING_OVER_RADIUS,
+            "contact_patch_m",
+        ],
+    ];
+
     /// The keys of the table `[surface]` of a config.
     pub fn schema() -> TableKind {
         let mut fields = vec![material()];
@@ -24,6 +40,7 @@ impl Surface {
         fields.extend(restitution_by_speed());
         fields.extend(ground());
         fields.push(table_radius());
+        fields.extend(table_tilt());
         fields.push(choice(
             "landing",
             "What a contact does.",
@@ -38,11 +55,19 @@ impl Surface {
                     keys: &["restitution", "friction"],
                     fallback: None,
                 },
+                Rule::NotBoth(["rolling_friction_m", ROLLING_OVER_RADIUS]),
                 Rule::NotBoth(["pivoting_friction_m", "contact_patch_m"]),
+                Rule::NotBoth(["pivoting_friction_m", PIVOTING_OVER_RADIUS]),
+                Rule::NotBoth([PIVOTING_OVER_RADIUS, "contact_patch_m"]),
                 Rule::GoesWith {
                     key: "restitution_reference_m_s",
                     others: &["restitution_exponent"],
                     fallback: Some(Fallback::Number(DEFAULT_REFERENCE_M_S)),
+                },
+                Rule::GoesWith {
+                    key: DOWNHILL,
+                    others: &[TILT],
+                    fallback: Some(Fallback::Number(0.0)),
                 },
                 Rule::Together {
                     keys: ["roughness_slope", WAVELENGTH],
@@ -77,12 +102,25 @@ impl Surface {
         let number = |key| values.number(key);
         let or = |key, fallback| Ok::<_, ReadError>(values.optional(key)?.unwrap_or(fallback));
         let landing = values.one_of("landing", Landing::ALL, Landing::name)?;
-        let (rolling, pivoting) = (or("rolling_friction_m", 0.0)?, pivoting_friction(values)?);
+        let of_radius = |key| {
+            let fraction = values.optional(key)?;
+            Ok::<_, ReadError>(fraction.map(|fraction| fraction * coin.radius_m()))
+        };
+        let rolling = match of_radius(ROLLING_OVER_RADIUS)? {
+            Some(rolling) => rolling,
+            None => or("rolling_friction_m", 0.0)?,
+        };
+        let pivoting = match of_radius(PIVOTING_OVER_RADIUS)? {
+            Some(pivoting) => pivoting,
+            None => pivoting_friction(values)?,
+        };
         let threshold = number("restitution_threshold_m_s")?;
         let exponent = or("restitution_exponent", 0.0)?;
         let reference = or("restitution_reference_m_s", DEFAULT_REFERENCE_M_S)?;
         let roughness = roughness(values, coin)?;
         let table_radius = values.optional(TABLE_RADIUS)?;
+        let tilt = TableTilt::new(or(TILT, 0.0)?, or(DOWNHILL, 0.0)?)
+            .map_err(|error| ReadError::new(error.to_string()).at(TILT))?;
         Self::new(number("restitution")?, number("friction")?)
             .and_then(|surface| surface.with_friction_lengths(rolling, pivoting))
             .and_then(|surface| surface.with_restitution_threshold(threshold))
@@ -92,7 +130,9 @@ impl Surface {
                 Some(radius_m) => surface.with_table_radius(radius_m),
                 None => Ok(surface),
             })
-            .map_err(|error| ReadError::new(error.to_string()))
+            .map_err(|error| ReadError::new(error.to_string()))?
+            .with_tilt(tilt)
+            .map_err(|error| ReadError::new(error.to_string()).at(TILT))
     }
 }
 
@@ -110,7 +150,7 @@ fn material() -> Field {
 }
 
 /// Restitution, friction and the friction lengths.
-fn friction() -> [Field; 6] {
+fn friction() -> [Field; 8] {
     [
         number(
             "restitution",
@@ -133,10 +173,22 @@ fn friction() -> [Field; 6] {
             Absent::Omitted,
         ),
         number(
+            ROLLING_OVER_RADIUS,
+            "The same as a fraction of R, instead of `rolling_friction_m`.",
+            FRACTION,
+            Absent::Omitted,
+        ),
+        number(
             "pivoting_friction_m",
             "Pivoting friction length ρ_p, m: the power lost is normal force × this × rate at which the \
              coin turns about the vertical. In space that of the contact patch if absent.",
             LARGE,
+            Absent::Omitted,
+        ),
+        number(
+            PIVOTING_OVER_RADIUS,
+            "The same as a fraction of R, instead of `pivoting_friction_m`.",
+            FRACTION,
             Absent::Omitted,
         ),
         number(
@@ -201,6 +253,25 @@ fn table_radius() -> Field {
         Bounds::above_zero(1e6),
         Absent::Omitted,
     )
+}
+
+fn table_tilt() -> [Field; 2] {
+    [
+        number(
+            TILT,
+            "Angle of the table to the horizontal, degrees; its tangent must be below `friction`. The coin \
+             is launched straight above the middle of the table. In space only.",
+            Bounds::closed(0.0, TableTilt::MAX_DEG),
+            Absent::Omitted,
+        ),
+        number(
+            DOWNHILL,
+            "Direction in which a tilted table descends, degrees from the x axis towards the y axis (0 if \
+             absent).",
+            Bounds::closed(-360.0, 360.0),
+            Absent::Omitted,
+        ),
+    ]
 }
 
 /// The pivoting friction length as given, or that of the contact patch.

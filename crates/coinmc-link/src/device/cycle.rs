@@ -7,6 +7,12 @@ use crate::message::{Nak, Request, State, Status};
 pub const AT_COIN_LIMIT_MS: u32 = 60_000;
 /// Time without a valid frame after which all motors are switched off, ms.
 pub const SILENCE_LIMIT_MS: u32 = 5_000;
+/// Time limit of the start, ms.
+pub const BOOT_LIMIT_MS: u32 = 10_000;
+/// Time limit of Home, ms.
+pub const HOME_LIMIT_MS: u32 = 10_000;
+/// Time limit of `MoveCarriage`, ms.
+pub const MOVE_LIMIT_MS: u32 = 5_000;
 
 /// Fault codes.
 pub mod fault {
@@ -16,9 +22,11 @@ pub mod fault {
     pub const SILENCE: u16 = 2;
     /// The journal cannot be written.
     pub const JOURNAL: u16 = 3;
+    /// The emergency stop was pressed. It must be released before this fault can be cleared.
+    pub const EMERGENCY: u16 = 4;
     /// Plus the number of the phase during which the robot was reset.
     pub const RESET: u16 = 100;
-    /// Plus the number of the phase that exceeded its time limit.
+    /// Plus the number of the state that exceeded its time limit: Idle for a motion on request.
     pub const LIMIT: u16 = 200;
     /// Plus the firmware's own number of a hardware failure.
     pub const HARDWARE: u16 = 300;
@@ -29,12 +37,17 @@ pub mod fault {
 pub(super) struct Cycle {
     pub(super) state: State,
     pub(super) throw_id: u32,
+    experiment: u32,
+    /// Spin and angle asked for; 0 after a start.
+    asked: (u16, u16),
     pub(super) boot: u16,
     fault: u16,
     since_ms: u32,
     heard_ms: u32,
     /// The host has been silent for too long, or has never sent a valid frame.
     silent: bool,
+    /// Start and time limit of a motion on request.
+    moving: Option<(u32, u32)>,
     release: Option<Release>,
     /// The coin may have been released: set at release, or after a reset from the journal.
     released: bool,
@@ -53,23 +66,31 @@ impl Cycle {
         hardware.motors_off();
         let last = hardware.load().unwrap_or(Record {
             throw_id: 0,
+            experiment: 0,
             boot: 0,
             phase: State::Idle,
         });
+        let stopped = last.phase == State::Fault;
         let mut cycle = Self {
             state: State::Boot,
             throw_id: last.throw_id,
+            experiment: last.experiment,
+            asked: (0, 0),
             boot: last.boot.wrapping_add(1),
             fault: 0,
             since_ms: now_ms,
             heard_ms: now_ms,
             silent: true,
+            moving: None,
             release: None,
-            released: last.phase.in_cycle() && last.phase != State::Aiming,
+            // an emergency stop leaves no record of the phase
+            released: stopped || last.phase.in_cycle() && last.phase != State::Aiming,
         };
         // The phase stays in the journal, so that a second reset finds it again.
         let stored = cycle.journal(hardware, last.phase);
-        if last.phase.in_cycle() {
+        if stopped {
+            cycle.fail(hardware, fault::EMERGENCY);
+        } else if last.phase.in_cycle() {
             let phase = u16::from(last.phase.number());
             cycle.fail(hardware, fault::RESET.saturating_add(phase));
         } else if !stored {
@@ -93,30 +114,29 @@ impl Cycle {
         match request {
             Request::Stop => self.stop(hardware),
             Request::Home { axes } => {
-                self.require_idle()?;
-                hardware.start(Motion::Home { axes });
+                self.move_on_request(hardware, Motion::Home { axes }, (now_ms, HOME_LIMIT_MS))?;
             }
             Request::MoveCarriage { x_um, y_um } => {
-                self.require_idle()?;
-                hardware.start(Motion::MoveCarriage { x_um, y_um });
+                let motion = Motion::MoveCarriage { x_um, y_um };
+                self.move_on_request(hardware, motion, (now_ms, MOVE_LIMIT_MS))?;
             }
             Request::Throw {
                 throw_id,
+                experiment,
                 spin_mrev_s,
                 angle_cdeg,
             } => {
-                let aim = Motion::Aim {
-                    spin_mrev_s,
-                    angle_cdeg,
-                };
-                self.throw(hardware, throw_id, aim, now_ms)?;
+                let asked = (spin_mrev_s, angle_cdeg);
+                self.throw(hardware, (throw_id, experiment), asked, now_ms)?;
             }
             Request::Collect { throw_id } => self.collect(hardware, throw_id, now_ms)?,
             Request::ClearFault { code } => self.clear(hardware, code)?,
-            Request::SetCounter { throw_id } => {
+            Request::SetCounter {
+                throw_id,
+                experiment,
+            } => {
                 self.require_idle()?;
-                self.throw_id = throw_id;
-                self.forget_release();
+                self.forget_throw((throw_id, experiment));
                 self.journal_or_fail(hardware, State::Idle);
             }
             _ => return Err(Nak::BadMessage),
@@ -128,15 +148,17 @@ impl Cycle {
     pub(super) fn tick(&mut self, hardware: &mut impl Hardware, now_ms: u32) {
         self.check_silence(hardware, now_ms);
         let sensors = hardware.sense();
-        if self.state == State::Fault {
+        if sensors.stopped {
+            self.stop_in_emergency(hardware);
+        } else if self.state == State::Fault {
             // only ClearFault leads out
         } else if sensors.failure != 0 {
             let code = fault::HARDWARE.saturating_add(u16::from(sensors.failure));
             self.fail(hardware, code);
         } else if sensors.settled && self.advance(hardware, &sensors, now_ms) {
             // at most one phase per tick
-        } else if let Some(limit_ms) = limit_ms(self.state)
-            && now_ms.wrapping_sub(self.since_ms) >= limit_ms
+        } else if let Some((since_ms, limit_ms)) = self.limit()
+            && now_ms.wrapping_sub(since_ms) >= limit_ms
         {
             let phase = u16::from(self.state.number());
             self.fail(hardware, fault::LIMIT.saturating_add(phase));
@@ -154,6 +176,9 @@ impl Cycle {
         Status {
             state: self.state,
             throw_id: self.throw_id,
+            experiment: self.experiment,
+            spin_mrev_s: self.asked.0,
+            angle_cdeg: self.asked.1,
             released: self.released,
             meas_spin_mrev_s: release.map_or(sensors.spin_mrev_s, |at| at.spin_mrev_s),
             meas_angle_cdeg: release.map_or(sensors.angle_cdeg, |at| at.angle_cdeg),
@@ -174,25 +199,45 @@ impl Cycle {
         }
     }
 
+    /// Starts a motion with its time limit. A second one has to wait: it would begin the limit anew.
+    fn move_on_request(
+        &mut self,
+        hardware: &mut impl Hardware,
+        motion: Motion,
+        limit: (u32, u32),
+    ) -> Result<(), Nak> {
+        self.require_idle()?;
+        if self.moving.is_some() {
+            return Err(Nak::Busy);
+        }
+        self.moving = Some(limit);
+        hardware.start(motion);
+        Ok(())
+    }
+
     fn throw(
         &mut self,
         hardware: &mut impl Hardware,
-        throw_id: u32,
-        aim: Motion,
+        (throw_id, experiment): (u32, u32),
+        asked: (u16, u16),
         now_ms: u32,
     ) -> Result<(), Nak> {
-        if throw_id == self.throw_id {
+        if throw_id == self.throw_id && experiment == self.experiment {
             return Ok(());
         }
-        if throw_id < self.throw_id {
+        if throw_id <= self.throw_id {
             return Err(Nak::WrongId);
         }
         self.require_idle()?;
-        if !hardware.sense().settled {
+        if self.moving.is_some() || !hardware.sense().settled {
             return Err(Nak::Busy);
         }
-        self.throw_id = throw_id;
-        self.forget_release();
+        self.forget_throw((throw_id, experiment));
+        self.asked = asked;
+        let aim = Motion::Aim {
+            spin_mrev_s: asked.0,
+            angle_cdeg: asked.1,
+        };
         self.enter(hardware, State::Aiming, Some(aim), now_ms);
         Ok(())
     }
@@ -221,7 +266,10 @@ impl Cycle {
         if self.state != State::Fault || self.fault != code {
             return Err(Nak::WrongState);
         }
-        hardware.motors_off();
+        if hardware.sense().stopped {
+            return Err(Nak::Busy);
+        }
+        self.switch_off(hardware);
         if self.journal(hardware, State::Idle) {
             self.state = State::Idle;
             self.fault = 0;
@@ -235,7 +283,17 @@ impl Cycle {
         if self.state.in_cycle() {
             self.fail(hardware, fault::STOPPED);
         } else {
-            hardware.motors_off();
+            self.switch_off(hardware);
+        }
+    }
+
+    /// Latches the emergency stop: the motors first, then the journal, which outlasts a reset.
+    fn stop_in_emergency(&mut self, hardware: &mut impl Hardware) {
+        let latched = self.state == State::Fault && self.fault == fault::EMERGENCY;
+        self.fail(hardware, fault::EMERGENCY);
+        if !latched {
+            // the motors are off, whether this succeeds or not
+            self.journal(hardware, State::Fault);
         }
     }
 
@@ -248,7 +306,7 @@ impl Cycle {
             }
         }
         if self.silent || self.state == State::Fault {
-            hardware.motors_off();
+            self.switch_off(hardware);
         }
     }
 
@@ -272,7 +330,9 @@ impl Cycle {
             }
             State::Driving => self.enter(hardware, State::AtCoin, None, now_ms),
             State::Returning => self.enter(hardware, State::Idle, None, now_ms),
-            State::Idle | State::AtCoin | State::Fault => return false,
+            // what does not move has no current, for however long the host asks for nothing
+            State::Idle => self.switch_off(hardware),
+            State::AtCoin | State::Fault => return false,
         }
         true
     }
@@ -305,18 +365,36 @@ impl Cycle {
     fn journal(&self, hardware: &mut impl Hardware, phase: State) -> bool {
         hardware.store(&Record {
             throw_id: self.throw_id,
+            experiment: self.experiment,
             boot: self.boot,
             phase,
         })
     }
 
     fn fail(&mut self, hardware: &mut impl Hardware, code: u16) {
-        hardware.motors_off();
+        self.switch_off(hardware);
         self.state = State::Fault;
         self.fault = code;
     }
 
-    fn forget_release(&mut self) {
+    fn switch_off(&mut self, hardware: &mut impl Hardware) {
+        hardware.motors_off();
+        self.moving = None;
+    }
+
+    /// Start and time limit of what the robot does now.
+    fn limit(&self) -> Option<(u32, u32)> {
+        match self.state {
+            State::Idle => self.moving,
+            state => limit_ms(state).map(|limit_ms| (self.since_ms, limit_ms)),
+        }
+    }
+
+    /// The last throw is this one, and nothing else is known of it.
+    fn forget_throw(&mut self, (throw_id, experiment): (u32, u32)) {
+        self.throw_id = throw_id;
+        self.experiment = experiment;
+        self.asked = (0, 0);
         self.release = None;
         self.released = false;
     }
@@ -325,10 +403,11 @@ impl Cycle {
 /// Time limit of a phase, ms.
 fn limit_ms(state: State) -> Option<u32> {
     match state {
+        State::Boot => Some(BOOT_LIMIT_MS),
         State::Aiming | State::Flying => Some(3_000),
         State::Driving => Some(4_000),
         State::AtCoin => Some(AT_COIN_LIMIT_MS),
         State::Returning => Some(5_000),
-        State::Boot | State::Idle | State::Fault => None,
+        State::Idle | State::Fault => None,
     }
 }

@@ -20,7 +20,8 @@ pub trait Hardware {
     /// Begins a motion, which replaces the present one.
     fn start(&mut self, motion: Motion);
 
-    /// Switches off the current of all motors. Called repeatedly while they must stay off.
+    /// Switches off the current of all motors and ends the motion. Called repeatedly while they must
+    /// stay off.
     fn motors_off(&mut self);
 
     /// Sets the lamp: 0 to 1000.
@@ -77,6 +78,8 @@ pub struct Sensors {
     /// The firmware's own number of a hardware failure (0: none); it is added to
     /// [`fault::HARDWARE`](crate::fault::HARDWARE) to give the fault code.
     pub failure: u8,
+    /// The emergency stop is pressed (its circuit is open).
+    pub stopped: bool,
 }
 
 /// A journal record, which survives a reset.
@@ -84,8 +87,10 @@ pub struct Sensors {
 pub struct Record {
     /// The last throw accepted.
     pub throw_id: u32,
+    /// The experiment that it belongs to; 0 for none.
+    pub experiment: u32,
     /// Starts counted so far; wraps.
     pub boot: u16,
-    /// Idle, or the phase of the unfinished throw.
+    /// Idle, the phase of the unfinished throw, or Fault after an emergency stop.
     pub phase: State,
 }

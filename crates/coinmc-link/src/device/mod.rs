@@ -10,12 +10,16 @@
 //!    never thrown again: a start during a cycle ends in Fault 100 + phase.
 //! 4. After a start there is no session; every request gets `NoSession` until the next Hello.
 //! 5. A damaged frame gets no reply, which could collide with another one.
-//! 6. Every phase has a time limit, and after 5 s without a host all motors are off.
+//! 6. Every phase and every motion has a time limit, whatever the host sends; after 5 s without a
+//!    host, and whenever nothing moves, all motors are off.
+//! 7. An emergency stop is latched: it outlasts its button and a reset, until `ClearFault`.
 
 mod cycle;
 mod hardware;
 
-pub use cycle::{AT_COIN_LIMIT_MS, SILENCE_LIMIT_MS, fault};
+pub use cycle::{
+    AT_COIN_LIMIT_MS, BOOT_LIMIT_MS, HOME_LIMIT_MS, MOVE_LIMIT_MS, SILENCE_LIMIT_MS, fault,
+};
 pub use hardware::{Hardware, Motion, Record, Sensors};
 
 use crate::frame::{Decoder, Header, Wire};

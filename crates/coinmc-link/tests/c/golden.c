@@ -44,8 +44,9 @@ static void request_text(char *text, size_t size, const coinmc_received *frame,
         snprintf(text, size, " axes=%u", r->axes);
         break;
     case COINMC_REQUEST_THROW:
-        snprintf(text, size, " throw_id=%" PRIu32 " spin_mrev_s=%u angle_cdeg=%u", r->throw_id,
-                 r->spin_mrev_s, r->angle_cdeg);
+        snprintf(text, size,
+                 " throw_id=%" PRIu32 " experiment=%" PRIu32 " spin_mrev_s=%u angle_cdeg=%u",
+                 r->throw_id, r->experiment, r->spin_mrev_s, r->angle_cdeg);
         break;
     case COINMC_REQUEST_MOVE_CARRIAGE:
         snprintf(text, size, " x_um=%" PRId32 " y_um=%" PRId32, r->x_um, r->y_um);
@@ -54,8 +55,11 @@ static void request_text(char *text, size_t size, const coinmc_received *frame,
         snprintf(text, size, " permille=%u", r->permille);
         break;
     case COINMC_REQUEST_COLLECT:
-    case COINMC_REQUEST_SET_COUNTER:
         snprintf(text, size, " throw_id=%" PRIu32, r->throw_id);
+        break;
+    case COINMC_REQUEST_SET_COUNTER:
+        snprintf(text, size, " throw_id=%" PRIu32 " experiment=%" PRIu32, r->throw_id,
+                 r->experiment);
         break;
     case COINMC_REQUEST_CLEAR_FAULT:
         snprintf(text, size, " code=%u", r->code);
@@ -87,6 +91,9 @@ static void parse_status(coinmc_status *status)
 {
     status->state = (uint8_t)number("state");
     status->throw_id = (uint32_t)number("throw_id");
+    status->experiment = (uint32_t)number("experiment");
+    status->spin_mrev_s = (uint16_t)number("spin_mrev_s");
+    status->angle_cdeg = (uint16_t)number("angle_cdeg");
     status->released = number("released") != 0;
     status->meas_spin_mrev_s = (uint16_t)number("meas_spin_mrev_s");
     status->meas_angle_cdeg = (uint16_t)number("meas_angle_cdeg");

@@ -3,7 +3,7 @@
  *   r                                      reset
  *   t MS                                   set the time and tick
  *   b HEX                                  receive these bytes
- *   s SETTLED SPIN ANGLE X Y FAILURE       set the sensors
+ *   s SETTLED SPIN ANGLE X Y FAILURE STOP  set the sensors
  *   w WORKS                                whether the journal can be written */
 #include "robot.h"
 
@@ -30,7 +30,8 @@ void hardware_load(record *last)
 
 bool hardware_store(const record *next)
 {
-    printf("store %" PRIu32 " %u %u\n", next->throw_id, next->boot, next->phase);
+    printf("store %" PRIu32 " %" PRIu32 " %u %u\n", next->throw_id, next->experiment, next->boot,
+           next->phase);
     if (store_works) {
         stored = *next;
         has_stored = true;
@@ -78,7 +79,7 @@ int main(void)
 {
     static char line[4096];
     uint32_t now_ms = 0;
-    unsigned works, settled, spin, angle, failure;
+    unsigned works, settled, spin, angle, failure, stopped;
     while (fgets(line, sizeof line, stdin) != NULL) {
         switch (line[0]) {
         case 'r':
@@ -92,13 +93,14 @@ int main(void)
             receive(line + 1, now_ms);
             break;
         case 's':
-            if (sscanf(line + 1, "%u %u %u %" SCNd32 " %" SCNd32 " %u", &settled, &spin, &angle,
-                       &now_sensed.x_um, &now_sensed.y_um, &failure) != 6)
+            if (sscanf(line + 1, "%u %u %u %" SCNd32 " %" SCNd32 " %u %u", &settled, &spin, &angle,
+                       &now_sensed.x_um, &now_sensed.y_um, &failure, &stopped) != 7)
                 return 2;
             now_sensed.settled = settled != 0;
             now_sensed.spin_mrev_s = (uint16_t)spin;
             now_sensed.angle_cdeg = (uint16_t)angle;
             now_sensed.failure = (uint8_t)failure;
+            now_sensed.stopped = stopped != 0;
             break;
         case 'w':
             if (sscanf(line + 1, "%u", &works) != 1)

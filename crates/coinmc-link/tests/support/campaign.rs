@@ -44,6 +44,7 @@ impl Campaign {
             }
             State::Idle => Some(Request::Throw {
                 throw_id: pending,
+                experiment: 1,
                 spin_mrev_s: 3200,
                 angle_cdeg: 9000,
             }),

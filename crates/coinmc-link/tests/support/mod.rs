@@ -1,7 +1,10 @@
 //! Shared by several tests.
 #![allow(dead_code, missing_docs, unreachable_pub)] // each test uses its part
 
+pub mod bed;
 pub mod campaign;
+#[cfg(target_os = "linux")]
+pub mod simulator;
 
 use coinmc_link::{Hardware, Info, Limits, Motion, Record, Sensors, capability};
 use std::path::PathBuf;
@@ -21,6 +24,7 @@ pub const INFO: Info = Info {
 
 /// A simulated robot: motions take time, and every release is counted.
 #[derive(Debug, Clone)]
+#[allow(clippy::struct_excessive_bools)] // inputs of a board
 pub struct Bench {
     pub now_ms: u32,
     done_ms: Option<u32>,
@@ -32,6 +36,9 @@ pub struct Bench {
     /// This motion never ends.
     pub stuck: Option<Motion>,
     pub failure: u8,
+    pub stopped: bool,
+    /// The start never ends.
+    pub never_ready: bool,
     aim: (u16, u16),
 }
 
@@ -46,6 +53,8 @@ impl Default for Bench {
             motors_on: false,
             stuck: None,
             failure: 0,
+            stopped: false,
+            never_ready: false,
             aim: (0, 0),
         }
     }
@@ -92,10 +101,11 @@ impl Hardware for Bench {
 
     fn sense(&mut self) -> Sensors {
         Sensors {
-            settled: self.done_ms.is_some_and(|done| self.now_ms >= done),
+            settled: !self.never_ready && self.done_ms.is_some_and(|done| self.now_ms >= done),
             spin_mrev_s: self.aim.0,
             angle_cdeg: self.aim.1,
             failure: self.failure,
+            stopped: self.stopped,
             ..Sensors::default()
         }
     }

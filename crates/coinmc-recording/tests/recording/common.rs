@@ -2,7 +2,7 @@
 
 use coinmc_recording::foxglove::{FrameTransform, Quaternion, Time, Vector3};
 use coinmc_recording::{
-    Attachment, Compression, Options, Recorder, Recovered, Schema, Unsynced, salvage,
+    Attachment, Compression, Encoding, Options, Recorder, Recovered, Schema, Unsynced, salvage,
 };
 use serde_json::{Value, json};
 use std::io::Cursor;
@@ -23,6 +23,7 @@ pub(crate) fn options(compression: Compression) -> Options {
         profile: "test".to_owned(),
         library: "coinmc test".to_owned(),
         compression,
+        encoding: Encoding::Json,
     }
 }
 
@@ -68,7 +69,7 @@ pub(crate) fn recording(compression: Compression) -> Recording {
     let transforms = recorder
         .channel::<FrameTransform>("/tf", &Schema::FRAME_TRANSFORM)
         .unwrap();
-    let own = Schema::new("coinmc.test", r#"{"type": "object"}"#);
+    let own = Schema::new("coinmc.test", r#"{"type": "object"}"#, b"");
     let values = recorder.channel::<Value>("/values", &own).unwrap();
     let (mut messages, mut flushes) = (Vec::new(), Vec::new());
     for chunk in 0..4_u32 {

@@ -123,8 +123,8 @@ fn after_an_error_of_the_disk_the_recorder_writes_nothing_more() {
 fn too_long_messages_and_too_many_channels_are_rejected() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.mcap");
-    let mut recorder = Recorder::create(&path, &Options::default()).unwrap();
-    let schema = Schema::new("any", "{}");
+    let mut recorder = Recorder::create(&path, &options(Compression::None)).unwrap();
+    let schema = Schema::new("any", "{}", b"");
     let channel = recorder.channel::<Value>("/long", &schema).unwrap();
     let long = Value::String("x".repeat(65 << 20));
     assert!(matches!(

@@ -3,5 +3,6 @@
 mod common;
 mod damage;
 mod limits;
+mod protobuf;
 mod read_back;
 mod truncation;

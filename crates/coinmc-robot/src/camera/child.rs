@@ -1,8 +1,8 @@
 //! One camera process: starting it, sending requests, ending it.
 
+use super::log::Log;
 use super::protocol::{CameraReply, LONGEST_LINE, Request};
 use rustix::process::{Pid, Signal, kill_process_group};
-use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::os::unix::process::CommandExt;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
@@ -10,6 +10,13 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::thread;
 use std::time::Duration;
 use thiserror::Error;
+
+/// Ends its process group when its standard input ends: when the host has ended, however it ended.
+const GUARD: &str = "while read -r _; do :; done; kill -KILL 0";
+
+/// After a reply nothing more may come for this time: a camera that answers before it is asked has not
+/// looked.
+const QUIET: Duration = Duration::from_millis(5);
 
 /// Why a photo failed.
 #[derive(Debug, Error)]
@@ -33,7 +40,7 @@ pub enum CameraError {
     /// The photo shows no face.
     #[error("no face can be read in the photo")]
     NoFace,
-    /// The photo does not exist, is not a file or cannot be synced to disk.
+    /// The photo does not exist, is not a new picture or cannot be synced to disk.
     #[error("photo {name}: {error}")]
     Photo {
         /// Its name.
@@ -46,29 +53,51 @@ pub enum CameraError {
 /// A running camera.
 #[derive(Debug)]
 pub(super) struct CameraChild {
+    /// Leads the process group.
+    guard: Child,
     child: Child,
     input: ChildStdin,
     lines: Receiver<Result<Vec<u8>, CameraError>>,
 }
 
 impl CameraChild {
-    /// Starts a shell command, with its standard error redirected to `log`.
-    pub(super) fn start(command: &str, log: Option<File>) -> Result<Self, CameraError> {
-        let mut child = Command::new("sh")
-            .args(["-c", command])
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(log.map_or_else(Stdio::null, Stdio::from))
+    /// Starts a shell command, whose standard error goes to `log`.
+    pub(super) fn start(command: &str, log: &Log) -> Result<Self, CameraError> {
+        let shell = |script: &str, group: i32| {
+            let mut shell = Command::new("sh");
             // only the host handles Ctrl-C: it ends the camera once the throw is finished
-            .process_group(0)
+            shell.args(["-c", script]).process_group(group);
+            shell
+        };
+        let guard = shell(GUARD, 0)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
             .spawn()
             .map_err(CameraError::Start)?;
-        let (Some(input), Some(output)) = (child.stdin.take(), child.stdout.take()) else {
+        let group = i32::try_from(guard.id()).unwrap_or(0);
+        let started = shell(command, group)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn();
+        let mut child = match started {
+            Ok(child) => child,
+            Err(error) => {
+                end(guard);
+                return Err(CameraError::Start(error));
+            }
+        };
+        let streams = (child.stdin.take(), child.stdout.take(), child.stderr.take());
+        let (Some(input), Some(output), Some(errors)) = streams else {
+            end(guard);
             return Err(CameraError::Ended);
         };
+        log.follow(errors);
         let (sender, lines) = mpsc::sync_channel(1);
         thread::spawn(move || read_lines(output, |line| sender.send(line).is_ok()));
         Ok(Self {
+            guard,
             child,
             input,
             lines,
@@ -82,12 +111,7 @@ impl CameraChild {
         timeout: Duration,
     ) -> Result<CameraReply, CameraError> {
         // An unsolicited line would be taken for the reply, and all replies would be one too late.
-        if let Ok(line) = self.lines.try_recv() {
-            line?;
-            return Err(CameraError::CameraReply(
-                "a line without a request".to_owned(),
-            ));
-        }
+        self.expect_quiet(Duration::ZERO)?;
         let mut line = serde_json::to_vec(request)
             .map_err(|error| CameraError::CameraReply(format!("nothing: {error}")))?;
         line.push(b'\n');
@@ -95,10 +119,27 @@ impl CameraChild {
             .write_all(&line)
             .and_then(|()| self.input.flush())
             .map_err(|_| CameraError::Ended)?;
-        match self.lines.recv_timeout(timeout) {
-            Ok(line) => CameraReply::read(&line?).map_err(CameraError::CameraReply),
-            Err(RecvTimeoutError::Timeout) => Err(CameraError::Silent(timeout)),
-            Err(RecvTimeoutError::Disconnected) => Err(CameraError::Ended),
+        let reply = match self.lines.recv_timeout(timeout) {
+            Ok(line) => {
+                CameraReply::read(&line?, request.about()).map_err(CameraError::CameraReply)?
+            }
+            Err(RecvTimeoutError::Timeout) => return Err(CameraError::Silent(timeout)),
+            Err(RecvTimeoutError::Disconnected) => return Err(CameraError::Ended),
+        };
+        self.expect_quiet(QUIET)?;
+        Ok(reply)
+    }
+
+    fn expect_quiet(&self, wait: Duration) -> Result<(), CameraError> {
+        match self.lines.recv_timeout(wait) {
+            Ok(line) => {
+                line?;
+                Err(CameraError::CameraReply(
+                    "a line without a request".to_owned(),
+                ))
+            }
+            // if it has ended, the next request finds out
+            Err(_) => Ok(()),
         }
     }
 }
@@ -106,12 +147,22 @@ impl CameraChild {
 impl Drop for CameraChild {
     /// Kills the whole process group, because otherwise a child of the shell would keep the camera.
     fn drop(&mut self) {
-        let group = i32::try_from(self.child.id()).ok().and_then(Pid::from_raw);
-        if let Some(group) = group {
-            // it may have ended already
-            let _ = kill_process_group(group, Signal::KILL);
-        }
+        kill_group(&self.guard);
+        let _ = self.guard.wait();
         let _ = self.child.wait();
+    }
+}
+
+fn end(mut guard: Child) {
+    kill_group(&guard);
+    let _ = guard.wait();
+}
+
+fn kill_group(guard: &Child) {
+    let group = i32::try_from(guard.id()).ok().and_then(Pid::from_raw);
+    if let Some(group) = group {
+        // it may have ended already
+        let _ = kill_process_group(group, Signal::KILL);
     }
 }
 

@@ -5,21 +5,26 @@
 //!
 //! ```text
 //! {"take": {"throw": 12, "attempt": 1, "folder": "/data/photos", "name": "000012-1"}}
-//! {"image": "000012-1.png"}
-//! {"classify": "/data/photos/000012-1.png"}
-//! {"face": "heads"}
+//! {"throw": 12, "attempt": 1, "image": "000012-1.png"}
+//! {"classify": "/data/photos/000012-1.png", "throw": 12, "attempt": 1}
+//! {"throw": 12, "attempt": 1, "face": "heads"}
 //! ```
+//!
+//! A reply counts only if it belongs to its request: it repeats throw and attempt, names the file that
+//! was asked for, the file is a picture that was never seen before, and nothing else was said.
 //!
 //! docs/guide/robot.md has the rules. A child that hangs, ends or replies anything else is ended
 //! and started again, and the photo counts as failed.
 
 mod child;
+mod log;
 mod picture;
 mod protocol;
+mod roll;
 mod simulated;
 mod worker;
 
 pub use child::CameraError;
-pub use protocol::{LONGEST_LINE, Request, Take};
+pub use protocol::{Classify, LONGEST_LINE, Request, Take};
 pub use simulated::{CameraFaults, simulate_camera};
-pub use worker::{Camera, CameraOptions, PhotoResult};
+pub use worker::{Camera, CameraFailure, CameraOptions, PhotoResult};

@@ -10,18 +10,21 @@ pub const LONGEST_LINE: usize = 1 << 16;
 
 /// Requests of the host.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(untagged)]
 pub enum Request {
     /// Take a photo.
-    Take(Take),
-    /// Classify the photo in this file.
-    Classify(PathBuf),
+    Take {
+        /// Which, and where to.
+        take: Take,
+    },
+    /// Classify a photo.
+    Classify(Classify),
 }
 
 /// A photo to take, and where to save it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Take {
-    /// Id of the throw on the link.
+    /// Id of the throw on the link; 0 for the test photo before the first throw.
     #[serde(rename = "throw")]
     pub throw_id: u32,
     /// Number of the photo of this throw, from 1.
@@ -32,10 +35,37 @@ pub struct Take {
     pub name: String,
 }
 
+/// A photo to classify.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Classify {
+    /// Its file; absolute.
+    pub classify: PathBuf,
+    /// As in the request to take it.
+    #[serde(rename = "throw")]
+    pub throw_id: u32,
+    /// As in the request to take it.
+    pub attempt: u32,
+}
+
+impl Request {
+    /// Throw and attempt, which the reply must repeat.
+    pub(super) fn about(&self) -> (u32, u32) {
+        match self {
+            Self::Take { take } => (take.throw_id, take.attempt),
+            Self::Classify(classify) => (classify.throw_id, classify.attempt),
+        }
+    }
+}
+
 /// A reply; other fields are ignored.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Deserialize)]
 pub(super) struct CameraReply {
+    #[serde(rename = "throw")]
+    throw_id: Option<u32>,
+    attempt: Option<u32>,
     image: Option<PathBuf>,
+    /// When the picture was exposed, ms since 1970, if the camera knows.
+    taken_ms: Option<u64>,
     face: Option<String>,
     error: Option<String>,
 }
@@ -49,26 +79,52 @@ pub(super) enum Shown {
 }
 
 impl CameraReply {
-    /// Parses a line.
-    pub(super) fn read(line: &[u8]) -> Result<Self, String> {
+    /// Parses a line, which must repeat throw and attempt of the request.
+    pub(super) fn read(line: &[u8], (throw_id, attempt): (u32, u32)) -> Result<Self, String> {
         let answer: Self = serde_json::from_slice(line).map_err(|error| error.to_string())?;
-        match answer.error {
-            Some(error) => Err(error.chars().take(200).collect()),
-            None => Ok(answer),
+        if let Some(error) = answer.error {
+            return Err(error.chars().take(200).collect());
+        }
+        match (answer.throw_id, answer.attempt) {
+            (Some(of), Some(number)) if (of, number) == (throw_id, attempt) => Ok(answer),
+            (Some(of), Some(number)) => Err(format!(
+                "an answer about throw {of}, photo {number}, but it was asked about throw \
+                 {throw_id}, photo {attempt}"
+            )),
+            _ => Err(
+                "an answer without `throw` and `attempt`: it must repeat those of the request"
+                    .to_owned(),
+            ),
         }
     }
 
-    /// The photo's name, if it is in the requested folder.
-    pub(super) fn image(&self, folder: &Path) -> Result<ImageName, String> {
+    /// The photo's name, if it is the one asked for, with any extension, in the requested folder.
+    pub(super) fn image(&self, folder: &Path, asked: &str) -> Result<ImageName, String> {
         let image = self.image.as_ref().ok_or("no `image` in its reply")?;
         let name = image.strip_prefix(folder).unwrap_or(image);
         let name = name.to_str().ok_or("an image's name that is not text")?;
-        name.parse().map_err(|_| {
+        let extension = name.strip_prefix(asked).and_then(|e| e.strip_prefix('.'));
+        let plain = |e: &str| {
+            (1..=8).contains(&e.len()) && e.bytes().all(|byte| byte.is_ascii_alphanumeric())
+        };
+        let wrong = || {
             format!(
-                "the image `{}`, which is not a file name in the given folder",
+                "the image `{}`, but it was asked for `{asked}` with an extension in the given folder",
                 name.escape_debug()
             )
-        })
+        };
+        extension.filter(|e| plain(e)).ok_or_else(wrong)?;
+        name.parse().map_err(|_| wrong())
+    }
+
+    /// Checks that the picture was exposed since `asked_ms`, if the camera says when.
+    pub(super) fn check_time(&self, asked_ms: u64, now_ms: u64) -> Result<(), String> {
+        match self.taken_ms {
+            Some(taken) if !(asked_ms..=now_ms).contains(&taken) => Err(format!(
+                "a picture of the time {taken} ms, but it was asked for at {asked_ms} ms: an old frame"
+            )),
+            _ => Ok(()),
+        }
     }
 
     pub(super) fn shown(&self) -> Result<Shown, String> {
@@ -88,54 +144,83 @@ mod tests {
 
     #[test]
     fn requests_are_the_documented_lines() {
-        let take = Request::Take(Take {
+        let take = Take {
             throw_id: 12,
             attempt: 1,
             folder: "/data/photos".into(),
             name: "000012-1".into(),
-        });
+        };
         let text = r#"{"take":{"throw":12,"attempt":1,"folder":"/data/photos","name":"000012-1"}}"#;
+        let take = Request::Take { take };
         assert_eq!(serde_json::to_string(&take).unwrap(), text);
-        let classify = Request::Classify("/data/photos/000012-1.png".into());
-        let text = r#"{"classify":"/data/photos/000012-1.png"}"#;
+        assert_eq!(serde_json::from_str::<Request>(text).unwrap(), take);
+        let classify = Request::Classify(Classify {
+            classify: "/data/photos/000012-1.png".into(),
+            throw_id: 12,
+            attempt: 1,
+        });
+        let text = r#"{"classify":"/data/photos/000012-1.png","throw":12,"attempt":1}"#;
         assert_eq!(serde_json::to_string(&classify).unwrap(), text);
+        assert_eq!(serde_json::from_str::<Request>(text).unwrap(), classify);
+        assert_eq!((take.about(), classify.about()), ((12, 1), (12, 1)));
     }
 
     #[test]
-    fn images_stay_in_their_folder_and_none_means_no_face() {
-        let answer = |text: &str| CameraReply::read(text.as_bytes()).unwrap();
+    fn answers_are_about_the_photo_that_was_asked_for() {
+        let read = |text: &str| CameraReply::read(text.as_bytes(), (12, 1));
+        assert!(read(r#"{"throw":12,"attempt":1,"face":"heads"}"#).is_ok());
+        for bad in [
+            r#"{"face":"heads"}"#,
+            r#"{"throw":12,"face":"heads"}"#,
+            r#"{"throw":11,"attempt":1,"face":"heads"}"#,
+            r#"{"throw":12,"attempt":2,"face":"heads"}"#,
+            "heads",
+        ] {
+            assert!(read(bad).is_err(), "{bad}");
+        }
+        assert_eq!(
+            read(r#"{"error":"too dark"}"#),
+            Err("too dark".to_owned()),
+            "an error needs no echo: it gives no face"
+        );
+    }
+
+    #[test]
+    fn images_have_the_name_asked_for_and_none_means_no_face() {
+        let answer = |more: &str| {
+            let text = format!(r#"{{"throw":12,"attempt":1,{more}}}"#);
+            CameraReply::read(text.as_bytes(), (12, 1)).unwrap()
+        };
         let folder = Path::new("/data/photos");
         for good in [
-            r#"{"image":"a-1.png"}"#,
-            r#"{"image":"/data/photos/a-1.png","x":[1]}"#,
+            r#""image":"000012-1.png""#,
+            r#""image":"/data/photos/000012-1.png","x":[1]"#,
         ] {
-            assert_eq!(answer(good).image(folder).unwrap().as_str(), "a-1.png");
+            let image = answer(good).image(folder, "000012-1").unwrap();
+            assert_eq!(image.as_str(), "000012-1.png");
         }
         for bad in [
-            r#"{"image":"../a.png"}"#,
-            r#"{"image":"/etc/passwd"}"#,
-            r#"{"image":"a b.png"}"#,
-            r#"{"image":""}"#,
-            r#"{"face":"heads"}"#,
+            r#""image":"../000012-1.png""#,
+            r#""image":"/etc/passwd""#,
+            r#""image":"000012-1""#,
+            r#""image":"000012-1.a/b""#,
+            r#""image":"000011-1.png""#,
+            r#""image":"000012-10.png""#,
+            r#""image":"""#,
+            r#""face":"heads""#,
         ] {
-            assert!(answer(bad).image(folder).is_err(), "{bad}");
+            assert!(answer(bad).image(folder, "000012-1").is_err(), "{bad}");
         }
-        assert_eq!(answer(r#"{"face":"none"}"#).shown(), Ok(Shown::Nothing));
+        assert_eq!(answer(r#""face":"none""#).shown(), Ok(Shown::Nothing));
         assert_eq!(
-            answer(r#"{"face":"side"}"#).shown(),
+            answer(r#""face":"side""#).shown(),
             Ok(Shown::Face(Face::Side))
         );
-        for bad in [
-            r#"{"face":"edge"}"#,
-            r#"{"face":"Heads"}"#,
-            r#"{"image":"x"}"#,
-        ] {
+        for bad in [r#""face":"edge""#, r#""face":"Heads""#, r#""image":"x""#] {
             assert!(answer(bad).shown().is_err(), "{bad}");
         }
-        assert_eq!(
-            CameraReply::read(br#"{"error":"too dark"}"#),
-            Err("too dark".to_owned())
-        );
-        assert!(CameraReply::read(b"heads").is_err());
+        let timed = answer(r#""image":"000012-1.png","taken_ms":1000"#);
+        assert!(timed.check_time(1000, 1100).is_ok() && timed.check_time(900, 1000).is_ok());
+        assert!(timed.check_time(1001, 1100).is_err() && timed.check_time(1, 999).is_err());
     }
 }

@@ -1,13 +1,14 @@
 //! The camera of the simulated robot, which reads the coin's face from the robot's truth file.
 
 use super::picture::{picture, shown};
-use super::protocol::{LONGEST_LINE, Request, Take};
+use super::protocol::{Classify, LONGEST_LINE, Request, Take};
 use crate::Face;
+use crate::files::open_to_read;
 use crate::sim::{Dice, last_truth};
 use serde_json::{Value, json};
-use std::fs::{self, File};
+use std::fs;
 use std::io::{self, BufRead, Read, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Random faults of the camera.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -20,6 +21,9 @@ pub struct CameraFaults {
     pub hang: f64,
     /// Fraction of photos after which the program ends.
     pub die: f64,
+    /// Fraction of answers with something that a camera must not do: an old picture, a second line, an
+    /// answer about another throw, another file name.
+    pub vice: f64,
 }
 
 /// Replies to requests until they end. `truth` is the truth file of the simulated robot.
@@ -46,22 +50,59 @@ pub fn simulate_camera(
             return Ok(());
         }
         let answer = match serde_json::from_slice(&line) {
-            Ok(Request::Take(take)) => {
+            Ok(Request::Take { take }) => {
                 if dice.chance(faults.die) {
                     return Ok(());
                 }
                 if dice.chance(faults.hang) {
                     hang();
                 }
-                self::take(truth, &take)
+                self::take(truth, &take, &mut dice)
             }
-            Ok(Request::Classify(path)) => classify(&path, faults, &mut dice),
+            Ok(Request::Classify(photo)) => classify(&photo, faults, &mut dice),
             Err(error) => Err(io::Error::other(error)),
         };
-        let answer = answer.unwrap_or_else(|error| json!({ "error": error.to_string() }));
+        let mut answer = answer.unwrap_or_else(|error| json!({ "error": error.to_string() }));
+        let mut extra = None;
+        if dice.chance(faults.vice) {
+            extra = misbehave(&mut answer, &line, &mut dice);
+        }
         writeln!(output, "{answer}")?;
+        if let Some(extra) = extra {
+            writeln!(output, "{extra}")?;
+        }
         output.flush()?;
     }
+}
+
+/// Spoils an answer in one of the ways that a host must notice; also returns a second line.
+fn misbehave(answer: &mut Value, line: &[u8], dice: &mut Dice) -> Option<Value> {
+    let face = Face::ALL[(dice.word() % 3) as usize].name();
+    match dice.word() % 4 {
+        0 => answer["throw"] = json!(answer["throw"].as_u64().unwrap_or(0).wrapping_sub(1)),
+        1 => {
+            // the picture before this one again
+            let request: Option<Request> = serde_json::from_slice(line).ok();
+            if let Some(Request::Take { take }) = request {
+                let again = take.folder.join(answer["image"].as_str().unwrap_or(""));
+                let older = newest_but(&take.folder, &again);
+                if let Some(older) = older.and_then(|path| fs::read(path).ok()) {
+                    let _ = fs::write(again, older);
+                }
+            }
+        }
+        2 => answer["image"] = json!("000001-1.png"),
+        _ => {
+            let (throw, attempt) = (answer["throw"].clone(), answer["attempt"].clone());
+            return Some(json!({ "throw": throw, "attempt": attempt, "face": face }));
+        }
+    }
+    None
+}
+
+fn newest_but(folder: &Path, but: &Path) -> Option<PathBuf> {
+    let paths = fs::read_dir(folder).ok()?.flatten().map(|e| e.path());
+    paths.filter(|path| path != but).max()
 }
 
 /// Waits until the process is killed.
@@ -71,17 +112,20 @@ fn hang() -> ! {
     }
 }
 
-fn take(truth: &Path, take: &Take) -> io::Result<Value> {
+fn take(truth: &Path, take: &Take, dice: &mut Dice) -> io::Result<Value> {
     let face = last_truth(truth)?.and_then(|truth| truth.face());
     let name = format!("{}.png", take.name);
-    fs::write(take.folder.join(&name), picture(face))?;
-    Ok(json!({ "image": name }))
+    let grain = format!("{:016x}", dice.word());
+    fs::write(take.folder.join(&name), picture(face, &grain))?;
+    Ok(json!({ "throw": take.throw_id, "attempt": take.attempt, "image": name }))
 }
 
-fn classify(path: &Path, faults: &CameraFaults, dice: &mut Dice) -> io::Result<Value> {
+fn classify(photo: &Classify, faults: &CameraFaults, dice: &mut Dice) -> io::Result<Value> {
     const MOST: u64 = 1 << 20;
     let mut bytes = Vec::new();
-    File::open(path)?.take(MOST).read_to_end(&mut bytes)?;
+    open_to_read(&photo.classify)?
+        .take(MOST)
+        .read_to_end(&mut bytes)?;
     let mut face = shown(&bytes);
     if dice.chance(faults.misread) {
         face = face.map(another);
@@ -89,7 +133,8 @@ fn classify(path: &Path, faults: &CameraFaults, dice: &mut Dice) -> io::Result<V
     if dice.chance(faults.unread) {
         face = None;
     }
-    Ok(json!({ "face": face.map_or("none", Face::name) }))
+    let face = face.map_or("none", Face::name);
+    Ok(json!({ "throw": photo.throw_id, "attempt": photo.attempt, "face": face }))
 }
 
 fn another(face: Face) -> Face {

@@ -1,15 +1,22 @@
 //! The camera's thread: photos are taken in the background, while the host keeps polling the robot.
 
 use super::child::{CameraChild, CameraError};
-use super::protocol::{Request, Shown, Take};
+use super::log::Log;
+use super::protocol::{Classify, Request, Shown, Take};
+use super::roll::Roll;
 use crate::Face;
-use crate::journal::ImageName;
-use std::fs::{self, File, OpenOptions};
-use std::io;
+use crate::clock::unix_ms;
+use crate::journal::{Digest, ImageName};
+use std::collections::HashSet;
+use std::fmt;
 use std::path::PathBuf;
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread;
 use std::time::Duration;
+
+/// First and longest pause before a camera that failed is started again; each doubles the last.
+const FIRST_PAUSE: Duration = Duration::from_millis(100);
+const LONGEST_PAUSE: Duration = Duration::from_secs(5);
 
 /// Options of the camera.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,7 +29,30 @@ pub struct CameraOptions {
     pub log: Option<PathBuf>,
     /// Time limit of a photo and of its classification.
     pub timeout: Duration,
+    /// Pictures seen before this session.
+    pub seen: HashSet<Digest>,
 }
+
+/// Why a photo failed, and what the camera last said on its standard error.
+#[derive(Debug)]
+pub struct CameraFailure {
+    /// The error.
+    pub error: CameraError,
+    /// The end of its log; empty if it said nothing.
+    pub said: String,
+}
+
+impl fmt::Display for CameraFailure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.error)?;
+        if self.said.is_empty() {
+            return Ok(());
+        }
+        write!(f, "; it last said: {}", self.said)
+    }
+}
+
+impl std::error::Error for CameraFailure {}
 
 /// The result of a requested photo.
 #[derive(Debug)]
@@ -32,7 +62,7 @@ pub struct PhotoResult {
     /// Number of the photo of this throw.
     pub attempt: u32,
     /// The face and the photo, which is on disk; or why there is none.
-    pub result: Result<(Face, ImageName), CameraError>,
+    pub result: Result<(Face, ImageName, Digest), CameraFailure>,
 }
 
 /// A running camera, which ends when dropped.
@@ -43,16 +73,26 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// Starts the camera program.
+    /// Starts the camera program and takes a test photo, so that a camera that does not work costs no
+    /// throw.
     ///
     /// # Errors
-    /// [`CameraError::Start`] if there is no shell.
-    pub fn start(options: CameraOptions) -> Result<Self, CameraError> {
+    /// [`CameraFailure`]
+    pub fn start(options: CameraOptions) -> Result<Self, CameraFailure> {
+        let early = |error| CameraFailure {
+            error: CameraError::Start(error),
+            said: String::new(),
+        };
+        let log = Log::open(options.log.clone()).map_err(early)?;
+        let roll = Roll::open(&options.folder, options.seen.clone()).map_err(early)?;
         let mut worker = Worker {
             options,
+            log,
+            roll,
             child: None,
+            pause: Duration::ZERO,
         };
-        worker.start()?;
+        worker.test()?;
         let (jobs, wanted) = mpsc::channel::<(u32, u32)>();
         let (done, taken) = mpsc::channel();
         thread::spawn(move || {
@@ -85,64 +125,84 @@ impl Camera {
 
 struct Worker {
     options: CameraOptions,
+    log: Log,
+    roll: Roll,
     child: Option<CameraChild>,
+    /// Before the camera is started again.
+    pause: Duration,
 }
 
 impl Worker {
-    fn start(&mut self) -> Result<&mut CameraChild, CameraError> {
-        let log = self.options.log.as_ref();
-        let log = log
-            .map(|path| OpenOptions::new().create(true).append(true).open(path))
-            .transpose()
-            .map_err(CameraError::Start)?;
-        let child = CameraChild::start(&self.options.command, log)?;
-        Ok(self.child.insert(child))
-    }
-
-    /// Takes and classifies a photo. After any failure other than one that the camera reports
-    /// itself, the camera is ended and started again for the next photo.
-    fn photo(&mut self, id: u32, attempt: u32) -> Result<(Face, ImageName), CameraError> {
-        let result = self.try_photo(id, attempt);
-        if !matches!(result, Ok(_) | Err(CameraError::NoFace)) {
-            self.child = None;
+    /// A photo before the first throw, whatever it shows.
+    fn test(&mut self) -> Result<(), CameraFailure> {
+        let name = self.roll.name("test", 1);
+        match self.try_photo(0, 1, &name) {
+            Ok(_) | Err(CameraError::NoFace) => Ok(()),
+            Err(error) => Err(self.failure(error)),
         }
-        result
     }
 
-    fn try_photo(&mut self, id: u32, attempt: u32) -> Result<(Face, ImageName), CameraError> {
-        let (folder, timeout) = (self.options.folder.clone(), self.options.timeout);
-        let child = match &mut self.child {
-            Some(child) => child,
-            None => self.start()?,
+    /// Takes and classifies a photo. After any failure other than a photo without a face, the camera is
+    /// ended and started again for the next photo.
+    fn photo(&mut self, id: u32, attempt: u32) -> Result<(Face, ImageName, Digest), CameraFailure> {
+        let name = self.roll.name(&format!("{id:06}"), attempt);
+        let result = self.try_photo(id, attempt, &name);
+        self.pause = match result {
+            Ok(_) | Err(CameraError::NoFace) => Duration::ZERO,
+            Err(_) => (self.pause * 2).clamp(FIRST_PAUSE, LONGEST_PAUSE),
         };
-        let take = Request::Take(Take {
-            throw_id: id,
+        result.map_err(|error| self.failure(error))
+    }
+
+    fn failure(&mut self, error: CameraError) -> CameraFailure {
+        if !matches!(error, CameraError::NoFace) && self.child.take().is_some() {
+            // what it said last may still be on its way
+            thread::sleep(Duration::from_millis(20));
+        }
+        let said = match error {
+            CameraError::NoFace => String::new(),
+            _ => self.log.last_words(),
+        };
+        CameraFailure { error, said }
+    }
+
+    fn try_photo(
+        &mut self,
+        throw_id: u32,
+        attempt: u32,
+        name: &str,
+    ) -> Result<(Face, ImageName, Digest), CameraError> {
+        let (folder, timeout) = (self.options.folder.clone(), self.options.timeout);
+        if self.child.is_none() {
+            thread::sleep(self.pause);
+            self.child = Some(CameraChild::start(&self.options.command, &self.log)?);
+        }
+        let child = self.child.as_mut().ok_or(CameraError::Ended)?;
+        let asked_ms = unix_ms();
+        let take = Take {
+            throw_id,
             attempt,
             folder: folder.clone(),
-            name: format!("{id:06}-{attempt}"),
-        });
-        let image = child.request(&take, timeout)?.image(&folder);
-        let image = image.map_err(CameraError::CameraReply)?;
-        let path = folder.join(image.as_str());
-        sync(&path).map_err(|error| CameraError::Photo {
+            name: name.to_owned(),
+        };
+        let reply = child.request(&Request::Take { take }, timeout)?;
+        let image = reply
+            .check_time(asked_ms, unix_ms())
+            .and_then(|()| reply.image(&folder, name))
+            .map_err(CameraError::CameraReply)?;
+        let digest = self.roll.add(&image).map_err(|error| CameraError::Photo {
             name: image.as_str().to_owned(),
             error,
         })?;
-        let shown = child.request(&Request::Classify(path), timeout)?.shown();
+        let classify = Request::Classify(Classify {
+            classify: folder.join(image.as_str()),
+            throw_id,
+            attempt,
+        });
+        let shown = child.request(&classify, timeout)?.shown();
         match shown.map_err(CameraError::CameraReply)? {
-            Shown::Face(face) => Ok((face, image)),
+            Shown::Face(face) => Ok((face, image, digest)),
             Shown::Nothing => Err(CameraError::NoFace),
         }
     }
-}
-
-/// Syncs a photo and its directory entry to disk.
-fn sync(path: &PathBuf) -> io::Result<()> {
-    // a symbolic link could lead out of the folder, and its target would not be synced
-    if !fs::symlink_metadata(path)?.is_file() {
-        return Err(io::Error::other("not a file"));
-    }
-    File::open(path)?.sync_all()?;
-    path.parent()
-        .map_or(Ok(()), |folder| File::open(folder)?.sync_all())
 }

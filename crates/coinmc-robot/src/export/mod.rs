@@ -4,4 +4,4 @@ mod results;
 mod throws;
 
 pub use results::results;
-pub use throws::{ThrowRow, rows, write_throws_csv, write_throws_parquet};
+pub use throws::{ThrowRow, rows, throws_batch, write_throws_csv, write_throws_parquet};

@@ -3,7 +3,7 @@
 use crate::Experiment;
 use crate::journal::{History, Resolution, Throw};
 use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray, UInt64Array};
-use arrow_schema::{DataType, Field, Schema};
+use arrow_schema::{ArrowError, DataType, Field, Schema};
 use coinmc::engines::EngineError;
 use parquet::arrow::ArrowWriter;
 use parquet::basic::Compression;
@@ -179,6 +179,16 @@ pub fn write_throws_csv(rows: &[ThrowRow], mut out: impl Write) -> io::Result<()
     Ok(())
 }
 
+/// The table in memory, with units and descriptions in its schema.
+///
+/// # Errors
+/// [`ArrowError`] if the table is too large for Arrow.
+pub fn throws_batch(rows: &[ThrowRow]) -> Result<RecordBatch, ArrowError> {
+    let schema = Schema::new(COLUMNS.iter().map(field).collect::<Vec<_>>());
+    let arrays = COLUMNS.iter().map(|column| array(column, rows)).collect();
+    RecordBatch::try_new(Arc::new(schema), arrays)
+}
+
 /// Writes the table as Parquet, with units, descriptions and the config in its metadata.
 ///
 /// # Errors
@@ -188,7 +198,7 @@ pub fn write_throws_parquet(
     experiment: &Experiment,
     out: &mut (dyn Write + Send),
 ) -> io::Result<()> {
-    let schema = Arc::new(Schema::new(COLUMNS.iter().map(field).collect::<Vec<_>>()));
+    let batch = throws_batch(rows).map_err(io::Error::other)?;
     let entry = |key: &str, value: String| KeyValue::new(format!("coinmc.{key}"), value);
     let plan = experiment.plan();
     let properties = WriterProperties::builder()
@@ -200,10 +210,8 @@ pub fn write_throws_parquet(
             entry("config", plan.resolved_toml.clone()),
         ]))
         .build();
-    let arrays = COLUMNS.iter().map(|column| array(column, rows)).collect();
-    let batch = RecordBatch::try_new(Arc::clone(&schema), arrays).map_err(io::Error::other)?;
     let mut writer =
-        ArrowWriter::try_new(out, schema, Some(properties)).map_err(io::Error::other)?;
+        ArrowWriter::try_new(out, batch.schema(), Some(properties)).map_err(io::Error::other)?;
     writer.write(&batch).map_err(io::Error::other)?;
     writer.close().map(drop).map_err(io::Error::other)
 }

@@ -1,5 +1,6 @@
 //! Entries of the journal.
 
+use super::robot::{RobotName, program};
 use crate::{Face, Setting};
 use std::fmt;
 use std::str::FromStr;
@@ -8,10 +9,22 @@ use thiserror::Error;
 /// One entry. `at_ms` is the time of the host's clock in milliseconds since 1970.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Entry {
-    /// The robot's counter was ahead, at `counter`; ids continue after it.
+    /// The robot is taken over as it is, with this counter: ids continue after it, or after the
+    /// journal's last one if that is greater.
     Adopted {
         /// The robot's counter.
         counter: u32,
+    },
+    /// The robot and the program that make the throws after this.
+    Session {
+        /// The robot.
+        robot: RobotName,
+        /// Its boot number.
+        boot: u16,
+        /// Version of this program.
+        program: String,
+        /// Time.
+        at_ms: u64,
     },
     /// A throw is about to be sent to the robot.
     Announced {
@@ -56,7 +69,13 @@ pub struct Reading {
     pub boot: u16,
     /// The photo.
     pub image: ImageName,
+    /// What tells this photo from any other; absent from journals of format 1.
+    pub digest: Option<Digest>,
 }
+
+/// The first 64 bits of a photo's SHA-256.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Digest(pub u64);
 
 /// Spin and start angle at release, measured by the robot: they may lie slightly outside the range
 /// of settings.
@@ -79,6 +98,13 @@ pub enum VoidReason {
     Lost,
     /// The robot's counter was ahead of this throw and was adopted.
     Superseded,
+    /// Under this number the robot has made a throw that is not this one.
+    Mismatch,
+    /// The robot does not know whether it has made this throw: it is another one, or its memory was
+    /// erased; and it was adopted.
+    Foreign,
+    /// Spin or angle at release were too far from those asked for.
+    OffTarget,
 }
 
 /// File name of a photo: at most 100 letters, digits, `-`, `_` and `.`, not beginning with a dot.
@@ -121,6 +147,9 @@ impl fmt::Display for VoidReason {
             Self::Fault(code) => write!(f, "fault-{code}"),
             Self::Lost => f.write_str("lost"),
             Self::Superseded => f.write_str("superseded"),
+            Self::Mismatch => f.write_str("mismatch"),
+            Self::Foreign => f.write_str("foreign"),
+            Self::OffTarget => f.write_str("off-target"),
         }
     }
 }
@@ -133,6 +162,9 @@ impl FromStr for VoidReason {
             "unread" => Self::Unread,
             "lost" => Self::Lost,
             "superseded" => Self::Superseded,
+            "mismatch" => Self::Mismatch,
+            "foreign" => Self::Foreign,
+            "off-target" => Self::OffTarget,
             _ => Self::Fault(number(text.strip_prefix("fault-").ok_or(())?).ok_or(())?),
         })
     }
@@ -142,21 +174,33 @@ impl fmt::Display for Entry {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Adopted { counter } => write!(f, "A {counter}"),
+            Self::Session {
+                robot,
+                boot,
+                program,
+                at_ms,
+            } => write!(f, "S {robot} {boot} {program} {at_ms}"),
             Self::Announced { id, setting, at_ms } => write!(
                 f,
                 "I {id} {} {} {at_ms}",
                 setting.spin_mrev_s(),
                 setting.angle_cdeg()
             ),
-            Self::Read { id, reading, at_ms } => write!(
-                f,
-                "R {id} {} {} {} {} {} {at_ms}",
-                reading.face.name(),
-                reading.measured.spin_mrev_s,
-                reading.measured.angle_cdeg,
-                reading.boot,
-                reading.image.as_str(),
-            ),
+            Self::Read { id, reading, at_ms } => {
+                write!(
+                    f,
+                    "R {id} {} {} {} {} {}",
+                    reading.face.name(),
+                    reading.measured.spin_mrev_s,
+                    reading.measured.angle_cdeg,
+                    reading.boot,
+                    reading.image.as_str(),
+                )?;
+                if let Some(Digest(digest)) = reading.digest {
+                    write!(f, " {digest:016x}")?;
+                }
+                write!(f, " {at_ms}")
+            }
             Self::Done { id } => write!(f, "D {id}"),
             Self::Void { id, reason } => write!(f, "V {id} {reason}"),
         }
@@ -164,10 +208,10 @@ impl fmt::Display for Entry {
 }
 
 impl Entry {
-    /// Id of the entry's throw; none for an adopted counter.
+    /// Id of the entry's throw; none for an adopted counter or a session.
     pub fn id(&self) -> Option<u32> {
         match *self {
-            Self::Adopted { .. } => None,
+            Self::Adopted { .. } | Self::Session { .. } => None,
             Self::Announced { id, .. }
             | Self::Read { id, .. }
             | Self::Done { id }
@@ -187,17 +231,20 @@ impl Entry {
                 setting: setting(spin, angle)?,
                 at_ms: number(at)?,
             },
+            ["S", uid, firmware, boot, version, at] => Self::Session {
+                robot: RobotName::read(uid, firmware)?,
+                boot: number(boot)?,
+                program: program(version)?,
+                at_ms: number(at)?,
+            },
             ["R", id, face, spin, angle, boot, image, at] => Self::Read {
                 id: number(id)?,
-                reading: Reading {
-                    face: Face::ALL.into_iter().find(|f| f.name() == face)?,
-                    measured: Measured {
-                        spin_mrev_s: number(spin)?,
-                        angle_cdeg: number(angle)?,
-                    },
-                    boot: number(boot)?,
-                    image: image.parse().ok()?,
-                },
+                reading: reading([face, spin, angle, boot, image], None)?,
+                at_ms: number(at)?,
+            },
+            ["R", id, face, spin, angle, boot, image, digest, at] => Self::Read {
+                id: number(id)?,
+                reading: reading([face, spin, angle, boot, image], Some(hex(digest)?))?,
                 at_ms: number(at)?,
             },
             ["D", id] => Self::Done { id: number(id)? },
@@ -210,6 +257,20 @@ impl Entry {
     }
 }
 
+fn reading(words: [&str; 5], digest: Option<u64>) -> Option<Reading> {
+    let [face, spin, angle, boot, image] = words;
+    Some(Reading {
+        face: Face::ALL.into_iter().find(|f| f.name() == face)?,
+        measured: Measured {
+            spin_mrev_s: number(spin)?,
+            angle_cdeg: number(angle)?,
+        },
+        boot: number(boot)?,
+        image: image.parse().ok()?,
+        digest: digest.map(Digest),
+    })
+}
+
 fn setting(spin: &str, angle: &str) -> Option<Setting> {
     Setting::new(number(spin)?, number(angle)?).ok()
 }
@@ -219,4 +280,10 @@ pub(super) fn number<T: FromStr>(text: &str) -> Option<T> {
     let plain = text.bytes().all(|byte| byte.is_ascii_digit());
     let shortest = text == "0" || !text.starts_with('0');
     (plain && shortest).then(|| text.parse().ok()).flatten()
+}
+
+/// Sixteen hexadecimal digits, in canonical form.
+pub(super) fn hex(text: &str) -> Option<u64> {
+    let value = u64::from_str_radix(text, 16).ok()?;
+    (format!("{value:016x}") == text).then_some(value)
 }

@@ -2,6 +2,7 @@
 
 use super::text::MAX_LINE;
 use super::{Damage, Entry, Header, History, LineChecksum, OrderError, Parsed, parse};
+use crate::files::{open_to_change, open_to_read};
 use crate::lock::lock;
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -16,6 +17,7 @@ const MAX_BYTES: u64 = 1 << 30;
 pub struct Journal {
     path: PathBuf,
     file: File,
+    header: Header,
     history: History,
     checksum: LineChecksum,
     /// Length of the complete lines, bytes.
@@ -137,11 +139,7 @@ impl Journal {
     /// # Errors
     /// [`JournalError`] if it is damaged, of another experiment, or in use.
     pub fn open(path: &Path, header: &Header) -> Result<(Self, usize), JournalError> {
-        let mut file = OpenOptions::new()
-            .read(true)
-            .write(true)
-            .open(path)
-            .map_err(|error| io_error("open", path, error))?;
+        let mut file = open_to_change(path).map_err(|error| io_error("open", path, error))?;
         lock_journal(&file, path)?;
         let bytes = read_bounded(&mut file, path)?;
         let parsed = match parse(&bytes) {
@@ -156,7 +154,7 @@ impl Journal {
                 damage,
             })?,
         };
-        if parsed.header != *header {
+        if !parsed.header.is_same_plan(header) {
             return Err(JournalError::OtherExperiment {
                 path: path.to_owned(),
                 theirs: parsed.header,
@@ -176,7 +174,7 @@ impl Journal {
     /// # Errors
     /// [`JournalError`] if it is damaged.
     pub fn read(path: &Path) -> Result<(Header, History), JournalError> {
-        let mut file = File::open(path).map_err(|error| io_error("open", path, error))?;
+        let mut file = open_to_read(path).map_err(|error| io_error("open", path, error))?;
         let bytes = read_bounded(&mut file, path)?;
         let parsed = parse(&bytes).map_err(|damage| JournalError::Damaged {
             path: path.to_owned(),
@@ -185,15 +183,26 @@ impl Journal {
         Ok((parsed.header, parsed.history))
     }
 
+    /// Whether a process holds the lock of a journal.
+    pub fn is_in_use(path: &Path) -> bool {
+        open_to_read(path).is_ok_and(|file| lock_journal(&file, path).is_err())
+    }
+
     fn new(path: &Path, file: File, parsed: Parsed) -> Self {
         Self {
             path: path.to_owned(),
             file,
+            header: parsed.header,
             history: parsed.history,
             checksum: parsed.checksum,
             whole: parsed.whole as u64,
             broken: false,
         }
+    }
+
+    /// Its first line.
+    pub fn header(&self) -> &Header {
+        &self.header
     }
 
     /// The throws so far.
@@ -220,6 +229,7 @@ impl Journal {
     fn begin(&mut self, header: &Header) -> Result<(), JournalError> {
         let (line, checksum) = LineChecksum::header(header);
         self.write(&line, checksum)?;
+        self.header = header.clone();
         sync_folder(&self.path).map_err(|error| io_error("sync", &self.path, error))
     }
 

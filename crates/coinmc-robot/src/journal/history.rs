@@ -1,6 +1,6 @@
 //! The throws that a journal's entries describe, and the valid order of entries.
 
-use super::{Entry, Reading, VoidReason};
+use super::{Digest, Entry, Reading, RobotName, VoidReason};
 use crate::Setting;
 use thiserror::Error;
 
@@ -53,6 +53,10 @@ pub struct History {
     throws: Vec<Throw>,
     /// The last id in use.
     last_id: u32,
+    /// The robot of the last session.
+    robot: Option<RobotName>,
+    /// Throws were announced for this robot: from then on it must know the experiment.
+    claimed: bool,
 }
 
 /// Why an entry cannot follow the ones before.
@@ -78,9 +82,6 @@ pub enum OrderError {
     /// Done without a reading.
     #[error("throw {0} is done but has no reading")]
     Unread(u32),
-    /// An adopted counter that is not ahead.
-    #[error("a counter of {0} is adopted, but it is not ahead")]
-    NotAhead(u32),
 }
 
 impl History {
@@ -113,6 +114,35 @@ impl History {
         }
     }
 
+    /// The robot of the last session; none before the first one of format 2.
+    pub fn robot(&self) -> Option<RobotName> {
+        self.robot
+    }
+
+    /// Whether throws were announced for this robot since it was taken over: then it must know the
+    /// experiment, or it is not the same.
+    pub fn is_claimed(&self) -> bool {
+        self.claimed
+    }
+
+    /// The least id that a robot which made these throws can be at.
+    pub fn least_id(&self) -> u32 {
+        match self.pending() {
+            Pending::Announced { id, .. } => {
+                let before = self.throws.iter().rev().nth(1).map_or(0, |throw| throw.id);
+                // ids before an adopted counter are not those of throws
+                before.min(id.saturating_sub(1))
+            }
+            Pending::Nothing | Pending::Read { .. } => self.throws.last().map_or(0, |t| t.id),
+        }
+    }
+
+    /// What tells the photos of all readings from others.
+    pub fn digests(&self) -> impl Iterator<Item = Digest> {
+        let readings = self.throws.iter().filter_map(|t| t.reading.as_ref());
+        readings.filter_map(|(reading, _)| reading.digest)
+    }
+
     /// Number of consecutive void throws at the end.
     pub fn consecutive_voids(&self) -> usize {
         let resolved = self.throws.iter().rev().filter_map(|t| t.resolution);
@@ -126,9 +156,8 @@ impl History {
     pub fn check(&self, entry: &Entry) -> Result<(), OrderError> {
         let open = self.open();
         match entry {
-            Entry::Adopted { counter } if *counter <= self.last_id => {
-                Err(OrderError::NotAhead(*counter))
-            }
+            // a host that starts again finds the throw open
+            Entry::Session { .. } => Ok(()),
             Entry::Announced { id, .. } if open.is_none() && Some(*id) != self.next_id() => {
                 Err(OrderError::WrongNumber {
                     found: *id,
@@ -159,9 +188,14 @@ impl History {
     pub fn add(&mut self, entry: &Entry) -> Result<(), OrderError> {
         self.check(entry)?;
         match entry {
-            Entry::Adopted { counter } => self.last_id = *counter,
+            Entry::Adopted { counter } => {
+                self.last_id = self.last_id.max(*counter);
+                self.claimed = false;
+            }
+            Entry::Session { robot, .. } => self.robot = Some(*robot),
             Entry::Announced { id, setting, at_ms } => {
                 self.last_id = *id;
+                self.claimed = self.robot.is_some();
                 self.throws.push(Throw {
                     id: *id,
                     setting: *setting,

@@ -6,7 +6,7 @@ use super::{Entry, History, OrderError};
 use thiserror::Error;
 
 /// Version of the journal's format.
-pub const FORMAT: u32 = 1;
+pub const FORMAT: u32 = 2;
 
 /// First word of the first line.
 const MAGIC: &str = "coinmc-robot-journal";
@@ -21,6 +21,15 @@ pub struct Header {
     pub plan_hash: String,
     /// Throws planned.
     pub throws: u32,
+    /// Number by which robots know the experiment, not 0: another one for every journal.
+    pub experiment: u32,
+}
+
+impl Header {
+    /// Whether two journals are of the same plan.
+    pub fn is_same_plan(&self, other: &Self) -> bool {
+        self.plan_hash == other.plan_hash && self.throws == other.throws
+    }
 }
 
 /// The CRC-32 of all lines so far, which the next line continues: it reveals missing, repeated and
@@ -39,7 +48,12 @@ impl LineChecksum {
     /// The first line of a journal.
     #[must_use]
     pub fn header(header: &Header) -> (String, Self) {
-        let body = format!("{MAGIC} {FORMAT} {} {}", header.plan_hash, header.throws);
+        let Header {
+            plan_hash,
+            throws,
+            experiment,
+        } = header;
+        let body = format!("{MAGIC} {FORMAT} {plan_hash} {throws} {experiment}");
         Self::default().line(&body)
     }
 
@@ -152,12 +166,18 @@ fn read_header(line: &[u8]) -> Result<(Header, LineChecksum), Damage> {
     }
     let (body, checksum) = LineChecksum::default().open(line).ok_or(Damage::Line(1))?;
     let words: Vec<&str> = body.split(' ').collect();
-    let [_, _, plan_hash, throws] = words[..] else {
-        return Err(Damage::Line(1));
+    let (plan_hash, throws, experiment) = match (format, &words[..]) {
+        // its first line is as good a number as any
+        (1, [_, _, plan_hash, throws]) => (plan_hash, throws, Some(checksum.0.max(1))),
+        (2, [_, _, plan_hash, throws, experiment]) => (plan_hash, throws, number(experiment)),
+        _ => return Err(Damage::Line(1)),
     };
     let header = Header {
-        plan_hash: plan_hash.to_owned(),
+        plan_hash: (*plan_hash).to_owned(),
         throws: number(throws).ok_or(Damage::Line(1))?,
+        experiment: experiment
+            .filter(|number| *number != 0)
+            .ok_or(Damage::Line(1))?,
     };
     Ok((header, checksum))
 }

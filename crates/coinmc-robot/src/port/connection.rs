@@ -9,7 +9,7 @@ use serial2::SerialPort;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use thiserror::Error;
 
 /// First and longest pause before a lost port is opened again; each pause doubles the last.
@@ -111,7 +111,29 @@ impl Connection {
     /// [`PortError`] if the port cannot be opened *now*, so that a mistyped name is reported at once.
     /// Later losses are not errors.
     pub fn open(path: &Path, clock: Clock) -> Result<Self, PortError> {
-        let port = open(path)?;
+        Self::open_within(path, clock, None, &|| false)
+    }
+
+    /// Opens the port and sends Hello; waits for a missing port for this time, unless the caller gives
+    /// up.
+    ///
+    /// # Errors
+    /// [`PortError`] if the port cannot be opened in that time.
+    pub fn open_within(
+        path: &Path,
+        clock: Clock,
+        wait: Option<Duration>,
+        given_up: &dyn Fn() -> bool,
+    ) -> Result<Self, PortError> {
+        let (begun, wait) = (Instant::now(), wait.unwrap_or_default());
+        let port = loop {
+            match open(path) {
+                Err(PortError::Missing { .. }) if begun.elapsed() < wait && !given_up() => {
+                    thread::sleep(FIRST_PAUSE);
+                }
+                opened => break opened?,
+            }
+        };
         // the sessions of any two hosts, and any two of one host, almost certainly differ
         #[allow(clippy::cast_possible_truncation)]
         let session = (unix_ms() ^ u64::from(std::process::id()) << 3) as u16;
@@ -131,6 +153,11 @@ impl Connection {
     /// Statistics of the connection.
     pub fn counters(&self) -> Counters {
         self.host.counters()
+    }
+
+    /// Drops the request that was given up, so that another one can be made.
+    pub fn give_up(&mut self) {
+        self.host.give_up();
     }
 
     /// Waits until a session is open, without a time limit.

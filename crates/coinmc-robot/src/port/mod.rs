@@ -7,9 +7,11 @@ pub use connection::{Connection, ConnectionError, LinkEvent, RequestOutcome};
 pub use list::{PortEntry, ports};
 
 use crate::lock::lock;
-use rustix::termios::ioctl_tiocexcl;
+use rustix::termios::{ControlModes, OptionalActions, ioctl_tiocexcl, tcgetattr, tcsetattr};
 use serial2::SerialPort;
+use std::fs;
 use std::io;
+use std::os::unix::fs::FileTypeExt;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -51,14 +53,31 @@ pub enum PortError {
 /// Opens a port exclusively for this process.
 fn open(path: &Path) -> Result<SerialPort, PortError> {
     let sort = |error: io::Error| sorted(path, error);
+    // a named pipe would wait for its other end for ever
+    if !fs::metadata(path)
+        .map_err(sort)?
+        .file_type()
+        .is_char_device()
+    {
+        return Err(sort(io::Error::other("it is not a device")));
+    }
     let port = SerialPort::open(path, BAUD).map_err(sort)?;
     // Neither is enough alone: the exclusive mode does not apply to the superuser, and the lock
     // does not apply to programs that take none. The system releases both when the process ends.
     lock(&port).map_err(sort)?;
     ioctl_tiocexcl(&port).map_err(|error| sorted(path, error.into()))?;
+    keep_ready(&port).map_err(sort)?;
     // Discard what an earlier host left unread.
     port.discard_buffers().map_err(sort)?;
     Ok(port)
+}
+
+/// Leaves the line "data terminal ready" as it is when the port is closed. An Arduino Uno resets itself
+/// when the line rises: once, when the port is opened first, but not again for every new host.
+fn keep_ready(port: &SerialPort) -> io::Result<()> {
+    let mut settings = tcgetattr(port)?;
+    settings.control_modes.remove(ControlModes::HUPCL);
+    Ok(tcsetattr(port, OptionalActions::Now, &settings)?)
 }
 
 fn sorted(path: &Path, error: io::Error) -> PortError {

@@ -1,7 +1,7 @@
 //! The simulated robot's EEPROM: in memory, or in a file that outlives the simulation.
 
+use crate::files::{read_text, replace_file};
 use coinmc_link::{Record, State};
-use std::fs;
 use std::io;
 use std::path::PathBuf;
 
@@ -17,13 +17,18 @@ impl Memory {
     pub(super) fn new(file: Option<PathBuf>) -> io::Result<Self> {
         let mut record = None;
         if let Some(path) = &file {
-            match fs::read_to_string(path) {
+            match read_text(path, 256) {
                 Ok(text) => record = Some(read(&text).ok_or(io::ErrorKind::InvalidData)?),
                 Err(error) if error.kind() == io::ErrorKind::NotFound => {}
                 Err(error) => return Err(error),
             }
         }
         Ok(Self { file, record })
+    }
+
+    /// Forgets everything.
+    pub(super) fn erase(&mut self) {
+        self.record = None;
     }
 
     pub(super) fn load(&self) -> Option<Record> {
@@ -35,15 +40,12 @@ impl Memory {
         if let Some(path) = &self.file {
             let Record {
                 throw_id,
+                experiment,
                 boot,
                 phase,
             } = record;
-            let text = format!("{throw_id} {boot} {}\n", phase.number());
-            let next = path.with_extension("next");
-            if fs::write(&next, text)
-                .and_then(|()| fs::rename(&next, path))
-                .is_err()
-            {
+            let text = format!("{throw_id} {experiment} {boot} {}\n", phase.number());
+            if replace_file(path, |to| to.write_all(text.as_bytes())).is_err() {
                 return false;
             }
         }
@@ -54,11 +56,12 @@ impl Memory {
 
 fn read(text: &str) -> Option<Record> {
     let words: Vec<&str> = text.split_whitespace().collect();
-    let [throw_id, boot, phase] = words[..] else {
+    let [throw_id, experiment, boot, phase] = words[..] else {
         return None;
     };
     Some(Record {
         throw_id: throw_id.parse().ok()?,
+        experiment: experiment.parse().ok()?,
         boot: boot.parse().ok()?,
         phase: State::from_number(phase.parse().ok()?)?,
     })
@@ -67,6 +70,7 @@ fn read(text: &str) -> Option<Record> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     #[test]
     fn a_file_outlives_the_simulation() {
@@ -76,6 +80,7 @@ mod tests {
         assert_eq!(memory.load(), None);
         let record = Record {
             throw_id: 7,
+            experiment: 9,
             boot: 65_535,
             phase: State::Driving,
         };

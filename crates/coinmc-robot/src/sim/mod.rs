@@ -9,6 +9,7 @@
 mod dice;
 mod line;
 mod memory;
+mod nemesis;
 mod plant;
 mod pty;
 mod robot;
@@ -16,5 +17,6 @@ mod truth;
 
 pub use dice::Dice;
 pub use line::Noise;
+pub use nemesis::Nemesis;
 pub use robot::{Command, Faults, SimError, SimOptions, UnknownCommand, simulate};
 pub use truth::{Truth, last_truth, read_truths};

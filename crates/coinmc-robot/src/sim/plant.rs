@@ -9,8 +9,8 @@ use std::time::{Duration, Instant};
 
 /// The simulated robot's description.
 const INFO: Info = Info {
-    uid: *b"coin-sim",
-    firmware: [1, 0, 0],
+    uid: [0; 8],
+    firmware: [2, 0, 0],
     capabilities: capability::LIGHT | capability::CARRIAGE,
     limits: Limits {
         spin_mrev_s: crate::MAX_SPIN_MREV_S,
@@ -27,6 +27,7 @@ const MAX_ROLL_UM: f64 = 200_000.0;
 #[derive(Debug)]
 pub(super) struct Plant {
     experiment: Experiment,
+    uid: [u8; 8],
     memory: Memory,
     truth: TruthFile,
     dice: Dice,
@@ -62,6 +63,7 @@ impl Plant {
     ) -> Self {
         let mut plant = Self {
             experiment,
+            uid: *b"coin-sim",
             memory,
             truth,
             dice: Dice::new(seed, 0),
@@ -80,6 +82,22 @@ impl Plant {
     /// Starts up, which takes some time and ends all motion.
     pub(super) fn power_on(&mut self) {
         self.busy = Some(Until::Then(Instant::now() + self.duration(1.0)));
+    }
+
+    /// Presses or releases the emergency stop.
+    pub(super) fn press(&mut self, pressed: bool) {
+        self.sensors.stopped = pressed;
+    }
+
+    /// Erases the memory.
+    pub(super) fn erase(&mut self) {
+        self.memory.erase();
+    }
+
+    /// Becomes another robot: another number, an empty memory.
+    pub(super) fn swap(&mut self) {
+        self.memory.erase();
+        self.uid[7] = self.uid[7].wrapping_add(1);
     }
 
     /// Makes the next motion never end.
@@ -139,7 +157,10 @@ impl Plant {
 
 impl Hardware for Plant {
     fn info(&self) -> Info {
-        INFO
+        Info {
+            uid: self.uid,
+            ..INFO
+        }
     }
 
     fn load(&mut self) -> Option<Record> {

@@ -3,6 +3,7 @@
 use super::dice::Dice;
 use super::line::Noise;
 use super::memory::Memory;
+use super::nemesis::Nemesis;
 use super::plant::Plant;
 use super::pty::{Pty, StableName};
 use super::truth::TruthFile;
@@ -44,6 +45,8 @@ pub struct SimOptions {
 pub struct Faults {
     /// Fraction of bytes that are damaged, dropped or followed by a random byte.
     pub noise: f64,
+    /// Fraction of frames that are attacked; see [`Nemesis`].
+    pub hostile: f64,
     /// Mean time between resets, s in the robot's time; `None`: never.
     pub reset_every_s: Option<f64>,
     /// Mean time between disconnections, likewise.
@@ -61,13 +64,21 @@ pub enum Command {
     Unplug(f64),
     /// Make the next motion never end.
     Stick,
+    /// Press the emergency stop.
+    Press,
+    /// Release the emergency stop.
+    Release,
+    /// Erase the memory and reset the robot.
+    Erase,
+    /// Put another robot in its place.
+    Swap,
     /// End the simulation.
     Quit,
 }
 
 /// Not a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-#[error("commands are: reset, unplug [SECONDS], stick, quit")]
+#[error("commands are: reset, unplug [SECONDS], stick, press, release, erase, swap, quit")]
 pub struct UnknownCommand;
 
 impl FromStr for Command {
@@ -83,6 +94,10 @@ impl FromStr for Command {
                 _ => return Err(UnknownCommand),
             },
             ["stick"] => Self::Stick,
+            ["press"] => Self::Press,
+            ["release"] => Self::Release,
+            ["erase"] => Self::Erase,
+            ["swap"] => Self::Swap,
             ["quit"] => Self::Quit,
             _ => return Err(UnknownCommand),
         })
@@ -144,8 +159,8 @@ struct Robot {
     device: Option<Device<Plant>>,
     pty: Pty,
     name: Option<StableName>,
-    into: Noise,
-    out: Noise,
+    into: (Noise, Nemesis),
+    out: (Noise, Nemesis),
     dice: Dice,
     origin: Instant,
     speed: f64,
@@ -184,6 +199,14 @@ impl Schedule {
     }
 }
 
+/// The bytes that arrive over a line.
+fn attacked((noise, nemesis): &mut (Noise, Nemesis), bytes: &[u8]) -> Vec<u8> {
+    let (mut whole, mut arrived) = (Vec::new(), Vec::new());
+    nemesis.pass(bytes, Instant::now(), &mut whole);
+    noise.pass(&whole, &mut arrived);
+    arrived
+}
+
 impl Robot {
     fn new(experiment: Experiment, options: &SimOptions) -> Result<Self, SimError> {
         let SimOptions {
@@ -207,8 +230,14 @@ impl Robot {
             device: Some(Device::boot(plant, 0)),
             pty,
             name,
-            into: Noise::new(faults.noise, seed, 2),
-            out: Noise::new(faults.noise, seed, 3),
+            into: (
+                Noise::new(faults.noise, seed, 2),
+                Nemesis::new(faults.hostile, seed, 4),
+            ),
+            out: (
+                Noise::new(faults.noise, seed, 3),
+                Nemesis::new(faults.hostile, seed, 5),
+            ),
             origin: Instant::now(),
             speed,
             resets: Schedule::new(faults.reset_every_s, speed, &mut dice),
@@ -243,6 +272,16 @@ impl Robot {
             Command::Reset => self.reset(),
             Command::Unplug(seconds) => self.unplug(seconds)?,
             Command::Stick => self.device().hardware_mut().stick(),
+            Command::Press => self.device().hardware_mut().press(true),
+            Command::Release => self.device().hardware_mut().press(false),
+            Command::Erase => {
+                self.device().hardware_mut().erase();
+                self.reset();
+            }
+            Command::Swap => {
+                self.device().hardware_mut().swap();
+                self.reset();
+            }
             Command::Quit => {}
         }
         Ok(())
@@ -299,8 +338,7 @@ impl Robot {
             .pty
             .read(&mut bytes, wait.min(TICK))
             .map_err(cannot("read from the pseudo-terminal"))?;
-        let mut arrived = Vec::new();
-        self.into.pass(&bytes[..count], &mut arrived);
+        let arrived = attacked(&mut self.into, &bytes[..count]);
         let now = self.now_ms();
         self.device().tick(now);
         let mut replies = Vec::new();
@@ -309,8 +347,7 @@ impl Robot {
                 replies.extend_from_slice(reply);
             }
         }
-        let mut sent = Vec::new();
-        self.out.pass(&replies, &mut sent);
+        let sent = attacked(&mut self.out, &replies);
         if !sent.is_empty() {
             self.pty
                 .write(&sent)

@@ -2,8 +2,9 @@
 //! simulated camera reads it instead of a coin, and tests compare it with the journal.
 
 use crate::Face;
+use crate::files::{open_to_append, open_to_read};
 use serde::{Deserialize, Serialize};
-use std::fs::{File, OpenOptions};
+use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
@@ -36,7 +37,7 @@ pub(super) struct TruthFile(Option<File>);
 
 impl TruthFile {
     pub(super) fn open(path: Option<&Path>) -> io::Result<Self> {
-        let open = |path| OpenOptions::new().create(true).append(true).open(path);
+        let open = |path| open_to_append(path);
         path.map(open).transpose().map(Self)
     }
 
@@ -55,7 +56,7 @@ impl TruthFile {
 /// # Errors
 /// System errors, and an invalid last line.
 pub fn last_truth(path: &Path) -> io::Result<Option<Truth>> {
-    let mut file = match File::open(path) {
+    let mut file = match open_to_read(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
         file => file?,
     };
@@ -74,7 +75,7 @@ pub fn last_truth(path: &Path) -> io::Result<Option<Truth>> {
 /// # Errors
 /// System errors, and any invalid line.
 pub fn read_truths(path: &Path) -> io::Result<Vec<Truth>> {
-    let lines = BufReader::new(File::open(path)?).lines();
+    let lines = BufReader::new(open_to_read(path)?).lines();
     lines
         .map(|line| Ok(serde_json::from_str(&line?)?))
         .collect()

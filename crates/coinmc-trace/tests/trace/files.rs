@@ -3,7 +3,7 @@
 use crate::plans::{flat, space};
 use coinmc::plan::Plan;
 use coinmc::results::Kind;
-use coinmc_recording::{Compression, Unsynced, salvage};
+use coinmc_recording::{Compression, Encoding, Unsynced, salvage};
 use coinmc_trace::{Trace, columns, replay, write_csv, write_jsonl, write_mcap, write_parquet};
 use serde_json::Value;
 use std::io::Cursor;
@@ -98,15 +98,20 @@ fn json_lines_agree_with_csv() {
 #[test]
 fn the_mcap_is_undamaged_and_has_all_records() {
     let (plan, traces) = traces();
-    for compression in [Compression::None, Compression::Lz4] {
+    let none = Compression::None;
+    for (encoding, compression) in [
+        (Encoding::Protobuf, none),
+        (Encoding::Protobuf, Compression::Lz4),
+        (Encoding::Json, none),
+    ] {
         let mut bytes = Vec::new();
-        write_mcap(&plan, &traces, compression, &mut bytes).unwrap();
+        write_mcap(&plan, &traces, encoding, compression, &mut bytes).unwrap();
         let recovered = salvage(Cursor::new(bytes), Unsynced(Vec::new())).unwrap();
         assert!(recovered.was_whole());
         let records: usize = traces.iter().map(|trace| trace.records.len()).sum();
-        // transform, state and energy of each
-        assert!(recovered.messages > 3 * records as u64);
-        assert_eq!((recovered.channels, recovered.metadata), (7, 3));
+        // transform, pose, state and energy of each
+        assert!(recovered.messages > 4 * records as u64);
+        assert_eq!((recovered.channels, recovered.metadata), (8, 3));
     }
 }
 
@@ -115,7 +120,8 @@ fn the_same_traces_give_the_same_bytes() {
     let write = || {
         let (plan, traces) = traces();
         let [mut mcap, mut parquet, mut jsonl] = [Vec::new(), Vec::new(), Vec::new()];
-        write_mcap(&plan, &traces, Compression::Lz4, &mut mcap).unwrap();
+        let (encoding, compression) = (Encoding::Protobuf, Compression::Lz4);
+        write_mcap(&plan, &traces, encoding, compression, &mut mcap).unwrap();
         write_parquet(&plan, &traces, &mut parquet).unwrap();
         write_jsonl(&plan, &traces, &mut jsonl).unwrap();
         (mcap, parquet, jsonl, csv(&traces))

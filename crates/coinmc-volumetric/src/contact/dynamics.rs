@@ -29,6 +29,8 @@ pub(crate) struct Dynamics {
     /// 1/smoothing_time where friction holds the rocking of the coin, else 0: see
     /// [`held_friction`](super::held_friction).
     pub(super) holding_rate: f64,
+    /// The pull of a tilted table, along x and y of the coin's frame at present.
+    pub(crate) pull: Option<[f64; 2]>,
 }
 
 /// The smoothed sign of a rate in dry friction.
@@ -82,6 +84,23 @@ impl Dynamics {
             } else {
                 0.0
             },
+            pull: None,
+        }
+    }
+
+    /// The same dynamics on a table that pulls like this.
+    pub(crate) fn pulled_by(&self, pull: [f64; 2]) -> Self {
+        Self {
+            pull: Some(pull),
+            ..*self
+        }
+    }
+
+    /// The same dynamics in the frame turned by half a turn.
+    pub(super) fn reversed(&self) -> Self {
+        Self {
+            pull: self.pull.map(|pull| pull.map(|p| -p)),
+            ..*self
         }
     }
 
@@ -138,6 +157,8 @@ impl Dynamics {
                 ..self.body
             },
             holding_rate: if HOLDS { self.holding_rate } else { 0.0 },
+            // a batch knows no places
+            pull: None,
             ..*self
         }
     }

@@ -49,7 +49,7 @@ impl ContactSolver<'_> {
     }
 
     /// One step of the phase, tried with shorter lengths until it is accepted, and its duration.
-    fn take_step(&mut self, phase: &mut Phase) -> (PhaseTransition, f64) {
+    pub(super) fn take_step(&mut self, phase: &mut Phase) -> (PhaseTransition, f64) {
         let (dynamics, rates) = (self.rules.dynamics, &phase.now.state);
         let mut length = step_limit(dynamics, phase.mode, &phase.state, rates, phase.length);
         let mut retry = false;
@@ -70,7 +70,12 @@ impl ContactSolver<'_> {
     }
 
     /// The motion a time `t` into a step, found by a shorter step from the same start.
-    fn within_step(&self, start: &StepStart, t: f64, ceiling: f64) -> (Motion<f64>, Spin<f64>) {
+    pub(super) fn within_step(
+        &self,
+        start: &StepStart,
+        t: f64,
+        ceiling: f64,
+    ) -> (Motion<f64>, Spin<f64>) {
         let dynamics = self.rules.dynamics;
         let mut state = step(
             &start.state,
@@ -88,7 +93,7 @@ impl ContactSolver<'_> {
     }
 }
 
-fn event_of(mode: Mode) -> EventKind {
+pub(super) fn event_of(mode: Mode) -> EventKind {
     match mode {
         Mode::Stick => EventKind::Sticking,
         Mode::Slip => EventKind::Sliding,

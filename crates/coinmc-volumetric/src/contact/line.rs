@@ -54,10 +54,11 @@ pub(crate) fn line_rates(dynamics: &Dynamics, state: &LineState, creep: f64) -> 
     );
     let (contour, pivoting) = dynamics.friction_torques(1.0, 0.0, wa, -wz);
     let (linear, angular) = (dynamics.drag.linear, dynamics.drag.angular);
+    let [pull_x, pull_y] = dynamics.pull.unwrap_or_default();
     LineRates {
         rates: [
-            wz * vy + fx - linear * vx,
-            -wz * vx + f1 - linear * vy,
+            wz * vy + fx - linear * vx + pull_x,
+            -wz * vx + f1 - linear * vy + pull_y,
             (radius * f1 - contour) / body.ka - angular * wa,
             (body.half * f2 + pivoting) / body.kt - angular * wz,
         ],

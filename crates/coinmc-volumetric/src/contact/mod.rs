@@ -38,7 +38,7 @@
 //! - `rules` what governs contact · `phase` phase and exits · `step` one try of a step
 //! - `solver` the state machine · `tilt_search`, `margin_search`, `events` where in a step an event
 //!   lies
-//! - `follow` the scalar path
+//! - `follow` the scalar path · `tilted` the same on a tilted table
 //! - `line`, `rolling_stop`, `on_side` the coin on its side
 
 mod dynamics;
@@ -57,6 +57,7 @@ mod solver;
 mod state;
 mod step;
 mod tilt_search;
+mod tilted;
 
 pub(crate) use dynamics::{Dynamics, fastest_rate};
 pub(crate) use integrator::{Trial, is_accepted, next_length, shorter, step};

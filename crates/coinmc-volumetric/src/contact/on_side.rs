@@ -15,7 +15,7 @@ use coinmc_core::{Decided, EventKind, Observer};
 use std::f64::consts::FRAC_PI_2;
 
 /// Length of the first step.
-const FIRST_STEP: f64 = 0.01;
+pub(super) const FIRST_STEP: f64 = 0.01;
 
 /// How contact on the side ends.
 pub(crate) enum SideExit {
@@ -70,7 +70,7 @@ impl ContactSolver<'_> {
 
     /// The exit of a coin on its side that is decided or tips.
     #[inline(always)]
-    fn side_exit(
+    pub(super) fn side_exit(
         &self,
         state: &LineState,
         now: &LineRates,
@@ -95,7 +95,7 @@ impl ContactSolver<'_> {
 
     /// An accepted step of at most this length, and its duration; `None` if the limits allow none.
     #[inline(always)]
-    fn step_on_side(
+    pub(super) fn step_on_side(
         &mut self,
         state: &LineState,
         now: &LineRates,
@@ -125,6 +125,11 @@ impl ContactSolver<'_> {
         let body = &self.rules.dynamics.body;
         let slip = side * (vy + body.outer_radius() * wa) - body.half * wz;
         let rim = [FRAC_PI_2, 0.0, side * wa, -wz, side * vx, slip];
+        if side < 0.0 && self.rules.dynamics.pull.is_some() {
+            return self
+                .with(&self.rules.dynamics.reversed())
+                .tilts_from_side(rim);
+        }
         self.tilts_from_side(rim)
     }
 
@@ -141,7 +146,7 @@ impl ContactSolver<'_> {
     }
 
     /// The state with no more kinetic energy than `ceiling`.
-    fn capped(&self, state: LineState, ceiling: f64) -> LineState {
+    pub(super) fn capped(&self, state: LineState, ceiling: f64) -> LineState {
         let dynamics = self.rules.dynamics;
         let (motion, spin) = line_motion(dynamics, &state);
         let kinetic = motion.kinetic(&dynamics.body, &spin);

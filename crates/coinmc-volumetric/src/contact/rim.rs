@@ -27,7 +27,7 @@
 //! change, r ω_y² is taken from −bz, and by gains r ω_y ω_z.
 //!
 //! Sticking requires γ' = 0, slipping f = −μ N γ/|γ|. Drag adds −k v to the acceleration of the
-//! centre and −k_ω ω to ω'. Without gyroscopic torque Ω_a = ω_a. (Le Saux, Leine & Glocker, J.
+//! centre and −k_ω ω to ω'. On a tilted table its pull (see `crate::pull`) adds to bx and by. Without gyroscopic torque Ω_a = ω_a. (Le Saux, Leine & Glocker, J.
 //! Nonlinear Sci. 15 (2005) 27; contour and pivoting friction as in Leine, Arch. Appl. Mech. 79
 //! (2009) 1063.)
 
@@ -105,7 +105,7 @@ impl Dynamics {
     /// Whether contact in this mode loses no energy.
     pub(super) fn conserves(&self, mode: Mode) -> bool {
         let smooth = mode == Mode::Stick || self.friction.mu == 0.0;
-        smooth && !self.friction.has_lengths() && !self.drag.acts()
+        smooth && !self.friction.has_lengths() && !self.drag.acts() && self.pull.is_none()
     }
 
     /// Rates and forces of `state` in a mode.
@@ -147,6 +147,10 @@ impl Dynamics {
             bx -= linear * vx;
             by -= linear * vy + angular * (radius * wa + half * wt);
             bz -= linear * wy * rx;
+        }
+        if let Some([pull_x, pull_y]) = self.pull {
+            bx += k(pull_x);
+            by += k(pull_y);
         }
         let mu = k(self.friction.mu);
         // in slip, both forces contain N/|γ| = −bz/(K_zz |γ| − μ K_xz γx): one quotient for all

@@ -34,6 +34,10 @@ impl RollingStop {
         let r2 = radius * radius;
         let a = friction.contour * radius / (body.ka + r2);
         let b = (drag.linear * r2 + drag.angular * body.ka) / (body.ka + r2);
+        Self::with(a, b, speed)
+    }
+
+    fn with(a: f64, b: f64, speed: f64) -> Self {
         let dragged = b * speed >= NEGLIGIBLE_DRAG * a;
         let time = if dragged {
             libm::log1p(b * speed / a) / b
@@ -47,6 +51,14 @@ impl RollingStop {
             time,
             dragged,
         }
+    }
+
+    /// The same on a slope whose pull along the way changes the speed at the rate `gained`; `None` if
+    /// contour friction cannot hold the coin there: it rolls for ever.
+    pub(super) fn pulled(self, gained: f64) -> Option<Self> {
+        let a = self.a - gained;
+        let holds = gained.abs() <= self.a && a > 0.0;
+        holds.then(|| Self::with(a, self.b, self.speed))
     }
 
     /// Whether contour friction stops the coin.
@@ -101,18 +113,16 @@ mod tests {
     use super::*;
 
     fn rolling(a: f64, b: f64) -> RollingStop {
-        let dragged = b >= NEGLIGIBLE_DRAG * a;
-        let time = if dragged {
-            libm::log1p(b / a) / b
-        } else {
-            1.0 / a
-        };
-        RollingStop {
-            a,
-            b,
-            speed: 1.0,
-            time,
-            dragged,
+        RollingStop::with(a, b, 1.0)
+    }
+
+    #[test]
+    fn friction_holds_a_coin_on_a_gentle_slope_only() {
+        let stop = |gained: f64| rolling(0.5, 0.0).pulled(gained).map(|stop| stop.distance());
+        assert_eq!(stop(0.25), Some(2.0));
+        assert_eq!(stop(-0.5), Some(0.5));
+        for steep in [0.5, 0.6, -0.6] {
+            assert_eq!(stop(steep), None, "{steep}");
         }
     }
 

@@ -17,6 +17,8 @@ pub(crate) struct ContactRules<'a> {
     pub(crate) side: f64,
     /// Slip below which a contact point may stick.
     pub(crate) stick_speed: f64,
+    /// Slip below which a coin on its side rolls straight: that of its creep.
+    pub(crate) creep: f64,
     /// Error allowed per step, absolute and relative.
     pub(crate) tolerance: f64,
 }
@@ -34,7 +36,7 @@ impl ContactRules<'_> {
         let [vx, vy, wa, wz] = *state;
         let body = &self.dynamics.body;
         let slip = (vy + body.outer_radius() * wa).abs() + (body.half * wz).abs() + vx.abs();
-        self.dynamics.friction.mu > 0.0 && slip < self.stick_speed
+        self.dynamics.friction.mu > 0.0 && slip < self.creep
     }
 }
 

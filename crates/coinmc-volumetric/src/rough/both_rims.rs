@@ -110,8 +110,11 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         let tilting = (bends[0] - bends[1]) / (2.0 * body.half * time);
         let normal = 1.0 + 0.5 * (bends[0] + bends[1]) / time;
         let [_, vy, wa, wz] = state;
-        let along =
+        let mut along =
             line_rates(dynamics, &state, self.model.contact_rules().stick_speed).rates[0] - wz * vy;
+        if self.holds_across(&state) {
+            along -= self.pull()[0];
+        }
         let gyroscopic = -wz * dynamics.axial_factor * wa;
         let moment = body.kt * (tilting - gyroscopic)
             + body.radius * lean * normal

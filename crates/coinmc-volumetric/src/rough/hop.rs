@@ -92,13 +92,14 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
 
     /// Moves the coin along its orbit.
     fn fly_on(&mut self, orbit: &Orbit<f64>, time: f64) {
-        let start = self.toss.motion;
-        let (dx, dy) = orbit.drift(&start, time);
+        let ([dx, dy], start) = self.model.glide(self.toss, orbit, time);
         if O::ACTIVE {
             self.model
                 .show_flight(self.toss, orbit, time, self.observer);
+            let before = self.toss.place;
             self.toss.place.shift(dx, dy);
             self.toss.place.time += time;
+            self.descend_from(&before);
         }
         let (mut motion, [nx, ny], reflected): (Motion<f64>, _, _) = orbit.at(&start, time);
         let axial_factor = self.model.dynamics.axial_factor;

@@ -368,7 +368,9 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
             let spin = Spin::from_columns(&std::array::from_fn(|i| mix(a[i], b[i])));
             (motion, spin)
         };
+        let start = self.toss.place;
         let (_, _, mut adapter) = self.toss.observed(&self.model.units, self.observer);
         adapter.step(time, blend);
+        self.descend_from(&start);
     }
 }

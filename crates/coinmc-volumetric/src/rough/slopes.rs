@@ -10,6 +10,9 @@
 //! horizontal force, and what is left is the moment N g_y R/s about x: a coin at rest begins to roll
 //! downhill. A point that slips does not.
 //!
+//! On a tilted table its pull acts in the same way, on the centre: a point that sticks holds it, as
+//! far as it can without turning the coin.
+//!
 //! The pull acts at the nodes, half of it before the way to the next node and half after it (the
 //! Störmer–Verlet method). In between the coin has kinetic energy ahead of the height that it is
 //! going to lose, the walk's `lead`.
@@ -18,11 +21,13 @@ use super::rim_contact::Contact;
 use super::walk::Walk;
 use crate::contact::{LineState, Mode};
 use crate::impact::{ImpactLaw, Impulse};
+use crate::place::Place;
 use coinmc_core::Observer;
 
 impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     /// Half of the pull of the slope under the own rim in `time`.
     pub(super) fn descend_on_rim(&mut self, contact: &Contact, time: f64) {
+        self.pull_on_rim(contact.mode, 0.5 * time);
         let dynamics = &self.model.dynamics;
         let [gx, gy] = self.tracks.own.slopes;
         let push = 0.5 * contact.now.normal.max(0.0) * time;
@@ -47,19 +52,63 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         });
     }
 
+    /// The pull of a tilted table on a coin on its own rim.
+    fn pull_on_rim(&mut self, mode: Mode, time: f64) {
+        let [x, y] = self.pull().map(|pull| pull * time);
+        if x == 0.0 && y == 0.0 {
+            return;
+        }
+        self.toss.motion.vx += x;
+        self.toss.motion.vy += y;
+        if mode == Mode::Stick {
+            let body = &self.model.dynamics.body;
+            self.push(|point| {
+                let k = point.matrix(body);
+                let held = -x * k.zz / (k.xx + k.zz - 1.0);
+                Impulse {
+                    x: held,
+                    y: -y / k.yy,
+                    z: -(k.xz / k.zz) * held,
+                    contour: 0.0,
+                    pivoting: 0.0,
+                }
+            });
+        }
+    }
+
+    /// Adds to the budget what the way down a tilted table has given since the coin was at `before`.
+    pub(super) fn descend_from(&mut self, before: &Place) {
+        if let Some(pull) = &self.model.pull {
+            self.budget += pull.work(before, &self.toss.place);
+        }
+    }
+
     /// The motion along the ground of a coin on both rims, after half of the pull of the slopes in
     /// `time`.
     pub(super) fn descend_on_both(&self, state: &LineState, time: f64) -> LineState {
         let body = self.body();
         let (own, other) = (self.tracks.own.slopes, self.tracks.other.slopes);
         let [gx, gy] = [0, 1].map(|i| 0.25 * time * (own[i] + other[i]));
+        let [px, py] = self.pull().map(|pull| 0.5 * time * pull);
         let [vx, vy, wa, wz] = *state;
         if self.model.contact_rules().rolls_straight(state) {
             let radius = body.outer_radius();
-            let turn = gy * radius / (body.ka + radius * radius);
+            let turn = (gy - py) * radius / (body.ka + radius * radius);
             [vx, vy - radius * turn, wa + turn, wz]
         } else {
-            [vx - gx, vy - gy, wa, wz]
+            let px = if self.holds_across(state) { 0.0 } else { px };
+            [vx - gx + px, vy - gy + py, wa, wz]
         }
+    }
+
+    /// The pull of a tilted table in the coin's frame; none on a level one.
+    pub(super) fn pull(&self) -> [f64; 2] {
+        let pull = self.model.pull.as_ref();
+        pull.map_or([0.0; 2], |pull| pull.in_frame(&self.toss.place, 0.0))
+    }
+
+    /// Whether friction holds a coin on both rims along its axis.
+    pub(super) fn holds_across(&self, [vx, ..]: &LineState) -> bool {
+        vx.abs() <= self.model.contact_rules().creep
     }
 }

@@ -17,3 +17,4 @@ mod side_ending;
 mod symmetry;
 mod table;
 mod textbook;
+mod tilted;

@@ -41,9 +41,14 @@ pub(super) fn unmodelled(root: &Checked) -> Vec<&'static Unmodelled> {
 /// ignored, and the results would claim what was never computed.
 pub(super) fn refuse_unmodelled(root: &Checked, problems: &mut Problems) {
     for refused in unmodelled(root) {
+        let of_radius = refused.key.strip_suffix("_m");
+        let of_radius = of_radius.map(|length| format!("{length}_over_radius"));
         let given = root
             .get(refused.table)
-            .and_then(|table| table.get(refused.key))
+            .and_then(|table| {
+                let fraction = || table.get(of_radius.as_deref()?);
+                table.get(refused.key).or_else(fraction)
+            })
             .filter(|checked| is_somewhere_in_force(checked));
         if let Some(checked) = given {
             problems.add_with_help(checked.span, refused.message, refused.help);

@@ -20,6 +20,7 @@
 mod at;
 mod build;
 mod checked;
+mod coin;
 mod columns;
 mod diagnostics;
 mod engines;
@@ -149,7 +150,7 @@ fn plan(
     }
     let end = sources.end(file);
     let mut root = walk::document(sources, problems, &schema::root(), &tree, end);
-    let taken = spell_out(&mut root);
+    let taken = spell_out(&mut root, problems);
     engines::refuse_unmodelled(&root, problems);
     let sweep = Sweep::find(&mut root, problems)?;
     let points = build::points(&root, sweep, problems);
@@ -176,14 +177,16 @@ fn plan(
     })
 }
 
-/// Expands the preset of the launch and the material of the surface; remarks on what was taken.
-fn spell_out(root: &mut Checked) -> Vec<String> {
+/// Expands the lengths of the coin, the preset of the launch and the material of the surface; remarks
+/// on what was taken.
+fn spell_out(root: &mut Checked, problems: &mut Problems) -> Vec<String> {
     let engine = engines::descriptor(root);
     let unmodelled = engines::unmodelled(root);
     let mut notes = Vec::new();
     if let CheckedValue::Table(entries) = &mut root.value {
         for (key, checked) in entries {
             match *key {
+                "coin" => *checked = coin::spelled_out(checked, problems),
                 "launch" => *checked = launch::spelled_out(checked),
                 "surface" => {
                     let spelled = surface::spelled_out(checked, engine, &unmodelled);

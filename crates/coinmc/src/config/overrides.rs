@@ -3,6 +3,7 @@
 use super::diagnostics::Problems;
 use super::source::{Sources, Span};
 use super::tree::{self, Node, Table, Value};
+use coinmc_core::{Coin, Preset, Surface};
 use std::ops::Range;
 use std::str::FromStr;
 use thiserror::Error;
@@ -117,6 +118,7 @@ impl Override {
                     .iter()
                     .map(|(key, range)| (key.clone(), sources.span(source, range.clone())))
                     .collect();
+                lay_out(root, &path);
                 root.set(&path, node);
             }
             Err((span, message)) => problems.add_with_help(
@@ -140,6 +142,55 @@ impl Override {
                 Err(error)
             }
         })
+    }
+}
+
+/// Makes room for a value: takes out keys that say the same as its own, and spells out the part of a
+/// preset of which it is a part.
+fn lay_out(root: &mut Table, path: &[(String, Span)]) {
+    let [(table, span), (key, _), deeper @ ..] = path else {
+        return;
+    };
+    let Some(Value::Table(there)) = root.get_mut(table).map(|node| &mut node.value) else {
+        return;
+    };
+    if deeper.is_empty() {
+        let same = same_as(table, key);
+        there
+            .entries
+            .retain(|entry| entry.key == *key || !same.contains(&entry.key.as_str()));
+    } else if table == "launch"
+        && there.get(key).is_none()
+        && let Some(Value::Text(preset)) = there.get("preset").map(|entry| &entry.node.value)
+        && let Some(node) = of_preset(preset, key, &deeper[0].0, *span)
+    {
+        there.set(&[(key.clone(), *span)], node);
+    }
+}
+
+/// Keys that say the same as this one.
+fn same_as(table: &str, key: &str) -> Vec<&'static str> {
+    let names = |keys: &[(&'static str, f64)]| keys.iter().map(|(key, _)| *key).collect();
+    let mut heights: Vec<&'static str> = names(&Coin::HEIGHTS);
+    heights.push("ratio");
+    let groups = match table {
+        "coin" => vec![heights, names(&Coin::RADII)],
+        "surface" => Surface::ALTERNATIVES.map(<[_]>::to_vec).to_vec(),
+        _ => vec![],
+    };
+    let mut groups = groups.into_iter();
+    groups
+        .find(|group| group.contains(&key))
+        .unwrap_or_default()
+}
+
+/// The value of a key of a preset, if it is a table with the key `inner`.
+fn of_preset(preset: &str, key: &str, inner: &str, span: Span) -> Option<Node> {
+    let values = preset.parse::<Preset>().ok()?.distribution().values();
+    let node = Node::of_value(span, values.get(key)?);
+    match &node.value {
+        Value::Table(table) if table.get(inner).is_some() => Some(node),
+        _ => None,
     }
 }
 

@@ -38,6 +38,19 @@ impl Quantity {
         }
     }
 
+    /// The same with every value, or both ends of a range, replaced: for functions that multiply.
+    pub(super) fn map(&self, f: impl Fn(f64) -> f64) -> Self {
+        match self {
+            Self::Constant(value) => Self::Constant(f(*value)),
+            Self::List(values) => Self::List(values.iter().map(|value| f(*value)).collect()),
+            Self::Range(range) => Self::Range(Range {
+                from: f(range.from),
+                to: f(range.to),
+                ..*range
+            }),
+        }
+    }
+
     /// The canonical form of these values: a list that equals a range becomes that range.
     pub(super) fn canonical(&self) -> Self {
         let values = self.values();

@@ -49,15 +49,20 @@ struct Spelled<'a> {
 }
 
 impl Spelled<'_> {
+    /// Whether the config or a material gives this key, or one that says the same.
     fn has(&self, key: &str) -> bool {
-        self.given.get(key).is_some() || self.taken.iter().any(|(taken, _)| *taken == key)
+        let has = |key| {
+            self.given.get(key).is_some() || self.taken.iter().any(|(taken, _)| *taken == key)
+        };
+        alternatives(key).iter().any(|key| has(key)) || has(key)
     }
 
     /// The key of the config whose number takes the place of a material's.
     fn replacing(&self, key: &str) -> Option<&'static str> {
-        let instead: &[&str] = match key {
-            "contact_patch_m" => &["contact_patch_m", "pivoting_friction_m"],
-            _ => &[key],
+        let own = [key];
+        let instead = match alternatives(key) {
+            [] => &own,
+            several => several,
         };
         let entries = match &self.given.value {
             CheckedValue::Table(entries) => entries.as_slice(),
@@ -122,7 +127,7 @@ impl Spelled<'_> {
                 number("rolling_friction_m")
             ));
         }
-        if !self.has("pivoting_friction_m") && !self.has("contact_patch_m") {
+        if !self.has("pivoting_friction_m") {
             self.take(&estimates, "contact_patch_m");
             self.notes.push(format!(
                 "surface.pivoting_friction_m is not given: taken as (3π/16) · friction · contact_patch_m \
@@ -140,10 +145,7 @@ impl Spelled<'_> {
     /// What counts as 0 where it is absent: what nothing asks for. Restitution and friction only if
     /// they may be absent, as their absence has been reported otherwise.
     fn fill_with_zero(&mut self, all: bool) {
-        let mut keys = vec!["rolling_friction_m"];
-        if !self.has("contact_patch_m") {
-            keys.push("pivoting_friction_m");
-        }
+        let mut keys = vec!["rolling_friction_m", "pivoting_friction_m"];
         if all {
             keys.extend(["restitution", "friction"]);
         }
@@ -184,4 +186,10 @@ impl Spelled<'_> {
         let surface = Checked::new(span, CheckedValue::Table(entries.collect()));
         SpelledOut { surface, notes }
     }
+}
+
+/// The keys of which a config has one at most, this one among them; none if it stands alone.
+fn alternatives(key: &str) -> &'static [&'static str] {
+    let mut groups = Surface::ALTERNATIVES.into_iter();
+    groups.find(|group| group.contains(&key)).unwrap_or(&[])
 }

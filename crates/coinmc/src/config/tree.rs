@@ -24,6 +24,39 @@ pub(super) enum Value {
     Table(Table),
 }
 
+impl Node {
+    /// A value that stands in no text; `span` is its place in messages.
+    pub(super) fn of_value(span: Span, value: &coinmc_core::schema::Value) -> Self {
+        use coinmc_core::schema::Value as Checked;
+        let nested = |value| Self::of_value(span, value);
+        let table = |entries: Vec<(&'static str, Self)>| {
+            let entries = entries.into_iter().map(|(key, node)| Entry {
+                key: key.to_owned(),
+                key_span: span,
+                node,
+            });
+            Value::Table(Table {
+                entries: entries.collect(),
+            })
+        };
+        let value = match value {
+            Checked::Number(number) => Value::Float(*number),
+            Checked::Integer(number) => Value::Integer((*number).into()),
+            Checked::Boolean(holds) => Value::Boolean(*holds),
+            Checked::Word(word) => Value::Text((*word).to_owned()),
+            Checked::Vector(components) => Value::List(components.iter().map(nested).collect()),
+            Checked::Table(values) => table(
+                values
+                    .entries()
+                    .map(|(key, value)| (key, nested(value)))
+                    .collect(),
+            ),
+            Checked::Tagged(tag, inner) => table(vec![(*tag, nested(inner))]),
+        };
+        Self { value, span }
+    }
+}
+
 impl Value {
     /// Name of this type in messages.
     pub(super) fn type_name(&self) -> &'static str {
@@ -55,6 +88,11 @@ pub(super) struct Entry {
 impl Table {
     pub(super) fn get(&self, key: &str) -> Option<&Entry> {
         self.entries.iter().find(|entry| entry.key == key)
+    }
+
+    pub(super) fn get_mut(&mut self, key: &str) -> Option<&mut Node> {
+        let entry = self.entries.iter_mut().find(|entry| entry.key == key);
+        entry.map(|entry| &mut entry.node)
     }
 
     /// Replaces or adds the value at a path of keys; values on the path that are not tables are

@@ -27,6 +27,12 @@ pub(super) const ENGINE: EngineDescriptor = EngineDescriptor {
             message: "closed forms know no edge of the table: `surface.table_radius_m` must be absent",
             help: "remove `table_radius_m`, or toss in space with [engine.volumetric]",
         },
+        Unmodelled {
+            table: "surface",
+            key: "table_tilt_deg",
+            message: "closed forms know level tables only: `surface.table_tilt_deg` must be 0",
+            help: "remove `table_tilt_deg`, or toss in space with [engine.volumetric]",
+        },
     ],
     finer: &[],
     remarks: &[],

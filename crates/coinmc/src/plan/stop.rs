@@ -82,6 +82,22 @@ impl StoppedBy {
         }
     }
 
+    /// The rule of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        let all = [
+            Self::Tosses,
+            Self::Targets,
+            Self::ClosedForm,
+            Self::MaxTosses,
+            Self::TotalTosses,
+            Self::MaxCoreSeconds,
+            Self::TotalCoreSeconds,
+            Self::Evaluations,
+            Self::Unfinished,
+        ];
+        all.into_iter().find(|rule| rule.name() == name)
+    }
+
     /// Whether the point has what was asked for.
     pub fn is_reached(self) -> bool {
         matches!(self, Self::Tosses | Self::Targets | Self::ClosedForm)

@@ -13,6 +13,11 @@ pub(super) const STUDENT: &str = "student-t";
 pub(super) const RANDOM: &str = "random";
 pub(super) const QUASI_RANDOM: &str = "quasi-random";
 pub(super) const CLOSED_FORM: &str = "closed-form";
+/// Name of the interval of a point that stops at targets.
+const SEQUENTIAL: &str = "sequential-clopper-pearson";
+/// All names of intervals, and all of how launches were drawn.
+pub(super) const INTERVALS: [&str; 5] = ["wilson", "clopper-pearson", SEQUENTIAL, STUDENT, EXACT];
+pub(super) const SAMPLINGS: [&str; 3] = [RANDOM, QUASI_RANDOM, CLOSED_FORM];
 
 /// The estimates of heads, tails and side at a point, given its tosses so far.
 ///
@@ -62,6 +67,6 @@ pub(crate) fn interval_name(plan: &Plan, point: &Point) -> &'static str {
     match plan.stop {
         _ if !point.engine.makes_tosses() => EXACT,
         Stop::Tosses(_) => plan.interval.name(),
-        Stop::Targets(_) => "sequential-clopper-pearson",
+        Stop::Targets(_) => SEQUENTIAL,
     }
 }

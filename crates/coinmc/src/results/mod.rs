@@ -4,15 +4,19 @@ mod csv;
 mod estimates;
 mod fair;
 mod json;
+#[cfg(feature = "parquet")]
 mod parquet;
 mod schema;
+#[cfg(feature = "parquet")]
 mod tables;
 
 pub use csv::{write_csv, write_csv_row};
 pub(crate) use estimates::integrated;
 pub use fair::{FairRatio, fair_ratios, fair_values};
+#[cfg(feature = "parquet")]
 pub use parquet::{arrow_array, arrow_field, parquet_error, record_batch, write_parquet};
 pub use schema::{Cell, Column, FORMAT, Kind, columns};
+#[cfg(feature = "parquet")]
 pub(crate) use tables::{Table, write_tables};
 
 use crate::OnDemand;
@@ -187,6 +191,20 @@ impl Row {
             published: None,
             ..Self::new(plan, index, Tally::default(), stopped_by)
         }
+    }
+
+    /// The method of intervals of this name, as in [`interval`](Self::interval).
+    pub fn interval_named(name: &str) -> Option<&'static str> {
+        estimates::INTERVALS
+            .into_iter()
+            .find(|known| *known == name)
+    }
+
+    /// The way of drawing launches of this name, as in [`sampling`](Self::sampling).
+    pub fn sampling_named(name: &str) -> Option<&'static str> {
+        estimates::SAMPLINGS
+            .into_iter()
+            .find(|known| *known == name)
     }
 
     /// The parameter of this name.

@@ -39,7 +39,8 @@ pub(super) struct ParquetTable<'a> {
 impl<'a> ParquetTable<'a> {
     pub(super) fn new(results: &Results, out: &'a mut (dyn Write + Send)) -> io::Result<Self> {
         let columns = columns_of(results);
-        let schema = Arc::new(Schema::new(columns.iter().map(field).collect::<Vec<_>>()));
+        // in the schema for those who read Arrow's, in the file for others
+        let schema = Arc::new(schema(results, &columns));
         let properties = WriterProperties::builder()
             .set_created_by(format!("coinmc {}", results.program_version))
             .set_compression(Compression::SNAPPY)
@@ -86,11 +87,16 @@ impl<'a> ParquetTable<'a> {
 /// [`ArrowError`] if the table is beyond what Arrow can hold.
 pub fn record_batch(results: &Results) -> Result<RecordBatch, ArrowError> {
     let columns = columns_of(results);
+    let schema = schema(results, &columns);
+    batch(&Arc::new(schema), &columns, results.rows.iter())
+}
+
+/// The schema, with what the table says of itself.
+fn schema(results: &Results, columns: &[Column]) -> Schema {
     let entries = metadata(results).into_iter();
     let entries = entries.filter_map(|entry| Some((entry.key, entry.value?)));
     let fields: Vec<_> = columns.iter().map(field).collect();
-    let schema = Schema::new_with_metadata(fields, entries.collect::<HashMap<_, _>>());
-    batch(&Arc::new(schema), &columns, results.rows.iter())
+    Schema::new_with_metadata(fields, entries.collect::<HashMap<_, _>>())
 }
 
 fn batch<'a>(

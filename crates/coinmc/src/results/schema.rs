@@ -359,13 +359,14 @@ pub(crate) fn columns_of(results: &Results) -> Vec<Column> {
 
 /// The unit that a name ends in.
 fn unit_of(name: &str) -> &'static str {
-    const UNITS: [(&str, &str); 10] = [
+    const UNITS: [(&str, &str); 11] = [
         ("_per_s", "1/s"),
         ("_kg_m2", "kg m²"),
         ("_rad_s", "rad/s"),
         ("_m_s2", "m/s²"),
         ("_m_s", "m/s"),
         ("_rad", "rad"),
+        ("_deg", "deg"),
         ("_kg", "kg"),
         ("_m2", "m²"),
         ("_m", "m"),

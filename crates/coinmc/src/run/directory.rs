@@ -8,7 +8,9 @@ use super::replace::{self, Replacement};
 use super::tallies::{Entry, Tallies};
 use super::{Part, ProgressSink, RunError};
 use crate::plan::Plan;
-use crate::results::{Results, Table, write_csv, write_tables};
+use crate::results::{Results, write_csv};
+#[cfg(feature = "parquet")]
+use crate::results::{Table, write_tables};
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -152,6 +154,12 @@ impl RunDirectory {
         sink: &dyn ProgressSink,
     ) -> Result<(), RunError> {
         replace::remove(&self.path.join(PARTIAL))?;
+        self.write_tables(results, sink)?;
+        replace::sync_directory(&self.path)
+    }
+
+    #[cfg(feature = "parquet")]
+    fn write_tables(&self, results: &Results, sink: &dyn ProgressSink) -> Result<(), RunError> {
         let mut parquet = Replacement::begin(&self.path.join(PARQUET))?;
         let mut csv = Replacement::begin(&self.path.join(CSV))?;
         // both at once, as each row takes a while to compute
@@ -161,8 +169,15 @@ impl RunDirectory {
             Table::Csv => csv.error(error),
         })?;
         self.finish(parquet, PARQUET, sink)?;
-        self.finish(csv, CSV, sink)?;
-        replace::sync_directory(&self.path)
+        self.finish(csv, CSV, sink)
+    }
+
+    #[cfg(not(feature = "parquet"))]
+    fn write_tables(&self, results: &Results, sink: &dyn ProgressSink) -> Result<(), RunError> {
+        let mut csv = Replacement::begin(&self.path.join(CSV))?;
+        let written = write_csv(results, &mut csv.writer());
+        written.map_err(|error| csv.error(error))?;
+        self.finish(csv, CSV, sink)
     }
 
     /// Writes the results of an unfinished run.

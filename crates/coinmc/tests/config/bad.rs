@@ -63,7 +63,7 @@ const NUMBERS: &[Case] = &[
     ("tosses = 1000", "tosses = 10.5", &[(12, 10, "must be a whole number from 1 to 1000000000000000, found a number: `10.5`")]),
     ("tosses = 1000", "half_width = 0.5", &[(12, 14, "must be at least 1e-7 and below 0.5")]),
     ("tosses = 1000", "tosses = 1000\n[estimate]\nconfidence = 1", &[(14, 14, "must be at least 0.5 and below 1")]),
-    ("seed = 1", "seed = -1", &[(1, 8, "`seed` must be a whole number from 0 to 9223372036854775807, found `-1`")]),
+    ("seed = 1", "seed = -1", &[(1, 8, "`seed` must be a whole number from 0 to 18446744073709551615, found `-1`")]),
     ("seed = 1", "seed = 9223372036854775808", &[(1, 8, "found `9223372036854775808`")]),
     ("seed = 1", "seed = nan", &[(1, 8, "a whole number")]),
     ("seed = 1", "seed = [1, 2]", &[(1, 8, "found a list")]),

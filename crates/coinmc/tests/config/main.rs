@@ -2,6 +2,7 @@
 
 mod bad;
 mod files;
+mod lengths;
 mod plan;
 mod properties;
 mod rapier;

@@ -53,6 +53,8 @@ fn defaults_are_those_of_the_crates() {
             ("roughness_slope", 0.0),
             ("roughness_wavelength_m", 0.0),
             ("table_radius_m", 0.0),
+            ("table_tilt_deg", 0.0),
+            ("table_downhill_deg", 0.0),
         ]
     );
     assert!(point.scene.has_gyroscopic_torque());

@@ -175,3 +175,44 @@ fn the_edge_of_a_table_is_refused_where_it_is_not_modelled() {
         assert!(problems.contains("`surface.table_radius_m`"), "{problems}");
     }
 }
+
+/// Whatever knows level tables only refuses a tilted one, and a tilt that friction cannot hold is none.
+#[test]
+fn a_tilted_table_is_refused_where_it_is_not_modelled() {
+    let table = |keys: &str| on(&format!("material = 'felt'\n{keys}"));
+    let good = table("table_tilt_deg = [0, 2.5]\ntable_downhill_deg = 90");
+    assert_eq!(column(&parse(&good, &[]), "table_tilt_deg"), [0.0, 2.5]);
+    assert_eq!(
+        column(&parse(&good, &[]), "table_downhill_deg"),
+        [0.0, 90.0]
+    );
+    let refused = |text: &str| {
+        let plan = config::parse("bad.toml", text, &[]);
+        plan.expect_err("refused").to_string()
+    };
+    for engine in ["flat", "rapier", "analytic"] {
+        let problems = refused(&good.replace("engine.volumetric", &format!("engine.{engine}")));
+        assert!(
+            problems.contains("`surface.table_tilt_deg` must be 0")
+                && problems.contains("bad.toml:5:")
+                && problems.contains("[engine.volumetric]"),
+            "{problems}"
+        );
+    }
+    for (keys, word) in [
+        ("table_tilt_deg = 11", "`surface.table_tilt_deg`"),
+        ("table_tilt_deg = -1", "`surface.table_tilt_deg`"),
+        ("table_downhill_deg = 90", "`table_downhill_deg`"),
+        (
+            "friction = 0.05\ntable_tilt_deg = 3",
+            "needs friction above tan 3",
+        ),
+        (
+            "landing = 'adhesive'\ntable_tilt_deg = 3",
+            "adhesive landing on a tilted table",
+        ),
+    ] {
+        let problems = refused(&table(keys));
+        assert!(problems.contains(word), "{keys}: {problems}");
+    }
+}

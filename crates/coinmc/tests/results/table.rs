@@ -182,7 +182,8 @@ fn every_result_names_the_law_and_all_that_defines_the_toss() {
     let text = "[coin]\nratio = 1\n[surface]\nrestitution = 0.3\nfriction = 10\nrolling_friction_m = 1e-4\n\
                 pivoting_friction_m = 2e-4\nrestitution_threshold_m_s = 2\n\
                 restitution_exponent = 0.25\nrestitution_reference_m_s = 2\nroughness_slope = 0.06\n\
-                roughness_wavelength_m = 3e-3\ntable_radius_m = 0.2\n[environment]\n\
+                roughness_wavelength_m = 3e-3\ntable_radius_m = 0.2\ntable_tilt_deg = 3\n\
+                table_downhill_deg = 45\n[environment]\n\
                 linear_drag_per_s = 1\nangular_drag_per_s = 0.05\ngyroscopic_torque = false\n\
                 [launch]\npreset = \"table1\"\n[engine.volumetric]\nlaw = \"stronge\"\n\
                 [stop]\ntosses = 1\n";
@@ -209,11 +210,13 @@ fn every_result_names_the_law_and_all_that_defines_the_toss() {
         ("roughness_slope", "0.06"),
         ("roughness_wavelength_m", "0.003"),
         ("table_radius_m", "0.2"),
+        ("table_tilt_deg", "3.0"),
+        ("table_downhill_deg", "45.0"),
         ("engine", "volumetric"),
         ("law", "stronge"),
         ("gyroscopic_torque", "false"),
     ];
-    assert_eq!(cells[3..19], expected);
+    assert_eq!(cells[3..21], expected);
     let published = results.rows[0].published.as_ref().unwrap();
     assert_eq!(
         published.differs,
@@ -223,7 +226,8 @@ fn every_result_names_the_law_and_all_that_defines_the_toss() {
             "pivoting_friction_m",
             "restitution_exponent",
             "roughness_slope",
-            "table_radius_m"
+            "table_radius_m",
+            "table_tilt_deg"
         ]
     );
 }

@@ -1,6 +1,6 @@
 //! How a run is shared out to the jobs of a cluster.
 
-use crate::commands::run::quoted;
+use crate::command_line::quoted;
 use crate::terminal::{count, duration};
 use coinmc::plan::{Plan, Stop};
 use coinmc::run::chunks;

@@ -55,7 +55,7 @@ pub(crate) struct Check {
     overrides: Vec<Set>,
 
     /// Say which chunks none of these run directories holds, and the parts to run again
-    #[arg(long, conflicts_with_all = ["overrides", "nodes"])]
+    #[arg(long, conflicts_with_all = ["overrides", "nodes", "defaults"])]
     missing: bool,
 
     /// Plan jobs of 10 to 60 minutes for a cluster of so many nodes
@@ -70,6 +70,10 @@ pub(crate) struct Check {
     /// Time limit of a job: 1h, 45min or 01:30:00
     #[arg(long, value_name = "TIME", default_value = "1h", requires = "nodes", value_parser = jobs::walltime)]
     walltime: Duration,
+
+    /// Print the whole config as it is understood, with every default and preset spelled out, as TOML
+    #[arg(long, conflicts_with = "format")]
+    defaults: bool,
 
     /// How to write the plan
     #[arg(long, value_enum, default_value_t = Format::Table)]
@@ -108,6 +112,11 @@ impl Check {
         };
         let overrides: Vec<Override> = self.overrides.iter().map(|set| set.set.clone()).collect();
         let plan = config::load(config, &overrides)?;
+        if self.defaults {
+            let printed = output::print(&plan.resolved_toml);
+            printed.map_err(|error| Failure::Runtime(error.into()))?;
+            return Ok(Outcome::Done);
+        }
         let cost = calibration::estimate(&plan)?;
         let rare = rare_face(config, &overrides, &plan, &cost)?;
         let machines = self.nodes.map(|nodes| Machines {

@@ -33,6 +33,11 @@ pub(super) struct CameraSim {
     #[arg(long, value_name = "FRACTION", default_value_t = 0.0, value_parser = fraction)]
     die: f64,
 
+    /// Fraction of answers with something that a camera must not do: an old picture, a second line,
+    /// an answer about another throw, another file name
+    #[arg(long, value_name = "FRACTION", default_value_t = 0.0, value_parser = fraction)]
+    vice: f64,
+
     /// Seed of all random numbers
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -45,6 +50,7 @@ impl CameraSim {
             unread: self.unread,
             hang: self.hang,
             die: self.die,
+            vice: self.vice,
         };
         let (input, output) = (io::stdin().lock(), io::stdout().lock());
         match simulate_camera(&self.truth, &faults, self.seed, input, output) {

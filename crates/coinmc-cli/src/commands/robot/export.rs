@@ -1,16 +1,14 @@
 //! `coinmc robot export`: tables from the journal.
 
-use super::failure;
+use super::read;
 use crate::exit::{Failure, Outcome};
 use crate::output;
 use anyhow::{Context, anyhow};
 use clap::Args;
 use coinmc::results::{write_csv, write_parquet};
 use coinmc_robot::export::{results, rows, write_throws_csv, write_throws_parquet};
-use coinmc_robot::journal::{History, Journal, JournalError};
-use coinmc_robot::{Directory, Experiment};
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use coinmc_robot::{make_folder, replace_file};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Write the throws and the results of an experiment as CSV and Parquet
@@ -45,7 +43,7 @@ impl Export {
         }
         let rows = rows(&experiment, &history).map_err(|error| Failure::Input(error.into()))?;
         let results = results(&experiment, &history);
-        let written = fs::create_dir_all(&out)
+        let written = make_folder(&out)
             .and_then(|()| write(&out, "throws.csv", |to| write_throws_csv(&rows, to)))
             .and_then(|()| {
                 write(&out, "throws.parquet", |to| {
@@ -66,31 +64,11 @@ impl Export {
     }
 }
 
-/// The experiment in a directory and its journal, even while it is running.
-pub(in crate::commands) fn read(path: &Path) -> Result<(Experiment, History), Failure> {
-    let directory = Directory::at(path);
-    let experiment = directory.experiment().map_err(failure)?;
-    let (theirs, history) = Journal::read(&directory.journal())
-        .map_err(|error| failure(coinmc_robot::DirectoryError::Journal(error)))?;
-    let ours = Directory::header(&experiment);
-    if theirs != ours {
-        let path = directory.journal();
-        let error = JournalError::OtherExperiment { path, theirs, ours };
-        return Err(failure(coinmc_robot::DirectoryError::Journal(error)));
-    }
-    Ok((experiment, history))
-}
-
 /// Writes a table atomically.
 fn write(
     folder: &Path,
     name: &str,
     content: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> io::Result<()> {
-    let next = folder.join(format!("{name}.tmp"));
-    let mut file = BufWriter::new(File::create(&next)?);
-    content(&mut file)?;
-    file.flush()?;
-    file.get_ref().sync_all()?;
-    fs::rename(&next, folder.join(name))
+    replace_file(&folder.join(name), content)
 }

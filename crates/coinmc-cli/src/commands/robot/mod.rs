@@ -8,17 +8,18 @@ mod progress_line;
 mod query;
 mod run;
 mod sim;
+mod stop;
 mod throw;
-
-pub(in crate::commands) use export::read;
 
 use crate::exit::{Failure, Outcome};
 use crate::output::{Console, Format};
 use anyhow::anyhow;
 use clap::{Args, Subcommand};
+use coinmc_robot::cycle::Halt;
+use coinmc_robot::journal::History;
 use coinmc_robot::port::ConnectionError;
-use coinmc_robot::{DirectoryError, SessionError};
-use std::path::PathBuf;
+use coinmc_robot::{Directory, DirectoryError, Experiment, SessionError};
+use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -26,6 +27,7 @@ Examples:
   coinmc robot throw --spin 3.2 --angle 90        throw once, outside any experiment
   coinmc robot run examples/robot.toml --out day --camera 'my-camera --usb 0'
   coinmc robot resume day                         continue after any interruption
+  coinmc robot stop day                           motors off, at once
   coinmc robot export day                         write throws and results as CSV and Parquet
   coinmc robot fairness day                       test whether the robot is fair
 
@@ -46,6 +48,8 @@ enum Command {
     Info(query::Info),
     Status(query::Status),
     Home(query::Home),
+    Stop(stop::Stop),
+    Clear(stop::Clear),
     Throw(throw::Throw),
     Run(run::Run),
     Resume(run::Resume),
@@ -66,6 +70,8 @@ impl Robot {
             Command::Fairness(fairness) => fairness.format,
             Command::Export(_)
             | Command::Home(_)
+            | Command::Stop(_)
+            | Command::Clear(_)
             | Command::Throw(_)
             | Command::Sim(_)
             | Command::CameraSim(_) => Format::Table,
@@ -78,6 +84,8 @@ impl Robot {
             Command::Info(info) => info.execute(console),
             Command::Status(status) => status.execute(console),
             Command::Home(home) => home.execute(),
+            Command::Stop(stop) => stop.execute(),
+            Command::Clear(clear) => clear.execute(),
             Command::Throw(throw) => throw.execute(),
             Command::Run(run) => run.execute(console),
             Command::Resume(resume) => resume.execute(console),
@@ -119,9 +127,13 @@ impl PortArgument {
     }
 }
 
+/// The experiment in a directory and its journal, even while it is running.
+pub(in crate::commands) fn read(path: &Path) -> Result<(Experiment, History), Failure> {
+    Directory::at(path).read().map_err(failure)
+}
+
 /// Classifies an error: wrong input by the user, or a failure at run time.
 fn failure(error: impl Into<anyhow::Error>) -> Failure {
-    use coinmc_robot::cycle::Halt;
     use coinmc_robot::journal::JournalError as Journal;
     let error = error.into();
     let journal = |journal: &Journal| {
@@ -141,9 +153,10 @@ fn failure(error: impl Into<anyhow::Error>) -> Failure {
     let session = error.downcast_ref().is_some_and(|error| match error {
         SessionError::Journal(error) => journal(error),
         SessionError::Connection(error) => connection(error),
-        SessionError::Halt(halt) => matches!(halt, Halt::Ahead { .. } | Halt::OutOfRange { .. }),
+        SessionError::Halt(halt) => is_input(halt),
         _ => false,
     });
+    let halted = matches!(error.downcast_ref(), Some(SessionError::Halt(halt)) if !is_input(halt));
     let directory = error.downcast_ref().is_some_and(|error| match error {
         DirectoryError::Journal(error) => journal(error),
         DirectoryError::Io { .. } => false,
@@ -152,7 +165,20 @@ fn failure(error: impl Into<anyhow::Error>) -> Failure {
     let connection = error.downcast_ref().is_some_and(connection);
     if session || directory || connection {
         Failure::Input(error)
+    } else if halted {
+        Failure::Halted(error)
     } else {
         Failure::Runtime(error)
     }
+}
+
+/// Whether a halt means that experiment and robot do not belong together.
+fn is_input(halt: &Halt) -> bool {
+    matches!(
+        halt,
+        Halt::Ahead { .. }
+            | Halt::Foreign { .. }
+            | Halt::OutOfRange { .. }
+            | Halt::OutOfReach { .. }
+    )
 }

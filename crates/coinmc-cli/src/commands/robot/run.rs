@@ -2,7 +2,7 @@
 
 use super::progress_line::ProgressLine;
 use super::{PortArgument, failure, sim};
-use crate::exit::{Failure, Outcome};
+use crate::exit::{self, Failure, Outcome};
 use crate::interrupt;
 use crate::output::{self, Console, FORMAT_VERSION, Format};
 use crate::terminal::grouped;
@@ -10,13 +10,17 @@ use anyhow::{Context, anyhow};
 use clap::Args;
 use coinmc::config::{self, Override};
 use coinmc_core::Face;
+use coinmc_recording::Encoding;
 use coinmc_robot::camera::CameraOptions;
 use coinmc_robot::cycle::Rules;
 use coinmc_robot::{
     Directory, DirectoryError, Experiment, SessionOptions, SessionReport, Setup, run_session,
 };
 use serde_json::json;
+use std::collections::HashSet;
+use std::io::{self, BufRead, IsTerminal, Read};
 use std::path::{self, Path, PathBuf};
+use std::process::{Command, Stdio};
 use std::time::Duration;
 
 const EXAMPLES: &str = "\
@@ -25,7 +29,9 @@ Examples:
   coinmc robot resume day
 
 The same command again, or `resume`, continues where the last one stopped, whatever stopped it. Ctrl-C
-finishes the open throw first; a second one stops at once without losing anything.";
+finishes the open throw first; a second one sends Stop to the robot, whose motors are off then.
+
+When a person is needed, the command ends with exit status 4 and runs --alert, if given.";
 
 /// Run the experiment that a config describes: throw, photograph and keep a journal
 ///
@@ -53,7 +59,8 @@ pub(super) struct Run {
 
 /// Continue an experiment
 ///
-/// Port and camera are those of the last session unless given.
+/// Port and camera are those of the last session unless given. The stored camera is a shell command: it
+/// is shown, and runs only if you agree at the terminal or give it again with --camera.
 #[derive(Debug, Args)]
 pub(super) struct Resume {
     /// Directory of the experiment
@@ -89,9 +96,41 @@ pub(super) struct Session {
           value_parser = clap::value_parser!(u32).range(1..))]
     max_voids: u32,
 
-    /// If the robot's counter is ahead of the journal, continue from the counter
+    /// Consecutive failures of the camera before the experiment stops
+    #[arg(long, value_name = "N", default_value_t = 5,
+          value_parser = clap::value_parser!(u32).range(1..=1000))]
+    max_camera_failures: u32,
+
+    /// Greatest difference of the measured spin from the one asked for, rev/s; beyond it a throw is void
+    #[arg(long, value_name = "REV_S", default_value_t = 0.2, value_parser = tolerance)]
+    spin_tolerance: f64,
+
+    /// Greatest difference of the measured start angle from the one asked for, degrees
+    #[arg(long, value_name = "DEG", default_value_t = 5.0, value_parser = tolerance)]
+    angle_tolerance: f64,
+
+    /// Take the robot over as it is: if its counter is ahead of the journal, or if it is another robot
+    /// or has forgotten the experiment. An open throw becomes void
     #[arg(long)]
     adopt: bool,
+
+    /// Wait for a port that is not there yet, seconds [without a number: for ever]
+    #[arg(long, value_name = "S", num_args = 0..=1, require_equals = true, default_missing_value = "4294967295")]
+    wait: Option<u32>,
+
+    /// Without any progress for this long the experiment halts, minutes
+    #[arg(long, value_name = "MIN", default_value_t = 10,
+          value_parser = clap::value_parser!(u64).range(1..=10_000))]
+    stall: u64,
+
+    /// A shell command to run when the experiment halts or fails; it finds the reason in COINMC_ALERT
+    #[arg(long, value_name = "COMMAND")]
+    alert: Option<String>,
+
+    /// Free disk space below which no throw begins, MiB
+    #[arg(long, value_name = "MIB", default_value_t = 64,
+          value_parser = clap::value_parser!(u64).range(0..=1 << 40))]
+    min_free: u64,
 
     /// Speed of a simulated robot relative to real time
     #[arg(long, value_name = "FACTOR", value_parser = sim::speed)]
@@ -100,6 +139,15 @@ pub(super) struct Session {
     /// Do not record the session (MCAP)
     #[arg(long)]
     no_recording: bool,
+
+    /// Encoding of the recording: protobuf or json
+    #[arg(
+        long,
+        value_name = "HOW",
+        default_value_t,
+        conflicts_with = "no_recording"
+    )]
+    encoding: Encoding,
 
     /// Format of the result
     #[arg(long, value_enum, default_value_t = Format::Table)]
@@ -142,47 +190,53 @@ impl Session {
         directory: &Directory,
         console: &Console,
     ) -> Result<Outcome, Failure> {
-        let setup = self.setup(directory.setup())?;
+        let setup = self.setup(directory)?;
         let line = ProgressLine::new(*console.stderr(), self.quiet);
         let (journal, torn) = directory.open(experiment, &setup).map_err(failure)?;
+        directory.note_host().map_err(failure)?;
         if torn > 0 {
             line.print(&format!(
                 "the last line of {} was incomplete ({torn} bytes) and has been removed",
                 directory.journal().display()
             ));
         }
-        let cancel = interrupt::listen(|| {
-            output::note("finishing the open throw; Ctrl-C again stops at once");
-        })
+        let (cancel, stop) = interrupt::listen_twice(
+            || output::note("finishing the open throw; Ctrl-C again sends Stop to the robot"),
+            || output::note("sending Stop to the robot; Ctrl-C again ends this program at once"),
+        )
         .context("cannot listen for signals")
         .map_err(Failure::Runtime)?;
-        let absolute = |path: PathBuf| path::absolute(&path).unwrap_or(path);
         let report = run_session(
             experiment,
             directory,
             journal,
             &SessionOptions {
                 port: &setup.port,
-                camera: CameraOptions {
-                    command: setup.camera.clone(),
-                    folder: absolute(directory.photos()),
-                    log: Some(directory.camera_log()),
-                    timeout: Duration::from_secs(self.camera_timeout),
-                },
-                rules: Rules {
-                    throws: experiment.throws(),
-                    max_photos: self.photos,
-                    max_voids: self.max_voids,
-                    adopt: self.adopt,
-                },
+                camera: self.camera_options(&setup, directory),
+                rules: self.rules(experiment),
                 speed: setup.speed,
-                record: !self.no_recording,
+                record: (!self.no_recording).then_some(self.encoding),
                 cancel,
+                stop,
+                wait: self.wait.map(|s| Duration::from_secs(s.into())),
+                stall: Duration::from_secs(self.stall * 60),
+                min_free: self.min_free << 20,
                 sink: &line,
             },
         );
         line.finish();
-        let report = report.map_err(failure)?;
+        let report = report.map_err(|error| {
+            let failure = failure(error);
+            alert(self.alert.as_deref(), &failure);
+            failure
+        })?;
+        if let Some(confirmed) = report.stopped {
+            output::note(if confirmed {
+                "the robot has stopped: its motors are off"
+            } else {
+                "the robot has not answered Stop; without its host its motors are off within 5 s"
+            });
+        }
         self.present(&report, directory, console)
             .map_err(|error| Failure::Runtime(error.into()))?;
         Ok(if report.complete {
@@ -192,18 +246,46 @@ impl Session {
         })
     }
 
+    fn camera_options(&self, setup: &Setup, directory: &Directory) -> CameraOptions {
+        let absolute = |path: PathBuf| path::absolute(&path).unwrap_or(path);
+        CameraOptions {
+            command: setup.camera.clone(),
+            folder: absolute(directory.photos()),
+            log: Some(directory.camera_log()),
+            timeout: Duration::from_secs(self.camera_timeout),
+            seen: HashSet::new(),
+        }
+    }
+
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // `tolerance` bounds both
+    fn rules(&self, experiment: &Experiment) -> Rules {
+        Rules {
+            throws: experiment.throws(),
+            // the journal has it
+            experiment: 0,
+            reach: experiment.reach(),
+            spin_tolerance_mrev_s: (self.spin_tolerance * 1e3) as u16,
+            angle_tolerance_cdeg: (self.angle_tolerance * 1e2) as u16,
+            max_photos: self.photos,
+            max_camera_failures: self.max_camera_failures,
+            max_voids: self.max_voids,
+            adopt: self.adopt,
+        }
+    }
+
     /// Port and camera: as given, otherwise those of the last session.
-    fn setup(&self, last: Option<Setup>) -> Result<Setup, Failure> {
-        let camera = self
-            .camera
-            .clone()
-            .or_else(|| last.as_ref().map(|s| s.camera.clone()));
-        let camera = camera.ok_or_else(|| {
-            Failure::Input(anyhow!(
-                "no camera: give the command that takes and reads photos with --camera \
-                 (docs/guide/robot.md describes its protocol)"
-            ))
-        })?;
+    fn setup(&self, directory: &Directory) -> Result<Setup, Failure> {
+        let last = directory.setup();
+        let camera = match (&self.camera, &last) {
+            (Some(camera), _) => camera.clone(),
+            (None, Some(last)) => agreed(&last.camera, directory)?,
+            (None, None) => {
+                return Err(Failure::Input(anyhow!(
+                    "no camera: give the command that takes and reads photos with --camera \
+                     (docs/guide/robot.md describes its protocol)"
+                )));
+            }
+        };
         let port = match (&self.port.port, &last) {
             (None, Some(last)) => last.port.clone(),
             _ => self.port.port()?,
@@ -271,5 +353,53 @@ impl Session {
             });
         }
         Ok(())
+    }
+}
+
+/// The stored command, if the user agrees to run it: a directory may come from anywhere.
+fn agreed(camera: &str, directory: &Directory) -> Result<String, Failure> {
+    let path = directory.path().display();
+    output::note(&format!(
+        "{path} names this command as its camera:\n  {camera}"
+    ));
+    if !io::stdin().is_terminal() {
+        return Err(Failure::Input(anyhow!(
+            "a stored command does not run unseen: give the camera again with --camera"
+        )));
+    }
+    output::note("Run it? [y/N]");
+    let mut answer = String::new();
+    let read = io::stdin().lock().take(100).read_line(&mut answer);
+    if read.is_ok() && matches!(answer.trim(), "y" | "Y" | "yes") {
+        return Ok(camera.to_owned());
+    }
+    Err(Failure::Input(anyhow!(
+        "not run: give the camera with --camera"
+    )))
+}
+
+/// Runs the command for a person to come, with the reason in its environment.
+fn alert(command: Option<&str>, failure: &Failure) {
+    let (Some(command), Failure::Halted(error) | Failure::Runtime(error) | Failure::Input(error)) =
+        (command, failure)
+    else {
+        return;
+    };
+    let ended = Command::new("sh")
+        .args(["-c", command])
+        .env("COINMC_ALERT", exit::words(error))
+        .stdin(Stdio::null())
+        .status();
+    match ended {
+        Ok(status) if status.success() => {}
+        Ok(status) => output::note(&format!("the command of --alert failed: {status}")),
+        Err(error) => output::note(&format!("the command of --alert failed: {error}")),
+    }
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(value) if (0.0..=60.0).contains(&value) => Ok(value),
+        _ => Err("a tolerance is a number from 0 to 60".to_owned()),
     }
 }

@@ -20,7 +20,8 @@ Example, in two terminals:
   coinmc robot run examples/robot.toml --port robot-port --speed 100 --out day \\
       --camera 'coinmc robot camera-sim --truth truth.jsonl'
 
-While it runs it obeys lines on standard input: reset, unplug [SECONDS], stick, quit.";
+While it runs it obeys lines on standard input: reset, unplug [SECONDS], stick, press and release (the
+emergency stop), erase (the memory), swap (another robot in its place), quit.";
 
 /// Simulate a robot on a pseudo-terminal, with faults on demand
 ///
@@ -57,6 +58,11 @@ pub(super) struct Sim {
     #[arg(long, value_name = "FRACTION", default_value_t = 0.0, value_parser = fraction)]
     noise: f64,
 
+    /// Fraction of frames, each way, that are dropped, doubled, swapped, delayed, cut, sent again later
+    /// or preceded by a forged one
+    #[arg(long, value_name = "FRACTION", default_value_t = 0.0, value_parser = fraction)]
+    hostile: f64,
+
     /// Fraction of motions that never end
     #[arg(long, value_name = "FRACTION", default_value_t = 0.0, value_parser = fraction)]
     stuck: f64,
@@ -90,6 +96,7 @@ impl Sim {
             speed: self.speed,
             faults: Faults {
                 noise: self.noise,
+                hostile: self.hostile,
                 reset_every_s: self.reset_every,
                 unplug_every_s: self.unplug_every,
                 stuck: self.stuck,

@@ -12,7 +12,7 @@ use std::thread;
 
 /// Throw once, outside any experiment
 ///
-/// The robot counts the throw, so an experiment with a journal then has to be continued with
+/// The robot counts the throw as one of no experiment, so an experiment with a journal then has to be continued with
 /// `--adopt`. The coin is collected afterwards.
 #[derive(Debug, Args)]
 pub(super) struct Throw {
@@ -44,6 +44,7 @@ impl Throw {
         let throw_id = status.throw_id.saturating_add(1);
         let request = Request::Throw {
             throw_id,
+            experiment: 0,
             spin_mrev_s: setting.spin_mrev_s(),
             angle_cdeg: setting.angle_cdeg(),
         };

@@ -3,18 +3,17 @@
 use crate::exit::Failure;
 use anyhow::anyhow;
 use coinmc::plan::Plan;
-use coinmc_recording::{Compression, Error, NewFile};
-use coinmc_trace::{Trace, svg, write_csv, write_jsonl, write_mcap, write_parquet};
-use std::io;
+use coinmc_recording::{Compression, Encoding, Error, NewFile};
+use coinmc_report::MAX_TOSSES;
+use coinmc_trace::{FileKind, Trace};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
-    Mcap,
-    Csv,
-    Parquet,
-    Jsonl,
-    Svg,
+    Trace(FileKind),
+    /// A page.
+    Html,
 }
 
 /// New files, created before the work begins, which appear only when complete.
@@ -28,9 +27,15 @@ impl Files {
         let mut files: Vec<(PathBuf, Kind, NewFile)> = Vec::new();
         for path in paths {
             let kind = kind(path)?;
-            if kind == Kind::Svg && traces > 1 {
+            if kind == Kind::Trace(FileKind::Svg) && traces > 1 {
                 return Err(Failure::Input(anyhow!(
                     "{} can only show one toss, but {traces} were requested: request one",
+                    path.display()
+                )));
+            }
+            if kind == Kind::Html && traces > MAX_TOSSES {
+                return Err(Failure::Input(anyhow!(
+                    "{} shows at most {MAX_TOSSES} tosses at once, but {traces} were requested",
                     path.display()
                 )));
             }
@@ -47,17 +52,19 @@ impl Files {
         self,
         plan: &Plan,
         traces: &[Trace],
+        encoding: Encoding,
         compression: Compression,
     ) -> Result<Vec<PathBuf>, Failure> {
         let mut paths = Vec::new();
         for (path, kind, mut file) in self.files {
-            let out = &mut file;
             let written = match kind {
-                Kind::Mcap => write_mcap(plan, traces, compression, out),
-                Kind::Csv => write_csv(traces, out).map_err(Error::Stream),
-                Kind::Parquet => write_parquet(plan, traces, out).map_err(Error::Stream),
-                Kind::Jsonl => write_jsonl(plan, traces, out).map_err(Error::Stream),
-                Kind::Svg => picture(traces, out).map_err(Error::Stream),
+                Kind::Trace(kind) => kind.write(plan, traces, encoding, compression, &mut file),
+                Kind::Html => {
+                    let page = coinmc_report::tosses(
+                        &traces.iter().map(|trace| (plan, trace)).collect::<Vec<_>>(),
+                    );
+                    file.write_all(page.as_bytes()).map_err(Error::Stream)
+                }
             };
             written.map_err(|error| error.with_path(&path))?;
             file.finish()?;
@@ -67,24 +74,15 @@ impl Files {
     }
 }
 
-/// Writes a picture; `begin` has checked that there is at most one trace.
-fn picture(traces: &[Trace], out: &mut NewFile) -> io::Result<()> {
-    traces
-        .iter()
-        .try_for_each(|trace| svg::write(trace, &mut *out))
-}
-
 fn kind(path: &Path) -> Result<Kind, Failure> {
     let ending = path.extension().and_then(|ending| ending.to_str());
-    match ending.map(str::to_ascii_lowercase).as_deref() {
-        Some("mcap") => Ok(Kind::Mcap),
-        Some("csv") => Ok(Kind::Csv),
-        Some("parquet") => Ok(Kind::Parquet),
-        Some("jsonl") => Ok(Kind::Jsonl),
-        Some("svg") => Ok(Kind::Svg),
-        _ => Err(Failure::Input(anyhow!(
-            "{} has no known extension: use .mcap, .csv, .parquet, .jsonl or .svg",
-            path.display()
-        ))),
+    if ending.is_some_and(|ending| ending.eq_ignore_ascii_case("html")) {
+        return Ok(Kind::Html);
     }
+    FileKind::of(path).map(Kind::Trace).map_err(|_| {
+        Failure::Input(anyhow!(
+            "{} has no known extension: use .mcap, .csv, .parquet, .jsonl, .svg or .html",
+            path.display()
+        ))
+    })
 }

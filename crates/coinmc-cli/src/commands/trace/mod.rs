@@ -1,6 +1,8 @@
 //! `coinmc trace`: replaying tosses.
 
 mod files;
+mod layout;
+mod map;
 mod recover;
 mod report;
 mod select;
@@ -14,10 +16,12 @@ use clap::{ArgGroup, Args, Subcommand};
 use coinmc::config::{self, Override};
 use coinmc::plan::Plan;
 use coinmc::run::stored_plan;
-use coinmc_recording::Compression;
+use coinmc_recording::{Compression, Encoding};
 use coinmc_trace::replay_within;
 use coinmc_trace::{Condition, Length, MAX_RECORDS, Trace as Recorded, default_rate_hz, launch};
 use files::Files;
+use layout::Layout;
+use map::MapOf;
 use recover::Recover;
 use select::{Selected, Status};
 use std::path::{Path, PathBuf};
@@ -27,8 +31,11 @@ const EXAMPLES: &str = "\
 Examples:
   coinmc trace examples/flat-fair.toml --toss 42 --show              what happened, event by event
   coinmc trace toss.toml --point 3 --toss 0,1,2 -o tosses.mcap       for a viewer of MCAP
+  coinmc trace layout > layout.json                                  … which shows it like this
   coinmc trace runs/first --where face=side --count 3 -o sides.csv   the first three on the side
   coinmc trace toss.toml --longest --rate 2000 -o long.parquet -o long.svg
+  coinmc trace toss.toml --toss 42 -o toss.html                      to turn about in a browser
+  coinmc trace map toss.toml --over wy_rad_s=0..60 --over height_m=0.1..1 -o map.html
   coinmc trace recover torn.mcap                                     what a crash has left";
 
 /// Greatest number of records of all traces together, about 300 MB of memory.
@@ -37,7 +44,8 @@ const MAX_TOTAL_RECORDS: usize = 2_000_000;
 /// Replay tosses exactly, and show or record them
 ///
 /// Tosses need not have been stored: the point and the number of a toss determine its random
-/// numbers. Files are MCAP, CSV, Parquet, JSON lines or SVG, by the name's extension.
+/// numbers. Files are MCAP, CSV, Parquet, JSON lines, SVG
+/// or HTML (a page with the tosses in three dimensions), by the name's extension.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, args_conflicts_with_subcommands = true)]
 #[command(subcommand_negates_reqs = true)]
@@ -46,7 +54,7 @@ const MAX_TOTAL_RECORDS: usize = 2_000_000;
 ))]
 pub(crate) struct Trace {
     #[command(subcommand)]
-    recover: Option<Verb>,
+    verb: Option<Verb>,
 
     /// The config (TOML), or the directory of a run
     #[arg(required = true, value_name = "CONFIG|RUN_DIR")]
@@ -86,7 +94,7 @@ pub(crate) struct Trace {
     #[arg(long, value_name = "HZ")]
     rate: Option<f64>,
 
-    /// New file to write: .mcap, .csv, .parquet, .jsonl or .svg; repeatable
+    /// New file to write: .mcap, .csv, .parquet, .jsonl, .svg or .html; repeatable
     #[arg(short, long = "out", value_name = "FILE")]
     outs: Vec<PathBuf>,
 
@@ -97,6 +105,10 @@ pub(crate) struct Trace {
     /// With --show: print every event, even if there are many small ones
     #[arg(long, requires = "show")]
     all: bool,
+
+    /// Encoding of the messages in .mcap files: protobuf or json
+    #[arg(long, value_name = "HOW", default_value_t)]
+    encoding: Encoding,
 
     /// Compression of .mcap files: none or lz4
     #[arg(long, value_name = "HOW", default_value_t = Compression::None)]
@@ -117,7 +129,9 @@ pub(crate) struct Trace {
 
 #[derive(Debug, Subcommand)]
 enum Verb {
+    Map(MapOf),
     Recover(Recover),
+    Layout(Layout),
 }
 
 /// The measure of a toss's length.
@@ -131,15 +145,19 @@ enum By {
 
 impl Trace {
     pub(crate) fn format(&self) -> Format {
-        match &self.recover {
+        match &self.verb {
+            Some(Verb::Map(map)) => map.format(),
             Some(Verb::Recover(recover)) => recover.format(),
+            Some(Verb::Layout(_)) => Format::Table,
             None => self.format,
         }
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
-        match (&self.recover, &self.config) {
+        match (&self.verb, &self.config) {
+            (Some(Verb::Map(map)), _) => map.execute(console),
             (Some(Verb::Recover(recover)), _) => recover.execute(console),
+            (Some(Verb::Layout(layout)), _) => layout.execute(),
             (None, Some(config)) => self.trace(config, console),
             (None, None) => Err(Failure::Input(anyhow!("give a config or a run directory"))),
         }
@@ -150,7 +168,7 @@ impl Trace {
             let both = anyhow!("--show prints text and --format json prints JSON: choose one");
             return Err(Failure::Input(both));
         }
-        let plan = self.plan(config)?;
+        let plan = plan_of(config, &self.overrides)?;
         let progress = Progress::new(*console.stderr(), self.quiet);
         if !self.quiet {
             plan.notes
@@ -172,22 +190,9 @@ impl Trace {
         let files = if traces.is_empty() || selected.status == Status::Interrupted {
             Vec::new()
         } else {
-            files.write(&plan, &traces, self.compression)?
+            files.write(&plan, &traces, self.encoding, self.compression)?
         };
         report::present(self, &plan, &selected, &traces, &files, console)
-    }
-
-    fn plan(&self, config: &Path) -> Result<Plan, Failure> {
-        if !config.is_dir() {
-            return Ok(config::load(config, &self.overrides)?);
-        }
-        if !self.overrides.is_empty() {
-            return Err(Failure::Input(anyhow!(
-                "{} is the run of a fixed config: use --set with a config, such as the config.toml in it",
-                config.display()
-            )));
-        }
-        Ok(stored_plan(config)?)
     }
 
     /// Greatest number of tosses that will be traced.
@@ -219,6 +224,20 @@ impl Trace {
         }
         Ok(traces)
     }
+}
+
+/// The plan of a config, or of a run directory.
+fn plan_of(config: &Path, overrides: &[Override]) -> Result<Plan, Failure> {
+    if !config.is_dir() {
+        return Ok(config::load(config, overrides)?);
+    }
+    if !overrides.is_empty() {
+        return Err(Failure::Input(anyhow!(
+            "{} is the run of a fixed config: use --set with a config, such as the config.toml in it",
+            config.display()
+        )));
+    }
+    Ok(stored_plan(config)?)
 }
 
 impl From<By> for Length {

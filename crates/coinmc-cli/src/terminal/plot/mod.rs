@@ -2,10 +2,13 @@
 
 mod axis;
 mod canvas;
+mod choice;
 
 use super::{Colors, Style};
 use axis::Axis;
 use canvas::Canvas;
+
+pub(crate) use choice::Plotted;
 
 /// Rows of the drawing area.
 const ROWS: usize = 16;

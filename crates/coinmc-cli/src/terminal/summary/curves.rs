@@ -1,28 +1,29 @@
-//! Rows of a sweep as curves over the ratio.
+//! Rows of a sweep as curves along an axis.
 
-use super::{Curve, RATIO};
 use crate::terminal::compact;
-use crate::terminal::plot::Mark;
+use crate::terminal::plot::{Curve, Mark};
 use coinmc::results::Results;
+use coinmc_core::Face;
 use std::collections::HashMap;
 
 /// A curve for each combination of the other axes, in the order in which they first appear.
 ///
 /// In a zipped sweep every point has its own values of the axes; all points then make one curve.
-pub(super) fn curves(results: &Results) -> Vec<Curve> {
-    let others = others(results);
+pub(super) fn curves(results: &Results, along: &str, face: Face) -> Vec<Curve> {
+    let others = others(results, along);
     let mut places = HashMap::new();
     let mut curves: Vec<Curve> = Vec::new();
     // a point that an interrupted run did not reach is not drawn
     for row in results.rows.each().filter(|row| row.side.p.is_finite()) {
-        let Some(x) = row.parameter(RATIO) else {
+        let Some(x) = row.parameter(along) else {
             continue;
         };
+        let found = row.estimate(face);
         let mark = Mark {
             x,
-            y: row.side.p,
-            lo: row.side.lo,
-            hi: row.side.hi,
+            y: found.p,
+            lo: found.lo,
+            hi: found.hi,
         };
         let values = others
             .iter()
@@ -49,12 +50,12 @@ pub(super) fn curves(results: &Results) -> Vec<Curve> {
 }
 
 /// The axes that tell curves apart.
-pub(super) fn others(results: &Results) -> Vec<&str> {
+pub(super) fn others<'a>(results: &'a Results, along: &str) -> Vec<&'a str> {
     results
         .axes
         .iter()
         .map(String::as_str)
-        .filter(|&axis| axis != RATIO)
+        .filter(|&axis| axis != along)
         .collect()
 }
 

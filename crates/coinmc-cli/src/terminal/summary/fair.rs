@@ -2,17 +2,22 @@
 
 use super::curves::{label, others};
 use super::totals::Totals;
-use super::{Curve, FAIR};
-use crate::terminal::plot::Mark;
+use super::{FAIR, RATIO};
+use crate::terminal::plot::Curve;
 use crate::terminal::table::{Column, Table};
-use crate::terminal::{Colors, Style, compact, decimals_for, in_ascii};
+use crate::terminal::{Colors, Style, compact, decimals_for, in_ascii, wrapped};
 use coinmc::engines::no_bounce_rule;
 use coinmc::published;
 use coinmc::results::{FairRatio, Results};
+use coinmc_core::Coin;
 use std::collections::HashSet;
 
 /// More crossings than this are not listed; JSON has them all.
 const MOST: usize = 20;
+/// So many curves without a crossing are named.
+const NAMED: usize = 3;
+/// An interval of this share of a step of the sweep is as wide as it.
+const WIDE: f64 = 0.9;
 
 /// One row per crossing, and a line about curves that never cross. `None` if the sweep does not have
 /// two ratios to interpolate between.
@@ -34,9 +39,13 @@ pub(super) fn table(
     };
     if fair.is_empty() {
         // points without a toss say nothing
-        return tossed.then(|| format!("Fair ratio: none in this sweep, {never}\n"));
+        let text = format!("Fair ratio: none found in this sweep: {never}");
+        return tossed.then(|| wrapped(&text, style.width, 4));
     }
-    let mut columns: Vec<Column> = others(results).into_iter().map(Column::right).collect();
+    let mut columns: Vec<Column> = others(results, RATIO)
+        .into_iter()
+        .map(Column::right)
+        .collect();
     let percent = compact(fair[0].confidence * 100.0);
     columns.push(Column::right("fair H/R"));
     // Closed forms have no error but that of the interpolation.
@@ -57,7 +66,8 @@ pub(super) fn table(
     } else {
         4
     };
-    for crossing in fair.iter().take(MOST) {
+    let most = if style.whole { fair.len() } else { MOST };
+    for crossing in fair.iter().take(most) {
         let mut cells: Vec<String> = crossing
             .at
             .iter()
@@ -69,14 +79,16 @@ pub(super) fn table(
         ]);
         table.push(cells);
     }
-    if fair.len() > MOST {
-        table.push_gap((fair.len() - MOST) as u64);
+    if fair.len() > most {
+        table.push_gap((fair.len() - most) as u64);
     }
     let title = style.paint(Colors::Strong, "Fair coin, P(side) = 1/3:");
     let mut text = format!("{title}\n{}", table.render(style).text);
+    text += &heights(results, fair, style);
     if !never.is_empty() {
-        text += &format!("No crossing elsewhere: {never}\n");
+        text += &wrapped(&format!("No crossing elsewhere: {never}"), style.width, 4);
     }
+    text += &coarse(fair, curves, style);
     text += &references(fair[0].engine, style);
     Some(text)
 }
@@ -114,19 +126,99 @@ fn ratio(x: f64, decimals: usize) -> String {
     }
 }
 
-/// How many curves stay on one side of 1/3: `2 curves stay below 1/3, 1 curve stays above 1/3`.
+/// The fair heights in mm, if there is one radius and it is not the one that is taken where none is
+/// given.
+fn heights(results: &Results, fair: &[FairRatio], style: &Style) -> String {
+    let mut radii = results.rows.each().map(|row| row.parameter("radius_m"));
+    let (Some(Some(radius_m)), [crossing]) = (radii.next(), fair) else {
+        return String::new();
+    };
+    if radius_m == Coin::DEFAULT_RADIUS_M || radii.any(|other| other != Some(radius_m)) {
+        return String::new();
+    }
+    let mm = |ratio: f64| compact(libm::round(ratio * radius_m * 1e6) / 1e3);
+    let end = |end: Option<f64>| end.map_or(style.ellipsis().to_owned(), mm);
+    format!(
+        "With R = {} mm: H = {} mm [{}, {}]\n",
+        compact(radius_m * 1e3),
+        mm(crossing.ratio),
+        end(crossing.lo),
+        end(crossing.hi),
+    )
+}
+
+/// Where intervals are as wide as the steps of the sweep, what would narrow them.
+fn coarse(fair: &[FairRatio], curves: &[Curve], style: &Style) -> String {
+    let around = |crossing: &FairRatio| {
+        let curve = curves
+            .iter()
+            .find(|curve| curve.label == label(&crossing.at))?;
+        let mut xs: Vec<f64> = curve.marks.iter().map(|mark| mark.x).collect();
+        xs.sort_by(f64::total_cmp);
+        let after = xs
+            .partition_point(|x| *x <= crossing.ratio)
+            .clamp(1, xs.len() - 1);
+        let (left, right) = (xs[after - 1], xs[after]);
+        let lo = crossing.lo.unwrap_or(f64::NEG_INFINITY);
+        let hi = crossing.hi.unwrap_or(f64::INFINITY);
+        (hi - lo >= WIDE * (right - left)).then_some((left, right))
+    };
+    let mut places: Vec<(f64, f64)> = fair.iter().filter_map(around).collect();
+    places.sort_by(|a, b| a.0.total_cmp(&b.0));
+    places.dedup();
+    let (Some((from, _)), Some((_, to))) = (places.first(), places.last()) else {
+        return String::new();
+    };
+    let text = format!(
+        "An interval as wide as a step of the sweep: add points between {} and {}, or toss more",
+        compact(*from),
+        compact(*to)
+    );
+    wrapped(&text, style.width, 4)
+}
+
+/// What is known of the curves without a crossing: `restitution 0.3 stays below 1/3`, or, of more than a
+/// few, how many.
 fn never(fair: &[FairRatio], curves: &[Curve]) -> String {
     let crossed: HashSet<String> = fair.iter().map(|crossing| label(&crossing.at)).collect();
-    let (below, above): (Vec<&Mark>, Vec<&Mark>) = curves
+    let others = curves
         .iter()
-        .filter(|curve| !crossed.contains(&curve.label))
-        .filter_map(|curve| curve.marks.iter().find(|mark| mark.y.is_finite()))
-        .partition(|mark| mark.y < FAIR);
-    let phrase = |n: usize, place: &str| match n {
-        0 => None,
-        1 => Some(format!("1 curve stays {place} 1/3")),
-        _ => Some(format!("{n} curves stay {place} 1/3")),
+        .filter(|curve| !crossed.contains(&curve.label));
+    let mut known: [(Vec<&str>, &str); 3] =
+        [(vec![], "below 1/3"), (vec![], "above 1/3"), (vec![], "")];
+    for curve in others {
+        let mut marks = curve
+            .marks
+            .iter()
+            .filter(|mark| mark.y.is_finite())
+            .peekable();
+        if marks.peek().is_none() {
+            continue;
+        }
+        let place = if marks.clone().all(|mark| mark.hi < FAIR) {
+            0
+        } else if marks.all(|mark| mark.lo > FAIR) {
+            1
+        } else {
+            2
+        };
+        known[place].0.push(&curve.label);
+    }
+    let phrase = |(labels, place): &(Vec<&str>, &str)| {
+        let n = labels.len();
+        let (name, one) = match labels.as_slice() {
+            [] => return None,
+            [""] => ("the curve".to_owned(), true),
+            few if few.len() <= NAMED => (few.join("; "), n == 1),
+            _ => (format!("{n} curves"), false),
+        };
+        Some(match (place.is_empty(), one) {
+            (false, true) => format!("{name} stays {place}"),
+            (false, false) => format!("{name} stay {place}"),
+            (true, true) => format!("{name} is somewhere too near 1/3 to tell"),
+            (true, false) => format!("{name} are somewhere too near 1/3 to tell"),
+        })
     };
-    let phrases = [phrase(below.len(), "below"), phrase(above.len(), "above")];
-    phrases.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    let phrases: Vec<String> = known.iter().filter_map(phrase).collect();
+    phrases.join(", ")
 }

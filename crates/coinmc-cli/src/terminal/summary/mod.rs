@@ -7,12 +7,12 @@ mod published;
 mod side_endings;
 mod totals;
 
-use super::plot::{Curve, Level, Plot, Reference};
+use super::plot::{Level, Plot, Plotted, Reference};
 use super::table::{Column, Table};
 use super::{Colors, Style, compact, count, grouped, wrapped};
 use coinmc::engines::no_bounce_rule;
 use coinmc::results::{FairRatio, Results, Row};
-use coinmc_core::Estimate;
+use coinmc_core::{Estimate, Face};
 use curves::curves;
 use std::path::Path;
 use totals::Totals;
@@ -20,19 +20,32 @@ use totals::Totals;
 /// P(side) of a fair coin.
 pub(crate) const FAIR: f64 = 1.0 / 3.0;
 
-/// The parameter that plots are drawn over.
+/// The parameter that plots are drawn over unless another is asked for.
 const RATIO: &str = "ratio";
 /// Longer tables show only the first and last `END` points.
 const LONG: usize = 60;
 const END: usize = 20;
 
 /// The whole summary of the results in the file `csv`.
-pub(crate) fn summary(results: &Results, fair: &[FairRatio], csv: &Path, style: &Style) -> String {
+pub(crate) fn summary(
+    results: &Results,
+    fair: &[FairRatio],
+    csv: &Path,
+    plotted: &Plotted,
+    style: &Style,
+) -> String {
     let totals = Totals::of(results);
     let mut parts = vec![table(results, &totals, csv, style)];
+    if let Plotted::Face { face, along } = plotted {
+        parts.extend(plot(
+            results,
+            *face,
+            along.as_deref().unwrap_or(RATIO),
+            style,
+        ));
+    }
     if results.axes.iter().any(|axis| axis == RATIO) {
-        let curves = curves(results);
-        parts.extend(plot(results, &curves, style));
+        let curves = curves(results, RATIO, Face::Side);
         parts.extend(fair::table(results, &totals, fair, &curves, style));
     }
     parts.extend(published::table(results, &totals, style));
@@ -40,8 +53,38 @@ pub(crate) fn summary(results: &Results, fair: &[FairRatio], csv: &Path, style: 
     parts.join("\n")
 }
 
+/// The table of the points as Markdown, whole.
+pub(crate) fn markdown(results: &Results, style: &Style) -> String {
+    points(results, &Totals::of(results), style, 0).markdown()
+}
+
 /// One row per point.
 fn table(results: &Results, totals: &Totals, csv: &Path, style: &Style) -> String {
+    let rows = &results.rows;
+    let hidden = if rows.len() > LONG && !style.whole {
+        rows.len() - 2 * END
+    } else {
+        0
+    };
+    let rendered = points(results, totals, style, hidden).render(style);
+    let mut text = rendered.text;
+    if hidden > 0 {
+        text += &format!(
+            "All {} points: {}\n",
+            grouped(rows.len() as u64),
+            csv.display()
+        );
+    }
+    if !rendered.left_out.is_empty() {
+        let note = format!("Too narrow to show: {}", rendered.left_out.join(", "));
+        let note = wrapped(&note, style.width, 4);
+        text += &format!("{}\n", style.paint(Colors::Faint, note.trim_end()));
+    }
+    text
+}
+
+/// A row for each point, but for so many in the middle.
+fn points(results: &Results, totals: &Totals, style: &Style, hidden: usize) -> Table {
     let shown = shown_parameters(results);
     let mut columns: Vec<Column> = shown.iter().map(|name| Column::right(*name)).collect();
     columns.extend([
@@ -57,11 +100,6 @@ fn table(results: &Results, totals: &Totals, csv: &Path, style: &Style) -> Strin
     ]);
     let mut table = Table::new(columns);
     let rows = &results.rows;
-    let hidden = if rows.len() > LONG {
-        rows.len() - 2 * END
-    } else {
-        0
-    };
     for i in 0..rows.len() {
         if hidden > 0 && i == END {
             table.push_gap(hidden as u64);
@@ -70,20 +108,7 @@ fn table(results: &Results, totals: &Totals, csv: &Path, style: &Style) -> Strin
             table.push(cells(&rows.at(i), &shown, has_edge, decimals, style));
         }
     }
-    let rendered = table.render(style);
-    let mut text = rendered.text;
-    if hidden > 0 {
-        text += &format!(
-            "All {} points: {}\n",
-            grouped(rows.len() as u64),
-            csv.display()
-        );
-    }
-    if !rendered.left_out.is_empty() {
-        let note = format!("Too narrow to show: {}", rendered.left_out.join(", "));
-        text += &format!("{}\n", style.paint(Colors::Faint, &note));
-    }
-    text
+    table
 }
 
 /// Swept parameters, or the ratio where nothing is swept.
@@ -122,32 +147,45 @@ fn probability(p: &Estimate, row: &Row, decimals: usize, style: &Style) -> Strin
     } else if p.n == 0 {
         "-".to_owned()
     } else {
-        format!(
-            "{:.decimals$} {} {:.decimals$}",
-            p.p,
-            style.plus_minus(),
-            p.half_width()
-        )
+        let arm = p.half_width();
+        // an arm that would leave 0 to 1 is not that of the interval
+        if p.p - arm < 0.0 || p.p + arm > 1.0 {
+            return format!(
+                "{:.decimals$} [{:.decimals$}, {:.decimals$}]",
+                p.p, p.lo, p.hi
+            );
+        }
+        format!("{:.decimals$} {} {arm:.decimals$}", p.p, style.plus_minus())
     }
 }
 
-/// P(side) over the ratio, a curve for each combination of the other axes.
-fn plot(results: &Results, curves: &[Curve], style: &Style) -> Option<String> {
-    // a config names one engine
-    let first = results.rows.each().next();
+/// P(face) along an axis, a curve for each combination of the other axes; `None` if it is not swept.
+fn plot(results: &Results, face: Face, along: &str, style: &Style) -> Option<String> {
+    if !results.axes.iter().any(|axis| axis == along) {
+        return None;
+    }
+    // a config names one engine, and the closed forms depend on the ratio alone
+    let first = results.rows.each().next().filter(|_| along == RATIO);
     let rule = first.and_then(|row| no_bounce_rule(row.engine));
     let label = rule.map_or(String::new(), |rule| format!("{rule} rule (no bounce)"));
-    let p_side = |ratio| rule.map_or(f64::NAN, |rule| rule.p_side(ratio));
+    let p_face = |ratio| {
+        let p_side = rule.map_or(f64::NAN, |rule| rule.p_side(ratio));
+        if face == Face::Side {
+            p_side
+        } else {
+            0.5 * (1.0 - p_side)
+        }
+    };
     let reference = Reference {
         label: &label,
-        y: &p_side,
+        y: &p_face,
     };
     Plot {
-        x_label: "ratio H/R",
-        y_label: "P(side)",
-        curves,
+        x_label: if along == RATIO { "ratio H/R" } else { along },
+        y_label: &format!("P({})", face.name()),
+        curves: &curves(results, along, face),
         reference: rule.is_some().then_some(reference),
-        level: Some(Level {
+        level: (face == Face::Side).then_some(Level {
             label: "1/3",
             y: FAIR,
         }),

@@ -3,7 +3,7 @@
 use super::totals::Totals;
 use super::{probability, shown_parameters};
 use crate::terminal::table::{Column, Table};
-use crate::terminal::{Colors, Style, compact, grouped, wrapped};
+use crate::terminal::{Colors, Style, compact, decimals_for, grouped, wrapped};
 use coinmc::published::{Published, TABLE1_SOURCE};
 use coinmc::results::{Results, Row};
 
@@ -60,8 +60,15 @@ pub(super) fn table(results: &Results, totals: &Totals, style: &Style) -> Option
 fn theirs(row: &Row, published: &Published, decimals: usize) -> [String; 3] {
     let counts = &published.counts;
     let z = counts.z_score(row.tally.side, row.tally.tosses());
+    // one count in thousands is not 0
+    let share = counts.p_side();
+    let decimals = decimals.max(if share > 0.0 {
+        decimals_for(share) - 1
+    } else {
+        0
+    });
     [
-        format!("{:.decimals$}", counts.p_side()),
+        format!("{share:.decimals$}"),
         format!("{} of {}", grouped(counts.side), grouped(counts.tosses())),
         z.map_or("-".to_owned(), |z| format!("{z:+.1}")),
     ]

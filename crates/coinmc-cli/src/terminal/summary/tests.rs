@@ -47,6 +47,7 @@ fn text(results: &Results, style: &Style) -> String {
         results,
         &fair_ratios(results, FAIR),
         Path::new("runs/a/results.csv"),
+        &Plotted::default(),
         style,
     )
 }
@@ -72,7 +73,7 @@ fn a_curve_that_never_crosses_is_told() {
     let results = results(&sweep("[0.1, 0.2, 0.3]", "0.5"), 1.0);
     let text = text(&results, &Style::plain(80));
     assert!(
-        text.contains("Fair ratio: none in this sweep, 1 curve stays below 1/3\n"),
+        text.contains("Fair ratio: none found in this sweep: the curve stays below 1/3\n"),
         "{text}"
     );
 }
@@ -234,4 +235,40 @@ fn nothing_is_wider_than_the_terminal() {
             }
         }
     }
+}
+
+#[test]
+fn another_axis_and_face_are_plotted_on_demand() {
+    let results = results(
+        &sweep("[0.5, 1.0, 1.5]", "{ from = 0.1, to = 0.9, steps = 5 }"),
+        1.0,
+    );
+    let told = |plotted: &str| {
+        let csv = Path::new("runs/a/results.csv");
+        let fair = fair_ratios(&results, FAIR);
+        summary(
+            &results,
+            &fair,
+            csv,
+            &plotted.parse().unwrap(),
+            &Style::plain(80),
+        )
+    };
+    let text = told("restitution,heads");
+    assert!(
+        text.contains("\nP(heads)\n") && text.contains("\n       restitution\n"),
+        "{text}"
+    );
+    assert!(
+        text.contains("● ratio 0.5") && !text.contains("arc rule (no bounce)\n"),
+        "{text}"
+    );
+    // 1/3 is fair for the side alone
+    assert!(!text.contains("┄ 1/3"), "{text}");
+    let text = told("tails");
+    assert!(
+        text.contains("\nP(tails)\n") && text.contains("· arc rule (no bounce)"),
+        "{text}"
+    );
+    assert!(!told("none").contains('┤') && told("none").contains("Fair coin"));
 }

@@ -13,7 +13,6 @@ use Absent::{Is, Omitted, Required};
 
 /// The whole document.
 pub(in crate::config) fn root() -> TableKind {
-    const SEED_MAX: u64 = i64::MAX as u64;
     TableKind {
         fields: vec![
             field(
@@ -22,7 +21,7 @@ pub(in crate::config) fn root() -> TableKind {
                  counts.",
                 Kind::Integer(Whole {
                     low: 0,
-                    high: SEED_MAX,
+                    high: u64::MAX,
                 }),
                 Is(Fallback::Integer(1)),
             ),

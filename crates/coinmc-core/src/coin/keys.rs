@@ -1,0 +1,175 @@
+//! The keys of the table `[coin]` of a config.
+
+use super::{Coin, CoinError};
+use crate::schema::{
+    Absent, Bounds, Condition, Field, ReadError, Rule, TableKind, Values, default, number,
+};
+
+/// Lengths: typing errors end here.
+const LENGTH: Bounds = Bounds::closed(1e-9, 1e6);
+/// The same in mm.
+const MILLIMETRES: Bounds = Bounds::closed(1e-6, 1e9);
+const BY_HEIGHT: Condition = Condition::Either(&[
+    Condition::Given("height_m"),
+    Condition::Given("height_mm"),
+    Condition::Given("thickness_m"),
+    Condition::Given("thickness_mm"),
+]);
+
+impl CoinError {
+    /// The key of a config that gives the quantity.
+    fn key(&self) -> &'static str {
+        match self {
+            Self::Ratio(_) => "ratio",
+            Self::Radius(_) => "radius_m",
+            Self::Mass(_) => "mass_kg",
+            Self::RimRadius { .. } => "rim_radius_m",
+            Self::AxialMoment { .. } => "axial_moment_kg_m2",
+            Self::TransverseMoment { .. } => "transverse_moment_kg_m2",
+        }
+    }
+}
+
+impl Coin {
+    /// Radius where a config gives none, m.
+    pub const DEFAULT_RADIUS_M: f64 = 0.01;
+    /// Limits of H/R in configs.
+    pub const RATIO: Bounds = Bounds::closed(1e-12, 1e12);
+    /// Keys that give the height, H, of which a config has one at most and then no `ratio`; and how
+    /// many metres their unit has.
+    pub const HEIGHTS: [(&'static str, f64); 4] = [
+        ("height_m", 1.0),
+        ("height_mm", 1e-3),
+        ("thickness_m", 1.0),
+        ("thickness_mm", 1e-3),
+    ];
+    /// Keys that give the radius, R, of which a config has one at most; and R in metres for 1.
+    pub const RADII: [(&'static str, f64); 4] = [
+        ("radius_m", 1.0),
+        ("radius_mm", 1e-3),
+        ("diameter_m", 0.5),
+        ("diameter_mm", 5e-4),
+    ];
+
+    /// The keys of the table `[coin]` of a config. Of its lengths a config as understood has `ratio`
+    /// and `radius_m` only.
+    pub fn schema() -> TableKind {
+        let mut fields = shape();
+        fields.extend(matter());
+        let mut rules = vec![Rule::Unless {
+            condition: BY_HEIGHT,
+            keys: &["ratio"],
+            fallback: None,
+        }];
+        rules.extend(EXCLUSIVE.map(Rule::NotBoth));
+        TableKind { fields, rules }
+    }
+
+    /// The coin that a config gives.
+    ///
+    /// # Errors
+    /// [`ReadError`] where [`CoinError`] applies; it blames the key of the quantity.
+    pub fn read(values: &Values) -> Result<Self, ReadError> {
+        let axial = values.optional("axial_moment_kg_m2")?;
+        let transverse = values.optional("transverse_moment_kg_m2")?;
+        let blame = |error: CoinError| {
+            // a given axial moment alone can rule out the uniform cylinder's transverse one
+            let key = match error {
+                CoinError::TransverseMoment { .. } if transverse.is_none() => "axial_moment_kg_m2",
+                error => error.key(),
+            };
+            ReadError::new(error.to_string()).at(key)
+        };
+        let coin = Self::cylinder(values.number("ratio")?, values.number("radius_m")?)
+            .map_err(blame)?
+            .with_mass(values.number("mass_kg")?)
+            .map_err(blame)?
+            .with_rim_radius(values.optional("rim_radius_m")?.unwrap_or(0.0))
+            .map_err(blame)?;
+        if axial.is_none() && transverse.is_none() {
+            return Ok(coin);
+        }
+        coin.with_moments(axial, transverse).map_err(blame)
+    }
+}
+
+/// Pairs of keys that say the same.
+const EXCLUSIVE: [[&str; 2]; 16] = [
+    ["ratio", "height_m"],
+    ["ratio", "height_mm"],
+    ["ratio", "thickness_m"],
+    ["ratio", "thickness_mm"],
+    ["height_m", "height_mm"],
+    ["height_m", "thickness_m"],
+    ["height_m", "thickness_mm"],
+    ["height_mm", "thickness_m"],
+    ["height_mm", "thickness_mm"],
+    ["thickness_m", "thickness_mm"],
+    ["radius_m", "radius_mm"],
+    ["radius_m", "diameter_m"],
+    ["radius_m", "diameter_mm"],
+    ["radius_mm", "diameter_m"],
+    ["radius_mm", "diameter_mm"],
+    ["diameter_m", "diameter_mm"],
+];
+
+fn shape() -> Vec<Field> {
+    let length = |name, doc, bounds| number(name, doc, bounds, Absent::Omitted);
+    vec![
+        length("ratio", "Height over radius, H/R.", Coin::RATIO),
+        length(
+            "height_m",
+            "Height (thickness) H, m, instead of `ratio`: a number, or swept with one radius.",
+            LENGTH,
+        ),
+        length("height_mm", "The same in mm.", MILLIMETRES),
+        length("thickness_m", "The same as `height_m`.", LENGTH),
+        length("thickness_mm", "The same as `height_mm`.", MILLIMETRES),
+        length(
+            "radius_m",
+            "Radius R, m; 0.01 if no radius or diameter is given.",
+            LENGTH,
+        ),
+        length("radius_mm", "The same in mm.", MILLIMETRES),
+        length(
+            "diameter_m",
+            "Diameter 2R, m, instead of the radius.",
+            LENGTH,
+        ),
+        length("diameter_mm", "The same in mm.", MILLIMETRES),
+    ]
+}
+
+fn matter() -> Vec<Field> {
+    let moment = Bounds::open(0.0, 1e30);
+    vec![
+        number(
+            "mass_kg",
+            "Mass, kg. It cancels everywhere but in given moments of inertia and in laws of impact \
+                 that name forces or stiffness.",
+            Bounds::closed(1e-12, 1e12),
+            default(0.01),
+        ),
+        number(
+            "rim_radius_m",
+            "Radius r of the rounding of both rims, m, below R and H/2: the coin is a smaller cylinder \
+                 with a layer of thickness r all around. 0, or absent: sharp edges.",
+            Bounds::closed(0.0, 1e6),
+            Absent::Omitted,
+        ),
+        number(
+            "axial_moment_kg_m2",
+            "Moment of inertia about the coin's axis, kg m², of a hollow or loaded coin; a uniform \
+                 cylinder's if absent.",
+            moment,
+            Absent::Omitted,
+        ),
+        number(
+            "transverse_moment_kg_m2",
+            "Moment of inertia about a diameter through the centre, kg m²; a uniform cylinder's if \
+                 absent.",
+            moment,
+            Absent::Omitted,
+        ),
+    ]
+}
