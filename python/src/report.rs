@@ -64,12 +64,11 @@ pub(crate) fn toss_page(py: Python<'_>, asked: Vec<Asked<'_>>) -> PyResult<Strin
         }
         let (shared, own) = (std::sync::Arc::clone(&plan.0), row.map(launch));
         plans.push(std::sync::Arc::clone(&shared));
-        let trace = wait_for(py, move || match own {
-            Some(launch) => {
+        let trace = wait_for(py, move || {
+            if let Some(launch) = own {
                 let rate = default_rate_hz(&scene, &launch);
                 record(&shared, point, &launch, rate, MAX_RECORDS)
-            }
-            None => {
+            } else {
                 let rate = default_rate_hz(&scene, &launch_of(&shared, point, toss)?);
                 replay(&shared, point, toss, rate)
             }

@@ -51,10 +51,10 @@ fn thin(steps: &mut Vec<Step>) {
     }
     let share = libm::log(all as f64) / (MOST_STEPS - 1) as f64;
     let mut next = 1.0;
-    let mut number = 0;
+    let mut number = 0_usize;
     steps.retain(|_| {
         number += 1;
-        let keep = f64::from(number) >= next || number as usize == all;
+        let keep = number as f64 >= next || number == all;
         if keep {
             next = (next * libm::exp(share)).max(next + 1.0);
         }

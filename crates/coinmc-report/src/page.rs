@@ -215,7 +215,7 @@ mod tests {
         assert!(!told["samples"].as_array().unwrap().is_empty());
         assert_eq!(
             told["rule"]["rows"],
-            json!([0.447_213_595_499_957_94, 0.707_106_781_186_547_5])
+            json!([0.447_213_595_499_957_9, 0.707_106_781_186_547_5])
         );
     }
 

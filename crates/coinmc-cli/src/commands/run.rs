@@ -19,6 +19,7 @@ use coinmc::results::{FairRatio, Row, fair_ratios, write_csv};
 use coinmc::run::{Options, Part, Report, Status};
 use serde_json::{Map, Value, json};
 use std::borrow::Cow;
+use std::ffi::OsString;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
@@ -64,8 +65,8 @@ pub(crate) struct Run {
     plot: Plotted,
 
     /// Also make a page of the run, see `coinmc report` [default: report.html in the run directory]
-    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true)]
-    report: Option<Option<PathBuf>>,
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = "")]
+    report: Option<OsString>,
 
     /// How to write the result
     #[arg(long, value_enum, default_value_t = ResultFormat::Table)]
@@ -85,7 +86,8 @@ impl Run {
         let plan = config::load(&self.config, &self.overrides)?;
         self.plot.check(&plan.axes).map_err(Failure::Input)?;
         let out = self.out.clone().unwrap_or_else(|| self.default_out(&plan));
-        if let Some(Some(page)) = &self.report {
+        if let Some(page) = self.report.as_ref().filter(|page| !page.is_empty()) {
+            let page = Path::new(page);
             Page::check(page)?;
         }
         let progress = Progress::new(*console.stderr(), self.quiet);
@@ -117,7 +119,11 @@ impl Run {
         }
         let outcome = present(&report, &out, &self.plot, console, self.format, self.quiet)?;
         if let Some(file) = &self.report {
-            let file = file.clone().unwrap_or_else(|| out.join("report.html"));
+            let file = if file.is_empty() {
+                out.join("report.html")
+            } else {
+                PathBuf::from(file)
+            };
             self.make_page(&file, &out)?;
         }
         Ok(outcome)

@@ -108,6 +108,15 @@ impl Dynamics {
         smooth && !self.friction.has_lengths() && !self.drag.acts() && self.pull.is_none()
     }
 
+    /// Adds the pull of a tilted table to the accelerations of the free contact point.
+    #[inline(always)]
+    fn add_pull<L: Lane>(&self, bx: &mut L, by: &mut L) {
+        if let Some([x, y]) = self.pull {
+            *bx += L::splat(x);
+            *by += L::splat(y);
+        }
+    }
+
     /// Rates and forces of `state` in a mode.
     #[inline(always)]
     pub(crate) fn rates<L: Lane>(&self, state: &RimState<L>, mode: Mode) -> Rates<L> {
@@ -124,8 +133,7 @@ impl Dynamics {
         let azimuth = -(wt * inverse.sin);
         let excess = k(self.axial_factor) * wa - azimuth * c;
         let mut gyro_y = wt * excess;
-        let vx = gx - wy * rz;
-        let vy = gy - radius * wa - half * wt;
+        let (vx, vy) = (gx - wy * rz, gy - radius * wa - half * wt);
         let kxx = k(1.0) + rz * rz * ikt;
         let kxz = -(rx * rz * ikt);
         let kzz = k(1.0) + rx * rx * ikt;
@@ -148,10 +156,7 @@ impl Dynamics {
             by -= linear * vy + angular * (radius * wa + half * wt);
             bz -= linear * wy * rx;
         }
-        if let Some([pull_x, pull_y]) = self.pull {
-            bx += k(pull_x);
-            by += k(pull_y);
-        }
+        self.add_pull(&mut bx, &mut by);
         let mu = k(self.friction.mu);
         // in slip, both forces contain N/|γ| = −bz/(K_zz |γ| − μ K_xz γx): one quotient for all
         let slip = Slip::new(mode, gx, gy);

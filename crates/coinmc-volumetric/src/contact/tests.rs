@@ -43,6 +43,7 @@ fn model(dynamics: &Dynamics, gyroscopic: bool) -> Model {
         linear_drag: dynamics.drag.linear,
         angular_drag: dynamics.drag.angular,
         gyroscopic,
+        pull: Vector3::zeros(),
     }
 }
 

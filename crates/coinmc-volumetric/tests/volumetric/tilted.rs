@@ -54,12 +54,12 @@ fn wheel(scene: &Scene, speed: f64) -> Launch {
 /// less downhill; where rolling friction does not hold it, it rolls on for ever.
 #[test]
 fn a_wheel_rolls_up_and_down() {
-    let hold = (CONTOUR / RADIUS).atan().to_degrees();
+    let hold = libm::atan(CONTOUR / RADIUS).to_degrees();
     for ratio in [0.2, 0.85] {
         for (share, direction, sign) in [(0.5, 90.0, -1.0), (0.9, -90.0, 1.0), (0.7, 0.0, 0.0)] {
             let tilt_deg = share * hold;
             let scene = table(ratio, 0.3, tilt_deg, direction);
-            let (sin, cos) = tilt_deg.to_radians().sin_cos();
+            let (sin, cos) = libm::sincos(tilt_deg.to_radians());
             let slows = GRAVITY * (CONTOUR / RADIUS * cos + sign * sin) / 1.5;
             let way_m: f64 = 0.2;
             let launch = wheel(&scene, (2.0 * slows * way_m).sqrt());
@@ -119,7 +119,7 @@ fn flight_is_that_of_the_laboratory() {
             let (once, twice) = if drag == 0.0 {
                 (t, 0.5 * t * t)
             } else {
-                let once = (1.0 - (-drag * t).exp()) / drag;
+                let once = -libm::expm1(-drag * t) / drag;
                 (once, (t - once) / drag)
             };
             let expected = Vector3::new(0.0, 0.0, 0.5) + launch.velocity_m_s * once
@@ -191,7 +191,7 @@ fn heads_and_tails_exchange() {
                     != face.map(|face| match face {
                         Face::Heads => Face::Tails,
                         Face::Tails => Face::Heads,
-                        other => other,
+                        Face::Side => Face::Side,
                     })
             })
             .count();
