@@ -33,13 +33,13 @@ def test_a_cluster_ends_in_the_bytes_of_a_local_run(scene, client, tmp_path):
 
 
 def test_killed_workers_lose_nothing_and_double_nothing(scene, client, tmp_path):
-    config = coinmc.Config(config_of(scene, "fixed"), {"stop.tosses": 1_500_000})
+    config = coinmc.Config(config_of(scene, "fixed"), {"stop.tosses": 400_000})
     coinmc.run(config, tmp_path / "whole")
     killed = []
     is_over = threading.Event()
 
     def kill():
-        while not is_over.wait(0.3) and not killed:
+        while not is_over.wait(0.1) and not killed:
             workers = client.run(os.getpid)
             for pid in list(workers.values())[:1]:
                 os.kill(pid, signal.SIGKILL)
