@@ -69,7 +69,7 @@ def throw(program: Path, folder: Path, throws: int) -> int:
     quiet = ["--quiet", "--max-voids", "20", "--camera-timeout", PATIENCE_S]
     first = [program, "robot", "run", "robot.toml", *stop, "--out", "day", "--port", "port"]
     first += ["--speed", "200", "--camera", camera(), *quiet]
-    again = [program, "robot", "resume", "day", *quiet]
+    again = [program, "robot", "resume", "day", "--camera", camera(), *quiet]
     pipe = subprocess.PIPE
     with subprocess.Popen([*sim, *more], cwd=folder, stdin=pipe, stdout=pipe, text=True) as robot:
         robot.stdout.readline()

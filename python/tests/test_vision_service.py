@@ -49,21 +49,27 @@ def take(folder, name="000001-1", **more) -> str:
     return json.dumps({"take": {**request, **more}})
 
 
+def classify(path, **more) -> str:
+    """A request to read a photo."""
+    return json.dumps({"classify": str(path), "throw": 1, "attempt": 1, **more})
+
+
 def test_photos_are_stored_with_their_hash_and_read(tmp_path, classifier):
     truth = tmp_path / "truth.jsonl"
     source = SyntheticSource(classifier.coin, classifier.camera, truth, 1, 0.0, 0.0)
     [early] = replies(source, classifier, take(tmp_path))
     assert "tells of no throw" in early["error"]
-    for face in ("heads", "side"):
+    for attempt, face in enumerate(("heads", "side"), 1):
         line = {"throw_id": 1, "spin_mrev_s": 1, "angle_cdeg": 1, "face": face}
         truth.write_text(json.dumps(line) + "\n" + '{"throw_id": 2, "torn')
-        [taken] = replies(source, classifier, take(tmp_path))
+        name = f"000001-{attempt}"
+        [taken] = replies(source, classifier, take(tmp_path, name, attempt=attempt))
+        assert taken == {"throw": 1, "attempt": attempt, "image": f"{name}.jpg"}
         path = tmp_path / taken["image"]
-        [read] = replies(source, classifier, json.dumps({"classify": str(path)}))
+        [read] = replies(source, classifier, classify(path, attempt=attempt))
+        assert (read["throw"], read["attempt"]) == (1, attempt)
         assert (read["face"], read["shows"], read["reason"]) == (face, face, "")
         assert read["markers"] >= 2
-    # the photo that was there stays
-    assert sorted(p.name for p in tmp_path.glob("*.jpg")) == ["000001-1.2.jpg", "000001-1.jpg"]
     entries = list(logged(tmp_path))
     for entry in entries[::2]:
         content = (tmp_path / entry["image"]).read_bytes()
@@ -71,13 +77,42 @@ def test_photos_are_stored_with_their_hash_and_read(tmp_path, classifier):
     assert [entry["reading"]["face"] for entry in entries[1::2]] == ["heads", "side"]
 
 
+def test_a_photo_is_never_replaced_or_renamed(tmp_path, made, classifier):
+    source = FileSource(made / "photos" / "photo-0000.jpg")
+    (tmp_path / "000001-1.jpg").write_bytes(b"as a crash left it")
+    [refused, taken] = replies(
+        source, classifier, take(tmp_path), take(tmp_path, "000001-2", attempt=2)
+    )
+    assert "000001-1.jpg exists" in refused.pop("error")
+    assert refused == {"throw": 1, "attempt": 1}
+    assert taken == {"throw": 1, "attempt": 2, "image": "000001-2.jpg"}
+    assert (tmp_path / "000001-1.jpg").read_bytes() == b"as a crash left it"
+    assert [entry["image"] for entry in logged(tmp_path)] == ["000001-2.jpg"]
+
+
+def test_the_first_photo_of_a_session_shows_an_empty_table(tmp_path, classifier):
+    # there is no truth yet in the first session, and an old coin in later ones
+    truth = tmp_path / "truth.jsonl"
+    photos = []
+    for session in (1, 2):
+        source = SyntheticSource(classifier.coin, classifier.camera, truth, 1, 0.0, 0.0)
+        [taken] = replies(source, classifier, take(tmp_path, f"test-{session}", throw=0))
+        path = tmp_path / taken["image"]
+        photos.append(path.read_bytes())
+        [read] = replies(source, classifier, classify(path, throw=0))
+        assert (read["throw"], read["attempt"]) == (0, 1)
+        assert (read["face"], read["shows"], read["markers"]) == ("none", "none", 0)
+        truth.write_text('{"face": "heads"}\n')
+    # the host takes no picture twice
+    assert photos[0] != photos[1]
+
+
 def test_a_coin_that_moves_is_told_as_leaning_and_asked_for_again(tmp_path, classifier):
     (tmp_path / "truth.jsonl").write_text('{"face": "heads"}\n')
     truth = tmp_path / "truth.jsonl"
     source = SyntheticSource(classifier.coin, classifier.camera, truth, 2, 0.0, 1.0)
     [taken] = replies(source, classifier, take(tmp_path))
-    photo = str(tmp_path / taken["image"])
-    [read] = replies(source, classifier, json.dumps({"classify": photo}))
+    [read] = replies(source, classifier, classify(tmp_path / taken["image"]))
     # the host asks for another photo after `none`, and this one is kept
     assert (read["face"], read["shows"]) == ("none", "leaning")
     assert list(logged(tmp_path))[-1]["reading"]["shows"] == "leaning"
@@ -85,15 +120,49 @@ def test_a_coin_that_moves_is_told_as_leaning_and_asked_for_again(tmp_path, clas
 
 @pytest.mark.parametrize(
     "line",
-    ["heads", "[]", "{}", '{"take": 1}', '{"take": {"throw": 1}}', '{"classify": ["a"]}']
-    + [json.dumps({"classify": "x" * 70_000}), "[" * 50_000]
-    + [take("/tmp/nowhere-at-all"), take("photos"), take("/tmp", throw=-1)]
-    + [take("/tmp", name=name) for name in ("../x", "/x", "", ".x", "a b", "x" * 100, "a/b")],
+    [
+        "heads",
+        "[]",
+        "{}",
+        "[" * 50_000,
+        '{"take": 1}',
+        '{"take": {"throw": 1}}',
+        take("/tmp", throw=-1),
+        take("/tmp", attempt=True),
+        '{"classify": "PHOTO"}',
+        classify("PHOTO", throw=None),
+        classify("PHOTO", attempt=0.5),
+        classify("PHOTO", take=1),
+        classify("x" * 70_000),
+    ],
 )
 def test_bad_requests_are_answered_by_an_error(tmp_path, made, classifier, line):
-    source = FileSource(made / "photos" / "photo-0000.jpg")
-    [reply] = replies(source, classifier, line)
+    photo = made / "photos" / "photo-0000.jpg"
+    [reply] = replies(FileSource(photo), classifier, line.replace("PHOTO", str(photo)))
     assert list(reply) == ["error"]
+    assert not (photo.parent / "photos.jsonl").exists()
+
+
+@pytest.mark.parametrize(
+    "line",
+    [take("/tmp/nowhere-at-all"), take("photos"), classify("/tmp/nowhere-at-all.jpg")]
+    + [classify("/tmp", classify=path) for path in (["a"], "\0", "\ud800")]
+    + [take("/tmp", name) for name in ("../x", "/x", "", ".x", "a b", "x" * 100, "a/b", "\ud800")],
+)
+def test_errors_name_throw_and_attempt_where_they_are_known(tmp_path, classifier, line):
+    truth = tmp_path / "truth.jsonl"
+    truth.write_text('{"face": "heads"}\n')
+    source = SyntheticSource(classifier.coin, classifier.camera, truth, 1, 0.0, 0.0)
+    [reply] = replies(source, classifier, line)
+    assert reply.pop("error")
+    assert reply == {"throw": 1, "attempt": 1}
+    assert list(tmp_path.iterdir()) == [truth]
+
+
+def test_a_photo_of_a_source_that_fails_is_an_error(tmp_path, classifier):
+    [reply] = replies(FileSource(tmp_path / "missing.jpg"), classifier, take(tmp_path))
+    assert "missing.jpg cannot be read" in reply.pop("error")
+    assert reply == {"throw": 1, "attempt": 1}
     assert not list(tmp_path.iterdir())
 
 
@@ -101,12 +170,8 @@ def test_a_photo_that_another_program_renews_is_copied(tmp_path, made, classifie
     photo = made / "photos" / "photo-0000.jpg"
     [taken] = replies(FileSource(photo), classifier, take(tmp_path))
     assert (tmp_path / taken["image"]).read_bytes() == photo.read_bytes()
-    [reply] = replies(FileSource(tmp_path / "missing.jpg"), classifier, take(tmp_path))
-    assert "missing.jpg cannot be read" in reply["error"]
     (tmp_path / "bad.jpg").write_bytes(b"no photo")
-    [reply] = replies(
-        FileSource(photo), classifier, json.dumps({"classify": f"{tmp_path}/bad.jpg"})
-    )
+    [reply] = replies(FileSource(photo), classifier, classify(tmp_path / "bad.jpg"))
     assert "not a JPEG or PNG" in reply["error"]
 
 

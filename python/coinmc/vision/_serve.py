@@ -31,38 +31,56 @@ def serve(source: Source, classifier: Classifier, lines: Iterable[str], replies:
         Replies are written to it, one line each.
     """
     for line in lines:
+        request = _request(line)
+        about = _about(request)
         try:
-            reply = _reply(source, classifier, line)
+            reply = _reply(source, classifier, request, about)
         except VisionError as error:
             reply = {"error": str(error)[: LONGEST_LINE // 8]}
-        replies.write(json.dumps(reply) + "\n")
+        # the host takes no reply that could be about another photo
+        replies.write(json.dumps({**about, **reply}) + "\n")
         replies.flush()
 
 
-def _reply(source: Source, classifier: Classifier, line: str) -> dict[str, Any]:
+def _request(line: str) -> dict[str, Any]:
     try:
         request = json.loads(line) if len(line) < LONGEST_LINE else None
     except (ValueError, RecursionError):
         request = None
-    if isinstance(request, dict) and len(request) == 1:
-        if isinstance(request.get("take"), dict):
-            return _take(source, request["take"])
-        if isinstance(request.get("classify"), str):
-            return _classify(classifier, Path(request["classify"]))
-    raise VisionError("a request is take or classify, as docs/guide/robot.md says")
+    return request if isinstance(request, dict) else {}
 
 
-def _take(source: Source, take: dict[str, Any]) -> dict[str, Any]:
-    throw, attempt = take.get("throw"), take.get("attempt")
+def _about(request: dict[str, Any]) -> dict[str, int]:
+    """Return throw and attempt of a request; nothing if it lacks one of them."""
+    asked = request.get("take", request)
+    if not isinstance(asked, dict):
+        return {}
+    about = {key: asked.get(key) for key in ("throw", "attempt")}
+    good = all(type(n) is int and 0 <= n < 1 << 32 for n in about.values())
+    return about if good else {}
+
+
+def _reply(
+    source: Source, classifier: Classifier, request: dict[str, Any], about: dict[str, int]
+) -> dict[str, Any]:
+    match request:
+        case {"take": dict(take), **rest} if not rest:
+            return _take(source, take, about)
+        case {"classify": str(path), **rest} if about and rest == about:
+            return _classify(classifier, Path(path))
+    raise VisionError(
+        "a request is take, or classify with throw and attempt, as docs/guide/robot.md says"
+    )
+
+
+def _take(source: Source, take: dict[str, Any], about: dict[str, int]) -> dict[str, Any]:
     folder, name = take.get("folder"), take.get("name")
-    good = all(isinstance(n, int) and 0 <= n < 1 << 32 for n in (throw, attempt))
-    if not good or not isinstance(folder, str) or not isinstance(name, str):
+    if not about or not isinstance(folder, str) or not isinstance(name, str):
         raise VisionError("take has throw, attempt, folder and name")
     if not Path(folder).is_absolute() or not Path(folder).is_dir():
         raise VisionError("the folder must be absolute, and exist")
-    content, kind = source.take(throw, attempt)
-    store = PhotoStore(Path(folder))
-    return {"image": store.keep(name, kind, content, throw=throw, attempt=attempt)}
+    content, kind = source.take(about["throw"], name)
+    return {"image": PhotoStore(Path(folder)).keep(name, kind, content, **about)}
 
 
 def _classify(classifier: Classifier, path: Path) -> dict[str, Any]:

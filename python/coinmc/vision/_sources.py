@@ -19,13 +19,14 @@ __all__ = ["DeviceSource", "FileSource", "Source", "SyntheticSource"]
 # Frames that a camera holds back: they may show the table before the coin came.
 _STALE = 4
 _LONGEST_TRUTH = 512
+_EMPTY = Scene("none", "empty", None)
 
 
 class Source(Protocol):
     """Gives photos: the bytes of a file, and its extension."""
 
-    def take(self, throw: int, attempt: int) -> tuple[bytes, str]:
-        """Take a photo."""
+    def take(self, throw: int, name: str) -> tuple[bytes, str]:
+        """Take a photo of a throw (0: before the first), which will have this name."""
         ...
 
 
@@ -39,7 +40,7 @@ class DeviceSource:
         self._capture.set(cv2().CAP_PROP_FRAME_WIDTH, size[0])
         self._capture.set(cv2().CAP_PROP_FRAME_HEIGHT, size[1])
 
-    def take(self, throw: int, attempt: int) -> tuple[bytes, str]:
+    def take(self, throw: int, name: str) -> tuple[bytes, str]:
         """Take a photo now."""
         for _ in range(_STALE):
             self._capture.grab()
@@ -55,7 +56,7 @@ class FileSource:
 
     path: Path
 
-    def take(self, throw: int, attempt: int) -> tuple[bytes, str]:
+    def take(self, throw: int, name: str) -> tuple[bytes, str]:
         """Copy the photo as it is now."""
         try:
             with self.path.open("rb") as file:
@@ -77,7 +78,7 @@ class SyntheticSource:
     truth : Path
         The truth file of the simulated robot.
     seed : int
-        Photos depend on the seed, the throw and the attempt alone.
+        Photos of a face depend on the seed and their names alone.
     hard, moving : float
         Shares of bad photos, and of photos in which the coin still moves.
     """
@@ -97,11 +98,13 @@ class SyntheticSource:
         self._renderer = SyntheticCamera(coin, camera, seed)
         self._ends = Ends(coin.radius_mm, coin.height_mm, seed, tosses=500)
 
-    def take(self, throw: int, attempt: int) -> tuple[bytes, str]:
-        """Render a photo of the coin as it lies now."""
-        rng = np.random.default_rng([self._seed, throw, attempt])
+    def take(self, throw: int, name: str) -> tuple[bytes, str]:
+        """Render a photo of the coin as it lies now; of an empty table before the first throw."""
+        # the throw would not do: after a restart its photo must differ from the one before
+        rng = np.random.default_rng([self._seed, *name.encode(errors="surrogatepass")])
         effects = Effects.drawn(rng, rng.random() < self._hard)
-        photo = self._renderer.photo(self._scene(rng), effects, rng)
+        scene = _EMPTY if throw == 0 else self._scene(rng)
+        photo = self._renderer.photo(scene, effects, rng)
         return jpeg(photo, effects.quality), "jpg"
 
     def _scene(self, rng: np.random.Generator) -> Scene:
@@ -112,7 +115,7 @@ class SyntheticSource:
             if trap is not None:
                 return trap
         if face is None:
-            return Scene("none", "empty", None)
+            return _EMPTY
         like = np.flatnonzero(self._ends.face == FACES.index(face))
         axis = self._ends.axis[rng.choice(like)] if len(like) else None
         return self._ends.lying(face, rng, axis)

@@ -35,26 +35,26 @@ class PhotoStore:
     folder: Path
 
     def keep(self, name: str, kind: str, content: bytes, **more: Any) -> str:
-        """Store a photo on the disk and its SHA-256 in the log; return its name.
-
-        A photo of that name, as a crash leaves it, stays: the new one gets a number.
+        """Store a photo on the disk and its SHA-256 in the log; return its name with extension.
 
         Raises
         ------
         coinmc.VisionError
-            If the name could lead out of the folder, or the disk does not take the photo.
+            If the name could lead out of the folder, there is a photo of that name, or the disk
+            does not take it.
         """
         if not _NAME.fullmatch(name):
             raise VisionError("a photo's name has 1 to 80 letters, digits, -, _ and .")
+        image = f"{name}.{kind}"
         try:
-            for number in range(1, 1000):
-                image = f"{name}.{kind}" if number == 1 else f"{name}.{number}.{kind}"
-                if self._write(image, content):
-                    break
-            else:
-                raise VisionError(f"{self.folder} has a thousand photos {name}")
+            with (self.folder / image).open("xb") as file:
+                file.write(content)
+                file.flush()
+                os.fsync(file.fileno())
             digest = hashlib.sha256(content).hexdigest()
             self._log({"image": image, "sha256": digest, "bytes": len(content), **more})
+        except FileExistsError as error:
+            raise VisionError(f"{image} exists, and photos are not replaced") from error
         except OSError as error:
             raise VisionError(f"cannot store a photo in {self.folder}: {error.strerror}") from error
         return image
@@ -65,16 +65,6 @@ class PhotoStore:
             self._log({"image": image, "reading": reading})
         except OSError as error:
             raise VisionError(f"cannot write {self.folder / LOG}: {error.strerror}") from error
-
-    def _write(self, image: str, content: bytes) -> bool:
-        try:
-            with (self.folder / image).open("xb") as file:
-                file.write(content)
-                file.flush()
-                os.fsync(file.fileno())
-        except FileExistsError:
-            return False
-        return True
 
     def _log(self, entry: dict[str, Any]) -> None:
         line = json.dumps({**entry, "at_ms": time.time_ns() // 1_000_000}) + "\n"

@@ -228,7 +228,7 @@ mod tests {
             table.push(vec![
                 format!("{}.5", i),
                 "0.3333 ± 0.0010".to_owned(),
-                "1 000 000".to_owned(),
+                format!("{} 000 000", i + 1),
                 if i == 1 {
                     "a long reason why not".to_owned()
                 } else {
@@ -247,8 +247,8 @@ mod tests {
             "\
 ratio          P(side)     tosses  why
   0.5  0.3333 ± 0.0010  1 000 000
-  1.5  0.3333 ± 0.0010  1 000 000  a long reason why not
-  2.5  0.3333 ± 0.0010  1 000 000
+  1.5  0.3333 ± 0.0010  2 000 000  a long reason why not
+  2.5  0.3333 ± 0.0010  3 000 000
 "
         );
         assert!(rendered.left_out.is_empty());

@@ -179,6 +179,19 @@ impl ContactSolver<'_> {
                 Exit::NeverSettles
             };
         }
+        self.slow_to_rest(&rolling, state, motion, spin, adapter)
+    }
+
+    /// Shows how straight rolling that begins with `state` slows down, and leaves the coin at rest.
+    pub(super) fn slow_to_rest<O: Observer>(
+        &mut self,
+        rolling: &RollingStop,
+        state: &LineState,
+        motion: &mut Motion<f64>,
+        spin: &mut Spin<f64>,
+        adapter: &mut ObserverAdapter<'_, O>,
+    ) -> Exit {
+        let dynamics = self.rules.dynamics;
         let pieces = rolling.pieces();
         let duration = rolling.time / pieces;
         let mut begun = 0.0;

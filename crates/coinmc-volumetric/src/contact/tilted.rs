@@ -17,7 +17,7 @@ use super::step::can_stick;
 use crate::motion::{Motion, Spin};
 use crate::observer_adapter::ObserverAdapter;
 use crate::pull::{Pull, longest_step};
-use coinmc_core::{Decided, EventKind, Observer};
+use coinmc_core::{EventKind, Observer};
 
 impl ContactSolver<'_> {
     /// The same solver with other dynamics.
@@ -176,20 +176,7 @@ impl ContactSolver<'_> {
         let Some(rolling) = rolling.pulled(gained) else {
             return Exit::NeverSettles;
         };
-        let pieces = rolling.pieces();
-        let duration = rolling.time / pieces;
-        let mut begun = 0.0;
-        while begun < pieces {
-            let start = begun * duration;
-            adapter.step(duration, |t| {
-                let left = rolling.left(start + t);
-                line_motion(&dynamics, &straight.map(|rate| rate * left))
-            });
-            self.usage.time += duration;
-            begun += 1.0;
-        }
-        place_on_side(&dynamics, &[0.0; 4], motion, spin);
-        Exit::Decided(Decided::Side)
+        self.slow_to_rest(&rolling, &straight, motion, spin, adapter)
     }
 }
 

@@ -3,6 +3,7 @@
 use super::diagnostics::Problems;
 use super::source::{Sources, Span};
 use super::tree::{self, Node, Table, Value};
+use coinmc_core::schema::Value as Checked;
 use coinmc_core::{Coin, Preset, Surface};
 use std::ops::Range;
 use std::str::FromStr;
@@ -162,7 +163,7 @@ fn lay_out(root: &mut Table, path: &[(String, Span)]) {
     } else if table == "launch"
         && there.get(key).is_none()
         && let Some(Value::Text(preset)) = there.get("preset").map(|entry| &entry.node.value)
-        && let Some(node) = of_preset(preset, key, &deeper[0].0, *span)
+        && let Some(node) = of_preset(preset, key, deeper, *span)
     {
         there.set(&[(key.clone(), *span)], node);
     }
@@ -184,13 +185,33 @@ fn same_as(table: &str, key: &str) -> Vec<&'static str> {
         .unwrap_or_default()
 }
 
-/// The value of a key of a preset, if it is a table with the key `inner`.
-fn of_preset(preset: &str, key: &str, inner: &str, span: Span) -> Option<Node> {
+/// The value of a key of a preset, if it is a table with the first key of `deeper`: without what a value
+/// at that path says in another way.
+fn of_preset(preset: &str, key: &str, deeper: &[(String, Span)], span: Span) -> Option<Node> {
     let values = preset.parse::<Preset>().ok()?.distribution().values();
-    let node = Node::of_value(span, values.get(key)?);
+    let value = values.get(key)?;
+    let mut node = Node::of_value(span, value);
     match &node.value {
-        Value::Table(table) if table.get(inner).is_some() => Some(node),
+        Value::Table(table) if table.get(&deeper[0].0).is_some() => {}
+        _ => return None,
+    }
+    drop_other_ways(&mut node, value, deeper);
+    Some(node)
+}
+
+/// Empties the table of a choice, such as `uniform` or `normal`, in which `path` takes another way.
+fn drop_other_ways(node: &mut Node, value: &Checked, path: &[(String, Span)]) {
+    let ([(key, _), deeper @ ..], Value::Table(table)) = (path, &mut node.value) else {
+        return;
+    };
+    let inner = match value {
+        Checked::Tagged(tag, _) if tag != key => return table.entries.clear(),
+        Checked::Tagged(_, inner) => Some(&**inner),
+        Checked::Table(values) => values.get(key),
         _ => None,
+    };
+    if let (Some(node), Some(inner)) = (table.get_mut(key), inner) {
+        drop_other_ways(node, inner, deeper);
     }
 }
 

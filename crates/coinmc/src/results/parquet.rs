@@ -64,7 +64,7 @@ impl<'a> ParquetTable<'a> {
     }
 
     fn write_group(&mut self) -> io::Result<()> {
-        let batch = batch(&self.schema, &self.columns, self.group.iter());
+        let batch = batch(&self.schema, &self.columns, &self.group.iter());
         self.group.clear();
         self.writer
             .write(&batch.map_err(io::Error::other)?)
@@ -88,7 +88,7 @@ impl<'a> ParquetTable<'a> {
 pub fn record_batch(results: &Results) -> Result<RecordBatch, ArrowError> {
     let columns = columns_of(results);
     let schema = schema(results, &columns);
-    batch(&Arc::new(schema), &columns, results.rows.iter())
+    batch(&Arc::new(schema), &columns, &results.rows.iter())
 }
 
 /// The schema, with what the table says of itself.
@@ -102,7 +102,7 @@ fn schema(results: &Results, columns: &[Column]) -> Schema {
 fn batch<'a>(
     schema: &Arc<Schema>,
     columns: &[Column],
-    rows: impl Iterator<Item = &'a Row> + Clone,
+    rows: &(impl Iterator<Item = &'a Row> + Clone),
 ) -> Result<RecordBatch, ArrowError> {
     let array =
         |column: &Column| arrow_array(column.kind, rows.clone().map(|row| column.cell(row)));

@@ -172,13 +172,11 @@ impl Session {
     /// # Errors
     /// Those of the disk.
     pub fn conclude(self, sink: &dyn ProgressSink) -> Result<Report, RunError> {
-        match &self.directory {
-            Some(directory) => conclude(&self.plan, Part::WHOLE, self.schedule, directory, sink),
-            None => {
-                let status = status(Part::WHOLE, &self.schedule);
-                Ok(report(&self.plan, status, self.schedule))
-            }
+        if let Some(directory) = &self.directory {
+            return conclude(&self.plan, Part::WHOLE, self.schedule, directory, sink);
         }
+        let status = status(Part::WHOLE, &self.schedule);
+        Ok(report(&self.plan, status, self.schedule))
     }
 }
 

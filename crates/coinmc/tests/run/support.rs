@@ -124,7 +124,8 @@ pub(crate) fn tallies(dir: &Path) -> Vec<String> {
     };
     let (mut all, mut tally) = (Vec::new(), String::new());
     for line in text.lines() {
-        tally += &format!("{line}\n");
+        tally.push_str(line);
+        tally.push('\n');
         if line.starts_with("crc32 ") {
             all.push(std::mem::take(&mut tally));
         }

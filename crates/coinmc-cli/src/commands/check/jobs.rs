@@ -9,9 +9,9 @@ use std::path::Path;
 use std::time::Duration;
 
 /// A job should take as long as this, or half of its time limit if that is less, …
-const TARGET: Duration = Duration::from_secs(30 * 60);
+const TARGET: Duration = Duration::from_mins(30);
 /// … and not be shorter than this: a queue is not for minutes.
-const LEAST: Duration = Duration::from_secs(10 * 60);
+const LEAST: Duration = Duration::from_mins(10);
 /// Chunks that keep a core busy until the last job of a part ends.
 const CHUNKS_A_CORE: u64 = 2;
 
@@ -27,7 +27,7 @@ pub(super) struct Machines {
 #[derive(Debug, PartialEq)]
 pub(super) struct Jobs {
     /// How many: parts of the run.
-    pub(super) jobs: u32,
+    pub(super) number: u32,
     /// How long each takes.
     pub(super) each: Duration,
     /// How long all take.
@@ -50,7 +50,7 @@ impl Jobs {
         if !matches!(plan.stop, Stop::Tosses(_)) {
             let all = seconds(node_s / f64::from(nodes));
             return Self {
-                jobs: 1,
+                number: 1,
                 each: all,
                 all,
                 submit: None,
@@ -68,7 +68,7 @@ impl Jobs {
              again",
         );
         Self {
-            jobs,
+            number: jobs,
             each,
             all: each.saturating_mul(rounds),
             submit: Some(sbatch(run, jobs, machines)),
@@ -77,7 +77,7 @@ impl Jobs {
     }
 
     pub(super) fn in_words(&self, machines: &Machines) -> String {
-        let jobs = count(u64::from(self.jobs), "job");
+        let jobs = count(u64::from(self.number), "job");
         let cores = count(u64::from(machines.cores), "core");
         let nodes = count(u64::from(machines.nodes), "node");
         format!(
@@ -89,7 +89,7 @@ impl Jobs {
 
     pub(super) fn to_json(&self) -> Value {
         json!({
-            "jobs": self.jobs,
+            "jobs": self.number,
             "job_s": self.each.as_secs_f64(),
             "time_s": self.all.as_secs_f64(),
             "submit": self.submit,
@@ -192,16 +192,16 @@ mod tests {
         let minutes = |jobs: &Jobs| jobs.each.as_secs() / 60;
         let many = jobs(1000.0, 4, "1h");
         assert_eq!(
-            (many.jobs, minutes(&many), many.all.as_secs()),
+            (many.number, minutes(&many), many.all.as_secs()),
             (200, 30, 90_000)
         );
         // fewer nodes than there are, rather than jobs of a minute
         let few = jobs(10.0, 100, "1h");
-        assert_eq!((few.jobs, minutes(&few)), (6, 10));
-        assert_eq!(jobs(0.1, 100, "1h").jobs, 1);
+        assert_eq!((few.number, minutes(&few)), (6, 10));
+        assert_eq!(jobs(0.1, 100, "1h").number, 1);
         let short = jobs(1000.0, 4, "00:30:00");
         assert_eq!(
-            (short.jobs, minutes(&short), short.warning),
+            (short.number, minutes(&short), short.warning),
             (400, 15, None)
         );
         let text = many.submit.unwrap();
