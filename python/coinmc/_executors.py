@@ -14,6 +14,7 @@ from typing import Any, NamedTuple, TypeAlias
 from coinmc import _lib
 from coinmc._config import Config, ConfigLike, as_config, plan_of
 from coinmc._errors import RunError
+from coinmc._launches import threads_of
 
 __all__ = ["Place", "chunk", "run_with"]
 
@@ -34,8 +35,8 @@ UNKNOWN_WORKERS = 64
 POLL_S = 0.05
 
 
-def chunk(config: ConfigLike, i: int | Place) -> bytes:
-    """Compute one chunk of a run, on one thread, and return its tally.
+def chunk(config: ConfigLike, i: int | Place, *, threads: int = 1) -> bytes:
+    """Compute one chunk of a run and return its tally.
 
     A pure function: the same chunk has the same tally on every machine. `coinmc.run` with an
     ``executor`` calls it on the workers.
@@ -47,6 +48,8 @@ def chunk(config: ConfigLike, i: int | Place) -> bytes:
     i : int or tuple
         The number of the chunk, from 0 (with a fixed number of tosses), or the point, the first
         toss and the one after the last.
+    threads : int, optional
+        Number of threads. The tally does not depend on it.
 
     Returns
     -------
@@ -77,11 +80,18 @@ def chunk(config: ConfigLike, i: int | Place) -> bytes:
                 "fixed; otherwise give point, first toss and the one after the last"
             )
         i = place
-    return _lib.chunk(plan, *i)
+    return _lib.chunk(plan, *i, _threads(threads))
 
 
-def compute(config: Config, hash_: str, build: str, place: Place) -> bytes:
-    """Compute a chunk for a client of this build. Workers call it."""
+def _threads(threads: int | None) -> int:
+    """Check the threads of a chunk: one unless told, also where the environment says another."""
+    return 1 if threads is None else threads_of(threads) or 1
+
+
+def compute(
+    config: Config, hash_: str, build: str, threads: int, place: Place
+) -> tuple[bytes, bytes]:
+    """Compute a chunk for a client of this build, and note who made it. Workers call it."""
     if build != _lib.__build__:
         raise RunError(
             f"the worker on {platform.node() or 'another machine'} has coinmc {_lib.__build__}, "
@@ -89,23 +99,27 @@ def compute(config: Config, hash_: str, build: str, place: Place) -> bytes:
         )
     if config.hash != hash_:
         raise RunError(f"the plan {hash_[:8]} arrived as {config.hash[:8]}")
-    return chunk(config, place)
+    return _lib.chunk_with_note(plan_of(config), *place, threads)
 
 
 class Done(NamedTuple):
-    """A chunk that came back: its tally, or why there is none."""
+    """A chunk that came back: its tally and who made it, or why there is none."""
 
     place: Place
-    text: bytes | None
+    result: tuple[bytes, bytes] | None
     error: BaseException | None
 
 
 def run_with(
-    executor: Any, config: Config, out: Any, report: Callable[[int, int], None] | None
+    executor: Any,
+    threads: int | None,
+    config: Config,
+    out: Any,
+    report: Callable[[int, int], None] | None,
 ) -> tuple[_lib.Results, list[str]]:
-    """Run a config in a run directory; `executor` computes the chunks."""
+    """Run a config in a run directory; `executor` computes chunks, on one thread unless told."""
     session = _lib.Session(plan_of(config), out)
-    pool = _pool(executor, config)
+    pool = _pool(executor, (config, config.hash, _lib.__build__, _threads(threads)))
     try:
         _work(session, pool, report)
     except BaseException:
@@ -128,14 +142,14 @@ def _work(session: _lib.Session, pool: "_Pool", report: Callable[[int, int], Non
             report(*session.progress())
         if pool.in_flight == 0:
             return
-        texts, lost = [], []
+        results, lost = [], []
         for done in pool.wait():
-            if done.text is not None:
-                texts.append(done.text)
+            if done.result is not None:
+                results.append(done.result)
             else:
                 lost.append(done)
         # one sync for all that came together
-        session.accept(texts)
+        session.accept(results)
         for place, _, error in lost:
             tries[place] = tries.get(place, 0) + 1
             if tries[place] > RETRIES or not pool.is_lost(error):
@@ -178,23 +192,23 @@ class _Pool:
         raise NotImplementedError
 
 
-def _pool(executor: Any, config: Config) -> _Pool:
+def _pool(executor: Any, arguments: tuple[Config, str, str, int]) -> _Pool:
     if not callable(getattr(executor, "submit", None)):
         raise TypeError(
             "the executor must have submit(function, *arguments), whose result has result(): "
             f"{type(executor).__name__} does not"
         )
     if callable(getattr(executor, "scheduler_info", None)):
-        return _Dask(executor, config)
-    return _Futures(executor, config)
+        return _Dask(executor, arguments)
+    return _Futures(executor, arguments)
 
 
 class _Futures(_Pool):
     """Anything with ``submit(...).result()``."""
 
-    def __init__(self, executor: Any, config: Config) -> None:
+    def __init__(self, executor: Any, arguments: tuple[Config, str, str, int]) -> None:
         self._executor = executor
-        self._arguments = (config, config.hash, _lib.__build__)
+        self._arguments = arguments
         self.most = A_WORKER * _workers(executor)
         self._futures: dict[Place, Any] = {}
         #: Places of futures that call back when they are done.
@@ -268,11 +282,11 @@ class _Lost(Exception):
 class _Dask(_Pool):
     """A ``Client`` of dask.distributed."""
 
-    def __init__(self, client: Any, config: Config) -> None:
+    def __init__(self, client: Any, arguments: tuple[Config, str, str, int]) -> None:
         from distributed import as_completed
 
         self._client = client
-        self._config = config
+        self._arguments = arguments
         self._places: dict[str, Place] = {}
         self._back = as_completed(with_results=True, raise_errors=False)
         self._most, self._asked_at = 1, -ASK_S
@@ -291,15 +305,13 @@ class _Dask(_Pool):
         return len(self._places)
 
     def submit(self, place: Place) -> None:
-        hash_ = self._config.hash
+        _, hash_, _, _ = self._arguments
         # it says what is computed: whoever asks for the same chunk gets the same result
         key = "coinmc-{}-{}-{}-{}".format(hash_, *place)
         self._places[key] = place
         future = self._client.submit(
             compute,
-            self._config,
-            hash_,
-            _lib.__build__,
+            *self._arguments,
             place,
             key=key,
             pure=True,

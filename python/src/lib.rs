@@ -77,7 +77,7 @@ mod _lib {
     #[pymodule_export]
     use super::run::{estimate, open, run};
     #[pymodule_export]
-    use super::session::{Session, chunk, chunk_of_number, tally_of};
+    use super::session::{Session, chunk, chunk_of_number, chunk_with_note, tally_of};
     #[pymodule_export]
     use super::table::arrow_stream;
     #[cfg(unix)]

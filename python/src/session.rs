@@ -4,10 +4,13 @@ use crate::errors;
 use crate::plan::Plan;
 use crate::results::Results;
 use crate::supervise::{Supervision, supervise};
-use coinmc::run::{Chunk, Session as Steered, Step, chunk_text, numbered_chunk, text_of_tally};
+use coinmc::run::{
+    self, Chunk, Delivery, RunError, Session as Steered, Step, numbered_chunk, text_of_tally,
+};
 use coinmc_core::Tally;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -54,11 +57,12 @@ impl Session {
         })
     }
 
-    /// Stores and counts results.
-    fn accept(&self, py: Python<'_>, texts: Vec<Vec<u8>>) -> PyResult<()> {
+    /// Stores and counts results: texts, and notes of who made them, which may be empty.
+    fn accept(&self, py: Python<'_>, results: Vec<(Vec<u8>, Vec<u8>)>) -> PyResult<()> {
         py.detach(|| {
             self.with(|run| {
-                let accepted = run.accept(texts.iter().map(Vec::as_slice));
+                let deliveries = results.iter().map(|(text, note)| Delivery { text, note });
+                let accepted = run.accept(deliveries);
                 accepted.map_err(|error| errors::run(&error))
             })
         })
@@ -95,7 +99,7 @@ fn ended() -> PyErr {
     errors::value("this run has ended")
 }
 
-/// Computes a chunk: the text of its tally.
+/// Computes a chunk on so many threads: the text of its tally.
 #[pyfunction]
 pub(crate) fn chunk<'py>(
     py: Python<'py>,
@@ -103,17 +107,56 @@ pub(crate) fn chunk<'py>(
     point: usize,
     start: u64,
     end: u64,
+    threads: NonZeroUsize,
 ) -> PyResult<Bound<'py, PyBytes>> {
+    let place = (point, start, end);
+    let text = computed(py, plan, place, |plan, chunk, go_on| {
+        run::chunk_text(plan, chunk, threads, go_on)
+    })?;
+    Ok(PyBytes::new(py, text.as_bytes()))
+}
+
+/// The same, and a note of who computed it and how long it took.
+#[pyfunction]
+pub(crate) fn chunk_with_note<'py>(
+    py: Python<'py>,
+    plan: &Plan,
+    point: usize,
+    start: u64,
+    end: u64,
+    threads: NonZeroUsize,
+) -> PyResult<(Bound<'py, PyBytes>, Bound<'py, PyBytes>)> {
+    let place = (point, start, end);
+    let (text, note) = computed(py, plan, place, |plan, chunk, go_on| {
+        run::chunk_with_note(plan, chunk, coinmc_build::BUILD, threads, go_on)
+    })?;
+    let bytes = |text: &str| PyBytes::new(py, text.as_bytes());
+    Ok((bytes(&text), bytes(&note)))
+}
+
+/// What a chunk is computed to, under supervision.
+fn computed<T: Default + Send>(
+    py: Python<'_>,
+    plan: &Plan,
+    (point, start, end): Place,
+    compute: impl FnOnce(
+        &coinmc::plan::Plan,
+        &Chunk,
+        &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<T>, RunError>
+    + Send,
+) -> PyResult<T> {
     let chunk = Chunk {
         point,
         tosses: start..end,
     };
-    let (text, _) = supervise(py, None, |supervision| {
-        chunk_text(&plan.0, &chunk, || supervision.may_continue())
+    let (done, _) = supervise(py, None, |supervision| {
+        compute(&plan.0, &chunk, &|| supervision.may_continue())
     })?;
-    let text = text.map_err(|error| errors::run(&error))?;
     // stopped only by a signal, which has been raised
-    Ok(PyBytes::new(py, text.unwrap_or_default().as_bytes()))
+    Ok(done
+        .map_err(|error| errors::run(&error))?
+        .unwrap_or_default())
 }
 
 /// The chunk of this number where the number of tosses is fixed.

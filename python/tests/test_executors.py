@@ -19,12 +19,17 @@ from coinmc import _executors, _lib
 STOPS = {"fixed": {"tosses": 40_000}, "adaptive": {"half_width": 0.006}}
 
 
+#: Who made a run, and in what time: not the same when it is made again.
+PROVENANCE = "provenance.jsonl"
+
+
 def config_of(scene, stop):
     return coinmc.Config({**scene, "coin": {"ratio": [0.8, 1.2, 1.6, 2.0]}, "stop": STOPS[stop]})
 
 
 def files(path: Path) -> dict[str, bytes]:
-    return {file.name: file.read_bytes() for file in path.iterdir()}
+    all_files = path.iterdir()
+    return {file.name: file.read_bytes() for file in all_files if file.name != PROVENANCE}
 
 
 class Silent:
@@ -72,6 +77,18 @@ def test_every_executor_ends_in_the_bytes_of_a_local_run(scene, tmp_path):
                 assert result.status == "complete"
                 assert result.tosses == local.tosses
                 assert files(out) == files(tmp_path / stop), (stop, name)
+
+
+def test_a_chunk_may_use_several_threads(scene, tmp_path):
+    for stop in STOPS:
+        config = config_of(scene, stop)
+        coinmc.run(config, tmp_path / stop)
+        out = tmp_path / f"{stop}-threads"
+        coinmc.run(config, out, executor=Silent(), threads=3)
+        assert files(out) == files(tmp_path / stop)
+    assert coinmc.chunk(config_of(scene, "fixed"), 2, threads=5) == coinmc.chunk(
+        config_of(scene, "fixed"), 2
+    )
 
 
 def test_local_and_remote_runs_resume_each_other(scene, command, tmp_path):
@@ -140,13 +157,13 @@ def test_what_fails_on_a_worker_is_told_and_finished_work_is_kept(scene, tmp_pat
     # another build on the worker
     other = "0.0.1 (1234567 2020-01-01)"
     with pytest.raises(coinmc.RunError, match=r"has coinmc .* the client 0\.0\.1 \(1234567"):
-        _executors.compute(config, config.hash, other, (0, 0, 16_384))
+        _executors.compute(config, config.hash, other, 1, (0, 0, 16_384))
     with pytest.raises(coinmc.RunError, match="arrived as"):
-        _executors.compute(config, "f00", _lib.__build__, (0, 0, 16_384))
+        _executors.compute(config, "f00", _lib.__build__, 1, (0, 0, 16_384))
     with pytest.raises(TypeError, match="submit"):
         coinmc.run(config, tmp_path / "other", executor=object())
     with pytest.raises(ValueError, match="threads"):
-        coinmc.run(config, tmp_path / "other", executor=Silent(), threads=2)
+        coinmc.run(config, tmp_path / "other", executor=Silent(), threads=0)
 
 
 def test_a_chunk_is_a_pure_function_and_a_damaged_one_is_refused(scene, tmp_path):
@@ -161,13 +178,17 @@ def test_a_chunk_is_a_pure_function_and_a_damaged_one_is_refused(scene, tmp_path
     session = _lib.Session(config._plan, tmp_path / "run")
     places, _ = session.take(3)
     assert places == [(0, 0, 16_384), (0, 16_384, 32_768), (0, 32_768, 40_000)]
-    good = coinmc.chunk(config, places[0])
+    good, note_of_good = _lib.chunk_with_note(config._plan, *places[0], 1)
+    assert good == coinmc.chunk(config, places[0])
     for bad in (b"", good[:-9], good.replace(b"heads ", b"heads 1"), good + good):
         with pytest.raises(coinmc.RunError, match="cannot be used"):
-            session.accept([bad])
+            session.accept([(bad, b"")])
+    for note in (b"{}", note_of_good.replace(b"wall_us", b"wall"), b" " * 5000):
+        with pytest.raises(coinmc.RunError, match="its note"):
+            session.accept([(good, note)])
     # what comes twice, or unasked, counts once, or not at all
-    session.accept([good, coinmc.chunk(config, 11)])
-    session.accept([good])
+    session.accept([(good, note_of_good), (coinmc.chunk(config, 11), b"")])
+    session.accept([(good, note_of_good)])
     assert session.progress()[0] == 16_384
     assert session.conclude()[0].status == "interrupted"
 

@@ -147,6 +147,7 @@ fn run_to_json(run: &Run, samples: &Samples) -> Result<Value, TraceError> {
         "plan_hash": results.plan_hash,
         "program_version": results.program_version,
         "manifest": run.manifest,
+        "made_by": run.provenance.to_json(),
         "config": results.config,
         "axes": results.axes,
         "columns": table::to_json(&shown),

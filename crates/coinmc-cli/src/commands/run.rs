@@ -194,10 +194,7 @@ pub(super) fn show(
             let csv = out.join(csv_name(report.status));
             output::print(&summary(results, &fair, &csv, plotted, console.stdout()))
         }
-        ResultFormat::Csv => {
-            let mut text = Vec::new();
-            write_csv(results, &mut text).and_then(|()| output::print_bytes(&text))
-        }
+        ResultFormat::Csv => output::print_with(|stdout| write_csv(results, stdout)),
         ResultFormat::Markdown => output::print(&markdown(results, console.stdout())),
     }
     .map_err(|error| Failure::Runtime(error.into()))
@@ -329,7 +326,7 @@ fn short_of_target(rows: &OnDemand<Row>) -> String {
 }
 
 /// The document of `--format json`; docs/reference/formats.md describes it.
-fn to_json(report: &Report, fair: &[FairRatio], out: &Path) -> Value {
+pub(super) fn to_json(report: &Report, fair: &[FairRatio], out: &Path) -> Value {
     let mut table = report.results.to_json();
     let status = match report.status {
         Status::Complete => "complete",

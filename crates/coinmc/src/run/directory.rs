@@ -2,8 +2,10 @@
 
 use super::cut::Cut;
 use super::finished::Finished;
+use super::made::Made;
 use super::manifest::{self, Manifest};
 use super::packed::Packed;
+use super::provenance::{self, Log, Maker};
 use super::replace::{self, Replacement};
 use super::tallies::{Entry, Tallies};
 use super::{Part, ProgressSink, RunError};
@@ -33,6 +35,7 @@ const PARTIAL: &str = "results.partial.csv";
 pub(super) struct RunDirectory {
     path: PathBuf,
     tallies: Tallies,
+    provenance: Log,
     /// The system releases it when the process ends, even by a kill.
     _lock: File,
 }
@@ -79,6 +82,7 @@ impl RunDirectory {
         }
         write_config(path, plan, sink)?;
         must_be_file(path, Tallies::FILE)?;
+        must_be_file(path, provenance::FILE)?;
         for file in [Tallies::FILE, Tallies::REJECTED] {
             replace::remove_leftover(&path.join(file))?;
         }
@@ -87,12 +91,26 @@ impl RunDirectory {
         Ok(Self {
             path: path.to_owned(),
             tallies,
+            provenance: Log::of(path),
             _lock: lock,
         })
     }
 
     pub(super) fn tallies(&self) -> &Tallies {
         &self.tallies
+    }
+
+    pub(super) fn provenance(&self) -> &Log {
+        &self.provenance
+    }
+
+    /// Stores chunks that one maker made.
+    pub(super) fn store(&self, maker: &Maker, batch: &[Made]) -> Result<(), RunError> {
+        // before the tallies: a chunk that counts has a maker
+        let entries: Vec<_> = batch.iter().map(Made::entry).collect();
+        self.provenance.add(maker, &entries)?;
+        self.tallies
+            .store(batch.iter().map(|made| (&made.chunk, &made.result)))
     }
 
     /// The chunks that an earlier run finished. Cuts off what a killed run did not finish writing, and sets

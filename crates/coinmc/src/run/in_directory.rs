@@ -2,6 +2,7 @@
 
 use super::directory::RunDirectory;
 use super::options::{Options, one_per_core};
+use super::provenance::Maker;
 use super::report::{Report, Status, report, status};
 use super::schedule::Schedule;
 use super::{Part, ProgressSink, RunError, workers};
@@ -31,7 +32,8 @@ pub fn run(plan: &Plan, options: &Options<'_>) -> Result<Report, RunError> {
     let plan = Arc::new(plan.clone());
     let schedule = Schedule::new(&plan, part, directory.finished(&plan, sink)?);
     sink.progress(&schedule.progress());
-    let store = |batch: &[_]| directory.tallies().store(batch);
+    let maker = Maker::this(&plan, build);
+    let store = |batch: &[_]| directory.store(&maker, batch);
     let threads = one_per_core(threads);
     let schedule = workers::execute(&plan, schedule, &store, threads, cancel, sink)?;
     conclude(&plan, part, schedule, &directory, sink)

@@ -1,5 +1,6 @@
 //! `manifest.json`: identifies the run in a directory.
 
+use super::provenance::target;
 use super::{Part, RunError, replace};
 use crate::plan::Plan;
 use serde::{Deserialize, Serialize};
@@ -146,25 +147,4 @@ impl Manifest {
 fn listed(builds: &BTreeSet<String>) -> String {
     let builds: Vec<&str> = builds.iter().map(String::as_str).collect();
     builds.join(", ")
-}
-
-/// The kind of this machine and the vector instructions that this program was compiled for.
-fn target() -> String {
-    let features = [
-        ("sse4.2", cfg!(target_feature = "sse4.2")),
-        ("avx2", cfg!(target_feature = "avx2")),
-        ("fma", cfg!(target_feature = "fma")),
-        ("avx512f", cfg!(target_feature = "avx512f")),
-        ("neon", cfg!(target_feature = "neon")),
-    ];
-    let features = features
-        .iter()
-        .filter(|(_, used)| *used)
-        .map(|(name, _)| format!("+{name}"));
-    format!(
-        "{}-{}{}",
-        std::env::consts::ARCH,
-        std::env::consts::OS,
-        features.collect::<String>()
-    )
 }

@@ -8,6 +8,7 @@ use super::in_directory::conclude;
 use super::manifest::Manifest;
 use super::missing::{Missing, what_is_missing};
 use super::packed::Packed;
+use super::provenance::Records;
 use super::schedule::Schedule;
 use super::stored::{read_manifest, read_plan};
 use super::tallies::{Entry, Tallies};
@@ -183,9 +184,8 @@ fn store(
     let mut existing = directory.finished(plan, sink)?;
     let mut new = Vec::new();
     for found in collected {
-        let result = ChunkResult::from(&found.result);
         match existing.take(found.chunk.point, found.chunk.tosses.start) {
-            Some(there) if there != result => {
+            Some(there) if there != ChunkResult::from(&found.result) => {
                 return Err(RunError::Conflict {
                     chunk: found.chunk,
                     first: inputs[found.input].clone(),
@@ -193,12 +193,40 @@ fn store(
                 });
             }
             Some(_) => {}
-            None => new.push((found.chunk, result)),
-        }
-        if new.len() == BATCH {
-            directory.tallies().store(&new)?;
-            new.clear();
+            None => new.push(found),
         }
     }
-    directory.tallies().store(&new)
+    // before the tallies: a chunk that counts has a maker
+    let mut by_input = vec![Vec::new(); inputs.len()];
+    for found in &new {
+        by_input[found.input].push(&found.chunk);
+    }
+    for (input, chunks) in inputs.iter().zip(by_input) {
+        copy_provenance(input, &chunks, directory)?;
+    }
+    for batch in new.chunks(BATCH) {
+        let results: Vec<_> = batch.iter().map(|found| (&found.result).into()).collect();
+        let chunks = batch.iter().map(|found| &found.chunk);
+        directory.tallies().store(chunks.zip(&results))?;
+    }
+    Ok(())
+}
+
+/// Adds what a part records of chunks that come from it.
+fn copy_provenance(
+    input: &Path,
+    chunks: &[&Chunk],
+    directory: &RunDirectory,
+) -> Result<(), RunError> {
+    let records = Records::read(input)?;
+    let mut entries = vec![Vec::new(); records.makers().len()];
+    for chunk in chunks {
+        if let Some((entry, maker)) = records.find(chunk.point, chunk.tosses.start) {
+            entries[maker].push(*entry);
+        }
+    }
+    for (maker, entries) in records.makers().iter().zip(entries) {
+        directory.provenance().add(maker, &entries)?;
+    }
+    Ok(())
 }

@@ -31,6 +31,7 @@
 //! # }
 //! ```
 
+mod append;
 mod blocks;
 mod chunk;
 mod chunk_result;
@@ -44,14 +45,18 @@ mod finished;
 mod history;
 mod in_directory;
 mod integral_text;
+mod made;
 mod manifest;
 mod merge;
 mod missing;
 mod options;
 mod packed;
 mod part;
+mod pieces;
 mod point_state;
 mod progress;
+mod provenance;
+mod remote;
 mod replace;
 mod report;
 mod schedule;
@@ -78,7 +83,9 @@ pub use missing::Missing;
 pub use options::Options;
 pub use part::{Part, PartError};
 pub use progress::{Progress, ProgressSink};
+pub use provenance::{Contribution, Maker, Provenance, provenance};
+pub use remote::{chunk_text, chunk_with_note, chunks, numbered_chunk, text_of_tally};
 pub use report::{Report, Status};
-pub use session::{Session, Step, chunk_text, chunks, numbered_chunk, text_of_tally};
+pub use session::{Delivery, Session, Step};
 pub use stored::{stored_plan, stored_report};
 pub use toss::{stream, toss};

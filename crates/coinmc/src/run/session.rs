@@ -1,18 +1,18 @@
 //! A run of which the caller decides where its chunks are computed: in other processes, on a cluster.
 
-use super::chunk::compute_chunk;
-use super::chunk_result::{ChunkResult, Tossed};
+use super::chunk_result::ChunkResult;
 use super::cut::Cut;
 use super::directory::RunDirectory;
 use super::finished::Finished;
 use super::in_directory::conclude;
+use super::provenance::{Entry, Maker};
+use super::remote::Note;
 use super::report::{report, status};
 use super::schedule::{Next, Schedule};
 use super::tallies::Tallies;
 use super::{Chunk, Part, Progress, ProgressSink, Report, RunError};
 use crate::plan::Plan;
-use coinmc_core::Tally;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -24,7 +24,8 @@ use std::sync::Arc;
 ///
 /// # Example
 /// ```
-/// use coinmc::run::{Session, Step, chunk_text};
+/// use coinmc::run::{Delivery, Session, Step, chunk_text};
+/// use std::num::NonZeroUsize;
 /// let plan = coinmc::config::parse(
 ///     "inline",
 ///     "coin.ratio = [1.0, 2.0]\nsurface = { restitution = 0.5, friction = 0.3 }\n\
@@ -34,8 +35,8 @@ use std::sync::Arc;
 /// let mut session = Session::in_memory(&plan);
 /// while let Step::Chunk(chunk) = session.next() {
 ///     // on any machine
-///     let text = chunk_text(&plan, &chunk, || true)?.unwrap();
-///     session.accept([text.as_bytes()])?;
+///     let text = chunk_text(&plan, &chunk, NonZeroUsize::MIN, || true)?.unwrap();
+///     session.accept([Delivery::from(text.as_bytes())])?;
 /// }
 /// let report = session.conclude(&())?;
 /// assert_eq!((report.tosses, report.results.rows.len()), (2000, 2));
@@ -50,6 +51,29 @@ pub struct Session {
     schedule: Schedule,
     /// Chunks that were handed out, by point and first toss, with the toss after the last.
     awaited: HashMap<(usize, u64), u64>,
+}
+
+/// The result of a chunk as it travels between processes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Delivery<'a> {
+    /// What [`chunk_text`](super::chunk_text) made.
+    pub text: &'a [u8],
+    /// Who made it, as [`chunk_with_note`](super::chunk_with_note) tells it; empty where nobody does.
+    pub note: &'a [u8],
+}
+
+impl<'a> From<&'a [u8]> for Delivery<'a> {
+    /// The result of a chunk of which nobody tells who made it.
+    fn from(text: &'a [u8]) -> Self {
+        Self { text, note: &[] }
+    }
+}
+
+/// A result that is counted, and who made it.
+struct Accepted {
+    chunk: Chunk,
+    result: ChunkResult,
+    note: Option<Note>,
 }
 
 /// What is next.
@@ -121,40 +145,48 @@ impl Session {
         }
     }
 
-    /// Stores results, which [`chunk_text`] made, and counts them: on the disk with one sync, so many at
-    /// once are cheap. The result of a chunk that is not awaited, because it came twice, is ignored.
+    /// Stores results and counts them: on the disk with one sync, so many at once are cheap. The result of a
+    /// chunk that is not awaited, because it came twice, is ignored.
     ///
     /// # Errors
-    /// [`RunError::BadResult`] if a text is damaged or of another plan, and those of the disk. Then none is
-    /// counted.
+    /// [`RunError::BadResult`] if a text or a note is damaged, or of another plan, and those of the disk. Then
+    /// none is counted.
     pub fn accept<'a>(
         &mut self,
-        texts: impl IntoIterator<Item = &'a [u8]>,
+        deliveries: impl IntoIterator<Item = Delivery<'a>>,
     ) -> Result<(), RunError> {
-        let mut results = Vec::new();
-        for text in texts {
-            let read = self.tallies.read(text, &self.plan, &self.cut);
-            let (chunk, result) = read.map_err(|damage| RunError::BadResult {
-                reason: damage.to_string(),
-            })?;
-            let key = (chunk.point, chunk.tosses.start);
-            if self.awaited.get(&key) == Some(&chunk.tosses.end) {
-                self.awaited.remove(&key);
-                results.push((chunk, result));
+        let deliveries = deliveries.into_iter().map(|delivery| self.read(delivery));
+        let all: Vec<Accepted> = deliveries.collect::<Result<_, _>>()?;
+        let (mut new, mut awaited) = (Vec::new(), self.awaited.clone());
+        for accepted in all {
+            let key = (accepted.chunk.point, accepted.chunk.tosses.start);
+            if awaited.get(&key) == Some(&accepted.chunk.tosses.end) {
+                awaited.remove(&key);
+                new.push(accepted);
             }
         }
         if let Some(directory) = &self.directory {
-            let stored = directory.tallies().store(&results);
-            stored.inspect_err(|_| {
-                let keys = results.iter().map(|(chunk, _)| chunk);
-                let keys = keys.map(|chunk| ((chunk.point, chunk.tosses.start), chunk.tosses.end));
-                self.awaited.extend(keys);
-            })?;
+            store(directory, &new)?;
         }
-        for (chunk, result) in &results {
+        self.awaited = awaited;
+        for Accepted { chunk, result, .. } in &new {
             self.schedule.complete(chunk, result);
         }
         Ok(())
+    }
+
+    fn read(&self, delivery: Delivery<'_>) -> Result<Accepted, RunError> {
+        let Delivery { text, note } = delivery;
+        let read = self.tallies.read(text, &self.plan, &self.cut);
+        let (chunk, result) = read.map_err(|damage| RunError::BadResult {
+            reason: damage.to_string(),
+        })?;
+        let note = (!note.is_empty()).then(|| Note::read(note)).transpose()?;
+        Ok(Accepted {
+            chunk,
+            result,
+            note,
+        })
     }
 
     /// Chunks that were handed out and whose results have not come.
@@ -180,45 +212,20 @@ impl Session {
     }
 }
 
-/// Computes a chunk on this thread and returns its result as the text that a run directory holds; `None` if
-/// `go_on`, which is called from time to time, returned false.
-///
-/// # Errors
-/// [`RunError::NoSuchChunk`] if the plan has no such chunk, [`RunError::Settings`] if an engine rejects its
-/// settings.
-pub fn chunk_text(
-    plan: &Plan,
-    chunk: &Chunk,
-    go_on: impl Fn() -> bool,
-) -> Result<Option<String>, RunError> {
-    if chunk.point >= plan.points.len() {
-        return Err(RunError::NoSuchChunk {
-            chunk: chunk.clone(),
-            points: plan.points.len(),
-        });
+/// Stores results, and before them who made them: a chunk that counts has a maker.
+fn store(directory: &RunDirectory, new: &[Accepted]) -> Result<(), RunError> {
+    let mut by_maker = BTreeMap::<&Maker, Vec<Entry>>::new();
+    for Accepted { chunk, note, .. } in new {
+        if let Some(note) = note {
+            let entries = by_maker.entry(&note.maker).or_default();
+            entries.push(Entry::new(chunk, note.effort));
+        }
     }
-    let tallies = Tallies::of(Path::new(""), plan.hash());
-    let result = compute_chunk(plan, chunk, go_on)?;
-    Ok(result.map(|result| tallies.text(chunk, &result)))
-}
-
-/// The text of a chunk of which a tally is given: for whoever simulates a run.
-pub fn text_of_tally(plan: &Plan, chunk: &Chunk, tally: &Tally) -> String {
-    let tossed = Tossed {
-        tally: *tally,
-        microseconds: 0,
-    };
-    Tallies::of(Path::new(""), plan.hash()).text(chunk, &ChunkResult::Tossed(tossed))
-}
-
-/// The chunk of this number, where the number of tosses is fixed; `None` if there is none.
-pub fn numbered_chunk(plan: &Plan, number: u64) -> Option<Chunk> {
-    Cut::new(plan).numbered(plan, number)
-}
-
-/// How many chunks a run has, where the number of tosses is fixed; those of points without tosses are
-/// numbered, too.
-pub fn chunks(plan: &Plan) -> Option<u64> {
-    let chunks_a_point = Cut::new(plan).chunks_a_point()?;
-    chunks_a_point.checked_mul(plan.points.len() as u64)
+    for (maker, entries) in by_maker {
+        directory.provenance().add(maker, &entries)?;
+    }
+    let results = new.iter();
+    directory
+        .tallies()
+        .store(results.map(|new| (&new.chunk, &new.result)))
 }

@@ -1,5 +1,6 @@
 //! The file of finished chunks: reads what is there, adds what is new, and brings it into order.
 
+use super::append::append;
 use super::blocks::{Block, Blocks};
 use super::chunk_result::{ChunkResult, whole};
 use super::cut::Cut;
@@ -126,32 +127,16 @@ impl Tallies {
     }
 
     /// Adds finished chunks durably: one write, one sync.
-    pub(super) fn store(&self, batch: &[(Chunk, ChunkResult)]) -> Result<(), RunError> {
-        if batch.is_empty() {
+    pub(super) fn store<'a>(
+        &self,
+        batch: impl Iterator<Item = (&'a Chunk, &'a ChunkResult)>,
+    ) -> Result<(), RunError> {
+        let texts = batch.map(|(chunk, result)| self.text(chunk, result));
+        let text: String = texts.collect();
+        if text.is_empty() {
             return Ok(());
         }
-        let texts = batch.iter().map(|(chunk, result)| self.text(chunk, result));
-        let text: String = texts.collect();
-        let is_new = !replace::is_file(&self.path);
-        let file = OpenOptions::new()
-            .append(true)
-            .create(true)
-            .open(&self.path);
-        let mut file = file.map_err(|error| self.error("open", error))?;
-        let end = file.metadata().map_err(|error| self.error("read", error))?;
-        let written = file
-            .write_all(text.as_bytes())
-            .and_then(|()| file.sync_data());
-        written.map_err(|error| {
-            // half a text would be cut off by the next run; without it others can read on
-            let _ = file.set_len(end.len());
-            self.error("write", error)
-        })?;
-        if is_new {
-            let dir = self.path.parent().unwrap_or(Path::new("."));
-            replace::sync_directory(dir)?;
-        }
-        Ok(())
+        append(&self.path, text.as_bytes(), true)
     }
 
     /// Cuts off the end that a killed run did not finish writing.

@@ -1,7 +1,7 @@
 //! Threads that execute chunks, and the one that stores their results.
 
 use super::chunk::compute_chunk;
-use super::chunk_result::ChunkResult;
+use super::made::Made;
 use super::schedule::{Next, Schedule};
 use super::{Chunk, ProgressSink, RunError};
 use crate::plan::Plan;
@@ -17,10 +17,10 @@ const BATCH: usize = 4096;
 /// How long an idle worker waits before it checks whether it should stop.
 const IDLE_WAIT: Duration = Duration::from_millis(50);
 
-type Done = Result<(Chunk, ChunkResult), RunError>;
+type Done = Result<Made, RunError>;
 
 /// Stores finished chunks, a few at a time.
-pub(super) type Store<'a> = &'a dyn Fn(&[(Chunk, ChunkResult)]) -> Result<(), RunError>;
+pub(super) type Store<'a> = &'a dyn Fn(&[Made]) -> Result<(), RunError>;
 
 /// State that the threads share.
 struct Shared<'a> {
@@ -117,11 +117,12 @@ pub(super) fn execute(
 fn work(shared: &Shared<'_>, sender: &SyncSender<Done>) {
     let _stop_on_panic = StopOnPanic(&shared.broken);
     while let Some(chunk) = shared.next_chunk() {
-        let done = match compute_chunk(shared.plan, &chunk, || shared.should_continue()) {
-            Ok(Some(result)) => {
-                shared.schedule().complete(&chunk, &result);
+        let one = NonZeroUsize::MIN;
+        let done = match compute_chunk(shared.plan, chunk, one, || shared.should_continue()) {
+            Ok(Some(made)) => {
+                shared.schedule().complete(&made.chunk, &made.result);
                 shared.changed.notify_all();
-                Ok((chunk, result))
+                Ok(made)
             }
             Ok(None) => return,
             Err(error) => Err(error),
@@ -147,7 +148,7 @@ fn store_results(
         let (mut stored, mut failed) = (Vec::new(), None);
         for done in batch {
             match done {
-                Ok(chunk) => stored.push(chunk),
+                Ok(made) => stored.push(made),
                 Err(error) => failed = failed.or(Some(error)),
             }
         }

@@ -146,12 +146,18 @@ pub(crate) fn resealed(text: &str, alter: impl Fn(&str) -> String) -> String {
     format!("{body}crc32 {:08x}\n", crc32fast::hash(body.as_bytes()))
 }
 
-/// Every file of a directory by its path there.
+/// Says who made a run, and in what time: not the same when it is made again.
+const PROVENANCE: &str = "provenance.jsonl";
+
+/// Every file of a directory by its path there, but for the record of who made it.
 pub(crate) fn contents(dir: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut all = BTreeMap::new();
     for entry in std::fs::read_dir(dir).unwrap() {
         let path = entry.unwrap().path();
         let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        if name == PROVENANCE {
+            continue;
+        }
         if path.is_dir() {
             let inner = contents(&path).into_iter();
             all.extend(inner.map(|(below, bytes)| (format!("{name}/{below}"), bytes)));
