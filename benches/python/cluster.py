@@ -1,8 +1,9 @@
 """Runs on many workers: what they cost, what kills do to them, and a thousand cores, simulated.
 
     python benches/python/cluster.py kills [--workers 50] [--clients 10]   Dask, killed at random
-    python benches/python/cluster.py overhead [--rounds 3]                 Dask and `coinmc run`
+    python benches/python/cluster.py overhead [--rounds 3] [--threads 2]   Dask and `coinmc run`
     python benches/python/cluster.py shards [--shards 1000]                a merge of many parts
+    python benches/python/cluster.py points [--points 1000000]             a sweep of many points
     python benches/python/cluster.py simulate [--cores 1000]               1e13 tosses
 
 Needs the installed wheel and dask.distributed. `--program`, before the study, names the program.
@@ -10,6 +11,7 @@ Needs the installed wheel and dask.distributed. `--program`, before the study, n
 
 import argparse
 import heapq
+import json
 import os
 import random
 import resource
@@ -33,6 +35,10 @@ SCENE = {
 }
 
 
+#: Who made a run, and in what time: not the same when it is made again.
+PROVENANCE = "provenance.jsonl"
+
+
 def main() -> None:
     """Run the study that was asked for."""
     arguments = parsed()
@@ -48,8 +54,9 @@ def parsed() -> argparse.Namespace:
     for study, options in {
         kills: {"workers": 50, "clients": 10, "chunks": 1000},
         client: {"config": "", "out": "", "address": ""},
-        overhead: {"rounds": 3, "chunks": 40},
+        overhead: {"rounds": 3, "chunks": 40, "threads": 2},
         shards: {"shards": 1000},
+        points: {"points": 1_000_000},
         simulate: {"cores": 1000, "tosses": 1e13, "lost": 0.01},
     }.items():
         sub = studies.add_parser(study.__name__)
@@ -67,7 +74,8 @@ def config_of(chunks: int, tosses: int) -> coinmc.Config:
 
 def files(path: Path) -> dict[str, bytes]:
     """Read every file of a run directory."""
-    return {file.name: file.read_bytes() for file in path.iterdir()}
+    all_files = path.iterdir()
+    return {file.name: file.read_bytes() for file in all_files if file.name != PROVENANCE}
 
 
 def kills(arguments: argparse.Namespace, folder: Path) -> None:
@@ -118,37 +126,58 @@ def client(arguments: argparse.Namespace, _: Path) -> None:
 
 
 def overhead(arguments: argparse.Namespace, folder: Path) -> None:
-    """Compare the time of a run by two Dask workers with that of `coinmc run` on two threads."""
+    """Compare a run by Dask workers, each of one thread, with `coinmc run` on as many threads.
+
+    Time by the clock tells little on a busy machine. Processor time beyond that of the chunks,
+    which the run directory records, is what the run costs all processes together.
+    """
     from distributed import Client, LocalCluster
 
     # the size of chunks of about a second
     tosses = arguments.chunks * (1 << 19)
     config = coinmc.Config({**SCENE, "stop": {"half_width": 1e-9, "max_tosses": tosses}})
     (folder / "toss.toml").write_text(config.resolved)
-    times = {"coinmc run": [], "dask": []}
-    cluster = LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)
+    threads = arguments.threads
+    clock: dict[str, list[float]] = {"coinmc run": [], "dask": []}
+    extra: dict[str, list[float]] = {"coinmc run": [], "dask": []}
+
+    def of_all(distributed: Client) -> float:
+        # the scheduler lives in this process
+        workers = distributed.run(os.times).values()
+        return sum(times[0] + times[1] for times in (os.times(), *workers))
+
+    cluster = LocalCluster(n_workers=threads, threads_per_worker=1, dashboard_address=None)
     with cluster, Client(cluster) as distributed:
         for number in range(arguments.rounds):
-            begun = time.perf_counter()
-            words = [arguments.program, "run", folder / "toss.toml", "--threads", "2"]
-            words += ["--out", folder / f"local-{number}", "--quiet"]
-            done = subprocess.run(words, stdout=subprocess.DEVNULL)
+            local, remote = folder / f"local-{number}", folder / f"dask-{number}"
+            before, begun = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
+            words = [arguments.program, "run", folder / "toss.toml", "--threads", str(threads)]
+            done = subprocess.run([*words, "--out", local, "--quiet"], stdout=subprocess.DEVNULL)
             assert done.returncode in (0, 3), done.returncode
-            times["coinmc run"].append(time.perf_counter() - begun)
-            begun = time.perf_counter()
-            coinmc.run(config, folder / f"dask-{number}", executor=distributed)
-            times["dask"].append(time.perf_counter() - begun)
-            same = files(folder / f"local-{number}") == files(folder / f"dask-{number}")
-            assert same
-    text = (folder / "dask-0" / "tallies.txt").read_text()
-    least = {name: min(all_times) for name, all_times in times.items()}
-    for name, all_times in times.items():
-        print(f"{name:<12} {min(all_times):.2f} s  ({', '.join(f'{t:.2f}' for t in all_times)})")
-    print(
-        f"{text.count('crc32 ')} chunks, "
-        f"{least['coinmc run'] * 2 / text.count('crc32 '):.2f} s each; "
-        f"overhead {100 * (least['dask'] / least['coinmc run'] - 1):.1f} %"
-    )
+            clock["coinmc run"].append(time.perf_counter() - begun)
+            after = resource.getrusage(resource.RUSAGE_CHILDREN)
+            used = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+            extra["coinmc run"].append(used / chunks_of(local)[1] - 1)
+            used, begun = of_all(distributed), time.perf_counter()
+            coinmc.run(config, remote, executor=distributed)
+            clock["dask"].append(time.perf_counter() - begun)
+            extra["dask"].append((of_all(distributed) - used) / chunks_of(remote)[1] - 1)
+            assert files(local) == files(remote)
+    chunks, time_s = chunks_of(folder / "dask-0")
+    print(f"{chunks} chunks, {time_s / chunks:.2f} s of a processor each; {threads} threads")
+    for name in clock:
+        rounds = ", ".join(f"{100 * share:.1f}" for share in extra[name])
+        by_clock = ", ".join(f"{taken:.1f}" for taken in clock[name])
+        print(f"{name:<12} beyond the chunks {rounds} %; by the clock {by_clock} s")
+    ratios = [dask / local for dask, local in zip(clock["dask"], clock["coinmc run"], strict=True)]
+    print(f"by the clock, Dask by local: {', '.join(f'{ratio:.3f}' for ratio in ratios)}")
+
+
+def chunks_of(path: Path) -> tuple[int, float]:
+    """Count the chunks that a run directory records, and add up their processor time, s."""
+    lines = map(json.loads, (path / PROVENANCE).read_text().splitlines())
+    chunks = [chunk for line in lines for chunk in line.get("chunks", ())]
+    return len(chunks), sum(chunk[4] for chunk in chunks) / 1e6
 
 
 def shards(arguments: argparse.Namespace, folder: Path) -> None:
@@ -166,6 +195,25 @@ def shards(arguments: argparse.Namespace, folder: Path) -> None:
     used = time.perf_counter() - begun
     memory = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
     print(f"merge of {arguments.shards} parts: {used:.2f} s, at most {memory:.0f} MB")
+
+
+def points(arguments: argparse.Namespace, folder: Path) -> None:
+    """Run a sweep of so many points of one toss: all its time goes into what is not tossing."""
+    config = config_of(arguments.points, 1)
+    (folder / "toss.toml").write_text(config.resolved)
+    words = [arguments.program, "run", folder / "toss.toml", "--threads", "1", "--quiet"]
+    words += ["--plot", "none", "--out", folder / "run"]
+    begun = time.perf_counter()
+    subprocess.run(words, check=True, stdout=subprocess.DEVNULL)
+    took = time.perf_counter() - begun
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    user, system = (1e6 * time_s / arguments.points for time_s in (used.ru_utime, used.ru_stime))
+    sizes = {file.name: file.stat().st_size for file in (folder / "run").iterdir()}
+    print(
+        f"{arguments.points} points: {took:.0f} s, a point {user:.1f} µs of processor time and "
+        f"{system:.1f} µs in the system; at most {used.ru_maxrss / 1024:.0f} MB; {len(sizes)} files"
+    )
+    print(", ".join(f"{name} {size / 1e6:.0f} MB" for name, size in sorted(sizes.items())))
 
 
 def simulate(arguments: argparse.Namespace, _: Path) -> None:
@@ -219,7 +267,7 @@ def simulate(arguments: argparse.Namespace, _: Path) -> None:
                 continue
             chunks += 1
             third = (place[2] - place[1]) // 3
-            session.accept([_lib.tally_of(plan, place, third, third)])
+            session.accept([(_lib.tally_of(plan, place, third, third), b"")])
             heapq.heappush(free, (now, worker))
         real_s = time.perf_counter() - real_s
         done, _ = session.progress()

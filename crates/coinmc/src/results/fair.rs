@@ -193,14 +193,15 @@ impl Curve {
         // those that the band cannot tell from the last one
         let mut together: Vec<Crossing> = Vec::new();
         for (at, rising) in self.roots(target) {
-            if together
-                .last()
-                .is_some_and(|last| last.hi.is_some_and(|hi| hi < at))
-            {
+            let last = together.last();
+            let within = last.filter(|last| last.hi.is_none_or(|hi| at <= hi));
+            // one band holds both: among noise there may be thousands of crossings in it
+            let band = within.map(|last| (last.lo, last.hi));
+            let (lo, hi) = band.unwrap_or_else(|| {
                 crossings.extend(settle(std::mem::take(&mut together)));
-            }
-            let lo = self.end_of_band(at, target, Ordering::Less);
-            let hi = self.end_of_band(at, target, Ordering::Greater);
+                let end = |side| self.end_of_band(at, target, side);
+                (end(Ordering::Less), end(Ordering::Greater))
+            });
             together.push(Crossing { at, lo, hi, rising });
         }
         crossings.extend(settle(together));

@@ -26,6 +26,14 @@ const RATIO: &str = "ratio";
 const LONG: usize = 60;
 const END: usize = 20;
 
+/// A piped table is whole, unless it is so long that nobody reads it and it would take more memory than the run.
+const TOO_LONG: usize = 10_000;
+
+/// Whether a table of so many rows is shown whole.
+fn is_whole(rows: usize, style: &Style) -> bool {
+    style.whole && rows <= TOO_LONG
+}
+
 /// The whole summary of the results in the file `csv`.
 pub(crate) fn summary(
     results: &Results,
@@ -61,7 +69,7 @@ pub(crate) fn markdown(results: &Results, style: &Style) -> String {
 /// One row per point.
 fn table(results: &Results, totals: &Totals, csv: &Path, style: &Style) -> String {
     let rows = &results.rows;
-    let hidden = if rows.len() > LONG && !style.whole {
+    let hidden = if rows.len() > LONG && !is_whole(rows.len(), style) {
         rows.len() - 2 * END
     } else {
         0
