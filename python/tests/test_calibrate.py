@@ -54,7 +54,8 @@ def test_the_answer_says_what_was_measured(found):
     side = found.faces["side"]
     assert side["lo"] < side["p"] < side["hi"]
     assert found.next[0]["p_side_sd_after"] < side["parameter_error"]
-    assert "P(side)" in repr(found) and "friction" in found._repr_html_()
+    assert "P(side)" in repr(found)
+    assert "friction" in found._repr_html_()
 
 
 def test_the_command_gives_the_same_draws(found, command, tmp_path):
@@ -78,7 +79,8 @@ def test_many_rows_are_the_same_as_one_at_a_time(found):
     together = model.log_prob(rows)
     assert together.tolist() == [model.log_prob(row) for row in rows]
     assert np.allclose(together, model.log_prior(rows) + model.log_likelihood(rows))
-    assert model.log_prob([1.2, 0.3]) == -np.inf and model.log_prob([0.5, -1]) == -np.inf
+    assert model.log_prob([1.2, 0.3]) == -np.inf
+    assert model.log_prob([0.5, -1]) == -np.inf
     with pytest.raises(ValueError, match="2 columns"):
         model.log_prob([0.5, 0.3, 0.1])
     # smooth: a small step changes it by little

@@ -1,7 +1,7 @@
 //! What is known of the parameters after the measurements.
 
 use crate::importance::{self, Weighted};
-use crate::model::Model;
+use crate::model::{Model, reached};
 use crate::{CalibrationError, Parameter, prediction};
 use coinmc_core::{Face, inverse_normal_cdf};
 
@@ -85,7 +85,8 @@ impl Posterior {
         let confidence = model.observed.predicted.confidence;
         let (mean, _) = moments(&values);
         let [lo, _, hi] = quantiles(&values, confidence);
-        widened([lo, mean, hi], model.predicted.error(), confidence)
+        let error = model.predicted.whole_error_at(&reached(&self.centre()));
+        widened([lo, mean, hi], error[face as usize], confidence)
     }
 
     /// Mean of the scores.

@@ -35,6 +35,8 @@ pub(crate) struct Chances {
     partial: Vec<Coefficients>,
     /// Root mean square error of a probability in the design: of the fit's shape, and of its tosses.
     error: f64,
+    /// That of the shape alone.
+    lack: f64,
     concentration: f64,
     tosses: u64,
 }
@@ -53,6 +55,7 @@ impl Chances {
             coefficients,
             partial,
             error: 0.0,
+            lack: (lack / 3.0).sqrt(),
             concentration: MOST_CONCENTRATED,
             tosses: tossed.faces.iter().flatten().sum(),
         };
@@ -89,6 +92,12 @@ impl Chances {
     pub(crate) fn error_at(&self, point: &[f64]) -> [f64; 3] {
         let partial = self.partial_at(point);
         [0, 1, 2].map(|face| jackknife(partial.iter().map(|faces| faces[face])))
+    }
+
+    /// Standard errors of the probabilities by the tosses and by the fit's shape.
+    pub(crate) fn whole_error_at(&self, point: &[f64]) -> [f64; 3] {
+        let error = self.error_at(point);
+        error.map(|error| (error * error + self.lack * self.lack).sqrt())
     }
 
     /// Root mean square error of a probability over the design.
