@@ -6,7 +6,7 @@ use crate::commands::Film;
 use crate::commands::Robot;
 use crate::commands::{
     AimAt, Analytic, Check, Compare, Completions, DesignArgs, Fair, Merge, Rare, ReportOf, Run,
-    Schema, SensitivityOf, Show, Trace,
+    Schema, SensitivityOf, Show, Trace, Validate,
 };
 use crate::exit::{Failure, Outcome};
 use crate::output::{Console, Format};
@@ -61,6 +61,7 @@ enum Command {
     Aim(AimAt),
     Rare(Rare),
     Compare(Compare),
+    Validate(Validate),
     Merge(Merge),
     Trace(Box<Trace>),
     #[cfg(feature = "film")]
@@ -97,6 +98,7 @@ impl Command {
             Self::Aim(aim) => aim.format(),
             Self::Rare(rare) => rare.format(),
             Self::Compare(compare) => compare.format(),
+            Self::Validate(validate) => validate.format(),
             Self::Merge(merge) => merge.format(),
             Self::Trace(trace) => trace.format(),
             #[cfg(feature = "film")]
@@ -120,6 +122,7 @@ impl Command {
             Self::Aim(aim) => aim.execute(console),
             Self::Rare(rare) => rare.execute(console),
             Self::Compare(compare) => compare.execute(console),
+            Self::Validate(validate) => validate.execute(console),
             Self::Merge(merge) => merge.execute(console),
             Self::Trace(trace) => trace.execute(console),
             #[cfg(feature = "film")]

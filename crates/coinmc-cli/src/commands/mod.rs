@@ -21,6 +21,7 @@ mod schema;
 mod sensitivity;
 mod show;
 mod trace;
+mod validate;
 
 pub(crate) use aim::AimAt;
 pub(crate) use analytic::Analytic;
@@ -41,6 +42,7 @@ pub(crate) use schema::Schema;
 pub(crate) use sensitivity::SensitivityOf;
 pub(crate) use show::Show;
 pub(crate) use trace::Trace;
+pub(crate) use validate::Validate;
 
 use coinmc_core::Face;
 
