@@ -73,21 +73,19 @@ fn of_claim(claim: &Value) -> String {
         Some(condition) => format!(" {}", text(condition)),
         None => String::new(),
     };
-    let evidence = list(claim, "evidence");
-    let mut told = format!(
-        "<h3 id=\"{0}\">{0}: {1}</h3>\n<p><strong>{2}</strong>{condition}</p>\n",
+    let rows: String = list(claim, "evidence").iter().map(of_evidence).collect();
+    let details = if rows.is_empty() {
+        String::new()
+    } else {
+        let table = table(&["what", "is", "95 % interval", "tosses"], &rows);
+        format!("<details><summary>Evidence</summary>{table}</details>\n")
+    };
+    format!(
+        "<h3 id=\"{0}\">{0}: {1}</h3>\n<p><strong>{2}</strong>{condition}</p>\n{details}",
         words(&claim["name"]),
         words(&claim["statement"]),
         words(&claim["verdict"]),
-    );
-    if !evidence.is_empty() {
-        let rows: String = evidence.iter().map(of_evidence).collect();
-        told += &format!(
-            "<details><summary>Evidence</summary>{}</details>\n",
-            table(&["what", "is", "95 % interval", "tosses"], &rows)
-        );
-    }
-    told
+    )
 }
 
 fn of_evidence(evidence: &Value) -> String {
@@ -100,41 +98,9 @@ fn of_evidence(evidence: &Value) -> String {
 }
 
 fn of_sets(document: &Value) -> String {
-    let (mut rows, mut others) = (String::new(), String::new());
-    for set in list(document, "sets") {
-        let name = words(&set["name"]);
-        if set["p_value"].is_null() {
-            others += &format!(
-                "<li>{name}: {} ({}): {}</li>\n",
-                words(&set["doc"]),
-                words(&set["source"]),
-                words(&set["condition"])
-            );
-            continue;
-        }
-        rows += &row(&[
-            format!("<strong>{name}</strong>"),
-            format!(
-                "{}. {}. Stated: {}",
-                words(&set["doc"]),
-                words(&set["source"]),
-                words(&set["stated"])
-            ),
-            String::new(),
-            String::new(),
-            String::new(),
-            String::new(),
-            format!(
-                "<strong>{}</strong>, {}",
-                p_value(set),
-                words(&set["verdict"])
-            ),
-        ]);
-        rows.extend(list(set, "lines").iter().map(of_line));
-    }
-    if rows.is_empty() && others.is_empty() {
-        return String::new();
-    }
+    let (others, predicted): (Vec<_>, Vec<_>) = list(document, "sets")
+        .iter()
+        .partition(|set| set["p_value"].is_null());
     let titles = [
         "data set",
         "number",
@@ -144,20 +110,53 @@ fn of_sets(document: &Value) -> String {
         "95 % of draws",
         "p-value",
     ];
-    let mut told = format!(
-        "<section><h2>Public data sets</h2>\n{}</section>\n",
-        table(&titles, &rows)
-    );
-    if !others.is_empty() {
-        told += &format!("<section><h2>Not validated</h2>\n<ul>{others}</ul></section>\n");
-    }
-    told
+    let rows: String = predicted.into_iter().map(of_predicted).collect();
+    let others: String = others.into_iter().map(of_other).collect();
+    [
+        if rows.is_empty() {
+            String::new()
+        } else {
+            let table = table(&titles, &rows);
+            format!("<section><h2>Public data sets</h2>\n{table}</section>\n")
+        },
+        if others.is_empty() {
+            String::new()
+        } else {
+            format!("<section><h2>Not validated</h2>\n<ul>{others}</ul></section>\n")
+        },
+    ]
+    .concat()
+}
+
+fn of_predicted(set: &Value) -> String {
+    let [name, doc, source, stated, verdict] =
+        ["name", "doc", "source", "stated", "verdict"].map(|key| words(&set[key]));
+    let empty = String::new;
+    let own = row(&[
+        format!("<strong>{name}</strong>"),
+        format!("{doc}. {source}. Stated: {stated}"),
+        empty(),
+        empty(),
+        empty(),
+        empty(),
+        format!("<strong>{}</strong>, {verdict}", p_value(set)),
+    ]);
+    own + &list(set, "lines").iter().map(of_line).collect::<String>()
+}
+
+fn of_other(set: &Value) -> String {
+    let [name, doc, source, condition] =
+        ["name", "doc", "source", "condition"].map(|key| words(&set[key]));
+    format!("<li>{name}: {doc} ({source}): {condition}</li>\n")
 }
 
 fn of_line(line: &Value) -> String {
     row(&[
         String::new(),
-        format!("{}, {}", words(&line["quantity"]), words(&line["name"])),
+        match words(&line["name"]) {
+            name if name.is_empty() => words(&line["quantity"]),
+            name => format!("{}, {name}", words(&line["quantity"])),
+        },
         number(&line["seen"]),
         tosses(&line["seen_tosses"]),
         number(&line["predicted"]),
@@ -167,10 +166,8 @@ fn of_line(line: &Value) -> String {
 }
 
 fn table(titles: &[&str], rows: &str) -> String {
-    let titles: String = titles
-        .iter()
-        .map(|title| format!("<th>{}</th>", text(title)))
-        .collect();
+    let cell = |title: &&str| format!("<th>{}</th>", text(title));
+    let titles = titles.iter().map(cell).collect::<Vec<_>>().concat();
     format!(
         "<div class=\"scroll\"><table><thead><tr>{titles}</tr></thead>\n<tbody>{rows}</tbody></table></div>\n"
     )
@@ -178,11 +175,7 @@ fn table(titles: &[&str], rows: &str) -> String {
 
 /// Cells that are HTML already.
 fn row(cells: &[String]) -> String {
-    let cells: String = cells
-        .iter()
-        .map(|cell| format!("<td>{cell}</td>"))
-        .collect();
-    format!("<tr>{cells}</tr>\n")
+    format!("<tr><td>{}</td></tr>\n", cells.join("</td><td>"))
 }
 
 fn number(value: &Value) -> String {
@@ -213,7 +206,7 @@ fn tosses(value: &Value) -> String {
 fn p_value(of: &Value) -> String {
     let p = number(&of["p_value"]);
     match of["p_error"].as_f64() {
-        Some(error) if error >= 5e-4 => format!("{p} ± {error:.3}"),
+        Some(error) if error >= 5e-4 && of["p_value"] != 1.0 => format!("{p} ± {error:.3}"),
         _ => p,
     }
 }

@@ -122,7 +122,7 @@ pub fn validate(options: &Options<'_>, workers: &Workers<'_>) -> Result<Validati
         let finding = (claim.check)(&tosser)?;
         claims.push(Checked { claim, finding });
     }
-    let number = size.of(192, 512);
+    let number = size.of(256, 512);
     let tosses = size.of(96, 1024);
     let stated = size.of(4000, 100_000);
     let mut of_prior = Draws::new(tosser, draws(seed, number), [tosses, stated]);

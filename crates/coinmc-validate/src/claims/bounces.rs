@@ -21,19 +21,26 @@ pub(super) fn energy_law(tosser: &Tosser<'_>) -> Result<Finding, ValidateError> 
             ));
         let results = tosser.toss(&scene, 4000, 100_000)?;
         let tally = &results.rows[0].tally;
-        let broken = tally.negative_heights + tally.energy_gains + tally.sinkings;
-        if broken == 0 {
+        let kinds = [
+            (
+                "requires a negative height of rebound",
+                tally.negative_heights,
+            ),
+            ("would gain energy", tally.energy_gains),
+            ("would sink into the surface", tally.sinkings),
+        ];
+        if kinds.iter().all(|(_, broken)| *broken == 0) {
             sound.push(format!("η = {eta:e} N s"));
         }
-        // impacts of a toss are not independent, so the share has no interval
-        evidence.push(Evidence {
-            what: format!(
-                "breaks an impact (negative height, gain of energy or sinking), k = 0.25, η = {eta:e} N s"
-            ),
-            value: broken as f64 / tally.impacts as f64,
-            interval: None,
-            tosses: tally.tosses(),
-        });
+        for (kind, broken) in kinds {
+            // impacts of a toss are not independent, so the share has no interval
+            evidence.push(Evidence {
+                what: format!("share of impacts at which it {kind}, k = 0.25, η = {eta:e} N s"),
+                value: broken as f64 / tally.impacts as f64,
+                interval: None,
+                tosses: tally.tosses(),
+            });
+        }
     }
     let verdict = Verdict::of_cases(&sound, etas.len());
     Ok(Finding { verdict, evidence })
@@ -130,7 +137,11 @@ pub(super) fn stopping_rule(tosser: &Tosser<'_>) -> Result<Finding, ValidateErro
             .with("engine.flat.decision={ energy_fraction = 0.01 }");
         let results = tosser.toss(&scene, 4000, 100_000)?;
         let tally = &results.rows[0].tally;
-        let name = format!("R = {} mm, dropped from {} R", 1e3 * radius, 0.5 / radius);
+        let name = format!(
+            "R = {} mm, dropped from {:.0} R",
+            1e3 * radius,
+            0.5 / radius
+        );
         if tally.overruled == 0 {
             right.push(name.clone());
         }

@@ -10,6 +10,8 @@ use coinmc::results::{Results, Row};
 struct Varied {
     name: &'static str,
     scene: Scene,
+    /// The number, in words.
+    number: &'static str,
     /// As in `--set`.
     sweep: &'static str,
     tosses: [u64; 2],
@@ -25,9 +27,12 @@ impl Varied {
     fn evidence(&self, results: &Results) -> Vec<Evidence> {
         let at = |row: &Row| {
             let value = results.axes.last().and_then(|axis| row.parameter(axis));
-            let key = self.sweep.split_once('=').map_or("", |(key, _)| key);
-            let key = key.rsplit('.').next().unwrap_or(key);
-            format!("{}, {key} = {}", self.name, value.unwrap_or(f64::NAN))
+            format!(
+                "{}, {} = {}",
+                self.name,
+                self.number,
+                value.unwrap_or(f64::NAN)
+            )
         };
         results
             .rows
@@ -48,12 +53,14 @@ pub(super) fn restitution(tosser: &Tosser<'_>) -> Result<Finding, ValidateError>
             Varied {
                 name: "Unity's scene, H/R = 1",
                 scene: unity("claims/restitution-unity"),
+                number: "e",
                 sweep: "surface.restitution=[0.1, 0.3, 0.5, 0.7]",
                 tosses: [2000, 50_000],
             },
             Varied {
                 name: "hand on wood, H/R = 0.8",
                 scene: thick_by_hand("claims/restitution-hand"),
+                number: "e",
                 sweep: "surface.restitution=[0.3, 0.5, 0.7, 0.85]",
                 tosses: [2000, 50_000],
             },
@@ -62,6 +69,7 @@ pub(super) fn restitution(tosser: &Tosser<'_>) -> Result<Finding, ValidateError>
                 scene: robot("claims/restitution-robot")
                     .with("coin.ratio=1.5")
                     .with("surface.friction=0.0"),
+                number: "e",
                 sweep: "surface.restitution=[0.3, 0.5, 0.7]",
                 tosses: [10_000, 200_000],
             },
@@ -76,18 +84,21 @@ pub(super) fn friction(tosser: &Tosser<'_>) -> Result<Finding, ValidateError> {
             Varied {
                 name: "Unity's scene, H/R = 1",
                 scene: unity("claims/friction-unity"),
+                number: "μ",
                 sweep: "surface.friction=[0.1, 0.3, 1.0, 10.0]",
                 tosses: [2000, 50_000],
             },
             Varied {
                 name: "hand on wood, H/R = 0.8",
                 scene: thick_by_hand("claims/friction-hand"),
+                number: "μ",
                 sweep: "surface.friction=[0.1, 0.3, 0.6]",
                 tosses: [2000, 50_000],
             },
             Varied {
                 name: "robot, flat, H/R = 1.5",
                 scene: robot("claims/friction-robot").with("coin.ratio=1.5"),
+                number: "μ",
                 sweep: "surface.friction=[0.0, 0.1, 0.3]",
                 tosses: [10_000, 200_000],
             },
@@ -106,7 +117,8 @@ fn falls(tosser: &Tosser<'_>, scenes: &[Varied]) -> Result<Finding, ValidateErro
         }
         let mut numbers = varied.evidence(&results);
         if let Some(last) = numbers.last_mut() {
-            last.what += &format!(" ({} from the first value to this)", trend.name());
+            last.what
+                .push_str(&[" (", trend.name(), " from the first value to this)"].concat());
         }
         evidence.extend(numbers);
     }
@@ -120,18 +132,21 @@ pub(super) fn height(tosser: &Tosser<'_>) -> Result<Finding, ValidateError> {
         Varied {
             name: "Unity's scene, H/R = 1",
             scene: unity("claims/height-unity"),
+            number: "height, m",
             sweep: "launch.height_m=[2.5, 5.0, 10.0]",
             tosses: [2000, 50_000],
         },
         Varied {
             name: "hand on wood, H/R = 0.8",
             scene: thick_by_hand("claims/height-hand"),
+            number: "height, m",
             sweep: HEIGHTS,
             tosses: [2000, 50_000],
         },
         Varied {
             name: "robot, flat, H/R = 1.5",
             scene: robot("claims/height-robot").with("coin.ratio=1.5"),
+            number: "height, m",
             sweep: HEIGHTS,
             tosses: [10_000, 200_000],
         },
@@ -159,12 +174,14 @@ pub(super) fn spin(tosser: &Tosser<'_>) -> Result<Finding, ValidateError> {
         Varied {
             name: "hand on wood, H/R = 0.8",
             scene: thick_by_hand("claims/spin-hand"),
+            number: "mean spin, rad/s",
             sweep: "launch.spin.precessing.rate_rad_s.normal.mean=[60.0, 120.0, 240.0]",
             tosses: [2000, 50_000],
         },
         Varied {
             name: "robot, flat, H/R = 1.5",
             scene: robot("claims/spin-robot").with("coin.ratio=1.5"),
+            number: "spin, rad/s",
             sweep: "launch.spin.about.rate_rad_s=[0.0, 10.0, 30.0, 100.0]",
             tosses: [10_000, 200_000],
         },

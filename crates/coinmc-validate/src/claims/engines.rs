@@ -150,7 +150,7 @@ pub(super) fn rapier(tosser: &Tosser<'_>) -> Result<Finding, ValidateError> {
             ),
         },
     ];
-    agree(tosser, &ways, [300, 5000])
+    agree(tosser, &ways, [600, 5000])
 }
 
 #[cfg(not(feature = "rapier"))]

@@ -7,6 +7,7 @@ use crate::trend::LEVEL;
 use crate::{Evidence, Finding, ValidateError, Verdict};
 use coinmc::published::{fair_ratios, table1};
 use coinmc_analytic::zone;
+use coinmc_questions::number::grouped;
 
 const FAIR: f64 = 1.0 / 3.0;
 
@@ -103,7 +104,11 @@ pub(super) fn unity(tosser: &Tosser<'_>) -> Result<Finding, ValidateError> {
             agreeing.push(at.clone());
         }
         evidence.push(Evidence::exact(
-            format!("published share of {}, {at}", counts.tosses()),
+            format!(
+                "published share, {} of {} tosses, {at}",
+                grouped(counts.side),
+                grouped(counts.tosses())
+            ),
             counts.p_side(),
         ));
         evidence.push(Evidence::p_side(&at, row));

@@ -20,7 +20,7 @@ const PLACES: u32 = 64;
 /// The draws of a validation, and the tosses of each experiment that several sets share.
 pub(crate) struct Draws<'a> {
     pub(crate) tosser: Tosser<'a>,
-    pub(crate) draws: Vec<Draw>,
+    pub(crate) people: Vec<Draw>,
     /// Tosses of each draw and ratio.
     pub(crate) tosses: u64,
     /// Tosses of each ratio of a scene that is stated in full.
@@ -32,7 +32,7 @@ impl<'a> Draws<'a> {
     pub(crate) fn new(tosser: Tosser<'a>, draws: Vec<Draw>, [tosses, stated]: [u64; 2]) -> Self {
         Self {
             tosser,
-            draws,
+            people: draws,
             tosses,
             stated_tosses: stated,
             known: HashMap::new(),
@@ -54,7 +54,7 @@ impl<'a> Draws<'a> {
                 vec![scene(experiment, &missing, None)]
             } else {
                 let of = |draw| scene(experiment, &missing, Some(draw));
-                self.draws.iter().map(of).collect()
+                self.people.iter().map(of).collect()
             };
             let results = if stated {
                 let tosses = self.stated_tosses;
@@ -117,7 +117,7 @@ pub(crate) fn predict(
         Predictor::Prior(experiment) => tossed(&numbers, experiment, false, draws)?,
         Predictor::Stated(experiment) => tossed(&numbers, experiment, true, draws)?,
         Predictor::Caught => {
-            let caught: Vec<_> = draws.draws.iter().map(caught).collect();
+            let caught: Vec<_> = draws.people.iter().map(caught).collect();
             numbers.iter().map(|n| of_models(n, &caught)).collect()
         }
         Predictor::Even => {

@@ -51,7 +51,7 @@ fn of_claim(checked: &Checked, show: bool, style: &Style) -> String {
     if let Some(condition) = finding.verdict.condition() {
         text += &indented(condition, style);
     }
-    if show {
+    if show && !finding.evidence.is_empty() {
         text += &of_evidence(&finding.evidence, style);
     } else if finding.tosses() > 0 {
         let tosses = format!("{} tosses", grouped(finding.tosses()));
@@ -180,9 +180,14 @@ fn of_line(line: &Line) -> Vec<String> {
         String::new()
     };
     let [lo, hi] = line.range;
+    let number = if line.name.is_empty() {
+        line.quantity.to_owned()
+    } else {
+        format!("{}, {}", line.quantity, line.name)
+    };
     vec![
         String::new(),
-        format!("{}, {}", line.quantity, line.name),
+        number,
         four(line.seen),
         tosses,
         four(line.predicted),
@@ -199,7 +204,8 @@ fn p_value(p: f64, error: f64) -> String {
     } else {
         format!("{p:.3}")
     };
-    if error >= 5e-4 {
+    // a product with the number of lines is at most 1
+    if error >= 5e-4 && p < 1.0 {
         format!("{number} ± {error:.3}")
     } else {
         number
