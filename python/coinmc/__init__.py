@@ -8,6 +8,7 @@ The engines of coinmc at native speed, with NumPy arrays in and out:
 * `report`: a page of runs that opens anywhere;
 * `fair`: how thick is a fair coin, here or in everyday `scenes`?
 * `sensitivity`: how strongly probabilities depend on parameters;
+* `validate`: claims and public data sets, each with its verdict;
 * `check`, `Config`: what a config means;
 * `coinmc.analytic`: closed forms; `coinmc.film`: drops on film; `coinmc.plot`: plots;
 * `coinmc.vision`: photos of real coins; `coinmc.experiment`: a robot's throws.
@@ -54,6 +55,7 @@ if TYPE_CHECKING:
     from coinmc._ranking import Ranking, rank
     from coinmc._rare import Rare, rare
     from coinmc._sensitivity import Sensitivity, sensitivity
+    from coinmc._validate import Validation, validate
 
 __all__ = [
     "EVENT",
@@ -88,6 +90,7 @@ __all__ = [
     "Tosses",
     "Trace",
     "TraceError",
+    "Validation",
     "VisionError",
     "__build__",
     "__version__",
@@ -113,6 +116,7 @@ __all__ = [
     "sensitivity",
     "toss",
     "trace",
+    "validate",
     "vision",
 ]
 
@@ -142,6 +146,8 @@ _LAZY = {
     "rare": "coinmc._rare",
     "Sensitivity": "coinmc._sensitivity",
     "sensitivity": "coinmc._sensitivity",
+    "Validation": "coinmc._validate",
+    "validate": "coinmc._validate",
 }
 
 

@@ -6,7 +6,7 @@
 //! launches as rows of numbers · `columns` and `toss` individual tosses · `run` estimates and runs
 //! · `results` and `throws` tables, `arrow` tables for Python · `pickled` results as plain values · `table` any
 //! columns as Arrow · `interval` intervals of proportions · `trace` recorded motion of a toss · `question`, `fair`,
-//! `design`, `aim`, `ranking`, `rare`, `compare` questions · `report` pages · `analytic` closed forms · `film` drops on
+//! `design`, `aim`, `ranking`, `rare`, `compare` questions · `validate` verdicts · `report` pages · `analytic` closed forms · `film` drops on
 //! film · `command` the command line · `errors` exceptions.
 
 // Arguments converted from Python are owned.
@@ -39,6 +39,7 @@ mod table;
 mod throws;
 mod toss;
 mod trace;
+mod validate;
 
 use pyo3::prelude::*;
 
@@ -84,6 +85,8 @@ mod _lib {
     use super::toss::{launches, toss};
     #[pymodule_export]
     use super::trace::{save_trace, trace};
+    #[pymodule_export]
+    use super::validate::validate;
     use pyo3::prelude::*;
 
     #[pymodule_init]

@@ -43,7 +43,7 @@ fn words(value: &Value) -> String {
 fn summary(document: &Value) -> String {
     let prior = &document["prior"];
     format!(
-        "<p class=\"lead\">{} validation, seed {}: {} of {} predicted data sets are not rejected at {} %. Intervals \
+        "<p class=\"lead\">Mode {}, seed {}: {} of {} predicted data sets are not rejected at {} %. Intervals \
          are 95 %.</p>\n<p>Prior: {}. {} draws, {} tosses of each coin by each.</p>\n",
         words(&document["mode"]),
         document["seed"],

@@ -111,7 +111,7 @@ pub fn flat_rows(document: &Value) -> Value {
             "what": claim["statement"],
             "verdict": claim["verdict"],
             "condition": claim["condition"],
-            "line": null, "seen": null, "seen_tosses": null,
+            "first": true, "quantity": null, "line": null, "seen": null, "seen_tosses": null,
             "predicted": null, "lo": null, "hi": null, "p_line": null, "p_value": null, "p_error": null,
             "tosses": claim["tosses"],
         }));
@@ -119,13 +119,17 @@ pub fn flat_rows(document: &Value) -> Value {
     for set in list("sets") {
         let lines = set["lines"].as_array().cloned().unwrap_or_default();
         let empty = [Value::Null];
-        for line in if lines.is_empty() { &empty[..] } else { &lines } {
+        let lines = if lines.is_empty() { &empty[..] } else { &lines[..] };
+        for (place, line) in lines.iter().enumerate() {
             rows.push(json!({
                 "family": "data",
                 "name": set["name"],
                 "what": set["doc"],
                 "verdict": set["verdict"],
                 "condition": set["condition"],
+                // so that a table can have one row for each set
+                "first": place == 0,
+                "quantity": line["quantity"],
                 "line": line["name"],
                 "seen": line["seen"],
                 "seen_tosses": line["seen_tosses"],
