@@ -29,7 +29,8 @@ class Validation:
     not_rejected : int
         How many of these the data do not contradict, by a test at 1 %.
     rows : list of dict
-        One for each claim and each number of a data set: what ``coinmc validate --csv`` writes.
+        One for each claim, each number of its evidence and each of a data set: what
+        ``coinmc validate --csv`` writes.
         ``pandas.DataFrame(rows)`` is a table.
     document : dict
         All of it, with the evidence, as ``coinmc validate --format json`` prints it.

@@ -81,7 +81,7 @@ fn of_claim(claim: &Value) -> String {
         format!("<details><summary>Evidence</summary>{table}</details>\n")
     };
     format!(
-        "<h3 id=\"{0}\">{0}: {1}</h3>\n<p><strong>{2}</strong>{condition}</p>\n{details}",
+        "<h3>{0}: {1}</h3>\n<p><strong>{2}</strong>{condition}</p>\n{details}",
         words(&claim["name"]),
         words(&claim["statement"]),
         words(&claim["verdict"]),
@@ -208,5 +208,36 @@ fn p_value(of: &Value) -> String {
     match of["p_error"].as_f64() {
         Some(error) if error >= 5e-4 && of["p_value"] != 1.0 => format!("{p} ± {error:.3}"),
         _ => p,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    const HOSTILE: &str = "</main><script>alert(1)</script> & \"";
+
+    #[test]
+    fn no_text_becomes_html() {
+        let line = json!({ "name": HOSTILE, "quantity": HOSTILE, "seen": 0.5, "p_value": 0.2 });
+        let set = json!({
+            "name": HOSTILE, "doc": HOSTILE, "source": HOSTILE, "stated": HOSTILE, "verdict": HOSTILE,
+            "condition": HOSTILE, "p_value": 0.2, "lines": [line],
+        });
+        let mut other = set.clone();
+        other["p_value"] = Value::Null;
+        let claim = json!({
+            "name": HOSTILE, "family": "paper", "statement": HOSTILE, "verdict": HOSTILE,
+            "condition": HOSTILE, "evidence": [{ "what": HOSTILE, "value": 1.0 }],
+        });
+        let document = json!({
+            "mode": HOSTILE, "prior": { "text": HOSTILE }, "claims": [claim], "sets": [set, other],
+        });
+        let page = claims(&document);
+        assert!(!page.contains("<script") && page.matches("</main>").count() == 1);
+        assert!(page.contains("&lt;script&gt;"));
+        // each of its texts is there
+        assert_eq!(page.matches("alert(1)").count(), 18, "{page}");
     }
 }

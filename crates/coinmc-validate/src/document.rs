@@ -99,49 +99,69 @@ fn line(line: &Line) -> Value {
     })
 }
 
-/// The rows of a [`document()`] without nesting, for a table: one for each claim, and one for each line of
-/// a data set (and for each set that was not predicted).
+/// The rows of a [`document()`] without nesting, for a table: one for each claim and one for each number of its
+/// evidence, one for each line of a data set, and one for each set that was not predicted.
 pub fn flat_rows(document: &Value) -> Value {
     let list = |key: &str| document[key].as_array().cloned().unwrap_or_default();
-    let mut rows = vec![];
-    for claim in list("claims") {
-        rows.push(json!({
-            "family": claim["family"],
-            "name": claim["name"],
-            "what": claim["statement"],
-            "verdict": claim["verdict"],
-            "condition": claim["condition"],
-            "first": true, "quantity": null, "line": null, "seen": null, "seen_tosses": null,
-            "predicted": null, "lo": null, "hi": null, "p_line": null, "p_value": null, "p_error": null,
-            "tosses": claim["tosses"],
-        }));
-    }
-    for set in list("sets") {
-        let lines = set["lines"].as_array().cloned().unwrap_or_default();
-        let empty = [Value::Null];
-        let lines = if lines.is_empty() { &empty[..] } else { &lines[..] };
-        for (place, line) in lines.iter().enumerate() {
-            rows.push(json!({
-                "family": "data",
-                "name": set["name"],
-                "what": set["doc"],
-                "verdict": set["verdict"],
-                "condition": set["condition"],
-                // so that a table can have one row for each set
-                "first": place == 0,
-                "quantity": line["quantity"],
-                "line": line["name"],
-                "seen": line["seen"],
-                "seen_tosses": line["seen_tosses"],
-                "predicted": line["predicted"],
-                "lo": line["lo"],
-                "hi": line["hi"],
-                "p_line": line["p_value"],
-                "p_value": set["p_value"],
-                "p_error": set["p_error"],
-                "tosses": line["tosses"],
-            }));
+    let claims = list("claims").into_iter().flat_map(|claim| {
+        let verdict = row(
+            &claim,
+            &claim["family"],
+            &claim["statement"],
+            &Value::Null,
+            true,
+        );
+        let evidence = claim["evidence"].as_array().cloned().unwrap_or_default();
+        let numbers = evidence.into_iter().map(|number| {
+            let number = json!({
+                "name": number["what"],
+                "predicted": number["value"],
+                "lo": number["lo"],
+                "hi": number["hi"],
+                "tosses": number["tosses"],
+            });
+            row(
+                &claim,
+                &claim["family"],
+                &claim["statement"],
+                &number,
+                false,
+            )
+        });
+        [verdict].into_iter().chain(numbers).collect::<Vec<_>>()
+    });
+    let sets = list("sets").into_iter().flat_map(|set| {
+        let mut lines = set["lines"].as_array().cloned().unwrap_or_default();
+        if lines.is_empty() {
+            lines.push(Value::Null);
         }
-    }
-    json!({ "rows": rows })
+        let of = |(place, line)| row(&set, &json!("data"), &set["doc"], line, place == 0);
+        lines.iter().enumerate().map(of).collect::<Vec<_>>()
+    });
+    json!({ "rows": claims.chain(sets).collect::<Vec<_>>() })
+}
+
+/// A row of a claim or data set, about one of its numbers unless that is null.
+fn row(of: &Value, family: &Value, what: &Value, number: &Value, first: bool) -> Value {
+    let tosses = if number.is_null() { of } else { number };
+    json!({
+        "family": family,
+        "name": of["name"],
+        "what": what,
+        "verdict": of["verdict"],
+        "condition": of["condition"],
+        // so that a table can have one row for each claim and set
+        "first": first,
+        "line": number["name"],
+        "quantity": number["quantity"],
+        "seen": number["seen"],
+        "seen_tosses": number["seen_tosses"],
+        "predicted": number["predicted"],
+        "lo": number["lo"],
+        "hi": number["hi"],
+        "p_line": number["p_value"],
+        "p_value": of["p_value"],
+        "p_error": of["p_error"],
+        "tosses": tosses["tosses"],
+    })
 }

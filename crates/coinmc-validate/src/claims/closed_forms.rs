@@ -35,13 +35,13 @@ fn against(
         if side.lo - 1e-9 <= closed && closed <= side.hi + 1e-9 {
             holds.push(format!("H/R = {ratio:.4}"));
         }
-        let what = format!("P(side) by integral minus the {rule}, H/R = {ratio:.4}");
-        evidence.push(Evidence {
-            what,
-            value: side.p - closed,
-            interval: Some([side.lo - closed, side.hi - closed]),
+        let at = format!("H/R = {ratio:.4}");
+        evidence.push(Evidence::estimate(
+            format!("P(side) by integral, {at}"),
+            &side,
             tosses,
-        });
+        ));
+        evidence.push(Evidence::exact(format!("{rule}, {at}"), closed));
     }
     let verdict = Verdict::of_cases(&holds, results.rows.len());
     Ok(Finding { verdict, evidence })

@@ -61,7 +61,7 @@ pub(crate) struct Validate {
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
 
-    /// New file (.csv) for all verdicts, one line for each claim and each number of a data set
+    /// New file (.csv) for all verdicts and their numbers, one a line
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
 

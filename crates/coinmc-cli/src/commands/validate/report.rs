@@ -36,6 +36,7 @@ pub(super) fn text(found: &Validation, show: bool, style: &Style) -> String {
     if !found.sets.is_empty() {
         text += &of_sets(found, show, style);
     }
+    let text = text.trim_end().to_owned() + "\n";
     if style.unicode { text } else { in_ascii(&text) }
 }
 
