@@ -268,6 +268,9 @@ mod tests {
         }
         let middle = Model::Known(0.5).of_count(Spread::UNKNOWN, 175_378, 350_757);
         assert!((middle.no_more - 0.5).abs() < 1e-6, "{middle:?}");
+        // 33 standard errors below: ln P by a sum of logarithms of binomial coefficients (Python)
+        let far = Model::Known(0.5).of_count(Spread::UNKNOWN, 165_610, 350_757);
+        assert!((log(far.no_more) - -548.743).abs() < 1e-3, "{far:?}");
         // impossible counts
         assert_eq!(count(&[Model::Known(0.0)], 3, 10).p_value, 0.0);
         assert_eq!(count(&[Model::Known(1.0)], 10, 10).p_value, 1.0);
