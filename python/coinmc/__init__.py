@@ -3,7 +3,8 @@
 The engines of coinmc at native speed, with NumPy arrays in and out:
 
 * `toss`, `launches`: individual tosses, with launches drawn at random or your own;
-* `estimate`: probabilities with intervals, in memory; `run`, `open`: in a run directory;
+* `estimate`: probabilities with intervals, in memory; `run`, `open`: in a run directory, also on
+  other processes and clusters (`chunk`);
 * `trace`: the recorded motion of one toss; `replay`: tosses in three dimensions;
 * `report`: a page of runs that opens anywhere;
 * `fair`: how thick is a fair coin, here or in everyday `scenes`?
@@ -50,6 +51,7 @@ if TYPE_CHECKING:
     from coinmc._aim import Aimed, AimedLaunch, aim
     from coinmc._compare import Comparison, compare
     from coinmc._design import Design, design
+    from coinmc._executors import chunk
     from coinmc._fair import Fair, FairRoot, fair
     from coinmc._pages import Page, basins, replay, report
     from coinmc._ranking import Ranking, rank
@@ -98,6 +100,7 @@ __all__ = [
     "analytic",
     "basins",
     "check",
+    "chunk",
     "compare",
     "design",
     "estimate",
@@ -131,6 +134,7 @@ _LAZY = {
     "aim": "coinmc._aim",
     "Comparison": "coinmc._compare",
     "compare": "coinmc._compare",
+    "chunk": "coinmc._executors",
     "Design": "coinmc._design",
     "design": "coinmc._design",
     "Fair": "coinmc._fair",

@@ -3,10 +3,12 @@
 import os
 import tomllib
 from collections.abc import Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
 
 from coinmc import _lib, _toml
+from coinmc._errors import Error
 
 __all__ = ["Config", "ConfigLike", "Group", "Scene", "Stop", "check"]
 
@@ -267,7 +269,7 @@ class Config:
         return hash(self.hash)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _from_resolved, (self.resolved,)
+        return _from_resolved, (self.resolved, self.hash)
 
 
 #: Anything that a function accepts as a config.
@@ -341,8 +343,15 @@ def default_directory(config: Config) -> Path:
     return Path("runs") / f"{stem}-{config.hash[:8]}"
 
 
-def _from_resolved(text: str) -> Config:
-    return Config.from_toml(text)
+@lru_cache(maxsize=8)  # a worker gets the same config again and again
+def _from_resolved(text: str, hash_: str) -> Config:
+    config = Config.from_toml(text)
+    if config.hash != hash_:
+        raise Error(
+            f"this config was pickled by a version of coinmc that understands it differently "
+            f"(plan {hash_[:8]}, here {config.hash[:8]}): use the same version on both sides"
+        )
+    return config
 
 
 def _source(config: Any) -> tuple[str, str]:

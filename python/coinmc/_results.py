@@ -335,6 +335,7 @@ def run(
     config: ConfigLike,
     out: str | os.PathLike[str] | None = None,
     *,
+    executor: Any = None,
     threads: int | None = None,
     progress: bool | Callable[[int, int], None] | None = None,
     overrides: Mapping[str, Any] | None = None,
@@ -351,8 +352,13 @@ def run(
     out : path, optional
         The run directory: new, empty, or from an earlier call with the same config. By default
         ``runs/NAME-HASH``, as on the command line.
+    executor : object, optional
+        Who computes the chunks: anything with ``submit(function, *arguments)``
+        whose result has ``result()``, such as a ``ProcessPoolExecutor``, or a ``Client`` of
+        dask.distributed. Only this process writes the directory. See docs/guide/cluster.md.
     threads : int, optional
-        Number of threads; by default one per core.
+        Number of threads; by default one per core. With an executor, that of each chunk: by
+        default 1, so that workers with a thread for each core do not overload them.
     progress : bool or callable, optional
         Whether to show progress.
     overrides : dict, optional
@@ -372,7 +378,12 @@ def run(
     config = as_config(config, overrides)
     path = Path(default_directory(config) if out is None else out)
     with reporting(progress, "run") as report:
-        table, messages = _lib.run(plan_of(config), path, threads_of(threads), report)
+        if executor is None:
+            table, messages = _lib.run(plan_of(config), path, threads_of(threads), report)
+        else:
+            from coinmc._executors import run_with
+
+            table, messages = run_with(executor, threads, config, path, report)
     _warn(messages)
     return _checked(Result(table, config, path))
 

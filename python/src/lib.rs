@@ -4,10 +4,10 @@
 //! # Files
 //! `plan` configs · `supervise` long work, signals and progress · `share` threads · `launch`
 //! launches as rows of numbers · `columns` and `toss` individual tosses · `run` estimates and runs
-//! · `results` and `throws` tables, `arrow` tables for Python · `pickled` results as plain values · `table` any
-//! columns as Arrow · `interval` intervals of proportions · `trace` recorded motion of a toss · `question`, `fair`,
-//! `design`, `aim`, `ranking`, `rare`, `compare` questions · `validate` verdicts · `report` pages · `analytic` closed forms · `film` drops on
-//! film · `command` the command line · `errors` exceptions.
+//! · `session` runs on other machines · `results` and `throws` tables, `arrow` tables for Python · `pickled` results
+//! as plain values · `table` any columns as Arrow · `interval` intervals of proportions · `trace` recorded motion of a
+//! toss · `question`, `fair`, `design`, `aim`, `ranking`, `rare`, `compare` questions · `validate` verdicts ·
+//! `report` pages · `analytic` closed forms · `film` drops on film · `command` the command line · `errors` exceptions.
 
 // Arguments converted from Python are owned.
 #![allow(clippy::needless_pass_by_value)]
@@ -32,6 +32,7 @@ mod rare;
 mod report;
 mod results;
 mod run;
+mod session;
 mod share;
 mod supervise;
 mod table;
@@ -76,6 +77,8 @@ mod _lib {
     use super::results::Results;
     #[pymodule_export]
     use super::run::{estimate, open, run};
+    #[pymodule_export]
+    use super::session::{Session, chunk, chunk_of_number, chunk_with_note, tally_of};
     #[pymodule_export]
     use super::table::arrow_stream;
     #[cfg(unix)]

@@ -41,7 +41,7 @@ pub(crate) fn plain(results: &Results) -> Plain {
         short,
         results.tosses,
         table.program_version.clone(),
-        table.rows.iter().map(plain_row).collect(),
+        table.rows.each().map(|row| plain_row(&row)).collect(),
     )
 }
 
@@ -76,7 +76,7 @@ pub(crate) fn unpickled(plan: &Plan, plain: Plain) -> PyResult<Results> {
     Results::new(Report {
         results: Table {
             program_version,
-            ..Table::new(&plan.0, rows)
+            ..Table::new(&plan.0, rows.into())
         },
         status: match status.as_str() {
             "complete" => Status::Complete,

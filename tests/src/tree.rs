@@ -4,7 +4,10 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Every file below a directory with its bytes, by relative path.
+/// Says who made a run, and in what time: not the same when it is made again.
+const PROVENANCE: &str = "provenance.jsonl";
+
+/// Every file below a directory with its bytes, by relative path, but for the record of who made a run.
 ///
 /// # Panics
 /// If something cannot be read.
@@ -16,7 +19,7 @@ pub fn snapshot(dir: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
             let path = entry.expect("a directory entry").path();
             if path.is_dir() {
                 open.push(path);
-            } else {
+            } else if !path.ends_with(PROVENANCE) {
                 let bytes = fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
                 let name = path
                     .strip_prefix(dir)

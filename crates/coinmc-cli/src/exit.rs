@@ -74,6 +74,7 @@ impl From<RunError> for Failure {
             | RunError::OtherVersion { .. }
             | RunError::OtherPart { .. }
             | RunError::NewerFormat { .. }
+            | RunError::OlderFormat { .. }
             | RunError::PartsNeedFixedTosses
             | RunError::NothingToMerge
             | RunError::BadConfig { .. }

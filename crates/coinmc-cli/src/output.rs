@@ -3,7 +3,7 @@
 use crate::terminal::{Style, harmless};
 use clap::{ColorChoice, ValueEnum};
 use serde_json::Value;
-use std::io::{self, Write};
+use std::io::{self, BufWriter, StdoutLock, Write};
 
 /// Version of every JSON document printed. It stays when fields are added, and changes when a field
 /// changes its meaning or is removed.
@@ -79,8 +79,15 @@ pub(crate) fn print(text: &str) -> io::Result<()> {
 
 /// The same for the bytes of a table, as they are.
 pub(crate) fn print_bytes(bytes: &[u8]) -> io::Result<()> {
-    let mut stdout = io::stdout().lock();
-    match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
+    print_with(|stdout| stdout.write_all(bytes))
+}
+
+/// The same for what is written bit by bit.
+pub(crate) fn print_with(
+    write: impl FnOnce(&mut BufWriter<StdoutLock<'static>>) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut stdout = BufWriter::new(io::stdout().lock());
+    match write(&mut stdout).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         result => result,
     }

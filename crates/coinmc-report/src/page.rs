@@ -128,13 +128,16 @@ fn run_to_json(run: &Run, samples: &Samples) -> Result<Value, TraceError> {
     let (plan, results) = (&run.plan, &run.report.results);
     let (rows, word) = sweep::thinned(results, MAX_POINTS);
     let shown = Results {
-        rows: rows.iter().map(|&i| results.rows[i].clone()).collect(),
+        rows: rows
+            .iter()
+            .map(|&i| results.rows.at(i).into_owned())
+            .collect(),
         ..results.clone()
     };
     Ok(json!({
         "name": run.name,
         "status": status(run.report.status),
-        "points_done": results.rows.iter().filter(|row| row.stopped_by.is_reached()).count(),
+        "points_done": results.rows.each().filter(|row| row.stopped_by.is_reached()).count(),
         "points": results.rows.len(),
         "thinned": word,
         "tosses": run.report.tosses,
@@ -144,6 +147,7 @@ fn run_to_json(run: &Run, samples: &Samples) -> Result<Value, TraceError> {
         "plan_hash": results.plan_hash,
         "program_version": results.program_version,
         "manifest": run.manifest,
+        "made_by": run.provenance.to_json(),
         "config": results.config,
         "axes": results.axes,
         "columns": table::to_json(&shown),

@@ -2,7 +2,7 @@
 
 use crate::history::{self, Step};
 use coinmc::plan::Plan;
-use coinmc::run::{ProgressSink, Report, RunError, stored_report};
+use coinmc::run::{ProgressSink, Provenance, Report, RunError, provenance, stored_report};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -20,6 +20,8 @@ pub struct Run {
     pub(crate) report: Report,
     /// The fields of `manifest.json`: builds, machines.
     pub(crate) manifest: Value,
+    /// Who made its chunks.
+    pub(crate) provenance: Provenance,
     /// How the counts of points grew.
     pub(crate) history: Vec<(usize, Vec<Step>)>,
 }
@@ -43,6 +45,7 @@ impl Run {
         let (plan, report) = stored_report(dir, sink)?;
         let mut run = Self::in_memory(&dir.display().to_string(), plan, report);
         run.manifest = manifest(dir);
+        run.provenance = provenance(dir, &run.plan)?;
         run.history = history::read(dir, &run.plan, &run.report)?;
         Ok(run)
     }
@@ -54,6 +57,7 @@ impl Run {
             plan,
             report,
             manifest: Value::Null,
+            provenance: Provenance::default(),
             history: Vec::new(),
         }
     }
@@ -116,6 +120,10 @@ mod tests {
                 assert_eq!(*last, run.report.results.rows[*point].tally, "{stop}");
             }
             assert_eq!(run.manifest["builds"][0], "test");
+            let [made] = &run.provenance.contributions[..] else {
+                panic!("{:?}", run.provenance);
+            };
+            assert_eq!(made.maker.build, "test");
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Which tosses a report shows in three dimensions.
 
 use crate::replay;
+use coinmc::OnDemand;
 use coinmc::plan::Plan;
 use coinmc::results::Row;
 use coinmc_core::Face;
@@ -26,7 +27,7 @@ impl Samples {
     ///
     /// # Errors
     /// [`TraceError`] if a point or toss that was asked for does not exist.
-    pub(crate) fn of(&self, plan: &Plan, rows: &[Row]) -> Result<Vec<Value>, TraceError> {
+    pub(crate) fn of(&self, plan: &Plan, rows: &OnDemand<Row>) -> Result<Vec<Value>, TraceError> {
         let Some(point) = self.point.or_else(|| fairest(plan, rows)) else {
             return Ok(Vec::new());
         };
@@ -49,10 +50,10 @@ pub(crate) fn show(plan: &Plan, point: usize, toss: u64) -> Result<Value, TraceE
 }
 
 /// The point with tosses of which P(side) is closest to that of a fair coin.
-fn fairest(plan: &Plan, rows: &[Row]) -> Option<usize> {
+fn fairest(plan: &Plan, rows: &OnDemand<Row>) -> Option<usize> {
     let tossed = rows
         .iter()
-        .filter(|row| plan.points[row.point].engine.makes_tosses());
+        .filter(|row| plan.points.at(row.point).engine.makes_tosses());
     let unfairness = |row: &Row| {
         let away = (row.side.p - 1.0 / 3.0).abs();
         if away.is_finite() { away } else { 1.0 }

@@ -25,7 +25,7 @@ pub(crate) fn thinned(results: &Results, most: usize) -> (Vec<usize>, Option<Str
         let longest = axes.iter_mut().max_by_key(|axis| axis.kept());
         longest.expect("a sweep has an axis").step *= 2;
     }
-    let rows = (0..all).filter(|&i| axes.iter().all(|axis| axis.keeps(&results.rows[i])));
+    let rows = (0..all).filter(|&i| axes.iter().all(|axis| axis.keeps(&results.rows.at(i))));
     let words = axes.iter().filter(|axis| axis.step > 1);
     let words: Vec<String> = words
         .map(|axis| format!("every {} value of {}", ordinal(axis.step), axis.name))
@@ -44,7 +44,7 @@ impl<'a> Axis<'a> {
     fn new(results: &Results, name: &'a str) -> Self {
         let mut values: Vec<f64> = results
             .rows
-            .iter()
+            .each()
             .filter_map(|row| row.parameter(name))
             .collect();
         values.sort_unstable_by(f64::total_cmp);

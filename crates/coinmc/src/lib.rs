@@ -27,7 +27,10 @@
 
 pub mod config;
 pub mod engines;
+mod on_demand;
 pub mod plan;
 pub mod published;
 pub mod results;
 pub mod run;
+
+pub use on_demand::OnDemand;

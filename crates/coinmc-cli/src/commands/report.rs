@@ -225,7 +225,7 @@ mod tests {
             StoppedBy::ClosedForm,
         );
         let report_of = Report {
-            results: Results::new(&plan, vec![row]),
+            results: Results::new(&plan, vec![row].into()),
             status: Status::Complete,
             reused_chunks: 0,
             tosses: 0,

@@ -11,12 +11,14 @@ use crate::terminal::summary::{FAIR, markdown, summary};
 use crate::terminal::{count, duration, grouped};
 use anyhow::Context;
 use clap::Args;
+use coinmc::OnDemand;
 use coinmc::config::{self, Override};
 use coinmc::plan::{MAX_EVALUATIONS, Plan, StoppedBy};
 use coinmc::published::TABLE1_SOURCE;
 use coinmc::results::{FairRatio, Row, fair_ratios, write_csv};
 use coinmc::run::{Options, Part, Report, Status};
 use serde_json::{Map, Value, json};
+use std::borrow::Cow;
 use std::ffi::OsString;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -192,10 +194,7 @@ pub(super) fn show(
             let csv = out.join(csv_name(report.status));
             output::print(&summary(results, &fair, &csv, plotted, console.stdout()))
         }
-        ResultFormat::Csv => {
-            let mut text = Vec::new();
-            write_csv(results, &mut text).and_then(|()| output::print_bytes(&text))
-        }
+        ResultFormat::Csv => output::print_with(|stdout| write_csv(results, stdout)),
         ResultFormat::Markdown => output::print(&markdown(results, console.stdout())),
     }
     .map_err(|error| Failure::Runtime(error.into()))
@@ -211,17 +210,15 @@ fn csv_name(status: Status) -> &'static str {
 /// What was done, in one line.
 fn closing_line(report: &Report, progress: &Progress) -> String {
     let points = count(report.results.rows.len() as u64, "point");
-    let closed = report
-        .results
-        .rows
-        .iter()
-        .all(|row| row.interval == "exact");
-    if closed && report.status != Status::Interrupted {
+    let mut rows = report.results.rows.each();
+    if rows.all(|row| row.interval == "exact") && report.status != Status::Interrupted {
         return format!("coinmc: {points} by closed form, nothing to toss");
     }
-    let evaluations: u64 = report.results.rows.iter().map(|row| row.evaluations).sum();
-    if report.tosses == 0 && evaluations > 0 {
-        return integrated_line(report, evaluations);
+    if report.tosses == 0 {
+        let evaluations = report.results.rows.each().map(|row| row.evaluations).sum();
+        if evaluations > 0 {
+            return integrated_line(report, evaluations);
+        }
     }
     let (made, time) = progress.made(report.tosses);
     let earlier = report.tosses - made;
@@ -246,8 +243,8 @@ fn closing_line(report: &Report, progress: &Progress) -> String {
 fn integrated_line(report: &Report, evaluations: u64) -> String {
     let rows = &report.results.rows;
     let points = count(rows.len() as u64, "point");
-    let is_done = |row: &&Row| row.evaluations > 0 || row.interval == "exact";
-    let done = rows.iter().filter(is_done).count();
+    let is_done = |row: &Cow<'_, Row>| row.evaluations > 0 || row.interval == "exact";
+    let done = rows.each().filter(is_done).count();
     if report.reused_chunks == rows.len() as u64 {
         return format!("coinmc: already finished, nothing to integrate: {points}");
     }
@@ -274,7 +271,7 @@ fn advice(report: &Report, out: &Path) -> Option<String> {
         Status::Interrupted => {
             let rows = &report.results.rows;
             let done = rows
-                .iter()
+                .each()
                 .filter(|row| row.stopped_by.is_reached())
                 .count();
             Some(format!(
@@ -295,8 +292,8 @@ fn advice(report: &Report, out: &Path) -> Option<String> {
 }
 
 /// What to do about points that stopped short of their targets, by the rule that stopped them.
-fn short_of_target(rows: &[Row]) -> String {
-    let of = |by| rows.iter().filter(|row| row.stopped_by == by).count() as u64;
+fn short_of_target(rows: &OnDemand<Row>) -> String {
+    let of = |by| rows.each().filter(|row| row.stopped_by == by).count() as u64;
     let mut lines = vec![];
     for (by, key) in [
         (StoppedBy::MaxTosses, "stop.max_tosses"),
@@ -329,7 +326,7 @@ fn short_of_target(rows: &[Row]) -> String {
 }
 
 /// The document of `--format json`; docs/reference/formats.md describes it.
-fn to_json(report: &Report, fair: &[FairRatio], out: &Path) -> Value {
+pub(super) fn to_json(report: &Report, fair: &[FairRatio], out: &Path) -> Value {
     let mut table = report.results.to_json();
     let status = match report.status {
         Status::Complete => "complete",
@@ -347,7 +344,7 @@ fn to_json(report: &Report, fair: &[FairRatio], out: &Path) -> Value {
         "axes": report.results.axes,
         "rows": table["points"].take(),
         "fair_ratios": fair.iter().map(fair_to_json).collect::<Vec<_>>(),
-        "published": report.results.rows.iter().filter_map(published_to_json).collect::<Vec<_>>(),
+        "published": report.results.rows.each().filter_map(|row| published_to_json(&row)).collect::<Vec<_>>(),
     })
 }
 
@@ -416,7 +413,7 @@ mod tests {
         let config = "coin.ratio = [1, 2]\nsurface.landing = 'adhesive'\nlaunch.preset = 'table1'\n\
                       engine.volumetric = {}\nstop = { half_width = 1e-7, max_tosses = 1e15 }";
         let plan = config::parse("test", config, &[]).unwrap();
-        let mut rows: Vec<Row> = (0..2)
+        let mut rows: OnDemand<Row> = (0..2)
             .map(|i| Row::new(&plan, i, Tally::default(), StoppedBy::MaxTosses))
             .collect();
         let text = short_of_target(&rows);

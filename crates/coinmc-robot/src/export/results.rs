@@ -46,5 +46,5 @@ pub fn results(experiment: &Experiment, history: &History) -> Results {
         same: None,
         ..Row::new(experiment.plan(), 0, tally, stopped_by)
     };
-    Results::new(experiment.plan(), vec![row])
+    Results::new(experiment.plan(), vec![row].into())
 }

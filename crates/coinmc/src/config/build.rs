@@ -6,28 +6,43 @@ use super::columns::Columns;
 use super::diagnostics::Problems;
 use super::engines;
 use super::launch;
+use super::notes::Notes;
 use super::sweep::Sweep;
 use super::values::read;
+use crate::OnDemand;
 use crate::engines::EngineKind;
-use crate::plan::{Point, Sampling, Stop, Targets};
+use crate::on_demand::WHOLE;
+use crate::plan::{EngineChoice, Point, Points, Sampling, Stop, Targets, Way};
 use coinmc_core::{Coin, IntervalMethod, LaunchDistribution, Preset, Scene, Surface};
 use std::collections::HashSet;
+use std::sync::Arc;
 
-/// Every point of the sweep. Each problem is reported once, at the first point that has it.
-pub(super) fn points(root: &Checked, sweep: &Sweep, problems: &mut Problems) -> Vec<Point> {
-    let mut points = Vec::new();
+/// The points of a sweep, and what was seen in a pass over them.
+pub(super) struct Built {
+    /// Incomplete after a problem.
+    pub(super) list: Points,
+    pub(super) notes: Notes,
+    pub(super) sweep: Arc<Sweep>,
+}
+
+impl Built {
+    /// Names of the swept parameters.
+    pub(super) fn axes(&self) -> Vec<String> {
+        let axes = self.sweep.axes.iter();
+        axes.map(|axis| axis.name.clone()).collect()
+    }
+}
+
+/// Every point of the sweep. Each problem is reported once, at the first point that has it. Long lists
+/// are not kept: their points are built again when they are asked for.
+pub(super) fn points(root: &Checked, sweep: Sweep, problems: &mut Problems) -> Built {
+    let sweep = Arc::new(sweep);
+    let (mut points, mut ways, mut notes) = (Vec::new(), Vec::new(), Notes::default());
     let mut blamed = HashSet::new();
     let sound = problems.is_empty();
-    let mut at = At::new(sweep, sound);
-    if sound {
-        points.reserve_exact(sweep.points);
-    }
-    let mut scenes = Part::new(root, &["coin", "surface", "environment"]);
-    let mut all_launches = Part::new(root, &["launch"]);
-    let mut all_engines = Part::new(root, &["engine"]);
-    let columns = Columns::new(sweep);
+    let is_long = sweep.points > WHOLE;
+    let mut builder = Builder::new(root, Arc::clone(&sweep), sound);
     for index in 0..sweep.points {
-        sweep.indices(index, &mut at.indices);
         let mut report = |fault| {
             if let Fault::Problem {
                 span,
@@ -39,23 +54,79 @@ pub(super) fn points(root: &Checked, sweep: &Sweep, problems: &mut Problems) -> 
                 problems.push(span, message, help);
             }
         };
-        let scene = scenes.at(|| scene(root, &at), &mut report);
-        let launches = all_launches.at(|| launches(root, &at), &mut report);
-        let engine = all_engines.at(|| engines::choice(root, &at), &mut report);
-        if let (true, Some(scene), Some(launches), Some(engine)) = (sound, scene, launches, engine)
-        {
-            points.push(Point {
-                parameters: columns.parameters(&scene, sweep, &at.indices),
-                scene,
-                launches,
-                engine,
-            });
+        if let Some(point) = builder.point(root, index, &mut report).filter(|_| sound) {
+            ways.push(Way::of(&point));
+            notes.see(&point);
+            if !is_long {
+                points.push(point);
+            }
         }
     }
-    points
+    let list = if is_long && sound && ways.len() == sweep.points {
+        let root = root.clone();
+        OnDemand::made(sweep.points, move |index| {
+            // it holds what the sweep does not touch
+            let mut builder = builder.clone();
+            let point = builder.point(&root, index, &mut |_| {});
+            point.unwrap_or_else(|| unreachable!("it was built before"))
+        })
+    } else {
+        ways.truncate(points.len());
+        OnDemand::from(points)
+    };
+    Built {
+        list: Points::new(list, ways),
+        notes,
+        sweep,
+    }
+}
+
+/// Builds points, and keeps what the sweep does not touch.
+#[derive(Clone)]
+struct Builder {
+    sweep: Arc<Sweep>,
+    sound: bool,
+    columns: Arc<Columns>,
+    scenes: Part<Scene>,
+    launches: Part<LaunchDistribution>,
+    engines: Part<EngineChoice>,
+}
+
+impl Builder {
+    fn new(root: &Checked, sweep: Arc<Sweep>, sound: bool) -> Self {
+        Self {
+            sound,
+            columns: Arc::new(Columns::new(&sweep)),
+            scenes: Part::new(root, &["coin", "surface", "environment"]),
+            launches: Part::new(root, &["launch"]),
+            engines: Part::new(root, &["engine"]),
+            sweep,
+        }
+    }
+
+    fn point(
+        &mut self,
+        root: &Checked,
+        index: usize,
+        report: &mut impl FnMut(Fault),
+    ) -> Option<Point> {
+        let mut at = At::new(&self.sweep, self.sound);
+        self.sweep.indices(index, &mut at.indices);
+        let scene = self.scenes.at(|| scene(root, &at), report);
+        let launches = self.launches.at(|| launches(root, &at), report);
+        let engine = self.engines.at(|| engines::choice(root, &at), report);
+        let scene = scene?;
+        Some(Point {
+            parameters: self.columns.parameters(&scene, &self.sweep, &at.indices),
+            scene,
+            launches: launches?,
+            engine: engine?,
+        })
+    }
 }
 
 /// A part of a point, built once if the sweep does not touch it.
+#[derive(Clone)]
 struct Part<T> {
     swept: bool,
     /// Whether `last` is the result of an attempt.

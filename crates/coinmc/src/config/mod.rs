@@ -153,12 +153,12 @@ fn plan(
     let taken = spell_out(&mut root, problems);
     engines::refuse_unmodelled(&root, problems);
     let sweep = Sweep::find(&mut root, problems)?;
-    let points = build::points(&root, &sweep, problems);
-    build::refuse_small_total(&root, points.len(), problems);
+    let points = build::points(&root, sweep, problems);
+    build::refuse_small_total(&root, points.sweep.points, problems);
     if !problems.is_empty() {
         return None;
     }
-    if sweep.axes.len() < 2 {
+    if points.sweep.axes.len() < 2 {
         single_axis(&mut root);
     }
     let resolved_toml = resolved(&root, end, problems)?;
@@ -170,12 +170,9 @@ fn plan(
         sampling: build::sampling(&root)?,
         confidence,
         interval,
-        axes: sweep.axes.into_iter().map(|axis| axis.name).collect(),
-        notes: taken
-            .into_iter()
-            .chain(notes::notes(&root, &points))
-            .collect(),
-        points,
+        axes: points.axes(),
+        notes: taken.into_iter().chain(points.notes.texts(&root)).collect(),
+        points: points.list,
         resolved_toml,
     })
 }

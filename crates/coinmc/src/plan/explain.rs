@@ -40,7 +40,7 @@ impl Plan {
             if let Some((_, explanation)) = known {
                 explanation.points += 1;
             } else {
-                let explanation = treatment.explain(&self.points[index]);
+                let explanation = treatment.explain(&self.points.at(index));
                 treatments.push((treatment, explanation));
             }
         }
@@ -66,7 +66,7 @@ struct Treatment {
 
 impl Treatment {
     fn of(plan: &Plan, index: usize) -> Self {
-        let point = &plan.points[index];
+        let point = &*plan.points.at(index);
         let surface = &point.scene.surface;
         let adhesive = surface.landing() == Landing::Adhesive;
         let impacts = point.engine.makes_tosses() && !adhesive;

@@ -5,6 +5,7 @@
 
 mod explain;
 mod looks;
+mod points;
 mod sampling;
 mod stop;
 
@@ -13,6 +14,8 @@ pub use coinmc_quadrature::{Goal, Integral, MAX_EVALUATIONS, Method};
 pub use explain::Explanation;
 pub(crate) use looks::PILOT;
 pub use looks::{Looks, Verdict};
+pub use points::Points;
+pub(crate) use points::Way;
 pub use sampling::Sampling;
 pub use stop::{Stop, StoppedBy, Targets};
 
@@ -54,7 +57,7 @@ pub struct Plan {
     /// slowest). Each is a key of every point's `parameters`.
     pub axes: Vec<String>,
     /// The points, in order; a point's index is its place here.
-    pub points: Vec<Point>,
+    pub points: Points,
     /// The config as understood: every default, preset and material spelled out, overrides applied.
     /// TOML that parses to this same plan, but for the notes on what it spells out.
     pub resolved_toml: String,

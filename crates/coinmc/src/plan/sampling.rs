@@ -1,6 +1,6 @@
 //! Which points are tossed, and which are answered without tosses.
 
-use super::{Plan, Stop, Targets};
+use super::{Plan, Stop, Targets, Way};
 use coinmc_quadrature::{Goal, Integral, MAX_EVALUATIONS, MIN_EVALUATIONS, Method};
 
 /// How launches are drawn where the first contact decides. Elsewhere they are random.
@@ -37,38 +37,34 @@ impl Plan {
     /// If there is no such point, as [`makes_tosses`](Self::makes_tosses), [`known`](Self::known) and
     /// [`method`](Self::method).
     pub fn integrates(&self, index: usize) -> bool {
-        let scene = &self.points[index].scene;
-        self.method(index)
-            .is_some_and(|method| method.by_rule(scene).is_none())
+        self.method(index).is_some() && !self.points.way(index).by_rule
     }
 
     /// Whether tosses of point `index` are counted.
     pub fn makes_tosses(&self, index: usize) -> bool {
-        self.points[index].engine.makes_tosses() && self.method(index).is_none()
+        self.points.way(index).makes_tosses && self.method(index).is_none()
     }
 
     /// The answer of point `index` where no work is needed: a rule in closed form gives it, though an
     /// engine is asked for.
     pub fn known(&self, index: usize) -> Option<Integral> {
-        self.method(index)?.by_rule(&self.points[index].scene)
+        self.method(index)?.by_rule(&self.points.at(index).scene)
     }
 
     /// How point `index` is answered without counting tosses; `None` if it is not.
     pub fn method(&self, index: usize) -> Option<Method> {
-        let point = &self.points[index];
         match self.sampling {
-            Sampling::Auto => {
-                let limit_s = point.engine.flight_limit_s(&point.scene)?;
-                Method::of(&point.scene, &point.launches, limit_s)
-            }
+            Sampling::Auto => self.points.way(index).method,
             Sampling::Random => None,
         }
     }
 
     /// How many points are tossed.
     pub(crate) fn points_tossed(&self) -> u64 {
-        let points = 0..self.points.len();
-        points.filter(|&index| self.makes_tosses(index)).count() as u64
+        let ways = self.points.ways().iter();
+        let without = |way: &&Way| self.sampling == Sampling::Auto && way.method.is_some();
+        let tossed = ways.filter(|way| way.makes_tosses && !without(way));
+        tossed.count() as u64
     }
 
     /// What an integral is to reach: the half width asked for, with no more evaluations than the

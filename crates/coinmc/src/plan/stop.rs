@@ -54,6 +54,19 @@ pub enum StoppedBy {
 }
 
 impl StoppedBy {
+    /// All of them, in the order of their numbers.
+    pub(crate) const ALL: [Self; 9] = [
+        Self::Tosses,
+        Self::Targets,
+        Self::ClosedForm,
+        Self::MaxTosses,
+        Self::TotalTosses,
+        Self::MaxCoreSeconds,
+        Self::TotalCoreSeconds,
+        Self::Evaluations,
+        Self::Unfinished,
+    ];
+
     /// The name used in results.
     pub fn name(self) -> &'static str {
         match self {

@@ -1,7 +1,7 @@
 //! The results table as CSV (RFC 4180, but lines end in a single line feed).
 
-use super::Results;
-use super::schema::{Cell, columns_of};
+use super::schema::{Cell, Column, columns_of};
+use super::{Results, Row};
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
@@ -11,12 +11,27 @@ use std::io::{self, Write};
 /// # Errors
 /// Those of `out`.
 pub fn write_csv(results: &Results, out: &mut dyn Write) -> io::Result<()> {
-    let columns = columns_of(results);
-    write_csv_row(columns.iter().map(|column| Cell::Text(&column.name)), out)?;
-    for row in &results.rows {
-        write_csv_row(columns.iter().map(|column| column.cell(row)), out)?;
+    let mut table = CsvTable::new(results, out)?;
+    let mut rows = results.rows.each();
+    rows.try_for_each(|row| table.push(&row))
+}
+
+/// The table, row by row.
+pub(super) struct CsvTable<'a> {
+    columns: Vec<Column>,
+    out: &'a mut dyn Write,
+}
+
+impl<'a> CsvTable<'a> {
+    pub(super) fn new(results: &Results, out: &'a mut dyn Write) -> io::Result<Self> {
+        let columns = columns_of(results);
+        write_csv_row(columns.iter().map(|column| Cell::Text(&column.name)), out)?;
+        Ok(Self { columns, out })
     }
-    Ok(())
+
+    pub(super) fn push(&mut self, row: &Row) -> io::Result<()> {
+        write_csv_row(self.columns.iter().map(|column| column.cell(row)), self.out)
+    }
 }
 
 /// Writes a row of cells in the dialect of [`write_csv`].

@@ -1,7 +1,7 @@
 //! From counts to probabilities with intervals, for points with a fixed number of tosses and for points
 //! that stop at targets.
 
-use crate::plan::{Plan, Stop};
+use crate::plan::{Plan, Point, Stop};
 use coinmc_core::{Estimate, Face, IntervalMethod, Tally};
 use coinmc_quadrature::{Integral, Share};
 
@@ -19,12 +19,12 @@ const SEQUENTIAL: &str = "sequential-clopper-pearson";
 pub(super) const INTERVALS: [&str; 5] = ["wilson", "clopper-pearson", SEQUENTIAL, STUDENT, EXACT];
 pub(super) const SAMPLINGS: [&str; 3] = [RANDOM, QUASI_RANDOM, CLOSED_FORM];
 
-/// The estimates of heads, tails and side at point `index`, given its tosses so far.
+/// The estimates of heads, tails and side at a point, given its tosses so far.
 ///
 /// A closed form's are exact: `lo = p = hi`, no tosses. A point that stops at targets is looked at with
 /// the confidence `at_look`, so that all looks together have that of the plan.
-pub(crate) fn estimates(plan: &Plan, index: usize, tally: &Tally, at_look: f64) -> [Estimate; 3] {
-    if let Some(faces) = plan.points[index].exact() {
+pub(crate) fn estimates(plan: &Plan, point: &Point, tally: &Tally, at_look: f64) -> [Estimate; 3] {
+    if let Some(faces) = point.exact() {
         return faces.map(|p| Estimate {
             p,
             lo: p,
@@ -63,9 +63,9 @@ pub(crate) fn integrated(plan: &Plan, integral: &Integral) -> [Estimate; 3] {
 }
 
 /// Name of the interval method of a point, as results show it.
-pub(crate) fn interval_name(plan: &Plan, index: usize) -> &'static str {
+pub(crate) fn interval_name(plan: &Plan, point: &Point) -> &'static str {
     match plan.stop {
-        _ if !plan.points[index].engine.makes_tosses() => EXACT,
+        _ if !point.engine.makes_tosses() => EXACT,
         Stop::Tosses(_) => plan.interval.name(),
         Stop::Targets(_) => SEQUENTIAL,
     }

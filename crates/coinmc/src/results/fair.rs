@@ -67,49 +67,65 @@ pub fn fair_ratios(results: &Results, target: f64) -> Vec<FairRatio> {
 /// The same for any face along any swept parameter, by the name of its column; none if there is no
 /// such parameter.
 pub fn fair_values(results: &Results, face: Face, along: &str, target: f64) -> Vec<FairRatio> {
-    groups(results, along)
+    groups(results, face, along)
         .into_iter()
-        .flat_map(|(at, rows)| {
-            let first = rows[0];
-            let curve = Curve::new(&rows, face, along, results.paired);
+        .flat_map(|group| {
+            let Group {
+                at,
+                engine,
+                law,
+                confidence,
+                knots,
+            } = group;
+            let curve = Curve::new(knots, results.paired);
             curve
                 .crossings(target)
                 .into_iter()
                 .map(move |crossing| FairRatio {
                     at: at.clone(),
-                    engine: first.engine,
-                    law: first.law,
+                    engine,
+                    law,
                     ratio: crossing.at,
                     lo: crossing.lo,
                     hi: crossing.hi,
-                    confidence: first.side.confidence,
+                    confidence,
                     rising: crossing.rising,
                 })
         })
         .collect()
 }
 
-type Group<'a> = (Vec<(String, f64)>, Vec<&'a Row>);
+/// Rows that differ in nothing but one parameter.
+struct Group {
+    /// The other parameters.
+    at: Vec<(String, f64)>,
+    engine: &'static str,
+    law: &'static str,
+    confidence: f64,
+    knots: Vec<Knot>,
+}
 
-/// Rows that differ in nothing but one parameter, in the order of their first row.
-fn groups<'a>(results: &'a Results, along: &str) -> Vec<Group<'a>> {
+/// The groups, in the order of their first row. No row is kept: there may be a million.
+fn groups(results: &Results, face: Face, along: &str) -> Vec<Group> {
     let others: Vec<&String> = results.axes.iter().filter(|name| *name != along).collect();
     let mut order = std::collections::HashMap::new();
-    let mut groups: Vec<Group<'a>> = Vec::new();
-    for row in &results.rows {
+    let mut groups: Vec<Group> = Vec::new();
+    for row in results.rows.each() {
         let value = |name: &&String| row.parameter(name).unwrap_or(f64::NAN);
         let values: Vec<f64> = others.iter().map(value).collect();
         let bits: Vec<u64> = values.iter().map(|value| value.to_bits()).collect();
         let index = *order.entry((row.engine, row.law, bits)).or_insert_with(|| {
-            let at = others
-                .iter()
-                .map(|name| (*name).clone())
-                .zip(values)
-                .collect();
-            groups.push((at, Vec::new()));
+            let names = others.iter().map(|name| (*name).clone());
+            groups.push(Group {
+                at: names.zip(values).collect(),
+                engine: row.engine,
+                law: row.law,
+                confidence: row.side.confidence,
+                knots: Vec::new(),
+            });
             groups.len() - 1
         });
-        groups[index].1.push(row);
+        groups[index].knots.extend(Knot::of(&row, face, along));
     }
     groups
 }
@@ -121,6 +137,21 @@ struct Knot {
     /// Arms of the interval below and above p.
     below: f64,
     above: f64,
+}
+
+impl Knot {
+    /// The knot of a row; `None` where it shows nothing.
+    fn of(row: &Row, face: Face, along: &str) -> Option<Self> {
+        let (x, seen) = (row.parameter(along)?, row.estimate(face));
+        let (below, above) = (seen.p - seen.lo, seen.hi - seen.p);
+        let all = [x, seen.p, below, above];
+        all.iter().all(|v| v.is_finite()).then_some(Self {
+            x,
+            p: seen.p,
+            below,
+            above,
+        })
+    }
 }
 
 /// The probability of a face over a parameter, with its band.
@@ -151,19 +182,7 @@ impl Value {
 }
 
 impl Curve {
-    fn new(rows: &[&Row], face: Face, along: &str, paired: bool) -> Self {
-        let knot = |row: &&Row| {
-            let (x, seen) = (row.parameter(along)?, row.estimate(face));
-            let (below, above) = (seen.p - seen.lo, seen.hi - seen.p);
-            let all = [x, seen.p, below, above];
-            all.iter().all(|v| v.is_finite()).then_some(Knot {
-                x,
-                p: seen.p,
-                below,
-                above,
-            })
-        };
-        let mut knots: Vec<Knot> = rows.iter().filter_map(knot).collect();
+    fn new(mut knots: Vec<Knot>, paired: bool) -> Self {
         knots.sort_by(|a, b| a.x.total_cmp(&b.x));
         knots.dedup_by(|a, b| a.x == b.x);
         Self { knots, paired }
@@ -174,14 +193,15 @@ impl Curve {
         // those that the band cannot tell from the last one
         let mut together: Vec<Crossing> = Vec::new();
         for (at, rising) in self.roots(target) {
-            if together
-                .last()
-                .is_some_and(|last| last.hi.is_some_and(|hi| hi < at))
-            {
+            let last = together.last();
+            let within = last.filter(|last| last.hi.is_none_or(|hi| at <= hi));
+            // one band holds both: among noise there may be thousands of crossings in it
+            let band = within.map(|last| (last.lo, last.hi));
+            let (lo, hi) = band.unwrap_or_else(|| {
                 crossings.extend(settle(std::mem::take(&mut together)));
-            }
-            let lo = self.end_of_band(at, target, Ordering::Less);
-            let hi = self.end_of_band(at, target, Ordering::Greater);
+                let end = |side| self.end_of_band(at, target, side);
+                (end(Ordering::Less), end(Ordering::Greater))
+            });
             together.push(Crossing { at, lo, hi, rising });
         }
         crossings.extend(settle(together));

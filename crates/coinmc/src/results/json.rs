@@ -9,9 +9,9 @@ impl Results {
     /// of objects with one entry a column of the table. A missing value is `null`.
     pub fn to_json(&self) -> Value {
         let columns = columns_of(self);
-        let points = self.rows.iter().map(|row| {
+        let points = self.rows.each().map(|row| {
             let cells = columns.iter().map(|column| {
-                let value = match column.cell(row) {
+                let value = match column.cell(&row) {
                     Cell::Count(count) => json!(count),
                     Cell::Number(number) => json!(number),
                     Cell::Text(text) => json!(text),

@@ -7,6 +7,8 @@ mod json;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod schema;
+#[cfg(feature = "parquet")]
+mod tables;
 
 pub use csv::{write_csv, write_csv_row};
 pub(crate) use estimates::integrated;
@@ -14,7 +16,10 @@ pub use fair::{FairRatio, fair_ratios, fair_values};
 #[cfg(feature = "parquet")]
 pub use parquet::{arrow_array, arrow_field, parquet_error, record_batch, write_parquet};
 pub use schema::{Cell, Column, FORMAT, Kind, columns};
+#[cfg(feature = "parquet")]
+pub(crate) use tables::{Table, write_tables};
 
+use crate::OnDemand;
 use crate::plan::{Looks, Plan, StoppedBy};
 use crate::published::Published;
 use coinmc_core::{Estimate, Face, Tally};
@@ -34,8 +39,8 @@ pub struct Results {
     pub axes: Vec<String>,
     /// Whether all points shared their random numbers: their errors are then correlated.
     pub paired: bool,
-    /// The points, in order.
-    pub rows: Vec<Row>,
+    /// The points, in order. Those of a large sweep are made when they are asked for.
+    pub rows: OnDemand<Row>,
 }
 
 /// One point.
@@ -82,7 +87,7 @@ pub struct Row {
 
 impl Results {
     /// The results of a plan.
-    pub fn new(plan: &Plan, rows: Vec<Row>) -> Self {
+    pub fn new(plan: &Plan, rows: OnDemand<Row>) -> Self {
         Self {
             plan_hash: plan.hash(),
             program_version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -120,15 +125,15 @@ impl Row {
         }
     }
 
-    fn with_confidence(
+    pub(crate) fn with_confidence(
         plan: &Plan,
         index: usize,
         tally: Tally,
         stopped_by: StoppedBy,
         at_look: f64,
     ) -> Self {
-        let point = &plan.points[index];
-        let [heads, tails, side] = estimates::estimates(plan, index, &tally, at_look);
+        let point = &*plan.points.at(index);
+        let [heads, tails, side] = estimates::estimates(plan, point, &tally, at_look);
         let tossed = point.engine.makes_tosses();
         let share = |count| estimates::of_count(plan, &tally, count, at_look);
         let has_edge = point.scene.surface.table_radius_m().is_some();
@@ -144,7 +149,7 @@ impl Row {
             side,
             same: tossed.then(|| share(tally.same)),
             left: (tossed && has_edge).then(|| share(tally.left)),
-            interval: estimates::interval_name(plan, index),
+            interval: estimates::interval_name(plan, point),
             sampling: if tossed {
                 estimates::RANDOM
             } else {

@@ -14,31 +14,70 @@ use std::io::{self, Write};
 use std::sync::Arc;
 
 /// Rows of a row group, which is the part held in memory.
-const GROUP: usize = 1 << 16;
+const GROUP: usize = 1 << 14;
 
 /// Writes the table. The same results give the same bytes: no time, host or path is in them.
 ///
 /// # Errors
 /// Those of `out`.
 pub fn write_parquet(results: &Results, out: &mut (dyn Write + Send)) -> io::Result<()> {
-    let columns = columns_of(results);
-    // in the schema for those who read Arrow's, in the file for others
-    let schema = Arc::new(schema(results, &columns));
-    let properties = WriterProperties::builder()
-        .set_created_by(format!("coinmc {}", results.program_version))
-        .set_compression(Compression::SNAPPY)
-        .set_key_value_metadata(Some(metadata(results)))
-        .build();
-    let mut writer =
-        ArrowWriter::try_new(out, Arc::clone(&schema), Some(properties)).map_err(parquet_error)?;
-    for rows in results.rows.chunks(GROUP) {
-        let batch = batch(&schema, &columns, rows).map_err(io::Error::other)?;
-        writer
-            .write(&batch)
-            .and_then(|()| writer.flush())
-            .map_err(parquet_error)?;
+    let mut table = ParquetTable::new(results, out)?;
+    for row in results.rows.each() {
+        table.push(row.into_owned())?;
     }
-    writer.close().map(drop).map_err(parquet_error)
+    table.finish()
+}
+
+/// The table, row by row.
+pub(super) struct ParquetTable<'a> {
+    writer: ArrowWriter<&'a mut (dyn Write + Send)>,
+    schema: Arc<Schema>,
+    columns: Vec<Column>,
+    group: Vec<Row>,
+}
+
+impl<'a> ParquetTable<'a> {
+    pub(super) fn new(results: &Results, out: &'a mut (dyn Write + Send)) -> io::Result<Self> {
+        let columns = columns_of(results);
+        // in the schema for those who read Arrow's, in the file for others
+        let schema = Arc::new(schema(results, &columns));
+        let properties = WriterProperties::builder()
+            .set_created_by(format!("coinmc {}", results.program_version))
+            .set_compression(Compression::SNAPPY)
+            .set_key_value_metadata(Some(metadata(results)))
+            .build();
+        let writer = ArrowWriter::try_new(out, Arc::clone(&schema), Some(properties));
+        Ok(Self {
+            writer: writer.map_err(parquet_error)?,
+            schema,
+            columns,
+            group: Vec::new(),
+        })
+    }
+
+    pub(super) fn push(&mut self, row: Row) -> io::Result<()> {
+        self.group.push(row);
+        if self.group.len() == GROUP {
+            self.write_group()?;
+        }
+        Ok(())
+    }
+
+    fn write_group(&mut self) -> io::Result<()> {
+        let batch = batch(&self.schema, &self.columns, &self.group.iter());
+        self.group.clear();
+        self.writer
+            .write(&batch.map_err(io::Error::other)?)
+            .and_then(|()| self.writer.flush())
+            .map_err(parquet_error)
+    }
+
+    pub(super) fn finish(mut self) -> io::Result<()> {
+        if !self.group.is_empty() {
+            self.write_group()?;
+        }
+        self.writer.close().map(drop).map_err(parquet_error)
+    }
 }
 
 /// The table as an Arrow record batch: the columns of the Parquet file, with the file's metadata in the
@@ -49,7 +88,7 @@ pub fn write_parquet(results: &Results, out: &mut (dyn Write + Send)) -> io::Res
 pub fn record_batch(results: &Results) -> Result<RecordBatch, ArrowError> {
     let columns = columns_of(results);
     let schema = schema(results, &columns);
-    batch(&Arc::new(schema), &columns, &results.rows)
+    batch(&Arc::new(schema), &columns, &results.rows.iter())
 }
 
 /// The schema, with what the table says of itself.
@@ -60,12 +99,14 @@ fn schema(results: &Results, columns: &[Column]) -> Schema {
     Schema::new_with_metadata(fields, entries.collect::<HashMap<_, _>>())
 }
 
-fn batch(
+fn batch<'a>(
     schema: &Arc<Schema>,
     columns: &[Column],
-    rows: &[Row],
+    rows: &(impl Iterator<Item = &'a Row> + Clone),
 ) -> Result<RecordBatch, ArrowError> {
-    let arrays = columns.iter().map(|column| array(column, rows)).collect();
+    let array =
+        |column: &Column| arrow_array(column.kind, rows.clone().map(|row| column.cell(row)));
+    let arrays = columns.iter().map(array).collect();
     RecordBatch::try_new(Arc::clone(schema), arrays)
 }
 
@@ -98,10 +139,6 @@ fn metadata(results: &Results) -> Vec<KeyValue> {
         entry("axes", &results.axes.join(",")),
         entry("config", &results.config),
     ]
-}
-
-fn array(column: &Column, rows: &[Row]) -> ArrayRef {
-    arrow_array(column.kind, rows.iter().map(|row| column.cell(row)))
 }
 
 /// The cells of a column; a cell of another kind is missing.

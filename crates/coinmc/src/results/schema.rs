@@ -351,16 +351,10 @@ pub fn columns<'a>(parameters: impl IntoIterator<Item = &'a str>) -> Vec<Column>
 
 /// The columns of these results.
 pub(crate) fn columns_of(results: &Results) -> Vec<Column> {
-    let mut names: Vec<&str> = Vec::new();
-    for row in &results.rows {
-        // nearly always the same names in the same places
-        for (index, (name, _)) in row.parameters.iter().enumerate() {
-            if names.get(index) != Some(&&**name) && !names.contains(&&**name) {
-                names.push(name);
-            }
-        }
-    }
-    columns(names)
+    // all points of a plan have the same parameters
+    let first = results.rows.each().next();
+    let first = first.as_deref().map_or(&[][..], |row| &row.parameters);
+    columns(first.iter().map(|(name, _)| &**name))
 }
 
 /// The unit that a name ends in.

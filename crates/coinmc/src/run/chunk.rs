@@ -1,12 +1,14 @@
 //! The unit of work.
 
 use super::chunk_result::{ChunkResult, Tossed, integrate_while};
-use super::{RunError, TossSource, for_some_outcomes, stream};
+use super::made::Made;
+use super::provenance::Stopwatch;
+use super::{RunError, TossSource, for_some_outcomes, pieces, stream};
 use crate::plan::{Plan, Stop};
 use coinmc_core::{EngineError, Starts, Tally};
 use std::fmt;
+use std::num::NonZeroUsize;
 use std::ops::{ControlFlow, Range};
-use std::time::Instant;
 
 /// A range of tosses of one point: the only unit of work. Threads, machines and resumed runs all
 /// compute chunks, and the counts of chunks add up to the same total however the run is divided.
@@ -44,34 +46,38 @@ pub fn run_chunk(plan: &Plan, chunk: &Chunk) -> Result<Tally, RunError> {
     Ok(run_chunk_while(plan, chunk, || true)?.unwrap_or_default())
 }
 
-/// Computes one chunk, of tosses or of an integration; `None` if `go_on`, which is called from time
-/// to time, returned false.
+/// Computes one chunk, of tosses on so many threads, or of an integration; `None` if `go_on`, which is called
+/// from time to time, returned false.
 pub(super) fn compute_chunk(
     plan: &Plan,
-    chunk: &Chunk,
-    go_on: impl Fn() -> bool,
-) -> Result<Option<ChunkResult>, RunError> {
-    if plan.integrates(chunk.point) {
+    chunk: Chunk,
+    threads: NonZeroUsize,
+    go_on: impl Fn() -> bool + Sync,
+) -> Result<Option<Made>, RunError> {
+    let done = if plan.integrates(chunk.point) {
+        let watch = Stopwatch::start();
         let found = integrate_while(plan, chunk.point, plan.goal(), go_on)?;
-        return Ok(found.map(ChunkResult::Integrated));
-    }
-    let is_timed = matches!(plan.stop, Stop::Targets(targets) if targets.is_timed());
-    let begun = Instant::now();
-    let tally = run_chunk_while(plan, chunk, go_on)?;
-    let microseconds = if is_timed {
-        u64::try_from(begun.elapsed().as_micros()).unwrap_or(u64::MAX)
+        found.map(|integral| (ChunkResult::Integrated(integral), watch.effort()))
     } else {
-        0
-    };
-    Ok(tally.map(|tally| {
-        ChunkResult::Tossed(Tossed {
-            tally,
-            microseconds,
+        let is_timed = matches!(plan.stop, Stop::Targets(targets) if targets.is_timed());
+        let done = pieces::tossed(plan, &chunk, threads, &go_on)?;
+        done.map(|(tally, effort)| {
+            let microseconds = if is_timed { effort.wall_us } else { 0 };
+            let tossed = Tossed {
+                tally,
+                microseconds,
+            };
+            (ChunkResult::Tossed(tossed), effort)
         })
+    };
+    Ok(done.map(|(result, effort)| Made {
+        chunk,
+        result,
+        effort,
     }))
 }
 
-fn run_chunk_while(
+pub(super) fn run_chunk_while(
     plan: &Plan,
     chunk: &Chunk,
     go_on: impl Fn() -> bool,
@@ -96,7 +102,7 @@ fn tally(
     chunk: &Chunk,
     go_on: impl Fn() -> bool,
 ) -> Result<Option<Tally>, EngineError> {
-    let (point, tosses) = (&plan.points[chunk.point], &chunk.tosses);
+    let (point, tosses) = (&plan.points.at(chunk.point), &chunk.tosses);
     let mut tally = Tally::default();
     if !point.engine.makes_tosses() {
         return Ok(Some(tally));

@@ -91,7 +91,7 @@ pub(super) fn integrate_while(
         return Ok(None);
     };
     let stream_point = if plan.paired { 0 } else { index as u64 };
-    let point = &plan.points[index];
+    let point = &*plan.points.at(index);
     let engine = point.build_engine().map_err(|source| RunError::Settings {
         point: index,
         source,

@@ -1,11 +1,13 @@
 //! Counts a plan in memory, without files.
 
+use super::finished::Finished;
 use super::options::one_per_core;
-use super::report::{Report, report};
-use super::schedule::{Finished, Schedule};
+use super::report::{Report, report, status};
+use super::schedule::Schedule;
 use super::{Part, ProgressSink, RunError, workers};
 use crate::plan::Plan;
 use std::num::NonZeroUsize;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 /// How to count a plan. None of it changes what is counted.
@@ -47,12 +49,14 @@ pub fn count(plan: &Plan, options: &Count<'_>) -> Result<Report, RunError> {
         cancel,
         sink,
     } = *options;
-    let schedule = Schedule::new(plan, Part::WHOLE, Finished::new());
+    let plan = Arc::new(plan.clone());
+    let schedule = Schedule::new(&plan, Part::WHOLE, Finished::default());
     sink.progress(&schedule.progress());
     // the schedule itself holds the counts
     let store = |_: &[_]| Ok(());
     let threads = one_per_core(threads);
-    let schedule = workers::execute(plan, schedule, &store, threads, cancel, sink)?;
+    let schedule = workers::execute(&plan, schedule, &store, threads, cancel, sink)?;
     sink.progress(&schedule.progress());
-    Ok(report(plan, Part::WHOLE, &schedule))
+    let status = status(Part::WHOLE, &schedule);
+    Ok(report(&plan, status, schedule))
 }

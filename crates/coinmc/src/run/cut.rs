@@ -13,11 +13,16 @@ const LEAST: u64 = 1 << 14;
 const LARGE: u64 = 1 << 17;
 /// A run of fixed length has about this many chunks before they are made larger than [`LARGE`] …
 const ENOUGH_CHUNKS: u64 = 256;
-/// … and at most this many, or one per point. Time-stepped tosses are so slow that their runs have as
-/// many from the start.
-const MOST_CHUNKS: u64 = 8192;
-/// Most chunks from a power of two of tosses to the next where points stop at targets.
+/// … and at most this many, or one per point: enough for thousands of cores.
+const MOST_CHUNKS: u64 = 1 << 16;
+/// Time-stepped tosses are so slow that their runs have as many as this from the start.
+const ENOUGH_STEPPED_CHUNKS: u64 = 8192;
+/// Chunks from a power of two of tosses to the next where points stop at targets, …
 const CHUNKS_AN_OCTAVE: u64 = 16;
+/// … until they would be larger than this, some ten seconds of work: then there are more, …
+const LARGEST: u64 = 1 << 23;
+/// … up to so many, which keep thousands of cores busy.
+const MOST_CHUNKS_AN_OCTAVE: u64 = 1 << 16;
 
 /// Tosses per chunk of a run that makes `total` tosses.
 fn fixed_size(total: u64, plan: &Plan) -> u64 {
@@ -25,9 +30,14 @@ fn fixed_size(total: u64, plan: &Plan) -> u64 {
         let size = total.div_ceil(chunks).checked_next_power_of_two();
         size.unwrap_or(1 << 63)
     };
-    let mut engines = plan.points.iter().map(|point| &point.engine);
-    let stepped = engines.any(|engine| engine.descriptor().stepped);
-    let enough = if stepped { MOST_CHUNKS } else { ENOUGH_CHUNKS };
+    // a config names one engine
+    let first = plan.points.each().next();
+    let stepped = first.is_some_and(|point| point.engine.descriptor().stepped);
+    let enough = if stepped {
+        ENOUGH_STEPPED_CHUNKS
+    } else {
+        ENOUGH_CHUNKS
+    };
     let size = of_at_most(enough).clamp(LEAST, LARGE);
     size.max(of_at_most(MOST_CHUNKS))
 }
@@ -108,6 +118,21 @@ impl Cut {
             .wrapping_add(chunk.tosses.start / size)
     }
 
+    /// Chunks of a point, if the number of tosses is fixed.
+    pub(super) fn chunks_a_point(&self) -> Option<u64> {
+        self.fixed.map(|size| self.tosses.div_ceil(size).max(1))
+    }
+
+    /// The chunk of this number, if the number of tosses is fixed and it has work.
+    pub(super) fn numbered(&self, plan: &Plan, number: u64) -> Option<Chunk> {
+        let (size, chunks_a_point) = (self.fixed?, self.chunks_a_point()?);
+        let point = usize::try_from(number / chunks_a_point).ok()?;
+        if point >= plan.points.len() || !plan.makes_tosses(point) {
+            return None;
+        }
+        self.chunk_at(point, number % chunks_a_point * size)
+    }
+
     /// Where the chunk that begins at `start` ends at the latest.
     fn end(&self, start: u64) -> u64 {
         if let Some(size) = self.fixed {
@@ -118,7 +143,8 @@ impl Cut {
         }
         // from a power of two to the next 16 chunks, or fewer that are large enough
         let octave = 1_u64 << start.ilog2();
-        let size = LEAST.max(octave / CHUNKS_AN_OCTAVE).min(octave);
+        let size = (octave / CHUNKS_AN_OCTAVE).clamp(LEAST, LARGEST);
+        let size = size.max(octave / MOST_CHUNKS_AN_OCTAVE).min(octave);
         (start - start % size).saturating_add(size)
     }
 }
@@ -205,7 +231,9 @@ mod tests {
             "half_width = 1e-6\nmax_tosses = 1_000_000_000_000",
         ));
         let chunks = cut.chunks(0, 0..1_000_000_000_000).count() as u64;
-        assert!(chunks <= 30 * CHUNKS_AN_OCTAVE);
+        assert!(chunks <= 1_000_000_000_000 / LARGEST + 30 * CHUNKS_AN_OCTAVE);
+        let most = Cut::new(&plan(2, "half_width = 1e-6\nmax_tosses = 1e15"));
+        assert_eq!(most.end(1 << 49), (1 << 49) + (1 << 33));
     }
 
     #[test]
@@ -218,7 +246,8 @@ mod tests {
             (5_000_000, 1 << 16),
             (50_000_000, 1 << 17),
             (1 << 29, 1 << 17),
-            ((1 << 29) + 1, 1 << 18),
+            (1 << 32, 1 << 17),
+            ((1 << 32) + 1, 1 << 18),
         ] {
             assert_eq!(size(tosses_a_point), expected, "{tosses_a_point}");
         }

@@ -1,13 +1,11 @@
-//! What can be wrong with the file of a finished chunk.
+//! What can be wrong with the tally of a finished chunk.
 
 use thiserror::Error;
 
-/// Why the file of a finished chunk is rejected.
+/// Why the tally of a finished chunk is rejected.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub(super) enum Damage {
-    #[error("it is not a regular file")]
-    NotAFile,
-    #[error("it is longer than any tally file")]
+    #[error("it is longer than any tally")]
     TooLong,
     #[error("its checksum does not match")]
     Checksum,
@@ -15,9 +13,9 @@ pub(super) enum Damage {
     Version,
     #[error("it belongs to another plan")]
     OtherPlan,
-    #[error("it holds another chunk than its name says")]
+    #[error("it holds another chunk than the plan has there")]
     OtherChunk,
-    #[error("the plan has no chunk of that name")]
+    #[error("the plan has no such chunk")]
     NoSuchChunk,
     #[error("its counts are impossible")]
     Counts,

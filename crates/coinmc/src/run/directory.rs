@@ -1,13 +1,18 @@
 //! The run directory: locked by one process, which starts a run in it or resumes the one it holds.
 
 use super::cut::Cut;
+use super::finished::Finished;
+use super::made::Made;
 use super::manifest::{self, Manifest};
+use super::packed::Packed;
+use super::provenance::{self, Log, Maker};
 use super::replace::{self, Replacement};
-use super::schedule::Finished;
-use super::tallies::{self, Entry, Tallies};
+use super::tallies::{Entry, Tallies};
 use super::{Part, ProgressSink, RunError};
 use crate::plan::Plan;
 use crate::results::{Results, write_csv};
+#[cfg(feature = "parquet")]
+use crate::results::{Table, write_tables};
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -30,6 +35,7 @@ const PARTIAL: &str = "results.partial.csv";
 pub(super) struct RunDirectory {
     path: PathBuf,
     tallies: Tallies,
+    provenance: Log,
     /// The system releases it when the process ends, even by a kill.
     _lock: File,
 }
@@ -75,12 +81,17 @@ impl RunDirectory {
             ours.write(path)?;
         }
         write_config(path, plan, sink)?;
-        make_tally_directory(path)?;
+        must_be_file(path, Tallies::FILE)?;
+        must_be_file(path, provenance::FILE)?;
+        for file in [Tallies::FILE, Tallies::REJECTED] {
+            replace::remove_leftover(&path.join(file))?;
+        }
         replace::sync_directory(path)?;
         let tallies = Tallies::of(path, ours.plan_hash);
         Ok(Self {
             path: path.to_owned(),
             tallies,
+            provenance: Log::of(path),
             _lock: lock,
         })
     }
@@ -89,51 +100,69 @@ impl RunDirectory {
         &self.tallies
     }
 
-    /// The chunks that an earlier run finished. Removes its temporary files, and renames files that
-    /// are rejected.
+    pub(super) fn provenance(&self) -> &Log {
+        &self.provenance
+    }
+
+    /// Stores chunks that one maker made.
+    pub(super) fn store(&self, maker: &Maker, batch: &[Made]) -> Result<(), RunError> {
+        // before the tallies: a chunk that counts has a maker
+        let entries: Vec<_> = batch.iter().map(Made::entry).collect();
+        self.provenance.add(maker, &entries)?;
+        self.tallies
+            .store(batch.iter().map(|made| (&made.chunk, &made.result)))
+    }
+
+    /// The chunks that an earlier run finished. Cuts off what a killed run did not finish writing, and sets
+    /// aside what is rejected.
     pub(super) fn finished(
         &self,
         plan: &Plan,
         sink: &dyn ProgressSink,
     ) -> Result<Finished, RunError> {
-        let mut finished = Finished::new();
+        let (mut finished, mut rejected, mut end) = (Vec::new(), Vec::new(), None);
         self.tallies.scan(plan, &Cut::new(plan), |entry| {
             match entry {
-                Entry::Finished(chunk, result) => {
-                    finished.insert((chunk.point, chunk.tosses.start), *result);
-                }
-                Entry::Leftover(path) => replace::remove(&path)?,
-                Entry::Damaged(path, damage) => {
-                    let aside = tallies::reject(&path)?;
+                Entry::Finished(chunk, result) => finished.push((chunk, Packed::from(&*result))),
+                Entry::Torn(place) => end = Some(place.start),
+                Entry::Damaged(damage, place) => {
                     sink.warning(&format!(
-                        "{} is rejected: {damage}. Its tosses are repeated; the file is now {}",
-                        path.display(),
-                        aside.display()
+                        "{}, bytes {} to {}: a tally is rejected: {damage}. Its tosses are repeated; it \
+                         is now in {}",
+                        self.tallies.path().display(),
+                        place.start,
+                        place.end,
+                        Tallies::REJECTED,
                     ));
+                    rejected.push(place);
                 }
             }
             Ok(())
         })?;
-        Ok(finished)
+        if let Some(end) = end {
+            self.tallies.cut_at(end)?;
+        }
+        if !rejected.is_empty() {
+            self.tallies.put_in_order(&rejected, &[])?;
+        }
+        Ok(Finished::new(finished))
     }
 
-    /// Renames tallies, given by point and first toss, that the finished run did not need.
-    pub(super) fn set_aside(
+    /// Brings the tallies of a finished run into order, and sets aside those, given by point and first
+    /// toss, that it did not need.
+    pub(super) fn put_in_order(
         &self,
         unneeded: &[(usize, u64)],
         sink: &dyn ProgressSink,
     ) -> Result<(), RunError> {
-        for &(point, start) in unneeded {
-            let path = self.tallies.place(point, start);
-            if replace::is_file(&path) {
-                let aside = tallies::reject(&path)?;
-                let (path, aside) = (path.display(), aside.display());
-                sink.warning(&format!(
-                    "{path} does not belong to this run; the file is now {aside}"
-                ));
-            }
+        for (point, start) in unneeded {
+            sink.warning(&format!(
+                "{}: the tally of point {point} from toss {start} does not belong to this run; it is now in {}",
+                self.tallies.path().display(),
+                Tallies::REJECTED,
+            ));
         }
-        Ok(())
+        self.tallies.put_in_order(&[], unneeded)
     }
 
     /// Writes the results of a finished run.
@@ -143,12 +172,30 @@ impl RunDirectory {
         sink: &dyn ProgressSink,
     ) -> Result<(), RunError> {
         replace::remove(&self.path.join(PARTIAL))?;
-        #[cfg(feature = "parquet")]
-        self.write(PARQUET, sink, |file| {
-            crate::results::write_parquet(results, file)
-        })?;
-        self.write(CSV, sink, |file| write_csv(results, file))?;
+        self.write_tables(results, sink)?;
         replace::sync_directory(&self.path)
+    }
+
+    #[cfg(feature = "parquet")]
+    fn write_tables(&self, results: &Results, sink: &dyn ProgressSink) -> Result<(), RunError> {
+        let mut parquet = Replacement::begin(&self.path.join(PARQUET))?;
+        let mut csv = Replacement::begin(&self.path.join(CSV))?;
+        // both at once, as each row takes a while to compute
+        let written = write_tables(results, &mut parquet.writer(), &mut csv.writer());
+        written.map_err(|(table, error)| match table {
+            Table::Parquet => parquet.error(error),
+            Table::Csv => csv.error(error),
+        })?;
+        self.finish(parquet, PARQUET, sink)?;
+        self.finish(csv, CSV, sink)
+    }
+
+    #[cfg(not(feature = "parquet"))]
+    fn write_tables(&self, results: &Results, sink: &dyn ProgressSink) -> Result<(), RunError> {
+        let mut csv = Replacement::begin(&self.path.join(CSV))?;
+        let written = write_csv(results, &mut csv.writer());
+        written.map_err(|error| csv.error(error))?;
+        self.finish(csv, CSV, sink)
     }
 
     /// Writes the results of an unfinished run.
@@ -159,20 +206,16 @@ impl RunDirectory {
         file.finish()
     }
 
-    fn write(
+    fn finish(
         &self,
+        file: Replacement,
         name: &str,
         sink: &dyn ProgressSink,
-        content: impl FnOnce(&mut (dyn io::Write + Send)) -> io::Result<()>,
     ) -> Result<(), RunError> {
-        let path = self.path.join(name);
-        let mut file = Replacement::begin(&path)?;
-        let written = content(&mut file.writer());
-        written.map_err(|error| file.error(error))?;
         if file.finish_if_new()? {
-            let path = path.display();
             sink.warning(&format!(
-                "{path} did not match the tallies and was replaced"
+                "{} did not match the tallies and was replaced",
+                self.path.join(name).display()
             ));
         }
         Ok(())
@@ -217,15 +260,20 @@ fn must_be_usable(path: &Path, ours: &Manifest) -> Result<Option<Manifest>, RunE
     Ok(None)
 }
 
-fn lock(dir: &Path) -> Result<File, RunError> {
-    let path = dir.join(LOCK);
-    if fs::symlink_metadata(&path).is_ok_and(|metadata| !metadata.is_file()) {
-        let found = format!("a {LOCK} that is not a file");
+/// Checks that what has this name, if anything has, is a file and not a link to one.
+fn must_be_file(dir: &Path, name: &str) -> Result<(), RunError> {
+    if fs::symlink_metadata(dir.join(name)).is_ok_and(|metadata| !metadata.is_file()) {
         return Err(RunError::NotARunDirectory {
             dir: dir.to_owned(),
-            found,
+            found: format!("a {name} that is not a file"),
         });
     }
+    Ok(())
+}
+
+fn lock(dir: &Path) -> Result<File, RunError> {
+    must_be_file(dir, LOCK)?;
+    let path = dir.join(LOCK);
     let file = OpenOptions::new()
         .write(true)
         .create(true)
@@ -271,19 +319,4 @@ fn write_config(dir: &Path, plan: &Plan, sink: &dyn ProgressSink) -> Result<(), 
         ));
     }
     replace::replace(&path, ours)
-}
-
-fn make_tally_directory(dir: &Path) -> Result<(), RunError> {
-    let path = dir.join(Tallies::DIRECTORY);
-    match fs::symlink_metadata(&path) {
-        Ok(metadata) if metadata.is_dir() => Ok(()),
-        Ok(_) => Err(RunError::NotARunDirectory {
-            dir: dir.to_owned(),
-            found: format!("{} that is not a directory", Tallies::DIRECTORY),
-        }),
-        Err(_) => {
-            fs::create_dir(&path).map_err(|error| RunError::io("create", &path, error))?;
-            replace::sync_directory(dir)
-        }
-    }
 }

@@ -1,6 +1,6 @@
 //! Why a run stopped, and what to do about it.
 
-use super::{Chunk, Part};
+use super::{Chunk, Missing, Part};
 use coinmc_core::EngineError;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -98,6 +98,20 @@ pub enum RunError {
         /// The newest format that this program can read.
         known: u64,
     },
+    /// A file has a format of an older program that this one does not read.
+    #[error(
+        "{} has format {found}, this program reads {known}: finish or read it with the coinmc that \
+         began it, or choose another directory",
+        path.display()
+    )]
+    OlderFormat {
+        /// The file.
+        path: PathBuf,
+        /// Its format.
+        found: u64,
+        /// The format that this program reads.
+        known: u64,
+    },
     /// The manifest cannot be read.
     #[error(
         "{} is damaged ({reason}): restore it, or move the directory away and run again",
@@ -156,12 +170,13 @@ pub enum RunError {
         dir: PathBuf,
     },
     /// Some chunks are in none of the parts.
-    #[error("{} in none of the parts: {}", number(*total), list(missing, *total))]
-    Missing {
-        /// The first missing chunks, with adjacent ones joined.
-        missing: Vec<Chunk>,
-        /// The number of missing chunks.
-        total: u64,
+    #[error("{0}")]
+    Missing(Missing),
+    /// The result of a chunk that another process computed cannot be used.
+    #[error("the result of a chunk cannot be used: {reason}")]
+    BadResult {
+        /// What is wrong with it.
+        reason: String,
     },
     /// Two parts count the same tosses differently.
     #[error(
@@ -192,23 +207,4 @@ impl RunError {
             },
         }
     }
-}
-
-fn number(chunks: u64) -> String {
-    match chunks {
-        1 => "1 chunk is".to_owned(),
-        _ => format!("{chunks} chunks are"),
-    }
-}
-
-fn list(missing: &[Chunk], total: u64) -> String {
-    let mut text = missing
-        .iter()
-        .map(Chunk::to_string)
-        .collect::<Vec<_>>()
-        .join("; ");
-    if missing.len() < usize::try_from(total).unwrap_or(usize::MAX) {
-        text.push_str("; …");
-    }
-    text
 }

@@ -38,6 +38,9 @@ pub fn stored_chunks(dir: &Path, plan: &Plan) -> Result<Vec<(Chunk, Tally)>, Run
         }
         Ok(())
     })?;
-    chunks.sort_unstable_by_key(|(chunk, _)| (chunk.point, chunk.tosses.start));
+    let place = |(chunk, _): &(Chunk, Tally)| (chunk.point, chunk.tosses.start);
+    // stable: of a chunk that occurs twice the first counts
+    chunks.sort_by_key(place);
+    chunks.dedup_by_key(|chunk| place(chunk));
     Ok(chunks)
 }

@@ -2,10 +2,12 @@
 
 use super::directory::RunDirectory;
 use super::options::{Options, one_per_core};
-use super::report::{Report, Status, report};
+use super::provenance::Maker;
+use super::report::{Report, Status, report, status};
 use super::schedule::Schedule;
 use super::{Part, ProgressSink, RunError, workers};
 use crate::plan::{Plan, Stop};
+use std::sync::Arc;
 
 /// Runs a plan in a run directory, or resumes the run that the directory holds.
 ///
@@ -27,32 +29,39 @@ pub fn run(plan: &Plan, options: &Options<'_>) -> Result<Report, RunError> {
         sink,
     } = *options;
     let directory = RunDirectory::open(out, plan, part, build, sink)?;
-    let schedule = Schedule::new(plan, part, directory.finished(plan, sink)?);
+    let plan = Arc::new(plan.clone());
+    let schedule = Schedule::new(&plan, part, directory.finished(&plan, sink)?);
     sink.progress(&schedule.progress());
-    let store = |batch: &[_]| directory.tallies().store(batch);
+    let maker = Maker::this(&plan, build);
+    let store = |batch: &[_]| directory.store(&maker, batch);
     let threads = one_per_core(threads);
-    let schedule = workers::execute(plan, schedule, &store, threads, cancel, sink)?;
-    conclude(plan, part, schedule, &directory, sink)
+    let schedule = workers::execute(&plan, schedule, &store, threads, cancel, sink)?;
+    conclude(&plan, part, schedule, &directory, sink)
 }
 
 /// Writes the results of a schedule and reports them.
 pub(super) fn conclude(
-    plan: &Plan,
+    plan: &Arc<Plan>,
     part: Part,
-    mut schedule: Schedule<'_>,
+    mut schedule: Schedule,
     directory: &RunDirectory,
     sink: &dyn ProgressSink,
 ) -> Result<Report, RunError> {
-    let mut report = report(plan, part, &schedule);
-    match report.status {
+    let status = status(part, &schedule);
+    match status {
         Status::Complete | Status::ShortOfTarget { .. } => {
-            directory.set_aside(&schedule.take_unneeded(), sink)?;
+            directory.put_in_order(&schedule.take_unneeded(), sink)?;
+        }
+        Status::Part => directory.put_in_order(&[], sink)?,
+        Status::Interrupted => {}
+    }
+    sink.progress(&schedule.progress());
+    let report = report(plan, status, schedule);
+    match status {
+        Status::Complete | Status::ShortOfTarget { .. } => {
             directory.write_results(&report.results, sink)?;
         }
         Status::Interrupted | Status::Part => directory.write_partial(&report.results)?,
     }
-    let progress = schedule.progress();
-    sink.progress(&progress);
-    (report.reused_chunks, report.tosses) = (progress.reused_chunks, progress.tosses_done);
     Ok(report)
 }

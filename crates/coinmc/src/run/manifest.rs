@@ -1,5 +1,6 @@
 //! `manifest.json`: identifies the run in a directory.
 
+use super::provenance::target;
 use super::{Part, RunError, replace};
 use crate::plan::Plan;
 use serde::{Deserialize, Serialize};
@@ -8,7 +9,7 @@ use std::io;
 use std::path::Path;
 
 /// Version of the run directory's format.
-pub(super) const FORMAT: u64 = 1;
+pub(super) const FORMAT: u64 = 2;
 pub(super) const FILE: &str = "manifest.json";
 /// Largest manifest that is read, bytes.
 const MAX_BYTES: usize = 64 << 10;
@@ -37,10 +38,9 @@ struct AnyFormat {
 
 impl Manifest {
     pub(super) fn new(plan: &Plan, part: Part) -> Self {
-        let engines = plan
-            .points
-            .iter()
-            .map(|point| point.engine.name().to_owned());
+        // a config names one engine
+        let engines = (0..plan.points.len().min(1)).map(|first| plan.points.at(first));
+        let engines = engines.map(|point| point.engine.name().to_owned());
         Self {
             format: FORMAT,
             plan_hash: plan.hash(),
@@ -69,6 +69,13 @@ impl Manifest {
             serde_json::from_slice(&bytes).map_err(|e| bad(e.to_string()))?;
         if format > FORMAT {
             return Err(RunError::NewerFormat {
+                path,
+                found: format,
+                known: FORMAT,
+            });
+        }
+        if format < FORMAT {
+            return Err(RunError::OlderFormat {
                 path,
                 found: format,
                 known: FORMAT,
@@ -128,7 +135,7 @@ impl Manifest {
         ))
     }
 
-    fn part(&self, dir: &Path) -> Result<Part, RunError> {
+    pub(super) fn part(&self, dir: &Path) -> Result<Part, RunError> {
         let path = dir.join(FILE);
         self.part.parse().map_err(|e| RunError::BadManifest {
             path,
@@ -140,25 +147,4 @@ impl Manifest {
 fn listed(builds: &BTreeSet<String>) -> String {
     let builds: Vec<&str> = builds.iter().map(String::as_str).collect();
     builds.join(", ")
-}
-
-/// The kind of this machine and the vector instructions that this program was compiled for.
-fn target() -> String {
-    let features = [
-        ("sse4.2", cfg!(target_feature = "sse4.2")),
-        ("avx2", cfg!(target_feature = "avx2")),
-        ("fma", cfg!(target_feature = "fma")),
-        ("avx512f", cfg!(target_feature = "avx512f")),
-        ("neon", cfg!(target_feature = "neon")),
-    ];
-    let features = features
-        .iter()
-        .filter(|(_, used)| *used)
-        .map(|(name, _)| format!("+{name}"));
-    format!(
-        "{}-{}{}",
-        std::env::consts::ARCH,
-        std::env::consts::OS,
-        features.collect::<String>()
-    )
 }

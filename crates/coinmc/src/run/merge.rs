@@ -3,20 +3,21 @@
 use super::chunk_result::ChunkResult;
 use super::cut::Cut;
 use super::directory::RunDirectory;
+use super::finished::Finished;
 use super::in_directory::conclude;
 use super::manifest::Manifest;
-use super::schedule::{Finished, Next, Schedule};
+use super::missing::{Missing, what_is_missing};
+use super::packed::Packed;
+use super::provenance::Records;
+use super::schedule::Schedule;
 use super::stored::{read_manifest, read_plan};
 use super::tallies::{Entry, Tallies};
 use super::{Chunk, Part, ProgressSink, Report, RunError};
 use crate::plan::Plan;
-use std::collections::hash_map::Entry as Slot;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
-
-/// Most missing chunks that an error message names.
-const NAMED: usize = 20;
+use std::sync::Arc;
 
 /// Merges the parts of a run into a new run directory, byte-identical to that of the whole run. The
 /// parts are only read; they may overlap where they agree.
@@ -28,38 +29,92 @@ const NAMED: usize = 20;
 /// disagree, [`RunError::OtherPlan`] or [`RunError::OtherVersion`] if they are not of one run, and
 /// what [`run`](super::run) says about a directory it cannot use.
 pub fn merge(inputs: &[PathBuf], out: &Path, sink: &dyn ProgressSink) -> Result<Report, RunError> {
-    let first = inputs.first().ok_or(RunError::NothingToMerge)?;
-    let plan = read_plan(first)?;
-    let mut ours = Manifest {
-        targets: BTreeSet::new(),
-        ..Manifest::new(&plan, Part::WHOLE)
-    };
     for input in inputs {
         must_differ(input, out)?;
-        let theirs = read_manifest(input)?;
-        theirs.must_be_same_run(&ours, input)?;
-        ours.targets.extend(theirs.targets);
-        ours.builds.extend(theirs.builds);
     }
-    let collected = collect(&plan, &ours.plan_hash, inputs, sink)?;
-    must_be_whole(
-        &plan,
-        collected
-            .iter()
-            .map(|(key, found)| (*key, found.result))
-            .collect(),
-    )?;
-    write(&plan, ours, collected, inputs, out, sink)
+    let Gathered {
+        plan,
+        manifest,
+        parts,
+        found,
+    } = Gathered::from(inputs, sink)?;
+    let mut schedule = Schedule::new(&plan, Part::WHOLE, finished(&found));
+    if let Some(missing) = what_is_missing(&plan, &mut schedule, &parts) {
+        return Err(RunError::Missing(missing));
+    }
+    let directory = RunDirectory::open_with(out, &plan, manifest, sink)?;
+    store(&plan, found, &directory, inputs, out, sink)?;
+    conclude(&plan, Part::WHOLE, schedule, &directory, sink)
+}
+
+/// What run directories of one run lack together; `None` if nothing. They are only read, and may still be
+/// worked on. Of a run that stops at targets only what is known to be needed is missing.
+///
+/// # Errors
+/// Those of [`merge`] but [`RunError::Missing`].
+pub fn missing(inputs: &[PathBuf], sink: &dyn ProgressSink) -> Result<Option<Missing>, RunError> {
+    let gathered = Gathered::from(inputs, sink)?;
+    let finished = finished(&gathered.found);
+    let mut schedule = Schedule::new(&gathered.plan, Part::WHOLE, finished);
+    Ok(what_is_missing(
+        &gathered.plan,
+        &mut schedule,
+        &gathered.parts,
+    ))
+}
+
+/// What the parts of a run hold.
+struct Gathered {
+    plan: Arc<Plan>,
+    /// Of the merged run.
+    manifest: Manifest,
+    parts: Vec<Part>,
+    found: Vec<Found>,
+}
+
+impl Gathered {
+    fn from(inputs: &[PathBuf], sink: &dyn ProgressSink) -> Result<Self, RunError> {
+        let first = inputs.first().ok_or(RunError::NothingToMerge)?;
+        let plan = Arc::new(read_plan(first)?);
+        let mut manifest = Manifest {
+            targets: BTreeSet::new(),
+            ..Manifest::new(&plan, Part::WHOLE)
+        };
+        let mut parts = Vec::new();
+        for input in inputs {
+            let theirs = read_manifest(input)?;
+            theirs.must_be_same_run(&manifest, input)?;
+            parts.push(theirs.part(input)?);
+            manifest.targets.extend(theirs.targets);
+            manifest.builds.extend(theirs.builds);
+        }
+        let found = collect(&plan, &manifest.plan_hash, inputs, sink)?;
+        Ok(Self {
+            plan,
+            manifest,
+            parts,
+            found,
+        })
+    }
+}
+
+fn finished(found: &[Found]) -> Finished {
+    let results = found.iter();
+    Finished::new(results.map(|found| (found.chunk.clone(), found.result.clone())))
 }
 
 /// The result of a chunk and the run directory it came from.
 struct Found {
     chunk: Chunk,
-    result: ChunkResult,
+    result: Packed,
     input: usize,
 }
 
-type Collected = HashMap<(usize, u64), Found>;
+impl Found {
+    fn key(&self) -> (usize, u64) {
+        (self.chunk.point, self.chunk.tosses.start)
+    }
+}
 
 fn must_differ(input: &Path, out: &Path) -> Result<(), RunError> {
     match (fs::canonicalize(input), fs::canonicalize(out)) {
@@ -70,105 +125,108 @@ fn must_differ(input: &Path, out: &Path) -> Result<(), RunError> {
     }
 }
 
+/// All chunks of the parts, each once, in the order of points and tosses.
 fn collect(
     plan: &Plan,
     plan_hash: &str,
     inputs: &[PathBuf],
     sink: &dyn ProgressSink,
-) -> Result<Collected, RunError> {
+) -> Result<Vec<Found>, RunError> {
     let cut = Cut::new(plan);
-    let mut collected = Collected::new();
+    let mut collected = Vec::new();
     for (input, dir) in inputs.iter().enumerate() {
-        Tallies::of(dir, plan_hash.to_owned()).scan(plan, &cut, |entry| match entry {
-            Entry::Finished(chunk, result) => {
-                let result = *result;
-                match collected.entry((chunk.point, chunk.tosses.start)) {
-                    Slot::Occupied(there) if there.get().result != result => {
-                        let first = inputs[there.get().input].clone();
-                        return Err(RunError::Conflict {
-                            chunk,
-                            first,
-                            second: dir.clone(),
-                        });
-                    }
-                    Slot::Occupied(_) => {}
-                    Slot::Vacant(free) => {
-                        free.insert(Found {
-                            chunk,
-                            result,
-                            input,
-                        });
-                    }
-                }
-                Ok(())
+        let tallies = Tallies::of(dir, plan_hash.to_owned());
+        tallies.scan(plan, &cut, |entry| {
+            match entry {
+                Entry::Finished(chunk, result) => collected.push(Found {
+                    chunk,
+                    result: Packed::from(&*result),
+                    input,
+                }),
+                Entry::Damaged(damage, place) => sink.warning(&format!(
+                    "{}, bytes {} to {}: a tally is rejected: {damage}",
+                    tallies.path().display(),
+                    place.start,
+                    place.end
+                )),
+                Entry::Torn(_) => {}
             }
-            Entry::Damaged(path, damage) => {
-                sink.warning(&format!("{} is rejected: {damage}", path.display()));
-                Ok(())
-            }
-            Entry::Leftover(_) => Ok(()),
+            Ok(())
         })?;
     }
+    collected.sort_by_key(Found::key);
+    let disagree = |pair: &&[Found]| {
+        let [first, second] = pair else { return false };
+        first.key() == second.key() && first.result != second.result
+    };
+    if let Some([first, second]) = collected.windows(2).find(disagree) {
+        return Err(RunError::Conflict {
+            chunk: first.chunk.clone(),
+            first: inputs[first.input].clone(),
+            second: inputs[second.input].clone(),
+        });
+    }
+    collected.dedup_by_key(|found| found.key());
     Ok(collected)
 }
 
-/// Schedules the run with the collected results: a chunk that the schedule still hands out is
-/// missing.
-fn must_be_whole(plan: &Plan, finished: Finished) -> Result<(), RunError> {
-    let mut schedule = Schedule::new(plan, Part::WHOLE, finished);
-    let (mut missing, mut total) = (Vec::<Chunk>::new(), 0);
-    while let Next::Chunk(chunk) = schedule.next() {
-        total += 1;
-        let room = missing.len() < NAMED;
-        match missing.last_mut() {
-            Some(last) if last.point == chunk.point && last.tosses.end == chunk.tosses.start => {
-                last.tosses.end = chunk.tosses.end;
-            }
-            _ if room => missing.push(chunk),
-            _ => {}
-        }
-    }
-    if total == 0 {
-        Ok(())
-    } else {
-        Err(RunError::Missing { missing, total })
-    }
-}
-
-fn write(
+/// Adds to a run directory what it does not hold.
+fn store(
     plan: &Plan,
-    manifest: Manifest,
-    collected: Collected,
+    collected: Vec<Found>,
+    directory: &RunDirectory,
     inputs: &[PathBuf],
     out: &Path,
     sink: &dyn ProgressSink,
-) -> Result<Report, RunError> {
+) -> Result<(), RunError> {
     /// Tallies stored at once.
-    const BATCH: usize = 256;
-    let directory = RunDirectory::open_with(out, plan, manifest, sink)?;
-    let existing = directory.finished(plan, sink)?;
+    const BATCH: usize = 4096;
+    let mut existing = directory.finished(plan, sink)?;
     let mut new = Vec::new();
-    for (key, found) in &collected {
-        match existing.get(key) {
-            Some(result) if *result != found.result => {
+    for found in collected {
+        match existing.take(found.chunk.point, found.chunk.tosses.start) {
+            Some(there) if there != ChunkResult::from(&found.result) => {
                 return Err(RunError::Conflict {
-                    chunk: found.chunk.clone(),
+                    chunk: found.chunk,
                     first: inputs[found.input].clone(),
                     second: out.to_owned(),
                 });
             }
             Some(_) => {}
-            None => new.push((found.chunk.clone(), found.result)),
+            None => new.push(found),
         }
     }
-    new.chunks(BATCH)
-        .try_for_each(|batch| directory.tallies().store(batch))?;
-    let finished = collected
-        .into_iter()
-        .map(|(key, found)| (key, found.result))
-        .collect();
-    let mut schedule = Schedule::new(plan, Part::WHOLE, finished);
-    let whole = schedule.next();
-    assert_eq!(whole, Next::Done, "checked before");
-    conclude(plan, Part::WHOLE, schedule, &directory, sink)
+    // before the tallies: a chunk that counts has a maker
+    let mut by_input = vec![Vec::new(); inputs.len()];
+    for found in &new {
+        by_input[found.input].push(&found.chunk);
+    }
+    for (input, chunks) in inputs.iter().zip(by_input) {
+        copy_provenance(input, &chunks, directory)?;
+    }
+    for batch in new.chunks(BATCH) {
+        let results: Vec<_> = batch.iter().map(|found| (&found.result).into()).collect();
+        let chunks = batch.iter().map(|found| &found.chunk);
+        directory.tallies().store(chunks.zip(&results))?;
+    }
+    Ok(())
+}
+
+/// Adds what a part records of chunks that come from it.
+fn copy_provenance(
+    input: &Path,
+    chunks: &[&Chunk],
+    directory: &RunDirectory,
+) -> Result<(), RunError> {
+    let records = Records::read(input)?;
+    let mut entries = vec![Vec::new(); records.makers().len()];
+    for chunk in chunks {
+        if let Some((entry, maker)) = records.find(chunk.point, chunk.tosses.start) {
+            entries[maker].push(*entry);
+        }
+    }
+    for (maker, entries) in records.makers().iter().zip(entries) {
+        directory.provenance().add(maker, &entries)?;
+    }
+    Ok(())
 }

@@ -2,7 +2,7 @@
 //! finish.
 //!
 //! ```text
-//! Plan ──cut──▶ chunks ──workers──▶ tallies/*.tally ──▶ results.csv, results.parquet
+//! Plan ──cut──▶ chunks ──workers──▶ tallies.txt ──▶ results.csv, results.parquet
 //!                           ▲             │
 //!                           └── a later run resumes from them
 //! ```
@@ -31,6 +31,8 @@
 //! # }
 //! ```
 
+mod append;
+mod blocks;
 mod chunk;
 mod chunk_result;
 mod count;
@@ -39,23 +41,32 @@ mod damage;
 mod directory;
 mod each;
 mod error;
+mod finished;
 mod history;
 mod in_directory;
-mod integral_file;
+mod integral_text;
+mod made;
 mod manifest;
 mod merge;
+mod missing;
 mod options;
+mod packed;
 mod part;
+mod pieces;
 mod point_state;
 mod progress;
+mod provenance;
+mod remote;
 mod replace;
 mod report;
 mod schedule;
 mod sealed;
+mod session;
 mod shares;
+mod states;
 mod stored;
 mod tallies;
-mod tally_file;
+mod tally_text;
 mod toss;
 mod workers;
 
@@ -67,10 +78,14 @@ pub use each::{FinishedToss, TossSource, for_each_end, for_each_outcome};
 pub use error::RunError;
 pub use history::stored_chunks;
 pub use in_directory::run;
-pub use merge::merge;
+pub use merge::{merge, missing};
+pub use missing::Missing;
 pub use options::Options;
 pub use part::{Part, PartError};
 pub use progress::{Progress, ProgressSink};
+pub use provenance::{Contribution, Maker, Provenance, provenance};
+pub use remote::{chunk_text, chunk_with_note, chunks, numbered_chunk, text_of_tally};
 pub use report::{Report, Status};
+pub use session::{Delivery, Session, Step};
 pub use stored::{stored_plan, stored_report};
 pub use toss::{stream, toss};

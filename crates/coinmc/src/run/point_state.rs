@@ -1,6 +1,7 @@
 //! How far a point has come.
 
 use super::chunk_result::Tossed;
+use super::packed::Counted;
 use crate::plan::{Looks, Plan, StoppedBy, Verdict};
 use coinmc_core::{Estimate, Face, IntervalMethod, Tally};
 use coinmc_quadrature::Integral;
@@ -34,6 +35,8 @@ pub(super) struct PointState {
     pub(super) handed_out: bool,
     /// The widest arm of an interval.
     pub(super) half_width: f64,
+    /// Whether any toss was made.
+    pub(super) is_seen: bool,
     /// Tosses that the point is expected to need.
     pub(super) forecast: u64,
 }
@@ -52,6 +55,7 @@ impl PointState {
             outstanding: 0,
             handed_out: false,
             half_width: 0.0,
+            is_seen: false,
             forecast: 0,
         }
     }
@@ -69,6 +73,17 @@ impl PointState {
         *of_stage = sum;
         self.microseconds = self.microseconds.saturating_add(tossed.microseconds);
         true
+    }
+
+    /// What its row is made of.
+    pub(super) fn counted(&self) -> Counted {
+        let after_pilot = self.looks.as_ref().filter(|looks| !looks.is_pilot());
+        Counted {
+            tally: *self.shown(),
+            integral: self.integral,
+            look: after_pilot.map(|looks| (looks.pilot(), looks.confidence())),
+            stopped_by: self.stopped_by,
+        }
     }
 
     /// Whether the pilot has not ended.

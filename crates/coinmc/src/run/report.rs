@@ -1,9 +1,13 @@
 //! What a run reports at its end.
 
 use super::Part;
+use super::packed::Counted;
 use super::schedule::Schedule;
+use super::states::States;
+use crate::OnDemand;
 use crate::plan::Plan;
 use crate::results::{Results, Row};
+use std::sync::Arc;
 
 /// The outcome of a run.
 #[derive(Debug, Clone)]
@@ -35,41 +39,48 @@ pub enum Status {
 }
 
 /// The report of a schedule.
-pub(super) fn report(plan: &Plan, part: Part, schedule: &Schedule<'_>) -> Report {
-    let points = schedule.points().iter().enumerate();
-    let rows = points
-        .map(|(i, point)| match &point.integral {
-            Some(integral) => Row::integrated(plan, i, integral, point.stopped_by),
-            None => match &point.looks {
-                Some(looks) if !looks.is_pilot() => {
-                    Row::at_look(plan, i, point.tally, point.stopped_by, looks)
-                }
-                _ => Row::new(plan, i, *point.shown(), point.stopped_by),
-            },
-        })
-        .collect();
+pub(super) fn report(plan: &Arc<Plan>, status: Status, schedule: Schedule) -> Report {
     let progress = schedule.progress();
+    let (states, of) = (schedule.into_states(), Arc::clone(plan));
+    let rows = OnDemand::made(states.len(), move |point| row(&of, point, &states));
     Report {
         results: Results::new(plan, rows),
-        status: status(part, schedule),
+        status,
         reused_chunks: progress.reused_chunks,
         tosses: progress.tosses_done,
     }
 }
 
-fn status(part: Part, schedule: &Schedule<'_>) -> Status {
+fn row(plan: &Plan, point: usize, states: &States) -> Row {
+    let Counted {
+        tally,
+        integral,
+        look,
+        stopped_by,
+    } = states.counted(point);
+    match (integral, look) {
+        (Some(integral), _) => Row::integrated(plan, point, &integral, stopped_by),
+        (None, Some((pilot_tosses, confidence))) => Row {
+            pilot_tosses,
+            ..Row::with_confidence(plan, point, tally, stopped_by, confidence)
+        },
+        (None, None) => Row::new(plan, point, tally, stopped_by),
+    }
+}
+
+/// Whether a schedule is finished.
+pub(super) fn status(part: Part, schedule: &Schedule) -> Status {
     if !schedule.is_done() {
         return Status::Interrupted;
     }
     if part != Part::WHOLE {
         return Status::Part;
     }
-    match schedule
-        .points()
-        .iter()
-        .filter(|point| !point.stopped_by.is_reached())
-        .count()
-    {
+    let short = (0..schedule.points()).filter(|&point| {
+        let stopped_by = schedule.counted(point).stopped_by;
+        !stopped_by.is_reached()
+    });
+    match short.count() {
         0 => Status::Complete,
         points => Status::ShortOfTarget { points },
     }

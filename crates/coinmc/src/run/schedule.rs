@@ -2,29 +2,29 @@
 
 use super::chunk_result::{ChunkResult, whole};
 use super::cut::Cut;
+use super::finished::Finished;
+use super::packed::Counted;
 use super::point_state::PointState;
 use super::shares::{Left, Need, Shares, shares};
+use super::states::States;
 use super::{Chunk, Part, Progress};
 use crate::plan::{Looks, Plan, Stop, StoppedBy, Targets, Verdict};
 use crate::results::integrated;
-use std::collections::HashMap;
-
-/// Results of chunks that an earlier run finished, by point and first toss.
-pub(super) type Finished = HashMap<(usize, u64), ChunkResult>;
+use std::sync::Arc;
 
 /// Hands out chunks and collects their results, in whatever order they arrive.
 ///
 /// Points are opened in order, a stage at a time; the next stage of an open point comes before
 /// the next point. Only the next stage of the same point waits for all chunks of a stage; where the tosses
 /// of the whole run are limited, all points wait for each other after every stage that counts, as what is
-/// left is shared among those that need more. Memory holds two tallies per point, not one per chunk.
+/// left is shared among those that need more. Memory holds what is counted of each point, not of each chunk.
 #[derive(Debug)]
-pub(super) struct Schedule<'a> {
-    plan: &'a Plan,
+pub(super) struct Schedule {
+    plan: Arc<Plan>,
     cut: Cut,
     part: Part,
     finished: Finished,
-    points: Vec<PointState>,
+    states: States,
     /// The first point of which no chunk has been handed out.
     unopened: usize,
     /// Open points whose next stage can be handed out.
@@ -35,8 +35,11 @@ pub(super) struct Schedule<'a> {
     current: Option<Stage>,
     in_flight: u64,
     progress: Progress,
-    /// The point with the widest interval so far.
-    worst: Option<usize>,
+    /// Tosses of all points, and their computing time in microseconds.
+    made: u64,
+    microseconds: u64,
+    /// Points that are tossed.
+    tossed: u64,
 }
 
 struct Stage {
@@ -63,9 +66,9 @@ pub(super) enum Next {
     Done,
 }
 
-impl<'a> Schedule<'a> {
+impl Schedule {
     /// The schedule of a part of a plan, given the chunks that an earlier run finished.
-    pub(super) fn new(plan: &'a Plan, part: Part, finished: Finished) -> Self {
+    pub(super) fn new(plan: &Arc<Plan>, part: Part, finished: Finished) -> Self {
         let cut = Cut::new(plan);
         let tossed = plan.points_tossed();
         let (looks, limited_by) = match plan.stop {
@@ -81,41 +84,33 @@ impl<'a> Schedule<'a> {
             (Some(looks), _) => looks.stage().end,
             _ => 0,
         };
-        let points = (0..plan.points.len()).map(|index| {
-            let mut point = PointState::new(looks.clone(), limited_by);
-            // others add nothing to the sum, so nothing may be subtracted for them later
-            if plan.makes_tosses(index) {
-                point.forecast = forecast;
-            }
-            point
-        });
-        let points = points.collect();
-        let reused = finished
-            .values()
-            .map(ChunkResult::tosses)
-            .fold(0, u64::saturating_add);
+        let mut fresh = PointState::new(looks, limited_by);
+        fresh.forecast = forecast;
+        let reused = finished.tosses();
         let progress = Progress {
             points_done: 0,
             points: plan.points.len(),
             tosses_done: reused,
             tosses_planned: forecast.saturating_mul(tossed),
             tosses_reused: reused,
-            reused_chunks: finished.len() as u64,
+            reused_chunks: finished.left(),
             worst_half_width: None,
         };
         Self {
-            plan,
+            plan: Arc::clone(plan),
             cut,
             part,
             finished,
-            points,
+            states: States::new(plan.points.len(), fresh),
             unopened: 0,
             ready: Vec::new(),
             waiting: Vec::new(),
             current: None,
             in_flight: 0,
             progress,
-            worst: None,
+            made: 0,
+            microseconds: 0,
+            tossed,
         }
     }
 
@@ -135,7 +130,7 @@ impl<'a> Schedule<'a> {
             let point = stage.point;
             let Some(chunk) = stage.chunks.next() else {
                 self.current = None;
-                self.points[point].handed_out = true;
+                self.states.open(point).handed_out = true;
                 self.close_stage_if_complete(point);
                 continue;
             };
@@ -145,7 +140,7 @@ impl<'a> Schedule<'a> {
             if self.take_finished(&chunk) {
                 continue;
             }
-            self.points[point].outstanding += 1;
+            self.states.open(point).outstanding += 1;
             self.in_flight += 1;
             return Next::Chunk(chunk);
         }
@@ -153,18 +148,28 @@ impl<'a> Schedule<'a> {
 
     /// Records the result of a chunk that [`next`](Self::next) handed out.
     pub(super) fn complete(&mut self, chunk: &Chunk, result: &ChunkResult) {
-        let point = &mut self.points[chunk.point];
-        match result {
-            ChunkResult::Tossed(tossed) => {
-                assert!(point.count(tossed), "fewer than 2^64 tosses");
-            }
-            ChunkResult::Integrated(integral) => point.integral = Some(*integral),
-        }
-        point.outstanding -= 1;
+        assert!(self.count(chunk.point, result), "fewer than 2^64 tosses");
+        self.states.open(chunk.point).outstanding -= 1;
         self.in_flight -= 1;
         self.progress.tosses_done += result.tosses();
         self.update_worst(chunk.point);
         self.close_stage_if_complete(chunk.point);
+    }
+
+    /// Adds the result of a chunk to its point; false if a counter would overflow.
+    fn count(&mut self, point: usize, result: &ChunkResult) -> bool {
+        let state = self.states.open(point);
+        match result {
+            ChunkResult::Integrated(integral) => state.integral = Some(*integral),
+            ChunkResult::Tossed(tossed) => {
+                if !state.count(tossed) {
+                    return false;
+                }
+                self.made += tossed.tally.tosses();
+                self.microseconds = self.microseconds.saturating_add(tossed.microseconds);
+            }
+        }
+        true
     }
 
     /// How far the run is.
@@ -173,31 +178,43 @@ impl<'a> Schedule<'a> {
         let tosses_planned = self.progress.tosses_planned.max(self.progress.tosses_done);
         Progress {
             tosses_planned,
+            worst_half_width: self.states.widest(),
             ..self.progress
         }
     }
 
     /// Whether the run is complete.
     pub(super) fn is_done(&self) -> bool {
-        self.unopened == self.points.len()
+        self.unopened == self.states.len()
             && self.ready.is_empty()
             && self.waiting.is_empty()
             && self.current.is_none()
             && self.in_flight == 0
     }
 
-    /// The points as counted so far.
-    pub(super) fn points(&self) -> &[PointState] {
-        &self.points
+    /// What is counted of a point so far.
+    pub(super) fn counted(&self, point: usize) -> Counted {
+        self.states.counted(point)
     }
 
-    /// Removes and returns the results of an earlier run that this one did not need.
+    /// Points.
+    pub(super) fn points(&self) -> usize {
+        self.states.len()
+    }
+
+    /// The states of all points, once nothing is to be scheduled any more.
+    pub(super) fn into_states(self) -> States {
+        self.states
+    }
+
+    /// Point and first toss of the chunks of an earlier run that this one did not need; they no longer
+    /// count as its progress.
     pub(super) fn take_unneeded(&mut self) -> Vec<(usize, u64)> {
         let unneeded = std::mem::take(&mut self.finished);
-        for result in unneeded.values() {
-            self.forget_reused(result);
-        }
-        unneeded.into_keys().collect()
+        self.progress.tosses_done -= unneeded.tosses();
+        self.progress.tosses_reused -= unneeded.tosses();
+        self.progress.reused_chunks -= unneeded.left();
+        unneeded.rest().collect()
     }
 
     fn forget_reused(&mut self, result: &ChunkResult) {
@@ -209,7 +226,7 @@ impl<'a> Schedule<'a> {
     fn open_stage(&mut self) -> bool {
         let point = match self.ready.pop() {
             Some(point) => point,
-            None if self.unopened < self.points.len() => {
+            None if self.unopened < self.states.len() => {
                 self.unopened += 1;
                 self.unopened - 1
             }
@@ -219,7 +236,7 @@ impl<'a> Schedule<'a> {
             let chunks = Box::new(std::iter::once(whole(point)));
             self.current = Some(Stage { point, chunks });
         } else if self.plan.makes_tosses(point) {
-            let stage = match (&self.points[point].looks, self.plan.stop) {
+            let stage = match (&self.states.open(point).looks, self.plan.stop) {
                 (None, Stop::Tosses(tosses)) => 0..tosses,
                 (Some(looks), _) => looks.stage(),
                 (None, Stop::Targets(_)) => unreachable!("every such point has looks"),
@@ -228,7 +245,7 @@ impl<'a> Schedule<'a> {
             self.current = Some(Stage { point, chunks });
         } else {
             let known = self.plan.known(point);
-            self.points[point].integral = known;
+            self.states.open(point).integral = known;
             self.end(point, StoppedBy::ClosedForm);
         }
         true
@@ -236,27 +253,24 @@ impl<'a> Schedule<'a> {
 
     /// Counts a chunk that an earlier run finished, if it did, and with as many tosses.
     fn take_finished(&mut self, chunk: &Chunk) -> bool {
-        let Some(result) = self.finished.remove(&(chunk.point, chunk.tosses.start)) else {
+        let Some(result) = self.finished.take(chunk.point, chunk.tosses.start) else {
             return false;
         };
-        let point = &mut self.points[chunk.point];
-        match &result {
-            ChunkResult::Integrated(integral) => point.integral = Some(*integral),
-            ChunkResult::Tossed(tossed) => {
-                let is_whole = tossed.tally.tosses() == chunk.tosses.end - chunk.tosses.start;
-                if !(is_whole && point.count(tossed)) {
-                    // only forged counts are not whole or overflow: repeat the chunk
-                    self.forget_reused(&result);
-                    return false;
-                }
-            }
+        let is_whole = match &result {
+            ChunkResult::Integrated(_) => true,
+            ChunkResult::Tossed(_) => result.tosses() == chunk.tosses.end - chunk.tosses.start,
+        };
+        if !(is_whole && self.count(chunk.point, &result)) {
+            // only forged counts are not whole or overflow: repeat the chunk
+            self.forget_reused(&result);
+            return false;
         }
         self.update_worst(chunk.point);
         true
     }
 
     fn close_stage_if_complete(&mut self, index: usize) {
-        let point = &mut self.points[index];
+        let point = self.states.open(index);
         if !point.handed_out || point.outstanding > 0 {
             return;
         }
@@ -270,7 +284,7 @@ impl<'a> Schedule<'a> {
                         events: None,
                         ..targets
                     };
-                    if targets.are_met(&integrated(self.plan, integral)) {
+                    if targets.are_met(&integrated(&self.plan, integral)) {
                         StoppedBy::Targets
                     } else {
                         StoppedBy::Evaluations
@@ -285,19 +299,20 @@ impl<'a> Schedule<'a> {
         if let Some(targets) = timed {
             self.limit_pilot(index, &targets);
         }
-        match self.points[index].look() {
+        let limited_by = self.states.open(index).limited_by;
+        match self.states.open(index).look() {
             // the other parts have the other tosses
             None if of_whole => self.end(index, StoppedBy::Tosses),
             None => self.end(index, StoppedBy::Unfinished),
             Some(Verdict::Met) => self.end(index, StoppedBy::Targets),
-            Some(Verdict::Short) => self.end(index, self.points[index].limited_by),
+            Some(Verdict::Short) => self.end(index, limited_by),
             Some(Verdict::More) => self.go_on(index),
         }
     }
 
     /// Hands out the next stage of a point, or lets it wait for its share.
     fn go_on(&mut self, index: usize) {
-        let point = &mut self.points[index];
+        let point = self.states.open(index);
         let counts = !point.is_in_pilot();
         let targets = match self.plan.stop {
             Stop::Targets(targets) if counts => targets,
@@ -322,19 +337,22 @@ impl<'a> Schedule<'a> {
 
     /// Lets a pilot be no more than a part of the time that the point may take.
     fn limit_pilot(&mut self, index: usize, targets: &Targets) {
-        let points = self.plan.points_tossed() as f64;
+        let points = self.tossed as f64;
         let of_run = targets.total_core_seconds.map(|total| total / points);
         let limits = [targets.max_core_seconds, of_run];
         let least = limits.into_iter().flatten().fold(f64::INFINITY, f64::min);
-        self.points[index].limit_pilot(least);
+        self.states.open(index).limit_pilot(least);
     }
 
     fn end(&mut self, index: usize, by: StoppedBy) {
-        self.points[index].stopped_by = by;
+        let point = self.states.open(index);
+        point.stopped_by = by;
+        let tosses = point.tosses();
         self.progress.points_done += 1;
         if self.plan.makes_tosses(index) {
-            self.set_forecast(index, self.points[index].tosses());
+            self.set_forecast(index, tosses);
         }
+        self.states.end(index);
     }
 
     /// What points are to reach, if they stop at targets.
@@ -358,7 +376,7 @@ impl<'a> Schedule<'a> {
         // they came in the order in which threads were done
         waiting.sort_unstable();
         let left = self.left(&targets);
-        let states = waiting.iter().map(|&point| &self.points[point]);
+        let states = waiting.iter().map(|&point| self.states.opened(point));
         let needs: Vec<Need> = states
             .map(|point| Need {
                 most: point.next_tosses(),
@@ -368,7 +386,7 @@ impl<'a> Schedule<'a> {
             .collect();
         let Shares { tosses, by } = shares(&needs, left);
         for (point, (need, share)) in waiting.into_iter().zip(needs.into_iter().zip(tosses)) {
-            let state = &mut self.points[point];
+            let state = self.states.open(point);
             if share < need.most
                 && let Some(by) = by
             {
@@ -387,8 +405,7 @@ impl<'a> Schedule<'a> {
 
     /// What the whole run may still spend.
     fn left(&self, targets: &Targets) -> Left {
-        let made: u64 = self.points.iter().map(PointState::tosses).sum();
-        let spent: f64 = self.points.iter().map(PointState::seconds).sum();
+        let (made, spent) = (self.made, 1e-6 * self.microseconds as f64);
         let left = |limit: Option<f64>, spent| limit.map_or(f64::INFINITY, |limit| limit - spent);
         Left {
             tosses: left(targets.total_tosses.map(|total| total as f64), made as f64),
@@ -397,27 +414,15 @@ impl<'a> Schedule<'a> {
     }
 
     fn set_forecast(&mut self, index: usize, forecast: u64) {
-        let point = &mut self.points[index];
+        let point = self.states.open(index);
         let others = self.progress.tosses_planned.saturating_sub(point.forecast);
         self.progress.tosses_planned = others.saturating_add(forecast);
         point.forecast = forecast;
     }
 
     fn update_worst(&mut self, index: usize) {
-        let half_width = self.points[index].quick_half_width(self.plan);
-        self.points[index].half_width = half_width;
-        self.worst = match self.worst {
-            Some(worst) if worst != index && self.points[worst].half_width >= half_width => {
-                Some(worst)
-            }
-            // the widest interval has shrunk: another may now be the widest
-            Some(worst) if worst == index => {
-                let arm = |&i: &usize| self.points[i].half_width;
-                (0..self.points.len()).max_by(|a, b| arm(a).total_cmp(&arm(b)))
-            }
-            _ => Some(index),
-        };
-        self.progress.worst_half_width = self.worst.map(|worst| self.points[worst].half_width);
+        let half_width = self.states.open(index).quick_half_width(&self.plan);
+        self.states.set_arm(index, half_width);
     }
 }
 

@@ -1,10 +1,10 @@
-//! Short text files that end with a checksum of everything before it: tallies and integrals.
+//! Short texts that end with a checksum of everything before it: tallies and integrals.
 
 use super::damage::Damage;
 use std::fmt::Write;
 
-const CHECKSUM: &str = "crc32 ";
-/// Longest file, in bytes; longer ones are not read.
+pub(super) const CHECKSUM: &str = "crc32 ";
+/// Longest text, in bytes; longer ones are not read.
 pub(super) const MAX_BYTES: usize = 2048;
 
 /// Appends the checksum.
@@ -14,7 +14,7 @@ pub(super) fn seal(mut text: String) -> String {
     text
 }
 
-/// The text of a file whose checksum is right, without the checksum. It is then as it was written; its
+/// The text whose checksum is right, without the checksum. It is then as it was written; its
 /// author is not known.
 pub(super) fn unseal(bytes: &[u8]) -> Result<&str, Damage> {
     if bytes.len() > MAX_BYTES {

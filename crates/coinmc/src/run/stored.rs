@@ -2,14 +2,17 @@
 
 use super::cut::Cut;
 use super::directory::CONFIG;
+use super::finished::Finished;
 use super::manifest::{self, Manifest};
-use super::report::{Report, report};
-use super::schedule::{Finished, Next, Schedule};
+use super::packed::Packed;
+use super::report::{Report, report, status};
+use super::schedule::{Next, Schedule};
 use super::tallies::{Entry, Tallies};
 use super::{Part, ProgressSink, RunError};
 use crate::config;
 use crate::plan::Plan;
 use std::path::Path;
+use std::sync::Arc;
 
 /// The plan of the run that a directory holds: to replay its tosses, for example.
 ///
@@ -31,26 +34,28 @@ pub fn stored_plan(dir: &Path) -> Result<Plan, RunError> {
 /// Those of [`stored_plan`], and [`RunError::Io`]. A directory that holds a part of a run is read
 /// as the whole, [`Interrupted`](super::Status::Interrupted).
 pub fn stored_report(dir: &Path, sink: &dyn ProgressSink) -> Result<(Plan, Report), RunError> {
-    let plan = stored_plan(dir)?;
-    let mut finished = Finished::new();
+    let plan = Arc::new(stored_plan(dir)?);
+    let mut finished = Vec::new();
     let tallies = Tallies::of(dir, plan.hash());
     tallies.scan(&plan, &Cut::new(&plan), |entry| {
         match entry {
             Entry::Finished(chunk, result) => {
-                finished.insert((chunk.point, chunk.tosses.start), *result);
+                finished.push((chunk, Packed::from(&*result)));
             }
-            Entry::Damaged(path, damage) => {
-                sink.warning(&format!("{} is rejected: {damage}", path.display()));
+            Entry::Damaged(damage, _) => {
+                let path = tallies.path().display();
+                sink.warning(&format!("{path}: a tally is rejected: {damage}"));
             }
-            Entry::Leftover(_) => {}
+            Entry::Torn(_) => {}
         }
         Ok(())
     })?;
-    let mut schedule = Schedule::new(&plan, Part::WHOLE, finished);
+    let mut schedule = Schedule::new(&plan, Part::WHOLE, Finished::new(finished));
     // missing chunks stay handed out
     while let Next::Chunk(_) = schedule.next() {}
-    let report = report(&plan, Part::WHOLE, &schedule);
-    Ok((plan, report))
+    let status = status(Part::WHOLE, &schedule);
+    let report = report(&plan, status, schedule);
+    Ok((Plan::clone(&plan), report))
 }
 
 pub(super) fn read_manifest(dir: &Path) -> Result<Manifest, RunError> {

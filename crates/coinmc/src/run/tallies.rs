@@ -1,163 +1,244 @@
-//! The directory of tally files: reads finished chunks, adds new ones.
+//! The file of finished chunks: reads what is there, adds what is new, and brings it into order.
 
+use super::append::append;
+use super::blocks::{Block, Blocks};
 use super::chunk_result::{ChunkResult, whole};
 use super::cut::Cut;
 use super::damage::Damage;
-use super::integral_file;
-use super::replace::{self, Replacement, TEMPORARY};
+use super::replace::{self, Replacement};
 use super::sealed::MAX_BYTES;
-use super::tally_file;
-use super::{Chunk, RunError};
+use super::{Chunk, RunError, integral_text, tally_text};
 use crate::plan::Plan;
-use std::fs;
-use std::io::Write;
-use std::panic::resume_unwind;
+use std::collections::HashSet;
+use std::fs::{File, OpenOptions};
+use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::thread;
 
-/// Appended to the name of a rejected file.
-const REJECTED: &str = ".rejected";
-
-/// The tally files of one run directory.
+/// The file that holds one text for each finished chunk.
 #[derive(Debug)]
 pub(super) struct Tallies {
     path: PathBuf,
     plan_hash: String,
 }
 
-/// One of the directory's files. Files with names that this program never gives are ignored.
+/// A stretch of the file.
 #[derive(Debug)]
 pub(super) enum Entry {
     /// A finished chunk.
     Finished(Chunk, Box<ChunkResult>),
-    /// A file that is rejected.
-    Damaged(PathBuf, Damage),
-    /// The temporary file of a killed run.
-    Leftover(PathBuf),
+    /// A stretch that is rejected.
+    Damaged(Damage, Range<u64>),
+    /// The end that a killed run did not finish writing.
+    Torn(Range<u64>),
 }
 
 impl Tallies {
-    pub(super) const DIRECTORY: &'static str = "tallies";
+    pub(super) const FILE: &'static str = "tallies.txt";
+    /// Holds what was rejected.
+    pub(super) const REJECTED: &'static str = "tallies.rejected.txt";
 
     /// The tallies of the run directory `dir`.
     pub(super) fn of(dir: &Path, plan_hash: String) -> Self {
         Self {
-            path: dir.join(Self::DIRECTORY),
+            path: dir.join(Self::FILE),
             plan_hash,
         }
     }
 
-    /// Visits every file once, in no particular order.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Visits everything in the file, in the order in which it was written.
     pub(super) fn scan(
         &self,
         plan: &Plan,
         cut: &Cut,
         mut found: impl FnMut(Entry) -> Result<(), RunError>,
     ) -> Result<(), RunError> {
-        let failed = |error| RunError::io("list", &self.path, error);
-        for entry in fs::read_dir(&self.path).map_err(failed)? {
-            let name = entry.map_err(failed)?.file_name();
-            let Some(name) = name.to_str() else { continue };
-            let path = self.path.join(name);
-            if let Some((point, start)) = tally_file::parse_name(name) {
-                let read = chunk_at(plan, cut, point, start)
-                    .ok_or(Damage::NoSuchChunk)
-                    .map(|chunk| self.read(&path, chunk, plan, cut.may_be_shorter()));
-                found(match read {
-                    Ok(entry) => entry?,
-                    Err(damage) => Entry::Damaged(path, damage),
-                })?;
-            } else if name
-                .strip_suffix(TEMPORARY)
-                .and_then(tally_file::parse_name)
-                .is_some()
-            {
-                found(Entry::Leftover(path))?;
-            }
+        let Some(file) = self.file()? else {
+            return Ok(());
+        };
+        for block in Blocks::new(BufReader::new(file)) {
+            let block = block.map_err(|error| self.error("read", error))?;
+            let entry = if block.is_closed {
+                match self.read(&block.bytes, plan, cut) {
+                    Ok((chunk, result)) => Entry::Finished(chunk, Box::new(result)),
+                    Err(damage) => Entry::Damaged(damage, block.place),
+                }
+            } else {
+                Entry::Torn(block.place)
+            };
+            found(entry)?;
         }
         Ok(())
     }
 
-    /// Reads the file of a chunk, or of one that begins like it and is shorter, if it may be.
-    fn read(
+    /// The file, if it is there.
+    fn file(&self) -> Result<Option<File>, RunError> {
+        match File::open(&self.path) {
+            Ok(file) => Ok(Some(file)),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(self.error("open", error)),
+        }
+    }
+
+    fn error(&self, action: &'static str, error: io::Error) -> RunError {
+        RunError::io(action, &self.path, error)
+    }
+
+    /// Reads the text of a chunk.
+    pub(super) fn read(
         &self,
-        path: &Path,
-        mut chunk: Chunk,
+        bytes: &[u8],
         plan: &Plan,
-        may_be_shorter: bool,
-    ) -> Result<Entry, RunError> {
-        if !replace::is_file(path) {
-            return Ok(Entry::Damaged(path.to_owned(), Damage::NotAFile));
+        cut: &Cut,
+    ) -> Result<(Chunk, ChunkResult), Damage> {
+        if bytes.len() > MAX_BYTES {
+            return Err(Damage::TooLong);
         }
-        let bytes = replace::read_bounded(path, MAX_BYTES)
-            .map_err(|error| RunError::io("read", path, error))?;
+        let (point, start) = place(bytes).ok_or(Damage::Checksum)?;
+        let mut chunk = chunk_at(plan, cut, point, start).ok_or(Damage::NoSuchChunk)?;
         let hash = &self.plan_hash;
-        let result = bytes.ok_or(Damage::TooLong).and_then(|bytes| {
-            if let Some(method) = plan.method(chunk.point) {
-                let integral = integral_file::decode(&bytes, chunk.point, method, hash);
-                return integral.map(ChunkResult::Integrated);
-            }
-            if may_be_shorter && let Some(end) = tally_file::end(&bytes) {
-                chunk.tosses.end = chunk.tosses.end.min(end);
-            }
-            tally_file::decode(&bytes, &chunk, hash).map(ChunkResult::Tossed)
-        });
-        Ok(match result {
-            Ok(result) => Entry::Finished(chunk, Box::new(result)),
-            Err(damage) => Entry::Damaged(path.to_owned(), damage),
-        })
-    }
-
-    /// Adds finished chunks durably: synced to the disk.
-    pub(super) fn store(&self, batch: &[(Chunk, ChunkResult)]) -> Result<(), RunError> {
-        let mut files = Vec::with_capacity(batch.len());
-        for (chunk, result) in batch {
-            let mut file = Replacement::begin(&self.path.join(tally_file::name(chunk)))?;
-            let text = match result {
-                ChunkResult::Tossed(tossed) => tally_file::encode(chunk, tossed, &self.plan_hash),
-                ChunkResult::Integrated(integral) => {
-                    integral_file::encode(chunk.point, integral, &self.plan_hash)
-                }
-            };
-            let written = file.writer().write_all(text.as_bytes());
-            written.map_err(|error| file.error(error))?;
-            files.push(file);
+        if plan.integrates(point)
+            && let Some(method) = plan.method(point)
+        {
+            let integral = integral_text::decode(bytes, point, method, hash)?;
+            return Ok((chunk, ChunkResult::Integrated(integral)));
         }
-        sync_all(&mut files)?;
-        files.into_iter().try_for_each(Replacement::finish)?;
-        replace::sync_directory(&self.path)
+        if cut.may_be_shorter()
+            && let Some(end) = tally_text::end(bytes)
+        {
+            chunk.tosses.end = chunk.tosses.end.min(end);
+        }
+        let tossed = tally_text::decode(bytes, &chunk, hash)?;
+        Ok((chunk, ChunkResult::Tossed(tossed)))
     }
 
-    /// Path of the file of the chunk of `point` that begins at toss `start`.
-    pub(super) fn place(&self, point: usize, start: u64) -> PathBuf {
-        self.path.join(tally_file::name(&Chunk {
-            point,
-            tosses: start..start,
-        }))
+    /// The text of a finished chunk.
+    pub(super) fn text(&self, chunk: &Chunk, result: &ChunkResult) -> String {
+        match result {
+            ChunkResult::Tossed(tossed) => tally_text::encode(chunk, tossed, &self.plan_hash),
+            ChunkResult::Integrated(integral) => {
+                integral_text::encode(chunk.point, integral, &self.plan_hash)
+            }
+        }
+    }
+
+    /// Adds finished chunks durably: one write, one sync.
+    pub(super) fn store<'a>(
+        &self,
+        batch: impl Iterator<Item = (&'a Chunk, &'a ChunkResult)>,
+    ) -> Result<(), RunError> {
+        let texts = batch.map(|(chunk, result)| self.text(chunk, result));
+        let text: String = texts.collect();
+        if text.is_empty() {
+            return Ok(());
+        }
+        append(&self.path, text.as_bytes(), true)
+    }
+
+    /// Cuts off the end that a killed run did not finish writing.
+    pub(super) fn cut_at(&self, end: u64) -> Result<(), RunError> {
+        let file = OpenOptions::new().write(true).open(&self.path);
+        let cut = file.and_then(|file| file.set_len(end).and_then(|()| file.sync_data()));
+        cut.map_err(|error| self.error("cut", error))
+    }
+
+    /// Brings the chunks into the order of points and tosses, which is that of no thread. Moves stretches
+    /// that are rejected, and chunks, given by point and first toss, that are not needed, to the file of
+    /// what was rejected. A file that is in order is left alone.
+    pub(super) fn put_in_order(
+        &self,
+        rejected: &[Range<u64>],
+        unneeded: &[(usize, u64)],
+    ) -> Result<(), RunError> {
+        let Some(file) = self.file()? else {
+            return Ok(());
+        };
+        let failed = |error| self.error("read", error);
+        let unneeded: HashSet<_> = unneeded.iter().copied().collect();
+        let begins: HashSet<u64> = rejected.iter().map(|place| place.start).collect();
+        let (mut keep, mut reject) = (Vec::new(), Vec::new());
+        for block in Blocks::new(BufReader::new(&file)) {
+            let Block { place, bytes, .. } = block.map_err(failed)?;
+            match self::place(&bytes) {
+                Some(key) if !begins.contains(&place.start) && !unneeded.contains(&key) => {
+                    keep.push((key, place));
+                }
+                _ => reject.push(place),
+            }
+        }
+        if reject.is_empty() && keep.windows(2).all(|pair| pair[0].0 < pair[1].0) {
+            return Ok(());
+        }
+        self.keep_rejected(&file, &reject)?;
+        // stable: of a chunk that occurs twice the first stays
+        keep.sort_by_key(|(key, _)| *key);
+        keep.dedup_by_key(|(key, _)| *key);
+        let mut ordered = Replacement::begin(&self.path)?;
+        let places = keep.into_iter().map(|(_, place)| place);
+        let copied = copy(&file, places, &mut ordered.writer());
+        copied.map_err(|error| ordered.error(error))?;
+        ordered.finish()?;
+        replace::sync_directory(self.path.parent().unwrap_or(Path::new(".")))
+    }
+
+    /// Adds stretches to the file of what was rejected.
+    fn keep_rejected(&self, file: &File, places: &[Range<u64>]) -> Result<(), RunError> {
+        if places.is_empty() {
+            return Ok(());
+        }
+        let path = self.path.with_file_name(Self::REJECTED);
+        let earlier = if replace::is_file(&path) {
+            std::fs::read(&path).map_err(|error| RunError::io("read", &path, error))?
+        } else {
+            Vec::new()
+        };
+        let mut all = Replacement::begin(&path)?;
+        let mut writer = all.writer();
+        let written = writer
+            .write_all(&earlier)
+            .and_then(|()| copy(file, places.iter().cloned(), &mut writer));
+        drop(writer);
+        written.map_err(|error| all.error(error))?;
+        all.finish()
     }
 }
 
-/// Syncs files on several threads: a thread that waits for the disk sleeps, and wakes late while
-/// the workers keep all processors busy (64 files in sequence took 0.2 s). All content is handed to
-/// the system before the first sync, as one sync often writes what the next would.
-fn sync_all(files: &mut [Replacement]) -> Result<(), RunError> {
-    const EACH: usize = 4;
-    files.iter_mut().try_for_each(Replacement::hand_over)?;
-    let sync = |files: &mut [Replacement]| files.iter_mut().try_for_each(Replacement::sync);
-    if files.len() <= EACH {
-        return sync(files);
-    }
-    thread::scope(|scope| {
-        let mut threads = vec![];
-        for files in files.chunks_mut(EACH) {
-            let thread = thread::Builder::new().spawn_scoped(scope, move || sync(files));
-            threads.push(thread.map_err(RunError::Thread)?);
+/// Copies stretches of a file. Neighbours are read as one.
+fn copy(
+    file: &File,
+    places: impl Iterator<Item = Range<u64>>,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let mut file = file;
+    let mut copy = |place: Range<u64>| {
+        file.seek(SeekFrom::Start(place.start))?;
+        io::copy(&mut file.take(place.end - place.start), out).map(drop)
+    };
+    let mut pending = 0..0;
+    for place in places {
+        if pending.end == place.start {
+            pending.end = place.end;
+        } else {
+            copy(std::mem::replace(&mut pending, place))?;
         }
-        let join = |thread: thread::ScopedJoinHandle<'_, _>| {
-            thread.join().unwrap_or_else(|panic| resume_unwind(panic))
-        };
-        threads.into_iter().try_for_each(join)
-    })
+    }
+    copy(pending)
+}
+
+/// Point and first toss that a text names; 0 for the one chunk of an integrated point.
+fn place(bytes: &[u8]) -> Option<(usize, u64)> {
+    let text = std::str::from_utf8(bytes).ok()?;
+    let mut lines = text.lines().skip(2);
+    let point = lines.next()?.strip_prefix("point ")?.parse().ok()?;
+    let start = match lines.next()?.strip_prefix("tosses ") {
+        Some(range) => range.split_once(' ')?.0.parse().ok()?,
+        None => 0,
+    };
+    Some((point, start))
 }
 
 /// The chunk of a point that begins at toss `start`, if the plan has one.
@@ -171,13 +252,4 @@ fn chunk_at(plan: &Plan, cut: &Cut, point: usize, start: u64) -> Option<Chunk> {
     } else {
         None
     }
-}
-
-/// Renames a file that is rejected; returns its new name.
-pub(super) fn reject(path: &Path) -> Result<PathBuf, RunError> {
-    let mut name = path.as_os_str().to_owned();
-    name.push(REJECTED);
-    let rejected = PathBuf::from(name);
-    fs::rename(path, &rejected).map_err(|error| RunError::io("rename", path, error))?;
-    Ok(rejected)
 }

@@ -1,7 +1,7 @@
 //! Threads that execute chunks, and the one that stores their results.
 
 use super::chunk::compute_chunk;
-use super::chunk_result::ChunkResult;
+use super::made::Made;
 use super::schedule::{Next, Schedule};
 use super::{Chunk, ProgressSink, RunError};
 use crate::plan::Plan;
@@ -13,19 +13,19 @@ use std::thread;
 use std::time::Duration;
 
 /// How many finished chunks may wait for the disk, and how many at most are stored at once.
-const BATCH: usize = 64;
+const BATCH: usize = 4096;
 /// How long an idle worker waits before it checks whether it should stop.
 const IDLE_WAIT: Duration = Duration::from_millis(50);
 
-type Done = Result<(Chunk, ChunkResult), RunError>;
+type Done = Result<Made, RunError>;
 
 /// Stores finished chunks, a few at a time.
-pub(super) type Store<'a> = &'a dyn Fn(&[(Chunk, ChunkResult)]) -> Result<(), RunError>;
+pub(super) type Store<'a> = &'a dyn Fn(&[Made]) -> Result<(), RunError>;
 
 /// State that the threads share.
-struct Shared<'a, 'p> {
-    plan: &'p Plan,
-    schedule: Mutex<Schedule<'p>>,
+struct Shared<'a> {
+    plan: &'a Plan,
+    schedule: Mutex<Schedule>,
     /// Signalled when a chunk is complete: there may be new work.
     changed: Condvar,
     /// Set when the user wants to stop.
@@ -34,13 +34,13 @@ struct Shared<'a, 'p> {
     broken: AtomicBool,
 }
 
-impl<'p> Shared<'_, 'p> {
+impl Shared<'_> {
     fn should_continue(&self) -> bool {
         !self.cancel.load(Relaxed) && !self.broken.load(Relaxed)
     }
 
     /// A poisoned lock is ignored: a panic under the lock ends the whole run anyway.
-    fn schedule(&self) -> MutexGuard<'_, Schedule<'p>> {
+    fn schedule(&self) -> MutexGuard<'_, Schedule> {
         self.schedule.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -73,14 +73,14 @@ impl Drop for StopOnPanic<'_> {
 
 /// Executes all chunks of the schedule, or as many as are complete before `cancel` is set, and
 /// returns the schedule. Every result that it counts has been stored.
-pub(super) fn execute<'p>(
-    plan: &'p Plan,
-    schedule: Schedule<'p>,
+pub(super) fn execute(
+    plan: &Plan,
+    schedule: Schedule,
     store: Store<'_>,
     threads: NonZeroUsize,
     cancel: &AtomicBool,
     sink: &dyn ProgressSink,
-) -> Result<Schedule<'p>, RunError> {
+) -> Result<Schedule, RunError> {
     let shared = Shared {
         plan,
         schedule: Mutex::new(schedule),
@@ -114,14 +114,15 @@ pub(super) fn execute<'p>(
         .unwrap_or_else(PoisonError::into_inner))
 }
 
-fn work(shared: &Shared<'_, '_>, sender: &SyncSender<Done>) {
+fn work(shared: &Shared<'_>, sender: &SyncSender<Done>) {
     let _stop_on_panic = StopOnPanic(&shared.broken);
     while let Some(chunk) = shared.next_chunk() {
-        let done = match compute_chunk(shared.plan, &chunk, || shared.should_continue()) {
-            Ok(Some(result)) => {
-                shared.schedule().complete(&chunk, &result);
+        let one = NonZeroUsize::MIN;
+        let done = match compute_chunk(shared.plan, chunk, one, || shared.should_continue()) {
+            Ok(Some(made)) => {
+                shared.schedule().complete(&made.chunk, &made.result);
                 shared.changed.notify_all();
-                Ok((chunk, result))
+                Ok(made)
             }
             Ok(None) => return,
             Err(error) => Err(error),
@@ -135,7 +136,7 @@ fn work(shared: &Shared<'_, '_>, sender: &SyncSender<Done>) {
 /// Stores results as they arrive until all workers have ended. It has its own thread, so that no
 /// worker waits for the disk.
 fn store_results(
-    shared: &Shared<'_, '_>,
+    shared: &Shared<'_>,
     receiver: &Receiver<Done>,
     store: Store<'_>,
     sink: &dyn ProgressSink,
@@ -147,7 +148,7 @@ fn store_results(
         let (mut stored, mut failed) = (Vec::new(), None);
         for done in batch {
             match done {
-                Ok(chunk) => stored.push(chunk),
+                Ok(made) => stored.push(made),
                 Err(error) => failed = failed.or(Some(error)),
             }
         }

@@ -18,7 +18,8 @@ fn defaults_are_those_of_the_crates() {
         (plan.confidence, plan.interval),
         (0.95, IntervalMethod::Wilson)
     );
-    let [point] = &plan.points[..] else {
+    let points: Vec<_> = plan.points.iter().collect();
+    let [point] = points[..] else {
         panic!("one point")
     };
     assert_eq!(point.engine, EngineChoice::new(Settings::default()));

@@ -24,7 +24,8 @@ tosses = 20
 #[test]
 fn the_engine_has_the_defaults_of_its_crate() {
     let plan = parse(IN_STEPS, &[]);
-    let [point] = &plan.points[..] else {
+    let points: Vec<_> = plan.points.iter().collect();
+    let [point] = points[..] else {
         panic!("one point")
     };
     assert_eq!(point.engine, EngineChoice::new(Settings::default()));

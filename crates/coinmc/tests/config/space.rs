@@ -26,7 +26,8 @@ tosses = 1000
 #[test]
 fn the_toss_in_space_has_the_defaults_of_its_crate() {
     let plan = parse(IN_SPACE, &[]);
-    let [point] = &plan.points[..] else {
+    let points: Vec<_> = plan.points.iter().collect();
+    let [point] = points[..] else {
         panic!("one point")
     };
     assert_eq!(

@@ -38,7 +38,7 @@ fn results(axes: &[&str], paired: bool, rows: Vec<Row>) -> Results {
         config: String::new(),
         axes: axes.iter().map(|&axis| axis.to_owned()).collect(),
         paired,
-        rows,
+        rows: rows.into(),
     }
 }
 

@@ -189,7 +189,7 @@ fn every_result_names_the_law_and_all_that_defines_the_toss() {
                 [stop]\ntosses = 1\n";
     let plan = coinmc::config::parse("test", text, &[]).unwrap();
     let row = Row::new(&plan, 0, Tally::default(), StoppedBy::Unfinished);
-    let results = Results::new(&plan, vec![row]);
+    let results = Results::new(&plan, vec![row].into());
     let table = csv(&results);
     let cells: Vec<(&str, &str)> = table[0]
         .iter()

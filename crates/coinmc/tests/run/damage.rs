@@ -1,95 +1,101 @@
 //! Damaged files are detected and recomputed; foreign directories are left alone.
 
-use crate::support::{Ear, FIXED, HALF_WIDTH, contents, plan, run_whole, run_with};
+use crate::support::{
+    Ear, FIXED, HALF_WIDTH, contents, plan, put_tallies, resealed, run_whole, run_with, tallies,
+};
 use coinmc::run::{Part, RunError, Status};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use tempfile::tempdir;
 
-fn tallies(dir: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(dir.join("tallies")).unwrap();
-    let mut paths: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
-    paths.sort();
-    paths
-}
-
-type Damage = fn(&Path, &Path);
+/// What is done to one of the tallies, and a word of the warning.
+type Damage = (&'static str, fn(&str) -> String);
 
 #[test]
 fn damaged_tallies_are_set_aside_and_recomputed() {
     let plan = plan(FIXED);
-    let damages: [(&str, Damage); 9] = [
-        ("checksum", |path, _| {
-            let bytes = fs::read(path).unwrap();
-            fs::write(path, &bytes[..bytes.len() / 2]).unwrap();
-        }),
-        ("checksum", |path, _| fs::write(path, "").unwrap()),
-        ("checksum", |path, _| {
-            let mut bytes = fs::read(path).unwrap();
+    let damages: [Damage; 8] = [
+        ("checksum", |text| format!("{}\n", &text[..text.len() / 2])),
+        ("checksum", |_| "mine\ncrc32 12345678\n".to_owned()),
+        ("checksum", |text| {
+            let mut bytes = text.as_bytes().to_vec();
             bytes[120] ^= 4;
-            fs::write(path, bytes).unwrap();
+            String::from_utf8(bytes).unwrap()
         }),
-        ("another chunk", |path, other| {
-            assert!(fs::copy(other, path).is_ok());
+        ("longer", |text| format!("{}\n{text}", "z".repeat(1 << 20))),
+        ("no such chunk", |text| {
+            resealed(text, |text| text.replacen("point 1", "point 9", 1))
         }),
-        ("longer", |path, _| {
-            let file = fs::OpenOptions::new().write(true).open(path).unwrap();
-            file.set_len(1 << 40).unwrap(); // sparse: reading all of it would not end well
+        ("another plan", |text| {
+            resealed(text, |text| text.replacen("plan ", "plan 0", 1))
         }),
-        ("regular file", |path, _| {
-            fs::remove_file(path).unwrap();
-            fs::create_dir(path).unwrap();
+        ("version", |text| {
+            resealed(text, |text| text.replacen("tally 2", "tally 1", 1))
         }),
-        ("another plan", |path, _| {
-            reseal(path, |text| text.replacen("plan ", "plan 0", 1));
-        }),
-        ("version", |path, _| {
-            reseal(path, |text| text.replacen("tally 2", "tally 1", 1));
-        }),
-        ("impossible", |path, _| {
-            reseal(path, |text| text.replacen("\nheads ", "\nheads 1", 1));
+        ("impossible", |text| {
+            resealed(text, |text| text.replacen("\nheads ", "\nheads 1", 1))
         }),
     ];
     let dir = tempdir().unwrap();
     let whole = run_whole(&plan, dir.path());
     let before = contents(dir.path());
+    let rejected = dir.path().join("tallies.rejected.txt");
     for (word, damage) in damages {
-        let files = tallies(dir.path());
-        let (victim, other) = (&files[4], &files[5]);
-        damage(victim, other);
+        let mut texts = tallies(dir.path());
+        texts[4] = damage(&texts[4]);
+        let bad = texts[4].clone();
+        put_tallies(dir.path(), &texts);
         let ear = Ear::default();
         let report = run_with(&plan, dir.path(), Part::WHOLE, 2, &ear).unwrap();
         let warnings = ear.warnings();
         assert_eq!(warnings.len(), 1, "{word}: {warnings:?}");
         assert!(warnings[0].contains(word), "{word}: {warnings:?}");
         assert_eq!(report.results, whole.results);
-        assert_eq!(report.reused_chunks, 17);
-        let rejected = PathBuf::from(format!("{}.rejected", victim.display()));
-        if rejected.is_dir() {
-            fs::remove_dir(rejected).unwrap();
+        let kept = fs::read_to_string(&rejected).unwrap();
+        // what only stands before a tally is rejected without it
+        if word == "longer" {
+            assert_eq!((report.reused_chunks, kept.len()), (18, (1 << 20) + 1));
         } else {
-            fs::remove_file(rejected).unwrap();
+            assert_eq!((report.reused_chunks, kept), (17, bad), "{word}");
         }
+        fs::remove_file(&rejected).unwrap();
         assert_eq!(contents(dir.path()), before, "{word}");
     }
 }
 
-/// Alters a tally file and gives it a right checksum again (CRC-32 as in zlib).
-fn reseal(path: &Path, alter: impl Fn(String) -> String) {
-    let text = alter(fs::read_to_string(path).unwrap());
-    let body = text.rsplit_once("crc32 ").unwrap().0;
-    let mut crc = u32::MAX;
-    for byte in body.bytes() {
-        crc ^= u32::from(byte);
-        for _ in 0..8 {
-            crc = if crc & 1 == 1 {
-                (crc >> 1) ^ 0xEDB8_8320
-            } else {
-                crc >> 1
-            };
-        }
+/// A kill while a tally is being written leaves a part of it.
+#[test]
+fn a_torn_end_is_cut_off_without_a_word() {
+    let (plan, dir) = (plan(FIXED), tempdir().unwrap());
+    run_whole(&plan, dir.path());
+    let before = contents(dir.path());
+    let whole = &before["tallies.txt"];
+    let last = tallies(dir.path()).pop().unwrap().len();
+    for torn in [1, 2, 10, last / 2, last - 1, last] {
+        let left = &whole[..whole.len() - torn];
+        fs::write(dir.path().join("tallies.txt"), left).unwrap();
+        let ear = Ear::default();
+        let report = run_with(&plan, dir.path(), Part::WHOLE, 2, &ear).unwrap();
+        assert_eq!(
+            (report.reused_chunks, ear.warnings()),
+            (17, vec![]),
+            "{torn}"
+        );
+        assert_eq!(contents(dir.path()), before, "{torn}");
     }
-    fs::write(path, format!("{body}crc32 {:08x}\n", !crc)).unwrap();
+}
+
+#[test]
+fn a_tally_that_occurs_twice_counts_once() {
+    let (plan, dir) = (plan(FIXED), tempdir().unwrap());
+    run_whole(&plan, dir.path());
+    let before = contents(dir.path());
+    let texts = tallies(dir.path());
+    put_tallies(dir.path(), &[texts.clone(), texts].concat());
+    let ear = Ear::default();
+    let report = run_with(&plan, dir.path(), Part::WHOLE, 2, &ear).unwrap();
+    assert_eq!((report.tosses, ear.warnings()), (240_000, vec![]));
+    assert_eq!(contents(dir.path()), before);
 }
 
 #[test]
@@ -98,13 +104,14 @@ fn leftovers_are_removed_and_foreign_files_kept() {
     run_whole(&plan, dir.path());
     let mut expected = contents(dir.path());
     let leftovers = [
-        "tallies/p000000-t00000000000000.tally.tmp",
+        "tallies.txt.tmp",
+        "tallies.rejected.txt.tmp",
         "results.csv.tmp",
         "results.parquet.tmp",
         "results.partial.csv",
         "manifest.json.tmp",
     ];
-    let strangers = ["tallies/README", "tallies/p1-t0.tally", "notes.txt"];
+    let strangers = ["tallies.old", "notes.txt"];
     for name in leftovers.iter().chain(&strangers) {
         fs::write(dir.path().join(name), "?").unwrap();
     }
@@ -122,9 +129,8 @@ fn tallies_beyond_where_a_point_stopped_are_set_aside() {
     let (plan, dir) = (plan(HALF_WIDTH), tempdir().unwrap());
     run_whole(&plan, dir.path());
     let before = contents(dir.path());
-    let forged = dir.path().join("tallies/p000000-t00000000524288.tally");
-    fs::copy(&tallies(dir.path())[0], &forged).unwrap();
-    reseal(&forged, |text| {
+    let mut texts = tallies(dir.path());
+    let forged = resealed(&texts[0], |text| {
         let count = |name: &str| -> u64 {
             let line = text.lines().find(|line| line.starts_with(name)).unwrap();
             line.rsplit_once(' ').unwrap().1.parse().unwrap()
@@ -136,6 +142,8 @@ fn tallies_beyond_where_a_point_stopped_are_set_aside() {
                 &format!("heads {heads}"),
             )
     });
+    texts.insert(1, forged.clone());
+    put_tallies(dir.path(), &texts);
     let ear = Ear::default();
     run_with(&plan, dir.path(), Part::WHOLE, 2, &ear).unwrap();
     let warnings = ear.warnings();
@@ -143,7 +151,9 @@ fn tallies_beyond_where_a_point_stopped_are_set_aside() {
         warnings.len() == 1 && warnings[0].contains("does not belong to this run"),
         "{warnings:?}"
     );
-    fs::remove_file(format!("{}.rejected", forged.display())).unwrap();
+    let rejected = dir.path().join("tallies.rejected.txt");
+    assert_eq!(fs::read_to_string(&rejected).unwrap(), forged);
+    fs::remove_file(rejected).unwrap();
     assert_eq!(contents(dir.path()), before);
 }
 
@@ -194,15 +204,20 @@ fn foreign_directories_are_rejected_and_untouched() {
         refused(&run, FIXED, "1/1"),
         RunError::OtherVersion { .. }
     ));
-    fs::write(&manifest, "{\"format\": 2, \"new\": true}").unwrap();
+    fs::write(&manifest, "{\"format\": 3, \"new\": true}").unwrap();
     assert!(matches!(
         refused(&run, FIXED, "1/1"),
-        RunError::NewerFormat { found: 2, .. }
+        RunError::NewerFormat { found: 3, .. }
+    ));
+    fs::write(&manifest, "{\"format\": 1}").unwrap();
+    assert!(matches!(
+        refused(&run, FIXED, "1/1"),
+        RunError::OlderFormat { found: 1, .. }
     ));
     for bad in [
         "",
         "[]",
-        "{\"format\": 1}",
+        "{\"format\": 2}",
         &format!("{text}{}", " ".repeat(70_000)),
     ] {
         fs::write(&manifest, bad).unwrap();
@@ -234,20 +249,15 @@ fn links_are_not_written_through() {
     fs::write(&precious, "kept").unwrap();
     run_whole(&plan, &run);
     let before = contents(&run);
-    for name in [
-        "results.csv",
-        "config.toml",
-        "tallies/p000000-t00000000000000.tally",
-    ] {
+    for name in ["results.csv", "config.toml"] {
         fs::remove_file(run.join(name)).unwrap();
         symlink(&precious, run.join(name)).unwrap();
     }
     run_whole(&plan, &run);
-    fs::remove_file(run.join("tallies/p000000-t00000000000000.tally.rejected")).unwrap();
     assert_eq!(contents(&run), before);
     assert_eq!(fs::read_to_string(&precious).unwrap(), "kept");
 
-    for name in ["lock", "tallies"] {
+    for name in ["lock", "tallies.txt"] {
         let away = dir.path().join("away");
         fs::rename(run.join(name), &away).unwrap();
         symlink(&away, run.join(name)).unwrap();

@@ -1,13 +1,15 @@
 //! Points that are integrated instead of tossed: the same numbers however the run was cut,
 //! interrupted or resumed, and those of random tosses.
 
-use crate::support::{Ear, assert_same, contents, run_whole, run_with};
+use crate::support::{
+    Ear, assert_same, contents, put_tallies, resealed, run_whole, run_with, tallies,
+};
+use coinmc::OnDemand;
 use coinmc::plan::{Plan, StoppedBy};
 use coinmc::results::{Row, fair_ratios};
 use coinmc::run::{Count, Part, Progress, ProgressSink, Status, count, integrate_point, merge};
 use std::fs;
 use std::num::NonZeroUsize;
-use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
 
@@ -26,17 +28,13 @@ fn plan() -> Plan {
     plan_of(ENGINES, "tosses = 20_000", "")
 }
 
-fn counted(plan: &Plan, threads: usize) -> Vec<Row> {
+fn counted(plan: &Plan, threads: usize) -> OnDemand<Row> {
     let options = Count {
         threads: NonZeroUsize::new(threads),
         cancel: &AtomicBool::new(false),
         sink: &(),
     };
     count(plan, &options).unwrap().results.rows
-}
-
-fn tally(dir: &Path, point: usize) -> std::path::PathBuf {
-    dir.join(format!("tallies/p{point:06}-t00000000000000.tally"))
 }
 
 #[test]
@@ -91,16 +89,17 @@ fn a_run_killed_or_damaged_anywhere_has_the_same_results() {
     run_whole(&plan, other.path());
     assert_same(whole.path(), other.path());
 
-    // a tally where an integral belongs, and half a file
-    let text = fs::read_to_string(tally(other.path(), 1)).unwrap();
-    fs::write(tally(other.path(), 0), &text).unwrap();
-    fs::write(tally(other.path(), 1), &text[..text.len() / 2]).unwrap();
+    // one of another version, and half a text
+    let mut texts = tallies(other.path());
+    texts[0] = resealed(&texts[0], |text| {
+        text.replacen("integral 1", "integral 2", 1)
+    });
+    texts[1] = format!("{}\n", &texts[1][..texts[1].len() / 2]);
+    put_tallies(other.path(), &texts);
     let ear = Ear::default();
     run_with(&plan, other.path(), Part::WHOLE, 2, &ear).unwrap();
     assert_eq!(ear.warnings().len(), 2, "{:?}", ear.warnings());
-    for point in 0..2 {
-        fs::remove_file(tally(other.path(), point).with_extension("tally.rejected")).unwrap();
-    }
+    fs::remove_file(other.path().join("tallies.rejected.txt")).unwrap();
     assert_same(whole.path(), other.path());
 }
 
@@ -126,7 +125,7 @@ fn parts_of_a_run_merge_to_the_whole() {
     let error = merge(&parts[..1], &at("half"), &()).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "1 chunk is in none of the parts: point 1"
+        "1 chunk is in none of the parts: point 1. Run these parts of 2 (again): 2"
     );
     merge(&parts, &at("merged"), &()).unwrap();
     assert_same(&at("whole"), &at("merged"));
@@ -142,7 +141,7 @@ fn exact_rules_need_no_work_and_no_file() {
         let out = at(&format!("{stop:.6}"));
         let report = run_whole(&plan, &out);
         assert_eq!((report.status, report.tosses), (Status::Complete, 0));
-        assert_eq!(fs::read_dir(out.join("tallies")).unwrap().count(), 0);
+        assert!(!out.join("tallies.txt").exists());
         for (point, row) in report.results.rows.iter().enumerate() {
             let alone = integrate_point(&plan, point, u64::MAX).unwrap().unwrap();
             assert_eq!(Some(alone), plan.known(point));

@@ -6,6 +6,7 @@ mod full_disk;
 mod in_memory;
 mod integrated;
 mod merge;
+mod provenance;
 mod resume;
 mod same_side;
 mod stopping;

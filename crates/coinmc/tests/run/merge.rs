@@ -1,6 +1,9 @@
 //! Parts and their merge.
 
-use crate::support::{Ear, FIXED, HALF_WIDTH, assert_same, contents, plan, run_whole, run_with};
+use crate::support::{
+    Ear, FIXED, HALF_WIDTH, assert_same, contents, plan, put_tallies, resealed, run_whole,
+    run_with, tallies,
+};
 use coinmc::run::{Chunk, Part, RunError, Status, merge};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -47,12 +50,12 @@ fn missing_chunks_are_named_and_nothing_is_written() {
     let out = dir.path().join("merged");
     let error = merge(&parts[..2], &out, &()).unwrap_err();
     // three chunks a point: the third of each is missing
-    let RunError::Missing { missing, total } = &error else {
+    let RunError::Missing(missing) = &error else {
         panic!("{error}")
     };
-    assert_eq!(*total, 6);
+    assert_eq!((missing.total, missing.array()), (6, "3".to_owned()));
     assert_eq!(
-        missing[1],
+        missing.chunks[1],
         Chunk {
             point: 1,
             tosses: 32_768..40_000
@@ -65,25 +68,23 @@ fn missing_chunks_are_named_and_nothing_is_written() {
     assert!(!out.exists());
 
     // a damaged tally is missing too, and said to be damaged
-    let victim = fs::read_dir(parts[0].join("tallies"))
-        .unwrap()
-        .next()
-        .unwrap()
-        .unwrap()
-        .path();
-    fs::write(&victim, "x").unwrap();
+    let mut texts = tallies(&parts[0]);
+    texts[0] = "x\ncrc32 0\n".to_owned();
+    put_tallies(&parts[0], &texts);
+    let before = contents(&parts[0]);
     let ear = Ear::default();
     let error = merge(&parts, &out, &ear).unwrap_err();
+    let RunError::Missing(missing) = &error else {
+        panic!("{error}")
+    };
+    assert_eq!((missing.total, missing.array()), (1, "1".to_owned()));
+    let path = parts[0].join("tallies.txt");
     assert!(
-        matches!(error, RunError::Missing { total: 1, .. }),
-        "{error}"
-    );
-    assert!(
-        ear.warnings()[0].contains(victim.to_str().unwrap()),
+        ear.warnings()[0].contains(path.to_str().unwrap()),
         "{:?}",
         ear.warnings()
     );
-    assert_eq!(fs::read(&victim).unwrap(), b"x");
+    assert_eq!(contents(&parts[0]), before);
 }
 
 #[test]
@@ -92,11 +93,12 @@ fn neighbouring_missing_chunks_are_named_together() {
     let out = dir.path().join("run");
     run_with(&plan(FIXED), &out, Part::WHOLE, 1, &Ear::that_cancels_at(1)).unwrap();
     let error = merge(&[out], &dir.path().join("merged"), &()).unwrap_err();
-    let RunError::Missing { missing, .. } = &error else {
+    let RunError::Missing(missing) = &error else {
         panic!("{error}")
     };
+    assert_eq!(missing.parts, []);
     assert_eq!(
-        missing.last(),
+        missing.chunks.last(),
         Some(&Chunk {
             point: 5,
             tosses: 0..40_000
@@ -110,20 +112,16 @@ fn parts_that_disagree_are_rejected() {
     let parts = run_parts(dir.path(), 2);
     let (forged, out) = (dir.path().join("forged"), dir.path().join("merged"));
     // a plan's own tally with other counts, rightly sealed: made by the same plan's name
-    let name = "p000000-t00000000000000.tally";
-    fs::create_dir_all(forged.join("tallies")).unwrap();
+    fs::create_dir_all(&forged).unwrap();
     for file in ["manifest.json", "config.toml"] {
         fs::copy(parts[0].join(file), forged.join(file)).unwrap();
     }
-    let text = fs::read_to_string(parts[0].join("tallies").join(name)).unwrap();
-    let line = text
-        .lines()
-        .find(|line| line.starts_with("impacts"))
-        .unwrap();
-    let body = text.replace(line, "impacts 1");
-    let body = body.rsplit_once("crc32").unwrap().0;
-    let sealed = format!("{body}crc32 {:08x}\n", crc32fast::hash(body.as_bytes()));
-    fs::write(forged.join("tallies").join(name), sealed).unwrap();
+    let text = resealed(&tallies(&parts[0])[0], |text| {
+        let mut lines = text.lines();
+        let line = lines.find(|line| line.starts_with("impacts")).unwrap();
+        text.replace(line, "impacts 1")
+    });
+    put_tallies(&forged, &[text]);
     let all = [parts, vec![forged]].concat();
     let error = merge(&all, &out, &()).unwrap_err();
     assert!(matches!(error, RunError::Conflict { .. }), "{error}");

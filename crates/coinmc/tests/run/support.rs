@@ -117,12 +117,47 @@ impl ProgressSink for Ear {
     }
 }
 
-/// Every file of a directory by its path there.
+/// The texts of the finished chunks of a run directory, in the order of its file.
+pub(crate) fn tallies(dir: &Path) -> Vec<String> {
+    let Ok(text) = std::fs::read_to_string(dir.join("tallies.txt")) else {
+        return vec![];
+    };
+    let (mut all, mut tally) = (Vec::new(), String::new());
+    for line in text.lines() {
+        tally.push_str(line);
+        tally.push('\n');
+        if line.starts_with("crc32 ") {
+            all.push(std::mem::take(&mut tally));
+        }
+    }
+    assert_eq!(tally, "", "the file ends with a whole text");
+    all
+}
+
+/// Puts texts in the place of those of a run directory.
+pub(crate) fn put_tallies(dir: &Path, texts: &[String]) {
+    std::fs::write(dir.join("tallies.txt"), texts.concat()).unwrap();
+}
+
+/// Alters a text and gives it a right checksum again.
+pub(crate) fn resealed(text: &str, alter: impl Fn(&str) -> String) -> String {
+    let text = alter(text);
+    let (body, _) = text.rsplit_once("crc32 ").unwrap();
+    format!("{body}crc32 {:08x}\n", crc32fast::hash(body.as_bytes()))
+}
+
+/// Says who made a run, and in what time: not the same when it is made again.
+const PROVENANCE: &str = "provenance.jsonl";
+
+/// Every file of a directory by its path there, but for the record of who made it.
 pub(crate) fn contents(dir: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut all = BTreeMap::new();
     for entry in std::fs::read_dir(dir).unwrap() {
         let path = entry.unwrap().path();
         let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        if name == PROVENANCE {
+            continue;
+        }
         if path.is_dir() {
             let inner = contents(&path).into_iter();
             all.extend(inner.map(|(below, bytes)| (format!("{name}/{below}"), bytes)));

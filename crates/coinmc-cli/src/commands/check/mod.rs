@@ -1,27 +1,34 @@
 //! `coinmc check`: explains a config before it is run.
 
 mod calibration;
+mod jobs;
+mod missing;
 mod rare;
 
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, FORMAT_VERSION, Format};
 use crate::terminal::progress::with_prefix;
 use crate::terminal::{Colors, Style, compact, count, duration, grouped, in_ascii, wrapped};
+use anyhow::anyhow;
 use calibration::{Cost, PointCost};
 use clap::Args;
-use coinmc::config::{self, Override};
+use coinmc::config::{self, Override, OverrideError};
 use coinmc::plan::{Plan, Stop, Targets};
 use coinmc_questions::Template;
+use jobs::{Jobs, Machines};
 use rare::RareFace;
 use serde_json::{Value, json};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
 use std::time::Duration;
 
 const EXAMPLES: &str = "\
 Examples:
   coinmc check examples/flat-fair.toml
   coinmc check toss.toml --set 'stop={half_width=1e-4}'      what would that accuracy cost?
-  coinmc check toss.toml --format json";
+  coinmc check toss.toml --format json
+  coinmc check toss.toml --nodes 8 --cores 32 --walltime 1h  how to submit it to a cluster
+  coinmc check parts/* --missing                             which parts are to be run again";
 
 /// The interval of a closed form.
 const EXACT: &str = "exact";
@@ -39,12 +46,30 @@ const INDENT: usize = 10;
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Check {
-    /// The config (TOML; `coinmc schema` describes it)
-    config: PathBuf,
+    /// The config (TOML; `coinmc schema` describes it), or with `--missing` run directories
+    #[arg(required = true, value_name = "CONFIG")]
+    paths: Vec<PathBuf>,
 
     /// Replace or add a value of the config, as in `surface.friction=0.2`; repeatable
     #[arg(long = "set", value_name = "KEY=VALUE")]
-    overrides: Vec<Override>,
+    overrides: Vec<Set>,
+
+    /// Say which chunks none of these run directories holds, and the parts to run again
+    #[arg(long, conflicts_with_all = ["overrides", "nodes", "defaults"])]
+    missing: bool,
+
+    /// Plan jobs of 10 to 60 minutes for a cluster of so many nodes
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    nodes: Option<u32>,
+
+    /// Cores of a node
+    #[arg(long, value_name = "C", default_value_t = 1, requires = "nodes",
+        value_parser = clap::value_parser!(u32).range(1..))]
+    cores: u32,
+
+    /// Time limit of a job: 1h, 45min or 01:30:00
+    #[arg(long, value_name = "TIME", default_value = "1h", requires = "nodes", value_parser = jobs::walltime)]
+    walltime: Duration,
 
     /// Print the whole config as it is understood, with every default and preset spelled out, as TOML
     #[arg(long, conflicts_with = "format")]
@@ -55,39 +80,87 @@ pub(crate) struct Check {
     format: Format,
 }
 
+/// A `--set`, and how it was written.
+#[derive(Debug, Clone)]
+struct Set {
+    text: String,
+    set: Override,
+}
+
+impl FromStr for Set {
+    type Err = OverrideError;
+
+    fn from_str(text: &str) -> Result<Self, OverrideError> {
+        let (text, set) = (text.to_owned(), text.parse()?);
+        Ok(Self { text, set })
+    }
+}
+
 impl Check {
     pub(crate) fn format(&self) -> Format {
         self.format
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
-        let plan = config::load(&self.config, &self.overrides)?;
+        if self.missing {
+            return missing::report(&self.paths, console);
+        }
+        let [config] = &self.paths[..] else {
+            return Err(Failure::Input(anyhow!(
+                "check takes one config; several run directories need --missing"
+            )));
+        };
+        let overrides: Vec<Override> = self.overrides.iter().map(|set| set.set.clone()).collect();
+        let plan = config::load(config, &overrides)?;
         if self.defaults {
             let printed = output::print(&plan.resolved_toml);
             printed.map_err(|error| Failure::Runtime(error.into()))?;
             return Ok(Outcome::Done);
         }
         let cost = calibration::estimate(&plan)?;
-        let rare = self.rare(&plan, &cost)?;
+        let rare = rare_face(config, &overrides, &plan, &cost)?;
+        let machines = self.nodes.map(|nodes| Machines {
+            nodes,
+            cores: self.cores,
+            walltime: self.walltime,
+        });
+        let jobs = machines.map(|machines| {
+            let core_s = cost.time.map_or(0.0, |time| time.as_secs_f64()) * cost.threads as f64;
+            let sets = self.overrides.iter().map(|set| set.text.as_str());
+            let run = jobs::run(config, sets);
+            (machines, Jobs::of(&plan, &run, core_s, &machines))
+        });
         match self.format {
-            Format::Table => output::print(&to_text(&plan, &cost, rare.as_ref(), console.stdout())),
-            Format::Json => output::print_json(&to_json(&plan, &cost, rare.as_ref())),
+            Format::Table => {
+                let text = to_text(&plan, &cost, rare.as_ref(), console.stdout());
+                output::print(&(text + &about(jobs.as_ref(), console.stdout())))
+            }
+            Format::Json => {
+                let mut document = to_json(&plan, &cost, rare.as_ref());
+                document["cluster"] = jobs.map_or(Value::Null, |(_, jobs)| jobs.to_json());
+                output::print_json(&document)
+            }
         }
         .map_err(|error| Failure::Runtime(error.into()))?;
         Ok(Outcome::Done)
     }
+}
 
-    /// What another way of tossing would gain for the rarest face.
-    fn rare(&self, plan: &Plan, cost: &Cost) -> Result<Option<RareFace>, Failure> {
-        match (rare::relative_error(plan), cost.rarest) {
-            (Some(error), Some(face)) => {
-                let text = config::read_text(&self.config)?;
-                let name = self.config.display().to_string();
-                let template = Template::new(name, text, &self.overrides);
-                RareFace::of(face, error, cost.tosses_per_s, &template).map(Some)
-            }
-            _ => Ok(None),
+/// What another way of tossing would gain for the rarest face.
+fn rare_face(
+    config: &Path,
+    overrides: &[Override],
+    plan: &Plan,
+    cost: &Cost,
+) -> Result<Option<RareFace>, Failure> {
+    match (rare::relative_error(plan), cost.rarest) {
+        (Some(error), Some(face)) => {
+            let text = config::read_text(config)?;
+            let name = config.display().to_string();
+            let template = Template::new(name, text, overrides);
+            RareFace::of(face, error, cost.tosses_per_s, &template).map(Some)
         }
+        _ => Ok(None),
     }
 }
 
@@ -130,17 +203,31 @@ fn to_text(plan: &Plan, cost: &Cost, rare: Option<&RareFace>, style: &Style) -> 
     if style.unicode { text } else { in_ascii(&text) }
 }
 
+/// The jobs of a cluster, if they were asked for. What submits them stays on one line.
+fn about(jobs: Option<&(Machines, Jobs)>, style: &Style) -> String {
+    let Some((machines, jobs)) = jobs else {
+        return String::new();
+    };
+    let title = |title: &str| style.paint(Colors::Strong, &format!("{title:<INDENT$}"));
+    let words = wrapped(&jobs.in_words(machines), style.width - INDENT, INDENT);
+    let mut text = title("cluster") + &words;
+    if let Some(warning) = jobs.warning {
+        text += &(title("note") + &wrapped(warning, style.width - INDENT, INDENT));
+    }
+    if let Some(submit) = &jobs.submit {
+        text += &format!("{}{submit}\n", title("submit"));
+    }
+    if style.unicode { text } else { in_ascii(&text) }
+}
+
 fn points(plan: &Plan) -> String {
     let total = grouped(plan.points.len() as u64);
     if plan.axes.is_empty() {
         return total;
     }
     let axes = plan.axes.iter().map(|axis| {
-        let mut values: Vec<f64> = plan
-            .points
-            .iter()
-            .filter_map(|point| parameter(point, axis))
-            .collect();
+        let points = plan.points.each();
+        let mut values: Vec<f64> = points.filter_map(|point| parameter(&point, axis)).collect();
         values.sort_by(f64::total_cmp);
         values.dedup();
         match values[..] {
@@ -220,7 +307,7 @@ fn intervals(plan: &Plan) -> &'static str {
 fn is_integrated(plan: &Plan) -> bool {
     (0..plan.points.len()).any(|index| {
         plan.method(index).is_some_and(|method| {
-            let left = method.dimensions_left(&plan.points[index].launches);
+            let left = method.dimensions_left(&plan.points.at(index).launches);
             left > 0
         })
     })
@@ -268,9 +355,9 @@ fn cheapest_and_dearest(plan: &Plan, cost: &Cost) -> Option<String> {
         duration(Duration::try_from_secs_f64(point.seconds).unwrap_or(Duration::MAX))
     };
     let place = |point: &PointCost| {
-        let swept = &plan.points[point.point];
+        let swept = plan.points.at(point.point);
         let axes = plan.axes.iter().filter_map(|axis| {
-            let value = parameter(swept, axis)?;
+            let value = parameter(&swept, axis)?;
             Some(format!("{axis} {}", compact(value)))
         });
         axes.collect::<Vec<_>>().join(", ")

@@ -58,7 +58,7 @@ impl SceneArguments {
     /// The model of a law, and the parameters of all laws.
     pub(super) fn model(&self, name: LawName) -> Result<(Model, Shared), Failure> {
         let point = match &self.config {
-            Some(path) => config::load(path, &[])?.points.into_iter().next(),
+            Some(path) => config::load(path, &[])?.points.get(0).cloned(),
             None => None,
         };
         let scene = point.as_ref().map(|point| point.scene);

@@ -14,7 +14,7 @@ pub(super) fn curves(results: &Results, along: &str, face: Face) -> Vec<Curve> {
     let mut places = HashMap::new();
     let mut curves: Vec<Curve> = Vec::new();
     // a point that an interrupted run did not reach is not drawn
-    for row in results.rows.iter().filter(|row| row.side.p.is_finite()) {
+    for row in results.rows.each().filter(|row| row.side.p.is_finite()) {
         let Some(x) = row.parameter(along) else {
             continue;
         };

@@ -1,7 +1,8 @@
 //! Where the curves cross 1/3.
 
 use super::curves::{label, others};
-use super::{FAIR, RATIO};
+use super::totals::Totals;
+use super::{FAIR, RATIO, is_whole};
 use crate::terminal::plot::Curve;
 use crate::terminal::table::{Column, Table};
 use crate::terminal::{Colors, Style, compact, decimals_for, in_ascii, wrapped};
@@ -9,7 +10,7 @@ use coinmc::engines::no_bounce_rule;
 use coinmc::published;
 use coinmc::results::{FairRatio, Results};
 use coinmc_core::Coin;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 /// More crossings than this are not listed; JSON has them all.
 const MOST: usize = 20;
@@ -22,6 +23,7 @@ const WIDE: f64 = 0.9;
 /// two ratios to interpolate between.
 pub(super) fn table(
     results: &Results,
+    totals: &Totals,
     fair: &[FairRatio],
     curves: &[Curve],
     style: &Style,
@@ -29,7 +31,7 @@ pub(super) fn table(
     if curves.iter().all(|curve| curve.marks.len() < 2) {
         return None;
     }
-    let tossed = results.rows.iter().all(|row| row.side.p.is_finite());
+    let tossed = totals.is_tossed;
     let never = if tossed {
         never(fair, curves)
     } else {
@@ -64,7 +66,11 @@ pub(super) fn table(
     } else {
         4
     };
-    let most = if style.whole { fair.len() } else { MOST };
+    let most = if is_whole(fair.len(), style) {
+        fair.len()
+    } else {
+        MOST
+    };
     for crossing in fair.iter().take(most) {
         let mut cells: Vec<String> = crossing
             .at
@@ -127,7 +133,7 @@ fn ratio(x: f64, decimals: usize) -> String {
 /// The fair heights in mm, if there is one radius and it is not the one that is taken where none is
 /// given.
 fn heights(results: &Results, fair: &[FairRatio], style: &Style) -> String {
-    let mut radii = results.rows.iter().map(|row| row.parameter("radius_m"));
+    let mut radii = results.rows.each().map(|row| row.parameter("radius_m"));
     let (Some(Some(radius_m)), [crossing]) = (radii.next(), fair) else {
         return String::new();
     };
@@ -147,12 +153,18 @@ fn heights(results: &Results, fair: &[FairRatio], style: &Style) -> String {
 
 /// Where intervals are as wide as the steps of the sweep, what would narrow them.
 fn coarse(fair: &[FairRatio], curves: &[Curve], style: &Style) -> String {
-    let around = |crossing: &FairRatio| {
-        let curve = curves
-            .iter()
-            .find(|curve| curve.label == label(&crossing.at))?;
+    let sorted = |curve: &Curve| {
         let mut xs: Vec<f64> = curve.marks.iter().map(|mark| mark.x).collect();
         xs.sort_by(f64::total_cmp);
+        xs
+    };
+    // once for each curve: both may be many
+    let all = curves
+        .iter()
+        .map(|curve| (curve.label.as_str(), sorted(curve)));
+    let all: HashMap<&str, Vec<f64>> = all.collect();
+    let around = |crossing: &FairRatio| {
+        let xs = all.get(label(&crossing.at).as_str())?;
         let after = xs
             .partition_point(|x| *x <= crossing.ratio)
             .clamp(1, xs.len() - 1);

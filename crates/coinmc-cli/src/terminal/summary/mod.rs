@@ -5,15 +5,17 @@ mod curves;
 mod fair;
 mod published;
 mod side_endings;
+mod totals;
 
 use super::plot::{Level, Plot, Plotted, Reference};
 use super::table::{Column, Table};
-use super::{Colors, Style, compact, count, decimals_for, grouped, wrapped};
+use super::{Colors, Style, compact, count, grouped, wrapped};
 use coinmc::engines::no_bounce_rule;
 use coinmc::results::{FairRatio, Results, Row};
 use coinmc_core::{Estimate, Face};
 use curves::curves;
 use std::path::Path;
+use totals::Totals;
 
 /// P(side) of a fair coin.
 pub(crate) const FAIR: f64 = 1.0 / 3.0;
@@ -24,6 +26,14 @@ const RATIO: &str = "ratio";
 const LONG: usize = 60;
 const END: usize = 20;
 
+/// A piped table is whole, unless it is so long that nobody reads it and it would take more memory than the run.
+const TOO_LONG: usize = 10_000;
+
+/// Whether a table of so many rows is shown whole.
+fn is_whole(rows: usize, style: &Style) -> bool {
+    style.whole && rows <= TOO_LONG
+}
+
 /// The whole summary of the results in the file `csv`.
 pub(crate) fn summary(
     results: &Results,
@@ -32,7 +42,8 @@ pub(crate) fn summary(
     plotted: &Plotted,
     style: &Style,
 ) -> String {
-    let mut parts = vec![table(results, csv, style)];
+    let totals = Totals::of(results);
+    let mut parts = vec![table(results, &totals, csv, style)];
     if let Plotted::Face { face, along } = plotted {
         parts.extend(plot(
             results,
@@ -43,27 +54,27 @@ pub(crate) fn summary(
     }
     if results.axes.iter().any(|axis| axis == RATIO) {
         let curves = curves(results, RATIO, Face::Side);
-        parts.extend(fair::table(results, fair, &curves, style));
+        parts.extend(fair::table(results, &totals, fair, &curves, style));
     }
-    parts.extend(published::table(results, style));
-    parts.push(closing(results, csv, style));
+    parts.extend(published::table(results, &totals, style));
+    parts.push(closing(&totals, csv, style));
     parts.join("\n")
 }
 
 /// The table of the points as Markdown, whole.
 pub(crate) fn markdown(results: &Results, style: &Style) -> String {
-    points(results, style, 0).markdown()
+    points(results, &Totals::of(results), style, 0).markdown()
 }
 
 /// One row per point.
-fn table(results: &Results, csv: &Path, style: &Style) -> String {
+fn table(results: &Results, totals: &Totals, csv: &Path, style: &Style) -> String {
     let rows = &results.rows;
-    let hidden = if rows.len() > LONG && !style.whole {
+    let hidden = if rows.len() > LONG && !is_whole(rows.len(), style) {
         rows.len() - 2 * END
     } else {
         0
     };
-    let rendered = points(results, style, hidden).render(style);
+    let rendered = points(results, totals, style, hidden).render(style);
     let mut text = rendered.text;
     if hidden > 0 {
         text += &format!(
@@ -81,7 +92,7 @@ fn table(results: &Results, csv: &Path, style: &Style) -> String {
 }
 
 /// A row for each point, but for so many in the middle.
-fn points(results: &Results, style: &Style, hidden: usize) -> Table {
+fn points(results: &Results, totals: &Totals, style: &Style, hidden: usize) -> Table {
     let shown = shown_parameters(results);
     let mut columns: Vec<Column> = shown.iter().map(|name| Column::right(*name)).collect();
     columns.extend([
@@ -89,20 +100,20 @@ fn points(results: &Results, style: &Style, hidden: usize) -> Table {
         Column::right("P(tails)").droppable(3),
         Column::right("P(side)"),
     ]);
-    let has_edge = results.rows.iter().any(|row| row.left.is_some());
+    let (has_edge, decimals) = (totals.has_edge, totals.decimals);
     columns.extend(has_edge.then(|| Column::right("P(left)")));
     columns.extend([
         Column::right("tosses").droppable(4),
         Column::right("undecided").droppable(1),
     ]);
     let mut table = Table::new(columns);
-    let decimals = decimals(results);
-    for (i, row) in results.rows.iter().enumerate() {
+    let rows = &results.rows;
+    for i in 0..rows.len() {
         if hidden > 0 && i == END {
             table.push_gap(hidden as u64);
         }
         if hidden == 0 || i < END || i >= END + hidden {
-            table.push(cells(row, &shown, has_edge, decimals, style));
+            table.push(cells(&rows.at(i), &shown, has_edge, decimals, style));
         }
     }
     table
@@ -138,21 +149,6 @@ fn tosses(row: &Row) -> String {
     }
 }
 
-/// Decimals that show two digits of the narrowest interval's arm.
-fn decimals(results: &Results) -> usize {
-    let arms = results
-        .rows
-        .iter()
-        .map(Row::half_width)
-        .filter(|&arm| arm > 0.0);
-    let least = arms.fold(f64::INFINITY, f64::min);
-    if least.is_finite() {
-        decimals_for(least)
-    } else {
-        6
-    }
-}
-
 fn probability(p: &Estimate, row: &Row, decimals: usize, style: &Style) -> String {
     if row.interval == "exact" {
         format!("{:.decimals$} exact", p.p)
@@ -176,12 +172,9 @@ fn plot(results: &Results, face: Face, along: &str, style: &Style) -> Option<Str
     if !results.axes.iter().any(|axis| axis == along) {
         return None;
     }
-    // the closed forms depend on the ratio alone
-    let rule = results
-        .rows
-        .iter()
-        .find_map(|row| no_bounce_rule(row.engine))
-        .filter(|_| along == RATIO);
+    // a config names one engine, and the closed forms depend on the ratio alone
+    let first = results.rows.each().next().filter(|_| along == RATIO);
+    let rule = first.and_then(|row| no_bounce_rule(row.engine));
     let label = rule.map_or(String::new(), |rule| format!("{rule} rule (no bounce)"));
     let p_face = |ratio| {
         let p_side = rule.map_or(f64::NAN, |rule| rule.p_side(ratio));
@@ -209,24 +202,16 @@ fn plot(results: &Results, face: Face, along: &str, style: &Style) -> Option<Str
 }
 
 /// Undecided tosses, how tosses on the side came there, and the path of the results.
-fn closing(results: &Results, csv: &Path, style: &Style) -> String {
-    let sum = |count: fn(&Row) -> u64| {
-        results
-            .rows
-            .iter()
-            .fold(0_u64, |sum, row| sum.saturating_add(count(row)))
-    };
-    let (tosses, undecided) = (
-        sum(|row| row.tally.tosses()),
-        sum(|row| row.tally.undecided()),
-    );
+fn closing(totals: &Totals, csv: &Path, style: &Style) -> String {
+    let tally = &totals.tally;
+    let (tosses, undecided) = (tally.tosses(), tally.undecided());
     let mut text = String::new();
     if undecided > 0 {
         let reasons = [
-            (sum(|row| row.tally.time_limit), "at the limit of time"),
-            (sum(|row| row.tally.never_settles), "forever"),
-            (sum(|row| row.tally.impact_limit), "at the limit of impacts"),
-            (sum(|row| row.tally.failed), "failed"),
+            (tally.time_limit, "at the limit of time"),
+            (tally.never_settles, "forever"),
+            (tally.impact_limit, "at the limit of impacts"),
+            (tally.failed, "failed"),
         ];
         let reasons = reasons.iter().filter(|(count, _)| *count > 0);
         let reasons = reasons.map(|(count, reason)| format!("{} {reason}", grouped(*count)));
@@ -239,7 +224,7 @@ fn closing(results: &Results, csv: &Path, style: &Style) -> String {
         );
         text += &wrapped(&sentence, style.width, 4);
     }
-    let sentence = side_endings::sentence(results);
+    let sentence = side_endings::sentence(tally);
     text += &sentence.map_or(String::new(), |text| wrapped(&text, style.width, 4));
     text + &format!("Results: {}\n", csv.display())
 }

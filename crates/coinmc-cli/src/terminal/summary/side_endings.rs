@@ -1,16 +1,10 @@
 //! How tosses that ended on the side came there, in one sentence.
 
 use crate::terminal::grouped;
-use coinmc::results::Results;
 use coinmc_core::{ROLL_BOUNDS_M, Tally};
 
 /// The sentence for all points together; `None` if no engine knows.
-pub(super) fn sentence(results: &Results) -> Option<String> {
-    let mut sum = Tally::default();
-    for row in &results.rows {
-        // only forged counts overflow
-        sum = sum.checked_merge(&row.tally).unwrap_or(sum);
-    }
+pub(super) fn sentence(sum: &Tally) -> Option<String> {
     let known = sum.side_rested + sum.side_rolled + sum.side_spun;
     if known == 0 {
         return None;
@@ -23,7 +17,7 @@ pub(super) fn sentence(results: &Results) -> Option<String> {
         share(sum.side_rolled),
         share(sum.side_spun)
     );
-    if let Some((bound, count)) = farthest(&sum) {
+    if let Some((bound, count)) = farthest(sum) {
         sentence += &format!("; {} rolled more than {bound}", share(count));
     }
     Some(sentence)

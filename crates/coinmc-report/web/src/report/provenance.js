@@ -1,7 +1,7 @@
 // Where the numbers come from, and how to have them again.
 
 import { copyButton, download, el } from "../dom.js";
-import { grouped } from "../format.js";
+import { compact, count, grouped } from "../format.js";
 import { section } from "./controls.js";
 
 export function provenanceSection(runs) {
@@ -18,6 +18,7 @@ function part(run, named) {
     ["confidence of intervals", `${100 * data.confidence} %`],
     ["points", grouped(data.points)],
     ...manifest(data.manifest),
+    ...(data.made_by ?? []).map((made) => ["made by", maker(made)]),
   ];
   const list = el("dl", {}, facts.flatMap(([name, value]) => [el("dt", {}, name), el("dd", {}, value)]));
   return el(
@@ -40,6 +41,13 @@ function part(run, named) {
       el("pre", { tabindex: 0 }, data.config),
     ),
   );
+}
+
+/** A build on a machine, and what it did. */
+function maker(made) {
+  const of = [`coinmc ${made.build}`, made.cpu, `${made.lanes} lanes`];
+  const time = made.processor_s ?? made.wall_s;
+  return `${of.join(", ")}: ${count(made.chunks, "chunk")}, ${compact(time)} s of ${made.processor_s === null ? "its threads" : "processor time"}`;
 }
 
 /** What else the run directory tells, whatever it is. */

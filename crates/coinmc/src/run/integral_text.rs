@@ -1,4 +1,4 @@
-//! The file of one integrated point: a few lines of text with a checksum. See
+//! The result of one integrated point: a few lines of text with a checksum. See
 //! docs/reference/formats.md.
 
 use super::damage::Damage;
@@ -13,7 +13,7 @@ const TITLE: &str = "coinmc integral";
 /// The kinds of interval: Student's, and exact.
 const KINDS: [&str; 2] = ["student-t", "exact"];
 
-/// The file's content.
+/// The text.
 pub(super) fn encode(point: usize, integral: &Integral, plan_hash: &str) -> String {
     let mut text = format!(
         "{TITLE} {FORMAT}\nplan {plan_hash}\npoint {point}\nmethod {}\nevaluations {}\ninterval {}\n",
@@ -28,7 +28,7 @@ pub(super) fn encode(point: usize, integral: &Integral, plan_hash: &str) -> Stri
     seal(text)
 }
 
-/// Reads the file of a point that the plan integrates by `method`. Any bytes other than those that
+/// Reads the text of a point that the plan integrates by `method`. Any bytes other than those that
 /// [`encode`] would write are rejected.
 pub(super) fn decode(
     bytes: &[u8],

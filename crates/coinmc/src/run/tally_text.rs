@@ -1,4 +1,4 @@
-//! The file of one finished chunk: a few lines of text with a checksum. See
+//! The tally of one finished chunk: a few lines of text with a checksum. See
 //! docs/reference/formats.md.
 
 use super::Chunk;
@@ -11,29 +11,8 @@ use std::fmt::Write;
 /// Version of the format.
 const FORMAT: u64 = 2;
 const TITLE: &str = "coinmc tally";
-const EXTENSION: &str = ".tally";
 /// The line of the computing time.
 const TIME: &str = "microseconds";
-
-/// Name of the file of a chunk.
-pub(super) fn name(chunk: &Chunk) -> String {
-    format!("p{:06}-t{:014}{EXTENSION}", chunk.point, chunk.tosses.start)
-}
-
-/// Point and first toss of the chunk whose file has this name; `None` for any other name.
-pub(super) fn parse_name(file: &str) -> Option<(usize, u64)> {
-    let (point, start) = file
-        .strip_suffix(EXTENSION)?
-        .strip_prefix('p')?
-        .split_once("-t")?;
-    let (point, start) = (point.parse().ok()?, start.parse().ok()?);
-    // only one spelling is valid, so that no two names mean the same chunk
-    (name(&Chunk {
-        point,
-        tosses: start..start,
-    }) == file)
-        .then_some((point, start))
-}
 
 /// Whether the counter has a line even if it is 0; counters of what most laws or engines never
 /// count do not.
@@ -44,7 +23,7 @@ fn is_always_written(counter: &Counter) -> bool {
     )
 }
 
-/// The file's content.
+/// The text.
 pub(super) fn encode(chunk: &Chunk, tossed: &Tossed, plan_hash: &str) -> String {
     let Chunk { point, tosses } = chunk;
     let mut text = format!(
@@ -62,14 +41,14 @@ pub(super) fn encode(chunk: &Chunk, tossed: &Tossed, plan_hash: &str) -> String 
     seal(text)
 }
 
-/// The number that the file gives for the toss after its last, if it gives one.
+/// The number that the text gives for the toss after its last, if it gives one.
 pub(super) fn end(bytes: &[u8]) -> Option<u64> {
     let text = std::str::from_utf8(bytes).ok()?;
     let range = text.lines().find_map(|line| line.strip_prefix("tosses "))?;
     range.split_once(' ')?.1.parse().ok()
 }
 
-/// Reads the file of `chunk`. Any bytes other than those that [`encode`] would write are rejected.
+/// Reads the text of `chunk`. Any bytes other than those that [`encode`] would write are rejected.
 pub(super) fn decode(bytes: &[u8], chunk: &Chunk, plan_hash: &str) -> Result<Tossed, Damage> {
     let mut lines = unseal(bytes)?.lines();
     let title = lines
@@ -179,28 +158,6 @@ mod tests {
     }
 
     #[test]
-    fn names_have_only_one_spelling() {
-        let (chunk, _) = example();
-        assert_eq!(name(&chunk), "p000003-t00000000016384.tally");
-        assert_eq!(parse_name(&name(&chunk)), Some((3, 16384)));
-        let far = Chunk {
-            point: 12_345_678,
-            tosses: u64::MAX - 1..u64::MAX,
-        };
-        assert_eq!(parse_name(&name(&far)), Some((12_345_678, u64::MAX - 1)));
-        for bad in [
-            "p3-t16384.tally",
-            "p+00003-t00000000016384.tally",
-            "p000003-t00000000016384.tally.tmp",
-            "p000003-t99999999999999999999999.tally",
-            "../p000003-t00000000016384.tally",
-            "",
-        ] {
-            assert_eq!(parse_name(bad), None, "{bad}");
-        }
-    }
-
-    #[test]
     fn impossible_counts_are_rejected_without_overflow() {
         let (chunk, tally) = example();
         for forged in [
@@ -228,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn foreign_files_with_a_valid_checksum_are_rejected() {
+    fn foreign_texts_with_a_valid_checksum_are_rejected() {
         let (chunk, tally) = example();
         let text = encode(&chunk, &untimed(tally), HASH);
         let other = Chunk {
@@ -267,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn the_longest_file_is_within_the_bound() {
+    fn the_longest_text_is_within_the_bound() {
         let chunk = Chunk {
             point: usize::MAX,
             tosses: 0..u64::MAX,
@@ -285,7 +242,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn files_read_back_and_any_damage_is_detected(
+        fn texts_read_back_and_any_damage_is_detected(
             point in 0..10_000_usize,
             start in 0..u64::MAX / 2,
             faces in prop::array::uniform7(0..1_u64 << 40),
@@ -302,7 +259,6 @@ mod tests {
             let tossed = Tossed { tally, microseconds };
             let bytes = encode(&chunk, &tossed, HASH).into_bytes();
             prop_assert_eq!(decode(&bytes, &chunk, HASH), Ok(tossed));
-            prop_assert_eq!(parse_name(&name(&chunk)), Some((point, start)));
 
             let place = place.index(bytes.len());
             let mut flipped = bytes.clone();

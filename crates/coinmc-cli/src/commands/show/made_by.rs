@@ -1,0 +1,28 @@
+//! Who made a run, for people.
+
+use crate::terminal::{count, duration};
+use coinmc::run::{Contribution, Maker, Provenance};
+use std::time::Duration;
+
+/// A line for each build and machine, and one for what is not recorded.
+pub(super) fn lines(provenance: &Provenance) -> Vec<String> {
+    let mut lines: Vec<String> = provenance.contributions.iter().map(line).collect();
+    if provenance.unrecorded_chunks > 0 {
+        let chunks = count(provenance.unrecorded_chunks, "chunk");
+        lines.push(format!("coinmc: who made {chunks} is not recorded"));
+    }
+    lines
+}
+
+fn line(contribution: &Contribution) -> String {
+    let Maker {
+        build, cpu, lanes, ..
+    } = &contribution.maker;
+    let chunks = count(contribution.chunks, "chunk");
+    let (time, of) = match contribution.processor_s {
+        Some(time) => (time, "of processor time"),
+        None => (contribution.wall_s, "of its threads"),
+    };
+    let time = duration(Duration::try_from_secs_f64(time).unwrap_or(Duration::MAX));
+    format!("coinmc: made by {build}, {cpu}, {lanes} lanes: {chunks}, {time} {of}")
+}

@@ -1,0 +1,77 @@
+//! The chunks that an earlier run finished.
+
+use super::Chunk;
+use super::chunk_result::ChunkResult;
+use super::packed::Packed;
+
+/// Results of finished chunks, found by point and first toss.
+#[derive(Debug, Default)]
+pub(super) struct Finished {
+    /// In order of point and first toss.
+    entries: Vec<Entry>,
+    /// Those that were not taken, and their tosses.
+    left: u64,
+    tosses: u64,
+}
+
+#[derive(Debug)]
+struct Entry {
+    point: u32,
+    start: u64,
+    /// `None` once it was taken.
+    result: Option<Packed>,
+}
+
+impl Finished {
+    /// Of a chunk that occurs twice the first result is kept.
+    pub(super) fn new(found: impl IntoIterator<Item = (Chunk, Packed)>) -> Self {
+        let entry = |(chunk, result): (Chunk, Packed)| Entry {
+            point: u32::try_from(chunk.point).unwrap_or(u32::MAX),
+            start: chunk.tosses.start,
+            result: Some(result),
+        };
+        let mut entries: Vec<Entry> = found.into_iter().map(entry).collect();
+        entries.sort_by_key(Entry::key);
+        entries.dedup_by_key(|entry| entry.key());
+        let results = entries.iter().filter_map(|entry| entry.result.as_ref());
+        let tosses = results.map(|packed| ChunkResult::from(packed).tosses());
+        Self {
+            tosses: tosses.fold(0, u64::saturating_add),
+            left: entries.len() as u64,
+            entries,
+        }
+    }
+
+    /// Chunks that were not taken.
+    pub(super) fn left(&self) -> u64 {
+        self.left
+    }
+
+    /// Their tosses.
+    pub(super) fn tosses(&self) -> u64 {
+        self.tosses
+    }
+
+    /// Takes the result of the chunk of `point` that begins at toss `start`.
+    pub(super) fn take(&mut self, point: usize, start: u64) -> Option<ChunkResult> {
+        let key = (u32::try_from(point).ok()?, start);
+        let index = self.entries.binary_search_by_key(&key, Entry::key).ok()?;
+        let packed = self.entries[index].result.take()?;
+        let result = ChunkResult::from(&packed);
+        self.left -= 1;
+        self.tosses = self.tosses.saturating_sub(result.tosses());
+        Some(result)
+    }
+
+    /// Point and first toss of what was not taken.
+    pub(super) fn rest(&self) -> impl Iterator<Item = (usize, u64)> {
+        let rest = self.entries.iter().filter(|entry| entry.result.is_some());
+        rest.map(|entry| (entry.point as usize, entry.start))
+    }
+}
+
+impl Entry {
+    fn key(&self) -> (u32, u64) {
+        (self.point, self.start)
+    }
+}
