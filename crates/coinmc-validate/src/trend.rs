@@ -19,7 +19,8 @@ pub(crate) enum Trend {
 impl Trend {
     /// By the difference of two shares in standard errors, each with the variance of its own share.
     pub(crate) fn of(results: &Results) -> Self {
-        let [Some(first), Some(last)] = [results.rows.first(), results.rows.last()] else {
+        let [Some(first), Some(last)] = [results.rows.first(), results.rows.iter().next_back()]
+        else {
             return Self::Unseen;
         };
         let variance = |row: &Row| {
@@ -49,10 +50,10 @@ impl Trend {
 }
 
 /// The p-value of the χ² test that P(side) is the same at all points.
-pub(crate) fn p_same(rows: &[Row]) -> f64 {
+pub(crate) fn p_same<'a>(rows: impl Iterator<Item = &'a Row> + Clone) -> f64 {
     let counts = |row: &Row| (row.tally.side as f64, row.tally.tosses() as f64);
     let (sides, tosses) = rows
-        .iter()
+        .clone()
         .map(counts)
         .fold((0.0, 0.0), |sum, (k, n)| (sum.0 + k, sum.1 + n));
     let p = sides / tosses;
@@ -60,11 +61,11 @@ pub(crate) fn p_same(rows: &[Row]) -> f64 {
         return 1.0;
     }
     let chi_squared: f64 = rows
-        .iter()
+        .clone()
         .map(counts)
         .map(|(k, n)| (k - n * p) * (k - n * p) / (n * p * (1.0 - p)))
         .sum();
-    let freedom = rows.len() as f64 - 1.0;
+    let freedom = rows.count() as f64 - 1.0;
     gamma_ur(0.5 * freedom, 0.5 * chi_squared)
 }
 
@@ -101,8 +102,8 @@ mod tests {
     /// χ² = 20 on one degree of freedom: erfc(√10).
     #[test]
     fn the_same_share_is_tested_by_chi_squared() {
-        let p = p_same(&results(&[450, 550], 1000).rows);
+        let p = p_same(results(&[450, 550], 1000).rows.iter());
         assert!((p - 7.744e-6).abs() < 1e-8, "{p}");
-        assert_eq!(p_same(&results(&[0, 0], 10).rows), 1.0);
+        assert_eq!(p_same(results(&[0, 0], 10).rows.iter()), 1.0);
     }
 }

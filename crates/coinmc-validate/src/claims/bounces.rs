@@ -68,12 +68,12 @@ pub(super) fn half_sine(tosser: &Tosser<'_>) -> Result<Finding, ValidateError> {
                 .with(format!("coin.ratio={ratio:?}"))
                 .with(format!("surface.friction={mu:?}"))
                 .with(*law);
-            let mut results = tosser.toss(&scene, 3000, 50_000)?;
-            let row = results.rows.remove(0);
+            let results = tosser.toss(&scene, 3000, 50_000)?;
+            let row = results.rows[0].clone();
             evidence.push(Evidence::p_side(format!("{name}, {at}"), &row));
             rows.push(row);
         }
-        let p = p_same(&rows);
+        let p = p_same(rows.iter());
         if p >= LEVEL {
             same.push(at.clone());
         }

@@ -155,7 +155,7 @@ pub(super) fn height(tosser: &Tosser<'_>) -> Result<Finding, ValidateError> {
     for varied in &scenes {
         let results = varied.toss(tosser)?;
         evidence.extend(varied.evidence(&results));
-        let p = p_same(&results.rows);
+        let p = p_same(results.rows.iter());
         if p >= LEVEL {
             same.push(varied.name.to_owned());
         }
@@ -191,7 +191,7 @@ pub(super) fn spin(tosser: &Tosser<'_>) -> Result<Finding, ValidateError> {
         let results = varied.toss(tosser)?;
         evidence.extend(varied.evidence(&results));
         let what = format!("p-value of the same P(side) at every spin, {}", varied.name);
-        evidence.push(Evidence::exact(what, p_same(&results.rows)));
+        evidence.push(Evidence::exact(what, p_same(results.rows.iter())));
     }
     let verdict = Verdict::NotValidated(
         "the paper's figure of it is not to be had; what is found here is the evidence".to_owned(),
