@@ -70,10 +70,15 @@ fn set(predicted: &Predicted) -> Value {
         "verdict": verdict(predicted),
         "condition": predicted.why_not(),
         "p_value": predicted.p_value,
-        "p_error": predicted.p_value.map(|_| predicted.p_error),
+        "p_error": error(predicted.p_error),
         "tosses": predicted.own_tosses(),
         "lines": predicted.lines.iter().map(line).collect::<Vec<_>>(),
     })
+}
+
+/// Of a p-value: none without draws.
+fn error(error: f64) -> Option<f64> {
+    (error > 0.0).then_some(error)
 }
 
 fn verdict(predicted: &Predicted) -> &'static str {
@@ -94,7 +99,7 @@ fn line(line: &Line) -> Value {
         "lo": line.range[0],
         "hi": line.range[1],
         "p_value": line.p_value,
-        "p_error": line.p_error,
+        "p_error": error(line.p_error),
         "tosses": line.own_tosses,
     })
 }

@@ -6,7 +6,7 @@ pub enum Size {
     /// Less than a minute on two cores.
     #[default]
     Quick,
-    /// About half an hour on two cores.
+    /// Some twenty times as much work.
     Full,
 }
 
