@@ -20,6 +20,7 @@ mod run;
 mod schema;
 mod sensitivity;
 mod show;
+mod status;
 mod trace;
 
 pub(crate) use aim::AimAt;
@@ -40,6 +41,7 @@ pub(crate) use run::Run;
 pub(crate) use schema::Schema;
 pub(crate) use sensitivity::SensitivityOf;
 pub(crate) use show::Show;
+pub(crate) use status::Status;
 pub(crate) use trace::Trace;
 
 use coinmc_core::Face;
