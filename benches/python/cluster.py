@@ -80,8 +80,10 @@ def files(path: Path) -> dict[str, bytes]:
 
 def kills(arguments: argparse.Namespace, folder: Path) -> None:
     """Kill workers and clients at random instants; compare with an undisturbed local run."""
+    import dask
     from distributed import Client, LocalCluster
 
+    dask.config.set({"distributed.deploy.lost-worker-timeout": "2s"})
     config = config_of(arguments.chunks, 40_000)
     (folder / "toss.toml").write_text(config.resolved)
     coinmc.run(config, folder / "whole")
@@ -101,6 +103,9 @@ def kills(arguments: argparse.Namespace, folder: Path) -> None:
                 process, clients = subprocess.Popen(words), clients - 1
             elif workers:
                 ids = list(observer.run(os.getpid).values())
+                if len(ids) < 2:
+                    # a nanny whose worker is killed while it starts gives up
+                    cluster.scale(2)
                 if ids:
                     os.kill(chance.choice(ids), signal.SIGKILL)
                     workers -= 1
