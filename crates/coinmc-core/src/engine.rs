@@ -128,17 +128,17 @@ impl State {
     /// Mechanical energy per unit mass, J/kg, with the potential zero at the surface; on a tilted
     /// table at its middle.
     pub fn energy_j_kg(&self, scene: &Scene) -> f64 {
-        let height_m = scene.surface.tilt().map_or(self.position_m.z, |tilt| {
-            let [x, y] = tilt.downhill();
-            let descent = tilt.slope() * (x * self.position_m.x + y * self.position_m.y);
-            tilt.cos() * (self.position_m.z - descent)
-        });
         let axial = self.spin_rad_s.dot(&self.axis);
         let transverse = (self.spin_rad_s - self.axis.into_inner() * axial).norm_squared();
         0.5 * self.velocity_m_s.norm_squared()
             + 0.5 * scene.coin.axial_gyration_m2() * axial * axial
             + 0.5 * scene.coin.transverse_gyration_m2() * transverse
-            + scene.gravity_m_s2() * height_m
+            + self.potential_j_kg(scene)
+    }
+
+    /// Potential energy per unit mass, J/kg, zero at the surface; on a tilted table at its middle.
+    pub fn potential_j_kg(&self, scene: &Scene) -> f64 {
+        -scene.weight_m_s2().dot(&self.position_m)
     }
 }
 

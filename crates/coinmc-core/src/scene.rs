@@ -2,6 +2,7 @@
 
 use crate::schema::{Bounds, ReadError, TableKind, Values, default, fields, flag, number};
 use crate::{Coin, Surface, SurfaceError};
+use nalgebra::Vector3;
 
 /// Everything about a toss that is not its launch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -272,6 +273,25 @@ impl Scene {
             gravity_m_s2: self.gravity_m_s2 * cos,
             ..*self
         }
+    }
+
+    /// The weight per unit mass, m/s²: g downwards; in [axes of the table](crate::TableTilt) on a tilted
+    /// one.
+    ///
+    /// # Example
+    /// ```
+    /// use coinmc_core::{Coin, Scene, Surface, TableTilt};
+    /// let surface = Surface::new(0.5, 0.3)?.with_tilt(TableTilt::new(10.0, 0.0)?)?;
+    /// let scene = Scene::new(Coin::cylinder(0.2, 0.01)?, surface, 10.0)?;
+    /// let weight = scene.weight_m_s2();
+    /// assert!((weight.x - 1.736).abs() < 1e-3 && (weight.z + 9.848).abs() < 1e-3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn weight_m_s2(&self) -> Vector3<f64> {
+        let weight = Vector3::new(0.0, 0.0, -self.gravity_m_s2);
+        self.surface
+            .tilt()
+            .map_or(weight, |tilt| tilt.in_table_axes(&weight))
     }
 
     /// sqrt(D/g), s: the time scale of a coin toppling over its rim.

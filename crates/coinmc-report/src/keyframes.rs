@@ -89,7 +89,8 @@ mod tests {
     use super::*;
     use coinmc_trace::replay;
 
-    /// Tosses in the plane and in space, with drag, that end on a face or roll on the side.
+    /// Tosses in the plane and in space, with drag and on a tilted table, that end on a face or roll on the
+    /// side.
     fn traces() -> Vec<Trace> {
         let scenes = [
             ("engine.flat = {}", "launch.preset = 'robot'"),
@@ -102,11 +103,15 @@ mod tests {
                 "engine.volumetric = {}\nenvironment.gyroscopic_torque = false",
                 "launch.preset = 'clean'",
             ),
+            (
+                "engine.volumetric = {}\nsurface.table_tilt_deg = 8",
+                "launch.preset = 'clean'",
+            ),
         ];
         let mut traces = vec![];
         for (engine, launch) in scenes {
             let config = format!(
-                "coin.ratio = 0.8\nsurface = {{ restitution = 0.5, friction = 0.3 }}\n{launch}\n{engine}\n\
+                "coin.ratio = 0.8\nsurface.restitution = 0.5\nsurface.friction = 0.3\n{launch}\n{engine}\n\
                  stop.tosses = 100"
             );
             let plan =

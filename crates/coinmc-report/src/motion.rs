@@ -32,14 +32,13 @@ pub(crate) fn between(scene: &Scene, from: &Record, to: &Record, s: f64) -> Pose
 
 /// The pose after `t` seconds of flight.
 fn flown(scene: &Scene, from: &Record, t: f64) -> Pose {
-    let (state, g) = (&from.state, scene.gravity_m_s2());
+    let (state, weight) = (&from.state, scene.weight_m_s2());
     let k = scene.drag().linear_per_s();
-    let fall = Vector3::new(0.0, 0.0, g);
     let place = if k > 0.0 {
         let eased = effective(k, t);
-        state.position_m + (state.velocity_m_s + fall / k) * eased - fall * (t / k)
+        state.position_m + (state.velocity_m_s - weight / k) * eased + weight * (t / k)
     } else {
-        state.position_m + state.velocity_m_s * t - fall * (0.5 * t * t)
+        state.position_m + state.velocity_m_s * t + weight * (0.5 * t * t)
     };
     let factor = axial_factor(scene);
     let axis = state.axis.into_inner();

@@ -47,7 +47,7 @@ pub(crate) fn scene(scene: &Scene) -> Value {
         "axial_gyration_m2": coin.axial_gyration_m2(),
         "transverse_gyration_m2": coin.transverse_gyration_m2(),
         "axial_factor": axial_factor(scene),
-        "gravity_m_s2": scene.gravity_m_s2(),
+        "weight_m_s2": scene.weight_m_s2().as_slice(),
         "linear_drag_per_s": scene.drag().linear_per_s(),
         "angular_drag_per_s": scene.drag().angular_per_s(),
         "table_radius_m": scene.surface.table_radius_m(),

@@ -192,7 +192,7 @@ fn energy(trace: &Trace, record: &Record) -> Value {
         "toss": trace.toss,
         "time_s": state.time_s,
         "total_j_kg": record.energy_j_kg,
-        "potential_j_kg": scene.gravity_m_s2() * state.position_m.z,
+        "potential_j_kg": state.potential_j_kg(scene),
         "translation_j_kg": 0.5 * state.velocity_m_s.norm_squared(),
         "rotation_j_kg": rotation_j_kg(scene, state),
     })

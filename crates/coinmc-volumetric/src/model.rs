@@ -78,11 +78,11 @@ impl<L> Model<L> {
         let rule = DecisionRule::new(scene, tilting, negligible_rocking);
         let ground = scene.surface.roughness().map(|roughness| {
             let length = roughness.correlation_length_m() / units.length_m;
-            Ground::new(roughness.slope(), length)
+            Ground::new(roughness.slope(), length, 2.0 * body.half)
         });
         let side = ground
             .as_ref()
-            .map_or(FRAC_PI_2, |ground| libm::acos(ground.near(2.0 * body.half)));
+            .map_or(FRAC_PI_2, |ground| libm::acos(ground.near));
         let restitution = Restitution::new(&scene.surface, &units);
         let keeps = rule.loses_nothing(scene.surface.restitution()) && restitution.is_constant();
         let dynamics = Dynamics::new(body, friction, drag, axial_factor, settings.smoothing_time);

@@ -21,12 +21,18 @@ const WIDTH: usize = SIDE + 3;
 const DENSITY: f64 = 2.0;
 /// Farthest neighbour in the blur, in coefficients: the kernel is below 1e-9 beyond.
 const BLUR: usize = 9;
+/// More than the rounding errors of a height, in σ.
+const ROUNDING: f64 = 1e-9;
+/// The step of the bounds of cells, in σ: a byte then reaches to 7.9 σ.
+const BOUND_STEP: f64 = 1.0 / 16.0;
 /// The key of the field's random numbers; there is one field for all scenes.
 const KEY: [u64; 2] = [0x726f_7567_686e_6573, 0x7320_6f66_2061_2074];
 
 /// The field.
 pub(super) struct HeightField {
     coefficients: Vec<f64>,
+    /// What the height in each cell does not exceed, in steps of [`BOUND_STEP`].
+    bounds: Vec<i8>,
 }
 
 impl HeightField {
@@ -46,61 +52,81 @@ impl HeightField {
             let (row, column) = (index / WIDTH % SIDE, index % WIDTH % SIDE);
             scale * coefficients[row * SIDE + column]
         };
+        let coefficients: Vec<f64> = (0..WIDTH * WIDTH).map(wrapped).collect();
+        let bounds = (0..SIDE * SIDE).map(|cell| bound(&coefficients, cell / SIDE, cell % SIDE));
         Self {
-            coefficients: (0..WIDTH * WIDTH).map(wrapped).collect(),
+            bounds: bounds.collect(),
+            coefficients,
         }
+    }
+
+    /// What the height nowhere exceeds in the cell around (`x`, `y`), in σ. Costs a fraction of
+    /// [`height`](Self::height).
+    #[inline]
+    pub(super) fn height_at_most(&self, x: f64, y: f64) -> f64 {
+        let ((column, _), (row, _)) = (cell(x), cell(y));
+        f64::from(self.bounds[row * SIDE + column]) * BOUND_STEP
     }
 
     /// The height at (`x`, `y`), in σ; the coordinates are in ℓ.
     #[inline]
     pub(super) fn height(&self, x: f64, y: f64) -> f64 {
-        let (column, across) = cell(x);
-        let (row, along) = cell(y);
-        let (wx, wy) = (weights(across), weights(along));
-        let mut sum = 0.0;
-        for (line, wy) in self.coefficients[row * WIDTH..].chunks_exact(WIDTH).zip(wy) {
-            let mut height = 0.0;
-            for (coefficient, wx) in line[column..column + 4].iter().zip(wx) {
-                height += wx * coefficient;
-            }
-            sum += wy * height;
-        }
-        sum
+        let ((column, across), (row, along)) = (cell(x), cell(y));
+        let line = weighted(&self.lines(row, column), weights(along));
+        dot(weights(across), line)
     }
 
     /// The slopes along x and y at (`x`, `y`), in σ/ℓ.
     pub(super) fn gradient(&self, x: f64, y: f64) -> [f64; 2] {
-        let (column, across) = cell(x);
-        let (row, along) = cell(y);
-        let (wx, wy) = (weights(across), weights(along));
-        let (dx, dy) = (weight_rates(across), weight_rates(along));
-        let [mut gx, mut gy] = [0.0; 2];
-        let lines = self.coefficients[row * WIDTH..].chunks_exact(WIDTH);
-        for (line, (wy, dy)) in lines.zip(wy.into_iter().zip(dy)) {
-            let (mut height, mut rate) = (0.0, 0.0);
-            for (coefficient, (wx, dx)) in line[column..column + 4].iter().zip(wx.iter().zip(dx)) {
-                height += wx * coefficient;
-                rate += dx * coefficient;
-            }
-            gx += wy * rate;
-            gy += dy * height;
-        }
+        let ((column, across), (row, along)) = (cell(x), cell(y));
+        let lines = self.lines(row, column);
+        let (heights, rates) = (
+            weighted(&lines, weights(along)),
+            weighted(&lines, weight_rates(along)),
+        );
+        let (gx, gy) = (
+            dot(weight_rates(across), heights),
+            dot(weights(across), rates),
+        );
         [DENSITY * gx, DENSITY * gy]
+    }
+
+    /// The coefficients of the splines that are not zero in a cell.
+    #[inline]
+    fn lines(&self, row: usize, column: usize) -> [&[f64; 4]; 4] {
+        let block = &self.coefficients[row * WIDTH + column..][..3 * WIDTH + 4];
+        [0, WIDTH, 2 * WIDTH, 3 * WIDTH].map(|start| {
+            let line = block[start..].first_chunk();
+            line.expect("a block of four lines")
+        })
     }
 }
 
+/// The sum of four lines, each with its weight.
+#[inline]
+fn weighted(lines: &[&[f64; 4]; 4], weights: [f64; 4]) -> [f64; 4] {
+    std::array::from_fn(|i| dot(weights, [0, 1, 2, 3].map(|line: usize| lines[line][i])))
+}
+
+#[inline]
+fn dot(a: [f64; 4], b: [f64; 4]) -> f64 {
+    (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
+}
+
 /// The cell of a coordinate, as the first of its four coefficients, and the place within the cell.
+///
+/// Adding 1.5 · 2⁵² rounds to a whole number and leaves it in the lowest bits, so that to wrap on the
+/// torus, whose side is a power of two, is a mask for negative cells too.
 #[inline]
 fn cell(x: f64) -> (usize, f64) {
+    /// 1.5 · 2⁵².
+    const SHIFT: f64 = 6_755_399_441_055_744.0;
     let scaled = x * DENSITY;
-    // rounded down; a call of `floor` takes longer
+    let shifted = (scaled - 0.5) + SHIFT;
+    // the lowest eight bits fit any usize
     #[allow(clippy::cast_possible_truncation)]
-    let towards_zero = scaled as i64;
-    let low = towards_zero - i64::from(scaled < towards_zero as f64);
-    // the torus: a power of two, so that wrapping a negative cell is a mask
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-    let index = low as usize & (SIDE - 1);
-    (index, scaled - low as f64)
+    let index = shifted.to_bits() as usize & (SIDE - 1);
+    (index, scaled - (shifted - SHIFT))
 }
 
 /// The four cubic B-splines that are not zero at the place `t` of a cell.
@@ -125,6 +151,29 @@ fn weight_rates(t: f64) -> [f64; 4] {
         u * (2.0 - 1.5 * u),
         0.5 * t * t,
     ]
+}
+
+/// What the spline does not exceed in a cell, in steps of [`BOUND_STEP`]: the largest of its Bézier
+/// coefficients there, whose convex hull it does not leave (Farin, *Curves and Surfaces for CAGD*).
+fn bound(coefficients: &[f64], row: usize, column: usize) -> i8 {
+    let lines: [[f64; 4]; 4] = std::array::from_fn(|j| {
+        let start = (row + j) * WIDTH + column;
+        bezier(std::array::from_fn(|i| coefficients[start + i]))
+    });
+    let columns = [0, 1, 2, 3].map(|i| bezier(lines.map(|line| line[i])));
+    let highest = columns.into_iter().flatten().fold(f64::MIN, f64::max);
+    // saturates: a field that reached beyond would lose its highest tops, which a test rules out
+    #[allow(clippy::cast_possible_truncation)]
+    let steps = libm::ceil((highest + ROUNDING) / BOUND_STEP) as i8;
+    steps
+}
+
+/// The Bézier coefficients of a cubic with these four coefficients of B-splines.
+fn bezier([a, b, c, d]: [f64; 4]) -> [f64; 4] {
+    let (left, right) = ((2.0 * b + c) / 3.0, (b + 2.0 * c) / 3.0);
+    let start = 0.5 * ((a + 2.0 * b) / 3.0 + left);
+    let end = 0.5 * (right + (2.0 * c + d) / 3.0);
+    [start, left, right, end]
 }
 
 /// White noise on the grid, convolved with a Gaussian along both axes.
@@ -230,6 +279,22 @@ mod tests {
             assert!((along - expected).abs() < 0.06, "{lag}: {along}");
             assert!((across - expected).abs() < 0.06, "{lag}: {across}");
         }
+    }
+
+    #[test]
+    fn no_height_exceeds_the_bound_of_its_cell_and_some_come_near() {
+        let field = HeightField::shared();
+        assert!(field.bounds.iter().all(|&bound| bound < i8::MAX));
+        let mut nearest = f64::INFINITY;
+        for i in 0..300_u32 {
+            for j in 0..300_u32 {
+                let (x, y) = (0.427 * f64::from(i), 0.427 * f64::from(j));
+                let room = field.height_at_most(x, y) - field.height(x, y);
+                assert!(room > 0.0, "{x} {y}: {room}");
+                nearest = nearest.min(room);
+            }
+        }
+        assert!(nearest < 0.01, "{nearest}");
     }
 
     #[test]

@@ -18,13 +18,23 @@ const NEAR: f64 = 6.0;
 /// Largest cosine of a tilt at which the other rim counts as near.
 const LARGEST_NEAR: f64 = 0.5;
 
-/// A random ground of stated rms slope and correlation length; lengths in the kernel's unit D.
+/// A random ground of stated rms slope and correlation length, under a coin of stated thickness; lengths
+/// in the kernel's unit D.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Ground {
     /// Correlation length ℓ.
     pub(super) length: f64,
     /// Rms height σ.
     pub(super) height: f64,
+    /// sqrt(2(1 − C)) over the coin's thickness: the rms difference of the heights under the rims of a
+    /// coin on its side, in σ, or of the slopes there, in s.
+    pub(super) contrast: f64,
+    /// The cosine of the tilt below which the other rim of the coin is near the ground.
+    ///
+    /// The ground matters where it decides which rim carries the coin. A coin that leans on one rim
+    /// with the other high above the ground is hardly moved by slopes: the kick of a slope on one rim
+    /// changes the lean by about h²/(k_t + R² + h²) of what it does across both.
+    pub(crate) near: f64,
 }
 
 /// What carries a rim.
@@ -37,11 +47,16 @@ pub(super) struct Support {
 }
 
 impl Ground {
-    /// A ground of this rms slope and correlation length.
-    pub(crate) fn new(slope: f64, length: f64) -> Self {
+    /// A ground of this rms slope and correlation length, under a coin of this thickness H.
+    pub(crate) fn new(slope: f64, length: f64, thickness: f64) -> Self {
+        let height = slope * length;
+        let distance = thickness / length;
+        let contrast = (-2.0 * libm::expm1(-0.5 * distance * distance)).sqrt();
         Self {
             length,
-            height: slope * length,
+            height,
+            contrast,
+            near: (NEAR * height * contrast / thickness).min(LARGEST_NEAR),
         }
     }
 
@@ -50,32 +65,17 @@ impl Ground {
         self.height / self.length
     }
 
-    /// The cosine of the tilt below which the other rim of a coin of this thickness is near the
-    /// ground.
-    ///
-    /// The ground matters where it decides which rim carries the coin. A coin that leans on one rim
-    /// with the other high above the ground is hardly moved by slopes: the kick of a slope on one rim
-    /// changes the lean by about h²/(k_t + R² + h²) of what it does across both.
-    pub(crate) fn near(&self, thickness: f64) -> f64 {
-        (NEAR * self.height * self.contrast(thickness) / thickness).min(LARGEST_NEAR)
-    }
-
-    /// sqrt(2(1 − C)): the rms difference of two points' heights, in σ, or of their slopes across
-    /// the line that joins them, in s.
-    pub(super) fn contrast(&self, distance: f64) -> f64 {
-        let distance = distance / self.length;
-        (-2.0 * libm::expm1(-0.5 * distance * distance)).sqrt()
-    }
-
     /// The slopes of the ground along x and y.
-    pub(super) fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let field = HeightField::shared();
-        let [gx, gy] = field.gradient(x / self.length, y / self.length);
+    pub(super) fn gradient(&self, point: [f64; 2]) -> [f64; 2] {
+        let [x, y] = self.in_lengths(point);
+        let [gx, gy] = HeightField::shared().gradient(x, y);
         [self.slope() * gx, self.slope() * gy]
     }
 
-    fn at(&self, [x, y]: [f64; 2]) -> f64 {
-        HeightField::shared().height(x / self.length, y / self.length)
+    /// A point in units of ℓ.
+    fn in_lengths(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let per_length = self.length.recip();
+        [x * per_length, y * per_length]
     }
 
     /// What carries a rim whose lowest point is above `point`.
@@ -85,37 +85,42 @@ impl Ground {
     /// highest: max over ξ of h(point + ξ along) − ½κξ². So a rim bridges hollows that are narrower
     /// than its own curvature fits into.
     pub(super) fn under_rim(&self, point: [f64; 2], along: [f64; 2], curvature: f64) -> Support {
-        // in units of ℓ and σ
+        // from here on in units of ℓ and σ
         let bend = 0.5 * curvature * self.length * self.length / self.height;
-        let place = |k: f64| {
-            let way = k * SPACING * self.length;
-            [point[0] + way * along[0], point[1] + way * along[1]]
-        };
-        let at = |k: f64| self.at(place(k)) - bend * (k * SPACING) * (k * SPACING);
+        let field = HeightField::shared();
+        let [x, y] = self.in_lengths(point);
         // rms curvature √3 σ/ℓ²
         if 3.0_f64.sqrt() * BRIDGING.recip() < 2.0 * bend {
             // the rim follows the ground: the first order in h'/κ
             return Support {
-                height: self.height * at(0.0),
+                height: self.height * field.height(x, y),
                 bridge: None,
             };
         }
-        let (k, top) = highest(bend * SPACING * SPACING, at);
+        let [dx, dy] = along.map(|component| SPACING * component);
+        let bend = bend * SPACING * SPACING;
+        let at = |k: f64| field.height(x + k * dx, y + k * dy) - bend * k * k;
+        let at_most = |k: f64| field.height_at_most(x + k * dx, y + k * dy) - bend * k * k;
+        let (k, top) = highest(bend, at, at_most);
+        let way = k * SPACING * self.length;
         Support {
             height: self.height * top,
             // at its highest the ground is as steep as the rim
-            bridge: Some((curvature * k * SPACING * self.length, place(k))),
+            bridge: Some((
+                curvature * way,
+                [point[0] + way * along[0], point[1] + way * along[1]],
+            )),
         }
     }
 }
 
 /// Where and how high the arc's highest point is. `at(k)` is the height of point k, which lies
-/// `bend` k² lower than it would under a straight rim.
-fn highest(bend: f64, at: impl Fn(f64) -> f64) -> (f64, f64) {
+/// `bend` k² lower than it would under a straight rim; `at_most(k)` costs little and is no less.
+fn highest(bend: f64, at: impl Fn(f64) -> f64, at_most: impl Fn(f64) -> f64) -> (f64, f64) {
     let middle = at(0.0);
     let mut best = (0.0, middle);
-    // the heights found last on either side, and those next to the best, nearer to the middle and
-    // farther from it; NaN: not yet known
+    // the heights of the points before these on either side, and those next to the best, nearer to
+    // the middle and farther from it; NaN: not known
     let mut last = [middle; 2];
     let (mut nearer, mut farther) = (f64::NAN, f64::NAN);
     for k in 1..=MOST_POINTS {
@@ -124,6 +129,10 @@ fn highest(bend: f64, at: impl Fn(f64) -> f64) -> (f64, f64) {
             break;
         }
         for (last, side) in last.iter_mut().zip([-k, k]) {
+            if at_most(side) <= best.1 {
+                *last = f64::NAN;
+                continue;
+            }
             let height = at(side);
             if height > best.1 {
                 best = (side, height);
@@ -158,17 +167,21 @@ mod tests {
 
     #[test]
     fn a_sharply_curved_rim_feels_the_point_and_a_flat_one_the_highest_bump() {
-        let ground = Ground::new(0.05, 0.02);
+        let ground = Ground::new(0.05, 0.02, 0.5);
+        let at = |point| {
+            let [x, y] = ground.in_lengths(point);
+            HeightField::shared().height(x, y)
+        };
         let along = [1.0, 0.0];
         let mut squares = 0.0;
         for i in 0..200 {
             let point = [0.013 * f64::from(i), 0.007 * f64::from(i)];
-            let below = ground.height * ground.at(point);
+            let below = ground.height * at(point);
             let sharp = ground.under_rim(point, along, 1e9).height;
             assert!((sharp - below).abs() <= 1e-9);
             let flat = ground.under_rim(point, along, 1e-3).height;
             let highest = (-720..=720)
-                .map(|k| ground.at([point[0] + f64::from(k) * 2e-4, point[1]]))
+                .map(|k| at([point[0] + f64::from(k) * 2e-4, point[1]]))
                 .fold(f64::NEG_INFINITY, f64::max);
             // the arc is examined up to 12 points of 0.6 ℓ = 0.144 on either side
             let error = (flat - ground.height * highest) / ground.height;

@@ -75,7 +75,7 @@ pub(super) fn rim_points(body: &Body, motion: &Motion<f64>, spin: &Spin<f64>) ->
 }
 
 /// The slopes across and along a rim with its lowest point above `point`.
-fn slopes(ground: &Ground, support: &Support, (point, [ax, ay]): ([f64; 2], [f64; 2])) -> [f64; 2] {
+fn slopes(ground: &Ground, support: &Support, point: [f64; 2], [ax, ay]: [f64; 2]) -> [f64; 2] {
     let at = support.bridge.map_or(point, |(_, place)| place);
     let [gx, gy] = ground.gradient(at);
     let steep = support.bridge.map_or(gx * ax + gy * ay, |(slope, _)| slope);
@@ -140,22 +140,18 @@ impl Tracks {
         let turn = -spin.turn / motion.sin;
         (self.left, self.interval) = (time, time);
         let thickness = 2.0 * body.half;
-        let near = motion.cos.abs() < ground.near(thickness) + spin.tilt.abs() * time;
-        let way = |point: &RimPoint, after: f64| {
-            let (sin, cos) = sin_cos(turn * after);
-            let x = point.rx * cos + (motion.vx + point.rz * spin.tilt) * after;
-            let y = point.rx * sin + motion.vy * after;
-            (place.point(x, y), place.direction(-sin, cos))
-        };
-        let under = |point: &RimPoint, after: f64| {
-            let (at, along) = way(point, after);
-            ground.under_rim(at, along, motion.sin / body.outer_radius())
-        };
+        let near = motion.cos.abs() < ground.near + spin.tilt.abs() * time;
+        let curvature = motion.sin / body.outer_radius();
+        let (sin, cos) = sin_cos(turn * time);
+        let along = place.direction(-sin, cos);
         let lead = |track: &mut Track, point: &RimPoint| {
-            let support = under(point, time);
+            let x = point.rx * cos + (motion.vx + point.rz * spin.tilt) * time;
+            let y = point.rx * sin + motion.vy * time;
+            let at = place.point(x, y);
+            let support = ground.under_rim(at, along, curvature);
             track.rate = (support.height - track.height) / time;
             track.slopes = if near {
-                slopes(ground, &support, way(point, time))
+                slopes(ground, &support, at, along)
             } else {
                 [0.0; 2]
             };
@@ -165,7 +161,9 @@ impl Tracks {
             if !self.other.near {
                 // the rim is still above the ground
                 let highest = self.own.height + thickness * motion.cos;
-                self.other.height = under(&points[1], 0.0).height.min(highest);
+                let (at, along) = (place.point(points[1].rx, 0.0), place.direction(0.0, 1.0));
+                let support = ground.under_rim(at, along, curvature);
+                self.other.height = support.height.min(highest);
             }
             lead(&mut self.other, &points[1]);
         } else {

@@ -200,9 +200,8 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
         /// The share by which the tilt must exceed the one at which the rim counts as near.
         const CLEAR: f64 = 1.3;
         let reached = self.toss.spin.tilt.max(0.0) * self.tracks.interval;
-        let near = self.ground.near(2.0 * self.body().half);
         // what a plane decides for the side is decided here, not on the plane
-        self.toss.motion.cos - reached > CLEAR * near && {
+        self.toss.motion.cos - reached > CLEAR * self.ground.near && {
             let motion = self.relative_motion();
             let state = motion.decision_state(self.body(), &self.toss.spin);
             self.model.rule.decide(&state) != Decided::Side

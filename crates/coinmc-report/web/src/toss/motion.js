@@ -122,11 +122,11 @@ export class Motion {
 
   /** After `t` seconds of flight from a keyframe. */
   flown(key, t) {
-    const { gravity_m_s2: g, linear_drag_per_s: k, angular_drag_per_s: j } = this.scene;
+    const { weight_m_s2: g, linear_drag_per_s: k, angular_drag_per_s: j } = this.scene;
     const p = this.part(key, PLACE, 3), v = this.part(key, VELOCITY, 3);
     const q = this.part(key, TURN, 4), w = this.part(key, SPIN, 3);
     const eased = effective(k, t);
-    const fall = k > 0 ? (g * (t - eased)) / k : 0.5 * g * t * t;
+    const fallen = k > 0 ? (t - eased) / k : 0.5 * t * t;
     const slowed = Math.exp(-k * t);
     const free = 1 - this.scene.axial_factor;
     const u = turn(q, 0, 0, 1);
@@ -136,9 +136,9 @@ export class Motion {
     const turned = rotation(...by);
     const spin = turn(turned, ...w).map((x) => x * Math.exp(-j * t));
     return {
-      place: [p[0] + v[0] * eased, p[1] + v[1] * eased, p[2] + v[2] * eased - fall],
+      place: p.map((x, i) => x + v[i] * eased + g[i] * fallen),
       turn: multiply(multiply(turned, q), rotation(0, 0, axial * free * angle)),
-      velocity: [v[0] * slowed, v[1] * slowed, v[2] * slowed - g * eased],
+      velocity: v.map((x, i) => x * slowed + g[i] * eased),
       spin,
     };
   }
@@ -163,15 +163,16 @@ export class Motion {
     };
   }
 
-  /** Mechanical energy per unit mass, J/kg, 0 for a point at rest on the surface. */
+  /** Mechanical energy per unit mass, J/kg, 0 for a point at rest in the middle of the surface. */
   energy(state) {
-    const { axial_gyration_m2: a, transverse_gyration_m2: b, gravity_m_s2: g } = this.scene;
+    const { axial_gyration_m2: a, transverse_gyration_m2: b, weight_m_s2: g } = this.scene;
     const u = turn(state.turn, 0, 0, 1);
     const [v, w] = [state.velocity, state.spin];
     const axial = w[0] * u[0] + w[1] * u[1] + w[2] * u[2];
     const all = w[0] * w[0] + w[1] * w[1] + w[2] * w[2];
     const moving = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    return 0.5 * (moving + b * (all - axial * axial) + a * axial * axial) + g * state.place[2];
+    const fallen = g.reduce((sum, x, i) => sum + x * state.place[i], 0);
+    return 0.5 * (moving + b * (all - axial * axial) + a * axial * axial) - fallen;
   }
 
   /** The coin's lowest point; the middle of a face or line that is lowest as a whole. */

@@ -48,8 +48,8 @@ export class Viewer {
 
   /** How far around an impact time runs slowly: about the time in which a coin topples. */
   window() {
-    const { radius_m, height_m, gravity_m_s2 } = this.tosses[0].scene;
-    return 0.8 * Math.sqrt(Math.hypot(radius_m, height_m / 2) / Math.max(1e-3, gravity_m_s2));
+    const { radius_m, height_m, weight_m_s2 } = this.tosses[0].scene;
+    return 0.8 * Math.sqrt(Math.hypot(radius_m, height_m / 2) / Math.max(1e-3, Math.hypot(...weight_m_s2)));
   }
 
   picture() {
