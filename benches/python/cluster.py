@@ -151,9 +151,9 @@ def overhead(arguments: argparse.Namespace, folder: Path) -> None:
     """
     from distributed import Client, LocalCluster
 
-    # the size of chunks of about a second
+    # chunks grow with the tosses that were made: the last ones are of 2^19 or more
     tosses = arguments.chunks * (1 << 19)
-    config = coinmc.Config({**SCENE, "stop": {"half_width": 1e-9, "max_tosses": tosses}})
+    config = coinmc.Config({**SCENE, "stop": {"half_width": 1e-7, "max_tosses": tosses}})
     (folder / "toss.toml").write_text(config.resolved)
     threads = arguments.threads
     clock: dict[str, list[float]] = {"coinmc run": [], "dask": []}
