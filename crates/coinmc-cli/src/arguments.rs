@@ -6,7 +6,7 @@ use crate::commands::Film;
 use crate::commands::Robot;
 use crate::commands::{
     AimAt, Analytic, Check, Compare, Completions, DesignArgs, Fair, Merge, Rare, ReportOf, Run,
-    Schema, SensitivityOf, Show, Trace, Validate,
+    Schema, SensitivityOf, Show, Status, Trace, Validate,
 };
 use crate::exit::{Failure, Outcome};
 use crate::output::{Console, Format};
@@ -25,7 +25,8 @@ Exit status:
   0    done
   1    failure at run time (disk full, file unreadable, …)
   2    bad input: arguments, config, or a directory that belongs to another run
-  3    stopped short of the target: max_tosses came before the targets of [stop], a search found too few tosses
+  3    stopped short of the target: max_tosses came before the targets of [stop], --max-time before
+  the end, a search found too few tosses
   4    a robot's experiment has halted and needs a person
   130  stopped by Ctrl-C or SIGTERM; finished work is kept
 
@@ -53,6 +54,7 @@ pub(crate) struct Arguments {
 enum Command {
     Run(Run),
     Show(Show),
+    Status(Status),
     Report(ReportOf),
     Check(Check),
     Fair(Box<Fair>),
@@ -90,6 +92,7 @@ impl Command {
         match self {
             Self::Run(run) => run.format(),
             Self::Show(show) => show.format(),
+            Self::Status(status) => status.format(),
             Self::Report(report) => report.format(),
             Self::Check(check) => check.format(),
             Self::Fair(fair) => fair.format(),
@@ -114,6 +117,7 @@ impl Command {
         match self {
             Self::Run(run) => run.execute(console),
             Self::Show(show) => show.execute(console),
+            Self::Status(status) => status.execute(console),
             Self::Report(report) => report.execute(console),
             Self::Check(check) => check.execute(console),
             Self::Fair(fair) => fair.execute(console),

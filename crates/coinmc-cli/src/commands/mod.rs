@@ -20,6 +20,7 @@ mod run;
 mod schema;
 mod sensitivity;
 mod show;
+mod status;
 mod trace;
 mod validate;
 
@@ -41,6 +42,7 @@ pub(crate) use run::Run;
 pub(crate) use schema::Schema;
 pub(crate) use sensitivity::SensitivityOf;
 pub(crate) use show::Show;
+pub(crate) use status::Status;
 pub(crate) use trace::Trace;
 pub(crate) use validate::Validate;
 
