@@ -20,8 +20,8 @@ class Validation:
     Attributes
     ----------
     verdicts : dict of str to str
-        ``"holds"``, ``"holds only where"``, ``"rejected"``, ``"not rejected"`` or ``"not validated"``,
-        by the name of the claim or data set.
+        ``"holds"``, ``"holds only where"``, ``"rejected"``, ``"not rejected"`` or
+        ``"not validated"``, by the name of the claim or data set.
     conditions : dict of str to str
         Where a claim holds, or why it was not validated.
     p_values : dict of str to float

@@ -8,14 +8,12 @@ use thiserror::Error;
 /// Why a validation has no result.
 #[derive(Debug, Error)]
 pub enum ValidateError {
-    /// There is no claim or data set of this name.
-    #[error("there is no claim or data set `{name}`{}: known are {known}", nearest.map_or(String::new(), |near| format!(" (did you mean `{near}`?)")))]
+    /// There are no claims or data sets of these names.
+    #[error("there is no claim or data set {}; known are {known}", names.join(", "))]
     Unknown {
-        /// The name given.
-        name: String,
-        /// The nearest name.
-        nearest: Option<&'static str>,
-        /// All names.
+        /// The names given, each with the nearest one that is known, as text.
+        names: Vec<String>,
+        /// All names that are known.
         known: String,
     },
     /// It was stopped.

@@ -98,15 +98,7 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 /// ```
 pub fn validate(options: &Options<'_>, workers: &Workers<'_>) -> Result<Validation, ValidateError> {
     let Options { size, seed, .. } = *options;
-    for name in options.only {
-        if !names().any(|known| known == name) {
-            return Err(ValidateError::Unknown {
-                name: name.chars().take(60).collect(),
-                nearest: coinmc::config::nearest(name, names()),
-                known: names().collect::<Vec<_>>().join(", "),
-            });
-        }
-    }
+    check(options.only)?;
     let wanted = |name: &str| options.only.is_empty() || options.only.iter().any(|n| n == name);
     let tosser = Tosser {
         seed,
@@ -137,5 +129,28 @@ pub fn validate(options: &Options<'_>, workers: &Workers<'_>) -> Result<Validati
         tosses_of_draw: tosses,
         claims,
         sets,
+    })
+}
+
+/// That everything has these names, with the nearest name of each that nothing has.
+fn check(only: &[String]) -> Result<(), ValidateError> {
+    let unknown = only
+        .iter()
+        .filter(|name| !names().any(|known| known == *name));
+    let told: Vec<String> = unknown
+        .map(|name| {
+            let shown: String = name.chars().take(60).collect();
+            match coinmc::config::nearest(name, names()) {
+                Some(near) => format!("`{shown}` (did you mean `{near}`?)"),
+                None => format!("`{shown}`"),
+            }
+        })
+        .collect();
+    if told.is_empty() {
+        return Ok(());
+    }
+    Err(ValidateError::Unknown {
+        names: told,
+        known: names().collect::<Vec<_>>().join(", "),
     })
 }

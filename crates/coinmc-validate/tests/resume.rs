@@ -78,7 +78,7 @@ fn a_name_that_nothing_has_is_told_before_any_toss() {
         cancel: &cancel,
         made: &|_| panic!("a toss"),
     };
-    let only = ["mass".to_owned(), "kerich".to_owned()];
+    let only = ["mass", "kerich", "zzz"].map(str::to_owned);
     let options = Options {
         size: Size::Full,
         only: &only,
@@ -88,6 +88,9 @@ fn a_name_that_nothing_has_is_told_before_any_toss() {
     };
     let error = validate(&options, &workers).expect_err("no such name");
     let text = error.to_string();
-    assert!(text.contains("did you mean `kerrich`?"), "{text}");
+    assert!(
+        text.contains("`kerich` (did you mean `kerrich`?), `zzz`;"),
+        "{text}"
+    );
     assert!(text.contains("arc-rule, arc-shift"), "{text}");
 }
