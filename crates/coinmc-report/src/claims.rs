@@ -101,8 +101,24 @@ fn of_sets(document: &Value) -> String {
     let (others, predicted): (Vec<_>, Vec<_>) = list(document, "sets")
         .iter()
         .partition(|set| set["p_value"].is_null());
+    let predicted: String = predicted.into_iter().map(of_predicted).collect();
+    let others: String = others.into_iter().map(of_other).collect();
+    let section = |title: &str, body: &str, empty: bool| {
+        if empty {
+            String::new()
+        } else {
+            format!("<section><h2>{title}</h2>\n{body}</section>\n")
+        }
+    };
+    let list = format!("<ul>{others}</ul>");
+    section("Public data sets", &predicted, predicted.is_empty())
+        + &section("Not validated", &list, others.is_empty())
+}
+
+fn of_predicted(set: &Value) -> String {
+    let [name, doc, source, stated, verdict] =
+        ["name", "doc", "source", "stated", "verdict"].map(|key| words(&set[key]));
     let titles = [
-        "data set",
         "number",
         "published",
         "of tosses",
@@ -110,38 +126,13 @@ fn of_sets(document: &Value) -> String {
         "95 % of draws",
         "p-value",
     ];
-    let rows: String = predicted.into_iter().map(of_predicted).collect();
-    let others: String = others.into_iter().map(of_other).collect();
-    [
-        if rows.is_empty() {
-            String::new()
-        } else {
-            let table = table(&titles, &rows);
-            format!("<section><h2>Public data sets</h2>\n{table}</section>\n")
-        },
-        if others.is_empty() {
-            String::new()
-        } else {
-            format!("<section><h2>Not validated</h2>\n<ul>{others}</ul></section>\n")
-        },
-    ]
-    .concat()
-}
-
-fn of_predicted(set: &Value) -> String {
-    let [name, doc, source, stated, verdict] =
-        ["name", "doc", "source", "stated", "verdict"].map(|key| words(&set[key]));
-    let empty = String::new;
-    let own = row(&[
-        format!("<strong>{name}</strong>"),
-        format!("{doc}. {source}. Stated: {stated}"),
-        empty(),
-        empty(),
-        empty(),
-        empty(),
-        format!("<strong>{}</strong>, {verdict}", p_value(set)),
-    ]);
-    own + &list(set, "lines").iter().map(of_line).collect::<String>()
+    let lines: String = list(set, "lines").iter().map(of_line).collect();
+    format!(
+        "<h3>{name}: {doc}</h3>\n<p><strong>{verdict}</strong>, p = {}</p>\n\
+         <p class=\"faint\">{source}. Stated: {stated}</p>\n{}",
+        p_value(set),
+        table(&titles, &lines)
+    )
 }
 
 fn of_other(set: &Value) -> String {
@@ -152,7 +143,6 @@ fn of_other(set: &Value) -> String {
 
 fn of_line(line: &Value) -> String {
     row(&[
-        String::new(),
         match words(&line["name"]) {
             name if name.is_empty() => words(&line["quantity"]),
             name => format!("{}, {name}", words(&line["quantity"])),

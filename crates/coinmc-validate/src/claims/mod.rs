@@ -39,7 +39,7 @@ pub struct Claim {
     pub family: Family,
     /// What it says.
     pub statement: &'static str,
-    pub(crate) check: fn(&Tosser<'_>) -> Result<Finding, ValidateError>,
+    pub(crate) check: Check,
 }
 
 impl PartialEq for Claim {
@@ -57,27 +57,21 @@ pub struct Checked {
     pub finding: Finding,
 }
 
-const fn paper(
-    name: &'static str,
-    statement: &'static str,
-    check: fn(&Tosser<'_>) -> Result<Finding, ValidateError>,
-) -> Claim {
-    Claim {
-        name,
-        family: Family::Paper,
-        statement,
-        check,
-    }
+/// How a claim is checked.
+type Check = fn(&Tosser<'_>) -> Result<Finding, ValidateError>;
+
+const fn paper(name: &'static str, statement: &'static str, check: Check) -> Claim {
+    of(Family::Paper, name, statement, check)
 }
 
-const fn engines(
-    name: &'static str,
-    statement: &'static str,
-    check: fn(&Tosser<'_>) -> Result<Finding, ValidateError>,
-) -> Claim {
+const fn engines(name: &'static str, statement: &'static str, check: Check) -> Claim {
+    of(Family::Engines, name, statement, check)
+}
+
+const fn of(family: Family, name: &'static str, statement: &'static str, check: Check) -> Claim {
     Claim {
         name,
-        family: Family::Engines,
+        family,
         statement,
         check,
     }
