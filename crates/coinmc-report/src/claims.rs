@@ -3,6 +3,9 @@
 use crate::html::{still, text};
 use serde_json::Value;
 
+/// A p-value below this is told as such.
+const LEAST_P: f64 = 1e-12;
+
 /// The page of a validation, from the document that `coinmc validate --format json` prints.
 ///
 /// # Example
@@ -194,7 +197,10 @@ fn tosses(value: &Value) -> String {
 }
 
 fn p_value(of: &Value) -> String {
-    let p = number(&of["p_value"]);
+    let p = match of["p_value"].as_f64() {
+        Some(p) if p < LEAST_P => format!("&lt; {LEAST_P:e}"),
+        _ => number(&of["p_value"]),
+    };
     match of["p_error"].as_f64() {
         Some(error) if error >= 5e-4 && of["p_value"] != 1.0 => format!("{p} ± {error:.3}"),
         _ => p,
