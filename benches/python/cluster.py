@@ -79,14 +79,16 @@ def files(path: Path) -> dict[str, bytes]:
 
 
 def kills(arguments: argparse.Namespace, folder: Path) -> None:
-    """Kill workers and clients at random instants; compare with an undisturbed local run."""
+    """Kill workers and clients, spread over a run; compare with an undisturbed local run."""
     from distributed import Client, LocalCluster
 
     config = config_of(arguments.chunks, 40_000)
     (folder / "toss.toml").write_text(config.resolved)
     coinmc.run(config, folder / "whole")
     chance = random.Random(1)
-    workers, clients = arguments.workers, arguments.clients
+    victims = ["worker"] * arguments.workers + ["client"] * arguments.clients
+    chance.shuffle(victims)
+    step, killed, waited = arguments.chunks // (len(victims) + 1), 0, time.perf_counter()
     cluster = LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)
     with cluster, Client(cluster) as observer:
         words = [sys.executable, __file__, "client", "--config", folder / "toss.toml"]
@@ -94,27 +96,43 @@ def kills(arguments: argparse.Namespace, folder: Path) -> None:
         process = subprocess.Popen(words)
         begun = time.perf_counter()
         while process.poll() is None:
-            time.sleep(chance.uniform(0.3, 1.2))
-            if clients and chance.random() < clients / (workers + clients):
+            # at a random instant, once enough chunks have been made since the last
+            time.sleep(chance.uniform(0.05, 0.2))
+            if time.perf_counter() - waited > 60:
+                # a nanny whose worker is killed while it starts gives up
+                cluster.scale(0)
+                cluster.scale(2)
+                waited = time.perf_counter()
+            if killed == len(victims) or made(folder / "run") < step * (killed + 1):
+                continue
+            if victims[killed] == "client":
                 process.kill()
                 process.wait()
-                process, clients = subprocess.Popen(words), clients - 1
-            elif workers:
-                ids = list(observer.run(os.getpid).values())
-                if ids:
-                    os.kill(chance.choice(ids), signal.SIGKILL)
-                    workers -= 1
+                process = subprocess.Popen(words)
+            else:
+                ids = list(observer.run(os.getpid, on_error="ignore").values())
+                if not ids:
+                    continue
+                os.kill(chance.choice(ids), signal.SIGKILL)
+            killed, waited = killed + 1, time.perf_counter()
         assert process.returncode == 0, process.returncode
     same = files(folder / "whole") == files(folder / "run")
     text = (folder / "run" / "tallies.txt").read_text()
     places = [line for line in text.splitlines() if line.startswith(("point ", "tosses "))]
     chunks = list(zip(places[::2], places[1::2], strict=True))
+    workers, clients = (victims[:killed].count(kind) for kind in ("worker", "client"))
     print(
-        f"{arguments.workers - workers} workers, {arguments.clients - clients} clients killed in "
+        f"{workers} workers, {clients} clients killed in "
         f"{time.perf_counter() - begun:.0f} s: {len(chunks)} chunks, {len(set(chunks))} different, "
         f"{'the bytes of a local run' if same else 'NOT the bytes of a local run'}"
     )
     assert same
+
+
+def made(path: Path) -> int:
+    """Count the chunks that a run directory holds."""
+    tallies = path / "tallies.txt"
+    return tallies.read_text().count("crc32 ") if tallies.exists() else 0
 
 
 def client(arguments: argparse.Namespace, _: Path) -> None:
@@ -133,9 +151,9 @@ def overhead(arguments: argparse.Namespace, folder: Path) -> None:
     """
     from distributed import Client, LocalCluster
 
-    # the size of chunks of about a second
+    # chunks grow with the tosses that were made: the last ones are of 2^19 or more
     tosses = arguments.chunks * (1 << 19)
-    config = coinmc.Config({**SCENE, "stop": {"half_width": 1e-9, "max_tosses": tosses}})
+    config = coinmc.Config({**SCENE, "stop": {"half_width": 1e-7, "max_tosses": tosses}})
     (folder / "toss.toml").write_text(config.resolved)
     threads = arguments.threads
     clock: dict[str, list[float]] = {"coinmc run": [], "dask": []}

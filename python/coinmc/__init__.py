@@ -9,6 +9,7 @@ The engines of coinmc at native speed, with NumPy arrays in and out:
 * `report`: a page of runs that opens anywhere;
 * `fair`: how thick is a fair coin, here or in everyday `scenes`?
 * `sensitivity`: how strongly probabilities depend on parameters;
+* `validate`: claims and public data sets, each with its verdict;
 * `check`, `Config`: what a config means;
 * `coinmc.analytic`: closed forms; `coinmc.film`: drops on film; `coinmc.plot`: plots;
 * `coinmc.vision`: photos of real coins; `coinmc.experiment`: a robot's throws.
@@ -57,6 +58,7 @@ if TYPE_CHECKING:
     from coinmc._ranking import Ranking, rank
     from coinmc._rare import Rare, rare
     from coinmc._sensitivity import Sensitivity, sensitivity
+    from coinmc._validate import Validation, validate
 
 __all__ = [
     "EVENT",
@@ -93,6 +95,7 @@ __all__ = [
     "Tosses",
     "Trace",
     "TraceError",
+    "Validation",
     "VisionError",
     "__build__",
     "__version__",
@@ -120,6 +123,7 @@ __all__ = [
     "sensitivity",
     "toss",
     "trace",
+    "validate",
     "vision",
 ]
 
@@ -153,6 +157,8 @@ _LAZY = {
     "rare": "coinmc._rare",
     "Sensitivity": "coinmc._sensitivity",
     "sensitivity": "coinmc._sensitivity",
+    "Validation": "coinmc._validate",
+    "validate": "coinmc._validate",
 }
 
 

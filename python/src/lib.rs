@@ -7,8 +7,8 @@
 //! · `session` runs on other machines · `results` and `throws` tables, `arrow` tables for Python · `pickled` results
 //! as plain values · `table` any columns as Arrow · `interval` intervals of proportions · `trace` recorded motion of a
 //! toss · `question`, `fair`, `design`, `aim`, `ranking`, `rare`, `compare` questions · `calibrate` surfaces from
-//! measurements · `report` pages · `analytic` closed forms · `film` drops on film · `command` the command line ·
-//! `errors` exceptions.
+//! measurements · `validate` verdicts · `report` pages · `analytic` closed forms · `film` drops on film · `command` the
+//! command line · `errors` exceptions.
 
 // Arguments converted from Python are owned.
 #![allow(clippy::needless_pass_by_value)]
@@ -42,6 +42,7 @@ mod table;
 mod throws;
 mod toss;
 mod trace;
+mod validate;
 
 use pyo3::prelude::*;
 
@@ -91,6 +92,8 @@ mod _lib {
     use super::toss::{launches, toss};
     #[pymodule_export]
     use super::trace::{save_trace, trace};
+    #[pymodule_export]
+    use super::validate::validate;
     use pyo3::prelude::*;
 
     #[pymodule_init]

@@ -86,6 +86,7 @@ pub(crate) fn unpickled(plan: &Plan, plain: Plain) -> PyResult<Results> {
         },
         reused_chunks: 0,
         tosses,
+        tosses_planned: tosses,
     })
 }
 

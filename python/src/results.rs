@@ -53,6 +53,7 @@ impl Results {
             status: self.status,
             reused_chunks: 0,
             tosses: self.tosses,
+            tosses_planned: self.tosses,
         }
     }
 

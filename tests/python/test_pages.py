@@ -12,7 +12,10 @@ import pytest
 
 CONFIG = """
 coin.ratio = [0.4, 1.2]
-surface = { restitution = [0.4, 0.6], friction = 0.3, rolling_friction_m = 1e-4, table_tilt_deg = 0.3 }
+surface.restitution = [0.4, 0.6]
+surface.friction = 0.3
+surface.rolling_friction_m = 1e-4
+surface.table_tilt_deg = 0.3
 launch.preset = "hand"
 engine.volumetric = {}
 stop.tosses = 200

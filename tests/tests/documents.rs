@@ -3,6 +3,7 @@
 use coinmc_tests::{Shown, blocks, command, copy, replay, root};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 /// Every Markdown file of docs/, and those at the root.
 fn documents() -> Vec<PathBuf> {
@@ -29,16 +30,29 @@ fn entries(folder: &Path) -> Vec<PathBuf> {
         .collect()
 }
 
+/// Two documents at a time: many commands use one core.
 #[test]
 fn commands_print_what_is_shown() {
-    for document in documents() {
-        let dir = tempfile::tempdir().expect("a temporary directory");
-        copy(&root().join("examples"), &dir.path().join("examples"));
-        replay(&document, dir.path(), Shown::EverythingOrNothing, |block| {
-            let first = block.lines.first().map_or("", String::as_str);
-            first.starts_with("$ coinmc ") || first.starts_with("$ cargo run --release -- ")
-        });
-    }
+    let left = Mutex::new(documents());
+    let next = || left.lock().unwrap_or_else(PoisonError::into_inner).pop();
+    std::thread::scope(|scope| {
+        for _ in 0..2 {
+            scope.spawn(|| {
+                while let Some(document) = next() {
+                    shows_what_commands_print(&document);
+                }
+            });
+        }
+    });
+}
+
+fn shows_what_commands_print(document: &Path) {
+    let dir = tempfile::tempdir().expect("a temporary directory");
+    copy(&root().join("examples"), &dir.path().join("examples"));
+    replay(document, dir.path(), Shown::EverythingOrNothing, |block| {
+        let first = block.lines.first().map_or("", String::as_str);
+        first.starts_with("$ coinmc ") || first.starts_with("$ cargo run --release -- ")
+    });
 }
 
 #[test]

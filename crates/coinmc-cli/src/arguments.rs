@@ -4,7 +4,7 @@
 use crate::commands::Robot;
 use crate::commands::{
     AimAt, Analytic, Check, Compare, Completions, DesignArgs, Fair, Merge, Rare, ReportOf, Run,
-    Schema, SensitivityOf, Show, Trace,
+    Schema, SensitivityOf, Show, Status, Trace, Validate,
 };
 #[cfg(feature = "film")]
 use crate::commands::{Calibrate, Film};
@@ -25,7 +25,8 @@ Exit status:
   0    done
   1    failure at run time (disk full, file unreadable, …)
   2    bad input: arguments, config, or a directory that belongs to another run
-  3    stopped short of the target: max_tosses came before the targets of [stop], a search found too few tosses
+  3    stopped short of the target: max_tosses came before the targets of [stop], --max-time before
+  the end, a search found too few tosses
   4    a robot's experiment has halted and needs a person
   130  stopped by Ctrl-C or SIGTERM; finished work is kept
 
@@ -53,6 +54,7 @@ pub(crate) struct Arguments {
 enum Command {
     Run(Run),
     Show(Show),
+    Status(Status),
     Report(ReportOf),
     Check(Check),
     Fair(Box<Fair>),
@@ -63,6 +65,7 @@ enum Command {
     #[cfg(feature = "film")]
     Calibrate(Calibrate),
     Compare(Compare),
+    Validate(Validate),
     Merge(Merge),
     Trace(Box<Trace>),
     #[cfg(feature = "film")]
@@ -91,6 +94,7 @@ impl Command {
         match self {
             Self::Run(run) => run.format(),
             Self::Show(show) => show.format(),
+            Self::Status(status) => status.format(),
             Self::Report(report) => report.format(),
             Self::Check(check) => check.format(),
             Self::Fair(fair) => fair.format(),
@@ -101,6 +105,7 @@ impl Command {
             #[cfg(feature = "film")]
             Self::Calibrate(calibrate) => calibrate.format(),
             Self::Compare(compare) => compare.format(),
+            Self::Validate(validate) => validate.format(),
             Self::Merge(merge) => merge.format(),
             Self::Trace(trace) => trace.format(),
             #[cfg(feature = "film")]
@@ -116,6 +121,7 @@ impl Command {
         match self {
             Self::Run(run) => run.execute(console),
             Self::Show(show) => show.execute(console),
+            Self::Status(status) => status.execute(console),
             Self::Report(report) => report.execute(console),
             Self::Check(check) => check.execute(console),
             Self::Fair(fair) => fair.execute(console),
@@ -126,6 +132,7 @@ impl Command {
             #[cfg(feature = "film")]
             Self::Calibrate(calibrate) => calibrate.execute(console),
             Self::Compare(compare) => compare.execute(console),
+            Self::Validate(validate) => validate.execute(console),
             Self::Merge(merge) => merge.execute(console),
             Self::Trace(trace) => trace.execute(console),
             #[cfg(feature = "film")]

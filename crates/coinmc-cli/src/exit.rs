@@ -18,7 +18,7 @@ use serde_json::{Value, json};
 pub(crate) enum Outcome {
     /// Everything was done.
     Done,
-    /// `max_tosses` came before the targets at some point.
+    /// `max_tosses` came before the targets at some point, or `--max-time` before the end.
     ShortOfTarget,
     /// Ctrl-C or SIGTERM.
     Interrupted,

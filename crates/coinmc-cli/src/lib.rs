@@ -14,6 +14,7 @@ mod exit;
 mod interrupt;
 mod output;
 mod terminal;
+mod time_limit;
 
 use clap::Parser;
 use std::ffi::OsString;

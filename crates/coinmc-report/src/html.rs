@@ -59,6 +59,24 @@ pub(crate) fn document(title: &str, data: &Value, program: Program) -> String {
     )
 }
 
+/// A document of finished HTML: nothing in it runs.
+pub(crate) fn still(title: &str, body: &str) -> String {
+    format!(
+        "<!doctype html>\n\
+         <html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src '{}'; \
+         img-src data:; base-uri 'none'; form-action 'none'\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta name=\"color-scheme\" content=\"light dark\">\n\
+         <meta name=\"generator\" content=\"coinmc {}\">\n\
+         <link rel=\"icon\" href=\"data:,\">\n\
+         <title>{}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<main>{body}</main>\n</body>\n</html>\n",
+        hash(STYLE),
+        env!("CARGO_PKG_VERSION"),
+        text(title),
+    )
+}
+
 /// A page inside another one, such as a notebook: a frame that holds the whole document.
 ///
 /// # Example
@@ -80,7 +98,7 @@ fn hash(source: &str) -> String {
 }
 
 /// Text between tags.
-fn text(text: &str) -> String {
+pub(crate) fn text(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('>', "&gt;")

@@ -10,11 +10,13 @@
 //! * [`Run`] is a run to report: read from a run directory, or in memory.
 //! * [`report()`] makes the page of one or several runs.
 //! * [`tosses()`] makes the page of one or several tosses in three dimensions.
+//! * [`claims()`] makes the page of a validation, which holds no program.
 //! * [`Map`] is a map of basins: the face over two quantities of the launch. [`map()`] makes its page.
 //!
 //! The program of the pages lies in `web/`, in JavaScript, and is checked in as built: compiling this crate
 //! needs nothing but Rust.
 
+mod claims;
 mod fair;
 mod history;
 mod html;
@@ -31,6 +33,7 @@ mod samples;
 mod sweep;
 mod table;
 
+pub use claims::claims;
 pub use html::inner;
 pub use map::{MAX_PIXELS, Map, MapError};
 pub use page::{MAX_TOSSES, map, report, tosses};

@@ -185,6 +185,7 @@ mod tests {
             status,
             reused_chunks: 0,
             tosses: 0,
+            tosses_planned: 0,
         };
         Run::in_memory("a", plan, report)
     }

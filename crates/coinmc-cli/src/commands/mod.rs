@@ -22,7 +22,9 @@ mod run;
 mod schema;
 mod sensitivity;
 mod show;
+mod status;
 mod trace;
+mod validate;
 
 pub(crate) use aim::AimAt;
 pub(crate) use analytic::Analytic;
@@ -44,7 +46,9 @@ pub(crate) use run::Run;
 pub(crate) use schema::Schema;
 pub(crate) use sensitivity::SensitivityOf;
 pub(crate) use show::Show;
+pub(crate) use status::Status;
 pub(crate) use trace::Trace;
+pub(crate) use validate::Validate;
 
 use coinmc_core::Face;
 

@@ -229,6 +229,7 @@ mod tests {
             status: Status::Complete,
             reused_chunks: 0,
             tosses: 0,
+            tosses_planned: 0,
         };
         report(
             &[Run::in_memory("a", plan, report_of)],

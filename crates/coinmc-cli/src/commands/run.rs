@@ -9,6 +9,7 @@ use crate::terminal::plot::Plotted;
 use crate::terminal::progress::{Progress, with_prefix};
 use crate::terminal::summary::{FAIR, markdown, summary};
 use crate::terminal::{count, duration, grouped};
+use crate::time_limit::{self, TimeLimit};
 use anyhow::Context;
 use clap::Args;
 use coinmc::OnDemand;
@@ -22,6 +23,7 @@ use std::borrow::Cow;
 use std::ffi::OsString;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -55,6 +57,10 @@ pub(crate) struct Run {
     /// Number of threads [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
+
+    /// Stop after this time (55min, 1h or 01:30:00), keep what is counted, and exit with status 3
+    #[arg(long, value_name = "TIME", value_parser = time_limit::duration)]
+    max_time: Option<Duration>,
 
     /// Replace or add a value of the config, as in `surface.friction=0.2`; repeatable
     #[arg(long = "set", value_name = "KEY=VALUE")]
@@ -101,6 +107,8 @@ impl Run {
             interrupt::listen(move || told.note("stopping; press Ctrl-C again to stop at once"))
                 .context("cannot listen for signals")
                 .map_err(Failure::Runtime)?;
+        let limit = self.max_time.map(|time| TimeLimit::start(time, cancel));
+        let limit = limit.unwrap_or_default();
         let report = coinmc::run::run(
             &plan,
             &Options {
@@ -117,7 +125,12 @@ impl Run {
         if !self.quiet {
             output::note(&closing_line(&report, &progress));
         }
-        let outcome = present(&report, &out, &self.plot, console, self.format, self.quiet)?;
+        let stopped = present(&report, &out, &self.plot, console, self.format, self.quiet)?;
+        let outcome = if stopped == Outcome::Interrupted && limit.is_reached() {
+            Outcome::ShortOfTarget
+        } else {
+            stopped
+        };
         if let Some(file) = &self.report {
             let file = if file.is_empty() {
                 out.join("report.html")

@@ -66,6 +66,19 @@ impl From<Assumption> for Unknown {
 }
 
 impl Unknown {
+    /// Its value at this share of its range, 0 to 1.
+    ///
+    /// # Example
+    /// ```
+    /// use coinmc_questions::Unknown;
+    /// let of = |from, to| Unknown { key: "surface.friction".to_owned(), from, to }.at(0.5);
+    /// assert!((of(0.1, 0.3) - 0.2).abs() < 1e-15);
+    /// assert!((of(0.01, 1.0) - 0.1).abs() < 1e-15);    // more than a factor of 10: in the logarithm
+    /// ```
+    pub fn at(&self, share: f64) -> f64 {
+        self.span().at(share)
+    }
+
     fn span(&self) -> Span {
         let (from, to) = (self.from, self.to);
         Span { from, to }

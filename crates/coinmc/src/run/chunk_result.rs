@@ -22,6 +22,16 @@ pub(super) struct Tossed {
     pub(super) microseconds: u64,
 }
 
+impl Tossed {
+    /// The counts of no toss.
+    pub(super) fn none() -> Self {
+        Self {
+            tally: Tally::default(),
+            microseconds: 0,
+        }
+    }
+}
+
 impl ChunkResult {
     /// Number of tosses counted.
     pub(super) fn tosses(&self) -> u64 {

@@ -2,12 +2,13 @@
 
 use super::cut::Cut;
 use super::finished::Finished;
-use super::made::Made;
+use super::made::{Made, Work};
 use super::manifest::{self, Manifest};
 use super::packed::Packed;
 use super::provenance::{self, Log, Maker};
 use super::replace::{self, Replacement};
 use super::tallies::{Entry, Tallies};
+use super::unfinished::{Beginnings, Unfinished};
 use super::{Part, ProgressSink, RunError};
 use crate::plan::Plan;
 use crate::results::{Results, write_csv};
@@ -35,6 +36,7 @@ const PARTIAL: &str = "results.partial.csv";
 pub(super) struct RunDirectory {
     path: PathBuf,
     tallies: Tallies,
+    unfinished: Unfinished,
     provenance: Log,
     /// The system releases it when the process ends, even by a kill.
     _lock: File,
@@ -83,13 +85,15 @@ impl RunDirectory {
         write_config(path, plan, sink)?;
         must_be_file(path, Tallies::FILE)?;
         must_be_file(path, provenance::FILE)?;
-        for file in [Tallies::FILE, Tallies::REJECTED] {
+        must_be_file(path, Unfinished::FILE)?;
+        for file in [Tallies::FILE, Tallies::REJECTED, Unfinished::FILE] {
             replace::remove_leftover(&path.join(file))?;
         }
         replace::sync_directory(path)?;
         let tallies = Tallies::of(path, ours.plan_hash);
         Ok(Self {
             path: path.to_owned(),
+            unfinished: Unfinished::open(path, &tallies, plan)?,
             tallies,
             provenance: Log::of(path),
             _lock: lock,
@@ -104,13 +108,30 @@ impl RunDirectory {
         &self.provenance
     }
 
-    /// Stores chunks that one maker made.
-    pub(super) fn store(&self, maker: &Maker, batch: &[Made]) -> Result<(), RunError> {
+    /// Stores what one maker has done, in this order.
+    pub(super) fn store(&self, maker: &Maker, batch: &[Work]) -> Result<(), RunError> {
+        let finished = || {
+            batch.iter().filter_map(|work| match work {
+                Work::Finished(made) => Some(made),
+                Work::Begun(..) => None,
+            })
+        };
+        let begun = batch.iter().filter_map(|work| match work {
+            Work::Finished(_) => None,
+            Work::Begun(chunk, tossed) => Some((chunk, *tossed)),
+        });
         // before the tallies: a chunk that counts has a maker
-        let entries: Vec<_> = batch.iter().map(Made::entry).collect();
+        let entries: Vec<_> = finished().map(Made::entry).collect();
         self.provenance.add(maker, &entries)?;
         self.tallies
-            .store(batch.iter().map(|made| (&made.chunk, &made.result)))
+            .store(finished().map(|made| (&made.chunk, &made.result)))?;
+        let finished = finished().map(|made| &made.chunk);
+        self.unfinished.update(&self.tallies, begun, finished)
+    }
+
+    /// What an earlier run has counted of chunks that it did not finish.
+    pub(super) fn begun(&self) -> Beginnings {
+        self.unfinished.begun()
     }
 
     /// The chunks that an earlier run finished. Cuts off what a killed run did not finish writing, and sets
@@ -172,6 +193,7 @@ impl RunDirectory {
         sink: &dyn ProgressSink,
     ) -> Result<(), RunError> {
         replace::remove(&self.path.join(PARTIAL))?;
+        self.unfinished.clear()?;
         self.write_tables(results, sink)?;
         replace::sync_directory(&self.path)
     }
@@ -269,6 +291,19 @@ fn must_be_file(dir: &Path, name: &str) -> Result<(), RunError> {
         });
     }
     Ok(())
+}
+
+/// Whether a process runs in a run directory just now. Nothing in it is changed. False where a file system has
+/// no locks.
+///
+/// # Example
+/// ```
+/// assert!(!coinmc::run::is_running(std::path::Path::new("no/such/directory")));
+/// ```
+pub fn is_running(dir: &Path) -> bool {
+    let file = File::open(dir.join(LOCK));
+    // released at once
+    file.is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))
 }
 
 fn lock(dir: &Path) -> Result<File, RunError> {

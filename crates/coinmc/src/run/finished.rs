@@ -1,12 +1,14 @@
 //! The chunks that an earlier run finished.
 
 use super::Chunk;
-use super::chunk_result::ChunkResult;
+use super::chunk_result::{ChunkResult, Tossed};
 use super::packed::Packed;
+use super::unfinished::Beginnings;
 
-/// Results of finished chunks, found by point and first toss.
+/// Results of finished chunks, and of the beginnings of others, found by point and first toss.
 #[derive(Debug, Default)]
 pub(super) struct Finished {
+    begun: Beginnings,
     /// In order of point and first toss.
     entries: Vec<Entry>,
     /// Those that were not taken, and their tosses.
@@ -36,10 +38,23 @@ impl Finished {
         let results = entries.iter().filter_map(|entry| entry.result.as_ref());
         let tosses = results.map(|packed| ChunkResult::from(packed).tosses());
         Self {
+            begun: Beginnings::new(),
             tosses: tosses.fold(0, u64::saturating_add),
             left: entries.len() as u64,
             entries,
         }
+    }
+
+    /// The same, and what is counted of chunks that are not finished.
+    pub(super) fn with_beginnings(self, begun: Beginnings) -> Self {
+        Self { begun, ..self }
+    }
+
+    /// Takes what is counted of a chunk that is not finished.
+    pub(super) fn take_beginning(&mut self, chunk: &Chunk) -> Option<Tossed> {
+        let (begun, tossed) = self.begun.remove(&(chunk.point, chunk.tosses.start))?;
+        // a forged one may be longer
+        (begun.tosses.end < chunk.tosses.end).then_some(tossed)
     }
 
     /// Chunks that were not taken.

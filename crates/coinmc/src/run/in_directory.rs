@@ -30,7 +30,9 @@ pub fn run(plan: &Plan, options: &Options<'_>) -> Result<Report, RunError> {
     } = *options;
     let directory = RunDirectory::open(out, plan, part, build, sink)?;
     let plan = Arc::new(plan.clone());
-    let schedule = Schedule::new(&plan, part, directory.finished(&plan, sink)?);
+    let finished = directory.finished(&plan, sink)?;
+    let finished = finished.with_beginnings(directory.begun());
+    let schedule = Schedule::new(&plan, part, finished);
     sink.progress(&schedule.progress());
     let maker = Maker::this(&plan, build);
     let store = |batch: &[_]| directory.store(&maker, batch);

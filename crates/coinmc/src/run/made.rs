@@ -1,7 +1,7 @@
-//! A chunk that was computed.
+//! A chunk that was computed, or begun.
 
 use super::Chunk;
-use super::chunk_result::ChunkResult;
+use super::chunk_result::{ChunkResult, Tossed};
 use super::provenance::{Effort, Entry};
 
 /// A chunk, its result, and the time that it took.
@@ -10,6 +10,15 @@ pub(super) struct Made {
     pub(super) chunk: Chunk,
     pub(super) result: ChunkResult,
     pub(super) effort: Effort,
+}
+
+/// What a worker has done.
+#[derive(Debug, Clone)]
+pub(super) enum Work {
+    /// A chunk is finished.
+    Finished(Made),
+    /// So much of a chunk is counted, from its first toss on.
+    Begun(Chunk, Tossed),
 }
 
 impl Made {

@@ -1,7 +1,7 @@
 //! What a run still lacks, as a list that can be handed to machines again.
 
 use super::cut::Cut;
-use super::schedule::{Next, Schedule};
+use super::schedule::{Job, Next, Schedule};
 use super::{Chunk, Part};
 use crate::plan::Plan;
 use std::collections::BTreeSet;
@@ -82,7 +82,7 @@ pub(super) fn what_is_missing(
     let of = parts.iter().map(|part| part.of()).max().unwrap_or(1);
     let is_shared = of > 1 && parts.iter().all(|part| part.of() == of || part.of() == 1);
     let (mut chunks, mut total, mut owners) = (Vec::<Chunk>::new(), 0, BTreeSet::new());
-    while let Next::Chunk(chunk) = schedule.next() {
+    while let Next::Chunk(Job { chunk, .. }) = schedule.next() {
         total += 1;
         owners.insert(cut.number(&chunk) % u64::from(of));
         let has_room = chunks.len() <= NAMED;

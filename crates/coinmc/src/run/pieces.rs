@@ -60,6 +60,24 @@ mod tests {
     use super::*;
 
     #[test]
+    fn counts_do_not_depend_on_the_threads() {
+        let config = "coin.ratio = 1\nsurface = { restitution = 0.5, friction = 0.3 }\n\
+                      launch.preset = 'robot'\nengine.flat = {}\nstop.tosses = 1000";
+        let plan = crate::config::parse("test", config, &[]).unwrap();
+        let (point, tosses) = (0, 5..1000);
+        let chunk = Chunk { point, tosses };
+        let counts = [1, 2, 7].map(|threads| {
+            let threads = NonZeroUsize::new(threads).unwrap();
+            let done = tossed(&plan, &chunk, threads, &|| true).unwrap();
+            done.unwrap().0
+        });
+        assert_eq!(counts[0].tosses(), 995);
+        assert_eq!([counts[0]; 2], counts[1..]);
+        let stopped = tossed(&plan, &chunk, NonZeroUsize::new(3).unwrap(), &|| false);
+        assert_eq!(stopped.unwrap(), None);
+    }
+
+    #[test]
     fn pieces_are_the_whole_and_nearly_equal() {
         for (tosses, threads) in [(5..5, 3), (5..7, 3), (0..100, 7), (1..u64::MAX, 64)] {
             let pieces: Vec<_> = pieces(&tosses, NonZeroUsize::new(threads).unwrap()).collect();

@@ -20,6 +20,9 @@ pub struct Report {
     pub reused_chunks: u64,
     /// All tosses counted, including those of an earlier run.
     pub tosses: u64,
+    /// Tosses that the run will have when it is finished, as far as is known: a run that stops at targets finds
+    /// out.
+    pub tosses_planned: u64,
 }
 
 /// Whether a run is finished.
@@ -48,6 +51,7 @@ pub(super) fn report(plan: &Arc<Plan>, status: Status, schedule: Schedule) -> Re
         status,
         reused_chunks: progress.reused_chunks,
         tosses: progress.tosses_done,
+        tosses_planned: progress.tosses_planned,
     }
 }
 

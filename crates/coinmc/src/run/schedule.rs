@@ -1,6 +1,6 @@
 //! Which chunk comes next, and the sum of a point's chunks.
 
-use super::chunk_result::{ChunkResult, whole};
+use super::chunk_result::{ChunkResult, Tossed, whole};
 use super::cut::Cut;
 use super::finished::Finished;
 use super::packed::Counted;
@@ -59,11 +59,19 @@ impl std::fmt::Debug for Stage {
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Next {
     /// This chunk.
-    Chunk(Chunk),
+    Chunk(Job),
     /// Wait until a chunk is complete: it decides what is next.
     Wait,
     /// Nothing: the run is complete.
     Done,
+}
+
+/// A chunk to be computed.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct Job {
+    pub(super) chunk: Chunk,
+    /// What an earlier run counted of it, from its first toss on.
+    pub(super) begun: Option<Box<Tossed>>,
 }
 
 impl Schedule {
@@ -142,18 +150,24 @@ impl Schedule {
             }
             self.states.open(point).outstanding += 1;
             self.in_flight += 1;
-            return Next::Chunk(chunk);
+            let begun = self.take_beginning(&chunk).map(Box::new);
+            return Next::Chunk(Job { chunk, begun });
         }
     }
 
-    /// Records the result of a chunk that [`next`](Self::next) handed out.
+    /// Records the last of the results of a chunk that [`next`](Self::next) handed out.
     pub(super) fn complete(&mut self, chunk: &Chunk, result: &ChunkResult) {
-        assert!(self.count(chunk.point, result), "fewer than 2^64 tosses");
+        self.add(chunk.point, result);
         self.states.open(chunk.point).outstanding -= 1;
         self.in_flight -= 1;
-        self.progress.tosses_done += result.tosses();
-        self.update_worst(chunk.point);
         self.close_stage_if_complete(chunk.point);
+    }
+
+    /// Records a result of some of the tosses of a chunk that is handed out.
+    pub(super) fn add(&mut self, point: usize, result: &ChunkResult) {
+        assert!(self.count(point, result), "fewer than 2^64 tosses");
+        self.progress.tosses_done += result.tosses();
+        self.update_worst(point);
     }
 
     /// Adds the result of a chunk to its point; false if a counter would overflow.
@@ -267,6 +281,20 @@ impl Schedule {
         }
         self.update_worst(chunk.point);
         true
+    }
+
+    /// Counts what an earlier run has counted of a chunk.
+    fn take_beginning(&mut self, chunk: &Chunk) -> Option<Tossed> {
+        let begun = self.finished.take_beginning(chunk)?;
+        let result = ChunkResult::Tossed(begun);
+        if !self.count(chunk.point, &result) {
+            // only forged counts overflow: repeat the chunk
+            return None;
+        }
+        self.progress.tosses_done += result.tosses();
+        self.progress.tosses_reused += result.tosses();
+        self.update_worst(chunk.point);
+        Some(begun)
     }
 
     fn close_stage_if_complete(&mut self, index: usize) {

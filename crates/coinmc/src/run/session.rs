@@ -8,7 +8,7 @@ use super::in_directory::conclude;
 use super::provenance::{Entry, Maker};
 use super::remote::Note;
 use super::report::{report, status};
-use super::schedule::{Next, Schedule};
+use super::schedule::{Job, Next, Schedule};
 use super::tallies::Tallies;
 use super::{Chunk, Part, Progress, ProgressSink, Report, RunError};
 use crate::plan::Plan;
@@ -135,7 +135,8 @@ impl Session {
     )]
     pub fn next(&mut self) -> Step {
         match self.schedule.next() {
-            Next::Chunk(chunk) => {
+            // beginnings are no chunks that travel
+            Next::Chunk(Job { chunk, .. }) => {
                 let key = (chunk.point, chunk.tosses.start);
                 self.awaited.insert(key, chunk.tosses.end);
                 Step::Chunk(chunk)

@@ -8,7 +8,7 @@ use super::packed::Packed;
 use super::report::{Report, report, status};
 use super::schedule::{Next, Schedule};
 use super::tallies::{Entry, Tallies};
-use super::{Part, ProgressSink, RunError};
+use super::{Part, ProgressSink, RunError, unfinished};
 use crate::config;
 use crate::plan::Plan;
 use std::path::Path;
@@ -50,7 +50,9 @@ pub fn stored_report(dir: &Path, sink: &dyn ProgressSink) -> Result<(Plan, Repor
         }
         Ok(())
     })?;
-    let mut schedule = Schedule::new(&plan, Part::WHOLE, Finished::new(finished));
+    let begun = unfinished::read(dir, &tallies, &plan)?;
+    let finished = Finished::new(finished).with_beginnings(begun);
+    let mut schedule = Schedule::new(&plan, Part::WHOLE, finished);
     // missing chunks stay handed out
     while let Next::Chunk(_) = schedule.next() {}
     let status = status(Part::WHOLE, &schedule);

@@ -2,7 +2,7 @@
 
 use super::append::append;
 use super::blocks::{Block, Blocks};
-use super::chunk_result::{ChunkResult, whole};
+use super::chunk_result::{ChunkResult, Tossed, whole};
 use super::cut::Cut;
 use super::damage::Damage;
 use super::replace::{self, Replacement};
@@ -107,13 +107,31 @@ impl Tallies {
             let integral = integral_text::decode(bytes, point, method, hash)?;
             return Ok((chunk, ChunkResult::Integrated(integral)));
         }
-        if cut.may_be_shorter()
-            && let Some(end) = tally_text::end(bytes)
-        {
-            chunk.tosses.end = chunk.tosses.end.min(end);
+        if cut.may_be_shorter() {
+            shorten(&mut chunk, bytes);
         }
         let tossed = tally_text::decode(bytes, &chunk, hash)?;
         Ok((chunk, ChunkResult::Tossed(tossed)))
+    }
+
+    /// Reads the text of the beginning of a chunk of tosses.
+    pub(super) fn read_beginning(
+        &self,
+        bytes: &[u8],
+        plan: &Plan,
+        cut: &Cut,
+    ) -> Result<(Chunk, Tossed), Damage> {
+        if bytes.len() > MAX_BYTES {
+            return Err(Damage::TooLong);
+        }
+        let (point, start) = place(bytes).ok_or(Damage::Checksum)?;
+        let mut chunk = chunk_at(plan, cut, point, start).ok_or(Damage::NoSuchChunk)?;
+        if plan.integrates(point) {
+            return Err(Damage::NoSuchChunk);
+        }
+        shorten(&mut chunk, bytes);
+        let tossed = tally_text::decode(bytes, &chunk, &self.plan_hash)?;
+        Ok((chunk, tossed))
     }
 
     /// The text of a finished chunk.
@@ -204,6 +222,13 @@ impl Tallies {
         drop(writer);
         written.map_err(|error| all.error(error))?;
         all.finish()
+    }
+}
+
+/// Lets a chunk end where its text says, if that is earlier.
+fn shorten(chunk: &mut Chunk, bytes: &[u8]) {
+    if let Some(end) = tally_text::end(bytes) {
+        chunk.tosses.end = chunk.tosses.end.min(end);
     }
 }
 

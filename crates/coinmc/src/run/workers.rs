@@ -1,8 +1,11 @@
 //! Threads that execute chunks, and the one that stores their results.
 
 use super::chunk::compute_chunk;
-use super::made::Made;
-use super::schedule::{Next, Schedule};
+use super::chunk_result::{ChunkResult, Tossed};
+use super::made::{Made, Work};
+use super::pace::Pace;
+use super::provenance::Effort;
+use super::schedule::{Job, Next, Schedule};
 use super::{Chunk, ProgressSink, RunError};
 use crate::plan::Plan;
 use std::num::NonZeroUsize;
@@ -10,17 +13,17 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How many finished chunks may wait for the disk, and how many at most are stored at once.
 const BATCH: usize = 4096;
 /// How long an idle worker waits before it checks whether it should stop.
 const IDLE_WAIT: Duration = Duration::from_millis(50);
 
-type Done = Result<Made, RunError>;
+type Done = Result<Work, RunError>;
 
-/// Stores finished chunks, a few at a time.
-pub(super) type Store<'a> = &'a dyn Fn(&[Made]) -> Result<(), RunError>;
+/// Stores what workers have done, a few results at a time.
+pub(super) type Store<'a> = &'a dyn Fn(&[Work]) -> Result<(), RunError>;
 
 /// State that the threads share.
 struct Shared<'a> {
@@ -44,11 +47,11 @@ impl Shared<'_> {
         self.schedule.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn next_chunk(&self) -> Option<Chunk> {
+    fn next_job(&self) -> Option<Job> {
         let mut schedule = self.schedule();
         while self.should_continue() {
             match schedule.next() {
-                Next::Chunk(chunk) => return Some(chunk),
+                Next::Chunk(job) => return Some(job),
                 Next::Done => return None,
                 Next::Wait => {
                     let woken = self.changed.wait_timeout(schedule, IDLE_WAIT);
@@ -116,21 +119,105 @@ pub(super) fn execute(
 
 fn work(shared: &Shared<'_>, sender: &SyncSender<Done>) {
     let _stop_on_panic = StopOnPanic(&shared.broken);
-    while let Some(chunk) = shared.next_chunk() {
-        let one = NonZeroUsize::MIN;
-        let done = match compute_chunk(shared.plan, chunk, one, || shared.should_continue()) {
-            Ok(Some(made)) => {
-                shared.schedule().complete(&made.chunk, &made.result);
-                shared.changed.notify_all();
-                Ok(made)
-            }
-            Ok(None) => return,
-            Err(error) => Err(error),
+    let mut pace = Pace::new(Instant::now());
+    while let Some(job) = shared.next_job() {
+        let report = |work| sender.send(Ok(work)).is_ok();
+        let done = if shared.plan.integrates(job.chunk.point) {
+            integrate(shared, job.chunk, report)
+        } else {
+            toss(shared, job, &mut pace, report)
         };
-        if sender.send(done).is_err() {
+        let goes_on = match done {
+            Ok(goes_on) => goes_on,
+            Err(error) => sender.send(Err(error)).is_ok(),
+        };
+        if !goes_on {
             return;
         }
     }
+}
+
+/// Integrates a point; false if the worker is to stop.
+fn integrate(
+    shared: &Shared<'_>,
+    chunk: Chunk,
+    report: impl Fn(Work) -> bool,
+) -> Result<bool, RunError> {
+    let one = NonZeroUsize::MIN;
+    let Some(made) = compute_chunk(shared.plan, chunk, one, || shared.should_continue())? else {
+        return Ok(false);
+    };
+    Ok(finish(shared, made.result, made, report))
+}
+
+/// Tosses a chunk, or the rest of it, a stretch at a time, and reports after each; false if the worker is to
+/// stop.
+fn toss(
+    shared: &Shared<'_>,
+    Job { chunk, begun }: Job,
+    pace: &mut Pace,
+    report: impl Fn(Work) -> bool,
+) -> Result<bool, RunError> {
+    let (point, first) = (chunk.point, chunk.tosses.start);
+    let mut sum = begun.map_or_else(Tossed::none, |begun| *begun);
+    let mut effort = Effort::NONE;
+    let mut start = first + sum.tally.tosses();
+    pace.reports(Instant::now());
+    let report_beginning = |sum, end| {
+        let tosses = first..end;
+        tosses.is_empty() || report(Work::Begun(Chunk { point, tosses }, sum))
+    };
+    loop {
+        let end = start + pace.stretch(chunk.tosses.end - start);
+        let (one, begun_at) = (NonZeroUsize::MIN, Instant::now());
+        let stretch = Chunk {
+            point,
+            tosses: start..end,
+        };
+        let computed = compute_chunk(shared.plan, stretch, one, || shared.should_continue())?;
+        let Some(made) = computed else {
+            // what is counted is stored
+            report_beginning(sum, start);
+            return Ok(false);
+        };
+        let ChunkResult::Tossed(tossed) = made.result else {
+            unreachable!("the point is tossed");
+        };
+        let now = Instant::now();
+        pace.took(end - start, now - begun_at);
+        effort = effort.and(made.effort);
+        sum.tally.merge(&tossed.tally);
+        sum.microseconds += tossed.microseconds;
+        if end == chunk.tosses.end {
+            let result = ChunkResult::Tossed(sum);
+            let whole = Made {
+                chunk,
+                result,
+                effort,
+            };
+            return Ok(finish(shared, made.result, whole, report));
+        }
+        shared.schedule().add(point, &made.result);
+        start = end;
+        if pace.is_due(now) {
+            pace.reports(now);
+            if !report_beginning(sum, end) {
+                return Ok(false);
+            }
+        }
+    }
+}
+
+/// Counts the last result of a chunk and reports the whole; false if the worker is to stop.
+fn finish(
+    shared: &Shared<'_>,
+    last: ChunkResult,
+    whole: Made,
+    report: impl Fn(Work) -> bool,
+) -> bool {
+    shared.schedule().complete(&whole.chunk, &last);
+    shared.changed.notify_all();
+    report(Work::Finished(whole))
 }
 
 /// Stores results as they arrive until all workers have ended. It has its own thread, so that no
@@ -148,7 +235,7 @@ fn store_results(
         let (mut stored, mut failed) = (Vec::new(), None);
         for done in batch {
             match done {
-                Ok(made) => stored.push(made),
+                Ok(work) => stored.push(work),
                 Err(error) => failed = failed.or(Some(error)),
             }
         }

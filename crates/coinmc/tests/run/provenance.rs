@@ -51,12 +51,9 @@ fn every_chunk_of_a_run_has_a_maker_whoever_went_on_with_it() {
         );
         assert_eq!(sum(&made, |done| done.tosses), report.tosses);
         for done in &made.contributions {
-            assert!(done.wall_s > 0.0 && !done.maker.cpu.is_empty());
+            assert!(!done.wall.is_zero() && !done.maker.cpu.is_empty());
             assert!(done.maker.target.starts_with(std::env::consts::ARCH));
-            assert!(
-                done.processor_s
-                    .is_none_or(|time| 0.0 < time && time < 2.0 * done.wall_s + 0.1)
-            );
+            assert!(done.processor.is_none_or(|time| !time.is_zero()));
             assert!(["scalar", "avx2", "avx512"].contains(&done.maker.lanes.as_str()));
         }
         // a finished run is made by nobody else
@@ -135,7 +132,8 @@ fn damage_to_the_record_costs_the_record_and_no_count() {
     let report = run_whole(&plan, dir.path());
     let file = dir.path().join(FILE);
     let text = fs::read_to_string(&file).unwrap();
-    let longer = format!("{}\n{text}", "x".repeat(3 << 20));
+    // the end of a line that is too long is not a line
+    let longer = format!("{text}{}{{\"format\":2}}\n", "x".repeat(128 * 4096));
     for (damaged, unrecorded) in [
         (String::new(), 18),
         (text.replace("\"chunks\":[", "\"chunks\":[7,"), 18),

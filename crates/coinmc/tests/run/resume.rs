@@ -6,7 +6,7 @@ use crate::support::{
 };
 use coinmc::plan::StoppedBy;
 use coinmc::results::Row;
-use coinmc::run::{Chunk, Part, Status, run_chunk};
+use coinmc::run::{Chunk, Part, Status, run_chunk, stored_report};
 use coinmc_core::Tally;
 use std::process::{Command, Stdio};
 use std::sync::atomic::Ordering::SeqCst;
@@ -64,6 +64,56 @@ fn interruptions_change_nothing() {
         assert!(breaks >= 2, "{breaks}");
         assert_same(&whole, &broken);
     }
+}
+
+/// A chunk of a second and more is kept as far as it is counted, and goes on from there.
+#[test]
+fn a_chunk_goes_on_where_it_was_stopped() {
+    let text = "seed = 3\ncoin.ratio = 0.2\nsurface.material = 'wood'\nlaunch.preset = 'hand'\n\
+                engine.volumetric = {}\nstop.tosses = 16_384";
+    let plan = coinmc::config::parse("test", text, &[]).unwrap();
+    let dir = tempdir().unwrap();
+    let (whole, broken) = (dir.path().join("whole"), dir.path().join("broken"));
+    run_with(&plan, &whole, Part::WHOLE, 1, &Ear::default()).unwrap();
+    assert!(!contents(&whole).contains_key("unfinished.txt"));
+    let ear = Ear::that_cancels_at(1);
+    let report = run_with(&plan, &broken, Part::WHOLE, 1, &ear).unwrap();
+    assert_eq!(report.status, Status::Interrupted);
+    let kept = report.tosses;
+    assert!(0 < kept && kept < 16_384, "{kept}");
+    assert_eq!(report.results.rows[0].tally.tosses(), kept);
+    let (_, stored) = stored_report(&broken, &Ear::default()).unwrap();
+    assert_eq!(stored.tosses, kept);
+    let ear = Ear::default();
+    let report = run_with(&plan, &broken, Part::WHOLE, 1, &ear).unwrap();
+    assert_eq!(report.status, Status::Complete);
+    let last = ear.progress.lock().unwrap().last().copied();
+    assert_eq!(last.unwrap().tosses_reused, kept);
+    assert_same(&whole, &broken);
+}
+
+#[test]
+fn a_beginning_that_is_damaged_is_counted_anew() {
+    let (plan, dir) = (plan(FIXED), tempdir().unwrap());
+    let (whole, broken) = (dir.path().join("whole"), dir.path().join("broken"));
+    run_whole(&plan, &whole);
+    run_with(&plan, &broken, Part::WHOLE, 1, &Ear::that_cancels_at(1)).unwrap();
+    let tallies = std::fs::read_to_string(whole.join("tallies.txt")).unwrap();
+    // of another length, and not sealed
+    let forged = tallies.replace("tosses 0 16384", "tosses 0 9999");
+    for text in [
+        forged.as_str(),
+        "coinmc tally 2\n",
+        "",
+        "\u{0}\u{ff}",
+        &tallies,
+    ] {
+        std::fs::write(broken.join("unfinished.txt"), text).unwrap();
+        let ear = Ear::that_cancels_at(1);
+        run_with(&plan, &broken, Part::WHOLE, 1, &ear).unwrap();
+    }
+    run_whole(&plan, &broken);
+    assert_same(&whole, &broken);
 }
 
 #[test]
@@ -178,7 +228,7 @@ fn the_longest_run_starts_at_once_and_stops_on_request() {
         });
         run_with(&plan, dir.path(), Part::WHOLE, 2, &ear).unwrap()
     });
-    assert_eq!((report.status, report.tosses), (Status::Interrupted, 0));
+    assert_eq!(report.status, Status::Interrupted);
     // 0.1 s to wait, 0.1 ms to stop: the rest is for a busy machine
     assert!(
         begun.elapsed() < Duration::from_secs(3),

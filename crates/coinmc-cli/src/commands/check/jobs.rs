@@ -138,32 +138,10 @@ pub(super) fn run<'a>(config: &Path, sets: impl Iterator<Item = &'a str>) -> Str
     format!("coinmc run {}{}", quoted(&config), sets.collect::<String>())
 }
 
-/// A time limit: `1h`, `45min`, `90s`, or `HH:MM:SS`.
-pub(super) fn walltime(text: &str) -> Result<Duration, String> {
-    let wrong = || "expected a time such as 1h, 45min, 90s or 01:30:00".to_owned();
-    let number = |digits: &str| digits.parse::<u32>().map(u64::from).map_err(|_| wrong());
-    let seconds = if let Some(hours) = text.strip_suffix('h') {
-        3600 * number(hours)?
-    } else if let Some(minutes) = text.strip_suffix("min") {
-        60 * number(minutes)?
-    } else if let Some(seconds) = text.strip_suffix('s') {
-        number(seconds)?
-    } else {
-        let parts: Vec<&str> = text.split(':').collect();
-        let [hours, minutes, seconds] = parts[..] else {
-            return Err(wrong());
-        };
-        3600 * number(hours)? + 60 * number(minutes)? + number(seconds)?
-    };
-    if seconds == 0 {
-        return Err(wrong());
-    }
-    Ok(Duration::from_secs(seconds))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::time_limit;
 
     fn plan(stop: &str) -> Plan {
         let text = format!(
@@ -177,7 +155,7 @@ mod tests {
         let machines = Machines {
             nodes,
             cores: 10,
-            walltime: super::walltime(walltime).unwrap(),
+            walltime: time_limit::duration(walltime).unwrap(),
         };
         Jobs::of(
             &plan("tosses = 1e12"),
@@ -231,20 +209,5 @@ mod tests {
         };
         let jobs = Jobs::of(&plan("half_width = 1e-3"), "coinmc run a", 1e6, &machines);
         assert!(jobs.submit.is_none() && jobs.warning.is_some());
-    }
-
-    #[test]
-    fn times_are_read_and_nonsense_is_refused() {
-        for (text, seconds) in [
-            ("1h", 3600),
-            ("45min", 2700),
-            ("90s", 90),
-            ("01:30:05", 5405),
-        ] {
-            assert_eq!(walltime(text), Ok(Duration::from_secs(seconds)));
-        }
-        for bad in ["", "h", "1", "-1h", "0s", "1:30", "1h30", "99999999999h"] {
-            assert!(walltime(bad).is_err(), "{bad}");
-        }
     }
 }

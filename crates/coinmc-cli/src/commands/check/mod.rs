@@ -9,6 +9,7 @@ use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, FORMAT_VERSION, Format};
 use crate::terminal::progress::with_prefix;
 use crate::terminal::{Colors, Style, compact, count, duration, grouped, in_ascii, wrapped};
+use crate::time_limit;
 use anyhow::anyhow;
 use calibration::{Cost, PointCost};
 use clap::Args;
@@ -68,7 +69,7 @@ pub(crate) struct Check {
     cores: u32,
 
     /// Time limit of a job: 1h, 45min or 01:30:00
-    #[arg(long, value_name = "TIME", default_value = "1h", requires = "nodes", value_parser = jobs::walltime)]
+    #[arg(long, value_name = "TIME", default_value = "1h", requires = "nodes", value_parser = time_limit::duration)]
     walltime: Duration,
 
     /// Print the whole config as it is understood, with every default and preset spelled out, as TOML

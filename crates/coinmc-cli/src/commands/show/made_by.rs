@@ -2,7 +2,6 @@
 
 use crate::terminal::{count, duration};
 use coinmc::run::{Contribution, Maker, Provenance};
-use std::time::Duration;
 
 /// A line for each build and machine, and one for what is not recorded.
 pub(super) fn lines(provenance: &Provenance) -> Vec<String> {
@@ -19,10 +18,10 @@ fn line(contribution: &Contribution) -> String {
         build, cpu, lanes, ..
     } = &contribution.maker;
     let chunks = count(contribution.chunks, "chunk");
-    let (time, of) = match contribution.processor_s {
+    let (time, of) = match contribution.processor {
         Some(time) => (time, "of processor time"),
-        None => (contribution.wall_s, "of its threads"),
+        None => (contribution.wall, "of its threads"),
     };
-    let time = duration(Duration::try_from_secs_f64(time).unwrap_or(Duration::MAX));
+    let time = duration(time);
     format!("coinmc: made by {build}, {cpu}, {lanes} lanes: {chunks}, {time} {of}")
 }

@@ -193,8 +193,12 @@ fn action(
         ("features", json!(maker.features.join(" ")), ""),
         ("chunks", json!(contribution.chunks), ""),
         ("tosses", json!(contribution.tosses), ""),
-        ("wall time", json!(contribution.wall_s), "s"),
-        ("processor time", json!(contribution.processor_s), "s"),
+        ("wall time", json!(contribution.wall.as_secs_f64()), "s"),
+        (
+            "processor time",
+            json!(contribution.processor.map(|time| time.as_secs_f64())),
+            "s",
+        ),
     ];
     let used = used.iter().filter(|(_, value, _)| !value.is_null());
     let usage = used.map(|(name, value, unit)| {

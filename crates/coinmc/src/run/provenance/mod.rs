@@ -20,6 +20,7 @@ use super::tallies::{self, Tallies};
 use crate::plan::Plan;
 use serde_json::{Value, json};
 use std::path::Path;
+use std::time::Duration;
 
 /// Who made a run.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -39,10 +40,10 @@ pub struct Contribution {
     pub chunks: u64,
     /// Tosses in them.
     pub tosses: u64,
-    /// Time of the threads that computed them by the clock, added up, s.
-    pub wall_s: f64,
-    /// The same of the processor, s; `None` where the system does not tell it.
-    pub processor_s: Option<f64>,
+    /// Time of the threads that computed them by the clock, added up.
+    pub wall: Duration,
+    /// The same of the processor; `None` where the system does not tell it.
+    pub processor: Option<Duration>,
 }
 
 /// Who made the chunks of a run directory, finished or not. It is not changed.
@@ -59,7 +60,7 @@ pub struct Contribution {
 /// let dir = std::path::Path::new("runs/first");
 /// let plan = coinmc::run::stored_plan(dir)?;
 /// for done in coinmc::run::provenance(dir, &plan)?.contributions {
-///     println!("{}, {}: {} tosses in {} s", done.maker.build, done.maker.cpu, done.tosses, done.wall_s);
+///     println!("{}, {}: {} tosses in {} s", done.maker.build, done.maker.cpu, done.tosses, done.wall.as_secs());
 /// }
 /// # Ok(())
 /// # }
@@ -109,8 +110,8 @@ impl Contribution {
             "lanes": lanes,
             "chunks": self.chunks,
             "tosses": self.tosses,
-            "wall_s": self.wall_s,
-            "processor_s": self.processor_s,
+            "wall_s": self.wall.as_secs_f64(),
+            "processor_s": self.processor.map(|time| time.as_secs_f64()),
         })
     }
 
@@ -119,8 +120,8 @@ impl Contribution {
             maker: maker.clone(),
             chunks: 0,
             tosses: 0,
-            wall_s: 0.0,
-            processor_s: Some(0.0),
+            wall: Duration::ZERO,
+            processor: Some(Duration::ZERO),
         }
     }
 
@@ -128,8 +129,8 @@ impl Contribution {
         let Effort { wall_us, cpu_us } = entry.effort();
         self.chunks += 1;
         self.tosses = self.tosses.saturating_add(entry.tosses());
-        self.wall_s += 1e-6 * wall_us as f64;
-        let of_cpu = self.processor_s.zip(cpu_us);
-        self.processor_s = of_cpu.map(|(sum, more)| sum + 1e-6 * more as f64);
+        self.wall = self.wall.saturating_add(Duration::from_micros(wall_us));
+        let of_cpu = self.processor.zip(cpu_us);
+        self.processor = of_cpu.map(|(sum, us)| sum.saturating_add(Duration::from_micros(us)));
     }
 }

@@ -1,0 +1,43 @@
+//! Why a validation has no result.
+
+use coinmc::config::{Diagnostics, OverrideError};
+use coinmc::run::RunError;
+use coinmc_questions::QuestionError;
+use thiserror::Error;
+
+/// Why a validation has no result.
+#[derive(Debug, Error)]
+pub enum ValidateError {
+    /// There are no claims or data sets of these names.
+    #[error("there is no claim or data set {}; known are {known}", names.join(", "))]
+    Unknown {
+        /// The names given, each with the nearest one that is known, as text.
+        names: Vec<String>,
+        /// All names that are known.
+        known: String,
+    },
+    /// It was stopped.
+    #[error("stopped")]
+    Stopped,
+    /// A run failed: disk full, or a directory of another validation.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// A thread cannot be started, or two samples cannot be compared.
+    #[error(transparent)]
+    Question(#[from] QuestionError),
+    /// No thread can be started.
+    #[error("cannot start a thread: {0}")]
+    Thread(std::io::Error),
+    /// A config of this crate has problems: a mistake in the program.
+    #[error("a config of the validation has problems:\n{0}")]
+    Config(Diagnostics),
+    /// So has a key in it.
+    #[error(transparent)]
+    Key(OverrideError),
+}
+
+impl From<Diagnostics> for ValidateError {
+    fn from(diagnostics: Diagnostics) -> Self {
+        Self::Config(diagnostics)
+    }
+}
