@@ -49,6 +49,7 @@ from coinmc._trace import EVENT, SAMPLE, Trace, trace
 if TYPE_CHECKING:
     from coinmc import experiment, film, plot, vision
     from coinmc._aim import Aimed, AimedLaunch, aim
+    from coinmc._calibrate import Calibration, CalibrationModel, calibrate
     from coinmc._compare import Comparison, compare
     from coinmc._design import Design, design
     from coinmc._executors import chunk
@@ -66,6 +67,8 @@ __all__ = [
     "STATE",
     "Aimed",
     "AimedLaunch",
+    "Calibration",
+    "CalibrationModel",
     "Comparison",
     "Config",
     "ConfigError",
@@ -99,6 +102,7 @@ __all__ = [
     "aim",
     "analytic",
     "basins",
+    "calibrate",
     "check",
     "chunk",
     "compare",
@@ -132,6 +136,9 @@ _LAZY = {
     "Aimed": "coinmc._aim",
     "AimedLaunch": "coinmc._aim",
     "aim": "coinmc._aim",
+    "Calibration": "coinmc._calibrate",
+    "CalibrationModel": "coinmc._calibrate",
+    "calibrate": "coinmc._calibrate",
     "Comparison": "coinmc._compare",
     "compare": "coinmc._compare",
     "chunk": "coinmc._executors",

@@ -6,8 +6,9 @@
 //! launches as rows of numbers · `columns` and `toss` individual tosses · `run` estimates and runs
 //! · `session` runs on other machines · `results` and `throws` tables, `arrow` tables for Python · `pickled` results
 //! as plain values · `table` any columns as Arrow · `interval` intervals of proportions · `trace` recorded motion of a
-//! toss · `question`, `fair`, `design`, `aim`, `ranking`, `rare`, `compare` questions · `validate` verdicts ·
-//! `report` pages · `analytic` closed forms · `film` drops on film · `command` the command line · `errors` exceptions.
+//! toss · `question`, `fair`, `design`, `aim`, `ranking`, `rare`, `compare` questions · `calibrate` surfaces from
+//! measurements · `validate` verdicts · `report` pages · `analytic` closed forms · `film` drops on film · `command`
+//! the command line · `errors` exceptions.
 
 // Arguments converted from Python are owned.
 #![allow(clippy::needless_pass_by_value)]
@@ -15,6 +16,7 @@
 mod aim;
 mod analytic;
 mod arrow;
+mod calibrate;
 mod columns;
 mod command;
 mod compare;
@@ -51,6 +53,8 @@ mod _lib {
     use super::aim::aim;
     #[pymodule_export]
     use super::analytic::{closed_form, no_bounce_rule};
+    #[pymodule_export]
+    use super::calibrate::CalibrationModel;
     #[pymodule_export]
     use super::command::main;
     #[pymodule_export]

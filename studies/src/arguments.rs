@@ -1,5 +1,6 @@
 //! The command line.
 
+use crate::calibrate::Calibrate;
 use crate::convergence::Convergence;
 use crate::energy::Energy;
 use crate::film::Film;
@@ -41,6 +42,8 @@ enum Command {
     FlatTable(FlatTable),
     /// Fits to synthetic film: how often the intervals hold the truth
     Film(Film),
+    /// Synthetic coins calibrated: do intervals hold the truth, what does each measurement tell
+    Calibrate(Calibrate),
     /// How P(side) depends on the engine's settings, toss by toss
     Convergence(Convergence),
     /// Every flight against dense sampling: contacts passed over, energy gained
@@ -101,6 +104,7 @@ impl Arguments {
             Ok(match command {
                 Command::FlatTable(study) => study.execute(seed),
                 Command::Film(study) => study.execute(seed),
+                Command::Calibrate(study) => study.execute(seed)?,
                 Command::Convergence(study) => study.execute(seed),
                 Command::MissedContacts(study) => study.execute(seed),
                 Command::Oracle(study) => study.execute(seed),

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod balance;
+mod calibrate;
 mod convergence;
 mod energy;
 mod film;

@@ -1,13 +1,13 @@
 //! The command line: global options and one subcommand per verb.
 
-#[cfg(feature = "film")]
-use crate::commands::Film;
 #[cfg(feature = "robot")]
 use crate::commands::Robot;
 use crate::commands::{
     AimAt, Analytic, Check, Compare, Completions, DesignArgs, Fair, Merge, Rare, ReportOf, Run,
     Schema, SensitivityOf, Show, Status, Trace, Validate,
 };
+#[cfg(feature = "film")]
+use crate::commands::{Calibrate, Film};
 use crate::exit::{Failure, Outcome};
 use crate::output::{Console, Format};
 use clap::{ColorChoice, CommandFactory, Parser, Subcommand};
@@ -62,6 +62,8 @@ enum Command {
     Sensitivity(SensitivityOf),
     Aim(AimAt),
     Rare(Rare),
+    #[cfg(feature = "film")]
+    Calibrate(Calibrate),
     Compare(Compare),
     Validate(Validate),
     Merge(Merge),
@@ -100,6 +102,8 @@ impl Command {
             Self::Sensitivity(sensitivity) => sensitivity.format(),
             Self::Aim(aim) => aim.format(),
             Self::Rare(rare) => rare.format(),
+            #[cfg(feature = "film")]
+            Self::Calibrate(calibrate) => calibrate.format(),
             Self::Compare(compare) => compare.format(),
             Self::Validate(validate) => validate.format(),
             Self::Merge(merge) => merge.format(),
@@ -125,6 +129,8 @@ impl Command {
             Self::Sensitivity(sensitivity) => sensitivity.execute(console),
             Self::Aim(aim) => aim.execute(console),
             Self::Rare(rare) => rare.execute(console),
+            #[cfg(feature = "film")]
+            Self::Calibrate(calibrate) => calibrate.execute(console),
             Self::Compare(compare) => compare.execute(console),
             Self::Validate(validate) => validate.execute(console),
             Self::Merge(merge) => merge.execute(console),

@@ -5,6 +5,8 @@ use crate::terminal::Colors;
 use coinmc::config::Diagnostics;
 use coinmc::run::RunError;
 #[cfg(feature = "film")]
+use coinmc_calibrate::CalibrationError;
+#[cfg(feature = "film")]
 use coinmc_film::text as film;
 use coinmc_questions::{DesignError, QuestionError};
 use coinmc_recording::Error as RecordingError;
@@ -105,6 +107,18 @@ impl From<DesignError> for Failure {
             DesignError::Shape(_) | DesignError::Mass(_) | DesignError::NoSingleRoot => {
                 Self::Input(error.into())
             }
+        }
+    }
+}
+
+#[cfg(feature = "film")]
+impl From<CalibrationError> for Failure {
+    fn from(error: CalibrationError) -> Self {
+        match error {
+            CalibrationError::Config(diagnostics) => Self::Config(diagnostics),
+            CalibrationError::Question(error) => error.into(),
+            CalibrationError::Fit(_) => Self::Runtime(error.into()),
+            _ => Self::Input(error.into()),
         }
     }
 }

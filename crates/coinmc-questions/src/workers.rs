@@ -228,7 +228,10 @@ impl Workers<'_> {
     }
 
     /// Computes pieces of work on all threads, in this order as far as there are threads.
-    pub(crate) fn each<T: Send>(
+    ///
+    /// # Errors
+    /// The first error of a piece, or that no thread can be started.
+    pub fn each<T: Send>(
         &self,
         pieces: usize,
         compute: &(dyn Fn(usize) -> Result<T, QuestionError> + Sync),

@@ -2,6 +2,8 @@
 
 mod aim;
 mod analytic;
+#[cfg(feature = "film")]
+mod calibrate;
 mod check;
 mod compare;
 mod completions;
@@ -26,6 +28,8 @@ mod validate;
 
 pub(crate) use aim::AimAt;
 pub(crate) use analytic::Analytic;
+#[cfg(feature = "film")]
+pub(crate) use calibrate::Calibrate;
 pub(crate) use check::Check;
 pub(crate) use compare::Compare;
 pub(crate) use completions::Completions;

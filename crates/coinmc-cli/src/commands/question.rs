@@ -7,6 +7,8 @@ use crate::terminal::progress::Progress;
 use anyhow::{Context, anyhow};
 use clap::Args;
 use coinmc::config::{self, Override};
+#[cfg(feature = "film")]
+use coinmc_calibrate::CalibrationError;
 use coinmc_questions::scenes::{Assumption, EverydayScene};
 use coinmc_questions::{DesignError, QuestionError, Template, Unknown, Workers};
 use coinmc_recording::NewFile;
@@ -130,6 +132,16 @@ impl From<QuestionError> for Unanswered {
     fn from(error: QuestionError) -> Self {
         match error {
             QuestionError::Stopped => Self::Stopped,
+            error => Self::Failed(error.into()),
+        }
+    }
+}
+
+#[cfg(feature = "film")]
+impl From<CalibrationError> for Unanswered {
+    fn from(error: CalibrationError) -> Self {
+        match error {
+            CalibrationError::Question(error) => error.into(),
             error => Self::Failed(error.into()),
         }
     }

@@ -70,12 +70,16 @@ pub enum Kind {
     Number(Bounds),
     /// A number that cannot be swept.
     Real(Bounds),
+    /// One or several measured numbers, in the order given: equal ones are no mistake.
+    Reals(Bounds),
     /// A whole number.
     Integer(Whole),
     /// `true` or `false`.
     Boolean,
     /// One of these words.
     Word(Vec<Word>),
+    /// One or several texts, such as names of files.
+    Texts,
     /// A list of three values of this kind: x, y, z.
     Vector(Box<Kind>),
     /// A number that may be swept, or a distribution (a table with exactly one of these keys).

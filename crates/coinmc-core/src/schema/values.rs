@@ -7,12 +7,16 @@ use crate::EngineError;
 pub enum Value {
     /// A number; if it is swept, its value at this point.
     Number(f64),
+    /// Measured numbers, at least one.
+    Numbers(Vec<f64>),
     /// A whole number.
     Integer(u64),
     /// `true` or `false`.
     Boolean(bool),
     /// A word.
     Word(&'static str),
+    /// Texts, at least one.
+    Texts(Vec<String>),
     /// Three values: x, y, z.
     Vector(Vec<Value>),
     /// A table.
@@ -120,6 +124,30 @@ impl Values {
             Some(Value::Number(number)) => Ok(Some(*number)),
             Some(_) => Err(missing(key)),
             None => Ok(None),
+        }
+    }
+
+    /// The measured numbers under a key; none if it is absent.
+    ///
+    /// # Errors
+    /// As [`number`](Self::number).
+    pub fn numbers(&self, key: &str) -> Result<&[f64], EngineError> {
+        match self.get(key) {
+            Some(Value::Numbers(numbers)) => Ok(numbers),
+            Some(_) => Err(missing(key)),
+            None => Ok(&[]),
+        }
+    }
+
+    /// The texts under a key; none if it is absent.
+    ///
+    /// # Errors
+    /// As [`number`](Self::number).
+    pub fn texts(&self, key: &str) -> Result<&[String], EngineError> {
+        match self.get(key) {
+            Some(Value::Texts(texts)) => Ok(texts),
+            Some(_) => Err(missing(key)),
+            None => Ok(&[]),
         }
     }
 

@@ -165,7 +165,7 @@ impl Along<'_> {
         z: f64,
     ) -> Result<Option<numerical::Numerical>, QuestionError> {
         let usual = self.plan(root.value)?;
-        let finer = numerical::finer(&usual);
+        let finer = numerical::finer_settings(&usual);
         if finer.is_empty() {
             return Ok(None);
         }

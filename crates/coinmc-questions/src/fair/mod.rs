@@ -18,7 +18,7 @@ mod scan;
 mod solve;
 mod tosses;
 
-pub use numerical::Numerical;
+pub use numerical::{Numerical, finer_settings};
 pub use refine::Round;
 
 use crate::{QuestionError, Template, Workers};

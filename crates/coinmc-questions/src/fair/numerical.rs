@@ -30,8 +30,8 @@ impl Numerical {
     }
 }
 
-/// The finer settings of a plan's engine, TOML by key.
-pub(super) fn finer(plan: &Plan) -> Vec<(String, String)> {
+/// The finer settings of a plan's engine, TOML by key, which show its numerical error; none if it has none.
+pub fn finer_settings(plan: &Plan) -> Vec<(String, String)> {
     let engine = plan.points[0].engine.descriptor();
     let settings = engine.finer.iter().filter_map(|(key, finer)| {
         let key = format!("engine.{}.{key}", engine.name);

@@ -20,9 +20,11 @@ pub(super) enum CheckedValue {
     /// A number that may be swept, and the index of its axis if it is.
     Number(Quantity, Option<usize>),
     Real(f64),
+    Reals(Vec<f64>),
     Integer(u64),
     Boolean(bool),
     Word(&'static str),
+    Texts(Vec<String>),
     /// x, y, z.
     Vector(Vec<Checked>),
     /// The keys that are present, in the order of the schema.
@@ -44,9 +46,11 @@ impl Checked {
         let nested = |value| Self::of_value(span, value);
         let value = match value {
             Value::Number(number) => CheckedValue::Number(Quantity::Constant(*number), None),
+            Value::Numbers(numbers) => CheckedValue::Reals(numbers.clone()),
             Value::Integer(number) => CheckedValue::Integer(*number),
             Value::Boolean(holds) => CheckedValue::Boolean(*holds),
             Value::Word(word) => CheckedValue::Word(word),
+            Value::Texts(texts) => CheckedValue::Texts(texts.clone()),
             Value::Vector(components) => {
                 CheckedValue::Vector(components.iter().map(nested).collect())
             }

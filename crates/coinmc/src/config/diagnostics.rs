@@ -169,6 +169,10 @@ impl Problems {
         self.found.is_empty()
     }
 
+    pub(super) fn count(&self) -> usize {
+        self.found.len() + self.dropped
+    }
+
     /// The finished list, sorted by location; problems at one location keep their order.
     pub(super) fn finish(mut self, sources: &Sources) -> Diagnostics {
         self.found.sort_by_key(|(span, ..)| *span);

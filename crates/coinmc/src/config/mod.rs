@@ -31,6 +31,7 @@ mod overrides;
 mod quantity;
 mod resolved;
 mod schema;
+mod sections;
 mod source;
 mod surface;
 mod sweep;
@@ -41,15 +42,18 @@ mod walk;
 pub use diagnostics::{Diagnostics, Problem};
 pub use nearest::nearest;
 pub use overrides::{Override, OverrideError};
+pub use sections::{Entry, Place, Section, parse_with};
 
 use crate::plan::Plan;
 use checked::{Checked, CheckedValue};
+use coinmc_core::schema::TableKind;
 use diagnostics::{Problems, printable};
 use source::{Sources, Span};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 use sweep::Sweep;
+use tree::Table;
 
 /// Largest config, as written and as resolved, bytes.
 pub const MAX_BYTES: usize = 1 << 20;
@@ -148,8 +152,18 @@ fn plan(
     for set in overrides {
         set.apply(sources, &mut tree, problems);
     }
-    let end = sources.end(file);
-    let mut root = walk::document(sources, problems, &schema::root(), &tree, end);
+    of_tree(sources, &schema::root(), &tree, sources.end(file), problems)
+}
+
+/// Checks a tree against a schema and makes the plan; `end` is where a missing table would go.
+fn of_tree(
+    sources: &Sources,
+    schema: &TableKind,
+    tree: &Table,
+    end: Span,
+    problems: &mut Problems,
+) -> Option<Plan> {
+    let mut root = walk::document(sources, problems, schema, tree, end);
     let taken = spell_out(&mut root, problems);
     engines::refuse_unmodelled(&root, problems);
     let sweep = Sweep::find(&mut root, problems)?;

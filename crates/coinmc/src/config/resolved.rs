@@ -52,9 +52,13 @@ fn value(text: &mut String, checked: &Checked) {
     match &checked.value {
         CheckedValue::Number(number, _) => quantity(text, number),
         CheckedValue::Real(value) => float(text, *value),
+        CheckedValue::Reals(values) => list(text, values, |text, value| float(text, *value)),
         CheckedValue::Integer(value) => put(text, format_args!("{value}")),
         CheckedValue::Boolean(value) => put(text, format_args!("{value}")),
         CheckedValue::Word(word) => put(text, format_args!("\"{word}\"")),
+        CheckedValue::Texts(texts) => list(text, texts, |text, value| {
+            put(text, format_args!("{value:?}"));
+        }),
         CheckedValue::Vector(components) => list(text, components, value),
         CheckedValue::Tagged(tag, inner) => {
             put(text, format_args!("{{ {tag} = "));

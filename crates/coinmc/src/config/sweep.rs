@@ -22,6 +22,15 @@ pub(super) struct Sweep {
 }
 
 impl Sweep {
+    /// No axis: a single point.
+    pub(super) fn none() -> Self {
+        Self {
+            axes: vec![],
+            points: 1,
+            zip: false,
+        }
+    }
+
     /// Finds every swept number (in the order of the schema, so that the order of keys in the
     /// file does not matter), numbers them, and writes their values out if they are not too many.
     pub(super) fn find(root: &mut Checked, problems: &mut Problems) -> Option<Self> {

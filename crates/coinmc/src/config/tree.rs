@@ -39,11 +39,17 @@ impl Node {
                 entries: entries.collect(),
             })
         };
+        let list = |values: Vec<Value>| {
+            let nodes = values.into_iter().map(|value| Self { value, span });
+            Value::List(nodes.collect())
+        };
         let value = match value {
             Checked::Number(number) => Value::Float(*number),
+            Checked::Numbers(numbers) => list(numbers.iter().map(|n| Value::Float(*n)).collect()),
             Checked::Integer(number) => Value::Integer((*number).into()),
             Checked::Boolean(holds) => Value::Boolean(*holds),
             Checked::Word(word) => Value::Text((*word).to_owned()),
+            Checked::Texts(texts) => list(texts.iter().cloned().map(Value::Text).collect()),
             Checked::Vector(components) => Value::List(components.iter().map(nested).collect()),
             Checked::Table(values) => table(
                 values

@@ -62,9 +62,11 @@ fn value(checked: &Checked, at: &At<'_>) -> Result<Value, Fault> {
         CheckedValue::Invalid => return Err(Fault::Reported),
         CheckedValue::Number(..) => Value::Number(at.number(checked)?),
         CheckedValue::Real(number) => Value::Number(*number),
+        CheckedValue::Reals(numbers) => Value::Numbers(numbers.clone()),
         CheckedValue::Integer(number) => Value::Integer(*number),
         CheckedValue::Boolean(holds) => Value::Boolean(*holds),
         CheckedValue::Word(word) => Value::Word(word),
+        CheckedValue::Texts(texts) => Value::Texts(texts.clone()),
         CheckedValue::Vector(components) => {
             let components = components.iter().map(|component| value(component, at));
             Value::Vector(components.collect::<Result<_, _>>()?)

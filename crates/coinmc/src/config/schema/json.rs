@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 
 /// JSON whose objects keep the order they were built in, so that the schema reads like the
 /// reference and never depends on how some crate was built.
+#[derive(Clone)]
 enum Json {
     Text(String),
     /// A number or boolean, as written.
@@ -46,6 +47,7 @@ fn kind(kind: &Kind) -> Vec<(&'static str, Json)> {
     match kind {
         Kind::Number(bounds) => any_of(quantity(*bounds)),
         Kind::Real(bounds) => real(*bounds),
+        Kind::Reals(bounds) => one_or_several(real(*bounds)),
         Kind::Integer(whole) => vec![
             ("type", text("integer")),
             ("minimum", literal(whole.low)),
@@ -53,6 +55,7 @@ fn kind(kind: &Kind) -> Vec<(&'static str, Json)> {
         ],
         Kind::Boolean => vec![("type", text("boolean"))],
         Kind::Word(list) => any_of(words(list)),
+        Kind::Texts => one_or_several(vec![("type", text("string"))]),
         Kind::Vector(component) => vec![
             ("type", text("array")),
             ("items", Json::Object(self::kind(component))),
@@ -89,6 +92,16 @@ fn real(bounds: Bounds) -> Vec<(&'static str, Json)> {
         (low, Json::Literal(format!("{:?}", bounds.low))),
         (high, Json::Literal(format!("{:?}", bounds.high))),
     ]
+}
+
+/// Such a value, or a list of them.
+fn one_or_several(one: Vec<(&'static str, Json)>) -> Vec<(&'static str, Json)> {
+    let list = vec![
+        ("type", text("array")),
+        ("items", Json::Object(one.clone())),
+        ("minItems", literal(1)),
+    ];
+    any_of(vec![Json::Object(one), Json::Object(list)])
 }
 
 /// A number, a list or a range.

@@ -22,6 +22,17 @@ pub(super) fn document(
     Walker { sources, problems }.table(schema, root, end, "")
 }
 
+/// Checks one table of a document; `path` is its name in messages.
+pub(super) fn section(
+    sources: &Sources,
+    problems: &mut Problems,
+    kind: &TableKind,
+    node: &Node,
+    path: &str,
+) -> Checked {
+    Walker { sources, problems }.value(&Kind::Table(kind.clone()), node, path)
+}
+
 struct Walker<'a> {
     sources: &'a Sources,
     problems: &'a mut Problems,
@@ -36,6 +47,7 @@ impl Walker<'_> {
                 Some(value) => Checked::new(node.span, CheckedValue::Real(value)),
                 None => Checked::invalid(node.span),
             },
+            Kind::Reals(bounds) => self.reals(*bounds, node, path),
             Kind::Integer(whole) => self.integer(*whole, node, path),
             Kind::Boolean => match node.value {
                 Value::Boolean(value) => Checked::new(node.span, CheckedValue::Boolean(value)),
@@ -45,6 +57,7 @@ impl Walker<'_> {
                 Value::Text(text) => self.word(words, &[], text, node.span, path),
                 _ => self.wrong_type(node, path, &alternatives(words, &[])),
             },
+            Kind::Texts => self.texts(node, path),
             Kind::Vector(component) => self.vector(component, node, path),
             Kind::Marginal(bounds, distributions) => match &node.value {
                 Value::Table(table) if is_distribution(table, distributions) => {
@@ -129,6 +142,23 @@ impl Walker<'_> {
             near.map(|near| format!("did you mean \"{near}\"?")),
         );
         Checked::invalid(span)
+    }
+
+    /// One text or a list of texts.
+    fn texts(&mut self, node: &Node, path: &str) -> Checked {
+        let items = match &node.value {
+            Value::List(items) if !items.is_empty() => items.as_slice(),
+            Value::Text(_) => std::slice::from_ref(node),
+            _ => return self.wrong_type(node, path, "a text or a list of texts"),
+        };
+        let mut texts = vec![];
+        for item in items {
+            match &item.value {
+                Value::Text(text) => texts.push(text.clone()),
+                _ => return self.wrong_type(item, path, "a text or a list of texts"),
+            }
+        }
+        Checked::new(node.span, CheckedValue::Texts(texts))
     }
 
     fn vector(&mut self, component: &Kind, node: &Node, path: &str) -> Checked {

@@ -28,6 +28,21 @@ impl Walker<'_> {
         }
     }
 
+    /// A measured number, or several.
+    pub(super) fn reals(&mut self, bounds: Bounds, node: &Node, path: &str) -> Checked {
+        let items = match &node.value {
+            Value::List(items) if !items.is_empty() => items.as_slice(),
+            Value::Integer(_) | Value::Float(_) => std::slice::from_ref(node),
+            _ => return self.wrong_type(node, path, "a number or a list of numbers"),
+        };
+        let values = items.iter().map(|item| self.real(bounds, item, path));
+        // every wrong number is reported, not only the first
+        match values.collect::<Vec<_>>().into_iter().collect() {
+            Some(values) => Checked::new(node.span, CheckedValue::Reals(values)),
+            None => Checked::invalid(node.span),
+        }
+    }
+
     /// A single number within bounds. An integer is a number too.
     pub(super) fn real(&mut self, bounds: Bounds, node: &Node, path: &str) -> Option<f64> {
         let value = match node.value {

@@ -1,0 +1,66 @@
+//! Why there is no calibration.
+
+use coinmc::config::Diagnostics;
+use coinmc_core::{EngineError, SurfaceError};
+use coinmc_questions::QuestionError;
+use thiserror::Error;
+
+/// Why there is no calibration.
+#[derive(Debug, Error)]
+pub enum CalibrationError {
+    /// The config has problems, or a measurement contradicts its prior.
+    #[error("the config has problems:\n{0}")]
+    Config(Diagnostics),
+    /// The config is a sweep.
+    #[error("a calibration is about one scene, but the config sweeps {0}")]
+    Swept(String),
+    /// The engine makes no tosses.
+    #[error("a closed form has no surface to calibrate: choose an engine that tosses")]
+    NoTosses,
+    /// The first contact decides.
+    #[error("with landing = \"adhesive\" the surface does not matter: use landing = \"bouncing\"")]
+    Adhesive,
+    /// Nothing was measured.
+    #[error(
+        "nothing is measured: add tables such as [[counts]], [[tilt]] or [[roll_out]] to the config"
+    )]
+    NothingMeasured,
+    /// A number of the work is out of range.
+    #[error("{what} must be from {least} to {most}, not {given}")]
+    OutOfRange {
+        /// Of what.
+        what: &'static str,
+        /// The least.
+        least: u64,
+        /// The most.
+        most: u64,
+        /// That asked for.
+        given: u64,
+    },
+    /// Two few tosses showed a face.
+    #[error(
+        "too few tosses of {0} end with a face to calibrate anything: {1} of {2} are undecided or left the table"
+    )]
+    Undecided(String, u64, u64),
+    /// The engine refuses a surface.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    /// The parameters make no surface.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
+    /// Tosses cannot be made, or were stopped.
+    #[error(transparent)]
+    Question(#[from] QuestionError),
+    /// The fit of the probabilities failed.
+    #[error("the probabilities of {0} cannot be fitted")]
+    Fit(String),
+    /// The measurements exclude each other.
+    #[error("no surface agrees with all measurements: {0}")]
+    Contradiction(String),
+}
+
+impl From<Diagnostics> for CalibrationError {
+    fn from(diagnostics: Diagnostics) -> Self {
+        Self::Config(diagnostics)
+    }
+}

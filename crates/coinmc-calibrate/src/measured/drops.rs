@@ -1,0 +1,162 @@
+//! Filmed drops, as `coinmc film fit` reads them: restitution and friction with their errors.
+
+use super::{Kind, Law, Reduced};
+use crate::Parameter;
+use coinmc_core::schema::{
+    Absent, Fallback, Kind as KeyKind, ReadError, TableKind, Values, Whole, Word, field, fields,
+};
+use coinmc_core::{Scene, Surface};
+use coinmc_film::text::{self, AngleOf, Choice, MAX_BYTES};
+use coinmc_film::{FilmedDrop, Law as FlatLaw, MAX_DROPS, Model, Options, Shared, fit};
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+/// Files of drops.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Drops {
+    files: Vec<PathBuf>,
+    law: FlatLaw,
+    bounces: usize,
+}
+
+/// The law of impact.
+const LAWS: [(&str, FlatLaw); 2] = [
+    ("moreau", FlatLaw::Moreau),
+    ("chatterjee-ruina", FlatLaw::ChatterjeeRuina),
+];
+
+impl Drops {
+    pub(crate) fn schema() -> TableKind {
+        let word = |name, doc| Word { name, doc };
+        fields(vec![
+            field(
+                "files",
+                "Text files exported by Tracker, one drop each; beside the config.",
+                KeyKind::Texts,
+                Absent::Required,
+            ),
+            field(
+                "law",
+                "Law of impact that is fitted.",
+                KeyKind::Word(vec![
+                    word(
+                        "moreau",
+                        "Newton's restitution, friction opposing the final slip",
+                    ),
+                    word("chatterjee-ruina", "the law of Chatterjee and Ruina"),
+                ]),
+                Absent::Is(Fallback::Word("chatterjee-ruina")),
+            ),
+            field(
+                "bounces",
+                "Number of bounces to fit.",
+                KeyKind::Integer(Whole { low: 1, high: 20 }),
+                Absent::Is(Fallback::Integer(2)),
+            ),
+        ])
+    }
+
+    pub(crate) fn read(values: &Values) -> Result<Self, ReadError> {
+        let files = values.texts("files")?;
+        if files.len() > MAX_DROPS {
+            let message = format!(
+                "at most {MAX_DROPS} drops are allowed, found {}",
+                files.len()
+            );
+            return Err(ReadError::new(message).at("files"));
+        }
+        let name = values.word("law")?;
+        let law = LAWS.iter().find(|(known, _)| *known == name);
+        Ok(Self {
+            files: files.iter().map(PathBuf::from).collect(),
+            law: law.map_or(FlatLaw::ChatterjeeRuina, |(_, law)| *law),
+            bounces: values.integer("bounces")?,
+        })
+    }
+
+    /// Reads and fits the drops; files are sought from the folder of the config.
+    ///
+    /// # Errors
+    /// What is wrong with a file, or why there is no fit.
+    pub(crate) fn fitted(&self, scene: &Scene, folder: &Path) -> Result<Vec<Reduced>, String> {
+        let mut drops: Vec<FilmedDrop> = vec![];
+        let mut problems: Vec<String> = vec![];
+        for file in &self.files {
+            match read(&folder.join(file)) {
+                Ok(drop) => drops.push(drop),
+                Err(problem) => problems.push(problem),
+            }
+        }
+        if !problems.is_empty() {
+            return Err(problems.join("\n"));
+        }
+        let model = Model {
+            law: self.law,
+            coin: scene.coin,
+            gravity_m_s2: scene.gravity_m_s2(),
+        };
+        let surface: &Surface = &scene.surface;
+        let options = Options {
+            bounces: self.bounces,
+            shared: Shared {
+                restitution: surface.restitution(),
+                friction: surface.friction(),
+                ..Shared::default()
+            },
+            ..Options::default()
+        };
+        let fitted = fit(&model, &drops, &options).map_err(|error| error.to_string())?;
+        let pairs = [
+            (coinmc_film::Parameter::Restitution, Parameter::Restitution),
+            (coinmc_film::Parameter::Friction, Parameter::Friction),
+        ];
+        let determined = pairs.iter().filter_map(|(filmed, ours)| {
+            let estimate = fitted.estimate(*filmed)?;
+            // what the film leaves open it does not measure
+            let error = estimate.std_error.filter(|_| estimate.is_determined())?;
+            Some(Reduced {
+                law: Law::Times(*ours, 1.0),
+                value: estimate.value,
+                absolute: error,
+                relative: 0.0,
+            })
+        });
+        let determined: Vec<_> = determined.collect();
+        if determined.is_empty() {
+            return Err("these drops determine neither restitution nor friction".to_owned());
+        }
+        Ok(determined)
+    }
+
+    pub(crate) const KIND: Kind = Kind::Film;
+}
+
+fn read(path: &Path) -> Result<FilmedDrop, String> {
+    let name = path.display().to_string();
+    let bytes = bytes(path).map_err(|error| format!("{name}: {error}"))?;
+    let choice = Choice {
+        x: None,
+        y: None,
+        angle: None,
+        ends: None,
+        length_m: None,
+        angle_rad: None,
+        angle_of: AngleOf::Face,
+    };
+    match text::read(&name, &bytes, &choice) {
+        Ok(footage) => Ok(footage.drop),
+        Err(problems) => Err(problems.render(false)),
+    }
+}
+
+/// At most one byte more than allowed, which shows that a file is too long.
+fn bytes(path: &Path) -> io::Result<Vec<u8>> {
+    let file = File::open(path)?;
+    if file.metadata()?.is_dir() {
+        return Err(io::ErrorKind::IsADirectory.into());
+    }
+    let mut bytes = Vec::new();
+    file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}

@@ -1,0 +1,427 @@
+//! Reads a config of a calibration: a scene, priors, and tables of measurements.
+
+use crate::measured::{
+    Bounces, CountsGiven, Drops, Kind, Reading, Reduce, Reduced, RollOut, SpinDown, Tilt, Whirr,
+};
+use crate::prior::Prior;
+use crate::{CalibrationError, Parameter};
+use coinmc::config::{self, Diagnostics, Entry, Override, Place, Section};
+use coinmc::plan::Plan;
+use coinmc_core::schema::{
+    Absent, Bounds, Kind as KeyKind, ReadError, TableKind, Values, Word, field, fields, table,
+};
+use coinmc_core::{Material, Scene};
+use std::path::Path;
+
+/// Tables of the scene that a measurement may have of its own.
+const OWN: &[&str] = &["coin", "launch"];
+
+/// Counts of faces, in the scene in which they were tossed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Counted {
+    /// Which table of the config it is from, such as `counts 2`.
+    pub name: String,
+    /// Scene and launches; the surface is that of the parameters.
+    pub plan: Plan,
+    /// Heads, tails, side.
+    pub faces: [u64; 3],
+}
+
+/// What is known of a coin and a surface.
+#[derive(Debug, Clone)]
+pub struct Observations {
+    /// The scene, with all that is not calibrated.
+    pub plan: Plan,
+    /// Scene and launches for which the probabilities are predicted.
+    pub predicted: Plan,
+    /// The prior of each parameter.
+    pub priors: Vec<Prior>,
+    /// Counts of faces.
+    pub counts: Vec<Counted>,
+    /// Measured numbers.
+    pub readings: Vec<Reading>,
+    /// Where each of the counts, and then each of the readings, stands.
+    pub(crate) places: Vec<Place>,
+}
+
+/// What a section says.
+enum Content {
+    Prior(PriorGiven),
+    Predict,
+    Counts(CountsGiven),
+    Film(Drops),
+    RollOut(RollOut),
+    Tilt(Tilt),
+    SpinDown(SpinDown),
+    Whirr(Whirr),
+    Bounces(Bounces),
+}
+
+impl Content {
+    fn kind(&self) -> Option<Kind> {
+        Some(match self {
+            Self::Prior(_) | Self::Predict => return None,
+            Self::Counts(_) => Kind::Counts,
+            Self::Film(_) => Drops::KIND,
+            Self::RollOut(_) => RollOut::KIND,
+            Self::Tilt(_) => Tilt::KIND,
+            Self::SpinDown(_) => SpinDown::KIND,
+            Self::Whirr(_) => Whirr::KIND,
+            Self::Bounces(_) => Bounces::KIND,
+        })
+    }
+}
+
+/// What `[prior]` says.
+struct PriorGiven {
+    /// A material of the table, or "any".
+    material: Option<&'static str>,
+    /// Ends of the central 95 %.
+    ranges: Vec<(Parameter, [f64; 2])>,
+}
+
+/// The word for any material.
+const ANY: &str = "any";
+
+impl Observations {
+    /// Reads a config file.
+    ///
+    /// # Errors
+    /// [`CalibrationError::Config`] with every problem found.
+    pub fn load(path: &Path, overrides: &[Override]) -> Result<Self, CalibrationError> {
+        let text = config::read_text(path)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::parse(&path.display().to_string(), &text, overrides, folder)
+    }
+
+    /// Reads a config from a text; `name` is its name in messages, and files of filmed drops are sought
+    /// from `folder`.
+    ///
+    /// # Errors
+    /// [`CalibrationError::Config`] with every problem found.
+    ///
+    /// # Example
+    /// ```
+    /// use coinmc_calibrate::Observations;
+    /// let text = "coin.ratio = 1\nsurface.material = 'wood'\nlaunch.preset = 'hand'\n\
+    ///             engine.volumetric = {}\n[[tilt]]\nangle_deg = [17, 18]\n";
+    /// let observed = Observations::parse("inline", text, &[], "".as_ref())?;
+    /// assert_eq!(observed.readings[0].name, "tilt 1");
+    /// assert!(observed.priors[1].source.starts_with("wood"));
+    /// # Ok::<(), coinmc_calibrate::CalibrationError>(())
+    /// ```
+    pub fn parse(
+        name: &str,
+        text: &str,
+        overrides: &[Override],
+        folder: &Path,
+    ) -> Result<Self, CalibrationError> {
+        let (plan, entries) = config::parse_with(name, text, overrides, &sections())?;
+        for plan in std::iter::once(&plan).chain(entries.iter().map(|entry| &entry.plan)) {
+            check(plan)?;
+        }
+        let parameters = Parameter::of_engine(plan.points[0].engine.descriptor());
+        let mut observed = Self {
+            predicted: plan.clone(),
+            priors: priors(&plan, &parameters, None),
+            plan,
+            counts: vec![],
+            readings: vec![],
+            places: vec![],
+        };
+        let mut reading_places = vec![];
+        let mut seen = vec![];
+        for entry in entries {
+            let number = entry.content.kind().map_or(0, |kind| {
+                seen.push(kind);
+                seen.iter().filter(|other| **other == kind).count()
+            });
+            observed.add(entry, number, &parameters, folder, &mut reading_places)?;
+        }
+        observed.places.extend(reading_places);
+        Ok(observed)
+    }
+
+    fn add(
+        &mut self,
+        entry: Entry<Content>,
+        number: usize,
+        parameters: &[Parameter],
+        folder: &Path,
+        reading_places: &mut Vec<Place>,
+    ) -> Result<(), CalibrationError> {
+        let Entry {
+            content,
+            plan,
+            place,
+        } = entry;
+        let scene = plan.points[0].scene;
+        let kind = content.kind();
+        let reduced = match content {
+            Content::Prior(given) => {
+                self.priors = priors(&self.plan, parameters, Some(&given));
+                return Ok(());
+            }
+            Content::Predict => {
+                self.predicted = plan;
+                return Ok(());
+            }
+            Content::Counts(CountsGiven(faces)) => {
+                let name = format!("counts {number}");
+                self.counts.push(Counted { name, plan, faces });
+                self.places.push(place);
+                return Ok(());
+            }
+            Content::Film(drops) => drops
+                .fitted(&scene, folder)
+                .map_err(|why| place.problem(why, None))?,
+            Content::RollOut(roll) => roll.reduce(&scene),
+            Content::Tilt(tilt) => tilt.reduce(&scene),
+            Content::SpinDown(spin) => spin.reduce(&scene),
+            Content::Whirr(whirr) => whirr.reduce(&scene),
+            Content::Bounces(bounces) => bounces.reduce(&scene),
+        };
+        let kind = kind.expect("a measurement has a kind");
+        self.take(kind, number, reduced, (&scene, parameters), &place)?;
+        reading_places.resize(self.readings.len(), place);
+        Ok(())
+    }
+
+    /// Adds the numbers of one table.
+    fn take(
+        &mut self,
+        kind: Kind,
+        number: usize,
+        reduced: Vec<Reduced>,
+        (scene, parameters): (&Scene, &[Parameter]),
+        place: &Place,
+    ) -> Result<(), Diagnostics> {
+        if reduced.is_empty() {
+            return Err(place.problem("these readings determine nothing", None));
+        }
+        for Reduced {
+            law,
+            value,
+            absolute,
+            relative,
+        } in reduced
+        {
+            let parameter = law.parameter();
+            if !parameters.contains(&parameter) {
+                return Err(place.problem(
+                    format!("this engine knows no {}", parameter.words()),
+                    Some("use [engine.volumetric]".to_owned()),
+                ));
+            }
+            if parameter == Parameter::Restitution && scene.surface.restitution_exponent() != 0.0 {
+                return Err(place.problem(
+                    "a restitution that falls with speed cannot be read from bounces: its law is for a \
+                     constant one",
+                    Some("leave out surface.restitution_exponent".to_owned()),
+                ));
+            }
+            self.readings.push(Reading {
+                kind,
+                name: format!("{} {number}", kind.name()),
+                law,
+                value,
+                absolute,
+                relative,
+            });
+        }
+        Ok(())
+    }
+
+    /// What was taken for the scene, without what is calibrated.
+    pub fn notes(&self) -> impl Iterator<Item = &str> {
+        let calibrated = |note: &&str| {
+            let mut keys = self.priors.iter().map(|prior| prior.parameter.key());
+            keys.any(|key| note.starts_with(&format!("surface.{key} is not given")))
+        };
+        let notes = self.plan.notes.iter().map(String::as_str);
+        notes.filter(move |note| !calibrated(note))
+    }
+
+    /// The parameters, in the order of every table and array.
+    pub fn parameters(&self) -> Vec<Parameter> {
+        self.priors.iter().map(|prior| prior.parameter).collect()
+    }
+}
+
+/// One scene, in which coins are tossed.
+fn check(plan: &Plan) -> Result<(), CalibrationError> {
+    if !plan.axes.is_empty() {
+        return Err(CalibrationError::Swept(plan.axes.join(", ")));
+    }
+    if !plan.points[0].engine.makes_tosses() {
+        return Err(CalibrationError::NoTosses);
+    }
+    let landing = plan.points[0].scene.surface.landing();
+    if landing == coinmc_core::Landing::Adhesive {
+        return Err(CalibrationError::Adhesive);
+    }
+    Ok(())
+}
+
+fn priors(plan: &Plan, parameters: &[Parameter], given: Option<&PriorGiven>) -> Vec<Prior> {
+    let around = || Prior::around(parameters, &plan.points[0].scene.surface);
+    let of = |of: &dyn Fn(Parameter) -> Prior| parameters.iter().map(|p| of(*p)).collect();
+    let mut priors: Vec<Prior> = match given.and_then(|given| given.material) {
+        Some(ANY) => of(&Prior::of_any),
+        Some(name) => match name.parse::<Material>() {
+            Ok(material) => of(&|parameter| Prior::of_material(parameter, &material)),
+            Err(_) => around(),
+        },
+        None => around(),
+    };
+    for (parameter, [low, high]) in given.map_or(&[][..], |given| &given.ranges) {
+        for prior in priors
+            .iter_mut()
+            .filter(|prior| prior.parameter == *parameter)
+        {
+            *prior = Prior {
+                parameter: *parameter,
+                low: *low,
+                high: *high,
+                source: "[prior] of the config".to_owned(),
+            };
+        }
+    }
+    priors
+}
+
+/// The sections of a config of a calibration.
+fn sections() -> Vec<Section<Content>> {
+    let section = |name, doc, kind, own, read| Section {
+        name,
+        doc,
+        kind,
+        many: true,
+        own,
+        read,
+    };
+    let once = |name, doc, kind, own, read| Section {
+        name,
+        doc,
+        kind,
+        many: false,
+        own,
+        read,
+    };
+    vec![
+        once(
+            "prior",
+            "What is believed before anything is measured.",
+            prior_schema(),
+            &[],
+            |v| read_prior(v).map(Content::Prior),
+        ),
+        once(
+            "predict",
+            "The coin and the launch to predict.",
+            fields(vec![]),
+            OWN,
+            |_| Ok(Content::Predict),
+        ),
+        section(
+            "counts",
+            "Counts of tosses.",
+            CountsGiven::schema(),
+            OWN,
+            |v| CountsGiven::read(v).map(Content::Counts),
+        ),
+        section("film", "Filmed drops.", Drops::schema(), OWN, |v| {
+            Drops::read(v).map(Content::Film)
+        }),
+        section(
+            "roll_out",
+            "Rolls from a ramp.",
+            RollOut::schema(),
+            OWN,
+            |v| RollOut::read(v).map(Content::RollOut),
+        ),
+        section(
+            "tilt",
+            "Angles at which the coin slides.",
+            Tilt::schema(),
+            OWN,
+            |v| Tilt::read(v).map(Content::Tilt),
+        ),
+        section(
+            "spin_down",
+            "Spins that slow down.",
+            SpinDown::schema(),
+            OWN,
+            |v| SpinDown::read(v).map(Content::SpinDown),
+        ),
+        section(
+            "whirr",
+            "The pitch of a coin that whirrs.",
+            Whirr::schema(),
+            OWN,
+            |v| Whirr::read(v).map(Content::Whirr),
+        ),
+        section(
+            "bounces",
+            "Impacts of a coin that was dropped flat.",
+            Bounces::schema(),
+            OWN,
+            |v| Bounces::read(v).map(Content::Bounces),
+        ),
+    ]
+}
+
+fn prior_schema() -> TableKind {
+    let materials = Material::ALL.iter();
+    let mut words: Vec<Word> = materials
+        .map(|material| Word {
+            name: material.name,
+            doc: material.doc,
+        })
+        .collect();
+    words.push(Word {
+        name: ANY,
+        doc: "any of them",
+    });
+    let mut all = vec![field(
+        "material",
+        "The material whose numbers, and their uncertainty, are believed.",
+        KeyKind::Word(words),
+        Absent::Omitted,
+    )];
+    for parameter in Parameter::ALL {
+        let bounds = match parameter {
+            Parameter::Restitution => Bounds::open(0.0, 1.0),
+            Parameter::Friction => Bounds::above_zero(100.0),
+            _ => Bounds::above_zero(1.0),
+        };
+        let end = |name, doc| field(name, doc, KeyKind::Real(bounds), Absent::Required);
+        let ends = fields(vec![
+            end("low", "Lower end of the central 95 %."),
+            end("high", "Upper end."),
+        ]);
+        let doc = "Where it is believed to be, with 95 % probability.";
+        all.push(table(parameter.key(), doc, ends, Absent::Omitted));
+    }
+    fields(all)
+}
+
+fn read_prior(values: &Values) -> Result<PriorGiven, ReadError> {
+    let material = match values.get("material") {
+        Some(_) => Some(values.word("material")?),
+        None => None,
+    };
+    let mut ranges = vec![];
+    for parameter in Parameter::ALL {
+        let Some(ends) = values.table(parameter.key())? else {
+            continue;
+        };
+        let range = [ends.number("low")?, ends.number("high")?];
+        if range[0] >= range[1] {
+            let message = "`low` must be below `high`";
+            return Err(ReadError::new(message).at("high").at(parameter.key()));
+        }
+        ranges.push((parameter, range));
+    }
+    Ok(PriorGiven { material, ranges })
+}

@@ -1,0 +1,133 @@
+//! The numbers of a surface that are calibrated.
+
+use coinmc_core::{EngineDescriptor, EngineKind, Surface};
+
+/// A number of a surface that is calibrated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Parameter {
+    /// Coefficient of restitution e.
+    Restitution,
+    /// Coefficient of friction μ.
+    Friction,
+    /// Rolling friction length ρ_c, m.
+    RollingFriction,
+    /// Pivoting friction length ρ_p, m.
+    PivotingFriction,
+}
+
+impl Parameter {
+    /// All of them, in the order of every table and array.
+    pub const ALL: [Self; 4] = [
+        Self::Restitution,
+        Self::Friction,
+        Self::RollingFriction,
+        Self::PivotingFriction,
+    ];
+
+    /// Its key in the table `[surface]`.
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::Restitution => "restitution",
+            Self::Friction => "friction",
+            Self::RollingFriction => "rolling_friction_m",
+            Self::PivotingFriction => "pivoting_friction_m",
+        }
+    }
+
+    /// Its name in words.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Restitution => "restitution",
+            Self::Friction => "friction",
+            Self::RollingFriction => "rolling friction",
+            Self::PivotingFriction => "pivoting friction",
+        }
+    }
+
+    /// Its unit; `1` for a plain number.
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Self::Restitution | Self::Friction => "1",
+            Self::RollingFriction | Self::PivotingFriction => "m",
+        }
+    }
+
+    /// The parameters on which the tosses of an engine depend: an engine in the plane knows no friction
+    /// lengths.
+    pub fn of_engine(engine: &EngineDescriptor) -> Vec<Self> {
+        let known = match engine.kind {
+            EngineKind::Planar => 2,
+            EngineKind::Spatial | EngineKind::ClosedForm => 4,
+        };
+        Self::ALL[..known].to_vec()
+    }
+
+    /// Its value on a surface.
+    pub fn of_surface(self, surface: &Surface) -> f64 {
+        match self {
+            Self::Restitution => surface.restitution(),
+            Self::Friction => surface.friction(),
+            Self::RollingFriction => surface.rolling_friction_m(),
+            Self::PivotingFriction => surface.pivoting_friction_m(),
+        }
+    }
+
+    /// Whether it lies between 0 and 1; the others are only positive.
+    const fn is_share(self) -> bool {
+        matches!(self, Self::Restitution)
+    }
+
+    /// The number on the scale on which its prior is normal: ln(e/(1 − e)) for the restitution, else the
+    /// logarithm.
+    pub fn to_scale(self, value: f64) -> f64 {
+        if self.is_share() {
+            libm::log(value / (1.0 - value))
+        } else {
+            libm::log(value)
+        }
+    }
+
+    /// Back from that scale.
+    pub fn from_scale(self, scaled: f64) -> f64 {
+        if self.is_share() {
+            1.0 / (1.0 + libm::exp(-scaled))
+        } else {
+            libm::exp(scaled)
+        }
+    }
+
+    /// ln |d(scaled)/d(value)|.
+    pub fn log_stretch(self, value: f64) -> f64 {
+        if self.is_share() {
+            -libm::log(value * (1.0 - value))
+        } else {
+            -libm::log(value)
+        }
+    }
+
+    /// Whether a number can be its value.
+    pub fn allows(self, value: f64) -> bool {
+        value > 0.0 && value.is_finite() && !(self.is_share() && value >= 1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scales_lead_there_and_back() {
+        for parameter in Parameter::ALL {
+            for value in [1e-6, 0.3, 0.9] {
+                let scaled = parameter.to_scale(value);
+                let back = parameter.from_scale(scaled);
+                assert!((back / value - 1.0).abs() < 1e-12);
+                let step = 1e-6;
+                let slope = (parameter.from_scale(scaled + step)
+                    - parameter.from_scale(scaled - step))
+                    / (2.0 * step);
+                assert!((libm::log(slope) + parameter.log_stretch(value)).abs() < 1e-6);
+            }
+        }
+    }
+}

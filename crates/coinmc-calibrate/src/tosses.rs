@@ -1,0 +1,130 @@
+//! Tosses on surfaces with given parameters.
+
+use crate::{CalibrationError, Parameter};
+use coinmc::plan::{Plan, Point};
+use coinmc::run::{TossSource, for_each_outcome};
+use coinmc_core::{Domain, Stream, Surface, SurfaceError};
+use coinmc_questions::{QuestionError, Workers};
+use std::ops::Range;
+use std::sync::atomic::Ordering;
+
+/// Heads, tails and side, as counted.
+pub(crate) type Faces = [u64; 3];
+
+/// Where tosses are made: the first point of a plan with other parameters.
+#[derive(Debug, Clone)]
+pub(crate) struct At {
+    pub(crate) point: Point,
+    pub(crate) tosses: Range<u64>,
+}
+
+/// A surface like this one with these parameters.
+pub(crate) fn surface_with(
+    like: &Surface,
+    parameters: &[Parameter],
+    values: &[f64],
+) -> Result<Surface, SurfaceError> {
+    let of = |parameter: Parameter| {
+        let place = parameters.iter().position(|known| *known == parameter);
+        place.map_or(parameter.of_surface(like), |place| values[place])
+    };
+    let mut surface = Surface::new(of(Parameter::Restitution), of(Parameter::Friction))?
+        .with_friction_lengths(
+            of(Parameter::RollingFriction),
+            of(Parameter::PivotingFriction),
+        )?
+        .with_restitution_threshold(like.restitution_threshold_m_s())?
+        .with_speed_dependent_restitution(
+            like.restitution_exponent(),
+            like.restitution_reference_m_s(),
+        )?
+        .with_roughness(like.roughness())
+        .with_landing(like.landing());
+    if let Some(radius) = like.table_radius_m() {
+        surface = surface.with_table_radius(radius)?;
+    }
+    match like.tilt() {
+        Some(tilt) => surface.with_tilt(tilt),
+        None => Ok(surface),
+    }
+}
+
+/// The first point of a plan, on a surface with these parameters.
+pub(crate) fn point_with(
+    plan: &Plan,
+    parameters: &[Parameter],
+    values: &[f64],
+) -> Result<Point, SurfaceError> {
+    let mut point = plan.points[0].clone();
+    point.scene.surface = surface_with(&point.scene.surface, parameters, values)?;
+    Ok(point)
+}
+
+/// The random numbers of all tosses of a calibration.
+pub(crate) fn launches(seed: u64) -> Stream {
+    Stream::new(seed, Domain::Launch, 0)
+}
+
+/// Counts the faces of each piece of work; tosses without a face are in none of the counts.
+pub(crate) fn count(
+    work: &[At],
+    stream: &Stream,
+    workers: &Workers<'_>,
+) -> Result<Vec<Faces>, CalibrationError> {
+    let counted = workers.each(work.len(), &|index| {
+        let At { point, tosses } = &work[index];
+        let mut faces = [0; 3];
+        each(point, stream, tosses.clone(), workers, &mut |_, face| {
+            if let Some(face) = face {
+                faces[face] += 1;
+            }
+        })?;
+        Ok(faces)
+    })?;
+    Ok(counted)
+}
+
+/// The face of each toss at two points with the same random numbers.
+pub(crate) fn pairs(
+    points: [&Point; 2],
+    stream: &Stream,
+    tosses: u64,
+    workers: &Workers<'_>,
+) -> Result<Vec<[Option<usize>; 2]>, CalibrationError> {
+    const PIECE: u64 = 256;
+    let pieces = usize::try_from(tosses.div_ceil(PIECE)).unwrap_or(usize::MAX);
+    let found = workers.each(pieces, &|index| {
+        let first = index as u64 * PIECE;
+        let range = first..(first + PIECE).min(tosses);
+        let mut found = vec![[None; 2]; usize::try_from(range.end - first).unwrap_or(0)];
+        for (side, point) in points.iter().enumerate() {
+            each(point, stream, range.clone(), workers, &mut |toss, face| {
+                found[usize::try_from(toss - first).expect("a piece is small")][side] = face;
+            })?;
+        }
+        Ok(found)
+    })?;
+    Ok(found.concat())
+}
+
+/// Calls `visit` with the number of each toss and the face that it shows.
+fn each(
+    point: &Point,
+    stream: &Stream,
+    tosses: Range<u64>,
+    workers: &Workers<'_>,
+    visit: &mut dyn FnMut(u64, Option<usize>),
+) -> Result<(), QuestionError> {
+    let made = tosses.end - tosses.start;
+    let go_on = || !workers.cancel.load(Ordering::Relaxed);
+    for_each_outcome(point, TossSource::Drawn(stream), tosses, |toss, outcome| {
+        visit(toss, outcome.face().map(|face| face as usize));
+        go_on()
+    })
+    .map_err(QuestionError::Engine)?;
+    if !go_on() {
+        return Err(QuestionError::Stopped);
+    }
+    (workers.made)(made);
+    Ok(())
+}

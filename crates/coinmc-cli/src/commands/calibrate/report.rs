@@ -1,0 +1,246 @@
+//! A calibration as text.
+
+use crate::terminal::table::{Column, Table};
+use crate::terminal::{Colors, Style, compact, decimals_for, grouped, in_ascii, signed, wrapped};
+use coinmc_calibrate::{Calibration, FairRatio, Model, Predicted, Prior, Summary};
+
+/// Suggestions that are shown.
+const SUGGESTED: usize = 4;
+
+/// The whole answer.
+pub(super) fn text(model: &Model, calibration: &Calibration, style: &Style) -> String {
+    let mut text = measured(model, style);
+    text += &surface(model, calibration, style);
+    text += &listed("Sources of the priors:", sources(model), style);
+    text += &predicted(model, calibration, style);
+    text += &next(calibration, style);
+    let conflicts = calibration
+        .conflicts
+        .iter()
+        .map(coinmc_calibrate::Conflict::words);
+    let remarks = conflicts.chain(calibration.remarks.iter().cloned());
+    text += &listed("Mind:", remarks, style);
+    text += &listed("It assumes:", assumed(model), style);
+    let fit = model.fits().map(|fit| fit.error).fold(0.0, f64::max);
+    let note = format!(
+        "{} tosses in all; the probabilities are fitted within ± {}",
+        grouped(calibration.tosses),
+        compact(two_digits(fit))
+    );
+    text += &format!("{}\n", style.paint(Colors::Faint, &note));
+    if style.unicode { text } else { in_ascii(&text) }
+}
+
+/// What was measured.
+fn measured(model: &Model, style: &Style) -> String {
+    let counts = model.observed().counts.iter().map(|counted| {
+        let [heads, tails, side] = counted.faces.map(grouped);
+        format!(
+            "{}: {heads} heads, {tails} tails, {side} on the side",
+            counted.name
+        )
+    });
+    let readings = model.readings().iter().map(|reading| {
+        let [value, low, high] = [0.0, -1.0, 1.0].map(|by| {
+            reading
+                .law
+                .inverse(reading.value + by * reading.error_at(reading.value))
+        });
+        format!(
+            "{}: {} = {} ± {}",
+            reading.name,
+            reading.law.parameter().key(),
+            compact(three_digits(value)),
+            compact(two_digits(0.5 * (high - low)))
+        )
+    });
+    listed(
+        "Measured (± one standard error):",
+        counts.chain(readings),
+        style,
+    )
+}
+
+fn surface(model: &Model, calibration: &Calibration, style: &Style) -> String {
+    let percent = compact(100.0 * model.observed().plan.confidence);
+    let mut table = Table::new(vec![
+        Column::left("surface"),
+        Column::right("prior, 95 %").droppable(1),
+        Column::right("median"),
+        Column::right(format!("{percent} % interval")),
+        Column::right("spread left").droppable(2),
+    ]);
+    let rows = model
+        .observed()
+        .priors
+        .iter()
+        .zip(&calibration.posterior.summaries);
+    for (prior, summary) in rows {
+        table.push(row(prior, summary));
+    }
+    table.render(style).text
+}
+
+fn row(prior: &Prior, summary: &Summary) -> Vec<String> {
+    let number = |x: f64| compact(three_digits(x));
+    vec![
+        summary.parameter.key().to_owned(),
+        format!("{} to {}", number(prior.low), number(prior.high)),
+        number(summary.median),
+        format!("[{}, {}]", number(summary.lo), number(summary.hi)),
+        format!("{:.0} %", 100.0 * summary.contraction),
+    ]
+}
+
+fn sources(model: &Model) -> impl Iterator<Item = String> {
+    let priors = model.observed().priors.iter();
+    priors.map(|prior| format!("{}: {}", prior.parameter.key(), prior.source))
+}
+
+fn predicted(model: &Model, calibration: &Calibration, style: &Style) -> String {
+    let observed = model.observed();
+    let point = &observed.predicted.points[0];
+    let prediction = &calibration.prediction;
+    let percent = compact(100.0 * observed.plan.confidence);
+    let coin = &point.scene.coin;
+    let title = format!(
+        "This coin, H/R = {}, on this surface (engine {}, {}):",
+        compact(coin.ratio()),
+        point.engine.descriptor().name,
+        point.engine.law()
+    );
+    let mut table = Table::new(vec![
+        Column::left("face"),
+        Column::right("P"),
+        Column::right(format!("{percent} % interval")),
+        Column::right("± parameters"),
+        Column::right("± tosses"),
+        Column::right("finer settings").droppable(1),
+    ]);
+    for face in &prediction.faces {
+        table.push(of_face(face));
+    }
+    let mut text = format!(
+        "\n{}\n{}",
+        style.paint(Colors::Strong, &title),
+        table.render(style).text
+    );
+    if prediction.shown < prediction.tosses {
+        text += &wrapped(
+            &format!(
+                "{} of {} tosses ended without a face, and are left out.",
+                grouped(prediction.tosses - prediction.shown),
+                grouped(prediction.tosses)
+            ),
+            style.width,
+            0,
+        );
+    }
+    text + &fair(calibration.fair.as_ref(), &percent, style)
+}
+
+fn of_face(face: &Predicted) -> Vec<String> {
+    let total = both(face.parameter, face.statistical);
+    let decimals = decimals_for(total);
+    let number = |x: f64| format!("{x:.decimals$}");
+    vec![
+        face.face.name().to_owned(),
+        number(face.p),
+        format!("[{}, {}]", number(face.lo), number(face.hi)),
+        number(face.parameter),
+        number(face.statistical),
+        face.numerical.map_or_else(
+            || "-".to_owned(),
+            |(shift, error)| format!("{} ± {}", signed(shift, decimals), number(error)),
+        ),
+    ]
+}
+
+fn fair(fair: Option<&FairRatio>, percent: &str, style: &Style) -> String {
+    let Some(fair) = fair else {
+        return "No coin with H/R from 0.2 to 4 is fair on it.\n".to_owned();
+    };
+    let decimals = decimals_for(both(fair.parameter, fair.statistical));
+    let number = |x: f64| format!("{x:.decimals$}");
+    let end = |end: Option<f64>| end.map_or_else(|| "open".to_owned(), number);
+    let mut text = format!(
+        "Fair coin, P(side) = 1/3: H/R = {}, {percent} %: [{}, {}]; ± {} parameters, ± {} tosses",
+        number(fair.value),
+        end(fair.lo),
+        end(fair.hi),
+        number(fair.parameter),
+        number(fair.statistical)
+    );
+    if let Some((shift, error)) = fair.numerical {
+        let shift = signed(shift, decimals);
+        text += &format!(", {shift} ± {} by finer settings", number(error));
+    }
+    text += &format!(
+        ". With a diameter of {:.2} mm it is {:.2} mm thick.",
+        2e3 * fair.radius_m,
+        1e3 * fair.value * fair.radius_m
+    );
+    wrapped(&text, style.width, 0)
+}
+
+fn next(calibration: &Calibration, style: &Style) -> String {
+    let now = calibration.prediction.side().parameter;
+    let decimals = decimals_for(now);
+    let title = format!("What to measure next (P(side) is now known ± {now:.decimals$}):");
+    let lines = calibration
+        .suggestions
+        .iter()
+        .take(SUGGESTED)
+        .map(|suggestion| {
+            format!(
+                "{}: ± {:.decimals$}, {:.1} bits",
+                suggestion.what, suggestion.side_after, suggestion.bits
+            )
+        });
+    format!("\n{}", listed(&title, lines, style))
+}
+
+/// What else the answer rests on.
+fn assumed(model: &Model) -> impl Iterator<Item = String> {
+    let observed = model.observed();
+    let surface = observed.plan.points[0].scene.surface;
+    let ground = match surface.roughness() {
+        Some(rough) => format!(
+            "a ground with a slope of {} and a wavelength of {} m, which is not calibrated",
+            compact(rough.slope()),
+            compact(rough.wavelength_m())
+        ),
+        None => "a perfect plane: for thin coins P(side) is then an upper bound".to_owned(),
+    };
+    let same =
+        "one surface for all measurements, on which friction lengths do not depend on the coin";
+    [ground, same.to_owned()]
+        .into_iter()
+        .chain(observed.notes().map(str::to_owned))
+}
+
+/// A title and lines below it; nothing without lines.
+fn listed(title: &str, lines: impl Iterator<Item = String>, style: &Style) -> String {
+    let mut text = String::new();
+    for line in lines {
+        text += "  ";
+        text += &wrapped(&line, style.width.saturating_sub(2), 4);
+    }
+    if text.is_empty() {
+        return text;
+    }
+    format!("{}\n{text}", style.paint(Colors::Strong, title))
+}
+
+/// Two independent errors together.
+fn both(a: f64, b: f64) -> f64 {
+    (a * a + b * b).sqrt()
+}
+
+fn three_digits(x: f64) -> f64 {
+    format!("{x:.2e}").parse().unwrap_or(x)
+}
+
+fn two_digits(x: f64) -> f64 {
+    format!("{x:.1e}").parse().unwrap_or(x)
+}
