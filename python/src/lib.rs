@@ -7,8 +7,8 @@
 //! · `session` runs on other machines · `results` and `throws` tables, `arrow` tables for Python · `pickled` results
 //! as plain values · `table` any columns as Arrow · `interval` intervals of proportions · `trace` recorded motion of a
 //! toss · `question`, `fair`, `design`, `aim`, `ranking`, `rare`, `compare` questions · `calibrate` surfaces from
-//! measurements · `validate` verdicts · `report` pages · `analytic` closed forms · `film` drops on film · `command`
-//! the command line · `errors` exceptions.
+//! measurements · `validate` verdicts · `report` pages · `analytic` closed forms · `film` drops on film · `command` the
+//! command line · `errors` exceptions.
 
 // Arguments converted from Python are owned.
 #![allow(clippy::needless_pass_by_value)]
