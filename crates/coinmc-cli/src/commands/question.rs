@@ -70,7 +70,7 @@ pub(super) struct AnswerArgs {
 
     /// Show no progress and no remarks, only warnings and errors
     #[arg(long, short)]
-    quiet: bool,
+    pub(super) quiet: bool,
 }
 
 /// A number of a scene and its range, as in `launch.height_m=0.1..2`.

@@ -104,7 +104,7 @@ impl Validate {
             validation::validate(&options, workers)
         })?;
         let Some(found) = found else {
-            if let Some(out) = out {
+            if let Some(out) = out.filter(|_| !self.answer.quiet) {
                 output::note(&format!(
                     "coinmc: stopped; all finished tosses are kept in {}.\nGo on with: {}",
                     out.display(),
