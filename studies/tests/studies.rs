@@ -347,3 +347,19 @@ fn quadrature_is_sharper_than_tosses() {
         );
     }
 }
+
+#[test]
+fn intervals_of_calibrated_coins_hold_the_truth() {
+    let size = [
+        "--coins", "12", "--truth", "256", "--points", "64", "--tosses", "16",
+    ];
+    let lines = STUDIES.study(&[&["calibrate"], &size[..]].concat());
+    let lines = lines.lines().iter();
+    let coverage: Vec<_> = lines.filter(|line| line.starts_with("coverage,")).collect();
+    assert_eq!(coverage.len(), 5);
+    for line in coverage {
+        // of 12 intervals at 95 %, 7 or fewer hold the truth in 1 of 5000 cases
+        let share: f64 = line.split(',').nth(2).unwrap().parse().unwrap();
+        assert!(share > 7.5 / 12.0, "{line}");
+    }
+}
