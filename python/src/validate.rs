@@ -46,7 +46,7 @@ pub(crate) fn validate(
             found => Ok(found),
         }
     })?;
-    let found = found.map_err(|error| errors::value(error))?;
+    let found = found.map_err(errors::value)?;
     let document = document(&found);
     Ok((document.to_string(), flat_rows(&document).to_string()))
 }
