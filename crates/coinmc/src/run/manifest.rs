@@ -62,7 +62,7 @@ impl Manifest {
         let bytes = match replace::read_bounded(&path, MAX_BYTES) {
             Ok(Some(bytes)) => bytes,
             Ok(None) => return Err(bad("it is too long".to_owned())),
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+            Err(error) if is_absent(error.kind()) => return Ok(None),
             Err(error) => return Err(RunError::io("read", &path, error)),
         };
         let AnyFormat { format } =
@@ -147,4 +147,9 @@ impl Manifest {
 fn listed(builds: &BTreeSet<String>) -> String {
     let builds: Vec<&str> = builds.iter().map(String::as_str).collect();
     builds.join(", ")
+}
+
+/// Whether a file is not there, or what should hold it is itself a file.
+fn is_absent(kind: io::ErrorKind) -> bool {
+    matches!(kind, io::ErrorKind::NotFound | io::ErrorKind::NotADirectory)
 }
