@@ -169,8 +169,8 @@ impl RunDirectory {
         Ok(Finished::new(finished))
     }
 
-    /// Brings the tallies of a finished run into order, and sets aside those, given by point and first
-    /// toss, that it did not need.
+    /// Brings the tallies of a finished run, or part, into order, and sets aside those, given by point and
+    /// first toss, that it did not need.
     pub(super) fn put_in_order(
         &self,
         unneeded: &[(usize, u64)],
@@ -183,7 +183,8 @@ impl RunDirectory {
                 Tallies::REJECTED,
             ));
         }
-        self.tallies.put_in_order(&[], unneeded)
+        self.tallies.put_in_order(&[], unneeded)?;
+        self.unfinished.clear()
     }
 
     /// Writes the results of a finished run.
@@ -193,7 +194,6 @@ impl RunDirectory {
         sink: &dyn ProgressSink,
     ) -> Result<(), RunError> {
         replace::remove(&self.path.join(PARTIAL))?;
-        self.unfinished.clear()?;
         self.write_tables(results, sink)?;
         replace::sync_directory(&self.path)
     }

@@ -116,6 +116,18 @@ fn a_beginning_that_is_damaged_is_counted_anew() {
     assert_same(&whole, &broken);
 }
 
+/// A kill after a chunk is stored, and before its beginning is forgotten.
+#[test]
+fn a_finished_part_has_no_beginnings() {
+    let (plan, dir) = (plan(FIXED), tempdir().unwrap());
+    let part = Part::new(1, 2).unwrap();
+    run_with(&plan, dir.path(), part, 1, &Ear::default()).unwrap();
+    let beginnings = dir.path().join("unfinished.txt");
+    std::fs::copy(dir.path().join("tallies.txt"), &beginnings).unwrap();
+    run_with(&plan, dir.path(), part, 1, &Ear::default()).unwrap();
+    assert!(!beginnings.exists());
+}
+
 #[test]
 fn a_finished_run_is_only_reported() {
     let (plan, dir) = (plan(FIXED), tempdir().unwrap());
