@@ -40,7 +40,6 @@ pub(crate) fn validate(
             Err(ValidateError::Stopped) => Err(QuestionError::Stopped),
             Err(ValidateError::Run(error)) => Err(QuestionError::Run(error)),
             Err(ValidateError::Question(error)) => Err(error),
-            Err(ValidateError::Thread(error)) => Err(QuestionError::Thread(error)),
             Err(ValidateError::Config(found)) => Err(QuestionError::Config(found)),
             Err(ValidateError::Key(error)) => Err(QuestionError::Key(error)),
             found => Ok(found),

@@ -57,7 +57,7 @@ pub(crate) fn refuse(model: &Model) -> Result<Vec<Conflict>, CalibrationError> {
     let dimensions = model.observed.priors.len();
     let prior = points::normal(model.observed.plan.seed, Use::Round(0), dimensions, POINTS);
     let weights = vec![1.0 / POINTS as f64; prior.len()];
-    let terms = model.observed.counts.len() + model.observed.readings.len();
+    let terms = model.observed.places.len();
     let mut conflicts = vec![];
     for term in 0..terms {
         let p_value = p_value(model, term, (&prior, &weights));
@@ -76,13 +76,7 @@ pub(crate) fn refuse(model: &Model) -> Result<Vec<Conflict>, CalibrationError> {
             let place = &model.observed.places[term];
             return Err(place.problem(message, Some(help.to_owned())).into());
         }
-        if p_value < REMARKED / terms as f64 {
-            conflicts.push(Conflict {
-                name: model.name(term).to_owned(),
-                p_value,
-                with_others: false,
-            });
-        }
+        conflicts.extend(conflict(model, term, p_value, false));
     }
     Ok(conflicts)
 }
@@ -92,7 +86,7 @@ pub(crate) fn refuse(model: &Model) -> Result<Vec<Conflict>, CalibrationError> {
 /// # Errors
 /// [`CalibrationError::Contradiction`].
 pub(crate) fn between(model: &Model) -> Result<Vec<Conflict>, CalibrationError> {
-    let terms = model.observed.counts.len() + model.observed.readings.len();
+    let terms = model.observed.places.len();
     let mut conflicts = vec![];
     if terms < 2 {
         return Ok(conflicts);
@@ -106,15 +100,19 @@ pub(crate) fn between(model: &Model) -> Result<Vec<Conflict>, CalibrationError> 
                 .sum()
         })?;
         let p_value = p_value(model, left_out, (&others.points, &others.weights));
-        if p_value < REMARKED / terms as f64 {
-            conflicts.push(Conflict {
-                name: model.name(left_out).to_owned(),
-                p_value,
-                with_others: true,
-            });
-        }
+        conflicts.extend(conflict(model, left_out, p_value, true));
     }
     Ok(conflicts)
+}
+
+/// What is remarked on of a measurement, if so small a probability is worth it.
+fn conflict(model: &Model, term: usize, p_value: f64, with_others: bool) -> Option<Conflict> {
+    let is_remarkable = p_value < REMARKED / model.observed.places.len() as f64;
+    is_remarkable.then(|| Conflict {
+        name: model.name(term).to_owned(),
+        p_value,
+        with_others,
+    })
 }
 
 /// The probability of a measurement at least so far off, on either side, over weighted points.

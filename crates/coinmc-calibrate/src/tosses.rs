@@ -2,11 +2,9 @@
 
 use crate::{CalibrationError, Parameter};
 use coinmc::plan::{Plan, Point};
-use coinmc::run::{TossSource, for_each_outcome};
 use coinmc_core::{Domain, Stream, Surface, SurfaceError};
-use coinmc_questions::{QuestionError, Workers};
+use coinmc_questions::Workers;
 use std::ops::Range;
-use std::sync::atomic::Ordering;
 
 /// Heads, tails and side, as counted.
 pub(crate) type Faces = [u64; 3];
@@ -28,25 +26,11 @@ pub(crate) fn surface_with(
         let place = parameters.iter().position(|known| *known == parameter);
         place.map_or(parameter.of_surface(like), |place| values[place])
     };
-    let mut surface = Surface::new(of(Parameter::Restitution), of(Parameter::Friction))?
+    like.with_impact(of(Parameter::Restitution), of(Parameter::Friction))?
         .with_friction_lengths(
             of(Parameter::RollingFriction),
             of(Parameter::PivotingFriction),
-        )?
-        .with_restitution_threshold(like.restitution_threshold_m_s())?
-        .with_speed_dependent_restitution(
-            like.restitution_exponent(),
-            like.restitution_reference_m_s(),
-        )?
-        .with_roughness(like.roughness())
-        .with_landing(like.landing());
-    if let Some(radius) = like.table_radius_m() {
-        surface = surface.with_table_radius(radius)?;
-    }
-    match like.tilt() {
-        Some(tilt) => surface.with_tilt(tilt),
-        None => Ok(surface),
-    }
+        )
 }
 
 /// The first point of a plan, on a surface with these parameters.
@@ -71,17 +55,16 @@ pub(crate) fn count(
     stream: &Stream,
     workers: &Workers<'_>,
 ) -> Result<Vec<Faces>, CalibrationError> {
-    let counted = workers.each(work.len(), &|index| {
+    workers.each(work.len(), &|index| {
         let At { point, tosses } = &work[index];
         let mut faces = [0; 3];
-        each(point, stream, tosses.clone(), workers, &mut |_, face| {
-            if let Some(face) = face {
-                faces[face] += 1;
+        workers.outcomes(point, stream, tosses.clone(), &mut |_, outcome| {
+            if let Some(face) = outcome.face() {
+                faces[face as usize] += 1;
             }
         })?;
         Ok(faces)
-    })?;
-    Ok(counted)
+    })
 }
 
 /// The face of each toss at two points with the same random numbers.
@@ -98,33 +81,12 @@ pub(crate) fn pairs(
         let range = first..(first + PIECE).min(tosses);
         let mut found = vec![[None; 2]; usize::try_from(range.end - first).unwrap_or(0)];
         for (side, point) in points.iter().enumerate() {
-            each(point, stream, range.clone(), workers, &mut |toss, face| {
-                found[usize::try_from(toss - first).expect("a piece is small")][side] = face;
+            workers.outcomes(point, stream, range.clone(), &mut |toss, outcome| {
+                let place = usize::try_from(toss - first).expect("a piece is small");
+                found[place][side] = outcome.face().map(|face| face as usize);
             })?;
         }
-        Ok(found)
+        Ok::<_, CalibrationError>(found)
     })?;
     Ok(found.concat())
-}
-
-/// Calls `visit` with the number of each toss and the face that it shows.
-fn each(
-    point: &Point,
-    stream: &Stream,
-    tosses: Range<u64>,
-    workers: &Workers<'_>,
-    visit: &mut dyn FnMut(u64, Option<usize>),
-) -> Result<(), QuestionError> {
-    let made = tosses.end - tosses.start;
-    let go_on = || !workers.cancel.load(Ordering::Relaxed);
-    for_each_outcome(point, TossSource::Drawn(stream), tosses, |toss, outcome| {
-        visit(toss, outcome.face().map(|face| face as usize));
-        go_on()
-    })
-    .map_err(QuestionError::Engine)?;
-    if !go_on() {
-        return Err(QuestionError::Stopped);
-    }
-    (workers.made)(made);
-    Ok(())
 }

@@ -166,6 +166,36 @@ impl Surface {
         })
     }
 
+    /// The same surface with another coefficient of restitution and another friction coefficient.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new), and [`SurfaceError::Steep`] on a tilted table.
+    ///
+    /// # Example
+    /// ```
+    /// use coinmc_core::Surface;
+    /// let wood = Surface::new(0.5, 0.3)?.with_table_radius(0.2)?;
+    /// let waxed = wood.with_impact(0.5, 0.1)?;
+    /// assert_eq!((waxed.friction(), waxed.table_radius_m()), (0.1, Some(0.2)));
+    /// # Ok::<(), coinmc_core::SurfaceError>(())
+    /// ```
+    pub fn with_impact(self, restitution: f64, friction: f64) -> Result<Self, SurfaceError> {
+        let Self {
+            restitution,
+            friction,
+            ..
+        } = Self::new(restitution, friction)?;
+        let surface = Self {
+            restitution,
+            friction,
+            ..self
+        };
+        match self.tilt {
+            Some(tilt) => surface.with_tilt(tilt),
+            None => Ok(surface),
+        }
+    }
+
     /// The same surface with rolling-type friction at the contact point, by two lengths
     /// (Leine 2009): under the normal force N, *contour* friction takes the power N ρ_c |ψ'| from
     /// a contact point that wanders along the rim at the rate ψ', *pivoting* friction N ρ_p |ω_z|

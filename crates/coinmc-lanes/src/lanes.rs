@@ -37,11 +37,17 @@ impl Lanes {
     /// All kinds, whether this processor has them or not.
     pub const ALL: [Self; 4] = [Self::Scalar, Self::Portable, Self::Avx2, Self::Avx512];
 
-    /// The fastest lanes of this processor.
+    /// The fastest lanes of this processor. In WebAssembly without vector instructions portable lanes are
+    /// arrays, and one number at a time is faster.
     pub fn best() -> Self {
         let vectors = [Self::Avx512, Self::Avx2];
         let best = vectors.into_iter().find(|lanes| lanes.is_available());
-        best.unwrap_or(Self::Portable)
+        let other = if cfg!(all(target_arch = "wasm32", not(target_feature = "simd128"))) {
+            Self::Scalar
+        } else {
+            Self::Portable
+        };
+        best.unwrap_or(other)
     }
 
     /// Whether this processor has them.

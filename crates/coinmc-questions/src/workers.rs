@@ -2,9 +2,9 @@
 
 use crate::QuestionError;
 use crate::seen::Seen;
-use coinmc::plan::Plan;
+use coinmc::plan::{Plan, Point};
 use coinmc::run::{TossSource, for_each_outcome, stream};
-use coinmc_core::{Face, Outcome};
+use coinmc_core::{Face, Outcome, Stream};
 use std::num::NonZeroUsize;
 use std::ops::Range;
 use std::panic::resume_unwind;
@@ -189,18 +189,29 @@ impl Workers<'_> {
     ) -> Result<(), QuestionError> {
         // all points share their random numbers, as with `paired = true`
         let stream = stream(at.plan, 0);
-        let source = TossSource::Drawn(&stream);
+        let point = &at.plan.points[at.point];
+        self.outcomes(point, &stream, tosses, &mut |toss, outcome| {
+            visit(toss, end_of(outcome));
+        })
+    }
+
+    /// Calls `visit` with the number and the outcome of each toss at a point, on this thread.
+    ///
+    /// # Errors
+    /// [`QuestionError::Engine`] if the engine rejects its settings, [`QuestionError::Stopped`].
+    pub fn outcomes(
+        &self,
+        point: &Point,
+        stream: &Stream,
+        tosses: Range<u64>,
+        visit: &mut dyn FnMut(u64, &Outcome),
+    ) -> Result<(), QuestionError> {
         let made = tosses.end - tosses.start;
         let go_on = || !self.cancel.load(Ordering::Relaxed);
-        for_each_outcome(
-            &at.plan.points[at.point],
-            source,
-            tosses,
-            |toss, outcome| {
-                visit(toss, end_of(outcome));
-                go_on()
-            },
-        )
+        for_each_outcome(point, TossSource::Drawn(stream), tosses, |toss, outcome| {
+            visit(toss, outcome);
+            go_on()
+        })
         .map_err(QuestionError::Engine)?;
         if !go_on() {
             return Err(QuestionError::Stopped);
@@ -231,13 +242,13 @@ impl Workers<'_> {
     ///
     /// # Errors
     /// The first error of a piece, or that no thread can be started.
-    pub fn each<T: Send>(
+    pub fn each<T: Send, E: Send + From<QuestionError>>(
         &self,
         pieces: usize,
-        compute: &(dyn Fn(usize) -> Result<T, QuestionError> + Sync),
-    ) -> Result<Vec<T>, QuestionError> {
+        compute: &(dyn Fn(usize) -> Result<T, E> + Sync),
+    ) -> Result<Vec<T>, E> {
         let next = AtomicUsize::new(0);
-        let work = || -> Result<Vec<(usize, T)>, QuestionError> {
+        let work = || -> Result<Vec<(usize, T)>, E> {
             let mut done = vec![];
             loop {
                 let piece = next.fetch_add(1, Ordering::Relaxed);
@@ -265,7 +276,7 @@ impl Workers<'_> {
                     handle.join().unwrap_or_else(|panic| resume_unwind(panic))
                 };
                 // all are joined before the first error is returned
-                Ok::<Vec<_>, QuestionError>(handles.into_iter().map(join).collect())
+                Ok::<Vec<_>, E>(handles.into_iter().map(join).collect())
             })?
         };
         let mut done = vec![];

@@ -137,7 +137,7 @@ fn run_to_json(run: &Run, samples: &Samples) -> Result<Value, TraceError> {
     Ok(json!({
         "name": run.name,
         "status": status(run.report.status),
-        "points_done": results.rows.each().filter(|row| row.stopped_by.is_reached()).count(),
+        "points_done": run.report.points_reached(),
         "points": results.rows.len(),
         "thinned": word,
         "tosses": run.report.tosses,

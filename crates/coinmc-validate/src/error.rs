@@ -25,9 +25,6 @@ pub enum ValidateError {
     /// A thread cannot be started, or two samples cannot be compared.
     #[error(transparent)]
     Question(#[from] QuestionError),
-    /// No thread can be started.
-    #[error("cannot start a thread: {0}")]
-    Thread(std::io::Error),
     /// A config of this crate has problems: a mistake in the program.
     #[error("a config of the validation has problems:\n{0}")]
     Config(Diagnostics),

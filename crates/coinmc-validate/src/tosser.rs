@@ -5,11 +5,10 @@ use coinmc::config::{self, Override};
 use coinmc::plan::Plan;
 use coinmc::results::Results;
 use coinmc::run::{Count, Options, Part, Status, count, run};
+use coinmc_questions::Workers;
 use std::num::NonZeroUsize;
-use std::panic::resume_unwind;
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::thread;
+use std::sync::atomic::Ordering;
 
 /// A config by its text and what replaces parts of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,10 +56,7 @@ pub(crate) struct Tosser<'a> {
     /// The directory of the validation; nothing is stored without one.
     pub(crate) out: Option<&'a Path>,
     pub(crate) build: &'a str,
-    pub(crate) threads: Option<NonZeroUsize>,
-    pub(crate) cancel: &'a AtomicBool,
-    /// Is told of tosses that have been made.
-    pub(crate) made: &'a (dyn Fn(u64) + Sync),
+    pub(crate) workers: Workers<'a>,
 }
 
 impl Tosser<'_> {
@@ -71,7 +67,7 @@ impl Tosser<'_> {
         quick: u64,
         full: u64,
     ) -> Result<Results, ValidateError> {
-        self.toss_on(scene, self.size.of(quick, full), self.threads)
+        self.toss_on(scene, self.size.of(quick, full), self.workers.threads)
     }
 
     /// So many tosses of each point of each scene, one scene a thread: for many small ones.
@@ -80,35 +76,9 @@ impl Tosser<'_> {
         scenes: &[Scene],
         tosses: u64,
     ) -> Result<Vec<Results>, ValidateError> {
-        let next = AtomicUsize::new(0);
-        let work = || -> Result<Vec<(usize, Results)>, ValidateError> {
-            let mut done = vec![];
-            while let Some((index, scene)) = {
-                let index = next.fetch_add(1, Ordering::Relaxed);
-                scenes.get(index).map(|scene| (index, scene))
-            } {
-                done.push((index, self.toss_on(scene, tosses, NonZeroUsize::new(1))?));
-            }
-            Ok(done)
-        };
-        let threads = self
-            .threads
-            .or_else(|| thread::available_parallelism().ok());
-        let threads = threads.map_or(1, NonZeroUsize::get).min(scenes.len());
-        let mut done = thread::scope(|scope| {
-            let mut handles = vec![];
-            for _ in 0..threads {
-                let handle = thread::Builder::new().spawn_scoped(scope, work);
-                handles.push(handle.map_err(ValidateError::Thread)?);
-            }
-            let mut done = vec![];
-            for handle in handles {
-                done.extend(handle.join().unwrap_or_else(|panic| resume_unwind(panic))?);
-            }
-            Ok::<_, ValidateError>(done)
-        })?;
-        done.sort_by_key(|(index, _)| *index);
-        Ok(done.into_iter().map(|(_, results)| results).collect())
+        self.workers.each(scenes.len(), &|index| {
+            self.toss_on(&scenes[index], tosses, NonZeroUsize::new(1))
+        })
     }
 
     fn toss_on(
@@ -117,11 +87,11 @@ impl Tosser<'_> {
         tosses: u64,
         threads: Option<NonZeroUsize>,
     ) -> Result<Results, ValidateError> {
-        if self.cancel.load(Ordering::Relaxed) {
+        let cancel = self.workers.cancel;
+        if cancel.load(Ordering::Relaxed) {
             return Err(ValidateError::Stopped);
         }
         let plan = scene.plan(self.seed, tosses)?;
-        let cancel = self.cancel;
         let report = match self.out {
             Some(out) => run(
                 &plan,
@@ -146,7 +116,7 @@ impl Tosser<'_> {
         if report.status == Status::Interrupted {
             return Err(ValidateError::Stopped);
         }
-        (self.made)(report.tosses);
+        (self.workers.made)(report.tosses);
         Ok(report.results)
     }
 }

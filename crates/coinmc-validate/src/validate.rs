@@ -105,9 +105,7 @@ pub fn validate(options: &Options<'_>, workers: &Workers<'_>) -> Result<Validati
         size,
         out: options.out,
         build: options.build,
-        threads: workers.threads,
-        cancel: workers.cancel,
-        made: workers.made,
+        workers: *workers,
     };
     let mut claims = vec![];
     for claim in CLAIMS.iter().filter(|claim| wanted(claim.name)) {

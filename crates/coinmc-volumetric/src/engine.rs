@@ -45,7 +45,7 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         Ok(Self {
             model: Model::new(&endless, settings, law)?,
             table: Table::new(scene, settings, law)?,
-            lanes: fastest_lanes(),
+            lanes: Lanes::best(),
         })
     }
 
@@ -53,16 +53,6 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
     pub(crate) fn batch(&self) -> Option<Batch<'_, L>> {
         (self.lanes != Lanes::Scalar && self.table.is_none())
             .then(|| Batch::new(&self.model, self.lanes))
-    }
-}
-
-/// [`Lanes::best`], except that WebAssembly without vector instructions tosses one coin at a time:
-/// portable lanes are arrays there.
-fn fastest_lanes() -> Lanes {
-    if cfg!(all(target_arch = "wasm32", not(target_feature = "simd128"))) {
-        Lanes::Scalar
-    } else {
-        Lanes::best()
     }
 }
 

@@ -6,10 +6,8 @@ use coinmc_core::schema::{
     Absent, Fallback, Kind as KeyKind, ReadError, TableKind, Values, Whole, Word, field, fields,
 };
 use coinmc_core::{Scene, Surface};
-use coinmc_film::text::{self, AngleOf, Choice, MAX_BYTES};
+use coinmc_film::text::{self, Choice};
 use coinmc_film::{FilmedDrop, Law as FlatLaw, MAX_DROPS, Model, Options, Shared, fit};
-use std::fs::File;
-use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 /// Files of drops.
@@ -134,29 +132,9 @@ impl Drops {
 
 fn read(path: &Path) -> Result<FilmedDrop, String> {
     let name = path.display().to_string();
-    let bytes = bytes(path).map_err(|error| format!("{name}: {error}"))?;
-    let choice = Choice {
-        x: None,
-        y: None,
-        angle: None,
-        ends: None,
-        length_m: None,
-        angle_rad: None,
-        angle_of: AngleOf::Face,
-    };
-    match text::read(&name, &bytes, &choice) {
+    let bytes = text::bytes_of(path).map_err(|error| format!("{name}: {error}"))?;
+    match text::read(&name, &bytes, &Choice::default()) {
         Ok(footage) => Ok(footage.drop),
         Err(problems) => Err(problems.render(false)),
     }
-}
-
-/// At most one byte more than allowed, which shows that a file is too long.
-fn bytes(path: &Path) -> io::Result<Vec<u8>> {
-    let file = File::open(path)?;
-    if file.metadata()?.is_dir() {
-        return Err(io::ErrorKind::IsADirectory.into());
-    }
-    let mut bytes = Vec::new();
-    file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes)?;
-    Ok(bytes)
 }

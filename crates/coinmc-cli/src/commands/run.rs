@@ -281,20 +281,14 @@ fn integrated_line(report: &Report, evaluations: u64) -> String {
 fn advice(report: &Report, out: &Path) -> Option<String> {
     match report.status {
         Status::Complete => None,
-        Status::Interrupted => {
-            let rows = &report.results.rows;
-            let done = rows
-                .each()
-                .filter(|row| row.stopped_by.is_reached())
-                .count();
-            Some(format!(
-                "coinmc: stopped with {done} of {} finished; all counts are kept in {}.\n\
+        Status::Interrupted => Some(format!(
+            "coinmc: stopped with {} of {} finished; all counts are kept in {}.\n\
                  Go on with: {}",
-                count(rows.len() as u64, "point"),
-                out.display(),
-                this_command()
-            ))
-        }
+            report.points_reached(),
+            count(report.results.rows.len() as u64, "point"),
+            out.display(),
+            this_command()
+        )),
         Status::Part => Some(
             "coinmc: this part is complete; when all are, merge them with \
              `coinmc merge PART… --out WHOLE`"

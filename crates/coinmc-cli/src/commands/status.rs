@@ -72,15 +72,6 @@ impl Status {
 impl Row {
     fn new(run: &Path, runs: bool, report: &Report) -> Self {
         let rows = &report.results.rows;
-        let done = rows
-            .each()
-            .filter(|row| row.stopped_by.is_reached())
-            .count();
-        let widths = rows.each().map(|row| {
-            let faces = [row.heads, row.tails, row.side];
-            let arms = faces.map(|face| (face.hi - face.p).max(face.p - face.lo));
-            arms.into_iter().fold(0.0, f64::max)
-        });
         let is_finished = matches!(
             report.status,
             Finished::Complete | Finished::ShortOfTarget { .. }
@@ -94,10 +85,14 @@ impl Row {
             run: run.to_owned(),
             state,
             points: rows.len(),
-            points_done: if is_finished { rows.len() } else { done },
+            points_done: if is_finished {
+                rows.len()
+            } else {
+                report.points_reached()
+            },
             tosses: report.tosses,
             tosses_planned: report.tosses_planned,
-            half_width: widths.fold(0.0, f64::max),
+            half_width: rows.each().map(|row| row.half_width()).fold(0.0, f64::max),
         }
     }
 

@@ -22,5 +22,5 @@ pub use diagnostics::{Diagnostics, Problem};
 pub use dialect::{Delimiter, Dialect};
 pub use encoding::Encoding;
 pub use header::Column;
-pub use read::{Footage, MAX_BYTES, MAX_COLUMNS, MAX_LINE, read};
+pub use read::{Footage, MAX_BYTES, MAX_COLUMNS, MAX_LINE, bytes_of, read};
 pub use write::write;

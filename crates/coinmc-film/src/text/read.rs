@@ -6,6 +6,9 @@ use super::dialect::{Cell, Delimiter, Dialect, cell};
 use super::encoding::decoded;
 use super::header::{Column, Header, header, is_idle};
 use crate::drop::{FilmedDrop, Frame, MAX_FRAMES, wrapped};
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
 
 /// Longest file, bytes.
 pub const MAX_BYTES: usize = 16 << 20;
@@ -27,6 +30,27 @@ pub struct Footage {
     pub used: Vec<String>,
     /// Numbers of frames in which x, z and θ are not marked.
     pub missing: [usize; 3],
+}
+
+/// The bytes of a file for [`read`]: at most one more than [`MAX_BYTES`], which shows that it is too long.
+///
+/// # Errors
+/// That the file cannot be read, or is a directory.
+///
+/// # Example
+/// ```
+/// use coinmc_film::text::bytes_of;
+/// let error = bytes_of("no/such/file".as_ref()).unwrap_err();
+/// assert_eq!(error.kind(), std::io::ErrorKind::NotFound);
+/// ```
+pub fn bytes_of(path: &Path) -> io::Result<Vec<u8>> {
+    let file = File::open(path)?;
+    if file.metadata()?.is_dir() {
+        return Err(io::ErrorKind::IsADirectory.into());
+    }
+    let mut bytes = Vec::new();
+    file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
 }
 
 /// Parses a file, which messages call `name`.

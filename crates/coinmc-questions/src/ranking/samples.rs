@@ -47,7 +47,7 @@ impl Samples {
                 let shown = shown(template, question, values, first, workers)?;
                 counted.push(shown);
             }
-            Ok(counted)
+            Ok::<_, QuestionError>(counted)
         })?;
         let undecided = counted.iter().flatten().map(|(_, undecided)| undecided);
         let share = |(shown, _): &(u64, u64)| *shown as f64 / TOSSES as f64;

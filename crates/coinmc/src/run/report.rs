@@ -25,6 +25,14 @@ pub struct Report {
     pub tosses_planned: u64,
 }
 
+impl Report {
+    /// Points that met the stop rule.
+    pub fn points_reached(&self) -> usize {
+        let rows = self.results.rows.each();
+        rows.filter(|row| row.stopped_by.is_reached()).count()
+    }
+}
+
 /// Whether a run is finished.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Status {

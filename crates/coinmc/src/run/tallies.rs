@@ -95,11 +95,8 @@ impl Tallies {
         plan: &Plan,
         cut: &Cut,
     ) -> Result<(Chunk, ChunkResult), Damage> {
-        if bytes.len() > MAX_BYTES {
-            return Err(Damage::TooLong);
-        }
-        let (point, start) = place(bytes).ok_or(Damage::Checksum)?;
-        let mut chunk = chunk_at(plan, cut, point, start).ok_or(Damage::NoSuchChunk)?;
+        let mut chunk = named_chunk(bytes, plan, cut)?;
+        let point = chunk.point;
         let hash = &self.plan_hash;
         if plan.integrates(point)
             && let Some(method) = plan.method(point)
@@ -121,12 +118,8 @@ impl Tallies {
         plan: &Plan,
         cut: &Cut,
     ) -> Result<(Chunk, Tossed), Damage> {
-        if bytes.len() > MAX_BYTES {
-            return Err(Damage::TooLong);
-        }
-        let (point, start) = place(bytes).ok_or(Damage::Checksum)?;
-        let mut chunk = chunk_at(plan, cut, point, start).ok_or(Damage::NoSuchChunk)?;
-        if plan.integrates(point) {
+        let mut chunk = named_chunk(bytes, plan, cut)?;
+        if plan.integrates(chunk.point) {
             return Err(Damage::NoSuchChunk);
         }
         shorten(&mut chunk, bytes);
@@ -223,6 +216,15 @@ impl Tallies {
         written.map_err(|error| all.error(error))?;
         all.finish()
     }
+}
+
+/// The longest chunk of the plan that begins where a text says.
+fn named_chunk(bytes: &[u8], plan: &Plan, cut: &Cut) -> Result<Chunk, Damage> {
+    if bytes.len() > MAX_BYTES {
+        return Err(Damage::TooLong);
+    }
+    let (point, start) = place(bytes).ok_or(Damage::Checksum)?;
+    chunk_at(plan, cut, point, start).ok_or(Damage::NoSuchChunk)
 }
 
 /// Lets a chunk end where its text says, if that is earlier.

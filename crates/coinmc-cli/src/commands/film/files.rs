@@ -3,9 +3,9 @@
 use crate::exit::Failure;
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
-use coinmc_film::text::{self, AngleOf, Choice, Diagnostics, Footage, MAX_BYTES};
-use std::fs::{File, OpenOptions};
-use std::io::{self, ErrorKind, Read, Write};
+use coinmc_film::text::{self, AngleOf, Choice, Diagnostics, Footage};
+use std::fs::OpenOptions;
+use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// Meaning and units of the columns.
@@ -119,7 +119,7 @@ impl Columns {
 
 fn read(path: &Path, choice: &Choice) -> Result<Footage, Diagnostics> {
     let name = path.display().to_string();
-    let bytes = bytes(path).map_err(|error| {
+    let bytes = text::bytes_of(path).map_err(|error| {
         let message = match error.kind() {
             ErrorKind::NotFound => "there is no such file".to_owned(),
             ErrorKind::IsADirectory => "this is a directory, not a file".to_owned(),
@@ -128,17 +128,6 @@ fn read(path: &Path, choice: &Choice) -> Result<Footage, Diagnostics> {
         Diagnostics::of_file(&name, message, None)
     })?;
     text::read(&name, &bytes, choice)
-}
-
-/// Reads at most one byte more than allowed, which shows that a file is too long.
-fn bytes(path: &Path) -> io::Result<Vec<u8>> {
-    let file = File::open(path)?;
-    if file.metadata()?.is_dir() {
-        return Err(ErrorKind::IsADirectory.into());
-    }
-    let mut bytes = Vec::new();
-    file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes)?;
-    Ok(bytes)
 }
 
 /// Writes a new file.

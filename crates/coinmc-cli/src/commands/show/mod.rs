@@ -125,9 +125,8 @@ fn unfinished(report: &Report) -> Option<String> {
         Status::Interrupted => "unfinished",
         Status::ShortOfTarget { .. } => "short of its targets",
     };
-    let rows = &report.results.rows;
-    let reached = rows.each().filter(|row| row.stopped_by.is_reached());
-    let (done, all) = (reached.count(), count(rows.len() as u64, "point"));
+    let done = report.points_reached();
+    let all = count(report.results.rows.len() as u64, "point");
     Some(format!(
         "coinmc: this run is {word}: {done} of {all} finished"
     ))

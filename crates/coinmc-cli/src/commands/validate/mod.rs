@@ -76,7 +76,7 @@ impl From<ValidateError> for Unanswered {
             ValidateError::Run(error) => Self::Failed(error.into()),
             ValidateError::Question(error) => error.into(),
             ValidateError::Unknown { .. } => Self::Failed(Failure::Input(error.into())),
-            ValidateError::Config(_) | ValidateError::Key(_) | ValidateError::Thread(_) => {
+            ValidateError::Config(_) | ValidateError::Key(_) => {
                 Self::Failed(Failure::Runtime(error.into()))
             }
         }
