@@ -1,7 +1,7 @@
 //! Files that grow at their end.
 
 use super::{RunError, replace};
-use std::fs::{File, OpenOptions};
+use std::fs::OpenOptions;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
@@ -33,7 +33,7 @@ pub(super) fn append(path: &Path, bytes: &[u8], durably: bool) -> Result<(), Run
 /// Whether a file is there, is not empty and does not end with a line feed.
 pub(super) fn ends_within_a_line(path: &Path) -> Result<bool, RunError> {
     let failed = |error| RunError::io("read", path, error);
-    let mut file = match File::open(path) {
+    let mut file = match replace::open_file(path) {
         Ok(file) => file,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(false),
         Err(error) => return Err(failed(error)),

@@ -301,7 +301,7 @@ fn must_be_file(dir: &Path, name: &str) -> Result<(), RunError> {
 /// assert!(!coinmc::run::is_running(std::path::Path::new("no/such/directory")));
 /// ```
 pub fn is_running(dir: &Path) -> bool {
-    let file = File::open(dir.join(LOCK));
+    let file = replace::open_file(&dir.join(LOCK));
     // released at once
     file.is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))
 }

@@ -140,10 +140,19 @@ pub(super) fn is_file(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_file())
 }
 
+/// Opens a file to read it. What is none is refused: to open a pipe would wait for somebody to write.
+pub(super) fn open_file(path: &Path) -> io::Result<File> {
+    if fs::metadata(path)?.is_file() {
+        File::open(path)
+    } else {
+        Err(io::Error::other("this is not a file"))
+    }
+}
+
 /// Reads a file of at most `most` bytes; `None` if it is longer.
 pub(super) fn read_bounded(path: &Path, most: usize) -> io::Result<Option<Vec<u8>>> {
     let mut bytes = Vec::new();
-    File::open(path)?
+    open_file(path)?
         .take(most as u64 + 1)
         .read_to_end(&mut bytes)?;
     Ok((bytes.len() <= most).then_some(bytes))

@@ -70,6 +70,11 @@ pub(super) fn read_manifest(dir: &Path) -> Result<Manifest, RunError> {
 pub(super) fn read_plan(dir: &Path) -> Result<Plan, RunError> {
     read_manifest(dir)?;
     let path = dir.join(CONFIG);
+    if std::fs::metadata(&path).is_ok_and(|found| !found.is_file() && !found.is_dir()) {
+        let found = format!("a {CONFIG} that is not a file");
+        let dir = dir.to_owned();
+        return Err(RunError::NotARunDirectory { dir, found });
+    }
     config::load(&path, &[]).map_err(|problems| {
         let reason = problems.to_string();
         RunError::BadConfig { path, reason }

@@ -77,7 +77,7 @@ impl Tallies {
 
     /// The file, if it is there.
     fn file(&self) -> Result<Option<File>, RunError> {
-        match File::open(&self.path) {
+        match replace::open_file(&self.path) {
             Ok(file) => Ok(Some(file)),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
             Err(error) => Err(self.error("open", error)),

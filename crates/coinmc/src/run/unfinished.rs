@@ -8,7 +8,6 @@ use super::tallies::Tallies;
 use super::{Chunk, RunError};
 use crate::plan::Plan;
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::io::{self, BufReader};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -96,7 +95,7 @@ fn key(chunk: &Chunk) -> (usize, u64) {
 pub(super) fn read(dir: &Path, tallies: &Tallies, plan: &Plan) -> Result<Beginnings, RunError> {
     let path = dir.join(Unfinished::FILE);
     let failed = |error| RunError::io("read", &path, error);
-    let file = match File::open(&path) {
+    let file = match replace::open_file(&path) {
         Ok(file) => file,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Beginnings::new()),
         Err(error) => return Err(failed(error)),

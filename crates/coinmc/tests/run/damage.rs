@@ -3,13 +3,48 @@
 use crate::support::{
     Ear, FIXED, HALF_WIDTH, contents, plan, put_tallies, resealed, run_whole, run_with, tallies,
 };
-use coinmc::run::{Part, RunError, Status};
+use coinmc::run::{Part, RunError, Status, stored_report};
 use std::fs;
 use std::path::Path;
 use tempfile::tempdir;
 
 /// What is done to one of the tallies, and a word of the warning.
 type Damage = (&'static str, fn(&str) -> String);
+
+/// What is opened to be read would wait for ever where it is a pipe.
+#[cfg(unix)]
+#[test]
+fn pipes_are_refused() {
+    use std::sync::mpsc::channel;
+    let (plan, dir) = (plan(FIXED), tempdir().unwrap());
+    run_whole(&plan, dir.path());
+    for name in [
+        "manifest.json",
+        "config.toml",
+        "tallies.txt",
+        "unfinished.txt",
+        "provenance.jsonl",
+    ] {
+        let (path, aside) = (dir.path().join(name), dir.path().join("aside"));
+        let had = fs::rename(&path, &aside).is_ok();
+        let made = std::process::Command::new("mkfifo").arg(&path).status();
+        assert!(made.unwrap().success());
+        let (told, refused) = channel();
+        let (plan, folder) = (plan.clone(), dir.path().to_owned());
+        std::thread::spawn(move || {
+            let report = stored_report(&folder, &Ear::default());
+            let made_by = coinmc::run::provenance(&folder, &plan);
+            told.send(report.is_err() || made_by.is_err())
+        });
+        let answer = refused.recv_timeout(std::time::Duration::from_secs(20));
+        assert_eq!(answer, Ok(true), "{name}");
+        fs::remove_file(&path).unwrap();
+        if had {
+            fs::rename(&aside, &path).unwrap();
+        }
+    }
+    assert!(stored_report(dir.path(), &Ear::default()).is_ok());
+}
 
 #[test]
 fn damaged_tallies_are_set_aside_and_recomputed() {

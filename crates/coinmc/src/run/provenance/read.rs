@@ -3,8 +3,8 @@
 use super::maker::Maker;
 use super::record::{self, Entry, FILE, FORMAT, Introduction, Line, MAX_LINE, Made};
 use crate::run::RunError;
+use crate::run::replace::open_file;
 use std::collections::HashMap;
-use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
@@ -21,7 +21,7 @@ impl Records {
     pub(crate) fn read(dir: &Path) -> Result<Self, RunError> {
         let path = dir.join(FILE);
         let failed = |error| RunError::io("read", &path, error);
-        let file = match File::open(&path) {
+        let file = match open_file(&path) {
             Ok(file) => file,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Self::default()),
             Err(error) => return Err(failed(error)),
