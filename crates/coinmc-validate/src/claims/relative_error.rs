@@ -4,7 +4,7 @@ use super::scenes::robot;
 use crate::tosser::Tosser;
 use crate::{Evidence, Finding, ValidateError, Verdict};
 use coinmc::results::Row;
-use statrs::function::gamma::gamma_lr;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// Samples whose scatter is measured.
 const SAMPLES: u32 = 400;
@@ -51,18 +51,10 @@ pub(super) fn rule_of_thumb(tosser: &Tosser<'_>) -> Result<Finding, ValidateErro
     Ok(Finding { verdict, evidence })
 }
 
-/// The quantile of χ², by bisection.
+/// The quantile of χ².
 fn chi_squared(freedom: f64, p: f64) -> f64 {
-    let [mut low, mut high] = [0.0, 10.0 * freedom];
-    while high - low > 1e-9 * high {
-        let middle = 0.5 * (low + high);
-        if gamma_lr(0.5 * freedom, 0.5 * middle) < p {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    high
+    let distribution = ChiSquared::new(freedom).expect("a positive number");
+    distribution.inverse_cdf(p)
 }
 
 #[cfg(test)]
