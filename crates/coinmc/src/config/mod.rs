@@ -173,7 +173,7 @@ fn of_tree(
         return None;
     }
     if points.sweep.axes.len() < 2 {
-        single_axis(&mut root);
+        single_axis(&mut root, points.sweep.axes.len());
     }
     let resolved_toml = resolved(&root, end, problems)?;
     let (confidence, interval) = build::estimate(&root)?;
@@ -214,14 +214,18 @@ fn spell_out(root: &mut Checked, problems: &mut Problems) -> Vec<String> {
     notes
 }
 
-/// A grid and a zip of fewer than two axes are the same sweep: write both as a grid.
-fn single_axis(root: &mut Checked) {
+/// A grid and a zip of fewer than two axes are the same sweep, as all sweeps without axes are: write
+/// them as a grid.
+fn single_axis(root: &mut Checked, axes: usize) {
     let CheckedValue::Table(entries) = &mut root.value else {
         return;
     };
     for (_, sweep) in entries.iter_mut().filter(|(key, _)| *key == "sweep") {
         if let CheckedValue::Table(fields) = &mut sweep.value {
             for (_, mode) in fields {
+                if axes == 1 && mode.word() == Some("sobol") {
+                    continue;
+                }
                 mode.value = CheckedValue::Word("grid");
             }
         }

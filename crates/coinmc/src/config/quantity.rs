@@ -76,9 +76,9 @@ impl Quantity {
 }
 
 impl Range {
-    /// Value number `i`, rounded so that 0.2 to 2.0 in 19 steps passes through 0.3 and not through
+    /// Value number `i`; the ends are exact. Others are rounded so that 0.2 to 2.0 in 19 steps passes through 0.3 and not through
     /// 0.30000000000000004: to 15 digits of the larger end, or to 12 digits of the value itself on
-    /// a logarithmic scale (where rounding errors grow with the exponent). The ends are exact.
+    /// a logarithmic scale (where rounding errors grow with the exponent).
     pub(super) fn value(&self, i: u64) -> f64 {
         let last = self.steps - 1;
         if i == 0 {
@@ -87,7 +87,11 @@ impl Range {
         if i >= last {
             return self.to;
         }
-        let t = i as f64 / last as f64;
+        self.between(i as f64 / last as f64)
+    }
+
+    /// The value at the share t of the way, rounded in the same manner.
+    pub(super) fn between(&self, t: f64) -> f64 {
         let between = |a: f64, b: f64| a * (1.0 - t) + b * t;
         if self.log {
             return digits(

@@ -2,8 +2,14 @@
 
 use super::checked::{COMPONENTS, Checked, CheckedValue};
 use super::diagnostics::Problems;
+use super::quantity::Quantity;
 use super::source::Span;
 use crate::plan::MAX_POINTS;
+use coinmc_core::{Domain, Stream, unit_interval};
+use coinmc_quadrature::{DIMENSIONS, Sobol};
+
+/// Number of the stream that scrambles the points of a design; no point of a plan has it.
+const SCRAMBLE: u64 = u64::MAX;
 
 /// One swept number.
 #[derive(Debug)]
@@ -18,7 +24,7 @@ pub(super) struct Axis {
 pub(super) struct Sweep {
     pub(super) axes: Vec<Axis>,
     pub(super) points: usize,
-    zip: bool,
+    grid: bool,
 }
 
 impl Sweep {
@@ -27,30 +33,33 @@ impl Sweep {
         Self {
             axes: vec![],
             points: 1,
-            zip: false,
+            grid: true,
         }
     }
 
     /// Finds every swept number (in the order of the schema, so that the order of keys in the
     /// file does not matter), numbers them, and writes their values out if they are not too many.
     pub(super) fn find(root: &mut Checked, problems: &mut Problems) -> Option<Self> {
-        let zip = root
+        let mode = root
             .get("sweep")
             .and_then(|sweep| sweep.get("mode"))
-            .map(Checked::word)??
-            == "zip";
+            .map(Checked::word)??;
         let mut found = Vec::new();
         collect(root, &mut Vec::new(), &mut found);
-        let points = if zip {
-            zipped(&found, problems)
-        } else {
-            gridded(&found, problems)
+        let points = match mode {
+            "zip" => zipped("zipped axes", &found, problems),
+            "sobol" => spread(&found, problems),
+            _ => gridded(&found, problems),
         }?;
+        let values: Vec<Vec<f64>> = match mode {
+            "sobol" => designed(&found, points, seed(root)?),
+            _ => found.iter().map(|axis| axis.quantity.values()).collect(),
+        };
         let mut distinct = true;
         let axes = found
             .into_iter()
-            .map(|axis| {
-                let values = axis.quantity.values();
+            .zip(values)
+            .map(|(axis, values)| {
                 if has_duplicates(&values) {
                     let message = format!(
                         "the {} values of `{}` lie closer together than numbers can",
@@ -66,14 +75,15 @@ impl Sweep {
                 }
             })
             .collect();
-        distinct.then_some(Self { axes, points, zip })
+        let grid = !matches!(mode, "zip" | "sobol");
+        distinct.then_some(Self { axes, points, grid })
     }
 
     /// Index of the value of each axis at point number `point`.
     pub(super) fn indices(&self, point: usize, indices: &mut Vec<usize>) {
         indices.clear();
         indices.resize(self.axes.len(), point);
-        if !self.zip {
+        if self.grid {
             let mut rest = point;
             for (index, axis) in indices.iter_mut().zip(&self.axes).rev() {
                 *index = rest % axis.values.len();
@@ -86,7 +96,7 @@ impl Sweep {
 /// A swept number before its values are written out.
 struct Found {
     name: String,
-    quantity: super::quantity::Quantity,
+    quantity: Quantity,
     span: Span,
 }
 
@@ -155,7 +165,7 @@ fn gridded(found: &[Found], problems: &mut Problems) -> Option<usize> {
     }
 }
 
-fn zipped(found: &[Found], problems: &mut Problems) -> Option<usize> {
+fn zipped(what: &str, found: &[Found], problems: &mut Problems) -> Option<usize> {
     let Some(first) = found.first() else {
         return Some(1);
     };
@@ -163,7 +173,7 @@ fn zipped(found: &[Found], problems: &mut Problems) -> Option<usize> {
     for axis in &found[1..] {
         if axis.quantity.len() != first.quantity.len() {
             let message = format!(
-                "zipped axes must be equally long: `{}` has {} values, `{}` has {}",
+                "{what} must be equally long: `{}` has {} values, `{}` has {}",
                 axis.name,
                 axis.quantity.len(),
                 first.name,
@@ -178,6 +188,53 @@ fn zipped(found: &[Found], problems: &mut Problems) -> Option<usize> {
     } else {
         None
     }
+}
+
+/// The number of points of a design: that of the steps of each of its ranges.
+fn spread(found: &[Found], problems: &mut Problems) -> Option<usize> {
+    let mut sound = true;
+    for axis in found {
+        // A range of two steps is a list by its canonical form.
+        if !matches!(axis.quantity, Quantity::Range(range) if range.steps > 2) {
+            let message = format!("`{}` must be a range of at least three steps", axis.name);
+            let help = "mode = \"sobol\" takes points between the ends of ranges";
+            problems.add_with_help(axis.span, message, help);
+            sound = false;
+        }
+    }
+    if let Some(axis) = found.get(DIMENSIONS) {
+        let message = format!(
+            "{} axes: mode = \"sobol\" spreads at most {DIMENSIONS}",
+            found.len()
+        );
+        problems.add(axis.span, message);
+        sound = false;
+    }
+    let points = zipped("ranges of a design", found, problems)?;
+    sound.then_some(points)
+}
+
+fn seed(root: &Checked) -> Option<u64> {
+    match root.get("seed")?.value {
+        CheckedValue::Integer(seed) => Some(seed),
+        _ => None,
+    }
+}
+
+/// The values of each axis at scrambled Sobol points: they fill the box between the ends of all ranges
+/// evenly, and so do the first 2^n of them for every n.
+fn designed(found: &[Found], points: usize, seed: u64) -> Vec<Vec<f64>> {
+    let mut words = Stream::new(seed, Domain::Scramble, SCRAMBLE).toss(0);
+    let sobol = Sobol::scrambled(found.len(), &mut words);
+    let coordinates: Vec<_> = sobol.points(0..points as u64).collect();
+    let along = |(axis, found): (usize, &Found)| match &found.quantity {
+        Quantity::Range(range) => coordinates
+            .iter()
+            .map(|point| range.between(unit_interval(point[axis])))
+            .collect(),
+        other => other.values(),
+    };
+    found.iter().enumerate().map(along).collect()
 }
 
 fn has_duplicates(values: &[f64]) -> bool {

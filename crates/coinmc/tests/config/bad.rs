@@ -122,8 +122,10 @@ const SWEEPS: &[Case] = &[
     ("1.2", "{ from = 1, too = 2, steps = 3 }", &[(3, 21, "did you mean `to`?")]),
     ("1.2", "{ from = 1, to = 1.000000000000001, steps = 9 }", &[(3, 9, "the 9 values of `ratio` lie closer together")]),
     ("ratio = 1.2", "ratio = { from = 1, to = 2, steps = 1000000 }\nradius_m = { from = 1, to = 2, steps = 1000000 }", &[(4, 12, "the sweep has 1000000000000 points (ratio 1000000 × radius_m 1000000), at most 1000000 are allowed")]),
-    ("0.3", "[0.1, 0.2]\nlanding = 'bouncing'\n[sweep]\nmode = 'side-by-side'", &[(9, 8, "`sweep.mode` must be one of \"grid\", \"zip\"")]),
+    ("0.3", "[0.1, 0.2]\nlanding = 'bouncing'\n[sweep]\nmode = 'side-by-side'", &[(9, 8, "`sweep.mode` must be one of \"grid\", \"zip\", \"sobol\"")]),
     ("seed = 1", "sweep.mode = 'zip'\nenvironment.gravity_m_s2 = [1, 2, 3]\ncoin.radius_m = [1, 2]", &[(2, 28, "zipped axes must be equally long: `gravity_m_s2` has 3 values, `radius_m` has 2"), (4, 2, "`coin` is given twice")]),
+    ("seed = 1", "sweep.mode = 'sobol'\nenvironment.gravity_m_s2 = [1, 2, 3]", &[(2, 28, "`gravity_m_s2` must be a range of at least three steps")]),
+    ("[launch]", "[sweep]\nmode = 'sobol'\n[environment]\ngravity_m_s2 = { from = 1, to = 2, steps = 9 }\n[launch]\nheight_m = { from = 1, to = 2, steps = 5 }", &[(12, 12, "ranges of a design must be equally long: `launch.height_m` has 5 values, `gravity_m_s2` has 9")]),
     ("[launch]", "[sweep]\nmode = 'zip'\n[environment]\ngravity_m_s2 = { from = 1, to = 2, steps = 9 }\n[launch]\nheight_m = [1, 2]", &[(12, 12, "`launch.height_m` has 2 values, `gravity_m_s2` has 9")]),
 ];
 

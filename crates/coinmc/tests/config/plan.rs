@@ -136,6 +136,53 @@ fn a_zip_of_fewer_than_two_axes_is_a_grid() {
     }
 }
 
+/// Each half of every axis has half of the first four points, and each quarter of every pair of axes a
+/// quarter of all. The seed scrambles them, and the resolved config has them.
+#[test]
+fn a_design_fills_the_box_between_its_ranges() {
+    let design = |steps: usize, seed: u64| {
+        let log = "scale = 'log'";
+        let sets = [
+            "sweep.mode=sobol".to_owned(),
+            format!("seed={seed}"),
+            format!("coin.ratio={{ from = 0.1, to = 10, steps = {steps}, {log} }}"),
+            format!("surface.restitution={{ from = 0, to = 0.5, steps = {steps} }}"),
+            format!("surface.friction={{ from = 0.2, to = 0.4, steps = {steps} }}"),
+        ];
+        parse(SMALL, &sets.each_ref().map(String::as_str))
+    };
+    let plan = design(64, 1);
+    let middles = [("ratio", 1.0), ("restitution", 0.25), ("friction", 0.3)];
+    let above = middles.map(|(name, middle)| {
+        let values = column(&plan, name);
+        values.iter().map(|v| *v > middle).collect::<Vec<_>>()
+    });
+    for axis in &above {
+        assert_eq!(axis.iter().take(4).filter(|above| **above).count(), 2);
+    }
+    for (first, second) in [(0, 1), (0, 2), (1, 2)] {
+        for quarter in [(false, false), (false, true), (true, false), (true, true)] {
+            let pairs = above[first].iter().zip(&above[second]);
+            let inside = pairs.filter(|(a, b)| (**a, **b) == quarter).count();
+            assert_eq!(inside, 16, "{first} {second} {quarter:?}");
+        }
+    }
+    let longer = design(128, 1);
+    assert_eq!(column(&longer, "friction")[..64], column(&plan, "friction"));
+    let other = design(64, 2);
+    assert_ne!(column(&other, "friction"), column(&plan, "friction"));
+    assert_eq!(parse(&plan.resolved_toml, &[]), plan);
+    let single = parse(
+        SMALL,
+        &[
+            "sweep.mode=sobol",
+            "coin.ratio={ from = 1, to = 2, steps = 4 }",
+        ],
+    );
+    assert_ne!(column(&single, "ratio")[0], 1.0);
+    assert_eq!(parse(&single.resolved_toml, &[]), single);
+}
+
 #[test]
 fn every_number_can_be_swept_and_has_a_column() {
     for (set, name, values) in [

@@ -285,7 +285,8 @@ fn sampling() -> TableKind {
 fn sweep() -> TableKind {
     fields(vec![field(
         "mode",
-        "Every combination of the axes, or their first values, their second values, …",
+        "Every combination of the axes; or their first values, their second values, …; or points spread evenly \
+         between the ends of their ranges.",
         Kind::Word(vec![
             Word {
                 name: "grid",
@@ -294,6 +295,11 @@ fn sweep() -> TableKind {
             Word {
                 name: "zip",
                 doc: "side by side; all axes are equally long",
+            },
+            Word {
+                name: "sobol",
+                doc: "ranges of equally many steps, which are taken as that many scrambled Sobol' points in \
+                      the box between their ends",
             },
         ]),
         Is(Fallback::Word("grid")),
