@@ -7,6 +7,7 @@ The engines of coinmc at native speed, with NumPy arrays in and out:
   other processes and clusters (`chunk`);
 * `trace`: the recorded motion of one toss; `replay`: tosses in three dimensions;
 * `report`: a page of runs that opens anywhere;
+* `ask`: a coin of the size of a euro on a usual surface, without a toss;
 * `fair`: how thick is a fair coin, here or in everyday `scenes`?
 * `sensitivity`: how strongly probabilities depend on parameters;
 * `validate`: claims and public data sets, each with its verdict;
@@ -49,6 +50,7 @@ from coinmc._trace import EVENT, SAMPLE, Trace, trace
 if TYPE_CHECKING:
     from coinmc import experiment, film, plot, vision
     from coinmc._aim import Aimed, AimedLaunch, aim
+    from coinmc._ask import Asked, ask
     from coinmc._calibrate import Calibration, CalibrationModel, calibrate
     from coinmc._compare import Comparison, compare
     from coinmc._design import Design, design
@@ -67,6 +69,7 @@ __all__ = [
     "STATE",
     "Aimed",
     "AimedLaunch",
+    "Asked",
     "Calibration",
     "CalibrationModel",
     "Comparison",
@@ -101,6 +104,7 @@ __all__ = [
     "__version__",
     "aim",
     "analytic",
+    "ask",
     "basins",
     "calibrate",
     "check",
@@ -136,6 +140,8 @@ _LAZY = {
     "Aimed": "coinmc._aim",
     "AimedLaunch": "coinmc._aim",
     "aim": "coinmc._aim",
+    "Asked": "coinmc._ask",
+    "ask": "coinmc._ask",
     "Calibration": "coinmc._calibrate",
     "CalibrationModel": "coinmc._calibrate",
     "calibrate": "coinmc._calibrate",

@@ -6,7 +6,7 @@
 //! launches as rows of numbers · `columns` and `toss` individual tosses · `run` estimates and runs
 //! · `session` runs on other machines · `results` and `throws` tables, `arrow` tables for Python · `pickled` results
 //! as plain values · `table` any columns as Arrow · `interval` intervals of proportions · `trace` recorded motion of a
-//! toss · `question`, `fair`, `design`, `aim`, `ranking`, `rare`, `compare` questions · `calibrate` surfaces from
+//! toss · `question`, `ask`, `fair`, `design`, `aim`, `ranking`, `rare`, `compare` questions · `calibrate` surfaces from
 //! measurements · `validate` verdicts · `report` pages · `analytic` closed forms · `film` drops on film · `command` the
 //! command line · `errors` exceptions.
 
@@ -16,6 +16,7 @@
 mod aim;
 mod analytic;
 mod arrow;
+mod ask;
 mod calibrate;
 mod columns;
 mod command;
@@ -53,6 +54,8 @@ mod _lib {
     use super::aim::aim;
     #[pymodule_export]
     use super::analytic::{closed_form, no_bounce_rule};
+    #[pymodule_export]
+    use super::ask::{ask, ask_root};
     #[pymodule_export]
     use super::calibrate::CalibrationModel;
     #[pymodule_export]

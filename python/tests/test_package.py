@@ -167,8 +167,8 @@ def test_the_wheel_is_small(package):
 
     files = distribution("coinmc").files
     size = sum((package.parent / file).stat().st_size for file in files)
-    # a quarter of it is the command line
-    assert size < 24 << 20
+    # a quarter of it is the command line; unpacked: what is downloaded is two fifths of it
+    assert size < 26 << 20
     needed = [line for line in requires("coinmc") if "extra" not in line]
     assert [line.split(">")[0] for line in needed] == ["numpy"]
 

@@ -1,5 +1,6 @@
 //! The command line.
 
+use crate::atlas::Atlas;
 use crate::calibrate::Calibrate;
 use crate::convergence::Convergence;
 use crate::energy::Energy;
@@ -42,6 +43,8 @@ enum Command {
     FlatTable(FlatTable),
     /// Fits to synthetic film: how often the intervals hold the truth
     Film(Film),
+    /// The atlas: networks fitted to the results of a design, and how wrong they are at fresh points
+    Atlas(Atlas),
     /// Synthetic coins calibrated: do intervals hold the truth, what does each measurement tell
     Calibrate(Calibrate),
     /// How P(side) depends on the engine's settings, toss by toss
@@ -104,6 +107,7 @@ impl Arguments {
             Ok(match command {
                 Command::FlatTable(study) => study.execute(seed),
                 Command::Film(study) => study.execute(seed),
+                Command::Atlas(study) => study.execute()?,
                 Command::Calibrate(study) => study.execute(seed)?,
                 Command::Convergence(study) => study.execute(seed),
                 Command::MissedContacts(study) => study.execute(seed),

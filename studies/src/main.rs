@@ -1,6 +1,7 @@
 //! `coinmc-studies`: validation of the engines and of the runner, one study per subcommand.
 
 mod arguments;
+mod atlas;
 mod balance;
 mod calibrate;
 mod convergence;

@@ -3,8 +3,8 @@
 #[cfg(feature = "robot")]
 use crate::commands::Robot;
 use crate::commands::{
-    AimAt, Analytic, Check, Compare, Completions, DesignArgs, Fair, Merge, Rare, ReportOf, Run,
-    Schema, SensitivityOf, Show, Status, Trace, Validate,
+    AimAt, Analytic, Ask, Check, Compare, Completions, DesignArgs, Fair, Merge, Rare, ReportOf,
+    Run, Schema, SensitivityOf, Show, Status, Trace, Validate,
 };
 #[cfg(feature = "film")]
 use crate::commands::{Calibrate, Film};
@@ -57,6 +57,7 @@ enum Command {
     Status(Status),
     Report(ReportOf),
     Check(Check),
+    Ask(Ask),
     Fair(Box<Fair>),
     Design(Box<DesignArgs>),
     Sensitivity(SensitivityOf),
@@ -97,6 +98,7 @@ impl Command {
             Self::Status(status) => status.format(),
             Self::Report(report) => report.format(),
             Self::Check(check) => check.format(),
+            Self::Ask(ask) => ask.format(),
             Self::Fair(fair) => fair.format(),
             Self::Design(design) => design.format(),
             Self::Sensitivity(sensitivity) => sensitivity.format(),
@@ -124,6 +126,7 @@ impl Command {
             Self::Status(status) => status.execute(console),
             Self::Report(report) => report.execute(console),
             Self::Check(check) => check.execute(console),
+            Self::Ask(ask) => ask.execute(console),
             Self::Fair(fair) => fair.execute(console),
             Self::Design(design) => design.execute(console),
             Self::Sensitivity(sensitivity) => sensitivity.execute(console),

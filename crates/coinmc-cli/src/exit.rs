@@ -4,6 +4,7 @@ use crate::output::{self, Console, Format};
 use crate::terminal::Colors;
 use coinmc::config::Diagnostics;
 use coinmc::run::RunError;
+use coinmc_atlas::AtlasError;
 #[cfg(feature = "film")]
 use coinmc_calibrate::CalibrationError;
 #[cfg(feature = "film")]
@@ -94,6 +95,15 @@ impl From<QuestionError> for Failure {
             QuestionError::Config(diagnostics) => Self::Config(diagnostics),
             QuestionError::Run(error) => error.into(),
             QuestionError::Thread(_) => Self::Runtime(error.into()),
+            _ => Self::Input(error.into()),
+        }
+    }
+}
+
+impl From<AtlasError> for Failure {
+    fn from(error: AtlasError) -> Self {
+        match error {
+            AtlasError::Tosses(error) => error.into(),
             _ => Self::Input(error.into()),
         }
     }

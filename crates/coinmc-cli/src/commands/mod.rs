@@ -2,6 +2,7 @@
 
 mod aim;
 mod analytic;
+mod ask;
 #[cfg(feature = "film")]
 mod calibrate;
 mod check;
@@ -28,6 +29,7 @@ mod validate;
 
 pub(crate) use aim::AimAt;
 pub(crate) use analytic::Analytic;
+pub(crate) use ask::Ask;
 #[cfg(feature = "film")]
 pub(crate) use calibrate::Calibrate;
 pub(crate) use check::Check;

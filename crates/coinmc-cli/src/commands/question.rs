@@ -7,6 +7,7 @@ use crate::terminal::progress::Progress;
 use anyhow::{Context, anyhow};
 use clap::Args;
 use coinmc::config::{self, Override};
+use coinmc_atlas::AtlasError;
 #[cfg(feature = "film")]
 use coinmc_calibrate::CalibrationError;
 use coinmc_questions::scenes::{Assumption, EverydayScene};
@@ -142,6 +143,15 @@ impl From<CalibrationError> for Unanswered {
     fn from(error: CalibrationError) -> Self {
         match error {
             CalibrationError::Question(error) => error.into(),
+            error => Self::Failed(error.into()),
+        }
+    }
+}
+
+impl From<AtlasError> for Unanswered {
+    fn from(error: AtlasError) -> Self {
+        match error {
+            AtlasError::Tosses(error) => error.into(),
             error => Self::Failed(error.into()),
         }
     }

@@ -1,0 +1,41 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # How it works
+//! ```text
+//! designs/*.toml ─▶ coinmc run ─▶ results ─▶ fit: networks of tanh, each without a part of the points
+//!                                             │
+//!                                  networks/*.atlas, compiled into the program
+//!                                             │
+//! coin, surface ─▶ Place ────────────────▶ Atlas ─▶ Faces: P and its error
+//! ```
+//!
+//! # Files
+//! `launch` the launches · `axis`, `place` what the probabilities depend on · `network` one network · `ensemble`
+//! several and their error · `document` an answer · `file` their bytes · `fit`, `train` how they are made · `points`
+//! what was tossed for them · `sure` tosses instead.
+
+mod axis;
+mod document;
+mod ensemble;
+mod error;
+mod file;
+mod fit;
+mod launch;
+mod network;
+mod place;
+#[cfg(feature = "parquet")]
+mod points;
+mod sure;
+mod train;
+
+pub use axis::Axis;
+pub use document::Answer;
+pub use ensemble::{Atlas, Faces, Root};
+pub use error::{AtlasError, FileError, FitError};
+pub use fit::fit;
+pub use launch::Launch;
+pub use place::Place;
+#[cfg(feature = "parquet")]
+pub use points::write_points;
+pub use sure::{Counts, scene, toss};
+pub use train::Training;

@@ -1,0 +1,135 @@
+//! The atlas: networks fitted to the results of a design, and how wrong they are at points that were not fitted.
+
+use anyhow::Context;
+use clap::Args;
+use coinmc::results::Results;
+use coinmc::run::stored_report;
+use coinmc_atlas::{Atlas as Part, Place, Training, fit, write_points};
+use coinmc_bench::{Report, Table, number};
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// 95 % of a normal distribution.
+const Z95: f64 = 1.96;
+
+/// The study's arguments.
+#[derive(Debug, Args)]
+pub(crate) struct Atlas {
+    /// Run directories of a design of `crates/coinmc-atlas/designs`, with a seed each
+    #[arg(required = true, value_name = "DIR")]
+    designs: Vec<PathBuf>,
+
+    /// Its launch
+    #[arg(long, value_name = "NAME")]
+    launch: String,
+
+    /// File of networks to write; read, if there is one
+    #[arg(long, value_name = "FILE")]
+    networks: PathBuf,
+
+    /// Parquet file of the points to write
+    #[arg(long, value_name = "FILE")]
+    points: Option<PathBuf>,
+
+    /// Run directory of the same design with a seed of which nothing was fitted
+    #[arg(long, value_name = "DIR")]
+    fresh: Option<PathBuf>,
+
+    /// Times that every point is looked at
+    #[arg(long, value_name = "N", default_value_t = Training::default().epochs)]
+    epochs: u32,
+}
+
+impl Atlas {
+    pub(crate) fn execute(&self) -> anyhow::Result<Report> {
+        let results: Vec<Results> = self
+            .designs
+            .iter()
+            .map(|dir| results_of(dir))
+            .collect::<Result<_, _>>()?;
+        if let Some(path) = &self.points {
+            write_points(&results, &mut File::create_new(path)?)?;
+        }
+        let title = format!("The atlas for the launch `{}`", self.launch);
+        let mut table = Table::new(title, &["what", "value"]);
+        let mut row = |what: &str, value: String| table.push(vec![what.to_owned(), value]);
+        let part = if self.networks.exists() {
+            Part::read(&std::fs::read(&self.networks)?)?
+        } else {
+            let begun = Instant::now();
+            let training = Training {
+                epochs: self.epochs,
+                ..Training::default()
+            };
+            let part = fit(&self.launch, &results, &training, 2, &|| true)?;
+            let part = part.context("the fit was stopped")?;
+            std::fs::write(&self.networks, part.bytes())?;
+            row(
+                "time of the fit, s",
+                format!("{:.0}", begun.elapsed().as_secs_f64()),
+            );
+            part
+        };
+        row("points", part.points().to_string());
+        row("tosses", part.tosses().to_string());
+        if let Some(dir) = &self.fresh {
+            for (what, value) in checked(&part, &results_of(dir)?)? {
+                row(what, value);
+            }
+        }
+        Ok(Report::new(table))
+    }
+}
+
+fn results_of(dir: &Path) -> anyhow::Result<Results> {
+    Ok(stored_report(dir, &())?.1.results)
+}
+
+/// P(side) of a part against the counts at fresh points.
+fn checked(part: &Part, fresh: &Results) -> anyhow::Result<Vec<(&'static str, String)>> {
+    let (mut squares, mut claimed, mut covered, mut points, mut worst) =
+        (0.0, 0.0, 0_u64, 0.0, 0.0_f64);
+    let begun = Instant::now();
+    for row in fresh.rows.each() {
+        let numbers = Place::NAMES.map(|name| row.parameter(name));
+        let numbers = numbers.map(|number| number.context("a column of the design is missing"));
+        let mut place = [0.0; Place::NAMES.len()];
+        for (number, value) in place.iter_mut().zip(numbers) {
+            *number = value?;
+        }
+        let faces = part.faces(&Place::of(place))?;
+        let (p, error) = (faces.p[2], faces.error[2]);
+        let n = (row.tally.heads + row.tally.tails + row.tally.side) as f64;
+        let share = row.tally.side as f64 / n;
+        // the binomial variance of the share at the fitted p; unbiased at the share itself for the squares
+        let noise = p * (1.0 - p) / n;
+        let off = share - p;
+        squares += off * off - share * (1.0 - share) / (n - 1.0);
+        claimed += error * error;
+        covered += u64::from(off.abs() <= Z95 * (error * error + noise).sqrt() + 0.5 / n);
+        worst = worst.max(off.abs() - Z95 * noise.sqrt());
+        points += 1.0;
+    }
+    let each_us = 1e6 * begun.elapsed().as_secs_f64() / points;
+    Ok(vec![
+        ("fresh points", format!("{points}")),
+        (
+            "root mean square error of P(side)",
+            number::probability((squares / points).max(0.0).sqrt()),
+        ),
+        (
+            "the error that it states, root mean square",
+            number::probability((claimed / points).sqrt()),
+        ),
+        (
+            "share of fresh counts within 95 %",
+            number::probability(covered as f64 / points),
+        ),
+        (
+            "largest error beyond the noise of counts",
+            number::probability(worst),
+        ),
+        ("time of an answer, us", format!("{each_us:.1}")),
+    ])
+}
