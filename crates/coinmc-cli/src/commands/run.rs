@@ -33,7 +33,8 @@ Examples:
   coinmc run toss.toml --format json > toss.json
   coinmc run toss.toml --report                     and make a page of it, see `coinmc report`
 
-The same command again goes on where the last one stopped, and reports a finished run at once.";
+The same command again goes on where the last one stopped, and reports a finished run at once.
+More tosses, a tighter target or more values at the end of the first list go on from there, too.";
 
 /// Toss what a config describes and report probabilities with intervals
 ///
@@ -45,7 +46,7 @@ pub(crate) struct Run {
     /// The config (TOML; `coinmc schema` describes it)
     config: PathBuf,
 
-    /// Run directory: new, empty, or that of the same run
+    /// Run directory: new, empty, or that of the same run or one that asked for less
     /// [default: runs/NAME-HASH, from the config's file name and the hash of its meaning]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,

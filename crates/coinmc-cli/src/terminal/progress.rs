@@ -4,6 +4,7 @@ use super::{Style, compact, duration, grouped, harmless};
 use coinmc::run::{Progress as Counts, ProgressSink};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, IsTerminal, Write};
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
@@ -11,6 +12,8 @@ use std::time::{Duration, Instant};
 #[derive(Debug, Clone, Copy)]
 struct Start {
     tosses: u64,
+    /// Of them, those that an earlier run had counted.
+    reused: u64,
     at: Instant,
 }
 
@@ -19,7 +22,10 @@ struct Start {
 pub(crate) struct Progress {
     bar: ProgressBar,
     style: Style,
+    quiet: bool,
     start: Arc<OnceLock<Start>>,
+    /// Tosses of an earlier run that are counted so far.
+    reused: Arc<AtomicU64>,
 }
 
 /// A bar on standard error, hidden if that is no terminal or `quiet`.
@@ -55,7 +61,9 @@ impl Progress {
         Self {
             bar: bar(style, quiet),
             style,
+            quiet,
             start: Arc::default(),
+            reused: Arc::default(),
         }
     }
 
@@ -68,6 +76,7 @@ impl Progress {
     pub(crate) fn searched(&self, tosses: u64, limit: u64) {
         let start = self.start.get_or_init(|| Start {
             tosses: 0,
+            reused: 0,
             at: Instant::now(),
         });
         self.bar.set_length(limit.max(1));
@@ -87,6 +96,7 @@ impl Progress {
     pub(crate) fn tossed(&self, tosses: u64) {
         let start = self.start.get_or_init(|| Start {
             tosses: 0,
+            reused: 0,
             at: Instant::now(),
         });
         if !self.bar.is_hidden() {
@@ -107,30 +117,40 @@ impl Progress {
     /// Tosses made by this process and the time they took.
     pub(crate) fn made(&self, tosses_done: u64) -> (u64, Duration) {
         self.start.get().map_or((0, Duration::ZERO), |start| {
-            (tosses_done.saturating_sub(start.tosses), start.at.elapsed())
+            let reused = self.reused.load(Relaxed).saturating_sub(start.reused);
+            let earlier = start.tosses.saturating_add(reused);
+            (tosses_done.saturating_sub(earlier), start.at.elapsed())
         })
     }
 }
 
 impl ProgressSink for Progress {
     fn progress(&self, counts: &Counts) {
-        let start = self.start.get_or_init(|| Start {
+        self.start.get_or_init(|| Start {
             tosses: counts.tosses_done,
+            reused: counts.tosses_reused,
             at: Instant::now(),
         });
+        self.reused.store(counts.tosses_reused, Relaxed);
         self.bar.set_length(counts.tosses_planned.max(1));
         self.bar
             .set_position(counts.tosses_done.min(counts.tosses_planned));
         if !self.bar.is_hidden() {
-            let made = counts.tosses_done.saturating_sub(start.tosses);
+            let (made, time) = self.made(counts.tosses_done);
             self.bar
-                .set_message(message(counts, made, start.at.elapsed(), &self.style));
+                .set_message(message(counts, made, time, &self.style));
         }
     }
 
     fn warning(&self, message: &str) {
         let title = self.style.paint(super::Colors::Warning, "warning:");
         self.note(&format!("{title} {message}"));
+    }
+
+    fn note(&self, message: &str) {
+        if !self.quiet {
+            Self::note(self, &format!("note: {message}"));
+        }
     }
 }
 
@@ -237,5 +257,11 @@ mod tests {
         assert_eq!(progress.made(5), (0, Duration::ZERO));
         progress.progress(&counts());
         assert_eq!(progress.made(1_234_667).0, 100);
+        // tosses of an earlier run may be counted later
+        progress.progress(&Counts {
+            tosses_reused: 234_607,
+            ..counts()
+        });
+        assert_eq!(progress.made(1_234_667).0, 60);
     }
 }

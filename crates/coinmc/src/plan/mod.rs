@@ -4,6 +4,7 @@
 //! [`Plan::hash`] give the same results to the byte.
 
 mod explain;
+mod extension;
 mod looks;
 mod points;
 mod sampling;
@@ -12,6 +13,8 @@ mod stop;
 pub use coinmc_core::EngineChoice;
 pub use coinmc_quadrature::{Goal, Integral, MAX_EVALUATIONS, Method};
 pub use explain::Explanation;
+pub(crate) use extension::Extension;
+pub use extension::{Change, Obstacle};
 pub(crate) use looks::PILOT;
 pub use looks::{Looks, Verdict};
 pub use points::Points;

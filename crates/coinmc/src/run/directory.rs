@@ -1,6 +1,9 @@
 //! The run directory: locked by one process, which starts a run in it or resumes the one it holds.
 
+use super::chunk_result::ChunkResult;
 use super::cut::Cut;
+use super::earlier::Earlier;
+use super::extend::{self, Step};
 use super::finished::Finished;
 use super::made::{Made, Work};
 use super::manifest::{self, Manifest};
@@ -9,7 +12,7 @@ use super::provenance::{self, Log, Maker};
 use super::replace::{self, Replacement};
 use super::tallies::{Entry, Tallies};
 use super::unfinished::{Beginnings, Unfinished};
-use super::{Part, ProgressSink, RunError};
+use super::{Chunk, Part, ProgressSink, RunError};
 use crate::plan::Plan;
 use crate::results::{Results, write_csv};
 #[cfg(feature = "parquet")]
@@ -38,12 +41,14 @@ pub(super) struct RunDirectory {
     tallies: Tallies,
     unfinished: Unfinished,
     provenance: Log,
+    plan_hash: String,
     /// The system releases it when the process ends, even by a kill.
     _lock: File,
 }
 
 impl RunDirectory {
-    /// Starts a run in a new or empty directory, or resumes the run that the directory holds.
+    /// Starts a run in a new or empty directory, or resumes the run that the directory holds, or one of which
+    /// the plan asks for more.
     pub(super) fn open(
         path: &Path,
         plan: &Plan,
@@ -53,6 +58,7 @@ impl RunDirectory {
     ) -> Result<Self, RunError> {
         let mut manifest = Manifest::new(plan, part);
         manifest.builds.insert(build.to_owned());
+        extend(path, plan, &manifest, sink)?;
         Self::open_with(path, plan, manifest, sink)
     }
 
@@ -82,20 +88,32 @@ impl RunDirectory {
         if theirs.as_ref() != Some(&ours) {
             ours.write(path)?;
         }
-        write_config(path, plan, sink)?;
-        must_be_file(path, Tallies::FILE)?;
-        must_be_file(path, provenance::FILE)?;
-        must_be_file(path, Unfinished::FILE)?;
-        for file in [Tallies::FILE, Tallies::REJECTED, Unfinished::FILE] {
+        for file in [
+            Tallies::FILE,
+            provenance::FILE,
+            Unfinished::FILE,
+            Earlier::FILE,
+        ] {
+            must_be_file(path, file)?;
+        }
+        for file in [
+            Tallies::FILE,
+            Tallies::REJECTED,
+            Unfinished::FILE,
+            Earlier::FILE,
+        ] {
             replace::remove_leftover(&path.join(file))?;
         }
+        let extends = extend::settle(path, &ours.plan_hash)?;
+        write_config(path, plan, extends, sink)?;
         replace::sync_directory(path)?;
-        let tallies = Tallies::of(path, ours.plan_hash);
+        let tallies = Tallies::of(path, ours.plan_hash.clone());
         Ok(Self {
             path: path.to_owned(),
             unfinished: Unfinished::open(path, &tallies, plan)?,
             tallies,
             provenance: Log::of(path),
+            plan_hash: ours.plan_hash,
             _lock: lock,
         })
     }
@@ -166,7 +184,21 @@ impl RunDirectory {
         if !rejected.is_empty() {
             self.tallies.put_in_order(&rejected, &[])?;
         }
-        Ok(Finished::new(finished))
+        let earlier = Earlier::read(&self.path, plan, &self.plan_hash)?;
+        Ok(Finished::new(finished).with_earlier(earlier))
+    }
+
+    /// Stores chunks of which a run that this one extends had all tosses.
+    pub(super) fn take_over(&self, chunks: &[(Chunk, Packed)]) -> Result<(), RunError> {
+        /// Tallies stored at once.
+        const BATCH: usize = 4096;
+        for batch in chunks.chunks(BATCH) {
+            let results = batch.iter().map(|(_, packed)| ChunkResult::from(packed));
+            let results: Vec<_> = results.collect();
+            let chunks = batch.iter().map(|(chunk, _)| chunk);
+            self.tallies.store(chunks.zip(&results))?;
+        }
+        Ok(())
     }
 
     /// Brings the tallies of a finished run, or part, into order, and sets aside those, given by point and
@@ -184,7 +216,8 @@ impl RunDirectory {
             ));
         }
         self.tallies.put_in_order(&[], unneeded)?;
-        self.unfinished.clear()
+        self.unfinished.clear()?;
+        extend::forget(&self.path)
     }
 
     /// Writes the results of a finished run.
@@ -195,6 +228,9 @@ impl RunDirectory {
     ) -> Result<(), RunError> {
         replace::remove(&self.path.join(PARTIAL))?;
         self.write_tables(results, sink)?;
+        for (_, kept) in extend::KEPT {
+            replace::remove(&self.path.join(kept))?;
+        }
         replace::sync_directory(&self.path)
     }
 
@@ -241,6 +277,35 @@ impl RunDirectory {
             ));
         }
         Ok(())
+    }
+}
+
+/// Makes a directory that holds a run of which the plan asks for more a run of this plan; leaves any other alone.
+fn extend(
+    path: &Path,
+    plan: &Plan,
+    ours: &Manifest,
+    sink: &dyn ProgressSink,
+) -> Result<(), RunError> {
+    let find = || {
+        let theirs = Manifest::read(path).ok().flatten();
+        let other = theirs.filter(|theirs| {
+            theirs.plan_hash != ours.plan_hash && theirs.program_version == ours.program_version
+        });
+        let Some(theirs) = other else {
+            return Ok(None);
+        };
+        let step = Step::find(path, plan, &theirs, ours)?;
+        Ok(step.map(|step| (step, theirs)))
+    };
+    // check before anything is touched, and again under the lock
+    if find()?.is_none() {
+        return Ok(());
+    }
+    let _lock = lock(path)?;
+    match find()? {
+        Some((step, theirs)) => step.take(path, &theirs, ours, sink),
+        None => Ok(()),
     }
 }
 
@@ -336,7 +401,13 @@ fn lock(dir: &Path) -> Result<File, RunError> {
     }
 }
 
-fn write_config(dir: &Path, plan: &Plan, sink: &dyn ProgressSink) -> Result<(), RunError> {
+/// `extends`: another config may be there, of the run that this one extends.
+fn write_config(
+    dir: &Path,
+    plan: &Plan,
+    extends: bool,
+    sink: &dyn ProgressSink,
+) -> Result<(), RunError> {
     let path = dir.join(CONFIG);
     let ours = plan.resolved_toml.as_bytes();
     if replace::is_file(&path) {
@@ -348,10 +419,12 @@ fn write_config(dir: &Path, plan: &Plan, sink: &dyn ProgressSink) -> Result<(), 
         {
             return Ok(());
         }
-        let path = path.display();
-        sink.warning(&format!(
-            "{path} did not match the config of this run and was replaced"
-        ));
+        if !extends {
+            let path = path.display();
+            sink.warning(&format!(
+                "{path} did not match the config of this run and was replaced"
+            ));
+        }
     }
     replace::replace(&path, ours)
 }

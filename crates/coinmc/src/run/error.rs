@@ -43,11 +43,11 @@ pub enum RunError {
         /// What was found in it.
         found: String,
     },
-    /// The directory holds a run of another plan.
+    /// The directory holds a run of another plan, and this one does not go on where it ended.
     #[error(
-        "{} holds the run of another plan ({theirs}; this one is {ours}). Choose another \
-         directory, or run the config.toml found there",
-        dir.display()
+        "{} holds the run of another plan ({}). Choose another directory, or run the config.toml found there",
+        dir.display(),
+        why.clone().unwrap_or_else(|| format!("{theirs}; this one is {ours}"))
     )]
     OtherPlan {
         /// The directory.
@@ -56,6 +56,8 @@ pub enum RunError {
         theirs: String,
         /// Hash of the plan to be run.
         ours: String,
+        /// What differs, where the other config can be read.
+        why: Option<String>,
     },
     /// The directory was begun by another version of the program, which may toss differently.
     #[error(

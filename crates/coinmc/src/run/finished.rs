@@ -2,6 +2,7 @@
 
 use super::Chunk;
 use super::chunk_result::{ChunkResult, Tossed};
+use super::earlier::Earlier;
 use super::packed::Packed;
 use super::unfinished::Beginnings;
 
@@ -9,6 +10,10 @@ use super::unfinished::Beginnings;
 #[derive(Debug, Default)]
 pub(super) struct Finished {
     begun: Beginnings,
+    /// What a run counted that this one extends.
+    earlier: Earlier,
+    /// Whether chunks may begin with tosses that are counted.
+    with_beginnings: bool,
     /// In order of point and first toss.
     entries: Vec<Entry>,
     /// Those that were not taken, and their tosses.
@@ -39,6 +44,8 @@ impl Finished {
         let tosses = results.map(|packed| ChunkResult::from(packed).tosses());
         Self {
             begun: Beginnings::new(),
+            earlier: Earlier::default(),
+            with_beginnings: false,
             tosses: tosses.fold(0, u64::saturating_add),
             left: entries.len() as u64,
             entries,
@@ -47,14 +54,36 @@ impl Finished {
 
     /// The same, and what is counted of chunks that are not finished.
     pub(super) fn with_beginnings(self, begun: Beginnings) -> Self {
-        Self { begun, ..self }
+        Self {
+            begun,
+            with_beginnings: true,
+            ..self
+        }
+    }
+
+    /// The same, and what a run counted that this one extends.
+    pub(super) fn with_earlier(self, earlier: Earlier) -> Self {
+        Self { earlier, ..self }
+    }
+
+    /// The counts of a chunk of which the run that this one extends has all tosses.
+    pub(super) fn take_over(&self, chunk: &Chunk) -> Option<Tossed> {
+        let tossed = self.earlier.beginning(chunk)?;
+        (tossed.tally.tosses() == chunk.tosses.end - chunk.tosses.start).then_some(tossed)
     }
 
     /// Takes what is counted of a chunk that is not finished.
     pub(super) fn take_beginning(&mut self, chunk: &Chunk) -> Option<Tossed> {
-        let (begun, tossed) = self.begun.remove(&(chunk.point, chunk.tosses.start))?;
+        if !self.with_beginnings {
+            return None;
+        }
+        let begun = self.begun.remove(&(chunk.point, chunk.tosses.start));
+        let begun = begun.map(|(_, tossed)| tossed);
+        let all = begun.into_iter().chain(self.earlier.beginning(chunk));
+        let longest = all.max_by_key(|tossed| tossed.tally.tosses())?;
         // a forged one may be longer
-        (begun.tosses.end < chunk.tosses.end).then_some(tossed)
+        let tosses = chunk.tosses.end - chunk.tosses.start;
+        (longest.tally.tosses() < tosses).then_some(longest)
     }
 
     /// Chunks that were not taken.

@@ -4,7 +4,7 @@ use super::directory::RunDirectory;
 use super::options::{Options, one_per_core};
 use super::provenance::Maker;
 use super::report::{Report, Status, report, status};
-use super::schedule::Schedule;
+use super::schedule::{Next, Schedule};
 use super::{Part, ProgressSink, RunError, workers};
 use crate::plan::{Plan, Stop};
 use std::sync::Arc;
@@ -52,10 +52,12 @@ pub(super) fn conclude(
     let status = status(part, &schedule);
     match status {
         Status::Complete | Status::ShortOfTarget { .. } => {
+            directory.take_over(&schedule.take_taken_over())?;
             directory.put_in_order(&schedule.take_unneeded(), sink)?;
         }
         Status::Part => directory.put_in_order(&[], sink)?,
-        Status::Interrupted => {}
+        // what is stored of later points, too
+        Status::Interrupted => while let Next::Chunk(_) = schedule.next() {},
     }
     sink.progress(&schedule.progress());
     let report = report(plan, status, schedule);

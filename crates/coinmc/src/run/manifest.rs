@@ -110,7 +110,13 @@ impl Manifest {
         let dir = dir.to_owned();
         if self.plan_hash != ours.plan_hash {
             let (theirs, ours) = (self.plan_hash.clone(), ours.plan_hash.clone());
-            return Err(RunError::OtherPlan { dir, theirs, ours });
+            let why = None;
+            return Err(RunError::OtherPlan {
+                dir,
+                theirs,
+                ours,
+                why,
+            });
         }
         if self.program_version != ours.program_version {
             let (theirs, ours) = (self.program_version.clone(), ours.program_version.clone());

@@ -29,6 +29,11 @@ pub trait ProgressSink: Sync {
 
     /// Called when something was wrong and has been dealt with; the text says how.
     fn warning(&self, message: &str);
+
+    /// Called with a remark on what is done; nothing is wrong.
+    fn note(&self, message: &str) {
+        let _ = message;
+    }
 }
 
 impl ProgressSink for () {

@@ -120,6 +120,11 @@ pub(super) fn remove(path: &Path) -> Result<(), RunError> {
     }
 }
 
+/// Gives a file another name, in place of one that has it.
+pub(super) fn rename(from: &Path, to: &Path) -> Result<(), RunError> {
+    fs::rename(from, to).map_err(|error| RunError::io("rename", from, error))
+}
+
 /// Removes the temporary file that a killed run may have left for `place`.
 pub(super) fn remove_leftover(place: &Path) -> Result<(), RunError> {
     remove(&temporary(place))

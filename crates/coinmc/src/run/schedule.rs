@@ -3,7 +3,7 @@
 use super::chunk_result::{ChunkResult, Tossed, whole};
 use super::cut::Cut;
 use super::finished::Finished;
-use super::packed::Counted;
+use super::packed::{Counted, Packed};
 use super::point_state::PointState;
 use super::shares::{Left, Need, Shares, shares};
 use super::states::States;
@@ -40,6 +40,8 @@ pub(super) struct Schedule {
     microseconds: u64,
     /// Points that are tossed.
     tossed: u64,
+    /// Chunks of which a run that this one extends had all tosses.
+    taken_over: Vec<(Chunk, Packed)>,
 }
 
 struct Stage {
@@ -119,6 +121,7 @@ impl Schedule {
             made: 0,
             microseconds: 0,
             tossed,
+            taken_over: Vec::new(),
         }
     }
 
@@ -268,7 +271,7 @@ impl Schedule {
     /// Counts a chunk that an earlier run finished, if it did, and with as many tosses.
     fn take_finished(&mut self, chunk: &Chunk) -> bool {
         let Some(result) = self.finished.take(chunk.point, chunk.tosses.start) else {
-            return false;
+            return self.take_over(chunk);
         };
         let is_whole = match &result {
             ChunkResult::Integrated(_) => true,
@@ -281,6 +284,29 @@ impl Schedule {
         }
         self.update_worst(chunk.point);
         true
+    }
+
+    /// Counts a chunk of which the run that this one extends has all tosses, if it has.
+    fn take_over(&mut self, chunk: &Chunk) -> bool {
+        let Some(tossed) = self.finished.take_over(chunk) else {
+            return false;
+        };
+        let result = ChunkResult::Tossed(tossed);
+        if !self.count(chunk.point, &result) {
+            // only forged counts overflow: repeat the chunk
+            return false;
+        }
+        self.taken_over.push((chunk.clone(), Packed::from(&result)));
+        self.progress.tosses_done += result.tosses();
+        self.progress.tosses_reused += result.tosses();
+        self.progress.reused_chunks += 1;
+        self.update_worst(chunk.point);
+        true
+    }
+
+    /// The chunks of which the run that this one extends had all tosses.
+    pub(super) fn take_taken_over(&mut self) -> Vec<(Chunk, Packed)> {
+        std::mem::take(&mut self.taken_over)
     }
 
     /// Counts what an earlier run has counted of a chunk.

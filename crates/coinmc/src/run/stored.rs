@@ -2,6 +2,7 @@
 
 use super::cut::Cut;
 use super::directory::CONFIG;
+use super::earlier::Earlier;
 use super::finished::Finished;
 use super::manifest::{self, Manifest};
 use super::packed::Packed;
@@ -51,7 +52,10 @@ pub fn stored_report(dir: &Path, sink: &dyn ProgressSink) -> Result<(Plan, Repor
         Ok(())
     })?;
     let begun = unfinished::read(dir, &tallies, &plan)?;
-    let finished = Finished::new(finished).with_beginnings(begun);
+    let earlier = Earlier::read(dir, &plan, &plan.hash())?;
+    let finished = Finished::new(finished)
+        .with_beginnings(begun)
+        .with_earlier(earlier);
     let mut schedule = Schedule::new(&plan, Part::WHOLE, finished);
     // missing chunks stay handed out
     while let Next::Chunk(_) = schedule.next() {}

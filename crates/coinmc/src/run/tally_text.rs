@@ -41,6 +41,16 @@ pub(super) fn encode(chunk: &Chunk, tossed: &Tossed, plan_hash: &str) -> String 
     seal(text)
 }
 
+/// The range of tosses that the text says it counts, if it says so.
+pub(super) fn chunk(bytes: &[u8]) -> Option<Chunk> {
+    let text = std::str::from_utf8(bytes).ok()?;
+    let mut lines = text.lines().skip(2);
+    let point = lines.next()?.strip_prefix("point ")?.parse().ok()?;
+    let start = lines.next()?.strip_prefix("tosses ")?.split_once(' ')?.0;
+    let tosses = start.parse().ok()?..end(bytes)?;
+    Some(Chunk { point, tosses })
+}
+
 /// The number that the text gives for the toss after its last, if it gives one.
 pub(super) fn end(bytes: &[u8]) -> Option<u64> {
     let text = std::str::from_utf8(bytes).ok()?;

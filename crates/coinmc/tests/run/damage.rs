@@ -223,7 +223,7 @@ fn foreign_directories_are_rejected_and_untouched() {
     let report = run_with(&plan(FIXED), &run, Part::WHOLE, 2, &ear).unwrap();
     assert_eq!(report.status, Status::Interrupted);
     assert!(matches!(
-        refused(&run, "tosses = 40_001", "1/1"),
+        refused(&run, "tosses = 39_999", "1/1"),
         RunError::OtherPlan { .. }
     ));
     assert!(matches!(

@@ -2,6 +2,7 @@
 
 mod damage;
 mod edge;
+mod extend;
 mod full_disk;
 mod in_memory;
 mod integrated;

@@ -71,9 +71,10 @@ pub fn provenance(dir: &Path, plan: &Plan) -> Result<Provenance, RunError> {
     let mut unrecorded_chunks = 0;
     Tallies::of(dir, plan.hash()).scan(plan, &Cut::new(plan), |entry| {
         if let tallies::Entry::Finished(chunk, _) = entry {
-            match records.find(chunk.point, chunk.tosses.start) {
-                Some((entry, maker)) => sums[maker].add(entry),
-                None => unrecorded_chunks += 1,
+            let mut of_chunk = records.of(&chunk).peekable();
+            unrecorded_chunks += u64::from(of_chunk.peek().is_none());
+            for (entry, maker) in of_chunk {
+                sums[maker].add(entry);
             }
         }
         Ok(())

@@ -2,8 +2,8 @@
 
 use super::maker::Maker;
 use super::record::{self, Entry, FILE, FORMAT, Introduction, Line, MAX_LINE, Made};
-use crate::run::RunError;
 use crate::run::replace::open_file;
+use crate::run::{Chunk, RunError};
 use std::collections::HashMap;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
@@ -73,6 +73,17 @@ impl Records {
 
     pub(crate) fn makers(&self) -> &[Maker] {
         &self.makers
+    }
+
+    /// How a chunk was made: at once, or piece by piece by a run that another extends.
+    pub(crate) fn of(&self, chunk: &Chunk) -> impl Iterator<Item = (&Entry, usize)> {
+        let (point, end) = (chunk.point, chunk.tosses.end);
+        let first = self.find(point, chunk.tosses.start);
+        std::iter::successors(first, move |(entry, _)| {
+            let next = entry.end();
+            let goes_on = next < end && entry.tosses() > 0;
+            goes_on.then(|| self.find(point, next)).flatten()
+        })
     }
 
     /// How the chunk of a point that begins at toss `start` was made, and the index of its maker.

@@ -55,6 +55,11 @@ impl Entry {
         (self.0, self.1)
     }
 
+    /// The toss after the last.
+    pub(super) fn end(&self) -> u64 {
+        self.2
+    }
+
     pub(super) fn tosses(&self) -> u64 {
         self.2.saturating_sub(self.1)
     }
