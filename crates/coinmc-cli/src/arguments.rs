@@ -3,8 +3,8 @@
 #[cfg(feature = "robot")]
 use crate::commands::Robot;
 use crate::commands::{
-    AimAt, Analytic, Ask, Check, Compare, Completions, DesignArgs, Fair, Merge, Rare, ReportOf,
-    Run, Schema, SensitivityOf, Show, Status, Trace, Validate,
+    AimAt, Analytic, Ask, Check, Compare, Completions, Converge, DesignArgs, Fair, Merge, Rare,
+    ReportOf, Run, Schema, SensitivityOf, Show, Status, Trace, Validate,
 };
 #[cfg(feature = "film")]
 use crate::commands::{Calibrate, Film};
@@ -61,6 +61,7 @@ enum Command {
     Fair(Box<Fair>),
     Design(Box<DesignArgs>),
     Sensitivity(SensitivityOf),
+    Converge(Converge),
     Aim(AimAt),
     Rare(Rare),
     #[cfg(feature = "film")]
@@ -102,6 +103,7 @@ impl Command {
             Self::Fair(fair) => fair.format(),
             Self::Design(design) => design.format(),
             Self::Sensitivity(sensitivity) => sensitivity.format(),
+            Self::Converge(converge) => converge.format(),
             Self::Aim(aim) => aim.format(),
             Self::Rare(rare) => rare.format(),
             #[cfg(feature = "film")]
@@ -130,6 +132,7 @@ impl Command {
             Self::Fair(fair) => fair.execute(console),
             Self::Design(design) => design.execute(console),
             Self::Sensitivity(sensitivity) => sensitivity.execute(console),
+            Self::Converge(converge) => converge.execute(console),
             Self::Aim(aim) => aim.execute(console),
             Self::Rare(rare) => rare.execute(console),
             #[cfg(feature = "film")]

@@ -9,6 +9,7 @@
 //! ```
 //! * [`fair()`] finds the values of a parameter at which a face has a given probability.
 //! * [`compare()`] compares counts of real tosses with the points of a run.
+//! * [`converge()`] tells how far numerical settings move the probabilities.
 //! * [`aim()`] finds the launches that force a face.
 //! * [`design()`] makes a fair coin to print.
 //! * [`scenes`] are everyday scenes, with where each of their numbers comes from.
@@ -21,6 +22,7 @@
 mod aim;
 pub mod assumptions;
 mod compare;
+mod converge;
 mod design;
 mod document;
 mod drawing;
@@ -46,6 +48,7 @@ pub use aim::{
 pub use compare::{
     Compared, Comparison, MOST_COUNTED, MOST_MODELS, Model, compare, document_of_comparison,
 };
+pub use converge::{Converged, Convergence, Tightened, converge, document_of_convergence};
 pub use design::{
     Design, DesignError, DesignFile, Designed, PrintedCoin, TEST, THICKNESS_ERRORS_M, design,
     document_of_design,

@@ -75,6 +75,19 @@ impl Changes {
         self.tosses() - same
     }
 
+    /// Tosses that show a face at the second point only, and at the first only.
+    pub(crate) fn of(&self, face: Face) -> (u64, u64) {
+        let is = |shown| shown == face as usize;
+        let gained = self.with(|first| !is(first), is);
+        (gained, self.with(is, |second| !is(second)))
+    }
+
+    /// Tosses with this end at the first and at the second point.
+    pub(crate) fn ended(&self, end: usize) -> [u64; 2] {
+        let first = self.with(|first| first == end, |_| true);
+        [first, self.with(|_| true, |second| second == end)]
+    }
+
     /// The tosses at the first point.
     pub(crate) fn seen(&self, face: Face) -> Seen {
         Seen {
@@ -92,9 +105,8 @@ impl Changes {
     /// How far the probability of a face is higher at the second point, and the standard error of that, by
     /// the variance of paired proportions (McNemar, Psychometrika 12 (1947) 153).
     pub(crate) fn difference(&self, face: Face) -> (f64, f64) {
-        let is = |shown| shown == face as usize;
-        let gained = self.with(|first| !is(first), is) as f64;
-        let lost = self.with(is, |second| !is(second)) as f64;
+        let (gained, lost) = self.of(face);
+        let [gained, lost] = [gained, lost].map(|tosses| tosses as f64);
         let n = self.tosses() as f64;
         let change = (gained - lost) / n;
         // one more change of either kind, so that no change seen does not mean no error
@@ -132,6 +144,23 @@ impl Workers<'_> {
         Ok(tables.into_iter().map(Changes).collect())
     }
 
+    /// Tosses pairs of points with the random numbers that the first has in a run of its plan.
+    pub(crate) fn compare_runs(
+        &self,
+        pairs: &[[At<'_>; 2]],
+        tosses: Range<u64>,
+    ) -> Result<Vec<Changes>, QuestionError> {
+        let ranges = vec![tosses; pairs.len()];
+        let tables = self.each_piece(&ranges, &|index, tosses| {
+            let [first, second] = pairs[index];
+            let stream = stream(first.plan, first.point);
+            let before = self.ends_drawn(first, &stream, tosses.clone())?;
+            let after = self.ends_drawn(second, &stream, tosses)?;
+            Ok(table(&before, &after))
+        })?;
+        Ok(tables.into_iter().map(Changes).collect())
+    }
+
     /// Tosses one point and others with the same random numbers.
     pub(crate) fn compare_with(
         &self,
@@ -158,10 +187,24 @@ impl Workers<'_> {
 
     /// The end of each toss.
     fn ends_of(&self, at: At<'_>, tosses: Range<u64>) -> Result<Vec<usize>, QuestionError> {
+        // all points share their random numbers, as with `paired = true`
+        self.ends_drawn(at, &stream(at.plan, 0), tosses)
+    }
+
+    /// The same of tosses with these random numbers.
+    fn ends_drawn(
+        &self,
+        at: At<'_>,
+        stream: &Stream,
+        tosses: Range<u64>,
+    ) -> Result<Vec<usize>, QuestionError> {
         let start = tosses.start;
         let place = |toss: u64| usize::try_from(toss - start).expect("a piece is small");
         let mut ends = vec![UNDECIDED; place(tosses.end)];
-        self.ends(at, tosses, &mut |toss, end| ends[place(toss)] = end)?;
+        let point = &at.plan.points[at.point];
+        self.outcomes(point, stream, tosses, &mut |toss, outcome| {
+            ends[place(toss)] = end_of(outcome);
+        })?;
         Ok(ends)
     }
 
@@ -172,12 +215,7 @@ impl Workers<'_> {
         at: At<'_>,
         tosses: Range<u64>,
     ) -> Result<[u64; PAIRS], QuestionError> {
-        let mut table = [0; PAIRS];
-        let after = self.ends_of(at, tosses)?;
-        for (before, after) in before.iter().zip(after) {
-            table[ENDS * before + after] += 1;
-        }
-        Ok(table)
+        Ok(table(before, &self.ends_of(at, tosses)?))
     }
 
     /// Calls `visit` with the number and the end of each toss.
@@ -286,6 +324,15 @@ impl Workers<'_> {
         done.sort_by_key(|(piece, _)| *piece);
         Ok(done.into_iter().map(|(_, result)| result).collect())
     }
+}
+
+/// Tosses by their end at one point and their end at another.
+fn table(before: &[usize], after: &[usize]) -> [u64; PAIRS] {
+    let mut table = [0; PAIRS];
+    for (before, after) in before.iter().zip(after) {
+        table[ENDS * before + after] += 1;
+    }
+    table
 }
 
 fn add<const N: usize>(sum: &mut [u64; N], counts: &[u64; N]) {

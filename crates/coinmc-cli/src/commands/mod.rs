@@ -8,6 +8,7 @@ mod calibrate;
 mod check;
 mod compare;
 mod completions;
+mod converge;
 mod design;
 mod fair;
 #[cfg(feature = "film")]
@@ -35,6 +36,7 @@ pub(crate) use calibrate::Calibrate;
 pub(crate) use check::Check;
 pub(crate) use compare::Compare;
 pub(crate) use completions::Completions;
+pub(crate) use converge::Converge;
 pub(crate) use design::DesignArgs;
 pub(crate) use fair::Fair;
 #[cfg(feature = "film")]

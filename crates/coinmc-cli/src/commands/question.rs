@@ -63,7 +63,7 @@ impl SceneArgs {
 pub(super) struct AnswerArgs {
     /// Number of threads [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
+    pub(super) threads: Option<u16>,
 
     /// How to write the result
     #[arg(long, value_enum, default_value_t = Format::Table)]
