@@ -52,6 +52,8 @@ class Stop(NamedTuple):
         Tosses of all points at which the run stops short of its targets.
     max_core_seconds, total_core_seconds : float or None
         The same for the computing time of a point and of all, in seconds of one core.
+    face : str or None
+        The face that the targets are of; None for each.
     """
 
     tosses: int
@@ -61,6 +63,7 @@ class Stop(NamedTuple):
     total_tosses: int | None = None
     max_core_seconds: float | None = None
     total_core_seconds: float | None = None
+    face: str | None = None
 
     @property
     def has_targets(self) -> bool:
@@ -251,13 +254,14 @@ class Config:
             return "none: points are integrated" if tosses else "none: closed forms are exact"
         stop = self.stop
         wanted = []
+        interval = f"the interval of P({stop.face})" if stop.face else "every interval"
         if stop.half_width is not None:
-            wanted.append(f"every interval is within ±{stop.half_width}")
+            wanted.append(f"{interval} is within ±{stop.half_width}")
         if stop.relative_error is not None:
             share = f"{100 * stop.relative_error:g} %"
-            wanted.append(f"every interval is within ±{share} of its probability")
+            wanted.append(f"{interval} is within ±{share} of its probability")
         if stop.events is not None:
-            wanted.append(f"every face was seen {stop.events:,} times")
+            wanted.append(f"{stop.face or 'every face'} was seen {stop.events:,} times")
         if not wanted:
             return f"{stop.tosses:,} a point, {self.tosses_planned:,} in all"
         return f"until {' and '.join(wanted)}: {self.tosses_planned:,} at most"

@@ -3,6 +3,7 @@
 use crate::errors;
 use coinmc::config::{self, Override};
 use coinmc::plan::{Plan as Planned, Point, Stop, Targets};
+use coinmc_core::Face;
 use pyo3::exceptions::{PyIndexError, PyTypeError};
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -110,6 +111,12 @@ impl Plan {
     #[getter]
     fn total_core_seconds(&self) -> Option<f64> {
         self.targets()?.total_core_seconds
+    }
+
+    /// The face that the targets are of.
+    #[getter]
+    fn face(&self) -> Option<&'static str> {
+        self.targets()?.face.map(Face::name)
     }
 
     /// Largest number of tosses of a point.

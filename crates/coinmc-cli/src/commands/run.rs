@@ -8,7 +8,7 @@ use crate::output::{self, Console, FORMAT_VERSION, Format, ResultFormat};
 use crate::terminal::plot::Plotted;
 use crate::terminal::progress::{Progress, with_prefix};
 use crate::terminal::summary::{FAIR, markdown, summary};
-use crate::terminal::{count, duration, grouped};
+use crate::terminal::{compact, count, duration, grouped};
 use crate::time_limit::{self, TimeLimit};
 use anyhow::Context;
 use clap::Args;
@@ -318,6 +318,22 @@ fn short_of_target(rows: &OnDemand<Row>) -> String {
                 count(of(by), "point"),
             ));
         }
+    }
+    let hopeless = of(StoppedBy::Undecided);
+    if hopeless > 0 {
+        let undecided = |row: &Row| {
+            let tally = &row.tally;
+            tally.undecided() as f64 / tally.tosses().max(1) as f64
+        };
+        let rows = rows.each();
+        let rows = rows.filter(|row| row.stopped_by == StoppedBy::Undecided);
+        let most = rows.map(|row| undecided(&row)).fold(0.0, f64::max);
+        lines.push(format!(
+            "coinmc: {} stopped, as no number of tosses meets the targets: up to {} % of the tosses end without a \
+             face, which alone is too much. Let the engine go on longer (see [engine]), or ask for less",
+            count(hopeless, "point"),
+            compact(libm::round(1e4 * most) / 100.0),
+        ));
     }
     let capped = of(StoppedBy::Evaluations);
     if capped > 0 {

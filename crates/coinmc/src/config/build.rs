@@ -13,7 +13,7 @@ use crate::OnDemand;
 use crate::engines::EngineKind;
 use crate::on_demand::WHOLE;
 use crate::plan::{EngineChoice, Point, Points, Sampling, Stop, Targets, Way};
-use coinmc_core::{Coin, IntervalMethod, LaunchDistribution, Preset, Scene, Surface};
+use coinmc_core::{Coin, Face, IntervalMethod, LaunchDistribution, Preset, Scene, Surface};
 use std::collections::HashSet;
 use std::sync::Arc;
 
@@ -202,6 +202,10 @@ pub(super) fn stop(root: &Checked) -> Option<Stop> {
         half_width: real(checked, "half_width"),
         relative_error: real(checked, "relative_error"),
         events: integer(checked, "events"),
+        face: checked
+            .get("face")
+            .and_then(Checked::word)
+            .and_then(Face::named),
         max_tosses: integer(checked, "max_tosses")?,
         total_tosses: integer(checked, "total_tosses"),
         max_core_seconds: real(checked, "max_core_seconds"),

@@ -201,6 +201,7 @@ fn asks_for_more(old: &Stop, new: &Stop) -> bool {
                 && old
                     .events
                     .is_none_or(|old| new.events.is_some_and(|new| new >= old))
+                && new.face.is_none_or(|face| old.face == Some(face))
                 && allow_more(old, new)
         }
         _ => false,

@@ -5,16 +5,16 @@
 //! probability α over all looks, and pays for it: with a dozen looks at doubling counts 3.2 times the
 //! tosses of a design that knew the probabilities. A *pilot* learns them instead:
 //!
-//! 1. The pilot's tosses only say how many tosses the targets need. It doubles until it has a thirty-second
-//!    of these, or, where a face is rare, an eighth.
+//! 1. The pilot's tosses only say how many tosses the targets need. It doubles as long as the margin of the next
+//!    step shrinks by more tosses than that costs: so it has some hundredths of them, or, where a face is rare, a tenth.
 //! 2. So many tosses follow, with a margin of 2.5 standard errors of the pilot. Only these are counted.
 //!    Given the pilot their number is fixed, so that their interval is as valid as that of any fixed number
 //!    of tosses; the pilot's own tosses had to go, as chance in them decides that number.
-//! 3. Chance seldom leaves the targets unmet. Then the point is looked at again at twice, four times … as
-//!    many counted tosses. The first look has the share .9 of α, the others .05, .025, …, and the last, at
+//! 3. Chance seldom leaves the targets unmet. Then the point is looked at again at three times, nine times … as
+//!    many counted tosses. The first look has the share .97 of α, the others .015, .0075, …, and the last, at
 //!    the limit of tosses, all that is left: in all no more than α (Bonferroni).
 //!
-//! For P = .3 and a half width of .001 that takes 1.1 times the tosses of the fixed design
+//! For P = .3 and a half width of .001 that takes 1.05 times the tosses of the fixed design
 //! (`benches/python/stopping.py`).
 //!
 //! The two stages are Stein's (Ann. Math. Stat. 16 (1945) 243), for proportions, without his use of the
@@ -22,16 +22,19 @@
 
 use super::{MAX_TOSSES, Targets};
 use coinmc_core::{Estimate, Face, IntervalMethod, Tally};
+use std::f64::consts::FRAC_1_SQRT_2;
 use std::ops::Range;
 
 /// Tosses of the pilot's first stage.
-pub(crate) const PILOT: u64 = 1 << 10;
+pub(crate) const PILOT: u64 = 1 << 7;
 /// Least limit of tosses with which a pilot pays.
-const LEAST_WITH_PILOT: u64 = 4 * PILOT;
+const LEAST_WITH_PILOT: u64 = 1 << 12;
 /// Share of α of the first look.
-const FIRST_SHARE: f64 = 0.9;
+const FIRST_SHARE: f64 = 0.97;
 /// Standard errors of the pilot by which the first look is later than the pilot says.
 const MARGIN: f64 = 2.5;
+/// Standard errors of the pilot by which undecided tosses must be too many, before a point is given up.
+const SURE: f64 = 4.0;
 /// More tosses than any point may make.
 const MOST: f64 = MAX_TOSSES as f64;
 /// Counted tosses are a multiple of this, but for those at the limit.
@@ -51,13 +54,13 @@ const MULTIPLE: u64 = 256;
 /// ).unwrap();
 /// let Stop::Targets(targets) = plan.stop else { unreachable!() };
 /// let mut looks = Looks::new(targets, plan.confidence);
-/// assert_eq!((looks.stage(), looks.is_pilot()), (0..1024, true));
+/// assert_eq!((looks.stage(), looks.is_pilot()), (0..128, true));
 /// // whatever the pilot shows, its tosses do not count
 /// let shown = |tosses| Tally { heads: tosses / 2, tails: tosses - tosses / 2, ..Tally::default() };
-/// assert_eq!(looks.look(&shown(1024)), Verdict::More);
-/// assert_eq!(looks.stage(), 1024..11_520);
+/// assert_eq!(looks.look(&shown(128)), Verdict::More);
+/// assert_eq!(looks.stage(), 128..10_112);
 /// assert_eq!(looks.look(&shown(looks.counted())), Verdict::Met);
-/// # assert_eq!(looks.counted(), 10_496);
+/// # assert_eq!(looks.counted(), 9984);
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Looks {
@@ -76,6 +79,8 @@ pub struct Looks {
     stage: Range<u64>,
     /// Tosses that the stage would have without a limit.
     wanted: f64,
+    /// Tosses without a face alone are more than the targets allow, as the pilot shows.
+    hopeless: bool,
 }
 
 /// What a look shows.
@@ -113,6 +118,7 @@ impl Looks {
             looked: 0,
             stage: 0..if with_pilot { PILOT } else { limit },
             wanted: f64::INFINITY,
+            hopeless: false,
         }
     }
 
@@ -140,6 +146,11 @@ impl Looks {
     /// far as the pilot can tell.
     pub(crate) fn wanted(&self) -> f64 {
         self.wanted
+    }
+
+    /// Whether the pilot shows that no number of tosses meets the targets, as too many of them end without a face.
+    pub fn is_hopeless(&self) -> bool {
+        self.hopeless
     }
 
     /// Confidence of the intervals at the end of the present stage, so that all looks together have that
@@ -176,9 +187,10 @@ impl Looks {
             return Verdict::Short;
         }
         self.looked += 1;
-        let counted = self.stage.end - pilot;
-        self.wanted = counted as f64;
-        self.stage = self.stage.end..self.limit.min(self.stage.end.saturating_add(counted));
+        // looked at twice as late, the smaller share of α would hardly be met
+        let more = 2 * (self.stage.end - pilot);
+        self.wanted = more as f64;
+        self.stage = self.stage.end..self.limit.min(self.stage.end.saturating_add(more));
         Verdict::More
     }
 
@@ -200,7 +212,12 @@ impl Looks {
     pub fn forecast(&self, tally: &Tally) -> u64 {
         assert!(tally.tosses() > 0);
         let confidence = 1.0 - FIRST_SHARE * self.alpha;
-        let needed = self.needed(tally, 0.0, confidence);
+        let undecided = if self.lets_hope(tally, confidence) {
+            share_undecided(tally)
+        } else {
+            0.0
+        };
+        let needed = self.needed(tally, undecided, 0.0, confidence);
         let needed = ceil(needed).min(self.limit);
         let pilot = (needed / 32).clamp(PILOT, 1 << 62).next_power_of_two();
         let pilot = if self.limit < LEAST_WITH_PILOT {
@@ -221,13 +238,25 @@ impl Looks {
         let made = self.stage.end;
         // as the first look would have it
         let confidence = 1.0 - FIRST_SHARE * self.alpha;
-        let needed = self.needed(tally, 0.0, confidence);
-        let needed_at_most = self.needed(tally, MARGIN, confidence).min(3.0 * needed);
+        // without hope as many tosses as if all had a face: more would not make the intervals much shorter
+        let hopeless = !self.lets_hope(tally, confidence);
+        let undecided = if hopeless {
+            0.0
+        } else {
+            share_undecided(tally)
+        };
+        let needed = self.needed(tally, undecided, 0.0, confidence);
+        let needed_at_most = self.needed(tally, undecided, MARGIN, confidence);
+        let needed_at_most = needed_at_most.min(3.0 * needed);
         let most = self.limit_of_pilot as f64;
-        let is_short = made as f64 * 32.0 < needed.min(most);
-        let is_vague = needed_at_most > 1.1 * needed && made as f64 * 8.0 < needed && needed < most;
+        // the margin shrinks like 1/√n
+        let is_worth = if needed < most {
+            (needed_at_most - needed) * (1.0 - FRAC_1_SQRT_2) > made as f64
+        } else {
+            made as f64 * 32.0 < most
+        };
         let has_room = made <= self.limit_of_pilot / 8;
-        if (is_short || is_vague) && has_room {
+        if is_worth && has_room {
             self.stage = made..2 * made;
             return;
         }
@@ -236,20 +265,35 @@ impl Looks {
         let counted = ceil(needed_at_most).checked_next_multiple_of(MULTIPLE);
         let end = made.saturating_add(counted.unwrap_or(u64::MAX));
         self.stage = made..end.min(self.limit);
+        if hopeless {
+            self.hopeless = true;
+            self.limit = self.stage.end;
+        }
     }
 
-    /// Tosses after which the targets are met, if the probabilities are those of the tally, or any that
-    /// `errors` standard errors allow; infinite if no number will do.
-    fn needed(&self, tally: &Tally, errors: f64, confidence: f64) -> f64 {
+    /// Whether some number of tosses meets the targets with so few undecided ones as the tally allows, or none
+    /// would without any.
+    fn lets_hope(&self, tally: &Tally, confidence: f64) -> bool {
+        let (n, share) = (tally.tosses() as f64, share_undecided(tally));
+        let least = share - SURE * (share * (1.0 - share) / n).sqrt();
+        if least <= 0.0 {
+            return true;
+        }
+        let needed = |undecided| self.needed(tally, undecided, 0.0, confidence);
+        needed(least).is_finite() || needed(0.0).is_infinite()
+    }
+
+    /// Tosses after which the targets are met, if this share of them is undecided and the probabilities are
+    /// those of the tally, or any that `errors` standard errors allow; infinite if no number will do.
+    fn needed(&self, tally: &Tally, undecided: f64, errors: f64, confidence: f64) -> f64 {
         let n = tally.tosses() as f64;
-        let undecided = tally.undecided() as f64 / n;
         let of_face = |face| {
             let k = tally.count(face) as f64;
             let arm = errors * (k * (n - k) / n).sqrt();
             let [least, most] = [k - arm, k + arm].map(|count| (count / n).clamp(0.0, 1.0));
             [least, k / n, most, 0.5_f64.clamp(least, most)]
         };
-        let ps = Face::ALL.into_iter().flat_map(of_face);
+        let ps = self.targets.faces().flat_map(of_face);
         let needed = ps.map(|p| Self::solve(p, |n| self.excess_at(p, undecided, n, confidence)));
         // what whole counts leave
         1.003 * needed.fold(0.0, f64::max)
@@ -259,6 +303,9 @@ impl Looks {
     fn solve(p: f64, excess: impl Fn(f64) -> f64) -> f64 {
         // no count is 0 where the face was seen
         let least = if p > 0.0 { 4.0 / p } else { 0.0 };
+        if excess(MOST) > 1.0 {
+            return f64::INFINITY;
+        }
         let mut n = least.clamp(MULTIPLE as f64, MOST);
         // An excess e of intervals that shrink like 1/√n asks for e n tosses, of those of a face that is
         // never seen, like 1/n, for √e n: the latter converges for both.
@@ -288,6 +335,10 @@ impl Looks {
     }
 }
 
+fn share_undecided(tally: &Tally) -> f64 {
+    tally.undecided() as f64 / tally.tosses() as f64
+}
+
 /// At least 1; saturates, and then a limit is what stops.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
 fn ceil(tosses: f64) -> u64 {
@@ -310,6 +361,7 @@ mod tests {
         half_width: None,
         relative_error: None,
         events: None,
+        face: None,
         max_tosses: 100_000_000,
         total_tosses: None,
         max_core_seconds: None,
@@ -353,7 +405,13 @@ mod tests {
 
     #[test]
     fn hardly_more_tosses_than_by_a_design_that_knew_the_probability() {
-        for (half_width, most) in [(2e-4, 1.12), (1e-3, 1.15), (5e-3, 1.3), (0.02, 2.1)] {
+        for (half_width, most) in [
+            (2e-4, 1.04),
+            (1e-3, 1.08),
+            (5e-3, 1.21),
+            (0.01, 1.35),
+            (0.02, 1.6),
+        ] {
             for (heads, side) in [(0.3, 0.4), (0.45, 0.1), (0.1, 0.8), (0.5, 0.0)] {
                 let targets = Targets {
                     half_width: Some(half_width),
@@ -418,6 +476,54 @@ mod tests {
         assert!((looks.confidence() - 0.9).abs() < 1e-15);
     }
 
+    /// 2 % without a face are more than ± .01, and not more than ± .03.
+    #[test]
+    fn too_many_undecided_tosses_end_a_point_early() {
+        let verdict = |half_width, tosses_undecided: u64| {
+            let targets = Targets {
+                half_width: Some(half_width),
+                ..NONE
+            };
+            let mut looks = Looks::new(targets, 0.95);
+            loop {
+                let shown = if looks.is_pilot() {
+                    looks.pilot()
+                } else {
+                    looks.counted()
+                };
+                let undecided = shown * tosses_undecided / 1000;
+                let tally = Tally {
+                    impact_limit: undecided,
+                    ..mean(shown - undecided, 0.3, 0.4)
+                };
+                match looks.look(&tally) {
+                    Verdict::More => {}
+                    verdict => return (verdict, looks),
+                }
+            }
+        };
+        let (given_up, looks) = verdict(0.01, 20);
+        assert_eq!(given_up, Verdict::Short);
+        // all of α, and no more tosses than without undecided ones
+        assert!(looks.is_hopeless() && looks.stage().end < 15_000 && looks.confidence() == 0.95);
+        let (met, looks) = verdict(0.03, 20);
+        assert_eq!((met, looks.is_hopeless()), (Verdict::Met, false));
+        assert_eq!(verdict(0.01, 0).0, Verdict::Met);
+    }
+
+    #[test]
+    fn targets_of_the_side_need_fewer_tosses_where_it_is_rare() {
+        let of = |face| Targets {
+            half_width: Some(0.002),
+            face,
+            ..NONE
+        };
+        let (all, _) = follow(of(None), 0.48, 0.04);
+        let (side, verdict) = follow(of(Some(Face::Side)), 0.48, 0.04);
+        assert_eq!(verdict, Verdict::Met);
+        assert!(side.stage().end * 4 < all.stage().end);
+    }
+
     #[test]
     fn all_looks_together_have_the_confidence() {
         let targets = Targets {
@@ -432,7 +538,7 @@ mod tests {
         while looks.look(&mean(looks.counted(), 0.3, 0.4)) == Verdict::More {
             sum += 1.0 - looks.confidence();
         }
-        assert!(looks.looked > 20);
+        assert!(looks.looked > 15);
         assert!((sum - 0.05).abs() < 1e-12, "{sum}");
     }
 }

@@ -38,7 +38,7 @@ pub const MAX_TOSSES: u64 = 1_000_000_000_000_000;
 const PLAN_FORMAT: u32 = 2;
 
 /// Version of the rule by which points stop at targets.
-const LOOKS_FORMAT: u32 = 2;
+const LOOKS_FORMAT: u32 = 3;
 
 /// Everything a run will do.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,6 @@
 //! When a point has enough tosses.
 
-use coinmc_core::Estimate;
+use coinmc_core::{Estimate, Face};
 
 /// When a point has enough tosses.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,6 +20,8 @@ pub struct Targets {
     pub relative_error: Option<f64>,
     /// Least number of tosses that show each face.
     pub events: Option<u64>,
+    /// The face that they are of; `None` for each.
+    pub face: Option<Face>,
     /// Tosses at which the point stops short of them.
     pub max_tosses: u64,
     /// Tosses of all points together at which the run stops short of them.
@@ -49,13 +51,15 @@ pub enum StoppedBy {
     TotalCoreSeconds,
     /// The limit of evaluations of an integral.
     Evaluations,
+    /// Tosses without a face: they alone are more than the targets allow, however many tosses are made.
+    Undecided,
     /// None yet: more tosses are to come.
     Unfinished,
 }
 
 impl StoppedBy {
     /// All of them, in the order of their numbers.
-    pub(crate) const ALL: [Self; 9] = [
+    pub(crate) const ALL: [Self; 10] = [
         Self::Tosses,
         Self::Targets,
         Self::ClosedForm,
@@ -64,6 +68,7 @@ impl StoppedBy {
         Self::MaxCoreSeconds,
         Self::TotalCoreSeconds,
         Self::Evaluations,
+        Self::Undecided,
         Self::Unfinished,
     ];
 
@@ -78,24 +83,14 @@ impl StoppedBy {
             Self::MaxCoreSeconds => "max_core_seconds",
             Self::TotalCoreSeconds => "total_core_seconds",
             Self::Evaluations => "evaluations",
+            Self::Undecided => "undecided",
             Self::Unfinished => "unfinished",
         }
     }
 
     /// The rule of this name.
     pub fn named(name: &str) -> Option<Self> {
-        let all = [
-            Self::Tosses,
-            Self::Targets,
-            Self::ClosedForm,
-            Self::MaxTosses,
-            Self::TotalTosses,
-            Self::MaxCoreSeconds,
-            Self::TotalCoreSeconds,
-            Self::Evaluations,
-            Self::Unfinished,
-        ];
-        all.into_iter().find(|rule| rule.name() == name)
+        Self::ALL.into_iter().find(|rule| rule.name() == name)
     }
 
     /// Whether the point has what was asked for.
@@ -110,9 +105,17 @@ impl Targets {
         self.max_core_seconds.is_some() || self.total_core_seconds.is_some()
     }
 
-    /// Whether the estimates of all faces meet the targets.
+    /// The faces that the targets are of.
+    pub fn faces(&self) -> impl Iterator<Item = Face> + use<> {
+        let face = self.face;
+        let wanted = move |&one: &Face| face.is_none_or(|face| face == one);
+        Face::ALL.into_iter().filter(wanted)
+    }
+
+    /// Whether the estimates of heads, tails and side meet the targets.
     pub fn are_met(&self, faces: &[Estimate; 3]) -> bool {
-        self.excess(faces) <= 1.0
+        let excess = |face| self.excess(std::slice::from_ref(&faces[face as usize]));
+        self.faces().all(|face| excess(face) <= 1.0)
     }
 
     /// By which factor there are too few tosses, as intervals shrink like 1/√n: 1 or less if the targets
@@ -149,6 +152,7 @@ mod tests {
         half_width: None,
         relative_error: None,
         events: None,
+        face: None,
         max_tosses: 100,
         total_tosses: None,
         max_core_seconds: None,
@@ -188,6 +192,33 @@ mod tests {
             ..half_width(longest)
         };
         assert!(!both.are_met(&seen));
+    }
+
+    #[test]
+    fn targets_may_be_of_one_face() {
+        let seen = faces([4500, 4500, 1000]);
+        let arm = seen[2].half_width();
+        let all = Targets {
+            half_width: Some(arm),
+            ..NONE
+        };
+        let of_side = Targets {
+            face: Some(Face::Side),
+            ..all
+        };
+        assert!(!all.are_met(&seen) && of_side.are_met(&seen));
+        let of_heads = Targets {
+            face: Some(Face::Heads),
+            ..all
+        };
+        assert!(!of_heads.are_met(&seen));
+    }
+
+    #[test]
+    fn rules_are_found_by_their_names() {
+        for rule in StoppedBy::ALL {
+            assert_eq!(StoppedBy::named(rule.name()), Some(rule));
+        }
     }
 
     /// Four times the tosses halve an interval, and show a face four times as often.

@@ -29,6 +29,29 @@ use std::sync::Arc;
 /// disagree, [`RunError::OtherPlan`] or [`RunError::OtherVersion`] if they are not of one run, and
 /// what [`run`](super::run) says about a directory it cannot use.
 pub fn merge(inputs: &[PathBuf], out: &Path, sink: &dyn ProgressSink) -> Result<Report, RunError> {
+    merge_all(inputs, out, false, sink).map(|(report, _)| report)
+}
+
+/// Merges what parts there are: where some are missing, they are returned too, and the new run directory is that
+/// of a run that was stopped. Later merges into it, and a run in it, go on from there.
+///
+/// # Errors
+/// Those of [`merge`] but [`RunError::Missing`].
+pub fn merge_what_is_there(
+    inputs: &[PathBuf],
+    out: &Path,
+    sink: &dyn ProgressSink,
+) -> Result<(Report, Option<Missing>), RunError> {
+    merge_all(inputs, out, true, sink)
+}
+
+/// Merges parts; nothing if some are missing, unless `partly`.
+fn merge_all(
+    inputs: &[PathBuf],
+    out: &Path,
+    partly: bool,
+    sink: &dyn ProgressSink,
+) -> Result<(Report, Option<Missing>), RunError> {
     for input in inputs {
         must_differ(input, out)?;
     }
@@ -39,12 +62,14 @@ pub fn merge(inputs: &[PathBuf], out: &Path, sink: &dyn ProgressSink) -> Result<
         found,
     } = Gathered::from(inputs, sink)?;
     let mut schedule = Schedule::new(&plan, Part::WHOLE, finished(&found));
-    if let Some(missing) = what_is_missing(&plan, &mut schedule, &parts) {
+    let missing = what_is_missing(&plan, &mut schedule, &parts);
+    if let Some(missing) = missing.clone().filter(|_| !partly) {
         return Err(RunError::Missing(missing));
     }
     let directory = RunDirectory::open_with(out, &plan, manifest, sink)?;
     store(&plan, found, &directory, inputs, out, sink)?;
-    conclude(&plan, Part::WHOLE, schedule, &directory, sink)
+    let report = conclude(&plan, Part::WHOLE, schedule, &directory, sink)?;
+    Ok((report, missing))
 }
 
 /// What run directories of one run lack together; `None` if nothing. They are only read, and may still be

@@ -23,6 +23,23 @@ pub struct Missing {
 }
 
 impl Missing {
+    /// The parts as they are named: `3/8`, with at most twenty named.
+    ///
+    /// # Example
+    /// ```
+    /// use coinmc::run::{Missing, Part};
+    /// let missing = Missing { chunks: vec![], total: 2, parts: vec![Part::new(3, 3).unwrap()] };
+    /// assert_eq!(missing.names(), "3/3");
+    /// ```
+    pub fn names(&self) -> String {
+        let named = self.parts.iter().take(NAMED).map(Part::to_string);
+        let mut names: Vec<String> = named.collect();
+        if self.parts.len() > NAMED {
+            names.push("…".to_owned());
+        }
+        names.join(", ")
+    }
+
     /// The numbers of the parts as job arrays take them: `3,5-7`.
     ///
     /// # Example
@@ -63,9 +80,13 @@ impl fmt::Display for Missing {
         if self.total > named.len() as u64 {
             write!(f, "; …")?;
         }
-        if let Some(part) = self.parts.first() {
-            let of = part.of();
-            write!(f, ". Run these parts of {of} (again): {}", self.array())?;
+        match &self.parts[..] {
+            [] => {}
+            [part] => write!(f, ". Run this part (again): {part}")?,
+            [first, ..] => {
+                let of = first.of();
+                write!(f, ". Run these parts of {of} (again): {}", self.array())?;
+            }
         }
         Ok(())
     }

@@ -153,6 +153,15 @@ impl PointState {
         self.limited_by = by;
     }
 
+    /// The rule that ends it short of its targets.
+    pub(super) fn stopped_short_by(&self) -> StoppedBy {
+        if self.looks.as_ref().is_some_and(Looks::is_hopeless) {
+            StoppedBy::Undecided
+        } else {
+            self.limited_by
+        }
+    }
+
     /// Looks at the point at the end of a stage; `None` if the number of its tosses is fixed.
     pub(super) fn look(&mut self) -> Option<Verdict> {
         let tally = *self.shown();

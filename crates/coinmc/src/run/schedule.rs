@@ -353,8 +353,9 @@ impl Schedule {
         if let Some(targets) = timed {
             self.limit_pilot(index, &targets);
         }
-        let limited_by = self.states.open(index).limited_by;
-        match self.states.open(index).look() {
+        let verdict = self.states.open(index).look();
+        let limited_by = self.states.open(index).stopped_short_by();
+        match verdict {
             // the other parts have the other tosses
             None if of_whole => self.end(index, StoppedBy::Tosses),
             None => self.end(index, StoppedBy::Unfinished),

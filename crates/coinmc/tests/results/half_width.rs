@@ -65,8 +65,8 @@ fn follow(looks: &mut Looks, p: f64, source: &mut Source) -> (Tally, Verdict) {
     }
 }
 
-/// Of 2000 points whose looks depend on chance, 5 % may miss. The first look has 4.5 %, of which discreteness
-/// takes some: 3.5 % to 4.5 % are expected, so that more than 5.75 % (3 standard deviations above 4.5 %) are
+/// Of 2000 points whose looks depend on chance, 5 % may miss. The first look has 4.85 %, of which discreteness
+/// takes some: 3.8 % to 4.8 % are expected, so that more than 6.25 % (3 standard deviations above 4.8 %) are
 /// an error. The tosses are compared with those of a number fixed beforehand by whoever knows p, z² p (1 −
 /// p)/h².
 #[test]
@@ -76,6 +76,7 @@ fn looks_keep_the_stated_coverage_and_cost_little() {
         half_width,
         relative_error,
         events: None,
+        face: None,
         max_tosses: 100_000_000,
         total_tosses: None,
         max_core_seconds: None,
@@ -84,8 +85,8 @@ fn looks_keep_the_stated_coverage_and_cost_little() {
     let absolute = |arm| targets(Some(arm), None);
     let mut source = Source(20_26);
     for (p, targets, most) in [
-        (0.5, absolute(0.005), 1.2),
-        (0.3, absolute(0.01), 1.5),
+        (0.5, absolute(0.005), 1.05),
+        (0.3, absolute(0.01), 1.2),
         (0.1, targets(None, Some(0.05)), 1.6),
         (0.01, targets(None, Some(0.1)), 2.1),
         (0.001, targets(None, Some(0.1)), 2.1),
@@ -110,7 +111,7 @@ fn looks_keep_the_stated_coverage_and_cost_little() {
         }
         let share = f64::from(missed) / f64::from(POINTS);
         assert!(
-            share <= 0.0575 && share > 0.01,
+            share <= 0.0625 && share > 0.01,
             "{missed} of {POINTS} at {p}"
         );
         let arm = targets

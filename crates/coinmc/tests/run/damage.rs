@@ -170,8 +170,8 @@ fn tallies_beyond_where_a_point_stopped_are_set_aside() {
             let line = text.lines().find(|line| line.starts_with(name)).unwrap();
             line.rsplit_once(' ').unwrap().1.parse().unwrap()
         };
-        let heads = count("heads") + 32_768 - 1024;
-        text.replace("tosses 0 1024", "tosses 524288 557056")
+        let heads = count("heads") + 32_768 - 128;
+        text.replace("tosses 0 128", "tosses 524288 557056")
             .replace(
                 &format!("heads {}", count("heads")),
                 &format!("heads {heads}"),

@@ -125,7 +125,7 @@ fn parts_of_a_run_merge_to_the_whole() {
     let error = merge(&parts[..1], &at("half"), &()).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "1 chunk is in none of the parts: point 1. Run these parts of 2 (again): 2"
+        "1 chunk is in none of the parts: point 1. Run this part (again): 2/2"
     );
     merge(&parts, &at("merged"), &()).unwrap();
     assert_same(&at("whole"), &at("merged"));

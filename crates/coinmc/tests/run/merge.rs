@@ -4,7 +4,7 @@ use crate::support::{
     Ear, FIXED, HALF_WIDTH, assert_same, contents, plan, put_tallies, resealed, run_whole,
     run_with, tallies,
 };
-use coinmc::run::{Chunk, Part, RunError, Status, merge};
+use coinmc::run::{Chunk, Part, RunError, Status, merge, merge_what_is_there, stored_report};
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::tempdir;
@@ -104,6 +104,31 @@ fn neighbouring_missing_chunks_are_named_together() {
             tosses: 0..40_000
         })
     );
+}
+
+/// Two of three parts make a run that was stopped; with the third it is the whole.
+#[test]
+fn what_parts_there_are_make_a_run_that_was_stopped() {
+    let (plan, dir) = (plan(FIXED), tempdir().unwrap());
+    let parts = [1, 2, 3].map(|i| dir.path().join(format!("part-{i}")));
+    for (i, out) in (1..).zip(&parts) {
+        let part = Part::new(i, 3).unwrap();
+        run_with(&plan, out, part, 2, &Ear::default()).unwrap();
+    }
+    let (whole, direct) = (dir.path().join("whole"), dir.path().join("direct"));
+    let (report, missing) = merge_what_is_there(&parts[..2], &whole, &Ear::default()).unwrap();
+    assert_eq!(report.status, Status::Interrupted);
+    assert_eq!(missing.unwrap().names(), "3/3");
+    let tosses: u64 = parts[..2]
+        .iter()
+        .map(|part| stored_report(part, &Ear::default()).unwrap().1.tosses)
+        .sum();
+    assert_eq!(report.tosses, tosses);
+    assert!(contents(&whole).contains_key("results.partial.csv"));
+    let (report, missing) = merge_what_is_there(&parts, &whole, &Ear::default()).unwrap();
+    assert_eq!((report.status, missing), (Status::Complete, None));
+    run_whole(&plan, &direct);
+    assert_same(&whole, &direct);
 }
 
 #[test]

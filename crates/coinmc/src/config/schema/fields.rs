@@ -7,7 +7,9 @@ use super::{Absent, Bounds, Condition, Fallback, Field, Kind, Rule, TableKind, W
 use crate::engines::{ENGINES, WITHOUT_TOSSES};
 use crate::plan::{MAX_POINTS, MAX_TOSSES, Sampling};
 use coinmc_core::schema::{default, field, fields, table};
-use coinmc_core::{Coin, EngineDescriptor, IntervalMethod, LaunchDistribution, Scene, Surface};
+use coinmc_core::{
+    Coin, EngineDescriptor, Face, IntervalMethod, LaunchDistribution, Scene, Surface,
+};
 
 use Absent::{Is, Omitted, Required};
 
@@ -144,6 +146,15 @@ fn stop() -> TableKind {
         high: 1e9,
         open: (true, false),
     });
+    let faces = [
+        (Face::Heads, "one of the flat faces"),
+        (Face::Tails, "the other"),
+        (Face::Side, "the curved one"),
+    ];
+    let faces = faces.map(|(face, doc)| Word {
+        name: face.name(),
+        doc,
+    });
     let goes_with_targets = |key| Rule::GoesWith {
         key,
         others: &["half_width", "relative_error", "events"],
@@ -176,6 +187,12 @@ fn stop() -> TableKind {
                 "events",
                 "Toss until every face has been seen so many times.",
                 tosses.clone(),
+                Omitted,
+            ),
+            field(
+                "face",
+                "The face that these targets are of (each, if absent).",
+                Kind::Word(faces.to_vec()),
                 Omitted,
             ),
             field(
@@ -225,6 +242,7 @@ fn stop() -> TableKind {
                 others: &["half_width", "relative_error", "events"],
                 fallback: Some(Fallback::Integer(100_000_000)),
             },
+            goes_with_targets("face"),
             goes_with_targets("total_tosses"),
             goes_with_targets("max_core_seconds"),
             goes_with_targets("total_core_seconds"),

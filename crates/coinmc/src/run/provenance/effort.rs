@@ -40,12 +40,12 @@ impl Stopwatch {
     pub(crate) fn start() -> Self {
         Self {
             wall: Instant::now(),
-            cpu: cpu_time(),
+            cpu: processor_time(),
         }
     }
 
     pub(crate) fn effort(&self) -> Effort {
-        let of_cpu = self.cpu.zip(cpu_time());
+        let of_cpu = self.cpu.zip(processor_time());
         Effort {
             wall_us: microseconds(self.wall.elapsed()),
             cpu_us: of_cpu.map(|(then, now)| microseconds(now.saturating_sub(then))),
@@ -57,16 +57,25 @@ fn microseconds(time: Duration) -> u64 {
     u64::try_from(time.as_micros()).unwrap_or(u64::MAX)
 }
 
-/// Processor time of this thread since it began.
+/// Processor time of this thread since it began; `None` where the system does not tell it.
+///
+/// # Example
+/// ```
+/// let before = coinmc::run::processor_time();
+/// std::thread::sleep(std::time::Duration::from_millis(5));
+/// let slept = coinmc::run::processor_time().zip(before).map(|(now, then)| now - then);
+/// assert!(slept.is_none_or(|time| time.as_millis() < 5));
+/// ```
 #[cfg(unix)]
-fn cpu_time() -> Option<Duration> {
+pub fn processor_time() -> Option<Duration> {
     let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
     let (seconds, nanoseconds) = (u64::try_from(time.tv_sec), u32::try_from(time.tv_nsec));
     Some(Duration::new(seconds.ok()?, nanoseconds.ok()?))
 }
 
+/// `None`: this system does not tell it.
 #[cfg(not(unix))]
-fn cpu_time() -> Option<Duration> {
+pub fn processor_time() -> Option<Duration> {
     None
 }
 

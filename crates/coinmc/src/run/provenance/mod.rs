@@ -7,6 +7,7 @@ mod maker;
 mod read;
 mod record;
 
+pub use effort::processor_time;
 pub(super) use effort::{Effort, Stopwatch};
 pub(super) use log::Log;
 pub use maker::Maker;
