@@ -1,12 +1,14 @@
 //! Forecasts the cost of a plan by tossing some of its points for a moment.
 
+mod clock;
 mod integrals;
 
+use clock::Clock;
 use coinmc::plan::{Looks, Plan, Stop};
 use coinmc::run::{Chunk, RunError, run_chunk};
 use coinmc_core::{Face, Tally};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Most points that are tried, spread over the sweep.
 const POINTS: usize = 24;
@@ -42,6 +44,14 @@ pub(super) struct PointCost {
     pub(super) tosses: f64,
     /// Rate of one thread.
     pub(super) seconds: f64,
+}
+
+impl Cost {
+    /// Time of one core that all points take, s.
+    pub(super) fn core_seconds(&self) -> f64 {
+        let seconds = self.points.iter().map(|point| point.seconds);
+        seconds.fold(0.0, |sum, seconds| sum + seconds)
+    }
 }
 
 /// Tries a sample of points and interpolates between them.
@@ -175,12 +185,12 @@ struct Pace {
 /// Tosses a point in growing batches until the time is up, and measures the last half of them: at first
 /// an engine that tosses in lanes has not filled its lanes.
 fn toss_for(plan: &Plan, point: usize, budget: Duration) -> Result<(Tally, Pace), RunError> {
-    let start = Instant::now();
+    let start = Clock::now();
     let mut tally = Tally::default();
     let mut batch = 1;
     let mut before = None;
     loop {
-        let (from, begun) = (tally.tosses(), Instant::now());
+        let (from, begun) = (tally.tosses(), Clock::now());
         tally.merge(&run_chunk(
             plan,
             &Chunk {
@@ -190,7 +200,7 @@ fn toss_for(plan: &Plan, point: usize, budget: Duration) -> Result<(Tally, Pace)
         )?);
         let last = begun.elapsed().as_secs_f64() / batch as f64;
         // The next batch, twice as large, would take about twice what all took so far.
-        if start.elapsed() * 3 > budget {
+        if start.has_taken(budget / 3) {
             let before = before.unwrap_or(last);
             return Ok((tally, Pace { last, before }));
         }

@@ -270,18 +270,25 @@ fn tosses(plan: &Plan, cost: &Cost) -> String {
 
 /// The targets in words.
 fn wanted(targets: &Targets) -> String {
+    let (interval, face) = match targets.face {
+        None => ("every interval".to_owned(), "every face".to_owned()),
+        Some(face) => (
+            format!("the interval of P({})", face.name()),
+            face.name().to_owned(),
+        ),
+    };
     let half_width = targets
         .half_width
-        .map(|arm| format!("every interval is within ±{}", compact(arm)));
+        .map(|arm| format!("{interval} is within ±{}", compact(arm)));
     let relative = targets.relative_error.map(|share| {
         format!(
-            "every interval is within ±{} % of its probability",
+            "{interval} is within ±{} % of its probability",
             compact(100.0 * share)
         )
     });
     let events = targets
         .events
-        .map(|least| format!("every face was seen {} times", grouped(least)));
+        .map(|least| format!("{face} was seen {} times", grouped(least)));
     let all: Vec<String> = [half_width, relative, events]
         .into_iter()
         .flatten()
@@ -327,14 +334,16 @@ fn in_words(cost: &Cost) -> String {
         // closed forms
         Some(time) if cost.tosses == 0 && time < INSTANT => "nothing to toss".to_owned(),
         Some(time) if cost.tosses == 0 => format!(
-            "nothing to toss; integrals take about {} on {}",
+            "nothing to toss; integrals take about {} of one core, {} on {}",
+            of_one_core(cost),
             duration(time),
-            count(cost.threads as u64, "core")
+            cost.threads
         ),
         Some(time) => format!(
-            "about {} on {} ({} tosses/s on one, as just measured{})",
+            "about {} of one core, {} on {} ({} tosses/s on one, as just measured{})",
+            of_one_core(cost),
             duration(time),
-            count(cost.threads as u64, "core"),
+            cost.threads,
             with_prefix(cost.tosses_per_s),
             if cost.unsure {
                 "; unsure, as a few tosses take most of the time"
@@ -343,6 +352,10 @@ fn in_words(cost: &Cost) -> String {
             }
         ),
     }
+}
+
+fn of_one_core(cost: &Cost) -> String {
+    duration(Duration::try_from_secs_f64(cost.core_seconds()).unwrap_or(Duration::MAX))
 }
 
 /// The range of costs over the points of a sweep, if they differ.
@@ -399,6 +412,7 @@ fn to_json(plan: &Plan, cost: &Cost, rare: Option<&RareFace>) -> Value {
             "threads": cost.threads,
             "tosses_per_s_and_thread": cost.time.map(|_| cost.tosses_per_s),
             "time_s": cost.time.map_or(0.0, |time| time.as_secs_f64()),
+            "core_s": cost.core_seconds(),
             "unsure": cost.unsure,
             "points": points_cost.collect::<Vec<_>>(),
         },

@@ -146,20 +146,6 @@ fn stop() -> TableKind {
         high: 1e9,
         open: (true, false),
     });
-    let faces = [
-        (Face::Heads, "one of the flat faces"),
-        (Face::Tails, "the other"),
-        (Face::Side, "the curved one"),
-    ];
-    let faces = faces.map(|(face, doc)| Word {
-        name: face.name(),
-        doc,
-    });
-    let goes_with_targets = |key| Rule::GoesWith {
-        key,
-        others: &["half_width", "relative_error", "events"],
-        fallback: None,
-    };
     TableKind {
         fields: vec![
             field("tosses", "Tosses per point.", tosses.clone(), Omitted),
@@ -192,7 +178,7 @@ fn stop() -> TableKind {
             field(
                 "face",
                 "The face that these targets are of (each, if absent).",
-                Kind::Word(faces.to_vec()),
+                Kind::Word(faces()),
                 Omitted,
             ),
             field(
@@ -224,30 +210,54 @@ fn stop() -> TableKind {
                 Omitted,
             ),
         ],
-        rules: vec![
-            Rule::Unless {
-                condition: Condition::Either(&[
-                    Condition::Given("half_width"),
-                    Condition::Given("relative_error"),
-                    Condition::Given("events"),
-                ]),
-                keys: &["tosses"],
-                fallback: None,
-            },
-            Rule::NotBoth(["tosses", "half_width"]),
-            Rule::NotBoth(["tosses", "relative_error"]),
-            Rule::NotBoth(["tosses", "events"]),
-            Rule::GoesWith {
-                key: "max_tosses",
-                others: &["half_width", "relative_error", "events"],
-                fallback: Some(Fallback::Integer(100_000_000)),
-            },
-            goes_with_targets("face"),
-            goes_with_targets("total_tosses"),
-            goes_with_targets("max_core_seconds"),
-            goes_with_targets("total_core_seconds"),
-        ],
+        rules: rules_of_stop(),
     }
+}
+
+/// Tosses or targets, and what goes with targets.
+fn rules_of_stop() -> Vec<Rule> {
+    let goes_with_targets = |key| Rule::GoesWith {
+        key,
+        others: &["half_width", "relative_error", "events"],
+        fallback: None,
+    };
+    vec![
+        Rule::Unless {
+            condition: Condition::Either(&[
+                Condition::Given("half_width"),
+                Condition::Given("relative_error"),
+                Condition::Given("events"),
+            ]),
+            keys: &["tosses"],
+            fallback: None,
+        },
+        Rule::NotBoth(["tosses", "half_width"]),
+        Rule::NotBoth(["tosses", "relative_error"]),
+        Rule::NotBoth(["tosses", "events"]),
+        Rule::GoesWith {
+            key: "max_tosses",
+            others: &["half_width", "relative_error", "events"],
+            fallback: Some(Fallback::Integer(100_000_000)),
+        },
+        goes_with_targets("face"),
+        goes_with_targets("total_tosses"),
+        goes_with_targets("max_core_seconds"),
+        goes_with_targets("total_core_seconds"),
+    ]
+}
+
+/// The faces by name.
+fn faces() -> Vec<Word> {
+    let faces = [
+        (Face::Heads, "one of the flat faces"),
+        (Face::Tails, "the other"),
+        (Face::Side, "the curved one"),
+    ];
+    let word = |(face, doc): (Face, _)| Word {
+        name: face.name(),
+        doc,
+    };
+    faces.map(word).to_vec()
 }
 
 fn estimate() -> TableKind {

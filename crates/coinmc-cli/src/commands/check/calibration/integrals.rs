@@ -1,8 +1,8 @@
 //! What the integrals of a plan will cost.
 
+use super::clock::Clock;
 use coinmc::plan::Plan;
 use coinmc::run::{RunError, integrate_point};
-use std::time::Instant;
 
 /// Evaluations of the first trial, some 10 ms, and of the second.
 const TRIALS: [u64; 2] = [1 << 12, 1 << 14];
@@ -12,7 +12,7 @@ pub(super) fn seconds(plan: &Plan, point: usize) -> Result<f64, RunError> {
     let (goal, most) = (plan.goal().half_width, plan.goal().evaluations);
     let mut trials = Vec::new();
     for evaluations in TRIALS {
-        let start = Instant::now();
+        let start = Clock::now();
         let Some(found) = integrate_point(plan, point, evaluations)? else {
             return Ok(0.0);
         };
