@@ -256,7 +256,7 @@ fn the_directory_of_another_run_is_refused_and_left_alone() {
     let out = bench.path("out");
     bench.finish(&out);
     let before = snapshot(&out);
-    for change in ["seed=12", "surface.friction=0.2", "stop.tosses=80001"] {
+    for change in ["seed=12", "surface.friction=0.2", "stop.tosses=79999"] {
         let output = bench
             .run(&out)
             .args(["--set", change])
