@@ -18,7 +18,8 @@ class Asked:
     Attributes
     ----------
     p : ndarray
-        P(heads), P(tails) and P(side) along the last axis; the others are as the arguments broadcast.
+        P(heads), P(tails) and P(side) along the last axis; the other axes are those of the
+        arguments.
     error : ndarray
         Their standard errors.
     """
@@ -45,9 +46,7 @@ class Asked:
         """P(side)."""
         return self.p[..., 2]
 
-    def fair(
-        self, target: float = 1 / 3
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def fair(self, target: float = 1 / 3) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Find the ratio at which the side has this probability on the same surfaces.
 
         Parameters

@@ -1,8 +1,9 @@
 """Answers of the atlas."""
 
-import coinmc
 import numpy as np
 import pytest
+
+import coinmc
 
 SCENES = [
     ("hand", "wood", 0.8),
@@ -54,7 +55,9 @@ def test_arguments_broadcast_and_numbers_give_numbers():
 def test_the_fair_ratio_is_where_the_side_has_a_third():
     ratio, error = coinmc.ask([1.0, 1.0], "wood", restitution=[0.3, 0.5]).fair()
     assert ratio.shape == error.shape == (2,)
-    sides = [coinmc.ask(x, "wood", restitution=e).side for x, e in zip(ratio, [0.3, 0.5], strict=True)]
+    sides = [
+        coinmc.ask(x, "wood", restitution=e).side for x, e in zip(ratio, [0.3, 0.5], strict=True)
+    ]
     assert sides == pytest.approx([1 / 3, 1 / 3], abs=1e-6)
     never, _ = coinmc.ask(1.0).fair(0.9999999)
     assert np.isnan(never)
