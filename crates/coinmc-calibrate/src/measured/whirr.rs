@@ -1,4 +1,4 @@
-//! How the pitch of a whirring coin (Euler's disk) rises: f⁻³ falls linearly with time.
+//! How the pitch of a whirring coin (Euler's disk) rises: nearly, f⁻³ falls linearly with time.
 
 use super::readings::{error, readings};
 use super::{Kind, Law, Reduce, Reduced};
@@ -10,10 +10,10 @@ use std::f64::consts::TAU;
 /// Frequencies at times.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Whirr {
-    /// The rate at which f⁻³ falls, s².
-    rate: f64,
-    /// Its standard error as a share of it.
-    error: f64,
+    /// Times, s, and frequencies, 1/s.
+    readings: Vec<(f64, f64)>,
+    /// Standard error of a frequency as a share of it.
+    share: f64,
 }
 
 impl Whirr {
@@ -58,26 +58,24 @@ impl Whirr {
             .copied()
             .zip(frequencies.iter().copied())
             .collect();
-        let fitted = line(&readings, values.number("frequency_error")?);
-        let Some((rate, error)) = fitted else {
+        let share = values.number("frequency_error")?;
+        let thin = |(time, f): &(f64, f64)| (*time, 1.0 / (f * f * f));
+        if line(&readings.iter().map(thin).collect::<Vec<_>>(), share).is_none() {
             let message =
                 "the pitch of a whirring coin rises with time, and these frequencies do not";
             return Err(ReadError::new(message).at("frequency_hz"));
-        };
-        Ok(Self { rate, error })
+        }
+        Ok(Self { readings, share })
     }
 }
 
 /// Rounds of weighing the readings by the line through them.
 const ROUNDS: usize = 20;
 
-/// The rate at which f⁻³ falls, and its standard error as a share of it, by weighted least squares: an error
-/// of f by the share s is one of f⁻³ by the share 3 s. Residuals that scatter more than that widen the error.
-fn line(readings: &[(f64, f64)], share: f64) -> Option<(f64, f64)> {
-    let cubes: Vec<_> = readings
-        .iter()
-        .map(|(time, f)| (*time, 1.0 / (f * f * f)))
-        .collect();
+/// The rate at which y, about in proportion to f⁻³, falls with time, and its standard error as a share of it, by
+/// weighted least squares: an error of f by the share s is one of f⁻³ by the share 3 s. Residuals that scatter
+/// more than that widen the error.
+fn line(cubes: &[(f64, f64)], share: f64) -> Option<(f64, f64)> {
     let mut fitted: Vec<f64> = cubes.iter().map(|(_, y)| *y).collect();
     let mut found = None;
     for _ in 0..ROUNDS {
@@ -106,7 +104,7 @@ fn line(readings: &[(f64, f64)], share: f64) -> Option<(f64, f64)> {
             .zip(&weights)
             .map(|(c, w)| w * (c.1 - y - slope * (c.0 - t)) * (c.1 - y - slope * (c.0 - t)))
             .sum();
-        let degrees = (readings.len() - 2).max(1) as f64;
+        let degrees = cubes.len().saturating_sub(2).max(1) as f64;
         let inflation = (misfit / degrees).max(1.0);
         let error = (inflation / (total * spread)).sqrt();
         found = Some((-slope, error));
@@ -116,21 +114,79 @@ fn line(readings: &[(f64, f64)], share: f64) -> Option<(f64, f64)> {
     (rate > 0.0).then_some((rate, error / rate))
 }
 
-/// f⁻³ falls by this times ρ_c in a second: (2π)³ k_t/(g R²).
+/// f⁻³ of a thin coin falls by this times ρ_c in a second: (2π)³ k_t/(g R²).
 pub(crate) fn rate_per_length(scene: &Scene) -> f64 {
     let radius = scene.coin.radius_m();
     TAU * TAU * TAU * scene.coin.transverse_gyration_m2() / (scene.gravity_m_s2() * radius * radius)
 }
 
+/// ρ_c times the time that is left to a coin which whirrs at a frequency, m s: f⁻³ over
+/// [`rate_per_length`], but with the coin's thickness and its lean. `None` for a pitch too low for whirring.
+///
+/// Derived in docs/methods/calibrate.md. Lengths are in R, times in sqrt(R/g).
+fn length_times_time_left(scene: &Scene, frequency_hz: f64) -> Option<f64> {
+    let radius = scene.coin.radius_m();
+    let time = (radius / scene.gravity_m_s2()).sqrt();
+    let h = 0.5 * scene.coin.height_m() / radius;
+    let kt = scene.coin.transverse_gyration_m2() / (radius * radius);
+    let squared = |sin: f64| {
+        let cos = (1.0 - sin * sin).sqrt();
+        (cos - h * sin) / (sin * (kt * cos + h * (sin + h * cos)))
+    };
+    let round = TAU * frequency_hz * time;
+    if squared(MOST_SINE) > round * round {
+        return None;
+    }
+    // the rate falls as the coin leans more
+    let (mut low, mut high) = (0.0, MOST_SINE);
+    for _ in 0..BISECTIONS {
+        let middle = 0.5 * (low + high);
+        if squared(middle) > round * round {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    let energy = |sin: f64| {
+        let cos = (1.0 - sin * sin).sqrt();
+        sin + h * cos + 0.5 * (kt + h * h) * squared(sin) * sin * sin
+    };
+    // dE/(Ω cos θ), in steps in which 1/Ω, in proportion to sqrt(sin θ), changes evenly
+    let at = |step: u32| {
+        let share = f64::from(step) / f64::from(STEPS);
+        high * share * share
+    };
+    let slices = (0..STEPS).map(|step| {
+        let (from, to) = (at(step).max(f64::MIN_POSITIVE), at(step + 1));
+        let middle = 0.5 * (from + to);
+        let speed = squared(middle).sqrt() * (1.0 - middle * middle).sqrt();
+        let start = if step == 0 { h } else { energy(from) };
+        (energy(to) - start) / speed
+    });
+    Some(slices.sum::<f64>() * radius * time)
+}
+
+/// Sine of the greatest lean for which the law is meant.
+const MOST_SINE: f64 = 0.8;
+/// Halvings of its range, and slices of the integral.
+const BISECTIONS: u32 = 60;
+const STEPS: u32 = 200;
+
 impl Reduce for Whirr {
     const KIND: Kind = Kind::Whirr;
 
     fn reduce(&self, scene: &Scene) -> Vec<Reduced> {
+        let left = |(time, f): &(f64, f64)| Some((*time, length_times_time_left(scene, *f)?));
+        let lengths: Option<Vec<_>> = self.readings.iter().map(left).collect();
+        let fitted = lengths.and_then(|lengths| line(&lengths, self.share));
+        let Some((value, relative)) = fitted else {
+            return vec![];
+        };
         vec![Reduced {
-            law: Law::Times(Parameter::RollingFriction, rate_per_length(scene)),
-            value: self.rate,
+            law: Law::Times(Parameter::RollingFriction, 1.0),
+            value,
             absolute: 0.0,
-            relative: self.error,
+            relative,
         }]
     }
 }
@@ -138,16 +194,36 @@ impl Reduce for Whirr {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use coinmc_core::{Coin, Surface};
 
     #[test]
     fn the_rate_of_an_exact_whirr_is_found() {
         let (rate, end) = (2e-6, 4.0);
-        let pitch = |t: f64| libm::pow(rate * (end - t), -1.0 / 3.0);
-        let readings = [0.0, 1.0, 2.0, 3.0, 3.7].map(|t| (t, pitch(t)));
+        let readings = [0.0, 1.0, 2.0, 3.0, 3.7].map(|t| (t, rate * (end - t)));
         let (found, error) = line(&readings, 0.03).unwrap();
         assert!((found / rate - 1.0).abs() < 1e-9, "{found}");
         assert!(error > 0.02 && error < 0.1, "{error}");
-        assert!(line(&[(0.0, 50.0), (1.0, 40.0)], 0.03).is_none());
-        assert!(line(&[(1.0, 40.0), (1.0, 50.0)], 0.03).is_none());
+        assert!(line(&[(0.0, 50.0), (1.0, 60.0)], 0.03).is_none());
+        assert!(line(&[(1.0, 60.0), (1.0, 50.0)], 0.03).is_none());
+    }
+
+    #[test]
+    fn a_thin_coin_that_is_almost_flat_has_the_simple_law() {
+        let of = |ratio: f64| {
+            let coin = Coin::cylinder(ratio, 0.0116).unwrap();
+            Scene::new(coin, Surface::new(0.5, 0.3).unwrap(), 9.81).unwrap()
+        };
+        let ratio = |scene: &Scene, f: f64| {
+            length_times_time_left(scene, f).unwrap() * f * f * f * rate_per_length(scene)
+        };
+        let thin = of(1e-4);
+        assert!(
+            (ratio(&thin, 200.0) - 1.0).abs() < 1e-3,
+            "{}",
+            ratio(&thin, 200.0)
+        );
+        // thickness makes the same pitch belong to a smaller lean
+        assert!(ratio(&of(0.16), 20.0) < 0.9);
+        assert!(length_times_time_left(&thin, 5.0).is_none());
     }
 }

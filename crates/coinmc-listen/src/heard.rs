@@ -1,0 +1,185 @@
+//! The bounces of a drop, as they are heard: from a recording, and from the strikes of a simulated toss by the
+//! same rules.
+
+use crate::onsets::{Onsets, is_masked};
+use crate::struck::Struck;
+use thiserror::Error;
+
+/// Strikes within so long after an onset add to its strength, s.
+const TOGETHER_S: f64 = 0.006;
+const HALF: f64 = 0.5;
+/// Impacts of the first contact may come so long before the loudest, s.
+const FIRST_S: f64 = 0.03;
+/// Onsets weaker than this many thresholds are not counted: of those near it some are missed.
+const SURE: f64 = 2.0;
+/// Nor are those weaker than this share of the loudest.
+const WEAKEST: f64 = 0.04;
+/// A silence that ends the bounces, s, beside twice the longest flight.
+const SILENCE_S: f64 = 0.2;
+/// Shortest gap that counts, s.
+const LEAST_GAP_S: f64 = 0.004;
+/// Gaps that are features.
+const GAPS: usize = 4;
+
+/// The bounces that are heard of one drop.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bounces {
+    /// Their times since the first, s.
+    pub times_s: Vec<f64>,
+    /// Their strengths, in units of the loudest.
+    pub strengths: Vec<f64>,
+    /// The strength from which bounces count, in units of the loudest.
+    pub least: f64,
+    /// Onsets before the first and after the last that belong to something else.
+    pub others: usize,
+}
+
+/// Why no bounces are heard.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum NoBounces {
+    /// Nothing.
+    #[error("no impact rises above the room's noise")]
+    Nothing,
+    /// One alone.
+    #[error("only one impact is heard")]
+    One,
+    /// Not a dropped coin.
+    #[error("the impacts do not come as those of a dropped coin: {0}")]
+    NotADrop(&'static str),
+}
+
+impl Bounces {
+    /// The bounces among the onsets of a recording.
+    ///
+    /// # Errors
+    /// [`NoBounces`] if these are not the sounds of a dropped coin.
+    pub fn of(onsets: &Onsets) -> Result<Self, NoBounces> {
+        let least = (SURE * onsets.threshold).max(WEAKEST);
+        let all: Vec<(f64, f64)> = onsets
+            .onsets
+            .iter()
+            .map(|o| (o.time_s, o.strength))
+            .collect();
+        let bounces = Self::among(&all, least).ok_or(NoBounces::Nothing)?;
+        bounces.check()?;
+        Ok(bounces)
+    }
+
+    /// The bounces of a simulated toss that would be heard.
+    pub(crate) fn of_toss(struck: &Struck, least: f64) -> Option<Self> {
+        let mut sounds: Vec<(f64, f64)> = vec![];
+        for (place, strike) in struck.strikes.iter().enumerate() {
+            let with = struck.strikes[place..].iter();
+            let with = with.take_while(|other| other.time_s - strike.time_s < TOGETHER_S);
+            let speeds = with.clone().map(|other| other.speed_m_s);
+            let strength = speeds
+                .clone()
+                .map(|speed| speed * speed)
+                .sum::<f64>()
+                .sqrt();
+            // the rise is heard where the sound passes half of its greatest
+            let half = HALF * speeds.fold(0.0, f64::max);
+            let rise = with
+                .clone()
+                .find(|other| other.speed_m_s >= half)
+                .unwrap_or(strike);
+            let masks = |last: &(f64, f64)| is_masked(rise.time_s - last.0, strength / last.1);
+            if strength > 0.0 && !sounds.iter().rev().take(8).any(masks) {
+                sounds.push((rise.time_s, strength));
+            }
+        }
+        let loudest = sounds.iter().map(|sound| sound.1).fold(0.0, f64::max);
+        let scaled: Vec<(f64, f64)> = sounds.iter().map(|(t, s)| (*t, s / loudest)).collect();
+        Self::among(&scaled, least)
+    }
+
+    /// From the first contact, around the loudest sound, to a silence.
+    fn among(sounds: &[(f64, f64)], least: f64) -> Option<Self> {
+        let sure: Vec<(f64, f64)> = sounds.iter().copied().filter(|s| s.1 >= least).collect();
+        let loudest = sure
+            .iter()
+            .copied()
+            .reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+        let mut kept: Vec<(f64, f64)> = vec![];
+        let mut longest: f64 = 0.0;
+        for sound in sure.iter().filter(|sound| sound.0 >= loudest.0 - FIRST_S) {
+            if let Some(last) = kept.last() {
+                let gap = sound.0 - last.0;
+                if kept.len() > 1 && gap > 2.0 * longest + SILENCE_S {
+                    break;
+                }
+                longest = longest.max(gap);
+            }
+            kept.push(*sound);
+        }
+        let first = kept.first()?.0;
+        Some(Self {
+            others: sure.len() - kept.len(),
+            times_s: kept.iter().map(|sound| sound.0 - first).collect(),
+            strengths: kept.iter().map(|sound| sound.1).collect(),
+            least,
+        })
+    }
+
+    /// Whether a dropped coin can sound like this.
+    fn check(&self) -> Result<(), NoBounces> {
+        if self.times_s.len() < 2 {
+            return Err(NoBounces::One);
+        }
+        let gaps = self.gaps();
+        let half = gaps.len() / 2;
+        let sum = |gaps: &[f64]| gaps.iter().sum::<f64>();
+        if gaps.len() >= 4 && sum(&gaps[half..]) > sum(&gaps[..half]) * SHRINKS {
+            return Err(NoBounces::NotADrop("their gaps do not shrink"));
+        }
+        if self.others > MOST_OTHERS {
+            return Err(NoBounces::NotADrop(
+                "there are as loud sounds before or after them",
+            ));
+        }
+        if gaps.iter().any(|gap| *gap > LONGEST_FLIGHT_S) {
+            return Err(NoBounces::NotADrop("seconds lie between them"));
+        }
+        Ok(())
+    }
+
+    fn gaps(&self) -> Vec<f64> {
+        self.times_s
+            .windows(2)
+            .map(|pair| pair[1] - pair[0])
+            .collect()
+    }
+
+    /// What the comparison with simulated drops rests on: logarithms of the longest flights, longest first, of the
+    /// time from the first bounce to the last, and of the number of bounces.
+    pub(crate) fn features(&self) -> [f64; FEATURES] {
+        let mut gaps = self.gaps();
+        gaps.sort_by(|a, b| b.total_cmp(a));
+        let mut features = [0.0; FEATURES];
+        for (place, feature) in features.iter_mut().enumerate().take(GAPS) {
+            let gap = gaps.get(place).copied().unwrap_or(0.0);
+            *feature = libm::log(gap.max(LEAST_GAP_S));
+        }
+        let last = self.times_s.last().copied().unwrap_or(0.0);
+        features[GAPS] = libm::log(last.max(LEAST_GAP_S));
+        features[GAPS + 1] = libm::log(self.times_s.len() as f64);
+        features
+    }
+}
+
+/// How many features there are, and what they are.
+pub(crate) const FEATURES: usize = GAPS + 2;
+pub(crate) const FEATURE_NAMES: [&str; FEATURES] = [
+    "longest flight",
+    "second longest flight",
+    "third longest flight",
+    "fourth longest flight",
+    "time from the first bounce to the last",
+    "number of bounces",
+];
+/// The later half of the gaps is no longer than this many times the earlier half.
+const SHRINKS: f64 = 1.3;
+/// Other sounds as loud as bounces that are passed over.
+const MOST_OTHERS: usize = 2;
+/// Longest flight of a coin after a bounce, s.
+const LONGEST_FLIGHT_S: f64 = 2.0;

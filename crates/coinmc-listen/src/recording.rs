@@ -1,0 +1,365 @@
+//! A recording: one channel of a WAV file, read with bounds.
+
+use crate::error::RecordingError;
+use hound::{SampleFormat, WavReader, WavSpec, WavWriter};
+use std::fs::File;
+use std::io::{self, BufReader, Cursor, Read};
+use std::path::Path;
+
+/// Most samples of a channel: a minute and a half at 44 100 a second.
+pub const MAX_SAMPLES: u64 = 1 << 22;
+/// Channels that are looked at; the others of a file are passed over.
+const CHANNELS: usize = 2;
+/// Least and greatest number of samples a second.
+const RATES: [u32; 2] = [8000, 384_000];
+/// Shortest recording, s.
+const SHORTEST_S: f64 = 0.1;
+/// A recording whose peak is beyond this reaches the full scale: what is near its peak …
+const FULL_SCALE: f32 = 0.98;
+const FLAT: f32 = 0.999;
+/// … is clipped if so many samples follow each other: a single one may be a peak that just fits.
+const CLIPPED_RUN: usize = 4;
+/// Bits of the samples that are written.
+const BITS: u16 = 16;
+/// The peak below which nothing is clipped.
+const QUIET: f32 = 0.05;
+
+/// One channel of a recording, on a scale of ±1.
+///
+/// # Example
+/// ```
+/// use coinmc_listen::Recording;
+/// assert!(Recording::from_bytes("noise.wav", b"not a recording").is_err());
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recording {
+    /// Name in messages.
+    pub name: String,
+    /// Samples a second.
+    pub rate_hz: f64,
+    /// The samples, from −1 to 1.
+    pub samples: Vec<f32>,
+    /// Which channel it is, from 1, and of how many: the one with the most energy.
+    pub channel: [u16; 2],
+    /// Share of clipped samples.
+    pub clipped: f64,
+    /// Bits of a sample.
+    pub bits: u16,
+}
+
+impl Recording {
+    /// Reads a WAV file.
+    ///
+    /// # Errors
+    /// [`RecordingError`] if it is none, has no usable samples or too many.
+    pub fn read(path: &Path) -> Result<Self, RecordingError> {
+        let file = File::open(path).map_err(RecordingError::Io)?;
+        let kind = file.metadata().map_err(RecordingError::Io)?;
+        if !kind.is_file() {
+            let why = io::Error::other("it is not a plain file");
+            return Err(RecordingError::Io(why));
+        }
+        Self::from_reader(&path.display().to_string(), BufReader::new(file))
+    }
+
+    /// Reads a WAV file that is in memory.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Self, RecordingError> {
+        Self::from_reader(name, bytes)
+    }
+
+    fn from_reader(name: &str, reader: impl Read) -> Result<Self, RecordingError> {
+        let mut wav = WavReader::new(reader).map_err(of_header)?;
+        let spec = wav.spec();
+        if !(RATES[0]..=RATES[1]).contains(&spec.sample_rate) {
+            return Err(RecordingError::Rate(spec.sample_rate));
+        }
+        let frames = u64::from(wav.duration());
+        if frames > MAX_SAMPLES {
+            return Err(RecordingError::TooLong {
+                found: frames,
+                most: MAX_SAMPLES,
+            });
+        }
+        if frames == 0 {
+            return Err(RecordingError::Empty);
+        }
+        let promised = u64::from(wav.len());
+        let channels = match spec.sample_format {
+            SampleFormat::Float => deal(wav.samples::<f32>(), spec.channels, promised, 1.0),
+            SampleFormat::Int => {
+                let scale = libm::exp2(1.0 - f64::from(spec.bits_per_sample));
+                deal(wav.samples::<i32>(), spec.channels, promised, scale)
+            }
+        }?;
+        let seconds = frames as f64 / f64::from(spec.sample_rate);
+        if seconds < SHORTEST_S {
+            return Err(RecordingError::TooShort(seconds));
+        }
+        let energy = |samples: &[f32]| -> f64 {
+            let squares = samples.iter().map(|x| f64::from(*x) * f64::from(*x));
+            squares.sum()
+        };
+        let mut loudest = 0;
+        for (place, samples) in channels.iter().enumerate() {
+            if energy(samples) > energy(&channels[loudest]) {
+                loudest = place;
+            }
+        }
+        let number = u16::try_from(loudest + 1).unwrap_or(1);
+        let samples = channels.into_iter().nth(loudest).unwrap_or_default();
+        Ok(Self {
+            name: name.to_owned(),
+            rate_hz: f64::from(spec.sample_rate),
+            clipped: clipped(&samples, spec.bits_per_sample),
+            samples,
+            channel: [number, spec.channels],
+            bits: spec.bits_per_sample,
+        })
+    }
+
+    /// A recording of 16-bit samples, as a phone makes.
+    pub(crate) fn of_samples(name: &str, rate_hz: f64, samples: Vec<f32>) -> Self {
+        Self {
+            name: name.to_owned(),
+            rate_hz,
+            clipped: clipped(&samples, BITS),
+            samples,
+            channel: [1, 1],
+            bits: BITS,
+        }
+    }
+
+    /// The recording as a WAV file of 16 bits.
+    ///
+    /// # Errors
+    /// [`RecordingError::TooLong`] if a WAV file cannot hold it.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, RecordingError> {
+        let found = self.samples.len() as u64;
+        let too_long = |_| RecordingError::TooLong {
+            found,
+            most: MAX_SAMPLES,
+        };
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        // whole and below 384 000
+        let spec = WavSpec {
+            channels: 1,
+            sample_rate: self.rate_hz as u32,
+            bits_per_sample: BITS,
+            sample_format: SampleFormat::Int,
+        };
+        let mut bytes = Cursor::new(vec![]);
+        let mut writer = WavWriter::new(&mut bytes, spec).map_err(too_long)?;
+        for sample in &self.samples {
+            #[allow(clippy::cast_possible_truncation)] // clamped
+            let number = (sample * f32::from(i16::MAX)).clamp(-32_767.0, 32_767.0) as i16;
+            writer.write_sample(number).map_err(too_long)?;
+        }
+        writer.finalize().map_err(too_long)?;
+        Ok(bytes.into_inner())
+    }
+
+    /// Length, s.
+    pub fn seconds(&self) -> f64 {
+        self.samples.len() as f64 / self.rate_hz
+    }
+}
+
+/// A number of a file, as a share of its full scale.
+trait Level: hound::Sample {
+    fn level(self, scale: f64) -> f32;
+}
+
+impl Level for i32 {
+    #[allow(clippy::cast_possible_truncation)] // 24 bits are enough
+    fn level(self, scale: f64) -> f32 {
+        (f64::from(self) * scale) as f32
+    }
+}
+
+impl Level for f32 {
+    fn level(self, _: f64) -> f32 {
+        self
+    }
+}
+
+/// The samples by channel.
+fn deal<S: Level>(
+    samples: impl Iterator<Item = hound::Result<S>>,
+    of: u16,
+    promised: u64,
+    scale: f64,
+) -> Result<Vec<Vec<f32>>, RecordingError> {
+    let of = usize::from(of).max(1);
+    let mut channels = vec![vec![]; of.min(CHANNELS)];
+    for (number, sample) in (0_u64..).zip(samples) {
+        let level = match sample {
+            Ok(sample) => sample.level(scale),
+            Err(hound::Error::IoError(_)) => {
+                return Err(RecordingError::CutOff {
+                    found: number,
+                    promised,
+                });
+            }
+            Err(_) => return Err(RecordingError::Unsupported),
+        };
+        if !level.is_finite() {
+            return Err(RecordingError::NotFinite(number));
+        }
+        let place = usize::try_from(number).unwrap_or(usize::MAX) % of;
+        if let Some(channel) = channels.get_mut(place) {
+            channel.push(level);
+        }
+    }
+    Ok(channels)
+}
+
+fn of_header(error: hound::Error) -> RecordingError {
+    match error {
+        hound::Error::IoError(error) if error.kind() == io::ErrorKind::UnexpectedEof => {
+            RecordingError::NotWav("it ends in its header")
+        }
+        hound::Error::IoError(error) if error.to_string().contains("enough bytes") => {
+            RecordingError::NotWav("it ends in its header")
+        }
+        hound::Error::IoError(error) => RecordingError::Io(error),
+        hound::Error::FormatError(why) => RecordingError::NotWav(why),
+        _ => RecordingError::Unsupported,
+    }
+}
+
+/// Share of samples in runs at the greatest level: near the full scale, or exactly flat below it, as a recorder
+/// with a limiter of its own cuts them. (Coarse samples are flat without having been cut.)
+fn clipped(samples: &[f32], bits: u16) -> f64 {
+    let peak = samples.iter().fold(0.0_f32, |most, x| most.max(x.abs()));
+    let limit = if peak >= FULL_SCALE {
+        FLAT * peak
+    } else if bits >= 16 && peak > QUIET {
+        peak
+    } else {
+        return 0.0;
+    };
+    let (mut run, mut count) = (0, 0_usize);
+    for x in samples.iter().chain(&[0.0]) {
+        if x.abs() >= limit {
+            run += 1;
+        } else {
+            if run >= CLIPPED_RUN {
+                count += run;
+            }
+            run = 0;
+        }
+    }
+    count as f64 / samples.len() as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wav(bits: u16, channels: u16, float: bool, samples: &[f32]) -> Vec<u8> {
+        let spec = WavSpec {
+            channels,
+            sample_rate: 8000,
+            bits_per_sample: bits,
+            sample_format: if float {
+                SampleFormat::Float
+            } else {
+                SampleFormat::Int
+            },
+        };
+        let mut bytes = Cursor::new(vec![]);
+        let mut writer = WavWriter::new(&mut bytes, spec).unwrap();
+        for sample in samples {
+            if float {
+                writer.write_sample(*sample).unwrap();
+            } else {
+                let scale = libm::exp2(f64::from(bits) - 1.0) - 1.0;
+                #[allow(clippy::cast_possible_truncation)]
+                writer
+                    .write_sample((f64::from(*sample) * scale) as i32)
+                    .unwrap();
+            }
+        }
+        writer.finalize().unwrap();
+        bytes.into_inner()
+    }
+
+    fn ramp() -> Vec<f32> {
+        (0..1000_u16)
+            .map(|k| f32::from(k % 100) / 200.0 - 0.25)
+            .collect()
+    }
+
+    #[test]
+    fn all_kinds_of_samples_are_read_on_one_scale() {
+        for (bits, float) in [
+            (8, false),
+            (16, false),
+            (24, false),
+            (32, false),
+            (32, true),
+        ] {
+            let read = Recording::from_bytes("x", &wav(bits, 1, float, &ramp())).unwrap();
+            assert_eq!(
+                (read.samples.len(), read.bits, read.channel),
+                (1000, bits, [1, 1])
+            );
+            let far = read.samples.iter().zip(ramp()).map(|(a, b)| (a - b).abs());
+            assert!(far.fold(0.0, f32::max) < 0.01, "{bits} {float}");
+        }
+    }
+
+    #[test]
+    fn the_louder_channel_is_taken() {
+        let stereo: Vec<f32> = ramp().iter().flat_map(|x| [0.1 * x, *x]).collect();
+        let read = Recording::from_bytes("x", &wav(16, 2, false, &stereo)).unwrap();
+        assert_eq!((read.channel, read.samples.len()), ([2, 2], 1000));
+        assert!((read.samples[99] - 0.245).abs() < 1e-3);
+    }
+
+    #[test]
+    fn clipping_is_told() {
+        let tone: Vec<f32> = (0..2000_u16)
+            .map(|k| 2.0 * libm::sinf(f32::from(k) * 0.1))
+            .collect();
+        let clip = |most: f32| {
+            tone.iter()
+                .map(|x| x.clamp(-most, most))
+                .collect::<Vec<_>>()
+        };
+        for most in [1.0, 0.5] {
+            let read = Recording::from_bytes("x", &wav(16, 1, false, &clip(most))).unwrap();
+            assert!(read.clipped > 0.3, "{most}: {}", read.clipped);
+        }
+        let whole = Recording::from_bytes("x", &wav(16, 1, false, &ramp())).unwrap();
+        assert_eq!(whole.clipped, 0.0);
+    }
+
+    #[test]
+    fn damaged_files_are_errors_and_never_panics() {
+        let whole = wav(16, 1, false, &ramp());
+        for cut in 0..whole.len() {
+            assert!(Recording::from_bytes("x", &whole[..cut]).is_err(), "{cut}");
+        }
+        let cut = Recording::from_bytes("x", &whole[..whole.len() - 600]);
+        let Err(RecordingError::CutOff {
+            found: 700,
+            promised: 1000,
+        }) = cut
+        else {
+            panic!("{cut:?}");
+        };
+        for place in 0..60.min(whole.len()) {
+            for byte in [0, 1, 0x7f, 0x80, 0xff] {
+                let mut damaged = whole.clone();
+                damaged[place] = byte;
+                drop(Recording::from_bytes("x", &damaged));
+            }
+        }
+        let quiet = Recording::from_bytes("x", &wav(32, 1, true, &[f32::NAN; 1000]));
+        assert!(matches!(quiet, Err(RecordingError::NotFinite(0))));
+    }
+}
