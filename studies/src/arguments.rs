@@ -9,6 +9,7 @@ use crate::flat_table::FlatTable;
 use crate::impacts::{ImpactAccuracy, ImpactBalance, ImpactCurves, ImpactLimit};
 use crate::integration::Integration;
 use crate::link_fuzz::LinkFuzz;
+use crate::listen::Listen;
 use crate::missed_contacts::MissedContacts;
 use crate::oracle::Oracle;
 use crate::rapier::{RapierEnergy, RapierRestitution, RapierStep, RapierStress};
@@ -47,6 +48,8 @@ enum Command {
     Atlas(Atlas),
     /// Synthetic coins calibrated: do intervals hold the truth, what does each measurement tell
     Calibrate(Calibrate),
+    /// Simulated recordings listened to: rolling friction, restitution, bad files
+    Listen(Listen),
     /// How P(side) depends on the engine's settings, toss by toss
     Convergence(Convergence),
     /// Every flight against dense sampling: contacts passed over, energy gained
@@ -109,6 +112,7 @@ impl Arguments {
                 Command::Film(study) => study.execute(seed),
                 Command::Atlas(study) => study.execute()?,
                 Command::Calibrate(study) => study.execute(seed)?,
+                Command::Listen(study) => study.execute(seed),
                 Command::Convergence(study) => study.execute(seed),
                 Command::MissedContacts(study) => study.execute(seed),
                 Command::Oracle(study) => study.execute(seed),

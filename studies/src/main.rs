@@ -14,6 +14,7 @@ mod impacts;
 mod integration;
 mod legs;
 mod link_fuzz;
+mod listen;
 mod missed_contacts;
 mod oracle;
 mod paired;

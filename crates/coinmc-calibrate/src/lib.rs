@@ -46,7 +46,7 @@ pub use document::document;
 pub use error::CalibrationError;
 pub use fair::FairRatio;
 pub use information::Suggestion;
-pub use measured::{Kind, Law, Reading};
+pub use measured::{Kind, Law, Reading, rolling_friction_of_whirr};
 pub use model::Model;
 pub use observations::{Counted, Observations};
 pub use parameter::Parameter;

@@ -7,7 +7,7 @@ use crate::commands::{
     ReportOf, Run, Schema, SensitivityOf, Show, Status, Trace, Validate,
 };
 #[cfg(feature = "film")]
-use crate::commands::{Calibrate, Film};
+use crate::commands::{Calibrate, Film, Listen};
 use crate::exit::{Failure, Outcome};
 use crate::output::{Console, Format};
 use clap::{ColorChoice, CommandFactory, Parser, Subcommand};
@@ -72,6 +72,8 @@ enum Command {
     Trace(Box<Trace>),
     #[cfg(feature = "film")]
     Film(Film),
+    #[cfg(feature = "film")]
+    Listen(Box<Listen>),
     Analytic(Analytic),
     #[cfg(feature = "robot")]
     Robot(Robot),
@@ -114,6 +116,8 @@ impl Command {
             Self::Trace(trace) => trace.format(),
             #[cfg(feature = "film")]
             Self::Film(film) => film.format(),
+            #[cfg(feature = "film")]
+            Self::Listen(listen) => listen.format(),
             Self::Analytic(analytic) => analytic.errors_as(),
             #[cfg(feature = "robot")]
             Self::Robot(robot) => robot.format(),
@@ -143,6 +147,8 @@ impl Command {
             Self::Trace(trace) => trace.execute(console),
             #[cfg(feature = "film")]
             Self::Film(film) => film.execute(console),
+            #[cfg(feature = "film")]
+            Self::Listen(listen) => listen.execute(console),
             Self::Analytic(analytic) => analytic.execute(console),
             #[cfg(feature = "robot")]
             Self::Robot(robot) => robot.execute(console),

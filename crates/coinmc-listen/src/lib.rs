@@ -11,12 +11,14 @@
 //! # Files
 //! `recording` WAV files · `spectrum`, `onsets` when something strikes · `envelope`, `chirp`, `whirr` the pitch of a
 //! coin that settles · `struck` tosses of the engine until the coin rests · `heard` bounces, from a recording or a
-//! toss · `regression`, `posterior` the surface from bounces · `rattle`, `synthetic` recordings of simulated tosses.
+//! toss · `regression`, `posterior` the surface from bounces · `listened` all recordings together · `written` JSON, CSV and
+//! lines of a config · `rattle`, `synthetic` recordings of simulated tosses.
 
 mod chirp;
 mod envelope;
 mod error;
 mod heard;
+mod listened;
 mod onsets;
 mod posterior;
 mod rattle;
@@ -26,12 +28,15 @@ mod spectrum;
 mod struck;
 mod synthetic;
 mod whirr;
+mod written;
 
 pub use error::{ListenError, RecordingError};
 pub use heard::{Bounces, NoBounces};
+pub use listened::{Heard, Kind, LAW_ERROR, RollingFriction, Told};
 pub use onsets::{Onset, Onsets};
 pub use posterior::{Effort, Estimated, FromDrops};
 pub use recording::{MAX_SAMPLES, Recording};
 pub use struck::{Strike, Struck, StruckError, Tosser};
 pub use synthetic::Synthetic;
 pub use whirr::{NoWhirr, Pitch, Whirr};
+pub use written::{config, csv, document};

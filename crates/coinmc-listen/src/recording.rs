@@ -120,8 +120,8 @@ impl Recording {
         })
     }
 
-    /// A recording of 16-bit samples, as a phone makes.
-    pub(crate) fn of_samples(name: &str, rate_hz: f64, samples: Vec<f32>) -> Self {
+    /// A recording of 16-bit samples from −1 to 1, as a phone makes.
+    pub fn of_samples(name: &str, rate_hz: f64, samples: Vec<f32>) -> Self {
         Self {
             name: name.to_owned(),
             rate_hz,

@@ -18,6 +18,7 @@ pub(crate) use drops::Drops;
 pub(crate) use roll_out::RollOut;
 pub(crate) use spin_down::SpinDown;
 pub(crate) use tilt::Tilt;
+pub use whirr::rolling_friction_of_whirr;
 pub(crate) use whirr::{Whirr, rate_per_length as whirr_rate};
 
 use crate::Parameter;

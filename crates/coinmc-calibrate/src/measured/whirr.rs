@@ -172,13 +172,36 @@ const MOST_SINE: f64 = 0.8;
 const BISECTIONS: u32 = 60;
 const STEPS: u32 = 200;
 
+/// ρ_c, m, of a coin that whirrs in a scene, from times, s, and frequencies, 1/s, whose standard error is this
+/// share of them; and its standard error as a share of it. `None` where the pitch does not rise, or is too low
+/// for whirring.
+///
+/// # Example
+/// ```
+/// use coinmc_calibrate::rolling_friction_of_whirr;
+/// use coinmc_core::{Coin, Scene, Surface};
+/// let coin = Coin::cylinder(0.16, 0.0116)?;
+/// let scene = Scene::new(coin, Surface::new(0.5, 0.3)?, 9.81)?;
+/// let readings = [(0.0, 21.0), (1.0, 24.0), (2.0, 30.0), (3.0, 47.0)];
+/// let (length_m, share) = rolling_friction_of_whirr(&scene, &readings, 0.03).unwrap();
+/// assert!(length_m > 4e-6 && length_m < 8e-6 && share < 0.1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn rolling_friction_of_whirr(
+    scene: &Scene,
+    readings: &[(f64, f64)],
+    share: f64,
+) -> Option<(f64, f64)> {
+    let left = |(time, f): &(f64, f64)| Some((*time, length_times_time_left(scene, *f)?));
+    let lengths: Option<Vec<_>> = readings.iter().map(left).collect();
+    line(&lengths?, share)
+}
+
 impl Reduce for Whirr {
     const KIND: Kind = Kind::Whirr;
 
     fn reduce(&self, scene: &Scene) -> Vec<Reduced> {
-        let left = |(time, f): &(f64, f64)| Some((*time, length_times_time_left(scene, *f)?));
-        let lengths: Option<Vec<_>> = self.readings.iter().map(left).collect();
-        let fitted = lengths.and_then(|lengths| line(&lengths, self.share));
+        let fitted = rolling_friction_of_whirr(scene, &self.readings, self.share);
         let Some((value, relative)) = fitted else {
             return vec![];
         };

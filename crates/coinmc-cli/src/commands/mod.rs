@@ -13,6 +13,8 @@ mod design;
 mod fair;
 #[cfg(feature = "film")]
 mod film;
+#[cfg(feature = "film")]
+mod listen;
 mod merge;
 mod quantity;
 mod question;
@@ -41,6 +43,8 @@ pub(crate) use design::DesignArgs;
 pub(crate) use fair::Fair;
 #[cfg(feature = "film")]
 pub(crate) use film::Film;
+#[cfg(feature = "film")]
+pub(crate) use listen::Listen;
 pub(crate) use merge::Merge;
 pub(crate) use rare::Rare;
 pub(crate) use report::ReportOf;

@@ -1,0 +1,182 @@
+//! `coinmc listen`: a coin in a sound recording, and what it tells of the surface.
+
+mod report;
+mod synthetic;
+
+use super::question::{AnswerArgs, ask};
+use crate::exit::{Failure, Outcome};
+use crate::output::{self, Console, Format};
+use anyhow::anyhow;
+use clap::{Args, ValueEnum};
+use coinmc::config::Override;
+use coinmc_calibrate::Observations;
+use coinmc_listen::{Effort, Heard, Kind, ListenError, Recording, Told, csv, document};
+use std::path::PathBuf;
+use synthetic::SyntheticArgs;
+
+/// Recordings at once.
+const MOST_FILES: usize = 100;
+
+const EXAMPLES: &str = "\
+Examples:
+  coinmc listen drop.wav                               when does it strike?
+  coinmc listen drop-*.wav --config my-coin.toml       … and which surface sounds like that?
+  coinmc listen spin.wav --config my-coin.toml         rolling friction from the whirr
+  coinmc listen --synthetic drop.wav --config my-coin.toml --noise-db 10
+
+How to record, and what the config says: docs/guide/listen.md.";
+
+/// Hear a dropped or spun coin in sound recordings, and what it tells of the surface
+///
+/// Finds the impacts of a dropped coin, and the pitch of one that whirrs as it settles. With a config that says
+/// coin and launch, restitution and friction follow from simulated drops that sound alike, and rolling friction
+/// from the whirr. Several recordings of the same coin and launch together say more.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Listen {
+    /// Recordings (WAV)
+    #[arg(value_name = "FILE", required_unless_present = "synthetic")]
+    files: Vec<PathBuf>,
+
+    /// The config (TOML): coin, launch and what is believed of the surface, as for `coinmc calibrate`
+    #[arg(long, value_name = "FILE")]
+    config: Option<PathBuf>,
+
+    /// Replace or add a value of the config, as in `launch.height_m=0.2`; repeatable
+    #[arg(long = "set", value_name = "KEY=VALUE", requires = "config")]
+    overrides: Vec<Override>,
+
+    /// What the recordings are of [default: a spin if it whirrs, else a drop]
+    #[arg(long, value_enum, value_name = "KIND")]
+    of: Option<KindName>,
+
+    /// Surfaces, drawn from the prior, on which drops are simulated
+    #[arg(long, value_name = "N", default_value = "20_000", value_parser = super::count)]
+    surfaces: u64,
+
+    /// Seed of all random numbers
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+
+    #[command(flatten)]
+    synthetic: SyntheticArgs,
+
+    /// Number of threads [default: one per core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+
+    /// How to write the result
+    #[arg(long, value_enum, default_value_t = ListenFormat::Table)]
+    format: ListenFormat,
+
+    /// Show no progress and no remarks, only warnings and errors
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum KindName {
+    Drop,
+    Spin,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum ListenFormat {
+    /// For people
+    Table,
+    /// One JSON document
+    Json,
+    /// Onsets, bounces and pitches, one a row
+    Csv,
+}
+
+impl From<KindName> for Kind {
+    fn from(name: KindName) -> Self {
+        match name {
+            KindName::Drop => Self::Drop,
+            KindName::Spin => Self::Whirr,
+        }
+    }
+}
+
+impl Listen {
+    pub(crate) fn format(&self) -> Format {
+        match self.format {
+            ListenFormat::Json => Format::Json,
+            ListenFormat::Table | ListenFormat::Csv => Format::Table,
+        }
+    }
+
+    pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
+        let load = |path| Observations::load(path, &self.overrides);
+        let observed = self.config.as_ref().map(load).transpose()?;
+        if self.synthetic.is_asked_for() {
+            return self.synthetic.write(observed.as_ref(), self.seed, console);
+        }
+        let heard = self.heard(observed.as_ref())?;
+        let mut told = None;
+        if let Some(observed) = &observed {
+            let effort = Effort {
+                surfaces: self.surfaces,
+                seed: self.seed,
+            };
+            let answer = AnswerArgs {
+                threads: self.threads,
+                format: self.format(),
+                quiet: self.quiet,
+            };
+            let answered = ask(console, &answer, |workers| {
+                Told::of(&heard, observed, effort, workers)
+            })?;
+            let Some(answered) = answered else {
+                return Ok(Outcome::Interrupted);
+            };
+            told = Some((answered, observed));
+        }
+        let told = told.as_ref().map(|(told, observed)| (told, *observed));
+        match self.format {
+            ListenFormat::Json => output::print_json(&document(&heard, told)),
+            ListenFormat::Csv => output::print(&csv(&heard)),
+            ListenFormat::Table => output::print(&report::text(&heard, told, console.stdout())),
+        }
+        .map_err(|error| Failure::Runtime(anyhow!(error)))?;
+        Ok(Outcome::Done)
+    }
+
+    /// Listens to all files, or tells what is wrong with each.
+    fn heard(&self, observed: Option<&Observations>) -> Result<Vec<Heard>, Failure> {
+        if self.files.len() > MOST_FILES {
+            let message = format!("at most {MOST_FILES} recordings can be heard together");
+            return Err(Failure::Input(anyhow!(message)));
+        }
+        let scene = observed.map(|observed| &observed.plan.points[0].scene);
+        let (mut heard, mut problems) = (vec![], vec![]);
+        for path in &self.files {
+            let name = path.display();
+            match Recording::read(path) {
+                Err(error) => problems.push(format!("{name}: {error}")),
+                Ok(recording) => {
+                    let one = Heard::of(&recording, scene, self.of.map(Kind::from));
+                    match one.silence() {
+                        Some(why) => problems.push(format!("{name}: no coin heard: {why}")),
+                        None => heard.push(one),
+                    }
+                }
+            }
+        }
+        if problems.is_empty() {
+            return Ok(heard);
+        }
+        Err(Failure::Input(anyhow!(problems.join("\n"))))
+    }
+}
+
+impl From<ListenError> for super::question::Unanswered {
+    fn from(error: ListenError) -> Self {
+        match error {
+            ListenError::Question(error) => error.into(),
+            ListenError::Calibration(error) => error.into(),
+            error => Self::Failed(Failure::Input(error.into())),
+        }
+    }
+}
