@@ -71,7 +71,14 @@ impl Listen {
     fn whirr(&self, seed: u64) -> Report {
         let cases: Vec<u64> = (0..self.cases).collect();
         let found = survey(&cases, |case| self.spin(seed, *case));
-        let columns = ["case", "rolling_friction_m", "found_m", "error_m", "off", "why"];
+        let columns = [
+            "case",
+            "rolling_friction_m",
+            "found_m",
+            "error_m",
+            "off",
+            "why",
+        ];
         let mut table = Table::new("Rolling friction from the whirr", &columns);
         let mut offs = vec![];
         for (case, (truth, found)) in cases.iter().zip(&found) {
@@ -93,7 +100,10 @@ impl Listen {
         }
         let mut report = Report::new(table);
         let within = |most: f64| offs.iter().filter(|(off, _)| off.abs() < most).count();
-        let covered = offs.iter().filter(|(off, share)| off.abs() < 1.96 * share * (1.0 + off)).count();
+        let covered = offs
+            .iter()
+            .filter(|(off, share)| off.abs() < 1.96 * share * (1.0 + off))
+            .count();
         report.remark(format!(
             "{} of {} spins whirr; within 10 %: {}, within 20 %: {}; {covered} in 1.96 standard errors; mean {:+.3}, rms {:.3}",
             offs.len(),
@@ -108,8 +118,8 @@ impl Listen {
 
     /// The rolling friction of a spun coin, and what is heard of it or why nothing.
     fn spin(&self, seed: u64, case: u64) -> (f64, Result<(f64, f64), String>) {
-        let launch = "height_m = 0.0116\norientation = { tilt_deg = { normal = { mean = 70, sd = 5 } } }\n\
-             spin = { components_rad_s = [0, 0, { normal = { mean = 50, sd = 8 } }] }";
+        let launch = "height_m = 0.0116\norientation = { tilt_deg = { normal = { mean = 85, sd = 3 } } }\n\
+             spin = { components_rad_s = [0, 0, { normal = { mean = 60, sd = 10 } }] }";
         let (truth, made) = coin(seed, case, launch);
         let recording = self.recording(&made, case, 0);
         let scene = &made.plan.points[0].scene;
@@ -126,7 +136,15 @@ impl Listen {
     fn drops(&self, seed: u64) -> Report {
         let cases: Vec<u64> = (0..self.cases).collect();
         let found = survey(&cases, |case| self.drop(seed, *case));
-        let columns = ["case", "restitution", "found", "lo", "hi", "heard", "doubts"];
+        let columns = [
+            "case",
+            "restitution",
+            "found",
+            "lo",
+            "hi",
+            "heard",
+            "doubts",
+        ];
         let mut table = Table::new("Restitution from drops", &columns);
         let (mut squares, mut near, mut held, mut n, mut doubts) = (0.0, 0, 0, 0.0_f64, 0);
         for (case, (truth, heard, found)) in cases.iter().zip(&found) {
@@ -146,7 +164,13 @@ impl Listen {
                         odd.to_string(),
                     ]
                 }
-                Err(why) => [String::new(), String::new(), String::new(), heard.to_string(), why.clone()],
+                Err(why) => [
+                    String::new(),
+                    String::new(),
+                    String::new(),
+                    heard.to_string(),
+                    why.clone(),
+                ],
             });
             table.push(row);
         }
@@ -170,7 +194,13 @@ impl Listen {
         let (truth, made) = coin(seed, case, &launch);
         let scene = &made.plan.points[0].scene;
         let heard: Vec<Heard> = (0..self.recordings)
-            .map(|take| Heard::of(&self.recording(&made, case, take), Some(scene), Some(Kind::Drop)))
+            .map(|take| {
+                Heard::of(
+                    &self.recording(&made, case, take),
+                    Some(scene),
+                    Some(Kind::Drop),
+                )
+            })
             .filter(|heard| heard.silence().is_none())
             .collect();
         if heard.is_empty() {
@@ -187,13 +217,17 @@ impl Listen {
     fn recording(&self, made: &Observations, case: u64, take: u64) -> Recording {
         let point = &made.plan.points[0];
         let stream = Stream::new(case, Domain::Acceptance, 1);
-        let launch = point.launches.launch(&point.scene.coin, &mut stream.toss(take));
+        let launch = point
+            .launches
+            .launch(&point.scene.coin, &mut stream.toss(take));
         let synthetic = Synthetic {
             seed: case * 1000 + take,
             signal_to_noise_db: self.noise_db,
             ..Synthetic::default()
         };
-        synthetic.recording(point, &launch).expect("a scene with tosses")
+        synthetic
+            .recording(point, &launch)
+            .expect("a scene with tosses")
     }
 
     fn bad(&self, seed: u64) -> Report {
@@ -217,10 +251,17 @@ impl Listen {
                     ("confident", what)
                 }
             };
-            table.push(vec![case.to_string(), (*kind).to_owned(), word.to_owned(), what.clone()]);
+            table.push(vec![
+                case.to_string(),
+                (*kind).to_owned(),
+                word.to_owned(),
+                what.clone(),
+            ]);
         }
         let mut report = Report::new(table);
-        report.remark(format!("{errors} refused, {doubted} answered with doubts, {confident} without"));
+        report.remark(format!(
+            "{errors} refused, {doubted} answered with doubts, {confident} without"
+        ));
         report
     }
 }
@@ -241,7 +282,8 @@ fn coin(seed: u64, case: u64, launch: &str) -> (Vec<f64>, Observations) {
         )
     };
     let parse = |surface: &str| {
-        Observations::parse("study", &text(surface), &[], "".as_ref()).expect("a config of the study")
+        Observations::parse("study", &text(surface), &[], "".as_ref())
+            .expect("a config of the study")
     };
     let prior = parse("restitution = 0.5\nfriction = 0.3");
     let mut uniforms = Stream::new(seed, Domain::Parameters, 1).toss(case);
@@ -297,6 +339,7 @@ fn answer(recording: &Recording, made: &Observations) -> Answer {
     match told(&[heard], made, 2000) {
         Err(why) => Answer::Refused(why),
         Ok(told) => {
+            doubts.extend(told.doubts.clone());
             doubts.extend(told.drops.iter().flat_map(|drops| drops.doubts.clone()));
             let drops = told.drops.as_ref().map(|drops| &drops.parameters[0]);
             let what = format!(
@@ -316,9 +359,13 @@ fn answer(recording: &Recording, made: &Observations) -> Answer {
 fn bytes_of(kind: &str, made: &Observations, case: u64, random: &dyn Fn(u64) -> f64) -> Vec<u8> {
     let point = &made.plan.points[0];
     let stream = Stream::new(case, Domain::Acceptance, 2);
-    let launch = point.launches.launch(&point.scene.coin, &mut stream.toss(0));
+    let launch = point
+        .launches
+        .launch(&point.scene.coin, &mut stream.toss(0));
     let drop = |synthetic: Synthetic| {
-        let made = synthetic.recording(point, &launch).expect("a scene with tosses");
+        let made = synthetic
+            .recording(point, &launch)
+            .expect("a scene with tosses");
         made.to_bytes().expect("a short recording")
     };
     let usual = Synthetic {
@@ -353,7 +400,9 @@ fn bytes_of(kind: &str, made: &Observations, case: u64, random: &dyn Fn(u64) -> 
             signal_to_noise_db: -5.0 - 20.0 * random(4),
             ..usual
         }),
-        "bytes" => (0..below(5, 100_000) as u64).map(|k| (random(100 + k) * 256.0) as u8).collect(),
+        "bytes" => (0..below(5, 100_000) as u64)
+            .map(|k| (random(100 + k) * 256.0) as u8)
+            .collect(),
         other => Recording::to_bytes(&Recording::of_samples(
             other,
             f64::from(RATE),
@@ -382,7 +431,8 @@ fn sound_of(kind: &str, random: &dyn Fn(u64) -> f64) -> Vec<f32> {
             "notes" => {
                 let note = pitch * libm::exp2((12.0 * random(20 + number)).floor() / 12.0);
                 let loud = libm::exp(-since * (2.0 + 8.0 * random(9))) * (since / 0.01).min(1.0);
-                let tones = (1..=4).map(|h| libm::sin(TAU * note * f64::from(h) * t) / f64::from(h));
+                let tones =
+                    (1..=4).map(|h| libm::sin(TAU * note * f64::from(h) * t) / f64::from(h));
                 0.2 * loud * tones.sum::<f64>()
             }
             "speech" => {
@@ -390,7 +440,9 @@ fn sound_of(kind: &str, random: &dyn Fn(u64) -> f64) -> Vec<f32> {
                 low = 0.8 * low + 0.2 * noise(k);
                 let swell = libm::sin(std::f64::consts::PI * (since * tempo).min(1.0));
                 let voice = libm::sin(TAU * (100.0 + 50.0 * random(20 + number)) * t);
-                random(400 + number) * swell * (low + 0.5 * noise(k) * random(500 + number) + 0.3 * voice)
+                random(400 + number)
+                    * swell
+                    * (low + 0.5 * noise(k) * random(500 + number) + 0.3 * voice)
             }
             "claps" => {
                 let jitter = 0.3 * random(300 + number) / tempo;

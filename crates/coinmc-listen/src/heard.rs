@@ -2,7 +2,8 @@
 //! same rules.
 
 use crate::onsets::{Onsets, is_masked};
-use crate::struck::Struck;
+use crate::struck::{Strike, Struck};
+use coinmc_core::{UniformSource, inverse_normal_cdf};
 use thiserror::Error;
 
 /// Strikes within so long after an onset add to its strength, s.
@@ -10,9 +11,11 @@ const TOGETHER_S: f64 = 0.006;
 const HALF: f64 = 0.5;
 /// Impacts of the first contact may come so long before the loudest, s.
 const FIRST_S: f64 = 0.03;
-/// Onsets weaker than this many thresholds are not counted: of those near it some are missed.
-const SURE: f64 = 2.0;
-/// Nor are those weaker than this share of the loudest.
+/// Strikes within so short a time are one push, s.
+const AT_ONCE_S: f64 = 0.000_2;
+/// Standard deviation of the logarithm of a strength: modes of strikes that are heard together interfere.
+const INTERFERENCE: f64 = 0.3;
+/// Onsets weaker than this share of the loudest are not counted.
 const WEAKEST: f64 = 0.04;
 /// A silence that ends the bounces, s, beside twice the longest flight.
 const SILENCE_S: f64 = 0.2;
@@ -54,7 +57,7 @@ impl Bounces {
     /// # Errors
     /// [`NoBounces`] if these are not the sounds of a dropped coin.
     pub fn of(onsets: &Onsets) -> Result<Self, NoBounces> {
-        let least = (SURE * onsets.threshold).max(WEAKEST);
+        let least = onsets.threshold.max(WEAKEST);
         let all: Vec<(f64, f64)> = onsets
             .onsets
             .iter()
@@ -65,24 +68,28 @@ impl Bounces {
         Ok(bounces)
     }
 
-    /// The bounces of a simulated toss that would be heard.
-    pub(crate) fn of_toss(struck: &Struck, least: f64) -> Option<Self> {
+    /// The bounces of a simulated toss that would be heard; `uniforms` say how modes interfere.
+    pub(crate) fn of_toss(
+        struck: &Struck,
+        least: f64,
+        uniforms: &mut impl UniformSource,
+    ) -> Option<Self> {
         let mut sounds: Vec<(f64, f64)> = vec![];
         for (place, strike) in struck.strikes.iter().enumerate() {
             let with = struck.strikes[place..].iter();
             let with = with.take_while(|other| other.time_s - strike.time_s < TOGETHER_S);
-            let speeds = with.clone().map(|other| other.speed_m_s);
-            let strength = speeds
+            let loudest = with
                 .clone()
-                .map(|speed| speed * speed)
-                .sum::<f64>()
-                .sqrt();
+                .map(|other| other.speed_m_s)
+                .fold(0.0, f64::max);
             // the rise is heard where the sound passes half of its greatest
-            let half = HALF * speeds.fold(0.0, f64::max);
-            let rise = with
-                .clone()
-                .find(|other| other.speed_m_s >= half)
+            let mut rising = with.clone();
+            let rise = rising
+                .find(|other| other.speed_m_s >= HALF * loudest)
                 .unwrap_or(strike);
+            #[allow(clippy::cast_possible_truncation)] // at most a few thousand strikes
+            let normal = inverse_normal_cdf(uniforms.uniform(place as u32));
+            let strength = sum(with) * libm::exp(INTERFERENCE * normal);
             let masks = |last: &(f64, f64)| is_masked(rise.time_s - last.0, strength / last.1);
             if strength > 0.0 && !sounds.iter().rev().take(8).any(masks) {
                 sounds.push((rise.time_s, strength));
@@ -165,6 +172,20 @@ impl Bounces {
         features[GAPS + 1] = libm::log(self.times_s.len() as f64);
         features
     }
+}
+
+/// The strength of strikes that are heard together: those at the same instant add, others in squares.
+fn sum<'a>(strikes: impl Iterator<Item = &'a Strike>) -> f64 {
+    let (mut squares, mut at_once, mut last_s) = (0.0, 0.0, f64::NEG_INFINITY);
+    for strike in strikes {
+        if strike.time_s - last_s > AT_ONCE_S {
+            squares += at_once * at_once;
+            at_once = 0.0;
+        }
+        at_once += strike.speed_m_s;
+        last_s = strike.time_s;
+    }
+    (squares + at_once * at_once).sqrt()
 }
 
 /// How many features there are, and what they are.

@@ -11,7 +11,8 @@
 //! # Files
 //! `recording` WAV files · `spectrum`, `onsets` when something strikes · `envelope`, `chirp`, `whirr` the pitch of a
 //! coin that settles · `struck` tosses of the engine until the coin rests · `heard` bounces, from a recording or a
-//! toss · `regression`, `posterior` the surface from bounces · `listened` all recordings together · `written` JSON, CSV and
+//! toss · `regression`, `posterior` the surface from bounces · `settling` rolling friction from a whirr · `listened` all recordings
+//! together · `written` JSON, CSV and
 //! lines of a config · `rattle`, `synthetic` recordings of simulated tosses.
 
 mod chirp;
@@ -24,6 +25,7 @@ mod posterior;
 mod rattle;
 mod recording;
 mod regression;
+mod settling;
 mod spectrum;
 mod struck;
 mod synthetic;
@@ -32,7 +34,7 @@ mod written;
 
 pub use error::{ListenError, RecordingError};
 pub use heard::{Bounces, NoBounces};
-pub use listened::{Heard, Kind, LAW_ERROR, RollingFriction, Told};
+pub use listened::{Heard, Kind, RollingFriction, Told};
 pub use onsets::{Onset, Onsets};
 pub use posterior::{Effort, Estimated, FromDrops};
 pub use recording::{MAX_SAMPLES, Recording};

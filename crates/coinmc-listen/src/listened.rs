@@ -5,8 +5,9 @@ use crate::heard::{Bounces, NoBounces};
 use crate::onsets::Onsets;
 use crate::posterior::{Effort, FromDrops};
 use crate::recording::Recording;
+use crate::settling::rolling_friction;
 use crate::whirr::{NoWhirr, Whirr};
-use coinmc_calibrate::{Observations, rolling_friction_of_whirr};
+use coinmc_calibrate::Observations;
 use coinmc_core::Scene;
 use coinmc_questions::Workers;
 use std::f64::consts::TAU;
@@ -17,8 +18,6 @@ const MOST_SINE: f64 = 0.4;
 const USUAL_HZ: f64 = 14.0;
 /// Share of clipped samples that is remarked on, and the share with which nothing is made of a recording.
 const CLIPPED: [f64; 2] = [0.001, 0.1];
-/// By how much, as a share, the law of whirring differs from whirrs of the engine; it is in the error of ρ_c.
-pub const LAW_ERROR: f64 = 0.06;
 
 /// What a recording is taken for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -133,7 +132,7 @@ fn least_pitch_hz(scene: &Scene) -> f64 {
 pub struct RollingFriction {
     /// ρ_c, m.
     pub length_m: f64,
-    /// Its standard error, m: of the readings, and of the law ([`LAW_ERROR`]).
+    /// Its standard error, m.
     pub error_m: f64,
 }
 
@@ -144,6 +143,8 @@ pub struct Told {
     pub drops: Option<FromDrops>,
     /// By whirrs.
     pub whirrs: Option<RollingFriction>,
+    /// What is odd about the whirrs.
+    pub doubts: Vec<String>,
 }
 
 impl Told {
@@ -166,41 +167,44 @@ impl Told {
         } else {
             Some(FromDrops::of(&drops, observed, effort, workers)?)
         };
-        let scene = &observed.plan.points[0].scene;
-        let lengths = is(Kind::Whirr).filter_map(|heard| {
-            let whirr = heard.whirr.as_ref().ok()?;
-            let readings: Vec<_> = whirr
-                .readings
-                .iter()
-                .map(|pitch| (pitch.time_s, pitch.frequency_hz))
-                .collect();
-            rolling_friction_of_whirr(scene, &readings, whirr.scatter)
-        });
+        let mut logs = vec![];
+        let mut doubts = vec![];
+        for heard in is(Kind::Whirr) {
+            let Ok(whirr) = &heard.whirr else { continue };
+            match rolling_friction(whirr, observed, effort.seed, workers)? {
+                Some(found) => logs.push(found),
+                None => doubts.push(format!(
+                    "no coin of the config whirrs like {}: are coin and prior right?",
+                    heard.name
+                )),
+            }
+        }
         Ok(Self {
             drops,
-            whirrs: together(&lengths.collect::<Vec<_>>()),
+            whirrs: together(&logs),
+            doubts,
         })
     }
 }
 
-/// The weighted mean of lengths with errors as shares of them. Where they scatter more than these, the error is
-/// widened; that of the law is common to all.
-fn together(lengths: &[(f64, f64)]) -> Option<RollingFriction> {
-    let logs = || {
-        lengths
-            .iter()
-            .map(|(length, share)| (libm::log(*length), 1.0 / (share * share)))
+/// The weighted mean of ln ρ_c with their errors. What the surface leaves open is the same for all recordings, so
+/// several do not lessen the error by more than the half.
+fn together(logs: &[(f64, f64)]) -> Option<RollingFriction> {
+    let each = || {
+        logs.iter()
+            .map(|(log, error)| (*log, 1.0 / (error * error)))
     };
-    let total: f64 = logs().map(|(_, weight)| weight).sum();
+    let total: f64 = each().map(|(_, weight)| weight).sum();
     if total <= 0.0 {
         return None;
     }
-    let mean = logs().map(|(log, weight)| weight * log).sum::<f64>() / total;
-    let misfit: f64 = logs()
+    let mean = each().map(|(log, weight)| weight * log).sum::<f64>() / total;
+    let misfit: f64 = each()
         .map(|(log, weight)| weight * (log - mean) * (log - mean))
         .sum();
-    let degrees = (lengths.len() - 1).max(1) as f64;
-    let share = ((misfit / degrees).max(1.0) / total + LAW_ERROR * LAW_ERROR).sqrt();
+    let degrees = (logs.len() - 1).max(1) as f64;
+    let least = 4.0 * total / logs.len() as f64;
+    let share = ((misfit / degrees).max(1.0) / total.min(least)).sqrt();
     let length_m = libm::exp(mean);
     Some(RollingFriction {
         length_m,

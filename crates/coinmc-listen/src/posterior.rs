@@ -123,6 +123,7 @@ fn simulate(
     let mut words = Stream::new(effort.seed, Domain::Scramble, 0).toss(0);
     let sobol = Sobol::scrambled(observed.priors.len(), &mut words);
     let stream = Stream::new(effort.seed, Domain::Launch, 0);
+    let loudness = Stream::new(effort.seed, Domain::Acceptance, 0);
     let pieces = usize::try_from(effort.surfaces)
         .unwrap_or(usize::MAX)
         .div_ceil(PIECE);
@@ -146,7 +147,9 @@ fn simulate(
                 (0..TRIES).find_map(|again| {
                     let uniforms = &mut stream.toss(number * TRIES + again);
                     let launch = scene.launches.launch(&scene.scene.coin, uniforms);
-                    let bounces = Bounces::of_toss(&tosser.strikes(&launch), like.least)?;
+                    let struck = tosser.strikes(&launch);
+                    let uniforms = &mut loudness.toss(number * TRIES + again);
+                    let bounces = Bounces::of_toss(&struck, like.least, uniforms)?;
                     (bounces.times_s.len() > 1).then(|| bounces.features())
                 })
             });
@@ -164,7 +167,7 @@ fn simulate(
 }
 
 /// The scene on the surface with these scores of the priors.
-fn on_surface(observed: &Observations, z: &[f64]) -> Result<Point, ListenError> {
+pub(crate) fn on_surface(observed: &Observations, z: &[f64]) -> Result<Point, ListenError> {
     let mut point = observed.plan.points[0].clone();
     let of = |wanted: Parameter| {
         let places = observed.priors.iter().zip(z);

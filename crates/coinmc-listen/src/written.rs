@@ -1,7 +1,7 @@
 //! What is heard as JSON, as CSV, and as lines of a config for `coinmc calibrate`.
 
 use crate::listened::{Heard, Kind, Told};
-use coinmc_calibrate::Observations;
+use coinmc_calibrate::{Observations, Parameter};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
@@ -75,6 +75,7 @@ fn of_surface(told: &Told, observed: &Observations) -> Value {
             "rolling_friction_m": length.length_m,
             "error_m": length.error_m,
         })),
+        "doubts": told.doubts,
         "notes": observed.notes().collect::<Vec<_>>(),
     })
 }
@@ -122,27 +123,13 @@ fn quoted(cell: &str) -> String {
     }
 }
 
-/// Lines for a config of `coinmc calibrate`: the pitch of each whirr as `[[whirr]]`; what drops tell as `[prior]`,
-/// or without a scene, in which nothing is simulated, the times of each as `[[bounces]]`.
+/// Lines for a config of `coinmc calibrate`: what simulated drops and whirrs tell, as `[prior]`; or without a scene, in
+/// which nothing is simulated, the times of each drop as `[[bounces]]` and the pitch of each whirr as `[[whirr]]`.
 pub fn config(heard: &[Heard], told: Option<&Told>) -> String {
-    let mut text = String::new();
-    if let Some(drops) = told.and_then(|told| told.drops.as_ref()) {
-        let learnt = drops
-            .parameters
-            .iter()
-            .filter(|found| found.spread_left < LEARNT);
-        let lines: Vec<String> = learnt
-            .map(|found| {
-                let [low, high] = found.interval.map(three_digits);
-                let key = found.prior.parameter.key();
-                format!("{key} = {{ low = {low}, high = {high} }}\n")
-            })
-            .collect();
-        if !lines.is_empty() {
-            text += "[prior]                  # from the bounces of drops\n";
-            text += &lines.concat();
-        }
+    if let Some(told) = told {
+        return prior(told);
     }
+    let mut text = String::new();
     for one in heard {
         match (one.kind, &one.bounces, &one.whirr) {
             (Some(Kind::Whirr), _, Ok(whirr)) => {
@@ -158,7 +145,7 @@ pub fn config(heard: &[Heard], told: Option<&Told>) -> String {
                     whirr.scatter
                 );
             }
-            (Some(Kind::Drop), Ok(bounces), _) if told.is_none() => {
+            (Some(Kind::Drop), Ok(bounces), _) => {
                 let times: Vec<String> =
                     bounces.times_s.iter().map(|t| format!("{t:.4}")).collect();
                 let _ = writeln!(
@@ -171,6 +158,32 @@ pub fn config(heard: &[Heard], told: Option<&Told>) -> String {
         }
     }
     text
+}
+
+/// What is learnt of a surface, as the prior of a calibration.
+fn prior(told: &Told) -> String {
+    let mut lines = String::new();
+    let mut line = |key: &str, interval: [f64; 2]| {
+        let [low, high] = interval.map(three_digits);
+        // writing to a string cannot fail
+        let _ = writeln!(lines, "{key} = {{ low = {low}, high = {high} }}");
+    };
+    for found in told.drops.iter().flat_map(|drops| &drops.parameters) {
+        let key = found.prior.parameter.key();
+        let by_whirr = told.whirrs.is_some() && key == Parameter::RollingFriction.key();
+        if found.spread_left < LEARNT && !by_whirr {
+            line(key, found.interval);
+        }
+    }
+    if let Some(length) = told.whirrs {
+        let factor = libm::exp(1.96 * length.error_m / length.length_m);
+        let ends = [length.length_m / factor, length.length_m * factor];
+        line(Parameter::RollingFriction.key(), ends);
+    }
+    if lines.is_empty() {
+        return lines;
+    }
+    format!("[prior]                  # by coinmc listen\n{lines}")
 }
 
 /// A number with three digits, as TOML writes it.

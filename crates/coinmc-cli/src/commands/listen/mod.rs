@@ -109,7 +109,7 @@ impl Listen {
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let load = |path| Observations::load(path, &self.overrides);
-        let observed = self.config.as_ref().map(load).transpose()?;
+        let observed = self.config.as_deref().map(load).transpose()?;
         if self.synthetic.is_asked_for() {
             return self.synthetic.write(observed.as_ref(), self.seed, console);
         }

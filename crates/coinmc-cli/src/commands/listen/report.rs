@@ -20,7 +20,7 @@ pub(super) fn text(heard: &[Heard], told: Option<(&Told, &Observations)>, style:
     );
     let lines = config(heard, told.map(|(told, _)| told));
     text += if lines.is_empty() {
-        "# nothing: the drops say no more than the prior\n"
+        "# nothing: they say no more than the prior\n"
     } else {
         &lines
     };
@@ -92,11 +92,15 @@ fn surface(told: &Told, observed: &Observations, style: &Style) -> String {
     }
     if let Some(length) = &told.whirrs {
         let words = format!(
-            "By the whirr: rolling_friction_m = {} ± {} (one standard error, that of the law included)",
+            "By the whirr: rolling_friction_m = {} ± {} (one standard error)",
             compact(three_digits(length.length_m)),
             compact(two_digits(length.error_m))
         );
         text += &wrapped(&words, style.width, 0);
+    }
+    for doubt in &told.doubts {
+        let words = format!("{} {doubt}", style.paint(Colors::Warning, "mind:"));
+        text += &wrapped(&words, style.width, 2);
     }
     for note in observed.notes() {
         let note = style.paint(Colors::Faint, &format!("note: {note}"));
