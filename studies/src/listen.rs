@@ -44,6 +44,10 @@ pub(crate) struct Listen {
     #[arg(long, default_value_t = 10.0, allow_negative_numbers = true)]
     noise_db: f64,
 
+    /// Friction is known within this share of it, as by tilting the table
+    #[arg(long, value_name = "SHARE")]
+    known_friction: Option<f64>,
+
     /// Standard deviation of the tilt of a dropped coin, degrees
     #[arg(long, default_value_t = 10.0)]
     tilt_deg: f64,
@@ -120,7 +124,7 @@ impl Listen {
     fn spin(&self, seed: u64, case: u64) -> (f64, Result<(f64, f64), String>) {
         let launch = "height_m = 0.0116\norientation = { tilt_deg = { normal = { mean = 85, sd = 3 } } }\n\
              spin = { components_rad_s = [0, 0, { normal = { mean = 60, sd = 10 } }] }";
-        let (truth, made) = coin(seed, case, launch);
+        let (truth, made) = coin(seed, case, launch, self.known_friction);
         let recording = self.recording(&made, case, 0);
         let scene = &made.plan.points[0].scene;
         let heard = Heard::of(&recording, Some(scene), Some(Kind::Whirr));
@@ -191,7 +195,7 @@ impl Listen {
              spin = {{ isotropic_sd_rad_s = 1 }}",
             self.tilt_deg
         );
-        let (truth, made) = coin(seed, case, &launch);
+        let (truth, made) = coin(seed, case, &launch, self.known_friction);
         let scene = &made.plan.points[0].scene;
         let heard: Vec<Heard> = (0..self.recordings)
             .map(|take| {
@@ -235,7 +239,7 @@ impl Listen {
         let found = survey(&cases, |case| bad_file(seed, *case));
         let columns = ["case", "kind", "answer", "what"];
         let mut table = Table::new("Bad files", &columns);
-        let [mut errors, mut doubted, mut confident] = [0, 0, 0];
+        let [mut errors, mut doubted, mut confident, mut right] = [0; 4];
         for (case, (kind, answer)) in cases.iter().zip(&found) {
             let (word, what) = match answer {
                 Answer::Refused(why) => {
@@ -250,6 +254,10 @@ impl Listen {
                     confident += 1;
                     ("confident", what)
                 }
+                Answer::Right(what) => {
+                    right += 1;
+                    ("right", what)
+                }
             };
             table.push(vec![
                 case.to_string(),
@@ -260,7 +268,8 @@ impl Listen {
         }
         let mut report = Report::new(table);
         report.remark(format!(
-            "{errors} refused, {doubted} answered with doubts, {confident} without"
+            "{errors} refused, {doubted} answered with doubts, {right} damaged recordings of coins answered rightly, \
+             {confident} with a wrong confidence"
         ));
         report
     }
@@ -271,30 +280,39 @@ enum Answer {
     Refused(String),
     Doubted(String),
     Confident(String),
+    /// Without doubt, of a damaged recording of a coin, and right.
+    Right(String),
 }
 
 /// A coin on a surface drawn from wood's prior, and the config that knows coin, launch and prior.
-fn coin(seed: u64, case: u64, launch: &str) -> (Vec<f64>, Observations) {
-    let text = |surface: &str| {
+///
+/// With `known` the friction is known within this share of it.
+fn coin(seed: u64, case: u64, launch: &str, known: Option<f64>) -> (Vec<f64>, Observations) {
+    let text = |surface: &str, more: &str| {
         format!(
-            "[coin]\nratio = 0.16\nradius_m = 0.0116\n[prior]\nmaterial = 'wood'\n[surface]\n{surface}\n\
+            "[coin]\nratio = 0.16\nradius_m = 0.0116\n[prior]\nmaterial = 'wood'\n{more}\n[surface]\n{surface}\n\
              [launch]\n{launch}\n[engine.volumetric]\n"
         )
     };
-    let parse = |surface: &str| {
-        Observations::parse("study", &text(surface), &[], "".as_ref())
+    let parse = |surface: &str, more: &str| {
+        Observations::parse("study", &text(surface, more), &[], "".as_ref())
             .expect("a config of the study")
     };
-    let prior = parse("restitution = 0.5\nfriction = 0.3");
+    let prior = parse("restitution = 0.5\nfriction = 0.3", "");
     let mut uniforms = Stream::new(seed, Domain::Parameters, 1).toss(case);
     let values: Vec<f64> = (0..)
         .zip(&prior.priors)
         .map(|(d, prior)| prior.value(inverse_normal_cdf(uniforms.uniform(d))))
         .collect();
-    let made = parse(&format!(
+    let surface = format!(
         "restitution = {}\nfriction = {}\nrolling_friction_m = {:e}\npivoting_friction_m = {:e}",
         values[0], values[1], values[2], values[3]
-    ));
+    );
+    let friction = known.map_or_else(String::new, |share| {
+        let [low, high] = [1.0 - share, 1.0 + share].map(|by| by * values[1]);
+        format!("friction = {{ low = {low}, high = {high} }}")
+    });
+    let made = parse(&surface, &friction);
     (values, made)
 }
 
@@ -309,6 +327,8 @@ fn told(heard: &[Heard], observed: &Observations, surfaces: u64) -> Result<Told,
     Told::of(heard, observed, effort, &workers).map_err(|error| error.to_string())
 }
 
+/// Kinds that are recordings of coins, more or less damaged.
+const OF_COINS: [&str; 4] = ["cut", "damaged", "clipped", "drowned"];
 const KINDS: [&str; 10] = [
     "cut", "damaged", "clipped", "drowned", "noise", "notes", "speech", "claps", "hum", "bytes",
 ];
@@ -316,7 +336,7 @@ const KINDS: [&str; 10] = [
 fn bad_file(seed: u64, case: u64) -> (&'static str, Answer) {
     let launch = "height_m = 0.15\norientation = { tilt_deg = { normal = { mean = 0, sd = 10 } } }\n\
                   spin = { isotropic_sd_rad_s = 1 }";
-    let (_, made) = coin(seed, case, launch);
+    let (truth, made) = coin(seed, case, launch, None);
     let philox = Philox4x64::new([seed, BAD]);
     let random = |place: u64| unit_interval(philox.block([case, place, 0, 0])[0]);
     #[allow(clippy::cast_possible_truncation)]
@@ -324,20 +344,28 @@ fn bad_file(seed: u64, case: u64) -> (&'static str, Answer) {
     let bytes = bytes_of(kind, &made, case, &random);
     let answer = match Recording::from_bytes(kind, &bytes) {
         Err(error) => Answer::Refused(error.to_string()),
-        Ok(recording) => answer(&recording, &made),
+        Ok(recording) => match answer(&recording, &made) {
+            (Answer::Confident(what), Some([lo, hi]))
+                if OF_COINS.contains(&kind) && (lo..=hi).contains(&truth[0]) =>
+            {
+                Answer::Right(what)
+            }
+            (answer, _) => answer,
+        },
     };
     (kind, answer)
 }
 
-fn answer(recording: &Recording, made: &Observations) -> Answer {
+/// What a recording is answered with, and the interval of the restitution.
+fn answer(recording: &Recording, made: &Observations) -> (Answer, Option<[f64; 2]>) {
     let scene = &made.plan.points[0].scene;
     let heard = Heard::of(recording, Some(scene), None);
     if let Some(why) = heard.silence() {
-        return Answer::Refused(why);
+        return (Answer::Refused(why), None);
     }
     let mut doubts = heard.doubts.clone();
     match told(&[heard], made, 2000) {
-        Err(why) => Answer::Refused(why),
+        Err(why) => (Answer::Refused(why), None),
         Ok(told) => {
             doubts.extend(told.doubts.clone());
             doubts.extend(told.drops.iter().flat_map(|drops| drops.doubts.clone()));
@@ -347,11 +375,12 @@ fn answer(recording: &Recording, made: &Observations) -> Answer {
                 drops.map(|e| (e.median, e.interval)),
                 told.whirrs
             );
-            if doubts.is_empty() {
+            let answer = if doubts.is_empty() {
                 Answer::Confident(what)
             } else {
                 Answer::Doubted(doubts.join("; "))
-            }
+            };
+            (answer, drops.map(|e| e.interval))
         }
     }
 }

@@ -19,6 +19,9 @@ const USUAL_HZ: f64 = 14.0;
 /// Share of clipped samples that is remarked on, and the share with which nothing is made of a recording.
 const CLIPPED: [f64; 2] = [0.001, 0.1];
 
+/// Fewer bounces than this are remarked on.
+const FEW: usize = 3;
+
 /// What a recording is taken for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
@@ -84,6 +87,11 @@ impl Heard {
             doubts.push(format!(
                 "{others} as loud sounds before or after the bounces are left out"
             ));
+        }
+        if let (Some(Kind::Drop), Ok(bounces)) = (kind, &bounces)
+            && bounces.times_s.len() < FEW
+        {
+            doubts.push("only two bounces are heard, which other sounds may be as well".to_owned());
         }
         Self {
             name: recording.name.clone(),
