@@ -198,9 +198,44 @@ pub(crate) const FEATURE_NAMES: [&str; FEATURES] = [
     "time from the first bounce to the last",
     "number of bounces",
 ];
-/// The later half of the gaps is no longer than this many times the earlier half.
-const SHRINKS: f64 = 1.3;
+/// The later half of the gaps is no longer than this share of the earlier half.
+const SHRINKS: f64 = 0.9;
 /// Other sounds as loud as bounces that are passed over.
 const MOST_OTHERS: usize = 2;
 /// Longest flight of a coin after a bounce, s.
 const LONGEST_FLIGHT_S: f64 = 2.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::onsets::Onset;
+
+    fn onsets(times: &[f64]) -> Onsets {
+        let onset = |(place, time): (usize, &f64)| Onset {
+            time_s: *time,
+            error_s: 0.0005,
+            strength: libm::pow(0.8, place as f64),
+            prominence: 5.0,
+        };
+        Onsets {
+            onsets: times.iter().enumerate().map(onset).collect(),
+            threshold: 0.05,
+            signal_to_noise_db: 40.0,
+        }
+    }
+
+    #[test]
+    fn bounces_come_faster_and_claps_do_not() {
+        let drop = Bounces::of(&onsets(&[1.0, 1.2, 1.32, 1.39, 1.43])).unwrap();
+        assert_eq!(
+            (drop.times_s.len(), drop.times_s[0], drop.others),
+            (5, 0.0, 0)
+        );
+        let longest = libm::exp(drop.features()[0]);
+        assert!((longest - 0.2).abs() < 1e-9, "{longest}");
+        let claps = Bounces::of(&onsets(&[1.0, 1.2, 1.4, 1.6, 1.8, 2.0, 2.3]));
+        assert!(matches!(claps, Err(NoBounces::NotADrop(_))), "{claps:?}");
+        assert_eq!(Bounces::of(&onsets(&[1.0])), Err(NoBounces::One));
+        assert_eq!(Bounces::of(&onsets(&[])), Err(NoBounces::Nothing));
+    }
+}

@@ -340,3 +340,60 @@ fn estimated(priors: &[Prior], nearest: &[(Vec<f64>, f64)]) -> Vec<Estimated> {
     };
     priors.iter().enumerate().map(of).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Heard, Kind, Synthetic};
+    use std::sync::atomic::AtomicBool;
+
+    /// A few drops tell the restitution, and drops from another height are doubted.
+    #[test]
+    fn restitution_comes_from_drops_and_a_wrong_height_is_doubted() {
+        let scene = |height: f64| {
+            let text = format!(
+                "coin = {{ ratio = 0.16, radius_m = 0.0116 }}\nprior.material = 'wood'\n\
+                 surface = {{ restitution = 0.58, friction = 0.3 }}\nengine.volumetric = {{}}\n\
+                 launch = {{ height_m = {height}, spin.isotropic_sd_rad_s = 1,\n\
+                 orientation.tilt_deg = {{ normal = {{ mean = 0, sd = 8 }} }} }}"
+            );
+            Observations::parse("inline", &text, &[], "".as_ref()).unwrap()
+        };
+        let observed = scene(0.15);
+        let point = &observed.plan.points[0];
+        let stream = Stream::new(5, Domain::Launch, 0);
+        let heard = |toss: u64| {
+            let uniforms = &mut stream.toss(toss);
+            let launch = point.launches.launch(&point.scene.coin, uniforms);
+            let recording = Synthetic::default().recording(point, &launch).unwrap();
+            let heard = Heard::of(&recording, Some(&point.scene), Some(Kind::Drop));
+            heard.bounces.unwrap()
+        };
+        let drops: Vec<Bounces> = (0..4).map(heard).collect();
+        let cancel = AtomicBool::new(false);
+        let workers = Workers {
+            threads: None,
+            cancel: &cancel,
+            made: &|_| (),
+        };
+        let effort = Effort {
+            surfaces: 2000,
+            seed: 1,
+        };
+        let found = FromDrops::of(&drops, &observed, effort, &workers).unwrap();
+        let e = &found.parameters[0];
+        assert!((e.median - 0.58).abs() < 0.05, "{e:?}");
+        assert!(
+            e.interval[0] < 0.58 && e.interval[1] > 0.58 && e.spread_left < 0.6,
+            "{e:?}"
+        );
+        assert!(found.doubts.is_empty(), "{:?}", found.doubts);
+        let wrong = FromDrops::of(&drops, &scene(0.02), effort, &workers).unwrap();
+        assert!(!wrong.doubts.is_empty());
+        let few = Effort {
+            surfaces: 10,
+            seed: 1,
+        };
+        assert!(FromDrops::of(&drops, &observed, few, &workers).is_err());
+    }
+}
