@@ -192,7 +192,7 @@ pub(crate) fn on_surface(observed: &Observations, z: &[f64]) -> Result<Point, Li
 }
 
 fn mean_features(each: impl Iterator<Item = [f64; FEATURES]>) -> Vec<f64> {
-    let mut sums = vec![0.0; FEATURES];
+    let mut sums = [0.0; FEATURES];
     let mut count = 0.0;
     for features in each {
         count += 1.0;
