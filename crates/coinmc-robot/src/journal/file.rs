@@ -1,11 +1,11 @@
 //! The journal's file: locked, append-only, and synced to disk line by line.
 
 use super::text::MAX_LINE;
-use super::{Damage, Entry, Header, History, LineChecksum, OrderError, Parsed, parse};
+use super::{Damage, Entry, Header, History, LineChecksum, OrderError, Parsed, Storage, parse};
 use crate::files::{open_to_change, open_to_read};
 use crate::lock::lock;
 use std::fs::{File, OpenOptions};
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::{self, Read, SeekFrom};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -16,7 +16,7 @@ const MAX_BYTES: u64 = 1 << 30;
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
-    file: File,
+    file: Box<dyn Storage>,
     header: Header,
     history: History,
     checksum: LineChecksum,
@@ -127,7 +127,7 @@ impl Journal {
             .open(path)
             .map_err(|error| io_error("create", path, error))?;
         lock_journal(&file, path)?;
-        let mut journal = Self::new(path, file, Parsed::default());
+        let mut journal = Self::new(path, Box::new(file), Parsed::default());
         journal.begin(header)?;
         Ok(journal)
     }
@@ -139,8 +139,21 @@ impl Journal {
     /// # Errors
     /// [`JournalError`] if it is damaged, of another experiment, or in use.
     pub fn open(path: &Path, header: &Header) -> Result<(Self, usize), JournalError> {
-        let mut file = open_to_change(path).map_err(|error| io_error("open", path, error))?;
+        let file = open_to_change(path).map_err(|error| io_error("open", path, error))?;
         lock_journal(&file, path)?;
+        Self::open_on(Box::new(file), path, header)
+    }
+
+    /// As [`Journal::open`], on what is not a file: for tests of what a failing disk does. `path` is its
+    /// name in messages.
+    ///
+    /// # Errors
+    /// [`JournalError`], as of [`Journal::open`]; nothing is locked.
+    pub fn open_on(
+        mut file: Box<dyn Storage>,
+        path: &Path,
+        header: &Header,
+    ) -> Result<(Self, usize), JournalError> {
         let bytes = read_bounded(&mut file, path)?;
         let parsed = match parse(&bytes) {
             Err(Damage::Empty) => {
@@ -162,10 +175,12 @@ impl Journal {
             });
         }
         let torn = parsed.torn;
+        let last = last_line(bytes.get(..parsed.whole).unwrap_or_default()).to_vec();
         let mut journal = Self::new(path, file, parsed);
         if torn > 0 {
             journal.truncate()?;
         }
+        journal.settle(&last)?;
         Ok((journal, torn))
     }
 
@@ -188,7 +203,7 @@ impl Journal {
         open_to_read(path).is_ok_and(|file| lock_journal(&file, path).is_err())
     }
 
-    fn new(path: &Path, file: File, parsed: Parsed) -> Self {
+    fn new(path: &Path, file: Box<dyn Storage>, parsed: Parsed) -> Self {
         Self {
             path: path.to_owned(),
             file,
@@ -242,12 +257,12 @@ impl Journal {
             .file
             .seek(SeekFrom::Start(self.whole))
             .and_then(|_| self.file.write_all(line.as_bytes()))
-            .and_then(|()| self.file.sync_data());
+            .and_then(|()| self.file.sync());
         if let Err(error) = written {
             // Remove the incomplete line. If that fails, the next process removes it: this one ends
             // anyway.
             self.broken = true;
-            let _ = self.file.set_len(self.whole);
+            let _ = self.file.cut(self.whole);
             return Err(io_error("append to", &self.path, error));
         }
         self.whole += line.len() as u64;
@@ -255,11 +270,23 @@ impl Journal {
         Ok(())
     }
 
+    /// Writes the last line once more, so that it outlasts a loss of power before anything is done that
+    /// depends on it. The process that wrote it may have been killed before its sync; and after a sync
+    /// that failed the system shows the line, but does not try to write it again.
+    fn settle(&mut self, last: &[u8]) -> Result<(), JournalError> {
+        let start = self.whole.saturating_sub(last.len() as u64);
+        self.file
+            .seek(SeekFrom::Start(start))
+            .and_then(|_| self.file.write_all(last))
+            .and_then(|()| self.file.sync())
+            .and_then(|()| sync_folder(&self.path))
+            .map_err(|error| io_error("write again the last line of", &self.path, error))
+    }
+
     /// Removes everything after the complete lines.
     fn truncate(&mut self) -> Result<(), JournalError> {
         self.file
-            .set_len(self.whole)
-            .and_then(|()| self.file.sync_all())
+            .cut(self.whole)
             .map_err(|error| io_error("remove the incomplete last line of", &self.path, error))
     }
 }
@@ -274,7 +301,7 @@ fn lock_journal(file: &File, path: &Path) -> Result<(), JournalError> {
     })
 }
 
-fn read_bounded(file: &mut File, path: &Path) -> Result<Vec<u8>, JournalError> {
+fn read_bounded(file: &mut impl Read, path: &Path) -> Result<Vec<u8>, JournalError> {
     let mut bytes = Vec::new();
     file.take(MAX_BYTES + 1)
         .read_to_end(&mut bytes)
@@ -285,6 +312,15 @@ fn read_bounded(file: &mut File, path: &Path) -> Result<Vec<u8>, JournalError> {
         });
     }
     Ok(bytes)
+}
+
+/// The last of complete lines, with its end.
+fn last_line(whole: &[u8]) -> &[u8] {
+    let inner = whole.strip_suffix(b"\n").unwrap_or(whole);
+    let start = inner.iter().rposition(|byte| *byte == b'\n');
+    whole
+        .get(start.map_or(0, |at| at + 1)..)
+        .unwrap_or_default()
 }
 
 fn sync_folder(path: &Path) -> io::Result<()> {

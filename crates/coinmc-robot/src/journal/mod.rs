@@ -19,10 +19,12 @@ mod entry;
 mod file;
 mod history;
 mod robot;
+mod storage;
 mod text;
 
 pub use entry::{Digest, Entry, ImageName, ImageNameError, Measured, Reading, VoidReason};
 pub use file::{Journal, JournalError};
 pub use history::{History, OrderError, Pending, Resolution, Throw};
 pub use robot::RobotName;
+pub use storage::Storage;
 pub use text::{Damage, FORMAT, Header, LineChecksum, Parsed, parse};
