@@ -2,7 +2,7 @@
 
 mod world;
 
-use coinmc_link::{Device, Host, Reply, Request, State};
+use coinmc_link::{Host, Reply, Request, State};
 use coinmc_robot::cycle::{Cycle, Halt, Step, Stranger};
 use coinmc_robot::journal::{Entry, History, Resolution, VoidReason, parse};
 use world::{Bench, End, OURS, PROGRAM, World, rules, setting};
@@ -41,7 +41,7 @@ fn announced() -> World {
 /// Somebody throws by hand, with the number that the journal has announced.
 fn throw_by_hand(world: &mut World) {
     let mut host = Host::new();
-    host.open(900, u64::from(world.now_ms));
+    host.open(900, world.now_ms);
     assert!(world.request(&mut host, None).is_err());
     let throw = Request::Throw {
         throw_id: 1,
@@ -95,7 +95,7 @@ fn an_erased_memory_or_another_robot_is_noticed_and_throws_nothing_twice() {
         let mut world = announced();
         // thrown, and at the coin
         let mut host = Host::new();
-        host.open(901, u64::from(world.now_ms));
+        host.open(901, world.now_ms);
         assert!(world.request(&mut host, None).is_err());
         let throw = Request::Throw {
             throw_id: 1,
@@ -107,11 +107,7 @@ fn an_erased_memory_or_another_robot_is_noticed_and_throws_nothing_twice() {
         while world.device().state() != State::AtCoin {
             world.pass(50);
         }
-        let mut bench = world.device.take().unwrap().into_hardware();
-        change(&mut bench);
-        let now = world.now_ms;
-        world.device = Some(Device::boot(bench, now));
-        world.device().tick(now);
+        world.reboot(change);
         let End::Halted(Halt::Foreign { how }) = world.run(false) else {
             panic!("it is not noticed");
         };
@@ -175,7 +171,7 @@ fn an_emergency_stop_halts_until_a_person_clears_it() {
     world.device().hardware_mut().stopped = false;
     assert!(matches!(world.run(false), End::Halted(Halt::EmergencyStop)));
     let mut host = Host::new();
-    host.open(902, u64::from(world.now_ms));
+    host.open(902, world.now_ms);
     assert!(world.request(&mut host, None).is_err());
     let clear = Request::ClearFault {
         code: coinmc_link::fault::EMERGENCY,

@@ -22,6 +22,16 @@ preset = \"robot\"
 [engine.flat]
 ";
 
+/// Nothing that is expected here calls for a person.
+const PATIENT: [&str; 6] = [
+    "--max-voids",
+    "1000",
+    "--max-camera-failures",
+    "1000",
+    "--camera-timeout",
+    "1",
+];
+
 /// Where it happens.
 pub(super) struct Bench {
     pub(super) program: PathBuf,
@@ -29,7 +39,9 @@ pub(super) struct Bench {
     pub(super) speed: f64,
     pub(super) noise: f64,
     pub(super) hostile: f64,
+    pub(super) forged: f64,
     pub(super) vice: f64,
+    pub(super) failing: f64,
     pub(super) seed: u64,
 }
 
@@ -99,6 +111,8 @@ impl Bench {
                 &self.noise.to_string(),
                 "--hostile",
                 &self.hostile.to_string(),
+                "--forged",
+                &self.forged.to_string(),
             ])
             .args(["--seed", &self.seed.to_string()]);
         let mut child = command
@@ -118,16 +132,8 @@ impl Bench {
         let mut command = self.coinmc("run");
         command
             .arg(self.config(throws)?)
-            .args([
-                "--port",
-                "port",
-                "--out",
-                "day",
-                "--max-voids",
-                "1000",
-                "--max-camera-failures",
-                "1000",
-            ])
+            .args(["--port", "port", "--out", "day"])
+            .args(PATIENT)
             .args([
                 "--speed",
                 &self.speed.to_string(),
@@ -139,16 +145,18 @@ impl Bench {
 
     pub(super) fn camera(&self) -> String {
         format!(
-            "exec {} robot camera-sim --truth truth.jsonl --vice {}",
+            "exec {} robot camera-sim --truth truth.jsonl --vice {} --hang {} --die {}",
             self.program.display(),
-            self.vice
+            self.vice,
+            self.failing / 2.0,
+            self.failing / 2.0,
         )
     }
 
     pub(super) fn resume(&self, more: &[&str]) -> anyhow::Result<Process> {
         let mut command = self.coinmc("resume");
         command.args(["day", "--camera", &self.camera()]).args(more);
-        command.args(["--max-voids", "1000", "--max-camera-failures", "1000"]);
+        command.args(PATIENT);
         self.begin(command)
     }
 
@@ -185,7 +193,9 @@ impl Bench {
             speed: 1.0,
             noise: 0.0,
             hostile: 0.0,
+            forged: 0.0,
             vice: 0.0,
+            failing: 0.0,
             seed: self.seed,
         };
         let mut robot = slow.robot(TIMED_THROWS)?;

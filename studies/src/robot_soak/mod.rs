@@ -19,6 +19,9 @@ use std::time::{Duration, Instant};
 /// How long a cycle takes at most, s of the robot's time: faults come anywhere in one.
 const CYCLE_S: f64 = 10.0;
 
+/// Halts at the same throw before a person takes the robot over as it is.
+const PATIENCE: u32 = 2;
+
 /// Throws whose every answer is timed at the speed of life.
 const TIMED_THROWS: u64 = 2;
 
@@ -41,9 +44,18 @@ pub(crate) struct RobotSoak {
     #[arg(long, default_value_t = 0.0, value_name = "SHARE")]
     hostile: f64,
 
-    /// Share of the camera's answers with a vice: an old picture, a second line, another throw or name
+    /// Share of the robot's answers preceded by a forged one, about another throw or experiment, or old
+    #[arg(long, default_value_t = 0.0, value_name = "SHARE")]
+    forged: f64,
+
+    /// Share of the camera's answers with a vice: an old picture or frame, a second line, another throw
+    /// or name
     #[arg(long, default_value_t = 0.0, value_name = "SHARE")]
     vice: f64,
+
+    /// Share of photos at which the camera ends or, as often, hangs
+    #[arg(long, default_value_t = 0.0, value_name = "SHARE")]
+    failing: f64,
 
     /// Times that the host is suspended for a while, by SIGSTOP
     #[arg(long, default_value_t = 0, value_name = "N")]
@@ -60,6 +72,10 @@ pub(crate) struct RobotSoak {
     /// Resets of the robot
     #[arg(long, default_value_t = 50, value_name = "N")]
     resets: u32,
+
+    /// Resets of the robot between two bytes of a record that it writes
+    #[arg(long, default_value_t = 0, value_name = "N")]
+    cuts: u32,
 
     /// Unpluggings of the cable
     #[arg(long, default_value_t = 50, value_name = "N")]
@@ -89,6 +105,7 @@ pub(crate) struct RobotSoak {
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Mishap {
     Reset,
+    Cut,
     Unplug,
     Kill,
     Pause,
@@ -126,16 +143,20 @@ impl RobotSoak {
         row("speed", self.speed.to_string());
         row("noise", self.noise.to_string());
         row("hostile", self.hostile.to_string());
+        row("forged", self.forged.to_string());
         row("vice", self.vice.to_string());
+        row("failing", self.failing.to_string());
         let begun = Instant::now();
         let ordeal = self.endure(&bench)?;
         row("wall_s", format!("{:.1}", begun.elapsed().as_secs_f64()));
         for (what, count) in [
             ("resets", ordeal.resets),
+            ("cuts", ordeal.cuts),
             ("unpluggings", ordeal.unplugs),
             ("kills", ordeal.kills),
             ("pauses", ordeal.pauses),
             ("erasures_and_swaps", ordeal.strangers),
+            ("halts", ordeal.halts),
             ("test_photos_failed", ordeal.failed_starts),
         ] {
             row(what, count.to_string());
@@ -168,7 +189,9 @@ impl RobotSoak {
             speed: self.speed,
             noise: self.noise,
             hostile: self.hostile,
+            forged: self.forged,
             vice: self.vice,
+            failing: self.failing,
             seed,
         }
     }
@@ -178,6 +201,8 @@ impl RobotSoak {
         let mut robot = bench.robot(self.throws)?;
         let mut host = bench.host(self.throws)?;
         let mut ordeal = Ordeal::default();
+        // the last throw before a halt, and how many halts there have been since
+        let mut strange = (0, 0);
         let mut mishaps = self.schedule(bench.seed).into_iter().peekable();
         loop {
             if let Some(status) = host.0.try_wait()? {
@@ -186,11 +211,24 @@ impl RobotSoak {
                 }
                 // what a person would do: look, and go on
                 let said = bench.said();
+                let last = last_truth(&bench.truth())?.map_or(0, |truth| truth.throw_id);
                 if said.contains("No throw was made") {
                     ordeal.failed_starts += 1;
                     host = bench.resume(&[])?;
                 } else if said.contains("--adopt") {
-                    host = bench.resume(&["--adopt"])?;
+                    // perhaps it was only told so: once more, and if it stays, the robot is a stranger
+                    ordeal.halts += 1;
+                    strange = if strange.0 == last {
+                        (last, strange.1 + 1)
+                    } else {
+                        (last, 1)
+                    };
+                    let adopt: &[&str] = if strange.1 > PATIENCE {
+                        &["--adopt"]
+                    } else {
+                        &[]
+                    };
+                    host = bench.resume(adopt)?;
                 } else {
                     bail!("the host ended by itself: {status}\n{said}");
                 }
@@ -206,6 +244,10 @@ impl RobotSoak {
                 Mishap::Reset => {
                     robot.tell("reset")?;
                     ordeal.resets += 1;
+                }
+                Mishap::Cut => {
+                    robot.tell("cut")?;
+                    ordeal.cuts += 1;
                 }
                 Mishap::Unplug => {
                     robot.tell("unplug")?;
@@ -245,6 +287,7 @@ impl RobotSoak {
         let mut due = Vec::new();
         for (count, mishap) in [
             (self.resets, Mishap::Reset),
+            (self.cuts, Mishap::Cut),
             (self.unplugs, Mishap::Unplug),
             (self.kills, Mishap::Kill),
             (self.pauses, Mishap::Pause),
@@ -266,9 +309,11 @@ impl RobotSoak {
 #[derive(Debug, Default)]
 struct Ordeal {
     resets: u32,
+    cuts: u32,
     unplugs: u32,
     kills: u32,
     pauses: u32,
     strangers: u32,
+    halts: u32,
     failed_starts: u32,
 }

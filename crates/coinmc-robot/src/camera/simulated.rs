@@ -3,12 +3,16 @@
 use super::picture::{picture, shown};
 use super::protocol::{Classify, LONGEST_LINE, Request, Take};
 use crate::Face;
+use crate::clock::unix_ms;
 use crate::files::open_to_read;
 use crate::sim::{Dice, last_truth};
 use serde_json::{Value, json};
 use std::fs;
 use std::io::{self, BufRead, Read, Write};
 use std::path::{Path, PathBuf};
+
+/// Age of a frame that lay in a buffer: it is of the throw before.
+const OLD_FRAME_MS: u64 = 1_000;
 
 /// Random faults of the camera.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -21,8 +25,8 @@ pub struct CameraFaults {
     pub hang: f64,
     /// Fraction of photos after which the program ends.
     pub die: f64,
-    /// Fraction of answers with something that a camera must not do: an old picture, a second line, an
-    /// answer about another throw, another file name.
+    /// Fraction of answers with something that a camera must not do: an old picture or frame, a second
+    /// line, an answer about another throw, another file name.
     pub vice: f64,
 }
 
@@ -78,7 +82,7 @@ pub fn simulate_camera(
 /// Spoils an answer in one of the ways that a host must notice; also returns a second line.
 fn misbehave(answer: &mut Value, line: &[u8], dice: &mut Dice) -> Option<Value> {
     let face = Face::ALL[(dice.word() % 3) as usize].name();
-    match dice.word() % 4 {
+    match dice.word() % 5 {
         0 => answer["throw"] = json!(answer["throw"].as_u64().unwrap_or(0).wrapping_sub(1)),
         1 => {
             // the picture before this one again
@@ -92,6 +96,16 @@ fn misbehave(answer: &mut Value, line: &[u8], dice: &mut Dice) -> Option<Value> 
             }
         }
         2 => answer["image"] = json!("000001-1.png"),
+        3 => {
+            // a frame that lay in a buffer, of another coin
+            let request: Option<Request> = serde_json::from_slice(line).ok();
+            if let Some(Request::Take { take }) = request {
+                let grain = format!("{:016x}", dice.word());
+                let path = take.folder.join(format!("{}.png", take.name));
+                let _ = fs::write(path, picture(Face::named(face), &grain));
+                answer["taken_ms"] = json!(unix_ms().saturating_sub(OLD_FRAME_MS));
+            }
+        }
         _ => {
             let (throw, attempt) = (answer["throw"].clone(), answer["attempt"].clone());
             return Some(json!({ "throw": throw, "attempt": attempt, "face": face }));
@@ -117,7 +131,8 @@ fn take(truth: &Path, take: &Take, dice: &mut Dice) -> io::Result<Value> {
     let name = format!("{}.png", take.name);
     let grain = format!("{:016x}", dice.word());
     fs::write(take.folder.join(&name), picture(face, &grain))?;
-    Ok(json!({ "throw": take.throw_id, "attempt": take.attempt, "image": name }))
+    let (throw, attempt, taken_ms) = (take.throw_id, take.attempt, unix_ms());
+    Ok(json!({ "throw": throw, "attempt": attempt, "image": name, "taken_ms": taken_ms }))
 }
 
 fn classify(photo: &Classify, faults: &CameraFaults, dice: &mut Dice) -> io::Result<Value> {

@@ -7,6 +7,7 @@
 //! does not look like a silent host.
 
 mod dice;
+mod forgery;
 mod line;
 mod memory;
 mod nemesis;
@@ -16,6 +17,7 @@ mod robot;
 mod truth;
 
 pub use dice::Dice;
+pub use forgery::{reframed, with_another_identity, with_old_content};
 pub use line::Noise;
 pub use nemesis::Nemesis;
 pub use robot::{Command, Faults, SimError, SimOptions, UnknownCommand, simulate};

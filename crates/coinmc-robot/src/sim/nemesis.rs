@@ -1,8 +1,11 @@
 //! A line that attacks whole frames: it drops, doubles, swaps, delays and cuts them, sends old ones
-//! again, and sends ones of its own. (What it cannot do is forge a reply to the very request that is
-//! outstanding: the link has no secrets, and whoever owns the cable owns the robot.)
+//! again, and sends ones of its own: of another session, with another sequence number, or answers to
+//! the very request that is outstanding, but about another throw or experiment or of an earlier time.
+//! (What it does not do is to tell a consistent lie about the open throw: the link has no secrets, and
+//! whoever owns the cable owns the robot.)
 
 use super::Dice;
+use super::forgery::{reframed, with_another_identity, with_old_content};
 use coinmc_link::{Header, Wire};
 use std::time::{Duration, Instant};
 
@@ -17,6 +20,8 @@ const LONGEST: usize = 200;
 #[derive(Debug, Clone)]
 pub struct Nemesis {
     share: f64,
+    /// Of the answers, those that are preceded by a forged one.
+    forged: f64,
     dice: Dice,
     /// The beginning of a frame.
     partial: Vec<u8>,
@@ -25,10 +30,11 @@ pub struct Nemesis {
 }
 
 impl Nemesis {
-    /// Attacks on this fraction of frames, 0 to 1.
-    pub fn new(share: f64, seed: u64, purpose: u64) -> Self {
+    /// Attacks on this fraction of frames, and forged answers before this fraction of answers, 0 to 1.
+    pub fn new(share: f64, forged: f64, seed: u64, purpose: u64) -> Self {
         Self {
             share,
+            forged,
             dice: Dice::new(seed, purpose),
             partial: Vec::new(),
             seen: Vec::new(),
@@ -38,7 +44,7 @@ impl Nemesis {
 
     /// Appends the bytes that arrive now: of these, and of those delayed before.
     pub fn pass(&mut self, bytes: &[u8], now: Instant, arrived: &mut Vec<u8>) {
-        if self.share == 0.0 {
+        if self.share == 0.0 && self.forged == 0.0 {
             arrived.extend_from_slice(bytes);
             return;
         }
@@ -63,11 +69,14 @@ impl Nemesis {
             self.seen.remove(0);
         }
         self.seen.push(frame.clone());
+        if self.dice.chance(self.forged) {
+            arrived.extend(self.forged_answer(&frame));
+        }
         if !self.dice.chance(self.share) {
             arrived.extend(frame);
             return;
         }
-        match self.dice.word() % 7 {
+        match self.dice.word() % 8 {
             0 => {}
             1 => arrived.extend([&frame[..], &frame[..]].concat()),
             // behind the next frame, or much later
@@ -85,15 +94,28 @@ impl Nemesis {
                 let old = self.below(self.seen.len());
                 arrived.extend([&self.seen[old][..], &frame[..]].concat());
             }
+            6 => arrived.extend([&self.stray()[..], &frame[..]].concat()),
             _ => {
-                arrived.extend(self.forged());
-                arrived.extend(frame);
+                let other = reframed(&frame, &mut self.dice).unwrap_or_default();
+                arrived.extend([&other[..], &frame[..]].concat());
             }
         }
     }
 
+    /// An intact answer to the request that this frame answers, which arrives before it; nothing if the
+    /// frame is no answer.
+    fn forged_answer(&mut self, frame: &[u8]) -> Vec<u8> {
+        let old = self.below(self.seen.len());
+        let forged = if self.dice.chance(0.5) {
+            with_another_identity(frame, &mut self.dice)
+        } else {
+            with_old_content(frame, &self.seen[old])
+        };
+        forged.unwrap_or_default()
+    }
+
     /// An intact frame of a session that does not exist.
-    fn forged(&mut self) -> Vec<u8> {
+    fn stray(&mut self) -> Vec<u8> {
         let [a, b, c, d, ..] = self.dice.word().to_le_bytes();
         let header = Header {
             session: u16::from_le_bytes([a, b]),
@@ -121,7 +143,7 @@ mod tests {
         let frame = Wire::new(header, &[1, 2, 3]).unwrap();
         let begun = Instant::now();
         let run = |share: f64| {
-            let mut nemesis = Nemesis::new(share, 3, 0);
+            let mut nemesis = Nemesis::new(share, 0.0, 3, 0);
             let mut arrived = Vec::new();
             for number in 0..500 {
                 let now = begun + Duration::from_millis(10 * number);

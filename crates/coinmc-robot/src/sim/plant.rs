@@ -1,7 +1,7 @@
 //! Motors, sensors and the coin.
 
 use super::Dice;
-use super::memory::Memory;
+use super::memory::{Memory, RECORD_BYTES};
 use super::truth::{Truth, TruthFile};
 use crate::{Experiment, Setting};
 use coinmc_link::{Hardware, Info, Limits, Motion, Record, Sensors, capability};
@@ -81,6 +81,7 @@ impl Plant {
 
     /// Starts up, which takes some time and ends all motion.
     pub(super) fn power_on(&mut self) {
+        self.memory.power_on();
         self.busy = Some(Until::Then(Instant::now() + self.duration(1.0)));
     }
 
@@ -98,6 +99,20 @@ impl Plant {
     pub(super) fn swap(&mut self) {
         self.memory.erase();
         self.uid[7] = self.uid[7].wrapping_add(1);
+    }
+
+    /// Lets a reset come while the next record is written, or just after it.
+    pub(super) fn cut_next_record(&mut self) {
+        let most = u64::from(RECORD_BYTES) + 1;
+        // the remainder is small
+        #[allow(clippy::cast_possible_truncation)]
+        let bytes = (self.dice.word() % most) as u32;
+        self.memory.cut_after(bytes);
+    }
+
+    /// Whether that reset has come.
+    pub(super) fn is_cut(&self) -> bool {
+        self.memory.is_cut()
     }
 
     /// Makes the next motion never end.
@@ -172,6 +187,9 @@ impl Hardware for Plant {
     }
 
     fn start(&mut self, motion: Motion) {
+        if self.memory.is_cut() {
+            return;
+        }
         let seconds = match motion {
             Motion::Aim { .. } => 1.5,
             Motion::Release => 1.3,

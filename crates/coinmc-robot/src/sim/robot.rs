@@ -23,6 +23,9 @@ const TICK: Duration = Duration::from_millis(5);
 /// Probability that the robot loses power when the cable is unplugged.
 const POWERED_BY_CABLE: f64 = 0.5;
 
+/// When the robot's clock wraps.
+const WRAPS_AFTER_MS: u32 = 2_000;
+
 /// Options of a simulated robot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SimOptions {
@@ -47,6 +50,8 @@ pub struct Faults {
     pub noise: f64,
     /// Fraction of frames that are attacked; see [`Nemesis`].
     pub hostile: f64,
+    /// Fraction of answers that are preceded by a forged one.
+    pub forged: f64,
     /// Mean time between resets, s in the robot's time; `None`: never.
     pub reset_every_s: Option<f64>,
     /// Mean time between disconnections, likewise.
@@ -60,6 +65,8 @@ pub struct Faults {
 pub enum Command {
     /// Reset the robot.
     Reset,
+    /// Reset the robot while it writes its next record, after any number of bytes.
+    Cut,
     /// Unplug the cable for this time, s in the robot's time.
     Unplug(f64),
     /// Make the next motion never end.
@@ -78,7 +85,7 @@ pub enum Command {
 
 /// Not a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-#[error("commands are: reset, unplug [SECONDS], stick, press, release, erase, swap, quit")]
+#[error("commands are: reset, cut, unplug [SECONDS], stick, press, release, erase, swap, quit")]
 pub struct UnknownCommand;
 
 impl FromStr for Command {
@@ -88,6 +95,7 @@ impl FromStr for Command {
         let words: Vec<&str> = text.split_whitespace().collect();
         Ok(match words[..] {
             ["reset"] => Self::Reset,
+            ["cut"] => Self::Cut,
             ["unplug"] => Self::Unplug(UNPLUGGED_S),
             ["unplug", seconds] => match seconds.parse() {
                 Ok(seconds) if (0.0..=3600.0).contains(&seconds) => Self::Unplug(seconds),
@@ -215,7 +223,8 @@ impl Robot {
             seed,
             ..
         } = *options;
-        let memory = Memory::new(options.memory.clone()).map_err(cannot("read the memory"))?;
+        let memory =
+            Memory::new(options.memory.clone(), speed).map_err(cannot("read the memory"))?;
         let truth =
             TruthFile::open(options.truth.as_deref()).map_err(cannot("open the truth file"))?;
         let plant = Plant::new(experiment, memory, truth, speed, faults.stuck, seed);
@@ -227,16 +236,16 @@ impl Robot {
         let name = claimed.transpose()?;
         let mut dice = Dice::new(seed, 1);
         let robot = Self {
-            device: Some(Device::boot(plant, 0)),
+            device: Some(Device::boot(plant, 0_u32.wrapping_sub(WRAPS_AFTER_MS))),
             pty,
             name,
             into: (
                 Noise::new(faults.noise, seed, 2),
-                Nemesis::new(faults.hostile, seed, 4),
+                Nemesis::new(faults.hostile, 0.0, seed, 4),
             ),
             out: (
                 Noise::new(faults.noise, seed, 3),
-                Nemesis::new(faults.hostile, seed, 5),
+                Nemesis::new(faults.hostile, faults.forged, seed, 5),
             ),
             origin: Instant::now(),
             speed,
@@ -257,10 +266,10 @@ impl Robot {
         }
     }
 
-    /// Milliseconds since the start; wraps after 49 days, like a microcontroller's clock.
+    /// Milliseconds, like a microcontroller's clock, which wraps after 49 days: here soon after the start.
     #[allow(clippy::cast_possible_truncation)]
     fn now_ms(&self) -> u32 {
-        self.origin.elapsed().as_millis() as u32
+        (self.origin.elapsed().as_millis() as u32).wrapping_sub(WRAPS_AFTER_MS)
     }
 
     fn device(&mut self) -> &mut Device<Plant> {
@@ -270,6 +279,7 @@ impl Robot {
     fn execute(&mut self, command: Command) -> Result<(), SimError> {
         match command {
             Command::Reset => self.reset(),
+            Command::Cut => self.device().hardware_mut().cut_next_record(),
             Command::Unplug(seconds) => self.unplug(seconds)?,
             Command::Stick => self.device().hardware_mut().stick(),
             Command::Press => self.device().hardware_mut().press(true),
@@ -346,6 +356,10 @@ impl Robot {
             if let Some(reply) = self.device().receive(byte, now) {
                 replies.extend_from_slice(reply);
             }
+        }
+        if self.device().hardware().is_cut() {
+            self.reset();
+            return Ok(());
         }
         let sent = attacked(&mut self.out, &replies);
         if !sent.is_empty() {

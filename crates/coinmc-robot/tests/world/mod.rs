@@ -1,4 +1,5 @@
-//! The cycle with the link's device, a journal in memory, and faults at every point.
+//! The cycle with the link's device, a journal in memory, and faults at every point. The robot writes its
+//! memory byte by byte, its clock wraps, the host's calendar jumps, and some answers are forged.
 #![allow(dead_code, missing_docs, unreachable_pub)] // each test uses its part
 
 use coinmc_link::{
@@ -6,7 +7,16 @@ use coinmc_link::{
 };
 use coinmc_robot::cycle::{Cycle, Halt, Photo, Rules, Shown, Step};
 use coinmc_robot::journal::{Digest, Entry, Header, History, LineChecksum, Resolution, parse};
+use coinmc_robot::sim::{Dice, reframed, with_another_identity, with_old_content};
 use coinmc_robot::{Face, Setting};
+
+/// Bytes of a record in the robot's memory, and how long each takes.
+const RECORD_BYTES: u32 = 17;
+const BYTE_US: u32 = 3_400;
+/// When the robot's clock wraps.
+const WRAPS_AFTER_MS: u32 = 4_000;
+/// How far the host's calendar jumps at most: ten days.
+const JUMP_MS: u64 = 864_000_000;
 
 pub const THROWS: u32 = 6;
 /// Number of the experiment.
@@ -29,6 +39,12 @@ pub struct Bench {
     pub experiments: Vec<u32>,
     /// Number of sensor readings until the motion ends.
     pub left: u32,
+    /// A reset comes after so many bytes of the next record.
+    pub cut_after: Option<u32>,
+    /// It has come.
+    pub cut: bool,
+    /// Time spent writing, µs.
+    pub written_us: u32,
 }
 
 impl Hardware for Bench {
@@ -47,10 +63,22 @@ impl Hardware for Bench {
         self.memory
     }
     fn store(&mut self, record: &Record) -> bool {
-        self.memory = Some(*record);
-        true
+        if self.cut {
+            return false;
+        }
+        let cut = self.cut_after.take();
+        let bytes = cut.unwrap_or(RECORD_BYTES).min(RECORD_BYTES);
+        self.written_us += BYTE_US * bytes;
+        self.cut = cut.is_some();
+        if bytes == RECORD_BYTES {
+            self.memory = Some(*record);
+        }
+        !self.cut
     }
     fn start(&mut self, motion: Motion) {
+        if self.cut {
+            return;
+        }
         self.left = 7;
         match motion {
             Motion::Aim {
@@ -109,12 +137,20 @@ impl Faults {
 
 pub struct World {
     pub device: Option<Device<Bench>>,
-    pub now_ms: u32,
+    /// Time of the host; the robot has its own.
+    pub now_ms: u64,
     /// The journal's file.
     pub file: Vec<u8>,
     pub faults: Faults,
     pub session: u16,
     pub camera_fails: bool,
+    /// The frame that the robot sent last.
+    sent: Vec<u8>,
+    /// Answers that were forged.
+    pub forged: u32,
+    /// Resets within a record.
+    pub cuts: u32,
+    dice: Dice,
 }
 
 /// The host has crashed.
@@ -139,6 +175,12 @@ pub fn rules(adopt: bool) -> Rules {
     }
 }
 
+/// The robot's clock, ms.
+#[allow(clippy::cast_possible_truncation)] // it wraps
+pub fn chip_ms(now_ms: u64) -> u32 {
+    (now_ms as u32).wrapping_sub(WRAPS_AFTER_MS)
+}
+
 pub fn header() -> Header {
     Header {
         plan_hash: "abc".to_owned(),
@@ -150,7 +192,7 @@ pub fn header() -> Header {
 impl World {
     pub fn new(faults: Vec<u8>) -> Self {
         Self {
-            device: Some(Device::boot(Bench::default(), 0)),
+            device: Some(Device::boot(Bench::default(), chip_ms(0))),
             now_ms: 0,
             file: LineChecksum::header(&header()).0.into_bytes(),
             faults: Faults {
@@ -159,25 +201,60 @@ impl World {
             },
             session: 1,
             camera_fails: false,
+            sent: Vec::new(),
+            forged: 0,
+            cuts: 0,
+            dice: Dice::new(1, 0),
         }
+    }
+
+    /// The calendar of the host: it jumps.
+    fn calendar_ms(&mut self) -> u64 {
+        (JUMP_MS + self.now_ms) - self.dice.word() % JUMP_MS
+    }
+
+    /// The robot starts again.
+    pub fn reboot(&mut self, change: impl FnOnce(&mut Bench)) {
+        let mut bench = self.device.take().unwrap().into_hardware();
+        bench.cut = false;
+        change(&mut bench);
+        let now = chip_ms(self.now_ms);
+        self.device = Some(Device::boot(bench, now));
+        self.device().tick(now);
+    }
+
+    /// The time that writing has taken, and the reset that has interrupted it; whether one has.
+    fn after_writing(&mut self) -> bool {
+        let bench = self.device().hardware_mut();
+        let spent = std::mem::take(&mut bench.written_us) / 1000;
+        let cut = bench.cut;
+        self.now_ms += u64::from(spent);
+        if cut {
+            self.cuts += 1;
+            self.reboot(|_| {});
+        }
+        cut
     }
 
     pub fn device(&mut self) -> &mut Device<Bench> {
         self.device.as_mut().unwrap()
     }
 
-    /// Lets time pass; sometimes the robot is reset.
+    /// Lets time pass; sometimes the robot is reset, at once or while it writes its next record.
     pub fn pass(&mut self, ms: u32) {
         for _ in 0..ms / 10 {
             self.now_ms += 10;
-            let now = self.now_ms;
+            let now = chip_ms(self.now_ms);
             self.device().tick(now);
+            self.after_writing();
         }
-        if self.faults.draw() < 8 {
-            let bench = self.device.take().unwrap().into_hardware();
-            let now = self.now_ms;
-            self.device = Some(Device::boot(bench, now));
-            self.device().tick(now);
+        match self.faults.draw() {
+            0..4 => self.reboot(|_| {}),
+            4..8 => {
+                let bytes = u32::from(self.faults.draw()) % (RECORD_BYTES + 1);
+                self.device().hardware_mut().cut_after = Some(bytes);
+            }
+            _ => {}
         }
     }
 
@@ -189,10 +266,10 @@ impl World {
         request: Option<&Request>,
     ) -> Result<Reply, Greeting> {
         if let Some(request) = request {
-            host.request(request, u64::from(self.now_ms)).unwrap();
+            host.request(request, self.now_ms).unwrap();
         }
         loop {
-            let bytes = match host.poll(u64::from(self.now_ms)) {
+            let bytes = match host.poll(self.now_ms) {
                 Action::Transmit(bytes) => bytes.to_vec(),
                 Action::Reply(reply) => return Ok(reply),
                 Action::Connected { greeting, .. } => return Err(greeting),
@@ -202,7 +279,7 @@ impl World {
                 }
                 Action::Lost => {
                     self.session += 1;
-                    host.open(self.session, u64::from(self.now_ms));
+                    host.open(self.session, self.now_ms);
                     continue;
                 }
                 Action::Refused { .. } => panic!("the versions are the same"),
@@ -210,17 +287,35 @@ impl World {
             if self.faults.draw() < 20 {
                 continue; // the request is lost
             }
-            let now = self.now_ms;
+            let now = chip_ms(self.now_ms);
             let mut answer = Vec::new();
             for byte in bytes {
                 if let Some(bytes) = self.device().receive(byte, now) {
                     answer.extend_from_slice(bytes);
                 }
             }
+            if self.after_writing() {
+                continue; // and so is the answer
+            }
+            let forged = self.forge(&answer);
+            host.receive(&forged, self.now_ms);
+            self.sent.clone_from(&answer);
             if self.faults.draw() >= 20 {
-                host.receive(&answer, u64::from(now));
+                host.receive(&answer, self.now_ms);
             }
         }
+    }
+
+    /// An intact frame that comes before the answer; mostly none.
+    fn forge(&mut self, answer: &[u8]) -> Vec<u8> {
+        let forged = match self.faults.draw() {
+            0..8 => reframed(answer, &mut self.dice),
+            8..14 => with_another_identity(answer, &mut self.dice),
+            14..20 => with_old_content(answer, &self.sent),
+            _ => None,
+        };
+        self.forged += u32::from(forged.is_some());
+        forged.unwrap_or_default()
     }
 
     /// Sends the request that the cycle asks for, and tells it what came of it.
@@ -260,13 +355,14 @@ impl World {
         let mut cycle = Cycle::new(rules(adopt), PROGRAM);
         let mut host = Host::new();
         self.session += 1;
-        host.open(self.session, u64::from(self.now_ms));
+        host.open(self.session, self.now_ms);
         let mut photo = None;
         loop {
             if self.faults.draw() < 6 {
                 return Err(Crashed);
             }
-            match cycle.step(&history, u64::from(self.now_ms)) {
+            let at_ms = self.calendar_ms();
+            match cycle.step(&history, at_ms) {
                 Step::Request(request) => {
                     self.ask(&mut cycle, &mut host, &request);
                 }
@@ -278,7 +374,7 @@ impl World {
                     cycle.waited();
                 }
                 Step::Announce { throw, id } => {
-                    let (setting, at_ms) = (setting(throw), 7);
+                    let setting = setting(throw);
                     let entry = Entry::Announced { id, setting, at_ms };
                     self.append(&mut history, &mut checksum, &entry)?;
                     cycle.written(&entry);
@@ -317,6 +413,21 @@ impl World {
             }
         }
         panic!("no host has finished");
+    }
+
+    /// Runs hosts until one of them finishes: a person who is asked starts it again, because the answer
+    /// was forged.
+    pub fn run_through_halts(&mut self) {
+        for _ in 0..1_000 {
+            match self.run(false) {
+                End::Finished => return,
+                End::Halted(
+                    Halt::Ahead { .. } | Halt::Foreign { .. } | Halt::OutOfReach { .. },
+                ) => {}
+                End::Halted(halt) => panic!("{halt}"),
+            }
+        }
+        panic!("it halts again and again");
     }
 
     pub fn history(&self) -> History {

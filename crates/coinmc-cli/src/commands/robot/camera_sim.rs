@@ -33,8 +33,8 @@ pub(super) struct CameraSim {
     #[arg(long, value_name = "FRACTION", default_value_t = 0.0, value_parser = fraction)]
     die: f64,
 
-    /// Fraction of answers with something that a camera must not do: an old picture, a second line,
-    /// an answer about another throw, another file name
+    /// Fraction of answers with something that a camera must not do: an old picture or frame, a
+    /// second line, an answer about another throw, another file name
     #[arg(long, value_name = "FRACTION", default_value_t = 0.0, value_parser = fraction)]
     vice: f64,
 

@@ -20,8 +20,9 @@ Example, in two terminals:
   coinmc robot run examples/robot.toml --port robot-port --speed 100 --out day \\
       --camera 'coinmc robot camera-sim --truth truth.jsonl'
 
-While it runs it obeys lines on standard input: reset, unplug [SECONDS], stick, press and release (the
-emergency stop), erase (the memory), swap (another robot in its place), quit.";
+While it runs it obeys lines on standard input: reset, cut (a reset while it writes its next record),
+unplug [SECONDS], stick, press and release (the emergency stop), erase (the memory), swap (another
+robot in its place), quit.";
 
 /// Simulate a robot on a pseudo-terminal, with faults on demand
 ///
@@ -63,6 +64,11 @@ pub(super) struct Sim {
     #[arg(long, value_name = "FRACTION", default_value_t = 0.0, value_parser = fraction)]
     hostile: f64,
 
+    /// Fraction of answers preceded by a forged one, to the same request but about another throw or
+    /// experiment or of an earlier time: the host may stop and ask, and must not record a wrong face
+    #[arg(long, value_name = "FRACTION", default_value_t = 0.0, value_parser = fraction)]
+    forged: f64,
+
     /// Fraction of motions that never end
     #[arg(long, value_name = "FRACTION", default_value_t = 0.0, value_parser = fraction)]
     stuck: f64,
@@ -97,6 +103,7 @@ impl Sim {
             faults: Faults {
                 noise: self.noise,
                 hostile: self.hostile,
+                forged: self.forged,
                 reset_every_s: self.reset_every,
                 unplug_every_s: self.unplug_every,
                 stuck: self.stuck,
