@@ -119,6 +119,11 @@ pub struct Program {
 
 /// Compiles C sources (paths from the crate's root); prints a note if there is no C compiler.
 pub fn compile(name: &str, sources: &[&str]) -> Option<Program> {
+    compile_with(name, sources, &[])
+}
+
+/// Likewise, with more options.
+pub fn compile_with(name: &str, sources: &[&str], options: &[&str]) -> Option<Program> {
     if Command::new("cc").arg("--version").output().is_err() {
         eprintln!("SKIPPED: no C compiler `cc`");
         return None;
@@ -130,6 +135,7 @@ pub fn compile(name: &str, sources: &[&str]) -> Option<Program> {
             .current_dir(env!("CARGO_MANIFEST_DIR"))
             .args(["-std=c99", "-O1", "-Wall", "-Wextra", "-Wconversion"])
             .args(["-pedantic", "-Werror", "-Ic", "-I../../firmware/atmega328p"])
+            .args(options)
             .args(extra)
             .arg("-o")
             .arg(&path)
