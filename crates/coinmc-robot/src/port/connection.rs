@@ -1,11 +1,11 @@
 //! The connection to a robot: one request at a time, with reconnection after any loss.
 
-use super::{PortError, open};
+use super::PortError;
+use super::line::{Line, Opener, Serial};
 use crate::clock::{Clock, unix_ms};
 use coinmc_link::{
     Action, Counters, Greeting, Host, PROTOCOL, Reply, Request, RequestError, Seen, Version,
 };
-use serial2::SerialPort;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::thread;
@@ -95,9 +95,10 @@ pub enum ConnectionError {
 #[derive(Debug)]
 pub struct Connection {
     path: PathBuf,
+    opener: Box<dyn Opener>,
     clock: Clock,
     host: Host,
-    port: Option<SerialPort>,
+    port: Option<Box<dyn Line>>,
     pause: Duration,
     /// Times at which other hosts took over sessions, ms of the clock.
     taken: Vec<u64>,
@@ -125,9 +126,25 @@ impl Connection {
         wait: Option<Duration>,
         given_up: &dyn Fn() -> bool,
     ) -> Result<Self, PortError> {
+        let opener = Box::new(Serial(path.to_owned()));
+        Self::over(opener, path, clock, wait, given_up)
+    }
+
+    /// As [`Connection::open_within`], over any line: for tests of what a failing one does. `path` is its
+    /// name in messages.
+    ///
+    /// # Errors
+    /// [`PortError`] if it cannot be opened in that time.
+    pub fn over(
+        mut opener: Box<dyn Opener>,
+        path: &Path,
+        clock: Clock,
+        wait: Option<Duration>,
+        given_up: &dyn Fn() -> bool,
+    ) -> Result<Self, PortError> {
         let (begun, wait) = (Instant::now(), wait.unwrap_or_default());
         let port = loop {
-            match open(path) {
+            match opener.open() {
                 Err(PortError::Missing { .. }) if begun.elapsed() < wait && !given_up() => {
                     thread::sleep(FIRST_PAUSE);
                 }
@@ -139,6 +156,7 @@ impl Connection {
         let session = (unix_ms() ^ u64::from(std::process::id()) << 3) as u16;
         let mut connection = Self {
             path: path.to_owned(),
+            opener,
             clock,
             host: Host::new(),
             port: None,
@@ -206,7 +224,7 @@ impl Connection {
                 self.open_again(given_up, on_event);
                 continue;
             };
-            match advance(&mut self.host, port, &self.clock) {
+            match advance(&mut self.host, port.as_mut(), &self.clock) {
                 Ok(StepResult::Nothing) => {}
                 Ok(StepResult::Reply(reply)) => {
                     if let Some(&request) = request {
@@ -234,7 +252,7 @@ impl Connection {
         }
     }
 
-    fn begin(&mut self, port: SerialPort) {
+    fn begin(&mut self, port: Box<dyn Line>) {
         self.session = self.session.wrapping_add(1);
         self.host.open(self.session, self.clock.now_ms());
         self.port = Some(port);
@@ -259,7 +277,7 @@ impl Connection {
             left = left.saturating_sub(MAX_WAIT);
         }
         self.pause = (self.pause * 2).min(LONGEST_PAUSE);
-        match open(&self.path) {
+        match self.opener.open() {
             Ok(port) => {
                 on_event(&LinkEvent::Opened(&self.path));
                 self.begin(port);
@@ -295,7 +313,7 @@ enum StepResult {
 }
 
 /// One step of the state machine: sends what it asks to send, or waits for bytes.
-fn advance(host: &mut Host, port: &mut SerialPort, clock: &Clock) -> io::Result<StepResult> {
+fn advance(host: &mut Host, port: &mut dyn Line, clock: &Clock) -> io::Result<StepResult> {
     let until_ms = match host.poll(clock.now_ms()) {
         Action::Transmit(bytes) => {
             port.write_all(bytes)?;
@@ -314,7 +332,7 @@ fn advance(host: &mut Host, port: &mut SerialPort, clock: &Clock) -> io::Result<
         clock.wall(Duration::from_millis(until.saturating_sub(clock.now_ms())))
     });
     // with less than a millisecond the system would not wait at all
-    port.set_read_timeout(wait.clamp(Duration::from_millis(1), MAX_WAIT))?;
+    port.set_patience(wait.clamp(Duration::from_millis(1), MAX_WAIT))?;
     match port.read(&mut bytes) {
         Ok(0) => Err(io::ErrorKind::UnexpectedEof.into()),
         Ok(count) => {

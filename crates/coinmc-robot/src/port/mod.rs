@@ -1,9 +1,11 @@
 //! Serial ports: listing them by stable names, and opening one exclusively.
 
 mod connection;
+mod line;
 mod list;
 
 pub use connection::{Connection, ConnectionError, LinkEvent, RequestOutcome};
+pub use line::{Line, Opener};
 pub use list::{PortEntry, ports};
 
 use crate::lock::lock;
