@@ -1,4 +1,5 @@
 #include "clock.h"
+#include "hardware.h"
 
 #include <avr/interrupt.h>
 #include <util/atomic.h>
@@ -8,6 +9,7 @@ static volatile uint32_t elapsed_ms;
 ISR(TIMER0_COMPA_vect)
 {
     elapsed_ms++;
+    hardware_watch();
 }
 
 void clock_begin(void)

@@ -14,13 +14,14 @@
 static const uint16_t duration_ms[] = {80, 120, 130, 150, 200, 50};
 
 static motion last;
-static uint32_t began_ms;
+static uint16_t began_ms;
 static bool moving;
 static int32_t x_um, y_um;
+static volatile bool pressed; /* since hardware_sense looked last */
 
 void hardware_begin(void)
 {
-    PORTD = (uint8_t)((PORTD & ~_BV(PORTD4)) | _BV(PORTD5) | _BV(PORTD6)); /* motors off; pull-ups */
+    PORTD = (uint8_t)((PORTD & ~_BV(PORTD4)) | _BV(PORTD5) | _BV(PORTD6) | _BV(PORTD7)); /* motors off; pull-ups */
     DDRD |= _BV(DDD4);
 }
 
@@ -48,10 +49,19 @@ bool hardware_store(const record *next)
 void hardware_start(const motion *next)
 {
     last = *next;
-    began_ms = clock_ms();
+    began_ms = (uint16_t)clock_ms();
     moving = true;
     /* stays on until switched off: motors hold their place */
-    PORTD |= _BV(PORTD4);
+    if (!pressed)
+        PORTD |= _BV(PORTD4);
+}
+
+void hardware_watch(void)
+{
+    if (PIND & _BV(PIND5)) {
+        PORTD &= (uint8_t)~_BV(PORTD4);
+        pressed = true;
+    }
 }
 
 void hardware_motors_off(void)
@@ -83,9 +93,11 @@ static void arrive(void)
 
 void hardware_sense(sensors *now)
 {
-    /* PD6 pulled low: the motion is stuck, for tests */
+    /* PD7 pulled low: the program hangs; PD6: the motion is stuck. Both for tests */
+    while ((PIND & _BV(PIND7)) == 0)
+        ;
     bool stuck = (PIND & _BV(PIND6)) == 0;
-    if (moving && !stuck && clock_ms() - began_ms >= duration_ms[last.kind])
+    if (moving && !stuck && (uint16_t)(clock_ms() - began_ms) >= duration_ms[last.kind])
         arrive();
     now->settled = !moving;
     bool aimed = last.kind == MOTION_AIM;
@@ -94,5 +106,8 @@ void hardware_sense(sensors *now)
     now->x_um = x_um;
     now->y_um = y_um;
     now->failure = 0;
-    now->stopped = (PIND & _BV(PIND5)) != 0;
+    now->stopped = pressed;
+    pressed = false;
+    if (PIND & _BV(PIND5))
+        now->stopped = true;
 }

@@ -49,5 +49,8 @@ void hardware_start(const motion *next);
 void hardware_motors_off(void);
 void hardware_light(uint16_t permille);
 void hardware_sense(sensors *now);
+/* Called every millisecond, in an interrupt: takes the motors' current at an emergency stop, whatever the
+ * firmware does meanwhile (a record of the journal takes 60 ms). hardware_sense then tells of it. */
+void hardware_watch(void);
 
 #endif

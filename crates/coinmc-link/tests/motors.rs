@@ -17,6 +17,12 @@ use support::simulator::Simulator;
 /// What the measurement adds: the time between two looks at the pin, on a busy computer.
 const SLACK_MS: u64 = 600;
 
+/// After so long without its main loop the chip is reset.
+const WATCHDOG_MS: u64 = 1_000;
+
+/// The ATmega328P looks at the emergency stop as often.
+const LOOK_MS: f64 = 1.1;
+
 /// Who talks to the robot after the fault.
 #[derive(Clone, Copy)]
 enum Then {
@@ -52,12 +58,6 @@ fn motors_have_no_current_longer_than_their_limit_after_any_fault() {
     let mut bench = Bench::new(&command, speed);
     let home = Request::Home { axes: 15 };
     let carriage = Request::MoveCarriage { x_um: 9, y_um: 9 };
-    let throw = |throw_id| Request::Throw {
-        throw_id,
-        experiment: 1,
-        spin_mrev_s: 3200,
-        angle_cdeg: 9000,
-    };
     for (what, motion, then, limit_ms) in [
         ("Home is stuck, the host polls", home, Then::Polls, 10_000),
         (
@@ -96,12 +96,14 @@ fn motors_have_no_current_longer_than_their_limit_after_any_fault() {
     bench.ready();
     bench.ask(&throw(3));
     while bench.status().state != State::AtCoin {}
+    assert!(bench.simulator.motors_on());
+    let before = bench.simulator.longest_ms.take().unwrap_or(0);
     let begun = bench.begin();
+    let taken = bench.until_off(begun, Then::Nobody).saturating_sub(before);
     report(
         "the host is silent at the coin",
-        bench.until_off(begun, Then::Nobody),
-        // the throw until there takes a third of a second
-        u64::from(SILENCE_LIMIT_MS) + 400,
+        taken,
+        SILENCE_LIMIT_MS.into(),
     );
     for (what, throw_id) in [("the emergency stop", 4), ("a reset", 5)] {
         bench.simulator.settle();
@@ -124,6 +126,21 @@ fn motors_have_no_current_longer_than_their_limit_after_any_fault() {
             bench.simulator.release();
         }
         report(what, taken, 50);
+    }
+    bench.fails("the program hangs", 6, WATCHDOG_MS);
+    if bench.simulator.qemu {
+        bench.fails("a fault of the program", 7, 10);
+    } else {
+        bench.stop_while_storing(7);
+    }
+}
+
+fn throw(throw_id: u32) -> Request {
+    Request::Throw {
+        throw_id,
+        experiment: 1,
+        spin_mrev_s: 3200,
+        angle_cdeg: 9000,
     }
 }
 
@@ -231,6 +248,50 @@ impl Bench {
             }
             then => self.until_off(begun, then),
         }
+    }
+
+    /// The program hangs or has a fault in a throw: the motors have no current after the limit, and the
+    /// robot starts again in a fault of that phase.
+    fn fails(&mut self, what: &str, throw_id: u32, limit_ms: u64) {
+        let hangs = limit_ms == WATCHDOG_MS;
+        self.simulator.settle();
+        self.simulator
+            .use_button(if hangs { "down" } else { "left" });
+        self.ready();
+        self.ask(&throw(throw_id));
+        while self.status().state != State::AtCoin {}
+        assert!(self.simulator.motors_on());
+        let before = self.simulator.longest_ms.take().unwrap_or(0);
+        let begun = self.now_ms();
+        if hangs {
+            self.simulator.hang();
+        } else {
+            self.simulator.tell("sendkey left 300");
+        }
+        let taken = self.until_off(begun, Then::Nobody).saturating_sub(before);
+        report(what, taken, limit_ms);
+        if hangs {
+            self.simulator.recover();
+        } else {
+            // the watchdog was put off, so that it cannot have been that
+            self.simulator.tell("system_reset");
+        }
+        self.open();
+        let code = fault::RESET + u16::from(State::AtCoin.number());
+        assert_eq!(self.status().fault, code, "{what}");
+    }
+
+    /// The emergency stop is pressed while a record is written, for 60 ms in which the firmware waits.
+    fn stop_while_storing(&mut self, throw_id: u32) {
+        self.ready();
+        self.simulator.tell("press-storing");
+        self.ask(&throw(throw_id));
+        while self.status().fault != fault::EMERGENCY {}
+        assert!(!self.simulator.motors_on());
+        let taken_ms = self.simulator.stop_ms;
+        println!("current after: the emergency stop, while a record is written: {taken_ms:.1} ms");
+        assert!((0.001..LOOK_MS).contains(&taken_ms), "{taken_ms} ms");
+        self.simulator.release();
     }
 
     /// Begins a measurement.

@@ -6,9 +6,11 @@
  *   board FIRMWARE.elf SPEED
  *
  * Prints "pty NAME", then reads commands from standard input: `system_reset` resets the board (as in
- * QEMU's monitor); `press` and `release` work the emergency stop, `stick` and `unstick` hold every
- * motion; `motors` prints for how many milliseconds the motors have had current now, and at most, and
- * begins that anew; the end of input ends the program. SPEED is simulated time over real time. At the
+ * QEMU's monitor); `press` and `release` work the emergency stop, `press-storing` presses it as soon as
+ * a record is written while the motors have current; `stick` and `unstick` hold every motion, `hang` stops
+ * the program, until `recover`; `motors` prints for how many milliseconds the motors have had current now, at
+ * most, and after the emergency stop was pressed, and begins that anew; the end of input ends the program.
+ * A byte of EEPROM takes 3.4 ms, by the data sheet. SPEED is simulated time over real time. At the
  * end it prints the longest time that the firmware took for a byte, measured by the pins that the
  * firmware sets meanwhile. */
 #define _GNU_SOURCE
@@ -30,6 +32,11 @@
 
 #define HERTZ 16000000
 
+/* The control register of the EEPROM, and its bit "a byte is being written". */
+#define EECR 0x3F
+#define EEPE (1 << 1)
+#define EEPROM_BYTE_US 3400
+
 static avr_t *avr;
 static int pty;
 static avr_irq_t *uart_input;
@@ -43,9 +50,23 @@ typedef struct {
 
 static pin handling, storing, motors;
 
-/* Inputs of port D: the emergency stop (5), closed to ground until it is pressed, and the stuck motion
- * (6), pulled up until a motion is to stick. */
-static uint8_t inputs = 1 << 6;
+/* The emergency stop: to be pressed with the next record; when it was; how long the motors had current then. */
+static bool press_when_storing, timing_stop;
+static avr_cycle_count_t pressed_at, stop_took;
+
+/* Inputs of port D: the emergency stop (5), closed to ground until it is pressed, the stuck motion (6) and
+ * the stuck program (7), pulled up until they are to stick. */
+static uint8_t inputs = 1 << 6 | 1 << 7;
+static void set_inputs(void);
+
+static void press(void)
+{
+    inputs |= 1 << 5;
+    pressed_at = avr->cycle;
+    timing_stop = motors.high;
+    stop_took = 0;
+    set_inputs();
+}
 static avr_cycle_count_t stored_before, longest_without_journal;
 
 static void on_pin(struct avr_irq_t *irq, uint32_t value, void *parameter)
@@ -60,7 +81,15 @@ static void on_pin(struct avr_irq_t *irq, uint32_t value, void *parameter)
         p->since = avr->cycle;
         if (p == &handling)
             stored_before = storing.total;
+        if (p == &storing && press_when_storing && motors.high) {
+            press_when_storing = false;
+            press();
+        }
         return;
+    }
+    if (p == &motors && timing_stop) {
+        timing_stop = false;
+        stop_took = avr->cycle - pressed_at;
     }
     avr_cycle_count_t took = avr->cycle - p->since;
     p->total += took;
@@ -98,14 +127,32 @@ static void on_xoff(struct avr_irq_t *irq, uint32_t value, void *parameter)
 
 static void set_inputs(void)
 {
-    avr_ioport_external_t external = {.name = 'D', .mask = 0x60, .value = inputs};
+    avr_ioport_external_t external = {.name = 'D', .mask = 0xE0, .value = inputs};
     avr_ioctl(avr, AVR_IOCTL_IOPORT_SET_EXTERNAL('D'), &external);
-    for (int i = 5; i <= 6; i++) {
+    for (int i = 5; i <= 7; i++) {
         avr_irq_t *pin_irq = avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('D'), i);
         /* a value that has not changed would not be passed on, and after a reset it must be */
         avr_raise_irq(pin_irq, !(inputs >> i & 1));
         avr_raise_irq(pin_irq, inputs >> i & 1);
     }
+}
+
+static avr_cycle_count_t written(struct avr_t *this_avr, avr_cycle_count_t when, void *parameter)
+{
+    (void)when;
+    (void)parameter;
+    this_avr->data[EECR] &= (uint8_t)~EEPE;
+    return 0;
+}
+
+/* simavr writes a byte at once: here it takes its time. */
+static void on_eeprom(struct avr_t *this_avr, avr_io_addr_t address, uint8_t value, void *parameter)
+{
+    (void)parameter;
+    if (!(value & EEPE))
+        return;
+    this_avr->data[address] |= EEPE;
+    avr_cycle_timer_register_usec(this_avr, EEPROM_BYTE_US, written, NULL);
 }
 
 static void open_pty(void)
@@ -150,6 +197,7 @@ static void begin(const char *path)
     avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('B'), 5), on_pin, &handling);
     avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('B'), 4), on_pin, &storing);
     avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('D'), 4), on_pin, &motors);
+    avr_register_io_write(avr, EECR, on_eeprom, &inputs);
     set_inputs();
 }
 
@@ -173,7 +221,9 @@ static void print_motors(void)
     const double per_ms = HERTZ / 1000.0;
     avr_cycle_count_t now = motors.high ? avr->cycle - motors.since : 0;
     avr_cycle_count_t longest = now > motors.longest ? now : motors.longest;
-    printf("motors %.0f %.0f\n", (double)now / per_ms, (double)longest / per_ms);
+    avr_cycle_count_t stopping = timing_stop ? avr->cycle - pressed_at : stop_took;
+    printf("motors %.0f %.0f %.1f\n", (double)now / per_ms, (double)longest / per_ms,
+           (double)stopping / per_ms);
     fflush(stdout);
     motors.longest = 0;
 }
@@ -185,7 +235,13 @@ static void obey(const char *command)
     else if (strcmp(command, "motors") == 0)
         print_motors();
     else if (strcmp(command, "press") == 0)
-        inputs |= 1 << 5;
+        press();
+    else if (strcmp(command, "press-storing") == 0)
+        press_when_storing = true;
+    else if (strcmp(command, "hang") == 0)
+        inputs &= (uint8_t)~(1 << 7);
+    else if (strcmp(command, "recover") == 0)
+        inputs |= 1 << 7;
     else if (strcmp(command, "release") == 0)
         inputs &= (uint8_t)~(1 << 5);
     else if (strcmp(command, "stick") == 0)

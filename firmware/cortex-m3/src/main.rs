@@ -44,6 +44,8 @@ fn main() -> ! {
         }
         device.tick(clock.now_ms());
         watchdog.feed();
+        #[cfg(feature = "simulator")]
+        pins::fail_on_demand();
         // until the next byte or millisecond
         cortex_m::asm::wfi();
     }

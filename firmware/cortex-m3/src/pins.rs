@@ -17,6 +17,8 @@ const DIGITAL: usize = 0x51C;
 /// The data register seen through a mask in its address: only pin 0, or only pin 1.
 const PIN_0: usize = 1 << 2;
 const PIN_1: usize = 2 << 2;
+#[cfg(feature = "simulator")]
+const PIN_2: usize = 4 << 2;
 
 /// Motors off; the input ready.
 pub fn begin() {
@@ -43,6 +45,17 @@ pub fn is_stopped() -> bool {
 /// Whether motions are stuck, for tests: the evaluation board's button `up` is pressed.
 pub fn is_stuck() -> bool {
     is_low(PORT_E + PIN_0, 1)
+}
+
+/// Fails on demand, for tests: hangs while the button `down` is pressed, executes what is no instruction
+/// when `left` is, without the watchdog.
+#[cfg(feature = "simulator")]
+pub fn fail_on_demand() {
+    while is_low(PORT_E + PIN_1, 4) {}
+    if is_low(PORT_E + PIN_2, 8) {
+        crate::watchdog::put_off();
+        cortex_m::asm::udf();
+    }
 }
 
 #[cfg(not(feature = "simulator"))]

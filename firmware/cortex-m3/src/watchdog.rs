@@ -39,6 +39,14 @@ impl Watchdog {
     }
 }
 
+/// Puts the watchdog off by minutes, for tests of what happens without it.
+#[cfg(feature = "simulator")]
+pub fn put_off() {
+    set(LOCK, UNLOCK);
+    set(LOAD, u32::MAX);
+    set(LOCK, 0);
+}
+
 /// Bad access, bad instruction, anything that nothing else handles.
 // SAFETY: it only writes to a pin.
 #[exception]

@@ -13,6 +13,8 @@ pub struct Simulator {
     pub qemu: bool,
     /// Longest time with current since this was taken, ms of the simulation, if it is measured there.
     pub longest_ms: Option<u64>,
+    /// Likewise, how long the motors had current after the emergency stop was pressed.
+    pub stop_ms: f64,
 }
 
 impl Simulator {
@@ -61,6 +63,7 @@ impl Simulator {
             said,
             qemu,
             longest_ms: None,
+            stop_ms: 0.0,
         };
         if qemu {
             // its buttons read low until they were used once
@@ -84,6 +87,7 @@ impl Simulator {
         let words = self.answer("motors", "motors ");
         let [now, longest] = [0, 1].map(|word| words[word].parse().expect("a number"));
         self.longest_ms = self.longest_ms.max(Some(longest));
+        self.stop_ms = words[2].parse().expect("a number");
         now > 0
     }
 
@@ -113,6 +117,30 @@ impl Simulator {
             self.wait_for("40025008", false);
         } else {
             self.tell("press");
+        }
+    }
+
+    /// QEMU's buttons read low until they were used once, also after a reset.
+    pub fn use_button(&mut self, button: &str) {
+        if self.qemu {
+            self.tell(&format!("sendkey {button} 50"));
+            std::thread::sleep(Duration::from_millis(300));
+        }
+    }
+
+    /// Stops the program's main loop, as an error in it would.
+    pub fn hang(&mut self) {
+        self.tell(if self.qemu {
+            "sendkey down 1500"
+        } else {
+            "hang"
+        });
+    }
+
+    /// The program will no longer hang, once the chip was reset.
+    pub fn recover(&mut self) {
+        if !self.qemu {
+            self.tell("recover");
         }
     }
 
