@@ -45,13 +45,13 @@ def replies(source, classifier, *lines) -> list[dict]:
 
 def take(folder, name="000001-1", **more) -> str:
     """A request for a photo."""
-    request = {"throw": 1, "attempt": 1, "folder": str(folder), "name": name}
+    request = {"throw": 1, "attempt": 1, "request": 7, "folder": str(folder), "name": name}
     return json.dumps({"take": {**request, **more}})
 
 
 def classify(path, **more) -> str:
     """A request to read a photo."""
-    return json.dumps({"classify": str(path), "throw": 1, "attempt": 1, **more})
+    return json.dumps({"classify": str(path), "throw": 1, "attempt": 1, "request": 7, **more})
 
 
 def test_photos_are_stored_with_their_hash_and_read(tmp_path, classifier):
@@ -64,7 +64,7 @@ def test_photos_are_stored_with_their_hash_and_read(tmp_path, classifier):
         truth.write_text(json.dumps(line) + "\n" + '{"throw_id": 2, "torn')
         name = f"000001-{attempt}"
         [taken] = replies(source, classifier, take(tmp_path, name, attempt=attempt))
-        assert taken == {"throw": 1, "attempt": attempt, "image": f"{name}.jpg"}
+        assert taken == {"throw": 1, "attempt": attempt, "request": 7, "image": f"{name}.jpg"}
         path = tmp_path / taken["image"]
         [read] = replies(source, classifier, classify(path, attempt=attempt))
         assert (read["throw"], read["attempt"]) == (1, attempt)
@@ -84,8 +84,8 @@ def test_a_photo_is_never_replaced_or_renamed(tmp_path, made, classifier):
         source, classifier, take(tmp_path), take(tmp_path, "000001-2", attempt=2)
     )
     assert "000001-1.jpg exists" in refused.pop("error")
-    assert refused == {"throw": 1, "attempt": 1}
-    assert taken == {"throw": 1, "attempt": 2, "image": "000001-2.jpg"}
+    assert refused == {"throw": 1, "attempt": 1, "request": 7}
+    assert taken == {"throw": 1, "attempt": 2, "request": 7, "image": "000001-2.jpg"}
     assert (tmp_path / "000001-1.jpg").read_bytes() == b"as a crash left it"
     assert [entry["image"] for entry in logged(tmp_path)] == ["000001-2.jpg"]
 
@@ -155,14 +155,14 @@ def test_errors_name_throw_and_attempt_where_they_are_known(tmp_path, classifier
     source = SyntheticSource(classifier.coin, classifier.camera, truth, 1, 0.0, 0.0)
     [reply] = replies(source, classifier, line)
     assert reply.pop("error")
-    assert reply == {"throw": 1, "attempt": 1}
+    assert reply == {"throw": 1, "attempt": 1, "request": 7}
     assert list(tmp_path.iterdir()) == [truth]
 
 
 def test_a_photo_of_a_source_that_fails_is_an_error(tmp_path, classifier):
     [reply] = replies(FileSource(tmp_path / "missing.jpg"), classifier, take(tmp_path))
     assert "missing.jpg cannot be read" in reply.pop("error")
-    assert reply == {"throw": 1, "attempt": 1}
+    assert reply == {"throw": 1, "attempt": 1, "request": 7}
     assert not list(tmp_path.iterdir())
 
 

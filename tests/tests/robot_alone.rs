@@ -130,11 +130,11 @@ fn a_camera_that_repeats_its_first_photo_gives_no_result() {
     let bench = Bench::new(4);
     let _robot = bench.robot(&[]);
     // it answers correctly, but always with the same picture
-    let program = r#"while read -r line; do case $line in
+    let program = r#"while read -r line; do r=$(echo "$line" | sed 's/.*"request":\([0-9]*\).*/\1/'); case $line in
 *take*) t=$(echo "$line" | sed 's/.*"throw":\([0-9]*\).*/\1/'); a=$(echo "$line" | sed 's/.*"attempt":\([0-9]*\).*/\1/')
 name=$(echo "$line" | sed 's/.*"name":"\([^"]*\)".*/\1/'); echo frame > "day/photos/$name.png"
-echo "{\"throw\":$t,\"attempt\":$a,\"image\":\"$name.png\"}";;
-*) echo "{\"throw\":$t,\"attempt\":$a,\"face\":\"heads\"}";;
+echo "{\"throw\":$t,\"attempt\":$a,\"request\":$r,\"image\":\"$name.png\"}";;
+*) echo "{\"throw\":$t,\"attempt\":$a,\"request\":$r,\"face\":\"heads\"}";;
 esac; done"#;
     let output = finish(bench.run_with("day", program, &["--max-camera-failures", "3"]));
     said(&output, 4, &["the same picture", "3 times in a row"]);

@@ -243,7 +243,7 @@ fn no_error_of_the_line_costs_or_doubles_a_throw() {
         for (number, failure) in FAILURES.into_iter().enumerate() {
             // alone, or with another one soon after
             let mut failures = vec![(call, failure)];
-            if (call as usize + number) % 3 == 0 {
+            if (call as usize + number).is_multiple_of(3) {
                 let other = FAILURES[(call as usize / 3 + number) % 6];
                 failures.push((call + 1 + call % 4, other));
             }

@@ -51,11 +51,11 @@ def _request(line: str) -> dict[str, Any]:
 
 
 def _about(request: dict[str, Any]) -> dict[str, int]:
-    """Return throw and attempt of a request; nothing if it lacks one of them."""
+    """Return throw, attempt and number of a request; nothing if it lacks one of them."""
     asked = request.get("take", request)
     if not isinstance(asked, dict):
         return {}
-    about = {key: asked.get(key) for key in ("throw", "attempt")}
+    about = {key: asked.get(key) for key in ("throw", "attempt", "request")}
     good = all(type(n) is int and 0 <= n < 1 << 32 for n in about.values())
     return about if good else {}
 
@@ -69,18 +69,19 @@ def _reply(
         case {"classify": str(path), **rest} if about and rest == about:
             return _classify(classifier, Path(path))
     raise VisionError(
-        "a request is take, or classify with throw and attempt, as docs/guide/robot.md says"
+        "a request is take, or classify with throw, attempt and request, as docs/guide/robot.md says"
     )
 
 
 def _take(source: Source, take: dict[str, Any], about: dict[str, int]) -> dict[str, Any]:
     folder, name = take.get("folder"), take.get("name")
     if not about or not isinstance(folder, str) or not isinstance(name, str):
-        raise VisionError("take has throw, attempt, folder and name")
+        raise VisionError("take has throw, attempt, request, folder and name")
     if not Path(folder).is_absolute() or not Path(folder).is_dir():
         raise VisionError("the folder must be absolute, and exist")
     content, kind = source.take(about["throw"], name)
-    return {"image": PhotoStore(Path(folder)).keep(name, kind, content, **about)}
+    of = {"throw": about["throw"], "attempt": about["attempt"]}
+    return {"image": PhotoStore(Path(folder)).keep(name, kind, content, **of)}
 
 
 def _classify(classifier: Classifier, path: Path) -> dict[str, Any]:

@@ -4,10 +4,10 @@
 //! to each with one line on its standard output:
 //!
 //! ```text
-//! {"take": {"throw": 12, "attempt": 1, "folder": "/data/photos", "name": "000012-1"}}
-//! {"throw": 12, "attempt": 1, "image": "000012-1.png"}
-//! {"classify": "/data/photos/000012-1.png", "throw": 12, "attempt": 1}
-//! {"throw": 12, "attempt": 1, "face": "heads"}
+//! {"take": {"throw": 12, "attempt": 1, "request": 23, "folder": "/data/photos", "name": "000012-1"}}
+//! {"throw": 12, "attempt": 1, "request": 23, "image": "000012-1.png"}
+//! {"classify": "/data/photos/000012-1.png", "throw": 12, "attempt": 1, "request": 24}
+//! {"throw": 12, "attempt": 1, "request": 24, "face": "heads"}
 //! ```
 //!
 //! A reply counts only if it belongs to its request: it repeats throw and attempt, names the file that

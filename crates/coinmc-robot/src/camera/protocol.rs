@@ -29,6 +29,8 @@ pub struct Take {
     pub throw_id: u32,
     /// Number of the photo of this throw, from 1.
     pub attempt: u32,
+    /// Number of the request, another one every time: nobody can answer before it was asked.
+    pub request: u32,
     /// Folder for the photo; absolute.
     pub folder: PathBuf,
     /// File name, without an extension.
@@ -45,14 +47,29 @@ pub struct Classify {
     pub throw_id: u32,
     /// As in the request to take it.
     pub attempt: u32,
+    /// Number of this request.
+    pub request: u32,
+}
+
+/// What a request is about: its reply must repeat it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct About {
+    pub(super) throw_id: u32,
+    pub(super) attempt: u32,
+    pub(super) request: u32,
 }
 
 impl Request {
-    /// Throw and attempt, which the reply must repeat.
-    pub(super) fn about(&self) -> (u32, u32) {
-        match self {
-            Self::Take { take } => (take.throw_id, take.attempt),
-            Self::Classify(classify) => (classify.throw_id, classify.attempt),
+    /// What the reply must repeat.
+    pub(super) fn about(&self) -> About {
+        let (throw_id, attempt, request) = match self {
+            Self::Take { take } => (take.throw_id, take.attempt, take.request),
+            Self::Classify(photo) => (photo.throw_id, photo.attempt, photo.request),
+        };
+        About {
+            throw_id,
+            attempt,
+            request,
         }
     }
 }
@@ -63,6 +80,7 @@ pub(super) struct CameraReply {
     #[serde(rename = "throw")]
     throw_id: Option<u32>,
     attempt: Option<u32>,
+    request: Option<u32>,
     image: Option<PathBuf>,
     /// When the picture was exposed, ms since 1970, if the camera knows.
     taken_ms: Option<u64>,
@@ -79,23 +97,35 @@ pub(super) enum Shown {
 }
 
 impl CameraReply {
-    /// Parses a line, which must repeat throw and attempt of the request.
-    pub(super) fn read(line: &[u8], (throw_id, attempt): (u32, u32)) -> Result<Self, String> {
+    /// Parses a line, which must repeat what the request is about.
+    pub(super) fn read(line: &[u8], asked: About) -> Result<Self, String> {
         let answer: Self = serde_json::from_slice(line).map_err(|error| error.to_string())?;
         if let Some(error) = answer.error {
             return Err(error.chars().take(200).collect());
         }
-        match (answer.throw_id, answer.attempt) {
-            (Some(of), Some(number)) if (of, number) == (throw_id, attempt) => Ok(answer),
-            (Some(of), Some(number)) => Err(format!(
-                "an answer about throw {of}, photo {number}, but it was asked about throw \
-                 {throw_id}, photo {attempt}"
-            )),
-            _ => Err(
-                "an answer without `throw` and `attempt`: it must repeat those of the request"
+        let (Some(throw_id), Some(attempt), Some(request)) =
+            (answer.throw_id, answer.attempt, answer.request)
+        else {
+            return Err(
+                "an answer without `throw`, `attempt` and `request`: it must repeat those of the \
+                 request"
                     .to_owned(),
-            ),
+            );
+        };
+        if (throw_id, attempt) != (asked.throw_id, asked.attempt) {
+            return Err(format!(
+                "an answer about throw {throw_id}, photo {attempt}, but it was asked about throw {}, \
+                 photo {}",
+                asked.throw_id, asked.attempt
+            ));
         }
+        if request != asked.request {
+            return Err(format!(
+                "an answer to request {request}, but the last one was {}: it came unasked",
+                asked.request
+            ));
+        }
+        Ok(answer)
     }
 
     /// The photo's name, if it is the one asked for, with any extension, in the requested folder.
@@ -142,15 +172,24 @@ impl CameraReply {
 mod tests {
     use super::*;
 
+    fn about(request: u32) -> About {
+        About {
+            throw_id: 12,
+            attempt: 1,
+            request,
+        }
+    }
+
     #[test]
     fn requests_are_the_documented_lines() {
         let take = Take {
             throw_id: 12,
             attempt: 1,
+            request: 23,
             folder: "/data/photos".into(),
             name: "000012-1".into(),
         };
-        let text = r#"{"take":{"throw":12,"attempt":1,"folder":"/data/photos","name":"000012-1"}}"#;
+        let text = r#"{"take":{"throw":12,"attempt":1,"request":23,"folder":"/data/photos","name":"000012-1"}}"#;
         let take = Request::Take { take };
         assert_eq!(serde_json::to_string(&take).unwrap(), text);
         assert_eq!(serde_json::from_str::<Request>(text).unwrap(), take);
@@ -158,22 +197,27 @@ mod tests {
             classify: "/data/photos/000012-1.png".into(),
             throw_id: 12,
             attempt: 1,
+            request: 24,
         });
-        let text = r#"{"classify":"/data/photos/000012-1.png","throw":12,"attempt":1}"#;
+        let text =
+            r#"{"classify":"/data/photos/000012-1.png","throw":12,"attempt":1,"request":24}"#;
         assert_eq!(serde_json::to_string(&classify).unwrap(), text);
         assert_eq!(serde_json::from_str::<Request>(text).unwrap(), classify);
-        assert_eq!((take.about(), classify.about()), ((12, 1), (12, 1)));
+        assert_eq!((take.about(), classify.about()), (about(23), about(24)));
     }
 
     #[test]
     fn answers_are_about_the_photo_that_was_asked_for() {
-        let read = |text: &str| CameraReply::read(text.as_bytes(), (12, 1));
-        assert!(read(r#"{"throw":12,"attempt":1,"face":"heads"}"#).is_ok());
+        let read = |text: &str| CameraReply::read(text.as_bytes(), about(24));
+        assert!(read(r#"{"throw":12,"attempt":1,"request":24,"face":"heads"}"#).is_ok());
         for bad in [
             r#"{"face":"heads"}"#,
-            r#"{"throw":12,"face":"heads"}"#,
-            r#"{"throw":11,"attempt":1,"face":"heads"}"#,
-            r#"{"throw":12,"attempt":2,"face":"heads"}"#,
+            r#"{"throw":12,"request":24,"face":"heads"}"#,
+            r#"{"throw":12,"attempt":1,"face":"heads"}"#,
+            r#"{"throw":11,"attempt":1,"request":24,"face":"heads"}"#,
+            r#"{"throw":12,"attempt":2,"request":24,"face":"heads"}"#,
+            // a second line of the answer to the request to take it, which arrives late
+            r#"{"throw":12,"attempt":1,"request":23,"face":"heads"}"#,
             "heads",
         ] {
             assert!(read(bad).is_err(), "{bad}");
@@ -188,8 +232,8 @@ mod tests {
     #[test]
     fn images_have_the_name_asked_for_and_none_means_no_face() {
         let answer = |more: &str| {
-            let text = format!(r#"{{"throw":12,"attempt":1,{more}}}"#);
-            CameraReply::read(text.as_bytes(), (12, 1)).unwrap()
+            let text = format!(r#"{{"throw":12,"attempt":1,"request":24,{more}}}"#);
+            CameraReply::read(text.as_bytes(), about(24)).unwrap()
         };
         let folder = Path::new("/data/photos");
         for good in [

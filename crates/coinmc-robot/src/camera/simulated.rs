@@ -11,8 +11,8 @@ use std::fs;
 use std::io::{self, BufRead, Read, Write};
 use std::path::{Path, PathBuf};
 
-/// Age of a frame that lay in a buffer: it is of the throw before.
-const OLD_FRAME_MS: u64 = 1_000;
+/// Age of a frame that lay in a buffer, however late the request for it is read.
+const OLD_FRAME_MS: u64 = 60_000;
 
 /// Random faults of the camera.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -107,8 +107,11 @@ fn misbehave(answer: &mut Value, line: &[u8], dice: &mut Dice) -> Option<Value> 
             }
         }
         _ => {
-            let (throw, attempt) = (answer["throw"].clone(), answer["attempt"].clone());
-            return Some(json!({ "throw": throw, "attempt": attempt, "face": face }));
+            let mut more = json!({ "face": face });
+            for key in ["throw", "attempt", "request"] {
+                more[key] = answer[key].clone();
+            }
+            return Some(more);
         }
     }
     None
@@ -131,8 +134,13 @@ fn take(truth: &Path, take: &Take, dice: &mut Dice) -> io::Result<Value> {
     let name = format!("{}.png", take.name);
     let grain = format!("{:016x}", dice.word());
     fs::write(take.folder.join(&name), picture(face, &grain))?;
-    let (throw, attempt, taken_ms) = (take.throw_id, take.attempt, unix_ms());
-    Ok(json!({ "throw": throw, "attempt": attempt, "image": name, "taken_ms": taken_ms }))
+    Ok(json!({
+        "throw": take.throw_id,
+        "attempt": take.attempt,
+        "request": take.request,
+        "image": name,
+        "taken_ms": unix_ms(),
+    }))
 }
 
 fn classify(photo: &Classify, faults: &CameraFaults, dice: &mut Dice) -> io::Result<Value> {
@@ -149,7 +157,12 @@ fn classify(photo: &Classify, faults: &CameraFaults, dice: &mut Dice) -> io::Res
         face = None;
     }
     let face = face.map_or("none", Face::name);
-    Ok(json!({ "throw": photo.throw_id, "attempt": photo.attempt, "face": face }))
+    Ok(json!({
+        "throw": photo.throw_id,
+        "attempt": photo.attempt,
+        "request": photo.request,
+        "face": face,
+    }))
 }
 
 fn another(face: Face) -> Face {

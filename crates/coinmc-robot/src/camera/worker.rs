@@ -90,6 +90,7 @@ impl Camera {
             log,
             roll,
             child: None,
+            request: 0,
             pause: Duration::ZERO,
         };
         worker.test()?;
@@ -128,6 +129,8 @@ struct Worker {
     log: Log,
     roll: Roll,
     child: Option<CameraChild>,
+    /// Number of the last request.
+    request: u32,
     /// Before the camera is started again.
     pause: Duration,
 }
@@ -178,10 +181,13 @@ impl Worker {
             self.child = Some(CameraChild::start(&self.options.command, &self.log)?);
         }
         let child = self.child.as_mut().ok_or(CameraError::Ended)?;
+        self.request = self.request.wrapping_add(2);
+        let (first, second) = (self.request.wrapping_sub(1), self.request);
         let asked_ms = unix_ms();
         let take = Take {
             throw_id,
             attempt,
+            request: first,
             folder: folder.clone(),
             name: name.to_owned(),
         };
@@ -198,6 +204,7 @@ impl Worker {
             classify: folder.join(image.as_str()),
             throw_id,
             attempt,
+            request: second,
         });
         let shown = child.request(&classify, timeout)?.shown();
         match shown.map_err(CameraError::CameraReply)? {
