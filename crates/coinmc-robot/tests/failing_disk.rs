@@ -84,7 +84,8 @@ fn length(journal: &Journal, histories: &[History]) -> usize {
 /// appended before; how many are now.
 fn process(disk: &Disk, failures: &[(u32, Failure)], safe: usize, histories: &[History]) -> usize {
     let path = Path::new("journal.txt");
-    let Ok((mut journal, _)) = Journal::open_on(disk.open(failures), path, &header()) else {
+    let Ok((mut journal, _)) = Journal::open_on(Box::new(disk.open(failures)), path, &header())
+    else {
         return safe;
     };
     let mut length = length(&journal, histories);

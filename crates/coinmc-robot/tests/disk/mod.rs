@@ -49,16 +49,16 @@ pub struct Handle {
 
 impl Disk {
     /// Opens its file; these calls fail, counted from now on.
-    pub fn open(&self, failures: &[(u32, Failure)]) -> Box<Handle> {
+    pub fn open(&self, failures: &[(u32, Failure)]) -> Handle {
         let mut platter = self.0.lock().unwrap();
         platter.calls = 0;
         platter.failures = failures.to_vec();
         platter.killed = false;
         drop(platter);
-        Box::new(Handle {
+        Handle {
             disk: self.clone(),
             at: 0,
-        })
+        }
     }
 
     /// The power fails; of what was not synced, the first part of each write may have reached the disk.
@@ -69,7 +69,8 @@ impl Disk {
             let end = range.end.min(range.start + part);
             platter.reach(range.start..end);
         }
-        platter.cache = platter.durable.clone();
+        let Platter { cache, durable, .. } = &mut *platter;
+        cache.clone_from(durable);
     }
 
     pub fn content(&self) -> Vec<u8> {
