@@ -28,5 +28,7 @@ fn a_line_that_came_unasked_is_not_the_answer_to_the_next_request() {
     let said = failure
         .expect_err("a face that nobody asked for")
         .to_string();
-    assert!(said.contains("unasked"), "{said}");
+    // on a busy machine the host sees it before it asks again
+    let seen = ["it came unasked", "a line without a request"];
+    assert!(seen.iter().any(|words| said.contains(words)), "{said}");
 }
