@@ -132,6 +132,7 @@ def test_a_coin_that_moves_is_told_as_leaning_and_asked_for_again(tmp_path, clas
         '{"classify": "PHOTO"}',
         classify("PHOTO", throw=None),
         classify("PHOTO", attempt=0.5),
+        classify("PHOTO", request=None),
         classify("PHOTO", take=1),
         classify("x" * 70_000),
     ],

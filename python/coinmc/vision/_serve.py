@@ -69,7 +69,7 @@ def _reply(
         case {"classify": str(path), **rest} if about and rest == about:
             return _classify(classifier, Path(path))
     raise VisionError(
-        "a request is take, or classify with throw, attempt and request, as docs/guide/robot.md says"
+        "a request is take, or classify with throw, attempt and request: docs/guide/robot.md"
     )
 
 
