@@ -89,6 +89,14 @@ pub(crate) struct RobotSoak {
     #[arg(long)]
     settings: bool,
 
+    /// Of the settings, the first
+    #[arg(long, default_value_t = 1, value_name = "NUMBER")]
+    first: usize,
+
+    /// Of the settings, the last [default: of all]
+    #[arg(long, value_name = "NUMBER")]
+    last: Option<usize>,
+
     /// The program [default: `coinmc` beside this one]
     #[arg(long, value_name = "FILE")]
     program: Option<PathBuf>,

@@ -111,8 +111,13 @@ impl RobotSoak {
                 "wall_s",
             ],
         );
-        let throws = (self.throws / SETTINGS.len() as u64).max(1);
-        for (number, setting) in (1_u64..).zip(SETTINGS) {
+        let range = self.first..=self.last.unwrap_or(SETTINGS.len());
+        let chosen = (1..)
+            .zip(SETTINGS)
+            .filter(|(number, _)| range.contains(number));
+        let chosen: Vec<(usize, Setting)> = chosen.collect();
+        let throws = (self.throws / chosen.len().max(1) as u64).max(1);
+        for (number, setting) in chosen {
             let share = |per_hundred: u32| {
                 u32::try_from(throws * u64::from(per_hundred) / 100).unwrap_or(u32::MAX)
             };
@@ -142,7 +147,7 @@ impl RobotSoak {
             };
             let place = dir.join(number.to_string());
             fs::create_dir(&place)?;
-            let bench = soak.bench(program.to_owned(), place, seed + number);
+            let bench = soak.bench(program.to_owned(), place, seed + number as u64);
             let begun = Instant::now();
             let met = soak.endure(&bench)?;
             let audit = bench.audit(throws)?;
