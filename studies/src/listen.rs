@@ -158,7 +158,7 @@ impl Listen {
                     n += 1.0;
                     squares += (mean - truth) * (mean - truth);
                     near += usize::from((mean - truth).abs() < 0.03);
-                    held += usize::from((*lo..=*hi).contains(&truth));
+                    held += usize::from((*lo..=*hi).contains(truth));
                     doubts += usize::from(*odd > 0);
                     [
                         format!("{mean:.4}"),
@@ -430,7 +430,7 @@ fn bytes_of(kind: &str, made: &Observations, case: u64, random: &dyn Fn(u64) -> 
             ..usual
         }),
         "bytes" => (0..below(5, 100_000) as u64)
-            .map(|k| (random(100 + k) * 256.0) as u8)
+            .map(|k| byte(random(100 + k)))
             .collect(),
         other => Recording::to_bytes(&Recording::of_samples(
             other,
@@ -489,6 +489,15 @@ fn sound_of(kind: &str, random: &dyn Fn(u64) -> f64) -> Vec<f32> {
         let sample = (value + quiet * 0.1 * noise(k + 10_000_000)).clamp(-1.0, 1.0) as f32;
         sample
     };
-    let mut sample = sample;
-    (0..length).map(|k| sample(k)).collect()
+    (0..length).map(sample).collect()
+}
+
+/// A number from 0 to 1 as a byte.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "casts of floats saturate"
+)]
+fn byte(share: f64) -> u8 {
+    (share * 256.0) as u8
 }

@@ -11,8 +11,7 @@
 //!
 //! # Files
 //! `launch` the launches · `axis`, `place` what the probabilities depend on · `network` one network · `ensemble`
-//! several and their error · `document` an answer · `file` their bytes · `fit`, `train` how they are made · `points`
-//! what was tossed for them · `sure` tosses instead.
+//! several and their error · `document` an answer · `file` their bytes · `fit`, `train` how they are made · `sure` tosses instead.
 
 mod axis;
 mod document;
@@ -23,8 +22,6 @@ mod fit;
 mod launch;
 mod network;
 mod place;
-#[cfg(feature = "parquet")]
-mod points;
 mod sure;
 mod train;
 
@@ -35,7 +32,5 @@ pub use error::{AtlasError, FileError, FitError};
 pub use fit::fit;
 pub use launch::Launch;
 pub use place::Place;
-#[cfg(feature = "parquet")]
-pub use points::write_points;
 pub use sure::{Counts, scene, toss};
 pub use train::Training;

@@ -49,7 +49,7 @@ fn of_recording(heard: &Heard, style: &Style) -> String {
             line(&format!(
                 "a drop, {} bounces, s after the first: {}",
                 bounces.times_s.len(),
-                listed(times.collect())
+                listed(&times.collect::<Vec<_>>())
             ));
         }
         (Some(Kind::Whirr), _, Ok(whirr)) => {
@@ -59,7 +59,7 @@ fn of_recording(heard: &Heard, style: &Style) -> String {
                 .map(|pitch| format!("{:.1} Hz at {:.2} s", pitch.frequency_hz, pitch.time_s));
             line(&format!(
                 "a spin that whirrs: {}; scatter {:.1} %",
-                listed(pitches.collect()),
+                listed(&pitches.collect::<Vec<_>>()),
                 100.0 * whirr.scatter
             ));
         }
@@ -75,7 +75,7 @@ fn of_recording(heard: &Heard, style: &Style) -> String {
 }
 
 /// The first of them, and how many more there are.
-fn listed(all: Vec<String>) -> String {
+fn listed(all: &[String]) -> String {
     let more = all.len().saturating_sub(SHOWN);
     let shown = all[..all.len() - more].join(", ");
     if more > 0 {

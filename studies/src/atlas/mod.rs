@@ -1,10 +1,12 @@
 //! The atlas: networks fitted to the results of a design, and how wrong they are at points that were not fitted.
 
+mod points;
+
 use anyhow::Context;
 use clap::Args;
 use coinmc::results::Results;
 use coinmc::run::stored_report;
-use coinmc_atlas::{Atlas as Part, Place, Training, fit, write_points};
+use coinmc_atlas::{Atlas as Part, Place, Training, fit};
 use coinmc_bench::{Report, Table, number};
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -49,7 +51,7 @@ impl Atlas {
             .map(|dir| results_of(dir))
             .collect::<Result<_, _>>()?;
         if let Some(path) = &self.points {
-            write_points(&results, &mut File::create_new(path)?)?;
+            points::write_points(&results, &mut File::create_new(path)?)?;
         }
         let title = format!("The atlas for the launch `{}`", self.launch);
         let mut table = Table::new(title, &["what", "value"]);

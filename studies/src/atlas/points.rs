@@ -1,10 +1,9 @@
 //! The points of a design and what was tossed there, as a table.
 
-use crate::Place;
-use crate::network::single;
 use arrow_array::{ArrayRef, Float32Array, RecordBatch, UInt64Array};
 use arrow_schema::{DataType, Field, Schema};
 use coinmc::results::{Kind, Results, Row, arrow_field, parquet_error};
+use coinmc_atlas::Place;
 use parquet::arrow::ArrowWriter;
 use parquet::basic::Compression;
 use parquet::file::metadata::KeyValue;
@@ -31,7 +30,7 @@ const COUNTS: [(&str, &str, Count); 4] = [
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_points(results: &[Results], out: &mut (dyn Write + Send)) -> io::Result<()> {
+pub(super) fn write_points(results: &[Results], out: &mut (dyn Write + Send)) -> io::Result<()> {
     let mut fields: Vec<Field> = Vec::new();
     let mut arrays: Vec<ArrayRef> = Vec::new();
     let mut properties = WriterProperties::builder();
@@ -66,4 +65,12 @@ pub fn write_points(results: &[Results], out: &mut (dyn Write + Send)) -> io::Re
     let mut writer = ArrowWriter::try_new(out, schema, Some(properties)).map_err(parquet_error)?;
     writer.write(&batch).map_err(parquet_error)?;
     writer.close().map(drop).map_err(parquet_error)
+}
+
+#[allow(
+    clippy::cast_possible_truncation,
+    reason = "networks are fitted to numbers of single precision"
+)]
+fn single(x: f64) -> f32 {
+    x as f32
 }
