@@ -7,6 +7,7 @@ import * as geometry from "./geometry.js";
 import { FLIGHT, SLIDING, STICKING } from "./motion.js";
 import { Orbit } from "./orbit.js";
 import * as shaders from "./shaders.js";
+import { Sharpness } from "./sharpness.js";
 
 /** About as many points has a path. */
 const PATH = 1000;
@@ -18,7 +19,12 @@ export class Stage {
   constructor(canvas, tosses) {
     this.canvas = canvas;
     this.tosses = tosses;
-    this.renderer = new Renderer({ canvas, webgl: 1, antialias: true, dpr: Math.min(2, devicePixelRatio) });
+    const dpr = Math.min(2, devicePixelRatio);
+    this.renderer = new Renderer({ canvas, webgl: 1, antialias: true, dpr });
+    this.sharpness = new Sharpness((share) => {
+      this.renderer.dpr = dpr * share;
+      this.resize();
+    });
     this.gl = this.renderer.gl;
     if (!this.gl) throw new Error("no WebGL");
     this.camera = new Camera(this.gl, { fov: 32, near: 0.001, far: 1000 });
@@ -199,6 +205,7 @@ export class Stage {
   draw() {
     this.stale = false;
     const began = performance.now();
+    this.sharpness.frame(began);
     const eye = this.orbit.eye();
     const distance = this.orbit.distance;
     this.camera.near = distance / 100;
