@@ -38,6 +38,11 @@ impl Answer {
         [(p - error).max(0.0), (p + error).min(1.0)]
     }
 
+    /// Half the width of the 95 % interval of the fair ratio.
+    pub fn fair_half_width(&self) -> Option<f64> {
+        Some(Z95 * self.fair?.error)
+    }
+
     /// The probability of a face by the tosses.
     pub fn tossed(&self, face: Face) -> Option<Estimate> {
         let counts = self.counts?;

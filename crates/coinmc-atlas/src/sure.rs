@@ -3,12 +3,7 @@
 use crate::{Atlas, AtlasError, Launch, Place};
 use coinmc::config::{self, Override};
 use coinmc::plan::Plan;
-use coinmc::run::stream;
-use coinmc_core::Face;
 use coinmc_questions::{QuestionError, Workers};
-
-/// Tosses of one piece of work.
-const PIECE: u64 = 256;
 
 /// Counts of tosses at a place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -58,30 +53,9 @@ pub fn scene(
 /// # Errors
 /// [`AtlasError`].
 pub fn toss(plan: &Plan, tosses: u64, workers: &Workers<'_>) -> Result<Counts, AtlasError> {
-    let point = plan.points.at(0);
-    let launches = stream(plan, 0);
-    let pieces = usize::try_from(tosses.div_ceil(PIECE)).unwrap_or(usize::MAX);
-    let counted = workers.each(pieces, &|index| {
-        let first = index as u64 * PIECE;
-        let mut counts = Counts::default();
-        let range = first..(first + PIECE).min(tosses);
-        workers.outcomes(
-            &point,
-            &launches,
-            range,
-            &mut |_, outcome| match outcome.face() {
-                Some(face) => counts.faces[face as usize] += 1,
-                None => counts.undecided += 1,
-            },
-        )?;
-        Ok::<_, QuestionError>(counts)
-    })?;
-    let mut sum = Counts::default();
-    for counts in counted {
-        for face in Face::ALL {
-            sum.faces[face as usize] += counts.faces[face as usize];
-        }
-        sum.undecided += counts.undecided;
-    }
-    Ok(sum)
+    let [heads, tails, side, undecided, left] = workers.count_first(plan, 0..tosses)?;
+    Ok(Counts {
+        faces: [heads, tails, side],
+        undecided: undecided + left,
+    })
 }

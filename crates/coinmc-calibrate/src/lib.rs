@@ -57,3 +57,4 @@ pub use settings::Settings;
 #[cfg(feature = "parquet")]
 pub use table::parquet::write_parquet;
 pub use table::{columns, csv};
+pub use tosses::point_with;

@@ -33,8 +33,11 @@ pub(crate) fn surface_with(
         )
 }
 
-/// The first point of a plan, on a surface with these parameters.
-pub(crate) fn point_with(
+/// The first point of a plan, on a surface with these values of these parameters.
+///
+/// # Errors
+/// [`SurfaceError`] if no surface has them.
+pub fn point_with(
     plan: &Plan,
     parameters: &[Parameter],
     values: &[f64],

@@ -69,16 +69,4 @@ pub enum ListenError {
     /// The engine in use knows no friction lengths.
     #[error("drops are compared with tosses in space: use [engine.volumetric]")]
     NotSpatial,
-    /// A number of the work is out of range.
-    #[error("{what} must be from {least} to {most}, not {given}")]
-    OutOfRange {
-        /// Of what.
-        what: &'static str,
-        /// The least.
-        least: u64,
-        /// The most.
-        most: u64,
-        /// That asked for.
-        given: u64,
-    },
 }

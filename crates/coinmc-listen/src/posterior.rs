@@ -10,7 +10,7 @@ use crate::heard::{Bounces, FEATURE_NAMES, FEATURES};
 use crate::regression::{Regression, quadratic};
 use crate::struck::Tosser;
 use coinmc::plan::Point;
-use coinmc_calibrate::{Observations, Parameter, Prior};
+use coinmc_calibrate::{CalibrationError, Observations, Parameter, Prior, point_with};
 use coinmc_core::{Domain, Stream, inverse_normal_cdf, unit_interval};
 use coinmc_quadrature::Sobol;
 use coinmc_questions::{QuestionError, Workers};
@@ -91,12 +91,13 @@ impl FromDrops {
         workers: &Workers<'_>,
     ) -> Result<Self, ListenError> {
         if !(500..=10_000_000).contains(&effort.surfaces) {
-            return Err(ListenError::OutOfRange {
+            return Err(CalibrationError::OutOfRange {
                 what: "the number of surfaces",
                 least: 500,
                 most: 10_000_000,
                 given: effort.surfaces,
-            });
+            }
+            .into());
         }
         if observed.priors.len() < Parameter::ALL.len() {
             return Err(ListenError::NotSpatial);
@@ -168,27 +169,15 @@ fn simulate(
 
 /// The scene on the surface with these scores of the priors.
 pub(crate) fn on_surface(observed: &Observations, z: &[f64]) -> Result<Point, ListenError> {
-    let mut point = observed.plan.points[0].clone();
-    let of = |wanted: Parameter| {
-        let places = observed.priors.iter().zip(z);
-        let mut found = places.filter(|(prior, _)| prior.parameter == wanted);
-        found.next().map_or_else(
-            || wanted.of_surface(&observed.plan.points[0].scene.surface),
-            |(prior, z)| prior.value(*z),
-        )
-    };
-    let surface = point
-        .scene
-        .surface
-        .with_impact(of(Parameter::Restitution), of(Parameter::Friction));
-    let surface = surface.and_then(|surface| {
-        surface.with_friction_lengths(
-            of(Parameter::RollingFriction),
-            of(Parameter::PivotingFriction),
-        )
-    });
-    point.scene.surface = surface.map_err(crate::struck::StruckError::Surface)?;
-    Ok(point)
+    let known: Vec<Parameter> = observed
+        .priors
+        .iter()
+        .map(|prior| prior.parameter)
+        .collect();
+    let priors = observed.priors.iter().zip(z);
+    let values: Vec<f64> = priors.map(|(prior, z)| prior.value(*z)).collect();
+    let point = point_with(&observed.plan, &known, &values);
+    Ok(point.map_err(crate::struck::StruckError::Surface)?)
 }
 
 fn mean_features(each: impl Iterator<Item = [f64; FEATURES]>) -> Vec<f64> {

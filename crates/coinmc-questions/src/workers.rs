@@ -129,19 +129,25 @@ impl Workers<'_> {
         })
     }
 
+    /// Counts the ends of tosses of a plan's first point: heads, tails, side, undecided and left.
+    ///
+    /// # Errors
+    /// As [`outcomes`](Self::outcomes), or that no thread can be started.
+    pub fn count_first(
+        &self,
+        plan: &Plan,
+        tosses: Range<u64>,
+    ) -> Result<[u64; ENDS], QuestionError> {
+        Ok(self.count(&[(At { plan, point: 0 }, tosses)])?[0])
+    }
+
     /// Tosses pairs of points with the same random numbers.
     pub(crate) fn compare(
         &self,
         pairs: &[[At<'_>; 2]],
         tosses: Range<u64>,
     ) -> Result<Vec<Changes>, QuestionError> {
-        let ranges = vec![tosses; pairs.len()];
-        let tables = self.each_piece(&ranges, &|index, tosses| {
-            let [first, second] = pairs[index];
-            let before = self.ends_of(first, tosses.clone())?;
-            self.table(&before, second, tosses)
-        })?;
-        Ok(tables.into_iter().map(Changes).collect())
+        self.compare_drawn(pairs, tosses, &|pair| pair.map(|at| stream(at.plan, 0)))
     }
 
     /// Tosses pairs of points with the random numbers that the first has in a run of its plan.
@@ -150,12 +156,24 @@ impl Workers<'_> {
         pairs: &[[At<'_>; 2]],
         tosses: Range<u64>,
     ) -> Result<Vec<Changes>, QuestionError> {
+        self.compare_drawn(pairs, tosses, &|[first, _]| {
+            [(); 2].map(|()| stream(first.plan, first.point))
+        })
+    }
+
+    /// Tosses pairs of points, each with the random numbers that are chosen for it.
+    fn compare_drawn(
+        &self,
+        pairs: &[[At<'_>; 2]],
+        tosses: Range<u64>,
+        streams: &(dyn Fn([At<'_>; 2]) -> [Stream; 2] + Sync),
+    ) -> Result<Vec<Changes>, QuestionError> {
         let ranges = vec![tosses; pairs.len()];
         let tables = self.each_piece(&ranges, &|index, tosses| {
             let [first, second] = pairs[index];
-            let stream = stream(first.plan, first.point);
-            let before = self.ends_drawn(first, &stream, tosses.clone())?;
-            let after = self.ends_drawn(second, &stream, tosses)?;
+            let [of_first, of_second] = streams(pairs[index]);
+            let before = self.ends_drawn(first, &of_first, tosses.clone())?;
+            let after = self.ends_drawn(second, &of_second, tosses)?;
             Ok(table(&before, &after))
         })?;
         Ok(tables.into_iter().map(Changes).collect())

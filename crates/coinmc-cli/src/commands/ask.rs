@@ -158,11 +158,10 @@ fn text(answer: &Answer, atlas: &Atlas, style: &Style) -> String {
         table.push(cells);
     }
     text += &table.render(style).text;
-    text += &match answer.fair {
-        Some(root) => format!(
-            "There the side comes up in a third of the tosses at H/R = {:.2} ± {:.2}\n",
+    text += &match answer.fair.zip(answer.fair_half_width()) {
+        Some((root, half_width)) => format!(
+            "There the side comes up in a third of the tosses at H/R = {:.2} ± {half_width:.2}\n",
             root.ratio,
-            1.96 * root.error
         ),
         None => "At no H/R of the atlas does the side come up in a third of the tosses there\n"
             .to_owned(),

@@ -1,5 +1,6 @@
 //! The axes of a sweep and the points they span.
 
+use super::build::integer;
 use super::checked::{COMPONENTS, Checked, CheckedValue};
 use super::diagnostics::Problems;
 use super::quantity::Quantity;
@@ -52,7 +53,7 @@ impl Sweep {
             _ => gridded(&found, problems),
         }?;
         let values: Vec<Vec<f64>> = match mode {
-            "sobol" => designed(&found, points, seed(root)?),
+            "sobol" => designed(&found, points, integer(root, "seed")?),
             _ => found.iter().map(|axis| axis.quantity.values()).collect(),
         };
         let mut distinct = true;
@@ -212,13 +213,6 @@ fn spread(found: &[Found], problems: &mut Problems) -> Option<usize> {
     }
     let points = zipped("ranges of a design", found, problems)?;
     sound.then_some(points)
-}
-
-fn seed(root: &Checked) -> Option<u64> {
-    match root.get("seed")?.value {
-        CheckedValue::Integer(seed) => Some(seed),
-        _ => None,
-    }
 }
 
 /// The values of each axis at scrambled Sobol points: they fill the box between the ends of all ranges

@@ -1,7 +1,10 @@
 //! A calibration as text.
 
 use crate::terminal::table::{Column, Table};
-use crate::terminal::{Colors, Style, compact, decimals_for, grouped, in_ascii, signed, wrapped};
+use crate::terminal::{
+    Colors, Style, compact, decimals_for, grouped, in_ascii, signed, three_digits, two_digits,
+    wrapped,
+};
 use coinmc_calibrate::{Calibration, FairRatio, Model, Predicted, Prior, Summary};
 
 /// Suggestions that are shown.
@@ -235,12 +238,4 @@ fn listed(title: &str, lines: impl Iterator<Item = String>, style: &Style) -> St
 /// Two independent errors together.
 fn both(a: f64, b: f64) -> f64 {
     (a * a + b * b).sqrt()
-}
-
-fn three_digits(x: f64) -> f64 {
-    format!("{x:.2e}").parse().unwrap_or(x)
-}
-
-fn two_digits(x: f64) -> f64 {
-    format!("{x:.1e}").parse().unwrap_or(x)
 }

@@ -1,7 +1,9 @@
 //! What is heard, as text.
 
 use crate::terminal::table::{Column, Table};
-use crate::terminal::{Colors, Style, compact, grouped, in_ascii, wrapped};
+use crate::terminal::{
+    Colors, Style, compact, grouped, in_ascii, three_digits, two_digits, wrapped,
+};
 use coinmc_calibrate::Observations;
 use coinmc_listen::{FromDrops, Heard, Kind, Told, config};
 
@@ -144,12 +146,4 @@ fn by_drops(drops: &FromDrops, style: &Style) -> String {
         text += &wrapped(&words, style.width, 2);
     }
     text
-}
-
-fn three_digits(x: f64) -> f64 {
-    format!("{x:.2e}").parse().unwrap_or(x)
-}
-
-fn two_digits(x: f64) -> f64 {
-    format!("{x:.1e}").parse().unwrap_or(x)
 }
