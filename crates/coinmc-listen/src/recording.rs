@@ -2,7 +2,7 @@
 
 use crate::error::RecordingError;
 use hound::{SampleFormat, WavReader, WavSpec, WavWriter};
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, BufReader, Cursor, Read};
 use std::path::Path;
 
@@ -53,12 +53,13 @@ impl Recording {
     /// # Errors
     /// [`RecordingError`] if it is none, has no usable samples or too many.
     pub fn read(path: &Path) -> Result<Self, RecordingError> {
-        let file = File::open(path).map_err(RecordingError::Io)?;
-        let kind = file.metadata().map_err(RecordingError::Io)?;
+        // before it is opened: a pipe would wait for a writer
+        let kind = fs::metadata(path).map_err(RecordingError::Io)?;
         if !kind.is_file() {
             let why = io::Error::other("it is not a plain file");
             return Err(RecordingError::Io(why));
         }
+        let file = File::open(path).map_err(RecordingError::Io)?;
         Self::from_reader(&path.display().to_string(), BufReader::new(file))
     }
 
