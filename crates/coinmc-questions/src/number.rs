@@ -37,6 +37,26 @@ fn trimmed(number: &str) -> &str {
     }
 }
 
+/// Rounded to three digits.
+///
+/// # Example
+/// ```
+/// assert_eq!(coinmc_questions::number::three_digits(0.012_345), 0.0123);
+/// ```
+pub fn three_digits(x: f64) -> f64 {
+    format!("{x:.2e}").parse().unwrap_or(x)
+}
+
+/// Rounded to two digits.
+///
+/// # Example
+/// ```
+/// assert_eq!(coinmc_questions::number::two_digits(0.012_345), 0.012);
+/// ```
+pub fn two_digits(x: f64) -> f64 {
+    format!("{x:.1e}").parse().unwrap_or(x)
+}
+
 /// A whole number in groups of three: 1_234_567 reads `1 234 567`.
 ///
 /// # Example

@@ -30,16 +30,6 @@ pub(crate) fn decimals_for(error: f64) -> usize {
     decimals.clamp(3, 7)
 }
 
-/// Rounded to three digits.
-pub(crate) fn three_digits(x: f64) -> f64 {
-    format!("{x:.2e}").parse().unwrap_or(x)
-}
-
-/// Rounded to two digits.
-pub(crate) fn two_digits(x: f64) -> f64 {
-    format!("{x:.1e}").parse().unwrap_or(x)
-}
-
 /// `850 ms`, `12.3 s`, `4 min 05 s`, `3 h 20 min`, `12 d`.
 pub(crate) fn duration(time: Duration) -> String {
     let seconds = time.as_secs();

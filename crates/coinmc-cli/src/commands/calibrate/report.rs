@@ -1,11 +1,9 @@
 //! A calibration as text.
 
 use crate::terminal::table::{Column, Table};
-use crate::terminal::{
-    Colors, Style, compact, decimals_for, grouped, in_ascii, signed, three_digits, two_digits,
-    wrapped,
-};
+use crate::terminal::{Colors, Style, compact, decimals_for, grouped, in_ascii, signed, wrapped};
 use coinmc_calibrate::{Calibration, FairRatio, Model, Predicted, Prior, Summary};
+use coinmc_questions::number::{three_digits, two_digits};
 
 /// Suggestions that are shown.
 const SUGGESTED: usize = 4;

@@ -1,11 +1,10 @@
 //! What is heard, as text.
 
 use crate::terminal::table::{Column, Table};
-use crate::terminal::{
-    Colors, Style, compact, grouped, in_ascii, three_digits, two_digits, wrapped,
-};
+use crate::terminal::{Colors, Style, compact, grouped, in_ascii, wrapped};
 use coinmc_calibrate::Observations;
 use coinmc_listen::{FromDrops, Heard, Kind, Told, config};
+use coinmc_questions::number::{three_digits, two_digits};
 
 /// Times that are shown.
 const SHOWN: usize = 12;
