@@ -8,7 +8,7 @@ use anyhow::Context;
 use clap::Args;
 use coinmc::config::Override;
 use coinmc_bench::{Report, Table, number};
-use coinmc_calibrate::{Kind, Model, Observations, Posterior, Settings};
+use coinmc_calibrate::{Kind, Model, Observations, Posterior, Prediction, Settings};
 use coinmc_core::{Domain, Estimate, Face, IntervalMethod, Stream, UniformSource};
 use coinmc_questions::Workers;
 use rayon::prelude::*;
@@ -58,6 +58,10 @@ pub(crate) struct Calibrate {
     /// Tosses on each
     #[arg(long, value_parser = number::count, default_value = "256", value_name = "N")]
     tosses: u64,
+
+    /// Tosses of the prediction for each coin, which takes most of the time
+    #[arg(long, value_parser = number::count, default_value = "32768", value_name = "N")]
+    predicted: u64,
 }
 
 /// A coin whose truth is known.
@@ -84,16 +88,10 @@ impl Calibrate {
         let posterior_s = begun.elapsed().as_secs_f64();
         let names = names(&model);
         for (place, name) in names.iter().enumerate() {
-            let held = covered.iter().filter(|covered| covered[place]).count() as u64;
-            let share = Estimate::new(held, 0, self.coins, 0.95, IntervalMethod::ClopperPearson);
-            table.push(row(
-                "coverage",
-                name,
-                share.p,
-                [share.lo, share.hi],
-                self.coins,
-            ));
+            let held = covered.iter().filter(|covered| covered[place]);
+            table.push(self.coverage(name, held.count()));
         }
+        table.push(self.predicted(&model, &coins)?);
         // no film is simulated: `coinmc-studies film` does
         for kind in Kind::ALL.into_iter().filter(|kind| *kind != Kind::Film) {
             contraction(&mut table, &model, kind, &coins)?;
@@ -133,6 +131,32 @@ impl Calibrate {
         Ok(report)
     }
 
+    /// How often the interval of P(side) that `coinmc calibrate` prints, by tosses, holds the truth.
+    fn predicted(&self, model: &Model, coins: &[Coin]) -> anyhow::Result<Vec<String>> {
+        let mut held = 0;
+        for coin in coins {
+            let model = coin.measured(model);
+            let posterior = Posterior::of(&model)?;
+            let predicted =
+                with_workers(|workers| Ok(Prediction::of(&model, &posterior, workers)?))?;
+            let side = predicted.side();
+            held += usize::from(coin.is_side_in([side.lo, side.p, side.hi], self.truth));
+        }
+        Ok(self.coverage("P(side) by tosses", held))
+    }
+
+    /// The share of intervals that hold the truth.
+    fn coverage(&self, of: &str, held: usize) -> Vec<String> {
+        let share = Estimate::new(
+            held as u64,
+            0,
+            self.coins,
+            0.95,
+            IntervalMethod::ClopperPearson,
+        );
+        row("coverage", of, share.p, [share.lo, share.hi], self.coins)
+    }
+
     fn model(&self, seed: u64, paired: bool) -> anyhow::Result<Model> {
         let set: Override = format!("seed={seed}").parse()?;
         let observed = Observations::parse("study", CONFIG, &[set], Path::new(""))?;
@@ -140,6 +164,7 @@ impl Calibrate {
             points: self.points,
             tosses: self.tosses,
             draws: DRAWS,
+            predicted: self.predicted,
             paired,
             ..Settings::default()
         };
@@ -218,11 +243,16 @@ impl Coin {
         let mut covered: Vec<bool> = parameters
             .map(|(summary, truth)| summary.lo <= *truth && *truth <= summary.hi)
             .collect();
-        let [lo, p, hi] = posterior.face_interval(&model, Face::Side);
+        let interval = posterior.face_interval(&model, Face::Side);
+        covered.push(self.is_side_in(interval, tosses));
+        Ok(covered)
+    }
+
+    /// Whether an interval, widened by the error of the true P(side), holds it.
+    fn is_side_in(&self, [lo, p, hi]: [f64; 3], tosses: u64) -> bool {
         let own = Z95 * (self.side * (1.0 - self.side) / tosses as f64).sqrt();
         let arm = |arm: f64| (arm * arm + own * own).sqrt();
-        covered.push(p - arm(p - lo) <= self.side && self.side <= p + arm(hi - p));
-        Ok(covered)
+        p - arm(p - lo) <= self.side && self.side <= p + arm(hi - p)
     }
 }
 

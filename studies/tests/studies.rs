@@ -351,12 +351,21 @@ fn quadrature_is_sharper_than_tosses() {
 #[test]
 fn intervals_of_calibrated_coins_hold_the_truth() {
     let size = [
-        "--coins", "12", "--truth", "256", "--points", "64", "--tosses", "16",
+        "--coins",
+        "12",
+        "--truth",
+        "256",
+        "--points",
+        "64",
+        "--tosses",
+        "16",
+        "--predicted",
+        "1024",
     ];
     let lines = STUDIES.study(&[&["calibrate"], &size[..]].concat());
     let lines = lines.lines().iter();
     let coverage: Vec<_> = lines.filter(|line| line.starts_with("coverage,")).collect();
-    assert_eq!(coverage.len(), 5);
+    assert_eq!(coverage.len(), 6);
     for line in coverage {
         // of 12 intervals at 95 %, 7 or fewer hold the truth in 1 of 5000 cases
         let share: f64 = line.split(',').nth(2).unwrap().parse().unwrap();

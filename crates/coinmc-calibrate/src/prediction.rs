@@ -53,7 +53,12 @@ pub(crate) fn fitted(model: &Model, scores: &[Vec<f64>]) -> Vec<[f64; 3]> {
 }
 
 impl Prediction {
-    pub(crate) fn of(
+    /// Tosses coins on surfaces drawn from the posterior. [`Calibration::of`](crate::Calibration::of) does this,
+    /// and more.
+    ///
+    /// # Errors
+    /// [`CalibrationError`] if tosses fail, show no face, or are stopped.
+    pub fn of(
         model: &Model,
         posterior: &Posterior,
         workers: &Workers<'_>,
