@@ -10,6 +10,7 @@ The engines of coinmc at native speed, with NumPy arrays in and out:
 * `ask`: a coin of the size of a euro on a usual surface, without a toss;
 * `fair`: how thick is a fair coin, here or in everyday `scenes`?
 * `sensitivity`: how strongly probabilities depend on parameters;
+* `calibrate`, `listen`: your table from measurements and recordings;
 * `validate`: claims and public data sets, each with its verdict;
 * `check`, `Config`: what a config means;
 * `coinmc.analytic`: closed forms; `coinmc.film`: drops on film; `coinmc.plot`: plots;
@@ -56,6 +57,7 @@ if TYPE_CHECKING:
     from coinmc._design import Design, design
     from coinmc._executors import chunk
     from coinmc._fair import Fair, FairRoot, fair
+    from coinmc._listen import Listened, listen
     from coinmc._pages import Page, basins, replay, report
     from coinmc._ranking import Ranking, rank
     from coinmc._rare import Rare, rare
@@ -86,6 +88,7 @@ __all__ = [
     "FairRoot",
     "FilmError",
     "Group",
+    "Listened",
     "Page",
     "Problem",
     "Ranking",
@@ -116,6 +119,7 @@ __all__ = [
     "fair",
     "film",
     "launches",
+    "listen",
     "open",
     "plot",
     "rank",
@@ -153,6 +157,8 @@ _LAZY = {
     "Fair": "coinmc._fair",
     "FairRoot": "coinmc._fair",
     "fair": "coinmc._fair",
+    "Listened": "coinmc._listen",
+    "listen": "coinmc._listen",
     "Page": "coinmc._pages",
     "basins": "coinmc._pages",
     "replay": "coinmc._pages",

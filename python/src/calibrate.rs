@@ -4,7 +4,6 @@ use crate::errors;
 use crate::plan::parsed;
 use crate::question::Source;
 use crate::supervise::supervise;
-use coinmc::config;
 use coinmc_calibrate::{
     Calibration, CalibrationError, Model, Observations, Settings, columns, document,
 };
@@ -31,26 +30,22 @@ pub(crate) struct AskedCalibration {
     threads: Option<NonZeroUsize>,
 }
 
+/// A scene with its measurements; `folder` is where the files of filmed drops are sought.
+pub(crate) fn observations(
+    (kind, source): &Source,
+    overrides: &[String],
+    folder: &str,
+) -> Result<Observations, CalibrationError> {
+    let overrides = parsed(overrides).unwrap_or_default();
+    let parse = |name| Observations::parse(name, source, &overrides, Path::new(folder));
+    match kind.as_str() {
+        "path" => Observations::load(Path::new(source), &overrides),
+        "text" => parse("TOML text"),
+        _ => parse("config from a dict"),
+    }
+}
+
 impl AskedCalibration {
-    fn observed(&self) -> Result<Observations, CalibrationError> {
-        let overrides = parsed(&self.overrides).unwrap_or_default();
-        let (kind, source) = &self.source;
-        match kind.as_str() {
-            "path" => Observations::load(Path::new(source), &overrides),
-            "text" => self.parse("TOML text", source, &overrides),
-            _ => self.parse("config from a dict", source, &overrides),
-        }
-    }
-
-    fn parse(
-        &self,
-        name: &str,
-        text: &str,
-        overrides: &[config::Override],
-    ) -> Result<Observations, CalibrationError> {
-        Observations::parse(name, text, overrides, Path::new(&self.folder))
-    }
-
     fn settings(&self) -> Settings {
         Settings {
             points: self.points,
@@ -80,7 +75,8 @@ impl CalibrationModel {
         parsed(&asked.overrides)?;
         let threads = asked.threads;
         let model = working(py, threads, progress, |workers| {
-            Model::new(asked.observed()?, asked.settings(), workers)
+            let observed = observations(&asked.source, &asked.overrides, &asked.folder)?;
+            Model::new(observed, asked.settings(), workers)
         })?;
         let model = Arc::new(model);
         Ok(Self { model, threads })
@@ -195,9 +191,14 @@ fn working<T: Send>(
         };
         work(&workers)
     })?;
-    worked.map_err(|error| match error {
+    worked.map_err(raised)
+}
+
+/// The exception for what is wrong with a calibration.
+pub(crate) fn raised(error: CalibrationError) -> PyErr {
+    match error {
         CalibrationError::Config(found) => errors::config(&found),
         CalibrationError::Question(error) => errors::question(&error),
         error => errors::value(error),
-    })
+    }
 }

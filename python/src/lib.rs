@@ -7,7 +7,7 @@
 //! · `session` runs on other machines · `results` and `throws` tables, `arrow` tables for Python · `pickled` results
 //! as plain values · `table` any columns as Arrow · `interval` intervals of proportions · `trace` recorded motion of a
 //! toss · `question`, `ask`, `fair`, `design`, `aim`, `ranking`, `rare`, `compare` questions · `calibrate` surfaces from
-//! measurements · `validate` verdicts · `report` pages · `analytic` closed forms · `film` drops on film · `command` the
+//! measurements · `listen` recordings · `validate` verdicts · `report` pages · `analytic` closed forms · `film` drops on film · `command` the
 //! command line · `errors` exceptions.
 
 // Arguments converted from Python are owned.
@@ -27,6 +27,7 @@ mod fair;
 mod film;
 mod interval;
 mod launch;
+mod listen;
 mod pickled;
 mod plan;
 mod question;
@@ -70,6 +71,8 @@ mod _lib {
     use super::film::{fit_film, read_film};
     #[pymodule_export]
     use super::interval::{inverse_normal_cdf, wilson};
+    #[pymodule_export]
+    use super::listen::listen;
     #[pymodule_export]
     use super::pickled::unpickled;
     #[pymodule_export]

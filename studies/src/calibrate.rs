@@ -166,7 +166,6 @@ impl Calibrate {
             draws: DRAWS,
             predicted: self.predicted,
             paired,
-            ..Settings::default()
         };
         with_workers(|workers| Ok(Model::new(observed, settings, workers)?))
     }

@@ -8,7 +8,9 @@ import sys
 from pathlib import Path
 
 PYTHON = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-COMMAND = re.compile(r"^\$ (?:coinmc|cargo run --release --) (run .*)$", re.MULTILINE)
+COMMAND = re.compile(
+    r"^\$ (?:coinmc|cargo run --release --) (run .*|listen --synthetic .*)$", re.MULTILINE
+)
 
 
 def documents(root: Path) -> list[Path]:
@@ -16,7 +18,7 @@ def documents(root: Path) -> list[Path]:
 
 
 def test_python_blocks_run(root, binary, tmp_path):
-    """Blocks of one document share a session; its `coinmc run` commands have been run before."""
+    """Blocks of one document share a session; commands that toss or write sound come before."""
     path = f"{binary.parent}{os.pathsep}{os.environ['PATH']}"
     for document in documents(root):
         text = document.read_text()

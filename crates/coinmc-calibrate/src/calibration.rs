@@ -38,7 +38,8 @@ impl Calibration {
         let mut conflicts = conflicts::refuse(model)?;
         let posterior = Posterior::of(model)?;
         conflicts.extend(conflicts::between(model)?);
-        let prediction = Prediction::of(model, &posterior, workers)?;
+        let prediction = Prediction::of(model, &posterior, workers)?
+            .with_numerical(model, &posterior, workers)?;
         let fair = FairRatio::of(model, &posterior, &prediction, workers)?;
         let of_fair = fair.map_or(0, |fair| fair.tosses);
         Ok(Self {

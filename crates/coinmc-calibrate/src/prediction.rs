@@ -29,7 +29,7 @@ pub struct Predicted {
     /// Standard error because tosses are few: of those here and of the design.
     pub statistical: f64,
     /// How far finer numerical settings move it, and the standard error of that; `None` if the engine
-    /// has none.
+    /// has none, or it was not measured.
     pub numerical: Option<(f64, f64)>,
 }
 
@@ -53,8 +53,7 @@ pub(crate) fn fitted(model: &Model, scores: &[Vec<f64>]) -> Vec<[f64; 3]> {
 }
 
 impl Prediction {
-    /// Tosses coins on surfaces drawn from the posterior. [`Calibration::of`](crate::Calibration::of) does this,
-    /// and more.
+    /// Tosses coins on surfaces drawn from the posterior; the numerical error is not measured.
     ///
     /// # Errors
     /// [`CalibrationError`] if tosses fail, show no face, or are stopped.
@@ -66,7 +65,6 @@ impl Prediction {
         let plan = &model.observed.predicted;
         let faces = tossed(model, posterior, workers)?;
         let shown: u64 = faces.iter().sum();
-        let numerical = numerical(model, posterior, workers)?;
         let draws = fitted(model, &posterior.scores);
         let centre = reached(&posterior.centre());
         let partial = model.predicted.partial_at(&centre);
@@ -89,15 +87,35 @@ impl Prediction {
                 hi: hi.min(1.0),
                 parameter,
                 statistical,
-                numerical: numerical.as_ref().map(|(changes, _)| changes[f]),
+                numerical: None,
             }
         });
         Ok(Self {
             faces: predicted,
             tosses: SURFACES * (model.settings.predicted / SURFACES),
             shown,
-            pairs: numerical.map_or(0, |(_, pairs)| pairs),
+            pairs: 0,
         })
+    }
+
+    /// The same with the numerical error, if the engine has settings that can be finer: by pairs of tosses in
+    /// the middle of the posterior.
+    ///
+    /// # Errors
+    /// [`CalibrationError`] if tosses fail or are stopped.
+    pub fn with_numerical(
+        mut self,
+        model: &Model,
+        posterior: &Posterior,
+        workers: &Workers<'_>,
+    ) -> Result<Self, CalibrationError> {
+        if let Some((changes, pairs)) = numerical(model, posterior, workers)? {
+            for (predicted, change) in self.faces.iter_mut().zip(changes) {
+                predicted.numerical = Some(change);
+            }
+            self.pairs = pairs;
+        }
+        Ok(self)
     }
 
     /// The side.

@@ -1,5 +1,6 @@
 //! Why a recording says nothing.
 
+use crate::files::MOST_FILES;
 use crate::struck::StruckError;
 use coinmc_calibrate::CalibrationError;
 use coinmc_questions::QuestionError;
@@ -66,6 +67,12 @@ pub enum ListenError {
     /// Tosses cannot be made, or were stopped.
     #[error(transparent)]
     Question(#[from] QuestionError),
+    /// More files than can be heard together.
+    #[error("{0} recordings were given, but at most {MOST_FILES} can be heard together")]
+    TooManyFiles(usize),
+    /// What is wrong with each of some files.
+    #[error("{}", .0.join("\n"))]
+    Files(Vec<String>),
     /// The engine in use knows no friction lengths.
     #[error("drops are compared with tosses in space: use [engine.volumetric]")]
     NotSpatial,

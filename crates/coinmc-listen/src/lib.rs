@@ -11,13 +11,14 @@
 //! # Files
 //! `recording` WAV files · `spectrum`, `onsets` when something strikes · `envelope`, `chirp`, `whirr` the pitch of a
 //! coin that settles · `struck` tosses of the engine until the coin rests · `heard` bounces, from a recording or a
-//! toss · `regression`, `posterior` the surface from bounces · `settling` rolling friction from a whirr · `listened` all recordings
-//! together · `written` JSON, CSV and
+//! toss · `regression`, `posterior` the surface from bounces · `settling` rolling friction from a whirr · `files` the
+//! recordings · `listened` all recordings together · `written` JSON, CSV and
 //! lines of a config · `rattle`, `synthetic` recordings of simulated tosses.
 
 mod chirp;
 mod envelope;
 mod error;
+mod files;
 mod heard;
 mod listened;
 mod onsets;
@@ -33,6 +34,7 @@ mod whirr;
 mod written;
 
 pub use error::{ListenError, RecordingError};
+pub use files::MOST_FILES;
 pub use heard::{Bounces, NoBounces};
 pub use listened::{Heard, Kind, RollingFriction, Told};
 pub use onsets::{Onset, Onsets};

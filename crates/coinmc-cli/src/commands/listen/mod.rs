@@ -10,12 +10,9 @@ use anyhow::anyhow;
 use clap::{Args, ValueEnum};
 use coinmc::config::Override;
 use coinmc_calibrate::Observations;
-use coinmc_listen::{Effort, Heard, Kind, ListenError, Recording, Told, csv, document};
+use coinmc_listen::{Effort, Heard, Kind, ListenError, Told, csv, document};
 use std::path::PathBuf;
 use synthetic::SyntheticArgs;
-
-/// Recordings at once.
-const MOST_FILES: usize = 100;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -113,7 +110,11 @@ impl Listen {
         if self.synthetic.is_asked_for() {
             return self.synthetic.write(observed.as_ref(), self.seed, console);
         }
-        let heard = self.heard(observed.as_ref())?;
+        let scene = observed
+            .as_ref()
+            .map(|observed| &observed.plan.points[0].scene);
+        let heard = Heard::of_files(&self.files, scene, self.of.map(Kind::from))
+            .map_err(|error| Failure::Input(anyhow!(error)))?;
         let mut told = None;
         if let Some(observed) = &observed {
             let effort = Effort {
@@ -141,33 +142,6 @@ impl Listen {
         }
         .map_err(|error| Failure::Runtime(anyhow!(error)))?;
         Ok(Outcome::Done)
-    }
-
-    /// Listens to all files, or tells what is wrong with each.
-    fn heard(&self, observed: Option<&Observations>) -> Result<Vec<Heard>, Failure> {
-        if self.files.len() > MOST_FILES {
-            let message = format!("at most {MOST_FILES} recordings can be heard together");
-            return Err(Failure::Input(anyhow!(message)));
-        }
-        let scene = observed.map(|observed| &observed.plan.points[0].scene);
-        let (mut heard, mut problems) = (vec![], vec![]);
-        for path in &self.files {
-            let name = path.display();
-            match Recording::read(path) {
-                Err(error) => problems.push(format!("{name}: {error}")),
-                Ok(recording) => {
-                    let one = Heard::of(&recording, scene, self.of.map(Kind::from));
-                    match one.silence() {
-                        Some(why) => problems.push(format!("{name}: no coin heard: {why}")),
-                        None => heard.push(one),
-                    }
-                }
-            }
-        }
-        if problems.is_empty() {
-            return Ok(heard);
-        }
-        Err(Failure::Input(anyhow!(problems.join("\n"))))
     }
 }
 
