@@ -38,6 +38,50 @@ fn document(output: &Output) -> Value {
         .unwrap_or_else(|error| panic!("{error}: {}", String::from_utf8_lossy(&output.stdout)))
 }
 
+/// A batch system's log shows it, too.
+#[test]
+fn what_a_long_run_has_shown_is_told_within_two_seconds() {
+    let dir = bench(CONFIG);
+    let arguments = [
+        "run",
+        "toss.toml",
+        "--set",
+        "stop.tosses=1e10",
+        "--max-time",
+        "2s",
+    ];
+    let output = coinmc(dir.path(), &arguments);
+    assert_eq!(output.status.code(), Some(3));
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    let lines = told.lines().filter(|line| line.ends_with(" left"));
+    let [line] = lines.collect::<Vec<_>>()[..] else {
+        panic!("one line of progress: {told}");
+    };
+    let parts: Vec<_> = line.split("  ").collect();
+    let [points, tosses, rate, probability, worst, left] = parts[..] else {
+        panic!("{line}");
+    };
+    assert_eq!(points, "coinmc: 0/8 points");
+    assert!(
+        tosses.ends_with(" tosses") && !tosses.starts_with("0 "),
+        "{line}"
+    );
+    assert!(
+        rate.ends_with("/s") && worst.starts_with("worst ±"),
+        "{line}"
+    );
+    assert!(
+        probability.starts_with("P(side) 0.")
+            && probability.contains("] at ratio 0.5, restitution 0."),
+        "{line}"
+    );
+    assert!(left.ends_with(" d left") || left.contains(" h "), "{line}");
+    // and not where it is not wanted
+    let again = [&arguments[..], &["--quiet"]].concat();
+    let output = coinmc(dir.path(), &again);
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+}
+
 #[test]
 fn a_result_is_one_json_document() {
     let dir = bench(CONFIG);

@@ -97,7 +97,7 @@ impl Run {
             let page = Path::new(page);
             Page::check(page)?;
         }
-        let progress = Progress::new(*console.stderr(), self.quiet);
+        let progress = Progress::of(&plan, *console.stderr(), self.quiet);
         if !self.quiet {
             plan.notes
                 .iter()

@@ -1,12 +1,21 @@
-//! Progress bars on standard error.
+//! Progress on standard error: a bar at a terminal, now and then a line elsewhere.
 
-use super::{Style, compact, duration, grouped, harmless};
+mod lines;
+mod message;
+
+use super::{Style, compact, grouped, harmless};
+use coinmc::plan::Plan;
 use coinmc::run::{Progress as Counts, ProgressSink};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use lines::Lines;
+use message::{Made, message};
 use std::io::{self, IsTerminal, Write};
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
+
+/// Columns of a bar and the space behind it.
+const BAR: usize = 13;
 
 /// Tosses this run found done when it began, and when that was.
 #[derive(Debug, Clone, Copy)]
@@ -17,7 +26,7 @@ struct Start {
     at: Instant,
 }
 
-/// A bar on a terminal, nothing elsewhere; warnings everywhere. Clones share the bar.
+/// A bar on a terminal, of runs a line now and then elsewhere; warnings everywhere. Clones share the bar.
 #[derive(Debug, Clone)]
 pub(crate) struct Progress {
     bar: ProgressBar,
@@ -26,6 +35,10 @@ pub(crate) struct Progress {
     start: Arc<OnceLock<Start>>,
     /// Tosses of an earlier run that are counted so far.
     reused: Arc<AtomicU64>,
+    /// The plan whose points are named.
+    plan: Option<Arc<Plan>>,
+    /// When to print a line where there is no bar.
+    lines: Arc<Lines>,
 }
 
 /// A bar on standard error, hidden if that is no terminal or `quiet`.
@@ -64,6 +77,16 @@ impl Progress {
             quiet,
             start: Arc::default(),
             reused: Arc::default(),
+            plan: None,
+            lines: Arc::new(Lines::new(quiet || io::stderr().is_terminal())),
+        }
+    }
+
+    /// The same for a run, whose points it names.
+    pub(crate) fn of(plan: &Plan, style: Style, quiet: bool) -> Self {
+        Self {
+            plan: Some(Arc::new(plan.clone())),
+            ..Self::new(style, quiet)
         }
     }
 
@@ -135,10 +158,18 @@ impl ProgressSink for Progress {
         self.bar.set_length(counts.tosses_planned.max(1));
         self.bar
             .set_position(counts.tosses_done.min(counts.tosses_planned));
+        let (tosses, time) = self.made(counts.tosses_done);
+        let made = Made { tosses, time };
         if !self.bar.is_hidden() {
-            let (made, time) = self.made(counts.tosses_done);
-            self.bar
-                .set_message(message(counts, made, time, &self.style));
+            let room = self.style.width.saturating_sub(BAR);
+            let text = message(counts, made, self.plan.as_deref(), room, &self.style);
+            self.bar.set_message(text);
+        } else if self.plan.is_some()
+            && counts.points_done < counts.points
+            && self.lines.is_due(time)
+        {
+            let text = message(counts, made, self.plan.as_deref(), usize::MAX, &self.style);
+            self.note(&format!("coinmc: {text}"));
         }
     }
 
@@ -152,29 +183,6 @@ impl ProgressSink for Progress {
             Self::note(self, &format!("note: {message}"));
         }
     }
-}
-
-/// `12/76 points  1 234 567 tosses  812 k/s  worst ±0.0012  34.0 s left`
-fn message(counts: &Counts, made: u64, elapsed: Duration, style: &Style) -> String {
-    let mut parts = vec![
-        format!("{}/{} points", counts.points_done, counts.points),
-        format!("{} tosses", grouped(counts.tosses_done)),
-    ];
-    let rate = made as f64 / elapsed.as_secs_f64();
-    // the first moments predict nothing
-    let settled = made > 0 && elapsed > Duration::from_millis(200);
-    if settled {
-        parts.push(format!("{}/s", with_prefix(rate)));
-    }
-    if let Some(arm) = counts.worst_half_width {
-        parts.push(format!("worst {}{arm:.1e}", style.plus_minus()));
-    }
-    if settled {
-        let left = counts.tosses_planned.saturating_sub(counts.tosses_done) as f64 / rate;
-        let left = Duration::try_from_secs_f64(left).unwrap_or(Duration::MAX);
-        parts.push(format!("{} left", duration(left)));
-    }
-    parts.join("  ")
 }
 
 /// Three digits with k, M or G.
@@ -204,38 +212,8 @@ mod tests {
             tosses_reused: 234_567,
             reused_chunks: 3,
             worst_half_width: Some(0.001_23),
+            latest: None,
         }
-    }
-
-    #[test]
-    fn the_message_says_points_tosses_rate_error_and_time_left() {
-        let text = message(
-            &counts(),
-            1_000_000,
-            Duration::from_secs(2),
-            &Style::plain(100),
-        );
-        assert_eq!(
-            text,
-            "12/76 points  1 234 567 tosses  500 k/s  worst ±1.2e-3  2.0 s left"
-        );
-    }
-
-    #[test]
-    fn nothing_is_extrapolated_from_nothing() {
-        let text = message(&counts(), 0, Duration::from_secs(9), &Style::ascii(100));
-        assert_eq!(text, "12/76 points  1 234 567 tosses  worst +-1.2e-3");
-        let text = message(
-            &Counts {
-                tosses_planned: u64::MAX,
-                worst_half_width: None,
-                ..counts()
-            },
-            1,
-            Duration::from_secs(1_000_000),
-            &Style::ascii(100),
-        );
-        assert!(text.ends_with(" d left"), "{text}");
     }
 
     #[test]

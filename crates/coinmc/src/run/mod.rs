@@ -87,7 +87,7 @@ pub use merge::{merge, merge_what_is_there, missing};
 pub use missing::Missing;
 pub use options::Options;
 pub use part::{Part, PartError};
-pub use progress::{Progress, ProgressSink};
+pub use progress::{Latest, Progress, ProgressSink};
 pub use provenance::{Contribution, Maker, Provenance, processor_time, provenance};
 pub use remote::{chunk_text, chunk_with_note, chunks, numbered_chunk, text_of_tally};
 pub use report::{Report, Status};

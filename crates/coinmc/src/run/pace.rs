@@ -6,8 +6,9 @@ use std::time::{Duration, Instant};
 const REPORT: Duration = Duration::from_millis(500);
 /// About how long a stretch of tosses takes.
 const STRETCH: Duration = Duration::from_millis(250);
-/// Tosses of the first stretch, as nothing is known of the speed.
-const FIRST: u64 = 1 << 10;
+/// Tosses of the first stretch, as nothing is known of the speed: few, so that something is soon known of the
+/// slowest scene.
+const FIRST: u64 = 1 << 6;
 /// By how many times a stretch may be longer than the one before: the speed of another point may be another.
 const GROWTH: u64 = 8;
 
@@ -80,6 +81,21 @@ mod tests {
         }
     }
 
+    /// A toss onto rough ground may take ten milliseconds.
+    #[test]
+    fn something_is_known_within_the_first_second() {
+        let mut pace = Pace::new(Instant::now());
+        assert!(pace.stretch(1 << 40) <= 100);
+        // and soon it is as fast as it can be
+        let mut tosses = 0;
+        for _ in 0..6 {
+            let stretch = pace.stretch(1 << 40);
+            tosses += stretch;
+            pace.took(stretch, Duration::from_secs_f64(stretch as f64 / 1e6));
+        }
+        assert!(tosses > 250_000, "{tosses}");
+    }
+
     #[test]
     fn reports_are_due_twice_a_second() {
         let start = Instant::now();
@@ -92,12 +108,13 @@ mod tests {
     #[test]
     fn short_chunks_are_not_divided() {
         let mut pace = Pace::new(Instant::now());
-        assert_eq!([1, 2048].map(|left| pace.stretch(left)), [1, 2048]);
-        assert_eq!(pace.stretch(2049), FIRST);
+        let most = 2 * FIRST;
+        assert_eq!([1, most].map(|left| pace.stretch(left)), [1, most]);
+        assert_eq!(pace.stretch(most + 1), FIRST);
         pace.took(1 << 17, Duration::from_millis(100));
         assert_eq!(pace.stretch(1 << 17), 1 << 17);
         // what is no time at all
         pace.took(100, Duration::ZERO);
-        assert_eq!(pace.stretch(u64::MAX), FIRST * GROWTH);
+        assert_eq!(pace.stretch(u64::MAX), 100 * GROWTH);
     }
 }

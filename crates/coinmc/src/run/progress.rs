@@ -1,5 +1,7 @@
 //! Progress reports of a run.
 
+use coinmc_core::{Estimate, Face};
+
 /// How far a run is. For display only: none of it enters the results.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
@@ -19,6 +21,19 @@ pub struct Progress {
     /// The widest arm of any face's interval at any point so far, by Wilson's formula, which is quick;
     /// `None` before the first toss.
     pub worst_half_width: Option<f64>,
+    /// What the point that was counted last has shown so far; `None` before the first toss.
+    pub latest: Option<Latest>,
+}
+
+/// What a point has shown so far.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Latest {
+    /// The point.
+    pub point: usize,
+    /// The face that the targets are of; the side where they are of all.
+    pub face: Face,
+    /// Its probability, by Wilson's formula; where the point stops at targets, that of its pilot while it lasts.
+    pub estimate: Estimate,
 }
 
 /// Receives the progress and the warnings of a run. `()` ignores both.

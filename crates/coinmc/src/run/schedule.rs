@@ -1,5 +1,7 @@
 //! Which chunk comes next, and the sum of a point's chunks.
 
+mod so_far;
+
 use super::chunk_result::{ChunkResult, Tossed, whole};
 use super::cut::Cut;
 use super::finished::Finished;
@@ -35,6 +37,8 @@ pub(super) struct Schedule {
     current: Option<Stage>,
     in_flight: u64,
     progress: Progress,
+    /// The point that was counted last.
+    latest: Option<usize>,
     /// Tosses of all points, and their computing time in microseconds.
     made: u64,
     microseconds: u64,
@@ -105,6 +109,7 @@ impl Schedule {
             tosses_reused: reused,
             reused_chunks: finished.left(),
             worst_half_width: None,
+            latest: None,
         };
         Self {
             plan: Arc::clone(plan),
@@ -118,6 +123,7 @@ impl Schedule {
             current: None,
             in_flight: 0,
             progress,
+            latest: None,
             made: 0,
             microseconds: 0,
             tossed,
@@ -170,7 +176,7 @@ impl Schedule {
     pub(super) fn add(&mut self, point: usize, result: &ChunkResult) {
         assert!(self.count(point, result), "fewer than 2^64 tosses");
         self.progress.tosses_done += result.tosses();
-        self.update_worst(point);
+        self.seen(point);
     }
 
     /// Adds the result of a chunk to its point; false if a counter would overflow.
@@ -187,17 +193,6 @@ impl Schedule {
             }
         }
         true
-    }
-
-    /// How far the run is.
-    pub(super) fn progress(&self) -> Progress {
-        // a forecast may be out of date
-        let tosses_planned = self.progress.tosses_planned.max(self.progress.tosses_done);
-        Progress {
-            tosses_planned,
-            worst_half_width: self.states.widest(),
-            ..self.progress
-        }
     }
 
     /// Whether the run is complete.
@@ -222,22 +217,6 @@ impl Schedule {
     /// The states of all points, once nothing is to be scheduled any more.
     pub(super) fn into_states(self) -> States {
         self.states
-    }
-
-    /// Point and first toss of the chunks of an earlier run that this one did not need; they no longer
-    /// count as its progress.
-    pub(super) fn take_unneeded(&mut self) -> Vec<(usize, u64)> {
-        let unneeded = std::mem::take(&mut self.finished);
-        self.progress.tosses_done -= unneeded.tosses();
-        self.progress.tosses_reused -= unneeded.tosses();
-        self.progress.reused_chunks -= unneeded.left();
-        unneeded.rest().collect()
-    }
-
-    fn forget_reused(&mut self, result: &ChunkResult) {
-        self.progress.tosses_done -= result.tosses();
-        self.progress.tosses_reused -= result.tosses();
-        self.progress.reused_chunks -= 1;
     }
 
     fn open_stage(&mut self) -> bool {
@@ -282,7 +261,7 @@ impl Schedule {
             self.forget_reused(&result);
             return false;
         }
-        self.update_worst(chunk.point);
+        self.seen(chunk.point);
         true
     }
 
@@ -300,7 +279,7 @@ impl Schedule {
         self.progress.tosses_done += result.tosses();
         self.progress.tosses_reused += result.tosses();
         self.progress.reused_chunks += 1;
-        self.update_worst(chunk.point);
+        self.seen(chunk.point);
         true
     }
 
@@ -319,7 +298,7 @@ impl Schedule {
         }
         self.progress.tosses_done += result.tosses();
         self.progress.tosses_reused += result.tosses();
-        self.update_worst(chunk.point);
+        self.seen(chunk.point);
         Some(begun)
     }
 
@@ -466,18 +445,6 @@ impl Schedule {
             tosses: left(targets.total_tosses.map(|total| total as f64), made as f64),
             seconds: left(targets.total_core_seconds, spent),
         }
-    }
-
-    fn set_forecast(&mut self, index: usize, forecast: u64) {
-        let point = self.states.open(index);
-        let others = self.progress.tosses_planned.saturating_sub(point.forecast);
-        self.progress.tosses_planned = others.saturating_add(forecast);
-        point.forecast = forecast;
-    }
-
-    fn update_worst(&mut self, index: usize) {
-        let half_width = self.states.open(index).quick_half_width(&self.plan);
-        self.states.set_arm(index, half_width);
     }
 }
 

@@ -7,7 +7,7 @@ use crate::support::{
 use coinmc::plan::StoppedBy;
 use coinmc::results::Row;
 use coinmc::run::{Chunk, Part, Status, run_chunk, stored_report};
-use coinmc_core::Tally;
+use coinmc_core::{Face, Tally};
 use std::process::{Command, Stdio};
 use std::sync::atomic::Ordering::SeqCst;
 use std::time::{Duration, Instant};
@@ -178,6 +178,9 @@ fn progress_only_goes_forward_and_ends_where_it_was_planned() {
         );
         let last = heard.last().unwrap();
         assert_eq!((heard[0].tosses_done, heard[0].worst_half_width), (0, None));
+        // and what a point shows is told all along
+        assert_eq!(heard[0].latest, None);
+        assert!(heard[1..].iter().all(|told| told.latest.is_some()));
         assert_eq!((last.points_done, last.points), (6, 6));
         assert_eq!(
             (last.tosses_done, last.tosses_planned),
@@ -191,6 +194,10 @@ fn progress_only_goes_forward_and_ends_where_it_was_planned() {
             .map(Row::half_width)
             .fold(0.0, f64::max);
         assert!((last.worst_half_width.unwrap() / worst - 1.0).abs() < 0.01);
+        let told = last.latest.unwrap();
+        let row = report.results.rows.at(told.point);
+        assert_eq!((told.face, told.estimate.p), (Face::Side, row.side.p));
+        assert!((told.estimate.half_width() / row.side.half_width() - 1.0).abs() < 0.05);
     }
 }
 
