@@ -331,3 +331,15 @@ def test_without_bounces_a_basin_follows_from_the_landing_angle():
     wanted = np.where(side, 2, np.where(np.cos(tilt) > 0, 0, 1))
     np.testing.assert_array_equal(faces, [wanted] * 3)
     assert set(wanted) == {0, 1, 2}
+
+
+def test_drawn_coins_do_not_pile_up(examples):
+    """Rolling out on the spot, a coin would be drawn again and again in one place."""
+    trace = coinmc.trace(examples / "hand.toml", toss=3, point=1)
+    bodies = [p for p in plot.path(trace, view="top", coins=60).patches if p.get_fill()]
+    middles = np.array([body.get_xy()[:-1].mean(axis=0) for body in bodies])
+    ends = trace.samples["position_m"][[0, -1], :2]
+    assert np.abs(middles[[0, -1]] - ends).max() < 1e-3
+    assert 8 < len(bodies) < 30
+    steps = np.linalg.norm(np.diff(middles, axis=0), axis=1)
+    assert np.median(steps) > 0.3 * 0.0116

@@ -48,7 +48,8 @@ def path(
         From the side (x and z), from above (x and y) or in space; by default from the side for a
         planar toss, in space for others.
     coins : int
-        Number of positions of the coin to draw, evenly spaced in time from first to last.
+        Number of positions of the coin to draw, evenly spaced in time from first to last; fewer
+        where it hardly leaves its place, as drawn coins would hide each other.
     times : tuple of float, optional
         Draw only this interval of time, s since launch.
     label : str, optional
@@ -133,6 +134,18 @@ def strobe(motion: Motion, coins: int) -> NDArray[np.int64]:
     return np.unique(np.searchsorted(motion.time_s, wanted).clip(0, len(motion.time_s) - 1))
 
 
+def _apart(motion: Motion, coins: int, seen: tuple[int, ...]) -> NDArray[np.int64]:
+    """Return the first and last of such indices, and those at which the coin is seen elsewhere."""
+    some = strobe(motion, coins)
+    least = 0.7 * np.hypot(motion.radius_m, motion.height_m / 2)
+    way, kept = motion.position_m[:, seen], some[:1].tolist()
+    for at in some[1:-1]:
+        shown = [kept[-1], some[-1]]
+        if np.linalg.norm(way[shown] - way[at], axis=1).min() >= least:
+            kept.append(at)
+    return np.array([*kept, *some[1:][-1:]], int)
+
+
 def draw_coin(ax: Axes, motion: Motion, at: int, view: str, alpha: float = 1.0) -> list[Any]:
     """Draw the coin at one instant, seen from the side or from above; return the artists."""
     coordinates, towards = _PLANES[view]
@@ -155,7 +168,7 @@ def draw_coin(ax: Axes, motion: Motion, at: int, view: str, alpha: float = 1.0) 
 
 def _in_plane(ax: Axes, motion: Motion, view: str, coins: int, palette: Palette) -> None:
     across, up = _PLANES[view][0]
-    drawn = strobe(motion, coins)
+    drawn = _apart(motion, coins, (across, up))
     for at, alpha in zip(drawn, np.linspace(0.4, 1, len(drawn)), strict=True):
         draw_coin(ax, motion, int(at), view, float(alpha))
     for mode, phase in motion.phases():
@@ -179,7 +192,7 @@ def _in_plane(ax: Axes, motion: Motion, view: str, coins: int, palette: Palette)
 def _in_space(ax: Any, motion: Motion, coins: int, palette: Palette) -> None:
     # as from far away: what is as large is drawn as large
     ax.set_proj_type("ortho")
-    drawn = strobe(motion, coins)
+    drawn = _apart(motion, coins, (0, 1, 2))
     for at, alpha in zip(drawn, np.linspace(0.45, 1, len(drawn)), strict=True):
         _solid(ax, motion, int(at), palette, float(alpha))
     for mode, phase in motion.phases():
@@ -194,8 +207,14 @@ def _in_space(ax: Any, motion: Motion, coins: int, palette: Palette) -> None:
     ax.set_box_aspect(high - low, zoom=1.0)
     # few ticks, and their labels clear of those of the axes: a toss is often longer than wide
     longest = (high - low).max()
-    for axis, name, span in zip((ax.xaxis, ax.yaxis, ax.zaxis), "xyz", high - low, strict=True):
-        axis.set_major_locator(MaxNLocator(max(2, round(5 * span / longest))))
+    for axis, name, start, end in zip(
+        (ax.xaxis, ax.yaxis, ax.zaxis), "xyz", low, high, strict=True
+    ):
+        span = end - start
+        ticks = MaxNLocator(max(2, round(5 * span / longest))).tick_values(start, end)
+        # at the corner in front the labels of two axes would meet
+        last = end - 0.1 * span if name == "x" else end
+        axis.set_ticks([tick for tick in ticks if start <= tick <= last])
         axis.set_tick_params(labelsize="small", pad=0)
         axis.set_label_text(f"{name}, m")
         axis.labelpad = 6

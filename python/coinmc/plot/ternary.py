@@ -21,6 +21,8 @@ _CORNERS = np.array([[0.0, 0.0], [1.0, 0.0], [0.5, np.sqrt(0.75)]])
 _FACES = ("heads", "tails", "side")
 # Characters of a line of the title.
 _WIDEST_LINE = 60
+# Points that are named.
+_MOST_NAMED = 8
 
 
 def ternary(
@@ -114,8 +116,8 @@ def _only_varied(table: Mapping[str, NDArray[Any]]) -> str | None:
 
 
 def _name_points(ax: Axes, points: NDArray[Any], values: NDArray[Any], along: str) -> None:
-    """Write the first, the last and some intermediate values."""
-    for at in np.unique(np.linspace(0, len(values) - 1, 6).round().astype(int)):
+    """Write all values, or of many the first, the last and some between."""
+    for at in np.unique(np.linspace(0, len(values) - 1, _MOST_NAMED).round().astype(int)):
         ax.annotate(
             f"{values[at]:g}",
             points[at],
