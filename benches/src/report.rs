@@ -1,5 +1,6 @@
 //! Results of a study: tables to read, and every row for a file.
 
+use coinmc_core::csv_cell;
 use std::fmt;
 use std::io::{self, BufWriter, Write};
 
@@ -93,19 +94,13 @@ impl Report {
         let mut out = BufWriter::new(out);
         let line = |cells: Vec<String>| cells.join(",") + "\n";
         let columns = self.record.columns.iter();
-        out.write_all(line(columns.map(|cell| field(cell)).collect()).as_bytes())?;
+        out.write_all(line(columns.map(|cell| csv_cell(cell).into_owned()).collect()).as_bytes())?;
         for row in &self.record.rows {
-            out.write_all(line(row.iter().map(|cell| field(cell)).collect()).as_bytes())?;
+            out.write_all(
+                line(row.iter().map(|cell| csv_cell(cell).into_owned()).collect()).as_bytes(),
+            )?;
         }
         out.flush()
-    }
-}
-
-fn field(cell: &str) -> String {
-    if cell.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", cell.replace('"', "\"\""))
-    } else {
-        cell.to_owned()
     }
 }
 

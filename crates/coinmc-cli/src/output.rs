@@ -18,6 +18,27 @@ pub(crate) enum Format {
     Json,
 }
 
+/// How rows are written to standard output.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum RowsFormat {
+    /// For people
+    Table,
+    /// One JSON document
+    Json,
+    /// Every row as comma-separated values, numbers in full
+    Csv,
+}
+
+impl RowsFormat {
+    /// How failures are written: as the only document, where programs read.
+    pub(crate) fn of_failures(self) -> Format {
+        match self {
+            Self::Json => Format::Json,
+            Self::Table | Self::Csv => Format::Table,
+        }
+    }
+}
+
 /// How a table of results is written to standard output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ResultFormat {

@@ -25,6 +25,7 @@ mod beta;
 mod body;
 mod coin;
 mod contact_patch;
+mod csv;
 mod decision;
 mod descriptor;
 mod dyn_engine;
@@ -48,6 +49,7 @@ pub use body::{Body, Units};
 pub use coin::{Coin, CoinError};
 pub use coinmc_lanes::Lanes;
 pub use contact_patch::{hertz_radius_m, pivoting_friction_of_patch_m};
+pub use csv::csv_cell;
 pub use decision::{Decided, DecisionRule, DecisionState};
 pub use descriptor::{
     Answer, EngineChoice, EngineDescriptor, EngineError, EngineKind, EngineSettings, Finer,

@@ -1,6 +1,7 @@
 //! Residuals as a table.
 
 use crate::fit::Fit;
+use coinmc_core::csv_cell;
 use std::fmt::Write as _;
 
 /// Every residual of every fit as CSV: law, drop, frame (from 0), time, coordinate, observed value,
@@ -10,7 +11,7 @@ pub fn residuals_csv(fits: &[Fit]) -> String {
     for fit in fits {
         let law = fit.model.law.name();
         for residual in &fit.residuals {
-            let name = quoted(&fit.drops[residual.drop].name);
+            let name = csv_cell(&fit.drops[residual.drop].name);
             // writing to a string cannot fail
             let _ = writeln!(
                 text,
@@ -25,13 +26,4 @@ pub fn residuals_csv(fits: &[Fit]) -> String {
         }
     }
     text
-}
-
-/// A CSV cell, in quotes if necessary.
-fn quoted(cell: &str) -> String {
-    if cell.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", cell.replace('"', "\"\""))
-    } else {
-        cell.to_owned()
-    }
 }

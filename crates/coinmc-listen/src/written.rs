@@ -2,6 +2,7 @@
 
 use crate::listened::{Heard, Kind, Told};
 use coinmc_calibrate::{Observations, Parameter};
+use coinmc_core::csv_cell;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
@@ -91,7 +92,7 @@ const fn name_of(kind: Kind) -> &'static str {
 pub fn csv(heard: &[Heard]) -> String {
     let mut text = String::from("recording,what,time_s,error_s,strength,frequency_hz\n");
     for one in heard {
-        let name = quoted(&one.name);
+        let name = csv_cell(&one.name);
         let mut row = |rest: &str| {
             // writing to a string cannot fail
             let _ = writeln!(text, "{name},{rest}");
@@ -113,14 +114,6 @@ pub fn csv(heard: &[Heard]) -> String {
         }
     }
     text
-}
-
-fn quoted(cell: &str) -> String {
-    if cell.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", cell.replace('"', "\"\""))
-    } else {
-        cell.to_owned()
-    }
 }
 
 /// Lines for a config of `coinmc calibrate`: what simulated drops and whirrs tell, as `[prior]`; or without a scene, in

@@ -1,5 +1,6 @@
 //! The rows of an answer as CSV.
 
+use coinmc_core::csv_cell;
 use serde_json::Value;
 
 /// The `rows` of a [document](crate::document_of_ranking) as CSV (RFC 4180), one line for each. A number
@@ -45,10 +46,7 @@ pub fn csv_of_rows(document: &Value) -> String {
 fn cell(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
-        Value::String(text) if text.contains(['"', ',', '\n', '\r']) => {
-            format!("\"{}\"", text.replace('"', "\"\""))
-        }
-        Value::String(text) => text.clone(),
+        Value::String(text) => csv_cell(text).into_owned(),
         other => other.to_string(),
     }
 }

@@ -2,11 +2,11 @@
 
 use super::question::{AnswerArgs, ask};
 use crate::exit::{Failure, Outcome};
-use crate::output::{self, Console, Format};
+use crate::output::{self, Console, Format, RowsFormat};
 use crate::terminal::table::{Column, Table};
 use crate::terminal::{Colors, Style, compact, count, decimals_for, grouped, in_ascii, signed};
 use anyhow::anyhow;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use coinmc::config::{self, Override};
 use coinmc_core::Face;
 use coinmc_questions::{self as questions, Converged, Convergence, Interval, Template};
@@ -46,31 +46,17 @@ pub(crate) struct Converge {
     threads: Option<u16>,
 
     /// How to write the result
-    #[arg(long, value_enum, default_value_t = Written::Table)]
-    format: Written,
+    #[arg(long, value_enum, default_value_t = RowsFormat::Table)]
+    format: RowsFormat,
 
     /// Show no progress and no remarks, only warnings and errors
     #[arg(long, short)]
     quiet: bool,
 }
 
-/// How the result is written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Written {
-    /// For people
-    Table,
-    /// One JSON document
-    Json,
-    /// Every number of every point
-    Csv,
-}
-
 impl Converge {
     pub(crate) fn format(&self) -> Format {
-        match self.format {
-            Written::Json => Format::Json,
-            Written::Table | Written::Csv => Format::Table,
-        }
+        self.format.of_failures()
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
@@ -89,9 +75,9 @@ impl Converge {
         };
         let document = || questions::document_of_convergence(&found);
         match self.format {
-            Written::Json => output::print_json(&document()),
-            Written::Csv => output::print(&questions::csv_of_rows(&document())),
-            Written::Table => output::print(&table(&found, console.stdout())),
+            RowsFormat::Json => output::print_json(&document()),
+            RowsFormat::Csv => output::print(&questions::csv_of_rows(&document())),
+            RowsFormat::Table => output::print(&table(&found, console.stdout())),
         }
         .map_err(|error| Failure::Runtime(anyhow!(error)))?;
         Ok(Outcome::Done)

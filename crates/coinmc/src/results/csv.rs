@@ -2,6 +2,7 @@
 
 use super::schema::{Cell, Column, columns_of};
 use super::{Results, Row};
+use coinmc_core::csv_cell;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
@@ -57,12 +58,7 @@ fn push(line: &mut String, cell: Cell<'_>) {
         // Debug switches to exponents where Display would write hundreds of zeros
         Cell::Number(number) => write!(line, "{number:?}").expect("a String takes all text"),
         Cell::Flag(flag) => line.push_str(if flag { "true" } else { "false" }),
-        Cell::Text(text) if text.contains([',', '"', '\n', '\r']) => {
-            line.push('"');
-            line.push_str(&text.replace('"', "\"\""));
-            line.push('"');
-        }
-        Cell::Text(text) => line.push_str(text),
+        Cell::Text(text) => line.push_str(&csv_cell(text)),
         Cell::Missing => {}
     }
     line.push(',');

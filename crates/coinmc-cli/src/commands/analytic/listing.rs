@@ -161,10 +161,7 @@ fn significant(x: f64) -> String {
 fn csv_cell(cell: &Value) -> String {
     match cell {
         Value::Null => String::new(),
-        Value::String(text) if text.contains([',', '"', '\n']) => {
-            format!("\"{}\"", text.replace('"', "\"\""))
-        }
-        Value::String(text) => text.clone(),
+        Value::String(text) => coinmc_core::csv_cell(text).into_owned(),
         other => other.to_string(),
     }
 }

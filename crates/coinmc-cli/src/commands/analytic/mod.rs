@@ -4,8 +4,8 @@ mod listing;
 mod tables;
 
 use crate::exit::{Failure, Outcome};
-use crate::output::{self, Console, Format};
-use clap::{Args, ValueEnum};
+use crate::output::{self, Console, Format, RowsFormat};
+use clap::Args;
 use coinmc_analytic::Rule;
 use coinmc_core::Scene;
 use listing::Listing;
@@ -70,36 +70,22 @@ pub(crate) struct Analytic {
     gravity: f64,
 
     /// How to write the table
-    #[arg(long, value_enum, default_value_t = ListingFormat::Table)]
-    format: ListingFormat,
-}
-
-/// How a listing is written to standard output.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum ListingFormat {
-    /// For people
-    Table,
-    /// One JSON document
-    Json,
-    /// Comma-separated values, numbers in full
-    Csv,
+    #[arg(long, value_enum, default_value_t = RowsFormat::Table)]
+    format: RowsFormat,
 }
 
 impl Analytic {
     /// The format of failures.
     pub(crate) fn errors_as(&self) -> Format {
-        match self.format {
-            ListingFormat::Json => Format::Json,
-            ListingFormat::Table | ListingFormat::Csv => Format::Table,
-        }
+        self.format.of_failures()
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let listing = self.listing();
         match self.format {
-            ListingFormat::Table => output::print(&listing.to_table(console.stdout())),
-            ListingFormat::Json => output::print_json(&listing.to_json()),
-            ListingFormat::Csv => output::print(&listing.to_csv()),
+            RowsFormat::Table => output::print(&listing.to_table(console.stdout())),
+            RowsFormat::Json => output::print_json(&listing.to_json()),
+            RowsFormat::Csv => output::print(&listing.to_csv()),
         }
         .map_err(|error| Failure::Runtime(error.into()))?;
         Ok(Outcome::Done)

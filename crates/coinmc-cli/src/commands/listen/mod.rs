@@ -5,7 +5,7 @@ mod synthetic;
 
 use super::question::{AnswerArgs, ask};
 use crate::exit::{Failure, Outcome};
-use crate::output::{self, Console, Format};
+use crate::output::{self, Console, Format, RowsFormat};
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
 use coinmc::config::Override;
@@ -63,8 +63,8 @@ pub(crate) struct Listen {
     threads: Option<u16>,
 
     /// How to write the result
-    #[arg(long, value_enum, default_value_t = ListenFormat::Table)]
-    format: ListenFormat,
+    #[arg(long, value_enum, default_value_t = RowsFormat::Table)]
+    format: RowsFormat,
 
     /// Show no progress and no remarks, only warnings and errors
     #[arg(long, short)]
@@ -75,16 +75,6 @@ pub(crate) struct Listen {
 enum KindName {
     Drop,
     Spin,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum ListenFormat {
-    /// For people
-    Table,
-    /// One JSON document
-    Json,
-    /// Onsets, bounces and pitches, one a row
-    Csv,
 }
 
 impl From<KindName> for Kind {
@@ -98,10 +88,7 @@ impl From<KindName> for Kind {
 
 impl Listen {
     pub(crate) fn format(&self) -> Format {
-        match self.format {
-            ListenFormat::Json => Format::Json,
-            ListenFormat::Table | ListenFormat::Csv => Format::Table,
-        }
+        self.format.of_failures()
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
@@ -136,9 +123,9 @@ impl Listen {
         }
         let told = told.as_ref().map(|(told, observed)| (told, *observed));
         match self.format {
-            ListenFormat::Json => output::print_json(&document(&heard, told)),
-            ListenFormat::Csv => output::print(&csv(&heard)),
-            ListenFormat::Table => output::print(&report::text(&heard, told, console.stdout())),
+            RowsFormat::Json => output::print_json(&document(&heard, told)),
+            RowsFormat::Csv => output::print(&csv(&heard)),
+            RowsFormat::Table => output::print(&report::text(&heard, told, console.stdout())),
         }
         .map_err(|error| Failure::Runtime(anyhow!(error)))?;
         Ok(Outcome::Done)
