@@ -4,12 +4,12 @@ The engines of coinmc at native speed, with NumPy arrays in and out:
 
 * `toss`, `launches`: individual tosses, with launches drawn at random or your own;
 * `estimate`: probabilities with intervals, in memory; `run`, `open`: in a run directory, also on
-  other processes and clusters (`chunk`);
+  other processes and clusters (`chunk`); `merge`: of parts;
 * `trace`: the recorded motion of one toss; `replay`: tosses in three dimensions;
 * `report`: a page of runs that opens anywhere;
 * `ask`: a coin of the size of a euro on a usual surface, without a toss;
 * `fair`: how thick is a fair coin, here or in everyday `scenes`?
-* `sensitivity`: how strongly probabilities depend on parameters;
+* `sensitivity`: how strongly probabilities depend on parameters; `converge`: on tolerances;
 * `calibrate`, `listen`: your table from measurements and recordings;
 * `validate`: claims and public data sets, each with its verdict;
 * `check`, `Config`: what a config means;
@@ -54,10 +54,12 @@ if TYPE_CHECKING:
     from coinmc._ask import Asked, ask
     from coinmc._calibrate import Calibration, CalibrationModel, calibrate
     from coinmc._compare import Comparison, compare
+    from coinmc._converge import Convergence, converge
     from coinmc._design import Design, design
     from coinmc._executors import chunk
     from coinmc._fair import Fair, FairRoot, fair
     from coinmc._listen import Listened, listen
+    from coinmc._merge import merge
     from coinmc._pages import Page, basins, replay, report
     from coinmc._ranking import Ranking, rank
     from coinmc._rare import Rare, rare
@@ -78,6 +80,7 @@ __all__ = [
     "Config",
     "ConfigError",
     "ConfigLike",
+    "Convergence",
     "Crossing",
     "Design",
     "Ended",
@@ -113,6 +116,7 @@ __all__ = [
     "check",
     "chunk",
     "compare",
+    "converge",
     "design",
     "estimate",
     "experiment",
@@ -120,6 +124,7 @@ __all__ = [
     "film",
     "launches",
     "listen",
+    "merge",
     "open",
     "plot",
     "rank",
@@ -151,6 +156,8 @@ _LAZY = {
     "calibrate": "coinmc._calibrate",
     "Comparison": "coinmc._compare",
     "compare": "coinmc._compare",
+    "Convergence": "coinmc._converge",
+    "converge": "coinmc._converge",
     "chunk": "coinmc._executors",
     "Design": "coinmc._design",
     "design": "coinmc._design",
@@ -163,6 +170,7 @@ _LAZY = {
     "basins": "coinmc._pages",
     "replay": "coinmc._pages",
     "report": "coinmc._pages",
+    "merge": "coinmc._merge",
     "Ranking": "coinmc._ranking",
     "rank": "coinmc._ranking",
     "Rare": "coinmc._rare",

@@ -1,5 +1,6 @@
 """Progress bars of long computations, drawn by tqdm."""
 
+import math
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -22,6 +23,37 @@ class _NoBar:
 
     def update(self, more: int) -> None:
         self.n += more
+
+    def set_postfix_str(self, text: str, refresh: bool = True) -> None:
+        pass
+
+
+class _Shown:
+    """What reports to a bar."""
+
+    def __init__(self, bar: Any) -> None:
+        self._bar = bar
+
+    def __call__(self, done: int, planned: int) -> None:
+        bar = self._bar
+        bar.total = planned or None
+        # whoever read it may be gone: that is no reason to stop
+        with suppress(OSError, ValueError):
+            bar.update(done - bar.n)
+
+    def so_far(self, face: str, p: float, lo: float, hi: float) -> None:
+        """Show what the point that is tossed has shown so far."""
+        digits = shown_digits(max(hi - p, p - lo))
+        numbers = f"{p:.{digits}f} [{lo:.{digits}f}, {hi:.{digits}f}]"
+        with suppress(OSError, ValueError):
+            self._bar.set_postfix_str(f"P({face}) {numbers}")
+
+
+def shown_digits(error: float) -> int:
+    """Return the decimals that show two digits of an error, from three to seven."""
+    if not 0.0 < error < 1.0:
+        return 3
+    return min(max(1 - math.floor(math.log10(error)), 3), 7)
 
 
 @contextmanager
@@ -52,15 +84,8 @@ def reporting(progress: bool | Report | None, what: str) -> Iterator[Report | No
             raise ImportError('progress bars need tqdm: pip install "coinmc[progress]"')
         yield None
         return
-
-    def report(done: int, planned: int) -> None:
-        bar.total = planned or None
-        # whoever read it may be gone: that is no reason to stop
-        with suppress(OSError, ValueError):
-            bar.update(done - bar.n)
-
     try:
-        yield report
+        yield _Shown(bar)
     finally:
         with suppress(OSError, ValueError):
             bar.close()

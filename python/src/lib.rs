@@ -21,6 +21,7 @@ mod calibrate;
 mod columns;
 mod command;
 mod compare;
+mod converge;
 mod design;
 mod errors;
 mod fair;
@@ -28,6 +29,7 @@ mod film;
 mod interval;
 mod launch;
 mod listen;
+mod merge;
 mod pickled;
 mod plan;
 mod question;
@@ -64,6 +66,8 @@ mod _lib {
     #[pymodule_export]
     use super::compare::compare;
     #[pymodule_export]
+    use super::converge::converge;
+    #[pymodule_export]
     use super::design::design;
     #[pymodule_export]
     use super::fair::{fair, scenes};
@@ -73,6 +77,8 @@ mod _lib {
     use super::interval::{inverse_normal_cdf, wilson};
     #[pymodule_export]
     use super::listen::listen;
+    #[pymodule_export]
+    use super::merge::merge;
     #[pymodule_export]
     use super::pickled::unpickled;
     #[pymodule_export]

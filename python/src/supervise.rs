@@ -2,13 +2,14 @@
 //! thread handles signals (Ctrl-C) and progress.
 
 use crate::errors;
-use coinmc::run::{Progress, ProgressSink};
+use coinmc::run::{Latest, Progress, ProgressSink};
+use coinmc_core::Estimate;
 use pyo3::prelude::*;
 use std::num::NonZeroUsize;
 use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread::{self, Thread};
 use std::time::Duration;
 
@@ -24,6 +25,8 @@ pub(crate) struct Supervision {
     pub(crate) done: AtomicU64,
     /// Tosses planned.
     pub(crate) planned: AtomicU64,
+    /// What a point has shown, since it was last told.
+    latest: Mutex<Option<Latest>>,
     finished: AtomicBool,
     warnings: Mutex<Vec<String>>,
 }
@@ -39,12 +42,17 @@ impl Supervision {
         let mut warnings = self.warnings.lock().unwrap_or_else(PoisonError::into_inner);
         std::mem::take(&mut *warnings)
     }
+
+    fn latest(&self) -> MutexGuard<'_, Option<Latest>> {
+        self.latest.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }
 
 impl ProgressSink for Supervision {
     fn progress(&self, progress: &Progress) {
         self.done.store(progress.tosses_done, Relaxed);
         self.planned.store(progress.tosses_planned, Relaxed);
+        *self.latest() = progress.latest;
     }
 
     fn warning(&self, message: &str) {
@@ -67,7 +75,7 @@ impl Drop for FinishGuard<'_> {
 }
 
 /// Runs `job` on another thread and returns its result and warnings; meanwhile calls
-/// `progress(done, planned)`. An exception from that or from a signal handler stops the job and is
+/// `progress(done, planned)`, and its `so_far(face, p, lo, hi)` if it has one. An exception from that or from a signal handler stops the job and is
 /// then raised.
 pub(crate) fn supervise<T: Send>(
     py: Python<'_>,
@@ -146,6 +154,13 @@ fn poll(py: Python<'_>, supervision: &Supervision, progress: Option<&Py<PyAny>>)
             supervision.planned.load(Relaxed),
         );
         progress.call1(py, (done, planned))?;
+        let latest = supervision.latest().take();
+        if let Some(latest) = latest
+            && let Some(so_far) = progress.bind(py).getattr_opt("so_far")?
+        {
+            let Estimate { p, lo, hi, .. } = latest.estimate;
+            so_far.call1((latest.face.name(), p, lo, hi))?;
+        }
     }
     Ok(())
 }

@@ -36,7 +36,8 @@ pub(crate) fn trace<'py>(
 
 /// Records a toss like [`trace`], into a new file whose extension says the format.
 #[pyfunction]
-#[pyo3(signature = (plan, point, toss, row, rate_hz, path))]
+#[pyo3(signature = (plan, point, toss, row, rate_hz, path, encoding))]
+#[allow(clippy::too_many_arguments, reason = "Python gives them one by one")]
 pub(crate) fn save_trace(
     py: Python<'_>,
     plan: &Plan,
@@ -45,16 +46,18 @@ pub(crate) fn save_trace(
     row: Option<PyReadonlyArray1<'_, f64>>,
     rate_hz: Option<f64>,
     path: PathBuf,
+    encoding: &str,
 ) -> PyResult<()> {
     let row = row.as_ref().map(PyReadonlyArray1::as_slice).transpose()?;
     let kind = FileKind::of(&path).map_err(errors::value)?;
+    let encoding: Encoding = encoding.parse().map_err(errors::value)?;
     let trace = recorded(py, plan, (point, toss), row, rate_hz)?;
     let write = || -> Result<(), RecordingError> {
         let mut file = NewFile::begin(&path)?;
         kind.write(
             &plan.0,
             &[trace],
-            Encoding::default(),
+            encoding,
             Compression::default(),
             &mut file,
         )

@@ -93,6 +93,14 @@ def test_a_trace_is_saved_as_on_the_command_line(examples, command, tmp_path):
         trace.save(ours)
         command("trace", path, "--toss", 3, "--rate", 100, "--out", theirs, "--quiet")
         assert ours.read_bytes() == theirs.read_bytes(), ending
+    ours, theirs = (tmp_path / f"{who}-in-json.mcap" for who in ("ours", "theirs"))
+    trace.save(ours, encoding="json")
+    more = ("--encoding", "json", "--out", theirs, "--quiet")
+    command("trace", path, "--toss", 3, "--rate", 100, *more)
+    assert ours.read_bytes() == theirs.read_bytes() != (tmp_path / "ours.mcap").read_bytes()
+    with pytest.raises(ValueError, match="encoding is `protobuf` or `json`"):
+        trace.save(tmp_path / "other.mcap", encoding="xml")
+    assert not (tmp_path / "other.mcap").exists()
     with pytest.raises(FileExistsError, match="exists already"):
         trace.save(tmp_path / "ours.csv")
     with pytest.raises(ValueError, match=r"use \.mcap"):
