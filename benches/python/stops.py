@@ -1,11 +1,12 @@
-"""What a stop costs: a point of 1e10 tosses, stopped at random seconds by SIGINT, SIGTERM and SIGKILL.
+"""What a stop costs: a point of 1e10 tosses, stopped at random seconds by three signals.
 
     python benches/python/stops.py --program target/release/coinmc --folder DIR [--stops 100]
 
-Two scenes by turns, a fast one in the plane and a slow one by hand on wood, each one run that every
-process goes on with. The tosses that a process has added to what is stored are compared with its
-processor time. What is missing of the fastest rate is called lost: start-up and noise included, so it
-is an upper bound. Counts must never fall. Started again in the same folder, it goes on with the runs.
+SIGINT, SIGTERM and SIGKILL in turn. Two scenes, a fast one in the plane and a slow one by hand on
+wood, each one run that every process goes on with. The tosses that a process has added to what is
+stored are compared with its processor time. What is missing of the fastest rate is called lost:
+start-up and noise included, so it is an upper bound. Counts must never fall. Started again in the
+same folder, it goes on with the runs.
 """
 
 import argparse
@@ -42,7 +43,7 @@ def stored(program: Path, run: Path) -> int:
 
 
 def stop(program: Path, folder: Path, scene: str, how: signal.Signals, after_s: float):
-    """Toss for so long, stop, and return the tosses gained, and the seconds of processor and clock."""
+    """Toss for so long and stop; return the tosses gained, processor time and clock time."""
     toml, run = folder / f"{scene}.toml", folder / scene
     toml.write_text(config(scene))
     before = stored(program, run) if run.exists() else 0
@@ -81,7 +82,10 @@ def main() -> None:
         seen[scene].append((how.name, gained, used, clock))
         rate = max(gained / used for _, gained, used, _ in seen[scene])
         lost = used - gained / rate
-        print(f"{scene} {how.name} after {clock:.1f} s: {gained} tosses, {lost:.2f} s lost", flush=True)
+        print(
+            f"{scene} {how.name} after {clock:.1f} s: {gained} tosses, {lost:.2f} s lost",
+            flush=True,
+        )
     for scene, stops in seen.items():
         rate = max(gained / used for _, gained, used, _ in stops)
         for how in SIGNALS:
@@ -92,8 +96,11 @@ def main() -> None:
                     f"{scene}, {how.name}: {len(lost)} stops, at most {max(lost):.2f} s of tossing "
                     f"lost, {mean:.2f} s on average, at {rate:.0f} tosses/s"
                 )
-    worst = max(used - gained / max(g / u for _, g, u, _ in stops)
-                for stops in seen.values() for _, gained, used, _ in stops)
+    worst = max(
+        used - gained / max(g / u for _, g, u, _ in stops)
+        for stops in seen.values()
+        for _, gained, used, _ in stops
+    )
     if worst > 10.0:
         sys.exit(f"{worst:.1f} s of tossing were lost")
 

@@ -26,7 +26,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use std::ops::Range;
 
 /// Tosses of the pilot's first stage.
-pub(crate) const PILOT: u64 = 1 << 7;
+pub(crate) const PILOT: u64 = 1 << 6;
 /// Least limit of tosses with which a pilot pays.
 const LEAST_WITH_PILOT: u64 = 1 << 12;
 /// Share of α of the first look.
@@ -38,7 +38,7 @@ const SURE: f64 = 4.0;
 /// More tosses than any point may make.
 const MOST: f64 = MAX_TOSSES as f64;
 /// Counted tosses are a multiple of this, but for those at the limit.
-const MULTIPLE: u64 = 256;
+const MULTIPLE: u64 = 32;
 
 /// The looks at a point that stops at targets.
 ///
@@ -54,11 +54,11 @@ const MULTIPLE: u64 = 256;
 /// ).unwrap();
 /// let Stop::Targets(targets) = plan.stop else { unreachable!() };
 /// let mut looks = Looks::new(targets, plan.confidence);
-/// assert_eq!((looks.stage(), looks.is_pilot()), (0..128, true));
+/// assert_eq!((looks.stage(), looks.is_pilot()), (0..64, true));
 /// // whatever the pilot shows, its tosses do not count
 /// let shown = |tosses| Tally { heads: tosses / 2, tails: tosses - tosses / 2, ..Tally::default() };
-/// assert_eq!(looks.look(&shown(128)), Verdict::More);
-/// assert_eq!(looks.stage(), 128..10_112);
+/// assert_eq!(looks.look(&shown(64)), Verdict::More);
+/// assert_eq!(looks.stage(), 64..10_048);
 /// assert_eq!(looks.look(&shown(looks.counted())), Verdict::Met);
 /// # assert_eq!(looks.counted(), 9984);
 /// ```
@@ -308,8 +308,9 @@ impl Looks {
         }
         let mut n = least.clamp(MULTIPLE as f64, MOST);
         // An excess e of intervals that shrink like 1/√n asks for e n tosses, of those of a face that is
-        // never seen, like 1/n, for √e n: the latter converges for both.
-        for _ in 0..12 {
+        // never seen, like 1/n, for √e n: the latter converges for both, at worst by half of what is missing in the
+        // logarithm at a time.
+        for _ in 0..24 {
             n = (n * excess(n).sqrt()).max(1.0);
             if n > MOST {
                 return f64::INFINITY;

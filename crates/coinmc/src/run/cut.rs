@@ -199,7 +199,7 @@ mod tests {
             let chunks = cut.chunks(0, stage);
             chunks.map(|chunk| chunk.tosses.end).collect::<Vec<_>>()
         };
-        assert_eq!(ends(0..128), [128]);
+        assert_eq!(ends(0..64), [64]);
         assert_eq!(ends(1024..2048), [2048]);
         assert_eq!(ends(4096..50_000), [8192, 16_384, 32_768, 49_152, 50_000]);
         assert_eq!(ends(50_000..70_000), [65_536, 70_000]);

@@ -170,12 +170,11 @@ fn tallies_beyond_where_a_point_stopped_are_set_aside() {
             let line = text.lines().find(|line| line.starts_with(name)).unwrap();
             line.rsplit_once(' ').unwrap().1.parse().unwrap()
         };
-        let heads = count("heads") + 32_768 - 128;
-        text.replace("tosses 0 128", "tosses 524288 557056")
-            .replace(
-                &format!("heads {}", count("heads")),
-                &format!("heads {heads}"),
-            )
+        let heads = count("heads") + 32_768 - 64;
+        text.replace("tosses 0 64", "tosses 524288 557056").replace(
+            &format!("heads {}", count("heads")),
+            &format!("heads {heads}"),
+        )
     });
     texts.insert(1, forged.clone());
     put_tallies(dir.path(), &texts);

@@ -53,9 +53,9 @@ fn hardly_more_tosses_than_by_a_design_that_knew_the_probability() {
     for (half_width, most) in [
         (2e-4, 1.04),
         (1e-3, 1.08),
-        (5e-3, 1.21),
-        (0.01, 1.35),
-        (0.02, 1.6),
+        (5e-3, 1.22),
+        (0.01, 1.32),
+        (0.02, 1.55),
     ] {
         for (heads, side) in [(0.3, 0.4), (0.45, 0.1), (0.1, 0.8), (0.5, 0.0)] {
             let targets = Targets {
@@ -74,6 +74,9 @@ fn hardly_more_tosses_than_by_a_design_that_knew_the_probability() {
                 "{half_width} {heads} {looks:?}"
             );
             assert!(ratio > 1.0 && ratio < most, "{half_width} {heads}: {ratio}");
+            // where no face comes up in most tosses, a short pilot is as good as a long one
+            let is_usual = heads.max(side) <= 0.5;
+            assert!(!is_usual || ratio < 1.16, "{half_width} {heads}: {ratio}");
         }
     }
 }
