@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
 
 from coinmc import _lib, _toml
-from coinmc._errors import Error
+from coinmc._errors import ConfigError, Error
 
 __all__ = ["Config", "ConfigLike", "Group", "Scene", "Stop", "check"]
 
@@ -370,5 +370,10 @@ def _source(config: Any) -> tuple[str, str]:
 def _read(source: tuple[str, str], overrides: list[str]) -> _lib.Plan:
     kind, text = source
     if kind == "path":
-        return _lib.Plan.load(text, overrides)
+        try:
+            return _lib.Plan.load(text, overrides)
+        except ConfigError as error:
+            if "=" in text and not Path(text).exists():
+                error.add_note("A string is a path; Config.from_toml(text) reads TOML text.")
+            raise
     return _lib.Plan.parse("TOML text" if kind == "text" else "config from a dict", text, overrides)

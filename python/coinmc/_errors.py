@@ -48,6 +48,14 @@ class _Diagnosed(Error, ValueError):
         return type(self), (str(self), [tuple(problem) for problem in self.problems])
 
 
+def advised(error: "ConfigError", instead: dict[str, str]) -> "ConfigError":
+    """Add to the error which arguments take the place of tables that are missing."""
+    for table, argument in instead.items():
+        if any(problem.message.startswith(f"`{table}` is missing") for problem in error.problems):
+            error.add_note(f"Or give {argument}, which takes the place of [{table}].")
+    return error
+
+
 class ConfigError(_Diagnosed):
     """A config is invalid. The message is that of the command line, with carets at each problem.
 

@@ -108,9 +108,13 @@ def as_launches(given: Any) -> NDArray[np.void]:
 
 
 def _from_dict(given: Mapping[str, Any]) -> NDArray[np.void]:
-    wanted = ", ".join(LAUNCH.names)
-    if set(given) != set(LAUNCH.names):
-        raise TypeError(f"a dict of launches needs the arrays {wanted}")
+    missing = [name for name in LAUNCH.names if name not in given]
+    unknown = [str(name) for name in given if name not in LAUNCH.names]
+    if missing or unknown:
+        told = [f"lacks {', '.join(missing)}"] if missing else []
+        told += [f"has {', '.join(unknown)}"] if unknown else []
+        wanted = ", ".join(LAUNCH.names)
+        raise TypeError(f"a dict of launches has the arrays {wanted}: this {' and '.join(told)}")
     arrays = {name: np.atleast_2d(plain(given[name])) for name in LAUNCH.names}
     for name, array in arrays.items():
         if array.dtype.kind not in "fiu" or array.ndim != 2 or array.shape[1] != 3:
@@ -159,7 +163,7 @@ def natural(number: Any, name: str) -> int:
         else:
             raise TypeError(f"{name} must be a whole number, not {number!r}") from None
     if not 0 <= whole < 1 << 63:
-        raise ValueError(f"{name} must not be negative or exceed 2^63 - 1")
+        raise ValueError(f"{name} must be from 0 to 2^63 - 1, not {whole}")
     return whole
 
 
@@ -173,7 +177,8 @@ def threads_of(threads: Any) -> int | None:
         if not (said.isascii() and said.isdigit() and len(said) < 9):
             raise ValueError(f"{_VARIABLE} must be from 1 to {most}, not {said!r}")
         threads, name = int(said), _VARIABLE
-    threads = natural(threads, name)
+    if not isinstance(threads, int):
+        threads = natural(threads, name)
     if not 1 <= threads <= most:
         raise ValueError(f"{name} must be from 1 to {most}, not {threads}")
     return threads

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from coinmc import _lib
 from coinmc._config import Config, ConfigLike, as_config, default_directory, plan_of
+from coinmc._errors import ConfigError, advised
 from coinmc._launches import natural, threads_of
 from coinmc._progress import reporting
 from coinmc._table import ArrowTable
@@ -324,7 +325,10 @@ def estimate(
     """
     if tosses is not None:
         overrides = {**(overrides or {}), "stop": {"tosses": natural(tosses, "tosses")}}
-    config = as_config(config, overrides)
+    try:
+        config = as_config(config, overrides)
+    except ConfigError as error:
+        raise advised(error, {"stop": "tosses"}) from None
     with reporting(progress, "estimate") as report:
         table, messages = _lib.estimate(plan_of(config), threads_of(threads), report)
     _warn(messages)

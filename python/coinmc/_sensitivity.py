@@ -304,6 +304,13 @@ def _collect(item: Any, path: str, found: dict[str, float]) -> None:
         found[path] = float(item)
 
 
+def _is_zero(config: Config, path: str) -> bool:
+    item: Any = tomllib.loads(config.resolved)
+    for key in path.split("."):
+        item = item.get(key) if isinstance(item, dict) else None
+    return item == 0 and not isinstance(item, bool)
+
+
 def _is_number(item: Any) -> bool:
     return isinstance(item, (int, float)) and not isinstance(item, bool) and item != 0
 
@@ -314,6 +321,8 @@ def _pairs(
     """Return the configs with the smaller and the larger value, for each step that is allowed."""
     if name not in values:
         known = ", ".join(values)
+        if _is_zero(config, name):
+            raise ValueError(f"{name} is 0, which no factor changes; choose from {known}")
         raise ValueError(
             f"{name} is not a number of this config that can be varied; choose from {known}"
         )

@@ -1,5 +1,6 @@
 """Tables for other libraries: Arrow, pandas, polars, xarray."""
 
+import difflib
 from collections.abc import ItemsView, Iterator, KeysView, ValuesView
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -35,7 +36,12 @@ class ArrowTable:
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         """Return a column."""
-        return self.columns[name]
+        try:
+            return self.columns[name]
+        except KeyError:
+            close = difflib.get_close_matches(str(name), self.columns, 1)
+            meant = f": did you mean {close[0]!r}?" if close else ""
+            raise KeyError(f"there is no column {name!r}{meant}") from None
 
     def __iter__(self) -> Iterator[str]:
         """Iterate over the names of the columns."""

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from coinmc import _lib
 from coinmc._codes import Ended, Face
 from coinmc._config import Config, ConfigLike, as_config, plan_of
+from coinmc._errors import ConfigError, advised
 from coinmc._intervals import Estimate, estimates
 from coinmc._launches import (
     STATE,
@@ -250,8 +251,12 @@ def toss(
     """
     given = None if launches is None else as_launches(launches)
     if n is not None and given is not None and natural(n, "n") != len(given):
-        raise ValueError(f"n = {n}, but there are {len(given)} launches: omit n")
-    config = as_config(config, overrides, _absent(n, given))
+        count = f"are {len(given)} launches" if len(given) != 1 else "is 1 launch"
+        raise ValueError(f"n = {n}, but there {count}: omit n")
+    try:
+        config = as_config(config, overrides, _absent(n, given))
+    except ConfigError as error:
+        raise advised(error, {"stop": "n", "launch": "launches"}) from None
     first, point = natural(first, "first"), natural(point, "point")
     count, threads = _count(config, n, given), threads_of(threads)
     source = (plan_of(config), point, first, None if given is None else rows(given))

@@ -26,6 +26,10 @@ pub(crate) fn check(point: &Point, row: &[f64]) -> Result<(), Fault> {
     if !(norm > 0.0 && norm.is_finite()) {
         return Err("its axis has no direction: give a vector of finite, non-zero length");
     }
+    // wherever the ground lies exactly; NaN is counted as failed
+    if row[2] < -point.scene.coin.rim_distance_m() {
+        return Err("it lies below the surface: z is the height of the centre over it");
+    }
     if point.engine.descriptor().kind == EngineKind::Planar && !is_planar(row, norm) {
         return Err("the flat engine needs axis and velocity in the xz plane and spin about y");
     }

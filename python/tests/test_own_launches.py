@@ -41,7 +41,7 @@ def test_one_vector_stands_for_all(bare):
 
 def test_what_is_missing_or_does_not_fit_is_named(bare):
     whole = {name: [[0.0, 0.0, 1.0]] * 2 for name in coinmc.LAUNCH.names}
-    with pytest.raises(TypeError, match="needs the arrays position_m, velocity_m_s"):
+    with pytest.raises(TypeError, match="this lacks position_m, velocity_m_s, spin_rad_s"):
         coinmc.toss(bare, launches={"axis": [0, 0, 1]})
     with pytest.raises(ValueError, match="equally long, not 2 of position_m, 3 of velocity_m_s"):
         coinmc.toss(bare, launches={**whole, "velocity_m_s": np.zeros((3, 3))})

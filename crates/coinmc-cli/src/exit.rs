@@ -73,6 +73,7 @@ impl From<RunError> for Failure {
     fn from(error: RunError) -> Self {
         match error {
             RunError::NotARunDirectory { .. }
+            | RunError::NoRun { .. }
             | RunError::OtherPlan { .. }
             | RunError::OtherVersion { .. }
             | RunError::OtherPart { .. }

@@ -127,14 +127,9 @@ impl ReportOf {
     }
 }
 
-/// Why a run directory cannot be read: a directory that is none is not to be filled, here.
+/// Why a run directory cannot be read.
 pub(super) fn unreadable(error: RunError) -> Failure {
     match error {
-        RunError::NotARunDirectory { dir, found } => Failure::Input(anyhow!(
-            "{} is not a run directory: it holds {found}. Name the directory of `coinmc run`: its --out, or \
-             runs/NAME-HASH",
-            dir.display()
-        )),
         RunError::OtherVersion { dir, theirs, ours } => Failure::Input(anyhow!(
             "{} is a run of coinmc {theirs}, this is {ours}: its tosses may be others. Read it with {theirs}, or \
              run the config.toml found there again",

@@ -77,7 +77,7 @@ pub fn read_text(path: &Path) -> Result<String, Diagnostics> {
             std::io::ErrorKind::NotFound => ("there is no such file".to_owned(), None),
             std::io::ErrorKind::IsADirectory => (
                 "this is a directory, not a config file".to_owned(),
-                Some("give the path of a .toml file".to_owned()),
+                Some(instead_of(path)),
             ),
             _ => (format!("the file cannot be read: {error}"), None),
         };
@@ -90,6 +90,16 @@ pub fn read_text(path: &Path) -> Result<String, Diagnostics> {
         let help = Some("save the file as UTF-8".to_owned());
         Diagnostics::of_file(&name, message, help).at(line, column)
     })
+}
+
+/// What to give instead of a directory.
+fn instead_of(directory: &Path) -> String {
+    let of_run = directory.join("config.toml");
+    if of_run.is_file() {
+        format!("the config of this run is {}", of_run.display())
+    } else {
+        "give the path of a .toml file".to_owned()
+    }
 }
 
 /// Reads at most one byte more than allowed, to detect larger files without loading them.

@@ -43,6 +43,17 @@ pub enum RunError {
         /// What was found in it.
         found: String,
     },
+    /// A directory that is to be read holds no run.
+    #[error(
+        "{} is not a run directory: {why}. Name the directory of `coinmc run`: its --out, or runs/NAME-HASH",
+        dir.display()
+    )]
+    NoRun {
+        /// The directory.
+        dir: PathBuf,
+        /// Why it is none.
+        why: String,
+    },
     /// The directory holds a run of another plan, and this one does not go on where it ended.
     #[error(
         "{} holds the run of another plan ({}). Choose another directory, or run the config.toml found there",

@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// The plan of the run that a directory holds: to replay its tosses, for example.
 ///
 /// # Errors
-/// [`RunError::NotARunDirectory`], [`RunError::BadConfig`]; [`RunError::OtherPlan`] if the config
+/// [`RunError::NoRun`], [`RunError::BadConfig`]; [`RunError::OtherPlan`] if the config
 /// is not the one that was run, [`RunError::OtherVersion`] if another version ran it, which may
 /// toss differently.
 pub fn stored_plan(dir: &Path) -> Result<Plan, RunError> {
@@ -65,9 +65,13 @@ pub fn stored_report(dir: &Path, sink: &dyn ProgressSink) -> Result<(Plan, Repor
 }
 
 pub(super) fn read_manifest(dir: &Path) -> Result<Manifest, RunError> {
-    Manifest::read(dir)?.ok_or_else(|| RunError::NotARunDirectory {
+    Manifest::read(dir)?.ok_or_else(|| RunError::NoRun {
         dir: dir.to_owned(),
-        found: format!("no {}", manifest::FILE),
+        why: if dir.exists() {
+            format!("it holds no {}", manifest::FILE)
+        } else {
+            "there is no such directory".to_owned()
+        },
     })
 }
 
@@ -75,9 +79,9 @@ pub(super) fn read_plan(dir: &Path) -> Result<Plan, RunError> {
     read_manifest(dir)?;
     let path = dir.join(CONFIG);
     if std::fs::metadata(&path).is_ok_and(|found| !found.is_file() && !found.is_dir()) {
-        let found = format!("a {CONFIG} that is not a file");
+        let why = format!("it holds a {CONFIG} that is not a file");
         let dir = dir.to_owned();
-        return Err(RunError::NotARunDirectory { dir, found });
+        return Err(RunError::NoRun { dir, why });
     }
     config::load(&path, &[]).map_err(|problems| {
         let reason = problems.to_string();
