@@ -67,8 +67,10 @@ pub fn stored_report(dir: &Path, sink: &dyn ProgressSink) -> Result<(Plan, Repor
 pub(super) fn read_manifest(dir: &Path) -> Result<Manifest, RunError> {
     Manifest::read(dir)?.ok_or_else(|| RunError::NoRun {
         dir: dir.to_owned(),
-        why: if dir.exists() {
+        why: if dir.is_dir() {
             format!("it holds no {}", manifest::FILE)
+        } else if dir.exists() {
+            "it is a file".to_owned()
         } else {
             "there is no such directory".to_owned()
         },
