@@ -18,9 +18,9 @@ pub enum Orientation {
     Fixed(UnitVector3<f64>),
     /// Uniform on the sphere: c = u_z uniform in (−1, 1) (Archimedes), azimuth uniform.
     Isotropic,
-    /// Three independent uniform Euler angles (as Unity's `Quaternion.Euler` of three uniform
-    /// numbers: turn about the coin's axis-normal x, then z, then the vertical). **Not** uniform
-    /// on the sphere: u_z = cos a · cos b.
+    /// Three independent uniform Euler angles, as Unity's `Quaternion.Euler` of three uniform numbers:
+    /// from upright, −b about y, then −a about x, then c about the vertical, all to the right. **Not**
+    /// uniform on the sphere: u_z = cos a · cos b.
     EulerAngles,
     /// In the xz plane, at this angle from the vertical, rad: u = (sin θ, 0, cos θ).
     Tilt(Marginal),

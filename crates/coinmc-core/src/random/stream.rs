@@ -172,6 +172,42 @@ mod tests {
         assert_eq!(1.0 - unit_interval(u64::MAX), unit_interval(0));
     }
 
+    /// The counter is (block of dimensions, toss, point, domain), the key the seed: what docs/methods
+    /// promise, and what every count depends on.
+    #[test]
+    fn a_word_is_that_of_philox_at_its_place() {
+        let domains = [
+            (Domain::Launch, 0),
+            (Domain::Scramble, 1),
+            (Domain::Parameters, 2),
+            (Domain::Acceptance, 3),
+        ];
+        for (domain, number) in domains {
+            let stream = Stream::new(30, domain, 5);
+            for dimension in [0_u32, 3, 4, 9, 4, 0] {
+                let block = Philox4x64::new([30, 0]).block([(dimension / 4).into(), 7, 5, number]);
+                let expected = block[dimension as usize % 4];
+                let mut toss = stream.toss(7);
+                assert_eq!(toss.word(dimension), expected, "{domain:?} {dimension}");
+                assert_eq!(toss.uniform(dimension), unit_interval(expected));
+                let mut eight = stream.tosses(4);
+                assert_eq!(eight.uniforms(dimension)[3], unit_interval(expected));
+            }
+        }
+    }
+
+    /// Neighbours are 2^-52 apart, half a step from the ends.
+    #[test]
+    fn a_uniform_has_52_bits() {
+        let step = 0.5_f64.powi(52);
+        assert_eq!(unit_interval(0), step / 2.0);
+        for k in [0, 1, 2, 77, (1 << 52) - 2] {
+            let [low, high] = [k, k + 1].map(|k: u64| unit_interval(k << 12));
+            assert_eq!(high - low, step);
+            assert_eq!(unit_interval((k << 12) + 0xfff), low);
+        }
+    }
+
     #[test]
     fn points_tosses_and_dimensions_differ() {
         let mut seen = std::collections::HashSet::new();
