@@ -20,6 +20,10 @@ kill-test kills="200":
     cargo build --release
     COINMC_KILLS={{kills}} cargo test -p coinmc-tests --test resume
 
+# Breaks lines, and looks whether tests go red: all promises and all listed modules (hours)
+mutants *arguments:
+    scripts/mutants {{arguments}}
+
 # The tables of docs/, from the CSV files under data/validation
 tables *arguments:
     scripts/docs-tables {{arguments}}

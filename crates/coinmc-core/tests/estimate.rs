@@ -158,10 +158,12 @@ fn relative_error_is_the_spread_of_the_estimate() {
 
 #[test]
 fn undecided_tosses_widen_the_interval_both_ways() {
-    let settled = Estimate::new(300, 0, 1000, 0.95, IntervalMethod::Wilson);
-    let open = Estimate::new(300, 50, 1000, 0.95, IntervalMethod::Wilson);
-    let most = Estimate::new(350, 0, 1000, 0.95, IntervalMethod::Wilson);
-    assert_eq!((open.p, open.lo, open.hi), (settled.p, settled.lo, most.hi));
+    for method in [IntervalMethod::Wilson, IntervalMethod::ClopperPearson] {
+        let of = |count, undecided| Estimate::new(count, undecided, 1000, 0.95, method);
+        let (settled, open, most) = (of(300, 0), of(300, 50), of(350, 0));
+        assert_eq!((open.p, open.lo, open.hi), (settled.p, settled.lo, most.hi));
+        assert!(open.hi > settled.hi + 0.04, "{open:?}");
+    }
 }
 
 #[test]

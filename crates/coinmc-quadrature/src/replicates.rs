@@ -155,6 +155,68 @@ mod tests {
         );
     }
 
+    /// Clopper and Pearson's interval of a look at 65,536 points of each replicate.
+    fn counted(successes: u64, undecided: u64) -> Estimate {
+        let method = IntervalMethod::ClopperPearson;
+        let confidence = 1.0 - (1.0 - GOAL.confidence) / 7.0;
+        Estimate::new(successes, undecided, 16 * 65_536, confidence, method)
+    }
+
+    fn is_close(found: f64, expected: f64) -> bool {
+        (found - expected).abs() < 1e-11
+    }
+
+    /// Sixteen counts of three or four spread too little to say how rare a face is; of 64 occurrences the
+    /// spread is believed.
+    #[test]
+    fn a_face_of_fewer_than_64_occurrences_is_as_uncertain_as_its_count() {
+        let of = |counts: [f64; 2]| {
+            let mut sums = [[65_536.0 - counts[0], 0.0, counts[0]]; 16];
+            sums[0] = [65_536.0 - counts[1], 0.0, counts[1]];
+            GOAL.shares(&sums, 65_536, true)
+        };
+        let ([heads, _, side], exact) = (of([4.0, 3.0]), counted(63, 0));
+        assert!(
+            is_close(side.lo, exact.lo) && is_close(side.hi, exact.hi),
+            "{side:?}"
+        );
+        // all but few is as rare as few
+        assert!(is_close(heads.lo, 1.0 - exact.hi) && is_close(heads.hi, 1.0 - exact.lo));
+        let grain = 0.5 / 65_536.0;
+        let [_, _, side] = of([4.0, 4.0]);
+        let p = 4.0 / 65_536.0;
+        assert!(
+            is_close(side.lo, p - grain) && is_close(side.hi, p + grain),
+            "{side:?}"
+        );
+    }
+
+    /// What had no face may have been all but few.
+    #[test]
+    fn undecided_evaluations_may_make_a_face_all_but_certain() {
+        let sums = [[32_768.0, 1.0, 0.0]; 16];
+        let [heads, ..] = GOAL.shares(&sums, 65_536, true);
+        let exact = counted(16 * 32_768, 16 * 32_767);
+        assert!(is_close(heads.hi, exact.hi), "{heads:?} {exact:?}");
+    }
+
+    /// Student's interval of sixteen means with fifteen degrees of freedom: t(15; .025/7) by SciPy.
+    #[test]
+    fn the_spread_of_the_replicates_is_the_arm() {
+        let mut sums = [[20.0, 44.0, 0.0]; 16];
+        for sum in &mut sums[..8] {
+            *sum = [24.0, 40.0, 0.0];
+        }
+        let [heads, ..] = Goal {
+            evaluations: 65_536,
+            ..GOAL
+        }
+        .shares(&sums, 64, false);
+        // means of 24/64 and 20/64, eight each: deviations of 1/32
+        let arm = 3.111_805_759_607_633 / 32.0 / 15.0_f64.sqrt();
+        assert!((heads.hi - heads.p - arm).abs() < 1e-9 && (heads.p - heads.lo - arm).abs() < 1e-9);
+    }
+
     #[test]
     fn undecided_evaluations_widen_every_interval() {
         let [heads, tails, side] = GOAL.shares(&[[16.0, 16.0, 16.0]; 16], 64, false);

@@ -4,6 +4,7 @@
 mod batch;
 pub mod conformance;
 mod dice;
+pub mod durable;
 mod hostile;
 mod observers;
 mod outcomes;

@@ -71,7 +71,7 @@ impl RunDirectory {
     ) -> Result<Self, RunError> {
         // check before anything is touched, and again under the lock
         must_be_usable(path, &ours)?;
-        fs::create_dir_all(path).map_err(|error| RunError::io("create", path, error))?;
+        replace::create_directories(path)?;
         let lock = lock(path)?;
         let theirs = must_be_usable(path, &ours)?;
 

@@ -130,6 +130,19 @@ pub(super) fn remove_leftover(place: &Path) -> Result<(), RunError> {
     remove(&temporary(place))
 }
 
+/// Creates a directory, and those above it, that a loss of power does not take away.
+pub(super) fn create_directories(path: &Path) -> Result<(), RunError> {
+    let is_missing = |path: &&Path| !path.as_os_str().is_empty() && !path.exists();
+    let new: Vec<&Path> = path.ancestors().take_while(is_missing).collect();
+    fs::create_dir_all(path).map_err(|error| RunError::io("create", path, error))?;
+    for parent in new.into_iter().filter_map(Path::parent) {
+        let parent = Some(parent).filter(|parent| !parent.as_os_str().is_empty());
+        // who may write into a directory need not be allowed to read it
+        let _ = sync_directory(parent.unwrap_or(Path::new(".")));
+    }
+    Ok(())
+}
+
 /// Makes renames in a directory survive a loss of power.
 pub(super) fn sync_directory(path: &Path) -> Result<(), RunError> {
     // Elsewhere a directory cannot be opened like a file, and renames are journalled anyway.

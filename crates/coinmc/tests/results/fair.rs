@@ -261,3 +261,86 @@ fn any_face_crosses_along_any_parameter() {
     assert!(fair_ratios(&results, THIRD).is_empty());
     assert!(fair_values(&results, Face::Side, "no such thing", THIRD).is_empty());
 }
+
+/// A straight line of slope 0.3 that crosses 1/3 half way between two of its points, 0.1 apart, with arms
+/// below and above each point. The polynomial through the four next points has, at the share t between
+/// the middle two, the weights 1 + N and −N in all, N = t(1 − t)/2.
+fn straight_with_arms(below: f64, above: f64, paired: bool) -> FairRatio {
+    let rows = grid(0.1).map(|x| {
+        let p = THIRD + 0.3 * (x - 1.55);
+        let (lo, hi) = (p - below, p + above);
+        let side = with_arm(p, 0.0);
+        row(&[("ratio", x)], Estimate { lo, hi, ..side })
+    });
+    let found = fair_ratios(&results(&["ratio"], paired, rows.collect()), THIRD);
+    let [fair] = &found[..] else {
+        panic!("{found:?}")
+    };
+    assert!((fair.ratio - 1.55).abs() < 1e-12);
+    fair.clone()
+}
+
+/// What points share they are wrong by together: their arms add up, weight by weight.
+#[test]
+fn arms_of_points_that_share_random_numbers_add_up() {
+    let fair = straight_with_arms(0.003, 0.003, true);
+    for away in [1.55 - fair.lo.unwrap(), fair.hi.unwrap() - 1.55] {
+        let t = 0.5 + away / 0.1;
+        let arm = 0.003 * (1.0 + t * (1.0 - t));
+        assert!((0.3 * away - arm).abs() < 1e-9, "{away}");
+    }
+    let alone = straight_with_arms(0.003, 0.003, false);
+    assert!(alone.hi.unwrap() < fair.hi.unwrap() && alone.lo.unwrap() > fair.lo.unwrap());
+}
+
+/// A point with a negative weight pulls the curve down where it is too high: its arm above is one below.
+#[test]
+fn a_negative_weight_turns_an_interval_round() {
+    let (below, above) = (0.002, 0.01);
+    let fair = straight_with_arms(below, above, true);
+    // left of the crossing the curve is below the target, which the arm above still reaches
+    for (away, own, other) in [
+        (1.55 - fair.lo.unwrap(), above, below),
+        (fair.hi.unwrap() - 1.55, below, above),
+    ] {
+        let t = 0.5 + away / 0.1;
+        let negative = 0.5 * t * (1.0 - t);
+        let arm = (1.0 + negative) * own + negative * other;
+        assert!((0.3 * away - arm).abs() < 1e-9, "{away} {arm}");
+    }
+}
+
+/// A curve that may cross to and fro, or not at all: both outer crossings, and one interval for both.
+#[test]
+fn an_even_number_of_crossings_in_one_band_is_told_by_its_first_and_last() {
+    let hump = |x: f64| THIRD + 0.002 - 0.4 * (x - 1.5).powi(2);
+    let found = crossings(0.1, 0.01, hump);
+    assert_eq!(found.len(), 2, "{found:?}");
+    let away = (0.002_f64 / 0.4).sqrt();
+    assert!((found[0].ratio - (1.5 - away)).abs() < 1e-9 && found[0].rising);
+    assert!((found[1].ratio - (1.5 + away)).abs() < 1e-9 && !found[1].rising);
+    assert_eq!((found[0].lo, found[0].hi), (found[1].lo, found[1].hi));
+    // symmetric, and as far as ± 0.01 may lift the hump, or a little less
+    let (lo, hi) = (found[0].lo.unwrap(), found[0].hi.unwrap());
+    assert!((lo + hi - 3.0).abs() < 1e-9 && (0.12..0.174).contains(&(hi - 1.5)));
+
+    // 0.02 up and down in the middle of a hump
+    let mut up = -1.0;
+    let noisy = |x: f64| {
+        up = -up;
+        hump(x)
+            + if (x - 1.5).abs() < 0.16 {
+                0.02 * up
+            } else {
+                0.0
+            }
+    };
+    let rows = grid(0.1).map({
+        let mut noisy = noisy;
+        move |x| row(&[("ratio", x)], with_arm(noisy(x), 0.03))
+    });
+    let found = fair_ratios(&results(&["ratio"], false, rows.collect()), THIRD);
+    assert_eq!(found.len(), 2, "{found:?}");
+    assert!(found[0].rising && !found[1].rising && found[0].ratio < found[1].ratio);
+    assert_eq!((found[0].lo, found[0].hi), (found[1].lo, found[1].hi));
+}

@@ -1,6 +1,7 @@
 //! Runs: cut into chunks, broken off, merged and damaged, they count the same.
 
 mod damage;
+mod durable;
 mod edge;
 mod extend;
 mod full_disk;
