@@ -168,6 +168,17 @@ fn a_face_is_not_joined_with_what_is_not_its_release() {
     let unreleased = at_coin(|status| status.released = false);
     assert!(matches!(unreleased, Step::Photograph { .. } | Step::Wait));
 
+    // one of another experiment
+    let mut table = Table::announced(rules(false));
+    table.status(State::AtCoin, |status| status.experiment = OURS + 1);
+    table.status(State::AtCoin, |status| status.released = false);
+    table.photo(1, side());
+    let step = table.step();
+    assert!(
+        matches!(step, Step::Photograph { .. } | Step::Wait),
+        "{step:?}"
+    );
+
     // one that was before
     let mut table = Table::announced(rules(false));
     table.status(State::AtCoin, |_| {});

@@ -137,7 +137,13 @@ fn an_incomplete_last_line_is_removed() {
     }
     // file systems can fill a lost block with zeros
     fs::write(&path, [&whole[..last], &[0; 4096]].concat()).unwrap();
-    assert_eq!(Journal::open(&path, &header()).unwrap().1, 4096);
+    let (mut journal, torn) = Journal::open(&path, &header()).unwrap();
+    assert_eq!((torn, fs::read(&path).unwrap().len()), (4096, last));
+    // nothing of a tail that is longer than the next line shows behind it
+    let reason = VoidReason::Fault(103);
+    journal.append(&Entry::Void { id: 2, reason }).unwrap();
+    drop(journal);
+    assert_eq!(fs::read(&path).unwrap(), whole);
     // without a first line nothing was thrown
     fs::write(&path, &whole[..30]).unwrap();
     assert_eq!(
