@@ -145,3 +145,45 @@ fn no_error_of_the_disk_loses_an_entry_or_shows_one_that_power_can_take_away() {
     }
     assert!(injected > 3_000, "{injected}");
 }
+
+/// The entry whose line failed is not in the journal, and no shorter one is written over the beginning of what
+/// may be left of it.
+#[test]
+fn after_a_line_that_failed_nothing_remains_and_nothing_follows() {
+    let path = Path::new("journal.txt");
+    let [begun, announced, read, ..] = &entries()[..] else {
+        unreachable!()
+    };
+    let reason = VoidReason::Lost;
+    let shorter = Entry::Void { id: 1, reason };
+    let mut tried = 0;
+    for call in 1..20 {
+        for cut_fails in [false, true] {
+            let disk = Disk::default();
+            let (mut journal, _) =
+                Journal::open_on(Box::new(disk.open(&[])), path, &header()).unwrap();
+            journal.append(begun).unwrap();
+            journal.append(announced).unwrap();
+            let history = journal.history().clone();
+            let mut failures = vec![(call, Failure::Error)];
+            failures.extend(cut_fails.then_some((call + 1, Failure::Error)));
+            let opened = Journal::open_on(Box::new(disk.open(&failures)), path, &header());
+            let Ok((mut journal, _)) = opened else {
+                continue;
+            };
+            let before = disk.content();
+            if journal.append(read).is_ok() {
+                continue;
+            }
+            tried += 1;
+            assert!(cut_fails || disk.content() == before, "{call}");
+            journal.append(&shorter).unwrap_err();
+            assert_eq!(journal.history(), &history);
+            let again = Journal::open_on(Box::new(disk.open(&[])), path, &header());
+            let (journal, _) = again.expect("the next process reads it");
+            assert!(cut_fails || journal.history() == &history, "{call}");
+        }
+    }
+    // a seek, a write and a sync, without and with a cut that fails
+    assert_eq!(tried, 6);
+}

@@ -52,17 +52,13 @@ impl ImpactLaw for Moreau {
         let sticks = x.abs().le(L::splat(mu) * z);
         let (mut p, mut found) = (Impulse { x, z, sticks }, sticks);
         if (!sticks).any() {
-            // the friction that sticking would need shows in which direction the contact still
-            // slides
+            // Of all impulses that give the normal rebound, a greater p_x leaves a greater slip, and p_x = x
+            // none. Sliding with friction −μ p_z in the direction d is one whose slip has the sign of d: so
+            // d x < −μ p_z < 0, and only the direction against x can be it.
             let friction = L::splat(mu) * -L::splat(1.0).copysign(x);
-            for friction in [friction, -friction] {
-                let (slides, sliding) = slide(k, ux, rebound, friction);
-                p = Impulse::select(!found & slides, sliding, p);
-                found = found | slides;
-                if !(!found).any() {
-                    break;
-                }
-            }
+            let (slides, sliding) = slide(k, ux, rebound, friction);
+            p = Impulse::select(!found & slides, sliding, p);
+            found = found | slides;
         }
         let dissipates = found & work(k, ux, uz, p).le(L::splat(0.0));
         if (!dissipates).any() {

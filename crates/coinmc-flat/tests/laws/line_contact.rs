@@ -207,3 +207,27 @@ fn tangential_stiffness_matters_for_sticking_corners() {
         assert!(found.after.energy_j_kg(&scene) < found.before.energy_j_kg(&scene));
     }
 }
+
+/// A corner under the centre that stops sliding is held by a spring as stretched as friction had it, which
+/// pulls it back: it leaves backwards, like a ball of rubber, but slower than it came. (Without that stretch
+/// nothing would pull, and it would leave without slip.)
+#[test]
+fn a_corner_that_stops_sliding_springs_back() {
+    let scene = scene(2.0, 0.8, 0.5);
+    // from the centre to the corner, H/R = 2
+    let lever = 0.01 * std::f64::consts::SQRT_2;
+    let slip = |vx: f64| {
+        let start = touch(PI / 4.0, vx, -2.0, 0.0);
+        let after = impact(&scene, line(1e12), 1e-10, &start).after;
+        after.velocity_m_s.x - after.spin_rad_s.y * lever
+    };
+    for vx in [4.0, 5.0, 6.0, 7.0] {
+        let (right, left) = (slip(vx), slip(-vx));
+        assert!((right + left).abs() < 1e-6, "{vx}: {right} {left}");
+        assert!(right < -0.1 * vx && right > -vx, "{vx}: {right}");
+    }
+    // friction that cannot stop it takes mu (1 + e) of the speed of approach, times K_xx = 1 + r²/k²
+    let k = scene.coin.transverse_gyration_m2();
+    let taken = 0.5 * 1.8 * 2.0 * (1.0 + lever * lever / k);
+    assert!((slip(20.0) - (20.0 - taken)).abs() < 0.02, "{}", slip(20.0));
+}

@@ -4,6 +4,7 @@ use crate::common::{line, pulse, settings, touch};
 use coinmc_core::{Engine, Event, EventKind, Launch, Observer, Scene, State};
 use coinmc_flat::Law;
 use coinmc_testkit::{Dice, scene};
+use std::f64::consts::PI;
 
 /// Samples a number of equally spaced instants within the first impact.
 struct Film {
@@ -151,5 +152,29 @@ fn velocities_of_samples_are_derivatives_of_positions() {
                 );
             }
         }
+    }
+}
+
+/// Corner under the centre: nothing turns, and the centre moves as under its weight and half a sine in closed
+/// form, z = z₀ + v t − g t²/2 + (1 + e)|v| (t/2 − τ sin(πt/τ)/2π). In this long pulse the fall is 2 mm.
+#[test]
+fn a_coin_falls_during_a_pulse() {
+    const TIME_S: f64 = 0.02;
+    let scene = scene(2.0, 0.5, 0.0);
+    let mut launch = touch(PI / 4.0, 0.0, -2.0, 0.0);
+    launch.height_m = 0.05;
+    let (touched, _, at) = within(&scene, pulse(TIME_S), &launch).expect("it lasts");
+    let film = film(&scene, pulse(TIME_S), 1e-11, &launch, Some(at));
+    let (g, v) = (scene.gravity_m_s2(), touched.velocity_m_s.z);
+    assert_eq!(film.seen.len(), 40);
+    for state in film.seen {
+        let t = state.time_s - touched.time_s;
+        let (sin, cos) = libm::sincos(PI * t / TIME_S);
+        let push = -1.5 * v;
+        let moved = v * t - 0.5 * g * t * t + push * (0.5 * t - 0.5 * TIME_S * sin / PI);
+        let speed = v - g * t + push * 0.5 * (1.0 - cos);
+        let off = state.position_m.z - touched.position_m.z - moved;
+        assert!(off.abs() < 1e-10, "{t}: {off}");
+        assert!((state.velocity_m_s.z - speed).abs() < 1e-9, "{t}");
     }
 }

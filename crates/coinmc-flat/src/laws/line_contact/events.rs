@@ -75,10 +75,8 @@ impl ImpactState {
         let which = margin % CORNERS;
         match (self.body.corners[which].grip, margin < CORNERS) {
             (Grip::Apart, _) => self.touch(which),
-            (_, true) => {
-                self.body.corners[which].grip = Grip::Apart;
-                *Body::spring(&mut self.y, which) = 0.0;
-            }
+            // its spring is unloaded when it touches again
+            (_, true) => self.body.corners[which].grip = Grip::Apart,
             (Grip::Slides(direction), _) => {
                 let normal = self.body.normal(which, &self.body.place(&self.y, which));
                 *Body::spring(&mut self.y, which) =
