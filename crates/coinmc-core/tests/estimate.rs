@@ -2,6 +2,7 @@
 
 use coinmc_core::{
     Domain, Estimate, IntervalMethod, Stream, UniformSource, inverse_normal_cdf, relative_error,
+    rule_of_thumb_relative_error,
 };
 use proptest::prelude::*;
 use std::collections::HashMap;
@@ -154,6 +155,15 @@ fn relative_error_is_the_spread_of_the_estimate() {
         (spread / relative_error(p, u64::from(n)) - 1.0).abs() < 0.008,
         "{spread}"
     );
+}
+
+/// ΔP/P = 1/√N is exact where both outcomes are as likely.
+#[test]
+fn the_rule_of_thumb_is_exact_at_one_half() {
+    for (n, error) in [(1, 1.0), (100, 0.1), (10_000, 0.01)] {
+        assert_eq!(rule_of_thumb_relative_error(n), error);
+        assert_eq!(relative_error(0.5, n), error);
+    }
 }
 
 #[test]
