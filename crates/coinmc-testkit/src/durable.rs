@@ -103,7 +103,7 @@ impl<'a> Forgetful<'a> {
         match (name, open, &quoted[..]) {
             ("openat", _, [path]) if arguments.contains("O_CREAT") => self.create(Path::new(path)),
             ("mkdir" | "mkdirat", _, [path]) => self.create(Path::new(path)),
-            ("write" | "writev" | "pwrite64" | "ftruncate", Some(path), _) => self.write(path),
+            ("write" | "writev" | "pwrite64" | "ftruncate", Some(path), _) => self.write(&path),
             ("fsync" | "fdatasync", Some(path), _) => self.sync(&path),
             ("rename" | "renameat" | "renameat2", _, [from, to]) => {
                 self.rename(Path::new(from), Path::new(to));
@@ -124,13 +124,13 @@ impl<'a> Forgetful<'a> {
         }
     }
 
-    fn write(&mut self, path: PathBuf) {
+    fn write(&mut self, path: &Path) {
         let by_the_line = self
             .promise
             .by_the_line
             .iter()
             .any(|name| path.ends_with(name));
-        if self.concerns(&path) && !self.dirty.insert(path.clone()) && by_the_line {
+        if self.concerns(path) && !self.dirty.insert(path.to_owned()) && by_the_line {
             self.broken
                 .push(format!("{} went on without a sync", path.display()));
         }
