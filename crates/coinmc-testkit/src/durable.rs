@@ -69,6 +69,8 @@ struct Forgetful<'a> {
     dirty: BTreeSet<PathBuf>,
     /// Files and directories with names that are not on the disk.
     unnamed: BTreeSet<PathBuf>,
+    /// Files that were written.
+    written: BTreeSet<PathBuf>,
     broken: Vec<String>,
 }
 
@@ -80,6 +82,7 @@ impl<'a> Forgetful<'a> {
             known: there.flatten().map(|entry| entry.path()).collect(),
             dirty: BTreeSet::new(),
             unnamed: BTreeSet::new(),
+            written: BTreeSet::new(),
             broken: Vec::new(),
         }
     }
@@ -130,6 +133,11 @@ impl<'a> Forgetful<'a> {
             .by_the_line
             .iter()
             .any(|name| path.ends_with(name));
+        let again = !self.written.insert(path.to_owned());
+        if by_the_line && again && self.unnamed.contains(path) {
+            let broken = format!("{} went on before its name was safe", path.display());
+            self.broken.push(broken);
+        }
         if self.concerns(path) && !self.dirty.insert(path.to_owned()) && by_the_line {
             self.broken
                 .push(format!("{} went on without a sync", path.display()));
