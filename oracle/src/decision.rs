@@ -10,15 +10,26 @@ use coinmc_core::Face;
 /// decision rule. A coin that rolls has to be followed until friction has used up its energy.
 pub(crate) fn decided(model: &Model, motion: &Motion) -> Option<Face> {
     let energy = motion.energy(model) - motion.gap(model).min(0.0);
-    (energy < 1.0 + model.rim).then(|| leans_towards(model, motion))
+    let face = leans_towards(model, motion);
+    let [heads, tails] = model.rims.map(|(radius, half)| libm::hypot(radius, half));
+    let barrier = match face {
+        // on the rim of the other face
+        Face::Heads => tails,
+        Face::Tails => heads,
+        Face::Side => heads.min(tails),
+    };
+    (energy < barrier + model.rim).then_some(face)
 }
 
 /// The face towards which the coin leans.
 pub(crate) fn leans_towards(model: &Model, motion: &Motion) -> Face {
     let c = motion.axis.z;
+    let [heads, tails] = model
+        .rims
+        .map(|(radius, half)| half / libm::hypot(radius, half));
     match () {
-        () if c.abs() < model.half => Face::Side,
-        () if c > 0.0 => Face::Heads,
-        () => Face::Tails,
+        () if c >= tails => Face::Heads,
+        () if -c >= heads => Face::Tails,
+        () => Face::Side,
     }
 }

@@ -10,6 +10,9 @@ pub struct Model {
     pub radius: f64,
     /// H/(2D), or (H/2 − r)/D.
     pub half: f64,
+    /// (R/D, h/D) of the rims of heads and of tails, h the distance from the centre of mass: twice the above,
+    /// unless the edge is conical.
+    pub rims: [(f64, f64); 2],
     /// r/D, the radius of the rims' rounding: the lowest point is this far below their centre line.
     pub rim: f64,
     /// I_t/(m D²), about a diameter through the centre.
@@ -45,6 +48,9 @@ impl Model {
         Self {
             radius: (coin.radius_m() - coin.rim_radius_m()) / d,
             half: (0.5 * coin.height_m() - coin.rim_radius_m()) / d,
+            rims: coin
+                .rims()
+                .map(|rim| (rim.radius_m / d, rim.distance_m / d)),
             rim: coin.rim_radius_m() / d,
             transverse: coin.transverse_gyration_m2() / (d * d),
             axial: coin.axial_gyration_m2() / (d * d),

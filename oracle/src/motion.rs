@@ -60,7 +60,9 @@ impl Motion {
 
     /// Height of the lowest point of the coin.
     pub fn gap(&self, model: &Model) -> f64 {
-        let centre_line = model.half * self.axis.z.abs() + model.radius * self.sine();
+        let [(heads, above), (tails, below)] = model.rims;
+        let (s, c) = (self.sine(), self.axis.z);
+        let centre_line = (tails * s + below * c).max(heads * s - above * c);
         self.position.z - centre_line - model.rim
     }
 

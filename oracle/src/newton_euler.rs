@@ -60,21 +60,25 @@ struct Lowest {
 }
 
 impl Lowest {
-    /// r = −b (H/2) u + R (c u − ẑ)/s and h = b (H/2) c + R s, b the sign of c, of the centre line of
+    /// r = −b h u + R (c u − ẑ)/s at the height b h c + R s, b = 1 for the rim of tails, −1 for heads, of the centre line of
     /// a rounded rim; and the rim's radius below that.
     fn new(model: &Model, motion: &Motion, axis_rate: &Vector3<f64>) -> Self {
         let (u, s) = (&motion.axis, motion.sine());
         let (c, c_rate) = (u.z, axis_rate.z);
         let s_rate = -c * c_rate / s;
-        let face = model.half.copysign(c);
+        let [(heads, above), (tails, below)] = model.rims;
+        let (radius, face) = if tails * s + below * c > heads * s - above * c {
+            (tails, below)
+        } else {
+            (heads, -above)
+        };
         let along = u * c - Vector3::z();
         let along_rate = u * c_rate + axis_rate * c;
         Self {
-            arm: along * (model.radius / s) - u * face - Vector3::z() * model.rim,
-            arm_rate: (along_rate / s - along * (s_rate / (s * s))) * model.radius
-                - axis_rate * face,
-            slope: face - model.radius * c / s,
-            bend: -model.radius / (s * s * s) * c_rate * c_rate,
+            arm: along * (radius / s) - u * face - Vector3::z() * model.rim,
+            arm_rate: (along_rate / s - along * (s_rate / (s * s))) * radius - axis_rate * face,
+            slope: face - radius * c / s,
+            bend: -radius / (s * s * s) * c_rate * c_rate,
         }
     }
 }

@@ -55,12 +55,21 @@ pub(crate) fn points(model: &Model, motion: &Motion) -> [Point; POINTS] {
     let (u, sine) = (motion.axis, motion.sine());
     let wander = wander(&u, sine);
     let down = down(&u, sine);
-    let lower = if u.z > 0.0 { -1.0 } else { 1.0 };
+    let [(heads, above), (tails, below)] = model.rims;
+    let is_tails = tails * sine + below * u.z > heads * sine - above * u.z;
+    let lower = if is_tails { -1.0 } else { 1.0 };
     let across = u.cross(&down);
     let still = Vector3::zeros();
-    let place = |end: f64, along: Vector3<f64>, wander| Point {
-        arm: u * (end * model.half) + along * model.radius - Vector3::z() * model.rim,
-        wander,
+    let place = |end: f64, along: Vector3<f64>, wander| {
+        let (radius, half) = if end > 0.0 {
+            (heads, above)
+        } else {
+            (tails, below)
+        };
+        Point {
+            arm: u * (end * half) + along * radius - Vector3::z() * model.rim,
+            wander,
+        }
     };
     [
         place(1.0, down, wander),

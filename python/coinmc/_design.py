@@ -130,7 +130,7 @@ def design(
         Probability of the side.
     rim_m, chamfer_m : float, optional
         Radius with which the rims are rounded, or by how much they are cut at 45° (the tosses are
-        those of sharp rims then).
+        those of rims rounded with as much then).
     marks : bool, optional
         Whether to engrave three marks on heads and six on tails.
     density_kg_m3 : float, optional

@@ -2,7 +2,7 @@
 //! sqrt(D/g), masses in m (Froude scaling). Then g = 1, the energy barrier m g D between a face and
 //! the side is 1, and coins of 1 cm and of 1 m need the same computation.
 
-use crate::{Coin, Scene};
+use crate::{Coin, LowerRim, Scene};
 
 /// The coin's shape and its inertia divided by its mass m, in units of D = sqrt(R² + H²/4), the
 /// distance of the rim from the centre: radius² + half² = 1.
@@ -34,8 +34,11 @@ pub struct Body {
 }
 
 impl Body {
-    /// The body of a coin.
+    /// The body of a coin. Of one with a conical edge that of the rim of tails: see [`LowerRim`].
     pub fn new(coin: &Coin) -> Self {
+        if coin.is_conical() {
+            return LowerRim::of(coin)[0].body;
+        }
         let (radius, half) = coin.shape_by_rim_distance();
         let inner = coin.radius_m() - coin.rim_radius_m();
         let r2 = inner * inner;

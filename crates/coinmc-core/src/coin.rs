@@ -1,7 +1,10 @@
-//! The coin: a cylinder of revolution with its centre of mass at its geometric centre.
+//! The coin: a body of revolution, in most cases a cylinder with its centre of mass in the middle.
 
+mod conical;
 mod keys;
 mod rounded;
+
+pub use conical::Rim;
 
 use nalgebra::Vector3;
 use thiserror::Error;
@@ -31,6 +34,8 @@ pub struct Coin {
     mass_kg: f64,
     /// Radius r of the rounding of both rims; 0: sharp edges.
     rim_radius_m: f64,
+    /// Angle of the edge with the axis; 0: a cylinder.
+    draft_deg: f64,
     /// I_t/m and I_a/m.
     transverse_gyration_m2: f64,
     axial_gyration_m2: f64,
@@ -58,6 +63,20 @@ pub enum CoinError {
         /// min(R, H/2), m.
         most: f64,
     },
+    /// The coin would not rest on its conical edge, or has no narrower face.
+    #[error(
+        "draft must be below {most:.3}° to either side with this ratio, not {found}°: beyond, a coin does \
+         not rest on its edge, but tips onto its narrower face"
+    )]
+    Draft {
+        /// The requested angle, degrees.
+        found: f64,
+        /// The largest angle, degrees.
+        most: f64,
+    },
+    /// A conical edge with rounded rims.
+    #[error("a coin with a conical edge has sharp rims: its rim radius must be 0")]
+    RoundedDraft,
     /// No body inside the cylinder has this axial moment: 0 < I_a <= m R².
     #[error(
         "axial moment {found:e} kg m² is impossible: a body inside the cylinder has 0 < I_a <= {most:e}"
@@ -101,6 +120,7 @@ impl Coin {
             radius_m,
             mass_kg: DEFAULT_MASS_KG,
             rim_radius_m: 0.0,
+            draft_deg: 0.0,
             transverse_gyration_m2: r2 * (3.0 + ratio * ratio) / 12.0,
             axial_gyration_m2: r2 / 2.0,
         })
@@ -122,7 +142,8 @@ impl Coin {
     /// r of a cylinder of radius R − r and height H − 2r. R and H stay the outer measures.
     ///
     /// # Errors
-    /// [`CoinError::RimRadius`] unless 0 <= r < min(R, H/2).
+    /// [`CoinError::RimRadius`] unless 0 <= r < min(R, H/2); [`CoinError::RoundedDraft`] if the edge is
+    /// conical.
     ///
     /// # Example
     /// ```
@@ -140,6 +161,9 @@ impl Coin {
                 found: rim_radius_m,
                 most,
             });
+        }
+        if rim_radius_m != 0.0 && self.is_conical() {
+            return Err(CoinError::RoundedDraft);
         }
         let coin = Self {
             rim_radius_m,
@@ -162,7 +186,8 @@ impl Coin {
     /// loaded coin has. `None` keeps a moment.
     ///
     /// For mass anywhere inside the cylinder, spread evenly around the axis,
-    /// I_a = ∫ρ² dm <= m R² and I_t = I_a/2 + ∫z² dm <= I_a/2 + m H²/4.
+    /// I_a = ∫ρ² dm <= m R² and I_t = I_a/2 + ∫z² dm <= I_a/2 + m H²/4. (With the centre at h and h' from
+    /// the faces of a conical coin ∫z² dm <= m h h'. Its centre stays that of the uniform solid.)
     ///
     /// # Errors
     /// [`CoinError::AxialMoment`] or [`CoinError::TransverseMoment`] outside those bounds.
@@ -182,7 +207,13 @@ impl Coin {
                 most: most_axial * self.mass_kg,
             });
         }
-        let (least, most) = (axial / 2.0, axial / 2.0 + self.height_m().powi(2) / 4.0);
+        let spread = if self.is_conical() {
+            let [heads, tails] = self.rims();
+            heads.distance_m * tails.distance_m
+        } else {
+            self.height_m().powi(2) / 4.0
+        };
+        let (least, most) = (axial / 2.0, axial / 2.0 + spread);
         if !(transverse * SLACK >= least && transverse <= most * SLACK) {
             return Err(CoinError::TransverseMoment {
                 found: transverse * self.mass_kg,
@@ -245,6 +276,9 @@ impl Coin {
     pub fn lowest_point_m(&self, axis: &Vector3<f64>) -> Vector3<f64> {
         /// Sine of a tilt that counts as none.
         const LEVEL: f64 = 1e-9;
+        if self.is_conical() {
+            return self.lowest_of_rims_m(axis, LEVEL);
+        }
         let rim = self.rim_radius_m;
         let half = 0.5 * self.height_m() - rim;
         let mut point = Vector3::new(0.0, 0.0, -rim);
@@ -258,11 +292,35 @@ impl Coin {
         point
     }
 
+    /// [`lowest_point_m`](Self::lowest_point_m) of a conical coin.
+    fn lowest_of_rims_m(&self, axis: &Vector3<f64>, level: f64) -> Vector3<f64> {
+        let across = (axis.x * axis.x + axis.y * axis.y).sqrt();
+        let down = if across >= level {
+            (axis * axis.z - Vector3::z()) / across
+        } else {
+            Vector3::zeros()
+        };
+        let [heads, tails] = self.rims();
+        let heads = axis * heads.distance_m + down * heads.radius_m;
+        let tails = -axis * tails.distance_m + down * tails.radius_m;
+        if (heads.z - tails.z).abs() < level * self.radius_m {
+            (heads + tails) / 2.0
+        } else if heads.z < tails.z {
+            heads
+        } else {
+            tails
+        }
+    }
+
     /// D = sqrt(R² + H²/4), the distance from the centre to the rim, m: the centre's height when
     /// the coin balances on its rim, hence the barrier m g D between face and side. With rounded rims
     /// the distance to the edge of the cylinder inside, sqrt((R − r)² + (H/2 − r)²): then the coin
-    /// balances with its centre at D + r.
+    /// balances with its centre at D + r. With a conical edge that of the farther rim.
     pub fn rim_distance_m(&self) -> f64 {
+        if self.is_conical() {
+            let [heads, tails] = self.rims();
+            return heads.reach_m().max(tails.reach_m());
+        }
         let half = self.inner_ratio() / 2.0;
         (self.radius_m - self.rim_radius_m) * (1.0 + half * half).sqrt()
     }

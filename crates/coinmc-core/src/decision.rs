@@ -64,8 +64,11 @@
 //! and L_z slightly in every contact, and does not use this part of the rule
 //! ([`DecisionRule::in_time_steps`]).
 
+mod conical;
+
 use crate::{Body, Scene, Surface};
 use coinmc_lanes::{Lane, Mask};
+use conical::Barriers;
 use std::f64::consts::FRAC_PI_2;
 
 /// The state of the decision on a toss.
@@ -137,6 +140,10 @@ pub struct DecisionRule {
     resting: [f64; 2],
     /// tan β of a tilted table, else 0.
     slope: f64,
+    /// Cosine of the tilt at the balance: h, as R² + h² = 1.
+    balance: f64,
+    /// The energies at the two balances of a coin with a conical edge.
+    conical: Option<Barriers>,
 }
 
 /// Square of the time, in sqrt(D/g), in which a rolling coin that turns topples: a choice. With 1
@@ -178,6 +185,8 @@ impl DecisionRule {
             flat_barrier: (1.0 + mu * mu).sqrt() - mu * (body.radius + FRAC_PI_2 * body.rim),
             resting: resting(surface, coin_radius_m),
             slope: surface.tilt().map_or(0.0, |tilt| tilt.slope()),
+            balance: body.half,
+            conical: None,
         }
     }
 
@@ -200,7 +209,12 @@ impl DecisionRule {
     /// side.
     #[inline(always)]
     pub fn on_side<L: Lane>(&self, cos: L) -> L::Mask {
-        cos.lt(L::splat(self.body.half))
+        cos.lt(L::splat(self.balance))
+    }
+
+    /// Cosine of the tilt at the balance on the lower rim.
+    pub fn balance(&self) -> f64 {
+        self.balance
     }
 
     /// The well of a coin whose axis is tilted by the angle with the cosine `cos`: where it would
@@ -254,6 +268,9 @@ impl DecisionRule {
     /// [`decide`](Self::decide).)
     #[inline(always)]
     pub fn is_decided<L: Lane>(&self, state: &DecisionState<L>) -> L::Mask {
+        if let Some(barriers) = &self.conical {
+            return self.is_decided_conical(barriers, state);
+        }
         let (one, half) = (L::splat(1.0), L::splat(0.5));
         let mut energy = state.energy;
         let sliding = half * (state.vx * state.vx + state.vy * state.vy);

@@ -32,6 +32,7 @@ mod dyn_engine;
 mod engine;
 mod estimate;
 mod launch;
+mod lower_rim;
 mod material;
 mod observer;
 mod outcome;
@@ -46,7 +47,7 @@ mod tilt;
 
 pub use batch::TossBatch;
 pub use body::{Body, Units};
-pub use coin::{Coin, CoinError};
+pub use coin::{Coin, CoinError, Rim};
 pub use coinmc_lanes::Lanes;
 pub use contact_patch::{hertz_radius_m, pivoting_friction_of_patch_m};
 pub use csv::csv_cell;
@@ -64,6 +65,7 @@ pub use launch::{
     Launch, LaunchDistribution, LaunchError, LaunchSource, Launches, Marginal, Orientation, Preset,
     Spin, Starts, inverse_normal_cdf,
 };
+pub use lower_rim::LowerRim;
 pub use material::{Material, Sourced};
 pub use observer::{DynObserver, Observer, sample_between};
 pub use outcome::{Breaks, Ended, Face, Outcome};

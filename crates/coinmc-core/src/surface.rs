@@ -113,6 +113,9 @@ pub enum SurfaceError {
     /// The roughness cannot be modelled.
     #[error(transparent)]
     Roughness(#[from] RoughnessError),
+    /// A coin with a conical edge on ground for which it is not modelled.
+    #[error("a coin with a conical edge (draft) is not modelled {0}")]
+    Conical(&'static str),
     /// A drag rate is negative or not finite.
     #[error("drag must be finite and not negative, not {0} /s")]
     Drag(f64),

@@ -32,12 +32,18 @@ pub const ENGINE: EngineDescriptor = EngineDescriptor {
     read: |values| Settings::read(values).map(EngineChoice::new),
 };
 
-const UNMODELLED: [Unmodelled; 12] = [
+const UNMODELLED: [Unmodelled; 13] = [
     Unmodelled {
         table: "coin",
         key: "rim_radius_m",
         message: "engine.flat models sharp rims: `coin.rim_radius_m` must be 0",
         help: "remove `rim_radius_m`, or toss in space with [engine.volumetric]",
+    },
+    Unmodelled {
+        table: "coin",
+        key: "draft_deg",
+        message: "engine.flat models cylinders: `coin.draft_deg` must be 0",
+        help: "remove `draft_deg`, or toss in space with [engine.volumetric]",
     },
     Unmodelled {
         table: "surface",

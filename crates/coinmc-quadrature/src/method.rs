@@ -68,6 +68,7 @@ impl Method {
         let table = scene.surface.table_radius_m();
         if scene.surface.landing() != Landing::Adhesive
             || scene.coin.rim_radius_m() > 0.0
+            || scene.coin.is_conical()
             || table.is_some()
         {
             return None;

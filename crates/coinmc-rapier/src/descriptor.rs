@@ -34,12 +34,18 @@ pub const ENGINE: EngineDescriptor = EngineDescriptor {
     read: |values| Settings::read(values).map(EngineChoice::new),
 };
 
-const UNMODELLED: [Unmodelled; 5] = [
+const UNMODELLED: [Unmodelled; 6] = [
     Unmodelled {
         table: "coin",
         key: "rim_radius_m",
         message: "engine.rapier tosses sharp rims: `coin.rim_radius_m` must be 0",
         help: "remove `rim_radius_m`, or toss with [engine.volumetric]",
+    },
+    Unmodelled {
+        table: "coin",
+        key: "draft_deg",
+        message: "engine.rapier tosses cylinders: `coin.draft_deg` must be 0",
+        help: "remove `draft_deg`, or toss with [engine.volumetric]",
     },
     Unmodelled {
         table: "surface",

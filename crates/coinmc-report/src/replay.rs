@@ -40,10 +40,13 @@ pub(crate) fn at(plan: &Plan, point: usize, names: &[String]) -> Value {
 /// What the page draws and computes with.
 pub(crate) fn scene(scene: &Scene) -> Value {
     let coin = &scene.coin;
+    let rims = coin.rims().map(|rim| [rim.radius_m, rim.distance_m]);
     json!({
         "radius_m": coin.radius_m(),
         "height_m": coin.height_m(),
         "rim_radius_m": coin.rim_radius_m(),
+        // radius and distance from the centre of mass, of heads and tails
+        "rims_m": coin.is_conical().then_some(rims),
         "axial_gyration_m2": coin.axial_gyration_m2(),
         "transverse_gyration_m2": coin.transverse_gyration_m2(),
         "axial_factor": axial_factor(scene),

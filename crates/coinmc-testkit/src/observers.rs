@@ -1,6 +1,6 @@
 //! Observers: every event, samples at a rate or at given instants, extremes of energy and distance.
 
-use coinmc_core::{Event, EventKind, Observer, Scene, State};
+use coinmc_core::{Event, EventKind, Observer, Rim, Scene, State};
 
 /// More events than a toss of any test has: one that never ends must not fill the memory.
 const MOST: usize = 1_000_000;
@@ -172,7 +172,10 @@ impl<'a> Extremes<'a> {
     fn see_gap(&mut self, event: &Event) {
         let (coin, state) = (&self.scene.coin, &event.state);
         let across = (state.axis.x.powi(2) + state.axis.y.powi(2)).sqrt();
-        let lowest = 0.5 * coin.height_m() * state.axis.z.abs() + coin.radius_m() * across;
+        let [heads, tails] = coin.rims();
+        let below = |rim: Rim, up: f64| rim.radius_m * across - rim.distance_m * up;
+        let lowest = below(heads, state.axis.z).max(below(tails, -state.axis.z));
+        let lowest = lowest + coin.rim_radius_m();
         let gap = (state.position_m.z - lowest).abs() / coin.rim_distance_m();
         if !matches!(event.kind, EventKind::Launched | EventKind::Ended) {
             self.gap = self.gap.max(gap);

@@ -56,9 +56,16 @@ pub(super) fn mark(trace: &Trace, record: &Record, number: u64, at: Time) -> Sce
     }
 }
 
-/// A cylinder with painted faces, and a dash on heads that shows its rotation.
+/// A cylinder, or the frustum of a cone, with painted faces, and a dash on heads that shows its rotation.
 fn coin(coin: &Coin, at: Time) -> SceneEntity {
     let (radius, height) = (coin.radius_m(), coin.height_m());
+    let (heads, tails, above, below) = if coin.is_conical() {
+        let [heads, tails] = coin.rims();
+        let (above, below) = (heads.distance_m, tails.distance_m);
+        (heads.radius_m, tails.radius_m, above, below)
+    } else {
+        (radius, radius, 0.5 * height, 0.5 * height)
+    };
     let cylinder = |z: f64, radius: f64, height: f64, color| CylinderPrimitive {
         pose: Pose::at(Vector3::new(0.0, 0.0, z)),
         size: Vector3::new(2.0 * radius, 2.0 * radius, height),
@@ -66,16 +73,21 @@ fn coin(coin: &Coin, at: Time) -> SceneEntity {
         top_scale: 1.0,
         color: Color::new(color),
     };
+    let body = CylinderPrimitive {
+        bottom_scale: tails / radius,
+        top_scale: heads / radius,
+        ..cylinder(0.5 * (above - below), radius, height, BODY)
+    };
     let mut entity = SceneEntity::new(at, COIN, "coin");
     let paint = PAINT * height;
     entity.cylinders = vec![
-        cylinder(0.0, radius, height, BODY),
-        cylinder(0.5 * height, 0.9 * radius, paint, HEADS),
-        cylinder(-0.5 * height, 0.9 * radius, paint, TAILS),
+        body,
+        cylinder(above, 0.9 * heads, paint, HEADS),
+        cylinder(-below, 0.9 * tails, paint, TAILS),
     ];
     entity.cubes.push(CubePrimitive {
-        pose: Pose::at(Vector3::new(0.6 * radius, 0.0, 0.5 * height)),
-        size: Vector3::new(0.5 * radius, 0.08 * radius, 2.0 * paint),
+        pose: Pose::at(Vector3::new(0.6 * heads, 0.0, above)),
+        size: Vector3::new(0.5 * heads, 0.08 * heads, 2.0 * paint),
         color: Color::new(BODY),
     });
     entity

@@ -57,6 +57,9 @@ pub(super) fn rows(traces: &[Trace]) -> impl Iterator<Item = Row<'_>> {
 
 /// Height of the coin's lowest point above the surface, m.
 pub(super) fn lowest_m(coin: &Coin, state: &State) -> f64 {
+    if coin.is_conical() {
+        return state.position_m.z + coin.lowest_point_m(&state.axis).z;
+    }
     let u = &state.axis;
     let across = (u.x * u.x + u.y * u.y).sqrt();
     let rim = coin.rim_radius_m();

@@ -1,6 +1,7 @@
 //! The engine: one model, tossed on the scalar path or in lanes.
 
 use crate::batch::Batch;
+use crate::conical::Conical;
 use crate::impact::ImpactLaw;
 use crate::model::Model;
 use crate::settings::{Settings, SettingsError};
@@ -31,6 +32,7 @@ use coinmc_lanes::{Lanes, NoSuchLanes};
 pub struct VolumetricEngine<L> {
     pub(crate) model: Model<L>,
     table: Option<Table<L>>,
+    conical: Option<Conical<L>>,
     lanes: Lanes,
 }
 
@@ -45,13 +47,15 @@ impl<L: ImpactLaw> VolumetricEngine<L> {
         Ok(Self {
             model: Model::new(&endless, settings, law)?,
             table: Table::new(scene, settings, law)?,
+            conical: Conical::new(scene, settings, law)?,
             lanes: Lanes::best(),
         })
     }
 
-    /// A batch for many tosses; `None` if the lanes are [`Lanes::Scalar`], or on a table with an edge.
+    /// A batch for many tosses; `None` if the lanes are [`Lanes::Scalar`], on a table with an edge, or of a
+    /// coin with a conical edge.
     pub(crate) fn batch(&self) -> Option<Batch<'_, L>> {
-        (self.lanes != Lanes::Scalar && self.table.is_none())
+        (self.lanes != Lanes::Scalar && self.table.is_none() && self.conical.is_none())
             .then(|| Batch::new(&self.model, self.lanes))
     }
 }
@@ -71,9 +75,10 @@ impl<L: ImpactLaw> Engine for VolumetricEngine<L> {
     }
 
     fn toss(&self, (): &mut (), launch: &Launch, observer: &mut impl Observer) -> Outcome {
-        match &self.table {
-            None => self.model.run(launch, observer),
-            Some(table) => table.run(&self.model, launch, observer),
+        match (&self.table, &self.conical) {
+            (None, None) => self.model.run(launch, observer),
+            (Some(table), _) => table.run(&self.model, launch, observer),
+            (None, Some(conical)) => conical.run(launch, observer),
         }
         .outcome
     }

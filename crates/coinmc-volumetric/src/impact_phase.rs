@@ -11,7 +11,7 @@ use coinmc_core::{Ended, EventKind, Observer};
 
 /// A coin whose impacts change more often than this from one rim to the other, without flight,
 /// is laid on its side.
-const MAX_RIM_CHANGES: u32 = 100;
+pub(crate) const MAX_RIM_CHANGES: u32 = 100;
 /// Speeds whose difference is below this fraction of them are equal apart from rounding.
 const ROUNDING: f64 = 1e-13;
 
@@ -82,7 +82,7 @@ impl<L: ImpactLaw> Model<L> {
     }
 
     /// Whether the coin is level, and another point of its lower rim approaches the surface.
-    fn opposite_point_approaches(&self, toss: &mut Toss) -> bool {
+    pub(crate) fn opposite_point_approaches(&self, toss: &mut Toss) -> bool {
         let dynamics = &self.dynamics;
         toss.face_approaching_point(dynamics.axial_factor) && {
             let (vz, tilt) = (toss.motion.vz, toss.spin.tilt);
@@ -106,6 +106,6 @@ pub(crate) fn after_bounce(stays: bool, lifts_off: bool) -> Transition {
 
 /// Whether a point approaches the surface, by more than rounding, if it sinks at `down` relative to
 /// the centre and the centre rises at `up`.
-fn approaches(up: f64, down: f64) -> bool {
+pub(crate) fn approaches(up: f64, down: f64) -> bool {
     up - down < -ROUNDING * (up.abs() + down.abs())
 }

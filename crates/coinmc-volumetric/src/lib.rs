@@ -29,6 +29,7 @@
 //! - `rough` rough ground: contact and low hops on a random height field
 //! - `flight_phase`, `contact_phase`, `impact_phase` one toss through each phase
 //! - `scalar` one toss from launch to end · `batch` many tosses in lanes
+//! - `conical` coins with a conical edge: both rims in turn
 //! - `slide` the last slide of a flat coin, `table` tosses on a table with an edge
 //! - `engine` the public engine · `descriptor` what the rest of the program knows of it
 //!
@@ -37,6 +38,7 @@
 mod batch;
 mod body;
 mod bounce;
+mod conical;
 mod contact;
 mod contact_phase;
 mod descriptor;

@@ -9,7 +9,7 @@ use crate::restitution::Restitution;
 use crate::rough::Ground;
 use crate::settings::{Decision, Settings, SettingsError};
 use crate::toss::Toss;
-use coinmc_core::{DecisionRule, Event, EventKind, Landing, Launch, Observer, Scene};
+use coinmc_core::{DecisionRule, Event, EventKind, Landing, Launch, LowerRim, Observer, Scene};
 use std::f64::consts::FRAC_PI_2;
 
 /// Smallest error that the contact integrator may be asked for: its rounding.
@@ -109,6 +109,38 @@ impl<L> Model<L> {
             stick_speed: settings.stick_speed,
             tolerance: (settings.tolerance * held * body.escape_speed()).max(LEAST_TOLERANCE),
         })
+    }
+
+    /// The same model of a coin with a conical edge on this lower rim.
+    pub(crate) fn on_lower_rim(self, scene: &Scene, settings: &Settings, rim: &LowerRim) -> Self {
+        let (sin, cos) = rim.on_edge();
+        let Dynamics {
+            friction,
+            drag,
+            axial_factor,
+            ..
+        } = self.dynamics;
+        let time = settings.smoothing_time;
+        let dynamics = Dynamics::new(rim.body, friction, drag, axial_factor, time).on_rim(cos);
+        let tilting = settings.decision == Decision::Tilting;
+        let escape_speed = (2.0 * rim.shallowest_well()).sqrt();
+        let held = if dynamics.holds() {
+            HELD_TOLERANCE
+        } else {
+            1.0
+        };
+        Self {
+            dynamics,
+            rule: DecisionRule::on_lower_rim(scene, rim, tilting, self.negligible_rocking),
+            side: libm::atan2(sin, cos),
+            tolerance: (settings.tolerance * held * escape_speed).max(LEAST_TOLERANCE),
+            ..self
+        }
+    }
+
+    /// The tilt, rad, at which the other rim touches.
+    pub(crate) fn edge_tilt(&self) -> f64 {
+        self.side
     }
 
     /// A toss at its launch.

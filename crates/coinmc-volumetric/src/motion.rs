@@ -160,8 +160,14 @@ impl<L: Lane> Motion<L> {
 
     #[inline(always)]
     pub(crate) fn set_tilt(&mut self, sin: L, cos: L) {
+        self.set_tilt_above(sin, cos, L::splat(0.0));
+    }
+
+    /// The same with another least cosine.
+    #[inline(always)]
+    pub(crate) fn set_tilt_above(&mut self, sin: L, cos: L, least: L) {
         self.sin = sin.max(L::splat(LEAST_SIN));
-        self.cos = cos.max(L::splat(0.0));
+        self.cos = cos.max(least);
     }
 
     /// Sets the tilt of a coin that is exactly on its side.

@@ -151,6 +151,13 @@ impl Toss {
         self.place.align(-1.0, 0.0);
     }
 
+    /// Reverses the axis of the folded frame at any tilt, so that the other rim of a coin with a conical
+    /// edge becomes the lower one.
+    pub(crate) fn turn_over(&mut self) {
+        self.switch_rim();
+        self.motion.cos = -self.motion.cos;
+    }
+
     /// The state in SI units in the laboratory.
     pub(crate) fn state(&self, units: &Units) -> State {
         self.place

@@ -156,7 +156,11 @@ fn spun_coins_and_wheels_slow_down_at_the_known_rates() {
         pivoting: 1.0,
     };
     // the contact lies at H/2 from the vertical through the centre: compare with it on the axis
-    let thin = Model { half: 0.0, ..model };
+    let thin = Model {
+        half: 0.0,
+        rims: [(model.radius, 0.0); 2],
+        ..model
+    };
     let spun_rates = rates(&thin, &spun, Contact::Slip(Vector2::zeros()), twist);
     let slowing = -spun_rates.spin.z;
     assert!((slowing - textbook::spun_coin_deceleration(&thin)).abs() < 1e-7);

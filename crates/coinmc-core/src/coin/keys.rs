@@ -9,6 +9,7 @@ use crate::schema::{
 const LENGTH: Bounds = Bounds::closed(1e-9, 1e6);
 /// The same in mm.
 const MILLIMETRES: Bounds = Bounds::closed(1e-6, 1e9);
+const DRAFT: &str = "draft_deg";
 const BY_HEIGHT: Condition = Condition::Either(&[
     Condition::Given("height_m"),
     Condition::Given("height_mm"),
@@ -24,6 +25,7 @@ impl CoinError {
             Self::Radius(_) => "radius_m",
             Self::Mass(_) => "mass_kg",
             Self::RimRadius { .. } => "rim_radius_m",
+            Self::Draft { .. } | Self::RoundedDraft => DRAFT,
             Self::AxialMoment { .. } => "axial_moment_kg_m2",
             Self::TransverseMoment { .. } => "transverse_moment_kg_m2",
         }
@@ -85,6 +87,8 @@ impl Coin {
             .with_mass(values.number("mass_kg")?)
             .map_err(blame)?
             .with_rim_radius(values.optional("rim_radius_m")?.unwrap_or(0.0))
+            .map_err(blame)?
+            .with_draft(values.optional(DRAFT)?.unwrap_or(0.0))
             .map_err(blame)?;
         if axial.is_none() && transverse.is_none() {
             return Ok(coin);
@@ -155,6 +159,13 @@ fn matter() -> Vec<Field> {
             "Radius r of the rounding of both rims, m, below R and H/2: the coin is a smaller cylinder \
                  with a layer of thickness r all around. 0, or absent: sharp edges.",
             Bounds::closed(0.0, 1e6),
+            Absent::Omitted,
+        ),
+        number(
+            DRAFT,
+            "Angle of the edge with the axis, degrees, of a coin with a conical edge (draft). R is then the \
+             radius of the wider face: of heads if above 0, of tails if below. 0, or absent: a cylinder.",
+            Coin::DRAFT_DEG,
             Absent::Omitted,
         ),
         number(

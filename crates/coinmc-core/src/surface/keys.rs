@@ -6,7 +6,7 @@ use crate::schema::{
     Absent, Bounds, Condition, Fallback, Field, Kind, ReadError, Rule, TableKind, Value, Values,
     Word, choice, default, field, number,
 };
-use crate::{Coin, EngineError, Material, Roughness, TableTilt};
+use crate::{Coin, EngineError, Material, Roughness, SurfaceError, TableTilt};
 
 /// Lengths and speeds: typing errors end here.
 const LARGE: Bounds = Bounds::closed(0.0, 1e6);
@@ -132,7 +132,42 @@ impl Surface {
             })
             .map_err(|error| ReadError::new(error.to_string()))?
             .with_tilt(tilt)
-            .map_err(|error| ReadError::new(error.to_string()).at(TILT))
+            .map_err(|error| ReadError::new(error.to_string()).at(TILT))?
+            .for_coin(coin)
+    }
+
+    /// The surface, if the coin is modelled on it.
+    fn for_coin(self, coin: &Coin) -> Result<Self, ReadError> {
+        let Some((key, ground)) = self.unfit_for(coin) else {
+            return Ok(self);
+        };
+        Err(ReadError::new(SurfaceError::Conical(ground).to_string()).at(key))
+    }
+
+    /// What of this surface is not modelled with this coin: the key of a config, and in words.
+    pub(crate) fn unfit_for(&self, coin: &Coin) -> Option<(&'static str, &'static str)> {
+        if !coin.is_conical() {
+            return None;
+        }
+        [
+            (
+                self.given_roughness().is_some(),
+                "roughness_slope",
+                "on rough ground: `coin.draft_deg` or `surface.roughness_slope` must be 0",
+            ),
+            (
+                self.table_radius_m().is_some(),
+                TABLE_RADIUS,
+                "on a table with an edge: `coin.draft_deg` must be 0 or `surface.table_radius_m` absent",
+            ),
+            (
+                self.tilt().is_some(),
+                TILT,
+                "on a tilted table: `coin.draft_deg` or `surface.table_tilt_deg` must be 0",
+            ),
+        ]
+        .into_iter()
+        .find_map(|(is_so, key, ground)| is_so.then_some((key, ground)))
     }
 }
 

@@ -87,6 +87,11 @@ pub enum DesignError {
     /// There is no such coin, or there are several.
     #[error("no single thickness gives the side this probability; `coinmc fair` shows the curve")]
     NoSingleRoot,
+    /// The config asks for a conical edge.
+    #[error(
+        "solids are cylinders with sharp, rounded or chamfered rims: `coin.draft_deg` must be 0"
+    )]
+    Conical,
 }
 
 /// A coin that has been designed, and what is known of it.
@@ -125,6 +130,14 @@ pub fn design(
     let template = template
         .clone()
         .with_size(Size::Diameter(coin.diameter_m))?;
+    let plan = template.plan(&[("coin.ratio", "1.0".to_owned())])?;
+    if plan
+        .points
+        .iter()
+        .any(|point| point.scene.coin.is_conical())
+    {
+        return Err(DesignError::Conical);
+    }
     let template = template.with_coins_made(move |made| coin.numbers(made));
     let fair = fair(
         &template,

@@ -42,8 +42,9 @@ impl PrintedCoin {
     /// taken as uniform: no answer lies there.
     pub(super) fn numbers(&self, coin: &Coin) -> CoinNumbers {
         let mut numbers = vec![];
-        if let Edge::Rounded { radius_m } = self.edge {
-            numbers.push(("rim_radius_m", radius_m));
+        // a chamfer acts like a rounding of its size (docs/methods/space.md)
+        if let Edge::Rounded { radius_m: size_m } | Edge::Chamfered { size_m } = self.edge {
+            numbers.push(("rim_radius_m", size_m));
         }
         let shape = self.shape(coin.height_m());
         if let Some(mass) = shape.ok().and_then(|shape| self.mass(&shape).ok()) {

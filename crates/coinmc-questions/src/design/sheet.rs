@@ -93,7 +93,7 @@ impl Page {
                 format!("Rims rounded with {} mm.", compact(1e3 * radius_m))
             }
             Edge::Chamfered { size_m } => format!(
-                "Rims cut at 45° by {} mm; the answer is that of sharp rims.",
+                "Rims cut at 45° by {} mm; the answer is that of rims rounded with as much.",
                 compact(1e3 * size_m)
             ),
         });

@@ -260,17 +260,20 @@ fn checked(template: &Template, question: &Question) -> Result<[f64; 2], Questio
     }
 }
 
-/// The natural range of the ratio: no coin thinner than its own rims.
+/// The natural range of the ratio: no coin thinner than its own rims, or that would not rest on its edge.
 fn ratios(template: &Template) -> Result<[f64; 2], QuestionError> {
     const RANGE: [f64; 2] = [0.05, 4.0];
     /// A thickness above that of both rims, H = 2r.
     const CLEAR: f64 = 1.1;
+    /// The same above the least ratio at which a coin rests on its conical edge.
+    const RESTS: f64 = 1.02;
     let [from, to] = RANGE;
     // where the radius depends on the ratio, it is the least for the thickest coin
     let plan = template.plan(&[("coin.ratio", format!("{to:?}"))])?;
-    let rims = plan.points.iter().map(|point| {
+    let least = plan.points.iter().map(|point| {
         let coin = &point.scene.coin;
-        2.0 * coin.rim_radius_m() / coin.radius_m()
+        let [resting, _] = Coin::ratios_with_draft(coin.draft_deg());
+        (CLEAR * 2.0 * coin.rim_radius_m() / coin.radius_m()).max(RESTS * resting)
     });
-    Ok([from.max(CLEAR * rims.fold(0.0, f64::max)), to])
+    Ok([least.fold(from, f64::max), to])
 }

@@ -1,4 +1,4 @@
-//! The coin as a cylinder in parallel projection.
+//! The coin in parallel projection: a cylinder, or the frustum of a cone.
 //!
 //! Its two faces are ellipses with the half axes R and R|u·eye|, displaced along the projection of
 //! u. The half of its side next to heads is drawn in a pale shade of their colour, likewise for
@@ -42,11 +42,14 @@ pub(super) fn draw(
     } else {
         0.0
     };
-    let radius = scale * coin.radius_m();
-    let minor = radius * towards.abs();
-    let half = 0.5 * scale * coin.height_m() * length;
+    let ring = |radius_m: f64, distance_m: f64| Ring {
+        radius: scale * radius_m,
+        minor: scale * radius_m * towards.abs(),
+        // SVG's y axis points down: the near face lies above the centre
+        at: scale * distance_m * length,
+    };
+    let [near_rim, middle, far_rim] = rings(coin, towards >= 0.0).map(|[r, z]| ring(r, z));
     let [x, y] = at;
-    // SVG's y axis points down: the near face lies at −half
     canvas.raw(&format!(
         "<g transform=\"translate({} {}) rotate({})\" opacity=\"{}\" stroke=\"{EDGE}\" stroke-width=\"0.6\">",
         px(x),
@@ -54,32 +57,61 @@ pub(super) fn draw(
         px(angle),
         px(opacity)
     ));
-    canvas.raw(&tube(radius, minor, half, 0.0, far[1]));
-    canvas.raw(&rim(radius, minor, half, far[0]));
-    canvas.raw(&tube(radius, minor, 0.0, -half, near[1]));
-    canvas.raw(&face(radius, minor, -half, near[0]));
+    canvas.raw(&tube(far_rim, middle, far[1]));
+    canvas.raw(&rim(far_rim, far[0]));
+    canvas.raw(&tube(middle, near_rim, near[1]));
+    canvas.raw(&face(near_rim, near[0]));
     canvas.raw("</g>");
 }
 
-/// The side from `low` (down the picture, seen from outside) to `high`.
-fn tube(radius: f64, minor: f64, low: f64, high: f64, fill: &str) -> String {
-    let [r, m, low, high] = [radius, minor, low, high].map(px);
+/// A circle about the axis: half axes of its picture, and where that is down the picture.
+#[derive(Clone, Copy)]
+struct Ring {
+    radius: f64,
+    minor: f64,
+    at: f64,
+}
+
+/// Radius and place along the axis, from the centre of mass away from the eye, of the near face, the
+/// middle of the side and the far face.
+fn rings(coin: &Coin, heads_is_near: bool) -> [[f64; 2]; 3] {
+    if !coin.is_conical() {
+        let (radius, half) = (coin.radius_m(), 0.5 * coin.height_m());
+        return [[radius, -half], [radius, 0.0], [radius, half]];
+    }
+    let [heads, tails] = coin.rims();
+    let (near, far) = if heads_is_near {
+        (heads, tails)
+    } else {
+        (tails, heads)
+    };
+    let (near, far) = (
+        [near.radius_m, -near.distance_m],
+        [far.radius_m, far.distance_m],
+    );
+    [near, [0, 1].map(|i| 0.5 * (near[i] + far[i])), far]
+}
+
+/// The side from one ring to another further up the picture.
+fn tube(from: Ring, to: Ring, fill: &str) -> String {
+    let [r, m, low] = [from.radius, from.minor, from.at].map(px);
+    let [to_r, to_m, high] = [to.radius, to.minor, to.at].map(px);
     format!(
-        "<path d=\"M-{r} {high}L-{r} {low}A{r} {m} 0 0 0 {r} {low}L{r} {high}A{r} {m} 0 0 1 -{r} {high}Z\" fill=\"{fill}\"/>"
+        "<path d=\"M-{to_r} {high}L-{r} {low}A{r} {m} 0 0 0 {r} {low}L{to_r} {high}A{to_r} {to_m} 0 0 1 -{to_r} {high}Z\" fill=\"{fill}\"/>"
     )
 }
 
 /// The visible half of the far face's rim.
-fn rim(radius: f64, minor: f64, low: f64, colour: &str) -> String {
-    let [r, m, low, width] = [radius, minor, low, stroke(radius)].map(px);
+fn rim(ring: Ring, colour: &str) -> String {
+    let [r, m, low, width] = [ring.radius, ring.minor, ring.at, stroke(ring.radius)].map(px);
     format!(
         "<path d=\"M-{r} {low}A{r} {m} 0 0 0 {r} {low}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\"/>"
     )
 }
 
 /// The near face; seen from the edge it is a line, where an ellipse would be invisible.
-fn face(radius: f64, minor: f64, high: f64, colour: &str) -> String {
-    let [r, m, high, width] = [radius, minor, high, stroke(radius)].map(px);
+fn face(ring: Ring, colour: &str) -> String {
+    let [r, m, high, width] = [ring.radius, ring.minor, ring.at, stroke(ring.radius)].map(px);
     format!(
         "<path d=\"M-{r} {high}A{r} {m} 0 0 1 {r} {high}A{r} {m} 0 0 1 -{r} {high}Z\" fill=\"{colour}\" stroke=\"{colour}\" stroke-width=\"{width}\"/>"
     )

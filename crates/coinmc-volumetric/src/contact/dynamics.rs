@@ -29,6 +29,8 @@ pub(crate) struct Dynamics {
     /// 1/smoothing_time where friction holds the rocking of the coin, else 0: see
     /// [`held_friction`](super::held_friction).
     pub(super) holding_rate: f64,
+    /// The least cosine of the tilt: below 0 where a coin on the edge of a cone leans on its wider rim.
+    pub(super) least_cos: f64,
     /// The pull of a tilted table, along x and y of the coin's frame at present.
     pub(crate) pull: Option<[f64; 2]>,
 }
@@ -84,7 +86,19 @@ impl Dynamics {
             } else {
                 0.0
             },
+            least_cos: 0.0,
             pull: None,
+        }
+    }
+
+    /// The same dynamics on a rim that need not be at the distance 1 from the centre, and on which the
+    /// coin leans up to this cosine of the tilt.
+    pub(crate) fn on_rim(self, least_cos: f64) -> Self {
+        let Body { radius, half, .. } = self.body;
+        Self {
+            inverse_det: 1.0 / (1.0 + (radius * radius + half * half) * self.inverse_kt),
+            least_cos: least_cos.min(0.0),
+            ..self
         }
     }
 
@@ -157,8 +171,9 @@ impl Dynamics {
                 ..self.body
             },
             holding_rate: if HOLDS { self.holding_rate } else { 0.0 },
-            // a batch knows no places
+            // a batch knows no places and no cones
             pull: None,
+            least_cos: 0.0,
             ..*self
         }
     }

@@ -164,7 +164,7 @@ impl ContactSolver<'_> {
     fn exit_of_repetition(&self, phase: &Phase) -> Exit {
         // u_z is largest where the tilt is smallest
         let [highest, lowest] = phase.tilts.map(libm::cos);
-        let half = self.rules.dynamics.body.half;
+        let half = self.rules.rule.balance();
         if !self.rules.rule.is_tilting() {
             Exit::NeverSettles
         } else if highest < half - BALANCE_ERROR {

@@ -86,7 +86,7 @@ impl ContactSolver<'_> {
         )
         .state;
         // a long step may pass the side slightly and return
-        state[TILT] = state[TILT].clamp(0.0, FRAC_PI_2);
+        state[TILT] = state[TILT].clamp(0.0, self.rules.side.max(FRAC_PI_2));
         let (mut motion, mut spin) = (Motion::still(), Spin::still());
         place_below(dynamics, &mut state, &mut motion, &mut spin, ceiling);
         (motion, spin)

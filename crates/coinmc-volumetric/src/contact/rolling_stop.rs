@@ -17,7 +17,7 @@ pub(crate) struct RollingStop {
     /// |v₀|.
     speed: f64,
     /// Time until the coin rests.
-    pub(super) time: f64,
+    pub(crate) time: f64,
     dragged: bool,
 }
 
@@ -37,7 +37,8 @@ impl RollingStop {
         Self::with(a, b, speed)
     }
 
-    fn with(a: f64, b: f64, speed: f64) -> Self {
+    /// Rolling that slows down at a + bv.
+    pub(crate) fn with(a: f64, b: f64, speed: f64) -> Self {
         let dragged = b * speed >= NEGLIGIBLE_DRAG * a;
         let time = if dragged {
             libm::log1p(b * speed / a) / b
@@ -67,7 +68,7 @@ impl RollingStop {
     }
 
     /// Whether drag slows the coin down.
-    pub(super) fn slows(&self) -> bool {
+    pub(crate) fn slows(&self) -> bool {
         self.b > 0.0
     }
 
@@ -88,7 +89,7 @@ impl RollingStop {
 
     /// A number of equal pieces over which an observer's position can be found by Simpson's rule:
     /// exact without drag.
-    pub(super) fn pieces(&self) -> f64 {
+    pub(crate) fn pieces(&self) -> f64 {
         (10.0 * self.b * self.time).ceil().max(1.0)
     }
 }

@@ -26,7 +26,7 @@ pub(crate) struct ContactRules<'a> {
 impl ContactRules<'_> {
     /// Which face is decided by the motion now.
     #[inline(always)]
-    pub(super) fn decide(&self, motion: &Motion<f64>, spin: &Spin<f64>) -> Decided {
+    pub(crate) fn decide(&self, motion: &Motion<f64>, spin: &Spin<f64>) -> Decided {
         let body = &self.dynamics.body;
         self.rule.decide(&motion.decision_state(body, spin))
     }

@@ -229,7 +229,7 @@ impl ContactSolver<'_> {
     }
 
     /// Whether a coin in contact in this state presses on the surface and tilts away from its side.
-    pub(super) fn tilts_from_side(&self, state: RimState<f64>) -> bool {
+    pub(crate) fn tilts_from_side(&self, state: RimState<f64>) -> bool {
         let now = self.choose_phase(state).now;
         now.press > 0.0 && now.state[OMEGA_Y] < 0.0
     }

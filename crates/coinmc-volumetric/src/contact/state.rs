@@ -34,7 +34,10 @@ pub(crate) fn place<L: Lane>(
     motion: &mut Motion<L>,
     spin: &mut Spin<L>,
 ) {
-    place_at_tilt(dynamics, state, motion, spin, Motion::set_tilt);
+    let least = L::splat(dynamics.least_cos);
+    place_at_tilt(dynamics, state, motion, spin, |motion, sin, cos| {
+        motion.set_tilt_above(sin, cos, least);
+    });
 }
 
 /// The same for a coin whose axis may point down.

@@ -32,6 +32,7 @@ fn model(dynamics: &Dynamics, gyroscopic: bool) -> Model {
     Model {
         radius: dynamics.body.radius,
         half: dynamics.body.half,
+        rims: [(dynamics.body.radius, dynamics.body.half); 2],
         rim: dynamics.body.rim,
         transverse: dynamics.body.kt,
         axial: dynamics.body.ka,

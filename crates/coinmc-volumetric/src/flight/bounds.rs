@@ -1,7 +1,7 @@
 //! Upper bounds of the motion along a flight: what makes the search for the first contact safe.
 
 use super::orbit::Orbit;
-use crate::body::Body;
+use super::profile::Profile;
 use coinmc_lanes::Lane;
 
 /// Fraction of its distance from the vertical that u may travel while [`Bounds::jerk`] holds.
@@ -65,15 +65,15 @@ impl<L: Lane> Bounds<L> {
     /// distance of u from the vertical is at least 1 − [`REACH`] of `sin`, its value now. Derived
     /// in `search`, under *Lower bounds of f*.
     #[inline(always)]
-    pub(crate) fn jerk(&self, body: &Body, sin: L, inverse_sin: L) -> (L, L) {
+    pub(crate) fn jerk(&self, body: &impl Profile, sin: L, inverse_sin: L) -> (L, L) {
         const CROSS: f64 = 3.0 / (1.0 - REACH);
         // 3·2/√27 over (1 − REACH)², a rounding up
         const CUBE: f64 = 1.154_701 / ((1.0 - REACH) * (1.0 - REACH));
         let turns = self.wander * inverse_sin;
         let bends =
             self.rate * self.rate + turns * (L::splat(CROSS) * self.rate + L::splat(CUBE) * turns);
-        let jerk = L::splat(body.half) * self.rate * self.swing
-            + L::splat(body.radius) * self.wander * bends;
+        let jerk = L::splat(body.half()) * self.rate * self.swing
+            + L::splat(body.radius()) * self.wander * bends;
         (jerk, self.reach * sin)
     }
 }
@@ -81,7 +81,7 @@ impl<L: Lane> Bounds<L> {
 impl<L: Lane> Orbit<L> {
     /// Bounds of the whole flight.
     #[inline(always)]
-    pub(crate) fn extent(&self, body: &Body) -> Extent<L> {
+    pub(crate) fn extent(&self, body: &impl Profile) -> Extent<L> {
         let amplitude =
             (self.state.b[2] * self.state.b[2] + self.state.d[2] * self.state.d[2]).sqrt();
         Extent {
@@ -114,8 +114,13 @@ impl<L: Lane> Orbit<L> {
 /// within `amplitude` of ±`middle`. h increases up to |uz| = half, where it is 1, and decreases
 /// beyond.
 #[inline(always)]
-fn highest<L: Lane>(body: &Body, middle: L, amplitude: L) -> L {
-    let (one, half) = (L::splat(1.0), L::splat(body.half));
+fn highest<L: Lane, P: Profile>(body: &P, middle: L, amplitude: L) -> L {
+    let (one, half) = (L::splat(1.0), L::splat(body.half()));
+    if P::ALONE {
+        // of whichever face is up: never too low
+        let distance = body.half() * body.half() + body.radius() * body.radius();
+        return L::splat(distance.sqrt() * (1.0 + 1e-15));
+    }
     let low = (middle - amplitude).max(L::splat(0.0));
     let high = (middle + amplitude).min(one);
     let nearest = half.max(low).min(high);
@@ -123,5 +128,5 @@ fn highest<L: Lane>(body: &Body, middle: L, amplitude: L) -> L {
         .max(L::splat(0.0))
         .sqrt();
     // a margin for one rounding of each term: the bound must not be too low
-    (half * nearest + L::splat(body.radius) * sin) * L::splat(1.0 + 1e-15)
+    (half * nearest + L::splat(body.radius()) * sin) * L::splat(1.0 + 1e-15)
 }

@@ -1,7 +1,7 @@
 //! The gap between the lowest point of the coin and the surface, along a flight.
 
 use super::orbit::Orbit;
-use crate::body::Body;
+use super::profile::Profile;
 use crate::motion::LEAST_SIN;
 use coinmc_lanes::Lane;
 
@@ -30,19 +30,19 @@ pub(crate) struct Gap<L> {
 impl<L: Lane> Orbit<L> {
     /// The gap at time `t`.
     #[inline(always)]
-    pub(crate) fn gap(&self, body: &Body, t: L) -> Gap<L> {
+    pub(crate) fn gap(&self, body: &impl Profile, t: L) -> Gap<L> {
         self.gap_at(body, self.phase(t), self.fall(t))
     }
 
     /// The gap at t = 0, where the phase is known to be 0.
     #[inline(always)]
-    pub(crate) fn first_gap(&self, body: &Body) -> Gap<L> {
+    pub(crate) fn first_gap(&self, body: &impl Profile) -> Gap<L> {
         let phase = (L::splat(0.0), L::splat(1.0), self.state.rate);
         self.gap_at(body, phase, (self.state.z, self.state.vz))
     }
 
     #[inline(always)]
-    fn gap_at(&self, body: &Body, (s, c, rate): (L, L, L), (z, vz): (L, L)) -> Gap<L> {
+    fn gap_at(&self, body: &impl Profile, (s, c, rate): (L, L, L), (z, vz): (L, L)) -> Gap<L> {
         let at = |i: usize| self.state.a[i] + (self.state.b[i] * c + self.state.d[i] * s);
         let (ux, uy, uz) = (at(0), at(1), at(2));
         let sin = (ux * ux + uy * uy).sqrt().max(L::splat(LEAST_SIN));
@@ -53,7 +53,7 @@ impl<L: Lane> Orbit<L> {
             uz_curve -= L::splat(self.drag.angular) * uz_rate;
             fall_curve -= L::splat(self.drag.linear) * vz;
         }
-        let (radius, half) = (L::splat(body.radius), L::splat(body.half));
+        let radius = L::splat(body.radius());
         // h = half|uz| + radius·sin; only this form of sin' keeps its digits near sin = 0
         let inverse = L::splat(1.0) / sin;
         let across_rate = [
@@ -62,7 +62,7 @@ impl<L: Lane> Orbit<L> {
         ];
         let sin_rate = (ux * across_rate[0] + uy * across_rate[1]) * inverse;
         // and sin'' = −(uz uz'' + uz'²/sin²)/sin
-        let lever = half.copysign(uz) - radius * uz * inverse;
+        let lever = body.lever(uz) - radius * uz * inverse;
         let bend = radius * uz_rate * uz_rate * (inverse * inverse * inverse);
         Gap {
             z,
@@ -73,8 +73,8 @@ impl<L: Lane> Orbit<L> {
             across: [ux, uy],
             across_rate,
             sin_rate,
-            height: z - (half * uz.abs() + radius * sin),
-            slope: vz - (half.copysign(uz) * uz_rate + radius * sin_rate),
+            height: z - (body.lift(uz) + radius * sin),
+            slope: vz - (body.lever(uz) * uz_rate + radius * sin_rate),
             curvature: fall_curve - uz_curve * lever + bend,
         }
     }

@@ -4,11 +4,13 @@ mod bounds;
 mod departure;
 mod gap;
 mod orbit;
+mod profile;
 mod search;
 
 pub(crate) use bounds::Extent;
 pub(crate) use departure::Departure;
 pub(crate) use orbit::{Orbit, OrbitState};
+pub(crate) use profile::OneRim;
 pub(crate) use search::{MAX_EVALUATIONS, Search, first_contact, least_time};
 
 #[cfg(test)]

@@ -38,6 +38,7 @@ use super::bounds::{Bounds, Extent};
 use super::departure::Departure;
 use super::gap::Gap;
 use super::orbit::Orbit;
+use super::profile::Profile;
 use crate::body::Body;
 use crate::motion::Motion;
 use coinmc_lanes::{Lane, Mask};
@@ -56,6 +57,9 @@ pub(crate) const MAX_EVALUATIONS: u32 = 20_000;
 const LIFT_OFF_STEP: f64 = 1e-4;
 /// The same for a point that rebounds.
 const REBOUND_STEP: f64 = 1e-12;
+
+/// A time that never comes.
+const NEVER: f64 = 1e30;
 
 /// Where the search ended.
 #[derive(Debug, Clone, Copy)]
@@ -94,9 +98,9 @@ pub(crate) fn least_time<L: Lane>(orbit: &Orbit<L>, motion: &Motion<L>, lifts_of
 /// Finds the first contact of a flight. On return t = 0 of the orbit may have moved: to where the
 /// coin was last too high for any contact. `least` comes from [`least_time`].
 #[inline(always)]
-pub(crate) fn first_contact<L: Lane>(
+pub(crate) fn first_contact<L: Lane, P: Profile>(
     orbit: &mut Orbit<L>,
-    body: &Body,
+    body: &P,
     departure: Departure,
     least: L,
 ) -> Found<L> {
@@ -148,12 +152,12 @@ impl<L: Lane> Search<L> {
     }
 
     #[inline(always)]
-    fn step(&mut self, orbit: &Orbit<L>, body: &Body, bounds: &Bounds<L>, now: &Gap<L>) {
+    fn step<P: Profile>(&mut self, orbit: &Orbit<L>, body: &P, bounds: &Bounds<L>, now: &Gap<L>) {
         self.stop_at_contact(now);
         if (self.active & !self.bracketed).any() {
             self.approach(orbit, body, bounds, now);
         }
-        self.close_in(orbit, now);
+        self.close_in_on::<P>(orbit, now);
     }
 
     /// Ends the search of bracketed lanes whose gap is closed.
@@ -169,7 +173,7 @@ impl<L: Lane> Search<L> {
     pub(crate) fn approach(
         &mut self,
         orbit: &Orbit<L>,
-        body: &Body,
+        body: &impl Profile,
         bounds: &Bounds<L>,
         now: &Gap<L>,
     ) {
@@ -227,6 +231,12 @@ impl<L: Lane> Search<L> {
     /// bracket.
     #[inline(always)]
     pub(crate) fn close_in(&mut self, orbit: &Orbit<L>, now: &Gap<L>) {
+        self.close_in_on::<Body>(orbit, now);
+    }
+
+    /// The same for any shape.
+    #[inline(always)]
+    fn close_in_on<P: Profile>(&mut self, orbit: &Orbit<L>, now: &Gap<L>) {
         let lanes = self.bracketed & self.active;
         if !lanes.any() {
             return;
@@ -245,7 +255,11 @@ impl<L: Lane> Search<L> {
         let same = next.le(self.time) & self.time.le(next);
         // the gap has a kink where u becomes horizontal and the other rim the lowest: a step beyond
         // it has followed the wrong rim
-        let one_rim = L::splat(0.0).le(now.uz * (now.uz + now.uz_rate * step));
+        let one_rim = if P::ALONE {
+            L::Mask::splat(true)
+        } else {
+            L::splat(0.0).le(now.uz * (now.uz + now.uz_rate * step))
+        };
         let resolved = inside & one_rim & orbit.resolves(step, now.sin);
         let done = lanes & (closed | same | resolved);
         self.active = self.active & !done;
@@ -276,14 +290,14 @@ fn high_step<L: Lane>(orbit: &Orbit<L>, clear: L, z: L, vz: L) -> L {
 
 /// Times for which the gaps of the lowest rim and of the other certainly stay positive.
 #[inline(always)]
-fn lower_bound_steps<L: Lane>(
+fn lower_bound_steps<L: Lane, P: Profile>(
     orbit: &Orbit<L>,
-    body: &Body,
+    body: &P,
     bounds: &Bounds<L>,
     now: &Gap<L>,
 ) -> (L, L) {
     const SMALL: f64 = 0.05;
-    let (radius, half) = (L::splat(body.radius), L::splat(body.half));
+    let (radius, half) = (L::splat(body.radius()), L::splat(body.half()));
     let inverse = L::splat(1.0) / now.sin;
     // negative by rounding at most
     let gap = now.height.max(L::splat(0.0));
@@ -295,7 +309,7 @@ fn lower_bound_steps<L: Lane>(
         rise: L::splat(2.0) * half * now.uz.abs(),
         climb: L::splat(2.0) * half * now.uz_rate * L::splat(1.0).copysign(now.uz),
     };
-    let (mut own, other) = rims.steps(now.slope, bend);
+    let (mut own, other) = rims.steps::<P>(now.slope, bend);
     if !orbit.is_dragged() {
         own = own.max(widening_step(body, bounds, now, inverse));
     }
@@ -305,9 +319,9 @@ fn lower_bound_steps<L: Lane>(
     }
     // without the part of sin', which these bounds replace
     let bare = now.slope + radius * now.sin_rate;
-    let coarse = rims.steps(bare - radius * bounds.wander, across);
+    let coarse = rims.steps::<P>(bare - radius * bounds.wander, across);
     let (chord, until) = chord(now);
-    let straight = rims.steps(bare - radius * chord, across + radius * bounds.bend);
+    let straight = rims.steps::<P>(bare - radius * chord, across + radius * bounds.bend);
     (
         L::select(flat, own.max(coarse.0).max(straight.0.min(until)), own),
         L::select(flat, other.max(coarse.1).max(straight.1.min(until)), other),
@@ -317,7 +331,12 @@ fn lower_bound_steps<L: Lane>(
 /// Time for which a widening gap of the lowest rim certainly stays open, from its curvature now and
 /// the bound of its third derivative. 0 if the gap does not widen.
 #[inline(always)]
-fn widening_step<L: Lane>(body: &Body, bounds: &Bounds<L>, now: &Gap<L>, inverse_sin: L) -> L {
+fn widening_step<L: Lane>(
+    body: &impl Profile,
+    bounds: &Bounds<L>,
+    now: &Gap<L>,
+    inverse_sin: L,
+) -> L {
     let zero = L::splat(0.0);
     let (jerk, until) = bounds.jerk(body, now.sin, inverse_sin);
     let (curvature, bend) = (L::splat(0.5) * now.curvature, L::splat(1.0 / 3.0) * jerk);
@@ -335,11 +354,13 @@ struct Rims<L> {
 impl<L: Lane> Rims<L> {
     /// For each rim, the time until a gap with this rate of change and bend has closed.
     #[inline(always)]
-    fn steps(&self, slope: L, bend: L) -> (L, L) {
-        (
-            first_root(self.gap, slope, bend),
-            first_root(self.gap + self.rise, slope + self.climb, bend),
-        )
+    fn steps<P: Profile>(&self, slope: L, bend: L) -> (L, L) {
+        let own = first_root(self.gap, slope, bend);
+        if P::ALONE {
+            return (own, L::splat(NEVER));
+        }
+        let other = first_root(self.gap + self.rise, slope + self.climb, bend);
+        (own, other)
     }
 }
 
@@ -364,7 +385,6 @@ fn chord<L: Lane>(now: &Gap<L>) -> (L, L) {
 /// 2 gap/(√… − slope) for slope < 0.
 #[inline(always)]
 fn first_root<L: Lane>(gap: L, slope: L, bend: L) -> L {
-    const NEVER: f64 = 1e30;
     let zero = L::splat(0.0);
     let discriminant = slope * slope + L::splat(2.0) * gap * bend;
     let real = zero.le(discriminant);

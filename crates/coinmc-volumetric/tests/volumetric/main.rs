@@ -3,6 +3,7 @@
 //! are fixed, so no test fails by chance; "false alarms" says how often it would with another seed.
 
 mod common;
+mod conical;
 mod decision;
 mod determinism;
 mod flight;

@@ -22,6 +22,12 @@ pub(super) const ENGINE: EngineDescriptor = EngineDescriptor {
             help: "remove `rim_radius_m`, or toss in space with [engine.volumetric]",
         },
         Unmodelled {
+            table: "coin",
+            key: "draft_deg",
+            message: "closed forms know cylinders only: `coin.draft_deg` must be 0",
+            help: "remove `draft_deg`, or toss in space with [engine.volumetric]",
+        },
+        Unmodelled {
             table: "surface",
             key: "table_radius_m",
             message: "closed forms know no edge of the table: `surface.table_radius_m` must be absent",

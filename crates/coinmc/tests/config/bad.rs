@@ -42,6 +42,8 @@ const NUMBERS: &[Case] = &[
     ("1.2", "1979-05-27", &[(3, 9, "found a date")]),
     ("1.2", "1.2\nradius_m = 0", &[(4, 12, "`coin.radius_m` must be from 1e-9 to 1e6")]),
     ("1.2", "1.2\nrim_radius_m = 0.001", &[(4, 16, "engine.flat models sharp rims: `coin.rim_radius_m` must be 0")]),
+    ("1.2", "1.2\ndraft_deg = 4.0", &[(4, 13, "engine.flat models cylinders: `coin.draft_deg` must be 0")]),
+    ("1.2", "1.2\ndraft_deg = 45", &[(4, 13, "`coin.draft_deg` must be above -45 and below 45, found `45`")]),
     ("1.2", "1.2\nrim_radius_m = -1e-4", &[(4, 16, "`coin.rim_radius_m` must be from 0 to 1e6")]),
     ("1.2", "1.2\nmass_kg = -0.0", &[(4, 11, "`coin.mass_kg` must be from 1e-12")]),
     ("0.5", "1.01", &[(5, 15, "`surface.restitution` must be from 0 to 1, found `1.01`")]),

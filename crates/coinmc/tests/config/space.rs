@@ -63,6 +63,53 @@ fn a_rim_rounded_by_half_the_thickness_is_refused() {
     }
 }
 
+/// A coin with a conical edge: read, swept, resolved, and refused where it is not modelled or would not rest
+/// on its edge.
+#[test]
+fn a_conical_edge_is_read_and_refused_where_it_cannot_be() {
+    let plan = parse(IN_SPACE, &["coin.draft_deg=[-10, 0, 10]"]);
+    assert_eq!(column(&plan, "draft_deg"), [-10.0, 0.0, 10.0]);
+    assert_eq!(parse(&plan.resolved_toml, &[]), plan);
+    let [heads, tails] = plan.points[2].scene.coin.rims();
+    assert!(heads.radius_m == 0.01 && tails.radius_m < 0.0086);
+    // without a draft nothing is said of it
+    assert!(!parse(IN_SPACE, &[]).resolved_toml.contains("draft"));
+    let text = IN_SPACE.replace("0.85", "0.85\ndraft_deg = 10.0");
+    for (set, expected) in [
+        (
+            "coin.ratio=0.2",
+            "draft must be below 5.870° to either side",
+        ),
+        (
+            "coin.rim_radius_m=1e-4",
+            "a coin with a conical edge has sharp rims",
+        ),
+        ("surface.table_radius_m=0.3", "on a table with an edge"),
+        ("surface.table_tilt_deg=3", "on a tilted table"),
+        ("surface.material='wood'", "on rough ground"),
+    ] {
+        let set = [set.parse().expect("an override")];
+        let problems = config::parse("cone.toml", &text, &set).unwrap_err();
+        let [problem] = problems.problems() else {
+            panic!("{problems}")
+        };
+        assert!(problem.message.contains(expected), "{problems}");
+    }
+    for engine in ["flat = {}", "rapier = {}", "analytic = {}"] {
+        let text = text
+            .replace("[engine.volumetric]", "")
+            .replace("law = 'moreau'", "");
+        let text = format!("{text}\n[engine]\n{engine}\n");
+        let problems = config::parse("cone.toml", &text, &[]).unwrap_err();
+        let refused =
+            |problem: &config::Problem| problem.message.contains("`coin.draft_deg` must be 0");
+        assert!(
+            problems.problems().iter().any(refused),
+            "{engine}: {problems}"
+        );
+    }
+}
+
 #[test]
 fn every_setting_of_the_toss_in_space_can_be_given() {
     let sets = [
@@ -154,6 +201,8 @@ fn all_physics_and_settings_of_the_toss_in_space_are_in_the_hash() {
         "engine.volumetric.max_impacts=10",
         "surface.restitution_exponent=0.25",
         "coin.rim_radius_m=0.001",
+        "coin.draft_deg=5",
+        "coin.draft_deg=-5",
         "engine.volumetric.time_limit=10",
         "launch.preset=drop",
     ] {

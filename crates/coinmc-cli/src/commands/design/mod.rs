@@ -45,7 +45,7 @@ pub(crate) struct DesignArgs {
     #[arg(long, value_name = "LENGTH", conflicts_with = "chamfer")]
     rim: Option<Length>,
 
-    /// Cut the rims at 45° by this much. The tosses are those of a sharp rim
+    /// Cut the rims at 45° by this much. The tosses are those of rims rounded with this radius
     #[arg(long, value_name = "LENGTH")]
     chamfer: Option<Length>,
 

@@ -3,8 +3,8 @@
 const AROUND = 72;
 
 /** A coin with rounded or sharp rims: positions, normals, and triangles. */
-export function coin(radius, height, rim) {
-  const profile = outline(radius, height / 2, rim);
+export function coin(radius, height, rim, rims) {
+  const profile = rims ? frustum(rims) : outline(radius, height / 2, rim);
   const position = [], normal = [], index = [];
   for (const [r, z, outward, up] of profile) {
     for (let i = 0; i <= AROUND; i += 1) {
@@ -46,6 +46,16 @@ function outline(radius, half, rim) {
   }
   rings.push([radius - rim, -half, 0, -1], [0, -half, 0, -1]);
   return rings;
+}
+
+/** The same of a conical edge: from radius and distance from the centre of heads and of tails. */
+function frustum([[heads, above], [tails, below]]) {
+  const length = Math.hypot(above + below, heads - tails);
+  const [outward, up] = [(above + below) / length, (tails - heads) / length];
+  return [
+    [0, above, 0, 1], [heads, above, 0, 1], [heads, above, outward, up],
+    [tails, -below, outward, up], [tails, -below, 0, -1], [0, -below, 0, -1],
+  ];
 }
 
 /** A ribbon along points on the ground, of some width, a little above it. */

@@ -177,9 +177,10 @@ export class Motion {
 
   /** The coin's lowest point; the middle of a face or line that is lowest as a whole. */
   lowest(state) {
-    const { radius_m, height_m, rim_radius_m: r } = this.scene;
+    const { radius_m, height_m, rim_radius_m: r, rims_m } = this.scene;
     const u = turn(state.turn, 0, 0, 1);
     const across = Math.hypot(u[0], u[1]);
+    if (rims_m) return lowestOfRims(rims_m, state.place, u, across);
     const up = Math.abs(u[2]) < 1e-9 ? 0 : Math.sign(u[2]) * (height_m / 2 - r);
     const out = across < 1e-9 ? 0 : (radius_m - r) / across;
     const p = state.place;
@@ -189,4 +190,20 @@ export class Motion {
       p[2] - u[2] * up - across * across * out - r,
     ];
   }
+}
+
+/** The lowest point of either rim of a conical coin; of a coin on its edge, the middle of both. */
+function lowestOfRims([heads, tails], p, u, across) {
+  const point = ([radius, distance], end) => {
+    const out = across < 1e-9 ? 0 : radius / across;
+    const up = end * distance;
+    return [
+      p[0] + u[0] * up + u[0] * u[2] * out,
+      p[1] + u[1] * up + u[1] * u[2] * out,
+      p[2] + u[2] * up - across * across * out,
+    ];
+  };
+  const [a, b] = [point(heads, 1), point(tails, -1)];
+  if (Math.abs(a[2] - b[2]) < 1e-9 * heads[0]) return a.map((x, i) => (x + b[i]) / 2);
+  return a[2] < b[2] ? a : b;
 }

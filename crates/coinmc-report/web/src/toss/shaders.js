@@ -16,7 +16,7 @@ void main() {
 export const coinFragment = `
 precision highp float;
 uniform vec3 uHeads, uTails, uSide, uTint, uEye;
-uniform float uRadius, uHalf;
+uniform float uRadius, uAbove, uBelow;
 varying vec3 vNormal, vPlace, vWorld;
 float line(float x, float width) {
   float d = abs(fract(x) - 0.5);
@@ -25,7 +25,7 @@ float line(float x, float width) {
 void main() {
   float r = length(vPlace.xy) / uRadius;
   float angle = atan(vPlace.y, vPlace.x);
-  bool face = abs(vPlace.z) > 0.999 * uHalf;
+  bool face = vPlace.z > 0.999 * uAbove || -vPlace.z > 0.999 * uBelow;
   vec3 colour = uSide * mix(0.72, 1.0, line(angle * 48.0 / 6.2832, 0.25));
   if (!face) {
     // a mark that shows how far the coin has rolled

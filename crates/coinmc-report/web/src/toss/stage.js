@@ -108,8 +108,8 @@ export class Stage {
   }
 
   coin(toss, n) {
-    const { radius_m, height_m, rim_radius_m } = toss.scene;
-    const data = geometry.coin(radius_m, height_m, rim_radius_m);
+    const { radius_m, height_m, rim_radius_m, rims_m } = toss.scene;
+    const data = geometry.coin(radius_m, height_m, rim_radius_m, rims_m);
     const several = this.tosses.length > 1;
     const body = this.add(
       data,
@@ -120,7 +120,8 @@ export class Stage {
         uTint: rgb(several ? curveColour(n) : "#8d7a4a"),
         uEye: [0, 0, 0],
         uRadius: radius_m,
-        uHalf: height_m / 2,
+        uAbove: rims_m ? rims_m[0][1] : height_m / 2,
+        uBelow: rims_m ? rims_m[1][1] : height_m / 2,
       }),
     );
     const shadow = this.add(

@@ -1,0 +1,109 @@
+//! A coin with a conical edge, as its lower rim sees it. Units as in [`Body`], with D the distance of the
+//! farther rim from the centre of mass.
+//!
+//! The axis points away from the lower rim, the radius R of which lies h from the centre, and that of the
+//! upper rim, R', h'. Both rims touch where (h + h') c = (R' − R) s: c, s of the tilt at which the coin is
+//! on its edge. For the wider rim c < 0 there, for the narrower one c > 0 with the same size.
+
+use crate::{Body, Coin};
+
+/// The lower rim of a coin with a conical edge, and the upper one.
+///
+/// # Example
+/// ```
+/// use coinmc_core::{Coin, LowerRim};
+/// let coin = Coin::cylinder(1.0, 0.01)?.with_draft(10.0)?;
+/// let [with_heads_up, with_tails_up] = LowerRim::of(&coin);
+/// // with tails up heads is below, the wider face: its axis points down a little where the edge lies
+/// let (_, cos) = with_tails_up.on_edge();
+/// assert!((cos + 10.0_f64.to_radians().sin()).abs() < 1e-15);
+/// assert_eq!(with_heads_up.on_edge().1, -cos);
+/// # Ok::<(), coinmc_core::CoinError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LowerRim {
+    /// R, h and the moments.
+    pub body: Body,
+    /// R', h' and the moments.
+    pub upper: Body,
+}
+
+impl LowerRim {
+    /// With heads up, so that the rim of tails is below, and with tails up.
+    pub fn of(coin: &Coin) -> [Self; 2] {
+        let d = coin.rim_distance_m();
+        let [heads, tails] = coin.rims().map(|rim| Body {
+            radius: rim.radius_m / d,
+            half: rim.distance_m / d,
+            rim: 0.0,
+            kt: coin.transverse_gyration_m2() / (d * d),
+            ka: coin.axial_gyration_m2() / (d * d),
+        });
+        let pair = |body, upper| Self { body, upper };
+        [pair(tails, heads), pair(heads, tails)]
+    }
+
+    /// Sine and cosine of the tilt at which the coin is on its edge: to the last bit those of the other rim
+    /// but for the sign of the cosine.
+    pub fn on_edge(&self) -> (f64, f64) {
+        let cot = (self.upper.radius - self.body.radius) / (self.body.half + self.upper.half);
+        let sin = 1.0 / (1.0 + cot * cot).sqrt();
+        (sin, cot * sin)
+    }
+
+    /// Height of the centre of a coin on its edge.
+    pub fn height_on_edge(&self) -> f64 {
+        let (sin, cos) = self.on_edge();
+        self.body.half * cos + self.body.radius * sin
+    }
+
+    /// Distance of this rim from the centre: its height at the balance on this rim, and the energy that it
+    /// takes to pass from this face to the edge or back.
+    pub fn barrier(&self) -> f64 {
+        barrier(&self.body)
+    }
+
+    /// The same of the upper rim.
+    pub fn upper_barrier(&self) -> f64 {
+        barrier(&self.upper)
+    }
+
+    /// The energy that it takes to leave the edge: over the nearer rim.
+    pub fn edge_barrier(&self) -> f64 {
+        self.barrier().min(self.upper_barrier())
+    }
+
+    /// Cosine of the tilt at the balance on this rim.
+    pub fn balance(&self) -> f64 {
+        self.body.half / self.barrier()
+    }
+
+    /// Depth of the shallowest of the three wells.
+    pub fn shallowest_well(&self) -> f64 {
+        let face = |body: &Body| barrier(body) - body.half;
+        let edge = self.edge_barrier() - self.height_on_edge();
+        edge.min(face(&self.body)).min(face(&self.upper))
+    }
+}
+
+/// R² + h² is not 1 for both rims.
+fn barrier(body: &Body) -> f64 {
+    (body.radius * body.radius + body.half * body.half).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_rims_are_level_on_the_edge_and_its_well_is_below_the_balances() {
+        let coin = Coin::cylinder(0.7, 0.01).and_then(|coin| coin.with_draft(-8.0));
+        for rim in LowerRim::of(&coin.expect("a good coin")) {
+            let (s, c) = rim.on_edge();
+            let upper = rim.upper.radius * s - rim.upper.half * c;
+            assert!((rim.height_on_edge() - upper).abs() < 1e-15);
+            assert!(c < rim.balance() && rim.shallowest_well() > 0.0);
+            assert!(rim.edge_barrier() <= 1.0 && rim.edge_barrier() > 0.9);
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! The equations of a coin on its edge against Newton and Euler's in vectors.
+
+use super::edge::{Edge, EdgeState};
+use crate::body::Friction;
+use crate::contact::Dynamics;
+use crate::drag::Drag;
+use coinmc_core::{Body, Coin, LowerRim};
+use coinmc_testkit::Dice;
+use nalgebra::{Matrix3, Vector3};
+
+const RATIOS_AND_DRAFTS: [(f64, f64); 4] = [(0.2, 3.0), (0.85, 12.0), (0.85, -12.0), (2.0, 15.0)];
+
+fn dynamics(body: Body, mu: f64, rho: f64) -> Dynamics {
+    let friction = Friction {
+        mu,
+        contour: rho,
+        pivoting: 0.3 * rho,
+    };
+    let drag = Drag {
+        linear: 0.0,
+        angular: 0.0,
+    };
+    Dynamics::new(body, friction, drag, body.ka / body.kt, 1e-3)
+}
+
+fn rims() -> impl Iterator<Item = LowerRim> + Clone {
+    RATIOS_AND_DRAFTS.into_iter().flat_map(|(ratio, draft)| {
+        let coin = Coin::cylinder(ratio, 0.01).and_then(|coin| coin.with_draft(draft));
+        LowerRim::of(&coin.expect("a good coin"))
+    })
+}
+
+/// u, e_θ and ω of a state, in axes that turn with the coin.
+fn vectors(edge: &Edge, state: &EdgeState) -> (Vector3<f64>, Vector3<f64>, Vector3<f64>) {
+    let u = Vector3::new(edge.sin, 0.0, edge.cos);
+    let across = Vector3::new(edge.cos, 0.0, -edge.sin);
+    (u, across, u * state[2] + across * state[3])
+}
+
+/// Forces at the two rims' points as vectors, from their velocities, and where they act.
+fn forces(
+    edge: &Edge,
+    rim: &LowerRim,
+    state: &EdgeState,
+    mu: f64,
+    creep: f64,
+    share: f64,
+) -> [(Vector3<f64>, Vector3<f64>); 2] {
+    let (u, across, spin) = vectors(edge, state);
+    let arms = [
+        across * rim.body.radius - u * rim.body.half,
+        across * rim.upper.radius + u * rim.upper.half,
+    ];
+    let normals = [share, 1.0 - share];
+    [0, 1].map(|i| {
+        let slip = Vector3::new(state[0], state[1], 0.0) + spin.cross(&arms[i]);
+        assert!(slip.z.abs() < 1e-14, "both points stay on the surface");
+        let friction = -slip * (mu * normals[i] / (slip.norm_squared() + creep * creep).sqrt());
+        (arms[i], friction + Vector3::z() * normals[i])
+    })
+}
+
+/// Momentum and angular momentum change as forces and torques ask, in the frame that turns at φ'; and
+/// about y there is no torque left that would tilt the coin.
+#[test]
+fn rates_are_those_of_newton_and_euler() {
+    let (mu, rho, creep) = (0.3, 0.02, 0.01);
+    let mut compared = 0;
+    for (trial, rim) in rims().cycle().take(400).enumerate() {
+        let mut dice = Dice::new(71, trial as u64);
+        let (edge, body) = (Edge::new(&rim), rim.body);
+        let dynamics = dynamics(body, mu, rho);
+        let state = [0.0; 4].map(|_| dice.between(-0.5, 0.5));
+        let now = edge.rates(&dynamics, &state, creep);
+        if !(0.0..=1.0).contains(&now.share) {
+            continue;
+        }
+        compared += 1;
+        let (u, across, spin) = vectors(&edge, &state);
+        let inertia =
+            Matrix3::from_diagonal_element(body.kt) + u * u.transpose() * (body.ka - body.kt);
+        let turning = Vector3::z() * (-state[3] / edge.sin);
+        let velocity = Vector3::new(state[0], state[1], 0.0);
+        let (mut force, mut torque) = (-Vector3::z(), Vector3::zeros());
+        for (arm, at) in forces(&edge, &rim, &state, mu, creep, now.share) {
+            force += at;
+            torque += arm.cross(&at);
+        }
+        // contour and pivoting friction: about x at ρ_c/s, about z
+        let (torque_a, torque_t) =
+            dynamics.friction_torques(edge.sin, edge.cos, state[2], state[3]);
+        torque -= u * torque_a + across * torque_t;
+        let expected = force - turning.cross(&velocity);
+        let momentum = torque - turning.cross(&(inertia * spin));
+        let found = [
+            now.rates[0] - expected.x,
+            now.rates[1] - expected.y,
+            expected.z,
+            body.ka * now.rates[2] - momentum.dot(&u),
+            body.kt * now.rates[3] - momentum.dot(&across),
+            momentum.y,
+        ];
+        assert!(found.iter().all(|error| error.abs() < 1e-13), "{found:?}");
+    }
+    assert!(compared > 100, "{compared}");
+}
+
+/// Rolling about the apex, a known motion: the coin turns about its line of contact alone, at ω, and its
+/// centre goes in a circle about the apex at the distance ζ s/c. Without friction lengths nothing changes,
+/// and both rims press until the circle asks too much.
+#[test]
+fn a_coin_on_its_edge_rolls_about_the_apex() {
+    let (mu, creep) = (0.5, 1e-9);
+    for rim in rims() {
+        let edge = Edge::new(&rim);
+        let dynamics = dynamics(rim.body, mu, 0.0);
+        let omega = 0.2;
+        let (s, c) = (edge.sin, edge.cos);
+        let speed = -edge.height * omega;
+        let azimuth = -c / s * omega;
+        assert!(
+            (speed / azimuth - edge.height * s / c).abs() < 1e-12,
+            "the circle"
+        );
+        // the slip along x, far below the creep, that holds the centre on its circle
+        let held = -azimuth * speed;
+        let slip = -creep * held / (mu * mu - held * held).sqrt();
+        let state = [slip, speed, s * omega, c * omega];
+        let now = edge.rates(&dynamics, &state, creep);
+        assert!(
+            now.rates.iter().all(|rate| rate.abs() < 1e-6),
+            "{:?}",
+            now.rates
+        );
+        assert!(edge.slip(&state) < 2.0 * creep);
+        // the weight's moment and that of the circle, about the point below the centre
+        let resting = edge.reach[1] / (edge.reach[1] - edge.reach[0]);
+        let still = edge.rates(&dynamics, &[0.0; 4], creep).share;
+        assert!((still - resting).abs() < 1e-12 && still > 0.0 && still < 1.0);
+    }
+}
+
+/// Contour friction takes ρ_c|ω|/s: the way to rest is that for which the energy is used up.
+#[test]
+fn rolling_about_the_apex_ends_when_its_energy_is_used_up() {
+    for rim in rims() {
+        let (edge, body) = (Edge::new(&rim), rim.body);
+        let dynamics = dynamics(body, 0.5, 0.01);
+        let omega = 0.3;
+        let (s, c, height) = (edge.sin, edge.cos, edge.height);
+        let (motion, spin) = edge.motion(&dynamics, &[0.0, -height * omega, s * omega, c * omega]);
+        let energy = motion.kinetic(&body, &spin);
+        let angle = energy / (dynamics.friction.contour / s);
+        let way = edge.rolling_stop(&dynamics, height * omega).distance();
+        assert!((way / (angle * height) - 1.0).abs() < 1e-12);
+    }
+}
