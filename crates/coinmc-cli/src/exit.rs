@@ -115,9 +115,10 @@ impl From<DesignError> for Failure {
         match error {
             DesignError::Question(error) => error.into(),
             DesignError::Mesh(_) => Self::Runtime(error.into()),
-            DesignError::Shape(_) | DesignError::Mass(_) | DesignError::NoSingleRoot => {
-                Self::Input(error.into())
-            }
+            DesignError::Shape(_)
+            | DesignError::Mass(_)
+            | DesignError::NoSingleRoot
+            | DesignError::Conical => Self::Input(error.into()),
         }
     }
 }
