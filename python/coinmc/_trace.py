@@ -53,6 +53,14 @@ class Trace(ArrowTable):
         The face, ``Face.LEFT`` or ``Face.UNDECIDED``.
     scene : dict
         ``ratio``, ``radius_m``, ``height_m``, ``mass_kg``, ``gravity_m_s2``.
+    rims_m : tuple
+        Radius and distance from the centre of mass of the faces, heads and tails, m: twice R and H/2
+        but for a conical edge.
+    axial_gyration_m2 : float
+        Moment of inertia about the axis over the mass, m².
+    weight_m_s2 : tuple
+        The weight over the mass, m/s²: (0, 0, -g), or in axes of a tilted table, as all vectors
+        here are.
     engine : str
         The engine.
     rate_hz : float
@@ -69,6 +77,7 @@ class Trace(ArrowTable):
     """
 
     __slots__ = (
+        "axial_gyration_m2",
         "complete",
         "contact_steps",
         "engine",
@@ -79,10 +88,12 @@ class Trace(ArrowTable):
         "outcome",
         "point",
         "rate_hz",
+        "rims_m",
         "samples",
         "scene",
         "source",
         "toss",
+        "weight_m_s2",
     )
 
     def __init__(
@@ -97,6 +108,10 @@ class Trace(ArrowTable):
         self.point: int = point
         self.toss: int | None = toss
         self.scene: dict[str, float] = config.scene(point)._asdict()
+        rims, gyration, weight = plan_of(config).solid(point)
+        self.rims_m: tuple[tuple[float, float], ...] = tuple(rims)
+        self.axial_gyration_m2: float = gyration
+        self.weight_m_s2: tuple[float, ...] = tuple(weight)
         self.engine: str = recorded["engine"]
         self.rate_hz: float = recorded["rate_hz"]
         self.outcome: str = recorded["outcome"]

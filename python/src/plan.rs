@@ -15,6 +15,9 @@ pub(crate) struct Plan(pub(crate) Arc<Planned>);
 
 /// The coin and gravity at a point: ratio, radius, height, mass, gravity.
 type Scene = (f64, f64, f64, f64, f64);
+/// The solid and its weight at a point: radius and distance from the centre of heads and of tails, I_a/m,
+/// and the weight per mass in axes of the table.
+type Solid = ([(f64, f64); 2], f64, [f64; 3]);
 
 #[pymethods]
 impl Plan {
@@ -166,6 +169,21 @@ impl Plan {
             coin.mass_kg(),
             scene.gravity_m_s2(),
         ))
+    }
+
+    /// Radius and distance from the centre of mass of heads and of tails (m), I_a/m (m²), and the weight per
+    /// mass in axes of the table (m/s²) at a point.
+    fn solid(&self, point: usize) -> PyResult<Solid> {
+        let scene = &self.point(point)?.scene;
+        let coin = &scene.coin;
+        let outer = (coin.radius_m(), 0.5 * coin.height_m());
+        let rims = if coin.is_conical() {
+            coin.rims().map(|rim| (rim.radius_m, rim.distance_m))
+        } else {
+            [outer; 2]
+        };
+        let weight = scene.weight_m_s2();
+        Ok((rims, coin.axial_gyration_m2(), [weight.x, weight.y, weight.z]))
     }
 
     /// For each group of points: their number, what is computed, and what is skipped and why.

@@ -115,6 +115,9 @@ def trace(*, turn: float = 0.0) -> SimpleNamespace:
         events=events,
         outcome="heads",
         scene={"radius_m": RADIUS, "height_m": HEIGHT, "gravity_m_s2": GRAVITY},
+        rims_m=2 * ((RADIUS, HEIGHT / 2),),
+        axial_gyration_m2=RADIUS**2 / 2,
+        weight_m_s2=(0.0, 0.0, -GRAVITY),
     )
 
 

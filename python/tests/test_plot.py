@@ -166,14 +166,15 @@ def test_a_region_of_the_triangle_is_where_all_intervals_hold():
     assert abs(area - inside) < 0.0055
 
 
-def test_rims_lie_on_the_cylinder():
+def test_rims_lie_on_the_coin():
     axis = np.array([0.6, -0.48, 0.64])
     centre = np.array([1.0, 2.0, 3.0])
-    for ring, sign in zip(rims(centre, axis, 0.3, 0.2), (1, -1), strict=True):
+    faces = ((0.3, 0.1), (0.2, 0.15))
+    for ring, sign, face in zip(rims(centre, axis, faces), (1, -1), faces, strict=True):
         along = (ring - centre) @ axis
         across = np.linalg.norm(ring - centre - along[:, None] * axis, axis=1)
-        np.testing.assert_allclose(along, sign * 0.1, atol=1e-15)
-        np.testing.assert_allclose(across, 0.3, rtol=1e-14)
+        np.testing.assert_allclose(along, sign * face[1], atol=1e-15)
+        np.testing.assert_allclose(across, face[0], rtol=1e-14)
 
 
 def test_impacts_are_marked_where_the_coin_touches():
@@ -182,10 +183,50 @@ def test_impacts_are_marked_where_the_coin_touches():
     np.testing.assert_allclose(feet[:, 2], 0, atol=1e-9)
     # no point of the rims lies lower than the foot, at any instant
     for at, foot in enumerate(motion.feet_m()):
-        rings = rims(motion.position_m[at], motion.axis[at], motion.radius_m, motion.height_m)
+        rings = rims(motion.position_m[at], motion.axis[at], motion.rims_m)
         lowest = min(ring[:, 2].min() for ring in rings)
         # of 36 points of a rim none need be the lowest: 1 - cos(5 degrees) of the radius
         assert foot[2] - 1e-10 <= lowest <= foot[2] + 0.004 * motion.radius_m
+
+
+def in_space(toss, **overrides):
+    """A trace of examples/clean.toml at H/R = 0.85 with these numbers."""
+    given = {"coin.ratio": 0.85, **overrides}
+    return coinmc.trace(ROOT / "examples/clean.toml", toss, overrides=given)
+
+
+def test_a_conical_coin_touches_with_either_rim_and_rests_at_its_levels():
+    for toss in range(4):
+        motion = motion_of(in_space(toss, **{"coin.draft_deg": 12.0}))
+        feet = motion.feet_m()
+        np.testing.assert_allclose(feet[motion.impacts][:, 2], 0, atol=1e-9)
+        assert feet[:, 2].min() > -1e-9
+    (heads, above), (tails, below) = motion.rims_m
+    assert heads == 0.01 > tails
+    assert above < below
+    ax = plot.energy(in_space(0, **{"coin.draft_deg": 12.0}))
+    texts = {text.get_text() for text in ax.texts}
+    assert {"balanced on the rim of heads", "at rest, tails up"} <= texts
+
+
+def test_energy_on_a_tilted_table_is_that_above_the_table():
+    tilted = in_space(1, **{"surface.table_tilt_deg": 8.0, "surface.table_downhill_deg": 30.0})
+    assert tilted.weight_m_s2[2] == pytest.approx(-9.81 * np.cos(np.radians(8)))
+    ax = plot.energy(tilted, barriers=False)
+    whole, tilting = (line.get_ydata() for line in ax.lines[:2])
+
+    def both(name):
+        return np.concatenate([tilted.samples[name], tilted.events[name]])
+
+    # kinetic energy without sliding and spinning, and the height above the table
+    spin, axis = both("spin_rad_s"), both("axis")
+    across = (spin**2).sum(axis=1) - (spin * axis).sum(axis=1) ** 2
+    transverse = 1e-4 * (3 + 0.85**2) / 12
+    height = -tilted.weight_m_s2[2] * both("position_m")[:, 2]
+    expected = height + both("velocity_m_s")[:, 2] ** 2 / 2 + transverse * across / 2
+    order = np.lexsort((-both("energy_j_kg"), both("time_s")))
+    np.testing.assert_allclose(tilting, expected[order], rtol=1e-9)
+    np.testing.assert_allclose(whole, both("energy_j_kg")[order])
 
 
 def test_modes_follow_from_the_events():

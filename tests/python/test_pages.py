@@ -32,10 +32,13 @@ def pages(coinmc, tmp_path_factory) -> Path:
     """A folder with a report, tosses and a map."""
     folder = tmp_path_factory.mktemp("pages")
     (folder / "space.toml").write_text(CONFIG)
+    level = CONFIG.replace("surface.table_tilt_deg = 0.3\n", "")
+    (folder / "cone.toml").write_text(f"coin.draft_deg = 5.0\n{level}")
     for words in (
         "run space.toml --out a-run --quiet",
         "report a-run -o report.html --title <b>&amp;</script>",
         "trace space.toml --point 0,1 --toss 3 -o tosses.html -o tosses.jsonl --rate 3000 --quiet",
+        "trace cone.toml --point 0,3 --toss 3 -o cones.html -o cones.jsonl --rate 3000 --quiet",
         "trace map space.toml --over wy_rad_s=0..30:6 --over height_m=0.2..0.5:4 -o map.html -q",
     ):
         coinmc(*words.split(), cwd=folder)
@@ -138,14 +141,15 @@ console.log(JSON.stringify(worst));
 """
 
 
-def test_the_page_moves_the_coin_as_the_engine_does(root, pages, tmp_path):
+@pytest.mark.parametrize("page", ["tosses", "cones"])
+def test_the_page_moves_the_coin_as_the_engine_does(root, pages, page, tmp_path):
     node = shutil.which("node")
     if node is None:
         pytest.skip("node is not installed")
     (tmp_path / "compare.mjs").write_text(COMPARE)
-    (tmp_path / "data.json").write_text(json.dumps(data(pages / "tosses.html")))
+    (tmp_path / "data.json").write_text(json.dumps(data(pages / f"{page}.html")))
     module = root / "crates/coinmc-report/web/src/toss/motion.js"
-    command = [node, "compare.mjs", module.as_uri(), "data.json", pages / "tosses.jsonl"]
+    command = [node, "compare.mjs", module.as_uri(), "data.json", pages / f"{page}.jsonl"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
     worst = json.loads(done.stdout)
     assert worst["records"] > 1000

@@ -146,6 +146,7 @@ fn differences(scene: &Scene) -> Vec<&'static str> {
     [
         ("radius_m", scene.coin.radius_m() == 0.5),
         ("rim_radius_m", scene.coin.rim_radius_m() == 0.0),
+        ("draft_deg", !scene.coin.is_conical()),
         ("restitution", surface.restitution() == 0.3),
         ("friction", surface.friction() == 10.0),
         ("rolling_friction_m", surface.rolling_friction_m() == 0.0),

@@ -181,7 +181,7 @@ def _follow(ax: Axes, motion: Motion, at: int, up: int) -> None:
 
 def _limits(ax: Axes, motion: Motion, up: int) -> None:
     """Set square limits that hold the coin throughout its motion."""
-    reach = np.hypot(motion.radius_m, motion.height_m / 2)
+    reach = max(np.hypot(*rim) for rim in motion.rims_m)
     way = motion.position_m[:, [0, up]]
     low, high = way.min(axis=0) - 1.2 * reach, way.max(axis=0) + 1.2 * reach
     if up == 2:

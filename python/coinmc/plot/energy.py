@@ -27,7 +27,8 @@ def energy(
 
     The thick line is what can still tilt the coin: its height, its vertical motion and its turning
     about a diameter. The thin line is all energy, with that of moving along the surface and of
-    turning about the coin's own axis, by those of a uniform cylinder.
+    turning about the coin's own axis. On a tilted table the height is that above the table, and the
+    thin line has the height of the place along it as well.
 
     Parameters
     ----------
@@ -35,7 +36,8 @@ def energy(
         A trace from `coinmc.trace`.
     barriers : bool
         Draw the energies of the coin at rest on a face, on its side, and balanced on its rim:
-        once the energy is below the last of these, the face cannot change.
+        once the energy is below the last of these, the face cannot change (on a level table). A
+        coin with a conical edge has two of the first and of the last.
     label : str, optional
         Name of the toss in the legend.
     color : color, optional
@@ -60,7 +62,7 @@ def energy(
     'energy per mass, J/kg'
     """
     motion = motion_of(trace)
-    time, whole, tilting = _energies(trace, motion.radius_m)
+    time, whole, tilting = _energies(trace)
     ax = axes_for(ax)
     ax.set(yscale="log", xlabel="time since launch, s", ylabel="energy per mass, J/kg")
     palette = colours(ax)
@@ -85,7 +87,7 @@ def energy(
         ax.plot(times, np.full(len(times), 0.015), "^", color=NEUTRAL, markersize=5, **edge)
         key.append(Line2D([], [], color=NEUTRAL, marker="^", linestyle="none", label="impact"))
     if barriers:
-        _barriers(ax, motion, trace.scene["gravity_m_s2"])
+        _barriers(ax, motion, -trace.weight_m_s2[2])
     before = ax.get_legend()
     if before and label:
         key = [*before.legend_handles[:1], *key]
@@ -93,7 +95,7 @@ def energy(
     return ax
 
 
-def _energies(trace: Any, radius_m: float) -> tuple[Any, Any, Any]:
+def _energies(trace: Any) -> tuple[Any, Any, Any]:
     """Return times, energies, and what of them can tilt, of all records in order of time."""
 
     def both(name: str) -> Any:
@@ -102,21 +104,22 @@ def _energies(trace: Any, radius_m: float) -> tuple[Any, Any, Any]:
     time, whole = both("time_s"), both("energy_j_kg")
     along = (both("velocity_m_s")[:, :2] ** 2).sum(axis=1)
     axial = (both("spin_rad_s") * both("axis")).sum(axis=1)
-    tilting = whole - along / 2 - (radius_m * axial) ** 2 / 4
+    # how far the coin has gone down a tilted table
+    fallen = (both("position_m")[:, :2] * trace.weight_m_s2[:2]).sum(axis=1)
+    tilting = whole - along / 2 - trace.axial_gyration_m2 * axial**2 / 2 + fallen
     # records at one instant are ordered by decreasing energy: impacts only dissipate
     order = np.lexsort((-whole, time))
     return time[order], whole[order], tilting[order]
 
 
 def _barriers(ax: Axes, motion: Motion, gravity_m_s2: float) -> None:
-    radius, half = motion.radius_m, motion.height_m / 2
-    rim = np.hypot(radius, half)
+    levels = _levels(motion)
+    flat = levels[-1][1]
     # the level of the rim is the highest: its name goes above the line, the others go below
-    for name, height, place in (
-        ("balanced on its rim", rim, (3, 2)),
-        ("at rest on its side", radius, (3, -11)),
-        ("at rest on a face", half, (3, -11) if half < 0.8 * radius else (120, -11)),
-    ):
+    for name, height in levels:
+        above = name.startswith("balanced")
+        beside = not above and "side" not in name and flat >= 0.8 * motion.radius_m
+        place = (3, 2) if above else (120 if beside else 3, -11)
         level = gravity_m_s2 * height
         ax.axhline(level, color=NEUTRAL, linewidth=0.8, linestyle=":", zorder=0)
         ax.annotate(
@@ -128,3 +131,25 @@ def _barriers(ax: Axes, motion: Motion, gravity_m_s2: float) -> None:
             color=NEUTRAL,
             fontsize="small",
         )
+
+
+def _levels(motion: Motion) -> list[tuple[str, float]]:
+    """Return the heights of the centre at rest and at the balances, m, that of a face last."""
+    heads, tails = motion.rims_m
+    if heads == tails:
+        radius, half = heads
+        return [
+            ("balanced on its rim", float(np.hypot(radius, half))),
+            ("at rest on its side", radius),
+            ("at rest on a face", half),
+        ]
+    # on its edge both rims are at the ground
+    slope = np.arctan2(heads[0] - tails[0], heads[1] + tails[1])
+    edge = tails[0] * np.cos(slope) + tails[1] * np.sin(slope)
+    return [
+        ("balanced on the rim of heads", float(np.hypot(*heads))),
+        ("balanced on the rim of tails", float(np.hypot(*tails))),
+        ("at rest on its side", float(edge)),
+        ("at rest, heads up", tails[1]),
+        ("at rest, tails up", heads[1]),
+    ]

@@ -35,6 +35,8 @@ class Motion:
         The event, or ``sample``.
     radius_m, height_m : float
         Size of the coin.
+    rims_m : tuple
+        Radius and distance from the centre of the faces, heads and tails, m.
     outcome : str
         The face, or the reason why there is none.
     """
@@ -48,6 +50,7 @@ class Motion:
     kind: NDArray[np.str_]
     radius_m: float
     height_m: float
+    rims_m: tuple[tuple[float, float], ...]
     outcome: str
 
     @property
@@ -81,11 +84,15 @@ class Motion:
 
         If a whole face or a line of the side is lowest, it is the middle of that.
         """
-        ends = -0.5 * self.height_m * np.sign(_small_to_zero(self.axis[:, 2]))[:, None] * self.axis
         down = self.axis * self.axis[:, 2:3] - np.array([0.0, 0.0, 1.0])
         length = np.linalg.norm(down, axis=1, keepdims=True)
-        rim = np.divide(down, length, out=np.zeros_like(down), where=length > 1e-9)
-        return self.position_m + ends + self.radius_m * rim
+        out = np.divide(down, length, out=np.zeros_like(down), where=length > 1e-9)
+        (heads, above), (tails, below) = self.rims_m
+        upper, lower = heads * out + above * self.axis, tails * out - below * self.axis
+        higher = _small_to_zero((upper - lower)[:, 2:3] / self.radius_m)
+        # halfway where both rims are lowest
+        share = 0.5 * (1.0 + np.sign(higher))
+        return self.position_m + share * lower + (1.0 - share) * upper
 
     def phases(self) -> list[tuple[str, slice]]:
         """Return the phases of constant mode, each including the first instant of the next."""
@@ -140,6 +147,7 @@ def motion_of(trace: Any) -> Motion:
         kind=kind,
         radius_m=float(trace.scene["radius_m"]),
         height_m=float(trace.scene["height_m"]),
+        rims_m=trace.rims_m,
         outcome=str(trace.outcome),
     )
 

@@ -12,15 +12,19 @@ _POINTS = 36
 
 
 def rims(
-    position_m: NDArray[np.float64], axis: NDArray[np.float64], radius_m: float, height_m: float
+    position_m: NDArray[np.float64],
+    axis: NDArray[np.float64],
+    rims_m: tuple[tuple[float, float], ...],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return points on the rims of heads and of tails, each (36, 3), in m.
+
+    They have the radii and the distances from the centre ``rims_m``.
 
     Examples
     --------
     >>> import numpy as np
     >>> from coinmc.plot.outline import rims
-    >>> heads, tails = rims(np.zeros(3), np.array([0.0, 0.0, 1.0]), 1.0, 0.5)
+    >>> heads, tails = rims(np.zeros(3), np.array([0.0, 0.0, 1.0]), 2 * ((1.0, 0.25),))
     >>> set(heads[:, 2].tolist()), set(tails[:, 2].tolist())
     ({0.25}, {-0.25})
     """
@@ -30,8 +34,12 @@ def rims(
     first /= np.linalg.norm(first)
     second = np.cross(axis, first)
     angle = np.linspace(0, 2 * np.pi, _POINTS, endpoint=False)[:, None]
-    circle = position_m + radius_m * (np.cos(angle) * first + np.sin(angle) * second)
-    return circle + 0.5 * height_m * axis, circle - 0.5 * height_m * axis
+    circle = np.cos(angle) * first + np.sin(angle) * second
+    (heads, above), (tails, below) = rims_m
+    return (
+        position_m + heads * circle + above * axis,
+        position_m + tails * circle - below * axis,
+    )
 
 
 def hull(points: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -117,7 +117,7 @@ def _limits(
     motion: Motion, across: int, up: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the lowest and highest coordinates that the coin reaches, with a margin."""
-    reach = 1.15 * np.hypot(motion.radius_m, motion.height_m / 2)
+    reach = 1.15 * max(np.hypot(*rim) for rim in motion.rims_m)
     way = motion.position_m[:, [across, up]]
     low, high = way.min(axis=0) - reach, way.max(axis=0) + reach
     if up == 2:
@@ -149,7 +149,7 @@ def _apart(motion: Motion, coins: int, seen: tuple[int, ...]) -> NDArray[np.int6
 def draw_coin(ax: Axes, motion: Motion, at: int, view: str, alpha: float = 1.0) -> list[Any]:
     """Draw the coin at one instant, seen from the side or from above; return the artists."""
     coordinates, towards = _PLANES[view]
-    rings = rims(motion.position_m[at], motion.axis[at], motion.radius_m, motion.height_m)
+    rings = rims(motion.position_m[at], motion.axis[at], motion.rims_m)
     flat = [ring[:, coordinates] for ring in rings]
     body = Polygon(
         hull(np.concatenate(flat)), facecolor=NEUTRAL, edgecolor=NEUTRAL, alpha=0.35 * alpha
@@ -225,7 +225,7 @@ def _in_space(ax: Any, motion: Motion, coins: int, palette: Palette) -> None:
 
 def _solid(ax: Any, motion: Motion, at: int, palette: Palette, alpha: float) -> None:
     """Draw the coin in space: both faces in their colours, and its side."""
-    rings = rims(motion.position_m[at], motion.axis[at], motion.radius_m, motion.height_m)
+    rings = rims(motion.position_m[at], motion.axis[at], motion.rims_m)
     heads, tails = rings
     after = np.roll(np.arange(len(heads)), -1)
     side = np.stack([heads, tails, tails[after], heads[after]], axis=1)
