@@ -183,7 +183,11 @@ impl Plan {
             [outer; 2]
         };
         let weight = scene.weight_m_s2();
-        Ok((rims, coin.axial_gyration_m2(), [weight.x, weight.y, weight.z]))
+        Ok((
+            rims,
+            coin.axial_gyration_m2(),
+            [weight.x, weight.y, weight.z],
+        ))
     }
 
     /// For each group of points: their number, what is computed, and what is skipped and why.
