@@ -91,7 +91,7 @@ fn directories_without_a_run_are_rejected() {
     let dir = tempdir().unwrap();
     assert!(matches!(
         stored_report(dir.path(), &()),
-        Err(RunError::NotARunDirectory { .. })
+        Err(RunError::NoRun { .. })
     ));
 }
 

@@ -170,7 +170,7 @@ fn invalid_merges_are_rejected() {
     let with_nothing = [parts.clone(), vec![nothing]].concat();
     assert!(matches!(
         merge(&with_nothing, &out, &()),
-        Err(RunError::NotARunDirectory { .. })
+        Err(RunError::NoRun { .. })
     ));
 
     let other = dir.path().join("other");
