@@ -162,6 +162,9 @@ def sensitivity(
     n = config.stop.tosses
     values = _numbers(config)
     names = list(values) if parameters is None else list(parameters)
+    for name in names:
+        if not isinstance(name, str):
+            raise TypeError(f"a parameter is named by its key, as in 'coin.ratio', not {name!r}")
     tried = _STEPS if step is None else (step,)
     ladders = {name: _pairs(config, name, values, tried) for name in names}
     threads = threads_of(threads)
