@@ -92,13 +92,13 @@ impl Report {
     /// If `out` cannot be written to.
     pub fn write_csv(&self, out: impl Write) -> io::Result<()> {
         let mut out = BufWriter::new(out);
-        let line = |cells: Vec<String>| cells.join(",") + "\n";
-        let columns = self.record.columns.iter();
-        out.write_all(line(columns.map(|cell| csv_cell(cell).into_owned()).collect()).as_bytes())?;
+        let line = |cells: &mut dyn Iterator<Item = &str>| {
+            let cells: Vec<_> = cells.map(csv_cell).collect();
+            cells.join(",") + "\n"
+        };
+        out.write_all(line(&mut self.record.columns.iter().copied()).as_bytes())?;
         for row in &self.record.rows {
-            out.write_all(
-                line(row.iter().map(|cell| csv_cell(cell).into_owned()).collect()).as_bytes(),
-            )?;
+            out.write_all(line(&mut row.iter().map(String::as_str)).as_bytes())?;
         }
         out.flush()
     }

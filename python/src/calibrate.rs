@@ -2,8 +2,7 @@
 
 use crate::errors;
 use crate::plan::parsed;
-use crate::question::Source;
-use crate::supervise::supervise;
+use crate::question::{Source, working};
 use coinmc_calibrate::{
     Calibration, CalibrationError, Model, Observations, Settings, columns, document,
 };
@@ -13,7 +12,6 @@ use pyo3::prelude::*;
 use std::num::NonZeroUsize;
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::atomic::Ordering::Relaxed;
 
 /// What is asked, as Python says it.
 #[derive(FromPyObject)]
@@ -74,7 +72,7 @@ impl CalibrationModel {
     fn new(py: Python<'_>, asked: AskedCalibration, progress: Option<Py<PyAny>>) -> PyResult<Self> {
         parsed(&asked.overrides)?;
         let threads = asked.threads;
-        let model = working(py, threads, progress, |workers| {
+        let model = calibrating(py, threads, progress, |workers| {
             let observed = observations(&asked.source, &asked.overrides, &asked.folder)?;
             Model::new(observed, asked.settings(), workers)
         })?;
@@ -86,7 +84,7 @@ impl CalibrationModel {
     /// measurement for each draw.
     #[pyo3(signature = (progress=None))]
     fn calibrate(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<Calibrated> {
-        working(py, self.threads, progress, |workers| {
+        calibrating(py, self.threads, progress, |workers| {
             let calibration = Calibration::of(&self.model, workers)?;
             let columns = columns(&self.model, &calibration).into_iter();
             let columns = columns.map(|column| (column.name.to_owned(), column.values));
@@ -168,30 +166,20 @@ impl CalibrationModel {
         let width = self.model.parameters().len();
         let rows = theta.as_slice()?.chunks_exact(width).map(<[f64]>::to_vec);
         let rows: Vec<_> = rows.collect();
-        working(py, self.threads, None, |workers| {
+        calibrating(py, self.threads, None, |workers| {
             self.model.simulate(&rows, seed, workers)
         })
     }
 }
 
 /// Works on other threads while Python may stop it and is told how far it is.
-fn working<T: Send>(
+fn calibrating<T: Send>(
     py: Python<'_>,
     threads: Option<NonZeroUsize>,
     progress: Option<Py<PyAny>>,
     work: impl FnOnce(&Workers<'_>) -> Result<T, CalibrationError> + Send,
 ) -> PyResult<T> {
-    let (worked, _) = supervise(py, progress, |supervision| {
-        let workers = Workers {
-            threads,
-            cancel: &supervision.stop,
-            made: &|tosses| {
-                supervision.done.fetch_add(tosses, Relaxed);
-            },
-        };
-        work(&workers)
-    })?;
-    worked.map_err(raised)
+    working(py, threads, progress, work)?.map_err(raised)
 }
 
 /// The exception for what is wrong with a calibration.

@@ -3,14 +3,12 @@
 use crate::calibrate::{observations, raised};
 use crate::errors;
 use crate::plan::parsed;
-use crate::question::Source;
-use crate::supervise::supervise;
+use crate::question::{Source, working};
 use coinmc_listen::{Effort, Heard, Kind, ListenError, Told, document};
 use coinmc_questions::Workers;
 use pyo3::prelude::*;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
-use std::sync::atomic::Ordering::Relaxed;
 
 /// What is asked, as Python says it.
 #[derive(FromPyObject)]
@@ -67,15 +65,8 @@ pub(crate) fn listen(
 ) -> PyResult<String> {
     parsed(&asked.overrides)?;
     let kind = asked.kind()?;
-    let (heard, _) = supervise(py, progress, |supervision| {
-        let workers = Workers {
-            threads: asked.threads,
-            cancel: &supervision.stop,
-            made: &|tosses| {
-                supervision.done.fetch_add(tosses, Relaxed);
-            },
-        };
-        asked.listen(kind, &workers)
+    let heard = working(py, asked.threads, progress, |workers| {
+        asked.listen(kind, workers)
     })?;
     heard.map_err(|error| match error {
         ListenError::Calibration(error) => raised(error),

@@ -176,12 +176,7 @@ impl Plan {
     fn solid(&self, point: usize) -> PyResult<Solid> {
         let scene = &self.point(point)?.scene;
         let coin = &scene.coin;
-        let outer = (coin.radius_m(), 0.5 * coin.height_m());
-        let rims = if coin.is_conical() {
-            coin.rims().map(|rim| (rim.radius_m, rim.distance_m))
-        } else {
-            [outer; 2]
-        };
+        let rims = coin.outer_rims().map(|rim| (rim.radius_m, rim.distance_m));
         let weight = scene.weight_m_s2();
         Ok((
             rims,

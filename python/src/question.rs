@@ -58,18 +58,28 @@ pub(crate) fn answered<T: Send, E: Into<DesignError> + Send>(
     progress: Option<Py<PyAny>>,
     answer: impl FnOnce(&Workers<'_>) -> Result<T, E> + Send,
 ) -> PyResult<T> {
-    let (answered, _) = supervise(py, progress, |supervision| {
-        let workers = Workers {
+    let answered = working(py, threads, progress, answer)?;
+    answered.map_err(|error| match error.into() {
+        DesignError::Question(error) => errors::question(&error),
+        error => errors::value(error),
+    })
+}
+
+/// Works on other threads while Python may stop it and is told how far it is.
+pub(crate) fn working<T: Send>(
+    py: Python<'_>,
+    threads: Option<NonZeroUsize>,
+    progress: Option<Py<PyAny>>,
+    work: impl FnOnce(&Workers<'_>) -> T + Send,
+) -> PyResult<T> {
+    let (worked, _) = supervise(py, progress, |supervision| {
+        work(&Workers {
             threads,
             cancel: &supervision.stop,
             made: &|tosses| {
                 supervision.done.fetch_add(tosses, Relaxed);
             },
-        };
-        answer(&workers)
+        })
     })?;
-    answered.map_err(|error| match error.into() {
-        DesignError::Question(error) => errors::question(&error),
-        error => errors::value(error),
-    })
+    Ok(worked)
 }

@@ -66,6 +66,6 @@ pub use ranking::{
     document_of_ranking, picture_of_ranking, rank,
 };
 pub use rare::{Gain, HowRare, Rareness, Stratum, document_of_rare, gain_expected, how_rare};
-pub use rows::csv_of_rows;
+pub use rows::{csv_of_rows, csv_of_value};
 pub use template::{CoinNumbers, Size, Template};
 pub use workers::Workers;

@@ -37,13 +37,21 @@ pub fn csv_of_rows(document: &Value) -> String {
     for row in rows {
         let cells = columns
             .iter()
-            .map(|(place, _)| row.pointer(place).map_or_else(String::new, cell));
+            .map(|(place, _)| row.pointer(place).map_or_else(String::new, csv_of_value));
         csv += &(cells.collect::<Vec<_>>().join(",") + "\n");
     }
     csv
 }
 
-fn cell(value: &Value) -> String {
+/// A number, text or null of a document as a cell of a CSV file (RFC 4180); null is empty.
+///
+/// # Example
+/// ```
+/// use coinmc_questions::csv_of_value;
+/// let values = [serde_json::json!("a, b"), serde_json::json!(0.5), serde_json::Value::Null];
+/// assert_eq!(values.map(|value| csv_of_value(&value)), ["\"a, b\"", "0.5", ""]);
+/// ```
+pub fn csv_of_value(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
         Value::String(text) => csv_cell(text).into_owned(),

@@ -59,13 +59,9 @@ pub(super) fn mark(trace: &Trace, record: &Record, number: u64, at: Time) -> Sce
 /// A cylinder, or the frustum of a cone, with painted faces, and a dash on heads that shows its rotation.
 fn coin(coin: &Coin, at: Time) -> SceneEntity {
     let (radius, height) = (coin.radius_m(), coin.height_m());
-    let (heads, tails, above, below) = if coin.is_conical() {
-        let [heads, tails] = coin.rims();
-        let (above, below) = (heads.distance_m, tails.distance_m);
-        (heads.radius_m, tails.radius_m, above, below)
-    } else {
-        (radius, radius, 0.5 * height, 0.5 * height)
-    };
+    let [heads, tails] = coin.outer_rims();
+    let (above, below) = (heads.distance_m, tails.distance_m);
+    let (heads, tails) = (heads.radius_m, tails.radius_m);
     let cylinder = |z: f64, radius: f64, height: f64, color| CylinderPrimitive {
         pose: Pose::at(Vector3::new(0.0, 0.0, z)),
         size: Vector3::new(2.0 * radius, 2.0 * radius, height),

@@ -201,20 +201,8 @@ fn decimals(x: f64) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use super::message::counts;
     use super::*;
-
-    fn counts() -> Counts {
-        Counts {
-            points_done: 12,
-            points: 76,
-            tosses_done: 1_234_567,
-            tosses_planned: 2_234_567,
-            tosses_reused: 234_567,
-            reused_chunks: 3,
-            worst_half_width: Some(0.001_23),
-            latest: None,
-        }
-    }
 
     #[test]
     fn rates_have_three_digits() {

@@ -183,6 +183,20 @@ impl Coin {
             [narrow, wide]
         }
     }
+
+    /// Radius and distance from the centre of mass of the faces of heads and of tails, by the outer measures:
+    /// what a picture shows. Of a cylinder R and H/2, also where its rims are rounded; of a conical coin its
+    /// [`rims`](Self::rims).
+    pub fn outer_rims(&self) -> [Rim; 2] {
+        if self.is_conical() {
+            return self.rims();
+        }
+        let rim = Rim {
+            radius_m: self.radius_m,
+            distance_m: 0.5 * self.height_m(),
+        };
+        [rim; 2]
+    }
 }
 
 /// The draft, degrees, below which a coin of this ratio rests on its edge.

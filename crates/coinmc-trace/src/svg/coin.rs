@@ -75,11 +75,7 @@ struct Ring {
 /// Radius and place along the axis, from the centre of mass away from the eye, of the near face, the
 /// middle of the side and the far face.
 fn rings(coin: &Coin, heads_is_near: bool) -> [[f64; 2]; 3] {
-    if !coin.is_conical() {
-        let (radius, half) = (coin.radius_m(), 0.5 * coin.height_m());
-        return [[radius, -half], [radius, 0.0], [radius, half]];
-    }
-    let [heads, tails] = coin.rims();
+    let [heads, tails] = coin.outer_rims();
     let (near, far) = if heads_is_near {
         (heads, tails)
     } else {

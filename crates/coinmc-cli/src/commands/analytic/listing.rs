@@ -3,6 +3,7 @@
 use crate::output::FORMAT_VERSION;
 use crate::terminal::table::{Column, Table};
 use crate::terminal::{Style, compact, in_ascii};
+use coinmc_questions::csv_of_value;
 use serde_json::{Map, Value, json};
 
 /// Significant digits of numbers in tables.
@@ -125,7 +126,7 @@ impl Listing {
         let rows = self
             .rows
             .iter()
-            .map(|row| row.iter().map(csv_cell).collect::<Vec<_>>());
+            .map(|row| row.iter().map(csv_of_value).collect::<Vec<_>>());
         std::iter::once(names)
             .chain(rows)
             .map(|cells| cells.join(",") + "\n")
@@ -156,14 +157,6 @@ fn significant(x: f64) -> String {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     let before = libm::floor(libm::log10(magnitude)) as usize;
     format!("{x:.*}", DIGITS - 1 - before)
-}
-
-fn csv_cell(cell: &Value) -> String {
-    match cell {
-        Value::Null => String::new(),
-        Value::String(text) => coinmc_core::csv_cell(text).into_owned(),
-        other => other.to_string(),
-    }
 }
 
 #[cfg(test)]

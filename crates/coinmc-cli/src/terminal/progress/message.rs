@@ -93,6 +93,9 @@ fn place(latest: &Latest, plan: &Plan) -> Option<String> {
 }
 
 #[cfg(test)]
+pub(super) use tests::counts;
+
+#[cfg(test)]
 mod tests {
     use super::*;
     use coinmc_core::{Estimate, Face, IntervalMethod};
@@ -102,7 +105,7 @@ mod tests {
         time: Duration::from_secs(2),
     };
 
-    fn counts() -> Counts {
+    pub(in crate::terminal::progress) fn counts() -> Counts {
         Counts {
             points_done: 12,
             points: 76,
