@@ -1,6 +1,7 @@
 """The exceptions of coinmc."""
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 __all__ = [
     "ConfigError",
@@ -40,11 +41,11 @@ class Error(Exception):
 
 
 class _Diagnosed(Error, ValueError):
-    def __init__(self, message: str, problems: "list[tuple] | tuple[()]" = ()) -> None:
+    def __init__(self, message: str, problems: Sequence[tuple[Any, ...]] = ()) -> None:
         super().__init__(message)
         self.problems: list[Problem] = [Problem(*problem) for problem in problems]
 
-    def __reduce__(self):  # exceptions can be pickled
+    def __reduce__(self) -> tuple[Any, ...]:  # exceptions can be pickled
         return type(self), (str(self), [tuple(problem) for problem in self.problems])
 
 

@@ -104,6 +104,7 @@ class Trace(ArrowTable):
         row: NDArray[np.float64] | None,
         recorded: dict[str, Any],
     ) -> None:
+        self.source: tuple[Config, int, int, NDArray[np.float64] | None]
         self.source = (config, point, toss or 0, row)
         self.point: int = point
         self.toss: int | None = toss

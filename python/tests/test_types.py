@@ -1,6 +1,7 @@
-"""The guide's Python is well typed, as its readers' checkers see it."""
+"""The package and its guide are well typed, as their readers' checkers see them."""
 
 import importlib.util
+import json
 import re
 import subprocess
 import sys
@@ -10,11 +11,43 @@ import pytest
 BLOCKS = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
-@pytest.mark.skipif(importlib.util.find_spec("mypy") is None, reason="mypy is not installed")
-def test_mypy_accepts_the_guide(root, tmp_path):
-    guide = (root / "docs/guide/python.md").read_text(encoding="utf-8")
-    (tmp_path / "guide.py").write_text("\n".join(BLOCKS.findall(guide)), encoding="utf-8")
+def installed(checker):
+    """Skip a test where its type checker is missing."""
+    missing = importlib.util.find_spec(checker) is None
+    return pytest.mark.skipif(missing, reason=f"{checker} is not installed (pip install {checker})")
+
+
+def checked(path, *command):
+    """Run a type checker on the guide's Python, or on what the arguments name."""
+    return subprocess.run(
+        (sys.executable, "-m", *command), cwd=path, check=False, capture_output=True, text=True
+    )
+
+
+@pytest.fixture
+def guide(root, tmp_path):
+    text = (root / "docs/guide/python.md").read_text(encoding="utf-8")
+    (tmp_path / "guide.py").write_text("\n".join(BLOCKS.findall(text)), encoding="utf-8")
+    return tmp_path
+
+
+@installed("mypy")
+def test_mypy_accepts_the_guide(guide):
     # what other packages say of their types is not ours
-    command = (sys.executable, "-m", "mypy", "--ignore-missing-imports", "guide.py")
-    done = subprocess.run(command, cwd=tmp_path, check=False, capture_output=True, text=True)
+    done = checked(guide, "mypy", "--ignore-missing-imports", "guide.py")
     assert done.returncode == 0, done.stdout
+
+
+@installed("pyright")
+def test_pyright_accepts_the_guide(guide):
+    done = checked(guide, "pyright", "--pythonpath", sys.executable, "guide.py")
+    assert done.returncode == 0, done.stdout
+
+
+@installed("pyright")
+def test_the_type_of_every_public_name_is_known(tmp_path):
+    command = ("--pythonpath", sys.executable, "--verifytypes", "coinmc", "--ignoreexternal")
+    done = checked(tmp_path, "pyright", *command, "--outputjson")
+    found = json.loads(done.stdout)["typeCompleteness"]
+    doubtful = [s["name"] for s in found["symbols"] if s["isExported"] and not s["isTypeKnown"]]
+    assert found["completenessScore"] == 1, doubtful

@@ -53,9 +53,9 @@ class Day:
         if not hasattr(_lib, "Throws"):
             raise RunError("the journal of a robot is read on Linux and macOS only")
         table = _lib.Throws.read(path)
-        self.config = Config.from_toml(table.config)
-        self.planned = table.planned
-        self.announced = table.announced
+        self.config: Config = Config.from_toml(table.config)
+        self.planned: int = table.planned
+        self.announced: int = table.announced
         self._log = list(logged(path / "photos"))
         self._table = self._with_readings(table) if self._log else table
 

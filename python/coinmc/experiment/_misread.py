@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 __all__ = ["FACES", "Confusion", "Corrected"]
 
@@ -57,7 +58,7 @@ class Confusion:
             raise ValueError("a confusion matrix has three rows of three whole numbers")
         if (given < 0).any() or (given.sum(axis=1) == 0).any():
             raise ValueError("counts are 0 or more, and photos of every face are needed")
-        self.counts = given.astype(np.int64)
+        self.counts: NDArray[np.int64] = given.astype(np.int64)
 
     @classmethod
     def of(cls, shown: Sequence[str], read: Sequence[str]) -> "Confusion":

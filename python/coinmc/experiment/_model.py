@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from coinmc._config import Config, ConfigLike, as_config
 from coinmc._intervals import Estimate, wilson
@@ -53,9 +54,9 @@ class Prediction:
 
     def __init__(self, counts: np.ndarray, config: Config) -> None:
         self.counts = counts
-        self.repeats = int(counts.sum(axis=1).max()) if len(counts) else 0
+        self.repeats: int = int(counts.sum(axis=1).max()) if len(counts) else 0
         self.config = config
-        self.p = counts[:, :3] / max(self.repeats, 1)
+        self.p: NDArray[np.float64] = counts[:, :3] / max(self.repeats, 1)
 
     def estimate(self, confidence: float = 0.95) -> dict[str, Estimate]:
         """Return the probability of each face over all throws.

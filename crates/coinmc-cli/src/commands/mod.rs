@@ -60,14 +60,48 @@ pub(crate) use validate::Validate;
 
 use coinmc_core::Face;
 
-/// A whole number, in which digits may be grouped by `_`.
+/// A whole number, in which digits may be grouped by `_`; `1e9` is one, too, as in a config.
 fn count(text: &str) -> Result<u64, String> {
-    text.replace('_', "")
+    let digits = text.replace('_', "");
+    digits
         .parse()
-        .map_err(|_| "expected a whole number".to_owned())
+        .ok()
+        .or_else(|| digits.parse().ok().and_then(whole))
+        .ok_or_else(|| "expected a whole number, as 20_000 or 1e6".to_owned())
+}
+
+/// The whole number that is `x`, unless neighbours of it have no `f64` of their own.
+fn whole(x: f64) -> Option<u64> {
+    const EXACT: f64 = (1_u64 << f64::MANTISSA_DIGITS) as f64;
+    ((0.0..=EXACT).contains(&x) && libm::trunc(x) == x).then_some(x as u64)
 }
 
 /// The face of a name, for arguments.
 fn face(name: &str) -> Result<Face, String> {
     Face::named(name).ok_or_else(|| "expected heads, tails or side".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::count;
+
+    #[test]
+    fn counts_are_whole_numbers_however_they_are_written() {
+        for (text, number) in [
+            ("20_000", Some(20_000)),
+            ("1e12", Some(1_000_000_000_000)),
+            ("2.5e3", Some(2_500)),
+            ("18446744073709551615", Some(u64::MAX)),
+            ("9007199254740992.0", Some(1 << 53)),
+            ("9.1e15", None),
+            ("1e-3", None),
+            ("-1", None),
+            ("-1e3", None),
+            ("NaN", None),
+            ("inf", None),
+            ("", None),
+        ] {
+            assert_eq!(count(text).ok(), number, "{text}");
+        }
+    }
 }

@@ -53,7 +53,7 @@ pub(crate) struct ReportOf {
 
     /// The tosses that are shown in 3D, separated by commas
     /// [default: the first that shows each face]
-    #[arg(long = "toss", value_name = "K", value_delimiter = ',')]
+    #[arg(long = "toss", value_name = "K", value_delimiter = ',', value_parser = super::count)]
     tosses: Vec<u64>,
 
     /// How to write what was done

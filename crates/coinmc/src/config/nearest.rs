@@ -18,7 +18,10 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         } else {
             typing_errors(&word, candidate)
         };
-        let allowed = (word.chars().count().max(candidate.len()) / 3).max(1);
+        let longer = word.chars().count().max(candidate.len());
+        // typing errors seldom are in the first letter: `marble` is not meant to be `table`
+        let same_start = word.chars().next() == candidate.chars().next();
+        let allowed = if same_start { (longer / 3).max(1) } else { 1 };
         if distance <= allowed && best.is_none_or(|(least, _)| distance < least) {
             best = Some((distance, candidate));
         }
@@ -65,6 +68,9 @@ mod tests {
             ("gravity", Some("gravity_m_s2")),
             ("Friction", Some("friction")),
             ("frction", Some("friction")),
+            ("riction", Some("friction")),
+            ("eriction", Some("friction")),
+            ("diction", None),
             ("bounce", None),
             ("", None),
         ] {

@@ -199,6 +199,10 @@ pub(super) fn value(
                 span,
             })
         }
+        Err(_) if text.trim().is_empty() => {
+            let span = sources.span(source, offset..offset + text.len());
+            Err((span, "there is no value after `=`".to_owned()))
+        }
         Err(error) => {
             let range = error.span().unwrap_or(0..text.len());
             let span = sources.span(source, range.start + offset..range.end + offset);

@@ -145,6 +145,7 @@ fn bad_overrides() {
     let sets = [
         "surface.friction=abc",
         "coin.ratio=[1,",
+        "stop.tosses=",
         "stop.toses=5",
         "launch.preset=clean",
     ];

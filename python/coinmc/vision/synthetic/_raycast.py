@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from coinmc.vision._camera import Camera
 from coinmc.vision._needs import cv2
@@ -63,7 +64,7 @@ class View:
         fine = cv2().remap(coarse, columns, rows, cv2().INTER_LINEAR)
         inside = np.concatenate([fine, np.ones((*fine.shape[:2], 1), np.float32)], axis=2)
         self._rays = inside @ camera.table[:3, :3].astype(np.float32)
-        self.centre = camera.centre_mm
+        self.centre: NDArray[np.float64] = camera.centre_mm
 
     def rays(self, box: tuple[int, int, int, int] | None = None) -> np.ndarray:
         """Return the directions of the rays in a box of pixels: left, top, right, bottom."""

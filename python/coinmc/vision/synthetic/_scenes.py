@@ -5,6 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from coinmc._codes import Face
 from coinmc._tosses import toss
@@ -69,9 +70,9 @@ class Ends:
         config = {**_CONFIG, "seed": seed, "coin": coin, "stop": {"tosses": tosses}}
         ended = toss(config, threads=1)
         decided = ended.face != Face.UNDECIDED
-        self.face = ended.face[decided]
-        self.axis = ended.final["axis"][decided]
-        self.height = ended.final["position_m"][decided][:, 2] * 1e3
+        self.face: NDArray[np.uint8] = ended.face[decided]
+        self.axis: NDArray[np.float64] = ended.final["axis"][decided]
+        self.height: NDArray[np.float64] = ended.final["position_m"][decided][:, 2] * 1e3
 
     def rest(self, number: int, rng: np.random.Generator) -> Scene:
         """Return the coin of a toss at rest."""

@@ -26,7 +26,8 @@ pub(super) struct SyntheticArgs {
     synthetic: Option<PathBuf>,
 
     /// Number of the toss
-    #[arg(long, value_name = "K", default_value_t = 0, requires = "synthetic")]
+    #[arg(long, value_name = "K", default_value = "0", requires = "synthetic")]
+    #[arg(value_parser = crate::commands::count)]
     toss: u64,
 
     /// Power of the toss over that of the room's noise, dB

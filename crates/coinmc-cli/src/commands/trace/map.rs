@@ -50,7 +50,7 @@ pub(super) struct MapOf {
     point: usize,
 
     /// The toss whose launch gives all other quantities
-    #[arg(long, value_name = "K", default_value_t = 0)]
+    #[arg(long, value_name = "K", default_value = "0", value_parser = crate::commands::count)]
     toss: u64,
 
     /// Replace or add a value of the config, as in `surface.friction=0.2`; repeatable

@@ -66,7 +66,7 @@ pub(crate) struct Trace {
     points: Vec<usize>,
 
     /// Tosses of each point, by their number from 0, separated by commas
-    #[arg(long = "toss", value_name = "K", value_delimiter = ',')]
+    #[arg(long = "toss", value_name = "K", value_delimiter = ',', value_parser = super::count)]
     #[arg(conflicts_with_all = ["conditions", "longest", "count", "limit"])]
     tosses: Vec<u64>,
 
@@ -86,7 +86,7 @@ pub(crate) struct Trace {
     count: u16,
 
     /// Greatest number of tosses to search, point by point and in order
-    #[arg(long, value_name = "N", default_value_t = 100_000)]
+    #[arg(long, value_name = "N", default_value = "100_000", value_parser = super::count)]
     limit: u64,
 
     /// Samples per second between events; 0 for events only
