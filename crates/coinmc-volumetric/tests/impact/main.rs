@@ -2,6 +2,7 @@
 
 mod common;
 mod conditions;
+mod independent;
 mod lanes;
 mod limits;
 mod oracle;

@@ -70,3 +70,35 @@ pub(crate) fn interval_name(plan: &Plan, point: &Point) -> &'static str {
         Stop::Targets(_) => SEQUENTIAL,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// With targets, the interval that covers at least what it states, with the confidence of the look; with a
+    /// fixed number of tosses the interval and the confidence of the plan.
+    #[test]
+    fn the_interval_of_a_count_is_that_of_the_way_to_stop() {
+        for (stop, confidence, method) in [
+            ("half_width = 0.01", 0.97, IntervalMethod::ClopperPearson),
+            ("tosses = 1000", 0.9, IntervalMethod::Wilson),
+        ] {
+            let text = format!(
+                "coin.ratio = 1\nsurface = {{ restitution = 0.5, friction = 0.3 }}\n\
+                 launch.preset = 'robot'\nengine.flat = {{}}\nestimate.confidence = 0.9\nstop.{stop}"
+            );
+            let plan = crate::config::parse("inline", &text, &[]).unwrap();
+            let tally = Tally {
+                heads: 600,
+                tails: 100,
+                side: 290,
+                never_settles: 10,
+                ..Tally::default()
+            };
+            let found = of_count(&plan, &tally, tally.side, 0.97);
+            let expected = Estimate::new(290, 10, 1000, confidence, method);
+            assert_eq!((found.lo, found.hi), (expected.lo, expected.hi), "{stop}");
+            assert_eq!((found.p, found.confidence), (0.29, 0.9));
+        }
+    }
+}

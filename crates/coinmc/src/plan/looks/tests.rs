@@ -189,3 +189,30 @@ fn all_looks_together_have_the_confidence() {
     assert!(looks.looked > 15);
     assert!((sum - 0.05).abs() < 1e-12, "{sum}");
 }
+
+/// Wilson's interval covers less than it states at some probabilities, and is shorter.
+#[test]
+fn targets_are_met_by_clopper_and_pearsons_interval() {
+    let arm = |method| {
+        let estimate = Estimate::new(900, 0, 3000, 0.95, method);
+        estimate.half_width()
+    };
+    let (wilson, exact) = (
+        arm(IntervalMethod::Wilson),
+        arm(IntervalMethod::ClopperPearson),
+    );
+    assert!(wilson < exact);
+    for (half_width, verdict) in [
+        (0.5 * (wilson + exact), Verdict::Short),
+        (exact, Verdict::Met),
+    ] {
+        let targets = Targets {
+            half_width: Some(half_width),
+            face: Some(Face::Side),
+            max_tosses: 3000,
+            ..NONE
+        };
+        let mut looks = Looks::new(targets, 0.95);
+        assert_eq!(looks.look(&mean(3000, 0.3, 0.3)), verdict, "{half_width}");
+    }
+}
