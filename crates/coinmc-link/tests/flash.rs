@@ -65,7 +65,9 @@ impl Flash for Nor {
         self.words[word]
     }
 
+    /// Many microcontrollers (STM32, for one) refuse to program a word that is not erased.
     fn program(&mut self, word: usize, value: u32) {
+        assert_eq!(self.words[word], u32::MAX, "word {word} is not erased");
         let reached = self.reached(word);
         self.words[word] &= value | !reached;
         self.operated();
