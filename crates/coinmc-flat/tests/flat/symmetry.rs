@@ -24,6 +24,18 @@ fn heads_and_tails_exchange_exactly() {
     }
 }
 
+#[test]
+fn the_time_of_the_launch_does_not_matter() {
+    let mut short = 0;
+    for (ratio, restitution, friction) in SCENES {
+        let scene = scene(ratio, restitution, friction);
+        let launch = |toss| Start::lively(&mut Dice::new(74, toss)).launch(&scene);
+        let launches: Vec<_> = (0..2_000).map(launch).collect();
+        short += conformance::a_later_start_ends_alike(&engine(&scene), &launches, 40);
+    }
+    assert!(short > 1000, "{short}");
+}
+
 /// Left and right differ in rounding (1e-16), which an impact amplifies less than a thousandfold.
 /// So tosses of up to three impacts without sliding agree: 1e-16·1e9 compared with launches within
 /// 1e-7 of a change, of which 2000 contain 2e-4. The others agree on average: 4 standard errors,
