@@ -64,7 +64,7 @@ fn moreaus_impulses_are_those_of_a_conic_solver() {
             assert!(off < 1e-9, "{line}\n{:?}", parts(&p));
         }
         compared += 1;
-        slipping += usize::from(p.x.hypot(p.y) > 0.999 * case.friction.mu * p.z);
+        slipping += usize::from(libm::hypot(p.x, p.y) > 0.999 * case.friction.mu * p.z);
     }
     println!("{compared} compared, {slipping} of them slip; they differ by {worst:.1e} at most");
     assert!(compared >= 300 && slipping > compared / 10 && slipping < compared);
