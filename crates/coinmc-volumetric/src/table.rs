@@ -220,3 +220,35 @@ impl<L: ImpactLaw> Table<L> {
         toss
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::laws::Moreau;
+    use coinmc_core::{Coin, Surface};
+    use nalgebra::{UnitVector3, Vector3};
+
+    /// A coin at rest in the middle that slides down without friction has the speed sqrt(2 g r sin β) at the edge.
+    #[test]
+    fn no_coin_is_faster_than_the_fastest() {
+        let (radius_m, gravity) = (0.3, 9.81);
+        let tilt = TableTilt::new(6.0, 90.0).expect("a valid tilt");
+        let surface = Surface::new(0.5, 0.3)
+            .and_then(|surface| surface.with_tilt(tilt))
+            .and_then(|surface| surface.with_table_radius(radius_m))
+            .expect("a valid surface");
+        let coin = Coin::cylinder(0.2, 0.01).expect("a valid coin");
+        let scene = Scene::new(coin, surface, gravity).expect("valid gravity");
+        let table = Table::new(&scene, &Settings::default(), Moreau).expect("valid settings");
+        let at_rest = State {
+            time_s: 0.0,
+            position_m: Vector3::zeros(),
+            velocity_m_s: Vector3::zeros(),
+            axis: UnitVector3::new_unchecked(Vector3::z()),
+            spin_rad_s: Vector3::zeros(),
+        };
+        let slides = (2.0 * gravity * radius_m * libm::sin(6.0_f64.to_radians())).sqrt();
+        let fastest = table.expect("an edge").fastest_m_s(&at_rest);
+        assert!(fastest >= slides * (1.0 - 1e-12), "{fastest} {slides}");
+    }
+}

@@ -64,6 +64,22 @@ fn a_wheel_rolls_to_the_edge() {
     }
 }
 
+/// A coin in contact is looked at no more than a hundredth of its radius beyond the edge.
+#[test]
+fn a_wheel_leaves_at_the_edge() {
+    let (radius_m, speed) = (0.25, 1.0);
+    let velocity = Vector3::new(0.0, speed, 0.0);
+    let spin = Vector3::new(-speed / RADIUS, 0.0, 0.0);
+    let rolls = launch(RADIUS, Vector3::new(1.0, 0.0, 1e-6), velocity, spin);
+    let mut recorder = Recorder::default();
+    let scene = with_edge(plane(0.2, 0.3), radius_m);
+    let outcome = Tosser::new(&scene).observe(&rolls, &mut recorder);
+    assert_eq!(outcome.ended, Ended::Left);
+    let last = recorder.0.last().expect("events").state.position_m;
+    let beyond = last.xy().norm() - radius_m;
+    assert!(beyond > 0.0 && beyond <= 0.0101 * RADIUS, "{beyond}");
+}
+
 /// A coin flat on its face slides v²/2μg far.
 #[test]
 fn a_flat_coin_slides_to_the_edge() {
