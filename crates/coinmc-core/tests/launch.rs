@@ -55,6 +55,101 @@ fn at_rest() -> Spin {
     Spin::Components([Marginal::Constant(0.0); 3])
 }
 
+/// Each number of a launch, alone, may be no distribution.
+#[test]
+fn a_distribution_with_any_bad_part_is_refused() {
+    let (bad, good) = (Marginal::Constant(f64::NAN), Marginal::Constant(1.0));
+    let axis = Vector3::y_axis();
+    let sound = with(Orientation::Tilt(good), at_rest());
+    sound.validate().unwrap();
+    let mut refused = vec![
+        LaunchDistribution {
+            height_m: bad,
+            ..sound
+        },
+        LaunchDistribution {
+            orientation: Orientation::Tilt(bad),
+            ..sound
+        },
+    ];
+    for i in 0..3 {
+        let mut velocity_m_s = [good; 3];
+        velocity_m_s[i] = bad;
+        refused.push(LaunchDistribution {
+            velocity_m_s,
+            ..sound
+        });
+    }
+    let precessing = |rate_rad_s, psi_rad| Spin::Precessing {
+        rate_rad_s,
+        psi_rad,
+    };
+    for spin in [
+        Spin::Components([good, good, bad]),
+        Spin::About {
+            axis,
+            rate_rad_s: bad,
+        },
+        precessing(bad, good),
+        precessing(good, bad),
+    ] {
+        refused.push(LaunchDistribution { spin, ..sound });
+    }
+    for (number, distribution) in refused.iter().enumerate() {
+        assert!(
+            distribution.validate().is_err(),
+            "{number}: {distribution:?}"
+        );
+    }
+}
+
+/// A distribution calls itself planar where all of its launches stay in the xz plane, and only there.
+#[test]
+fn planar_are_those_whose_launches_stay_in_the_plane() {
+    let (none, some) = (Marginal::Constant(0.0), Marginal::Constant(1.5));
+    let unit = |x, y, z| UnitVector3::new_normalize(Vector3::new(x, y, z));
+    let orientations = [
+        Orientation::Fixed(unit(0.6, 0.0, 0.8)),
+        Orientation::Fixed(unit(0.6, 0.1, 0.8)),
+        Orientation::Isotropic,
+        Orientation::EulerAngles,
+        Orientation::Tilt(some),
+    ];
+    let about = |axis| Spin::About {
+        axis,
+        rate_rad_s: some,
+    };
+    let spins = [
+        Spin::Components([none, some, none]),
+        Spin::Components([some, none, none]),
+        Spin::Components([none, none, some]),
+        about(unit(0.0, 1.0, 0.0)),
+        about(unit(1.0, 1.0, 0.0)),
+        about(unit(0.0, 1.0, 1.0)),
+        Spin::Precessing {
+            rate_rad_s: some,
+            psi_rad: some,
+        },
+    ];
+    let stream = Stream::new(12, Domain::Launch, 3);
+    for orientation in orientations {
+        for spin in spins {
+            for vy in [none, some] {
+                let distribution = LaunchDistribution {
+                    velocity_m_s: [some, vy, some],
+                    ..with(orientation, spin)
+                };
+                let stays = (0..20).all(|toss| {
+                    let launch = distribution.launch(&coin(), &mut stream.toss(toss));
+                    let (v, u, w) = (launch.velocity_m_s, launch.axis, launch.spin_rad_s);
+                    [v.y, u.y, w.x, w.z] == [0.0; 4]
+                });
+                assert_eq!(distribution.is_planar(), stays, "{distribution:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn marginals_follow_their_distributions() {
     let all = launches(&with(Orientation::Isotropic, at_rest()), &coin());

@@ -56,6 +56,9 @@ proptest! {
         let (a, b) = (tally(first), tally(second));
         prop_assert_eq!(a.checked_merge(&b), Some(whole));
         prop_assert_eq!(b.checked_merge(&a), Some(whole));
+        let mut merged = a;
+        merged.merge(&b);
+        prop_assert_eq!(merged, whole);
         prop_assert_eq!(whole.tosses(), outcomes.len() as u64);
         prop_assert_eq!(Tally::from_array(whole.to_array()), whole);
     }

@@ -6,7 +6,7 @@ use super::draw::Uniforms;
 use super::sincos::sin_cos;
 use super::{LaunchError, Marginal};
 use crate::UniformSource;
-use crate::schema::{Absent, Bounds, Kind, ReadError, Value, Word, field, unlisted};
+use crate::schema::{Absent, Bounds, Kind, ReadError, Value, Word, field};
 use coinmc_lanes::Lane;
 use nalgebra::UnitVector3;
 use std::f64::consts::TAU;
@@ -65,9 +65,7 @@ impl Orientation {
                 Self::Tilt(Marginal::read(tilt)?.scaled(f64::to_radians))
             }
             Value::Tagged("axis", axis) => Self::Fixed(read_direction(axis)?),
-            Value::Word(name) | Value::Tagged(name, _) => {
-                return Err(unlisted("orientation", name).into());
-            }
+            // the schema lets no other value through
             _ => return Err(ReadError::new("this is no orientation")),
         })
     }
