@@ -103,6 +103,7 @@ impl<I: ImpactLaw> Model<I> {
         let (mut motion, mut spin) = (*motion, *spin);
         motion.apply_impulse(&mut spin, &dynamics.body, point, p);
         motion.cap_energy(&dynamics.body, &mut spin, energy);
+        motion.stop_residue(&mut spin);
         (motion, spin)
     }
 }

@@ -60,6 +60,7 @@ mod observer_adapter;
 mod onto_side;
 mod place;
 mod pull;
+mod residue;
 mod restitution;
 mod rough;
 mod scalar;
