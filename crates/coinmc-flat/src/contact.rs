@@ -10,6 +10,7 @@
 
 use crate::contact_matrix::ContactMatrix;
 use crate::counters::Counters;
+use crate::dead_contact::DeadContact;
 use crate::decision::decided_by_energy;
 use crate::motion::Motion;
 use crate::observer_adapter::ObserverAdapter;
@@ -82,6 +83,8 @@ pub(crate) enum ContactStep {
 pub(crate) struct ContactParameters {
     pub(crate) shape: Shape,
     pub(crate) friction: f64,
+    /// The decision on a coin in contact.
+    pub(crate) dead: DeadContact,
     pub(crate) tolerance: f64,
     pub(crate) max_steps: u32,
 }
@@ -103,7 +106,7 @@ impl ContactParameters {
         mut state: ContactState,
         adapter: &mut ObserverAdapter<'_, O>,
     ) -> ContactStep {
-        if self.is_decided(motion) {
+        if self.is_decided(motion) || self.dead.decides(motion, self.shape.k) {
             return ContactStep::End(ContactEnd::Decided);
         }
         if counters.contact_steps >= self.max_steps {
@@ -173,6 +176,7 @@ impl ContactParameters {
         let start = SlideStart {
             shape: &self.shape,
             friction: self.friction,
+            dead: self.dead,
             slip: state.slip,
             tolerance: self.tolerance,
             max_steps: self.max_steps - counters.contact_steps,

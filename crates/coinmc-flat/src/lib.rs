@@ -34,6 +34,7 @@ mod by_law;
 mod contact;
 mod contact_matrix;
 mod counters;
+mod dead_contact;
 mod decision;
 mod descriptor;
 mod dormand_prince;

@@ -1,6 +1,8 @@
 //! What all tosses of one scene under one law of impact have in common.
 
 use crate::contact::ContactParameters;
+use crate::dead_contact::DeadContact;
+use crate::impact_law::ImpactLaw;
 use crate::motion::Units;
 use crate::observer_adapter::ObserverAdapter;
 use crate::settings::Settings;
@@ -28,12 +30,18 @@ pub(crate) struct Parameters<L> {
     pub(crate) half_short_edge: f64,
 }
 
-impl<L> Parameters<L> {
+impl<L: ImpactLaw> Parameters<L> {
     pub(crate) fn new(scene: &Scene, settings: &Settings, law: L) -> Result<Self, SettingsError> {
         settings.validate()?;
         let shape = Shape::new(&scene.coin);
         let (height, half_width) = shape.base(0, true);
         let friction = scene.surface.friction();
+        // proven for impacts that are an impulse within the cone of friction
+        let dead = if L::BATCHED && scene.surface.restitution() == 0.0 && friction > 0.0 {
+            DeadContact::new(&shape, friction)
+        } else {
+            DeadContact::NONE
+        };
         Ok(Self {
             law,
             settings: *settings,
@@ -42,6 +50,7 @@ impl<L> Parameters<L> {
             contact: ContactParameters {
                 shape,
                 friction,
+                dead,
                 tolerance: settings.tolerance,
                 max_steps: settings.max_impacts,
             },

@@ -2,6 +2,7 @@
 
 use super::equations::{JAM, RatedState, SlideState, Sliding};
 use super::events::{EventSearch, Margins, SlideEnd, StepMargins, Trial};
+use crate::dead_contact::DeadContact;
 use crate::motion::Motion;
 use crate::observer_adapter::ObserverAdapter;
 use crate::shape::Shape;
@@ -12,6 +13,8 @@ use coinmc_lanes::sin_cos;
 pub(crate) struct SlideStart<'a> {
     pub(crate) shape: &'a Shape,
     pub(crate) friction: f64,
+    /// The decision on a coin in contact.
+    pub(crate) dead: DeadContact,
     /// Slip velocity; where it is zero, its sign is that of the slip about to begin.
     pub(crate) slip: f64,
     pub(crate) tolerance: f64,
@@ -24,6 +27,7 @@ pub(crate) struct SlideStart<'a> {
 pub(crate) struct SlidePhase {
     pub(super) sliding: Sliding,
     margins: Margins,
+    dead: DeadContact,
     tolerance: f64,
     max_steps: u32,
     energy: f64,
@@ -61,6 +65,7 @@ impl SlidePhase {
                 quadrant: motion.quadrant,
                 direction,
             },
+            dead: start.dead,
             tolerance: start.tolerance,
             max_steps: start.max_steps,
             energy: motion.energy(shape.k),
@@ -165,8 +170,8 @@ impl SlidePhase {
             angle: attempt.end.angle,
         };
         self.advance(&attempt.start, &end, motion, adapter);
-        // sliding has friction, so that all of the energy counts
-        if self.energy < 1.0 {
+        // with friction all of the energy counts, unless the rule for dead contact holds
+        if self.energy < 1.0 || self.dead.decides(motion, self.sliding.k) {
             return Some(self.end(SlideEnd::Decided, motion));
         }
         let longer = growth(self.tolerance, attempt.error).clamp(0.2, 4.0);
