@@ -103,7 +103,10 @@ impl<I: ImpactLaw> Model<I> {
         let (mut motion, mut spin) = (*motion, *spin);
         motion.apply_impulse(&mut spin, &dynamics.body, point, p);
         motion.cap_energy(&dynamics.body, &mut spin, energy);
-        motion.stop_residue(&mut spin);
+        // rough ground turns its normal from impact to impact, so nothing stays in a plane there
+        if self.ground.is_none() {
+            motion.stop_residue(&mut spin);
+        }
         (motion, spin)
     }
 }

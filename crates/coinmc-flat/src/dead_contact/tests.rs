@@ -129,8 +129,11 @@ fn the_barrier_has_its_closed_form_where_it_is_proven() {
     // a thick coin on its face would keep too much of its rocking, a thin one trips on its side
     let (k, [face, _]) = self::wells(5.0);
     assert_eq!(barrier(k, 0.3, face), f64::NEG_INFINITY);
-    let (k, [_, side]) = self::wells(0.1);
+    let (k, [face, side]) = self::wells(0.1);
     assert_eq!(barrier(k, 0.3, side), f64::NEG_INFINITY);
+    // much friction may make a thin coin lift off
+    assert!(barrier(k, 0.5, face) > 0.0);
+    assert_eq!(barrier(k, 0.6, face), f64::NEG_INFINITY);
 }
 
 fn same_faces<L: ImpactLaw>(law: L) {
