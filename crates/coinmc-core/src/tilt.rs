@@ -137,6 +137,7 @@ mod tests {
     #[test]
     fn axes_of_the_table_are_turned_about_the_level_line() {
         let tilt = TableTilt::new(7.0, 30.0).unwrap();
+        assert!(!tilt.is_level() && TableTilt::new(0.0, 30.0).unwrap().is_level());
         let [ex, ey] = tilt.downhill();
         let (downhill, across) = (Vector3::new(ex, ey, 0.0), Vector3::new(-ey, ex, 0.0));
         assert!((tilt.in_table_axes(&across) - across).norm() < 1e-15);

@@ -183,8 +183,9 @@ mod tests {
         // all but few is as rare as few
         assert!(is_close(heads.lo, 1.0 - exact.hi) && is_close(heads.hi, 1.0 - exact.lo));
         let grain = 0.5 / 65_536.0;
-        let [_, _, side] = of([4.0, 4.0]);
+        let [heads, _, side] = of([4.0, 4.0]);
         let p = 4.0 / 65_536.0;
+        assert!(is_close(heads.lo, 1.0 - p - grain) && is_close(heads.hi, 1.0 - p + grain));
         assert!(
             is_close(side.lo, p - grain) && is_close(side.hi, p + grain),
             "{side:?}"

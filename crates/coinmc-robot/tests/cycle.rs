@@ -344,3 +344,53 @@ fn after_a_connection_the_robot_is_asked_who_it_is_and_how() {
     table.cycle.waited();
     assert_eq!(table.step(), Step::Request(Request::Status));
 }
+
+/// Photos of a throw that is void are none of the next one, whether they came or not.
+#[test]
+fn photos_are_counted_anew_for_each_throw() {
+    for came in [true, false] {
+        let mut table = Table::announced(rules(false));
+        table.status(State::AtCoin, |_| {});
+        table.cycle.photographing(THROW, 1);
+        if came {
+            let (attempt, shown) = (1, Shown::Nothing);
+            let photo = Photo {
+                id: THROW,
+                attempt,
+                shown,
+            };
+            table.cycle.photographed(photo);
+        }
+        table.status(State::Fault, |status| status.fault = 103);
+        assert_eq!(table.step(), void(THROW, VoidReason::Fault(103)));
+        let step = table.step();
+        table.write(step);
+        table.announce(THROW + 1);
+        table.status(State::AtCoin, |status| status.throw_id = THROW + 1);
+        // not as many without a face as the rules allow: those of the first throw do not count
+        table.photo(1, Shown::Nothing);
+        table.photo(2, Shown::Failure("no light".to_owned()));
+        assert!(matches!(table.step(), Step::Photograph { attempt: 3, .. }));
+    }
+}
+
+#[test]
+fn a_robot_reaches_all_that_is_planned_or_none_is_thrown() {
+    let reach = rules(false).reach;
+    let (spin, angle) = (reach.spin_mrev_s(), reach.angle_cdeg());
+    for (spin_mrev_s, angle_cdeg, fits) in [
+        (spin, angle, true),
+        (spin - 1, angle, false),
+        (spin, angle - 1, false),
+    ] {
+        let mut cycle = Cycle::new(rules(false), PROGRAM);
+        cycle.connected(&greeting(4));
+        let mut robot = info();
+        robot.limits.spin_mrev_s = spin_mrev_s;
+        robot.limits.angle_cdeg = angle_cdeg;
+        cycle.replied(&Request::Info, &Reply::Info(robot));
+        let step = cycle.step(&History::default(), 7);
+        let halts = matches!(step, Step::Halt(Halt::OutOfReach { .. }));
+        assert_eq!(halts, !fits, "{spin_mrev_s} {angle_cdeg}: {step:?}");
+    }
+}

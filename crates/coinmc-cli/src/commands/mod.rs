@@ -71,6 +71,7 @@ fn count(text: &str) -> Result<u64, String> {
 }
 
 /// The whole number that is `x`, unless neighbours of it have no `f64` of their own.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // whole, and in the range
 fn whole(x: f64) -> Option<u64> {
     const EXACT: f64 = (1_u64 << f64::MANTISSA_DIGITS) as f64;
     ((0.0..=EXACT).contains(&x) && libm::trunc(x) == x).then_some(x as u64)
