@@ -18,7 +18,7 @@ def installed(checker):
 
 
 def checked(path, *command):
-    """Run a type checker on the guide's Python, or on what the arguments name."""
+    """Run a type checker in a folder."""
     return subprocess.run(
         (sys.executable, "-m", *command), cwd=path, check=False, capture_output=True, text=True
     )

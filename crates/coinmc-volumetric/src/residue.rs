@@ -16,7 +16,7 @@ use crate::motion::{Motion, Spin};
 use coinmc_lanes::Lane;
 
 /// The least rate, in sqrt(g/D), and velocity, in sqrt(g D), of motion out of the xz plane.
-pub(crate) const LEAST_RATE: f64 = 1e-100;
+const LEAST_RATE: f64 = 1e-100;
 
 impl<L: Lane> Motion<L> {
     /// Stops each motion out of the xz plane that is slower than [`LEAST_RATE`].

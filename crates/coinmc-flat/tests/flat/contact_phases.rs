@@ -205,10 +205,13 @@ fn check_phase(section: &Section, mu: f64, from: &Moment, to: &Moment, seen: &mu
             );
             seen.to_stop += 1;
         }
-        // without rebound the energy of sliding does not count
+        // or, without rebound, below the highest barrier of both wells without the energy of sliding
         _ => {
-            let tilting = to.energy(section.k) - 0.5 * to.vx * to.vx;
-            assert!(tilting < 1.0, "ends undecided: {to:?}");
+            let energy = to.energy(section.k);
+            let narrowest = section.radius.min(section.half_height);
+            let barrier = (1.0 + mu * mu).sqrt() - mu * narrowest;
+            let decided = energy < 1.0 || energy - 0.5 * to.vx * to.vx < barrier.min(1.0);
+            assert!(decided, "ends undecided: {to:?}");
         }
     }
     match mode {

@@ -57,7 +57,7 @@ fn quarter_turns_and_reflections_change_nothing() {
     for (law, (ratio, e, mu, rho)) in laws_and_scenes() {
         let scene = rolling_scene(ratio, e, mu, rho);
         let engine = Tosser::of(&scene, law);
-        for toss in 0..60 {
+        for toss in 0..150 {
             let launch = moving(&scene, 221, toss);
             let outcome = engine.toss(&launch);
             let mut image = launch;
