@@ -17,6 +17,8 @@ const BYTE_US: u32 = 3_400;
 const WRAPS_AFTER_MS: u32 = 4_000;
 /// How far the host's calendar jumps at most: ten days.
 const JUMP_MS: u64 = 864_000_000;
+/// More steps than any host needs.
+const MAX_STEPS: u32 = 20_000;
 
 pub const THROWS: u32 = 6;
 /// Number of the experiment.
@@ -357,7 +359,7 @@ impl World {
         self.session += 1;
         host.open(self.session, self.now_ms);
         let mut photo = None;
-        loop {
+        for _ in 0..MAX_STEPS {
             if self.faults.draw() < 6 {
                 return Err(Crashed);
             }
@@ -403,6 +405,7 @@ impl World {
                 Step::Halt(halt) => return Ok(End::Halted(halt)),
             }
         }
+        panic!("the host goes on and on");
     }
 
     /// Runs hosts until one of them finishes.
