@@ -110,7 +110,7 @@ fn a_counter_ahead_halts_and_is_adopted_on_demand() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 3000, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 3000, max_shrink_time: 10_000, ..ProptestConfig::default() })]
 
     #[test]
     fn with_any_faults_every_throw_is_resolved_once(faults in prop::collection::vec(any::<u8>(), 0..900)) {

@@ -18,7 +18,7 @@ const WRAPS_AFTER_MS: u32 = 4_000;
 /// How far the host's calendar jumps at most: ten days.
 const JUMP_MS: u64 = 864_000_000;
 /// More steps than any host needs.
-const MAX_STEPS: u32 = 20_000;
+const MAX_STEPS: u32 = 1_500;
 
 pub const THROWS: u32 = 6;
 /// Number of the experiment.
