@@ -7,6 +7,10 @@ _default:
 test:
     scripts/test
 
+# Format, lints and the Rust tests
+quick:
+    scripts/test --quick
+
 # Format all code
 format:
     cargo fmt --all

@@ -4,10 +4,13 @@ import csv
 import importlib
 import json
 import math
+import os
 import re
 import shutil
 import subprocess
+import sys
 from itertools import pairwise
+from pathlib import Path
 
 import foxglove_schemas_protobuf
 import jsonschema
@@ -196,7 +199,8 @@ def test_the_layout_shows_what_is_in_the_file(coinmc, messages):
 
 
 def test_rerun_shows_the_pose(folder, messages, tmp_path):
-    tool = shutil.which("rerun")
+    beside = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    tool = shutil.which("rerun", path=beside)
     if tool is None:
         pytest.skip("the command `rerun` is not installed (pip install rerun-sdk)")
     recording = tmp_path / "t.rrd"

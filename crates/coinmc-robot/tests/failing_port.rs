@@ -12,7 +12,7 @@ use std::io::{self, Read, Write};
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::Duration;
-use world::{PROGRAM, World, rules, setting, true_face};
+use world::{MAX_STEPS, PROGRAM, World, rules, setting, true_face};
 
 /// How much faster than life the host's clock runs.
 const SPEED: f64 = 1e3;
@@ -181,7 +181,8 @@ fn experiment(failures: Vec<(u32, Failure)>) -> (u32, u32) {
     );
     let parsed = parsed.unwrap();
     let (mut history, mut checksum) = (parsed.history, parsed.checksum);
-    loop {
+    for steps in 0.. {
+        assert!(steps < MAX_STEPS, "the host goes on and on");
         let entry = match cycle.step(&history, 7) {
             Step::Request(request) => {
                 let outcome = connection.request(&request, &|| false, &mut |_| {});

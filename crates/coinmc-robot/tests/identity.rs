@@ -5,7 +5,7 @@ mod world;
 use coinmc_link::{Host, Reply, Request, State};
 use coinmc_robot::cycle::{Cycle, Halt, Step, Stranger};
 use coinmc_robot::journal::{Entry, History, Resolution, VoidReason, parse};
-use world::{Bench, End, OURS, PROGRAM, World, rules, setting};
+use world::{Bench, End, MAX_STEPS, OURS, PROGRAM, World, rules, setting};
 
 /// The world in which the first throw is announced, and its host is gone.
 fn announced() -> World {
@@ -14,7 +14,7 @@ fn announced() -> World {
     let mut cycle = Cycle::new(rules(false), PROGRAM);
     let mut host = Host::new();
     host.open(1, 0);
-    loop {
+    for _ in 0..MAX_STEPS {
         match cycle.step(&history, 0) {
             Step::Request(request) => {
                 world.ask(&mut cycle, &mut host, &request);
@@ -36,6 +36,7 @@ fn announced() -> World {
             other => panic!("{other:?}"),
         }
     }
+    panic!("the host goes on and on");
 }
 
 /// Somebody throws by hand, with the number that the journal has announced.

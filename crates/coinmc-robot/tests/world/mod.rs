@@ -17,8 +17,8 @@ const BYTE_US: u32 = 3_400;
 const WRAPS_AFTER_MS: u32 = 4_000;
 /// How far the host's calendar jumps at most: ten days.
 const JUMP_MS: u64 = 864_000_000;
-/// More steps than any host needs.
-const MAX_STEPS: u32 = 1_500;
+/// More steps than any host needs: one that goes on and on fails.
+pub const MAX_STEPS: u32 = 1_500;
 
 pub const THROWS: u32 = 6;
 /// Number of the experiment.
