@@ -216,3 +216,226 @@ fn targets_are_met_by_clopper_and_pearsons_interval() {
         assert_eq!(looks.look(&mean(3000, 0.3, 0.3)), verdict, "{half_width}");
     }
 }
+
+/// An excess that falls like 1/n, as of intervals, or like 1/n², as of a face that is never seen.
+#[test]
+fn the_number_of_tosses_without_excess_is_found() {
+    for needed in [50.0, 3e4, 2e9] {
+        for power in [1, 2] {
+            let found = Looks::solve(0.5, |n| (needed / n).powi(power));
+            // 24 halvings of the logarithm of what is missing, ln(2e9/32)
+            assert!(
+                (found / needed - 1.0).abs() < 2e-6,
+                "{needed} {power}: {found}"
+            );
+        }
+    }
+    assert!(Looks::solve(0.5, |_| 1.1).is_infinite());
+    // as many as a point may make, and no more
+    let (most, beyond) = (0.99 * MOST, 1.01 * MOST);
+    assert!((Looks::solve(0.5, |n| most / n) / most - 1.0).abs() < 2e-6);
+    assert!(Looks::solve(0.5, |n| beyond / n).is_infinite());
+}
+
+/// Both ends of Wilson's interval are a toss farther out.
+#[test]
+fn the_excess_of_a_number_of_tosses_is_that_of_wilsons_interval_and_a_toss() {
+    let targets = Targets {
+        half_width: Some(0.01),
+        ..NONE
+    };
+    let looks = Looks::new(targets, 0.95);
+    for (p, undecided, n) in [(0.3, 0.0, 4000_u64), (0.3, 0.01, 4000), (0.0, 0.0, 500)] {
+        let of = |p: f64| {
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+            let count = libm::round(p * n as f64) as u64;
+            count
+        };
+        let wilson = Estimate::new(of(p), of(undecided), n, 0.9, IntervalMethod::Wilson);
+        let arm = wilson.half_width() + 1.0 / n as f64;
+        let excess = looks.excess_at(p, undecided, n as f64, 0.9);
+        let expected = (arm / 0.01).powi(2);
+        assert!(
+            (excess / expected - 1.0).abs() < 1e-12,
+            "{excess} {expected}"
+        );
+    }
+    // no more tosses are without a face than are left
+    let all = looks.excess_at(0.9, 0.5, 1000.0, 0.9);
+    let rest = looks.excess_at(0.9, 0.1, 1000.0, 0.9);
+    assert!((all / rest - 1.0).abs() < 1e-12);
+}
+
+/// The worst probability within the errors counts: never more than that of 1/2, and on either side of what was
+/// seen.
+#[test]
+fn a_margin_takes_the_worst_probability_within_it() {
+    let (half_width, n) = (1e-3, 10_000_u32);
+    let targets = Targets {
+        half_width: Some(half_width),
+        face: Some(Face::Side),
+        ..NONE
+    };
+    let looks = Looks::new(targets, 0.95);
+    let needed = |side, errors| {
+        looks.needed(
+            &mean(u64::from(n), 0.5 * (1.0 - side), side),
+            0.0,
+            errors,
+            0.95,
+        )
+    };
+    for (side, errors) in [
+        (0.1, 0.0),
+        (0.1, 2.0),
+        (0.9, 2.0),
+        (0.3, 4.0),
+        (0.497, 2.0),
+        (0.503, 2.0),
+    ] {
+        let error = errors * f64::sqrt(side * (1.0 - side) / f64::from(n));
+        let worst = 0.5_f64.clamp(side - error, side + error);
+        let count = fixed(worst, half_width);
+        // Wilson's interval has its middle z² (1/2 - p)/n nearer to 1/2, and the toss on either side adds 1/n; both
+        // to the arm h, of which n goes as the square.
+        let shift = 1.959_964_f64.powi(2) * (0.5 - worst).abs() + 1.0;
+        let expected = 1.003 * count * (1.0 + 2.0 * shift / (count * half_width));
+        let ratio = needed(side, errors) / expected;
+        assert!((ratio - 1.0).abs() < 3e-4, "{side} {errors}: {ratio}");
+    }
+}
+
+/// 4 standard errors: the intervals of h = .01 never get that short with more than 1 % without a face.
+#[test]
+fn a_point_is_given_up_only_if_too_many_undecided_tosses_are_no_chance() {
+    let (half_width, n) = (0.01, 1_u32 << 16);
+    let targets = Targets {
+        half_width: Some(half_width),
+        ..NONE
+    };
+    let looks = Looks::new(targets, 0.95);
+    let lets_hope = |share: f64| {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let impact_limit = (share * f64::from(n)) as u64;
+        let tally = Tally {
+            impact_limit,
+            ..mean(u64::from(n) - impact_limit, 0.3, 0.4)
+        };
+        looks.lets_hope(&tally, 0.95)
+    };
+    // u - 4 √(u (1 - u)/n) = h
+    let error = |u: f64| SURE * (u * (1.0 - u) / f64::from(n)).sqrt();
+    let border = (0..60).fold(half_width, |u, _| half_width + error(u));
+    assert!(lets_hope(0.0) && lets_hope(0.97 * border));
+    assert!(!lets_hope(1.03 * border));
+    // few of few tosses say nothing
+    let few = Tally {
+        impact_limit: 1,
+        ..mean(63, 0.3, 0.4)
+    };
+    assert!(looks.lets_hope(&few, 0.95));
+    // what no number of tosses reaches is not the fault of undecided ones
+    let relative = Targets {
+        half_width: None,
+        relative_error: Some(0.1),
+        ..targets
+    };
+    let never_seen = Tally {
+        impact_limit: 3000,
+        ..mean(7000, 0.5, 0.0)
+    };
+    assert!(Looks::new(relative, 0.95).lets_hope(&never_seen, 0.95));
+}
+
+#[test]
+fn a_forecast_is_what_is_tossed_in_the_end() {
+    for (half_width, heads, side) in [(1e-3, 0.3, 0.4), (0.01, 0.45, 0.1), (5e-4, 0.1, 0.8)] {
+        let targets = Targets {
+            half_width: Some(half_width),
+            ..NONE
+        };
+        let (looks, _) = follow(targets, heads, side);
+        let forecast = Looks::new(targets, 0.95).forecast(&mean(4096, heads, side));
+        let ratio = forecast as f64 / looks.stage().end as f64;
+        assert!((0.94..1.06).contains(&ratio), "{half_width}: {ratio}");
+        // the pilot is the power of two from a 32th of what counts
+        let counted = fixed(heads.max(side), half_width);
+        let pilot = forecast as f64 / 1.02 - counted;
+        assert!(
+            pilot > counted / 40.0 && pilot < counted / 12.0,
+            "{half_width}: {pilot}"
+        );
+    }
+    // at the limit there is none
+    let short = Targets {
+        half_width: Some(1e-3),
+        max_tosses: 4000,
+        ..NONE
+    };
+    assert_eq!(Looks::new(short, 0.95).forecast(&mean(64, 0.3, 0.4)), 4000);
+    let few = Targets {
+        half_width: Some(0.1),
+        ..short
+    };
+    let tosses = Looks::new(few, 0.95).forecast(&mean(64, 0.3, 0.4)) as f64;
+    assert!(
+        (1.0..1.35).contains(&(tosses / fixed(0.4, 0.1))),
+        "{tosses}"
+    );
+}
+
+#[test]
+fn a_stage_that_is_cut_short_is_the_last_with_all_that_is_left_of_the_confidence() {
+    let targets = Targets {
+        half_width: Some(1e-9),
+        ..NONE
+    };
+    let mut looks = Looks::new(targets, 0.95);
+    looks.pilot = Some(1024);
+    looks.stage = 1024..2048;
+    let first = looks.confidence();
+    assert!((first - (1.0 - 0.97 * 0.05)).abs() < 1e-12);
+    assert_eq!(looks.look(&mean(1024, 0.3, 0.4)), Verdict::More);
+    // two times as many counted tosses follow
+    assert_eq!((looks.stage(), looks.counted()), (2048..4096, 3072));
+    assert!((looks.wanted() - 2048.0).abs() < 1e-9);
+    let mut cut = looks.clone();
+    cut.end_after(100);
+    assert_eq!(cut.stage(), 2048..2148);
+    assert!((cut.confidence() - (1.0 - 0.03 * 0.05)).abs() < 1e-12);
+    assert_eq!(cut.look(&mean(1124, 0.3, 0.4)), Verdict::Short);
+    // more than it has changes nothing but that it is the last
+    let mut whole = looks.clone();
+    whole.end_after(1 << 40);
+    assert_eq!(whole.stage(), 2048..4096);
+    // nothing more: the look before was final, and had more of α than it took
+    looks.end_after(0);
+    assert!((looks.confidence() - 0.95).abs() < 1e-12);
+    assert_eq!(looks.stage(), 2048..2048);
+}
+
+/// All points of a run share its limit, so a pilot must not take more than its part of that.
+#[test]
+fn a_pilot_is_at_most_an_eighth_and_a_bit_of_what_may_be_tossed() {
+    let never_met = Targets {
+        relative_error: Some(0.01),
+        ..NONE
+    };
+    let pilot = |within: u64, later: Option<u64>| {
+        let mut looks = Looks::within(never_met, 0.95, within);
+        if let Some(tosses) = later {
+            looks.limit_pilot(tosses);
+        }
+        while looks.is_pilot() {
+            looks.look(&mean(looks.pilot(), 0.5, 0.0));
+        }
+        (looks.pilot(), looks.stage().end)
+    };
+    // 32 of such pilots, then there is no more hope that it sees the side
+    assert_eq!(pilot(1 << 20, None), (1 << 15, NONE.max_tosses));
+    assert_eq!(pilot(1 << 20, Some(1 << 14)), (1 << 9, NONE.max_tosses));
+    assert_eq!(pilot(1 << 20, Some(1 << 30)), (1 << 15, NONE.max_tosses));
+    // where a pilot does not pay, the limit is one of all tosses
+    assert_eq!(pilot(4095, None), (0, 4095));
+    assert_eq!(pilot(4096, None).1, NONE.max_tosses);
+}
