@@ -222,6 +222,26 @@ fn a_strange_robot_is_asked_about_and_adopted_on_demand() {
     assert_eq!(dialogue.step(), Step::Write(adopted));
 }
 
+/// Its memory was changed: it would count the throws that it has made again.
+#[test]
+fn a_robot_that_has_made_fewer_throws_than_the_journal_is_a_stranger() {
+    let at = |throw_id| {
+        let mut dialogue = Dialogue::announced(rules(false));
+        dialogue.status(State::Idle, |_| {});
+        let lost = dialogue.step();
+        dialogue.write(lost);
+        dialogue.status(State::Idle, |status| status.throw_id = throw_id);
+        dialogue.step()
+    };
+    let how = Stranger::Behind {
+        throw_id: THROW - 1,
+        least: THROW,
+    };
+    assert_eq!(at(THROW - 1), Step::Halt(Halt::Foreign { how }));
+    let (throw, id) = (1, THROW + 1);
+    assert_eq!(at(THROW), Step::Announce { throw, id });
+}
+
 #[test]
 fn a_stopped_cycle_finishes_the_open_throw_and_no_other() {
     let mut dialogue = Dialogue::announced(rules(false));
