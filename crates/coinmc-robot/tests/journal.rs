@@ -177,10 +177,29 @@ fn damage_before_the_last_line_is_rejected_with_its_line_and_a_remedy() {
     assert_eq!(damage(&path), Damage::Line(3));
     fs::write(&path, "something else\n").unwrap();
     assert_eq!(damage(&path), Damage::NotAJournal);
+    let message = Journal::open(&path, &header()).unwrap_err().to_string();
+    assert!(message.ends_with("Move the directory away or give another one with --out"));
     fs::write(&path, "coinmc-robot-journal 3 x 1 00000000\n").unwrap();
     assert_eq!(damage(&path), Damage::Newer(3));
+    let message = Journal::open(&path, &header()).unwrap_err().to_string();
+    assert!(
+        message.ends_with("use the program that wrote it"),
+        "{message}"
+    );
     let nothing_was_changed = fs::read_to_string(&path).unwrap();
     assert!(nothing_was_changed.starts_with("coinmc-robot-journal 3"));
+}
+
+/// There is no copy of part of a journal whose first line is damaged.
+#[test]
+fn damage_of_the_first_line_has_another_remedy_than_that_of_the_second() {
+    let message = |line| {
+        let path = PathBuf::from("journal.txt");
+        let damage = Damage::Line(line);
+        JournalError::Damaged { path, damage }.to_string()
+    };
+    assert!(message(1).ends_with("Move the directory away or give another one with --out"));
+    assert!(message(2).contains("`head -n 1 journal.txt`"));
 }
 
 #[test]
@@ -257,6 +276,13 @@ fn a_journal_of_another_experiment_or_in_use_is_rejected() {
     let error = Journal::open(&path, &other).unwrap_err();
     assert!(matches!(error, JournalError::OtherExperiment { .. }));
     assert!(error.to_string().contains("--out"), "{error}");
+    // eight characters of a hash tell plans apart
+    let plans = format!(
+        "(plan {0}…, {1} throws; this one: plan {0}…, 7 throws)",
+        &header().plan_hash[..8],
+        header().throws
+    );
+    assert!(error.to_string().contains(&plans), "{error}");
     let held = Journal::open(&path, &header()).unwrap();
     let error = Journal::open(&path, &header()).unwrap_err();
     assert!(matches!(error, JournalError::Locked { .. }), "{error}");

@@ -31,7 +31,7 @@ pub struct Journal {
 #[non_exhaustive]
 pub enum JournalError {
     /// It is damaged.
-    #[error("{} {damage}. {}", path.display(), remedy(damage, path))]
+    #[error("{} {damage}{}", path.display(), remedy(damage, path))]
     Damaged {
         /// The file.
         path: PathBuf,
@@ -99,18 +99,18 @@ fn short(hash: &str) -> &str {
     hash.get(..8).unwrap_or(hash)
 }
 
-/// The remedy for damage.
+/// The remedy for damage, after what the damage is; that of a newer format says it itself.
 fn remedy(damage: &Damage, path: &Path) -> String {
     match damage {
         Damage::Line(line) | Damage::Order { line, .. } if *line > 1 => format!(
-            "Restore a copy of the file from before the damage; or keep a copy of it, truncate it \
+            ". Restore a copy of the file from before the damage; or keep a copy of it, truncate it \
              before that line (`head -n {} {}`) and resume with --adopt, which loses the throws after \
              it",
             line - 1,
             path.display()
         ),
         Damage::Newer(_) => String::new(),
-        _ => "Move the directory away or give another one with --out".to_owned(),
+        _ => ". Move the directory away or give another one with --out".to_owned(),
     }
 }
 
