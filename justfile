@@ -7,7 +7,7 @@ _default:
 test:
     scripts/test
 
-# Format, lints and the Rust tests
+# Format, lints and the quicker Rust tests
 quick:
     scripts/test --quick
 
