@@ -283,12 +283,15 @@ fn a_journal_of_another_experiment_or_in_use_is_rejected() {
         header().throws
     );
     assert!(error.to_string().contains(&plans), "{error}");
+    assert!(!Journal::is_in_use(&path));
     let held = Journal::open(&path, &header()).unwrap();
+    assert!(Journal::is_in_use(&path));
     let error = Journal::open(&path, &header()).unwrap_err();
     assert!(matches!(error, JournalError::Locked { .. }), "{error}");
     // reading needs no lock
     assert_eq!(Journal::read(&path).unwrap().1.throws().len(), 2);
     drop(held);
+    assert!(!Journal::is_in_use(&path) && !Journal::is_in_use(&dir.path().join("none")));
     assert!(matches!(
         Journal::create(&path, &header()),
         Err(JournalError::Io { .. })
