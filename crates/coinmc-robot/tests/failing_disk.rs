@@ -4,7 +4,7 @@
 mod disk;
 
 use coinmc_robot::journal::{
-    Digest, Entry, Header, History, Journal, Measured, Reading, RobotName, VoidReason,
+    Digest, Entry, Header, History, Journal, JournalError, Measured, Reading, RobotName, VoidReason,
 };
 use coinmc_robot::{Face, Setting};
 use disk::{Disk, Failure};
@@ -186,4 +186,32 @@ fn after_a_line_that_failed_nothing_remains_and_nothing_follows() {
     }
     // a seek, a write and a sync, without and with a cut that fails
     assert_eq!(tried, 6);
+}
+
+/// A person must know that space is what is missing, and that nothing is lost.
+#[test]
+fn a_full_disk_is_not_any_error() {
+    let path = Path::new("journal.txt");
+    let mut full = 0;
+    for call in 1..28 {
+        for failure in [Failure::Full, Failure::Error] {
+            let disk = Disk::default();
+            let (mut journal, _) =
+                Journal::open_on(Box::new(disk.open(&[])), path, &header()).unwrap();
+            journal.append(&entries()[0]).unwrap();
+            let opened = Journal::open_on(Box::new(disk.open(&[(call, failure)])), path, &header());
+            let Ok((mut journal, _)) = opened else {
+                continue;
+            };
+            let Err(error) = journal.append(&entries()[1]) else {
+                continue;
+            };
+            let is_full = matches!(error, JournalError::OutOfSpace { .. });
+            assert_eq!(is_full, failure == Failure::Full, "{call}: {error}");
+            assert!(!is_full || error.to_string().contains("Nothing is lost"));
+            full += u32::from(is_full);
+        }
+    }
+    // a seek, a write and a sync
+    assert_eq!(full, 3);
 }

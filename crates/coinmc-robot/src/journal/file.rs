@@ -154,7 +154,7 @@ impl Journal {
         path: &Path,
         header: &Header,
     ) -> Result<(Self, usize), JournalError> {
-        let bytes = read_bounded(&mut file, path)?;
+        let bytes = read_bounded(&mut file, MAX_BYTES, path)?;
         let parsed = match parse(&bytes) {
             Err(Damage::Empty) => {
                 let mut journal = Self::new(path, file, Parsed::default());
@@ -190,7 +190,7 @@ impl Journal {
     /// [`JournalError`] if it is damaged.
     pub fn read(path: &Path) -> Result<(Header, History), JournalError> {
         let mut file = open_to_read(path).map_err(|error| io_error("open", path, error))?;
-        let bytes = read_bounded(&mut file, path)?;
+        let bytes = read_bounded(&mut file, MAX_BYTES, path)?;
         let parsed = parse(&bytes).map_err(|damage| JournalError::Damaged {
             path: path.to_owned(),
             damage,
@@ -301,12 +301,13 @@ fn lock_journal(file: &File, path: &Path) -> Result<(), JournalError> {
     })
 }
 
-fn read_bounded(file: &mut impl Read, path: &Path) -> Result<Vec<u8>, JournalError> {
+/// All bytes, if they are no more than `most`.
+fn read_bounded(file: &mut impl Read, most: u64, path: &Path) -> Result<Vec<u8>, JournalError> {
     let mut bytes = Vec::new();
-    file.take(MAX_BYTES + 1)
+    file.take(most + 1)
         .read_to_end(&mut bytes)
         .map_err(|error| io_error("read", path, error))?;
-    if bytes.len() as u64 > MAX_BYTES {
+    if bytes.len() as u64 > most {
         return Err(JournalError::TooLong {
             path: path.to_owned(),
         });
@@ -338,5 +339,28 @@ fn io_error(action: &'static str, path: &Path, error: io::Error) -> JournalError
             path,
             error,
         },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_more_is_read_than_a_journal_can_have() {
+        let read = |bytes: &[u8]| read_bounded(&mut &*bytes, 3, Path::new("journal.txt"));
+        assert_eq!(read(b"").unwrap(), b"");
+        assert_eq!(read(b"123").unwrap(), b"123");
+        assert!(matches!(read(b"1234"), Err(JournalError::TooLong { .. })));
+        // even if there is no end
+        let endless = read_bounded(&mut io::repeat(0), 3, Path::new("/dev/zero"));
+        assert!(matches!(endless, Err(JournalError::TooLong { .. })));
+    }
+
+    #[test]
+    fn the_last_line_has_its_end_and_nothing_of_the_line_before() {
+        assert_eq!(last_line(b"one\ntwo\n"), b"two\n");
+        assert_eq!(last_line(b"one\n"), b"one\n");
+        assert_eq!(last_line(b""), b"");
     }
 }
