@@ -1,10 +1,13 @@
 
 radius = diameter / 2;
 half = thickness / 2;
+taken = thickness * tan(abs(draft)); // of the narrower face's radius
+heads_radius = draft < 0 ? radius - taken : radius;
+tails_radius = draft > 0 ? radius - taken : radius;
 edge_steps = 12;
 
-// Radius and height along the upper edge, from face to side.
-function upper_edge() =
+// Radius and height along the edge of a face above, from face to side.
+function upper_edge(radius) =
     edge == "rounded" ?
         [for (i = [0 : edge_steps]) let (angle = 90 * i / edge_steps)
             [radius - edge_size * (1 - sin(angle)), half - edge_size * (1 - cos(angle))]]
@@ -14,8 +17,9 @@ function upper_edge() =
         [[radius, half]];
 
 module body() {
-    upper = upper_edge();
-    lower = [for (i = [len(upper) - 1 : -1 : 0]) [upper[i][0], -upper[i][1]]];
+    upper = upper_edge(heads_radius);
+    below = upper_edge(tails_radius);
+    lower = [for (i = [len(below) - 1 : -1 : 0]) [below[i][0], -below[i][1]]];
     rotate_extrude()
         polygon(concat([[0, half]], upper, lower, [[0, -half]]));
 }

@@ -28,6 +28,27 @@ pub enum ShapeError {
         /// The greatest for this diameter and thickness, m.
         most: f64,
     },
+    /// The angle of a conical edge takes too little to be made, or leaves no narrower face.
+    #[error(
+        "the draft of this coin must be from {least}° to {most}° to either side, or 0, not {found}°"
+    )]
+    Draft {
+        /// What was asked for, degrees.
+        found: f64,
+        /// The smallest, degrees.
+        least: f64,
+        /// The greatest for this diameter and thickness, degrees.
+        most: f64,
+    },
+    /// A conical edge with rounded or chamfered rims.
+    #[error("a coin with a conical edge has sharp rims, neither rounded nor chamfered ones")]
+    DraftedEdge,
+    /// Marks on a coin with a conical edge.
+    #[error(
+        "a coin with a conical edge has no marks: its faces differ in width, and marks would move its \
+         centre of mass"
+    )]
+    DraftedMarks,
     /// The marks are too shallow to be made, or too deep for the coin.
     #[error("marks must be from {least} m deep to less than {limit} m, not {found} m")]
     MarkDepth {
@@ -89,6 +110,12 @@ pub enum MassError {
     /// The fraction is not from 0 to 1.
     #[error("the infill's fraction must be from 0 to 1, not {0}")]
     Fraction(f64),
+    /// Infill inside a conical edge.
+    #[error(
+        "a coin with a conical edge is printed full: infill would move its centre of mass, which is to be \
+         that of the uniform solid"
+    )]
+    DraftedInfill,
     /// The core inside these walls would stick out at the edges or into the marks.
     #[error(
         "walls must be at least {least} m around the edges and marks of this coin, not {found} m"

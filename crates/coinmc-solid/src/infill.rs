@@ -38,7 +38,8 @@ impl Shape {
     /// # Errors
     /// [`MassError::Density`] unless the density is positive and finite. [`MassError::Fraction`] unless
     /// the fraction is from 0 to 1. [`MassError::Walls`] if the core would not lie inside the coin:
-    /// thin walls and a large edge, or marks deeper than the walls.
+    /// thin walls and a large edge, or marks deeper than the walls. [`MassError::DraftedInfill`] for infill
+    /// inside a conical edge.
     ///
     /// # Example
     /// ```
@@ -57,6 +58,9 @@ impl Shape {
         }
         let mut moments = self.moments();
         if let Some(infill) = infill {
+            if self.draft_deg() != 0.0 {
+                return Err(MassError::DraftedInfill);
+            }
             let core = self.core(infill)?;
             moments = moments - core.scaled(1.0 - infill.density_fraction);
         }

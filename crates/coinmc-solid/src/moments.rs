@@ -11,6 +11,12 @@
 //! V = 2π (R² b + ∫ρ²),  I_a = π (R⁴ b + ∫ρ⁴),  I_t = I_a/2 + 2π (R² b³/3 + ∫(b + t)² ρ²).
 //!
 //! Expanding ρ = a + w leaves integrals of w^p t^q, which are pure numbers times e^{p+q+1}.
+//!
+//! A conical edge: ρ = m + s z with m = (R₊ + R₋)/2 and s = (R₊ − R₋)/H, R₊ the radius of heads. All odd powers
+//! of z drop out of ∫ρ^p dz from −h to h = H/2, so with t = s h
+//!
+//! V = 2πh (m² + t²/3),  I_a = πh (m⁴ + 2 m² t² + t⁴/5),
+//! ∫z dV = (4π/3) m t h²,  ∫z² dV = 2πh³ (m²/3 + t²/5).
 
 use crate::shape::{Edge, Shape};
 use std::f64::consts::PI;
@@ -73,17 +79,47 @@ impl Shape {
     /// ```
     pub fn moments(&self) -> Moments {
         let half = self.thickness_m() / 2.0;
-        let body = turned(self.radius_m(), half, self.edge());
+        let body = if self.draft_deg() == 0.0 {
+            turned(self.radius_m(), half, self.edge())
+        } else {
+            frustum(self.face_radii_m(), half).0
+        };
         match self.marks() {
             Some(marks) => body - marks.moments(half),
             None => body,
         }
     }
 
+    /// Height of the centre of mass above the middle between the faces, towards heads, m: 0 unless there is a
+    /// draft.
+    pub fn centre_m(&self) -> f64 {
+        if self.draft_deg() == 0.0 {
+            return 0.0;
+        }
+        frustum(self.face_radii_m(), self.thickness_m() / 2.0).1
+    }
+
     /// Volume in m³, exact but for rounding.
     pub fn volume_m3(&self) -> f64 {
         self.moments().volume_m3
     }
+}
+
+/// Moments about the centre of mass of a frustum with these radii of heads and tails, and the height of that
+/// centre above the middle.
+fn frustum([heads, tails]: [f64; 2], half: f64) -> (Moments, f64) {
+    let (mean, tilt) = (0.5 * (heads + tails), 0.5 * (heads - tails));
+    let (m2, t2) = (mean * mean, tilt * tilt);
+    let volume = 2.0 * PI * half * (m2 + t2 / 3.0);
+    let axial = PI * half * (m2 * m2 + 2.0 * m2 * t2 + t2 * t2 / 5.0);
+    let centre = 4.0 / 3.0 * PI * mean * tilt * half * half / volume;
+    let height = 2.0 * PI * half.powi(3) * (m2 / 3.0 + t2 / 5.0) - volume * centre * centre;
+    let moments = Moments {
+        volume_m3: volume,
+        axial_m5: axial,
+        transverse_m5: 0.5 * axial + height,
+    };
+    (moments, centre)
 }
 
 /// ∫w^p t^q dt over the edge, in e^{p+q+1}.

@@ -45,7 +45,8 @@ impl Edge {
     }
 }
 
-/// A coin: a cylinder with its axis along z and its centre at the origin, heads up.
+/// A coin: a cylinder, or with a draft the frustum of a cone, with its axis along z, heads up. The origin is
+/// halfway between the faces: the centre of mass, unless there is a draft.
 ///
 /// All that this type holds can be made: its measures have been checked.
 ///
@@ -63,6 +64,7 @@ pub struct Shape {
     diameter_m: f64,
     thickness_m: f64,
     edge: Edge,
+    draft_deg: f64,
     marks: Option<Marks>,
 }
 
@@ -94,8 +96,52 @@ impl Shape {
             diameter_m,
             thickness_m,
             edge,
+            draft_deg: 0.0,
             marks: None,
         })
+    }
+
+    /// The same coin with its side at the angle `draft_deg` (degrees) to the axis: a conical edge. Above 0
+    /// heads is the wider face, below 0 tails; the diameter is that of the wider face.
+    ///
+    /// # Errors
+    /// [`ShapeError::DraftedEdge`] unless the rims are sharp, [`ShapeError::DraftedMarks`] if it has marks;
+    /// [`ShapeError::Draft`] unless the angle takes at least [`MIN_PART_M`] of the narrower face's radius and
+    /// leaves as much.
+    ///
+    /// # Example
+    /// ```
+    /// use coinmc_solid::{Edge, Shape};
+    /// let coin = Shape::new(0.02, 0.008, Edge::Sharp)?.with_draft(10.0)?;
+    /// let [heads, tails] = coin.face_radii_m();
+    /// assert_eq!(heads, 0.01);
+    /// assert!((heads - tails - 0.008 * 10.0_f64.to_radians().tan()).abs() < 1e-15);
+    /// // its centre of mass is nearer to heads, the wider face
+    /// assert!(coin.centre_m() > 0.0);
+    /// # Ok::<(), coinmc_solid::ShapeError>(())
+    /// ```
+    pub fn with_draft(self, draft_deg: f64) -> Result<Self, ShapeError> {
+        if draft_deg == 0.0 {
+            return Ok(Self { draft_deg, ..self });
+        }
+        if self.edge != Edge::Sharp {
+            return Err(ShapeError::DraftedEdge);
+        }
+        if self.marks.is_some() {
+            return Err(ShapeError::DraftedMarks);
+        }
+        let [least, most] = [MIN_PART_M, self.radius_m() - MIN_PART_M].map(|taken| {
+            let slope = taken / self.thickness_m;
+            libm::atan(slope).to_degrees()
+        });
+        if !(least..=most).contains(&draft_deg.abs()) {
+            return Err(ShapeError::Draft {
+                found: draft_deg,
+                least,
+                most,
+            });
+        }
+        Ok(Self { draft_deg, ..self })
     }
 
     /// The same coin with marks.
@@ -104,7 +150,11 @@ impl Shape {
     /// [`ShapeError::MarkDepth`] unless the depth is at least [`MIN_PART_M`] and less than a quarter of
     /// the thickness. [`ShapeError::MarkRadii`] unless the axis, the inner radius, the outer one and
     /// that of the flat face follow each other in steps of at least [`MIN_PART_M`].
+    /// [`ShapeError::DraftedMarks`] if the edge is conical.
     pub fn with_marks(self, marks: Marks) -> Result<Self, ShapeError> {
+        if self.draft_deg != 0.0 {
+            return Err(ShapeError::DraftedMarks);
+        }
         let Marks {
             inner_m: inner,
             outer_m: outer,
@@ -133,7 +183,7 @@ impl Shape {
         })
     }
 
-    /// Diameter 2R over the side, m.
+    /// Diameter 2R over the side, m; of the wider face if there is a draft.
     pub const fn diameter_m(&self) -> f64 {
         self.diameter_m
     }
@@ -148,6 +198,11 @@ impl Shape {
         self.edge
     }
 
+    /// The angle of the side with the axis, degrees: above 0 heads is the wider face.
+    pub const fn draft_deg(&self) -> f64 {
+        self.draft_deg
+    }
+
     /// The marks on the faces.
     pub const fn marks(&self) -> Option<Marks> {
         self.marks
@@ -158,8 +213,21 @@ impl Shape {
         self.diameter_m / 2.0
     }
 
-    /// Radius of the flat part of a face, m.
+    /// Radius of the flat part of a face, m; of the wider one if there is a draft.
     pub const fn face_radius_m(&self) -> f64 {
         self.radius_m() - self.edge.size_m()
+    }
+
+    /// Radii of the flat parts of heads and of tails, m.
+    pub fn face_radii_m(&self) -> [f64; 2] {
+        let wide = self.face_radius_m();
+        let narrow = wide - self.thickness_m * libm::tan(self.draft_deg.abs().to_radians());
+        if self.draft_deg < 0.0 {
+            [narrow, wide]
+        } else if self.draft_deg > 0.0 {
+            [wide, narrow]
+        } else {
+            [wide; 2]
+        }
     }
 }

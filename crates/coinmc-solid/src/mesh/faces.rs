@@ -39,6 +39,11 @@ pub(super) fn mesh(shape: &Shape, fineness: Fineness) -> Mesh {
 
 /// Radius and height of the circles from the face of heads to that of tails.
 fn outline(shape: &Shape, steps: u32) -> Vec<[f64; 2]> {
+    if shape.draft_deg() != 0.0 {
+        let half = shape.thickness_m() / 2.0;
+        let [heads, tails] = shape.face_radii_m();
+        return vec![[heads, half], [tails, -half]];
+    }
     let upper = upper_edge(shape, steps);
     let lower = upper.iter().rev().map(|&[rho, z]| [rho, -z]);
     upper.iter().copied().chain(lower).collect()

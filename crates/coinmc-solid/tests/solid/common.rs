@@ -2,7 +2,7 @@
 
 use coinmc_solid::{Edge, Marks, Mesh, Shape};
 
-/// One coin for every edge, of 20 mm by 6 mm, without and with marks.
+/// One coin for every edge, of 20 mm by 6 mm, without and with marks, and two with a conical edge.
 pub(crate) fn coins() -> Vec<Shape> {
     let edges = [
         Edge::Sharp,
@@ -13,7 +13,15 @@ pub(crate) fn coins() -> Vec<Shape> {
         .into_iter()
         .map(|edge| Shape::new(0.02, 0.006, edge).expect("a coin"))
         .flat_map(|plain| [plain, marked(plain)])
+        .chain([8.0, -20.0].map(drafted))
         .collect()
+}
+
+/// A coin of 20 mm by 6 mm with this draft.
+pub(crate) fn drafted(draft_deg: f64) -> Shape {
+    Shape::new(0.02, 0.006, Edge::Sharp)
+        .and_then(|plain| plain.with_draft(draft_deg))
+        .expect("a coin with a conical edge")
 }
 
 /// The coin with marks that fit it.

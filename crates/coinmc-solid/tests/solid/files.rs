@@ -1,6 +1,6 @@
 //! The files as another reader sees them.
 
-use crate::common::{coins, error, marked, mesh};
+use crate::common::{coins, drafted, error, marked, mesh};
 use coinmc_solid::{Edge, Mesh, Shape, write_3mf, write_openscad, write_stl};
 use std::collections::HashMap;
 use std::io::{self, Cursor, Read, Write};
@@ -217,12 +217,13 @@ fn openscad(shape: &Shape) -> String {
 fn openscad_source_begins_with_the_measures() {
     let plain = Shape::new(0.02325, 0.00233, Edge::Rounded { radius_m: 3e-4 }).expect("a coin");
     let source = openscad(&marked(plain));
-    let measures: Vec<&str> = source.lines().skip(2).take(11).collect();
+    let measures: Vec<&str> = source.lines().skip(2).take(12).collect();
     let expected = [
         "diameter = 23.25;",
         "thickness = 2.33;",
         "edge = \"rounded\"; // \"sharp\", \"rounded\" or \"chamfered\"",
         "edge_size = 0.3; // radius of the rounding, or what the chamfer takes of face and side",
+        "draft = 0; // degrees between side and axis, of sharp edges; above 0 heads is the wider face",
         "marks = true; // 3 recesses on heads, 6 on tails, half of the ring each",
         "mark_inner = 4.53; // radii of the ring",
         "mark_outer = 9.06;",
@@ -237,6 +238,31 @@ fn openscad_source_begins_with_the_measures() {
     assert!(openscad(&sharp).contains("edge = \"sharp\";"));
     let chamfered = Shape::new(0.02, 0.002, Edge::Chamfered { size_m: 5e-4 }).expect("a coin");
     assert!(openscad(&chamfered).contains("edge = \"chamfered\";"));
+}
+
+/// Heads is towards +z in all files: with a draft above 0 the wider face.
+#[test]
+fn the_wider_face_of_a_conical_coin_is_where_its_draft_says() {
+    for draft in [8.0, -20.0] {
+        let coin = drafted(draft);
+        let widest = |z: f32| {
+            let corners = facets(&stl(&mesh(&coin)))
+                .into_iter()
+                .flat_map(|(_, at)| at);
+            let on_face = corners.filter(|corner| corner[2] == z);
+            on_face.map(|[x, y, _]| x.hypot(y)).fold(0.0, f32::max)
+        };
+        let [heads, tails] = coin.face_radii_m();
+        for (found, expected) in [(widest(3.0), heads), (widest(-3.0), tails)] {
+            // corners lie outside of the circle
+            let outside = f64::from(found) / (1e3 * expected) - 1.0;
+            assert!(
+                (0.0..1e-3).contains(&outside),
+                "{draft}: {found} {expected}"
+            );
+        }
+        assert!(openscad(&coin).contains(&format!("\ndraft = {draft};")));
+    }
 }
 
 /// Fails after some bytes.

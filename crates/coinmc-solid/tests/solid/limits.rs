@@ -1,7 +1,7 @@
 //! What is not a coin, or not a mesh.
 
 use crate::common::marked;
-use coinmc_solid::{Edge, MAX_TRIANGLES, Marks, MeshError, Shape, ShapeError};
+use coinmc_solid::{Edge, Infill, MAX_TRIANGLES, Marks, MassError, MeshError, Shape, ShapeError};
 
 const NOT_SIZES: [f64; 6] = [0.0, -0.01, 0.9e-4, 1.1, f64::NAN, f64::INFINITY];
 
@@ -151,4 +151,28 @@ fn messages_name_the_bound() {
         error.to_string(),
         "diameter must be from 0.0001 m to 1 m, not 2 m"
     );
+}
+
+/// A draft leaves a narrower face, and keeps sharp rims, no marks and no infill.
+#[test]
+fn a_conical_edge_leaves_a_face_and_nothing_that_moves_the_centre() {
+    let plain = Shape::new(0.02, 0.01, Edge::Sharp).expect("a coin");
+    assert_eq!(plain.with_draft(0.0), Ok(plain));
+    for bad in [1e-3, 45.0, -45.0, 60.0, 91.0, f64::NAN, f64::INFINITY] {
+        let coin = plain.with_draft(bad);
+        assert!(matches!(coin, Err(ShapeError::Draft { .. })), "{bad}");
+    }
+    let conical = plain.with_draft(44.9).expect("a coin");
+    let marks = Marks::fitting(&plain);
+    assert_eq!(conical.with_marks(marks), Err(ShapeError::DraftedMarks));
+    let drafted = |coin: Shape| coin.with_draft(5.0);
+    assert_eq!(drafted(marked(plain)), Err(ShapeError::DraftedMarks));
+    let rounded = Shape::new(0.02, 0.01, Edge::Rounded { radius_m: 1e-3 }).expect("a coin");
+    assert_eq!(drafted(rounded), Err(ShapeError::DraftedEdge));
+    let infill = Infill {
+        walls_m: 1e-3,
+        density_fraction: 0.2,
+    };
+    let mass = conical.mass(1000.0, Some(infill));
+    assert_eq!(mass, Err(MassError::DraftedInfill));
 }
