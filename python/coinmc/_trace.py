@@ -55,7 +55,7 @@ class Trace(ArrowTable):
         ``ratio``, ``radius_m``, ``height_m``, ``mass_kg``, ``gravity_m_s2``.
     rims_m : tuple
         Radius and distance from the centre of mass of heads and of tails, m: twice R and H/2 but
-        for a conical edge.
+        for a conical edge or a load.
     axial_gyration_m2 : float
         Moment of inertia about the axis over the mass, m².
     weight_m_s2 : tuple

@@ -209,6 +209,18 @@ def test_a_conical_coin_touches_with_either_rim_and_rests_at_its_levels():
     assert {"balanced on the rim of heads", "at rest, tails up"} <= texts
 
 
+def test_a_loaded_coin_touches_with_either_rim_and_rests_at_its_levels():
+    loaded = {"coin.centre_of_mass_over_height": 0.2}
+    for toss in range(4):
+        motion = motion_of(in_space(toss, **loaded))
+        feet = motion.feet_m()
+        np.testing.assert_allclose(feet[motion.impacts][:, 2], 0, atol=1e-9)
+        assert feet[:, 2].min() > -1e-9
+    assert np.array(motion.rims_m) == pytest.approx(np.array([[0.01, 0.00255], [0.01, 0.00595]]))
+    texts = {text.get_text() for text in plot.energy(in_space(0, **loaded)).texts}
+    assert {"balanced on the rim of heads", "at rest, tails up"} <= texts
+
+
 def test_energy_on_a_tilted_table_is_that_above_the_table():
     tilted = in_space(1, **{"surface.table_tilt_deg": 8.0, "surface.table_downhill_deg": 30.0})
     assert tilted.weight_m_s2[2] == pytest.approx(-9.81 * np.cos(np.radians(8)))

@@ -34,9 +34,9 @@ pub struct Body {
 }
 
 impl Body {
-    /// The body of a coin. Of one with a conical edge that of the rim of tails: see [`LowerRim`].
+    /// The body of a coin. Of one whose faces are not alike that of the rim of tails: see [`LowerRim`].
     pub fn new(coin: &Coin) -> Self {
-        if coin.is_conical() {
+        if !coin.has_like_faces() {
             return LowerRim::of(coin)[0].body;
         }
         let (radius, half) = coin.shape_by_rim_distance();

@@ -2,6 +2,7 @@
 
 mod conical;
 mod keys;
+mod loaded;
 mod rounded;
 
 pub use conical::Rim;
@@ -36,6 +37,8 @@ pub struct Coin {
     rim_radius_m: f64,
     /// Angle of the edge with the axis; 0: a cylinder.
     draft_deg: f64,
+    /// Distance of the centre of mass from the middle of a cylinder, towards heads, over H.
+    centre_over_height: f64,
     /// I_t/m and I_a/m.
     transverse_gyration_m2: f64,
     axial_gyration_m2: f64,
@@ -77,6 +80,24 @@ pub enum CoinError {
     /// A conical edge with rounded rims.
     #[error("a coin with a conical edge has sharp rims: its rim radius must be 0")]
     RoundedDraft,
+    /// The centre of mass is not between the faces.
+    #[error(
+        "the centre of mass must lie between the faces, at above -0.5 and below 0.5 of H from the middle, \
+         not at {0}"
+    )]
+    Centre(f64),
+    /// A centre of mass that is not in the middle, of a coin that is no sharp cylinder.
+    #[error(
+        "a coin with its centre of mass off the middle is a cylinder with sharp rims: its draft and rim radius \
+         must be 0"
+    )]
+    LoadedShape,
+    /// A centre of mass for which the transverse moment has no default.
+    #[error(
+        "with the centre of mass at {0} of H from the middle `transverse_moment_kg_m2` must be given: without it \
+         the coin is of two uniform layers, which puts the centre at most 0.25 of H from the middle"
+    )]
+    LoadedMoment(f64),
     /// No body inside the cylinder has this axial moment: 0 < I_a <= m R².
     #[error(
         "axial moment {found:e} kg m² is impossible: a body inside the cylinder has 0 < I_a <= {most:e}"
@@ -121,6 +142,7 @@ impl Coin {
             mass_kg: DEFAULT_MASS_KG,
             rim_radius_m: 0.0,
             draft_deg: 0.0,
+            centre_over_height: 0.0,
             transverse_gyration_m2: r2 * (3.0 + ratio * ratio) / 12.0,
             axial_gyration_m2: r2 / 2.0,
         })
@@ -143,7 +165,7 @@ impl Coin {
     ///
     /// # Errors
     /// [`CoinError::RimRadius`] unless 0 <= r < min(R, H/2); [`CoinError::RoundedDraft`] if the edge is
-    /// conical.
+    /// conical, [`CoinError::LoadedShape`] if the centre of mass is off the middle.
     ///
     /// # Example
     /// ```
@@ -164,6 +186,9 @@ impl Coin {
         }
         if rim_radius_m != 0.0 && self.is_conical() {
             return Err(CoinError::RoundedDraft);
+        }
+        if rim_radius_m != 0.0 && self.centre_over_height != 0.0 {
+            return Err(CoinError::LoadedShape);
         }
         let coin = Self {
             rim_radius_m,
@@ -187,7 +212,8 @@ impl Coin {
     ///
     /// For mass anywhere inside the cylinder, spread evenly around the axis,
     /// I_a = ∫ρ² dm <= m R² and I_t = I_a/2 + ∫z² dm <= I_a/2 + m H²/4. (With the centre at h and h' from
-    /// the faces of a conical coin ∫z² dm <= m h h'. Its centre stays that of the uniform solid.)
+    /// the faces ∫z² dm <= m h h'. That of a conical coin stays that of the uniform solid; a cylinder's may be
+    /// [elsewhere](Self::with_centre_of_mass).)
     ///
     /// # Errors
     /// [`CoinError::AxialMoment`] or [`CoinError::TransverseMoment`] outside those bounds.
@@ -207,11 +233,11 @@ impl Coin {
                 most: most_axial * self.mass_kg,
             });
         }
-        let spread = if self.is_conical() {
+        let spread = if self.has_like_faces() {
+            self.height_m().powi(2) / 4.0
+        } else {
             let [heads, tails] = self.rims();
             heads.distance_m * tails.distance_m
-        } else {
-            self.height_m().powi(2) / 4.0
         };
         let (least, most) = (axial / 2.0, axial / 2.0 + spread);
         if !(transverse * SLACK >= least && transverse <= most * SLACK) {
@@ -276,7 +302,7 @@ impl Coin {
     pub fn lowest_point_m(&self, axis: &Vector3<f64>) -> Vector3<f64> {
         /// Sine of a tilt that counts as none.
         const LEVEL: f64 = 1e-9;
-        if self.is_conical() {
+        if !self.has_like_faces() {
             return self.lowest_of_rims_m(axis, LEVEL);
         }
         let rim = self.rim_radius_m;
@@ -292,7 +318,7 @@ impl Coin {
         point
     }
 
-    /// [`lowest_point_m`](Self::lowest_point_m) of a conical coin.
+    /// [`lowest_point_m`](Self::lowest_point_m) of a coin whose faces are not alike.
     fn lowest_of_rims_m(&self, axis: &Vector3<f64>, level: f64) -> Vector3<f64> {
         let across = (axis.x * axis.x + axis.y * axis.y).sqrt();
         let down = if across >= level {
@@ -315,9 +341,10 @@ impl Coin {
     /// D = sqrt(R² + H²/4), the distance from the centre to the rim, m: the centre's height when
     /// the coin balances on its rim, hence the barrier m g D between face and side. With rounded rims
     /// the distance to the edge of the cylinder inside, sqrt((R − r)² + (H/2 − r)²): then the coin
-    /// balances with its centre at D + r. With a conical edge that of the farther rim.
+    /// balances with its centre at D + r. With a conical edge, or the centre off the
+    /// middle, that of the farther rim.
     pub fn rim_distance_m(&self) -> f64 {
-        if self.is_conical() {
+        if !self.has_like_faces() {
             let [heads, tails] = self.rims();
             return heads.reach_m().max(tails.reach_m());
         }

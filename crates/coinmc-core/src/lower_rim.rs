@@ -1,13 +1,14 @@
-//! A coin with a conical edge, as its lower rim sees it. Units as in [`Body`], with D the distance of the
+//! A coin with a conical edge, or with its centre of mass off the middle, as its lower rim sees it. Units as in [`Body`], with D the distance of the
 //! farther rim from the centre of mass.
 //!
 //! The axis points away from the lower rim, the radius R of which lies h from the centre, and that of the
 //! upper rim, R', h'. Both rims touch where (h + h') c = (R' − R) s: c, s of the tilt at which the coin is
-//! on its edge. For the wider rim c < 0 there, for the narrower one c > 0 with the same size.
+//! on its edge. For the wider rim c < 0 there, for the narrower one c > 0 with the same size. A loaded
+//! cylinder has R' = R: it is on its edge, its side, at c = 0.
 
 use crate::{Body, Coin};
 
-/// The lower rim of a coin with a conical edge, and the upper one.
+/// The lower rim of a coin whose faces are not alike, and the upper one.
 ///
 /// # Example
 /// ```
@@ -97,8 +98,12 @@ mod tests {
 
     #[test]
     fn both_rims_are_level_on_the_edge_and_its_well_is_below_the_balances() {
-        let coin = Coin::cylinder(0.7, 0.01).and_then(|coin| coin.with_draft(-8.0));
-        for rim in LowerRim::of(&coin.expect("a good coin")) {
+        let cylinder = Coin::cylinder(0.7, 0.01).expect("a good coin");
+        let coins = [
+            cylinder.with_draft(-8.0),
+            cylinder.with_centre_of_mass(0.2, None, None),
+        ];
+        for rim in coins.iter().flatten().flat_map(LowerRim::of) {
             let (s, c) = rim.on_edge();
             let upper = rim.upper.radius * s - rim.upper.half * c;
             assert!((rim.height_on_edge() - upper).abs() < 1e-15);

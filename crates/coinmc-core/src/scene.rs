@@ -209,13 +209,13 @@ impl Scene {
     /// # Errors
     /// [`SurfaceError::Gravity`] unless `gravity_m_s2` is positive and finite;
     /// [`SurfaceError::Roughness`] if the surface's waves are too short for the coin;
-    /// [`SurfaceError::Conical`] where a coin with a conical edge is not modelled.
+    /// [`SurfaceError::Conical`] or [`SurfaceError::Loaded`] where such a coin is not modelled.
     pub fn new(coin: Coin, surface: Surface, gravity_m_s2: f64) -> Result<Self, SurfaceError> {
         if let Some(roughness) = surface.roughness() {
             roughness.check_for(&coin)?;
         }
-        if let Some((_, ground)) = surface.unfit_for(&coin) {
-            return Err(SurfaceError::Conical(ground));
+        if let Some((_, error)) = surface.unfit_for(&coin) {
+            return Err(error);
         }
         if gravity_m_s2 > 0.0 && gravity_m_s2.is_finite() {
             Ok(Self {

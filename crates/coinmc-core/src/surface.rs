@@ -116,6 +116,9 @@ pub enum SurfaceError {
     /// A coin with a conical edge on ground for which it is not modelled.
     #[error("a coin with a conical edge (draft) is not modelled {0}")]
     Conical(&'static str),
+    /// A coin with its centre of mass off the middle on such ground.
+    #[error("a coin with its centre of mass off the middle is not modelled {0}")]
+    Loaded(&'static str),
     /// A drag rate is negative or not finite.
     #[error("drag must be finite and not negative, not {0} /s")]
     Drag(f64),

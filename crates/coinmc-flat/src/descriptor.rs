@@ -32,7 +32,7 @@ pub const ENGINE: EngineDescriptor = EngineDescriptor {
     read: |values| Settings::read(values).map(EngineChoice::new),
 };
 
-const UNMODELLED: [Unmodelled; 13] = [
+const UNMODELLED: [Unmodelled; 14] = [
     Unmodelled {
         table: "coin",
         key: "rim_radius_m",
@@ -44,6 +44,13 @@ const UNMODELLED: [Unmodelled; 13] = [
         key: "draft_deg",
         message: "engine.flat models cylinders: `coin.draft_deg` must be 0",
         help: "remove `draft_deg`, or toss in space with [engine.volumetric]",
+    },
+    Unmodelled {
+        table: "coin",
+        key: "centre_of_mass_over_height",
+        message: "engine.flat models coins with their centre of mass in the middle: \
+                  `coin.centre_of_mass_over_height` must be 0",
+        help: "remove `centre_of_mass_over_height`, or toss in space with [engine.volumetric]",
     },
     Unmodelled {
         table: "surface",

@@ -68,7 +68,7 @@ impl Method {
         let table = scene.surface.table_radius_m();
         if scene.surface.landing() != Landing::Adhesive
             || scene.coin.rim_radius_m() > 0.0
-            || scene.coin.is_conical()
+            || !scene.coin.has_like_faces()
             || table.is_some()
         {
             return None;

@@ -34,7 +34,7 @@ pub const ENGINE: EngineDescriptor = EngineDescriptor {
     read: |values| Settings::read(values).map(EngineChoice::new),
 };
 
-const UNMODELLED: [Unmodelled; 6] = [
+const UNMODELLED: [Unmodelled; 7] = [
     Unmodelled {
         table: "coin",
         key: "rim_radius_m",
@@ -46,6 +46,13 @@ const UNMODELLED: [Unmodelled; 6] = [
         key: "draft_deg",
         message: "engine.rapier tosses cylinders: `coin.draft_deg` must be 0",
         help: "remove `draft_deg`, or toss with [engine.volumetric]",
+    },
+    Unmodelled {
+        table: "coin",
+        key: "centre_of_mass_over_height",
+        message: "engine.rapier tosses coins with their centre of mass in the middle: \
+                  `coin.centre_of_mass_over_height` must be 0",
+        help: "remove `centre_of_mass_over_height`, or toss with [engine.volumetric]",
     },
     Unmodelled {
         table: "surface",

@@ -46,7 +46,7 @@ pub(crate) fn scene(scene: &Scene) -> Value {
         "height_m": coin.height_m(),
         "rim_radius_m": coin.rim_radius_m(),
         // radius and distance from the centre of mass, of heads and tails
-        "rims_m": coin.is_conical().then_some(rims),
+        "rims_m": (!coin.has_like_faces()).then_some(rims),
         "axial_gyration_m2": coin.axial_gyration_m2(),
         "transverse_gyration_m2": coin.transverse_gyration_m2(),
         "axial_factor": axial_factor(scene),

@@ -57,7 +57,7 @@ pub(super) fn rows(traces: &[Trace]) -> impl Iterator<Item = Row<'_>> {
 
 /// Height of the coin's lowest point above the surface, m.
 pub(super) fn lowest_m(coin: &Coin, state: &State) -> f64 {
-    if coin.is_conical() {
+    if !coin.has_like_faces() {
         return state.position_m.z + coin.lowest_point_m(&state.axis).z;
     }
     let u = &state.axis;

@@ -147,6 +147,10 @@ fn differences(scene: &Scene) -> Vec<&'static str> {
         ("radius_m", scene.coin.radius_m() == 0.5),
         ("rim_radius_m", scene.coin.rim_radius_m() == 0.0),
         ("draft_deg", !scene.coin.is_conical()),
+        (
+            "centre_of_mass_over_height",
+            scene.coin.centre_over_height() == 0.0,
+        ),
         ("restitution", surface.restitution() == 0.3),
         ("friction", surface.friction() == 10.0),
         ("rolling_friction_m", surface.rolling_friction_m() == 0.0),

@@ -37,7 +37,7 @@ def energy(
     barriers : bool
         Draw the energies of the coin at rest on a face, on its side, and balanced on its rim:
         once the energy is below the last of these, the face cannot change (on a level table). A
-        coin with a conical edge has two of the first and of the last.
+        coin with a conical edge, or a load, has two of the first and of the last.
     label : str, optional
         Name of the toss in the legend.
     color : color, optional

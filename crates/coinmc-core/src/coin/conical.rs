@@ -85,7 +85,8 @@ impl Coin {
     ///
     /// # Errors
     /// [`CoinError::Draft`] where no narrower face is left or the coin would not rest on its edge, and
-    /// beyond 45 degrees; [`CoinError::RoundedDraft`] if the rims are rounded.
+    /// beyond 45 degrees; [`CoinError::RoundedDraft`] if the rims are rounded; [`CoinError::LoadedShape`] if the
+    /// centre of mass is off the middle.
     ///
     /// # Example
     /// ```
@@ -103,6 +104,9 @@ impl Coin {
         }
         if draft_deg != 0.0 && self.rim_radius_m != 0.0 {
             return Err(CoinError::RoundedDraft);
+        }
+        if draft_deg != 0.0 && self.centre_over_height != 0.0 {
+            return Err(CoinError::LoadedShape);
         }
         let slope = libm::tan(draft_deg.abs().to_radians());
         let allowed = draft_deg.abs() < Self::DRAFT_DEG.high;
@@ -163,6 +167,14 @@ impl Coin {
 
     /// The rims of heads and of tails.
     pub fn rims(&self) -> [Rim; 2] {
+        if self.centre_over_height != 0.0 {
+            return [0.5 - self.centre_over_height, 0.5 + self.centre_over_height].map(|share| {
+                Rim {
+                    radius_m: self.radius_m,
+                    distance_m: share * self.height_m(),
+                }
+            });
+        }
         if !self.is_conical() {
             let rim = Rim {
                 radius_m: self.radius_m - self.rim_radius_m,
@@ -185,10 +197,10 @@ impl Coin {
     }
 
     /// Radius and distance from the centre of mass of the faces of heads and of tails, by the outer measures:
-    /// what a picture shows. Of a cylinder R and H/2, also where its rims are rounded; of a conical coin its
-    /// [`rims`](Self::rims).
+    /// what a picture shows. Of a cylinder R and H/2, also where its rims are rounded; of a coin whose faces
+    /// are not alike its [`rims`](Self::rims).
     pub fn outer_rims(&self) -> [Rim; 2] {
-        if self.is_conical() {
+        if !self.has_like_faces() {
             return self.rims();
         }
         let rim = Rim {

@@ -10,6 +10,7 @@ const LENGTH: Bounds = Bounds::closed(1e-9, 1e6);
 /// The same in mm.
 const MILLIMETRES: Bounds = Bounds::closed(1e-6, 1e9);
 const DRAFT: &str = "draft_deg";
+const CENTRE: &str = "centre_of_mass_over_height";
 const BY_HEIGHT: Condition = Condition::Either(&[
     Condition::Given("height_m"),
     Condition::Given("height_mm"),
@@ -26,6 +27,7 @@ impl CoinError {
             Self::Mass(_) => "mass_kg",
             Self::RimRadius { .. } => "rim_radius_m",
             Self::Draft { .. } | Self::RoundedDraft => DRAFT,
+            Self::Centre(_) | Self::LoadedShape | Self::LoadedMoment(_) => CENTRE,
             Self::AxialMoment { .. } => "axial_moment_kg_m2",
             Self::TransverseMoment { .. } => "transverse_moment_kg_m2",
         }
@@ -90,10 +92,9 @@ impl Coin {
             .map_err(blame)?
             .with_draft(values.optional(DRAFT)?.unwrap_or(0.0))
             .map_err(blame)?;
-        if axial.is_none() && transverse.is_none() {
-            return Ok(coin);
-        }
-        coin.with_moments(axial, transverse).map_err(blame)
+        let centre = values.optional(CENTRE)?.unwrap_or(0.0);
+        coin.with_centre_of_mass(centre, axial, transverse)
+            .map_err(blame)
     }
 }
 
@@ -169,6 +170,14 @@ fn matter() -> Vec<Field> {
             Absent::Omitted,
         ),
         number(
+            CENTRE,
+            "Distance of the centre of mass from the middle, on the axis, over H, of a loaded cylinder: above 0 \
+             nearer to heads, below 0 nearer to tails. Without a given transverse moment the coin is of two \
+             uniform layers: at most 0.25 either way. 0, or absent: the middle.",
+            Coin::CENTRE_OVER_HEIGHT,
+            Absent::Omitted,
+        ),
+        number(
             "axial_moment_kg_m2",
             "Moment of inertia about the coin's axis, kg m², of a hollow or loaded coin; a uniform \
                  cylinder's if absent.",
@@ -177,7 +186,7 @@ fn matter() -> Vec<Field> {
         ),
         number(
             "transverse_moment_kg_m2",
-            "Moment of inertia about a diameter through the centre, kg m²; a uniform cylinder's if \
+            "Moment of inertia about a diameter through the centre of mass, kg m²; a uniform cylinder's if \
                  absent.",
             moment,
             Absent::Omitted,

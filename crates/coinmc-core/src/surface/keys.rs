@@ -138,36 +138,51 @@ impl Surface {
 
     /// The surface, if the coin is modelled on it.
     fn for_coin(self, coin: &Coin) -> Result<Self, ReadError> {
-        let Some((key, ground)) = self.unfit_for(coin) else {
+        let Some((key, error)) = self.unfit_for(coin) else {
             return Ok(self);
         };
-        Err(ReadError::new(SurfaceError::Conical(ground).to_string()).at(key))
+        Err(ReadError::new(error.to_string()).at(key))
     }
 
-    /// What of this surface is not modelled with this coin: the key of a config, and in words.
-    pub(crate) fn unfit_for(&self, coin: &Coin) -> Option<(&'static str, &'static str)> {
-        if !coin.is_conical() {
+    /// What of this surface is not modelled with this coin: the key of a config, and why.
+    pub(crate) fn unfit_for(&self, coin: &Coin) -> Option<(&'static str, SurfaceError)> {
+        if coin.has_like_faces() {
             return None;
         }
-        [
+        let grounds = [
             (
-                self.given_roughness().is_some(),
+                self.roughness().is_some(),
                 "roughness_slope",
-                "on rough ground: `coin.draft_deg` or `surface.roughness_slope` must be 0",
+                [
+                    "on rough ground: `coin.draft_deg` or `surface.roughness_slope` must be 0",
+                    "on rough ground: `coin.centre_of_mass_over_height` or `surface.roughness_slope` must be 0",
+                ],
             ),
             (
                 self.table_radius_m().is_some(),
                 TABLE_RADIUS,
-                "on a table with an edge: `coin.draft_deg` must be 0 or `surface.table_radius_m` absent",
+                [
+                    "on a table with an edge: `coin.draft_deg` must be 0 or `surface.table_radius_m` absent",
+                    "on a table with an edge: `coin.centre_of_mass_over_height` must be 0 or \
+                     `surface.table_radius_m` absent",
+                ],
             ),
             (
                 self.tilt().is_some(),
                 TILT,
-                "on a tilted table: `coin.draft_deg` or `surface.table_tilt_deg` must be 0",
+                [
+                    "on a tilted table: `coin.draft_deg` or `surface.table_tilt_deg` must be 0",
+                    "on a tilted table: `coin.centre_of_mass_over_height` or `surface.table_tilt_deg` must be 0",
+                ],
             ),
-        ]
-        .into_iter()
-        .find_map(|(is_so, key, ground)| is_so.then_some((key, ground)))
+        ];
+        let (_, key, [conical, loaded]) = grounds.into_iter().find(|(is_so, ..)| *is_so)?;
+        let error = if coin.is_conical() {
+            SurfaceError::Conical(conical)
+        } else {
+            SurfaceError::Loaded(loaded)
+        };
+        Some((key, error))
     }
 }
 

@@ -10,6 +10,9 @@
 //! two rims of a coin on its edge alternate at that tilt (`impacts`), and on its edge the coin rolls in a
 //! circle about the apex of the cone (`edge`, `on_edge`).
 //!
+//! A cylinder whose centre of mass is off the middle is the case of equal radii: its edge is its side, upright,
+//! and the apex of its cone is infinitely far, so that it rolls straight on. Only its h and h' differ.
+//!
 //! Tosses are followed one by one, not in lanes.
 
 mod edge;
@@ -31,7 +34,7 @@ use crate::transition::Transition;
 use coinmc_core::{Ended, EventKind, Launch, LowerRim, Observer, Scene};
 use edge::Edge;
 
-/// A coin with a conical edge.
+/// A coin with a conical edge, or with its centre of mass off the middle.
 #[derive(Debug, Clone)]
 pub(crate) struct Conical<L> {
     /// With heads up, on the rim of tails, and with tails up.
@@ -40,13 +43,13 @@ pub(crate) struct Conical<L> {
 }
 
 impl<L: ImpactLaw> Conical<L> {
-    /// `None` if the coin is a cylinder.
+    /// `None` if heads and tails are mirror images.
     pub(crate) fn new(
         scene: &Scene,
         settings: &Settings,
         law: L,
     ) -> Result<Option<Self>, SettingsError> {
-        if !scene.coin.is_conical() {
+        if scene.coin.has_like_faces() {
             return Ok(None);
         }
         let rims = LowerRim::of(&scene.coin);

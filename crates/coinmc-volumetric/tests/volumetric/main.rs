@@ -11,6 +11,7 @@ mod hardest;
 mod hostile;
 mod impacts;
 mod limits;
+mod loaded;
 mod planar;
 mod rough;
 mod sampling;

@@ -28,6 +28,13 @@ pub(super) const ENGINE: EngineDescriptor = EngineDescriptor {
             help: "remove `draft_deg`, or toss in space with [engine.volumetric]",
         },
         Unmodelled {
+            table: "coin",
+            key: "centre_of_mass_over_height",
+            message: "closed forms know coins with their centre of mass in the middle only: \
+                      `coin.centre_of_mass_over_height` must be 0",
+            help: "remove `centre_of_mass_over_height`, or toss in space with [engine.volumetric]",
+        },
+        Unmodelled {
             table: "surface",
             key: "table_radius_m",
             message: "closed forms know no edge of the table: `surface.table_radius_m` must be absent",

@@ -44,6 +44,8 @@ const NUMBERS: &[Case] = &[
     ("1.2", "1.2\nrim_radius_m = 0.001", &[(4, 16, "engine.flat models sharp rims: `coin.rim_radius_m` must be 0")]),
     ("1.2", "1.2\ndraft_deg = 4.0", &[(4, 13, "engine.flat models cylinders: `coin.draft_deg` must be 0")]),
     ("1.2", "1.2\ndraft_deg = 45", &[(4, 13, "`coin.draft_deg` must be above -45 and below 45, found `45`")]),
+    ("1.2", "1.2\ncentre_of_mass_over_height = 0.1", &[(4, 30, "engine.flat models coins with their centre of mass in the middle")]),
+    ("1.2", "1.2\ncentre_of_mass_over_height = -0.5", &[(4, 30, "must be above -0.5 and below 0.5, found `-0.5`")]),
     ("1.2", "1.2\nrim_radius_m = -1e-4", &[(4, 16, "`coin.rim_radius_m` must be from 0 to 1e6")]),
     ("1.2", "1.2\nmass_kg = -0.0", &[(4, 11, "`coin.mass_kg` must be from 1e-12")]),
     ("0.5", "1.01", &[(5, 15, "`surface.restitution` must be from 0 to 1, found `1.01`")]),

@@ -63,6 +63,73 @@ fn a_rim_rounded_by_half_the_thickness_is_refused() {
     }
 }
 
+/// A loaded cylinder: read, swept, resolved, without a trace where the load is 0, and refused where it is not
+/// modelled or cannot be.
+#[test]
+fn a_load_is_read_and_refused_where_it_cannot_be() {
+    let plan = parse(
+        IN_SPACE,
+        &["coin.centre_of_mass_over_height=[-0.1, 0, 0.1]"],
+    );
+    let centres = column(&plan, "centre_of_mass_over_height");
+    assert_eq!(centres, [-0.1, 0.0, 0.1]);
+    assert_eq!(parse(&plan.resolved_toml, &[]), plan);
+    let plain = parse(IN_SPACE, &[]);
+    assert_eq!(plan.points[1].scene, plain.points[0].scene);
+    assert!(!plain.resolved_toml.contains("centre_of_mass"));
+    let [heads, tails] = plan.points[2].scene.coin.rims();
+    assert!(heads.distance_m < tails.distance_m && heads.radius_m == tails.radius_m);
+    // with the moment of a coin that is heavy at its faces, farther out
+    let moments = [
+        "coin.centre_of_mass_over_height=0.4",
+        "coin.transverse_moment_kg_m2=3e-7",
+    ];
+    assert!(
+        !parse(IN_SPACE, &moments).points[0]
+            .scene
+            .coin
+            .has_like_faces()
+    );
+    let text = IN_SPACE.replace("0.85", "0.85\ncentre_of_mass_over_height = 0.1");
+    for (set, expected) in [
+        (
+            "coin.centre_of_mass_over_height=0.3",
+            "`transverse_moment_kg_m2` must be given",
+        ),
+        ("coin.transverse_moment_kg_m2=1e-6", "is impossible"),
+        ("coin.draft_deg=5", "its draft and rim radius must be 0"),
+        (
+            "coin.rim_radius_m=1e-4",
+            "its draft and rim radius must be 0",
+        ),
+        ("surface.table_radius_m=0.3", "on a table with an edge"),
+        ("surface.table_tilt_deg=3", "on a tilted table"),
+        ("surface.material='wood'", "on rough ground"),
+    ] {
+        let set = [set.parse().expect("an override")];
+        let problems = config::parse("loaded.toml", &text, &set).unwrap_err();
+        let [problem] = problems.problems() else {
+            panic!("{problems}")
+        };
+        assert!(problem.message.contains(expected), "{problems}");
+    }
+    for engine in ["flat = {}", "rapier = {}", "analytic = {}"] {
+        let text = text
+            .replace("[engine.volumetric]", "")
+            .replace("law = 'moreau'", "");
+        let text = format!("{text}\n[engine]\n{engine}\n");
+        let problems = config::parse("loaded.toml", &text, &[]).unwrap_err();
+        let refused = |problem: &config::Problem| {
+            let told = "`coin.centre_of_mass_over_height` must be 0";
+            problem.message.contains(told)
+        };
+        assert!(
+            problems.problems().iter().any(refused),
+            "{engine}: {problems}"
+        );
+    }
+}
+
 /// A coin with a conical edge: read, swept, resolved, and refused where it is not modelled or would not rest
 /// on its edge.
 #[test]
@@ -95,6 +162,9 @@ fn a_conical_edge_is_read_and_refused_where_it_cannot_be() {
         };
         assert!(problem.message.contains(expected), "{problems}");
     }
+    // a material's waves of no height are a plane
+    let level = ["surface.material='wood'", "surface.roughness_slope=0"];
+    assert!(parse(&text, &level).points[0].scene.coin.is_conical());
     for engine in ["flat = {}", "rapier = {}", "analytic = {}"] {
         let text = text
             .replace("[engine.volumetric]", "")
@@ -203,6 +273,8 @@ fn all_physics_and_settings_of_the_toss_in_space_are_in_the_hash() {
         "coin.rim_radius_m=0.001",
         "coin.draft_deg=5",
         "coin.draft_deg=-5",
+        "coin.centre_of_mass_over_height=0.1",
+        "coin.centre_of_mass_over_height=-0.1",
         "engine.volumetric.time_limit=10",
         "launch.preset=drop",
     ] {
