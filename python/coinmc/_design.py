@@ -30,6 +30,11 @@ class Design:
         H/R and its interval; an open end is NaN.
     mass_kg : float
         Its mass.
+    draft_deg : float
+        Angle of its side with the axis; above 0 heads is the wider face.
+    p_heads, p_tails : float
+        With a draft, how often it shows its two faces, which differ; without, half of what the side
+        leaves.
     tolerances : dict of str to ndarray
         What an error of the thickness does: ``thickness_error_m``, ``p_side_error``, and
         ``tosses_to_tell`` by a χ² test of 5 % that finds such a coin with 80 %.
@@ -53,6 +58,11 @@ class Design:
             for end in ("ratio_lo", "ratio_hi")
         )
         self.mass_kg: float = document["mass_kg"]
+        self.draft_deg: float = document["draft_deg"]
+        faces = document["faces"]
+        rest = 0.5 * (1.0 - document["target"])
+        self.p_heads: float = faces["heads"]["p"] if faces else rest
+        self.p_tails: float = faces["tails"]["p"] if faces else rest
         rows = document["tolerances"]
         self.tolerances: dict[str, NDArray[Any]] = {
             name: np.array([row[name] for row in rows]) for name in rows[0]
@@ -107,6 +117,7 @@ def design(
     target: float = 1.0 / 3.0,
     rim_m: float | None = None,
     chamfer_m: float | None = None,
+    draft_deg: float | None = None,
     marks: bool = False,
     density_kg_m3: float = 1240.0,
     walls_m: float | None = None,
@@ -131,6 +142,10 @@ def design(
     rim_m, chamfer_m : float, optional
         Radius with which the rims are rounded, or by how much they are cut at 45° (the tosses are
         those of rims rounded with as much then).
+    draft_deg : float, optional
+        Angle of the side with the axis, by default that of the config: above 0 heads is the wider
+        face, of the diameter given. Heads and tails then differ, and the side alone gets its
+        probability. With sharp rims, no marks and no infill only.
     marks : bool, optional
         Whether to engrave three marks on heads and six on tails.
     density_kg_m3 : float, optional
@@ -172,6 +187,7 @@ def design(
         "target": float(target),
         "rim_m": None if rim_m is None else float(rim_m),
         "chamfer_m": None if chamfer_m is None else float(chamfer_m),
+        "draft_deg": None if draft_deg is None else float(draft_deg),
         "marks": bool(marks),
         "density_kg_m3": float(density_kg_m3),
         "infill": None if walls_m is None or infill is None else (float(walls_m), float(infill)),

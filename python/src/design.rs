@@ -19,6 +19,7 @@ pub(crate) struct AskedDesign {
     target: f64,
     rim_m: Option<f64>,
     chamfer_m: Option<f64>,
+    draft_deg: Option<f64>,
     marks: bool,
     density_kg_m3: f64,
     /// Thickness of the walls, and the share of the inside that is full.
@@ -38,6 +39,7 @@ impl AskedDesign {
             coin: PrintedCoin {
                 diameter_m: self.diameter_m,
                 edge,
+                draft_deg: self.draft_deg,
                 marks: self.marks,
                 density_kg_m3: self.density_kg_m3,
                 infill: self.infill.map(|(walls_m, density_fraction)| Infill {

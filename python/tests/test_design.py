@@ -34,6 +34,21 @@ def test_infill_makes_it_lighter():
     assert light.mass_kg < 0.8 * full.mass_kg
 
 
+def test_a_conical_edge_makes_heads_and_tails_differ():
+    plane = {"surface.roughness_slope": 0}
+    coin = coinmc.design(**COIN, draft_deg=10, overrides=plane)
+    assert coin.draft_deg == 10
+    assert coin.p_heads + 0.1 < coin.p_tails
+    assert b"draft = 10;" in coin.files[".scad"]
+    same = coinmc.design(**COIN, overrides={**plane, "coin.draft_deg": 10})
+    assert same.files == coin.files
+    plain = coinmc.design(**COIN)
+    assert (plain.draft_deg, plain.document["faces"]) == (0, None)
+    assert plain.p_heads == plain.p_tails == pytest.approx(1 / 3)
+    with pytest.raises(ValueError, match="no marks"):
+        coinmc.design(**COIN, draft_deg=10, marks=True)
+
+
 def test_bad_questions_are_told():
     with pytest.raises(ValueError, match="not both"):
         coinmc.design(**COIN, rim_m=0.001, chamfer_m=0.001)

@@ -7,10 +7,15 @@ import numpy as np
 import pytest
 import trimesh
 
+# Coins with a conical edge are tossed on planes only.
+LEVEL = ["--set", "surface.roughness_slope=0"]
 COINS = {
     "sharp": [],
     "rounded": ["--rim", "1mm"],
     "chamfered": ["--chamfer", "1mm", "--marks"],
+    "of the config": ["--set", "coin.rim_radius_m=0.001"],
+    "conical": ["--draft", "-12", *LEVEL],
+    "conical by its config": ["--set", "coin.draft_deg=8", *LEVEL],
     "hollow": ["--rim", "0.5mm", "--marks", "--walls", "1mm", "--infill", "15"],
 }
 
@@ -47,6 +52,38 @@ def test_meshes_are_closed_and_have_the_volume_and_moments_of_the_coin(designed,
         assert per_mass[2, 2] == pytest.approx(document["axial_moment_kg_m2"] / mass, rel=1e-3)
         transverse = document["transverse_moment_kg_m2"] / mass
         assert per_mass[0, 0] == pytest.approx(transverse, rel=1e-3)
+
+
+def test_a_conical_mesh_is_the_frustum_that_its_document_names(designed):
+    """Radii and centre of mass; a test in Rust compares with the coin that the engine tosses."""
+    document, folder, name = designed
+    if "conical" not in name:
+        assert document["faces"] is None
+        assert document["centre_of_mass_m"] == 0
+        return
+    mesh = trimesh.load(folder / f"{name}.stl", force="mesh")
+    height = 1e3 * document["thickness_m"]
+    radius = np.hypot(mesh.vertices[:, 0], mesh.vertices[:, 1])
+    heads, tails = (
+        radius[np.isclose(mesh.vertices[:, 2], end * height / 2, atol=1e-4)].max()
+        for end in (1, -1)
+    )
+    # heads is towards +z, and the wider face if the draft is above 0
+    wide, narrow = (heads, tails) if document["draft_deg"] > 0 else (tails, heads)
+    assert wide == pytest.approx(500 * document["diameter_m"], rel=1e-3)
+    slope = np.tan(np.radians(abs(document["draft_deg"])))
+    assert wide - narrow == pytest.approx(height * slope, rel=1e-3)
+    # of a frustum, from its wider face: (H/4)(R² + 2Rb + 3b²)/(R² + Rb + b²)
+    from_wide = height / 4 * (wide**2 + 2 * wide * narrow + 3 * narrow**2)
+    from_wide /= wide**2 + wide * narrow + narrow**2
+    expected = np.sign(document["draft_deg"]) * (height / 2 - from_wide)
+    assert mesh.center_mass[2] == pytest.approx(expected, rel=1e-3)
+    assert 1e3 * document["centre_of_mass_m"] == pytest.approx(expected, rel=1e-3)
+    faces = document["faces"]
+    assert faces["heads"]["p"] + faces["tails"]["p"] == pytest.approx(2 / 3, abs=0.03)
+    # it comes to lie on its wider face more often, which shows the narrower one
+    shown = ["tails", "heads"] if document["draft_deg"] > 0 else ["heads", "tails"]
+    assert faces[shown[0]]["lo"] > faces[shown[1]]["hi"]
 
 
 def test_a_sheet_is_one_page_of_svg(designed):

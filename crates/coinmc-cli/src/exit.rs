@@ -118,7 +118,7 @@ impl From<DesignError> for Failure {
             DesignError::Shape(_)
             | DesignError::Mass(_)
             | DesignError::NoSingleRoot
-            | DesignError::Conical => Self::Input(error.into()),
+            | DesignError::Loaded => Self::Input(error.into()),
         }
     }
 }

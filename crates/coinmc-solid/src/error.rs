@@ -30,7 +30,7 @@ pub enum ShapeError {
     },
     /// The angle of a conical edge takes too little to be made, or leaves no narrower face.
     #[error(
-        "the draft of this coin must be from {least}° to {most}° to either side, or 0, not {found}°"
+        "the draft of this coin must be from {least:.3}° to {most:.3}° to either side, or 0, not {found}°"
     )]
     Draft {
         /// What was asked for, degrees.

@@ -2,6 +2,7 @@
 
 use super::{Designed, TEST, THICKNESS_ERRORS_M};
 use crate::document::FORMAT_VERSION;
+use coinmc_core::Estimate;
 use serde_json::{Value, json};
 
 /// A design as a JSON document, but for the names of its files. docs/reference/formats.md describes its
@@ -18,6 +19,14 @@ pub fn document_of_design(designed: &Designed) -> Value {
             "tosses_to_tell": designed.tosses_to_tell(change),
         })
     });
+    let estimate = |face: &Estimate| json!({ "p": face.p, "lo": face.lo, "hi": face.hi });
+    let faces = designed.faces.as_ref().map(|faces| {
+        json!({
+            "heads": estimate(&faces.heads),
+            "tails": estimate(&faces.tails),
+            "tosses": faces.heads.n,
+        })
+    });
     json!({
         "format_version": FORMAT_VERSION,
         "kind": "design",
@@ -30,6 +39,9 @@ pub fn document_of_design(designed: &Designed) -> Value {
         "slope": root.slope,
         "diameter_m": shape.diameter_m(),
         "thickness_m": shape.thickness_m(),
+        "draft_deg": shape.draft_deg(),
+        "centre_of_mass_m": shape.centre_m(),
+        "faces": faces,
         "volume_m3": shape.volume_m3(),
         "mass_kg": mass.mass_kg,
         "axial_moment_kg_m2": mass.axial_kg_m2,

@@ -1,14 +1,16 @@
 //! A fair coin to print: its solid, and what to expect of it.
 //!
 //! The thickness is that at which [`fair()`](crate::fair()) finds the side with the probability asked for, in
-//! tosses of the coin as it will be printed: with rounded rims, and with the moments of inertia of its rims, marks
-//! and infill.
+//! tosses of the coin as it will be printed: with rounded rims or a conical edge, and with the moments of inertia
+//! of its rims, marks and infill.
 
 mod document;
+mod faces;
 mod printed;
 mod sheet;
 
 pub use document::document_of_design;
+pub use faces::Faces;
 pub use printed::PrintedCoin;
 
 use crate::assumptions::{self, Effect};
@@ -33,8 +35,6 @@ pub const TEST: Test = Test {
 pub const THICKNESS_ERRORS_M: [f64; 3] = [5e-5, 1e-4, 2e-4];
 /// Errors of P(side) that a test is to find.
 const CHANGES: [f64; 4] = [0.02, 0.03, 0.05, 0.1];
-/// Title of the 3MF file.
-const TITLE: &str = "A fair coin with three sides, by coinmc";
 
 /// The coin to design.
 ///
@@ -46,6 +46,7 @@ const TITLE: &str = "A fair coin with three sides, by coinmc";
 /// let coin = PrintedCoin {
 ///     diameter_m: 0.03,
 ///     edge: Edge::Rounded { radius_m: 0.001 },
+///     draft_deg: None,
 ///     marks: true,
 ///     density_kg_m3: 1240.0,
 ///     infill: None,
@@ -87,11 +88,12 @@ pub enum DesignError {
     /// There is no such coin, or there are several.
     #[error("no single thickness gives the side this probability; `coinmc fair` shows the curve")]
     NoSingleRoot,
-    /// The config asks for a conical edge.
+    /// The config's centre of mass is off the middle.
     #[error(
-        "solids are cylinders with sharp, rounded or chamfered rims: `coin.draft_deg` must be 0"
+        "a print is of one material: `coin.centre_of_mass_over_height` must be 0 (a conical edge, \
+         `coin.draft_deg`, moves the centre of mass of a print)"
     )]
-    Conical,
+    Loaded,
 }
 
 /// A coin that has been designed, and what is known of it.
@@ -103,7 +105,9 @@ pub struct Designed {
     pub fair: Fair,
     /// The ratio.
     pub root: Root,
-    /// How far the scene's assumptions move it.
+    /// Heads and tails there, if a conical edge makes them differ.
+    pub faces: Option<Faces>,
+    /// How far the scene's assumptions move the root.
     pub effects: Vec<Effect>,
     /// The solid.
     pub shape: Shape,
@@ -124,20 +128,16 @@ pub fn design(
     question: &Design,
     workers: &Workers<'_>,
 ) -> Result<Designed, DesignError> {
-    let coin = question.coin;
-    // a coin as thick as wide shows what is wrong with all others
-    coin.shape(coin.diameter_m)?;
+    question.coin.check()?;
     let template = template
         .clone()
-        .with_size(Size::Diameter(coin.diameter_m))?;
-    let plan = template.plan(&[("coin.ratio", "1.0".to_owned())])?;
-    if plan
-        .points
-        .iter()
-        .any(|point| point.scene.coin.is_conical())
-    {
-        return Err(DesignError::Conical);
-    }
+        .with_size(Size::Diameter(question.coin.diameter_m))?;
+    let coin = question.coin.with_edge_of(&template)?;
+    coin.check()?;
+    let template = match coin.draft_deg {
+        Some(draft) => template.with_value("coin.draft_deg", draft),
+        None => template,
+    };
     let template = template.with_coins_made(move |made| coin.numbers(made));
     let fair = fair(
         &template,
@@ -158,7 +158,9 @@ pub fn design(
         effects = assumptions::effects(&template, &fair, &root, assumed, tosses, workers)?;
     }
     let shape = coin.shape(root.coin.height_m())?;
+    let faces = (shape.draft_deg() != 0.0).then(|| Faces::at(&template, &root, workers));
     Ok(Designed {
+        faces: faces.transpose()?,
         mass: coin.mass(&shape)?,
         mesh: shape.mesh(shape.chord_error_m())?,
         scene,
@@ -215,9 +217,22 @@ impl Designed {
     pub fn write(&self, file: DesignFile, mut out: impl Write) -> io::Result<()> {
         match file {
             DesignFile::Stl => write_stl(&self.mesh, &mut out),
-            DesignFile::ThreeMf => write_3mf(&self.mesh, TITLE, &mut out),
+            DesignFile::ThreeMf => write_3mf(
+                &self.mesh,
+                &format!("{}, by coinmc", self.title()),
+                &mut out,
+            ),
             DesignFile::OpenScad => write_openscad(&self.shape, &mut out),
             DesignFile::Sheet => out.write_all(self.sheet().as_bytes()),
+        }
+    }
+
+    /// What it is. With a conical edge only the side is fair, if that is asked for.
+    pub fn title(&self) -> &'static str {
+        if self.faces.is_some() {
+            "A coin with a conical edge"
+        } else {
+            "A fair coin with three sides"
         }
     }
 
@@ -234,7 +249,8 @@ impl Designed {
     /// Tosses that tell a coin whose P(side) is off by `change` from the one asked for, by [`TEST`].
     pub fn tosses_to_tell(&self, change: f64) -> u64 {
         let side = self.fair.question.target;
-        let faces = |side: f64| [0.5 * (1.0 - side), 0.5 * (1.0 - side), side];
+        let heads = self.faces.map_or(0.5, |faces| faces.share_of_heads());
+        let faces = |side: f64| [heads * (1.0 - side), (1.0 - heads) * (1.0 - side), side];
         tosses_for_power(faces(side), faces(side + change), TEST)
     }
 }

@@ -3,7 +3,7 @@
 use super::{CHANGES, Designed, TEST, THICKNESS_ERRORS_M};
 use crate::drawing::escaped;
 use crate::number::{compact, grouped};
-use coinmc_solid::Edge;
+use coinmc_solid::{Edge, Shape};
 
 /// Left edge of the text, mm.
 const LEFT: f64 = 20.0;
@@ -27,7 +27,7 @@ pub(super) fn svg(designed: &Designed) -> String {
             .to_owned(),
         y: 24.0,
     };
-    page.title("A fair coin with three sides");
+    page.title(designed.title());
     page.heads(designed);
     page.drawings(designed);
     page.tolerances(designed);
@@ -88,6 +88,13 @@ impl Page {
             1e3 * mass.mass_kg
         ));
         self.line(match shape.edge() {
+            Edge::Sharp if shape.draft_deg() != 0.0 => {
+                let [heads, tails] = shape.face_radii_m().map(|radius| 2e3 * radius);
+                let draft = compact(shape.draft_deg());
+                format!(
+                    "Conical edge of {draft}°: heads {heads:.2} mm wide, tails {tails:.2} mm. Sharp rims."
+                )
+            }
             Edge::Sharp => "Sharp rims.".to_owned(),
             Edge::Rounded { radius_m } => {
                 format!("Rims rounded with {} mm.", compact(1e3 * radius_m))
@@ -104,6 +111,13 @@ impl Page {
             root.half_width(),
             grouped(root.tosses)
         ));
+        if let Some(faces) = &designed.faces {
+            let [heads, tails] = [faces.heads, faces.tails]
+                .map(|face| format!("{:.3} ± {:.3}", face.p, face.half_width()));
+            self.line(format!(
+                "P(heads) = {heads}, P(tails) = {tails}: its faces are not alike at any thickness."
+            ));
+        }
         self.line(match designed.scene {
             Some(scene) => format!(
                 "Tossed by hand, from {} m above {}.",
@@ -123,6 +137,12 @@ impl Page {
             scale * thickness,
             1e3 * scale * shape.edge().size_m(),
         );
+        let [heads, tails] = shape.face_radii_m();
+        let inner = if shape.draft_deg() == 0.0 {
+            (0.5 * d - edge).max(0.0)
+        } else {
+            1e3 * scale * heads.min(tails)
+        };
         let (x, y) = (LEFT + 0.5 * d, self.y + 4.0 + 0.5 * d.max(t));
         let (side, middle) = (LEFT + d + 20.0, y);
         self.add(&format!(
@@ -130,7 +150,7 @@ impl Page {
              <circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{:.2}\"/>\n\
              <circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{:.2}\" stroke-width=\"0.1\"/>\n",
             0.5 * d,
-            (0.5 * d - edge).max(0.0)
+            inner
         ));
         if let Some(marks) = shape.marks() {
             for radius in [marks.inner_m, marks.outer_m] {
@@ -140,15 +160,7 @@ impl Page {
                 ));
             }
         }
-        let round = if matches!(shape.edge(), Edge::Rounded { .. }) {
-            edge
-        } else {
-            0.0
-        };
-        self.add(&format!(
-            "<rect x=\"{side:.2}\" y=\"{:.2}\" width=\"{d:.2}\" height=\"{t:.2}\" rx=\"{round:.2}\"/>\n</g>\n",
-            middle - 0.5 * t
-        ));
+        self.add(&from_the_side(shape, scale, [side, middle]));
         self.y = y + 0.5 * d.max(t) + LINE;
         let drawn = if scale < 1.0 {
             format!("drawn at {scale:.2} of its size")
@@ -210,6 +222,31 @@ impl Page {
             ]));
         }
     }
+}
+
+/// The outline of the coin, heads up, whose side begins at `left` and is drawn around the height `middle`.
+fn from_the_side(shape: &Shape, scale: f64, [left, middle]: [f64; 2]) -> String {
+    let d = 1e3 * scale * shape.diameter_m();
+    let t = 1e3 * scale * shape.thickness_m();
+    let (top, bottom) = (middle - 0.5 * t, middle + 0.5 * t);
+    if shape.draft_deg() != 0.0 {
+        let axis = left + 0.5 * d;
+        let [heads, tails] = shape.face_radii_m().map(|radius| 1e3 * scale * radius);
+        return format!(
+            "<polygon points=\"{:.2},{top:.2} {:.2},{top:.2} {:.2},{bottom:.2} {:.2},{bottom:.2}\"/>\n</g>\n",
+            axis - heads,
+            axis + heads,
+            axis + tails,
+            axis - tails
+        );
+    }
+    let round = match shape.edge() {
+        Edge::Rounded { radius_m } => 1e3 * scale * radius_m,
+        _ => 0.0,
+    };
+    format!(
+        "<rect x=\"{left:.2}\" y=\"{top:.2}\" width=\"{d:.2}\" height=\"{t:.2}\" rx=\"{round:.2}\"/>\n</g>\n"
+    )
 }
 
 /// To three digits.

@@ -267,9 +267,18 @@ fn ratios(template: &Template) -> Result<[f64; 2], QuestionError> {
     const CLEAR: f64 = 1.1;
     /// The same above the least ratio at which a coin rests on its conical edge.
     const RESTS: f64 = 1.02;
+    /// A thickness below that at which a conical edge leaves no narrower face.
+    const POINTED: f64 = 0.95;
     let [from, to] = RANGE;
-    // where the radius depends on the ratio, it is the least for the thickest coin
-    let plan = template.plan(&[("coin.ratio", format!("{to:?}"))])?;
+    let at = |ratio: f64| template.plan(&[("coin.ratio", format!("{ratio:?}"))]);
+    // where the radius depends on the ratio, it is the least for the thickest coin; a cone with much draft
+    // has no coin so thick, but always one that is as thick as its radius
+    let plan = at(to).or_else(|error| at(1.0).map_err(|_| error))?;
+    let apex = plan.points.iter().map(|point| {
+        let [_, apex] = Coin::ratios_with_draft(point.scene.coin.draft_deg());
+        POINTED * apex
+    });
+    let to = apex.fold(to, f64::min);
     let least = plan.points.iter().map(|point| {
         let coin = &point.scene.coin;
         let [resting, _] = Coin::ratios_with_draft(coin.draft_deg());

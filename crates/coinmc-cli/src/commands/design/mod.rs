@@ -26,7 +26,7 @@ The mesh is in millimetres, as slicers expect. The sheet (.svg) is one page to p
 /// Design a fair coin for a 3D printer: STL, 3MF, OpenSCAD, and a sheet with its tolerances
 ///
 /// Finds the thickness at which the coin lands on its side in a third of the tosses, as `coinmc fair`
-/// does, with the rim and the infill that it will have. Nothing is overwritten.
+/// does, with the edge and the infill that it will have. Nothing is overwritten.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct DesignArgs {
@@ -48,6 +48,12 @@ pub(crate) struct DesignArgs {
     /// Cut the rims at 45° by this much. The tosses are those of rims rounded with this radius
     #[arg(long, value_name = "LENGTH")]
     chamfer: Option<Length>,
+
+    /// Tilt the side by this angle to the axis: a conical edge. Above 0 heads is the wider face, of the
+    /// diameter given; heads and tails then differ, and the side alone gets its probability
+    #[arg(long, value_name = "DEGREES", conflicts_with_all = ["rim", "chamfer", "marks", "infill"])]
+    #[arg(allow_negative_numbers = true)]
+    draft: Option<f64>,
 
     /// Engrave a ring of three marks on heads and of six on tails, which keep the coin balanced
     #[arg(long)]
@@ -92,7 +98,7 @@ impl DesignArgs {
         let question = self.question();
         // what is wrong with any coin of this kind is said before files are begun
         let coin = &question.coin;
-        coin.shape(coin.diameter_m).map_err(DesignError::from)?;
+        coin.check().map_err(DesignError::from)?;
         let files = Files::begin(&self.out)?;
         let (scene, template) = self.scene.template()?;
         let overrides = self.scene.overrides();
@@ -126,6 +132,7 @@ impl DesignArgs {
             coin: PrintedCoin {
                 diameter_m: self.diameter.0,
                 edge,
+                draft_deg: self.draft,
                 marks: self.marks,
                 density_kg_m3: self.density.0,
                 infill: infill.map(|(walls, percent)| Infill {

@@ -22,6 +22,7 @@ pub(super) fn text(designed: &Designed, paths: &[PathBuf], style: &Style) -> Str
     if let Some(scene) = designed.scene {
         text += &format!("for the scene {}: {}\n", scene.name, scene.doc);
     }
+    text += &faces(designed);
     let mut tolerance = Table::new(vec![
         Column::right("thickness off by"),
         Column::right("P(side) off by"),
@@ -45,4 +46,22 @@ pub(super) fn text(designed: &Designed, paths: &[PathBuf], style: &Style) -> Str
         text += &format!("wrote {}\n", path.display());
     }
     if style.unicode { text } else { in_ascii(&text) }
+}
+
+/// Heads and tails of a coin with a conical edge.
+fn faces(designed: &Designed) -> String {
+    let Some(faces) = &designed.faces else {
+        return String::new();
+    };
+    let [heads, tails] = designed.shape.face_radii_m().map(|radius| 2e3 * radius);
+    let [p_heads, p_tails] = [faces.heads, faces.tails].map(|face| {
+        let arm = face.half_width();
+        format!("{:.3} ± {arm:.3}", face.p)
+    });
+    format!(
+        "conical edge of {}°: heads (towards +z) {heads:.2} mm wide, tails {tails:.2} mm\n\
+         P(heads) = {p_heads}, P(tails) = {p_tails}: faces of unequal width are not equally likely at \
+         any thickness\n",
+        compact(designed.shape.draft_deg())
+    )
 }
