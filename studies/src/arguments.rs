@@ -2,6 +2,7 @@
 
 use crate::atlas::Atlas;
 use crate::calibrate::Calibrate;
+use crate::conical::Conical;
 use crate::convergence::Convergence;
 use crate::energy::Energy;
 use crate::film::Film;
@@ -56,6 +57,8 @@ enum Command {
     MissedContacts(MissedContacts),
     /// The volumetric engine against fixed-step time stepping, toss by toss
     Oracle(Oracle),
+    /// Coins whose heads and tails differ, by a conical edge or a load, against time stepping
+    Conical(Conical),
     /// Worst gain of energy in impacts and in contact phases
     Energy(Energy),
     /// Tosses without a face at the limit of impacts, and the slowest scenes
@@ -116,6 +119,7 @@ impl Arguments {
                 Command::Convergence(study) => study.execute(seed),
                 Command::MissedContacts(study) => study.execute(seed),
                 Command::Oracle(study) => study.execute(seed),
+                Command::Conical(study) => study.execute(seed),
                 Command::Energy(study) => study.execute(seed),
                 Command::Undecided(study) => study.execute(seed),
                 Command::StoppingRule(study) => study.execute(seed),

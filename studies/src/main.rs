@@ -4,6 +4,7 @@ mod arguments;
 mod atlas;
 mod balance;
 mod calibrate;
+mod conical;
 mod convergence;
 mod energy;
 mod film;

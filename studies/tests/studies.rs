@@ -372,3 +372,27 @@ fn intervals_of_calibrated_coins_hold_the_truth() {
         assert!(share > 7.5 / 12.0, "{line}");
     }
 }
+
+/// A coin and its mirror image show heads and tails exchanged, within four standard errors.
+#[test]
+fn coins_with_unlike_faces_have_a_row_each() {
+    let size = [
+        "--ratios",
+        "0.85",
+        "--tosses",
+        "400",
+        "--oracle-tosses",
+        "2",
+    ];
+    for (more, rows) in [(&[][..], 4), (&["--loaded"][..], 3)] {
+        let lines = STUDIES.study(&[&["conical"], &size[..], more].concat());
+        assert_eq!(lines.len(), rows);
+        let of = |face: &str| -> Vec<f64> {
+            let cells = lines.column(face).into_iter();
+            cells.map(|cell| cell.parse().unwrap()).collect()
+        };
+        let (heads, tails) = (of("heads"), of("tails"));
+        assert!((heads[0] - tails[1]).abs() < 0.14, "{heads:?} {tails:?}");
+        assert!(heads[0] < tails[0] && heads[1] > tails[1]);
+    }
+}
