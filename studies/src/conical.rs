@@ -116,7 +116,8 @@ impl Found {
         let faces = [Face::Heads, Face::Tails, Face::Side].into_iter();
         let z = faces.map(|face| {
             let change = self.engine.share(face) - self.oracle.share(face);
-            change.abs() / self.engine.error(face).hypot(self.oracle.error(face))
+            let (one, other) = (self.engine.error(face), self.oracle.error(face));
+            change.abs() / (one * one + other * other).sqrt()
         });
         z.fold(0.0, f64::max)
     }
