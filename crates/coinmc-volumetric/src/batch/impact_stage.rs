@@ -11,6 +11,7 @@ use crate::impact::ImpactLaw;
 use crate::impact_phase::after_bounce;
 use crate::model::Model;
 use crate::motion::{FLAT, Motion, Spin};
+use crate::rough::FLATTEST;
 use crate::toss::Toss;
 use crate::transition::Transition;
 use coinmc_core::Decided;
@@ -31,6 +32,8 @@ pub(super) struct ImpactStage {
     /// Lanes whose flight was given up, or that landed level.
     gave_up: Bits,
     level: Bits,
+    /// Lanes too steep for rough ground to count as a plane.
+    steep: Bits,
     /// Lanes whose impact may be the last bounce; lanes where that was wrong.
     may_be_last: Bits,
     retry: Bits,
@@ -94,6 +97,11 @@ impl ImpactStage {
     /// Lanes that need the scalar path: their flight was given up, or they landed level.
     pub(super) fn unusual(&self) -> Bits {
         self.gave_up | self.level
+    }
+
+    /// Lanes that rough ground must take on.
+    pub(super) fn steep(&self) -> Bits {
+        self.steep
     }
 
     /// Lanes that the impact sends straight into a flight.
@@ -208,6 +216,7 @@ impl<const DRAGS: bool> Work for Land<'_, DRAGS> {
         stage.duration = duration.store();
         stage.reflected = L::bits(landed.reflected) & !stage.gave_up;
         stage.level = L::bits(landed.motion.sin.le(L::splat(FLAT)));
+        stage.steep = L::bits(L::splat(FLATTEST).le(landed.motion.sin));
         count
     }
 }

@@ -167,8 +167,10 @@ impl<I: ImpactLaw> Batch<'_, I> {
             let last = model.limits.no_impact_left(slot.toss.impacts);
             by_scalar |= Bits::from(late | last) << lane;
         }
-        if !I::HAS_LANES || model.adhesive || model.ground.is_some() {
+        if !I::HAS_LANES || model.adhesive {
             by_scalar = Bits::MAX;
+        } else if model.ground.is_some() {
+            by_scalar |= stage.steep();
         }
         for lane in lanes_of(by_scalar & first(count)) {
             let next = self.after_landing(lane);

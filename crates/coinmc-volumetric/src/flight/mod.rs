@@ -7,7 +7,7 @@ mod orbit;
 mod profile;
 mod search;
 
-pub(crate) use bounds::Extent;
+pub(crate) use bounds::{Bounds, Extent};
 pub(crate) use departure::Departure;
 pub(crate) use orbit::{Orbit, OrbitState};
 pub(crate) use profile::OneRim;

@@ -263,6 +263,9 @@ impl<L: Lane> Orbit<L> {
 
     /// The horizontal displacement of the centre.
     pub(crate) fn drift(&self, m: &Motion<L>, t: L) -> (L, L) {
+        if self.drag.linear == 0.0 {
+            return (m.vx * t, m.vy * t);
+        }
         let (p, _) = decay(L::splat(self.drag.linear) * t);
         (m.vx * t * p, m.vy * t * p)
     }

@@ -94,12 +94,13 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         let dynamics = &self.model.dynamics;
         let body = &dynamics.body;
         let old = self.tracks;
-        let state = self.descend_on_both(state, old.interval);
+        let slopes = [old.own, old.other].map(|track| track.slopes(self.ground));
+        let state = self.descend_on_both(state, slopes, old.interval);
         self.place_on_tracks(&state);
         self.lead = 0.0;
         self.balance();
         let (after, energy) = (self.time_between_nodes(), self.energy());
-        let state = self.descend_on_both(&self.line_state(), after);
+        let state = self.descend_on_both(&self.line_state(), slopes, after);
         self.place_on_tracks(&state);
         self.lead = self.energy() - energy;
         self.lay_out_tracks_for(after);

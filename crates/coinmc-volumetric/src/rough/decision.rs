@@ -17,14 +17,13 @@
 //!   the rule for a plane, and E_kick that of so many standard deviations of both as were measured
 //!   to be enough ([`deviations`]).
 
+use super::ground::SPREAD;
 use super::tracks::rim_points;
 use super::walk::{Touch, Walk};
 use crate::impact::ImpactLaw;
 use crate::motion::Motion;
 use coinmc_core::{Decided, Observer};
 
-/// Standard deviations of the ground's height that a decided coin may still meet.
-const SPREAD: f64 = 3.0;
 /// A coin rests whose kinetic energy has been below this share of its well's depth for this time,
 /// in sqrt(D/g): one that turns round on a slope is slow only for a moment.
 const REST: f64 = 1e-3;
@@ -61,7 +60,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         let energy = kinetic + motion.z;
         let sigma = self.ground.height;
         if !self.model.rule.on_side(motion.cos.abs()) {
-            return (energy - own < 1.0 - SPREAD * sigma).then_some(Decided::Face);
+            return (energy - own < 1.0 - self.ground.face_margin).then_some(Decided::Face);
         }
         if touch != Touch::Both {
             self.at_rest_since = None;
@@ -77,6 +76,16 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         let rests = self.rests(slow);
         let decided = highest < 1.0 - SPREAD * sigma * ahead || rests || self.is_safe();
         decided.then_some(Decided::Side)
+    }
+
+    /// Whether the face of a coin that rebounds from its landing is decided. In flight no energy is gained,
+    /// and the next landing is judged by the same rule.
+    pub(super) fn lies_on_face(&self) -> bool {
+        let energy = self.energy() - self.tracks.own.height;
+        let rule = &self.model.rule;
+        !rule.awaits_rest()
+            && !rule.on_side(self.toss.motion.cos)
+            && energy < 1.0 - self.ground.face_margin
     }
 
     /// The face of a coin that has come to rest, on a table with an edge, whatever touches: a coin at
@@ -126,5 +135,68 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         let well = (1.0 - body.radius) * brim * brim;
         let inertia = body.kt + body.outer_radius().powi(2);
         brim > 0.0 && loose.sqrt() + (0.5 * inertia).sqrt() * rate < well.sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::laws::Moreau;
+    use crate::model::Model;
+    use crate::settings::Settings;
+    use coinmc_core::{Coin, Ended, Face, Preset, Roughness, Scene, Surface};
+    use coinmc_testkit::preset_launch;
+
+    /// A coin of this ratio on ground of this slope and wavelength, with this restitution.
+    fn scene([ratio, e, slope, wave_m]: [f64; 4]) -> Scene {
+        let surface = Surface::new(e, 0.3)
+            .and_then(|surface| surface.with_friction_lengths(2e-4, 2e-5))
+            .expect("a valid surface")
+            .with_roughness(Roughness::new(slope, wave_m).ok());
+        let coin = Coin::cylinder(ratio, 0.0116).expect("a valid coin");
+        Scene::new(coin, surface, 9.81).expect("a valid scene")
+    }
+
+    fn model(scene: &Scene) -> Model<Moreau> {
+        Model::new(scene, &Settings::default(), Moreau).expect("valid settings")
+    }
+
+    /// A face that rough ground decides, in most tosses as the coin rebounds from a landing, is the one
+    /// that the coin shows once it is followed on: until a plane decides, and where no coin comes to roll on
+    /// its side, to rest as well, as on a table with an edge. (A plane that decides for the side sends the
+    /// coin back to rough ground, so that coins on their side take other ways where all is followed to rest.)
+    /// Of 6,400 tosses some 800 end sooner.
+    #[test]
+    fn a_face_that_is_decided_is_that_of_a_coin_that_is_followed_on() {
+        let (mut sooner, mut at_rest) = (0, 0);
+        for (numbers, to_rest) in [
+            ([0.2, 0.2, 0.05, 3e-3], true),
+            ([0.3, 0.5, 0.05, 3e-3], false),
+            ([0.7, 0.5, 0.15, 1e-2], true),
+            ([1.2, 0.8, 0.1, 5e-3], true),
+        ] {
+            let scene = scene(numbers);
+            let early = model(&scene);
+            let mut open = model(&scene);
+            open.ground.as_mut().expect("a rough ground").face_margin = f64::INFINITY;
+            let mut table = scene;
+            let edge = scene.surface.with_table_radius(1e9);
+            table.surface = edge.expect("a valid radius");
+            let still = model(&table);
+            for toss in 0..1600 {
+                let launch = preset_launch(Preset::Hand, &scene, 313, toss);
+                let outcome = |model: &Model<Moreau>| model.run(&launch, &mut ()).outcome;
+                let (decided, later) = (outcome(&early), outcome(&open));
+                assert_eq!(decided.ended, later.ended, "{numbers:?} toss {toss}");
+                assert!(decided.impacts <= later.impacts, "{numbers:?} toss {toss}");
+                sooner += u32::from(decided.impacts < later.impacts);
+                let face = matches!(decided.ended, Ended::Decided(Face::Heads | Face::Tails));
+                if to_rest && face {
+                    let last = outcome(&still).ended;
+                    assert_eq!(decided.ended, last, "{numbers:?} toss {toss}");
+                    at_rest += 1;
+                }
+            }
+        }
+        assert!(sooner > 600 && at_rest > 3_000, "{sooner} {at_rest}");
     }
 }

@@ -33,6 +33,8 @@ pub(super) struct HeightField {
     coefficients: Vec<f64>,
     /// What the height in each cell does not exceed, in steps of [`BOUND_STEP`].
     bounds: Vec<i8>,
+    /// What no height exceeds, in σ.
+    highest: f64,
 }
 
 impl HeightField {
@@ -54,10 +56,18 @@ impl HeightField {
         };
         let coefficients: Vec<f64> = (0..WIDTH * WIDTH).map(wrapped).collect();
         let bounds = (0..SIDE * SIDE).map(|cell| bound(&coefficients, cell / SIDE, cell % SIDE));
+        let bounds: Vec<i8> = bounds.collect();
+        let highest = bounds.iter().copied().max().unwrap_or(i8::MAX);
         Self {
-            bounds: bounds.collect(),
+            highest: f64::from(highest) * BOUND_STEP,
+            bounds,
             coefficients,
         }
+    }
+
+    /// What the height nowhere exceeds, in σ.
+    pub(super) fn highest(&self) -> f64 {
+        self.highest
     }
 
     /// What the height nowhere exceeds in the cell around (`x`, `y`), in σ. Costs a fraction of

@@ -9,6 +9,8 @@ const HIGHEST: f64 = 3.0;
 const SPACING: f64 = 0.6;
 /// Most points on either side of the middle of the arc.
 const MOST_POINTS: u32 = 12;
+/// Standard deviations of the ground's height that a decided coin may still meet.
+pub(super) const SPREAD: f64 = 3.0;
 /// A rim bridges no hollow if the ground's rms curvature is below this share of the rim's own.
 const BRIDGING: f64 = 0.1;
 
@@ -35,6 +37,9 @@ pub(crate) struct Ground {
     /// with the other high above the ground is hardly moved by slopes: the kick of a slope on one rim
     /// changes the lean by about h²/(k_t + R² + h²) of what it does across both.
     pub(crate) near: f64,
+    /// A face is decided where the energy above the ground under the rim falls short of the balance by
+    /// this: the ground may be as much lower where the coin will be.
+    pub(super) face_margin: f64,
 }
 
 /// What carries a rim.
@@ -57,12 +62,18 @@ impl Ground {
             height,
             contrast,
             near: (NEAR * height * contrast / thickness).min(LARGEST_NEAR),
+            face_margin: SPREAD * height,
         }
     }
 
     /// The rms slope along a direction.
     pub(super) fn slope(&self) -> f64 {
         self.height / self.length
+    }
+
+    /// A height that the ground, and so a rim that it carries, nowhere exceeds.
+    pub(super) fn highest(&self) -> f64 {
+        self.height * HeightField::shared().highest()
     }
 
     /// The slopes of the ground along x and y.

@@ -2,7 +2,8 @@
 
 use super::tracks::{Track, rim_points};
 use super::walk::{Next, Touch, Walk};
-use crate::flight::Orbit;
+use crate::body::Body;
+use crate::flight::{Bounds, Orbit};
 use crate::impact::ImpactLaw;
 use crate::motion::Motion;
 use coinmc_core::Observer;
@@ -36,6 +37,11 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         self.usage.steps += 1;
         self.give_back_lead();
         let orbit = Orbit::new(&self.toss.motion, self.model.dynamics.drag);
+        if let Some(time) = self.time_above_all(&orbit) {
+            self.fly_on(&orbit, time);
+            self.begin_tracks();
+            return Next::Goes(Touch::Nothing);
+        }
         let (time, touches) = self.first_touch(&orbit);
         self.fly_on(&orbit, time);
         match touches {
@@ -54,6 +60,29 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         }
     }
 
+    /// How long both rims are sure to stay above the highest top of the ground, if at least until the
+    /// next node: so long the coin needs no tracks.
+    fn time_above_all(&self, orbit: &Orbit<f64>) -> Option<f64> {
+        /// The search ends where it gains less than this share of the time between nodes.
+        const LEAST_GAIN: f64 = 0.2;
+        let (body, motion) = (self.body(), &self.toss.motion);
+        let top = Track::level(self.ground.highest());
+        if motion.z - motion.rest_height(body) <= top.height {
+            return None;
+        }
+        let bounds = orbit.bounds(&orbit.extent(body));
+        let mut time = 0.0;
+        for _ in 0..MOST_STEPS {
+            let gaps = rim_gaps(body, orbit, &bounds, [&top, &top], time);
+            let gain = gaps.earliest();
+            time += gain;
+            if gain < LEAST_GAIN * self.tracks.left {
+                break;
+            }
+        }
+        (time > self.tracks.left).then_some(time)
+    }
+
     /// The time of the first contact before the next node, and which rim touches; also whether the
     /// axis then points down in the frame of the flight.
     fn first_touch(&self, orbit: &Orbit<f64>) -> (f64, Option<(Rim, bool)>) {
@@ -62,27 +91,19 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         let bounds = orbit.bounds(&orbit.extent(body));
         let mut time = 0.0;
         for _ in 0..MOST_STEPS {
-            let now = orbit.gap(body, time);
-            let bend = 1.0 + body.half * bounds.swing + body.radius * bounds.spread / now.sin;
-            let gap = |half: f64, track: &Track| RimGap {
-                height: now.z + half * now.uz
-                    - body.radius * now.sin
-                    - (track.height + track.rate * time),
-                rate: now.vz + half * now.uz_rate - body.radius * now.sin_rate - track.rate,
-            };
-            let own = gap(-body.half, &self.tracks.own);
-            let other = gap(body.half, &self.tracks.other);
-            for (rim, gap) in [(Rim::Own, own), (Rim::Other, other)] {
+            let tracks = [&self.tracks.own, &self.tracks.other];
+            let gaps = rim_gaps(body, orbit, &bounds, tracks, time);
+            for (rim, gap) in [(Rim::Own, gaps.own), (Rim::Other, gaps.other)] {
                 if gap.height <= TOUCH && gap.rate < -APPROACH {
-                    return (time, Some((rim, now.uz < 0.0)));
+                    return (time, Some((rim, gaps.points_down)));
                 }
             }
-            let least = if own.height <= TOUCH || other.height <= TOUCH {
+            let least = if gaps.own.height <= TOUCH || gaps.other.height <= TOUCH {
                 LEAST_STEP * end
             } else {
                 0.0
             };
-            time += own.earliest(bend).min(other.earliest(bend)).max(least);
+            time += gaps.earliest().max(least);
             if time >= end {
                 break;
             }
@@ -119,6 +140,46 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         self.usage.time += time;
         // drag takes energy in flight
         self.budget = self.budget.min(self.energy());
+    }
+}
+
+/// The gaps of both rims at one time of a flight.
+struct RimGaps {
+    own: RimGap,
+    other: RimGap,
+    /// What no rim's acceleration downwards exceeds.
+    bend: f64,
+    /// Whether the axis points down in the frame of the flight.
+    points_down: bool,
+}
+
+/// The gaps above these tracks, of the own rim and of the other.
+fn rim_gaps(
+    body: &Body,
+    orbit: &Orbit<f64>,
+    bounds: &Bounds<f64>,
+    [own, other]: [&Track; 2],
+    time: f64,
+) -> RimGaps {
+    let now = orbit.gap(body, time);
+    let gap = |half: f64, track: &Track| RimGap {
+        height: now.z + half * now.uz - body.radius * now.sin - (track.height + track.rate * time),
+        rate: now.vz + half * now.uz_rate - body.radius * now.sin_rate - track.rate,
+    };
+    RimGaps {
+        own: gap(-body.half, own),
+        other: gap(body.half, other),
+        bend: 1.0 + body.half * bounds.swing + body.radius * bounds.spread / now.sin,
+        points_down: now.uz < 0.0,
+    }
+}
+
+impl RimGaps {
+    /// The earliest time from now at which either gap may close.
+    fn earliest(&self) -> f64 {
+        self.own
+            .earliest(self.bend)
+            .min(self.other.earliest(self.bend))
     }
 }
 

@@ -275,12 +275,13 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     /// The next node: the track bends.
     fn pass_node(&mut self, contact: &Contact) -> Next {
         let (old, before) = (self.tracks.own.rate, self.tracks.interval);
-        self.descend_on_rim(contact, before);
+        let slopes = self.tracks.own.slopes(self.ground);
+        self.descend_on_rim(contact, slopes, before);
         self.lead = 0.0;
         self.balance();
         let after = self.time_between_nodes();
         let energy = self.energy();
-        self.descend_on_rim(contact, after);
+        self.descend_on_rim(contact, slopes, after);
         self.lead = self.energy() - energy;
         self.lay_out_tracks_for(after);
         let time = 0.5 * (before + after);

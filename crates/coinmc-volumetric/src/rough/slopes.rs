@@ -25,11 +25,11 @@ use crate::place::Place;
 use coinmc_core::Observer;
 
 impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
-    /// Half of the pull of the slope under the own rim in `time`.
-    pub(super) fn descend_on_rim(&mut self, contact: &Contact, time: f64) {
+    /// Half of the pull of the slopes under the own rim in `time`.
+    pub(super) fn descend_on_rim(&mut self, contact: &Contact, slopes: [f64; 2], time: f64) {
         self.pull_on_rim(contact.mode, 0.5 * time);
         let dynamics = &self.model.dynamics;
-        let [gx, gy] = self.tracks.own.slopes;
+        let [gx, gy] = slopes;
         let push = 0.5 * contact.now.normal.max(0.0) * time;
         let body = &dynamics.body;
         self.push(|point| {
@@ -85,9 +85,13 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
 
     /// The motion along the ground of a coin on both rims, after half of the pull of the slopes in
     /// `time`.
-    pub(super) fn descend_on_both(&self, state: &LineState, time: f64) -> LineState {
+    pub(super) fn descend_on_both(
+        &self,
+        state: &LineState,
+        [own, other]: [[f64; 2]; 2],
+        time: f64,
+    ) -> LineState {
         let body = self.body();
-        let (own, other) = (self.tracks.own.slopes, self.tracks.other.slopes);
         let [gx, gy] = [0, 1].map(|i| 0.25 * time * (own[i] + other[i]));
         let [px, py] = self.pull().map(|pull| 0.5 * time * pull);
         let [vx, vy, wa, wz] = *state;

@@ -23,11 +23,21 @@ const INSTANT: f64 = 1e-9;
 pub(super) struct Track {
     pub(super) height: f64,
     pub(super) rate: f64,
-    /// The slopes of the ground at the next node, along x and y of the coin's frame there. 0 if the
-    /// track does not follow the ground.
-    pub(super) slopes: [f64; 2],
+    /// What carries the rim at the next node; none if the track does not follow the ground.
+    footing: Option<Footing>,
     /// Whether the track follows the ground.
     near: bool,
+}
+
+/// What carries a rim at a node.
+#[derive(Debug, Clone, Copy)]
+struct Footing {
+    /// The place of the ground that carries the rim.
+    place: [f64; 2],
+    /// The horizontal direction along the rim, y of the coin's frame.
+    along: [f64; 2],
+    /// The slope along the rim, of a rim that bridges hollows.
+    bridge: Option<f64>,
 }
 
 /// The tracks of the rim at −h u, the lower one of an upright axis, and of the rim at +h u.
@@ -74,12 +84,44 @@ pub(super) fn rim_points(body: &Body, motion: &Motion<f64>, spin: &Spin<f64>) ->
     })
 }
 
-/// The slopes across and along a rim with its lowest point above `point`.
-fn slopes(ground: &Ground, support: &Support, point: [f64; 2], [ax, ay]: [f64; 2]) -> [f64; 2] {
-    let at = support.bridge.map_or(point, |(_, place)| place);
-    let [gx, gy] = ground.gradient(at);
-    let steep = support.bridge.map_or(gx * ax + gy * ay, |(slope, _)| slope);
-    [gx * ay - gy * ax, steep]
+impl Footing {
+    fn new(support: &Support, point: [f64; 2], along: [f64; 2]) -> Self {
+        Self {
+            place: support.bridge.map_or(point, |(_, place)| place),
+            along,
+            bridge: support.bridge.map(|(slope, _)| slope),
+        }
+    }
+
+    /// The same in the frame turned by half a turn.
+    fn reversed(self) -> Self {
+        Self {
+            along: self.along.map(|component| -component),
+            bridge: self.bridge.map(|slope| -slope),
+            ..self
+        }
+    }
+}
+
+impl Track {
+    /// Level ground at this height.
+    pub(super) fn level(height: f64) -> Self {
+        Self {
+            height,
+            ..Self::default()
+        }
+    }
+
+    /// The slopes of the ground at the next node, along x and y of the coin's frame there. 0 if the
+    /// track does not follow the ground. (Most nodes are passed in flight and need none.)
+    pub(super) fn slopes(&self, ground: &Ground) -> [f64; 2] {
+        let Some(footing) = &self.footing else {
+            return [0.0; 2];
+        };
+        let ([gx, gy], [ax, ay]) = (ground.gradient(footing.place), footing.along);
+        let steep = footing.bridge.unwrap_or(gx * ax + gy * ay);
+        [gx * ay - gy * ax, steep]
+    }
 }
 
 impl Tracks {
@@ -98,6 +140,20 @@ impl Tracks {
         }
     }
 
+    /// Tracks at level ground of the height 0, up to a node in `time` from now.
+    pub(super) fn level(time: f64) -> Self {
+        Self {
+            left: time,
+            interval: time,
+            ..Self::default()
+        }
+    }
+
+    /// Lets the own rim go on to the next node at the height and the rate with which it has landed.
+    pub(super) fn keep_landing(&mut self, landed: &Track) {
+        (self.own.height, self.own.rate) = (landed.height, landed.rate);
+    }
+
     /// Whether the next node is reached, apart from a time too short to step over.
     pub(super) fn at_node(&self) -> bool {
         self.left <= INSTANT * self.interval
@@ -107,7 +163,7 @@ impl Tracks {
     pub(super) fn switch(&mut self) {
         std::mem::swap(&mut self.own, &mut self.other);
         for track in [&mut self.own, &mut self.other] {
-            track.slopes = track.slopes.map(|slope| -slope);
+            track.footing = track.footing.map(Footing::reversed);
         }
     }
 
@@ -150,11 +206,7 @@ impl Tracks {
             let at = place.point(x, y);
             let support = ground.under_rim(at, along, curvature);
             track.rate = (support.height - track.height) / time;
-            track.slopes = if near {
-                slopes(ground, &support, at, along)
-            } else {
-                [0.0; 2]
-            };
+            track.footing = near.then(|| Footing::new(&support, at, along));
         };
         lead(&mut self.own, &points[0]);
         if near {

@@ -77,15 +77,8 @@ impl<I: ImpactLaw> Model<I> {
             return Transition::End(Ended::ImpactLimit);
         }
         toss.impacts += 1;
-        let mut walk = Walk::new(self, ground, toss, usage, observer);
-        walk.lay_out_tracks();
-        let slow = walk.approach() < SLOW * walk.speed_of_slopes();
-        walk.tracks.own.rate = if slow && walk.other_is_clear() {
-            0.0
-        } else {
-            walk.rate_of_landing()
-        };
-        walk.follow(Next::Impact)
+        let mut walk = Walk::above_ground(self, ground, toss, usage, observer);
+        walk.land()
     }
 
     /// The same for a coin in sustained contact whose other rim has come near the ground.
@@ -99,14 +92,16 @@ impl<I: ImpactLaw> Model<I> {
         let Some(ground) = &self.ground else {
             return Transition::End(self.end_given_up(toss));
         };
-        let mut walk = Walk::new(self, ground, toss, &mut solver.usage, observer);
+        let mut walk = Walk::above_ground(self, ground, toss, &mut solver.usage, observer);
+        walk.put_down();
         walk.follow(Next::Goes(Touch::Rim))
     }
 }
 
 impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
-    /// A coin that touches a plane, put onto the ground.
-    fn new(
+    /// A coin that touches a plane, at a random place of the ground. Heights are those above the
+    /// ground under its own rim until it is [put down](Self::put_down).
+    fn above_ground(
         model: &'a Model<I>,
         ground: &'a Ground,
         toss: &'a mut Toss,
@@ -114,10 +109,7 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
         observer: &'a mut O,
     ) -> Self {
         let place = ground.random_place(&toss.motion);
-        let body = &model.dynamics.body;
-        let tracks = Tracks::begin(ground, body, &toss.motion, &toss.spin, &place);
-        toss.motion.z += tracks.own.height;
-        let budget = toss.motion.energy(body, &toss.spin);
+        let budget = toss.motion.energy(&model.dynamics.body, &toss.spin);
         Self {
             model,
             ground,
@@ -125,11 +117,47 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
             usage,
             observer,
             place,
-            tracks,
+            tracks: Tracks::default(),
             budget,
             lead: 0.0,
             at_rest_since: None,
         }
+    }
+
+    /// Puts the coin onto the ground that is under its own rim.
+    fn put_down(&mut self) {
+        let (motion, spin) = (&self.toss.motion, &self.toss.spin);
+        let tracks = Tracks::begin(self.ground, self.body(), motion, spin, &self.place);
+        let height = tracks.own.height;
+        self.tracks.own.height += height;
+        self.toss.motion.z += height;
+        self.budget += height;
+    }
+
+    /// The landing of a coin above the ground. Most coins fly on at once, and need no heights.
+    fn land(&mut self) -> Transition {
+        let (motion, spin) = (self.toss.motion, self.toss.spin);
+        let time = self.time_between_nodes();
+        self.tracks = Tracks::level(time);
+        let slow = self.approach() < SLOW * self.speed_of_slopes();
+        self.tracks.own.rate = if slow && self.other_is_clear() {
+            0.0
+        } else {
+            self.rate_of_landing()
+        };
+        let next = self.impact();
+        if next == Next::Ends(Transition::Flight(Departure::Rebound)) && self.lies_on_face() {
+            return Transition::End(self.toss.ended(Decided::Face));
+        }
+        if !matches!(next, Next::Ends(_)) {
+            self.put_down();
+            let landed = self.tracks.own;
+            let body = &self.model.dynamics.body;
+            self.tracks
+                .lay_out(self.ground, time, body, &motion, &spin, &self.place);
+            self.tracks.keep_landing(&landed);
+        }
+        self.follow(next)
     }
 
     pub(super) fn body(&self) -> &Body {
@@ -248,6 +276,13 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
             ..motion
         };
         self.toss.spin = spin;
+    }
+
+    /// Lays out tracks from where the coin is, after a way without any.
+    pub(super) fn begin_tracks(&mut self) {
+        let (motion, spin) = (&self.toss.motion, &self.toss.spin);
+        self.tracks = Tracks::begin(self.ground, self.body(), motion, spin, &self.place);
+        self.lay_out_tracks();
     }
 
     pub(super) fn lay_out_tracks(&mut self) {
@@ -445,7 +480,9 @@ mod tests {
                 toss.motion.z = toss.motion.rest_height(&model.dynamics.body);
                 toss.motion.vz = -toss.motion.vz.abs();
                 let (mut usage, mut observer) = (Usage::default(), ());
-                let mut walk = Walk::new(&model, &ground, &mut toss, &mut usage, &mut observer);
+                let mut walk =
+                    Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+                walk.put_down();
                 walk.lay_out_tracks();
                 let (mut next, mut budget) = (Next::Impact, walk.budget);
                 while !matches!(next, Next::Ends(_)) {
