@@ -143,7 +143,7 @@ mod tests {
     use crate::laws::Moreau;
     use crate::model::Model;
     use crate::settings::Settings;
-    use coinmc_core::{Coin, Ended, Face, Preset, Roughness, Scene, Surface};
+    use coinmc_core::{Coin, Preset, Roughness, Scene, Surface};
     use coinmc_testkit::preset_launch;
 
     /// A coin of this ratio on ground of this slope and wavelength, with this restitution.
@@ -161,27 +161,21 @@ mod tests {
     }
 
     /// A face that rough ground decides, in most tosses as the coin rebounds from a landing, is the one
-    /// that the coin shows once it is followed on: until a plane decides, and where no coin comes to roll on
-    /// its side, to rest as well, as on a table with an edge. (A plane that decides for the side sends the
-    /// coin back to rough ground, so that coins on their side take other ways where all is followed to rest.)
-    /// Of 6,400 tosses some 800 end sooner.
+    /// that the coin shows where rough ground decides none, and it is followed until a plane does. Of 6,400
+    /// tosses some 800 then take more impacts.
     #[test]
     fn a_face_that_is_decided_is_that_of_a_coin_that_is_followed_on() {
-        let (mut sooner, mut at_rest) = (0, 0);
-        for (numbers, to_rest) in [
-            ([0.2, 0.2, 0.05, 3e-3], true),
-            ([0.3, 0.5, 0.05, 3e-3], false),
-            ([0.7, 0.5, 0.15, 1e-2], true),
-            ([1.2, 0.8, 0.1, 5e-3], true),
+        let mut sooner = 0;
+        for numbers in [
+            [0.2, 0.2, 0.05, 3e-3],
+            [0.3, 0.5, 0.05, 3e-3],
+            [0.7, 0.5, 0.15, 1e-2],
+            [1.2, 0.8, 0.1, 5e-3],
         ] {
             let scene = scene(numbers);
             let early = model(&scene);
             let mut open = model(&scene);
             open.ground.as_mut().expect("a rough ground").face_margin = f64::INFINITY;
-            let mut table = scene;
-            let edge = scene.surface.with_table_radius(1e9);
-            table.surface = edge.expect("a valid radius");
-            let still = model(&table);
             for toss in 0..1600 {
                 let launch = preset_launch(Preset::Hand, &scene, 313, toss);
                 let outcome = |model: &Model<Moreau>| model.run(&launch, &mut ()).outcome;
@@ -189,14 +183,8 @@ mod tests {
                 assert_eq!(decided.ended, later.ended, "{numbers:?} toss {toss}");
                 assert!(decided.impacts <= later.impacts, "{numbers:?} toss {toss}");
                 sooner += u32::from(decided.impacts < later.impacts);
-                let face = matches!(decided.ended, Ended::Decided(Face::Heads | Face::Tails));
-                if to_rest && face {
-                    let last = outcome(&still).ended;
-                    assert_eq!(decided.ended, last, "{numbers:?} toss {toss}");
-                    at_rest += 1;
-                }
             }
         }
-        assert!(sooner > 600 && at_rest > 3_000, "{sooner} {at_rest}");
+        assert!(sooner > 600, "{sooner}");
     }
 }

@@ -37,6 +37,8 @@ pub(crate) struct Ground {
     /// with the other high above the ground is hardly moved by slopes: the kick of a slope on one rim
     /// changes the lean by about h²/(k_t + R² + h²) of what it does across both.
     pub(crate) near: f64,
+    /// A height that the ground, and so a rim that it carries, nowhere exceeds.
+    pub(super) highest: f64,
     /// A face is decided where the energy above the ground under the rim falls short of the balance by
     /// this: the ground may be as much lower where the coin will be.
     pub(super) face_margin: f64,
@@ -62,6 +64,7 @@ impl Ground {
             height,
             contrast,
             near: (NEAR * height * contrast / thickness).min(LARGEST_NEAR),
+            highest: height * HeightField::shared().highest(),
             face_margin: SPREAD * height,
         }
     }
@@ -69,11 +72,6 @@ impl Ground {
     /// The rms slope along a direction.
     pub(super) fn slope(&self) -> f64 {
         self.height / self.length
-    }
-
-    /// A height that the ground, and so a rim that it carries, nowhere exceeds.
-    pub(super) fn highest(&self) -> f64 {
-        self.height * HeightField::shared().highest()
     }
 
     /// The slopes of the ground along x and y.

@@ -1,8 +1,13 @@
 //! A low hop over rough ground.
+//!
+//! The coin follows one orbit from where it leaves the ground to where a rim touches its track, from
+//! node to node. The ground under a rim is asked for only where the rim may come down to it: a rim that
+//! stays above the highest top of the ground until the next node has no track, and while both do, there
+//! are no nodes.
 
-use super::tracks::{Track, rim_points};
+use super::rims_in_flight::{Rim, RimsInFlight};
+use super::tracks::{Footing, Track, Tracks, rim_points};
 use super::walk::{Next, Touch, Walk};
-use crate::body::Body;
 use crate::flight::{Bounds, Orbit};
 use crate::impact::ImpactLaw;
 use crate::motion::Motion;
@@ -16,103 +21,188 @@ const APPROACH: f64 = 1e-9;
 const LEAST_STEP: f64 = 1e-2;
 /// Most steps of a search.
 const MOST_STEPS: u32 = 200;
+/// Most nodes that a hop passes before the limits of the toss are looked at.
+const MOST_NODES: u32 = 1000;
 
-/// Which rim, as seen at the start of a hop.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Rim {
-    Own,
-    Other,
-}
-
-/// The gap between a rim and its track, and its rate.
-#[derive(Debug, Clone, Copy)]
-struct RimGap {
-    height: f64,
-    rate: f64,
+/// A hop under way.
+struct Hop {
+    orbit: Orbit<f64>,
+    bounds: Bounds<f64>,
+    /// The time since the start at which the tracks have their heights: that of the last node.
+    since: f64,
+    /// Whether the own and the other rim have tracks up to the next node.
+    tracked: [bool; 2],
 }
 
 impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
-    /// Flies to the next node or to the first contact of a rim with its track.
+    /// Flies to the first contact of a rim with its track.
     pub(super) fn hop(&mut self) -> Next {
-        self.usage.steps += 1;
         self.give_back_lead();
+        let model = self.model;
+        let body = &model.dynamics.body;
         let orbit = Orbit::new(&self.toss.motion, self.model.dynamics.drag);
-        if let Some(time) = self.time_above_all(&orbit) {
-            self.fly_on(&orbit, time);
-            self.begin_tracks();
-            return Next::Goes(Touch::Nothing);
+        let mut hop = Hop {
+            bounds: orbit.bounds(&orbit.extent(body)),
+            orbit,
+            since: 0.0,
+            tracked: [true; 2],
+        };
+        let mut now = RimsInFlight::new(body, &hop.orbit, 0.0);
+        let mut next = RimsInFlight::new(body, &hop.orbit, self.tracks.left);
+        for _ in 0..MOST_NODES {
+            self.usage.steps += 1;
+            if let Some((at, rim)) = self.first_touch(&hop, now, &next) {
+                return self.touch_down(&hop, at, rim, [&now, &next]);
+            }
+            now = next;
+            next = self.pass_node_in_flight(&mut hop, &now);
         }
-        let (time, touches) = self.first_touch(&orbit);
-        self.fly_on(&orbit, time);
-        match touches {
-            None => {
-                self.lay_out_tracks();
-                Next::Goes(Touch::Nothing)
+        self.fly_on(&hop.orbit, now.time, 0.0);
+        self.begin_tracks();
+        Next::Goes(Touch::Nothing)
+    }
+
+    /// Lays out the tracks from a node on, of the rims that may come down to them; the rims at the next
+    /// node.
+    fn pass_node_in_flight<'b>(
+        &mut self,
+        hop: &mut Hop,
+        now: &RimsInFlight<'b>,
+    ) -> RimsInFlight<'b> {
+        let (orbit, highest) = (&hop.orbit, self.ground.highest);
+        let velocity = [self.toss.motion.vx, self.toss.motion.vy];
+        let step = self.model.ground_step * self.ground.length;
+        let (speed, turn) = now.pace(velocity);
+        let mut time = Tracks::time_at_pace(step, speed, turn);
+        let mut next = now.at(orbit, now.time + time);
+        // how much lower than at both ends a rim may be in between
+        let dip = now.dip(orbit, &hop.bounds, time);
+        let tracked = Rim::BOTH.map(|rim| now.height(rim).min(next.height(rim)) - dip <= highest);
+        let left = self.tracks.left;
+        for (i, rim) in Rim::BOTH.into_iter().enumerate() {
+            let track = self.tracks.of_mut(rim);
+            track.height += track.rate * left;
+            if tracked[i] {
+                let height = hop.tracked[i].then_some(track.height);
+                *self.tracks.of_mut(rim) = self.track_in_flight(hop, rim, height, [now, &next]);
             }
-            Some((rim, reflected)) => {
-                if (rim == Rim::Other) != reflected {
-                    self.switch_rim();
-                }
-                let [own, _] = rim_points(self.body(), &self.toss.motion, &self.toss.spin);
-                self.toss.motion.z = self.tracks.own.height - own.rz;
-                Next::Impact
+        }
+        if tracked == [false; 2] {
+            let level = Track::level(highest);
+            let bend = now.bend(&hop.bounds);
+            let [own, other] =
+                Rim::BOTH.map(|rim| now.gap_above(rim, &level, now.time).earliest(bend));
+            if own.min(other) > time {
+                time = own.min(other);
+                next = now.at(orbit, now.time + time);
             }
+        }
+        (self.tracks.left, self.tracks.interval) = (time, time);
+        (hop.since, hop.tracked) = (now.time, tracked);
+        next
+    }
+
+    /// The track of a rim from a node to the next; `height` where it begins, if that is known.
+    fn track_in_flight(
+        &self,
+        hop: &Hop,
+        rim: Rim,
+        height: Option<f64>,
+        [now, next]: [&RimsInFlight<'_>; 2],
+    ) -> Track {
+        let outer_radius = self.body().outer_radius();
+        let support = |at: &RimsInFlight<'_>| {
+            let (centre, _) = self.model.glide(self.toss, &hop.orbit, at.time);
+            let (point, along) = (at.point(&self.place, rim, centre), at.along(&self.place));
+            let curvature = at.sin() / outer_radius;
+            (self.ground.under_rim(point, along, curvature), point, along)
+        };
+        // the rim is above the ground
+        let height = height.unwrap_or_else(|| support(now).0.height.min(now.height(rim)));
+        let (ahead, point, along) = support(next);
+        Track {
+            rate: (ahead.height - height) / (next.time - now.time),
+            height,
+            footing: Some(Footing::new(&ahead, point, along)),
+            near: true,
         }
     }
 
-    /// How long both rims are sure to stay above the highest top of the ground, if at least until the
-    /// next node: so long the coin needs no tracks.
-    fn time_above_all(&self, orbit: &Orbit<f64>) -> Option<f64> {
-        /// The search ends where it gains less than this share of the time between nodes.
-        const LEAST_GAIN: f64 = 0.2;
-        let (body, motion) = (self.body(), &self.toss.motion);
-        let top = Track::level(self.ground.highest());
-        if motion.z - motion.rest_height(body) <= top.height {
+    /// Ends a hop where a rim touches, on whole tracks.
+    fn touch_down(
+        &mut self,
+        hop: &Hop,
+        at: RimsInFlight<'_>,
+        rim: Rim,
+        [now, next]: [&RimsInFlight<'_>; 2],
+    ) -> Next {
+        if hop.since > 0.0 {
+            let (cos, rate) = now.lean();
+            let near =
+                cos.abs() < self.ground.near + (rate / now.sin()).abs() * self.tracks.interval;
+            for (i, side) in Rim::BOTH.into_iter().enumerate() {
+                if near && !hop.tracked[i] {
+                    *self.tracks.of_mut(side) = self.track_in_flight(hop, side, None, [now, next]);
+                } else if !near && side != rim {
+                    *self.tracks.of_mut(side) = Track::default();
+                } else if !near {
+                    self.tracks.of_mut(side).footing = None;
+                }
+            }
+        }
+        self.fly_on(&hop.orbit, at.time, hop.since);
+        if (rim == Rim::Other) != at.points_down() {
+            self.switch_rim();
+        }
+        let [own, _] = rim_points(self.body(), &self.toss.motion, &self.toss.spin);
+        self.toss.motion.z = self.tracks.own.height - own.rz;
+        Next::Impact
+    }
+
+    /// The first contact before the next node, and which rim touches.
+    fn first_touch<'b>(
+        &self,
+        hop: &Hop,
+        mut now: RimsInFlight<'b>,
+        next: &RimsInFlight<'b>,
+    ) -> Option<(RimsInFlight<'b>, Rim)> {
+        let end = self.tracks.left;
+        let dip = now.dip(&hop.orbit, &hop.bounds, end);
+        let gap = |at: &RimsInFlight<'_>, rim| at.gap_above(rim, self.tracks.of(rim), hop.since);
+        let clear = |(tracked, rim): (bool, Rim)| {
+            !tracked || gap(&now, rim).height.min(gap(next, rim).height) > dip + TOUCH
+        };
+        if hop.tracked.into_iter().zip(Rim::BOTH).all(clear) {
             return None;
         }
-        let bounds = orbit.bounds(&orbit.extent(body));
-        let mut time = 0.0;
         for _ in 0..MOST_STEPS {
-            let gaps = rim_gaps(body, orbit, &bounds, [&top, &top], time);
-            let gain = gaps.earliest();
-            time += gain;
-            if gain < LEAST_GAIN * self.tracks.left {
-                break;
-            }
-        }
-        (time > self.tracks.left).then_some(time)
-    }
-
-    /// The time of the first contact before the next node, and which rim touches; also whether the
-    /// axis then points down in the frame of the flight.
-    fn first_touch(&self, orbit: &Orbit<f64>) -> (f64, Option<(Rim, bool)>) {
-        let body = self.body();
-        let end = self.tracks.left;
-        let bounds = orbit.bounds(&orbit.extent(body));
-        let mut time = 0.0;
-        for _ in 0..MOST_STEPS {
-            let tracks = [&self.tracks.own, &self.tracks.other];
-            let gaps = rim_gaps(body, orbit, &bounds, tracks, time);
-            for (rim, gap) in [(Rim::Own, gaps.own), (Rim::Other, gaps.other)] {
-                if gap.height <= TOUCH && gap.rate < -APPROACH {
-                    return (time, Some((rim, gaps.points_down)));
+            let bend = now.bend(&hop.bounds);
+            let mut step = f64::INFINITY;
+            for (i, rim) in Rim::BOTH.into_iter().enumerate() {
+                if !hop.tracked[i] {
+                    continue;
                 }
+                let gap = gap(&now, rim);
+                if gap.height <= TOUCH && gap.rate < -APPROACH {
+                    return Some((now, rim));
+                }
+                let least = if gap.height <= TOUCH {
+                    LEAST_STEP * end
+                } else {
+                    0.0
+                };
+                step = step.min(gap.earliest(bend).max(least));
             }
-            let least = if gaps.own.height <= TOUCH || gaps.other.height <= TOUCH {
-                LEAST_STEP * end
-            } else {
-                0.0
-            };
-            time += gaps.earliest().max(least);
-            if time >= end {
-                break;
+            if now.time + step >= next.time {
+                return None;
             }
+            now = now.at(&hop.orbit, now.time + step);
         }
-        (end, None)
+        None
     }
 
-    /// Moves the coin along its orbit.
-    fn fly_on(&mut self, orbit: &Orbit<f64>, time: f64) {
+    /// Moves the coin along its orbit; its tracks have their heights at the time `since`.
+    fn fly_on(&mut self, orbit: &Orbit<f64>, time: f64, since: f64) {
         let ([dx, dy], start) = self.model.glide(self.toss, orbit, time);
         if O::ACTIVE {
             self.model
@@ -133,66 +223,12 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         self.toss.place.align(nx, ny);
         self.place.shift(dx, dy);
         self.place.align(nx, ny);
-        self.tracks.advance(time);
+        self.tracks.advance(time - since);
         if reflected {
             self.tracks.switch();
         }
         self.usage.time += time;
         // drag takes energy in flight
         self.budget = self.budget.min(self.energy());
-    }
-}
-
-/// The gaps of both rims at one time of a flight.
-struct RimGaps {
-    own: RimGap,
-    other: RimGap,
-    /// What no rim's acceleration downwards exceeds.
-    bend: f64,
-    /// Whether the axis points down in the frame of the flight.
-    points_down: bool,
-}
-
-/// The gaps above these tracks, of the own rim and of the other.
-fn rim_gaps(
-    body: &Body,
-    orbit: &Orbit<f64>,
-    bounds: &Bounds<f64>,
-    [own, other]: [&Track; 2],
-    time: f64,
-) -> RimGaps {
-    let now = orbit.gap(body, time);
-    let gap = |half: f64, track: &Track| RimGap {
-        height: now.z + half * now.uz - body.radius * now.sin - (track.height + track.rate * time),
-        rate: now.vz + half * now.uz_rate - body.radius * now.sin_rate - track.rate,
-    };
-    RimGaps {
-        own: gap(-body.half, own),
-        other: gap(body.half, other),
-        bend: 1.0 + body.half * bounds.swing + body.radius * bounds.spread / now.sin,
-        points_down: now.uz < 0.0,
-    }
-}
-
-impl RimGaps {
-    /// The earliest time from now at which either gap may close.
-    fn earliest(&self) -> f64 {
-        self.own
-            .earliest(self.bend)
-            .min(self.other.earliest(self.bend))
-    }
-}
-
-impl RimGap {
-    /// The earliest time at which the gap may close: it never accelerates downwards by more than
-    /// `bend`.
-    fn earliest(&self, bend: f64) -> f64 {
-        let height = self.height.max(0.0);
-        let root = (self.rate * self.rate + 2.0 * bend * height).sqrt();
-        if self.rate >= 0.0 {
-            (self.rate + root) / bend
-        } else {
-            2.0 * height / (root - self.rate)
-        }
     }
 }

@@ -32,7 +32,7 @@
 //! Each line uses only the lines above it:
 //!
 //! - `field` the random field in its own units · `ground` what a rim meets · `random_place` where
-//! - `tracks` the ground under both rims
+//! - `tracks` the ground under both rims · `rims_in_flight` where they are in flight
 //! - `walk` the state of a coin, its energy and the loop; `hop`, `rim_contact`, `both_rims` its
 //!   three kinds of motion; `slopes` their pull; `decision` its end
 
@@ -43,6 +43,7 @@ mod ground;
 mod hop;
 mod random_place;
 mod rim_contact;
+mod rims_in_flight;
 mod slopes;
 mod tracks;
 mod walk;

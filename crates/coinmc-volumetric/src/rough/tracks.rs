@@ -6,6 +6,7 @@
 //! add up.
 
 use super::ground::{Ground, Support};
+use super::rims_in_flight::Rim;
 use crate::body::Body;
 use crate::motion::{Motion, Spin};
 use crate::place::Place;
@@ -24,14 +25,14 @@ pub(super) struct Track {
     pub(super) height: f64,
     pub(super) rate: f64,
     /// What carries the rim at the next node; none if the track does not follow the ground.
-    footing: Option<Footing>,
+    pub(super) footing: Option<Footing>,
     /// Whether the track follows the ground.
-    near: bool,
+    pub(super) near: bool,
 }
 
 /// What carries a rim at a node.
 #[derive(Debug, Clone, Copy)]
-struct Footing {
+pub(super) struct Footing {
     /// The place of the ground that carries the rim.
     place: [f64; 2],
     /// The horizontal direction along the rim, y of the coin's frame.
@@ -85,7 +86,7 @@ pub(super) fn rim_points(body: &Body, motion: &Motion<f64>, spin: &Spin<f64>) ->
 }
 
 impl Footing {
-    fn new(support: &Support, point: [f64; 2], along: [f64; 2]) -> Self {
+    pub(super) fn new(support: &Support, point: [f64; 2], along: [f64; 2]) -> Self {
         Self {
             place: support.bridge.map_or(point, |(_, place)| place),
             along,
@@ -154,6 +155,20 @@ impl Tracks {
         (self.own.height, self.own.rate) = (landed.height, landed.rate);
     }
 
+    pub(super) fn of(&self, rim: Rim) -> &Track {
+        match rim {
+            Rim::Own => &self.own,
+            Rim::Other => &self.other,
+        }
+    }
+
+    pub(super) fn of_mut(&mut self, rim: Rim) -> &mut Track {
+        match rim {
+            Rim::Own => &mut self.own,
+            Rim::Other => &mut self.other,
+        }
+    }
+
     /// Whether the next node is reached, apart from a time too short to step over.
     pub(super) fn at_node(&self) -> bool {
         self.left <= INSTANT * self.interval
@@ -176,7 +191,11 @@ impl Tracks {
     ) -> f64 {
         let points = rim_points(body, motion, spin);
         let turn = -spin.turn / motion.sin;
-        let fastest = points[0].speed().max(points[1].speed());
+        Self::time_at_pace(step, points[0].speed().max(points[1].speed()), turn)
+    }
+
+    /// The same at the speed of the faster point, and at the rate at which the frame turns.
+    pub(super) fn time_at_pace(step: f64, fastest: f64, turn: f64) -> f64 {
         LONGEST
             .min(step / fastest.max(f64::MIN_POSITIVE))
             .min(LARGEST_TURN / turn.abs().max(f64::MIN_POSITIVE))

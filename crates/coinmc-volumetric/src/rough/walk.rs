@@ -467,7 +467,7 @@ mod tests {
             let engine = VolumetricEngine::new(&scene, &Settings::default(), Moreau);
             let model = engine.expect("valid settings").model;
             let ground = model.ground.expect("a rough ground");
-            for toss in 0..60 {
+            for toss in 0..150 {
                 let mut dice = Dice::new(21, toss);
                 let lean = dice.between(-0.03, 0.03);
                 let launch = Launch {
