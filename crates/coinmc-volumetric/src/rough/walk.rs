@@ -77,8 +77,7 @@ impl<I: ImpactLaw> Model<I> {
             return Transition::End(Ended::ImpactLimit);
         }
         toss.impacts += 1;
-        let mut walk = Walk::above_ground(self, ground, toss, usage, observer);
-        walk.land()
+        Walk::above_ground(self, ground, toss, usage, observer).land()
     }
 
     /// The same for a coin in sustained contact whose other rim has come near the ground.
@@ -99,8 +98,7 @@ impl<I: ImpactLaw> Model<I> {
 }
 
 impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
-    /// A coin that touches a plane, at a random place of the ground. Heights are those above the
-    /// ground under its own rim until it is [put down](Self::put_down).
+    /// A coin at a random place of the ground, and at the height 0 until it is [put down](Self::put_down).
     fn above_ground(
         model: &'a Model<I>,
         ground: &'a Ground,
@@ -127,11 +125,10 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
     /// Puts the coin onto the ground that is under its own rim.
     fn put_down(&mut self) {
         let (motion, spin) = (&self.toss.motion, &self.toss.spin);
-        let tracks = Tracks::begin(self.ground, self.body(), motion, spin, &self.place);
-        let height = tracks.own.height;
-        self.tracks.own.height += height;
-        self.toss.motion.z += height;
-        self.budget += height;
+        let under = Tracks::begin(self.ground, self.body(), motion, spin, &self.place).own;
+        self.tracks.own.height += under.height;
+        self.toss.motion.z += under.height;
+        self.budget += under.height;
     }
 
     /// The landing of a coin above the ground. Most coins fly on at once, and need no heights.
