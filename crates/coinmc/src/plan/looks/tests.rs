@@ -305,29 +305,32 @@ fn a_margin_takes_the_worst_probability_within_it() {
     }
 }
 
-/// 4 standard errors: the intervals of h = .01 never get that short with more than 1 % without a face.
+/// 4 standard errors: the intervals of a half width h never get that short with a greater share than h without a
+/// face.
 #[test]
 fn a_point_is_given_up_only_if_too_many_undecided_tosses_are_no_chance() {
-    let (half_width, n) = (0.01, 1_u32 << 16);
-    let targets = Targets {
+    let of_half_width = |half_width| Targets {
         half_width: Some(half_width),
         ..NONE
     };
-    let looks = Looks::new(targets, 0.95);
-    let lets_hope = |share: f64| {
+    let lets_hope = |half_width, n: u32, share: f64| {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let impact_limit = (share * f64::from(n)) as u64;
         let tally = Tally {
             impact_limit,
             ..mean(u64::from(n) - impact_limit, 0.3, 0.4)
         };
-        looks.lets_hope(&tally, 0.95)
+        Looks::new(of_half_width(half_width), 0.95).lets_hope(&tally, 0.95)
     };
-    // u - 4 √(u (1 - u)/n) = h
-    let error = |u: f64| SURE * (u * (1.0 - u) / f64::from(n)).sqrt();
-    let border = (0..60).fold(half_width, |u, _| half_width + error(u));
-    assert!(lets_hope(0.0) && lets_hope(0.97 * border));
-    assert!(!lets_hope(1.03 * border));
+    for (half_width, n) in [(0.01, 1 << 16), (0.3, 1 << 10)] {
+        // u - 4 √(u (1 - u)/n) = h
+        let error = |u: f64| SURE * (u * (1.0 - u) / f64::from(n)).sqrt();
+        let border = (0..60).fold(half_width, |u, _| half_width + error(u));
+        assert!(lets_hope(half_width, n, 0.0) && lets_hope(half_width, n, 0.97 * border));
+        assert!(!lets_hope(half_width, n, 1.03 * border));
+    }
+    let targets = of_half_width(0.01);
+    let looks = Looks::new(targets, 0.95);
     // few of few tosses say nothing
     let few = Tally {
         impact_limit: 1,
