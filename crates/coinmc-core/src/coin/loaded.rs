@@ -126,6 +126,10 @@ mod tests {
         assert!(matches!(of(-0.26), Err(CoinError::LoadedMoment(_))));
         let [one, other] = [0.25, -0.25].map(|centre| of(centre).expect("two layers"));
         let [heads, tails] = one.rims();
+        assert!(
+            heads.distance_m < tails.distance_m,
+            "heads is the heavier face"
+        );
         assert_eq!(other.rims(), [tails, heads]);
         assert_eq!(one.transverse_gyration_m2(), other.transverse_gyration_m2());
         // moved back it is the coin of before, but for rounding
