@@ -1,5 +1,5 @@
-//! A coin with a conical edge, or with its centre of mass off the middle, as its lower rim sees it. Units as in [`Body`], with D the distance of the
-//! farther rim from the centre of mass.
+//! A coin with a conical edge, or with its centre of mass off the middle, as its lower rim sees it. Units as
+//! in [`Body`], with D the distance of the farther rim from the centre of mass.
 //!
 //! The axis points away from the lower rim, the radius R of which lies h from the centre, and that of the
 //! upper rim, R', h'. Both rims touch where (h + h') c = (R' − R) s: c, s of the tilt at which the coin is

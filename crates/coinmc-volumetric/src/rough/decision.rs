@@ -60,7 +60,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         let energy = kinetic + motion.z;
         let sigma = self.ground.height;
         if !self.model.rule.on_side(motion.cos.abs()) {
-            return (energy - own < 1.0 - self.ground.face_margin).then_some(Decided::Face);
+            return self.keeps_face(energy - own).then_some(Decided::Face);
         }
         if touch != Touch::Both {
             self.at_rest_since = None;
@@ -81,11 +81,15 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     /// Whether the face of a coin that rebounds from its landing is decided. In flight no energy is gained,
     /// and the next landing is judged by the same rule.
     pub(super) fn lies_on_face(&self) -> bool {
-        let energy = self.energy() - self.tracks.own.height;
         let rule = &self.model.rule;
         !rule.awaits_rest()
             && !rule.on_side(self.toss.motion.cos)
-            && energy < 1.0 - self.ground.face_margin
+            && self.keeps_face(self.energy() - self.tracks.own.height)
+    }
+
+    /// Whether a coin in the well of a face, with this energy above the ground under its own rim, stays there.
+    fn keeps_face(&self, energy: f64) -> bool {
+        energy < 1.0 - self.ground.face_margin
     }
 
     /// The face of a coin that has come to rest, on a table with an edge, whatever touches: a coin at

@@ -67,6 +67,16 @@ pub(crate) fn launch(scene: &Scene, seed: u64, toss: u64) -> Launch {
     Start::lively(&mut Dice::new(seed, toss)).launch(scene)
 }
 
+/// How many of 600 launches of the one coin show another face with the other.
+pub(crate) fn faces_changed(one: &Scene, other: &Scene, seed: u64) -> usize {
+    let [before, after] = [one, other].map(Tosser::new);
+    let changes = |toss: &u64| {
+        let launch = launch(one, seed, *toss);
+        after.toss(&launch).face() != before.toss(&launch).face()
+    };
+    (0..600).filter(changes).count()
+}
+
 /// A coin with the draft, or the centre, turned the other way, and its launch turned over, is the same body with heads
 /// and tails exchanged: to the last bit.
 #[test]
@@ -97,17 +107,7 @@ fn turning_the_coin_over_exchanges_heads_and_tails() {
 #[test]
 fn a_small_draft_is_nearly_a_cylinder() {
     let cylinder = scene(0.85, 0.0, 0.0, 0.01);
-    let plain = Tosser::new(&cylinder);
-    let faces = |draft: f64| {
-        let conical = scene(0.85, draft, 0.0, 0.01);
-        let engine = Tosser::new(&conical);
-        (0..600)
-            .filter(|&toss| {
-                let launch = launch(&cylinder, 301, toss);
-                engine.toss(&launch).face() != plain.toss(&launch).face()
-            })
-            .count()
-    };
+    let faces = |draft: f64| faces_changed(&cylinder, &scene(0.85, draft, 0.0, 0.01), 301);
     let (tiny, small, large) = (faces(1e-6), faces(0.1), faces(15.0));
     assert!(
         tiny <= 2 && small <= 20 && large > 40,

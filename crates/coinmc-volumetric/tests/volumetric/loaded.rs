@@ -2,7 +2,7 @@
 //! coins (mirror image, energy, flights, rest, the solid angles of the wells, the oracle) is tested with those.
 
 use crate::common::Tosser;
-use crate::conical::{Faces::Centre, launch, on_edge, scene_of};
+use crate::conical::{Faces::Centre, faces_changed, on_edge, scene_of};
 use coinmc_core::{Coin, Domain, Face, LowerRim, Preset, Scene, Stream};
 use coinmc_testkit::Sampler;
 use coinmc_volumetric::{Decision, Settings};
@@ -18,16 +18,9 @@ fn a_centre_near_the_middle_is_nearly_the_middle() {
         cylinder.coin, uniform,
         "exactly in the middle it is the same coin"
     );
-    let plain = Tosser::new(&cylinder);
     let changed = |centre: f64| {
         let loaded = scene_of(0.85, Centre(centre), 0.0, 0.01);
-        let engine = Tosser::new(&loaded);
-        (0..600)
-            .filter(|&toss| {
-                let launch = launch(&cylinder, 311, toss);
-                engine.toss(&launch).face() != plain.toss(&launch).face()
-            })
-            .count()
+        faces_changed(&cylinder, &loaded, 311)
     };
     let (tiny, small, large) = (changed(1e-6), changed(0.01), changed(0.25));
     assert!(

@@ -63,6 +63,32 @@ fn a_rim_rounded_by_half_the_thickness_is_refused() {
     }
 }
 
+/// Asserts that a config with this override has one problem, which says so.
+fn assert_refused(text: &str, set: &str, expected: &str) {
+    let set = [set.parse().expect("an override")];
+    let problems = config::parse("refused.toml", text, &set).unwrap_err();
+    let [problem] = problems.problems() else {
+        panic!("{problems}")
+    };
+    assert!(problem.message.contains(expected), "{problems}");
+}
+
+/// Asserts that every engine but that in space refuses the coin of a config, which says so.
+fn assert_other_engines_refuse(text: &str, expected: &str) {
+    for engine in ["flat = {}", "rapier = {}", "analytic = {}"] {
+        let text = text
+            .replace("[engine.volumetric]", "")
+            .replace("law = 'moreau'", "");
+        let text = format!("{text}\n[engine]\n{engine}\n");
+        let problems = config::parse("refused.toml", &text, &[]).unwrap_err();
+        let refused = |problem: &config::Problem| problem.message.contains(expected);
+        assert!(
+            problems.problems().iter().any(refused),
+            "{engine}: {problems}"
+        );
+    }
+}
+
 /// A loaded cylinder: read, swept, resolved, without a trace where the load is 0, and refused where it is not
 /// modelled or cannot be.
 #[test]
@@ -106,28 +132,9 @@ fn a_load_is_read_and_refused_where_it_cannot_be() {
         ("surface.table_tilt_deg=3", "on a tilted table"),
         ("surface.material='wood'", "on rough ground"),
     ] {
-        let set = [set.parse().expect("an override")];
-        let problems = config::parse("loaded.toml", &text, &set).unwrap_err();
-        let [problem] = problems.problems() else {
-            panic!("{problems}")
-        };
-        assert!(problem.message.contains(expected), "{problems}");
+        assert_refused(&text, set, expected);
     }
-    for engine in ["flat = {}", "rapier = {}", "analytic = {}"] {
-        let text = text
-            .replace("[engine.volumetric]", "")
-            .replace("law = 'moreau'", "");
-        let text = format!("{text}\n[engine]\n{engine}\n");
-        let problems = config::parse("loaded.toml", &text, &[]).unwrap_err();
-        let refused = |problem: &config::Problem| {
-            let told = "`coin.centre_of_mass_over_height` must be 0";
-            problem.message.contains(told)
-        };
-        assert!(
-            problems.problems().iter().any(refused),
-            "{engine}: {problems}"
-        );
-    }
+    assert_other_engines_refuse(&text, "`coin.centre_of_mass_over_height` must be 0");
 }
 
 /// A coin with a conical edge: read, swept, resolved, and refused where it is not modelled or would not rest
@@ -155,29 +162,12 @@ fn a_conical_edge_is_read_and_refused_where_it_cannot_be() {
         ("surface.table_tilt_deg=3", "on a tilted table"),
         ("surface.material='wood'", "on rough ground"),
     ] {
-        let set = [set.parse().expect("an override")];
-        let problems = config::parse("cone.toml", &text, &set).unwrap_err();
-        let [problem] = problems.problems() else {
-            panic!("{problems}")
-        };
-        assert!(problem.message.contains(expected), "{problems}");
+        assert_refused(&text, set, expected);
     }
     // a material's waves of no height are a plane
     let level = ["surface.material='wood'", "surface.roughness_slope=0"];
     assert!(parse(&text, &level).points[0].scene.coin.is_conical());
-    for engine in ["flat = {}", "rapier = {}", "analytic = {}"] {
-        let text = text
-            .replace("[engine.volumetric]", "")
-            .replace("law = 'moreau'", "");
-        let text = format!("{text}\n[engine]\n{engine}\n");
-        let problems = config::parse("cone.toml", &text, &[]).unwrap_err();
-        let refused =
-            |problem: &config::Problem| problem.message.contains("`coin.draft_deg` must be 0");
-        assert!(
-            problems.problems().iter().any(refused),
-            "{engine}: {problems}"
-        );
-    }
+    assert_other_engines_refuse(&text, "`coin.draft_deg` must be 0");
 }
 
 #[test]
