@@ -222,3 +222,42 @@ impl Shared {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_flat::HalfSine;
+
+    /// The stiffness of a contact is proportional to both moduli together, whatever Poisson's ratios are.
+    #[test]
+    fn stiffness_multiplies_the_modulus_of_both_materials() {
+        let given = Materials {
+            coin_young_pa: 3e9,
+            coin_poisson: 0.35,
+            surface_young_pa: 1e10,
+            surface_poisson: 0.3,
+            length_m: 0.02,
+        };
+        let stiffer = Materials {
+            coin_young_pa: 7.5e9,
+            surface_young_pa: 2.5e10,
+            ..given
+        };
+        let laws = |materials| {
+            let line = LineContact {
+                materials,
+                tangential: LineContact::mindlin(0.35),
+            };
+            let pulse = HalfSine {
+                time: PulseTime::Contact(materials),
+                peak_n: None,
+            };
+            [Law::LineContact(line), Law::HalfSine(pulse)]
+        };
+        let shared = Shared {
+            stiffness: 2.5,
+            ..Shared::default()
+        };
+        assert_eq!(laws(given).map(|law| shared.applied(law)), laws(stiffer));
+    }
+}

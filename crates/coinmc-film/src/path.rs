@@ -109,3 +109,39 @@ impl Observer for PathRecorder<'_> {
         self.path.seen.push(seen(state));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_flat::Law;
+
+    /// Height of the lowest of the four corners of a coin in the plane.
+    fn lowest(coin: &Coin, [_, z, theta]: [f64; 3]) -> f64 {
+        let (sin, cos) = libm::sincos(theta);
+        let corners = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)];
+        let heights =
+            corners.map(|(a, b)| z + a * coin.radius_m() * sin + b * 0.5 * coin.height_m() * cos);
+        heights.into_iter().fold(f64::INFINITY, f64::min)
+    }
+
+    /// The face is certain while the coin is still in the air.
+    #[test]
+    fn the_last_flight_is_followed_until_a_corner_is_down() {
+        let model = Model {
+            law: Law::Moreau,
+            coin: Coin::cylinder(1.0, 0.01).unwrap(),
+            gravity_m_s2: 9.81,
+        };
+        let at: Vec<f64> = (0..6000).map(|frame| f64::from(frame) * 1e-4).collect();
+        for theta in [0.0, 0.2, -0.3, 1.4] {
+            let start = [0.0, 0.1, 0.1, 0.0, theta, 0.0];
+            let path = path(&model, &Shared::default(), &start, &at).unwrap();
+            let (aloft, after) = path.seen.split_at(path.valid);
+            assert!(aloft.iter().all(|seen| lowest(&model.coin, *seen) > -1e-9));
+            assert!(lowest(&model.coin, after[0]) <= 0.0, "{theta}");
+            let last = *path.impacts_s.last().unwrap();
+            let flight = path.valid - at.partition_point(|time| *time <= last);
+            assert!(flight > 5, "{theta}: {flight}");
+        }
+    }
+}

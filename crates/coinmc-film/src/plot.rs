@@ -152,3 +152,14 @@ fn escaped(text: &str) -> String {
         .replace('<', "&lt;")
         .replace('>', "&gt;")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Names of files may hold anything; XML 1.0 has no control characters at all.
+    #[test]
+    fn text_is_escaped_and_control_characters_are_left_out() {
+        assert_eq!(escaped("a<b> & \u{7}\u{1b}θ"), "a&lt;b&gt; &amp; θ");
+    }
+}

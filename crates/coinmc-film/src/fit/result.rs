@@ -325,3 +325,30 @@ fn remarks(fit: &Fit, loss: Loss) -> Vec<Remark> {
     }
     remarks
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of n equal residuals n − 1 pairs agree, of alternating ones all differ; a gap or another drop parts them.
+    #[test]
+    fn the_correlation_is_that_of_successive_frames() {
+        let of = |by: fn(usize) -> f64, frame: fn(usize) -> usize, drop: fn(usize) -> usize| {
+            let deviations: Vec<Deviation> = (0..5)
+                .map(|i| Deviation {
+                    drop: drop(i),
+                    frame: frame(i),
+                    coordinate: Coordinate::Z,
+                    by: by(i),
+                })
+                .collect();
+            correlation(&deviations, Coordinate::Z)
+        };
+        let alternating = |i: usize| if i.is_multiple_of(2) { 0.5 } else { -0.5 };
+        assert_eq!(of(|_| 0.5, |i| i, |_| 0), 0.8);
+        assert_eq!(of(alternating, |i| i, |_| 0), -0.8);
+        assert_eq!(of(|_| 0.5, |i| 2 * i, |_| 0), 0.0);
+        assert_eq!(of(|_| 0.5, |i| i, |i| i / 3), 0.6);
+        assert_eq!(of(|_| 0.0, |i| i, |_| 0), 0.0);
+    }
+}

@@ -65,5 +65,8 @@ fn sizes_are_bounded_and_foreign_bytes_are_harmless() {
     let many = ["t\ty\tangle\n", &"x\ty\tz\n".repeat(1000)].concat();
     assert_eq!(problems(many.as_bytes()).len(), 50);
     problems("t\ty\tangle\n0\t1e999\t1\n".as_bytes());
+    let endless = problems(b"t (min)\ty\tangle\n0\t1\t1\n1\t1\t1\n1e307\t1\t1\n");
+    assert_eq!(endless[0].line, 4);
+    assert!(endless[0].message.contains("far out of range"));
     problems("t\ty\tangle\n0\t\u{1b}[31m\t1\n".as_bytes());
 }

@@ -221,6 +221,19 @@ fn drops_that_cannot_be_fitted_are_rejected() {
     );
 }
 
+/// The derivatives of all residuals would not fit into memory.
+#[test]
+fn films_too_large_to_fit_are_refused_at_once() {
+    let mut long = film(1);
+    let frames = long.frames.clone();
+    long.frames = frames.into_iter().cycle().take(6_000).collect();
+    let drops = vec![long; 20];
+    assert_eq!(
+        fit(&model(Law::Moreau), &drops, &Options::default()),
+        Err(FitError::TooLarge { frames: 120_000 })
+    );
+}
+
 #[test]
 fn residuals_are_written_completely_and_reproducibly() {
     let of = || fit(&model(Law::Moreau), &[film(6)], &Options::default()).unwrap();
@@ -231,4 +244,34 @@ fn residuals_are_written_completely_and_reproducibly() {
     let svg = residuals_svg(&first);
     assert_eq!(svg.matches("<circle").count(), first.n);
     assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
+}
+
+#[test]
+fn points_of_the_plot_stand_where_its_ticks_say() {
+    let fit = fit(&model(Law::Moreau), &[film(6)], &Options::default()).unwrap();
+    let svg = residuals_svg(&fit);
+    let value = |line: &str, key: &str| -> f64 {
+        let (_, from) = line.split_once(&format!(" {key}=\"")).unwrap();
+        from.split_once('"').unwrap().0.parse().unwrap()
+    };
+    let of = |kept: &dyn Fn(&str) -> bool, key: &str| -> Vec<f64> {
+        let lines = svg.lines().filter(|line| kept(line));
+        lines.map(|line| value(line, key)).collect()
+    };
+    // labels stand 4 below their ticks
+    let four = of(&|line| line.ends_with(">4</text>"), "y");
+    let minus_four = of(&|line| line.ends_with(">-4</text>"), "y");
+    let zero = of(&|line| line.contains("stroke=\"#888888\""), "y1");
+    let mut points = of(&|line| line.starts_with("<circle"), "cy").into_iter();
+    assert_eq!([four.len(), minus_four.len(), zero.len()], [3; 3]);
+    for (row, noise) in fit.noise.iter().enumerate() {
+        let deviation = (minus_four[row] - four[row]) / 8.0;
+        assert!(deviation > 8.0);
+        assert!((f64::midpoint(four[row], minus_four[row]) - 4.0 - zero[row]).abs() < 0.11);
+        let of_row = fit.residuals.iter();
+        for residual in of_row.filter(|residual| residual.coordinate == noise.coordinate) {
+            let wanted = zero[row] - deviation * residual.standardised.clamp(-5.0, 5.0);
+            assert!((points.next().unwrap() - wanted).abs() < 0.2);
+        }
+    }
 }
