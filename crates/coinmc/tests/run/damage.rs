@@ -3,7 +3,7 @@
 use crate::support::{
     Ear, FIXED, HALF_WIDTH, contents, plan, put_tallies, resealed, run_whole, run_with, tallies,
 };
-use coinmc::run::{Part, RunError, Status, stored_report};
+use coinmc::run::{Part, RunError, Status, is_running, stored_report};
 use std::fs;
 use std::path::Path;
 use tempfile::tempdir;
@@ -266,11 +266,14 @@ fn foreign_directories_are_rejected_and_untouched() {
 fn a_directory_in_use_is_rejected() {
     let (plan, dir) = (plan(FIXED), tempdir().unwrap());
     run_whole(&plan, dir.path());
+    assert!(!is_running(dir.path()));
     let lock = fs::File::open(dir.path().join("lock")).unwrap();
     lock.try_lock().unwrap();
+    assert!(is_running(dir.path()));
     let refused = run_with(&plan, dir.path(), Part::WHOLE, 2, &Ear::default());
     assert!(matches!(refused, Err(RunError::Locked { .. })));
     drop(lock);
+    assert!(!is_running(dir.path()));
     run_whole(&plan, dir.path());
 }
 

@@ -123,6 +123,25 @@ fn another_plan_is_refused_with_the_keys_that_changed() {
     assert_eq!(contents(dir.path()), before);
 }
 
+/// Other parts may have gone on already, or not yet.
+#[test]
+fn a_part_does_not_go_on_with_another_plan() {
+    let part = |index| Part::new(index, 2).unwrap();
+    for (before, now) in [
+        (part(1), part(1)),
+        (part(1), Part::WHOLE),
+        (Part::WHOLE, part(2)),
+    ] {
+        let dir = tempdir().unwrap();
+        let quiet = Ear::default();
+        run_with(&plan("tosses = 1000"), dir.path(), before, 2, &quiet).unwrap();
+        let kept = contents(dir.path());
+        let refused = run_with(&plan("tosses = 2000"), dir.path(), now, 2, &quiet).unwrap_err();
+        assert!(refused.to_string().contains("a part of a run"), "{refused}");
+        assert_eq!(contents(dir.path()), kept);
+    }
+}
+
 /// Stopped at any moment the directory holds the counts and the table of the earlier run, and goes on.
 #[test]
 fn an_extended_run_that_is_stopped_has_the_old_result() {

@@ -1,5 +1,6 @@
 //! Runs: cut into chunks, broken off, merged and damaged, they count the same.
 
+mod chunks;
 mod damage;
 mod durable;
 mod edge;
