@@ -153,3 +153,22 @@ fn requests_out_of_order_or_range_are_not_sent() {
     host.close();
     assert_eq!(host.poll(0), Action::Wait { until_ms: None });
 }
+
+/// The robot may still do what was asked; the host only waits no longer.
+#[test]
+fn a_request_that_was_given_up_makes_way_for_another() {
+    let mut host = connected();
+    host.request(&Request::Stop, 1_000).unwrap();
+    let late = sent(&mut host, 1_000);
+    assert!(host.request(&Request::Status, 1_010).is_err());
+    host.give_up();
+    host.request(&Request::Status, 1_010).unwrap();
+    let next = sent(&mut host, 1_010);
+    answer(&mut host, late.0, DONE, 1_020);
+    assert!(matches!(host.poll(1_020), Action::Wait { .. }));
+    answer(&mut host, next.0, DONE, 1_030);
+    assert_eq!(host.poll(1_030), Action::Reply(DONE));
+    // without a request there is nothing to give up: the session stays open
+    host.give_up();
+    host.request(&Request::Stop, 1_040).unwrap();
+}
