@@ -78,7 +78,7 @@ impl<L> Model<L> {
         let rule = DecisionRule::new(scene, tilting, negligible_rocking);
         let ground = scene.surface.roughness().map(|roughness| {
             let length = roughness.correlation_length_m() / units.length_m;
-            Ground::new(roughness.slope(), length, 2.0 * body.half)
+            Ground::new(roughness.slope(), length, &body)
         });
         let side = ground
             .as_ref()

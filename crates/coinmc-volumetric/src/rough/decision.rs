@@ -15,7 +15,7 @@
 //!   − ρ). A kick adds to the velocities that the coin already rocks and hops with, so the rule asks
 //!   that sqrt(E) + sqrt(E_kick) < sqrt(well): E is the energy above rest that may become tilt, by
 //!   the rule for a plane, and E_kick that of so many standard deviations of both as were measured
-//!   to be enough ([`deviations`]).
+//!   to be enough ([`Kicks`](super::ground::Kicks)).
 
 use super::ground::SPREAD;
 use super::tracks::rim_points;
@@ -28,25 +28,6 @@ use coinmc_core::{Decided, Observer};
 /// in sqrt(D/g): one that turns round on a slope is slow only for a moment.
 const REST: f64 = 1e-3;
 const REST_TIME: f64 = 5.0;
-
-/// Standard deviations of the ground that do not topple a decided coin: of the rates at which slopes
-/// make it lean, and of the lean at which differences of height let it rest. `ratio` is H/R, and
-/// `lean` one standard deviation of that lean, as a share of the one at which the coin topples.
-///
-/// A coin rolls past a thousand correlation lengths and meets five standard deviations on the way. A
-/// thick one is not kicked that hard: its rims land and roll with the small velocity of the contact
-/// point, and not with w. Of 220,000 tosses of coins with a ratio from 0.5 to 1.2, on four grounds and
-/// by two launches, none ended on another face with 3 than with 7; of 12,000 with a ratio from 0.2 to
-/// 0.4 on long waves none did with 7 or with 10 against 20, but six with 5. Where heights are small,
-/// one standard deviation of the rates is enough: the rule counts all of the loose energy as tilt
-/// already (`docs/methods/rough.md` has what was measured).
-fn deviations(ratio: f64, lean: f64) -> (f64, f64) {
-    const THICK: f64 = 0.6;
-    const SMALL_LEAN: f64 = 0.04;
-    let heights = if ratio < THICK { 7.0 } else { 3.0 };
-    let rates = if lean < SMALL_LEAN { 1.0 } else { heights };
-    (rates, heights)
-}
 
 impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     /// The face, if it is decided.
@@ -131,11 +112,8 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         // and what it may gain by rolling down to the deepest place
         let drop = (mean + SPREAD * ground.height).max(0.0);
         let speed = (speed * speed + 2.0 * drop).sqrt();
-        let topples = body.half / body.radius;
-        let lean = ground.height * ground.contrast / thickness / topples;
-        let (rates, heights) = deviations(thickness / body.outer_radius(), lean);
-        let rate = rates * speed * ground.slope() * ground.contrast / thickness;
-        let brim = 1.0 - heights * lean;
+        let rate = ground.kicks.rates * speed * ground.slope() * ground.contrast / thickness;
+        let brim = 1.0 - ground.kicks.heights * ground.lean(body);
         let well = (1.0 - body.radius) * brim * brim;
         let inertia = body.kt + body.outer_radius().powi(2);
         brim > 0.0 && loose.sqrt() + (0.5 * inertia).sqrt() * rate < well.sqrt()
@@ -147,8 +125,9 @@ mod tests {
     use crate::laws::Moreau;
     use crate::model::Model;
     use crate::settings::Settings;
-    use coinmc_core::{Coin, Preset, Roughness, Scene, Surface};
-    use coinmc_testkit::preset_launch;
+    use coinmc_core::{Coin, Face, Launch, Outcome, Preset, Roughness, Scene, Surface};
+    use coinmc_testkit::{Dice, preset_launch};
+    use nalgebra::{UnitVector3, Vector3};
 
     /// A coin of this ratio on ground of this slope and wavelength, with this restitution.
     fn scene([ratio, e, slope, wave_m]: [f64; 4]) -> Scene {
@@ -162,6 +141,52 @@ mod tests {
 
     fn model(scene: &Scene) -> Model<Moreau> {
         Model::new(scene, &Settings::default(), Moreau).expect("valid settings")
+    }
+
+    /// Whether coins that roll upright end on their side, where the ground may topple them with so many standard
+    /// deviations before they rest. `None`: as many as the model says.
+    fn stay(numbers: [f64; 4], kicks: Option<f64>) -> (Vec<bool>, u32) {
+        let scene = scene(numbers);
+        let mut model = model(&scene);
+        if let Some(count) = kicks {
+            model.ground.as_mut().expect("a rough ground").kicks.rates = count;
+        }
+        let outcome = |toss| {
+            let mut dice = Dice::new(314, toss);
+            let (lean, speed) = (dice.between(-1e-3, 1e-3), dice.between(0.05, 0.6));
+            let axis =
+                UnitVector3::new_normalize(Vector3::new(libm::cos(lean), 0.0, libm::sin(lean)));
+            let launch = Launch {
+                height_m: 0.0,
+                velocity_m_s: -speed * Vector3::y(),
+                axis,
+                spin_rad_s: axis.into_inner() * (speed / scene.coin.radius_m()),
+            };
+            model.run(&launch, &mut ()).outcome
+        };
+        let outcomes: Vec<_> = (0..80).map(outcome).collect();
+        let steps = outcomes.iter().map(|outcome| outcome.contact_steps).sum();
+        let stay = |outcome: &Outcome| outcome.face() == Some(Face::Side);
+        (outcomes.iter().map(stay).collect(), steps)
+    }
+
+    /// Coins that roll upright are the hardest to decide. Those decided to stay do so where no kick counts as
+    /// harmless and only energy and rest decide.
+    #[test]
+    fn a_coin_that_is_decided_to_stay_on_its_side_does_so() {
+        for numbers in [
+            [0.1, 0.5, 0.003, 0.02],
+            [0.1, 0.5, 0.003, 1e-3],
+            [0.2, 0.5, 0.01, 3e-3],
+            [0.3, 0.5, 0.01, 3e-3],
+            [0.4, 0.5, 0.01, 0.02],
+            [0.5, 0.5, 0.04, 0.01],
+        ] {
+            let (decided, steps) = stay(numbers, None);
+            let (open, more) = stay(numbers, Some(1e9));
+            println!("{numbers:?}: {steps} of {more} steps");
+            assert_eq!(decided, open, "{numbers:?}");
+        }
     }
 
     /// A face that rough ground decides, in most tosses as the coin rebounds from a landing, is the one
