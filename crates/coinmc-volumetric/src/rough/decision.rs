@@ -113,7 +113,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         let drop = (mean + SPREAD * ground.height).max(0.0);
         let speed = (speed * speed + 2.0 * drop).sqrt();
         let rate = ground.kicks.rates * speed * ground.slope() * ground.contrast / thickness;
-        let brim = 1.0 - ground.kicks.heights * ground.lean(body);
+        let brim = ground.kicks.brim;
         let well = (1.0 - body.radius) * brim * brim;
         let inertia = body.kt + body.outer_radius().powi(2);
         brim > 0.0 && loose.sqrt() + (0.5 * inertia).sqrt() * rate < well.sqrt()
@@ -125,9 +125,9 @@ mod tests {
     use crate::laws::Moreau;
     use crate::model::Model;
     use crate::settings::Settings;
-    use coinmc_core::{Coin, Face, Launch, Outcome, Preset, Roughness, Scene, Surface};
+    use coinmc_core::{Coin, Face, Outcome, Preset, Roughness, Scene, Surface};
+    use coinmc_oracle::Start;
     use coinmc_testkit::{Dice, preset_launch};
-    use nalgebra::{UnitVector3, Vector3};
 
     /// A coin of this ratio on ground of this slope and wavelength, with this restitution.
     fn scene([ratio, e, slope, wave_m]: [f64; 4]) -> Scene {
@@ -154,14 +154,7 @@ mod tests {
         let outcome = |toss| {
             let mut dice = Dice::new(314, toss);
             let (lean, speed) = (dice.between(-1e-3, 1e-3), dice.between(0.05, 0.6));
-            let axis =
-                UnitVector3::new_normalize(Vector3::new(libm::cos(lean), 0.0, libm::sin(lean)));
-            let launch = Launch {
-                height_m: 0.0,
-                velocity_m_s: -speed * Vector3::y(),
-                axis,
-                spin_rad_s: axis.into_inner() * (speed / scene.coin.radius_m()),
-            };
+            let launch = Start::Rolling(speed).launch(&scene.coin, lean);
             model.run(&launch, &mut ()).outcome
         };
         let outcomes: Vec<_> = (0..80).map(outcome).collect();

@@ -47,13 +47,14 @@ pub(crate) struct Ground {
     pub(super) kicks: Kicks,
 }
 
-/// Standard deviations of the ground that do not topple a decided coin.
+/// What of the ground does not topple a decided coin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Kicks {
-    /// Of the rates at which slopes make it lean.
+    /// How many standard deviations of the rates at which slopes make it lean.
     pub(super) rates: f64,
-    /// Of the lean at which differences of height let it rest.
-    pub(super) heights: f64,
+    /// The lean at which it topples, less that at which so many of the heights let it rest, as a share of
+    /// the former.
+    pub(super) brim: f64,
 }
 
 /// What carries a rim.
@@ -71,26 +72,18 @@ impl Ground {
         let (height, thickness) = (slope * length, 2.0 * body.half);
         let distance = thickness / length;
         let contrast = (-2.0 * libm::expm1(-0.5 * distance * distance)).sqrt();
-        let ground = Self {
+        // one standard deviation of the lean at which a coin with both rims down rests, as a share of
+        // the lean at which it topples
+        let lean = height * contrast / thickness / (body.half / body.radius);
+        Self {
             length,
             height,
             contrast,
             near: (NEAR * height * contrast / thickness).min(LARGEST_NEAR),
             highest: height * HeightField::shared().highest(),
             face_margin: SPREAD * height,
-            kicks: Kicks {
-                rates: 0.0,
-                heights: 0.0,
-            },
-        };
-        let kicks = Kicks::new(thickness / body.outer_radius(), ground.lean(body));
-        Self { kicks, ..ground }
-    }
-
-    /// One standard deviation of the lean at which a coin with both rims down rests, as a share of the lean at
-    /// which it topples.
-    pub(super) fn lean(&self, body: &Body) -> f64 {
-        self.height * self.contrast / (2.0 * body.half) / (body.half / body.radius)
+            kicks: Kicks::new(thickness / body.outer_radius(), lean),
+        }
     }
 
     /// The rms slope along a direction.
@@ -148,7 +141,8 @@ impl Ground {
 }
 
 impl Kicks {
-    /// Of a coin with this H/R, on ground with this [`lean`](Ground::lean).
+    /// Of a coin with this H/R, on ground whose heights let it rest at this lean, as a share of that at which
+    /// it topples: one standard deviation.
     ///
     /// A coin rolls past a thousand correlation lengths and meets five standard deviations on the way. A
     /// thin one needs more, and a thick one less: its rims land and roll with the small velocity of the
@@ -162,7 +156,7 @@ impl Kicks {
         let small = lean < (0.08 * ratio).min(0.03);
         Self {
             rates: if small { 1.0 } else { heights },
-            heights,
+            brim: 1.0 - heights * lean,
         }
     }
 }
