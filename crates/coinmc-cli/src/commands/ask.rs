@@ -179,10 +179,6 @@ fn text(answer: &Answer, atlas: &Atlas, style: &Style) -> String {
         );
     }
     text += &format!("{}\n", style.paint(Colors::Faint, &note));
-    // Until the atlas is tossed again: docs/methods/atlas.md.
-    if answer.launch == Launch::Rolled && place.ratio < 0.4 {
-        text += "On gentle ground the atlas keeps so thin a coin on its side too often when it rolls; --sure tosses it\n";
-    }
     if style.unicode { text } else { in_ascii(&text) }
 }
 

@@ -31,6 +31,8 @@ pub(crate) struct Dynamics {
     pub(super) holding_rate: f64,
     /// The least cosine of the tilt: below 0 where a coin on the edge of a cone leans on its wider rim.
     pub(super) least_cos: f64,
+    /// How far ahead of its lowest point, along y, the rim touches: not 0 where the ground slopes.
+    pub(crate) ahead: f64,
     /// The pull of a tilted table, along x and y of the coin's frame at present.
     pub(crate) pull: Option<[f64; 2]>,
 }
@@ -87,8 +89,21 @@ impl Dynamics {
                 0.0
             },
             least_cos: 0.0,
+            ahead: 0.0,
             pull: None,
         }
+    }
+
+    /// The same dynamics of a rim that touches so far ahead of its lowest point.
+    pub(crate) fn touching_ahead(&self, ahead: f64) -> Self {
+        Self { ahead, ..*self }
+    }
+
+    /// How much more slowly along x the point that touches slips than the lowest one, as the coin turns
+    /// about the vertical: ω_z ξ.
+    #[inline(always)]
+    pub(crate) fn drift<L: Lane>(&self, s: L, c: L, wa: L, wt: L) -> L {
+        (c * wa - s * wt) * L::splat(self.ahead)
     }
 
     /// The same dynamics on a rim that need not be at the distance 1 from the centre, and on which the
@@ -174,6 +189,7 @@ impl Dynamics {
             // a batch knows no places and no cones
             pull: None,
             least_cos: 0.0,
+            ahead: 0.0,
             ..*self
         }
     }

@@ -30,6 +30,17 @@ pub(crate) struct LineRates {
 // inlined into each stage of the integrator: a call costs a sixth of a step
 #[inline(always)]
 pub(crate) fn line_rates(dynamics: &Dynamics, state: &LineState, creep: f64) -> LineRates {
+    line_rates_on::<false>(dynamics, state, creep, [0.0; 2])
+}
+
+/// The same where the ground slopes, if `SLOPED`: the rims touch so far `ahead` of their lowest points.
+#[inline(always)]
+pub(crate) fn line_rates_on<const SLOPED: bool>(
+    dynamics: &Dynamics,
+    state: &LineState,
+    creep: f64,
+    ahead: [f64; 2],
+) -> LineRates {
     let [vx, vy, wa, wz] = *state;
     let body = &dynamics.body;
     let radius = body.outer_radius();
@@ -37,11 +48,16 @@ pub(crate) fn line_rates(dynamics: &Dynamics, state: &LineState, creep: f64) -> 
         vy + radius * wa - body.half * wz,
         vy + radius * wa + body.half * wz,
     ];
-    let slide = |y: f64| {
-        let scale = -dynamics.friction.mu / (vx * vx + y * y + creep * creep).sqrt();
-        (scale * vx, scale * y)
+    let across = if SLOPED {
+        ahead.map(|ahead| vx - wz * ahead)
+    } else {
+        [vx; 2]
     };
-    let ((x1, y1), (x2, y2)) = (slide(slip[0]), slide(slip[1]));
+    let slide = |x: f64, y: f64| {
+        let scale = -dynamics.friction.mu / (x * x + y * y + creep * creep).sqrt();
+        (scale * x, scale * y)
+    };
+    let ((x1, y1), (x2, y2)) = (slide(across[0], slip[0]), slide(across[1], slip[1]));
     // h (2 N₁ − 1) = k_t Ω_a ω_z + R (N₁ x₁ + (1 − N₁) x₂)
     let gyro = body.kt * dynamics.axial_factor * wa * wz;
     let share = (gyro + body.half + radius * x2) / (2.0 * body.half - radius * (x1 - x2));
@@ -52,6 +68,11 @@ pub(crate) fn line_rates(dynamics: &Dynamics, state: &LineState, creep: f64) -> 
         first * y1 + second * y2,
         second * y2 - first * y1,
     );
+    let about = if SLOPED {
+        ahead[0] * first * x1 + ahead[1] * second * x2
+    } else {
+        0.0
+    };
     let (contour, pivoting) = dynamics.friction_torques(1.0, 0.0, wa, -wz);
     let (linear, angular) = (dynamics.drag.linear, dynamics.drag.angular);
     let [pull_x, pull_y] = dynamics.pull.unwrap_or_default();
@@ -60,7 +81,7 @@ pub(crate) fn line_rates(dynamics: &Dynamics, state: &LineState, creep: f64) -> 
             wz * vy + fx - linear * vx + pull_x,
             -wz * vx + f1 - linear * vy + pull_y,
             (radius * f1 - contour) / body.ka - angular * wa,
-            (body.half * f2 + pivoting) / body.kt - angular * wz,
+            (body.half * f2 - about + pivoting) / body.kt - angular * wz,
         ],
         share,
     }

@@ -61,7 +61,7 @@ mod tilted;
 
 pub(crate) use dynamics::{Dynamics, fastest_rate};
 pub(crate) use integrator::{Trial, is_accepted, next_length, shorter, step};
-pub(crate) use line::{LineState, line_rates};
+pub(crate) use line::{LineState, line_rates_on};
 pub(crate) use on_side::SideExit;
 pub(crate) use phase::{Exit, Phase, PhaseTransition};
 pub(crate) use rim::{Mode, OMEGA_Y, Rates, RimState, SLIP_X, SLIP_Y, TILT};

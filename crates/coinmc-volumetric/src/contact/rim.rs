@@ -26,6 +26,10 @@
 //! R + s r and h + c r instead of R and h, and rz is r less. As rx' = (rz + r) ω_y, and the levers
 //! change, r ω_y² is taken from −bz, and by gains r ω_y ω_z.
 //!
+//! On a slope along y the rim touches ξ ahead of its lowest point. What matters of that is that γx of the point
+//! that touches is less than that of the lowest one by ω_z ξ, and that fx has the moment −ξ fx about the
+//! vertical. γ is then the slip of the point that touches. (K_xx grows by ξ²/kt only, which is left out.)
+//!
 //! Sticking requires γ' = 0, slipping f = −μ N γ/|γ|. Drag adds −k v to the acceleration of the
 //! centre and −k_ω ω to ω'. On a tilted table its pull (see `crate::pull`) adds to bx and by. Without gyroscopic torque Ω_a = ω_a. (Le Saux, Leine & Glocker, J.
 //! Nonlinear Sci. 15 (2005) 27; contour and pivoting friction as in Leine, Arch. Appl. Mech. 79
@@ -133,7 +137,10 @@ impl Dynamics {
         let azimuth = -(wt * inverse.sin);
         let excess = k(self.axial_factor) * wa - azimuth * c;
         let mut gyro_y = wt * excess;
-        let (vx, vy) = (gx - wy * rz, gy - radius * wa - half * wt);
+        let (mut vx, vy) = (gx - wy * rz, gy - radius * wa - half * wt);
+        if self.ahead != 0.0 {
+            vx += self.drift(s, c, wa, wt);
+        }
         let kxx = k(1.0) + rz * rz * ikt;
         let kxz = -(rx * rz * ikt);
         let kzz = k(1.0) + rx * rx * ikt;
@@ -196,6 +203,14 @@ impl Dynamics {
             self.friction_torques_at(s, c, &inverse, wa, wt)
         };
         by -= normal * (radius * torque_a * ika + half * torque_t * ikt);
+        if self.ahead != 0.0 {
+            // −ξ fx about the vertical
+            let about = k(self.ahead) * fx;
+            let (turn_a, turn_t) = (about * c * ika, about * s * ikt);
+            by -= radius * turn_a - half * turn_t;
+            slows_a += turn_a;
+            slows_t -= turn_t;
+        }
         let fy = match mode {
             Mode::Stick => -(by * inverse_kyy),
             Mode::Slip => mu * drive * slip.y,

@@ -14,7 +14,10 @@ pub(crate) fn rim_state(
     motion: &Motion<f64>,
     spin: &Spin<f64>,
 ) -> RimState<f64> {
-    let point = motion.contact_point(&dynamics.body, spin);
+    let mut point = motion.contact_point(&dynamics.body, spin);
+    if dynamics.ahead != 0.0 {
+        point.slip_x -= dynamics.drift(motion.sin, motion.cos, spin.axial, spin.turn);
+    }
     [
         // the azimuth of a level coin is not defined: start where it is
         libm::atan2(motion.sin, motion.cos).max(FLAT),
@@ -71,6 +74,9 @@ fn place_at_tilt<L: Lane>(
     motion.vz = spin.tilt * (radius * c - half * s);
     motion.z = half * c + radius * s;
     motion.vx = state[SLIP_X] + spin.tilt * (motion.z + L::splat(dynamics.body.rim));
+    if dynamics.ahead != 0.0 {
+        motion.vx += dynamics.drift(s, c, spin.axial, spin.turn);
+    }
     let (radius, half) = levers(&dynamics.body, s, c);
     motion.vy = state[SLIP_Y] - radius * spin.axial - half * spin.turn;
     motion.set_spin(spin, dynamics.axial_factor);

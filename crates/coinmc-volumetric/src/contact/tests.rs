@@ -4,7 +4,7 @@
 use super::dynamics::Dynamics;
 use super::integrator::{is_accepted, next_length, shorter, step};
 use super::rim::{Mode, OMEGA_A, OMEGA_T, OMEGA_Y, RimState, SLIP_X, SLIP_Y, TILT};
-use super::state::{place, place_below};
+use super::state::{place, place_below, rim_state};
 use crate::body::{Body, Friction};
 use crate::drag::Drag;
 use crate::four::Four;
@@ -156,6 +156,51 @@ fn rates_are_newton_and_eulers() {
         }
     }
     println!("worst {worst:e}");
+}
+
+/// Where the rim touches ahead of its lowest point, the slip is that of the point that touches, and friction
+/// across has a moment about the vertical.
+#[test]
+fn a_rim_that_touches_ahead_slips_there_and_friction_turns_it() {
+    for trial in 0..2000 {
+        let case = case(304, trial);
+        let ahead = Dice::new(305, trial).between(-0.2, 0.2);
+        let dynamics = case.dynamics.touching_ahead(ahead);
+        let [tilt, wy, wa, wt, gx, gy] = case.state;
+        let (s, c) = libm::sincos(tilt);
+        let (mut motion, mut spin) = (crate::motion::Motion::still(), crate::motion::Spin::still());
+        place(&dynamics, &case.state, &mut motion, &mut spin);
+        let Body {
+            radius,
+            half,
+            ka,
+            kt,
+            ..
+        } = dynamics.body;
+        let (rx, rz) = (radius * c - half * s, -half * c - radius * s);
+        let about = [s * wa + c * wt, wy, c * wa - s * wt];
+        let slip = [
+            motion.vx + about[1] * rz - about[2] * ahead,
+            motion.vy + about[2] * rx - about[0] * rz,
+        ];
+        assert!((slip[0] - gx).abs() < 1e-12 && (slip[1] - gy).abs() < 1e-12);
+        let back = rim_state(&dynamics, &motion, &spin);
+        assert!((back[SLIP_X] - gx).abs() < 1e-12);
+
+        // the same velocities, of a rim that touches at its lowest point
+        let level = [tilt, wy, wa, wt, gx + about[2] * ahead, gy];
+        let mut free = case.dynamics;
+        (free.friction.contour, free.friction.pivoting) = (0.0, 0.0);
+        let there = free.touching_ahead(ahead).rates(&case.state, Mode::Stick);
+        let here = free.rates(&level, Mode::Stick);
+        let [a, t] = [OMEGA_A, OMEGA_T].map(|i| there.state[i] - here.state[i]);
+        let [fx, fy] = [0, 1].map(|i| there.friction[i] - here.friction[i]);
+        let size = 1e-9 * (1.0 + there.friction[0].abs() + there.friction[1].abs()) / ka.min(kt);
+        let upright = c * ka * a - s * kt * t;
+        assert!(fx.abs() < size, "{fx}");
+        assert!((upright - (rx * fy - ahead * there.friction[0])).abs() < size);
+        assert!((s * ka * a + c * kt * t + rz * fy).abs() < size);
+    }
 }
 
 /// Integrates until `done`, with the tolerance given; the time it took.

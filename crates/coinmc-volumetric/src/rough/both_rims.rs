@@ -11,7 +11,9 @@
 //! rim lifts off.
 
 use super::walk::{Next, Touch, Walk};
-use crate::contact::{LineState, RollingStop, is_accepted, line_rates, next_length, shorter, step};
+use crate::contact::{
+    LineState, RollingStop, is_accepted, line_rates_on, next_length, shorter, step,
+};
 use crate::impact::ImpactLaw;
 use crate::motion::{Motion, Spin};
 use crate::transition::Transition;
@@ -33,9 +35,10 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         let dynamics = &self.model.dynamics;
         let mut state = self.line_state();
         let mut wanted = self.tracks.left;
+        let ahead = self.both_ahead(&state);
         while !self.tracks.at_node() {
             let before = (self.toss.motion, self.toss.spin);
-            let Some((next, time)) = self.step_of_line(&state, &mut wanted) else {
+            let Some((next, time)) = self.step_of_line(&state, ahead, &mut wanted) else {
                 return Next::Ends(Transition::End(self.model.end_given_up(self.toss)));
             };
             let energy = |s: &LineState| {
@@ -53,11 +56,25 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
             self.usage.time += time;
             self.show(before, time);
         }
-        self.pass_node_on_both(&state)
+        self.pass_node_on_both(&state, ahead)
+    }
+
+    /// How far ahead of their lowest points both rims touch; that of a coin that rolls straight does not
+    /// matter.
+    fn both_ahead(&self, state: &LineState) -> [f64; 2] {
+        if self.model.contact_rules().rolls_straight(state) {
+            return [0.0; 2];
+        }
+        [self.tracks.own, self.tracks.other].map(|track| self.ahead_of(&track))
     }
 
     /// One step of the motion along the ground, and its duration; `None` at a limit.
-    fn step_of_line(&mut self, state: &LineState, wanted: &mut f64) -> Option<(LineState, f64)> {
+    fn step_of_line(
+        &mut self,
+        state: &LineState,
+        ahead: [f64; 2],
+        wanted: &mut f64,
+    ) -> Option<(LineState, f64)> {
         let model = self.model;
         let dynamics = &model.dynamics;
         let rules = model.contact_rules();
@@ -72,7 +89,8 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
             };
             return Some((state.map(|rate| rate * left), time));
         }
-        let rates = |s: &LineState| line_rates(dynamics, s, rules.stick_speed).rates;
+        let rates =
+            |s: &LineState| line_rates_on::<true>(dynamics, s, rules.stick_speed, ahead).rates;
         let first = rates(state);
         loop {
             self.usage.steps += 1;
@@ -90,7 +108,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     }
 
     /// The next node: both tracks bend, and one or both rims may lift off.
-    fn pass_node_on_both(&mut self, state: &LineState) -> Next {
+    fn pass_node_on_both(&mut self, state: &LineState, ahead: [f64; 2]) -> Next {
         let dynamics = &self.model.dynamics;
         let body = &dynamics.body;
         let old = self.tracks;
@@ -111,8 +129,14 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         let tilting = (bends[0] - bends[1]) / (2.0 * body.half * time);
         let normal = 1.0 + 0.5 * (bends[0] + bends[1]) / time;
         let [_, vy, wa, wz] = state;
-        let mut along =
-            line_rates(dynamics, &state, self.model.contact_rules().stick_speed).rates[0] - wz * vy;
+        let mut along = line_rates_on::<true>(
+            dynamics,
+            &state,
+            self.model.contact_rules().stick_speed,
+            ahead,
+        )
+        .rates[0]
+            - wz * vy;
         if self.holds_across(&state) {
             along -= self.pull()[0];
         }

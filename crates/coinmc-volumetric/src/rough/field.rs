@@ -101,6 +101,22 @@ impl HeightField {
         [DENSITY * gx, DENSITY * gy]
     }
 
+    /// The height at (`x`, `y`), in σ, and its first two rates on the way (`dx`, `dy`).
+    pub(super) fn height_along(&self, [x, y]: [f64; 2], [dx, dy]: [f64; 2]) -> [f64; 3] {
+        let ((column, across), (row, along)) = (cell(x), cell(y));
+        let lines = self.lines(row, column);
+        let of_rows = [weights(along), weight_rates(along), weight_bends(along)];
+        let [heights, rates, bends] = of_rows.map(|of_rows| weighted(&lines, of_rows));
+        let (w, r, b) = (weights(across), weight_rates(across), weight_bends(across));
+        let (dx, dy) = (DENSITY * dx, DENSITY * dy);
+        let twist = 2.0 * dx * dy * dot(r, rates);
+        [
+            dot(w, heights),
+            dx * dot(r, heights) + dy * dot(w, rates),
+            dx * dx * dot(b, heights) + twist + dy * dy * dot(w, bends),
+        ]
+    }
+
     /// The coefficients of the splines that are not zero in a cell.
     #[inline]
     fn lines(&self, row: usize, column: usize) -> [&[f64; 4]; 4] {
@@ -161,6 +177,11 @@ fn weight_rates(t: f64) -> [f64; 4] {
         u * (2.0 - 1.5 * u),
         0.5 * t * t,
     ]
+}
+
+/// The rates of [`weight_rates`] with the place.
+fn weight_bends(t: f64) -> [f64; 4] {
+    [1.0 - t, 3.0 * t - 2.0, 1.0 - 3.0 * t, t]
 }
 
 /// What the spline does not exceed in a cell, in steps of [`BOUND_STEP`]: the largest of its Bézier

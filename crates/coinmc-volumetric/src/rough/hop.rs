@@ -145,8 +145,6 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
                     *self.tracks.of_mut(side) = self.track_in_flight(hop, side, None, [now, next]);
                 } else if !near && side != rim {
                     *self.tracks.of_mut(side) = Track::default();
-                } else if !near {
-                    self.tracks.of_mut(side).footing = None;
                 }
             }
         }

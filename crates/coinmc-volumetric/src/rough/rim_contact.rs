@@ -32,6 +32,7 @@ pub(super) struct Contact {
 impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     /// Follows contact of the own rim to the next node or event.
     pub(super) fn roll_on_rim(&mut self) -> Next {
+        self.ahead = self.ahead_of(&self.tracks.own);
         let mut contact = self.contact();
         if contact.now.press <= 0.0 {
             return Next::Goes(Touch::Nothing);
@@ -62,7 +63,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     /// One accepted step; what follows if it meets an event. `Goes(Rim)`: the mode changes.
     fn step_on_rim(&mut self, contact: &mut Contact, wanted: &mut f64) -> Option<Next> {
         let model = self.model;
-        let dynamics = &model.dynamics;
+        let dynamics = &model.dynamics.touching_ahead(self.ahead);
         let rules = model.contact_rules();
         let least = LEAST_STEP * self.tracks.interval;
         loop {
@@ -170,7 +171,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     /// Moves the coin to a state of contact, `time` later. Friction takes energy; the numerical
     /// error of a step may not add any.
     fn move_to(&mut self, state: &RimState<f64>, time: f64) {
-        let dynamics = &self.model.dynamics;
+        let dynamics = &self.model.dynamics.touching_ahead(self.ahead);
         let before = (self.toss.motion, self.toss.spin);
         let energy = self.relative_motion().energy(&dynamics.body, &before.1);
         self.half_way(time);
@@ -188,7 +189,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
 
     /// The contact of the own rim in the mode that its state allows.
     fn contact(&mut self) -> Contact {
-        let dynamics = &self.model.dynamics;
+        let dynamics = &self.model.dynamics.touching_ahead(self.ahead);
         let stick_speed = self.model.contact_rules().stick_speed;
         let motion = self.relative_motion();
         let state = rim_state(dynamics, &motion, &self.toss.spin);
@@ -228,7 +229,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     /// A jam (Painlevé's configuration): an impulse at the contact point ends the slip.
     fn end_jam(&mut self) -> Contact {
         self.usage.jams += 1;
-        let dynamics = &self.model.dynamics;
+        let dynamics = &self.model.dynamics.touching_ahead(self.ahead);
         self.push(|point| jam_impulse(&dynamics.body, &dynamics.friction, point));
         let motion = self.relative_motion();
         let state = rim_state(dynamics, &motion, &self.toss.spin);
@@ -254,11 +255,12 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
 
     /// The state of contact after an impulse that changes the slip at a constant normal velocity.
     fn with_slip(&mut self, gx: f64, gy: f64) -> RimState<f64> {
-        let dynamics = &self.model.dynamics;
+        let dynamics = &self.model.dynamics.touching_ahead(self.ahead);
         let (mut motion, mut spin) = (self.relative_motion(), self.toss.spin);
         let point = motion.contact_point(&dynamics.body, &spin);
         let k = point.matrix(&dynamics.body);
-        let x = (gx - point.slip_x) * k.zz / (k.xx + k.zz - 1.0);
+        let drift = dynamics.drift(motion.sin, motion.cos, spin.axial, spin.turn);
+        let x = (gx + drift - point.slip_x) * k.zz / (k.xx + k.zz - 1.0);
         let impulse = Impulse {
             x,
             y: (gy - point.slip_y) / k.yy,

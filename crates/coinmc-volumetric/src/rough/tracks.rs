@@ -225,7 +225,7 @@ impl Tracks {
             let at = place.point(x, y);
             let support = ground.under_rim(at, along, curvature);
             track.rate = (support.height - track.height) / time;
-            track.footing = near.then(|| Footing::new(&support, at, along));
+            track.footing = Some(Footing::new(&support, at, along));
         };
         lead(&mut self.own, &points[0]);
         if near {

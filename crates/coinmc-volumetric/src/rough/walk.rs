@@ -1,7 +1,7 @@
 //! One coin on rough ground: its state, and the loop from node to node and from event to event.
 
 use super::ground::Ground;
-use super::tracks::{Tracks, rim_points};
+use super::tracks::{Track, Tracks, rim_points};
 use crate::body::Body;
 use crate::contact::{ContactSolver, Usage};
 use crate::flight::Departure;
@@ -59,6 +59,8 @@ pub(super) struct Walk<'a, I, O> {
     pub(super) budget: f64,
     /// Kinetic energy that slopes have given ahead of the way down: see [`slopes`](super::slopes).
     pub(super) lead: f64,
+    /// How far ahead of its lowest point the own rim touches, in the interval under way.
+    pub(super) ahead: f64,
     /// Since when a coin with both rims down has been almost at rest.
     pub(super) at_rest_since: Option<f64>,
 }
@@ -118,6 +120,7 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
             tracks: Tracks::default(),
             budget,
             lead: 0.0,
+            ahead: 0.0,
             at_rest_since: None,
         }
     }
@@ -131,8 +134,31 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
         self.budget += under.height;
     }
 
+    /// Lets the other rim land where the ground under it is so much higher that it touches first.
+    fn land_first_rim(&mut self) {
+        let (motion, spin, body) = (&self.toss.motion, &self.toss.spin, self.body());
+        if motion.cos >= self.ground.near {
+            return;
+        }
+        let points = rim_points(body, motion, spin);
+        let along = self.place.direction(0.0, 1.0);
+        let curvature = motion.sin / body.outer_radius();
+        let [own, other] = points.map(|point| {
+            let at = self.place.point(point.rx, 0.0);
+            self.ground.under_rim(at, along, curvature).height
+        });
+        let above = 2.0 * body.half * motion.cos;
+        let comes_down = spin.tilt * points[1].rx - motion.vz >= 0.0;
+        if other - own > above && comes_down {
+            self.toss.motion.z -= above;
+            self.budget -= above;
+            self.switch_rim();
+        }
+    }
+
     /// The landing of a coin above the ground. Most coins fly on at once, and need no heights.
     fn land(&mut self) -> Transition {
+        self.land_first_rim();
         let (motion, spin) = (self.toss.motion, self.toss.spin);
         let time = self.time_between_nodes();
         self.tracks = Tracks::level(time);
@@ -225,12 +251,26 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
         /// The share by which the tilt must exceed the one at which the rim counts as near.
         const CLEAR: f64 = 1.3;
         let reached = self.toss.spin.tilt.max(0.0) * self.tracks.interval;
+        let lean = self.toss.motion.cos - reached;
         // what a plane decides for the side is decided here, not on the plane
-        self.toss.motion.cos - reached > CLEAR * self.ground.near && {
+        lean > CLEAR * self.ground.near && !self.is_kicked(lean) && {
             let motion = self.relative_motion();
             let state = motion.decision_state(self.body(), &self.toss.spin);
             self.model.rule.decide(&state) != Decided::Side
         }
+    }
+
+    /// Whether the slopes under the own rim alone may topple or right a coin that leans like this, as it
+    /// turns about the vertical: see [`Ground::slow_turn`].
+    fn is_kicked(&self, lean: f64) -> bool {
+        /// The lean beyond which this is left out, as a multiple of that at which the coin topples, and at
+        /// most.
+        const FAR: f64 = 3.0;
+        const FARTHEST: f64 = 0.5;
+        let (motion, spin, body) = (&self.toss.motion, &self.toss.spin, self.body());
+        let turn = spin.axial * motion.cos - spin.turn * motion.sin;
+        let far = (FAR * body.half / body.radius).min(FARTHEST);
+        lean < far && turn.abs() > self.ground.slow_turn
     }
 
     /// The speed at which the own rim approaches the mean ground.
@@ -246,6 +286,12 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
         let [x, y] = self.place.direction(point.slip_x, point.slip_y);
         let [gx, gy] = self.ground.gradient(self.place.point(point.rx, 0.0));
         gx * x + gy * y
+    }
+
+    /// How far ahead of its lowest point a rim touches, where the ground is as steep as the rim.
+    pub(super) fn ahead_of(&self, track: &Track) -> f64 {
+        let [_, steep] = track.slopes(self.ground);
+        steep * self.body().outer_radius() / self.toss.motion.sin
     }
 
     /// The rms speed at which the ground under the own rim rises and falls.
@@ -383,13 +429,23 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
 
     /// The bounce of the own rim off its track; returns whether it stays on the ground.
     pub(super) fn bounce(&mut self) -> bool {
-        let (before, spin) = (self.relative_motion(), self.toss.spin);
+        let (mut before, spin) = (self.relative_motion(), self.toss.spin);
+        // seen from a frame in which the point that touches slips as the lowest one
+        let ahead = self.ahead_of(&self.tracks.own);
+        let drift = ahead * (spin.axial * before.cos - spin.turn * before.sin);
+        before.vx -= drift;
         let mut bounced = self.model.bounce(&before, &spin, true);
         if bounced.retry {
             bounced = self.model.bounce(&before, &spin, false);
         }
-        let lost =
-            before.energy(self.body(), &spin) - bounced.motion.energy(self.body(), &bounced.spin);
+        bounced.motion.vx += drift;
+        let energy_before = before.energy(self.body(), &spin);
+        let energy_after = Motion {
+            vx: bounced.motion.vx - drift,
+            ..bounced.motion
+        }
+        .energy(self.body(), &bounced.spin);
+        let lost = energy_before - energy_after;
         // the loss is right to first order in the slope, so what little would be left of the kinetic
         // energy is uncertain by the second order of it
         let uncertain = self.ground.slope() * self.ground.slope();
