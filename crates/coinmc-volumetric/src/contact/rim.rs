@@ -121,6 +121,58 @@ impl Dynamics {
         }
     }
 
+    /// What drag takes from the rates of rotation.
+    #[inline(always)]
+    fn drag_on_rotation<L: Lane>(&self, [wy, wa, wt]: [L; 3]) -> [L; 3] {
+        if self.drag.acts() {
+            let angular = L::splat(self.drag.angular);
+            [angular * wy, angular * wa, angular * wt]
+        } else {
+            [L::splat(0.0); 3]
+        }
+    }
+
+    /// Adds drag to the accelerations of the free contact point, given the velocity of the centre, whose
+    /// vertical part is ω_y rx, and minus that of the contact point along y relative to the centre.
+    #[inline(always)]
+    fn add_drag<L: Lane>(&self, [bx, by, bz]: [&mut L; 3], [vx, vy, wy, rx]: [L; 4], rolls: L) {
+        if self.drag.acts() {
+            let linear = L::splat(self.drag.linear);
+            *bx -= linear * vx;
+            *by -= linear * vy + L::splat(self.drag.angular) * rolls;
+            *bz -= linear * wy * rx;
+        }
+    }
+
+    /// Adds to the velocity along x what the lowest point slips more than the one that touches.
+    #[inline(always)]
+    fn add_drift<L: Lane>(&self, vx: &mut L, s: L, c: L, [wa, wt]: [L; 2]) {
+        if self.ahead != 0.0 {
+            *vx += self.drift(s, c, wa, wt);
+        }
+    }
+
+    /// Adds the moment −ξ fx about the vertical to by and to what slows down ω_a and ω_θ; R and h are the
+    /// levers about u and e_θ.
+    #[inline(always)]
+    fn add_moment<L: Lane>(
+        &self,
+        fx: L,
+        s: L,
+        c: L,
+        [radius, half]: [L; 2],
+        [by, slows_a, slows_t]: [&mut L; 3],
+    ) {
+        if self.ahead != 0.0 {
+            let about = L::splat(self.ahead) * fx;
+            let turn_a = about * c * L::splat(self.inverse_ka);
+            let turn_t = about * s * L::splat(self.inverse_kt);
+            *by -= radius * turn_a - half * turn_t;
+            *slows_a += turn_a;
+            *slows_t -= turn_t;
+        }
+    }
+
     /// Rates and forces of `state` in a mode.
     #[inline(always)]
     pub(crate) fn rates<L: Lane>(&self, state: &RimState<L>, mode: Mode) -> Rates<L> {
@@ -136,33 +188,22 @@ impl Dynamics {
         let inverse = self.quotients(s, c);
         let azimuth = -(wt * inverse.sin);
         let excess = k(self.axial_factor) * wa - azimuth * c;
-        let mut gyro_y = wt * excess;
+        let [slows_y, mut slows_a, mut slows_t] = self.drag_on_rotation([wy, wa, wt]);
+        let gyro_y = wt * excess - slows_y;
         let (mut vx, vy) = (gx - wy * rz, gy - radius * wa - half * wt);
-        if self.ahead != 0.0 {
-            vx += self.drift(s, c, wa, wt);
-        }
+        self.add_drift(&mut vx, s, c, [wa, wt]);
         let kxx = k(1.0) + rz * rz * ikt;
         let kxz = -(rx * rz * ikt);
         let kzz = k(1.0) + rx * rx * ikt;
         let (kyy, inverse_kyy) = self.across(radius, half);
-        let angular = k(self.drag.angular);
-        let (mut slows_a, mut slows_t) = (k(0.0), k(0.0));
-        if self.drag.acts() {
-            gyro_y -= angular * wy;
-            (slows_a, slows_t) = (angular * wa, angular * wt);
-        }
         let mut bx = azimuth * vy + rz * gyro_y - rx * wy * wy;
         let mut bz = -(k(1.0) - height * wy * wy + rx * gyro_y);
         let mut by = -(azimuth * vx) - half * wy * excess;
         if self.body.rim != 0.0 {
             by += rim * wy * (c * wa - s * wt);
         }
-        if self.drag.acts() {
-            let linear = k(self.drag.linear);
-            bx -= linear * vx;
-            by -= linear * vy + angular * (radius * wa + half * wt);
-            bz -= linear * wy * rx;
-        }
+        let rolls = radius * wa + half * wt;
+        self.add_drag([&mut bx, &mut by, &mut bz], [vx, vy, wy, rx], rolls);
         self.add_pull(&mut bx, &mut by);
         let mu = k(self.friction.mu);
         // in slip, both forces contain N/|γ| = −bz/(K_zz |γ| − μ K_xz γx): one quotient for all
@@ -203,14 +244,13 @@ impl Dynamics {
             self.friction_torques_at(s, c, &inverse, wa, wt)
         };
         by -= normal * (radius * torque_a * ika + half * torque_t * ikt);
-        if self.ahead != 0.0 {
-            // −ξ fx about the vertical
-            let about = k(self.ahead) * fx;
-            let (turn_a, turn_t) = (about * c * ika, about * s * ikt);
-            by -= radius * turn_a - half * turn_t;
-            slows_a += turn_a;
-            slows_t -= turn_t;
-        }
+        self.add_moment(
+            fx,
+            s,
+            c,
+            [radius, half],
+            [&mut by, &mut slows_a, &mut slows_t],
+        );
         let fy = match mode {
             Mode::Stick => -(by * inverse_kyy),
             Mode::Slip => mu * drive * slip.y,

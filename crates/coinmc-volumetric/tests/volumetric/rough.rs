@@ -104,7 +104,7 @@ fn rolling_coins_stay_or_topple_as_on_an_explicit_height_field() {
 
 /// Coins that spin on the spot, as on an explicit height field: .893 ± .018, .230 ± .024 and .650 ± .028 of 300
 /// coins there (`data/validation/rough-starts.csv`). The engine's law is right to first order in the slope: up to
-/// .12 fewer stay here, and 600 coins have a standard error of .02. (.999, .51 and .85 stay with the slip of the
+/// .13 fewer stay here, and 600 coins have a standard error of .02. (.999, .51 and .85 stay with the slip of the
 /// lowest point.)
 #[test]
 fn spinning_coins_stay_or_topple_as_on_an_explicit_height_field() {
