@@ -229,8 +229,8 @@ fn highest(bend: f64, at: impl Fn(f64) -> f64, at_most: impl Fn(f64) -> f64) -> 
 /// The top near a point of the arc, and how high it is, by Newton's method. `at(k)` is the height of point
 /// k and its first two rates with k.
 fn climb((mut k, mut top): (f64, f64), at: impl Fn(f64) -> [f64; 3]) -> (f64, f64) {
-    /// A last step of this length leaves an error of a third of its cube in σ, 1e-4: .6 ℓ is one point.
-    const SHORT: f64 = 0.1;
+    /// What is left to climb at the end, in σ.
+    const ERROR: f64 = 1e-6;
     /// The longest step, and its length where the ground is not concave.
     const LONGEST: f64 = 0.3;
     const MOST_STEPS: u32 = 8;
@@ -244,7 +244,7 @@ fn climb((mut k, mut top): (f64, f64), at: impl Fn(f64) -> [f64; 3]) -> (f64, f6
         let step = (k + step).clamp(-FARTHEST, FARTHEST) - k;
         k += step;
         top = height + 0.5 * rate * step;
-        if step.abs() <= SHORT {
+        if (rate * step).abs() <= ERROR {
             break;
         }
     }
