@@ -74,7 +74,8 @@ pub struct Settings {
     /// Time, in sqrt(D/g), over which rolling and pivoting friction end the last of a rotation.
     pub smoothing_time: f64,
     /// On rough ground, the way between the places at which the ground's height is taken, in its
-    /// correlation length. Less is more accurate.
+    /// correlation length. Less is more accurate; coins that turn fast then also stay on rough ground while
+    /// they lean more.
     pub ground_step: f64,
     /// Impacts after which a toss is given up as undecided.
     pub max_impacts: u32,

@@ -219,13 +219,15 @@ impl Tracks {
         let curvature = motion.sin / body.outer_radius();
         let (sin, cos) = sin_cos(turn * time);
         let along = place.direction(-sin, cos);
+        // the slopes under a coin that leans far matter only to one that turns fast
+        let follows = near || ground.kicks_by_turning(motion, spin) > 1.0;
         let lead = |track: &mut Track, point: &RimPoint| {
             let x = point.rx * cos + (motion.vx + point.rz * spin.tilt) * time;
             let y = point.rx * sin + motion.vy * time;
             let at = place.point(x, y);
             let support = ground.under_rim(at, along, curvature);
             track.rate = (support.height - track.height) / time;
-            track.footing = Some(Footing::new(&support, at, along));
+            track.footing = follows.then(|| Footing::new(&support, at, along));
         };
         lead(&mut self.own, &points[0]);
         if near {

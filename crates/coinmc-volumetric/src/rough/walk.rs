@@ -261,16 +261,19 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
     }
 
     /// Whether the slopes under the own rim alone may topple or right a coin that leans like this, as it
-    /// turns about the vertical: see [`Ground::slow_turn`].
+    /// turns about the vertical: see [`Ground::kicks_by_turning`].
     fn is_kicked(&self, lean: f64) -> bool {
-        /// The lean beyond which this is left out, as a multiple of that at which the coin topples, and at
-        /// most.
+        /// The lean beyond which this is left out, as a multiple of that at which the coin topples, with a way
+        /// of ½ ℓ between nodes (with shorter ways it is more), and at most. The farther a coin leans, the
+        /// more it takes to right it: one that turns slowly counts up to less.
         const FAR: f64 = 3.0;
+        const STEP: f64 = 0.5;
         const FARTHEST: f64 = 0.5;
-        let (motion, spin, body) = (&self.toss.motion, &self.toss.spin, self.body());
-        let turn = spin.axial * motion.cos - spin.turn * motion.sin;
-        let far = (FAR * body.half / body.radius).min(FARTHEST);
-        lean < far && turn.abs() > self.ground.slow_turn
+        let (ground, body) = (self.ground, self.body());
+        let kicks = ground.kicks_by_turning(&self.toss.motion, &self.toss.spin);
+        let topples = body.half / body.radius;
+        let far = STEP / self.model.ground_step * kicks.min(FAR) * topples;
+        kicks > 1.0 && lean < far.min(FARTHEST)
     }
 
     /// The speed at which the own rim approaches the mean ground.
