@@ -188,7 +188,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     }
 
     /// The contact of the own rim in the mode that its state allows.
-    fn contact(&mut self) -> Contact {
+    pub(super) fn contact(&mut self) -> Contact {
         let dynamics = &self.model.dynamics.touching_ahead(self.ahead);
         let stick_speed = self.model.contact_rules().stick_speed;
         let motion = self.relative_motion();

@@ -8,7 +8,7 @@
 //!
 //! On an upright disc this passes through the centre. A contact point that sticks takes up the
 //! horizontal force, and what is left is the moment N g_y R/s about x: a coin at rest begins to roll
-//! downhill. A point that slips does not.
+//! downhill, unless rolling friction holds it. A point that slips does not.
 //!
 //! On a tilted table its pull acts in the same way, on the centre: a point that sticks holds it, as
 //! far as it can without turning the coin.
@@ -31,15 +31,26 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         let dynamics = &self.model.dynamics;
         let [gx, gy] = slopes;
         let push = 0.5 * contact.now.normal.max(0.0) * time;
-        let body = &dynamics.body;
+        let (body, contour) = (&dynamics.body, dynamics.friction.contour);
+        let spin = self.toss.spin;
         self.push(|point| {
             let k = point.matrix(body);
             let (radius, half) = point.levers(body);
-            let moment = push * gy * body.outer_radius() / point.sin;
+            let lever = radius * point.sin / body.ka + half * point.cos / body.kt;
+            let mut steep = gy * body.outer_radius() / point.sin;
+            if contact.mode == Mode::Stick {
+                // rolling friction that stops the coin holds it on a gentle slope
+                let rolls = spin.axial * point.sin + spin.turn * point.cos;
+                let gives = point.sin * point.sin / body.ka + point.cos * point.cos / body.kt
+                    - lever * lever / k.yy;
+                if rolls.abs() <= (contour - steep.abs()) * push * gives {
+                    steep = 0.0;
+                }
+            }
             // the moment changes the slip, and a point that sticks takes that back
-            let slip = moment * (radius * point.sin / body.ka + half * point.cos / body.kt);
+            let moment = push * steep;
             let (x, y) = match contact.mode {
-                Mode::Stick => (0.0, -slip / k.yy),
+                Mode::Stick => (0.0, -(moment * lever) / k.yy),
                 Mode::Slip => (-push * gx, -push * gy),
             };
             Impulse {
@@ -114,5 +125,53 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     /// Whether friction holds a coin on both rims along its axis.
     pub(super) fn holds_across(&self, [vx, ..]: &LineState) -> bool {
         vx.abs() <= self.model.contact_rules().creep
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::Usage;
+    use crate::engine::VolumetricEngine;
+    use crate::laws::Moreau;
+    use crate::settings::Settings;
+    use coinmc_core::{Coin, Launch, Roughness, Scene, Surface};
+    use nalgebra::{UnitVector3, Vector3};
+
+    /// Rolling friction holds a coin at rest on a slope of less than ρ_c/R, and no other: neither on a
+    /// steeper one, nor one that rolls too fast to be stopped on the way.
+    #[test]
+    fn rolling_friction_holds_a_coin_at_rest_on_a_gentle_slope() {
+        let (radius, friction, time) = (0.0116, 1e-3, 0.05);
+        let surface = Surface::new(0.5, 0.4)
+            .and_then(|surface| surface.with_friction_lengths(friction, 1e-4))
+            .expect("a valid surface")
+            .with_roughness(Roughness::new(0.02, 3e-3).ok());
+        let coin = Coin::cylinder(0.7, radius).expect("a valid coin");
+        let scene = Scene::new(coin, surface, 9.81).expect("a valid scene");
+        let engine = VolumetricEngine::new(&scene, &Settings::default(), Moreau);
+        let model = engine.expect("valid settings").model;
+        let ground = model.ground.expect("a rough ground");
+        for (slope, speed, held) in [(0.9, 0.0, true), (1.1, 0.0, false), (0.9, 0.1, false)] {
+            let axis = Vector3::new(1.0, 0.0, 0.1).normalize();
+            let launch = Launch {
+                height_m: 0.0,
+                velocity_m_s: Vector3::new(0.0, -speed, 0.0),
+                axis: UnitVector3::new_unchecked(axis),
+                spin_rad_s: axis * (speed / radius),
+            };
+            let mut toss = model.launch(&launch);
+            toss.motion.z = toss.motion.rest_height(&model.dynamics.body);
+            let (mut usage, mut observer) = (Usage::default(), ());
+            let mut walk =
+                Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+            let contact = walk.contact();
+            assert_eq!(contact.mode, Mode::Stick);
+            let before = walk.toss.spin.axial;
+            let steep = slope * friction / radius * walk.toss.motion.sin;
+            walk.descend_on_rim(&contact, [0.0, steep], time);
+            let gained = walk.toss.spin.axial - before;
+            assert_eq!(gained == 0.0, held, "{slope} {speed}: {gained:e}");
+        }
     }
 }

@@ -219,8 +219,9 @@ impl Tracks {
         let curvature = motion.sin / body.outer_radius();
         let (sin, cos) = sin_cos(turn * time);
         let along = place.direction(-sin, cos);
-        // the slopes under a coin that leans far matter only to one that turns fast
-        let follows = near || ground.kicks_by_turning(motion, spin) > 1.0;
+        // beyond the lean at which it topples, slopes under one rim matter only to a coin that turns fast
+        let stands = motion.cos * body.radius < body.half;
+        let follows = near || stands || ground.kicks_by_turning(motion, spin) > 1.0;
         let lead = |track: &mut Track, point: &RimPoint| {
             let x = point.rx * cos + (motion.vx + point.rz * spin.tilt) * time;
             let y = point.rx * sin + motion.vy * time;

@@ -101,7 +101,7 @@ impl<I: ImpactLaw> Model<I> {
 
 impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
     /// A coin at a random place of the ground, and at the height 0 until it is [put down](Self::put_down).
-    fn above_ground(
+    pub(super) fn above_ground(
         model: &'a Model<I>,
         ground: &'a Ground,
         toss: &'a mut Toss,
