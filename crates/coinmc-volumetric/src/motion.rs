@@ -208,6 +208,12 @@ impl<L: Lane> Motion<L> {
         }
     }
 
+    /// ω_z, at which the coin turns about the vertical with this spin.
+    #[inline(always)]
+    pub(crate) fn turning(&self, spin: &Spin<L>) -> L {
+        spin.axial * self.cos - spin.turn * self.sin
+    }
+
     #[inline(always)]
     pub(crate) fn set_spin(&mut self, spin: &Spin<L>, axial_factor: f64) {
         let axial = spin.axial * L::splat(axial_factor);

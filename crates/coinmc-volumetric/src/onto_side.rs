@@ -45,7 +45,7 @@ impl<L> Model<L> {
         let lasting = (m.vy - body.ka / body.outer_radius() * spin.axial).abs();
         SideArrival {
             rolling: lasting / (1.0 + body.ka / body.outer_radius().powi(2)),
-            turning: (spin.axial * m.cos - spin.turn * m.sin).abs(),
+            turning: m.turning(spin).abs(),
         }
     }
 

@@ -102,8 +102,7 @@ impl Ground {
     /// that, the coin tilts at the rate ω_z ξ R/(k_t + R²), about ω_z g_y. It counts where several standard
     /// deviations of that have the energy of the well of a coin on its side.
     pub(super) fn kicks_by_turning(&self, motion: &Motion<f64>, spin: &Spin<f64>) -> f64 {
-        let turn = spin.axial * motion.cos - spin.turn * motion.sin;
-        turn.abs() / self.slow_turn
+        motion.turning(spin).abs() / self.slow_turn
     }
 
     /// The rms slope along a direction.

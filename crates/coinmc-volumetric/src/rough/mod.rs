@@ -33,9 +33,10 @@
 //!
 //! - `field` the random field in its own units · `ground` what a rim meets · `random_place` where
 //! - `tracks` the ground under both rims · `rims_in_flight` where they are in flight
-//! - `walk` the state of a coin, its energy and the loop; `hop`, `rim_contact`, `both_rims` its
+//! - `walk` the state of a coin and the loop; `balance` its energy; `hop`, `rim_contact`, `both_rims` its
 //!   three kinds of motion; `slopes` their pull; `decision` its end
 
+mod balance;
 mod both_rims;
 mod decision;
 mod field;

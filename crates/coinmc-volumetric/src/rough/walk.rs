@@ -55,7 +55,7 @@ pub(super) struct Walk<'a, I, O> {
     /// Where the coin is on the ground.
     pub(super) place: Place,
     pub(super) tracks: Tracks,
-    /// The mechanical energy that is left. It never grows; see [`balance`](Self::balance).
+    /// The mechanical energy that is left. It never grows; see [`balance`](super::balance).
     pub(super) budget: f64,
     /// Kinetic energy that slopes have given ahead of the way down: see [`slopes`](super::slopes).
     pub(super) lead: f64,
@@ -234,11 +234,6 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
         }
     }
 
-    /// Mechanical energy per m g D, the potential zero at the mean of the ground.
-    pub(super) fn energy(&self) -> f64 {
-        self.toss.motion.energy(self.body(), &self.toss.spin)
-    }
-
     /// The height of the other rim above its track.
     pub(super) fn gap_of_other(&self) -> f64 {
         2.0 * self.body().half * self.toss.motion.cos + self.tracks.own.height
@@ -357,52 +352,6 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
         self.tracks.switch();
     }
 
-    /// Scales the velocities relative to the own track so that the energy is the budget.
-    ///
-    /// The tracks stand for a ground at rest, whose forces on a rim that rolls do no work. But a
-    /// vertical force on a rim whose track rises works, since the force of a slope that would slow
-    /// down the coin is left out. So what a coin gains by climbing a slope is taken from all its
-    /// velocities, and what it gives back on the way down is returned.
-    ///
-    /// With v the velocities relative to the track, which rises at p, and k the scale,
-    /// T(k) = T(v) k² + v_z p k + p²/2 is to be the budget less the potential energy. Where no k
-    /// does that, the slope is too high for the coin: it comes to rest where its energy ends.
-    pub(super) fn balance(&mut self) {
-        /// A coin almost at rest would otherwise turn slopes into rocking.
-        const LARGEST: f64 = 1.1;
-        let rate = self.tracks.own.rate;
-        let mut motion = self.relative_motion();
-        let kinetic = motion.kinetic(self.body(), &self.toss.spin);
-        let wanted = self.budget + self.lead - self.toss.motion.z - 0.5 * rate * rate;
-        let cross = motion.vz * rate;
-        let discriminant = cross * cross + 4.0 * kinetic * wanted;
-        let root = discriminant.max(0.0).sqrt() - cross;
-        let scale = if discriminant < 0.0 || root <= 0.0 {
-            self.tracks
-                .stop(self.toss.motion.z - self.budget - self.lead);
-            0.0
-        } else {
-            (root / (2.0 * kinetic)).min(LARGEST)
-        };
-        let mut spin = self.toss.spin;
-        for rotation in [&mut spin.axial, &mut spin.turn, &mut spin.tilt] {
-            *rotation *= scale;
-        }
-        for velocity in [&mut motion.vx, &mut motion.vy, &mut motion.vz] {
-            *velocity *= scale;
-        }
-        motion.set_spin(&spin, self.model.dynamics.axial_factor);
-        self.set_relative(motion, spin);
-    }
-
-    /// Takes back what slopes have given ahead, of a coin that leaves the ground.
-    pub(super) fn give_back_lead(&mut self) {
-        if self.lead != 0.0 {
-            self.lead = 0.0;
-            self.balance();
-        }
-    }
-
     /// Moves the place by half of the way that `motion` makes in `time`.
     pub(super) fn half_way(&mut self, time: f64) {
         let (motion, turn) = (
@@ -435,7 +384,7 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
         let (mut before, spin) = (self.relative_motion(), self.toss.spin);
         // seen from a frame in which the point that touches slips as the lowest one
         let ahead = self.ahead_of(&self.tracks.own);
-        let drift = ahead * (spin.axial * before.cos - spin.turn * before.sin);
+        let drift = ahead * before.turning(&spin);
         before.vx -= drift;
         let mut bounced = self.model.bounce(&before, &spin, true);
         if bounced.retry {
