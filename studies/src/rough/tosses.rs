@@ -8,8 +8,8 @@ use coinmc_bench::{Case, Report, Table, number};
 use coinmc_core::{LaunchDistribution, Marginal, Preset, Spin};
 use coinmc_oracle::RoughStepper;
 
-/// Rms slope and wavelength in mm: smooth, wood, rough.
-const GROUNDS: [(f64, f64); 3] = [(0.003, 3.0), (0.02, 3.0), (0.05, 3.0)];
+/// Wavelength of the ground, mm.
+const WAVELENGTH_MM: f64 = 3.0;
 /// ψ of the tosses of `examples/hand.toml`.
 const PSI_DEG: f64 = 75.0;
 
@@ -20,9 +20,17 @@ pub(crate) struct RoughTosses {
     #[arg(long, value_parser = number::count, default_value = "400", value_name = "N")]
     tosses: u64,
 
+    /// Number of the first toss: a long study can be made in parts
+    #[arg(long, value_parser = number::count_or_zero, default_value = "0", value_name = "N")]
+    first: u64,
+
     /// H/R
     #[arg(long, value_delimiter = ',', default_values = ["0.2", "0.7071"])]
     ratios: Vec<f64>,
+
+    /// Rms slopes of the ground: smooth, wood, rough
+    #[arg(long, value_delimiter = ',', default_values_t = [0.003, 0.02, 0.05])]
+    slopes: Vec<f64>,
 
     #[command(flatten)]
     steps: Steps,
@@ -33,24 +41,25 @@ pub(crate) struct RoughTosses {
 
 impl RoughTosses {
     pub(crate) fn execute(&self, seed: u64) -> Report {
-        let of_ratio = |&ratio: &f64| GROUNDS.map(|(slope, wave)| (ratio, slope, wave));
-        let scenes: Vec<(f64, f64, f64)> = self.ratios.iter().flat_map(of_ratio).collect();
+        let of_ratio = |&ratio: &f64| self.slopes.iter().map(move |&slope| (ratio, slope));
+        let scenes: Vec<(f64, f64)> = self.ratios.iter().flat_map(of_ratio).collect();
         let found = survey(&scenes, |scene| self.follow(*scene, seed));
         let mut columns = vec!["ratio", "slope", "wavelength_mm"];
         columns.extend(Sums::COLUMNS);
         columns.extend(Beside::COLUMNS);
         let title = format!("P(side) of tosses by hand, psi {PSI_DEG} degrees, on rough ground");
         let mut record = Table::new(title, &columns);
-        for ((ratio, slope, wavelength_mm), sums) in scenes.iter().zip(&found) {
+        for ((ratio, slope), sums) in scenes.iter().zip(&found) {
             let mut row = vec![
                 ratio.to_string(),
                 slope.to_string(),
-                wavelength_mm.to_string(),
+                WAVELENGTH_MM.to_string(),
             ];
             let scene = scene(*ratio);
             row.extend(sums.cells(&self.steps, &scene));
             let launches = launches();
-            row.extend(self.beside.cells(&scene, (*slope, *wavelength_mm), |toss| {
+            let ground = (*slope, WAVELENGTH_MM);
+            row.extend(self.beside.cells(&scene, ground, |toss| {
                 launches.launch(&scene.coin, &mut Case::stream(seed).toss(toss))
             }));
             record.push(row);
@@ -60,16 +69,16 @@ impl RoughTosses {
         report
     }
 
-    fn follow(&self, (ratio, slope, wavelength_mm): (f64, f64, f64), seed: u64) -> Sums {
+    fn follow(&self, (ratio, slope): (f64, f64), seed: u64) -> Sums {
         let scene = scene(ratio);
         let launches = launches();
         let mut stepper = RoughStepper::new(&scene, self.steps.settings());
         let mut sums = Sums::default();
-        for toss in 0..self.tosses {
+        for toss in self.first..self.first.saturating_add(self.tosses) {
             let mut uniforms = Case::stream(seed).toss(toss);
             let launch = launches.launch(&scene.coin, &mut uniforms);
             let seed = ground_seed(seed, toss);
-            let mut ground = stepper.ground(slope, 1e-3 * wavelength_mm, seed);
+            let mut ground = stepper.ground(slope, 1e-3 * WAVELENGTH_MM, seed);
             sums.add(&stepper.toss(&launch, &mut ground));
         }
         sums
