@@ -8,8 +8,6 @@ use coinmc_bench::{Case, Report, Table, number};
 use coinmc_core::{LaunchDistribution, Marginal, Preset, Spin};
 use coinmc_oracle::RoughStepper;
 
-/// Wavelength of the ground, mm.
-const WAVELENGTH_MM: f64 = 3.0;
 /// ψ of the tosses of `examples/hand.toml`.
 const PSI_DEG: f64 = 75.0;
 
@@ -32,6 +30,10 @@ pub(crate) struct RoughTosses {
     #[arg(long, value_delimiter = ',', default_values_t = [0.003, 0.02, 0.05])]
     slopes: Vec<f64>,
 
+    /// Wavelengths of the ground, mm
+    #[arg(long, value_delimiter = ',', default_values_t = [3.0])]
+    wavelengths_mm: Vec<f64>,
+
     #[command(flatten)]
     steps: Steps,
 
@@ -41,24 +43,23 @@ pub(crate) struct RoughTosses {
 
 impl RoughTosses {
     pub(crate) fn execute(&self, seed: u64) -> Report {
-        let of_ratio = |&ratio: &f64| self.slopes.iter().map(move |&slope| (ratio, slope));
-        let scenes: Vec<(f64, f64)> = self.ratios.iter().flat_map(of_ratio).collect();
+        let scenes = self.scenes();
         let found = survey(&scenes, |scene| self.follow(*scene, seed));
         let mut columns = vec!["ratio", "slope", "wavelength_mm"];
         columns.extend(Sums::COLUMNS);
         columns.extend(Beside::COLUMNS);
         let title = format!("P(side) of tosses by hand, psi {PSI_DEG} degrees, on rough ground");
         let mut record = Table::new(title, &columns);
-        for ((ratio, slope), sums) in scenes.iter().zip(&found) {
+        for ((ratio, slope, wavelength_mm), sums) in scenes.iter().zip(&found) {
             let mut row = vec![
                 ratio.to_string(),
                 slope.to_string(),
-                WAVELENGTH_MM.to_string(),
+                wavelength_mm.to_string(),
             ];
             let scene = scene(*ratio);
             row.extend(sums.cells(&self.steps, &scene));
             let launches = launches();
-            let ground = (*slope, WAVELENGTH_MM);
+            let ground = (*slope, *wavelength_mm);
             row.extend(self.beside.cells(&scene, ground, |toss| {
                 launches.launch(&scene.coin, &mut Case::stream(seed).toss(toss))
             }));
@@ -69,7 +70,18 @@ impl RoughTosses {
         report
     }
 
-    fn follow(&self, (ratio, slope): (f64, f64), seed: u64) -> Sums {
+    /// H/R, slope and wavelength in mm.
+    fn scenes(&self) -> Vec<(f64, f64, f64)> {
+        let mut scenes = Vec::new();
+        for &ratio in &self.ratios {
+            for &slope in &self.slopes {
+                scenes.extend(self.wavelengths_mm.iter().map(|&wave| (ratio, slope, wave)));
+            }
+        }
+        scenes
+    }
+
+    fn follow(&self, (ratio, slope, wavelength_mm): (f64, f64, f64), seed: u64) -> Sums {
         let scene = scene(ratio);
         let launches = launches();
         let mut stepper = RoughStepper::new(&scene, self.steps.settings());
@@ -78,7 +90,7 @@ impl RoughTosses {
             let mut uniforms = Case::stream(seed).toss(toss);
             let launch = launches.launch(&scene.coin, &mut uniforms);
             let seed = ground_seed(seed, toss);
-            let mut ground = stepper.ground(slope, 1e-3 * WAVELENGTH_MM, seed);
+            let mut ground = stepper.ground(slope, 1e-3 * wavelength_mm, seed);
             sums.add(&stepper.toss(&launch, &mut ground));
         }
         sums
