@@ -110,9 +110,9 @@ mod tests {
     use coinmc_core::{Coin, Scene, Surface};
 
     /// A contact of the lower rim of a level coin, in this direction from its centre, on a slope.
-    fn touch(model: &Model, angle: f64, slope: [f64; 2]) -> Touch {
+    fn touch(model: &Model, [x, y]: [f64; 2], slope: [f64; 2]) -> Touch {
         let normal = Vector3::new(slope[0], slope[1], 1.0).normalize();
-        let along = Vector3::new(angle.cos(), angle.sin(), 0.0) * model.radius;
+        let along = Vector3::new(x, y, 0.0).normalize() * model.radius;
         let across = Vector3::z() - normal * normal.z;
         let first = (Vector3::x() - normal * normal.x).normalize();
         Touch {
@@ -131,18 +131,24 @@ mod tests {
         let surface = Surface::new(0.5, 0.3)
             .and_then(|surface| surface.with_friction_lengths(5e-5, 5e-6))
             .expect("valid");
-        let coin = Coin::cylinder(0.7071, 0.0116).expect("valid");
+        let coin = Coin::cylinder(0.7, 0.0116).expect("valid");
         let scene = Scene::new(coin, surface, Scene::STANDARD_GRAVITY_M_S2).expect("valid");
         let model = Model::new(&scene);
-        for direction in 0..36 {
-            let (sine, cosine) = (f64::from(direction) * 10f64.to_radians()).sin_cos();
+        for [x, y] in [
+            [1.0, 0.0],
+            [0.6, 0.8],
+            [0.0, 1.0],
+            [-1.0, 0.0],
+            [-0.6, -0.8],
+            [0.0, -1.0],
+        ] {
             let touches = [
-                touch(&model, -0.18, [-0.0044, 0.0008]),
-                touch(&model, 4.09, [-0.0006, -0.0008]),
+                touch(&model, [0.98, -0.18], [-0.0044, 0.0008]),
+                touch(&model, [-0.58, -0.81], [-0.0006, -0.0008]),
             ];
             let mut motion = Motion {
                 position: Vector3::zeros(),
-                velocity: Vector3::new(cosine, sine, 0.0),
+                velocity: Vector3::new(x, y, 0.0),
                 axis: Vector3::z(),
                 spin: Vector3::zeros(),
             };
@@ -163,7 +169,7 @@ mod tests {
             contacts.gather(&model, &motion, touches.iter().copied());
             for contact in 0..2 {
                 let rate = contacts.before[contact * ROWS + NORMAL];
-                assert!(rate > -1e-9, "{direction}: {rate}");
+                assert!(rate > -1e-9, "{x} {y}: {rate}");
             }
         }
     }
