@@ -107,21 +107,20 @@ fn chatterjee_ruina(model: &Model, contacts: &mut Contacts, e: f64) {
 mod tests {
     use super::*;
     use crate::coulomb::Touch;
+    use crate::rough::rim::Minimum;
     use coinmc_core::{Coin, Scene, Surface};
 
     /// A contact of the lower rim of a level coin, in this direction from its centre, on a slope.
     fn touch(model: &Model, [x, y]: [f64; 2], slope: [f64; 2]) -> Touch {
-        let normal = Vector3::new(slope[0], slope[1], 1.0).normalize();
-        let along = Vector3::new(x, y, 0.0).normalize() * model.radius;
-        let across = Vector3::z() - normal * normal.z;
-        let first = (Vector3::x() - normal * normal.x).normalize();
-        Touch {
-            arm: along - Vector3::z() * model.half,
-            normal,
-            tangents: [first, normal.cross(&first)],
-            rolling: across.normalize(),
-            steepness: 1.0 / across.norm(),
-        }
+        let along = Vector3::new(x, y, 0.0).normalize();
+        let contact = Minimum {
+            end: -1.0,
+            along,
+            arm: along * model.radius - Vector3::z() * model.half,
+            normal: Vector3::new(slope[0], slope[1], 1.0).normalize(),
+            gap: 0.0,
+        };
+        contact.touch(&Vector3::z())
     }
 
     /// A coin that slides on its face over ground of slopes about .001: one point arrives slowly while

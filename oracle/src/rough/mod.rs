@@ -1,7 +1,7 @@
 //! Whole tosses onto an explicit rough ground, in fixed steps.
 
 mod decision;
-mod rim;
+pub(crate) mod rim;
 mod start;
 mod step;
 mod stepper;

@@ -50,6 +50,17 @@ fn scene(ratio: f64) -> Scene {
     Scene::new(coin, surface, Scene::STANDARD_GRAVITY_M_S2).expect("gravity is positive")
 }
 
+/// All combinations of H/R, slope and wavelength in mm.
+fn grid(ratios: &[f64], slopes: &[f64], wavelengths_mm: &[f64]) -> Vec<(f64, f64, f64)> {
+    let mut grid = Vec::new();
+    for &ratio in ratios {
+        for &slope in slopes {
+            grid.extend(wavelengths_mm.iter().map(|&wave| (ratio, slope, wave)));
+        }
+    }
+    grid
+}
+
 /// The seed of a toss's ground: the same in every scene.
 fn ground_seed(seed: u64, toss: u64) -> u64 {
     seed.wrapping_shl(32).wrapping_add(toss)

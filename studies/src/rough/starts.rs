@@ -1,7 +1,7 @@
-//! P(a coin that starts upright, rolling or spinning, stays on its side).
+//! P(a coin that starts on its rim, rolling or spinning, stays on its side).
 
 use super::engine::Beside;
-use super::{Steps, Sums, ground_seed, scene};
+use super::{Steps, Sums, grid, ground_seed, scene};
 use crate::survey::survey;
 use clap::{Args, ValueEnum};
 use coinmc_bench::{Report, Table, number};
@@ -9,12 +9,10 @@ use coinmc_core::{Launch, Scene};
 use coinmc_oracle::{RoughStepper, Start};
 use coinmc_testkit::Dice;
 
-/// Speed of rolling, m/s.
-const SPEED_M_S: f64 = 0.3;
 /// Rate of spinning, rad/s.
 const RATE_RAD_S: f64 = 60.0;
-/// Largest lean, rad.
-const LEAN_RAD: f64 = 1e-3;
+/// Largest difference of a coin's lean from that asked for, rad.
+const SCATTER_RAD: f64 = 1e-3;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Kind {
@@ -45,6 +43,14 @@ pub(crate) struct RoughStarts {
     #[arg(long, value_delimiter = ',', default_values_t = [1.0, 3.0, 10.0])]
     wavelengths_mm: Vec<f64>,
 
+    /// Speed of those that roll, m/s
+    #[arg(long, default_value_t = 0.3, value_name = "SPEED")]
+    speed_m_s: f64,
+
+    /// Lean from upright, rad
+    #[arg(long, default_value_t = 0.0, value_name = "LEAN")]
+    lean_rad: f64,
+
     #[command(flatten)]
     steps: Steps,
 
@@ -56,6 +62,8 @@ pub(crate) struct RoughStarts {
 #[derive(Debug, Clone, Copy)]
 struct Cell {
     kind: Kind,
+    start: Start,
+    lean_rad: f64,
     ratio: f64,
     slope: f64,
     wavelength_mm: f64,
@@ -69,8 +77,9 @@ impl RoughStarts {
         columns.extend(Sums::COLUMNS);
         columns.extend(Beside::COLUMNS);
         let title = format!(
-            "P(side) of coins that start upright, rolling at {SPEED_M_S} m/s or spinning at \
-             {RATE_RAD_S} rad/s"
+            "P(side) of coins that start leaning by {} rad, rolling at {} m/s or spinning at \
+             {RATE_RAD_S} rad/s",
+            self.lean_rad, self.speed_m_s
         );
         let mut record = Table::new(title, &columns);
         for (cell, sums) in cells.iter().zip(&found) {
@@ -92,27 +101,28 @@ impl RoughStarts {
         let mut report = Report::new(record);
         report.remark(format!(
             "Each coin has a ground of its own, the same in every scene up to its scale, and a lean \
-             within ±{LEAN_RAD} rad. It is followed until its energy decides or it rests. \
+             within ±{SCATTER_RAD} rad of that. It is followed until its energy decides or it rests. \
              most_returned: energy in mgD that steps of contact gained and that was taken back."
         ));
         report
     }
 
     fn cells(&self) -> Vec<Cell> {
-        let mut cells = Vec::new();
-        for &kind in &self.starts {
-            for &ratio in &self.ratios {
-                for &slope in &self.slopes {
-                    cells.extend(self.wavelengths_mm.iter().map(|&wavelength_mm| Cell {
-                        kind,
-                        ratio,
-                        slope,
-                        wavelength_mm,
-                    }));
-                }
-            }
-        }
-        cells
+        let grounds = grid(&self.ratios, &self.slopes, &self.wavelengths_mm);
+        let of_kind = |&kind: &Kind| {
+            let start = kind.start(self.speed_m_s);
+            grounds
+                .iter()
+                .map(move |&(ratio, slope, wavelength_mm)| Cell {
+                    kind,
+                    start,
+                    lean_rad: self.lean_rad,
+                    ratio,
+                    slope,
+                    wavelength_mm,
+                })
+        };
+        self.starts.iter().flat_map(of_kind).collect()
     }
 
     fn follow(&self, cell: &Cell, seed: u64) -> Sums {
@@ -131,8 +141,8 @@ impl RoughStarts {
 
 impl Cell {
     fn launch(&self, scene: &Scene, seed: u64, coin: u64) -> Launch {
-        let lean = Dice::new(seed, coin).between(-LEAN_RAD, LEAN_RAD);
-        self.kind.start().launch(&scene.coin, lean)
+        let lean = self.lean_rad + Dice::new(seed, coin).between(-SCATTER_RAD, SCATTER_RAD);
+        self.start.launch(&scene.coin, lean)
     }
 }
 
@@ -144,9 +154,9 @@ impl Kind {
         }
     }
 
-    fn start(self) -> Start {
+    fn start(self, speed_m_s: f64) -> Start {
         match self {
-            Self::Rolling => Start::Rolling(SPEED_M_S),
+            Self::Rolling => Start::Rolling(speed_m_s),
             Self::Spinning => Start::Spinning(RATE_RAD_S),
         }
     }

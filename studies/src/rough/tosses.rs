@@ -1,7 +1,7 @@
 //! P(side) of whole tosses by hand onto rough ground.
 
 use super::engine::Beside;
-use super::{Steps, Sums, ground_seed, scene};
+use super::{Steps, Sums, grid, ground_seed, scene};
 use crate::survey::survey;
 use clap::Args;
 use coinmc_bench::{Case, Report, Table, number};
@@ -43,7 +43,7 @@ pub(crate) struct RoughTosses {
 
 impl RoughTosses {
     pub(crate) fn execute(&self, seed: u64) -> Report {
-        let scenes = self.scenes();
+        let scenes = grid(&self.ratios, &self.slopes, &self.wavelengths_mm);
         let found = survey(&scenes, |scene| self.follow(*scene, seed));
         let mut columns = vec!["ratio", "slope", "wavelength_mm"];
         columns.extend(Sums::COLUMNS);
@@ -68,17 +68,6 @@ impl RoughTosses {
         let mut report = Report::new(record);
         report.remark("Launches are those of examples/hand.toml, each onto a ground of its own.");
         report
-    }
-
-    /// H/R, slope and wavelength in mm.
-    fn scenes(&self) -> Vec<(f64, f64, f64)> {
-        let mut scenes = Vec::new();
-        for &ratio in &self.ratios {
-            for &slope in &self.slopes {
-                scenes.extend(self.wavelengths_mm.iter().map(|&wave| (ratio, slope, wave)));
-            }
-        }
-        scenes
     }
 
     fn follow(&self, (ratio, slope, wavelength_mm): (f64, f64, f64), seed: u64) -> Sums {
