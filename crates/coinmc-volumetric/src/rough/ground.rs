@@ -2,7 +2,6 @@
 
 use super::field::HeightField;
 use crate::body::Body;
-use crate::motion::{Motion, Spin};
 
 /// The ground under a rim's arc is not expected to be higher than in its middle by more than this
 /// many σ.
@@ -21,8 +20,6 @@ const BRIDGING: f64 = 0.1;
 /// The other rim is near the ground while it is lower than this many times the rms difference of
 /// the ground's heights under the rims.
 const NEAR: f64 = 6.0;
-/// Standard deviations of the slope under one rim that may matter to a coin that turns.
-const KICKS: f64 = 20.0;
 /// Largest cosine of a tilt at which the other rim counts as near.
 const LARGEST_NEAR: f64 = 0.5;
 
@@ -42,10 +39,7 @@ pub(crate) struct Ground {
     /// The ground matters where it decides which rim carries the coin. A coin that leans on one rim
     /// with the other high above the ground is hardly moved by slopes: the kick of a slope on one rim
     /// changes the lean by about h²/(k_t + R² + h²) of what it does across both.
-    pub(crate) near: f64,
-    /// The rate ω_z of turning about the vertical below which slopes under one rim alone do not matter: see
-    /// [`kicks_by_turning`](Self::kicks_by_turning).
-    slow_turn: f64,
+    pub(super) near: f64,
     /// A height that the ground, and so a rim that it carries, nowhere exceeds.
     pub(super) highest: f64,
     /// A face is decided where the energy above the ground under the rim falls short of the balance by
@@ -88,21 +82,10 @@ impl Ground {
             height,
             contrast,
             near: (NEAR * height * contrast / thickness).min(LARGEST_NEAR),
-            slow_turn: ((1.0 - body.radius) / (0.5 * body.kt)).sqrt() / (KICKS * height / length),
             highest: height * HeightField::shared().highest(),
             face_margin: SPREAD * height,
             kicks: Kicks::new(thickness / body.outer_radius(), lean),
         }
-    }
-
-    /// How much slopes under one rim alone kick a coin that turns about the vertical; up to 1 they do not
-    /// matter.
-    ///
-    /// A rim that touches ξ = g_y R ahead of its lowest point slips along x by −ω_z ξ. Where friction ends
-    /// that, the coin tilts at the rate ω_z ξ R/(k_t + R²), about ω_z g_y. It counts where several standard
-    /// deviations of that have the energy of the well of a coin on its side.
-    pub(super) fn kicks_by_turning(&self, motion: &Motion<f64>, spin: &Spin<f64>) -> f64 {
-        motion.turning(spin).abs() / self.slow_turn
     }
 
     /// The rms slope along a direction.

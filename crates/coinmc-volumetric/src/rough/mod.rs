@@ -42,6 +42,8 @@ mod decision;
 mod field;
 mod ground;
 mod hop;
+mod impact;
+mod incline;
 mod random_place;
 mod rim_contact;
 mod rims_in_flight;
@@ -50,4 +52,4 @@ mod tracks;
 mod walk;
 
 pub(crate) use ground::Ground;
-pub(crate) use walk::FLATTEST;
+pub(crate) use walk::{FELT, FLATTEST};

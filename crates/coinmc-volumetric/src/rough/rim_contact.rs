@@ -40,7 +40,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         if self.tracks.at_node() {
             return self.pass_node(&contact);
         }
-        if self.other_is_clear() {
+        if self.is_clear() {
             return Next::Ends(Transition::Contact);
         }
         if self.barely_rocks(&contact) {

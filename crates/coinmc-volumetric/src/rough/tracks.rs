@@ -58,12 +58,17 @@ pub(super) struct RimPoint {
     /// Along x and z.
     pub(super) rx: f64,
     pub(super) rz: f64,
-    /// Velocity over the ground.
+    /// How it moves over the ground.
     wx: f64,
     wy: f64,
 }
 
 impl RimPoint {
+    /// Velocity over the ground.
+    pub(super) fn velocity(&self) -> [f64; 2] {
+        [self.wx, self.wy]
+    }
+
     /// Speed over the ground.
     pub(super) fn speed(&self) -> f64 {
         (self.wx * self.wx + self.wy * self.wy).sqrt()
@@ -94,6 +99,13 @@ impl Footing {
         }
     }
 
+    /// The slopes of the ground, along x and y of the coin's frame at the node.
+    pub(super) fn slopes(&self, ground: &Ground) -> [f64; 2] {
+        let ([gx, gy], [ax, ay]) = (ground.gradient(self.place), self.along);
+        let steep = self.bridge.unwrap_or(gx * ax + gy * ay);
+        [gx * ay - gy * ax, steep]
+    }
+
     /// The same in the frame turned by half a turn.
     fn reversed(self) -> Self {
         Self {
@@ -119,9 +131,7 @@ impl Track {
         let Some(footing) = &self.footing else {
             return [0.0; 2];
         };
-        let ([gx, gy], [ax, ay]) = (ground.gradient(footing.place), footing.along);
-        let steep = footing.bridge.unwrap_or(gx * ax + gy * ay);
-        [gx * ay - gy * ax, steep]
+        footing.slopes(ground)
     }
 }
 
@@ -219,16 +229,13 @@ impl Tracks {
         let curvature = motion.sin / body.outer_radius();
         let (sin, cos) = sin_cos(turn * time);
         let along = place.direction(-sin, cos);
-        // beyond the lean at which it topples, slopes under one rim matter only to a coin that turns fast
-        let stands = motion.cos * body.radius < body.half;
-        let follows = near || stands || ground.kicks_by_turning(motion, spin) > 1.0;
         let lead = |track: &mut Track, point: &RimPoint| {
             let x = point.rx * cos + (motion.vx + point.rz * spin.tilt) * time;
             let y = point.rx * sin + motion.vy * time;
             let at = place.point(x, y);
             let support = ground.under_rim(at, along, curvature);
             track.rate = (support.height - track.height) / time;
-            track.footing = follows.then(|| Footing::new(&support, at, along));
+            track.footing = Some(Footing::new(&support, at, along));
         };
         lead(&mut self.own, &points[0]);
         if near {

@@ -11,16 +11,15 @@ use crate::motion::{Motion, Spin};
 use crate::place::Place;
 use crate::toss::Toss;
 use crate::transition::Transition;
-use coinmc_core::{Decided, Ended, EventKind, Observer};
+use coinmc_core::{Decided, Ended, Observer};
 
 /// A coin that is flatter than this sine of its tilt touches with a long arc of its rim, and the
 /// ground under it counts as a plane.
 pub(crate) const FLATTEST: f64 = 0.2;
 
-/// Landings slower than this many times the rms speed at which the ground under a rim rises are
-/// those of a rim that follows it, not bounces off a slope. While the other rim is clear of the
-/// ground, they are on level ground.
-const SLOW: f64 = 5.0;
+/// The cosine of the tilt up to which a coin on one rim feels the ground: it leans farther only on the way
+/// to its face.
+pub(crate) const FELT: f64 = 0.5;
 
 /// What touches the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -108,7 +107,7 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
         usage: &'a mut Usage,
         observer: &'a mut O,
     ) -> Self {
-        let place = ground.random_place(&toss.motion);
+        let (place, _) = ground.random_place(&toss.motion, 0);
         let budget = toss.motion.energy(&model.dynamics.body, &toss.spin);
         Self {
             model,
@@ -158,17 +157,13 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
 
     /// The landing of a coin above the ground. Most coins fly on at once, and need no heights.
     fn land(&mut self) -> Transition {
+        self.draw_place();
         self.land_first_rim();
         let (motion, spin) = (self.toss.motion, self.toss.spin);
         let time = self.time_between_nodes();
         self.tracks = Tracks::level(time);
-        let slow = self.approach() < SLOW * self.speed_of_slopes();
-        self.tracks.own.rate = if slow && self.other_is_clear() {
-            0.0
-        } else {
-            self.rate_of_landing()
-        };
-        let next = self.impact();
+        let slopes = self.slopes_under_rim();
+        let next = self.collide_with(slopes);
         if next == Next::Ends(Transition::Flight(Departure::Rebound)) && self.lies_on_face() {
             return Transition::End(self.toss.ended(Decided::Face));
         }
@@ -200,7 +195,7 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
     /// Does what is next.
     fn go_on(&mut self, next: Next) -> Next {
         match next {
-            Next::Impact => self.impact(),
+            Next::Impact => self.collide(),
             Next::Goes(touch) => {
                 if touch != Touch::Nothing {
                     self.model.note_contact(self.toss);
@@ -240,62 +235,30 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
             - self.tracks.other.height
     }
 
-    /// Whether the other rim is clear of the ground, and will be until the next node, so that the
-    /// plane serves.
-    pub(super) fn other_is_clear(&self) -> bool {
-        /// The share by which the tilt must exceed the one at which the rim counts as near.
-        const CLEAR: f64 = 1.3;
+    /// Whether the coin leans so far, and will until the next node, that the plane serves.
+    pub(super) fn is_clear(&self) -> bool {
+        /// The share by which the lean must exceed that at which the ground is felt.
+        const CLEAR: f64 = 1.1;
         let reached = self.toss.spin.tilt.max(0.0) * self.tracks.interval;
         let lean = self.toss.motion.cos - reached;
         // what a plane decides for the side is decided here, not on the plane
-        lean > CLEAR * self.ground.near && !self.is_kicked(lean) && {
+        lean > CLEAR * FELT && {
             let motion = self.relative_motion();
             let state = motion.decision_state(self.body(), &self.toss.spin);
             self.model.rule.decide(&state) != Decided::Side
         }
     }
 
-    /// Whether the slopes under the own rim alone may topple or right a coin that leans like this, as it
-    /// turns about the vertical: see [`Ground::kicks_by_turning`].
-    fn is_kicked(&self, lean: f64) -> bool {
-        /// The lean beyond which this is left out, as a multiple of that at which the coin topples, with a way
-        /// of ½ ℓ between nodes (with shorter ways it is more), and at most. The farther a coin leans, the
-        /// more it takes to right it: one that turns slowly counts up to less.
-        const FAR: f64 = 3.0;
-        const STEP: f64 = 0.5;
-        const FARTHEST: f64 = 0.5;
-        let (ground, body) = (self.ground, self.body());
-        let kicks = ground.kicks_by_turning(&self.toss.motion, &self.toss.spin);
-        let topples = body.half / body.radius;
-        let far = STEP / self.model.ground_step * kicks.min(FAR) * topples;
-        kicks > 1.0 && lean < far.min(FARTHEST)
-    }
-
     /// The speed at which the own rim approaches the mean ground.
-    fn approach(&self) -> f64 {
+    pub(super) fn approach(&self) -> f64 {
         let [own, _] = rim_points(self.body(), &self.toss.motion, &self.toss.spin);
         self.toss.spin.tilt * own.rx - self.toss.motion.vz
-    }
-
-    /// The rate at which the ground under the material point that lands rises: that point meets the
-    /// slope with its own velocity, not with that of the lowest point along the rim.
-    fn rate_of_landing(&self) -> f64 {
-        let point = self.toss.motion.contact_point(self.body(), &self.toss.spin);
-        let [x, y] = self.place.direction(point.slip_x, point.slip_y);
-        let [gx, gy] = self.ground.gradient(self.place.point(point.rx, 0.0));
-        gx * x + gy * y
     }
 
     /// How far ahead of its lowest point a rim touches, where the ground is as steep as the rim.
     pub(super) fn ahead_of(&self, track: &Track) -> f64 {
         let [_, steep] = track.slopes(self.ground);
         steep * self.body().outer_radius() / self.toss.motion.sin
-    }
-
-    /// The rms speed at which the ground under the own rim rises and falls.
-    fn speed_of_slopes(&self) -> f64 {
-        let [own, _] = rim_points(self.body(), &self.toss.motion, &self.toss.spin);
-        own.speed() * self.ground.slope()
     }
 
     /// The motion relative to a level ground at the height of the own track that rises with it.
@@ -364,51 +327,6 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
         self.place.align(cos, sin);
     }
 
-    /// One impact of the own rim: with the ground on which it lands, or with a bump on its way. Bumps
-    /// are many, and count as steps.
-    fn impact(&mut self) -> Next {
-        let model = self.model;
-        self.usage.steps += 1;
-        model.notify(self.toss, EventKind::Touching, self.observer);
-        let stays = self.bounce();
-        model.notify(self.toss, EventKind::Impact, self.observer);
-        if stays {
-            Next::Goes(Touch::Rim)
-        } else {
-            self.rise()
-        }
-    }
-
-    /// The bounce of the own rim off its track; returns whether it stays on the ground.
-    pub(super) fn bounce(&mut self) -> bool {
-        let (mut before, spin) = (self.relative_motion(), self.toss.spin);
-        // seen from a frame in which the point that touches slips as the lowest one
-        let ahead = self.ahead_of(&self.tracks.own);
-        let drift = ahead * before.turning(&spin);
-        before.vx -= drift;
-        let mut bounced = self.model.bounce(&before, &spin, true);
-        if bounced.retry {
-            bounced = self.model.bounce(&before, &spin, false);
-        }
-        bounced.motion.vx += drift;
-        let energy_before = before.energy(self.body(), &spin);
-        let energy_after = Motion {
-            vx: bounced.motion.vx - drift,
-            ..bounced.motion
-        }
-        .energy(self.body(), &bounced.spin);
-        let lost = energy_before - energy_after;
-        // the loss is right to first order in the slope, so what little would be left of the kinetic
-        // energy is uncertain by the second order of it
-        let uncertain = self.ground.slope() * self.ground.slope();
-        let kinetic = self.toss.motion.kinetic(self.body(), &spin);
-        let least = self.toss.motion.z + uncertain * kinetic;
-        self.budget = (self.budget - lost.max(0.0)).max(least.min(self.budget));
-        self.set_relative(bounced.motion, bounced.spin);
-        self.balance();
-        bounced.stays
-    }
-
     /// What follows once the own rim is clear of the ground: a high flight, or a low hop.
     pub(super) fn rise(&mut self) -> Next {
         /// A flight that rises by more than this many σ and goes farther than this many ℓ lands on
@@ -428,7 +346,7 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
         let apex = 0.5 * speed * speed;
         let way = 2.0 * speed * own.speed();
         let high = apex > HIGH * self.ground.height && way > FAR * self.ground.length;
-        if high || self.other_is_clear() {
+        if high || self.is_clear() {
             return Next::Ends(Transition::Flight(departure));
         }
         Next::Goes(Touch::Nothing)
