@@ -6,7 +6,7 @@ use crate::drag::Drag;
 use crate::limits::Limits;
 use crate::pull::Pull;
 use crate::restitution::Restitution;
-use crate::rough::{FELT, Ground};
+use crate::rough::Ground;
 use crate::settings::{Decision, Settings, SettingsError};
 use crate::toss::Toss;
 use coinmc_core::{DecisionRule, Event, EventKind, Landing, Launch, LowerRim, Observer, Scene};
@@ -80,7 +80,9 @@ impl<L> Model<L> {
             let length = roughness.correlation_length_m() / units.length_m;
             Ground::new(roughness.slope(), length, &body)
         });
-        let side = ground.as_ref().map_or(FRAC_PI_2, |_| libm::acos(FELT));
+        let side = ground
+            .as_ref()
+            .map_or(FRAC_PI_2, |ground| libm::acos(ground.felt));
         let restitution = Restitution::new(&scene.surface, &units);
         let keeps = rule.loses_nothing(scene.surface.restitution()) && restitution.is_constant();
         let dynamics = Dynamics::new(body, friction, drag, axial_factor, settings.smoothing_time);

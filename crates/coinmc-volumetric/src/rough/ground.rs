@@ -23,6 +23,13 @@ const NEAR: f64 = 6.0;
 /// Largest cosine of a tilt at which the other rim counts as near.
 const LARGEST_NEAR: f64 = 0.5;
 
+/// A coin on one rim feels the ground up to this many times the lean at which it topples, whose cosine
+/// is h; at most up to this cosine; and farther than its other rim does. With 2 instead of 3 times, half of
+/// the thin coins end on their side; with 5 times, as many (`docs/methods/rough.md`).
+const FELT: f64 = 3.0;
+const LARGEST_FELT: f64 = 0.5;
+const BEYOND_NEAR: f64 = 1.2;
+
 /// A random ground of stated rms slope and correlation length, under a coin of stated thickness; lengths
 /// in the kernel's unit D.
 #[derive(Debug, Clone, Copy)]
@@ -35,11 +42,10 @@ pub(crate) struct Ground {
     /// coin on its side, in σ, or of the slopes there, in s.
     pub(super) contrast: f64,
     /// The cosine of the tilt below which the other rim of the coin is near the ground.
-    ///
-    /// The ground matters where it decides which rim carries the coin. A coin that leans on one rim
-    /// with the other high above the ground is hardly moved by slopes: the kick of a slope on one rim
-    /// changes the lean by about h²/(k_t + R² + h²) of what it does across both.
     pub(super) near: f64,
+    /// The cosine of the tilt up to which a coin on one rim feels the ground. It leans farther only on the
+    /// way to its face, and moves as on a plane.
+    pub(crate) felt: f64,
     /// A height that the ground, and so a rim that it carries, nowhere exceeds.
     pub(super) highest: f64,
     /// A face is decided where the energy above the ground under the rim falls short of the balance by
@@ -77,11 +83,13 @@ impl Ground {
         // one standard deviation of the lean at which a coin with both rims down rests, as a share of
         // the lean at which it topples
         let lean = height * contrast / thickness / (body.half / body.radius);
+        let near = (NEAR * height * contrast / thickness).min(LARGEST_NEAR);
         Self {
             length,
             height,
             contrast,
-            near: (NEAR * height * contrast / thickness).min(LARGEST_NEAR),
+            near,
+            felt: (FELT * body.half).min(LARGEST_FELT).max(BEYOND_NEAR * near),
             highest: height * HeightField::shared().highest(),
             face_margin: SPREAD * height,
             kicks: Kicks::new(thickness / body.outer_radius(), lean),

@@ -45,29 +45,10 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         Footing::new(&support, point, along).slopes(self.ground)
     }
 
-    /// The slopes of the ground at the own rim, which along its way are those of its track.
-    fn slopes_of_track(&self) -> [f64; 2] {
-        /// Slopes in s beyond which a track does not lead: one that begins above the ground may fall
-        /// steeply at first.
-        const STEEPEST: f64 = 5.0;
-        let [own, _] = rim_points(self.body(), &self.toss.motion, &self.toss.spin);
-        let [gx, gy] = self.tracks.own.slopes(self.ground);
-        let ([wx, wy], speed) = (own.velocity(), own.speed());
-        let steepest = STEEPEST * self.ground.slope();
-        let along =
-            (self.tracks.own.rate / speed.max(f64::MIN_POSITIVE)).clamp(-steepest, steepest);
-        let (x, y) = (
-            wx / speed.max(f64::MIN_POSITIVE),
-            wy / speed.max(f64::MIN_POSITIVE),
-        );
-        let missing = along - gx * x - gy * y;
-        [gx + missing * x, gy + missing * y]
-    }
-
-    /// One impact of the own rim with a bump on its way, or with the ground that it comes down to. Bumps
-    /// are many, and count as steps.
+    /// One impact of the own rim with a bump on its way, or with the ground that it comes down to: with the
+    /// slopes of what carries the rim at the next node. Bumps are many, and count as steps.
     pub(super) fn collide(&mut self) -> Next {
-        let slopes = self.slopes_of_track();
+        let slopes = self.tracks.own.slopes(self.ground);
         self.collide_with(slopes)
     }
 

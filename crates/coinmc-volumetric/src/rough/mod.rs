@@ -52,4 +52,4 @@ mod tracks;
 mod walk;
 
 pub(crate) use ground::Ground;
-pub(crate) use walk::{FELT, FLATTEST};
+pub(crate) use walk::FLATTEST;

@@ -17,10 +17,6 @@ use coinmc_core::{Decided, Ended, Observer};
 /// ground under it counts as a plane.
 pub(crate) const FLATTEST: f64 = 0.2;
 
-/// The cosine of the tilt up to which a coin on one rim feels the ground: it leans farther only on the way
-/// to its face.
-pub(crate) const FELT: f64 = 0.5;
-
 /// What touches the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Touch {
@@ -242,7 +238,7 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
         let reached = self.toss.spin.tilt.max(0.0) * self.tracks.interval;
         let lean = self.toss.motion.cos - reached;
         // what a plane decides for the side is decided here, not on the plane
-        lean > CLEAR * FELT && {
+        lean > CLEAR * self.ground.felt && {
             let motion = self.relative_motion();
             let state = motion.decision_state(self.body(), &self.toss.spin);
             self.model.rule.decide(&state) != Decided::Side
@@ -303,8 +299,31 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
 
     pub(super) fn time_between_nodes(&self) -> f64 {
         let (motion, spin) = (&self.toss.motion, &self.toss.spin);
-        let step = self.model.ground_step * self.ground.length;
+        let step = self.model.ground_step * self.ground.length * self.stride();
         Tracks::time_between_nodes(step, self.body(), motion, spin)
+    }
+
+    /// How many times as far apart as usual the nodes may be.
+    ///
+    /// Bumps under one rim take a rolling coin at most ½ s²w² of energy on a way ℓ, and rolling friction
+    /// takes ℓ ρ_c/R. Where the bumps take less, a coin that leans far is moved by friction, not by them.
+    fn stride(&self) -> f64 {
+        /// Leaning farther than this share of the lean at which it topples, the coin does not fall or rise
+        /// for the sake of a few bumps.
+        const LEANS: f64 = 0.5;
+        const LONGEST: f64 = 8.0;
+        let (body, ground, spin) = (self.body(), self.ground, &self.toss.spin);
+        let upright = ground.near.max(LEANS * body.half);
+        if self.toss.motion.cos <= upright + spin.tilt.abs() * self.tracks.interval {
+            return 1.0;
+        }
+        let [own, _] = rim_points(body, &self.toss.motion, spin);
+        let bumps = 0.5 * (ground.slope() * own.speed()).powi(2);
+        let contour = self.model.dynamics.friction.contour;
+        let friction = ground.length * contour / body.outer_radius();
+        (friction / bumps.max(f64::MIN_POSITIVE))
+            .sqrt()
+            .clamp(1.0, LONGEST)
     }
 
     /// Makes the other rim the own one, by reversing the axis of the folded frame.
