@@ -1,15 +1,24 @@
-//! P(side) of whole tosses by hand onto rough ground.
+//! P(side) of whole tosses onto rough ground.
 
 use super::engine::Beside;
 use super::{Steps, Sums, grid, ground_seed, scene};
 use crate::survey::survey;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use coinmc_bench::{Case, Report, Table, number};
 use coinmc_core::{LaunchDistribution, Marginal, Preset, Spin};
 use coinmc_oracle::RoughStepper;
 
 /// ψ of the tosses of `examples/hand.toml`.
 const PSI_DEG: f64 = 75.0;
+
+/// How coins are tossed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Way {
+    /// By hand, as in examples/hand.toml
+    Hand,
+    /// Dropped at any orientation, without spin
+    Drop,
+}
 
 /// The study's arguments.
 #[derive(Debug, Args)]
@@ -21,6 +30,10 @@ pub(crate) struct RoughTosses {
     /// Number of the first toss: a long study can be made in parts
     #[arg(long, value_parser = number::count_or_zero, default_value = "0", value_name = "N")]
     first: u64,
+
+    /// How they are tossed
+    #[arg(long, value_enum, default_value = "hand", value_name = "WAY")]
+    launch: Way,
 
     /// H/R
     #[arg(long, value_delimiter = ',', default_values = ["0.2", "0.7071"])]
@@ -48,7 +61,7 @@ impl RoughTosses {
         let mut columns = vec!["ratio", "slope", "wavelength_mm"];
         columns.extend(Sums::COLUMNS);
         columns.extend(Beside::COLUMNS);
-        let title = format!("P(side) of tosses by hand, psi {PSI_DEG} degrees, on rough ground");
+        let title = format!("P(side) of tosses {}, on rough ground", self.launch.name());
         let mut record = Table::new(title, &columns);
         for ((ratio, slope, wavelength_mm), sums) in scenes.iter().zip(&found) {
             let mut row = vec![
@@ -58,7 +71,7 @@ impl RoughTosses {
             ];
             let scene = scene(*ratio);
             row.extend(sums.cells(&self.steps, &scene));
-            let launches = launches();
+            let launches = self.launch.launches();
             let ground = (*slope, *wavelength_mm);
             row.extend(self.beside.cells(&scene, ground, |toss| {
                 launches.launch(&scene.coin, &mut Case::stream(seed).toss(toss))
@@ -66,13 +79,13 @@ impl RoughTosses {
             record.push(row);
         }
         let mut report = Report::new(record);
-        report.remark("Launches are those of examples/hand.toml, each onto a ground of its own.");
+        report.remark("Each toss lands on a ground of its own.");
         report
     }
 
     fn follow(&self, (ratio, slope, wavelength_mm): (f64, f64, f64), seed: u64) -> Sums {
         let scene = scene(ratio);
-        let launches = launches();
+        let launches = self.launch.launches();
         let mut stepper = RoughStepper::new(&scene, self.steps.settings());
         let mut sums = Sums::default();
         for toss in self.first..self.first.saturating_add(self.tosses) {
@@ -86,8 +99,24 @@ impl RoughTosses {
     }
 }
 
+impl Way {
+    fn name(self) -> String {
+        match self {
+            Self::Hand => format!("by hand, psi {PSI_DEG} degrees"),
+            Self::Drop => "dropped without spin".to_owned(),
+        }
+    }
+
+    fn launches(self) -> LaunchDistribution {
+        match self {
+            Self::Hand => by_hand(),
+            Self::Drop => Preset::Drop.distribution(),
+        }
+    }
+}
+
 /// The launches of `examples/hand.toml`.
-fn launches() -> LaunchDistribution {
+fn by_hand() -> LaunchDistribution {
     let mut launches = Preset::Hand.distribution();
     launches.spin = Spin::Precessing {
         rate_rad_s: Marginal::Normal {

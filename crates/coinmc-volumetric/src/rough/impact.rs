@@ -93,3 +93,62 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         bounced.stays
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::Usage;
+    use crate::laws::Moreau;
+    use crate::model::Model;
+    use crate::motion::{Motion, Spin};
+    use crate::settings::Settings;
+    use coinmc_core::{Coin, Launch, Roughness, Scene, Surface};
+    use coinmc_testkit::Dice;
+    use nalgebra::{UnitVector3, Vector3};
+
+    /// The slope that a coin meets which comes down at v with the horizontal velocity w: places in proportion
+    /// to (v + g·w)₊ have the mean g·w = s²w²/v as long as v is many times s w. 4,000 landings; the mean has a
+    /// standard error of s w/√4000, and 5 of them are a false alarm in 1.7 million tests.
+    #[test]
+    fn a_coin_meets_rising_ground_more_often_in_proportion_to_the_speed_of_approach() {
+        let (slope, landings) = (0.02, 4_000);
+        let surface = Surface::new(0.5, 0.3).expect("a valid surface");
+        let surface = surface.with_roughness(Roughness::new(slope, 1.0).ok());
+        let coin = Coin::cylinder(0.6, 0.0116).expect("a valid coin");
+        let scene = Scene::new(coin, surface, 9.81).expect("a valid scene");
+        let model = Model::new(&scene, &Settings::default(), Moreau).expect("valid settings");
+        let ground = model.ground.expect("a rough ground");
+        let launch = Launch {
+            height_m: 0.0,
+            velocity_m_s: Vector3::zeros(),
+            axis: UnitVector3::new_normalize(Vector3::new(1.0, 0.0, 0.5)),
+            spin_rad_s: Vector3::zeros(),
+        };
+        let (along, down) = (1.0, 0.1);
+        let mut sum = 0.0;
+        for landing in 0..landings {
+            let mut toss = model.launch(&launch);
+            let heading = Dice::new(316, landing).between(0.0, 6.0);
+            toss.motion = Motion {
+                vx: along * libm::cos(heading),
+                vy: along * libm::sin(heading),
+                vz: -down,
+                ..toss.motion
+            };
+            toss.spin = Spin::still();
+            let [wx, wy] = [toss.motion.vx, toss.motion.vy];
+            let (mut usage, mut observer) = (Usage::default(), ());
+            let mut walk =
+                Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+            walk.draw_place();
+            let [gx, gy] = walk.slopes_under_rim();
+            sum += gx * wx + gy * wy;
+        }
+        let (mean, steep) = (sum / landings as f64, slope * along);
+        let error = mean - steep * steep / down;
+        assert!(
+            error.abs() < 5.0 * steep / (landings as f64).sqrt(),
+            "{mean}"
+        );
+    }
+}

@@ -104,3 +104,128 @@ fn cross(a: &Vector, b: &Vector) -> Vector {
         a[0] * b[1] - a[1] * b[0],
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::laws::Moreau;
+    use crate::model::Model;
+    use crate::settings::Settings;
+    use coinmc_core::{Coin, Scene, Surface};
+    use coinmc_testkit::Dice;
+    use std::f64::consts::TAU;
+
+    /// A motion, and its angular velocity in the coin's frame.
+    fn motion(dice: &mut Dice) -> (Motion<f64>, Spin<f64>) {
+        let angle = dice.between(0.2, 1.5);
+        let spin = Spin {
+            axial: dice.between(-3.0, 3.0),
+            turn: dice.between(-3.0, 3.0),
+            tilt: dice.between(-3.0, 3.0),
+        };
+        let motion = Motion {
+            sin: libm::sin(angle),
+            cos: libm::cos(angle),
+            vx: dice.between(-1.0, 1.0),
+            vy: dice.between(-1.0, 1.0),
+            vz: dice.between(-3.0, -1.0),
+            ..Motion::still()
+        };
+        (motion, spin)
+    }
+
+    fn velocity(motion: &Motion<f64>) -> Vector {
+        [motion.vx, motion.vy, motion.vz]
+    }
+
+    /// The sum of its parts along u and across it, each times a factor.
+    fn along_and_across(motion: &Motion<f64>, spin: &Spin<f64>, [a, t]: [f64; 2]) -> Vector {
+        let (sin, cos) = (motion.sin, motion.cos);
+        [
+            a * spin.axial * sin + t * spin.turn * cos,
+            t * spin.tilt,
+            a * spin.axial * cos - t * spin.turn * sin,
+        ]
+    }
+
+    /// The point of the lower rim, relative to the centre, that is lowest as seen along n: by trying many, to
+    /// within some 1e-8, as the height there is flat.
+    fn touching_point(motion: &Motion<f64>, [radius, half]: [f64; 2], n: &Vector) -> Vector {
+        let (u, across) = (
+            [motion.sin, 0.0, motion.cos],
+            [motion.cos, 0.0, -motion.sin],
+        );
+        let point = |angle: f64| -> Vector {
+            let (sin, cos) = libm::sincos(angle);
+            let y = [0.0, 1.0, 0.0];
+            std::array::from_fn(|i| radius * (cos * across[i] + sin * y[i]) - half * u[i])
+        };
+        let (mut middle, mut width) = (0.0, TAU);
+        while width > 1e-9 {
+            let best = (-500..=500)
+                .map(|k| middle + width * f64::from(k) / 1000.0)
+                .min_by(|a, b| dot(&point(*a), n).total_cmp(&dot(&point(*b), n)));
+            middle = best.unwrap_or(middle);
+            width *= 0.01;
+        }
+        point(middle)
+    }
+
+    /// Newton's and Coulomb's laws of an impact with a slope, in vectors: the impulse acts at the point of the
+    /// rim that is lowest along the normal, changes the velocity there along the normal by its restitution, and
+    /// takes energy; without friction it is along the normal.
+    #[test]
+    fn an_impact_is_one_with_the_plane_that_touches_the_ground() {
+        let mut impacts = 0;
+        for mu in [0.0, 0.3] {
+            let surface = Surface::new(0.5, mu).expect("a valid surface");
+            let coin = Coin::cylinder(0.6, 0.01).expect("a valid coin");
+            let scene = Scene::new(coin, surface, 9.81).expect("a valid scene");
+            let model = Model::new(&scene, &Settings::default(), Moreau).expect("valid settings");
+            let (body, factor) = (model.dynamics.body, model.dynamics.axial_factor);
+            for toss in 0..200 {
+                let mut dice = Dice::new(315, toss);
+                let (mut before, spin) = motion(&mut dice);
+                before.set_spin(&spin, factor);
+                let slopes = [dice.between(-0.2, 0.2), dice.between(-0.2, 0.2)];
+                let incline = Incline::new(&before, slopes);
+                let n = incline.axes[2];
+                let touch = touching_point(&before, [body.radius, body.half], &n);
+                let at_point = |motion: &Motion<f64>, spin: &Spin<f64>| {
+                    let rotation = cross(&along_and_across(motion, spin, [1.0; 2]), &touch);
+                    let of_centre = velocity(motion);
+                    let there: Vector = std::array::from_fn(|i| of_centre[i] + rotation[i]);
+                    dot(&there, &n)
+                };
+                let approach = -at_point(&before, &spin);
+                // slow ones may stay
+                if approach <= 0.5 {
+                    continue;
+                }
+                impacts += 1;
+                let (onto, turned) = incline.onto(&before, &spin, factor);
+                let bounced = model.bounce(&onto, &turned, false);
+                let (after, new) = incline.back(&before, (&bounced.motion, &bounced.spin), factor);
+
+                let (old, now) = (velocity(&before), velocity(&after));
+                let impulse: Vector = std::array::from_fn(|i| now[i] - old[i]);
+                let moments = [body.ka, body.kt];
+                let [had, has] = [(&before, &spin), (&after, &new)]
+                    .map(|(motion, spin)| along_and_across(motion, spin, moments));
+                let moment = cross(&touch, &impulse);
+                for i in 0..3 {
+                    let error = has[i] - had[i] - moment[i];
+                    assert!(error.abs() < 1e-6, "{toss}: {error:e} along {i}");
+                }
+                let leaves = at_point(&after, &new);
+                assert!((leaves - 0.5 * approach).abs() < 1e-6, "{toss}: {leaves}");
+                assert!(after.kinetic(&body, &new) <= before.kinetic(&body, &spin));
+                if mu == 0.0 {
+                    let across = cross(&impulse, &n);
+                    assert!(dot(&across, &across) < 1e-24, "{toss}: {across:?}");
+                }
+            }
+        }
+        assert!(impacts > 200, "{impacts}");
+    }
+}
