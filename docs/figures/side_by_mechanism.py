@@ -54,6 +54,7 @@ CHANGES = [
     ("table", "λ = 1 mm", ["surface.roughness_wavelength_m=1e-3"]),
     ("table", "λ = 10 mm", ["surface.roughness_wavelength_m=1e-2"]),
     ("table", "`glass`", ['surface.material="glass"']),
+    ("launch", "ψ = 90°, on a plane", ["launch.spin.precessing.psi_deg=90", PLANE]),
 ]
 # Fair at a lower ratio than the others.
 THIN = [("bounce", "μ = 0.6", ["surface.friction=0.6", PIVOTING])]

@@ -127,7 +127,7 @@ impl Material {
             contact_patch_m: of(4.7e-5, hertz!("1 GPa (across the grain)")),
             roughness_slope: of(
                 0.05,
-                "estimate: with it a nickel, H/R = 0.184, stands in about 1 of 550 tosses by hand, with 0.025 in 1 of 75",
+                "estimate: with it a nickel, H/R = 0.184, stands in about 1 of 300 tosses by hand, with 0.025 in 1 of 50",
             ),
             roughness_wavelength_m: of(3e-3, GUESS),
         },

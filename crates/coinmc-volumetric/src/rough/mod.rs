@@ -18,23 +18,26 @@
 //! * The other rim touches when it meets its own track. Both rims stay down while the normal forces
 //!   that this takes are positive.
 //! * A slope pulls a coin in contact downhill ([`slopes`]).
-//! * Mechanical energy is a budget that only impacts and friction reduce. What a coin gains by
+//! * An impact is one with the plane that touches the ground there, under any law ([`incline`], [`impact`]).
+//! * Mechanical energy is a budget that only impacts and friction reduce. What a coin that rolls gains by
 //!   climbing is taken from its velocities at every node, and returned on the way down.
 //!
 //! Where on the field a coin lands is random: a hash of its motion, so that a toss remains a pure
-//! function of its launch. High flights end on other ground.
+//! function of its launch. Ground that rises against the rim is met more often. High flights end on other
+//! ground.
 //!
 //! # Range
-//! First order in s. The limits s → 0 and ℓ → ∞ are the plane. A coin flatter than [`FLATTEST`]
-//! moves as on a plane.
+//! First order in s. The limits s → 0 and ℓ → ∞ are the plane. A coin on one rim that leans far beyond
+//! the balance, or is flatter than [`FLATTEST`], moves as on a plane.
 //!
 //! # Modules
 //! Each line uses only the lines above it:
 //!
 //! - `field` the random field in its own units · `ground` what a rim meets · `random_place` where
 //! - `tracks` the ground under both rims · `rims_in_flight` where they are in flight
-//! - `walk` the state of a coin and the loop; `balance` its energy; `hop`, `rim_contact`, `both_rims` its
-//!   three kinds of motion; `slopes` their pull; `decision` its end
+//! - `incline` the plane that touches the ground
+//! - `walk` the state of a coin and the loop; `balance` its energy; `impact` its impacts; `hop`, `rim_contact`,
+//!   `both_rims` its three kinds of motion; `slopes` their pull; `decision` its end
 
 mod balance;
 mod both_rims;
