@@ -156,8 +156,8 @@ fn whole_tosses_end_as_time_stepped_ones() {
 
 /// Coins that spin on the spot, as on an explicit height field: .893 ± .018, .230 ± .024 and .650 ± .028 of 300
 /// coins there (`data/validation/rough-starts.csv`). The engine's law is right to first order in the slope: up to
-/// .13 fewer stay here, and 600 coins have a standard error of .02. (.999, .51 and .85 stay with the slip of the
-/// lowest point.)
+/// .12 fewer stay there on other grounds, and 600 coins have a standard error of .02. (.999, .51 and .85 stay with the slip
+/// of the lowest point.)
 #[test]
 fn spinning_coins_stay_or_topple_as_on_an_explicit_height_field() {
     let cells = [
