@@ -8,9 +8,6 @@ use coinmc_bench::{Case, Report, Table, number};
 use coinmc_core::{LaunchDistribution, Marginal, Preset, Spin};
 use coinmc_oracle::RoughStepper;
 
-/// ψ of the tosses of `examples/hand.toml`.
-const PSI_DEG: f64 = 75.0;
-
 /// How coins are tossed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Way {
@@ -34,6 +31,10 @@ pub(crate) struct RoughTosses {
     /// How they are tossed
     #[arg(long, value_enum, default_value = "hand", value_name = "WAY")]
     launch: Way,
+
+    /// Angle between spin and axis of tosses by hand, degrees
+    #[arg(long, default_value_t = 75.0, value_name = "PSI")]
+    psi_deg: f64,
 
     /// H/R
     #[arg(long, value_delimiter = ',', default_values = ["0.2", "0.7071"])]
@@ -61,7 +62,7 @@ impl RoughTosses {
         let mut columns = vec!["ratio", "slope", "wavelength_mm"];
         columns.extend(Sums::COLUMNS);
         columns.extend(Beside::COLUMNS);
-        let title = format!("P(side) of tosses {}, on rough ground", self.launch.name());
+        let title = format!("P(side) of tosses {}, on rough ground", self.how());
         let mut record = Table::new(title, &columns);
         for ((ratio, slope, wavelength_mm), sums) in scenes.iter().zip(&found) {
             let mut row = vec![
@@ -71,7 +72,7 @@ impl RoughTosses {
             ];
             let scene = scene(*ratio);
             row.extend(sums.cells(&self.steps, &scene));
-            let launches = self.launch.launches();
+            let launches = self.launches();
             let ground = (*slope, *wavelength_mm);
             row.extend(self.beside.cells(&scene, ground, |toss| {
                 launches.launch(&scene.coin, &mut Case::stream(seed).toss(toss))
@@ -85,7 +86,7 @@ impl RoughTosses {
 
     fn follow(&self, (ratio, slope, wavelength_mm): (f64, f64, f64), seed: u64) -> Sums {
         let scene = scene(ratio);
-        let launches = self.launch.launches();
+        let launches = self.launches();
         let mut stepper = RoughStepper::new(&scene, self.steps.settings());
         let mut sums = Sums::default();
         for toss in self.first..self.first.saturating_add(self.tosses) {
@@ -97,33 +98,31 @@ impl RoughTosses {
         }
         sums
     }
-}
 
-impl Way {
-    fn name(self) -> String {
-        match self {
-            Self::Hand => format!("by hand, psi {PSI_DEG} degrees"),
-            Self::Drop => "dropped without spin".to_owned(),
+    fn how(&self) -> String {
+        match self.launch {
+            Way::Hand => format!("by hand, psi {} degrees", self.psi_deg),
+            Way::Drop => "dropped without spin".to_owned(),
         }
     }
 
-    fn launches(self) -> LaunchDistribution {
-        match self {
-            Self::Hand => by_hand(),
-            Self::Drop => Preset::Drop.distribution(),
+    fn launches(&self) -> LaunchDistribution {
+        match self.launch {
+            Way::Hand => by_hand(self.psi_deg),
+            Way::Drop => Preset::Drop.distribution(),
         }
     }
 }
 
-/// The launches of `examples/hand.toml`.
-fn by_hand() -> LaunchDistribution {
+/// The launches of `examples/hand.toml`, with another angle between spin and axis.
+fn by_hand(psi_deg: f64) -> LaunchDistribution {
     let mut launches = Preset::Hand.distribution();
     launches.spin = Spin::Precessing {
         rate_rad_s: Marginal::Normal {
             mean: 238.6,
             sd: 23.86,
         },
-        psi_rad: Marginal::Constant(PSI_DEG.to_radians()),
+        psi_rad: Marginal::Constant(psi_deg.to_radians()),
     };
     launches
 }

@@ -207,7 +207,7 @@ mod tests {
         let cancel = AtomicBool::new(false);
         let workers = workers(&cancel);
         let felt = EverydayScene::named("felt").expect("a scene");
-        let sets = ["coin.ratio=0.5".parse().expect("an override")];
+        let sets = ["coin.ratio=0.7".parse().expect("an override")];
         let plan = felt.template(&sets).plan(&[]).expect("a plan");
         let launches = Launches::new(&plan, Face::Side, &workers);
         let strata = Strata::of(launches.inclinations(0..1 << 12).expect("launches"));

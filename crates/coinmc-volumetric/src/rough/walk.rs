@@ -390,8 +390,37 @@ mod tests {
     use crate::laws::Moreau;
     use crate::settings::Settings;
     use coinmc_core::{Coin, Launch, Roughness, Scene, Surface};
+    use coinmc_oracle::Start;
     use coinmc_testkit::Dice;
     use nalgebra::{UnitVector3, Vector3};
+
+    /// Nodes lie farther apart on gentle ground alone, under a coin that leans far and rolls slowly, and where there
+    /// is friction to compare with.
+    #[test]
+    fn nodes_lie_farther_apart_where_bumps_take_less_than_rolling_friction() {
+        let cases = [
+            (0.3, 0.05, 0.003, 5e-5, 8.0),
+            (0.02, 0.05, 0.003, 5e-5, 1.0),
+            (0.3, 5.0, 0.003, 5e-5, 1.0),
+            (0.3, 0.2, 0.1, 5e-5, 1.0),
+            (0.3, 0.05, 0.003, 0.0, 1.0),
+        ];
+        for (lean, speed, slope, contour, expected) in cases {
+            let surface = Surface::new(0.5, 0.3)
+                .and_then(|surface| surface.with_friction_lengths(contour, 5e-6))
+                .expect("a valid surface")
+                .with_roughness(Roughness::new(slope, 3e-3).ok());
+            let coin = Coin::cylinder(0.7, 0.0116).expect("a valid coin");
+            let scene = Scene::new(coin, surface, 9.81).expect("a valid scene");
+            let model = Model::new(&scene, &Settings::default(), Moreau).expect("valid settings");
+            let ground = model.ground.expect("a rough ground");
+            let launch = Start::Rolling(speed).launch(&coin, lean);
+            let mut toss = model.launch(&launch);
+            let (mut usage, mut observer) = (Usage::default(), ());
+            let walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+            assert_eq!(walk.stride(), expected, "{lean} {speed} {slope} {contour}");
+        }
+    }
 
     /// Friction and impacts take energy, and nothing gives any: the budget never grows, and after
     /// every event the coin has no more energy than its budget and the lead of slopes but for
