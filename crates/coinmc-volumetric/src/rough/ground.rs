@@ -24,8 +24,8 @@ const NEAR: f64 = 6.0;
 const LARGEST_NEAR: f64 = 0.5;
 
 /// A coin on one rim feels the ground up to this many times the lean at which it topples, whose cosine
-/// is h; at most up to this cosine; and farther than its other rim does. With 2 instead of 3 times, half of
-/// the thin coins end on their side; with 5 times, as many (`docs/methods/rough.md`).
+/// is h; at most up to this cosine; and farther than its other rim does. With 2 instead of 3 times, half as
+/// many thin coins end on their side; with 5 times, as many (`docs/methods/rough.md`).
 const FELT: f64 = 3.0;
 const LARGEST_FELT: f64 = 0.5;
 const BEYOND_NEAR: f64 = 1.2;

@@ -17,19 +17,23 @@ const STEEPEST: f64 = 4.0;
 
 impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     /// Draws where a coin lands. Ground that rises against the rim is met more often, in proportion to the
-    /// speed at which the two approach (Sommerfeld & Huber, 1999): by rejection.
-    pub(super) fn draw_place(&mut self) {
+    /// speed at which the two approach (Sommerfeld & Huber, 1999): by rejection. Returns the slopes under the
+    /// own rim there.
+    pub(super) fn draw_place(&mut self) -> [f64; 2] {
         let [own, _] = rim_points(self.body(), &self.toss.motion, &self.toss.spin);
         let ([wx, wy], down) = (own.velocity(), self.approach().max(0.0));
         let most = down + STEEPEST * self.ground.slope() * own.speed();
+        let mut slopes = [0.0; 2];
         for draw in 0..MOST_DRAWS {
             let (place, uniform) = self.ground.random_place(&self.toss.motion, draw);
             self.place = place;
-            let [gx, gy] = self.slopes_under_rim();
+            slopes = self.slopes_under_rim();
+            let [gx, gy] = slopes;
             if uniform * most <= down + gx * wx + gy * wy {
-                return;
+                break;
             }
         }
+        slopes
     }
 
     /// The slopes of the ground that carries the own rim, along x and y of the coin's frame.
@@ -140,8 +144,7 @@ mod tests {
             let (mut usage, mut observer) = (Usage::default(), ());
             let mut walk =
                 Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
-            walk.draw_place();
-            let [gx, gy] = walk.slopes_under_rim();
+            let [gx, gy] = walk.draw_place();
             sum += gx * wx + gy * wy;
         }
         let (mean, steep) = (sum / landings as f64, slope * along);

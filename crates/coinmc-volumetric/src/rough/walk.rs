@@ -129,11 +129,12 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
         self.budget += under.height;
     }
 
-    /// Lets the other rim land where the ground under it is so much higher that it touches first.
-    fn land_first_rim(&mut self) {
+    /// Lets the other rim land where the ground under it is so much higher that it touches first; returns
+    /// whether it does.
+    fn land_first_rim(&mut self) -> bool {
         let (motion, spin, body) = (&self.toss.motion, &self.toss.spin, self.body());
         if motion.cos >= self.ground.near {
-            return;
+            return false;
         }
         let points = rim_points(body, motion, spin);
         let along = self.place.direction(0.0, 1.0);
@@ -144,21 +145,24 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
         });
         let above = 2.0 * body.half * motion.cos;
         let comes_down = spin.tilt * points[1].rx - motion.vz >= 0.0;
-        if other - own > above && comes_down {
+        let other_first = other - own > above && comes_down;
+        if other_first {
             self.toss.motion.z -= above;
             self.budget -= above;
             self.switch_rim();
         }
+        other_first
     }
 
     /// The landing of a coin above the ground. Most coins fly on at once, and need no heights.
     fn land(&mut self) -> Transition {
-        self.draw_place();
-        self.land_first_rim();
+        let mut slopes = self.draw_place();
+        if self.land_first_rim() {
+            slopes = self.slopes_under_rim();
+        }
         let (motion, spin) = (self.toss.motion, self.toss.spin);
         let time = self.time_between_nodes();
         self.tracks = Tracks::level(time);
-        let slopes = self.slopes_under_rim();
         let next = self.collide_with(slopes);
         if next == Next::Ends(Transition::Flight(Departure::Rebound)) && self.lies_on_face() {
             return Transition::End(self.toss.ended(Decided::Face));

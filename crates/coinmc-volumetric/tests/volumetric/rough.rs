@@ -127,7 +127,7 @@ fn leaning_rollers_fall_where_time_stepped_ones_do() {
 }
 
 /// Whole tosses against time-stepped ones (`data/validation/rough-tosses.csv`): by hand, and dropped without spin.
-/// Slopes bring a dropped coin out of the vertical plane in which it would tumble, and on the plane .11 of them end on
+/// Slopes bring a dropped coin out of the vertical plane in which it would tumble, and on the plane .12 of them end on
 /// their side. Within 4 standard errors of both: a false alarm in 8,000 tests of both.
 #[test]
 fn whole_tosses_end_as_time_stepped_ones() {
