@@ -68,7 +68,7 @@ while IFS= read -r name; do
     start=$(instructions "$name" 0)
     times=$count
     # in space: tens of times the work
-    case $name in 'toss clean '* | 'toss table1 '*) times=$((count / 10)) ;; esac
+    case $name in 'toss clean '* | 'toss table1 '* | 'toss hand '*) times=$((count / 10)) ;; esac
     whole=$(instructions "$name" "$times")
     each=$(awk -v a="$whole" -v b="$start" -v n="$times" 'BEGIN { printf "%.1f", (a - b) / n }')
     before=

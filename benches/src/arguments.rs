@@ -7,7 +7,7 @@ use crate::scaling::Scaling;
 use crate::speed::Speed;
 use anyhow::anyhow;
 use clap::{Args, Parser, Subcommand};
-use coinmc_bench::{Output, Workload, number, space_workloads, workloads};
+use coinmc_bench::{Output, Workload, number, rough_workloads, space_workloads, workloads};
 use std::hint::black_box;
 use std::io::{self, Write};
 
@@ -69,7 +69,7 @@ struct Work {
 
 impl Work {
     fn execute(&self) -> anyhow::Result<()> {
-        let all = [workloads(), space_workloads()].concat();
+        let all = [workloads(), space_workloads(), rough_workloads()].concat();
         let Some(name) = &self.name else {
             let names: Vec<&str> = all.iter().map(|work| work.name.as_str()).collect();
             writeln!(io::stdout(), "{}", names.join("\n"))?;

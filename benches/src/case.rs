@@ -1,8 +1,8 @@
 //! A scene and a launch distribution: all of a toss but its number and the seed.
 
 use coinmc_core::{
-    Coin, Domain, Drag, DynEngine, Landing, Launch, LaunchDistribution, Preset, Scene, Stream,
-    Surface,
+    Coin, Domain, Drag, DynEngine, Landing, Launch, LaunchDistribution, Material, Preset,
+    Roughness, Scene, Stream, Surface,
 };
 use coinmc_flat::Settings;
 use std::fmt;
@@ -64,6 +64,24 @@ impl Case {
     pub fn adhesive(mut self) -> Self {
         self.scene.surface = self.scene.surface.with_landing(Landing::Adhesive);
         self
+    }
+
+    /// A uniform cylinder of the size of a 1 euro coin, tossed by hand, on a material. Pivoting friction is
+    /// left out.
+    ///
+    /// # Panics
+    /// If `ratio` is not positive.
+    pub fn by_hand(ratio: f64, material: &Material) -> Self {
+        let (e, mu) = (material.restitution.value, material.friction.value);
+        let mut case = Self::new(Preset::Hand, 0.0116, ratio, e, mu);
+        let rolling = material.rolling_friction_m.value;
+        let surface = case.scene.surface.with_friction_lengths(rolling, 0.0);
+        let (slope, wave) = (material.roughness_slope, material.roughness_wavelength_m);
+        let roughness = Roughness::new(slope.value, wave.value);
+        let surface = surface.expect("a material's friction is in range");
+        case.scene.surface =
+            surface.with_roughness(Some(roughness.expect("a material's ground is in range")));
+        case
     }
 
     /// The same with contour and pivoting friction lengths of `rho` radii each.

@@ -13,4 +13,4 @@ pub use case::Case;
 pub use output::Output;
 pub use report::{Report, Table};
 pub use stopwatch::Stopwatch;
-pub use workload::{Workload, space_workloads, workloads};
+pub use workload::{Workload, rough_workloads, space_workloads, workloads};

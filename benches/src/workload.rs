@@ -1,7 +1,7 @@
 //! Pieces of work that are timed and whose instructions are counted, by name.
 
 use crate::Case;
-use coinmc_core::{Engine, Philox4x64, Preset, run_tosses};
+use coinmc_core::{Engine, Material, Philox4x64, Preset, run_tosses};
 use coinmc_flat::{Law, Settings};
 use coinmc_volumetric::Lanes;
 use std::hint::black_box;
@@ -101,6 +101,18 @@ pub fn space_workloads() -> Vec<Workload> {
         Task::TossStronge(other_law),
     ));
     list
+}
+
+/// Tosses by hand on rough ground, one after the other: on one where nearly every coin rolls on one rim
+/// for long, and on one where it hops.
+pub fn rough_workloads() -> Vec<Workload> {
+    let work = |name: &str| {
+        let material: Material = name.parse().expect("a material");
+        let case = Case::by_hand(0.7, &material);
+        let task = Task::TossInSpace(case, Lanes::Scalar);
+        Workload::new(format!("toss hand x=0.7 {name}"), task)
+    };
+    ["steel", "wood"].map(work).to_vec()
 }
 
 fn launch_name(preset: Preset) -> String {
@@ -236,7 +248,7 @@ mod tests {
 
     #[test]
     fn names_are_unique_and_work_does_not_depend_on_how_it_is_cut() {
-        let all = [workloads(), space_workloads()].concat();
+        let all = [workloads(), space_workloads(), rough_workloads()].concat();
         for (i, work) in all.iter().enumerate() {
             assert!(all[..i].iter().all(|other| other.name != work.name));
             let parts = work.run(0..30).wrapping_add(work.run(30..100));

@@ -253,15 +253,27 @@ impl DecisionRule {
     /// Whether the coin rests, if that is waited for.
     #[inline]
     fn rests(&self, state: &DecisionState<f64>) -> bool {
+        self.is_at_rest(state) && self.holds_on_slope(state)
+    }
+
+    /// Whether the energy above the height at rest is that of a coin at rest, if that is waited for.
+    #[inline]
+    fn is_at_rest(&self, state: &DecisionState<f64>) -> bool {
+        if !self.awaits_rest() {
+            return true;
+        }
         let lowest = self.body.half * state.cos + self.body.radius * state.sin;
         let resting = self.resting[usize::from(!self.on_side(state.cos))];
-        state.energy - lowest < resting && self.holds_on_slope(state)
+        state.energy - lowest < resting
     }
 
     /// Whether the pull of a tilted table cannot carry the coin over its rim.
     fn holds_on_slope(&self, state: &DecisionState<f64>) -> bool {
+        if self.slope == 0.0 {
+            return true;
+        }
         let short = (self.body.radius * state.cos - self.body.half * state.sin).abs();
-        self.slope == 0.0 || state.energy + self.slope * (short + SPARE_WAYS * WAY) < 1.0
+        state.energy + self.slope * (short + SPARE_WAYS * WAY) < 1.0
     }
 
     /// Whether the face can no longer change. (Motion that goes on is left to

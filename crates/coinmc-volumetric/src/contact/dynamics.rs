@@ -174,6 +174,12 @@ impl Dynamics {
         self.drag.acts() || self.body.rim != 0.0
     }
 
+    /// Whether these are the dynamics of most scenes: of a coin with sharp rims on a level table, whose rocking
+    /// friction does not hold.
+    pub(super) fn is_ordinary(&self) -> bool {
+        self.body.rim == 0.0 && !self.holds() && self.pull.is_none() && self.least_cos == 0.0
+    }
+
     /// The same dynamics, with the cases "no drag and sharp rims" and "friction that does not hold"
     /// known to the compiler: `DRAGS` is [`drags_or_rounds`](Self::drags_or_rounds) (or may be true
     /// without), `HOLDS` is [`holds`](Self::holds).

@@ -35,7 +35,8 @@
 //! # Modules
 //! - `dynamics` constants and friction moments · `held_friction` friction that holds at rest · `rim` equations of motion · `state` from motion to
 //!   state and back · `integrator` Runge–Kutta step
-//! - `rules` what governs contact · `phase` phase and exits · `step` one try of a step
+//! - `rules` what governs contact · `phase` phase and exits · `step` one try of a step, of one toss
+//!   or several; `scalar_step` the same of one
 //! - `solver` the state machine · `tilt_search`, `margin_search`, `events` where in a step an event
 //!   lies
 //! - `follow` the scalar path · `tilted` the same on a tilted table
@@ -53,6 +54,7 @@ mod phase;
 mod rim;
 mod rolling_stop;
 mod rules;
+mod scalar_step;
 mod solver;
 mod state;
 mod step;
@@ -67,6 +69,7 @@ pub(crate) use phase::{Exit, Phase, PhaseTransition};
 pub(crate) use rim::{Mode, OMEGA_Y, Rates, RimState, SLIP_X, SLIP_Y, TILT};
 pub(crate) use rolling_stop::{RollingStop, way_to_rest};
 pub(crate) use rules::{ContactRules, Usage};
+pub(crate) use scalar_step::ScalarStep;
 pub(crate) use solver::ContactSolver;
 pub(crate) use state::{place, place_unfolded, rim_state};
 pub(crate) use step::{StepTrial, can_stick, holds, slip_speed, step_limit};

@@ -1,10 +1,10 @@
 //! The state machine of contact on one rim point: entering, leaving and changing phases.
 
-use super::dynamics::Dynamics;
-use super::integrator::{Trial, step};
+use super::integrator::Trial;
 use super::phase::{Exit, Phase, PhaseTransition};
-use super::rim::{Mode, OMEGA_Y, Rates, RimFlow, RimState, TILT};
+use super::rim::{Mode, OMEGA_Y, Rates, RimState, TILT};
 use super::rules::{ContactRules, Usage};
+use super::scalar_step::ScalarStep;
 use super::state::{after_impulse, change_slip, place_below, rim_state};
 use super::step::{LEAST_JAM_MARGIN, can_stick, slip_speed};
 use crate::impact::jam_impulse;
@@ -131,32 +131,14 @@ impl ContactSolver<'_> {
 
     /// Tries a step of this length: the state and the rates at its end.
     pub(super) fn try_step(&self, phase: &Phase, length: f64) -> (Trial<f64, 6>, Rates<f64>) {
-        let dynamics = self.rules.dynamics;
-        // sharp rims, known to the compiler, take fewer operations
-        if dynamics.body.rim == 0.0 {
-            self.try_step_of(&dynamics.with_sharp_rims(), phase, length)
-        } else {
-            self.try_step_of(dynamics, phase, length)
-        }
-    }
-
-    /// The same, with the dynamics as the compiler knows them.
-    #[inline(always)]
-    fn try_step_of(
-        &self,
-        dynamics: &Dynamics,
-        phase: &Phase,
-        length: f64,
-    ) -> (Trial<f64, 6>, Rates<f64>) {
-        let mut last = phase.now;
-        let flow = RimFlow {
-            dynamics,
+        let step = ScalarStep {
+            state: &phase.state,
+            now: &phase.now,
             mode: phase.mode,
-            last: &mut last,
+            length,
+            tolerance: self.rules.tolerance,
         };
-        let rates = &phase.now.state;
-        let trial = step(&phase.state, rates, length, self.rules.tolerance, flow);
-        (trial, last)
+        step.run(self.rules.dynamics)
     }
 
     /// Moves `motion` to the state of `phase`, which a step of this length has led to.

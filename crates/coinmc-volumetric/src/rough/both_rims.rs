@@ -35,7 +35,9 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         let dynamics = &self.model.dynamics;
         let mut state = self.line_state();
         let mut wanted = self.tracks.left;
-        let ahead = self.both_ahead(&state);
+        let tracks = [self.tracks.own, self.tracks.other];
+        let slopes = tracks.map(|track| track.slopes(self.ground));
+        let ahead = self.both_ahead(&state, slopes);
         while !self.tracks.at_node() {
             let before = (self.toss.motion, self.toss.spin);
             let Some((next, time)) = self.step_of_line(&state, ahead, &mut wanted) else {
@@ -56,16 +58,16 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
             self.usage.time += time;
             self.show(before, time);
         }
-        self.pass_node_on_both(&state, ahead)
+        self.pass_node_on_both(&state, slopes, ahead)
     }
 
-    /// How far ahead of their lowest points both rims touch; that of a coin that rolls straight does not
-    /// matter.
-    fn both_ahead(&self, state: &LineState) -> [f64; 2] {
+    /// How far ahead of their lowest points both rims touch ground of these slopes; that of a coin that rolls
+    /// straight does not matter.
+    fn both_ahead(&self, state: &LineState, slopes: [[f64; 2]; 2]) -> [f64; 2] {
         if self.model.contact_rules().rolls_straight(state) {
             return [0.0; 2];
         }
-        [self.tracks.own, self.tracks.other].map(|track| self.ahead_of(&track))
+        slopes.map(|slopes| self.ahead_with(slopes))
     }
 
     /// One step of the motion along the ground, and its duration; `None` at a limit.
@@ -107,12 +109,16 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         }
     }
 
-    /// The next node: both tracks bend, and one or both rims may lift off.
-    fn pass_node_on_both(&mut self, state: &LineState, ahead: [f64; 2]) -> Next {
+    /// The next node, where the ground has these slopes: both tracks bend, and one or both rims may lift off.
+    fn pass_node_on_both(
+        &mut self,
+        state: &LineState,
+        slopes: [[f64; 2]; 2],
+        ahead: [f64; 2],
+    ) -> Next {
         let dynamics = &self.model.dynamics;
         let body = &dynamics.body;
         let old = self.tracks;
-        let slopes = [old.own, old.other].map(|track| track.slopes(self.ground));
         let state = self.descend_on_both(state, slopes, old.interval);
         self.place_on_tracks(&state);
         self.lead = 0.0;

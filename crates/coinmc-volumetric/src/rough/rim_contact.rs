@@ -3,8 +3,8 @@
 use super::tracks::rim_points;
 use super::walk::{FLATTEST, Next, Touch, Walk};
 use crate::contact::{
-    Mode, Rates, RimState, Trial, can_stick, holds, is_accepted, next_length, place_unfolded,
-    rim_state, shorter, slip_speed, step, step_limit,
+    Mode, Rates, RimState, ScalarStep, Trial, can_stick, holds, is_accepted, next_length,
+    place_unfolded, rim_state, shorter, slip_speed, step_limit,
 };
 use crate::contact::{OMEGA_Y, SLIP_X, SLIP_Y, TILT};
 use crate::impact::{ImpactLaw, Impulse, jam_impulse};
@@ -32,13 +32,14 @@ pub(super) struct Contact {
 impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     /// Follows contact of the own rim to the next node or event.
     pub(super) fn roll_on_rim(&mut self) -> Next {
-        self.ahead = self.ahead_of(&self.tracks.own);
+        let slopes = self.tracks.own.slopes(self.ground);
+        self.ahead = self.ahead_with(slopes);
         let mut contact = self.contact();
         if contact.now.press <= 0.0 {
             return Next::Goes(Touch::Nothing);
         }
         if self.tracks.at_node() {
-            return self.pass_node(&contact);
+            return self.pass_node(&contact, slopes);
         }
         if self.is_clear() {
             return Next::Ends(Transition::Contact);
@@ -55,7 +56,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
                 None => {}
             }
             if self.tracks.at_node() {
-                return self.pass_node(&contact);
+                return self.pass_node(&contact, slopes);
             }
         }
     }
@@ -79,17 +80,14 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
             if !model.limits.allow_step(length, f64::from(self.usage.steps)) {
                 return Some(Next::Ends(Transition::End(model.end_given_up(self.toss))));
             }
-            let mut now = contact.now;
-            let trial = step(
-                &contact.state,
-                &contact.now.state,
+            let step = ScalarStep {
+                state: &contact.state,
+                now: &contact.now,
+                mode: contact.mode,
                 length,
-                rules.tolerance,
-                |state: &RimState<f64>| {
-                    now = dynamics.rates(state, contact.mode);
-                    now.state
-                },
-            );
+                tolerance: rules.tolerance,
+            };
+            let (trial, now) = step.run_ahead(&model.dynamics, self.ahead);
             if !is_accepted(trial.error) {
                 *wanted = shorter(length, trial.error);
                 continue;
@@ -274,10 +272,9 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         state
     }
 
-    /// The next node: the track bends.
-    fn pass_node(&mut self, contact: &Contact) -> Next {
+    /// The next node, where the ground has these slopes: the track bends.
+    fn pass_node(&mut self, contact: &Contact, slopes: [f64; 2]) -> Next {
         let (old, before) = (self.tracks.own.rate, self.tracks.interval);
-        let slopes = self.tracks.own.slopes(self.ground);
         self.descend_on_rim(contact, slopes, before);
         self.lead = 0.0;
         self.balance();

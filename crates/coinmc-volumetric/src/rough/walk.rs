@@ -1,7 +1,7 @@
 //! One coin on rough ground: its state, and the loop from node to node and from event to event.
 
 use super::ground::Ground;
-use super::tracks::{Track, Tracks, rim_points};
+use super::tracks::{Tracks, rim_points};
 use crate::body::Body;
 use crate::contact::{ContactSolver, Usage};
 use crate::flight::Departure;
@@ -255,9 +255,9 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
         self.toss.spin.tilt * own.rx - self.toss.motion.vz
     }
 
-    /// How far ahead of its lowest point a rim touches, where the ground is as steep as the rim.
-    pub(super) fn ahead_of(&self, track: &Track) -> f64 {
-        let [_, steep] = track.slopes(self.ground);
+    /// How far ahead of its lowest point a rim touches ground of these slopes: where the ground is as steep
+    /// as the rim.
+    pub(super) fn ahead_with(&self, [_, steep]: [f64; 2]) -> f64 {
         steep * self.body().outer_radius() / self.toss.motion.sin
     }
 
