@@ -101,6 +101,12 @@ impl Ground {
         self.height / self.length
     }
 
+    /// The rms difference of the heights under both rims of a coin on its side, at most σ: on long waves it is
+    /// far less.
+    pub(super) fn unevenness(&self) -> f64 {
+        self.height * self.contrast.min(1.0)
+    }
+
     /// The slopes of the ground along x and y.
     pub(super) fn gradient(&self, point: [f64; 2]) -> [f64; 2] {
         let [x, y] = self.in_lengths(point);

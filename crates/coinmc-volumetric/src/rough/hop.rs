@@ -144,7 +144,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
                 if near && !hop.tracked[i] {
                     *self.tracks.of_mut(side) = self.track_in_flight(hop, side, None, [now, next]);
                 } else if !near && side != rim {
-                    *self.tracks.of_mut(side) = Track::default();
+                    *self.tracks.of_mut(side) = self.tracks.of(rim).alongside();
                 }
             }
         }

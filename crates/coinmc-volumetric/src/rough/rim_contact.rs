@@ -17,7 +17,8 @@ use coinmc_core::{EventKind, Observer};
 const LEAST_STEP: f64 = 0.02;
 /// The other rim touches within this gap.
 const TOUCH: f64 = 1e-10;
-/// Rocking over a gap smaller than this many σ counts as contact of both rims.
+/// Rocking over a gap smaller than this share of how much the ground differs under both rims counts as contact
+/// of both.
 const NO_ROCKING: f64 = 0.05;
 /// A kink is real where it exceeds the concave curve that the rim can follow by this share of it.
 const KINK: f64 = 1e-3;
@@ -332,7 +333,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     fn barely_rocks(&self, contact: &Contact) -> bool {
         let (body, tracks) = (self.body(), &self.tracks);
         let gap = self.gap_of_other().max(0.0);
-        let most = (NO_ROCKING * self.ground.height)
+        let most = (NO_ROCKING * self.ground.unevenness())
             .max(2.0 * body.half * body.half * self.model.negligible_rocking);
         if gap > most {
             return false;

@@ -125,6 +125,17 @@ impl Track {
         }
     }
 
+    /// The track of a rim that is too far above the ground to touch it, beside this one: only heights
+    /// relative to this track matter then.
+    pub(super) fn alongside(&self) -> Self {
+        Self {
+            height: self.height,
+            rate: self.rate,
+            footing: None,
+            near: false,
+        }
+    }
+
     /// The slopes of the ground at the next node, along x and y of the coin's frame there. 0 if the
     /// track does not follow the ground. (Most nodes are passed in flight and need none.)
     pub(super) fn slopes(&self, ground: &Ground) -> [f64; 2] {
@@ -163,6 +174,9 @@ impl Tracks {
     /// Lets the own rim go on to the next node at the height and the rate with which it has landed.
     pub(super) fn keep_landing(&mut self, landed: &Track) {
         (self.own.height, self.own.rate) = (landed.height, landed.rate);
+        if !self.other.near {
+            self.other = self.own.alongside();
+        }
     }
 
     pub(super) fn of(&self, rim: Rim) -> &Track {
@@ -247,10 +261,10 @@ impl Tracks {
                 self.other.height = support.height.min(highest);
             }
             lead(&mut self.other, &points[1]);
+            self.other.near = true;
         } else {
-            self.other = Track::default();
+            self.other = self.own.alongside();
         }
-        self.other.near = near;
     }
 
     /// At a node, with the own rim on the ground under it.
