@@ -94,11 +94,14 @@ fn rotation(by: &Vector3<f64>) -> UnitQuaternion<f64> {
     UnitQuaternion::new_normalize(Quaternion::new(cos, v.x, v.y, v.z))
 }
 
-/// The rotation closest to `turned` whose z axis is `axis`.
+/// The rotation closest to `turned` whose z axis is `axis`; `turned` itself where a toss that failed has none.
 fn with_axis(turned: UnitQuaternion<f64>, axis: &Unit<Vector3<f64>>) -> UnitQuaternion<f64> {
     let from = turned * Vector3::z();
     let between = from.cross(axis);
     let cos = from.dot(axis);
+    if !cos.is_finite() {
+        return turned;
+    }
     let smallest = if cos > -0.5 {
         Quaternion::new(1.0 + cos, between.x, between.y, between.z)
     } else {
@@ -250,5 +253,16 @@ mod tests {
                 assert!((z - state.axis.into_inner()).norm() < 1e-14, "{axis:?}");
             }
         }
+    }
+
+    /// The last state of a toss that failed may hold no numbers.
+    #[test]
+    fn a_state_without_an_axis_keeps_the_last_rotation() {
+        let mut turning = Turning::new(&scene(0.0, true));
+        let first = state(0.0, Vector3::new(0.6, 0.0, 0.8), Vector3::zeros());
+        let rotation = turning.turn(&first, Mode::Flight);
+        let mut last = state(1.0, Vector3::z(), Vector3::repeat(f64::NAN));
+        last.axis = Unit::new_unchecked(Vector3::repeat(f64::NAN));
+        assert_eq!(turning.turn(&last, Mode::Flight), rotation);
     }
 }
