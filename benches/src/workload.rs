@@ -103,16 +103,16 @@ pub fn space_workloads() -> Vec<Workload> {
     list
 }
 
-/// Tosses by hand on rough ground, one after the other: on one where nearly every coin rolls on one rim
-/// for long, and on one where it hops.
+/// Tosses by hand on rough ground, one after the other: on steel, where many coins roll on one rim for
+/// long, and on wood, where they hop.
 pub fn rough_workloads() -> Vec<Workload> {
-    let work = |name: &str| {
-        let material: Material = name.parse().expect("a material");
-        let case = Case::by_hand(0.7, &material);
-        let task = Task::TossInSpace(case, Lanes::Scalar);
-        Workload::new(format!("toss hand x=0.7 {name}"), task)
+    let chosen = |material: &Material| ["steel", "wood"].contains(&material.name);
+    let work = |material: Material| {
+        let task = Task::TossInSpace(Case::by_hand(0.7, &material), Lanes::Scalar);
+        Workload::new(format!("toss hand x=0.7 {}", material.name), task)
     };
-    ["steel", "wood"].map(work).to_vec()
+    let materials = Material::ALL.into_iter().filter(chosen);
+    materials.map(work).collect()
 }
 
 fn launch_name(preset: Preset) -> String {

@@ -4,8 +4,11 @@
 //! down for good. Once only straight rolling and a creep are left, their end follows in closed
 //! form.
 
+use super::dynamics::Dynamics;
 use super::integrator::{Trial, is_accepted, next_length, shorter, step};
-use super::line::{LineRates, LineState, line_motion, line_rates, line_state, place_on_side};
+use super::line::{
+    LineFlow, LineRates, LineState, line_motion, line_rates, line_state, place_on_side,
+};
 use super::phase::Exit;
 use super::rolling_stop::RollingStop;
 use super::solver::ContactSolver;
@@ -101,20 +104,40 @@ impl ContactSolver<'_> {
         now: &LineRates,
         mut length: f64,
     ) -> Option<(f64, Trial<f64, 4>)> {
-        let (dynamics, creep) = (self.rules.dynamics, self.rules.stick_speed);
+        let dynamics = self.rules.dynamics;
         loop {
             self.usage.steps += 1;
             let number = f64::from(self.usage.steps);
             if !self.rules.limits.allow_step(length, number) {
                 return None;
             }
-            let rates = |s: &LineState| line_rates(dynamics, s, creep).rates;
-            let trial = step(state, &now.rates, length, self.rules.tolerance, rates);
+            // what the compiler knows to be absent takes no operations
+            let trial = if dynamics.is_ordinary() && !dynamics.drag.acts() {
+                self.try_on_side(&dynamics.with_known::<false, false>(), state, now, length)
+            } else {
+                self.try_on_side(dynamics, state, now, length)
+            };
             if is_accepted(trial.error) {
                 return Some((length, trial));
             }
             length = shorter(length, trial.error);
         }
+    }
+
+    /// Tries a step of this length.
+    #[inline(always)]
+    fn try_on_side(
+        &self,
+        dynamics: &Dynamics,
+        state: &LineState,
+        now: &LineRates,
+        length: f64,
+    ) -> Trial<f64, 4> {
+        let flow = LineFlow {
+            dynamics,
+            creep: self.rules.stick_speed,
+        };
+        step(state, &now.rates, length, self.rules.tolerance, flow)
     }
 
     /// Whether contact of one rim alone agrees that the coin tips onto it: onto the lowest rim of
