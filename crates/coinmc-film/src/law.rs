@@ -71,3 +71,91 @@ impl Model {
         matches!(self.law, Law::LineContact(_))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_core::{Event, State};
+    use coinmc_flat::{LineContact, Materials};
+    use nalgebra::{UnitVector3, Vector3};
+
+    /// States of a drop every millisecond, until its face is decided.
+    #[derive(Default)]
+    struct Film(Vec<State>);
+
+    impl Observer for Film {
+        fn event(&mut self, _: &Event) {}
+
+        fn wants_at_s(&self) -> f64 {
+            1e-3 * self.0.len() as f64
+        }
+
+        fn sample(&mut self, state: &State) {
+            self.0.push(*state);
+        }
+    }
+
+    fn film(settings: &Settings, scene: &Scene, theta: f64) -> Vec<State> {
+        let (sin, cos) = libm::sincos(theta);
+        let launch = Launch {
+            height_m: 0.1,
+            velocity_m_s: Vector3::new(0.1, 0.0, 0.0),
+            axis: UnitVector3::new_unchecked(Vector3::new(sin, 0.0, cos)),
+            spin_rad_s: Vector3::new(0.0, 2.0, 0.0),
+        };
+        let mut film = Film::default();
+        let engine = settings.engine(scene).expect("valid settings");
+        engine.toss(&mut (), &launch, &mut film);
+        film.0
+    }
+
+    /// The longest way between the ends of two axes, at the same time.
+    fn apart(some: &[State], others: &[State]) -> f64 {
+        let pairs = some.iter().zip(others);
+        pairs
+            .map(|(a, b)| (*a.axis - *b.axis).norm())
+            .fold(0.0, f64::max)
+    }
+
+    /// A path does not depend on where sustained contact replaces bounces, nor on the steps of an
+    /// integration, within the step of the differences: less than a hundredth of that for most of these
+    /// drops, and at most a quarter where many bounces follow. With the engine's defaults it does.
+    #[test]
+    fn paths_are_exact_enough_for_differences() {
+        let materials = Materials {
+            coin_young_pa: 3e9,
+            coin_poisson: 0.35,
+            surface_young_pa: 1e10,
+            surface_poisson: 0.35,
+            length_m: 0.02,
+        };
+        let coin = Coin::cylinder(1.0, 0.01).expect("a coin");
+        let model = Model {
+            law: Law::LineContact(LineContact {
+                materials,
+                tangential: LineContact::mindlin(0.35),
+            }),
+            coin: coin.with_mass(0.01).expect("a mass"),
+            gravity_m_s2: 9.81,
+        };
+        let shared = Shared {
+            friction: 0.1,
+            ..Shared::default()
+        }
+        .of(model.law);
+        let surface = Surface::new(shared.restitution, shared.friction).expect("a surface");
+        let scene = Scene::new(model.coin, surface, model.gravity_m_s2).expect("a scene");
+        let usual = model.settings(&shared);
+        let exact = Settings {
+            zeno: 1e-5,
+            tolerance: 1e-12,
+            ..usual
+        };
+        for number in 0..12 {
+            let theta = 0.1 + 0.25 * f64::from(number);
+            let [usual, exact] = [usual, exact].map(|settings| film(&settings, &scene, theta));
+            let error = apart(&usual, &exact);
+            assert!(error < 1e-5, "{theta}: {error:e}");
+        }
+    }
+}
