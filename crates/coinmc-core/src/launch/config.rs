@@ -160,6 +160,18 @@ mod tests {
         }
     }
 
+    /// A single number gives all three components: normal about 0, or none at all.
+    #[test]
+    fn an_isotropic_spin_has_three_equal_components() {
+        for (sd, component) in [
+            (3.0, Marginal::Normal { mean: 0.0, sd: 3.0 }),
+            (0.0, Marginal::Constant(0.0)),
+        ] {
+            let value = Value::Tagged("isotropic_sd_rad_s", Box::new(Value::Number(sd)));
+            assert_eq!(Spin::read(&value), Ok(Spin::Components([component; 3])));
+        }
+    }
+
     #[test]
     fn an_error_blames_its_key() {
         let mut launches = Preset::Hand.distribution();

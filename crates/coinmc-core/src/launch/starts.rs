@@ -52,3 +52,35 @@ impl Launch {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::LaunchSource;
+    use nalgebra::{UnitVector3, Vector3};
+
+    /// Tosses of one run come from several sources, and an engine need not take all of a source.
+    #[test]
+    fn each_launch_that_was_taken_has_its_face_by_its_number() {
+        let launch = |axis: [f64; 3]| Launch {
+            height_m: 1.0,
+            velocity_m_s: Vector3::zeros(),
+            axis: UnitVector3::new_normalize(axis.into()),
+            spin_rad_s: Vector3::zeros(),
+        };
+        let [heads, tails, upright] = [[3.0, 0.0, 0.1], [0.0, 3.0, -0.1], [1.0, 1.0, 0.0]];
+        let starts = Starts::default();
+        for (axes, taken) in [
+            ([heads, tails], 2),
+            ([upright, tails], 2),
+            ([tails, heads], 1),
+        ] {
+            let mut launches = axes.into_iter().map(launch);
+            let source = LaunchSource::new(&mut launches).noting(&starts);
+            assert_eq!(source.take(taken).count(), taken);
+        }
+        let up: Vec<Option<Face>> = (0..6).map(|number| starts.up(number)).collect();
+        let (heads, tails) = (Some(Face::Heads), Some(Face::Tails));
+        assert_eq!(up, [heads, tails, None, tails, tails, None]);
+    }
+}
