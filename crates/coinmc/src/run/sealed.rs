@@ -28,3 +28,28 @@ pub(super) fn unseal(bytes: &[u8]) -> Result<&str, Damage> {
         Err(Damage::Checksum)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A text of so many bytes, with its checksum.
+    fn sealed(bytes: usize) -> String {
+        let checksum = seal(String::new()).len();
+        seal("a".repeat(bytes - checksum))
+    }
+
+    #[test]
+    fn long_texts_are_not_read_even_if_their_checksum_is_right() {
+        for bytes in [100, MAX_BYTES - 1, MAX_BYTES] {
+            let text = sealed(bytes);
+            assert_eq!(text.len(), bytes);
+            let body = unseal(text.as_bytes()).expect("a text that is short enough");
+            assert!(body.chars().all(|letter| letter == 'a'), "{bytes}");
+        }
+        for bytes in [MAX_BYTES + 1, MAX_BYTES + 2, 10 * MAX_BYTES] {
+            let text = sealed(bytes);
+            assert!(matches!(unseal(text.as_bytes()), Err(Damage::TooLong)));
+        }
+    }
+}

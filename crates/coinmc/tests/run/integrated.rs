@@ -325,6 +325,33 @@ fn a_half_width_is_reached_or_reported_as_missed() {
     }
 }
 
+/// An integral shows no face, however often: its half width alone decides.
+#[test]
+fn integrals_are_not_asked_how_often_a_face_was_seen() {
+    let plan = plan_of(ENGINES, "half_width = 1e-2, events = 1_000_000", "");
+    let dir = tempfile::tempdir().expect("a directory");
+    let report = run_whole(&plan, dir.path());
+    assert_eq!(report.status, Status::Complete);
+    for row in &report.results.rows {
+        let seen = row.side.p * row.evaluations as f64;
+        assert!(row.evaluations > 0 && seen < 1e6, "{row:?}");
+        assert_eq!(row.stopped_by, StoppedBy::Targets, "{row:?}");
+    }
+}
+
+/// Whoever asks for few evaluations gets no more than the plan allows, and no fewer than an interval needs.
+#[test]
+fn a_point_alone_has_as_many_evaluations_as_were_asked_for() {
+    let plan = plan_of(ENGINES, "half_width = 1e-7, max_tosses = 10_000", "");
+    let evaluations = |most| {
+        let integral = integrate_point(&plan, 0, most).expect("a point of the plan");
+        integral.expect("a point that is integrated").evaluations
+    };
+    // looks are at powers of two, from 1024 on
+    let most = [0, 1024, 4095, 4096, u64::MAX];
+    assert_eq!(most.map(evaluations), [1024, 1024, 2048, 4096, 8192]);
+}
+
 /// Paired points share their scrambles as they share their tosses, others share neither.
 #[test]
 fn paired_points_share_their_scrambles() {

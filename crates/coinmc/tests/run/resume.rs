@@ -201,6 +201,20 @@ fn progress_only_goes_forward_and_ends_where_it_was_planned() {
     }
 }
 
+/// What is stored of points that stop at targets is more than the pilots that are planned at first.
+#[test]
+fn a_resumed_run_is_never_more_than_finished() {
+    let (plan, dir) = (plan(HALF_WIDTH), tempdir().expect("a directory"));
+    let report = run_whole(&plan, dir.path());
+    let ear = Ear::default();
+    run_with(&plan, dir.path(), Part::WHOLE, 1, &ear).expect("a finished run");
+    let heard = ear.progress.lock().expect("an ear that did not panic");
+    assert_eq!(heard[0].tosses_done, report.tosses);
+    for told in heard.iter() {
+        assert!(told.tosses_done <= told.tosses_planned, "{told:?}");
+    }
+}
+
 /// The engine in space, by each of its laws: cut, shared out and broken off, it counts the same.
 #[test]
 fn tosses_in_space_depend_on_the_plan_alone() {
