@@ -186,3 +186,44 @@ impl PointState {
         Face::ALL.into_iter().map(arm).fold(0.0, f64::max)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::Targets;
+
+    /// A pilot of 64 tosses of a millisecond each leaves a second of 1.064 s: time for a thousand tosses.
+    #[test]
+    fn what_is_left_of_a_limit_of_time_is_divided_by_the_time_of_a_toss() {
+        let targets = Targets {
+            half_width: Some(1e-3),
+            relative_error: None,
+            events: None,
+            face: None,
+            max_tosses: 1 << 40,
+            total_tosses: None,
+            max_core_seconds: Some(1.064),
+            total_core_seconds: None,
+        };
+        let looks = Looks::new(targets, 0.95);
+        let mut point = PointState::new(Some(looks), StoppedBy::MaxTosses);
+        let pilot = Tossed {
+            tally: Tally {
+                heads: 32,
+                tails: 32,
+                ..Tally::default()
+            },
+            microseconds: 64_000,
+        };
+        assert!(point.count(&pilot));
+        assert!((point.seconds_per_toss() - 1e-3).abs() < 1e-15);
+        assert_eq!(point.look(), Some(Verdict::More));
+        assert!(point.next_tosses() > 2000);
+        // enough for all changes nothing
+        point.limit_seconds(Some(1e9));
+        assert_eq!(point.limited_by, StoppedBy::MaxTosses);
+        point.limit_seconds(targets.max_core_seconds);
+        assert!(point.next_tosses().abs_diff(1000) <= 1);
+        assert_eq!(point.limited_by, StoppedBy::MaxCoreSeconds);
+    }
+}

@@ -43,6 +43,26 @@ fn merged_parts_equal_the_whole_run_to_the_byte() {
     }
 }
 
+/// The machine that merges has tossed nothing.
+#[test]
+fn a_merged_run_names_the_machines_that_tossed() {
+    let dir = tempdir().expect("a directory");
+    let parts = run_parts(dir.path(), 2);
+    let manifest = |dir: &Path| -> serde_json::Value {
+        let text = fs::read_to_string(dir.join("manifest.json")).expect("a manifest");
+        serde_json::from_str(&text).expect("JSON")
+    };
+    let machines = ["another processor", "one processor"];
+    for (part, machine) in parts.iter().zip(machines) {
+        let mut elsewhere = manifest(part);
+        elsewhere["targets"] = [machine].into();
+        fs::write(part.join("manifest.json"), elsewhere.to_string()).expect("a written file");
+    }
+    let merged = dir.path().join("merged");
+    merge(&parts, &merged, &()).expect("both parts of a run");
+    assert_eq!(manifest(&merged)["targets"], serde_json::json!(machines));
+}
+
 #[test]
 fn missing_chunks_are_named_and_nothing_is_written() {
     let dir = tempdir().unwrap();
