@@ -5,7 +5,7 @@
 //! the centre, and turns the coin.
 
 use super::incline::Incline;
-use super::tracks::{Footing, rim_points};
+use super::tracks::{carried_now, rim_points};
 use super::walk::{Next, Touch, Walk};
 use crate::impact::ImpactLaw;
 use coinmc_core::{EventKind, Observer};
@@ -38,15 +38,10 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
 
     /// The slopes of the ground that carries the own rim, along x and y of the coin's frame.
     pub(super) fn slopes_under_rim(&self) -> [f64; 2] {
-        let motion = &self.toss.motion;
-        let [own, _] = rim_points(self.body(), motion, &self.toss.spin);
-        let (point, along) = (
-            self.place.point(own.rx, 0.0),
-            self.place.direction(0.0, 1.0),
-        );
-        let curvature = motion.sin / self.body().outer_radius();
-        let support = self.ground.under_rim(point, along, curvature);
-        Footing::new(&support, point, along).slopes(self.ground)
+        let (motion, body) = (&self.toss.motion, self.body());
+        let [own, _] = rim_points(body, motion, &self.toss.spin);
+        let (_, footing) = carried_now(self.ground, body, motion, &self.place, own.rx);
+        footing.slopes(self.ground)
     }
 
     /// One impact of the own rim with a bump on its way, or with the ground that it comes down to: with the

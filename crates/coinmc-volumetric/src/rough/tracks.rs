@@ -90,6 +90,20 @@ pub(super) fn rim_points(body: &Body, motion: &Motion<f64>, spin: &Spin<f64>) ->
     })
 }
 
+/// What carries a rim now: its height, and where. The lowest point of the rim is at `reach` from the centre,
+/// along x of the coin's frame.
+pub(super) fn carried_now(
+    ground: &Ground,
+    body: &Body,
+    motion: &Motion<f64>,
+    place: &Place,
+    reach: f64,
+) -> (f64, Footing) {
+    let (at, along) = (place.point(reach, 0.0), place.direction(0.0, 1.0));
+    let support = ground.under_rim(at, along, motion.sin / body.outer_radius());
+    (support.height, Footing::new(&support, at, along))
+}
+
 impl Footing {
     pub(super) fn new(support: &Support, point: [f64; 2], along: [f64; 2]) -> Self {
         Self {
@@ -256,9 +270,8 @@ impl Tracks {
             if !self.other.near {
                 // the rim is still above the ground
                 let highest = self.own.height + thickness * motion.cos;
-                let (at, along) = (place.point(points[1].rx, 0.0), place.direction(0.0, 1.0));
-                let support = ground.under_rim(at, along, curvature);
-                self.other.height = support.height.min(highest);
+                let (height, _) = carried_now(ground, body, motion, place, points[1].rx);
+                self.other.height = height.min(highest);
             }
             lead(&mut self.other, &points[1]);
             self.other.near = true;
@@ -277,11 +290,7 @@ impl Tracks {
     ) -> Self {
         let mut tracks = Self::default();
         let [own, _] = rim_points(body, motion, spin);
-        let along = place.direction(0.0, 1.0);
-        let curvature = motion.sin / body.outer_radius();
-        tracks.own.height = ground
-            .under_rim(place.point(own.rx, 0.0), along, curvature)
-            .height;
+        (tracks.own.height, _) = carried_now(ground, body, motion, place, own.rx);
         tracks
     }
 }

@@ -1,7 +1,7 @@
 //! One coin on rough ground: its state, and the loop from node to node and from event to event.
 
 use super::ground::Ground;
-use super::tracks::{Tracks, rim_points};
+use super::tracks::{Tracks, carried_now, rim_points};
 use crate::body::Body;
 use crate::contact::{ContactSolver, Usage};
 use crate::flight::Departure;
@@ -137,11 +137,9 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
             return false;
         }
         let points = rim_points(body, motion, spin);
-        let along = self.place.direction(0.0, 1.0);
-        let curvature = motion.sin / body.outer_radius();
         let [own, other] = points.map(|point| {
-            let at = self.place.point(point.rx, 0.0);
-            self.ground.under_rim(at, along, curvature).height
+            let (height, _) = carried_now(self.ground, body, motion, &self.place, point.rx);
+            height
         });
         let above = 2.0 * body.half * motion.cos;
         let comes_down = spin.tilt * points[1].rx - motion.vz >= 0.0;
