@@ -65,7 +65,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     /// One accepted step; what follows if it meets an event. `Goes(Rim)`: the mode changes.
     fn step_on_rim(&mut self, contact: &mut Contact, wanted: &mut f64) -> Option<Next> {
         let model = self.model;
-        let dynamics = &model.dynamics.touching_ahead(self.ahead);
+        let dynamics = &model.dynamics;
         let rules = model.contact_rules();
         let least = LEAST_STEP * self.tracks.interval;
         loop {
@@ -88,7 +88,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
                 length,
                 tolerance: rules.tolerance,
             };
-            let (trial, now) = step.run_ahead(&model.dynamics, self.ahead);
+            let (trial, now) = step.run_ahead(dynamics, self.ahead);
             if !is_accepted(trial.error) {
                 *wanted = shorter(length, trial.error);
                 continue;
