@@ -135,7 +135,7 @@ impl Arguments {
                 Command::SpaceDecision(study) => study.execute(seed)?,
                 Command::SameSide(study) => study.execute(seed)?,
                 Command::RoughStarts(study) => study.execute(seed),
-                Command::RoughTosses(study) => study.execute(seed),
+                Command::RoughTosses(study) => study.execute(seed)?,
                 Command::LinkFuzz(study) => study.execute(seed)?,
                 Command::RapierStep(study) => study.execute(seed)?,
                 Command::RapierEnergy(study) => study.execute(seed)?,

@@ -1,5 +1,6 @@
 //! Coins on explicit rough ground, by the time-stepping oracle, and by the engine beside it.
 
+mod arguments;
 mod engine;
 mod starts;
 mod tosses;

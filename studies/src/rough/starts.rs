@@ -1,5 +1,6 @@
 //! P(a coin that starts on its rim, rolling or spinning, stays on its side).
 
+use super::arguments::{ratio, slope, wavelength_mm};
 use super::engine::Beside;
 use super::{Steps, Sums, grid, ground_seed, scene};
 use crate::survey::survey;
@@ -32,15 +33,15 @@ pub(crate) struct RoughStarts {
     starts: Vec<Kind>,
 
     /// H/R
-    #[arg(long, value_delimiter = ',', default_values = ["0.1", "0.2", "0.4", "0.7071"])]
+    #[arg(long, value_delimiter = ',', value_parser = ratio, default_values = ["0.1", "0.2", "0.4", "0.7071"])]
     ratios: Vec<f64>,
 
     /// Rms slopes of the ground
-    #[arg(long, value_delimiter = ',', default_values_t = [0.003, 0.01, 0.03, 0.06])]
+    #[arg(long, value_delimiter = ',', value_parser = slope, default_values_t = [0.003, 0.01, 0.03, 0.06])]
     slopes: Vec<f64>,
 
     /// Wavelengths of the ground, mm
-    #[arg(long, value_delimiter = ',', default_values_t = [1.0, 3.0, 10.0])]
+    #[arg(long, value_delimiter = ',', value_parser = wavelength_mm, default_values_t = [1.0, 3.0, 10.0])]
     wavelengths_mm: Vec<f64>,
 
     /// Speed of those that roll, m/s

@@ -1,8 +1,10 @@
 //! P(side) of whole tosses onto rough ground.
 
+use super::arguments::{ratio, slope, wavelength_mm};
 use super::engine::Beside;
 use super::{Steps, Sums, grid, ground_seed, scene};
 use crate::survey::survey;
+use anyhow::ensure;
 use clap::{Args, ValueEnum};
 use coinmc_bench::{Case, Report, Table, number};
 use coinmc_core::{LaunchDistribution, Marginal, Preset, Spin};
@@ -32,20 +34,20 @@ pub(crate) struct RoughTosses {
     #[arg(long, value_enum, default_value = "hand", value_name = "WAY")]
     launch: Way,
 
-    /// Angle between spin and axis of tosses by hand, degrees
-    #[arg(long, default_value_t = 75.0, value_name = "PSI")]
-    psi_deg: f64,
+    /// Angle between spin and axis of tosses by hand, degrees [default: 75]
+    #[arg(long, value_name = "PSI")]
+    psi_deg: Option<f64>,
 
     /// H/R
-    #[arg(long, value_delimiter = ',', default_values = ["0.2", "0.7071"])]
+    #[arg(long, value_delimiter = ',', value_parser = ratio, default_values = ["0.2", "0.7071"])]
     ratios: Vec<f64>,
 
     /// Rms slopes of the ground: smooth, wood, rough
-    #[arg(long, value_delimiter = ',', default_values_t = [0.003, 0.02, 0.05])]
+    #[arg(long, value_delimiter = ',', value_parser = slope, default_values_t = [0.003, 0.02, 0.05])]
     slopes: Vec<f64>,
 
     /// Wavelengths of the ground, mm
-    #[arg(long, value_delimiter = ',', default_values_t = [3.0])]
+    #[arg(long, value_delimiter = ',', value_parser = wavelength_mm, default_values_t = [3.0])]
     wavelengths_mm: Vec<f64>,
 
     #[command(flatten)]
@@ -56,7 +58,11 @@ pub(crate) struct RoughTosses {
 }
 
 impl RoughTosses {
-    pub(crate) fn execute(&self, seed: u64) -> Report {
+    pub(crate) fn execute(&self, seed: u64) -> anyhow::Result<Report> {
+        ensure!(
+            self.launch == Way::Hand || self.psi_deg.is_none(),
+            "--psi-deg is the angle of a toss by hand: a dropped coin does not turn"
+        );
         let scenes = grid(&self.ratios, &self.slopes, &self.wavelengths_mm);
         let found = survey(&scenes, |scene| self.follow(*scene, seed));
         let mut columns = vec!["ratio", "slope", "wavelength_mm"];
@@ -81,7 +87,7 @@ impl RoughTosses {
         }
         let mut report = Report::new(record);
         report.remark("Each toss lands on a ground of its own.");
-        report
+        Ok(report)
     }
 
     fn follow(&self, (ratio, slope, wavelength_mm): (f64, f64, f64), seed: u64) -> Sums {
@@ -99,30 +105,33 @@ impl RoughTosses {
         sums
     }
 
+    /// Angle between spin and axis of tosses by hand, degrees.
+    fn psi_deg(&self) -> f64 {
+        /// As in `examples/hand.toml`.
+        const USUAL: f64 = 75.0;
+        self.psi_deg.unwrap_or(USUAL)
+    }
+
     fn how(&self) -> String {
         match self.launch {
-            Way::Hand => format!("by hand, psi {} degrees", self.psi_deg),
+            Way::Hand => format!("by hand, psi {} degrees", self.psi_deg()),
             Way::Drop => "dropped without spin".to_owned(),
         }
     }
 
     fn launches(&self) -> LaunchDistribution {
         match self.launch {
-            Way::Hand => by_hand(self.psi_deg),
+            Way::Hand => by_hand(self.psi_deg()),
             Way::Drop => Preset::Drop.distribution(),
         }
     }
 }
 
-/// The launches of `examples/hand.toml`, with another angle between spin and axis.
+/// The launches of the preset `hand`, with this angle between spin and axis.
 fn by_hand(psi_deg: f64) -> LaunchDistribution {
     let mut launches = Preset::Hand.distribution();
-    launches.spin = Spin::Precessing {
-        rate_rad_s: Marginal::Normal {
-            mean: 238.6,
-            sd: 23.86,
-        },
-        psi_rad: Marginal::Constant(psi_deg.to_radians()),
-    };
+    if let Spin::Precessing { psi_rad, .. } = &mut launches.spin {
+        *psi_rad = Marginal::Constant(psi_deg.to_radians());
+    }
     launches
 }

@@ -122,32 +122,28 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::test_scenes::Rough;
     use crate::laws::Moreau;
     use crate::model::Model;
-    use crate::settings::Settings;
-    use coinmc_core::{Coin, Ended, Face, Outcome, Preset, Roughness, Scene, Surface};
+    use coinmc_core::{Ended, Face, Outcome, Preset};
     use coinmc_oracle::Start;
     use coinmc_testkit::{Dice, preset_launch};
 
-    /// A coin of this ratio on ground of this slope and wavelength, with this restitution.
-    fn scene([ratio, e, slope, wave_m]: [f64; 4]) -> Scene {
-        let surface = Surface::new(e, 0.3)
-            .and_then(|surface| surface.with_friction_lengths(2e-4, 2e-5))
-            .expect("a valid surface")
-            .with_roughness(Roughness::new(slope, wave_m).ok());
-        let coin = Coin::cylinder(ratio, 0.0116).expect("a valid coin");
-        Scene::new(coin, surface, 9.81).expect("a valid scene")
-    }
-
-    fn model(scene: &Scene) -> Model<Moreau> {
-        Model::new(scene, &Settings::default(), Moreau).expect("valid settings")
+    /// A coin of this ratio, with this restitution, on ground of this slope and wavelength.
+    fn rough([ratio, restitution, slope, wavelength_m]: [f64; 4]) -> Rough {
+        Rough {
+            ratio,
+            restitution,
+            friction_m: [2e-4, 2e-5],
+            slope,
+            wavelength_m,
+        }
     }
 
     /// Whether coins that roll upright end on their side, where the ground may topple them with so many standard
     /// deviations before they rest. `None`: as many as the model says.
     fn stay(numbers: [f64; 4], kicks: Option<f64>) -> (Vec<bool>, u32) {
-        let scene = scene(numbers);
-        let mut model = model(&scene);
+        let (scene, mut model) = (rough(numbers).scene(), rough(numbers).model());
         if let Some(count) = kicks {
             model.ground.as_mut().expect("a rough ground").kicks.rates = count;
         }
@@ -194,9 +190,8 @@ mod tests {
             [0.7, 0.5, 0.15, 1e-2],
             [1.2, 0.8, 0.1, 5e-3],
         ] {
-            let scene = scene(numbers);
-            let early = model(&scene);
-            let mut open = model(&scene);
+            let (scene, early) = (rough(numbers).scene(), rough(numbers).model());
+            let mut open = rough(numbers).model();
             open.ground.as_mut().expect("a rough ground").face_margin = f64::INFINITY;
             for toss in 0..1600 {
                 let launch = preset_launch(Preset::Hand, &scene, 313, toss);
@@ -222,8 +217,7 @@ mod tests {
             [0.7, 0.5, 0.05, 1.0],
             [0.1, 0.5, 0.1, 100.0],
         ] {
-            let scene = scene(numbers);
-            let model = model(&scene);
+            let (scene, model) = (rough(numbers).scene(), rough(numbers).model());
             for toss in 0..700 {
                 let launch = preset_launch(Preset::Drop, &scene, 5, toss);
                 let ended = model.run(&launch, &mut ()).outcome.ended;

@@ -95,13 +95,11 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::test_scenes::Rough;
     use super::*;
     use crate::contact::Usage;
-    use crate::laws::Moreau;
-    use crate::model::Model;
     use crate::motion::{Motion, Spin};
-    use crate::settings::Settings;
-    use coinmc_core::{Coin, Launch, Roughness, Scene, Surface};
+    use coinmc_core::Launch;
     use coinmc_testkit::Dice;
     use nalgebra::{UnitVector3, Vector3};
 
@@ -111,11 +109,12 @@ mod tests {
     #[test]
     fn a_coin_meets_rising_ground_more_often_in_proportion_to_the_speed_of_approach() {
         let (slope, landings) = (0.02, 4_000);
-        let surface = Surface::new(0.5, 0.3).expect("a valid surface");
-        let surface = surface.with_roughness(Roughness::new(slope, 1.0).ok());
-        let coin = Coin::cylinder(0.6, 0.0116).expect("a valid coin");
-        let scene = Scene::new(coin, surface, 9.81).expect("a valid scene");
-        let model = Model::new(&scene, &Settings::default(), Moreau).expect("valid settings");
+        let rough = Rough {
+            friction_m: [0.0; 2],
+            wavelength_m: 1.0,
+            ..Rough::of(0.6, slope)
+        };
+        let model = rough.model();
         let ground = model.ground.expect("a rough ground");
         let launch = Launch {
             height_m: 0.0,

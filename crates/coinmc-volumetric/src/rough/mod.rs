@@ -51,6 +51,8 @@ mod random_place;
 mod rim_contact;
 mod rims_in_flight;
 mod slopes;
+#[cfg(test)]
+mod test_scenes;
 mod tracks;
 mod walk;
 

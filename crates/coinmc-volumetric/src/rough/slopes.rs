@@ -130,27 +130,23 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::test_scenes::Rough;
     use super::*;
     use crate::contact::Usage;
-    use crate::engine::VolumetricEngine;
-    use crate::laws::Moreau;
-    use crate::settings::Settings;
-    use coinmc_core::{Coin, Launch, Roughness, Scene, Surface};
+    use coinmc_core::Launch;
     use nalgebra::{UnitVector3, Vector3};
 
     /// Rolling friction holds a coin at rest on a slope of less than ρ_c/R, and no other: neither on a
     /// steeper one, nor one that rolls too fast to be stopped on the way.
     #[test]
     fn rolling_friction_holds_a_coin_at_rest_on_a_gentle_slope() {
-        let (radius, friction, time) = (0.0116, 1e-3, 0.05);
-        let surface = Surface::new(0.5, 0.4)
-            .and_then(|surface| surface.with_friction_lengths(friction, 1e-4))
-            .expect("a valid surface")
-            .with_roughness(Roughness::new(0.02, 3e-3).ok());
-        let coin = Coin::cylinder(0.7, radius).expect("a valid coin");
-        let scene = Scene::new(coin, surface, 9.81).expect("a valid scene");
-        let engine = VolumetricEngine::new(&scene, &Settings::default(), Moreau);
-        let model = engine.expect("valid settings").model;
+        let (friction, time) = (1e-3, 0.05);
+        let rough = Rough {
+            friction_m: [friction, 1e-4],
+            ..Rough::of(0.7, 0.02)
+        };
+        let radius = rough.scene().coin.radius_m();
+        let model = rough.model();
         let ground = model.ground.expect("a rough ground");
         for (slope, speed, held) in [(0.9, 0.0, true), (1.1, 0.0, false), (0.9, 0.1, false)] {
             let axis = Vector3::new(1.0, 0.0, 0.1).normalize();

@@ -387,11 +387,9 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::test_scenes::Rough;
     use super::*;
-    use crate::engine::VolumetricEngine;
-    use crate::laws::Moreau;
-    use crate::settings::Settings;
-    use coinmc_core::{Coin, Launch, Roughness, Scene, Surface};
+    use coinmc_core::Launch;
     use coinmc_oracle::Start;
     use coinmc_testkit::Dice;
     use nalgebra::{UnitVector3, Vector3};
@@ -408,15 +406,13 @@ mod tests {
             (0.3, 0.05, 0.003, 0.0, 1.0),
         ];
         for (lean, speed, slope, contour, expected) in cases {
-            let surface = Surface::new(0.5, 0.3)
-                .and_then(|surface| surface.with_friction_lengths(contour, 5e-6))
-                .expect("a valid surface")
-                .with_roughness(Roughness::new(slope, 3e-3).ok());
-            let coin = Coin::cylinder(0.7, 0.0116).expect("a valid coin");
-            let scene = Scene::new(coin, surface, 9.81).expect("a valid scene");
-            let model = Model::new(&scene, &Settings::default(), Moreau).expect("valid settings");
+            let rough = Rough {
+                friction_m: [contour, 5e-6],
+                ..Rough::of(0.7, slope)
+            };
+            let (scene, model) = (rough.scene(), rough.model());
             let ground = model.ground.expect("a rough ground");
-            let launch = Start::Rolling(speed).launch(&coin, lean);
+            let launch = Start::Rolling(speed).launch(&scene.coin, lean);
             let mut toss = model.launch(&launch);
             let (mut usage, mut observer) = (Usage::default(), ());
             let walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
@@ -431,14 +427,7 @@ mod tests {
     fn no_event_gains_energy() {
         let mut events = 0;
         for (ratio, slope) in [(0.1, 0.02), (0.3, 0.05), (0.7, 0.05), (1.5, 0.1)] {
-            let surface = Surface::new(0.5, 0.3)
-                .and_then(|surface| surface.with_friction_lengths(5e-5, 5e-6))
-                .expect("a valid surface")
-                .with_roughness(Roughness::new(slope, 3e-3).ok());
-            let coin = Coin::cylinder(ratio, 0.0116).expect("a valid coin");
-            let scene = Scene::new(coin, surface, 9.81).expect("a valid scene");
-            let engine = VolumetricEngine::new(&scene, &Settings::default(), Moreau);
-            let model = engine.expect("valid settings").model;
+            let model = Rough::of(ratio, slope).model();
             let ground = model.ground.expect("a rough ground");
             for toss in 0..150 {
                 let mut dice = Dice::new(21, toss);

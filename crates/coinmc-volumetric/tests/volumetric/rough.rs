@@ -35,15 +35,13 @@ fn stay(scene: &Scene, start: Start, count: u64) -> u64 {
     (0..count).filter(stays).count() as u64
 }
 
-/// The turns of a toss by hand, as in `examples/hand.toml`.
+/// The turns of the preset `hand`, all at the angle of `examples/hand.toml`.
 fn by_hand() -> Spin {
-    Spin::Precessing {
-        rate_rad_s: Marginal::Normal {
-            mean: 238.6,
-            sd: 23.86,
-        },
-        psi_rad: Marginal::Constant(75.0_f64.to_radians()),
+    let mut spin = Preset::Hand.distribution().spin;
+    if let Spin::Precessing { psi_rad, .. } = &mut spin {
+        *psi_rad = Marginal::Constant(75.0_f64.to_radians());
     }
+    spin
 }
 
 #[test]
