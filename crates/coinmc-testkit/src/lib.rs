@@ -18,4 +18,4 @@ pub use hostile::{is_finite, replace_two, within_two_minutes};
 pub use observers::{Extremes, Instants, Recorder, Sampler, samples_beside_events};
 pub use outcomes::{counts, paired, side, turned};
 pub use scale::Scale;
-pub use scenes::{adhesive, preset_launch, rolling_scene, scene, stream, table1};
+pub use scenes::{adhesive, hand_at, preset_launch, rolling_scene, scene, stream, table1};

@@ -1,6 +1,9 @@
 //! Scenes and launches.
 
-use coinmc_core::{Coin, Domain, Drag, Landing, Launch, Preset, Scene, Stream, Surface};
+use coinmc_core::{
+    Coin, Domain, Drag, Landing, Launch, LaunchDistribution, Marginal, Preset, Scene, Spin, Stream,
+    Surface,
+};
 
 /// Radius of the coins, m.
 const RADIUS_M: f64 = 0.01;
@@ -60,4 +63,17 @@ pub fn stream(seed: u64) -> Stream {
 pub fn preset_launch(preset: Preset, scene: &Scene, seed: u64, toss: u64) -> Launch {
     let mut uniforms = stream(seed).toss(toss);
     preset.distribution().launch(&scene.coin, &mut uniforms)
+}
+
+/// The launches of the preset `hand`, all with this angle between spin and axis.
+///
+/// # Panics
+/// If the preset no longer precesses.
+pub fn hand_at(psi_deg: f64) -> LaunchDistribution {
+    let mut launches = Preset::Hand.distribution();
+    let Spin::Precessing { psi_rad, .. } = &mut launches.spin else {
+        panic!("a coin tossed by hand precesses");
+    };
+    *psi_rad = Marginal::Constant(psi_deg.to_radians());
+    launches
 }

@@ -13,8 +13,8 @@ pub(super) fn ratio(text: &str) -> Result<f64, String> {
 /// The rms slope of a ground.
 pub(super) fn slope(text: &str) -> Result<f64, String> {
     let slope = number(text)?;
-    let wavelength_m = RADIUS_M;
-    Roughness::new(slope, wavelength_m).map_err(|error| error.to_string())?;
+    let any_wavelength_m = 1.0;
+    Roughness::new(slope, any_wavelength_m).map_err(|error| error.to_string())?;
     Ok(slope)
 }
 

@@ -7,8 +7,9 @@ use crate::survey::survey;
 use anyhow::ensure;
 use clap::{Args, ValueEnum};
 use coinmc_bench::{Case, Report, Table, number};
-use coinmc_core::{LaunchDistribution, Marginal, Preset, Spin};
+use coinmc_core::{LaunchDistribution, Preset};
 use coinmc_oracle::RoughStepper;
+use coinmc_testkit::hand_at;
 
 /// How coins are tossed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -121,17 +122,8 @@ impl RoughTosses {
 
     fn launches(&self) -> LaunchDistribution {
         match self.launch {
-            Way::Hand => by_hand(self.psi_deg()),
+            Way::Hand => hand_at(self.psi_deg()),
             Way::Drop => Preset::Drop.distribution(),
         }
     }
-}
-
-/// The launches of the preset `hand`, with this angle between spin and axis.
-fn by_hand(psi_deg: f64) -> LaunchDistribution {
-    let mut launches = Preset::Hand.distribution();
-    if let Spin::Precessing { psi_rad, .. } = &mut launches.spin {
-        *psi_rad = Marginal::Constant(psi_deg.to_radians());
-    }
-    launches
 }

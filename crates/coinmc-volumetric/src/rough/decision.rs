@@ -132,11 +132,10 @@ mod tests {
     /// A coin of this ratio, with this restitution, on ground of this slope and wavelength.
     fn rough([ratio, restitution, slope, wavelength_m]: [f64; 4]) -> Rough {
         Rough {
-            ratio,
             restitution,
             friction_m: [2e-4, 2e-5],
-            slope,
             wavelength_m,
+            ..Rough::of(ratio, slope)
         }
     }
 

@@ -142,6 +142,7 @@ mod tests {
     fn rolling_friction_holds_a_coin_at_rest_on_a_gentle_slope() {
         let (friction, time) = (1e-3, 0.05);
         let rough = Rough {
+            friction: 0.4,
             friction_m: [friction, 1e-4],
             ..Rough::of(0.7, 0.02)
         };

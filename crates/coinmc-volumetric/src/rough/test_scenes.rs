@@ -10,6 +10,7 @@ use coinmc_core::{Coin, Roughness, Scene, Surface};
 pub(super) struct Rough {
     pub(super) ratio: f64,
     pub(super) restitution: f64,
+    pub(super) friction: f64,
     /// ρ_c and ρ_p, m.
     pub(super) friction_m: [f64; 2],
     pub(super) slope: f64,
@@ -23,6 +24,7 @@ impl Rough {
             ratio,
             slope,
             restitution: 0.5,
+            friction: 0.3,
             friction_m: [5e-5, 5e-6],
             wavelength_m: 3e-3,
         }
@@ -30,7 +32,7 @@ impl Rough {
 
     pub(super) fn scene(&self) -> Scene {
         let [contour, pivoting] = self.friction_m;
-        let surface = Surface::new(self.restitution, 0.3)
+        let surface = Surface::new(self.restitution, self.friction)
             .and_then(|surface| surface.with_friction_lengths(contour, pivoting))
             .expect("a valid surface")
             .with_roughness(Roughness::new(self.slope, self.wavelength_m).ok());
