@@ -102,6 +102,22 @@ fn every_record_is_found_again() {
     }
 }
 
+/// Words that another program may read: serial number, throw, experiment, boot and phase, and the CRC-32 of their
+/// bytes (by zlib) xor "coin".
+#[test]
+fn a_record_is_these_words() {
+    let mut log = FlashLog::open(Nor::new(0));
+    let stored = log.store(&Record {
+        throw_id: 7,
+        experiment: 9,
+        boot: 0x0203,
+        phase: State::Driving,
+    });
+    assert!(stored);
+    let words = [1, 7, 9, 0x0002_0304, 0xF579_0A82];
+    assert_eq!(log.into_flash().words[..5], words);
+}
+
 /// A loss of power at every operation of every store, again and again on the same memory.
 #[test]
 fn a_loss_of_power_costs_at_most_the_record_being_written() {

@@ -5,7 +5,7 @@ mod support;
 
 use coinmc_link::{
     AT_COIN_LIMIT_MS, Greeting, Nak, PROTOCOL, Record, Reply, Request, SILENCE_LIMIT_MS, State,
-    Version, fault,
+    Version, capability, fault,
 };
 use support::bed::{CYCLE, EXPERIMENT, TestBed, ok, throw};
 use support::{Bench, Random};
@@ -280,5 +280,54 @@ fn any_request(random: &mut Random, id: &mut u32, bed: &mut TestBed) -> Request 
         }
         10 => Request::Light { permille: 500 },
         _ => Request::Status,
+    }
+}
+
+/// Limits of this robot, not of the protocol: what is just within them is carried out, one step farther is refused,
+/// and so is what the robot cannot do at all.
+#[test]
+fn a_robot_goes_up_to_its_own_limits() {
+    let answers = |capabilities, request: &Request| {
+        let mut bench = Bench::default();
+        bench.info.capabilities = capabilities;
+        bench.info.limits.angle_cdeg = 9_000;
+        let mut bed = TestBed::new(bench);
+        bed.hello(7);
+        bed.request(request)
+    };
+    let throw = |spin_mrev_s, angle_cdeg| Request::Throw {
+        throw_id: 1,
+        experiment: EXPERIMENT,
+        spin_mrev_s,
+        angle_cdeg,
+    };
+    let moves = |x_um, y_um| Request::MoveCarriage { x_um, y_um };
+    let both = capability::LIGHT | capability::CARRIAGE;
+    let light = Request::Light { permille: 1 };
+    for (capabilities, request) in [
+        (both, throw(4_500, 9_000)),
+        (both, throw(0, 0)),
+        (both, moves(400_000, 300_000)),
+        (both, moves(-400_000, -300_000)),
+        (capability::CARRIAGE, moves(1, 1)),
+        (capability::LIGHT, light),
+    ] {
+        let reply = answers(capabilities, &request);
+        assert!(matches!(reply, Reply::Ok { .. }), "{request:?}: {reply:?}");
+    }
+    for (capabilities, request) in [
+        (both, throw(4_501, 9_000)),
+        (both, throw(5_000, 0)),
+        (both, throw(4_500, 9_001)),
+        (both, throw(0, 18_000)),
+        (both, moves(400_001, 0)),
+        (both, moves(-400_001, 0)),
+        (both, moves(0, 300_001)),
+        (both, moves(0, -2_000_000)),
+        (capability::LIGHT, moves(1, 1)),
+        (capability::CARRIAGE, light),
+    ] {
+        let reply = answers(capabilities, &request);
+        assert_eq!(reply, Reply::Nak(Nak::BadRange), "{request:?}");
     }
 }

@@ -26,6 +26,7 @@ pub const INFO: Info = Info {
 #[derive(Debug, Clone)]
 #[allow(clippy::struct_excessive_bools)] // inputs of a board
 pub struct Bench {
+    pub info: Info,
     pub now_ms: u32,
     done_ms: Option<u32>,
     pub stored: Option<Record>,
@@ -45,6 +46,7 @@ pub struct Bench {
 impl Default for Bench {
     fn default() -> Self {
         Self {
+            info: INFO,
             now_ms: 0,
             done_ms: Some(0),
             stored: None,
@@ -62,7 +64,7 @@ impl Default for Bench {
 
 impl Hardware for Bench {
     fn info(&self) -> Info {
-        INFO
+        self.info
     }
 
     fn load(&mut self) -> Option<Record> {
