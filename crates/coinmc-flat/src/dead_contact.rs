@@ -43,11 +43,9 @@ fn barrier(k: f64, mu: f64, (h, w): (f64, f64)) -> f64 {
         (k - lever) / (k + lever)
     };
     let share = left(mu).abs().max(left(-mu).abs());
-    // the energy at the start of a fall less μ times the lever there, at most: of a coin that the rule
-    // meets falling, and of one that turns back at the steepest angle that friction may hold
-    let met = barrier - mu * (1.0 - barrier * barrier).sqrt();
-    let turned = (1.0 - mu * mu) / steepest;
-    let fall = met.max(turned);
+    // the energy at the start of a fall less μ times the lever there, at most: that of a coin which turns
+    // back at the steepest angle that friction may hold
+    let fall = (1.0 - mu * mu) / steepest;
     // the most energy with which it comes down flat
     let most = fall + mu * w;
     let stays_down = steepest < 1.0 + 0.5 * k && fall * fall < 1.0 + k - mu;

@@ -215,3 +215,63 @@ impl<L: ImpactLaw> Parameters<L> {
         AfterImpact::Contact { slip: motion.vx }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::engine::FlatEngine;
+    use crate::laws::moreau::Moreau;
+    use crate::motion::Motion;
+    use crate::settings::Settings;
+    use crate::touching::Touching;
+    use coinmc_testkit::scene;
+
+    /// A corner under the centre of a frictionless coin that turns at ω falls with 1 − ω² between its
+    /// bounces, each e times as fast as the last. They are replaced where the coin turns by less than zeno
+    /// in the time that they all take, be it by an angle or by the share of its shorter edge.
+    #[test]
+    fn bounces_that_are_over_before_the_coin_turns_are_replaced() {
+        let settings = Settings::default();
+        for (ratio, e, omega) in [
+            (0.2, 0.2, 0.1),
+            (1.0, 0.5, -0.3),
+            (1.0, 0.5, 0.9),
+            (4.0, 0.8, 0.5),
+        ] {
+            let engine = FlatEngine::new(&scene(ratio, e, 0.0), &settings, Moreau).expect("valid");
+            let parameters = &engine.parameters;
+            // from the speed of the next approach to the end of the last bounce
+            let time = |approach: f64| {
+                let mut speed = e * approach;
+                let mut time = 0.0;
+                while speed > 1e-12 * approach {
+                    time += 2.0 * speed / (1.0 - omega * omega);
+                    speed *= e;
+                }
+                time
+            };
+            let half_edge = f64::min(ratio / 2.0, 1.0) / (1.0 + ratio * ratio / 4.0).sqrt();
+            let allowed = settings.zeno / (1.0 + omega.abs() / half_edge);
+            let replaced = |approach: f64| {
+                let mut motion = Motion {
+                    quadrant: 0,
+                    delta: 0.0,
+                    omega,
+                    x: 0.0,
+                    z: 1.0,
+                    vx: 0.4,
+                    vz: -approach,
+                    time: 0.0,
+                };
+                let touching = Touching::of(&motion);
+                let slip = parameters.collapse_bounces(&mut motion, &touching);
+                // a frictionless corner keeps its slip and its turning, and stays on the surface
+                assert!(slip.is_none_or(|slip| (slip - (0.4 - omega)).abs() < 1e-15));
+                assert!(slip.is_none() || motion.vz == 0.0 && motion.omega == omega);
+                slip.is_some()
+            };
+            let longest = allowed / time(1.0);
+            assert!(replaced(0.999 * longest), "H/R {ratio}, e {e}, ω {omega}");
+            assert!(!replaced(1.001 * longest), "H/R {ratio}, e {e}, ω {omega}");
+        }
+    }
+}

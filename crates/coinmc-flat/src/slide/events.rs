@@ -73,7 +73,7 @@ impl Margins {
         };
         StepMargins {
             after,
-            turning: std::array::from_fn(|which| first[which] * h < 0.0 && last[which] * h > 0.0),
+            turning: std::array::from_fn(|which| first[which] < 0.0 && last[which] > 0.0),
             curves: std::array::from_fn(curve),
         }
     }

@@ -5,8 +5,8 @@
 //! kα = r_z F − r_x N. Classical Runge–Kutta in steps of 1/2000: relative error (ω h)⁴/120, below
 //! 1e-12 at ω = 2.
 
-use crate::common::{Moment, Section, Start, engine_with, record};
-use coinmc_core::EventKind;
+use crate::common::{Moment, Section, Start, engine, engine_with, record};
+use coinmc_core::{Engine, EventKind};
 use coinmc_flat::Settings;
 use coinmc_testkit::{Dice, scene};
 use nalgebra::{Matrix3, SVector, Vector3};
@@ -309,4 +309,26 @@ fn check_tosses(tolerance: f64, allowed: f64) -> PhaseCounts {
     }
     println!("{seen:?}");
     seen
+}
+
+/// A corner that slides can jam only where A = K_zz − μ K_xz of a leaning coin is not positive: k + s² <= μ s c
+/// for some angle, s and c its sine and cosine, which asks for μ >= 2 sqrt(k(1 + k)) (4/3 for a rod, k = 1/3:
+/// Painlevé 1895; Génot & Brogliato 1999).
+#[test]
+fn corners_jam_only_above_the_critical_friction() {
+    for ratio in [0.1, 1.0, 3.0, 10.0] {
+        let k = Section::new(&scene(ratio, 0.0, 0.0)).k;
+        let critical = 2.0 * (k * (1.0 + k)).sqrt();
+        let [below, above] = [0.99, 1.5].map(|share| {
+            let scene = scene(ratio, 0.0, share * critical);
+            let engine = engine(&scene);
+            (0..2000)
+                .map(|toss| {
+                    let start = touching(&Section::new(&scene), &mut Dice::new(62, toss));
+                    engine.toss(&mut (), &start.launch(&scene), &mut ()).jams
+                })
+                .sum::<u32>()
+        });
+        assert!(below == 0 && above > 0, "H/R {ratio}: {below}, {above}");
+    }
 }

@@ -107,3 +107,79 @@ fn kinetic(body: &Body, y: &State) -> f64 {
     let [_, _, _, vx, vz, omega, ..] = *y;
     0.5 * (vx * vx + vz * vz + body.inertia * omega * omega)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dormand_prince::System;
+    use crate::laws::line_contact::equations::{Corner, Grip};
+
+    /// A coin that turns above the surface, at the scales of an impact at speed 1.
+    fn state(tolerance: f64) -> ImpactState {
+        let corner = |x: f64, z: f64| Corner {
+            x,
+            z,
+            gap: 1.0,
+            grip: Grip::Apart,
+            damping: 0.0,
+        };
+        let body = Body {
+            inertia: 0.3,
+            stiffness: 1e6,
+            mu: 0.3,
+            tangential: 0.0,
+            corners: [(-0.6, -0.8), (0.6, -0.8), (-0.6, 0.8), (0.6, 0.8)]
+                .map(|(x, z)| corner(x, z)),
+        };
+        ImpactState::new(body, [0.0, -1.0, 0.5], (1.0, 0.4), (0.1, 0.8), tolerance)
+    }
+
+    /// The allowed error of a displacement is the tolerance times the depth of the impact, of a velocity
+    /// times the speed, of the lost energy times the speed's square; the worst counts.
+    #[test]
+    fn errors_are_in_units_of_depth_speed_and_energy() {
+        let tolerance = 1e-6;
+        let state = state(tolerance);
+        let Scale { length, speed, .. } = state.scale;
+        let units = [
+            length,
+            length,
+            length,
+            speed,
+            speed,
+            speed,
+            length,
+            length,
+            length,
+            length,
+            speed * speed,
+        ];
+        let rates = state.body.rates(&state.y);
+        let step = |errors: [f64; 11]| {
+            let mut step = Step::take(&state.body, &state.y, &rates, 1e-9);
+            step.error = errors;
+            step
+        };
+        for (which, unit) in units.into_iter().enumerate() {
+            let mut errors = units.map(|unit| 0.1 * tolerance * unit);
+            errors[which] = -3.0 * tolerance * unit;
+            let found = state.error(&step(errors));
+            assert!((found - 3.0).abs() < 1e-12, "component {which}: {found}");
+            errors[which] = f64::NAN;
+            assert!(state.error(&step(errors)).is_nan(), "component {which}");
+        }
+        assert_eq!(state.error(&step([0.0; 11])), 0.0);
+    }
+
+    /// No step is asked for more than rounding leaves.
+    #[test]
+    fn errors_below_rounding_are_allowed() {
+        let mut state = state(1e-12);
+        state.y[3] = 1e9;
+        let rates = state.body.rates(&state.y);
+        let mut step = Step::take(&state.body, &state.y, &rates, 1e-9);
+        step.error = [0.0; 11];
+        step.error[3] = 2.0 * f64::EPSILON * 1e9;
+        assert!((state.error(&step) - 0.5).abs() < 1e-6);
+    }
+}
