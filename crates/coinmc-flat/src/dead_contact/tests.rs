@@ -136,6 +136,54 @@ fn the_barrier_has_its_closed_form_where_it_is_proven() {
     assert_eq!(barrier(k, 0.6, face), f64::NEG_INFINITY);
 }
 
+/// The conditions of the proof, by their words: the most energy after a fall over all angles from which a coin
+/// may fall, and the least loss at the other corner over all frictions.
+#[test]
+fn a_barrier_is_claimed_just_where_the_conditions_of_the_proof_hold() {
+    const SHARES: u32 = 2000;
+    let mut dice = Dice::new(32, 0);
+    let (mut claimed, mut left_open) = (0, 0);
+    for _ in 0..2000 {
+        let (k, wells) = wells(dice.scale(0.1, 10.0));
+        let mu = dice.between(0.02, 0.8);
+        let (h, w) = dice.pick(&wells);
+        let shares = || (0..=SHARES).map(|i| f64::from(i) / f64::from(SHARES));
+        let slope = (1.0 + mu * mu).sqrt();
+        let height = (slope - mu * w).min(1.0);
+        let flat = libm::atan2(w, h);
+        let held = libm::atan(mu);
+        if flat <= held {
+            assert_eq!(barrier(k, mu, (h, w)), f64::NEG_INFINITY);
+            continue;
+        }
+        // W - μa of a coin that turns back at an angle, or that is met falling with the height as its energy
+        let turned = shares().map(|share| held + share * (flat - held));
+        let met = turned.clone().filter(|psi| libm::cos(*psi) <= height);
+        let turned = turned.map(|psi| libm::cos(psi) - mu * libm::sin(psi));
+        let met = met.map(|psi| height - mu * libm::sin(psi));
+        let fall = turned.chain(met).fold(f64::NEG_INFINITY, f64::max);
+        let left = shares().map(|share| {
+            let lever = w * (w - mu * (2.0 * share - 1.0) * h);
+            ((k - lever) / (k + lever)).abs()
+        });
+        let left = left.fold(0.0, f64::max);
+        let spare = [
+            height - h - left * left * (fall + mu * w - h),
+            1.0 + 0.5 * k - slope,
+            1.0 + k - mu - fall * fall,
+        ];
+        let spare = spare.into_iter().fold(f64::INFINITY, f64::min);
+        // the maximum over a grid of angles is known to the square of its step
+        if spare.abs() < 1e-3 {
+            continue;
+        }
+        let found = barrier(k, mu, (h, w)) > f64::NEG_INFINITY;
+        assert_eq!(found, spare > 0.0, "k {k}, μ {mu}, w {w}: {spare}");
+        *(if found { &mut claimed } else { &mut left_open }) += 1;
+    }
+    assert!(claimed > 300 && left_open > 300, "{claimed} {left_open}");
+}
+
 fn same_faces<L: ImpactLaw>(law: L) {
     for (ratio, mu) in [(1.2, 0.3), (1.2, 0.1), (0.5, 0.3), (2.0, 0.2), (5.0, 0.3)] {
         let scene = scene(ratio, 0.0, mu);

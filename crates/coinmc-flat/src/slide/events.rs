@@ -103,9 +103,6 @@ impl StepMargins {
     /// no event.
     #[inline]
     pub(super) fn search(&self, start: &RatedState) -> Option<EventSearch> {
-        if self.after.iter().all(|margin| *margin >= 0.0) {
-            return None;
-        }
         let (which, share) = earliest(&self.curves, &self.after)?;
         Some(EventSearch {
             start: *start,

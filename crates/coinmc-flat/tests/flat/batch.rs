@@ -1,6 +1,6 @@
 //! Batches of tosses are bit-identical to the scalar path.
 
-use crate::common::Start;
+use crate::common::{Section, Start};
 use coinmc_core::{DynEngine, Ended, Engine, Face, Landing, Launch, Outcome, Preset, Scene};
 use coinmc_flat::{
     Decision, GaekSukhov, HalfSine, Lanes, Law, Lever, LineContact, Materials, PulseTime, Settings,
@@ -82,6 +82,43 @@ fn every_shape_and_surface() {
     }
     // all kinds of motion are among them
     assert!(sides > 1000 && steps > 10_000, "{sides} {steps}");
+}
+
+/// A corner that touches down very slowly while the turning of the coin holds it up, ω² cos δ = 1, neither rises
+/// nor falls after its impact: the search for the next one must not pass by it.
+#[test]
+fn corners_that_neither_rise_nor_fall() {
+    let settings = Settings {
+        zeno: 1e-15,
+        max_impacts: 400,
+        ..Settings::default()
+    };
+    for ratio in [0.5, 1.2] {
+        for e in [0.5, 1.0] {
+            let scene = scene(ratio, e, 0.0);
+            let section = Section::new(&scene);
+            let start = |toss| {
+                let dice = &mut Dice::new(702, toss);
+                let theta = dice.between(0.0, std::f64::consts::TAU);
+                let corners = section.corners(theta);
+                let lowest = corners.iter().min_by(|a, b| a.1.total_cmp(&b.1));
+                let &(x, z) = lowest.expect("four corners");
+                let surplus = dice.pick(&[0.0, 1e-15, 1e-12, 1e-9]);
+                let omega = dice.pick(&[-1.0, 1.0]) * ((1.0 + surplus) / -z).sqrt();
+                let start = Start {
+                    z: -z,
+                    vx: 0.0,
+                    vz: omega * x - dice.scale(1e-14, 1e-9),
+                    theta,
+                    omega,
+                };
+                start.launch(&scene)
+            };
+            let launches: Vec<Launch> = (0..500).map(start).collect();
+            let outcomes = assert_lanes_agree(&scene, &settings, &launches);
+            assert!(outcomes.iter().filter(|one| one.impacts > 1).count() > 100);
+        }
+    }
 }
 
 #[test]

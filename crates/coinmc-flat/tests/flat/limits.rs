@@ -2,7 +2,7 @@
 
 use crate::common::{Section, Start, engine, engine_with, record};
 use coinmc_core::{Ended, Engine, EventKind, Face, Launch, Preset, UniformSource, run_tosses};
-use coinmc_flat::Settings;
+use coinmc_flat::{ENGINE, Settings};
 use coinmc_testkit::{Dice, adhesive, preset_launch, scene, stream};
 use nalgebra::{UnitVector3, Vector3};
 use std::f64::consts::{PI, TAU};
@@ -185,4 +185,14 @@ fn a_thin_coin_lands_in_kellers_bands() {
         assert_eq!(outcome.face(), Some(face), "u {u}, ω {omega}");
     }
     assert!(checked > 15_000, "{checked}");
+}
+
+/// Where no impact loses energy the engine remarks on it, and nowhere else.
+#[test]
+fn bounces_without_loss_are_remarked_on() {
+    let remark = &ENGINE.remarks[0];
+    assert!(remark.text.contains("loses no energy"));
+    assert!((remark.applies)(&scene(1.0, 1.0, 0.3)));
+    assert!(!(remark.applies)(&scene(1.0, 0.99, 0.3)));
+    assert!(!(remark.applies)(&adhesive(scene(1.0, 1.0, 0.3))));
 }

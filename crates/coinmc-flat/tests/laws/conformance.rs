@@ -25,6 +25,16 @@ fn laws() -> Vec<(Law, f64)> {
     ]
 }
 
+/// Configs and results know each law by these words.
+#[test]
+fn laws_have_their_names() {
+    let rigid = Law::RIGID.map(Law::name);
+    assert_eq!(rigid, ["moreau", "chatterjee-ruina"]);
+    let lasting = [gaek_sukhov(3e-3, Lever::Height), pulse(1e-4), line(3e9)];
+    let names = lasting.map(Law::name);
+    assert_eq!(names, ["gaek-sukhov", "half-sine", "line-contact"]);
+}
+
 const RATIOS: [f64; 3] = [0.3, 1.2, 3.0];
 
 fn stream() -> Stream {

@@ -189,6 +189,15 @@ fn a_graze_before_a_hard_impact_does_not_add_steps() {
     assert!(found.steps < 3000, "{found:?}");
 }
 
+/// Both stiffnesses of like bodies are the same where ν = 0, and two to three where nothing is compressible
+/// (Mindlin 1949).
+#[test]
+fn the_tangential_stiffness_of_like_bodies_is_mindlin_s() {
+    for (poisson, ratio) in [(0.0, 1.0), (0.2, 8.0 / 9.0), (0.5, 2.0 / 3.0)] {
+        assert!((LineContact::mindlin(poisson) - ratio).abs() < 1e-15);
+    }
+}
+
 /// Tangential stiffness changes the result where the corner sticks; with every stiffness the impact
 /// loses energy.
 #[test]

@@ -13,6 +13,7 @@ mod impacts;
 mod limits;
 mod loaded;
 mod planar;
+mod remarks;
 mod rough;
 mod sampling;
 mod side_ending;

@@ -110,3 +110,61 @@ impl ImpactState {
         *Body::spring(&mut self.y, which) = 0.0;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dormand_prince::System;
+    use crate::laws::line_contact::equations::Corner;
+
+    /// A corner under the centre, as deep as it gets, that slides to the right and is about to stop.
+    fn sliding() -> (ImpactState, Step<11>) {
+        let corner = |gap: f64, grip: Grip| Corner {
+            x: 0.0,
+            z: -1.0,
+            gap,
+            grip,
+            damping: 0.0,
+        };
+        let mut corners = [corner(1.0, Grip::Apart); CORNERS];
+        corners[0] = corner(0.0, Grip::Slides(1.0));
+        let body = Body {
+            inertia: 0.3,
+            stiffness: 1e6,
+            mu: 0.3,
+            tangential: 0.0,
+            corners,
+        };
+        let mut state = ImpactState::new(body, [0.0, -1.0, 0.0], (1.0, 1.0), (0.0, 0.8), 1e-6);
+        state.y[1] = -state.scale.length;
+        state.y[4] = 0.0;
+        let h = 0.05 * state.scale.time;
+        let rates = state.body.rates(&state.y);
+        let braking = -(rates[3] + rates[5] * state.body.corners[0].z);
+        state.y[3] = 0.4 * braking * h;
+        let rates = state.body.rates(&state.y);
+        let step = Step::take(&state.body, &state.y, &rates, h);
+        (state, step)
+    }
+
+    /// The instant at which friction takes the corner along is found to rounding, just beyond it, so that the next
+    /// step begins behind it.
+    #[test]
+    fn events_are_located_just_beyond_their_margin() {
+        let (state, step) = sliding();
+        let (share, which) = state.first_event(&step).expect("it stops");
+        assert_eq!(which, CORNERS);
+        assert!(share > 0.1 && share < 0.9, "{share}");
+        let hold = |share: f64| state.body.hold(&step.at(share), 0) / state.scale.speed;
+        assert!(hold(share) < -0.9 * BROKEN && hold(share) > -2.1 * BROKEN);
+        assert!(hold(0.999 * share) > 0.0);
+        // nothing breaks where the margin is only rounding below zero
+        let (mut state, mut step) = sliding();
+        step.end[3] -= state.scale.speed * (hold(1.0) + 0.5 * BROKEN);
+        assert_eq!(state.first_event(&step), None);
+        step.end[3] -= state.scale.speed * BROKEN;
+        assert!(state.first_event(&step).is_some());
+        state.change(CORNERS);
+        assert_eq!(state.body.corners[0].grip, Grip::Sticks);
+    }
+}
