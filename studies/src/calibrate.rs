@@ -16,10 +16,17 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-/// The scene and the measurements; the readings stand for those of each coin.
-const CONFIG: &str = r#"
+/// A thick coin on a plane, and a thinner one on ground as rough as wood, whose slope is then unknown, too.
+const PLANE: &str = "\
 coin = { ratio = 1.2, radius_m = 0.012 }
 surface = { restitution = 0.5, friction = 0.3 }
+";
+const ROUGH: &str = "\
+coin = { ratio = 0.7, radius_m = 0.012 }
+surface = { material = 'wood' }
+";
+/// The rest of the scene and the measurements; the readings stand for those of each coin.
+const MEASURED: &str = r#"
 prior = { material = "wood" }
 launch = { preset = "hand", height_m = 0.3 }
 engine.volumetric = {}
@@ -62,6 +69,10 @@ pub(crate) struct Calibrate {
     /// Tosses of the prediction for each coin, which takes most of the time
     #[arg(long, value_parser = number::count, default_value = "32768", value_name = "N")]
     predicted: u64,
+
+    /// A coin of H/R = 0.7 on ground as rough as wood, in place of one of 1.2 on a plane
+    #[arg(long)]
+    rough: bool,
 }
 
 /// A coin whose truth is known.
@@ -159,7 +170,9 @@ impl Calibrate {
 
     fn model(&self, seed: u64, paired: bool) -> anyhow::Result<Model> {
         let set: Override = format!("seed={seed}").parse()?;
-        let observed = Observations::parse("study", CONFIG, &[set], Path::new(""))?;
+        let scene = if self.rough { ROUGH } else { PLANE };
+        let config = format!("{scene}{MEASURED}");
+        let observed = Observations::parse("study", &config, &[set], Path::new(""))?;
         let settings = Settings {
             points: self.points,
             tosses: self.tosses,

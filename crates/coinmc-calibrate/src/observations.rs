@@ -10,7 +10,7 @@ use coinmc::plan::Plan;
 use coinmc_core::schema::{
     Absent, Bounds, Kind as KeyKind, ReadError, TableKind, Values, Word, field, fields, table,
 };
-use coinmc_core::{Material, Scene};
+use coinmc_core::{Material, Roughness, Scene};
 use std::path::Path;
 
 /// Tables of the scene that a measurement may have of its own.
@@ -120,7 +120,10 @@ impl Observations {
         for plan in std::iter::once(&plan).chain(entries.iter().map(|entry| &entry.plan)) {
             check(plan)?;
         }
-        let parameters = Parameter::of_engine(plan.points[0].engine.descriptor());
+        let parameters = Parameter::of_scene(
+            plan.points[0].engine.descriptor(),
+            &plan.points[0].scene.surface,
+        );
         let mut observed = Self {
             predicted: plan.clone(),
             priors: priors(&plan, &parameters, None),
@@ -159,6 +162,7 @@ impl Observations {
         let kind = content.kind();
         let reduced = match content {
             Content::Prior(given) => {
+                check_ranges(&given, parameters, &place)?;
                 self.priors = priors(&self.plan, parameters, Some(&given));
                 return Ok(());
             }
@@ -242,6 +246,14 @@ impl Observations {
         notes.filter(move |note| !calibrated(note))
     }
 
+    /// The same with the ground as the scene says, so that its slope is not calibrated.
+    #[must_use]
+    pub fn with_known_ground(mut self) -> Self {
+        self.priors
+            .retain(|prior| prior.parameter != Parameter::RoughnessSlope);
+        self
+    }
+
     /// The parameters, in the order of every table and array.
     pub fn parameters(&self) -> Vec<Parameter> {
         self.priors.iter().map(|prior| prior.parameter).collect()
@@ -261,6 +273,30 @@ fn check(plan: &Plan) -> Result<(), CalibrationError> {
         return Err(CalibrationError::Adhesive);
     }
     Ok(())
+}
+
+/// What is said of parameters on which tosses in this scene do not depend is a mistake.
+fn check_ranges(
+    given: &PriorGiven,
+    parameters: &[Parameter],
+    place: &Place,
+) -> Result<(), Diagnostics> {
+    let unknown = |(parameter, _): &&(Parameter, _)| !parameters.contains(parameter);
+    let Some((parameter, _)) = given.ranges.iter().find(unknown) else {
+        return Ok(());
+    };
+    let (message, help) = if *parameter == Parameter::RoughnessSlope {
+        (
+            "the ground of this scene is a plane, which has no slope".to_owned(),
+            "give surface.roughness_slope and surface.roughness_wavelength_m, or a material",
+        )
+    } else {
+        (
+            format!("this engine knows no {}", parameter.words()),
+            "use [engine.volumetric]",
+        )
+    };
+    Err(place.problem(message, Some(help.to_owned())))
 }
 
 fn priors(plan: &Plan, parameters: &[Parameter], given: Option<&PriorGiven>) -> Vec<Prior> {
@@ -393,6 +429,7 @@ fn prior_schema() -> TableKind {
         let bounds = match parameter {
             Parameter::Restitution => Bounds::open(0.0, 1.0),
             Parameter::Friction => Bounds::above_zero(100.0),
+            Parameter::RoughnessSlope => Bounds::above_zero(Roughness::MAX_SLOPE),
             _ => Bounds::above_zero(1.0),
         };
         let end = |name, doc| field(name, doc, KeyKind::Real(bounds), Absent::Required);
@@ -425,3 +462,6 @@ fn read_prior(values: &Values) -> Result<PriorGiven, ReadError> {
     }
     Ok(PriorGiven { material, ranges })
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,6 +1,6 @@
 //! The numbers of a surface that are calibrated.
 
-use coinmc_core::{EngineDescriptor, EngineKind, Surface};
+use coinmc_core::{EngineDescriptor, EngineKind, Roughness, Surface};
 
 /// A number of a surface that is calibrated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -13,15 +13,18 @@ pub enum Parameter {
     RollingFriction,
     /// Pivoting friction length ρ_p, m.
     PivotingFriction,
+    /// Rms slope s of rough ground; its wavelength is not calibrated.
+    RoughnessSlope,
 }
 
 impl Parameter {
     /// All of them, in the order of every table and array.
-    pub const ALL: [Self; 4] = [
+    pub const ALL: [Self; 5] = [
         Self::Restitution,
         Self::Friction,
         Self::RollingFriction,
         Self::PivotingFriction,
+        Self::RoughnessSlope,
     ];
 
     /// Its key in the table `[surface]`.
@@ -31,6 +34,7 @@ impl Parameter {
             Self::Friction => "friction",
             Self::RollingFriction => "rolling_friction_m",
             Self::PivotingFriction => "pivoting_friction_m",
+            Self::RoughnessSlope => "roughness_slope",
         }
     }
 
@@ -41,23 +45,25 @@ impl Parameter {
             Self::Friction => "friction",
             Self::RollingFriction => "rolling friction",
             Self::PivotingFriction => "pivoting friction",
+            Self::RoughnessSlope => "slope of the ground",
         }
     }
 
     /// Its unit; `1` for a plain number.
     pub const fn unit(self) -> &'static str {
         match self {
-            Self::Restitution | Self::Friction => "1",
+            Self::Restitution | Self::Friction | Self::RoughnessSlope => "1",
             Self::RollingFriction | Self::PivotingFriction => "m",
         }
     }
 
-    /// The parameters on which the tosses of an engine depend: an engine in the plane knows no friction
-    /// lengths.
-    pub fn of_engine(engine: &EngineDescriptor) -> Vec<Self> {
+    /// The parameters on which tosses on such a surface depend: an engine in the plane knows no friction
+    /// lengths, and a plane has no slope.
+    pub fn of_scene(engine: &EngineDescriptor, surface: &Surface) -> Vec<Self> {
         let known = match engine.kind {
             EngineKind::Planar => 2,
-            EngineKind::Spatial | EngineKind::ClosedForm => 4,
+            EngineKind::Spatial | EngineKind::ClosedForm if surface.roughness().is_none() => 4,
+            EngineKind::Spatial | EngineKind::ClosedForm => 5,
         };
         Self::ALL[..known].to_vec()
     }
@@ -69,10 +75,20 @@ impl Parameter {
             Self::Friction => surface.friction(),
             Self::RollingFriction => surface.rolling_friction_m(),
             Self::PivotingFriction => surface.pivoting_friction_m(),
+            Self::RoughnessSlope => surface.roughness().map_or(0.0, |ground| ground.slope()),
         }
     }
 
-    /// Whether it lies between 0 and 1; the others are only positive.
+    /// The greatest number that it may be; infinite if there is none.
+    pub(crate) const fn most(self) -> f64 {
+        match self {
+            Self::Restitution => 1.0,
+            Self::RoughnessSlope => Roughness::MAX_SLOPE,
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// Whether it lies between 0 and 1 and has the scale of a share.
     const fn is_share(self) -> bool {
         matches!(self, Self::Restitution)
     }
@@ -107,7 +123,10 @@ impl Parameter {
 
     /// Whether a number can be its value.
     pub fn allows(self, value: f64) -> bool {
-        value > 0.0 && value.is_finite() && !(self.is_share() && value >= 1.0)
+        value > 0.0
+            && value.is_finite()
+            && value <= self.most()
+            && !(self.is_share() && value >= 1.0)
     }
 }
 
@@ -118,7 +137,7 @@ mod tests {
     #[test]
     fn scales_lead_there_and_back() {
         for parameter in Parameter::ALL {
-            for value in [1e-6, 0.3, 0.9] {
+            for value in [1e-6, 0.1, 0.9] {
                 let scaled = parameter.to_scale(value);
                 let back = parameter.from_scale(scaled);
                 assert!((back / value - 1.0).abs() < 1e-12);

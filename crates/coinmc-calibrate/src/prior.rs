@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 /// How many standard deviations a central interval of 95 % reaches.
 pub(crate) const Z95: f64 = 1.959_963_984_540_054;
 
-/// Estimates of friction lengths may be wrong by this factor, where nothing bounds them.
+/// Estimates of friction lengths and slopes may be wrong by this factor, where nothing bounds them.
 const FACTOR: f64 = 3.0;
 /// A friction coefficient is between these multiples of a typical one.
 const FRICTION: [f64; 2] = [0.6, 1.6];
@@ -47,7 +47,7 @@ impl Prior {
         let value = self.parameter.from_scale(mean + sd * z);
         match self.parameter {
             Parameter::Restitution => value.clamp(1e-6, 1.0 - 1e-6),
-            _ => value.clamp(1e-12, 1e3),
+            other => value.clamp(1e-12, other.most().min(1e3)),
         }
     }
 
@@ -132,6 +132,7 @@ fn typical(parameter: Parameter, material: &Material) -> (f64, &'static str) {
             let length = pivoting_friction_of_patch_m(material.friction.value, patch.value);
             return (length, patch.source);
         }
+        Parameter::RoughnessSlope => material.roughness_slope,
     };
     (sourced.value, sourced.source)
 }
@@ -146,6 +147,10 @@ fn spread(parameter: Parameter, typical: f64) -> (f64, f64) {
         }
         Parameter::Friction => (FRICTION[0] * typical, FRICTION[1] * typical),
         Parameter::RollingFriction => (typical / FACTOR, FACTOR * typical),
+        Parameter::RoughnessSlope => (
+            typical / FACTOR,
+            (FACTOR * typical).min(parameter.most()).max(typical),
+        ),
         // (3π/16) μ a: the uncertainties of μ and of the patch's radius a
         Parameter::PivotingFriction => {
             let half = [FACTOR, (FRICTION[1] / FRICTION[0]).sqrt()].map(libm::log);
@@ -173,6 +178,7 @@ fn named(parameters: &[Parameter], surface: &Surface) -> Option<&'static Materia
 #[cfg(test)]
 mod tests {
     use super::*;
+    use coinmc_core::Roughness;
 
     #[test]
     fn the_interval_of_a_prior_holds_95_percent() {
@@ -197,14 +203,22 @@ mod tests {
 
     #[test]
     fn a_material_is_named_only_for_all_of_its_numbers() {
-        let source = |friction: f64, pivoting: f64| {
+        let source = |friction: f64, pivoting: f64, slope: Option<f64>| {
             let surface = Surface::new(0.5, friction).unwrap();
             let surface = surface.with_friction_lengths(5e-5, pivoting).unwrap();
-            Prior::around(&Parameter::ALL, &surface)[0].source.clone()
+            let ground = slope.and_then(|slope| Roughness::new(slope, 3e-3).ok());
+            let surface = surface.with_roughness(ground);
+            let known = if slope.is_some() { 5 } else { 4 };
+            Prior::around(&Parameter::ALL[..known], &surface)[0]
+                .source
+                .clone()
         };
         let patch = pivoting_friction_of_patch_m(0.3, 4.7e-5);
-        assert!(source(0.3, patch).starts_with("wood: "));
-        assert_eq!(source(0.31, patch), "around the restitution of the config");
-        assert_eq!(source(0.3, 0.0), "around the restitution of the config");
+        assert!(source(0.3, patch, None).starts_with("wood: "));
+        assert!(source(0.3, patch, Some(0.05)).starts_with("wood: "));
+        let config = "around the restitution of the config";
+        assert_eq!(source(0.31, patch, None), config);
+        assert_eq!(source(0.3, 0.0, None), config);
+        assert_eq!(source(0.3, patch, Some(0.06)), config);
     }
 }

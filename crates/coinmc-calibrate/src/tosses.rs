@@ -2,7 +2,7 @@
 
 use crate::{CalibrationError, Parameter};
 use coinmc::plan::{Plan, Point};
-use coinmc_core::{Domain, Stream, Surface, SurfaceError};
+use coinmc_core::{Domain, Roughness, Stream, Surface, SurfaceError};
 use coinmc_questions::Workers;
 use std::ops::Range;
 
@@ -26,11 +26,19 @@ pub(crate) fn surface_with(
         let place = parameters.iter().position(|known| *known == parameter);
         place.map_or(parameter.of_surface(like), |place| values[place])
     };
-    like.with_impact(of(Parameter::Restitution), of(Parameter::Friction))?
+    let slope = of(Parameter::RoughnessSlope);
+    let ground = like.roughness();
+    let ground = ground.map(|ground| Roughness::new(slope, ground.wavelength_m()));
+    let surface = like
+        .with_impact(of(Parameter::Restitution), of(Parameter::Friction))?
         .with_friction_lengths(
             of(Parameter::RollingFriction),
             of(Parameter::PivotingFriction),
-        )
+        )?;
+    Ok(match ground.transpose()? {
+        Some(ground) => surface.with_roughness(Some(ground)),
+        None => surface,
+    })
 }
 
 /// The first point of a plan, on a surface with these values of these parameters.

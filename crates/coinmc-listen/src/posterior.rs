@@ -99,7 +99,7 @@ impl FromDrops {
             }
             .into());
         }
-        if observed.priors.len() < Parameter::ALL.len() {
+        if !observed.parameters().contains(&Parameter::RollingFriction) {
             return Err(ListenError::NotSpatial);
         }
         let simulated = simulate(heard, observed, effort, workers)?;

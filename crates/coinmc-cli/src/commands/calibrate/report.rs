@@ -2,7 +2,7 @@
 
 use crate::terminal::table::{Column, Table};
 use crate::terminal::{Colors, Style, compact, decimals_for, grouped, in_ascii, signed, wrapped};
-use coinmc_calibrate::{Calibration, FairRatio, Model, Predicted, Prior, Summary};
+use coinmc_calibrate::{Calibration, FairRatio, Model, Parameter, Predicted, Prior, Summary};
 use coinmc_questions::number::{three_digits, two_digits};
 
 /// Suggestions that are shown.
@@ -206,6 +206,10 @@ fn assumed(model: &Model) -> impl Iterator<Item = String> {
     let observed = model.observed();
     let surface = observed.plan.points[0].scene.surface;
     let ground = match surface.roughness() {
+        Some(rough) if model.parameters().contains(&Parameter::RoughnessSlope) => format!(
+            "a ground with a wavelength of {} m, which is not calibrated",
+            compact(rough.wavelength_m())
+        ),
         Some(rough) => format!(
             "a ground with a slope of {} and a wavelength of {} m, which is not calibrated",
             compact(rough.slope()),

@@ -92,7 +92,9 @@ impl Listen {
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
-        let load = |path| Observations::load(path, &self.overrides);
+        // impacts hardly tell how rough the ground is
+        let load =
+            |path| Observations::load(path, &self.overrides).map(Observations::with_known_ground);
         let observed = self.config.as_deref().map(load).transpose()?;
         if self.synthetic.is_asked_for() {
             return self.synthetic.write(observed.as_ref(), self.seed, console);

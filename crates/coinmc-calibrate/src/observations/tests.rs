@@ -1,0 +1,44 @@
+use super::*;
+use crate::tosses::point_with;
+
+fn parsed(surface: &str, more: &str) -> Result<Observations, CalibrationError> {
+    let text = format!(
+        "coin.ratio = 0.2\ncoin.radius_m = 0.01\nsurface = {surface}\nlaunch.preset = 'hand'\n\
+         engine.volumetric = {{}}\n{more}"
+    );
+    Observations::parse("inline", &text, &[], "".as_ref())
+}
+
+/// The slope of rough ground is believed to be that of the material within a factor of 3, and surfaces of
+/// the design have theirs and the wavelength of the scene.
+#[test]
+fn the_slope_of_rough_ground_is_calibrated() {
+    let observed = parsed("{ material = 'wood' }", "").unwrap();
+    assert_eq!(observed.parameters(), Parameter::ALL);
+    let slope = &observed.priors[4];
+    assert!((slope.low - 0.05 / 3.0).abs() < 1e-12 && (slope.high - 0.15).abs() < 1e-12);
+    let values = [0.4, 0.2, 1e-5, 1e-6, 0.02];
+    let point = point_with(&observed.plan, &observed.parameters(), &values).unwrap();
+    let ground = point.scene.surface.roughness().unwrap();
+    assert_eq!((ground.slope(), ground.wavelength_m()), (0.02, 3e-3));
+    // beyond the model's range it is at its end
+    let carpet = parsed("{ material = 'carpet' }", "").unwrap();
+    assert_eq!(carpet.priors[4].high, Roughness::MAX_SLOPE);
+    assert_eq!(carpet.priors[4].value(9.0), Roughness::MAX_SLOPE);
+    let known = observed.with_known_ground();
+    assert_eq!(known.parameters(), Parameter::ALL[..4]);
+    let point = point_with(&known.plan, &known.parameters(), &values[..4]).unwrap();
+    let ground = point.scene.surface.roughness().unwrap();
+    assert_eq!(ground.slope(), 0.05);
+}
+
+#[test]
+fn a_plane_has_no_slope_to_calibrate() {
+    let plane = "{ restitution = 0.5, friction = 0.3 }";
+    assert_eq!(parsed(plane, "").unwrap().parameters(), Parameter::ALL[..4]);
+    let error = parsed(plane, "prior.roughness_slope = { low = 0.01, high = 0.1 }");
+    let message = error.unwrap_err().to_string();
+    assert!(message.contains("a plane, which has no slope"), "{message}");
+    let wide = "prior.roughness_slope = { low = 0.01, high = 0.3 }";
+    assert!(parsed("{ material = 'wood' }", wide).is_err());
+}
