@@ -242,7 +242,6 @@ mod tests {
             hidden: vec![8],
             epochs: 200,
             rate: 0.02,
-            decay: 1e-5,
         };
         let networks = networks(&samples, &training, 1, &|| true).unwrap();
         assert_eq!(

@@ -20,17 +20,14 @@ pub struct Training {
     pub epochs: u32,
     /// Largest step of a weight.
     pub rate: f32,
-    /// How strongly weights are drawn to 0.
-    pub decay: f32,
 }
 
 impl Default for Training {
     fn default() -> Self {
         Self {
-            hidden: vec![48, 48, 48],
-            epochs: 200,
-            rate: 3e-3,
-            decay: 1e-5,
+            hidden: vec![64; 4],
+            epochs: 60,
+            rate: 6e-3,
         }
     }
 }
@@ -77,13 +74,7 @@ pub(crate) fn train(
             let rate = training.rate * schedule(f64::from(step) / steps, step);
             workspace.forward(&network, samples, batch);
             workspace.backward(&network, samples, batch, scale);
-            adam.correct(
-                &mut network,
-                &workspace.gradient,
-                rate,
-                training.decay,
-                step,
-            );
+            adam.correct(&mut network, &workspace.gradient, rate, step);
         }
     }
     Some(network)
@@ -252,14 +243,7 @@ impl Adam {
         }
     }
 
-    fn correct(
-        &mut self,
-        network: &mut Network,
-        gradient: &Network,
-        rate: f32,
-        decay: f32,
-        step: u32,
-    ) {
+    fn correct(&mut self, network: &mut Network, gradient: &Network, rate: f32, step: u32) {
         const MEAN: f32 = 0.9;
         const SQUARE: f32 = 0.999;
         let power = |base: f32| 1.0 - libm::powf(base, step as f32);
@@ -276,8 +260,7 @@ impl Adam {
                 weights, biases, ..
             } = layer;
             for (weight, slope) in weights.iter_mut().zip(&slopes.weights) {
-                let drawn = slope + decay * *weight;
-                one(weight, drawn);
+                one(weight, *slope);
             }
             for (bias, slope) in biases.iter_mut().zip(&slopes.biases) {
                 one(bias, *slope);

@@ -41,6 +41,14 @@ pub(crate) struct Atlas {
     /// Times that every point is looked at
     #[arg(long, value_name = "N", default_value_t = Training::default().epochs)]
     epochs: u32,
+
+    /// Units of each hidden layer
+    #[arg(long, value_name = "N,...", value_delimiter = ',', default_values_t = Training::default().hidden)]
+    hidden: Vec<usize>,
+
+    /// Largest step of a weight
+    #[arg(long, value_name = "R", default_value_t = Training::default().rate)]
+    rate: f32,
 }
 
 impl Atlas {
@@ -61,8 +69,9 @@ impl Atlas {
         } else {
             let begun = Instant::now();
             let training = Training {
+                hidden: self.hidden.clone(),
                 epochs: self.epochs,
-                ..Training::default()
+                rate: self.rate,
             };
             let part = fit(&self.launch, &results, &training, 2, &|| true)?;
             let part = part.context("the fit was stopped")?;
