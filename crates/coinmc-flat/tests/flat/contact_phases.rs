@@ -332,3 +332,31 @@ fn corners_jam_only_above_the_critical_friction() {
         assert!(below == 0 && above > 0, "H/R {ratio}: {below}, {above}");
     }
 }
+
+/// A corner that has jammed sticks, or leaves at once where the coin turns so fast that nothing presses it down: it
+/// does not slide on for no time.
+#[test]
+fn corners_that_have_jammed_stick_or_leave() {
+    let mut left = 0;
+    for ratio in [1.0, 3.0, 10.0] {
+        let k = Section::new(&scene(ratio, 0.0, 0.0)).k;
+        let scene = scene(ratio, 0.0, 3.0 * (k * (1.0 + k)).sqrt());
+        let (engine, section) = (engine(&scene), Section::new(&scene));
+        for toss in 0..2000 {
+            let start = touching(&section, &mut Dice::new(62, toss));
+            let (outcome, moments) = record(&engine, &scene, &start.launch(&scene));
+            if outcome.jams == 0 {
+                continue;
+            }
+            for pair in moments.windows(2) {
+                if pair[0].kind == EventKind::Sliding && pair[1].kind == EventKind::LiftOff {
+                    // a slide that jams at once takes no time either, but changes the turning
+                    let same = pair[1].time == pair[0].time && pair[1].omega == pair[0].omega;
+                    assert!(!same, "H/R {ratio}, toss {toss}");
+                    left += 1;
+                }
+            }
+        }
+    }
+    assert!(left > 30, "{left}");
+}

@@ -214,3 +214,24 @@ impl System<11> for Body {
         rates
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Also beyond half a turn, where the polynomials of flight do not hold.
+    #[test]
+    fn any_angle_has_its_sine_and_versine() {
+        for step in -200..=200 {
+            let angle = 0.1 * f64::from(step);
+            let (sin, versine) = turned(angle);
+            assert!((sin - libm::sin(angle)).abs() < 1e-15, "{angle}");
+            assert!(
+                (versine - (1.0 - libm::cos(angle))).abs() < 1e-15,
+                "{angle}"
+            );
+        }
+        // without cancellation
+        assert!((turned(1e-9).1 / 5e-19 - 1.0).abs() < 1e-15);
+    }
+}
