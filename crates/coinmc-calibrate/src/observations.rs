@@ -281,18 +281,20 @@ fn check_ranges(
     parameters: &[Parameter],
     place: &Place,
 ) -> Result<(), Diagnostics> {
-    let unknown = |(parameter, _): &&(Parameter, _)| !parameters.contains(parameter);
-    let Some((parameter, _)) = given.ranges.iter().find(unknown) else {
+    let given = given.ranges.iter().map(|(parameter, _)| *parameter);
+    let unknown: Vec<Parameter> = given.filter(|one| !parameters.contains(one)).collect();
+    if unknown.is_empty() {
         return Ok(());
-    };
-    let (message, help) = if *parameter == Parameter::RoughnessSlope {
+    }
+    let (message, help) = if unknown == [Parameter::RoughnessSlope] {
         (
             "the ground of this scene is a plane, which has no slope".to_owned(),
             "give surface.roughness_slope and surface.roughness_wavelength_m, or a material",
         )
     } else {
+        let words: Vec<&str> = unknown.iter().map(|one| one.words()).collect();
         (
-            format!("this engine knows no {}", parameter.words()),
+            format!("this engine knows no {}", words.join(", no ")),
             "use [engine.volumetric]",
         )
     };

@@ -42,3 +42,21 @@ fn a_plane_has_no_slope_to_calibrate() {
     let wide = "prior.roughness_slope = { low = 0.01, high = 0.3 }";
     assert!(parsed("{ material = 'wood' }", wide).is_err());
 }
+
+/// A prior of what the tosses do not depend on is refused, all of it at once.
+#[test]
+fn an_engine_in_the_plane_has_no_friction_lengths() {
+    let config = "coin.ratio = 0.2\ncoin.radius_m = 0.01\nsurface = { restitution = 0.5, friction = 0.3 }\n\
+                  launch.preset = 'robot'\nengine.flat = {}\n";
+    let parsed = |prior: &str| {
+        let text = format!("{config}[prior]\n{prior}");
+        Observations::parse("inline", &text, &[], "".as_ref())
+    };
+    assert_eq!(parsed("").unwrap().parameters(), Parameter::ALL[..2]);
+    let error = parsed(
+        "rolling_friction_m = { low = 1e-5, high = 1e-4 }\npivoting_friction_m = { low = 1e-6, high = 1e-5 }",
+    );
+    let message = error.unwrap_err().to_string();
+    let expected = "this engine knows no rolling friction, no pivoting friction";
+    assert!(message.contains(expected), "{message}");
+}
