@@ -25,8 +25,8 @@ pub struct Training {
 impl Default for Training {
     fn default() -> Self {
         Self {
-            hidden: vec![64; 4],
-            epochs: 60,
+            hidden: vec![48; 4],
+            epochs: 150,
             rate: 6e-3,
         }
     }
