@@ -147,10 +147,7 @@ fn spread(parameter: Parameter, typical: f64) -> (f64, f64) {
         }
         Parameter::Friction => (FRICTION[0] * typical, FRICTION[1] * typical),
         Parameter::RollingFriction => (typical / FACTOR, FACTOR * typical),
-        Parameter::RoughnessSlope => (
-            typical / FACTOR,
-            (FACTOR * typical).min(parameter.most()).max(typical),
-        ),
+        Parameter::RoughnessSlope => (typical / FACTOR, (FACTOR * typical).min(parameter.most())),
         // (3π/16) μ a: the uncertainties of μ and of the patch's radius a
         Parameter::PivotingFriction => {
             let half = [FACTOR, (FRICTION[1] / FRICTION[0]).sqrt()].map(libm::log);

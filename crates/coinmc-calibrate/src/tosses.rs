@@ -29,16 +29,14 @@ pub(crate) fn surface_with(
     let slope = of(Parameter::RoughnessSlope);
     let ground = like.roughness();
     let ground = ground.map(|ground| Roughness::new(slope, ground.wavelength_m()));
+    let ground = ground.transpose()?;
     let surface = like
         .with_impact(of(Parameter::Restitution), of(Parameter::Friction))?
         .with_friction_lengths(
             of(Parameter::RollingFriction),
             of(Parameter::PivotingFriction),
         )?;
-    Ok(match ground.transpose()? {
-        Some(ground) => surface.with_roughness(Some(ground)),
-        None => surface,
-    })
+    Ok(surface.with_roughness(ground))
 }
 
 /// The first point of a plan, on a surface with these values of these parameters.

@@ -100,9 +100,7 @@ fn corners_that_neither_rise_nor_fall() {
             let start = |toss| {
                 let dice = &mut Dice::new(702, toss);
                 let theta = dice.between(0.0, std::f64::consts::TAU);
-                let corners = section.corners(theta);
-                let lowest = corners.iter().min_by(|a, b| a.1.total_cmp(&b.1));
-                let &(x, z) = lowest.expect("four corners");
+                let (x, z) = section.lowest(theta);
                 let surplus = dice.pick(&[0.0, 1e-15, 1e-12, 1e-9]);
                 let omega = dice.pick(&[-1.0, 1.0]) * ((1.0 + surplus) / -z).sqrt();
                 let start = Start {

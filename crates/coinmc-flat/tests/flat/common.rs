@@ -120,6 +120,13 @@ impl Section {
         })
     }
 
+    /// The lowest corner relative to the centre.
+    pub(crate) fn lowest(&self, theta: f64) -> (f64, f64) {
+        let corners = self.corners(theta);
+        let lowest = corners.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
+        lowest.expect("four corners")
+    }
+
     /// Depth of the lowest corner below the centre.
     pub(crate) fn reach(&self, theta: f64) -> f64 {
         let (sin, cos) = libm::sincos(theta);

@@ -6,7 +6,7 @@
 //! 1e-12 at ω = 2.
 
 use crate::common::{Moment, Section, Start, engine, engine_with, record};
-use coinmc_core::{Engine, EventKind};
+use coinmc_core::{Engine, EventKind, Scene};
 use coinmc_flat::Settings;
 use coinmc_testkit::{Dice, scene};
 use nalgebra::{Matrix3, SVector, Vector3};
@@ -225,11 +225,7 @@ fn check_phase(section: &Section, mu: f64, from: &Moment, to: &Moment, seen: &mu
 /// enough to lift off (ω²cos δ from 0.5 to 1).
 fn touching(section: &Section, dice: &mut Dice) -> Start {
     let theta = dice.between(0.0, std::f64::consts::TAU);
-    let corners = section.corners(theta);
-    let lowest = corners
-        .iter()
-        .min_by(|a, b| a.1.total_cmp(&b.1))
-        .expect("four corners");
+    let lowest = section.lowest(theta);
     let z = -lowest.1;
     let omega = dice.pick(&[-1.0, 1.0]) * (dice.between(0.5, 1.0) / z).sqrt();
     Start {
@@ -311,20 +307,23 @@ fn check_tosses(tolerance: f64, allowed: f64) -> PhaseCounts {
     seen
 }
 
-/// A corner that slides can jam only where A = K_zz − μ K_xz of a leaning coin is not positive: k + s² <= μ s c
-/// for some angle, s and c its sine and cosine, which asks for μ >= 2 sqrt(k(1 + k)) (4/3 for a rod, k = 1/3:
-/// Painlevé 1895; Génot & Brogliato 1999).
+/// A coin that does not rebound, with this multiple of the friction above which a corner that slides can jam: where
+/// A = K_zz − μ K_xz is not positive, k + s² <= μ s c for some angle, s and c its sine and cosine, which asks for
+/// μ >= 2 sqrt(k(1 + k)) (4/3 for a rod, k = 1/3: Painlevé 1895; Génot & Brogliato 1999).
+fn near_jamming(ratio: f64, multiple: f64) -> Scene {
+    let k = Section::new(&scene(ratio, 0.0, 0.0)).k;
+    scene(ratio, 0.0, multiple * 2.0 * (k * (1.0 + k)).sqrt())
+}
+
 #[test]
 fn corners_jam_only_above_the_critical_friction() {
     for ratio in [0.1, 1.0, 3.0, 10.0] {
-        let k = Section::new(&scene(ratio, 0.0, 0.0)).k;
-        let critical = 2.0 * (k * (1.0 + k)).sqrt();
-        let [below, above] = [0.99, 1.5].map(|share| {
-            let scene = scene(ratio, 0.0, share * critical);
-            let engine = engine(&scene);
+        let [below, above] = [0.99, 1.5].map(|multiple| {
+            let scene = near_jamming(ratio, multiple);
+            let (engine, section) = (engine(&scene), Section::new(&scene));
             (0..2000)
                 .map(|toss| {
-                    let start = touching(&Section::new(&scene), &mut Dice::new(62, toss));
+                    let start = touching(&section, &mut Dice::new(62, toss));
                     engine.toss(&mut (), &start.launch(&scene), &mut ()).jams
                 })
                 .sum::<u32>()
@@ -339,8 +338,7 @@ fn corners_jam_only_above_the_critical_friction() {
 fn corners_that_have_jammed_stick_or_leave() {
     let mut left = 0;
     for ratio in [1.0, 3.0, 10.0] {
-        let k = Section::new(&scene(ratio, 0.0, 0.0)).k;
-        let scene = scene(ratio, 0.0, 3.0 * (k * (1.0 + k)).sqrt());
+        let scene = near_jamming(ratio, 1.5);
         let (engine, section) = (engine(&scene), Section::new(&scene));
         for toss in 0..2000 {
             let start = touching(&section, &mut Dice::new(62, toss));
