@@ -151,3 +151,79 @@ impl FlightStage {
         self.finished = was & !self.active;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_lanes::{Lanes, Work};
+
+    /// Stores a step in which every search still runs, has its bracket in the lanes of `bracketed`,
+    /// and has taken too many evaluations in those of `over_limit`. `at` marks what the step found.
+    struct Keep<'a> {
+        stage: &'a mut FlightStage,
+        bracketed: Bits,
+        over_limit: Bits,
+        at: f64,
+    }
+
+    impl Work for Keep<'_> {
+        type Output = ();
+
+        #[inline(always)]
+        fn run<L: Wide>(self) {
+            let search = Search {
+                time: L::splat(self.at),
+                low: L::splat(self.at),
+                high: L::splat(self.at),
+                bracketed: L::mask(self.bracketed),
+                active: L::Mask::splat(true),
+                least: L::splat(0.0),
+                departs: L::Mask::splat(false),
+                launched: L::Mask::splat(false),
+            };
+            let over_limit = L::mask(self.over_limit);
+            self.stage.keep(&search, L::splat(1.0), over_limit);
+        }
+    }
+
+    /// How a search ended, and where, stays in its lane until it is collected, whatever the other
+    /// lanes do meanwhile. Only the step that ended it says that it is finished.
+    #[test]
+    fn flights_that_wait_keep_how_their_search_ended() {
+        for lanes in Lanes::ALL.into_iter().filter(|lanes| lanes.is_available()) {
+            let mut stage = FlightStage {
+                active: 0b0111,
+                ..FlightStage::default()
+            };
+            let steps = [
+                (0b1000, 0b0001, 0b0001, 0b0110),
+                (0b1010, 0b1000, 0b0010, 0b0100),
+                (0b0000, 0b1111, 0b0100, 0b0000),
+            ];
+            for ((bracketed, over_limit, finished, active), at) in
+                steps.into_iter().zip([1., 2., 3.])
+            {
+                let stage = &mut stage;
+                lanes.enter(Keep {
+                    stage,
+                    bracketed,
+                    over_limit,
+                    at,
+                });
+                assert_eq!(
+                    (stage.finished, stage.active),
+                    (finished, active),
+                    "{lanes}: step {at}"
+                );
+            }
+            assert_eq!(
+                (stage.gave_up, stage.bracketed),
+                (0b0101, 0b0010),
+                "{lanes}"
+            );
+            for found in [stage.search[0], stage.bracket[0], stage.bracket[1]] {
+                assert_eq!(found[..4], [1.0, 2.0, 3.0, 0.0], "{lanes}");
+            }
+        }
+    }
+}
