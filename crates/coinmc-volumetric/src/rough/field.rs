@@ -343,4 +343,28 @@ mod tests {
         );
         assert!((before[0] - after[0]).abs() < 0.02, "{before:?} {after:?}");
     }
+
+    /// Rates of heights by differences over 2h: the third derivative of a bicubic spline jumps between cells, so
+    /// those of the rates are off by about h σ/ℓ³ times ten, those of the heights by h² and by rounding.
+    #[test]
+    fn rates_along_a_way_are_those_of_the_height() {
+        let field = HeightField::shared();
+        let step = 1e-4;
+        for i in 0..500 {
+            let (at, angle) = ([0.371 * f64::from(i), 0.713 * f64::from(i)], f64::from(i));
+            let way = [libm::cos(angle), libm::sin(angle)];
+            let along = |by: f64| {
+                let place = [0, 1].map(|k: usize| at[k] + by * way[k]);
+                field.height_along(place, way)
+            };
+            let ([height, rate, bend], before, after) = (along(0.0), along(-step), along(step));
+            let slope = field.gradient(at[0], at[1]);
+            let by_slope = slope[0] * way[0] + slope[1] * way[1];
+            assert!((rate - by_slope).abs() < 1e-12, "{i}: {rate} {by_slope}");
+            assert!((height - field.height(at[0], at[1])).abs() < 1e-14);
+            let differences = [0, 1].map(|k: usize| (after[k] - before[k]) / (2.0 * step));
+            assert!((rate - differences[0]).abs() < 1e-6, "{i}: {rate}");
+            assert!((bend - differences[1]).abs() < 1e-3, "{i}: {bend}");
+        }
+    }
 }

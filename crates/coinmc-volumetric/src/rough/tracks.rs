@@ -294,3 +294,18 @@ impl Tracks {
         tracks
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The node counts as reached where the rest of the way takes a billionth of its whole time.
+    #[test]
+    fn level_tracks_lead_to_a_node_that_is_reached_in_time() {
+        for (share, reached) in [(0.0, false), (1.0 - 2e-9, false), (1.0 - 5e-10, true)] {
+            let mut tracks = Tracks::level(0.02);
+            tracks.advance(share * 0.02);
+            assert_eq!(tracks.at_node(), reached, "{share}");
+        }
+    }
+}
