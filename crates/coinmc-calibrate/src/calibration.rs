@@ -42,10 +42,11 @@ impl Calibration {
             .with_numerical(model, &posterior, workers)?;
         let fair = FairRatio::of(model, &posterior, &prediction, workers)?;
         let of_fair = fair.map_or(0, |fair| fair.tosses);
+        let (suggestions, rolls) = information::suggestions(model, &posterior, workers)?;
         Ok(Self {
-            suggestions: information::suggestions(model, &posterior),
+            suggestions,
             remarks: remarks::remarks(&posterior),
-            tosses: model.tosses + prediction.tosses + 2 * prediction.pairs + of_fair,
+            tosses: model.tosses + prediction.tosses + 2 * prediction.pairs + of_fair + rolls,
             posterior,
             prediction,
             fair,

@@ -5,11 +5,12 @@
 //! from V to V (1 − r² Var f/(Var f + σ²)), with r the correlation of f and P(side) over the posterior; both are
 //! exact for normal distributions.
 
-use crate::Parameter;
 use crate::measured::{Kind, Law, whirr_rate};
 use crate::model::Model;
 use crate::posterior::{Posterior, correlation, moments};
-use crate::prediction;
+use crate::rolls::{ROLLS, Rolls};
+use crate::{CalibrationError, Parameter, prediction};
+use coinmc_questions::Workers;
 
 /// A measurement that could be made.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,8 +37,16 @@ struct Candidate {
 /// Numbers of further tosses.
 const TOSSES: [u64; 2] = [100, 1000];
 
-/// All measurements that could be made, the one that sharpens P(side) most first.
-pub(crate) fn suggestions(model: &Model, posterior: &Posterior) -> Vec<Suggestion> {
+/// All measurements that could be made, the one that sharpens P(side) most first, and how many tosses were
+/// made to know that.
+///
+/// # Errors
+/// [`CalibrationError`] if tosses fail or are stopped.
+pub(crate) fn suggestions(
+    model: &Model,
+    posterior: &Posterior,
+    workers: &Workers<'_>,
+) -> Result<(Vec<Suggestion>, u64), CalibrationError> {
     let faces = prediction::fitted(model, &posterior.scores);
     let side: Vec<f64> = faces.iter().map(|faces| faces[2]).collect();
     let (_, now) = moments(&side);
@@ -50,11 +59,18 @@ pub(crate) fn suggestions(model: &Model, posterior: &Posterior) -> Vec<Suggestio
         .map(|candidate| of_number(candidate, model, posterior, &side, now))
         .collect();
     all.extend(TOSSES.map(|tosses| of_tosses(tosses, &faces, now)));
+    let rough = known.contains(&Parameter::RoughnessSlope);
+    let (rolls, tosses) = if rough {
+        Rolls::of(model, posterior, &side, workers)?
+    } else {
+        (None, 0)
+    };
+    all.extend(rolls.map(|rolls| of_rolls(&rolls, now)));
     all.sort_by(|a, b| {
         let by_side = a.side_after.total_cmp(&b.side_after);
         by_side.then(b.bits.total_cmp(&a.bits))
     });
-    all
+    Ok((all, tosses))
 }
 
 fn of_number(
@@ -118,6 +134,23 @@ fn of_tosses(tosses: u64, faces: &[[f64; 3]], now: f64) -> Suggestion {
         what: format!("count {tosses} tosses more"),
         bits,
         side_after: now * (1.0 - share).max(0.0).sqrt(),
+    }
+}
+
+/// Coins that roll upright measure how often they stay up.
+fn of_rolls(rolls: &Rolls, now: f64) -> Suggestion {
+    let whole = rolls.variance + rolls.noise;
+    let (bits, explained) = if rolls.noise > 0.0 {
+        let bits = 0.5 * libm::log2(whole / rolls.noise);
+        (bits, rolls.covariance * rolls.covariance / whole)
+    } else {
+        (0.0, 0.0)
+    };
+    Suggestion {
+        kind: Kind::Counts,
+        what: format!("set the coin rolling upright {ROLLS} times and count how often it stays up"),
+        bits,
+        side_after: (now * now - explained).max(0.0).sqrt(),
     }
 }
 

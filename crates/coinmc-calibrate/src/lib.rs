@@ -35,6 +35,7 @@ mod posterior;
 mod prediction;
 mod prior;
 mod remarks;
+mod rolls;
 mod settings;
 mod simulate;
 mod table;
