@@ -16,21 +16,38 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-/// A thick coin on a plane, and a thinner one on ground as rough as wood, whose slope is then unknown, too.
-const PLANE: &str = "\
+/// A thick coin on a plane; 300 of its tosses are counted.
+const PLANE: &str = "
 coin = { ratio = 1.2, radius_m = 0.012 }
 surface = { restitution = 0.5, friction = 0.3 }
+counts = { heads = 100, tails = 100, side = 100 }
 ";
-const ROUGH: &str = "\
-coin = { ratio = 0.7, radius_m = 0.012 }
-surface = { material = 'wood' }
-";
+/// A thin coin on ground as rough as wood, whose slope is then unknown, too. Sixty times it is set rolling upright
+/// at .3 m/s besides.
+const ROUGH: &str = r#"
+coin = { ratio = 0.2, radius_m = 0.012 }
+surface = { material = "wood" }
+
+[[counts]]
+heads = 100
+tails = 100
+side = 100
+
+[[counts]]
+heads = 20
+tails = 20
+side = 20
+[counts.launch]
+height_m = 0
+velocity_m_s = [0, 0.3, 0]
+orientation = { tilt_deg = { normal = { mean = 90, sd = 2 } } }
+spin = { about = { axis = [1, 0, 0], rate_rad_s = -25 } }
+"#;
 /// The rest of the scene and the measurements; the readings stand for those of each coin.
 const MEASURED: &str = r#"
 prior = { material = "wood" }
 launch = { preset = "hand", height_m = 0.3 }
 engine.volumetric = {}
-counts = { heads = 100, tails = 100, side = 100 }
 tilt = { angle_deg = [16, 17, 18] }
 roll_out = { ramp_height_m = 0.01, distance_m = [2.5, 2.5, 2.5], distance_back_m = [2.5, 2.5, 2.5] }
 spin_down = { from_rad_s = 40, to_rad_s = 20, time_s = 10 }
@@ -70,7 +87,7 @@ pub(crate) struct Calibrate {
     #[arg(long, value_parser = number::count, default_value = "32768", value_name = "N")]
     predicted: u64,
 
-    /// A coin of H/R = 0.7 on ground as rough as wood, in place of one of 1.2 on a plane
+    /// A coin of H/R = 0.2 that also rolls, on ground as rough as wood, in place of one of 1.2 on a plane
     #[arg(long)]
     rough: bool,
 }
@@ -79,7 +96,8 @@ pub(crate) struct Calibrate {
 struct Coin {
     truth: Vec<f64>,
     side: f64,
-    counts: [u64; 3],
+    /// Of each of the counts.
+    counts: Vec<[u64; 3]>,
     readings: Vec<f64>,
 }
 
@@ -171,7 +189,7 @@ impl Calibrate {
     fn model(&self, seed: u64, paired: bool) -> anyhow::Result<Model> {
         let set: Override = format!("seed={seed}").parse()?;
         let scene = if self.rough { ROUGH } else { PLANE };
-        let config = format!("{scene}{MEASURED}");
+        let config = format!("{MEASURED}{scene}");
         let observed = Observations::parse("study", &config, &[set], Path::new(""))?;
         let settings = Settings {
             points: self.points,
@@ -196,18 +214,24 @@ impl Calibrate {
             .collect();
         let measured =
             with_workers(|workers| Ok(model.simulate(&truths, seed + 1000, workers)?))?;
-        let many = model.with_measured(&[[self.truth, 0, 0]], &[]);
+        // the first counts are in the scene that is predicted
+        let mut tossed = vec![[0; 3]; model.observed().counts.len()];
+        tossed[0][0] = self.truth;
+        let many = model.with_measured(&tossed, &[]);
         let faces = with_workers(|workers| Ok(many.simulate(&truths, seed + 2000, workers)?))?;
         let coin = |((truth, row), faces): ((Vec<f64>, Vec<f64>), Vec<f64>)| {
             let shown: f64 = faces[..3].iter().sum();
+            let (counts, readings) = row.split_at(3 * tossed.len());
             // counts are whole
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-            let counts = [0, 1, 2].map(|face| row[face] as u64);
+            let counts = counts
+                .chunks_exact(3)
+                .map(|faces| [0, 1, 2].map(|face| faces[face] as u64));
             Coin {
                 truth,
                 side: faces[2] / shown,
-                counts,
-                readings: row[3..].to_vec(),
+                counts: counts.collect(),
+                readings: readings.to_vec(),
             }
         };
         Ok(truths
@@ -244,7 +268,7 @@ impl Calibrate {
 
 impl Coin {
     fn measured(&self, model: &Model) -> Model {
-        model.with_measured(&[self.counts], &self.readings)
+        model.with_measured(&self.counts, &self.readings)
     }
 
     /// Whether the interval of each parameter, and that of P(side), holds the truth.

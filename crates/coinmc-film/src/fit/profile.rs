@@ -138,11 +138,7 @@ impl<'a> Profile<'a, '_> {
             let mut from = least.clone();
             from.unknowns.retain(|unknown| *unknown != held);
             let near = {
-                let mut step = self.spread.draw(hop);
-                let drift = step[j];
-                for (part, valley) in step.iter_mut().zip(&self.spread.valleys[j]) {
-                    *part -= drift * valley;
-                }
+                let step = self.spread.draw_with_held(j, hop);
                 let mut trial = least.clone();
                 trial.shift(&step, 1.0);
                 trial.point.shared = trial.point.shared.with(parameter, at);
