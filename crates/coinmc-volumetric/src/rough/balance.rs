@@ -56,3 +56,67 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::test_scenes::Rough;
+    use super::*;
+    use crate::contact::Usage;
+    use coinmc_core::Launch;
+    use coinmc_testkit::Dice;
+    use nalgebra::{UnitVector3, Vector3};
+
+    /// After it the energy is the budget and the lead, with velocities relative to the track all scaled alike;
+    /// unless the coin would speed up by more than a tenth, or its energy does not reach its height: then it is at rest,
+    /// at the height at which its energy ends.
+    #[test]
+    fn velocities_follow_the_budget() {
+        let model = Rough::of(0.5, 0.05).model();
+        let ground = model.ground.expect("a rough ground");
+        let mut seen = [0; 3];
+        for toss in 0..400 {
+            let mut dice = Dice::new(413, toss);
+            let launch = Launch {
+                height_m: 0.0,
+                velocity_m_s: dice.vector(0.3),
+                axis: UnitVector3::new_normalize(Vector3::new(1.0, 0.0, dice.between(0.0, 1.0))),
+                spin_rad_s: dice.vector(10.0),
+            };
+            let mut toss = model.launch(&launch);
+            let (mut usage, mut observer) = (Usage::default(), ());
+            let mut walk =
+                Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+            walk.tracks.own.rate = dice.between(-0.1, 0.1);
+            walk.lead = dice.between(0.0, 0.05);
+            let (before, energy) = (walk.relative_motion(), walk.energy());
+            let axial = walk.toss.spin.axial;
+            walk.budget = energy + dice.between(-0.3, 0.1);
+            walk.balance();
+            let after = walk.relative_motion();
+            let scale = after.vx / before.vx;
+            let left = walk.energy() - walk.budget - walk.lead;
+            if scale == 0.0 {
+                seen[0] += 1;
+                assert_eq!(walk.tracks.own.rate, 0.0);
+                assert!(left.abs() < 1e-12, "{left}");
+            } else if (scale - 1.1).abs() < 1e-12 {
+                seen[1] += 1;
+                assert!(left < 1e-12, "{left}");
+            } else {
+                seen[2] += 1;
+                assert!(scale < 1.1 && left.abs() < 1e-12, "{scale} {left}");
+            }
+            for (old, new) in [
+                (before.vy, after.vy),
+                (before.vz, after.vz),
+                (axial, walk.toss.spin.axial),
+            ] {
+                assert!(
+                    (new - scale * old).abs() < 1e-12 * (1.0 + old.abs()),
+                    "{old} {new}"
+                );
+            }
+        }
+        assert!(seen.iter().all(|count| *count > 20), "{seen:?}");
+    }
+}

@@ -133,6 +133,7 @@ mod tests {
     use super::super::test_scenes::Rough;
     use super::*;
     use crate::contact::Usage;
+    use crate::laws::Moreau;
     use coinmc_core::Launch;
     use nalgebra::{UnitVector3, Vector3};
 
@@ -170,5 +171,109 @@ mod tests {
             let gained = walk.toss.spin.axial - before;
             assert_eq!(gained == 0.0, held, "{slope} {speed}: {gained:e}");
         }
+    }
+
+    /// A coin in contact, leaning at this angle from upright, with this velocity of its centre along and across
+    /// its rim and this rate about its axis, m/s and rad/s.
+    fn leaning(angle: f64, [vx, vy]: [f64; 2], rate: f64) -> Launch {
+        let (sin, cos) = libm::sincos(angle);
+        let axis = Vector3::new(cos, 0.0, sin);
+        Launch {
+            height_m: 0.0,
+            velocity_m_s: Vector3::new(vx, vy, 0.0),
+            axis: UnitVector3::new_unchecked(axis),
+            spin_rad_s: axis * rate,
+        }
+    }
+
+    /// Momentum, and angular momentum about the lowest point of the own rim, per m D sqrt(gD).
+    fn momenta(walk: &Walk<'_, Moreau, ()>) -> [Vector3<f64>; 2] {
+        let (m, spin, body) = (&walk.toss.motion, &walk.toss.spin, walk.body());
+        let u = Vector3::new(m.sin, 0.0, m.cos);
+        let across = Vector3::new(m.cos, 0.0, -m.sin);
+        let velocity = Vector3::new(m.vx, m.vy, m.vz);
+        let point = m.contact_point(body, spin);
+        let centre = -Vector3::new(point.rx, 0.0, point.rz);
+        let own = u * (body.ka * spin.axial)
+            + across * (body.kt * spin.turn)
+            + Vector3::y() * (body.kt * spin.tilt);
+        [velocity, own + centre.cross(&velocity)]
+    }
+
+    /// Half of the pull of a slope on a rim, by Newton's and Euler's laws: about the contact point its moment is
+    /// N g_y R/s about x. A point that sticks stays at rest; one that slips takes −N (g_x, g_y) and stays at the
+    /// ground, too. So a thin upright wheel rolls downhill at g_y/(1 + k_a/R²), as textbooks have it.
+    #[test]
+    fn a_slope_pulls_with_its_moment_about_the_contact_point() {
+        let (time, slopes) = (0.05, [0.03, 0.04]);
+        for (ratio, angle, sliding, mode) in [
+            (1e-3, 1e-5, 0.0, Mode::Stick),
+            (0.7, 0.3, 0.0, Mode::Stick),
+            (0.7, 0.3, 1.0, Mode::Slip),
+        ] {
+            let rough = Rough {
+                friction_m: [1e-9, 1e-9],
+                ..Rough::of(ratio, 0.02)
+            };
+            let model = rough.model();
+            let ground = model.ground.expect("a rough ground");
+            let radius = rough.scene().coin.radius_m();
+            let launch = leaning(angle, [sliding, -0.3], 0.3 / radius);
+            let mut toss = model.launch(&launch);
+            toss.motion.z = toss.motion.rest_height(&model.dynamics.body);
+            let (mut usage, mut observer) = (Usage::default(), ());
+            let mut walk =
+                Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+            let contact = walk.contact();
+            assert_eq!(contact.mode, mode);
+            let point = |walk: &Walk<'_, Moreau, ()>| {
+                walk.toss.motion.contact_point(walk.body(), &walk.toss.spin)
+            };
+            let (before, [momentum, angular]) = (point(&walk), momenta(&walk));
+            walk.descend_on_rim(&contact, slopes, time);
+            let (after, now) = (point(&walk), momenta(&walk));
+            let push = 0.5 * time * contact.now.normal;
+            let body = model.dynamics.body;
+            let moment = push * slopes[1] * body.radius / before.sin;
+            let turned = now[1] - angular;
+            assert!((turned - Vector3::x() * moment).norm() < 1e-12, "{turned}");
+            assert!((after.approach - before.approach).abs() < 1e-12);
+            let pushed = now[0] - momentum;
+            if mode == Mode::Slip {
+                assert!((pushed.x + push * slopes[0]).abs() < 1e-14, "{pushed}");
+                assert!((pushed.y + push * slopes[1]).abs() < 1e-14, "{pushed}");
+            } else {
+                assert!((after.slip_x - before.slip_x).abs() < 1e-12);
+                assert!((after.slip_y - before.slip_y).abs() < 1e-12);
+            }
+            if angle < 1e-3 {
+                let rolls = -push * slopes[1] / (1.0 + body.ka / (body.radius * body.radius));
+                assert!((pushed.y / rolls - 1.0).abs() < 1e-4, "{pushed} {rolls}");
+            }
+        }
+    }
+
+    /// On both rims half of the pull is that of the mean slope: all of it on a coin that slides, that of a rolling
+    /// wheel, g_y/(1 + k_a/R²), on one that rolls straight, which goes on rolling.
+    #[test]
+    fn on_both_rims_the_mean_slope_pulls() {
+        let model = Rough::of(0.7, 0.02).model();
+        let ground = model.ground.expect("a rough ground");
+        let mut toss = model.launch(&leaning(0.01, [0.0; 2], 0.0));
+        let (mut usage, mut observer) = (Usage::default(), ());
+        let walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+        let body = model.dynamics.body;
+        let (slopes, time) = ([[0.03, 0.05], [0.01, -0.02]], 0.1);
+        let pull = [0.5 * time * 0.02, 0.5 * time * 0.015];
+        let [vx, vy, wa, wz] = walk.descend_on_both(&[0.4, 0.3, 0.1, 0.2], slopes, time);
+        assert!((vx - (0.4 - pull[0])).abs() < 1e-15);
+        assert!((vy - (0.3 - pull[1])).abs() < 1e-15);
+        assert_eq!([wa, wz], [0.1, 0.2]);
+        let rolling = [0.0, 0.3, -0.3 / body.radius, 0.0];
+        let [vx, vy, wa, wz] = walk.descend_on_both(&rolling, slopes, time);
+        let gained = -pull[1] / (1.0 + body.ka / (body.radius * body.radius));
+        assert!((vy - 0.3 - gained).abs() < 1e-15, "{vy}");
+        assert!((vy + body.radius * wa).abs() < 1e-15, "{wa}");
+        assert_eq!([vx, wz], [0.0; 2]);
     }
 }
