@@ -137,8 +137,8 @@ mod tests {
         (a[0] - b[0]).abs() < tolerance && (a[1] - b[1]).abs() < tolerance
     }
 
-    /// The frame's axes in the laboratory are its heading, and that turned by a quarter to the left; two turns of
-    /// the frame add up, and what is moved in it moves in the laboratory.
+    /// The frame's axes in the laboratory are its heading, and that turned by a quarter to the
+    /// left; two turns of the frame add up, and what is moved in it moves in the laboratory.
     #[test]
     fn the_frame_turns_and_moves_as_a_plane_does() {
         for toss in 0..100 {
@@ -164,9 +164,10 @@ mod tests {
         }
     }
 
-    /// A coin that leans at 60 degrees and whose frame turns at the rate 2 + cos t, going ahead at the speed
-    /// 1 + t: its heading is 2t + sin t, its place the integral of its velocity (here by many small steps of the
-    /// midpoint rule, to 1e-8). Half the step leaves a 16th of the error: the rule is of fourth order.
+    /// A coin that leans by 1 rad and whose frame turns at the rate 2 + cos t, going ahead at the
+    /// speed 1 + t: its heading is 2t + sin t, its place the integral of its velocity (here by many
+    /// small steps of the midpoint rule, to 1e-8). Half the step leaves a 16th of the error: the
+    /// rule is of fourth order.
     #[test]
     fn a_place_follows_a_turning_coin_in_fourth_order() {
         let angle = |t: f64| 2.0 * t + libm::sin(t);
@@ -214,8 +215,8 @@ mod tests {
         }
     }
 
-    /// The state of a coin on its heading: u leans towards it, ω has the parts along u, along e_θ (across u,
-    /// downwards) and along y, and a coin whose tails are up has the opposite axis.
+    /// The state of a coin on its heading: u leans towards it, ω has the parts along u, along e_θ
+    /// (across u, downwards) and along y, and a coin whose tails are up has the opposite axis.
     #[test]
     fn a_state_has_the_parts_of_its_motion() {
         let units = Units {

@@ -66,9 +66,9 @@ mod tests {
     use coinmc_testkit::Dice;
     use nalgebra::{UnitVector3, Vector3};
 
-    /// After it the energy is the budget and the lead, with velocities relative to the track all scaled alike;
-    /// unless the coin would speed up by more than a tenth, or its energy does not reach its height: then it is at rest,
-    /// at the height at which its energy ends.
+    /// After it the energy is the budget and the lead, with velocities relative to the track all
+    /// scaled alike; unless the coin would speed up by more than a tenth, or its energy does not
+    /// reach its height: then it is at rest, at the height at which its energy ends.
     #[test]
     fn velocities_follow_the_budget() {
         let model = Rough::of(0.5, 0.05).model();

@@ -7,8 +7,8 @@
 //! force (−g_x, −g_y, 1) N at the arm (r_x, g_y R/s, r_z).
 //!
 //! On an upright disc this passes through the centre. A contact point that sticks takes up the
-//! horizontal force, and what is left is the moment N g_y R/s about x: a coin at rest begins to roll
-//! downhill, unless rolling friction holds it. A point that slips does not.
+//! horizontal force, and what is left is the moment N g_y R/s about x: a coin at rest begins to
+//! roll downhill, unless rolling friction holds it. A point that slips does not.
 //!
 //! On a tilted table its pull acts in the same way, on the centre: a point that sticks holds it, as
 //! far as it can without turning the coin.
@@ -87,7 +87,8 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         }
     }
 
-    /// Adds to the budget what the way down a tilted table has given since the coin was at `before`.
+    /// Adds to the budget what the way down a tilted table has given since the coin was at
+    /// `before`.
     pub(super) fn descend_from(&mut self, before: &Place) {
         if let Some(pull) = &self.model.pull {
             self.budget += pull.work(before, &self.toss.place);
@@ -137,8 +138,8 @@ mod tests {
     use coinmc_core::Launch;
     use nalgebra::{UnitVector3, Vector3};
 
-    /// Rolling friction holds a coin at rest on a slope of less than ρ_c/R, and no other: neither on a
-    /// steeper one, nor one that rolls too fast to be stopped on the way.
+    /// Rolling friction holds a coin at rest on a slope of less than ρ_c/R, and no other: neither
+    /// on a steeper one, nor one that rolls too fast to be stopped on the way.
     #[test]
     fn rolling_friction_holds_a_coin_at_rest_on_a_gentle_slope() {
         let (friction, time) = (1e-3, 0.05);
@@ -173,8 +174,8 @@ mod tests {
         }
     }
 
-    /// A coin in contact, leaning at this angle from upright, with this velocity of its centre along and across
-    /// its rim and this rate about its axis, m/s and rad/s.
+    /// A coin in contact, leaning at this angle from upright, with this velocity of its centre
+    /// along and across its rim and this rate about its axis, m/s and rad/s.
     fn leaning(angle: f64, [vx, vy]: [f64; 2], rate: f64) -> Launch {
         let (sin, cos) = libm::sincos(angle);
         let axis = Vector3::new(cos, 0.0, sin);
@@ -200,9 +201,10 @@ mod tests {
         [velocity, own + centre.cross(&velocity)]
     }
 
-    /// Half of the pull of a slope on a rim, by Newton's and Euler's laws: about the contact point its moment is
-    /// N g_y R/s about x. A point that sticks stays at rest; one that slips takes −N (g_x, g_y) and stays at the
-    /// ground, too. So a thin upright wheel rolls downhill at g_y/(1 + k_a/R²), as textbooks have it.
+    /// Half of the pull of a slope on a rim, by Newton's and Euler's laws: about the contact point
+    /// its moment is N g_y R/s about x. A point that sticks stays at rest; one that slips takes −N
+    /// (g_x, g_y) and stays at the ground, too. So a thin upright wheel rolls downhill at g_y/(1 +
+    /// k_a/R²), as textbooks have it.
     #[test]
     fn a_slope_pulls_with_its_moment_about_the_contact_point() {
         let (time, slopes) = (0.05, [0.03, 0.04]);
@@ -253,8 +255,9 @@ mod tests {
         }
     }
 
-    /// On both rims half of the pull is that of the mean slope: all of it on a coin that slides, that of a rolling
-    /// wheel, g_y/(1 + k_a/R²), on one that rolls straight, which goes on rolling.
+    /// On both rims half of the pull is that of the mean slope: all of it on a coin that slides,
+    /// that of a rolling wheel, g_y/(1 + k_a/R²), on one that rolls straight, which goes on
+    /// rolling.
     #[test]
     fn on_both_rims_the_mean_slope_pulls() {
         let model = Rough::of(0.7, 0.02).model();
