@@ -19,6 +19,7 @@ mod chirp;
 mod envelope;
 mod error;
 mod files;
+mod filter;
 mod heard;
 mod listened;
 mod onsets;

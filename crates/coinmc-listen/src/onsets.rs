@@ -2,9 +2,11 @@
 //!
 //! Spectral flux (Bello et al., IEEE Trans. Speech Audio Process. 13 (2005) 1035; Dixon, DAFx 2006) of
 //! magnitudes in units of the room's noise at each frequency: noise, whatever its colour, has the same flux
-//! everywhere, and a click stands out at all frequencies at once. A peak of the flux is an onset; where the
-//! sound rises within it is then sought sample by sample.
+//! everywhere, and a click stands out at all frequencies at once. The loudest peak of the flux says at which
+//! frequencies this coin rings; with each weighted by that, peaks of the flux are onsets, many of which are too weak
+//! to stand out at all frequencies. Where the sound rises within one is then sought sample by sample.
 
+use crate::filter::Filter;
 use crate::recording::Recording;
 use crate::spectrum::Spectra;
 
@@ -16,11 +18,15 @@ const WINDOW_S: f64 = 0.005_8;
 const DEVIATIONS: f64 = 8.0;
 /// … and by so much at least, in units of the noise.
 const LEAST_FLUX: f64 = 1.0;
+/// Share of a normal distribution below a deviation of 1.2816, from which the typical deviation is taken: with few
+/// frequencies half of the flux is 0, so that a median absolute deviation says nothing.
+const NORMAL_SHARE: f64 = 0.9;
+const NORMAL_QUANTILE: f64 = 1.2816;
 /// Onsets nearer than this are one, s.
 pub(crate) const RESOLUTION_S: f64 = 0.004;
 /// After an onset a weaker one is not told from its ring and its echoes, unless it is stronger than this share
 /// of it, which falls to a tenth in the time below.
-const MASK: f64 = 0.5;
+const MASK: f64 = 0.7;
 /// The time in which masking falls by e, s.
 const MASK_S: f64 = 0.025;
 /// How finely the rise is sought, s.
@@ -40,7 +46,7 @@ pub struct Onset {
 }
 
 /// The onsets of a recording, and what of it is noise.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Onsets {
     /// In order of time.
     pub onsets: Vec<Onset>,
@@ -51,34 +57,35 @@ pub struct Onsets {
 }
 
 impl Onsets {
-    /// Finds them.
+    /// Finds them: first the loudest at all frequencies alike, then all others at those of the loudest.
     pub fn of(recording: &Recording) -> Self {
         let spectra = Spectra::of(&recording.samples, recording.rate_hz, LEAST_HZ, WINDOW_S);
         let noise = spectra.noise();
-        let flux = flux(&spectra, &noise);
-        let bar = bar(&flux);
-        let levels: Vec<f64> = spectra.frames.iter().map(|frame| level(frame)).collect();
-        let quiet = level(&noise);
-        let step = spectra.hop as f64 / recording.rate_hz;
-        let reach = steps(RESOLUTION_S / step);
-        let mut found = vec![];
-        for n in 1..flux.len() {
-            let around = &flux[n.saturating_sub(reach)..(n + reach + 1).min(flux.len())];
-            if flux[n] < bar || around.iter().any(|other| *other > flux[n]) {
-                continue;
-            }
-            let ahead = &levels[n..(n + 4).min(levels.len())];
-            let loud = ahead.iter().copied().fold(0.0, f64::max);
-            let strength = (loud * loud - quiet * quiet).max(0.0).sqrt();
-            let (time_s, error_s) = rise(recording, n * spectra.hop, spectra.length);
-            found.push(Onset {
-                time_s,
+        let reach = steps(RESOLUTION_S * recording.rate_hz / spectra.hop as f64);
+        let even = Filter::even(&noise);
+        let flux = Flux::of(&spectra, &noise, &even);
+        let loud = flux.peaks(reach).into_iter();
+        let loud = loud.map(|n| (n, level_after(&spectra, &noise, &even, n)));
+        let Some((first, above)) = loud.reduce(|a, b| if b.1 > a.1 { b } else { a }) else {
+            return Self::default();
+        };
+        let matched = Filter::matched(&spectra, &noise, first);
+        let weak = Flux::of(&spectra, &noise, &matched);
+        let found = weak.peaks(reach).into_iter().map(|n| {
+            let (from, part) = spectra.around(n, &recording.samples);
+            let (time_s, error_s) = if flux.passes_near(n, reach) {
+                sharp_rise(part, recording.rate_hz)
+            } else {
+                rise(&matched.amplitudes(part, &spectra), recording.rate_hz)
+            };
+            Onset {
+                time_s: from as f64 / recording.rate_hz + time_s,
                 error_s,
-                strength,
-                prominence: flux[n] / bar,
-            });
-        }
-        let onsets = unmasked(found);
+                strength: level_after(&spectra, &noise, &matched, n),
+                prominence: weak.values[n] / weak.bar,
+            }
+        });
+        let onsets = unmasked(found.collect());
         let loudest = onsets.iter().map(|o| o.strength).fold(0.0, f64::max);
         // the flux of a click is in proportion to its strength
         let per_flux = onsets.iter().map(|o| o.strength / o.prominence);
@@ -92,7 +99,7 @@ impl Onsets {
         };
         Self {
             threshold: scaled(weakest).min(1.0),
-            signal_to_noise_db: 20.0 * libm::log10((loudest / quiet).max(1e-3)),
+            signal_to_noise_db: 20.0 * libm::log10(above.max(1e-3)),
             onsets: onsets
                 .into_iter()
                 .map(|onset| Onset {
@@ -123,42 +130,55 @@ pub(crate) fn is_masked(later_s: f64, ratio: f64) -> bool {
     later_s < RESOLUTION_S || ratio < MASK * libm::exp(-later_s / MASK_S)
 }
 
-/// The mean rise of the magnitudes from each window to the next but one, in units of the noise.
-fn flux(spectra: &Spectra, noise: &[f32]) -> Vec<f64> {
-    let frames = &spectra.frames;
-    let rise = |n: usize| {
-        if n < 2 {
-            return 0.0;
-        }
-        let pairs = frames[n].iter().zip(&frames[n - 2]).zip(noise);
-        let sum: f64 = pairs
-            .map(|((now, before), noise)| f64::from(((now - before) / noise).max(0.0)))
-            .sum();
-        sum / noise.len() as f64
-    };
-    (0..frames.len()).map(rise).collect()
+/// The rise of the magnitudes from each window to the next but one, behind a filter, and what noise does not reach.
+struct Flux {
+    values: Vec<f64>,
+    bar: f64,
 }
 
-/// The flux that noise does not reach.
-fn bar(flux: &[f64]) -> f64 {
-    let middle = median(&mut flux.to_vec());
-    let mut off: Vec<f64> = flux.iter().map(|x| (x - middle).abs()).collect();
-    middle + (DEVIATIONS * 1.4826 * median(&mut off)).max(LEAST_FLUX)
+impl Flux {
+    fn of(spectra: &Spectra, noise: &[f32], filter: &Filter) -> Self {
+        let windows = 0..spectra.frames.len();
+        let values: Vec<f64> = windows
+            .map(|n| filter.mean(spectra.rises(n, noise)))
+            .collect();
+        let middle = quantile(&values, 0.5);
+        let deviation = (quantile(&values, NORMAL_SHARE) - middle) / NORMAL_QUANTILE;
+        let bar = middle + (DEVIATIONS * deviation).max(LEAST_FLUX);
+        Self { values, bar }
+    }
+
+    /// The windows where it passes what noise reaches, and has no greater value near.
+    fn peaks(&self, reach: usize) -> Vec<usize> {
+        let is_peak = |n: &usize| {
+            let around = self.near(*n, reach).iter();
+            self.values[*n] >= self.bar && around.copied().all(|other| other <= self.values[*n])
+        };
+        (1..self.values.len()).filter(is_peak).collect()
+    }
+
+    fn passes_near(&self, window: usize, reach: usize) -> bool {
+        let mut near = self.near(window, reach).iter();
+        near.any(|value| *value >= self.bar)
+    }
+
+    fn near(&self, window: usize, reach: usize) -> &[f64] {
+        &self.values[window.saturating_sub(reach)..(window + reach + 1).min(self.values.len())]
+    }
 }
 
-fn level(magnitudes: &[f32]) -> f64 {
-    let squares = magnitudes.iter().map(|x| f64::from(*x) * f64::from(*x));
-    squares.sum::<f64>().sqrt()
+/// The amplitude just after a window behind a filter, in units of the noise, and without it.
+fn level_after(spectra: &Spectra, noise: &[f32], filter: &Filter, window: usize) -> f64 {
+    let ahead = &spectra.frames[window..(window + 4).min(spectra.frames.len())];
+    let levels = ahead.iter().map(|frame| filter.level(frame, noise));
+    let most = levels.fold(0.0, f64::max);
+    (most * most - 1.0).max(0.0).sqrt()
 }
 
-/// When the sound rises in the windows around one, and how sure that is: where the amplitude, without low
-/// frequencies, first passes half of its greatest.
-fn rise(recording: &Recording, start: usize, length: usize) -> (f64, f64) {
-    let from = start.saturating_sub(length / 2);
-    let to = (start + length + length / 2).min(recording.samples.len());
-    let part = &recording.samples[from..to];
-    let rate = recording.rate_hz;
-    let width = steps(RISE_S * rate).max(1);
+/// When a sound that is louder than the noise rises, and how sure that is, in s: by the amplitude of the second
+/// difference, which leaves low frequencies out.
+fn sharp_rise(part: &[f32], rate_hz: f64) -> (f64, f64) {
+    let width = steps(RISE_S * rate_hz).max(1);
     let sharp: Vec<f64> = part
         .windows(3)
         .map(|w| f64::from(w[0]) - 2.0 * f64::from(w[1]) + f64::from(w[2]))
@@ -167,18 +187,21 @@ fn rise(recording: &Recording, start: usize, length: usize) -> (f64, f64) {
         .windows(width)
         .map(|w| (w.iter().map(|x| x * x).sum::<f64>() / width as f64).sqrt())
         .collect();
-    let (place, most) = greatest(&smooth);
+    let (time_s, error_s) = rise(&smooth, rate_hz);
+    (time_s + width as f64 / rate_hz, error_s)
+}
+
+/// When an amplitude last passes half of its greatest before that, and how sure that is, in s.
+fn rise(amplitudes: &[f64], rate_hz: f64) -> (f64, f64) {
+    let (place, most) = greatest(amplitudes);
     let passes = |share: f64| {
-        let before = smooth[..=place].iter().rposition(|x| *x < share * most);
+        let mut before = amplitudes.iter().take(place + 1);
+        let before = before.rposition(|x| *x < share * most);
         before.map_or(0, |at| at + 1)
     };
-    if smooth.is_empty() {
-        return (start as f64 / rate, length as f64 / rate);
-    }
     let [early, half, late] = [0.25, 0.5, 0.75].map(passes);
-    let time = (from + half + width) as f64 / rate;
-    let spread = (late.saturating_sub(early)) as f64 / rate;
-    (time, (0.5 * spread).max(0.5 * RISE_S))
+    let spread = late.saturating_sub(early) as f64 / rate_hz;
+    (half as f64 / rate_hz, (0.5 * spread).max(0.5 * RISE_S))
 }
 
 fn greatest(values: &[f64]) -> (usize, f64) {
@@ -192,6 +215,16 @@ fn greatest(values: &[f64]) -> (usize, f64) {
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // small and positive
 fn steps(number: f64) -> usize {
     number.round().max(0.0) as usize
+}
+
+/// The value below which this share lies; 0 without values.
+fn quantile(values: &[f64], share: f64) -> f64 {
+    let mut values = values.to_vec();
+    if values.is_empty() {
+        return 0.0;
+    }
+    let place = steps((share * values.len() as f64).floor()).min(values.len() - 1);
+    *values.select_nth_unstable_by(place, f64::total_cmp).1
 }
 
 /// The median; 0 without values.
@@ -239,6 +272,38 @@ mod tests {
             let ratio = heard.onsets[3].strength / heard.onsets[0].strength;
             assert!((ratio - 0.645).abs() < 0.15, "{ratio}");
         }
+    }
+
+    /// A strike too weak to stand out at all frequencies is heard at those of the loudest.
+    #[test]
+    fn weak_strikes_are_heard_at_the_frequencies_of_the_loudest() {
+        let coin = Coin::cylinder(0.16, 0.0116).unwrap();
+        let strikes =
+            [(0.0, 1.0), (0.18, 0.15)].map(|(time_s, speed_m_s)| Strike { time_s, speed_m_s });
+        let (mut even, mut matched) = (0, 0);
+        for seed in 0..20 {
+            let synthetic = Synthetic {
+                seed,
+                signal_to_noise_db: 5.0,
+                ..Synthetic::default()
+            };
+            let recording = synthetic.of_strikes(&coin, &strikes, [0.0, 0.4]);
+            let spectra = Spectra::of(&recording.samples, recording.rate_hz, LEAST_HZ, WINDOW_S);
+            let noise = spectra.noise();
+            let flux = Flux::of(&spectra, &noise, &Filter::even(&noise));
+            even += flux.peaks(3).len();
+            let onsets = Onsets::of(&recording).onsets;
+            matched += onsets.len();
+            for (onset, strike) in onsets.iter().zip(&strikes) {
+                let late_s = onset.time_s - 0.5 - strike.time_s;
+                assert!(late_s.abs() < 0.002, "{onset:?} {strike:?}");
+                assert!(
+                    (onset.strength - strike.speed_m_s).abs() < 0.05,
+                    "{onset:?}"
+                );
+            }
+        }
+        assert_eq!((even, matched), (20, 40));
     }
 
     #[test]

@@ -22,6 +22,8 @@ pub(crate) struct Spectra {
     pub(crate) hop: usize,
     /// Samples of a window.
     pub(crate) length: usize,
+    /// The lowest frequency that is kept, in units of 1/(window's duration).
+    pub(crate) first: usize,
 }
 
 impl Spectra {
@@ -51,7 +53,30 @@ impl Spectra {
             frames,
             hop,
             length,
+            first,
         }
+    }
+
+    /// By how much each frequency rises from the last window but one to this, in units of the noise; falls are 0.
+    pub(crate) fn rises<'a>(
+        &'a self,
+        window: usize,
+        noise: &'a [f32],
+    ) -> impl Iterator<Item = f32> + 'a {
+        // the first windows rise from themselves, that is not at all
+        let before = if window < 2 { window } else { window - 2 };
+        let pairs = self.frames[window].iter().zip(&self.frames[before]);
+        pairs
+            .zip(noise)
+            .map(|((now, before), noise)| ((now - before) / noise).max(0.0))
+    }
+
+    /// The samples around a window, half of one on each side, and where they begin.
+    pub(crate) fn around<'a>(&self, window: usize, samples: &'a [f32]) -> (usize, &'a [f32]) {
+        let start = window * self.hop;
+        let from = start.saturating_sub(self.length / 2);
+        let to = (start + self.length + self.length / 2).min(samples.len());
+        (from, &samples[from..to])
     }
 
     /// Magnitude of the noise at each frequency: the mean of what the quietest windows have.

@@ -8,7 +8,8 @@ use crate::recording::Recording;
 use crate::struck::{Strike, StruckError, Tosser};
 use coinmc::plan::Point;
 use coinmc_core::{Coin, Launch, Philox4x64, inverse_normal_cdf, unit_interval};
-use std::f64::consts::{PI, TAU};
+use rustfft::num_complex::Complex;
+use std::f64::consts::TAU;
 
 /// Squares of the lowest eigenvalues of a free round plate with ν = 0.33.
 const PLATE: [f64; 4] = [5.253, 9.084, 12.23, 20.52];
@@ -79,18 +80,12 @@ impl Synthetic {
     ) -> Recording {
         let rate = f64::from(self.rate_hz);
         let total = samples((to - from + 2.0 * self.silence_s) * rate);
-        let mut force = vec![0.0; total];
-        for strike in strikes {
+        let pushes = strikes.iter().map(|strike| {
             let at = (strike.time_s - from + self.silence_s) * rate;
-            let place = samples(at);
-            let share = at - at.floor();
-            for (offset, share) in [(0, 1.0 - share), (1, share)] {
-                if let Some(slot) = force.get_mut(place + offset) {
-                    *slot += share * strike.speed_m_s;
-                }
-            }
-        }
-        let mut sound = self.with_echoes(&rung(coin, &force, rate));
+            (at, strike.speed_m_s)
+        });
+        let dry = rung(coin, &pushes.collect::<Vec<_>>(), rate, total);
+        let mut sound = self.with_echoes(&dry);
         let first = samples(self.silence_s * rate);
         let last = (total - first).max(first + 1).min(total);
         let power =
@@ -139,22 +134,31 @@ impl Synthetic {
     }
 }
 
-/// The force as a coin and a table answer it: the modes below the highest frequency that the rate holds.
-fn rung(coin: &Coin, force: &[f64], rate: f64) -> Vec<f64> {
+/// Pushes, each at a number of samples, as a coin and a table answer them: the modes below the highest frequency that
+/// the rate holds.
+fn rung(coin: &Coin, pushes: &[(f64, f64)], rate: f64, total: usize) -> Vec<f64> {
     let plate = BRASS_M_S * coin.height_m() / (TAU * coin.radius_m() * coin.radius_m());
     let ring = PLATE.iter().map(|square| (square * plate, COIN_DECAY_S));
     let thud = TABLE.iter().map(|frequency| (*frequency, TABLE_DECAY_S));
-    let mut sound = vec![0.0; force.len()];
+    let mut sound = vec![0.0; total];
     for (frequency, decay_s) in ring.chain(thud).filter(|(f, _)| *f < 0.45 * rate) {
-        let shrink = libm::exp(-1.0 / (decay_s * rate));
-        let angle = TAU * frequency / rate;
-        let (back, farther) = (2.0 * shrink * libm::cos(angle), shrink * shrink);
-        let gain = libm::sin(angle.min(PI)).abs();
-        let mut last = [0.0; 2];
-        for (slot, push) in sound.iter_mut().zip(force) {
-            let now = back * last[0] - farther * last[1] + gain * push;
-            last = [now, last[0]];
-            *slot += now;
+        // exp(−t/decay) sin(2π f t) from each push on, wherever it lies between two samples
+        let after = |samples: f64| {
+            let shrink = libm::exp(-samples / (decay_s * rate));
+            let (sin, cos) = libm::sincos(TAU * frequency * samples / rate);
+            Complex::new(shrink * cos, shrink * sin)
+        };
+        let mut begins = vec![Complex::new(0.0, 0.0); total];
+        for (at, push) in pushes {
+            if let Some(slot) = begins.get_mut(samples(at.ceil())) {
+                *slot += after(at.ceil() - at) * *push;
+            }
+        }
+        let step = after(1.0);
+        let mut now = Complex::new(0.0, 0.0);
+        for (slot, begin) in sound.iter_mut().zip(&begins) {
+            now = now * step + begin;
+            *slot += now.im;
         }
     }
     sound
