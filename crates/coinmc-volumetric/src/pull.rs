@@ -81,3 +81,92 @@ impl Pull {
 pub(crate) fn longest_step(turning: f64) -> f64 {
     LARGEST_TURN / turning.abs().max(f64::MIN_POSITIVE)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_testkit::Dice;
+
+    /// A tilt, a place whose frame looks anywhere, and the direction of that.
+    fn somewhere(dice: &mut Dice) -> (TableTilt, Pull, Place, f64) {
+        let tilt = TableTilt::new(dice.between(1.0, 8.0), dice.between(0.0, 360.0));
+        let tilt = tilt.expect("a valid tilt");
+        let heading = dice.between(-3.0, 3.0);
+        let (sin, cos) = libm::sincos(heading);
+        (tilt, Pull::new(&tilt), Place::origin([cos, sin]), heading)
+    }
+
+    /// tan β downhill, seen from a frame that has turned.
+    #[test]
+    fn the_pull_is_downhill_in_every_frame() {
+        for toss in 0..100 {
+            let mut dice = Dice::new(631, toss);
+            let (tilt, pull, place, heading) = somewhere(&mut dice);
+            let ahead = dice.between(-LARGEST_TURN, LARGEST_TURN);
+            let [x, y] = pull.in_frame(&place, ahead);
+            let [ex, ey] = tilt.downhill();
+            let (sin, cos) = libm::sincos(heading + ahead);
+            assert!((x * cos - y * sin - tilt.slope() * ex).abs() < 1e-14);
+            assert!((x * sin + y * cos - tilt.slope() * ey).abs() < 1e-14);
+            let mut there = place;
+            let [dx, dy] = [dice.between(-1.0, 1.0), dice.between(-1.0, 1.0)];
+            there.shift(dx, dy);
+            let [px, py] = pull.in_frame(&place, 0.0);
+            assert!((pull.work(&place, &there) - (px * dx + py * dy)).abs() < 1e-14);
+        }
+    }
+
+    /// A flight under drag and pull, v' = −kv + p, against its exact solution with the pull's part by itself:
+    /// p (t − (1 − e^(−kt))/k)/k, and p t²/2 without drag.
+    #[test]
+    fn a_flight_is_pulled_and_arrives_with_its_velocity() {
+        for toss in 0..100 {
+            let mut dice = Dice::new(632, toss);
+            let (_, pull, place, _) = somewhere(&mut dice);
+            let linear = if toss % 4 == 0 {
+                0.0
+            } else {
+                dice.between(0.1, 2.0)
+            };
+            let drag = Drag {
+                linear,
+                angular: 0.3,
+            };
+            let motion = Motion {
+                vx: dice.between(-1.0, 1.0),
+                vy: dice.between(-1.0, 1.0),
+                ..Motion::still()
+            };
+            let t = dice.between(0.1, 3.0);
+            let (way, after) = pull.in_flight(&place, &drag, &motion, t);
+            let left = libm::exp(-linear * t);
+            let lasting = if linear > 0.0 {
+                (1.0 - left) / linear
+            } else {
+                t
+            };
+            let far = if linear > 0.0 {
+                (t - lasting) / linear
+            } else {
+                0.5 * t * t
+            };
+            let p = pull.in_frame(&place, 0.0);
+            for (i, (v, arrives)) in [(motion.vx, after.vx), (motion.vy, after.vy)]
+                .into_iter()
+                .enumerate()
+            {
+                assert!((way[i] - p[i] * far).abs() < 1e-12);
+                assert!((arrives * left - (v * left + p[i] * lasting)).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn a_step_turns_by_no_more_than_is_allowed() {
+        for turning in [0.5, -7.0] {
+            let turned = longest_step(turning) * f64::abs(turning);
+            assert!((turned - LARGEST_TURN).abs() < 1e-15);
+        }
+        assert!(longest_step(0.0) > 1e100);
+    }
+}

@@ -145,4 +145,48 @@ mod tests {
         assert!((way / sum - 1.0).abs() < 2e-3, "{way} {sum}");
         assert!(way > 1.1 * v0 * v0 / (2.0 * mu) && way < v0 * time);
     }
+
+    /// On a tilted table, against a plain sum over a hundred times as many steps; without tilt it is the slide on a
+    /// level table.
+    #[test]
+    fn a_slide_on_a_tilted_table_is_the_plain_sum() {
+        let (body, mu) = (body(), 0.3);
+        let inertia = body.radius * body.radius / body.ka;
+        for (v0, w0, pull) in [
+            ([1.0, 0.0], 0.0, [0.0, 0.1]),
+            ([0.6, -0.8], 1.5, [0.1, 0.05]),
+            ([0.0, 0.0], 2.0, [-0.1, 0.0]),
+            ([0.5, 0.5], 1.0, [0.0; 2]),
+        ] {
+            let (mut v, mut w, mut way): ([f64; 2], f64, [f64; 2]) = (v0, w0, [0.0; 2]);
+            let (h, mut time) = (1e-4, 0.0);
+            loop {
+                let speed = (v[0] * v[0] + v[1] * v[1]).sqrt();
+                if speed + w < 1e-3 {
+                    break;
+                }
+                let (along, about) = means(&rim_sines_and_cosines(), speed, w);
+                let held = (h * mu * along / speed.max(1e-9)).min(1.0);
+                for i in 0..2 {
+                    way[i] += h * v[i];
+                    v[i] += h * pull[i] - held * v[i];
+                }
+                w = (w - h * mu * inertia * about).max(0.0);
+                time += h;
+            }
+            let (found, took) = pulled_way_and_time(&body, mu, v0, -w0, pull);
+            for i in 0..2 {
+                assert!(
+                    (found[i] - way[i]).abs() < 0.02,
+                    "{v0:?}: {found:?} {way:?}"
+                );
+            }
+            assert!((took / time - 1.0).abs() < 0.03, "{v0:?}: {took} {time}");
+            if pull == [0.0; 2] {
+                let (level, _) = way_and_time(&body, mu, 0.5_f64.sqrt(), w0);
+                let far = (found[0] * found[0] + found[1] * found[1]).sqrt();
+                assert!((far / level - 1.0).abs() < 0.02, "{far} {level}");
+            }
+        }
+    }
 }

@@ -164,3 +164,97 @@ impl Toss {
             .state(&self.motion, &self.spin, self.heads_up, units)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_core::{Coin, Scene, Surface};
+    use coinmc_testkit::Dice;
+    use nalgebra::UnitVector3;
+
+    fn model() -> crate::model::Model<crate::laws::Moreau> {
+        let coin = Coin::cylinder(0.4, 0.0116).expect("a valid coin");
+        let surface = Surface::new(0.5, 0.3).expect("a valid surface");
+        let scene = Scene::new(coin, surface, 9.81).expect("a valid scene");
+        let settings = crate::settings::Settings::default();
+        crate::model::Model::new(&scene, &settings, crate::laws::Moreau).expect("valid settings")
+    }
+
+    /// A launch anywhere above the surface, its axis at this height.
+    fn launch(dice: &mut Dice, axis_z: Option<f64>) -> Launch {
+        let mut axis = dice.vector(1.0);
+        if let Some(z) = axis_z {
+            let across = ((1.0 - z * z) / (axis.x * axis.x + axis.y * axis.y)).sqrt();
+            axis = Vector3::new(axis.x * across, axis.y * across, z);
+        }
+        Launch {
+            height_m: dice.between(0.05, 0.2),
+            velocity_m_s: dice.vector(1.0),
+            axis: UnitVector3::new_normalize(axis),
+            spin_rad_s: dice.vector(30.0),
+        }
+    }
+
+    fn agree(a: &State, b: &State, tolerance: f64) {
+        let off = [
+            (a.position_m - b.position_m).norm(),
+            (a.velocity_m_s - b.velocity_m_s).norm(),
+            (a.axis.into_inner() - b.axis.into_inner()).norm(),
+            (a.spin_rad_s - b.spin_rad_s).norm() / 30.0,
+        ];
+        assert!(
+            off.iter().all(|off| *off < tolerance),
+            "{off:?}: {a:?} {b:?}"
+        );
+    }
+
+    /// A toss begins as it is launched, whatever frame it is followed in.
+    #[test]
+    fn the_folded_frame_holds_the_launch() {
+        let model = model();
+        for number in 0..200 {
+            let launch = launch(&mut Dice::new(515, number), None);
+            let state = model.launch(&launch).state(&model.units);
+            let launched = State {
+                time_s: 0.0,
+                position_m: Vector3::new(0.0, 0.0, launch.height_m),
+                velocity_m_s: launch.velocity_m_s,
+                axis: launch.axis,
+                spin_rad_s: launch.spin_rad_s,
+            };
+            agree(&state, &launched, 1e-12);
+        }
+    }
+
+    /// What turns or reverses the frame leaves the coin as it is in the laboratory: the rims of a coin on its side
+    /// change roles, those of any coin with a conical edge, and a level coin's frame turns to the rim point that
+    /// comes down.
+    #[test]
+    fn another_frame_is_the_same_coin() {
+        let model = model();
+        let factor = model.dynamics.axial_factor;
+        for number in 0..200 {
+            let mut dice = Dice::new(516, number);
+            let mut toss = model.launch(&launch(&mut dice, None));
+            let before = toss.state(&model.units);
+            toss.turn_over();
+            agree(&toss.state(&model.units), &before, 1e-12);
+            assert!(!toss.face_approaching_point(factor));
+
+            let mut toss = model.launch(&launch(&mut dice, Some(0.0)));
+            let (before, face) = (toss.state(&model.units), toss.face());
+            toss.switch_rim();
+            agree(&toss.state(&model.units), &before, 1e-12);
+            assert_ne!(toss.face(), face);
+
+            let side = if number % 2 == 0 { 1.0 } else { -1.0 };
+            let mut toss = model.launch(&launch(&mut dice, Some(side * (1.0 - 1e-20))));
+            toss.motion.set_tilt(0.5 * FLAT, 1.0);
+            let before = toss.state(&model.units);
+            assert!(toss.face_approaching_point(factor));
+            agree(&toss.state(&model.units), &before, 2.0 * FLAT);
+            assert!(toss.spin.tilt > 0.0 && toss.spin.turn == 0.0);
+            assert!((toss.motion.oy - toss.spin.tilt).abs() < 1e-15);
+        }
+    }
+}

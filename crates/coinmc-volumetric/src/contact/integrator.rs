@@ -182,3 +182,104 @@ pub(crate) fn next_length<L: Lane>(h: L, error: L) -> L {
     let factor = L::splat(0.9) / error.max(L::splat(1e-24)).sqrt().sqrt().sqrt();
     h * factor.min(L::splat(5.0)).max(L::splat(0.2))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// y = (1/(1 + t), 1 + t, ln(1 + t), sin t, cos t) solves these.
+    #[allow(clippy::trivially_copy_pass_by_ref)] // as a flow takes it
+    fn rates([a, b, _, sin, cos]: &[f64; 5]) -> [f64; 5] {
+        [-a * a, a * b, a * a * b, *cos, -sin]
+    }
+
+    fn exact(t: f64) -> [f64; 5] {
+        let (sin, cos) = libm::sincos(t);
+        [1.0 / (1.0 + t), 1.0 + t, libm::log(1.0 + t), sin, cos]
+    }
+
+    fn one(t: f64, h: f64) -> Trial<f64, 5> {
+        step(&exact(t), &rates(&exact(t)), h, 1e-3, rates)
+    }
+
+    fn largest(a: &[f64; 5], b: &[f64; 5]) -> f64 {
+        let off = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+        off.fold(0.0, f64::max)
+    }
+
+    /// One step is wrong by O(h⁶), and by O(h⁵) between its ends: half the step leaves a 64th and a 32nd, or less where
+    /// the next order counts as well.
+    #[test]
+    fn a_step_is_of_fifth_order_and_of_fourth_within() {
+        for t in [0.1, 0.7] {
+            let errors = [0.1, 0.05].map(|h| largest(&one(t, h).state, &exact(t + h)));
+            let ratio = errors[0] / errors[1];
+            assert!(ratio > 45.0, "{errors:?}");
+            for x in [0.3, 0.8] {
+                let errors = [0.1, 0.05].map(|h| {
+                    let between = one(t, h).between(&exact(t), x);
+                    largest(&between, &exact(t + x * h))
+                });
+                let ratio = errors[0] / errors[1];
+                assert!(ratio > 22.0, "{x} {errors:?}");
+            }
+            let trial = one(t, 0.2);
+            assert!(largest(&trial.between(&exact(t), 0.0), &exact(t)) < 1e-15);
+            assert!(largest(&trial.between(&exact(t), 1.0), &trial.state) < 1e-15);
+        }
+    }
+
+    /// The error is the difference from Dormand and Prince's solution of fourth order, over what is allowed.
+    #[test]
+    fn the_error_is_that_of_the_embedded_solution() {
+        let (t, h) = (0.1, 0.3);
+        let (start, trial) = (exact(t), one(t, h));
+        let weights = [
+            5_179.0 / 57_600.0,
+            7_571.0 / 16_695.0,
+            393.0 / 640.0,
+            -92_097.0 / 339_200.0,
+            187.0 / 2_100.0,
+            1.0 / 40.0,
+        ];
+        let relative = |i: usize| {
+            let stages = trial.stages.iter().zip(weights);
+            let fourth = start[i] + h * stages.map(|(k, w)| w * k[i]).sum::<f64>();
+            let allowed = 1e-3 * (1.0 + start[i].abs().max(trial.state[i].abs()));
+            (trial.state[i] - fourth) / allowed
+        };
+        let mean = (0..5).map(|i| relative(i) * relative(i)).sum::<f64>() / 5.0;
+        assert!((trial.error / mean - 1.0).abs() < 1e-6, "{mean} {trial:?}");
+        // an even number of components
+        let pair = |[a, b]: &[f64; 2]| [-a * a, a * b];
+        let even = step(
+            &[start[0], start[1]],
+            &pair(&[start[0], start[1]]),
+            h,
+            1e-3,
+            pair,
+        );
+        let mean = (0..2).map(|i| relative(i) * relative(i)).sum::<f64>() / 2.0;
+        assert!((even.error / mean - 1.0).abs() < 1e-6, "{mean} {even:?}");
+    }
+
+    /// A step has nine tenths of the length that the error asks for, within a fifth and five times the last.
+    #[test]
+    fn the_next_step_is_as_long_as_the_error_allows() {
+        for (error, factor) in [
+            (1.0, 0.9),
+            (2.0_f64.powi(8), 0.45),
+            (2.0_f64.powi(-8), 1.8),
+            (1e-30, 5.0),
+            (1e30, 0.2),
+        ] {
+            assert!((next_length(0.7, error) - 0.7 * factor).abs() < 1e-15);
+            assert!((shorter(0.7, error) - 0.7 * factor).abs() < 1e-15);
+        }
+        for error in [f64::INFINITY, f64::NAN] {
+            assert!((shorter(0.7, error) - 0.14).abs() < 1e-15);
+            assert!(!is_accepted(error));
+        }
+        assert!(is_accepted(1.0) && !is_accepted(1.0 + 1e-15));
+    }
+}
