@@ -210,3 +210,74 @@ pub(crate) fn slip_speed<L: Lane>(state: &RimState<L>) -> L {
     let [.., gx, gy] = *state;
     (gx * gx + gy * gy).sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{Body, Friction};
+    use crate::drag::Drag;
+    use coinmc_core::Coin;
+    use coinmc_testkit::Dice;
+
+    fn dynamics() -> Dynamics {
+        let body = Body::new(&Coin::cylinder(0.4, 0.01).expect("a valid coin"));
+        let friction = Friction {
+            mu: 0.3,
+            contour: 0.01,
+            pivoting: 0.001,
+        };
+        let still = Drag {
+            linear: 0.0,
+            angular: 0.0,
+        };
+        Dynamics::new(body, friction, still, 1.0, 1e-9)
+    }
+
+    /// The margin is positive exactly where the mode holds: the coin presses, and slip does not jam, or friction
+    /// within μN suffices to stick; and it is the smaller of the two excesses.
+    #[test]
+    fn the_margin_is_positive_where_the_mode_holds() {
+        let dynamics = dynamics();
+        let mut held = [0; 2];
+        for number in 0..1000 {
+            let mut dice = Dice::new(818, number);
+            let now = Rates {
+                state: [0.0; 6],
+                normal: dice.between(0.1, 1.0),
+                friction: [dice.between(-0.3, 0.3), dice.between(-0.3, 0.3)],
+                press: dice.between(-0.5, 1.0),
+                jam_margin: dice.between(-0.5, 1.0),
+            };
+            let size = libm::hypot(now.friction[0], now.friction[1]);
+            let excess = [now.jam_margin - LEAST_JAM_MARGIN, 0.3 * now.normal - size];
+            for (i, mode) in [Mode::Slip, Mode::Stick].into_iter().enumerate() {
+                let found = margin(&dynamics, mode, &now);
+                assert!((found - excess[i].min(now.press)).abs() < 1e-15);
+                assert_eq!(found > 0.0, holds(&dynamics, mode, &now), "{now:?}");
+                held[i] += usize::from(found > 0.0);
+            }
+        }
+        assert!(held.iter().all(|count| *count > 100), "{held:?}");
+    }
+
+    /// A slip that friction brakes keeps a share of its speed; one that it drives has no limit.
+    #[test]
+    fn a_step_ends_before_the_slip_does_and_before_the_coin_is_level() {
+        let mut state = [0.1, -0.5, 0.0, 0.0, 0.3, 0.4];
+        let mut rates = [0.0; 6];
+        (rates[SLIP_X], rates[SLIP_Y]) = (-1.2, -1.6);
+        let time = braking_limit(&state, &rates);
+        let left = 0.5 - 2.0 * time;
+        assert!((left - MOST_BRAKING * 0.5).abs() < 1e-15, "{left}");
+        rates[SLIP_X] = 3.0;
+        assert!(braking_limit(&state, &rates).is_infinite());
+        assert!((flattening_limit(&state) - 0.1).abs() < 1e-15);
+        state[TILT] = 0.0;
+        assert!((flattening_limit(&state) - 2.0 * FLAT).abs() < 1e-15);
+        state[OMEGA_Y] = 0.5;
+        assert!(flattening_limit(&state).is_infinite());
+        assert!((wanted_length(0.7, 1e-30, false) - 3.5).abs() < 1e-15);
+        assert!((wanted_length(0.7, 1e-30, true) - 0.7).abs() < 1e-15);
+        assert!((wanted_length(0.7, 1e30, true) - 0.14).abs() < 1e-15);
+    }
+}
