@@ -123,9 +123,12 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
 #[cfg(test)]
 mod tests {
     use super::super::test_scenes::Rough;
+    use super::super::walk::{Touch, Walk};
+    use super::SPREAD;
+    use crate::contact::Usage;
     use crate::laws::Moreau;
     use crate::model::Model;
-    use coinmc_core::{Ended, Face, Outcome, Preset};
+    use coinmc_core::{Decided, Ended, Face, Outcome, Preset};
     use coinmc_oracle::Start;
     use coinmc_testkit::{Dice, preset_launch};
 
@@ -156,6 +159,44 @@ mod tests {
         let steps = outcomes.iter().map(|outcome| outcome.contact_steps).sum();
         let stay = |outcome: &Outcome| outcome.face() == Some(Face::Side);
         (outcomes.iter().map(stay).collect(), steps)
+    }
+
+    /// A coin on both rims is on its side for good once its energy is below the balance by three standard deviations
+    /// of the ground, or by as much less as rolling friction stops it within less than ℓ; one that rocks, by three.
+    #[test]
+    fn what_the_ground_ahead_can_change_is_left_open() {
+        let model = rough([0.7, 0.5, 0.03, 3e-3]).model();
+        let ground = model.ground.expect("a rough ground");
+        let scene = rough([0.7, 0.5, 0.03, 3e-3]).scene();
+        let mut toss = model.launch(&Start::Rolling(0.1).launch(&scene.coin, 0.0));
+        let (mut usage, mut observer) = (Usage::default(), ());
+        let mut walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+        (walk.tracks.own.height, walk.tracks.other.height) = (0.0, 0.0);
+        let body = &model.dynamics.body;
+        // the work of rolling friction over ℓ, in m g D
+        let work = model.dynamics.friction.contour / body.radius * ground.length;
+        let motion = walk.toss.motion;
+        let spin = crate::motion::Spin::still();
+        for (touch, share, open) in [
+            (Touch::Both, 0.25, 0.25),
+            (Touch::Both, 0.8, 0.8),
+            (Touch::Both, 5.0, 1.0),
+            (Touch::Rim, 0.25, 1.0),
+        ] {
+            let kinetic = share * work;
+            let limit = 1.0 - SPREAD * ground.height * open;
+            for (energy, decided) in [(limit - 1e-9, Some(Decided::Side)), (limit + 1e-9, None)] {
+                walk.toss.spin = spin;
+                walk.toss.motion = crate::motion::Motion {
+                    vx: 0.0,
+                    vy: (2.0 * kinetic).sqrt(),
+                    vz: 0.0,
+                    z: energy - kinetic,
+                    ..motion
+                };
+                assert_eq!(walk.decide(touch), decided, "{touch:?} {share}");
+            }
+        }
     }
 
     /// Coins that roll upright are the hardest to decide. Those decided to stay do so where no kick counts as

@@ -289,4 +289,39 @@ mod tests {
         }
         assert!(squares <= 200.0 * 0.03 * 0.03, "{squares}");
     }
+
+    /// A rim whose curvature is like that of the ground rests where the ground under its parabola reaches highest,
+    /// by a search in fine steps, and is as steep as the ground there.
+    #[test]
+    fn a_rim_rests_on_the_highest_ground_under_its_parabola() {
+        let coin = Coin::cylinder(0.6, 1.0).expect("a valid coin");
+        let ground = Ground::new(0.05, 0.02, &Body::new(&coin));
+        let height = |[x, y]: [f64; 2]| {
+            let [x, y] = ground.in_lengths([x, y]);
+            ground.height * HeightField::shared().height(x, y)
+        };
+        let unit = ground.height / (ground.length * ground.length);
+        let along = [0.6, 0.8];
+        let mut squares = 0.0;
+        for i in 0..300 {
+            let curvature = unit * [0.3, 1.0, 3.0][i % 3];
+            let point = [0.013 * i as f64, 0.007 * i as f64];
+            let place = |way: f64| [point[0] + way * along[0], point[1] + way * along[1]];
+            let highest = (-800..=800)
+                .map(|k| {
+                    let way = 1e-4 * f64::from(k);
+                    height(place(way)) - 0.5 * curvature * way * way
+                })
+                .fold(f64::NEG_INFINITY, f64::max);
+            let found = ground.under_rim(point, along, curvature);
+            let error = (found.height - highest) / ground.height;
+            assert!(error.abs() <= 0.05, "{curvature}: {error}");
+            squares += error * error;
+            let (slope, carries) = found.bridge.expect("a rim that bridges hollows");
+            let way = slope / curvature;
+            let off = [0, 1].map(|axis| carries[axis] - place(way)[axis]);
+            assert!(off[0].abs() + off[1].abs() < 1e-12, "{off:?}");
+        }
+        assert!(squares <= 300.0 * 0.005 * 0.005, "{squares}");
+    }
 }
