@@ -1,19 +1,34 @@
 //! A filter matched to the sound of this coin on this table.
 //!
-//! A coin rings at a few frequencies. Of all weighted sums of the magnitudes at each, in units of the noise there,
-//! the one whose weights are those of the sound itself stands out most (the matched filter; Turin, IRE Trans. Inf.
-//! Theory 6 (1960) 311). The loudest impact says what they are; all others of a recording ring alike.
+//! A coin rings at a few frequencies. Measure the magnitude at each frequency in units of the noise there: of all
+//! weighted sums of these, the one weighted by the sound's own magnitudes stands out most (the matched filter; Turin,
+//! IRE Trans. Inf. Theory 6 (1960) 311). The loudest impact says what they are; all others of a recording ring alike.
+//!
+//! # What noise reaches
+//! The magnitude R of Gaussian noise has a Rayleigh distribution. In units of its mean, R² has the mean 4/π, and the
+//! smaller of two the mean 1/√2. So its rise (R₁ − R₂)₊ from one window to the next but one, which is nearly
+//! independent, has the mean m = ½ E|R₁ − R₂| = 1 − 1/√2 and the variance ½ E(R₁ − R₂)² − m² = 4/π − 1 − m². In Hann
+//! windows neighbouring frequencies have the correlation 2/3, the next 1/6, and their powers the squares of these;
+//! rises are correlated about as powers are.
 
 use crate::spectrum::Spectra;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
+
+/// The mean square of the magnitude of noise, in units of its mean.
+pub(crate) const NOISE_SQUARE: f64 = 4.0 / PI;
+/// The mean of its rise.
+pub(crate) const NOISE_RISE: f64 = 1.0 - FRAC_1_SQRT_2;
+/// Correlations of the rises at one frequency, the next and the next but one, in Hann windows.
+const CORRELATIONS: [f64; 3] = [1.0, 4.0 / 9.0, 1.0 / 36.0];
 
 /// What each frequency of the spectra counts for.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Filter {
-    /// In units of the noise there; their sum is 1.
+    /// Of magnitudes in units of the noise; they add up to 1.
     weights: Vec<f32>,
-    /// The same, in units of the magnitude.
+    /// Of the magnitudes themselves: weight over noise.
     gains: Vec<f32>,
 }
 
@@ -55,7 +70,22 @@ impl Filter {
         self.mean(ratios.map(|x| x * x)).sqrt()
     }
 
-    /// The amplitude of samples behind this filter, which delays nothing: the absolute value of the analytic signal.
+    /// The mean of the rises of noise, and so many standard deviations more.
+    pub(crate) fn most_of_noise(&self, deviations: f64) -> f64 {
+        let product = |apart: usize| {
+            let pairs = self.weights.iter().zip(self.weights.iter().skip(apart));
+            let sum: f64 = pairs.map(|(a, b)| f64::from(a * b)).sum();
+            // each pair is in the square of the sum twice
+            if apart == 0 { sum } else { 2.0 * sum }
+        };
+        let shared = CORRELATIONS.iter().enumerate();
+        let shared: f64 = shared.map(|(apart, c)| c * product(apart)).sum();
+        let variance = NOISE_SQUARE - 1.0 - NOISE_RISE * NOISE_RISE;
+        NOISE_RISE + deviations * (variance * shared).sqrt()
+    }
+
+    /// The amplitude of samples behind this filter, which delays nothing: the absolute value of the analytic signal,
+    /// in arbitrary units.
     pub(crate) fn amplitudes(&self, samples: &[f32], spectra: &Spectra) -> Vec<f64> {
         let length = (2 * samples.len()).next_power_of_two();
         let mut planner = FftPlanner::new();
@@ -141,5 +171,63 @@ mod tests {
         assert!((mean - 6.0).abs() < 1e-6, "{mean}");
         let level = even.level(&[0.5, 4.0, 2.0], &noise);
         assert!((level - 3.0_f64.sqrt()).abs() < 1e-6, "{level}");
+    }
+
+    /// Between two frequencies the gain is that of the line between them, and beyond the last it falls to none.
+    #[test]
+    fn gains_lie_on_lines() {
+        let filter = Filter {
+            weights: vec![],
+            gains: vec![1.0, 3.0],
+        };
+        for (place, gain) in [
+            (-0.5, 0.0),
+            (0.0, 1.0),
+            (0.25, 1.5),
+            (1.0, 3.0),
+            (1.5, 1.5),
+            (7.0, 0.0),
+        ] {
+            assert!((filter.gain(place) - gain).abs() < 1e-6, "{place}");
+        }
+    }
+
+    /// In white noise the mean and the deviation of the flux are those of the module's text, behind an even filter
+    /// and behind those of one and of four frequencies.
+    #[test]
+    fn noise_reaches_what_is_derived() {
+        let stream = coinmc_core::Philox4x64::new([5, 6]);
+        let at = |n: u64| {
+            let word = stream.block([n, 0, 0, 0])[0];
+            #[allow(clippy::cast_possible_truncation)]
+            let sample = coinmc_core::inverse_normal_cdf(coinmc_core::unit_interval(word)) as f32;
+            sample
+        };
+        let samples: Vec<f32> = (0..200_000).map(at).collect();
+        let spectra = Spectra::of(&samples, RATE_HZ, 1500.0, 0.005_8);
+        let bins = spectra.frames[0].len();
+        let count = spectra.frames.len() as f64;
+        let mean = |bin: usize| {
+            let all = spectra.frames.iter().map(|frame| f64::from(frame[bin]));
+            #[allow(clippy::cast_possible_truncation)]
+            let mean = (all.sum::<f64>() / count) as f32;
+            mean
+        };
+        let noise: Vec<f32> = (0..bins).map(mean).collect();
+        for wide in [bins, 1, 4] {
+            let weights = (0..bins).map(|bin| if bin < wide { 1.0 } else { 0.0 });
+            let filter = Filter::of(weights.collect(), &noise);
+            let flux = (2..spectra.frames.len()).map(|n| filter.mean(spectra.rises(n, &noise)));
+            let flux: Vec<f64> = flux.collect();
+            let middle = flux.iter().sum::<f64>() / flux.len() as f64;
+            let squares = flux.iter().map(|x| (x - middle) * (x - middle));
+            let deviation = (squares.sum::<f64>() / flux.len() as f64).sqrt();
+            let derived = filter.most_of_noise(1.0) - NOISE_RISE;
+            assert!((middle / NOISE_RISE - 1.0).abs() < 0.05, "{wide}: {middle}");
+            assert!(
+                (deviation / derived - 1.0).abs() < 0.12,
+                "{wide}: {deviation} {derived}"
+            );
+        }
     }
 }

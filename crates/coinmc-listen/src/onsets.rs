@@ -6,7 +6,7 @@
 //! frequencies this coin rings; with each weighted by that, peaks of the flux are onsets, many of which are too weak
 //! to stand out at all frequencies. Where the sound rises within one is then sought sample by sample.
 
-use crate::filter::Filter;
+use crate::filter::{Filter, NOISE_RISE, NOISE_SQUARE};
 use crate::recording::Recording;
 use crate::spectrum::Spectra;
 
@@ -18,14 +18,10 @@ const WINDOW_S: f64 = 0.005_8;
 const DEVIATIONS: f64 = 8.0;
 /// … and by so much at least, in units of the noise.
 const LEAST_FLUX: f64 = 1.0;
-/// Share of a normal distribution below a deviation of 1.2816, from which the typical deviation is taken: with few
-/// frequencies half of the flux is 0, so that a median absolute deviation says nothing.
-const NORMAL_SHARE: f64 = 0.9;
-const NORMAL_QUANTILE: f64 = 1.2816;
 /// Onsets nearer than this are one, s.
 pub(crate) const RESOLUTION_S: f64 = 0.004;
 /// After an onset a weaker one is not told from its ring and its echoes, unless it is stronger than this share
-/// of it, which falls to a tenth in the time below.
+/// of it, which falls by e in the time below. (Echoes of a pure tone can add up, hence so large a share.)
 const MASK: f64 = 0.7;
 /// The time in which masking falls by e, s.
 const MASK_S: f64 = 0.025;
@@ -39,20 +35,20 @@ pub struct Onset {
     pub time_s: f64,
     /// Standard error of the time, s.
     pub error_s: f64,
-    /// Amplitude above 1.5 kHz, in units of the loudest onset.
+    /// Amplitude behind the filter matched to the loudest impact, in units of the loudest onset.
     pub strength: f64,
-    /// The flux over what noise reaches: above 1.
+    /// The flux behind that filter over what noise reaches: at least 1.
     pub prominence: f64,
 }
 
 /// The onsets of a recording, and what of it is noise.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Onsets {
     /// In order of time.
     pub onsets: Vec<Onset>,
     /// The weakest strength that would have been told from noise, in units of the loudest onset.
     pub threshold: f64,
-    /// Amplitude of the loudest onset over that of the noise, dB.
+    /// Amplitude of the loudest window over that of the noise, all frequencies alike, dB.
     pub signal_to_noise_db: f64,
 }
 
@@ -63,20 +59,28 @@ impl Onsets {
         let noise = spectra.noise();
         let reach = steps(RESOLUTION_S * recording.rate_hz / spectra.hop as f64);
         let even = Filter::even(&noise);
-        let flux = Flux::of(&spectra, &noise, &even);
-        let loud = flux.peaks(reach).into_iter();
-        let loud = loud.map(|n| (n, level_after(&spectra, &noise, &even, n)));
-        let Some((first, above)) = loud.reduce(|a, b| if b.1 > a.1 { b } else { a }) else {
-            return Self::default();
+        let flux = Flux::even(&spectra, &noise, &even);
+        let level = |n: usize| level_after(&spectra, &noise, &even, n);
+        let most = (0..spectra.frames.len()).map(level).fold(0.0, f64::max);
+        let signal_to_noise_db = 20.0 * libm::log10(most.max(1e-3));
+        let loud = flux.peaks(reach).into_iter().map(|n| (n, level(n)));
+        let Some((first, _)) = loud.reduce(|a, b| if b.1 > a.1 { b } else { a }) else {
+            return Self {
+                onsets: vec![],
+                threshold: 1.0,
+                signal_to_noise_db,
+            };
         };
         let matched = Filter::matched(&spectra, &noise, first);
-        let weak = Flux::of(&spectra, &noise, &matched);
+        // where sounds beside the noise raise the bar for all frequencies, they raise this one, too
+        let bar = matched.most_of_noise(DEVIATIONS) * flux.bar / (NOISE_RISE + LEAST_FLUX);
+        let weak = Flux::behind(&spectra, &noise, &matched, bar);
         let found = weak.peaks(reach).into_iter().map(|n| {
-            let (from, part) = spectra.around(n, &recording.samples);
-            let (time_s, error_s) = if flux.passes_near(n, reach) {
-                sharp_rise(part, recording.rate_hz)
+            let (from, (time_s, error_s)) = if flux.passes_near(n, reach) {
+                let (from, part) = spectra.around(n, spectra.length / 2, &recording.samples);
+                (from, sharp_rise(part, recording.rate_hz))
             } else {
-                rise(&matched.amplitudes(part, &spectra), recording.rate_hz)
+                matched_rise(&matched, &spectra, n, recording)
             };
             Onset {
                 time_s: from as f64 / recording.rate_hz + time_s,
@@ -99,7 +103,7 @@ impl Onsets {
         };
         Self {
             threshold: scaled(weakest).min(1.0),
-            signal_to_noise_db: 20.0 * libm::log10(above.max(1e-3)),
+            signal_to_noise_db,
             onsets: onsets
                 .into_iter()
                 .map(|onset| Onset {
@@ -111,7 +115,7 @@ impl Onsets {
     }
 }
 
-/// Keeps what is not masked by what came before, and the stronger of two that are too near.
+/// Keeps what is not masked by what came before.
 fn unmasked(found: Vec<Onset>) -> Vec<Onset> {
     let mut kept: Vec<Onset> = vec![];
     for onset in found {
@@ -137,15 +141,22 @@ struct Flux {
 }
 
 impl Flux {
-    fn of(spectra: &Spectra, noise: &[f32], filter: &Filter) -> Self {
+    /// All frequencies alike: above the median by eight typical deviations.
+    fn even(spectra: &Spectra, noise: &[f32], filter: &Filter) -> Self {
+        let flux = Self::behind(spectra, noise, filter, 0.0);
+        let middle = median(&mut flux.values.clone());
+        let mut off: Vec<f64> = flux.values.iter().map(|x| (x - middle).abs()).collect();
+        let bar = middle + (DEVIATIONS * 1.4826 * median(&mut off)).max(LEAST_FLUX);
+        Self { bar, ..flux }
+    }
+
+    fn behind(spectra: &Spectra, noise: &[f32], filter: &Filter, bar: f64) -> Self {
         let windows = 0..spectra.frames.len();
-        let values: Vec<f64> = windows
-            .map(|n| filter.mean(spectra.rises(n, noise)))
-            .collect();
-        let middle = quantile(&values, 0.5);
-        let deviation = (quantile(&values, NORMAL_SHARE) - middle) / NORMAL_QUANTILE;
-        let bar = middle + (DEVIATIONS * deviation).max(LEAST_FLUX);
-        Self { values, bar }
+        let values = windows.map(|n| filter.mean(spectra.rises(n, noise)));
+        Self {
+            values: values.collect(),
+            bar,
+        }
     }
 
     /// The windows where it passes what noise reaches, and has no greater value near.
@@ -167,12 +178,27 @@ impl Flux {
     }
 }
 
-/// The amplitude just after a window behind a filter, in units of the noise, and without it.
+/// The amplitude just after a window, behind a filter, in units of the noise, with the noise taken off.
 fn level_after(spectra: &Spectra, noise: &[f32], filter: &Filter, window: usize) -> f64 {
     let ahead = &spectra.frames[window..(window + 4).min(spectra.frames.len())];
     let levels = ahead.iter().map(|frame| filter.level(frame, noise));
     let most = levels.fold(0.0, f64::max);
-    (most * most - 1.0).max(0.0).sqrt()
+    (most * most - NOISE_SQUARE).max(0.0).sqrt()
+}
+
+/// When the amplitude behind a filter rises around a window, s after the sample that is given first.
+fn matched_rise(
+    filter: &Filter,
+    spectra: &Spectra,
+    window: usize,
+    recording: &Recording,
+) -> (usize, (f64, f64)) {
+    // where the part is cut off, a hum is a step, which all frequencies have: a window of it is left out again
+    let (begin, longer) = spectra.around(window, 3 * spectra.length / 2, &recording.samples);
+    let (from, part) = spectra.around(window, spectra.length / 2, &recording.samples);
+    let amplitudes = filter.amplitudes(longer, spectra);
+    let inner = &amplitudes[from - begin..from - begin + part.len()];
+    (from, rise(inner, recording.rate_hz))
 }
 
 /// When a sound that is louder than the noise rises, and how sure that is, in s: by the amplitude of the second
@@ -191,7 +217,7 @@ fn sharp_rise(part: &[f32], rate_hz: f64) -> (f64, f64) {
     (time_s + width as f64 / rate_hz, error_s)
 }
 
-/// When an amplitude last passes half of its greatest before that, and how sure that is, in s.
+/// When an amplitude last rises through half of its maximum before reaching it, and how sure that is, in s.
 fn rise(amplitudes: &[f64], rate_hz: f64) -> (f64, f64) {
     let (place, most) = greatest(amplitudes);
     let passes = |share: f64| {
@@ -215,16 +241,6 @@ fn greatest(values: &[f64]) -> (usize, f64) {
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // small and positive
 fn steps(number: f64) -> usize {
     number.round().max(0.0) as usize
-}
-
-/// The value below which this share lies; 0 without values.
-fn quantile(values: &[f64], share: f64) -> f64 {
-    let mut values = values.to_vec();
-    if values.is_empty() {
-        return 0.0;
-    }
-    let place = steps((share * values.len() as f64).floor()).min(values.len() - 1);
-    *values.select_nth_unstable_by(place, f64::total_cmp).1
 }
 
 /// The median; 0 without values.
@@ -290,7 +306,7 @@ mod tests {
             let recording = synthetic.of_strikes(&coin, &strikes, [0.0, 0.4]);
             let spectra = Spectra::of(&recording.samples, recording.rate_hz, LEAST_HZ, WINDOW_S);
             let noise = spectra.noise();
-            let flux = Flux::of(&spectra, &noise, &Filter::even(&noise));
+            let flux = Flux::even(&spectra, &noise, &Filter::even(&noise));
             even += flux.peaks(3).len();
             let onsets = Onsets::of(&recording).onsets;
             matched += onsets.len();
@@ -321,6 +337,126 @@ mod tests {
             }];
             let recording = synthetic.of_strikes(&coin, &strikes, [0.0, 1.0]);
             assert!(Onsets::of(&recording).onsets.is_empty());
+        }
+    }
+
+    fn coin() -> Coin {
+        Coin::cylinder(0.16, 0.0116).unwrap()
+    }
+
+    fn strikes<const N: usize>(all: [(f64, f64); N]) -> [Strike; N] {
+        all.map(|(time_s, speed_m_s)| Strike { time_s, speed_m_s })
+    }
+
+    /// Behind a filter for few frequencies noise has no onsets either: of a loud strike in five seconds of noise one
+    /// onset is heard.
+    #[test]
+    fn a_strike_alone_is_heard_alone() {
+        for seed in 0..20 {
+            let synthetic = Synthetic {
+                seed,
+                signal_to_noise_db: -3.0,
+                ..Synthetic::default()
+            };
+            let recording = synthetic.of_strikes(&coin(), &strikes([(1.0, 1.0)]), [0.0, 5.0]);
+            let heard = Onsets::of(&recording).onsets;
+            assert_eq!(heard.len(), 1, "{heard:?}");
+            assert!(heard[0].prominence > 1.0);
+        }
+    }
+
+    /// A recording without silence before and after tells as much.
+    #[test]
+    fn silence_is_not_needed() {
+        let times = [0.0, 0.09, 0.15, 0.19, 0.215, 0.235];
+        let bounces = times.map(|time_s| Strike {
+            time_s,
+            speed_m_s: libm::exp(-6.0 * time_s),
+        });
+        for silence_s in [0.5, 0.1, 0.04] {
+            let synthetic = Synthetic {
+                silence_s,
+                ..Synthetic::default()
+            };
+            let recording = synthetic.of_strikes(&coin(), &bounces, [0.0, 0.28]);
+            let heard = Onsets::of(&recording).onsets;
+            assert_eq!(heard.len(), times.len(), "{silence_s}: {heard:?}");
+        }
+    }
+
+    /// Hum moves no onset, not even of a strike that only the matched filter hears.
+    #[test]
+    fn hum_moves_no_onset() {
+        for seed in 0..10 {
+            let synthetic = Synthetic {
+                seed,
+                signal_to_noise_db: 5.0,
+                ..Synthetic::default()
+            };
+            let quiet =
+                synthetic.of_strikes(&coin(), &strikes([(0.0, 1.0), (0.18, 0.15)]), [0.0, 0.4]);
+            let hum = |n: usize| {
+                0.25 * libm::sin(std::f64::consts::TAU * 100.0 * n as f64 / quiet.rate_hz)
+            };
+            #[allow(clippy::cast_possible_truncation)]
+            let with = quiet
+                .samples
+                .iter()
+                .enumerate()
+                .map(|(n, x)| x + hum(n) as f32);
+            let humming = Recording::of_samples("hum", quiet.rate_hz, with.collect());
+            let [quiet, humming] = [quiet, humming].map(|recording| Onsets::of(&recording).onsets);
+            assert_eq!(humming.len(), 2);
+            for (one, other) in quiet.iter().zip(&humming) {
+                assert!(
+                    (one.time_s - other.time_s).abs() < 0.001,
+                    "{one:?} {other:?}"
+                );
+            }
+        }
+    }
+
+    /// With 10 dB less noise a sound is 10 dB farther above it, and the weakest strike that is heard weaker by as
+    /// much: what is above the threshold is heard, and what is far below it is not.
+    #[test]
+    fn the_threshold_is_what_can_be_heard() {
+        let of = |signal_to_noise_db: f64, weak: f64| {
+            let synthetic = Synthetic {
+                signal_to_noise_db,
+                ..Synthetic::default()
+            };
+            let both = strikes([(0.0, 1.0), (0.3, weak)]);
+            Onsets::of(&synthetic.of_strikes(&coin(), &both, [0.0, 0.6]))
+        };
+        let [far, near] = [10.0, 20.0].map(|ratio_db| of(ratio_db, 0.5));
+        let louder = near.signal_to_noise_db - far.signal_to_noise_db;
+        assert!((louder - 10.0).abs() < 1.0, "{louder}");
+        let lower = far.threshold / near.threshold;
+        assert!((lower / 10.0_f64.sqrt() - 1.0).abs() < 0.2, "{lower}");
+        assert_eq!(of(10.0, 1.6 * far.threshold).onsets.len(), 2);
+        assert_eq!(of(10.0, 0.4 * far.threshold).onsets.len(), 1);
+    }
+
+    /// No samples, whatever they are, make it fail.
+    #[test]
+    fn any_samples_are_heard_out() {
+        let mut click = vec![0.0; 10_000];
+        click[5000] = 1.0;
+        for samples in [
+            vec![],
+            vec![1.0],
+            vec![0.0; 5000],
+            vec![f32::NAN; 5000],
+            vec![f32::MAX; 5000],
+            (0..5000)
+                .map(|n| if n % 7 == 0 { f32::MIN } else { f32::INFINITY })
+                .collect(),
+            click,
+        ] {
+            let heard = Onsets::of(&Recording::of_samples("any", 44_100.0, samples));
+            assert!((0.0..=1.0).contains(&heard.threshold), "{heard:?}");
+            assert!(heard.signal_to_noise_db.is_finite(), "{heard:?}");
+            assert!(heard.onsets.iter().all(|onset| onset.time_s.is_finite()));
         }
     }
 }

@@ -71,11 +71,16 @@ impl Spectra {
             .map(|((now, before), noise)| ((now - before) / noise).max(0.0))
     }
 
-    /// The samples around a window, half of one on each side, and where they begin.
-    pub(crate) fn around<'a>(&self, window: usize, samples: &'a [f32]) -> (usize, &'a [f32]) {
+    /// The samples of a window and so many more on each side, and where they begin.
+    pub(crate) fn around<'a>(
+        &self,
+        window: usize,
+        more: usize,
+        samples: &'a [f32],
+    ) -> (usize, &'a [f32]) {
         let start = window * self.hop;
-        let from = start.saturating_sub(self.length / 2);
-        let to = (start + self.length + self.length / 2).min(samples.len());
+        let from = start.saturating_sub(more);
+        let to = (start + self.length + more).min(samples.len());
         (from, &samples[from..to])
     }
 

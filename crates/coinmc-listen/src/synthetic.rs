@@ -168,3 +168,31 @@ fn rung(coin: &Coin, pushes: &[(f64, f64)], rate: f64, total: usize) -> Vec<f64>
 fn samples(number: f64) -> usize {
     number.clamp(0.0, 1e9) as usize
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A push between two samples rings from its own instant on; one after the end is not heard.
+    #[test]
+    fn a_strike_between_samples_rings_from_its_instant() {
+        let coin = Coin::cylinder(0.16, 0.0116).unwrap();
+        let rate = 44_100.0;
+        let sound = rung(&coin, &[(10.25, 2.0), (70.0, 1.0)], rate, 64);
+        let plate = BRASS_M_S * coin.height_m() / (TAU * coin.radius_m() * coin.radius_m());
+        let ring = PLATE.iter().map(|square| (square * plate, COIN_DECAY_S));
+        let thud = TABLE.iter().map(|frequency| (*frequency, TABLE_DECAY_S));
+        let modes: Vec<_> = ring.chain(thud).filter(|(f, _)| *f < 0.45 * rate).collect();
+        assert_eq!(modes.len(), 1 + TABLE.len());
+        for (n, sample) in sound.iter().enumerate() {
+            let t = (n as f64 - 10.25) / rate;
+            let of = |(f, decay_s): &(f64, f64)| libm::exp(-t / decay_s) * libm::sin(TAU * f * t);
+            let exact = if t < 0.0 {
+                0.0
+            } else {
+                2.0 * modes.iter().map(of).sum::<f64>()
+            };
+            assert!((sample - exact).abs() < 1e-12, "{n}: {sample} {exact}");
+        }
+    }
+}
