@@ -1,5 +1,6 @@
 //! The loudness of a rattle against time, in units of the room's noise.
 
+use crate::filter::NOISE_SQUARE;
 use crate::recording::Recording;
 use crate::spectrum::Spectra;
 
@@ -90,7 +91,7 @@ fn longest(loudness: &[f64], silence: usize) -> Option<[usize; 2]> {
     let mut best: Option<[usize; 2]> = None;
     let mut current: Option<[usize; 2]> = None;
     // noise alone has the root mean square of a Rayleigh distribution over its mean
-    let bar = LOUDER * (4.0 / std::f64::consts::PI).sqrt();
+    let bar = LOUDER * NOISE_SQUARE.sqrt();
     for place in (0..loudness.len()).filter(|place| loudness[*place] > bar) {
         let begun = current.filter(|[_, last]| place - last <= silence);
         let stretch = [begun.map_or(place, |[first, _]| first), place];

@@ -20,8 +20,9 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI};
 pub(crate) const NOISE_SQUARE: f64 = 4.0 / PI;
 /// The mean of its rise.
 pub(crate) const NOISE_RISE: f64 = 1.0 - FRAC_1_SQRT_2;
-/// Correlations of the rises at one frequency, the next and the next but one, in Hann windows.
-const CORRELATIONS: [f64; 3] = [1.0, 4.0 / 9.0, 1.0 / 36.0];
+/// Correlations of the rises at one frequency, the next and the next but one, in Hann windows; those of two
+/// frequencies twice, as the square of a sum has each pair twice.
+const CORRELATIONS: [f64; 3] = [1.0, 2.0 * 4.0 / 9.0, 2.0 / 36.0];
 
 /// What each frequency of the spectra counts for.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,7 +44,6 @@ impl Filter {
         Self::of(spectra.rises(window, noise).collect(), noise)
     }
 
-    #[allow(clippy::cast_precision_loss)] // a few hundred
     fn of(mut weights: Vec<f32>, noise: &[f32]) -> Self {
         let sum: f32 = weights.iter().sum();
         if sum > 0.0 {
@@ -72,11 +72,9 @@ impl Filter {
 
     /// The mean of the rises of noise, and so many standard deviations more.
     pub(crate) fn most_of_noise(&self, deviations: f64) -> f64 {
-        let product = |apart: usize| {
+        let product = |apart: usize| -> f64 {
             let pairs = self.weights.iter().zip(self.weights.iter().skip(apart));
-            let sum: f64 = pairs.map(|(a, b)| f64::from(a * b)).sum();
-            // each pair is in the square of the sum twice
-            if apart == 0 { sum } else { 2.0 * sum }
+            pairs.map(|(a, b)| f64::from(a * b)).sum()
         };
         let shared = CORRELATIONS.iter().enumerate();
         let shared: f64 = shared.map(|(apart, c)| c * product(apart)).sum();
@@ -86,9 +84,13 @@ impl Filter {
 
     /// The amplitude of samples behind this filter, which delays nothing: the absolute value of the analytic signal,
     /// in arbitrary units.
-    pub(crate) fn amplitudes(&self, samples: &[f32], spectra: &Spectra) -> Vec<f64> {
+    pub(crate) fn amplitudes(
+        &self,
+        samples: &[f32],
+        spectra: &Spectra,
+        planner: &mut FftPlanner<f32>,
+    ) -> Vec<f64> {
         let length = (2 * samples.len()).next_power_of_two();
-        let mut planner = FftPlanner::new();
         let mut buffer = vec![Complex::new(0.0_f32, 0.0); length];
         for (slot, sample) in buffer.iter_mut().zip(samples) {
             slot.re = *sample;
@@ -151,7 +153,7 @@ mod tests {
         let total = filter.mean(std::iter::repeat(1.0));
         assert!((total - 1.0).abs() < 1e-6, "{total}");
         let both = sound(8000.0, |t| 3.0 * libm::sin(TAU * 3000.0 * t));
-        let amplitudes = filter.amplitudes(&both, &spectra);
+        let amplitudes = filter.amplitudes(&both, &spectra, &mut FftPlanner::new());
         let steady = amplitudes[1400];
         let half = amplitudes.iter().position(|a| *a > 0.5 * steady).unwrap();
         assert!((half as f64 - 1024.0).abs() < 0.001 * RATE_HZ, "{half}");

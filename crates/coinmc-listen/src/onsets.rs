@@ -9,6 +9,7 @@
 use crate::filter::{Filter, NOISE_RISE, NOISE_SQUARE};
 use crate::recording::Recording;
 use crate::spectrum::Spectra;
+use rustfft::FftPlanner;
 
 /// Frequencies below this are left out: voices, steps and hum are there, coins are not.
 const LEAST_HZ: f64 = 1500.0;
@@ -60,10 +61,10 @@ impl Onsets {
         let reach = steps(RESOLUTION_S * recording.rate_hz / spectra.hop as f64);
         let even = Filter::even(&noise);
         let flux = Flux::even(&spectra, &noise, &even);
-        let level = |n: usize| level_after(&spectra, &noise, &even, n);
-        let most = (0..spectra.frames.len()).map(level).fold(0.0, f64::max);
+        let most = loudest(&spectra.frames, &noise, &even);
         let signal_to_noise_db = 20.0 * libm::log10(most.max(1e-3));
-        let loud = flux.peaks(reach).into_iter().map(|n| (n, level(n)));
+        let level = |filter, n| loudest(spectra.after(n), &noise, filter);
+        let loud = flux.peaks(reach).into_iter().map(|n| (n, level(&even, n)));
         let Some((first, _)) = loud.reduce(|a, b| if b.1 > a.1 { b } else { a }) else {
             return Self {
                 onsets: vec![],
@@ -74,18 +75,27 @@ impl Onsets {
         let matched = Filter::matched(&spectra, &noise, first);
         // where sounds beside the noise raise the bar for all frequencies, they raise this one, too
         let bar = matched.most_of_noise(DEVIATIONS) * flux.bar / (NOISE_RISE + LEAST_FLUX);
-        let weak = Flux::behind(&spectra, &noise, &matched, bar);
+        let weak = Flux {
+            values: rises(&spectra, &noise, &matched),
+            bar,
+        };
+        let mut planner = FftPlanner::new();
         let found = weak.peaks(reach).into_iter().map(|n| {
-            let (from, (time_s, error_s)) = if flux.passes_near(n, reach) {
-                let (from, part) = spectra.around(n, spectra.length / 2, &recording.samples);
-                (from, sharp_rise(part, recording.rate_hz))
+            let rate_hz = recording.rate_hz;
+            let half = spectra.length / 2;
+            let (from, part) = spectra.around(n, half, &recording.samples);
+            let (time_s, error_s) = if flux.passes_near(n, reach) {
+                sharp_rise(part, rate_hz)
             } else {
-                matched_rise(&matched, &spectra, n, recording)
+                // where samples are cut off, hum is a step, which all frequencies have: so they are a window longer
+                let (begin, longer) = spectra.around(n, half + spectra.length, &recording.samples);
+                let amplitudes = matched.amplitudes(longer, &spectra, &mut planner);
+                rise(&amplitudes[from - begin..][..part.len()], rate_hz)
             };
             Onset {
-                time_s: from as f64 / recording.rate_hz + time_s,
+                time_s: from as f64 / rate_hz + time_s,
                 error_s,
-                strength: level_after(&spectra, &noise, &matched, n),
+                strength: level(&matched, n),
                 prominence: weak.values[n] / weak.bar,
             }
         });
@@ -134,7 +144,14 @@ pub(crate) fn is_masked(later_s: f64, ratio: f64) -> bool {
     later_s < RESOLUTION_S || ratio < MASK * libm::exp(-later_s / MASK_S)
 }
 
-/// The rise of the magnitudes from each window to the next but one, behind a filter, and what noise does not reach.
+/// The rise of the magnitudes from each window to the next but one, behind a filter.
+fn rises(spectra: &Spectra, noise: &[f32], filter: &Filter) -> Vec<f64> {
+    let windows = 0..spectra.frames.len();
+    let rises = windows.map(|n| filter.mean(spectra.rises(n, noise)));
+    rises.collect()
+}
+
+/// These rises, and what noise does not reach.
 struct Flux {
     values: Vec<f64>,
     bar: f64,
@@ -143,20 +160,11 @@ struct Flux {
 impl Flux {
     /// All frequencies alike: above the median by eight typical deviations.
     fn even(spectra: &Spectra, noise: &[f32], filter: &Filter) -> Self {
-        let flux = Self::behind(spectra, noise, filter, 0.0);
-        let middle = median(&mut flux.values.clone());
-        let mut off: Vec<f64> = flux.values.iter().map(|x| (x - middle).abs()).collect();
+        let values = rises(spectra, noise, filter);
+        let middle = median(&mut values.clone());
+        let mut off: Vec<f64> = values.iter().map(|x| (x - middle).abs()).collect();
         let bar = middle + (DEVIATIONS * 1.4826 * median(&mut off)).max(LEAST_FLUX);
-        Self { bar, ..flux }
-    }
-
-    fn behind(spectra: &Spectra, noise: &[f32], filter: &Filter, bar: f64) -> Self {
-        let windows = 0..spectra.frames.len();
-        let values = windows.map(|n| filter.mean(spectra.rises(n, noise)));
-        Self {
-            values: values.collect(),
-            bar,
-        }
+        Self { values, bar }
     }
 
     /// The windows where it passes what noise reaches, and has no greater value near.
@@ -178,27 +186,11 @@ impl Flux {
     }
 }
 
-/// The amplitude just after a window, behind a filter, in units of the noise, with the noise taken off.
-fn level_after(spectra: &Spectra, noise: &[f32], filter: &Filter, window: usize) -> f64 {
-    let ahead = &spectra.frames[window..(window + 4).min(spectra.frames.len())];
-    let levels = ahead.iter().map(|frame| filter.level(frame, noise));
+/// The amplitude of the loudest of these windows, behind a filter, in units of the noise, with the noise taken off.
+fn loudest(frames: &[Vec<f32>], noise: &[f32], filter: &Filter) -> f64 {
+    let levels = frames.iter().map(|frame| filter.level(frame, noise));
     let most = levels.fold(0.0, f64::max);
     (most * most - NOISE_SQUARE).max(0.0).sqrt()
-}
-
-/// When the amplitude behind a filter rises around a window, s after the sample that is given first.
-fn matched_rise(
-    filter: &Filter,
-    spectra: &Spectra,
-    window: usize,
-    recording: &Recording,
-) -> (usize, (f64, f64)) {
-    // where the part is cut off, a hum is a step, which all frequencies have: a window of it is left out again
-    let (begin, longer) = spectra.around(window, 3 * spectra.length / 2, &recording.samples);
-    let (from, part) = spectra.around(window, spectra.length / 2, &recording.samples);
-    let amplitudes = filter.amplitudes(longer, spectra);
-    let inner = &amplitudes[from - begin..from - begin + part.len()];
-    (from, rise(inner, recording.rate_hz))
 }
 
 /// When a sound that is louder than the noise rises, and how sure that is, in s: by the amplitude of the second
@@ -259,24 +251,25 @@ mod tests {
     use crate::synthetic::Synthetic;
     use coinmc_core::Coin;
 
+    fn coin() -> Coin {
+        Coin::cylinder(0.16, 0.0116).unwrap()
+    }
+
+    fn strikes<const N: usize>(all: [(f64, f64); N]) -> [Strike; N] {
+        all.map(|(time_s, speed_m_s)| Strike { time_s, speed_m_s })
+    }
+
     #[test]
     fn strikes_are_heard_when_they_are_and_echoes_are_not() {
-        let coin = Coin::cylinder(0.16, 0.0116).unwrap();
         let times = [0.0, 0.18, 0.29, 0.355];
-        let strikes: Vec<Strike> = times
-            .iter()
-            .map(|time_s| Strike {
-                time_s: *time_s,
-                speed_m_s: 1.0 - time_s,
-            })
-            .collect();
+        let strikes = strikes(times.map(|time_s| (time_s, 1.0 - time_s)));
         for signal_to_noise_db in [30.0, 10.0] {
             let synthetic = Synthetic {
                 echo: 0.6,
                 signal_to_noise_db,
                 ..Synthetic::default()
             };
-            let recording = synthetic.of_strikes(&coin, &strikes, [0.0, 0.4]);
+            let recording = synthetic.of_strikes(&coin(), &strikes, [0.0, 0.4]);
             let heard = Onsets::of(&recording);
             assert_eq!(heard.onsets.len(), times.len(), "{heard:?}");
             for (onset, time) in heard.onsets.iter().zip(times) {
@@ -293,9 +286,7 @@ mod tests {
     /// A strike too weak to stand out at all frequencies is heard at those of the loudest.
     #[test]
     fn weak_strikes_are_heard_at_the_frequencies_of_the_loudest() {
-        let coin = Coin::cylinder(0.16, 0.0116).unwrap();
-        let strikes =
-            [(0.0, 1.0), (0.18, 0.15)].map(|(time_s, speed_m_s)| Strike { time_s, speed_m_s });
+        let strikes = strikes([(0.0, 1.0), (0.18, 0.15)]);
         let (mut even, mut matched) = (0, 0);
         for seed in 0..20 {
             let synthetic = Synthetic {
@@ -303,7 +294,7 @@ mod tests {
                 signal_to_noise_db: 5.0,
                 ..Synthetic::default()
             };
-            let recording = synthetic.of_strikes(&coin, &strikes, [0.0, 0.4]);
+            let recording = synthetic.of_strikes(&coin(), &strikes, [0.0, 0.4]);
             let spectra = Spectra::of(&recording.samples, recording.rate_hz, LEAST_HZ, WINDOW_S);
             let noise = spectra.noise();
             let flux = Flux::even(&spectra, &noise, &Filter::even(&noise));
@@ -324,28 +315,16 @@ mod tests {
 
     #[test]
     fn noise_has_no_onsets() {
-        let coin = Coin::cylinder(0.16, 0.0116).unwrap();
         for seed in 0..4 {
             let synthetic = Synthetic {
                 seed,
                 signal_to_noise_db: -60.0,
                 ..Synthetic::default()
             };
-            let strikes = [Strike {
-                time_s: 0.0,
-                speed_m_s: 1.0,
-            }];
-            let recording = synthetic.of_strikes(&coin, &strikes, [0.0, 1.0]);
+            let strikes = strikes([(0.0, 1.0)]);
+            let recording = synthetic.of_strikes(&coin(), &strikes, [0.0, 1.0]);
             assert!(Onsets::of(&recording).onsets.is_empty());
         }
-    }
-
-    fn coin() -> Coin {
-        Coin::cylinder(0.16, 0.0116).unwrap()
-    }
-
-    fn strikes<const N: usize>(all: [(f64, f64); N]) -> [Strike; N] {
-        all.map(|(time_s, speed_m_s)| Strike { time_s, speed_m_s })
     }
 
     /// Behind a filter for few frequencies noise has no onsets either: of a loud strike in five seconds of noise one
@@ -369,10 +348,7 @@ mod tests {
     #[test]
     fn silence_is_not_needed() {
         let times = [0.0, 0.09, 0.15, 0.19, 0.215, 0.235];
-        let bounces = times.map(|time_s| Strike {
-            time_s,
-            speed_m_s: libm::exp(-6.0 * time_s),
-        });
+        let bounces = strikes(times.map(|time_s| (time_s, libm::exp(-6.0 * time_s))));
         for silence_s in [0.5, 0.1, 0.04] {
             let synthetic = Synthetic {
                 silence_s,

@@ -71,6 +71,11 @@ impl Spectra {
             .map(|((now, before), noise)| ((now - before) / noise).max(0.0))
     }
 
+    /// A window and those that begin within its length.
+    pub(crate) fn after(&self, window: usize) -> &[Vec<f32>] {
+        &self.frames[window..(window + OVERLAP).min(self.frames.len())]
+    }
+
     /// The samples of a window and so many more on each side, and where they begin.
     pub(crate) fn around<'a>(
         &self,

@@ -118,6 +118,33 @@ mod tests {
         Body::new(&Coin::cylinder(0.2, 0.01).expect("a valid coin"))
     }
 
+    /// The way and the time by the sum over short steps.
+    fn plain_sum(
+        body: &Body,
+        mu: f64,
+        mut v: [f64; 2],
+        mut w: f64,
+        pull: [f64; 2],
+    ) -> ([f64; 2], f64) {
+        let inertia = body.radius * body.radius / body.ka;
+        let rim = rim_sines_and_cosines();
+        let (h, mut way, mut time) = (1e-4, [0.0; 2], 0.0);
+        loop {
+            let speed = (v[0] * v[0] + v[1] * v[1]).sqrt();
+            if speed + w < 1e-3 {
+                return (way, time);
+            }
+            let (along, about) = means(&rim, speed, w);
+            let held = (h * mu * along / speed.max(1e-9)).min(1.0);
+            for i in 0..2 {
+                way[i] += h * v[i];
+                v[i] += h * pull[i] - held * v[i];
+            }
+            w = (w - h * mu * inertia * about).max(0.0);
+            time += h;
+        }
+    }
+
     #[test]
     fn a_coin_that_does_not_spin_slides_for_half_the_square_of_its_speed() {
         for (mu, v) in [(0.3, 1.0), (0.1, 2.0), (0.3, 0.1)] {
@@ -133,15 +160,7 @@ mod tests {
     fn a_coin_that_spins_slides_farther() {
         let (body, mu, v0, w0) = (body(), 0.3, 1.0, 1.5);
         let (way, time) = way_and_time(&body, mu, v0, w0);
-        let (mut v, mut w, mut sum) = (v0, w0, 0.0);
-        let inertia = body.radius * body.radius / body.ka;
-        let h = 1e-4;
-        while v + w > 1e-3 {
-            let (a, b) = means(&rim_sines_and_cosines(), v, w);
-            sum += h * v;
-            v = (v - h * mu * a).max(0.0);
-            w = (w - h * mu * inertia * b).max(0.0);
-        }
+        let ([sum, _], _) = plain_sum(&body, mu, [v0, 0.0], w0, [0.0; 2]);
         assert!((way / sum - 1.0).abs() < 2e-3, "{way} {sum}");
         assert!(way > 1.1 * v0 * v0 / (2.0 * mu) && way < v0 * time);
     }
@@ -151,29 +170,13 @@ mod tests {
     #[test]
     fn a_slide_on_a_tilted_table_is_the_plain_sum() {
         let (body, mu) = (body(), 0.3);
-        let inertia = body.radius * body.radius / body.ka;
         for (v0, w0, pull) in [
             ([1.0, 0.0], 0.0, [0.0, 0.1]),
             ([0.6, -0.8], 1.5, [0.1, 0.05]),
             ([0.0, 0.0], 2.0, [-0.1, 0.0]),
             ([0.5, 0.5], 1.0, [0.0; 2]),
         ] {
-            let (mut v, mut w, mut way): ([f64; 2], f64, [f64; 2]) = (v0, w0, [0.0; 2]);
-            let (h, mut time) = (1e-4, 0.0);
-            loop {
-                let speed = (v[0] * v[0] + v[1] * v[1]).sqrt();
-                if speed + w < 1e-3 {
-                    break;
-                }
-                let (along, about) = means(&rim_sines_and_cosines(), speed, w);
-                let held = (h * mu * along / speed.max(1e-9)).min(1.0);
-                for i in 0..2 {
-                    way[i] += h * v[i];
-                    v[i] += h * pull[i] - held * v[i];
-                }
-                w = (w - h * mu * inertia * about).max(0.0);
-                time += h;
-            }
+            let (way, time) = plain_sum(&body, mu, v0, w0, pull);
             let (found, took) = pulled_way_and_time(&body, mu, v0, -w0, pull);
             for i in 0..2 {
                 assert!(

@@ -188,7 +188,6 @@ mod tests {
     use super::*;
 
     /// y = (1/(1 + t), 1 + t, ln(1 + t), sin t, cos t) solves these.
-    #[allow(clippy::trivially_copy_pass_by_ref)] // as a flow takes it
     fn rates([a, b, _, sin, cos]: &[f64; 5]) -> [f64; 5] {
         [-a * a, a * b, a * a * b, *cos, -sin]
     }

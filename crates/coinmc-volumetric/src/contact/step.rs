@@ -214,30 +214,20 @@ pub(crate) fn slip_speed<L: Lane>(state: &RimState<L>) -> L {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::{Body, Friction};
-    use crate::drag::Drag;
-    use coinmc_core::Coin;
+    use crate::body::Friction;
+    use crate::contact::tests::{STILL, dynamics};
     use coinmc_testkit::Dice;
-
-    fn dynamics() -> Dynamics {
-        let body = Body::new(&Coin::cylinder(0.4, 0.01).expect("a valid coin"));
-        let friction = Friction {
-            mu: 0.3,
-            contour: 0.01,
-            pivoting: 0.001,
-        };
-        let still = Drag {
-            linear: 0.0,
-            angular: 0.0,
-        };
-        Dynamics::new(body, friction, still, 1.0, 1e-9)
-    }
 
     /// The margin is positive exactly where the mode holds: the coin presses, and slip does not jam, or friction
     /// within μN suffices to stick; and it is the smaller of the two excesses.
     #[test]
     fn the_margin_is_positive_where_the_mode_holds() {
-        let dynamics = dynamics();
+        let friction = Friction {
+            mu: 0.3,
+            contour: 0.01,
+            pivoting: 0.001,
+        };
+        let dynamics = dynamics(0.4, friction, STILL, false);
         let mut held = [0; 2];
         for number in 0..1000 {
             let mut dice = Dice::new(818, number);

@@ -17,13 +17,13 @@ use std::f64::consts::FRAC_PI_2;
 
 const SMOOTHING: f64 = 1e-9;
 
-fn dynamics(ratio: f64, friction: Friction, drag: Drag, gyroscopic: bool) -> Dynamics {
+pub(super) fn dynamics(ratio: f64, friction: Friction, drag: Drag, gyroscopic: bool) -> Dynamics {
     let body = Body::new(&Coin::cylinder(ratio, 0.01).expect("a valid coin"));
     let factor = if gyroscopic { body.ka / body.kt } else { 1.0 };
     Dynamics::new(body, friction, drag, factor, SMOOTHING)
 }
 
-const STILL: Drag = Drag {
+pub(super) const STILL: Drag = Drag {
     linear: 0.0,
     angular: 0.0,
 };

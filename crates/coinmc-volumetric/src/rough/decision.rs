@@ -128,6 +128,7 @@ mod tests {
     use crate::contact::Usage;
     use crate::laws::Moreau;
     use crate::model::Model;
+    use crate::motion::{Motion, Spin};
     use coinmc_core::{Decided, Ended, Face, Outcome, Preset};
     use coinmc_oracle::Start;
     use coinmc_testkit::{Dice, preset_launch};
@@ -165,9 +166,9 @@ mod tests {
     /// of the ground, or by as much less as rolling friction stops it within less than ℓ; one that rocks, by three.
     #[test]
     fn what_the_ground_ahead_can_change_is_left_open() {
-        let model = rough([0.7, 0.5, 0.03, 3e-3]).model();
+        let numbers = [0.7, 0.5, 0.03, 3e-3];
+        let (scene, model) = (rough(numbers).scene(), rough(numbers).model());
         let ground = model.ground.expect("a rough ground");
-        let scene = rough([0.7, 0.5, 0.03, 3e-3]).scene();
         let mut toss = model.launch(&Start::Rolling(0.1).launch(&scene.coin, 0.0));
         let (mut usage, mut observer) = (Usage::default(), ());
         let mut walk = Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
@@ -176,7 +177,7 @@ mod tests {
         // the work of rolling friction over ℓ, in m g D
         let work = model.dynamics.friction.contour / body.radius * ground.length;
         let motion = walk.toss.motion;
-        let spin = crate::motion::Spin::still();
+        walk.toss.spin = Spin::still();
         for (touch, share, open) in [
             (Touch::Both, 0.25, 0.25),
             (Touch::Both, 0.8, 0.8),
@@ -186,8 +187,7 @@ mod tests {
             let kinetic = share * work;
             let limit = 1.0 - SPREAD * ground.height * open;
             for (energy, decided) in [(limit - 1e-9, Some(Decided::Side)), (limit + 1e-9, None)] {
-                walk.toss.spin = spin;
-                walk.toss.motion = crate::motion::Motion {
+                walk.toss.motion = Motion {
                     vx: 0.0,
                     vy: (2.0 * kinetic).sqrt(),
                     vz: 0.0,

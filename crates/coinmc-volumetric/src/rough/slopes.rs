@@ -135,6 +135,8 @@ mod tests {
     use super::*;
     use crate::contact::Usage;
     use crate::laws::Moreau;
+    use crate::model::Model;
+    use crate::toss::Toss;
     use coinmc_core::Launch;
     use nalgebra::{UnitVector3, Vector3};
 
@@ -152,15 +154,7 @@ mod tests {
         let model = rough.model();
         let ground = model.ground.expect("a rough ground");
         for (slope, speed, held) in [(0.9, 0.0, true), (1.1, 0.0, false), (0.9, 0.1, false)] {
-            let axis = Vector3::new(1.0, 0.0, 0.1).normalize();
-            let launch = Launch {
-                height_m: 0.0,
-                velocity_m_s: Vector3::new(0.0, -speed, 0.0),
-                axis: UnitVector3::new_unchecked(axis),
-                spin_rad_s: axis * (speed / radius),
-            };
-            let mut toss = model.launch(&launch);
-            toss.motion.z = toss.motion.rest_height(&model.dynamics.body);
+            let mut toss = touching(&model, &leaning(0.1, [0.0, -speed], speed / radius));
             let (mut usage, mut observer) = (Usage::default(), ());
             let mut walk =
                 Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
@@ -185,6 +179,13 @@ mod tests {
             axis: UnitVector3::new_unchecked(axis),
             spin_rad_s: axis * rate,
         }
+    }
+
+    /// A toss that begins where the coin touches the mean ground.
+    fn touching(model: &Model<Moreau>, launch: &Launch) -> Toss {
+        let mut toss = model.launch(launch);
+        toss.motion.z = toss.motion.rest_height(&model.dynamics.body);
+        toss
     }
 
     /// Momentum, and angular momentum about the lowest point of the own rim, per m D sqrt(gD).
@@ -220,9 +221,7 @@ mod tests {
             let model = rough.model();
             let ground = model.ground.expect("a rough ground");
             let radius = rough.scene().coin.radius_m();
-            let launch = leaning(angle, [sliding, -0.3], 0.3 / radius);
-            let mut toss = model.launch(&launch);
-            toss.motion.z = toss.motion.rest_height(&model.dynamics.body);
+            let mut toss = touching(&model, &leaning(angle, [sliding, -0.3], 0.3 / radius));
             let (mut usage, mut observer) = (Usage::default(), ());
             let mut walk =
                 Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
