@@ -20,11 +20,11 @@ from pathlib import Path
 import engines
 import numpy as np
 import scene as scenes
+from decide import FACES, follow
 from errors import picture, table
 
 import coinmc
 
-FACES = ("heads", "tails", "side")
 # coinmc's tolerances: its defaults, as multiples of which it is measured.
 TOLERANCES = {
     "volumetric": {"tolerance": 2e-4, "zeno": 2e-2, "stick_speed": 1e-2, "smoothing_time": 1e-2},
@@ -47,6 +47,7 @@ class Row:
     tails: int
     side: int
     undecided: int
+    coins: int | None
     seconds: float
     tosses_per_s: float
     p_side: float
@@ -55,10 +56,10 @@ class Row:
     bias_error: float | None = None
 
 
-def row(engine, version, args, step, faces, seconds, **more) -> Row:
+def row(engine, version, args, step, codes, seconds, coins=None, **more) -> Row:
     """Counts and rate of one measurement; errors are standard errors."""
-    counts = {face: int(np.count_nonzero(faces == face)) for face in FACES}
-    tosses = len(faces)
+    counts = {face: int(np.count_nonzero(codes == code)) for code, face in enumerate(FACES)}
+    tosses = len(codes)
     p = counts["side"] / tosses
     return Row(
         engine=engine,
@@ -69,6 +70,7 @@ def row(engine, version, args, step, faces, seconds, **more) -> Row:
         tosses=tosses,
         **counts,
         undecided=tosses - sum(counts.values()),
+        coins=coins,
         seconds=seconds,
         tosses_per_s=tosses / seconds,
         p_side=p,
@@ -76,12 +78,6 @@ def row(engine, version, args, step, faces, seconds, **more) -> Row:
         p_side_error=float(np.sqrt((p * (1 - p) + 1 / tosses) / tosses)),
         **more,
     )
-
-
-def names(face_codes: np.ndarray) -> np.ndarray:
-    """coinmc's codes as words."""
-    words = np.array(["heads", "tails", "side", "undecided"])
-    return words[np.minimum(face_codes, 3)]
 
 
 def ours(args, config: dict, launches: np.ndarray) -> list[Row]:
@@ -99,10 +95,11 @@ def ours(args, config: dict, launches: np.ndarray) -> list[Row]:
         codes = coinmc.toss(
             config, launches=launches, threads=1, overrides=settings, faces_only=True
         )
-        tossed.append((share, names(codes), time.process_time() - begun))
+        tossed.append((share, codes, time.process_time() - begun))
     rows = []
-    for (share, faces, seconds), (_, reference, _) in itertools.pairwise(tossed):
-        difference = (faces == "side").astype(float) - (reference == "side")
+    side = FACES.index("side")
+    for (share, codes, seconds), (_, reference, _) in itertools.pairwise(tossed):
+        difference = (codes == side).astype(float) - (reference == side)
         name = f"coinmc {engine}" + (", tight" if share < 1.0 else "")
         rows.append(
             row(
@@ -110,7 +107,7 @@ def ours(args, config: dict, launches: np.ndarray) -> list[Row]:
                 f"coinmc {coinmc.__version__}",
                 args,
                 None,
-                faces,
+                codes,
                 seconds,
                 bias=float(difference.mean()),
                 bias_error=float(difference.std() / np.sqrt(len(difference))),
@@ -120,23 +117,22 @@ def ours(args, config: dict, launches: np.ndarray) -> list[Row]:
     return rows
 
 
-def peer(args, name: str, scene: scenes.Scene, launches: np.ndarray) -> list[Row]:
+def peer(args, name: str, scene: scenes.Scene, launches: list[scenes.Launch]) -> list[Row]:
     """One peer at each of its steps, as many tosses as the time for each allows."""
     module = engines.load(name)
     if module is None:
         print(f"{name}: not installed", file=sys.stderr)
         return []
     rows = []
+    version = engines.version(module)
     for step in module.STEPS:
-        tosser = module.Tosser(scene, step)
-        faces: list[str] = []
-        begun = time.process_time()
-        while len(faces) < len(launches) and time.process_time() - begun < args.seconds:
-            (launch,) = scenes.scaled(launches[len(faces) : len(faces) + 1], scene)
-            faces.append(tosser.toss(launch) or "undecided")
-        seconds = time.process_time() - begun
-        rows.append(row(module.NAME, engines.version(module), args, step, np.array(faces), seconds))
-        show(rows[-1])
+        world = module.World(scene, step, args.coins or module.COINS)
+        tossed = follow(scene, step, world, launches, args.seconds)
+        measured = row(
+            module.NAME, version, args, step, tossed.faces, tossed.seconds, coins=world.coins
+        )
+        rows.append(measured)
+        show(measured)
     return rows
 
 
@@ -154,6 +150,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument(
         "--peers", nargs="*", default=list(engines.MODULES), help="which [all that are installed]"
     )
+    parser.add_argument("--coins", type=int, help="in one world [what makes each peer fastest]")
     parser.add_argument("--plot", type=Path, help="draw run time against error to this file")
     return parser.parse_args()
 
@@ -164,10 +161,11 @@ def main() -> None:
     in_plane = "flat" in config["engine"]
     launches = coinmc.launches(config, args.tosses)
     rows = ours(args, config, launches)
+    flown = [scenes.fallen(launch, scene) for launch in scenes.scaled(launches, scene)]
     for name in args.peers:
         module = engines.load(name)
         if module is None or module.in_plane == in_plane:
-            rows += peer(args, name, scene, launches)
+            rows += peer(args, name, scene, flown)
     found = [asdict(one) for one in rows]
     print(table(found), file=sys.stderr)
     if args.plot:

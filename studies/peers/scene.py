@@ -14,6 +14,9 @@ from pathlib import Path
 import numpy as np
 
 GRAVITY = 9.81
+MARGIN = 0.5
+"""Height of the rim above the ground where an engine takes over, m: what a coin of 1 cm that has
+fallen from 1 m moves in a step of 1 ms."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +50,7 @@ class Scene:
 
 @dataclass(frozen=True)
 class Launch:
-    """One initial state, in the frame of its scene."""
+    """One state of motion, in the frame of its scene."""
 
     height: float
     """Of the centre, m."""
@@ -67,14 +70,16 @@ def read(config: Path, ratio: float) -> tuple[Scene, dict]:
     if {"linear_drag_per_s", "angular_drag_per_s"} & set(tables.get("environment", {})):
         raise SystemExit(f"{config}: peers are not given drag")
     coin["ratio"] = ratio
-    if "rolling_friction_m" not in surface:
+    in_space = "volumetric" in tables["engine"]
+    if in_space and "rolling_friction_m" not in surface:
         raise SystemExit(f"{config}: peers need rolling_friction_m, coinmc would estimate it")
     return (
         Scene(
             height=ratio,
             restitution=surface["restitution"],
             friction=surface["friction"],
-            rolling=surface["rolling_friction_m"] / radius,
+            # nothing rolls in the plane
+            rolling=surface["rolling_friction_m"] / radius if in_space else 0.0,
             second=float(1.0 / np.sqrt(radius)),
         ),
         tables,
@@ -93,6 +98,43 @@ def scaled(launches: np.ndarray, scene: Scene) -> list[Launch]:
         )
         for launch in launches
     ]
+
+
+def fallen(launch: Launch, scene: Scene) -> Launch:
+    """The launch when it may first touch, so that nobody follows its free flight step by step.
+
+    Nothing is farther from the centre than the rim, so nothing touches before the centre has come
+    down to that height; `MARGIN` is left to the engine. Without drag the axis u turns about the
+    angular momentum at the steady rate Ω = L/I_t, and ω = Ω + (1 − I_a/I_t) (ω·u) u (Euler's
+    equations of a symmetric body).
+    """
+    above = launch.height - scene.rim - MARGIN
+    if above <= 0.0:
+        return launch
+    rise = launch.velocity[2]
+    time = (rise + np.sqrt(rise * rise + 2.0 * GRAVITY * above)) / GRAVITY
+    own = float(launch.spin @ launch.axis) * (1.0 - scene.axial / scene.transverse)
+    steady = launch.spin - own * launch.axis
+    axis = turned(launch.axis, steady, time)
+    return Launch(
+        height=scene.rim + MARGIN,
+        velocity=launch.velocity - np.array([0.0, 0.0, GRAVITY * time]),
+        axis=axis,
+        spin=steady + own * axis,
+    )
+
+
+def turned(vector: np.ndarray, rate: np.ndarray, time: float) -> np.ndarray:
+    """``vector`` turned for ``time`` s at the angular velocity ``rate`` (Rodrigues)."""
+    speed = float(np.linalg.norm(rate))
+    if speed == 0.0:
+        return vector
+    about, angle = rate / speed, speed * time
+    return (
+        np.cos(angle) * vector
+        + np.sin(angle) * np.cross(about, vector)
+        + (1.0 - np.cos(angle)) * float(about @ vector) * about
+    )
 
 
 def turn_to(axis: np.ndarray) -> np.ndarray:

@@ -4,9 +4,9 @@ A module has
 
 * ``PACKAGE``, what ``pip install`` calls it, and ``NAME``, what people do;
 * ``STEPS``, time steps worth trying, s of the real toss, coarse to fine;
+* ``COINS``, how many in one world make it fastest;
 * ``in_plane``: whether it tosses a rectangle in the plane;
-* ``Tosser(scene, step)`` with ``toss(launch) -> "heads" | "tails" | "side" | None``, one world for
-  all its tosses.
+* ``World(scene, step, coins)``, a `decide.World`.
 """
 
 from __future__ import annotations

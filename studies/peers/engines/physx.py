@@ -5,7 +5,6 @@ from __future__ import annotations
 import warnings
 
 import numpy as np
-from decide import face, follow
 from scene import GRAVITY, Launch, Scene, turn_to
 
 with warnings.catch_warnings():
@@ -16,17 +15,22 @@ with warnings.catch_warnings():
 
 NAME, PACKAGE = "PhysX", "sapien"
 STEPS = (1e-3, 5e-4, 2.5e-4, 1e-4, 6e-5)
+COINS = 200
 in_plane = False
+
+APART = 10.0
+"""Between two coins at their launch, m. (They never touch, but boxes that overlap cost time.) Not
+more: PhysX has single precision."""
 
 # sapien's cylinder lies along x
 ALONG_X = np.array([np.sqrt(0.5), 0.0, -np.sqrt(0.5), 0.0])
 
 
-class Tosser:
-    """One system; a toss sets its one body's state."""
+class World:
+    """One system of coins that touch the ground alone; a toss sets the state of one of them."""
 
-    def __init__(self, scene: Scene, step: float):
-        self.scene, self.step = scene, step * scene.second
+    def __init__(self, scene: Scene, step: float, coins: int):
+        self.coins = coins
         physx.set_scene_config(
             gravity=np.array([0.0, 0.0, -GRAVITY], dtype=np.float32), bounce_threshold=1e-3
         )
@@ -34,45 +38,62 @@ class Tosser:
         # contacts are looked for within a hundredth of the radius
         physx.set_shape_config(contact_offset=0.01, rest_offset=0.0)
         self.system = physx.PhysxCpuSystem()
-        self.system.timestep = self.step
+        self.system.timestep = step * scene.second
         self.world = sapien.Scene([self.system])
         material = physx.PhysxMaterial(scene.friction, scene.friction, scene.restitution)
         ground = sapien.Entity()
         plane = physx.PhysxCollisionShapePlane(material)
         # its normal is x
         plane.local_pose = sapien.Pose(q=ALONG_X)
+        plane.set_collision_groups([1, 2, 0, 0])
         floor = physx.PhysxRigidStaticComponent()
         floor.attach(plane)
         ground.add_component(floor)
         self.world.add_entity(ground)
+        # in rows, as single precision is finest near the origin
+        side = int(np.ceil(np.sqrt(coins)))
+        self.places = [
+            (APART * (i % side - side // 2), APART * (i // side - side // 2)) for i in range(coins)
+        ]
+        self.bodies, self.entities = [], []
+        for _ in range(coins):
+            self.add(scene, material)
+
+    def add(self, scene: Scene, material) -> None:
+        """Adds a coin."""
         cylinder = physx.PhysxCollisionShapeCylinder(1.0, 0.5 * scene.height, material)
         cylinder.local_pose = sapien.Pose(q=ALONG_X)
-        self.body = physx.PhysxRigidDynamicComponent()
-        self.body.attach(cylinder)
-        self.body.mass = 1.0
-        self.body.cmass_local_pose = sapien.Pose()
-        self.body.inertia = [scene.transverse, scene.transverse, scene.axial]
-        self.body.linear_damping = self.body.angular_damping = 0.0
-        self.body.max_angular_velocity = 1e4
-        self.coin = sapien.Entity()
-        self.coin.add_component(self.body)
-        self.world.add_entity(self.coin)
+        cylinder.set_collision_groups([2, 1, 0, 0])
+        body = physx.PhysxRigidDynamicComponent()
+        body.attach(cylinder)
+        body.mass = 1.0
+        body.cmass_local_pose = sapien.Pose()
+        body.inertia = [scene.transverse, scene.transverse, scene.axial]
+        body.linear_damping = body.angular_damping = 0.0
+        body.max_angular_velocity = 1e4
+        entity = sapien.Entity()
+        entity.add_component(body)
+        self.world.add_entity(entity)
+        self.bodies.append(body)
+        self.entities.append(entity)
 
-    def toss(self, launch: Launch) -> str | None:
-        body = self.body
-        self.coin.pose = sapien.Pose(p=[0.0, 0.0, launch.height], q=turn_to(launch.axis))
+    def place(self, coin: int, launch: Launch) -> None:
+        x, y = self.places[coin]
+        self.entities[coin].pose = sapien.Pose(p=[x, y, launch.height], q=turn_to(launch.axis))
+        body = self.bodies[coin]
         body.linear_velocity = launch.velocity
         body.angular_velocity = launch.spin
         body.wake_up()
 
-        def advance(steps):
-            for _ in range(steps):
-                self.system.step()
+    def advance(self, steps: int) -> None:
+        for _ in range(steps):
+            self.system.step()
 
-        def look():
-            pose = self.coin.pose
-            w, x, y, z = pose.q
-            axis = (2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y))
-            return face(self.scene, pose.p[2], body.linear_velocity, axis, body.angular_velocity)
-
-        return follow(self.scene, self.step, advance, look)
+    def states(self):
+        poses = [entity.pose for entity in self.entities]
+        height = np.array([pose.p[2] for pose in poses])
+        w, x, y, z = np.array([pose.q for pose in poses]).T
+        axis = (2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y))
+        velocity = np.array([body.linear_velocity for body in self.bodies])
+        spin = np.array([body.angular_velocity for body in self.bodies])
+        return height, velocity, np.column_stack(axis), spin
