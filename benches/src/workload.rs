@@ -131,13 +131,9 @@ fn toss_name(case: &Case, lanes: Lanes) -> String {
     }
 }
 
-/// These lanes, or the portable ones.
+/// These lanes, or the best there are.
 fn available(lanes: Lanes) -> Lanes {
-    if lanes.is_available() {
-        lanes
-    } else {
-        Lanes::Portable
-    }
+    lanes.available().unwrap_or_else(|_| Lanes::best())
 }
 
 impl Workload {
@@ -145,12 +141,12 @@ impl Workload {
         Self { name, task }
     }
 
-    /// Flat tosses with these lanes, or the portable ones where the processor lacks them.
+    /// Flat tosses with these lanes, or the best there are.
     pub fn toss_flat(case: Case, lanes: Lanes) -> Self {
         Self::new(toss_name(&case, lanes), Task::Toss(case, available(lanes)))
     }
 
-    /// Tosses in space with these lanes, or the portable ones where the processor lacks them.
+    /// Tosses in space with these lanes, or the best there are.
     pub fn toss_in_space(case: Case, lanes: Lanes) -> Self {
         let task = Task::TossInSpace(case, available(lanes));
         Self::new(toss_name(&case, lanes), task)

@@ -72,8 +72,8 @@ fn all_lanes_have_a_rate() {
         let size = ["--toss", toss, "--tosses", "50", "--repeats", "1"];
         let lines = BENCH.study(&[&["lanes"], &size[..]].concat());
         let kinds = lines.column("lanes");
-        assert_eq!(kinds[..2], ["scalar", "portable"]);
-        assert_eq!(kinds.len() % cases, 0);
+        assert_eq!(kinds[0], "scalar");
+        assert!(kinds.len() >= cases && kinds.len().is_multiple_of(cases));
         let of_scalar = lines.numbers("of_scalar");
         assert!(of_scalar.iter().all(|ratio| *ratio > 0.0));
     }

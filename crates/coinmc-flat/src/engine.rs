@@ -59,7 +59,7 @@ impl<L: ImpactLaw> FlatEngine<L> {
 }
 
 /// [`Lanes::best`], except that portable lanes give way to the scalar path: they are no faster (0.8
-/// to 1 times its speed, measured on x86-64).
+/// to 1 times its speed, measured on x86-64 when programs for it had them).
 fn fastest_lanes() -> Lanes {
     match Lanes::best() {
         Lanes::Portable => Lanes::Scalar,

@@ -41,19 +41,16 @@ pub(crate) fn is_available() -> bool {
     *IS_AVAILABLE
 }
 
-/// Runs the work with these lanes; `Err` returns it if the processor does not support them.
+/// Runs the work with these lanes; `None` if the processor does not support them.
 #[inline]
-pub(crate) fn enter<W: Work>(work: W) -> Result<W::Output, W> {
+pub(crate) fn enter<W: Work>(work: W) -> Option<W::Output> {
     // beside AVX-512F itself, features with which the compiler makes faster code
     #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,bmi1,bmi2,lzcnt,popcnt")]
     fn inside<W: Work>(work: W) -> W::Output {
         work.run::<Eight>()
     }
-    if !is_available() {
-        return Err(work);
-    }
     // SAFETY: the processor has all of the features.
-    Ok(unsafe { inside(work) })
+    is_available().then(|| unsafe { inside(work) })
 }
 
 /// Methods of one instruction each.

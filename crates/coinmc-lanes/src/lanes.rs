@@ -1,5 +1,6 @@
 //! The kinds of lanes, and which of them a processor has.
 
+#[cfg(any(not(target_arch = "x86_64"), debug_assertions))]
 use crate::portable;
 use crate::wide::Work;
 #[cfg(target_arch = "x86_64")]
@@ -20,7 +21,8 @@ use thiserror::Error;
 pub enum Lanes {
     /// One at a time.
     Scalar,
-    /// Eight at once, with the vector instructions that every processor of the architecture has.
+    /// Eight at once, with the vector instructions that every processor of the architecture has. Not in an
+    /// optimized program for x86-64.
     Portable,
     /// Eight at once, in two registers of AVX2.
     Avx2,
@@ -28,32 +30,36 @@ pub enum Lanes {
     Avx512,
 }
 
-/// The processor lacks the instructions.
+/// The processor lacks the instructions, or the program the lanes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-#[error("this processor does not support {0} lanes; Lanes::best() names the best it supports")]
+#[error("this program or processor has no {0} lanes; Lanes::best() names the best it has")]
 pub struct NoSuchLanes(pub Lanes);
 
 impl Lanes {
-    /// All kinds, whether this processor has them or not.
+    /// All kinds, whether there are any here or not.
     pub const ALL: [Self; 4] = [Self::Scalar, Self::Portable, Self::Avx2, Self::Avx512];
 
     /// The fastest lanes of this processor. In WebAssembly without vector instructions portable lanes are
     /// arrays, and one number at a time is faster.
     pub fn best() -> Self {
-        let vectors = [Self::Avx512, Self::Avx2];
-        let best = vectors.into_iter().find(|lanes| lanes.is_available());
-        let other = if cfg!(all(target_arch = "wasm32", not(target_feature = "simd128"))) {
-            Self::Scalar
-        } else {
-            Self::Portable
-        };
-        best.unwrap_or(other)
+        if cfg!(all(target_arch = "wasm32", not(target_feature = "simd128"))) {
+            return Self::Scalar;
+        }
+        Self::wide().next().unwrap_or(Self::Scalar)
     }
 
-    /// Whether this processor has them.
+    /// The lanes of eight that are [available](Self::is_available), the fastest first. On x86-64 without AVX2
+    /// there may be none.
+    pub fn wide() -> impl Iterator<Item = Self> {
+        let all = [Self::Avx512, Self::Avx2, Self::Portable];
+        all.into_iter().filter(|lanes| lanes.is_available())
+    }
+
+    /// Whether this program has them, and this processor their instructions.
     pub fn is_available(self) -> bool {
         match self {
-            Self::Scalar | Self::Portable => true,
+            Self::Scalar => true,
+            Self::Portable => cfg!(any(not(target_arch = "x86_64"), debug_assertions)),
             #[cfg(target_arch = "x86_64")]
             Self::Avx2 => avx2::is_available(),
             #[cfg(target_arch = "x86_64")]
@@ -63,10 +69,10 @@ impl Lanes {
         }
     }
 
-    /// These lanes, if this processor has them.
+    /// These lanes, if there are any.
     ///
     /// # Errors
-    /// [`NoSuchLanes`] if it lacks their instructions.
+    /// [`NoSuchLanes`] unless they are [available](Self::is_available).
     pub fn available(self) -> Result<Self, NoSuchLanes> {
         if self.is_available() {
             Ok(self)
@@ -85,18 +91,23 @@ impl Lanes {
         }
     }
 
-    /// Runs the work with these lanes, or with portable ones if this processor does not have them.
+    /// Runs the work with these lanes.
+    ///
+    /// # Panics
+    /// If they are none of [`wide`](Self::wide): [`Scalar`](Self::Scalar) has no eight lanes.
     #[inline]
     pub fn enter<W: Work>(self, work: W) -> W::Output {
         #[cfg(target_arch = "x86_64")]
         let entered = match self {
             Self::Avx512 => avx512::enter(work),
             Self::Avx2 => avx2::enter(work),
-            Self::Portable | Self::Scalar => Err(work),
+            #[cfg(debug_assertions)]
+            Self::Portable => Some(work.run::<portable::Eight>()),
+            _ => None,
         };
         #[cfg(not(target_arch = "x86_64"))]
-        let entered: Result<W::Output, W> = Err(work);
-        entered.unwrap_or_else(W::run::<portable::Eight>)
+        let entered = (self == Self::Portable).then(|| work.run::<portable::Eight>());
+        entered.unwrap_or_else(|| panic!("{}", NoSuchLanes(self)))
     }
 }
 

@@ -13,6 +13,9 @@ mod avx512;
 mod lane;
 mod lanes;
 mod operators;
+// An optimized program for x86-64 computes one number at a time where there is no AVX2: portable kernels
+// would be a third of the engine in space and of the time to compile it, for processors of before 2015.
+#[cfg(any(not(target_arch = "x86_64"), debug_assertions))]
 mod portable;
 mod route;
 mod trig;

@@ -134,3 +134,49 @@ impl<L> Model<L> {
         after
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::toss::tests::{agree, launch, model};
+    use coinmc_core::State;
+    use coinmc_testkit::Dice;
+    use nalgebra::{Rotation3, UnitVector3, Vector3};
+
+    /// Between two contacts an observer sees the coin where Euler's equations of a symmetric body take it: its axis
+    /// turns about the angular momentum at the rate L/I_t, its spin is L/I_t + (1 − I_a/I_t) ω_a u, and its
+    /// centre falls.
+    #[test]
+    fn a_coin_in_flight_turns_about_its_angular_momentum() {
+        let model = model();
+        // of a cylinder with H/R = .4
+        let ratio_of_moments = 0.5 / ((3.0 + 0.4 * 0.4) / 12.0);
+        let mut seen_reflected = 0;
+        for number in 0..200 {
+            let mut dice = Dice::new(517, number);
+            let launched = launch(&mut dice, None);
+            let toss = model.launch(&launched);
+            let orbit = Orbit::new(&toss.motion, model.dynamics.drag);
+            let t_s = dice.between(0.0, 0.1);
+            let seen = model.in_flight(&toss, &orbit, t_s / model.units.time_s);
+            seen_reflected += i32::from(seen.heads_up != toss.heads_up);
+
+            let axis = launched.axis.into_inner();
+            let axial = launched.spin_rad_s.dot(&axis) * (1.0 - ratio_of_moments);
+            let steady = launched.spin_rad_s - axis * axial;
+            let turned = Rotation3::new(steady * t_s) * axis;
+            let fall = Vector3::new(0.0, 0.0, -9.81 * t_s);
+            let mut position_m = (launched.velocity_m_s + fall * 0.5) * t_s;
+            position_m.z += launched.height_m;
+            let expected = State {
+                time_s: 0.0,
+                position_m,
+                velocity_m_s: launched.velocity_m_s + fall,
+                axis: UnitVector3::new_normalize(turned),
+                spin_rad_s: steady + turned * axial,
+            };
+            agree(&seen.state(&model.units), &expected, 1e-11);
+        }
+        assert!(seen_reflected > 20);
+    }
+}

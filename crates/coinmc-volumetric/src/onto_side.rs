@@ -97,3 +97,32 @@ impl<L> Model<L> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::toss::tests::model;
+    use coinmc_testkit::Dice;
+
+    /// A wheel that rolls keeps its speed; one that slides without spin is left with 1/(1 + k_a/R²) of it, and one
+    /// that spins without moving with k_a/R² of what its rim had, divided by the same: 2/3 and 1/3 for a
+    /// uniform cylinder.
+    #[test]
+    fn a_coin_on_its_side_will_roll_with_what_friction_leaves_it() {
+        let model = model();
+        let radius = model.dynamics.body.outer_radius();
+        for number in 0..100 {
+            let mut dice = Dice::new(518, number);
+            let mut toss = Toss::still();
+            toss.motion.lay_on_side();
+            let (speed, rim) = (dice.between(-2.0, 2.0), dice.between(-2.0, 2.0));
+            toss.motion.vy = speed;
+            toss.spin.axial = rim / radius;
+            let rolling = model.side_arrival(&toss).rolling;
+            // the point that touches moves at v_y + R ω_a
+            assert!((rolling - (2.0 * speed - rim).abs() / 3.0).abs() < 1e-14);
+            toss.spin.axial = -speed / radius;
+            assert!((model.side_arrival(&toss).rolling - speed.abs()).abs() < 1e-14);
+        }
+    }
+}

@@ -166,13 +166,14 @@ impl Toss {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use coinmc_core::{Coin, Scene, Surface};
     use coinmc_testkit::Dice;
     use nalgebra::UnitVector3;
 
-    fn model() -> crate::model::Model<crate::laws::Moreau> {
+    /// A thin coin on a plane.
+    pub(crate) fn model() -> crate::model::Model<crate::laws::Moreau> {
         let coin = Coin::cylinder(0.4, 0.0116).expect("a valid coin");
         let surface = Surface::new(0.5, 0.3).expect("a valid surface");
         let scene = Scene::new(coin, surface, 9.81).expect("a valid scene");
@@ -181,7 +182,7 @@ mod tests {
     }
 
     /// A launch anywhere above the surface, its axis at this height.
-    fn launch(dice: &mut Dice, axis_z: Option<f64>) -> Launch {
+    pub(crate) fn launch(dice: &mut Dice, axis_z: Option<f64>) -> Launch {
         let mut axis = dice.vector(1.0);
         if let Some(z) = axis_z {
             let across = ((1.0 - z * z) / (axis.x * axis.x + axis.y * axis.y)).sqrt();
@@ -195,7 +196,8 @@ mod tests {
         }
     }
 
-    fn agree(a: &State, b: &State, tolerance: f64) {
+    /// Positions in m, velocities in m/s, axes, and spins in 30 rad/s are alike.
+    pub(crate) fn agree(a: &State, b: &State, tolerance: f64) {
         let off = [
             (a.position_m - b.position_m).norm(),
             (a.velocity_m_s - b.velocity_m_s).norm(),

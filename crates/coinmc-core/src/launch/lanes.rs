@@ -33,7 +33,7 @@ impl Launches {
             coin: *coin,
             stream: *stream,
             tosses,
-            lanes,
+            lanes: lanes.available().unwrap_or(Lanes::Scalar),
             drawn: Draw::default(),
             drawn_from: None,
         }

@@ -110,8 +110,8 @@ impl LaunchDistribution {
         self.draw(coin, uniforms).launch(|&number| number)
     }
 
-    /// The launches of these tosses, drawn several at a time with these lanes: each is the
-    /// [`launch`](Self::launch) of its toss, bit for bit.
+    /// The launches of these tosses, drawn several at a time with these lanes (one at a time where there are
+    /// none): each is the [`launch`](Self::launch) of its toss, bit for bit.
     ///
     /// # Example
     /// ```

@@ -190,7 +190,7 @@ mod tests {
     /// lanes do meanwhile. Only the step that ended it says that it is finished.
     #[test]
     fn flights_that_wait_keep_how_their_search_ended() {
-        for lanes in Lanes::ALL.into_iter().filter(|lanes| lanes.is_available()) {
+        for lanes in Lanes::wide() {
             let mut stage = FlightStage {
                 active: 0b0111,
                 ..FlightStage::default()
