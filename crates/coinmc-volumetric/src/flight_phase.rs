@@ -179,4 +179,27 @@ mod tests {
         }
         assert!(seen_reflected > 20);
     }
+
+    /// A flight ends when the lowest point of the coin touches, and not before or after: at 2,000 instants before it
+    /// the coin is clear of the surface.
+    #[test]
+    fn a_flight_ends_at_the_first_contact() {
+        let model = model();
+        let body = &model.dynamics.body;
+        for number in 0..300 {
+            let toss = model.launch(&launch(&mut Dice::new(523, number), None));
+            let mut orbit = Orbit::new(&toss.motion, model.dynamics.drag);
+            let least = least_time(&orbit, &toss.motion, false);
+            let whole = orbit;
+            let gap = |t: f64| {
+                let (motion, _, _) = whole.at(&toss.motion, t);
+                whole.fall(t).0 - motion.rest_height(body)
+            };
+            let found = first_contact(&mut orbit, body, Departure::Launched, least);
+            let end = orbit.since_start(found.time);
+            assert!(!found.gave_up && gap(end).abs() < 1e-12, "{}", gap(end));
+            let clear = (0..2_000).all(|i| gap(end * f64::from(i) / 2_000.0) > 0.0);
+            assert!(clear);
+        }
+    }
 }

@@ -216,3 +216,51 @@ impl ContactSolver<'_> {
         now.press > 0.0 && now.state[OMEGA_Y] < 0.0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::rim::{SLIP_X, SLIP_Y};
+    use crate::toss::tests::model;
+    use coinmc_testkit::Dice;
+
+    /// A contact point that friction can hold sticks. One that it cannot hold starts to slip at `stick_speed`,
+    /// against the friction that would have to hold it; one that slips faster goes on as it is.
+    #[test]
+    fn a_point_that_friction_cannot_hold_starts_to_slip_against_it() {
+        let model = model();
+        let solver = model.contact_solver(Usage::default());
+        let slow = solver.rules.stick_speed;
+        let (mut stuck, mut started) = (0, 0);
+        for trial in 0..2_000 {
+            let mut dice = Dice::new(520, trial);
+            let mut rate = || dice.between(-2.0, 2.0);
+            let [wy, wa, wt] = [rate(), rate(), rate()];
+            let still = [dice.between(0.2, 1.5), wy, wa, wt, 0.0, 0.0];
+            let held = model.dynamics.rates(&still, Mode::Stick);
+            let phase = solver.choose_phase(still);
+            if can_stick(&model.dynamics, &held) {
+                stuck += 1;
+                let off = phase
+                    .state
+                    .iter()
+                    .zip(still)
+                    .map(|(now, before)| now - before);
+                assert!(phase.mode == Mode::Stick && off.into_iter().all(|off| off.abs() < 1e-12));
+            } else if phase.now.jam_margin >= LEAST_JAM_MARGIN {
+                started += 1;
+                let [gx, gy] = [phase.state[SLIP_X], phase.state[SLIP_Y]];
+                let [fx, fy] = held.friction;
+                assert!(phase.mode == Mode::Slip);
+                assert!((slip_speed(&phase.state) - slow).abs() < 1e-12 * slow);
+                let along = (gx * fx + gy * fy) / (slow * (fx * fx + fy * fy).sqrt());
+                assert!((along + 1.0).abs() < 1e-9, "{along}");
+            }
+            let mut slips = still;
+            slips[SLIP_Y] = 1.5 * slow;
+            let phase = solver.choose_phase(slips);
+            assert!(phase.mode == Mode::Slip && phase.state == slips);
+        }
+        assert!(stuck > 100 && started > 100, "{stuck} {started}");
+    }
+}

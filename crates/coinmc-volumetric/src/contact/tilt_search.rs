@@ -91,3 +91,52 @@ impl TiltSearch {
         (PhaseTransition::Leave(self.exit), self.length)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_testkit::Dice;
+
+    /// A step of length l turns the coin by l^n of its whole way: Newton's method is far beyond the bracket for small n,
+    /// and creeps for large n. The step ends where the tilt is at its goal, the side or level.
+    #[test]
+    fn a_step_ends_where_the_tilt_reaches_its_goal() {
+        for trial in 0..2_000 {
+            let mut dice = Dice::new(519, trial);
+            let (power, whole) = (libm::exp(dice.between(-2.0, 2.0)), dice.between(0.01, 1.0));
+            let level = trial % 2 == 0;
+            let (side, start) = if level {
+                (1.2, dice.between(0.01, 0.1))
+            } else {
+                (1.2, dice.between(0.9, 1.19))
+            };
+            let goal = if level { FLAT } else { side };
+            let reached = dice.between(0.05, 0.95) * whole;
+            let turned = (goal - start) / libm::pow(reached, power);
+            let after = |length: f64| {
+                let mut state = [0.0; 6];
+                state[TILT] = start + turned * libm::pow(length, power);
+                state[OMEGA_Y] = turned * power * libm::pow(length, power - 1.0);
+                state
+            };
+            let mut phase = Phase::none();
+            phase.state[TILT] = start;
+            assert!(TiltSearch::within(&phase, &after(0.9 * reached), whole, side).is_none());
+            let mut search =
+                TiltSearch::within(&phase, &after(whole), whole, side).expect("it passes");
+            while search.needs_another_try(&after(search.length)) {
+                assert!(search.low <= reached && reached <= search.high);
+            }
+            assert!(search.tries < MOST_TRIES);
+            assert!((after(search.length)[TILT] - goal).abs() <= SIDE_ANGLE);
+            let (transition, length) = search.finish(&mut phase, after(search.length));
+            assert!(
+                (length - reached).abs() < 1e-6 * whole,
+                "{length} {reached}"
+            );
+            assert_eq!(phase.state[TILT].to_bits(), goal.to_bits());
+            let exit = if level { Exit::Level } else { Exit::OtherRim };
+            assert!(matches!(transition, PhaseTransition::Leave(found) if found == exit));
+        }
+    }
+}

@@ -279,3 +279,52 @@ fn remains<L: Lane>(k: f64, t: L) -> L {
     // p is exact apart from rounding for any x; 1 − x p is not, and must not become negative
     (L::splat(1.0) - x * p).max(L::splat(0.0))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::toss::tests::{launch, model};
+    use coinmc_testkit::Dice;
+
+    /// A flight whose time is counted from a later instant is the same flight, with drag and without.
+    #[test]
+    fn a_rebased_orbit_is_the_same_flight() {
+        let model = model();
+        for number in 0..200 {
+            let mut dice = Dice::new(522, number);
+            let toss = model.launch(&launch(&mut dice, None));
+            let drag = Drag {
+                linear: dice.between(-0.5, 0.5).max(0.0),
+                angular: dice.between(-0.5, 0.5).max(0.0),
+            };
+            let whole = Orbit::new(&toss.motion, drag);
+            let mut rebased = whole;
+            rebased.rebase(9.0, false);
+            let mut start = 0.0;
+            for _ in 0..2 {
+                let t = dice.between(0.0, 2.0);
+                rebased.rebase(t, true);
+                start += t;
+            }
+            let after = dice.between(0.0, 2.0);
+            let ((z, vz), (there, thence)) = (rebased.fall(after), whole.fall(start + after));
+            assert!((z - there).abs() < 1e-12 * (1.0 + there.abs()) && (vz - thence).abs() < 1e-12);
+            assert!((rebased.since_start(after) - start - after).abs() < 1e-14);
+            let turned = |orbit: &Orbit<f64>, t: f64| {
+                let (s, c, rate) = orbit.phase(t);
+                let OrbitState { a, b, d, .. } = orbit.state;
+                let axis = std::array::from_fn(|i| a[i] + b[i] * c + d[i] * s);
+                (axis, rate)
+            };
+            let ((now, rate), (then, before)) =
+                (turned(&rebased, after), turned(&whole, start + after));
+            let now: [f64; 3] = now;
+            let off = now
+                .iter()
+                .zip(then)
+                .map(|(now, then): (_, f64)| (now - then).abs());
+            assert!(off.fold(0.0, f64::max) < 1e-12 * (1.0 + before * start));
+            assert!((rate - before).abs() < 1e-13 * before);
+        }
+    }
+}
