@@ -168,6 +168,38 @@ mod tests {
         }
     }
 
+    /// A leaning coin that pivots about the vertical through its contact point does not roll: a gentle slope
+    /// does not move it, either.
+    #[test]
+    fn a_coin_that_pivots_on_the_spot_is_held_on_a_gentle_slope() {
+        let friction = 1e-3;
+        let rough = Rough {
+            friction: 0.4,
+            friction_m: [friction, 1e-4],
+            ..Rough::of(0.7, 0.02)
+        };
+        let radius = rough.scene().coin.radius_m();
+        let model = rough.model();
+        let ground = model.ground.expect("a rough ground");
+        let mut pivoting = leaning(0.3, [0.0; 2], 0.0);
+        pivoting.spin_rad_s = Vector3::z() * 3.0;
+        for (slope, held) in [(0.9, true), (1.1, false)] {
+            let mut toss = touching(&model, &pivoting);
+            let point = toss.motion.contact_point(&model.dynamics.body, &toss.spin);
+            toss.motion.vy -= point.slip_y;
+            let (mut usage, mut observer) = (Usage::default(), ());
+            let mut walk =
+                Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+            let contact = walk.contact();
+            assert_eq!(contact.mode, Mode::Stick);
+            let before = walk.toss.spin;
+            assert!(before.axial.abs() > 0.01);
+            let steep = slope * friction / radius * walk.toss.motion.sin;
+            walk.descend_on_rim(&contact, [0.0, steep], 0.05);
+            assert_eq!(walk.toss.spin.axial == before.axial, held, "{slope}");
+        }
+    }
+
     /// A coin in contact, leaning at this angle from upright, with this velocity of its centre
     /// along and across its rim and this rate about its axis, m/s and rad/s.
     fn leaning(angle: f64, [vx, vy]: [f64; 2], rate: f64) -> Launch {

@@ -420,6 +420,45 @@ mod tests {
         }
     }
 
+    /// Whatever the heights under both rims of a coin that is almost upright: of two that come down, that lands first
+    /// which the other does not find in the ground then.
+    #[test]
+    fn of_two_rims_that_land_none_ends_below_the_ground() {
+        let model = Rough::of(0.7, 0.05).model();
+        let ground = model.ground.expect("a rough ground");
+        let (mut own_first, mut other_first) = (0, 0);
+        for number in 0..400 {
+            let mut dice = Dice::new(524, number);
+            let launch = Launch {
+                height_m: 0.0,
+                velocity_m_s: Vector3::new(0.1, 0.2, -0.2),
+                axis: UnitVector3::new_normalize(Vector3::new(1.0, 0.0, dice.between(0.0, 0.004))),
+                spin_rad_s: Vector3::zeros(),
+            };
+            let mut toss = model.launch(&launch);
+            let (mut usage, mut observer) = (Usage::default(), ());
+            let mut walk =
+                Walk::above_ground(&model, &ground, &mut toss, &mut usage, &mut observer);
+            walk.draw_place();
+            if walk.land_first_rim() {
+                other_first += 1;
+            } else {
+                own_first += 1;
+            }
+            let (motion, body) = (walk.toss.motion, *walk.body());
+            let points = rim_points(&body, &motion, &walk.toss.spin);
+            let [own, other] = points
+                .map(|point| carried_now(walk.ground, &body, &motion, &walk.place, point.rx).0);
+            // now the own rim is at its ground, and this is how high the other one is above its own
+            let clear = 2.0 * body.half * motion.cos - (other - own);
+            assert!(clear >= -1e-12, "{clear}");
+        }
+        assert!(
+            own_first > 50 && other_first > 50,
+            "{own_first} {other_first}"
+        );
+    }
+
     /// Friction and impacts take energy, and nothing gives any: the budget never grows, and after
     /// every event the coin has no more energy than its budget and the lead of slopes but for
     /// rounding, 1e-12 of it. (In between, the energy may exceed it by what the next node takes back.)
