@@ -40,7 +40,7 @@ pub(crate) struct Validate {
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     only: Vec<String>,
 
-    /// Many more tosses, some ten minutes on two cores; may be stopped and goes on
+    /// Many more tosses, half an hour of one core; may be stopped and goes on
     #[arg(long)]
     full: bool,
 
