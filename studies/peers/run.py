@@ -125,12 +125,11 @@ def peer(args, name: str, scene: scenes.Scene, launches: list[scenes.Launch]) ->
         return []
     rows = []
     version = engines.version(module)
+    coins = max(1, min(args.coins or module.COINS, len(launches)))
     for step in module.STEPS:
-        world = module.World(scene, step, args.coins or module.COINS)
+        world = module.World(scene, step, coins)
         tossed = follow(scene, step, world, launches, args.seconds)
-        measured = row(
-            module.NAME, version, args, step, tossed.faces, tossed.seconds, coins=world.coins
-        )
+        measured = row(module.NAME, version, args, step, tossed.faces, tossed.seconds, coins=coins)
         rows.append(measured)
         show(measured)
     return rows
