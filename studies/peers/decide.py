@@ -92,16 +92,15 @@ def follow(
         over = moving & ((codes != UNDECIDED) | (looks[toss] >= limit))
         for coin in np.flatnonzero(over):
             found[toss[coin]] = codes[coin]
-            if full is None and placed == len(launches):
-                full = rounds, time.process_time() - begun
-            if full is None:
+            if full is None and placed < len(launches):
                 world.place(coin, launches[placed])
                 toss[coin] = placed
                 placed += 1
             else:
                 toss[coin] = -1
-        if full is None and time.process_time() - begun > budget:
-            full = rounds, time.process_time() - begun
+        passed = time.process_time() - begun
+        if full is None and (np.any(toss < 0) or passed > budget):
+            full = rounds, passed
     rounds, seconds = full
     a_look = seconds / (rounds * world.coins)
     return Tossed(found[:placed], a_look * int(looks.sum()))

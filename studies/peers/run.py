@@ -47,16 +47,16 @@ class Row:
     tails: int
     side: int
     undecided: int
-    coins: int | None
     seconds: float
     tosses_per_s: float
     p_side: float
     p_side_error: float
+    coins: int | None = None
     bias: float | None = None
     bias_error: float | None = None
 
 
-def row(engine, version, args, step, codes, seconds, coins=None, **more) -> Row:
+def row(engine, version, args, step, codes, seconds, **more) -> Row:
     """Counts and rate of one measurement; errors are standard errors."""
     counts = {face: int(np.count_nonzero(codes == code)) for code, face in enumerate(FACES)}
     tosses = len(codes)
@@ -70,7 +70,6 @@ def row(engine, version, args, step, codes, seconds, coins=None, **more) -> Row:
         tosses=tosses,
         **counts,
         undecided=tosses - sum(counts.values()),
-        coins=coins,
         seconds=seconds,
         tosses_per_s=tosses / seconds,
         p_side=p,

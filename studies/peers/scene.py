@@ -137,6 +137,12 @@ def turned(vector: np.ndarray, rate: np.ndarray, time: float) -> np.ndarray:
     )
 
 
+def axis_of(w, x, y, z) -> np.ndarray:
+    """(…, 3), where the unit quaternion (w, x, y, z) turns e_z."""
+    across = (2.0 * (x * z + w * y), 2.0 * (y * z - w * x))
+    return np.stack((*across, 1.0 - 2.0 * (x * x + y * y)), axis=-1)
+
+
 def turn_to(axis: np.ndarray) -> np.ndarray:
     """The unit quaternion (w, x, y, z) that turns e_z to ``axis`` the short way."""
     w = np.sqrt(max(0.0, 0.5 * (1.0 + axis[2])))

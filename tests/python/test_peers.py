@@ -162,6 +162,7 @@ def test_the_short_turn_takes_up_to_the_axis():
         assert w * w + x * x + y * y + z * z == pytest.approx(1)
         turned = [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)]
         assert turned == pytest.approx(list(axis))
+        assert list(scene.axis_of(w, x, y, z)) == pytest.approx(list(axis))
 
 
 def row(engine, step, p, rate, bias=None, bias_error=None, error=0.001):

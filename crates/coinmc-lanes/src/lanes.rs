@@ -1,7 +1,5 @@
 //! The kinds of lanes, and which of them a processor has.
 
-#[cfg(any(not(target_arch = "x86_64"), debug_assertions))]
-use crate::portable;
 use crate::wide::Work;
 #[cfg(target_arch = "x86_64")]
 use crate::{avx2, avx512};
@@ -102,11 +100,11 @@ impl Lanes {
             Self::Avx512 => avx512::enter(work),
             Self::Avx2 => avx2::enter(work),
             #[cfg(debug_assertions)]
-            Self::Portable => Some(work.run::<portable::Eight>()),
+            Self::Portable => Some(work.run::<crate::portable::Eight>()),
             _ => None,
         };
         #[cfg(not(target_arch = "x86_64"))]
-        let entered = (self == Self::Portable).then(|| work.run::<portable::Eight>());
+        let entered = (self == Self::Portable).then(|| work.run::<crate::portable::Eight>());
         entered.unwrap_or_else(|| panic!("{}", NoSuchLanes(self)))
     }
 }

@@ -136,12 +136,24 @@ impl<L> Model<L> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
+    use crate::body::Body;
     use crate::toss::tests::{agree, launch, model};
     use coinmc_core::State;
     use coinmc_testkit::Dice;
     use nalgebra::{Rotation3, UnitVector3, Vector3};
+
+    /// Height of the lowest point of the coin, a time `t` into the flight that begins with `start`.
+    pub(crate) fn height_of_rim(
+        orbit: &Orbit<f64>,
+        start: &Motion<f64>,
+        body: &Body,
+        t: f64,
+    ) -> f64 {
+        let (motion, _, _) = orbit.at(start, t);
+        orbit.fall(t).0 - motion.rest_height(body)
+    }
 
     /// Between two contacts an observer sees the coin where Euler's equations of a symmetric body take it: its axis
     /// turns about the angular momentum at the rate L/I_t, its spin is L/I_t + (1 − I_a/I_t) ω_a u, and its
@@ -191,10 +203,7 @@ mod tests {
             let mut orbit = Orbit::new(&toss.motion, model.dynamics.drag);
             let least = least_time(&orbit, &toss.motion, false);
             let whole = orbit;
-            let gap = |t: f64| {
-                let (motion, _, _) = whole.at(&toss.motion, t);
-                whole.fall(t).0 - motion.rest_height(body)
-            };
+            let gap = |t: f64| height_of_rim(&whole, &toss.motion, body, t);
             let found = first_contact(&mut orbit, body, Departure::Launched, least);
             let end = orbit.since_start(found.time);
             assert!(!found.gave_up && gap(end).abs() < 1e-12, "{}", gap(end));

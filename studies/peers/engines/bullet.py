@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 import pybullet
-from scene import GRAVITY, Launch, Scene, turn_to
+from scene import GRAVITY, Launch, Scene, axis_of, turn_to
 
 NAME, PACKAGE = "Bullet", "pybullet"
 STEPS = (1e-3, 5e-4, 2.5e-4, 1e-4, 6e-5)
@@ -100,5 +100,4 @@ class World:
         place, turn = (np.array(part) for part in zip(*poses, strict=True))
         velocity, spin = (np.array(part) for part in zip(*motions, strict=True))
         x, y, z, w = turn.T
-        axis = (2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y))
-        return place[:, 2], velocity, np.column_stack(axis), spin
+        return place[:, 2], velocity, axis_of(w, x, y, z), spin

@@ -46,7 +46,6 @@ class World:
           </worldbody></mujoco>"""
         self.model = mujoco.MjModel.from_xml_string(xml)
         self.data = mujoco.MjData(self.model)
-        mujoco.mj_resetData(self.model, self.data)
         # views of the simulation's own arrays, a row a coin
         self.position = self.data.qpos.reshape(coins, 7)
         self.velocity = self.data.qvel.reshape(coins, 6)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 
 import numpy as np
-from scene import GRAVITY, Launch, Scene, turn_to
+from scene import GRAVITY, Launch, Scene, axis_of, turn_to
 
 with warnings.catch_warnings():
     # it looks for graphics, which are not needed
@@ -93,7 +93,6 @@ class World:
         poses = [entity.pose for entity in self.entities]
         height = np.array([pose.p[2] for pose in poses])
         w, x, y, z = np.array([pose.q for pose in poses]).T
-        axis = (2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y))
         velocity = np.array([body.linear_velocity for body in self.bodies])
         spin = np.array([body.angular_velocity for body in self.bodies])
-        return height, velocity, np.column_stack(axis), spin
+        return height, velocity, axis_of(w, x, y, z), spin

@@ -287,6 +287,7 @@ pub(crate) fn fastest_rate<L: Lane>(m: &Motion<L>, spin: &Spin<L>) -> L {
 #[cfg(test)]
 mod tests {
     use crate::flight::Orbit;
+    use crate::flight_phase::tests::height_of_rim;
     use crate::toss::tests::{launch, model};
     use coinmc_testkit::Dice;
 
@@ -299,10 +300,7 @@ mod tests {
         for number in 0..200 {
             let toss = model.launch(&launch(&mut Dice::new(521, number), Some(0.4)));
             let orbit = Orbit::new(&toss.motion, dynamics.drag);
-            let gap = |t: f64| {
-                let (motion, _, _) = orbit.at(&toss.motion, t);
-                orbit.fall(t).0 - motion.rest_height(&dynamics.body)
-            };
+            let gap = |t: f64| height_of_rim(&orbit, &toss.motion, &dynamics.body, t);
             let step = 1e-3;
             let rate = (gap(step) - 2.0 * gap(0.0) + gap(-step)) / (step * step);
             let press = dynamics.press(&toss.motion, &toss.spin);

@@ -105,10 +105,11 @@ mod tests {
             let mut dice = Dice::new(519, trial);
             let (power, whole) = (libm::exp(dice.between(-2.0, 2.0)), dice.between(0.01, 1.0));
             let level = trial % 2 == 0;
-            let (side, start) = if level {
-                (1.2, dice.between(0.01, 0.1))
+            let side = 1.2;
+            let start = if level {
+                dice.between(0.01, 0.1)
             } else {
-                (1.2, dice.between(0.9, 1.19))
+                dice.between(0.9, 1.19)
             };
             let goal = if level { FLAT } else { side };
             let reached = dice.between(0.05, 0.95) * whole;

@@ -140,18 +140,23 @@ mod tests {
     use coinmc_core::Launch;
     use nalgebra::{UnitVector3, Vector3};
 
-    /// Rolling friction holds a coin at rest on a slope of less than ρ_c/R, and no other: neither
-    /// on a steeper one, nor one that rolls too fast to be stopped on the way.
-    #[test]
-    fn rolling_friction_holds_a_coin_at_rest_on_a_gentle_slope() {
-        let (friction, time) = (1e-3, 0.05);
+    /// A coin on ground with much rolling friction; its R and ρ_c, m.
+    fn held_by_rolling_friction() -> (Model<Moreau>, f64, f64) {
+        let friction = 1e-3;
         let rough = Rough {
             friction: 0.4,
             friction_m: [friction, 1e-4],
             ..Rough::of(0.7, 0.02)
         };
-        let radius = rough.scene().coin.radius_m();
-        let model = rough.model();
+        (rough.model(), rough.scene().coin.radius_m(), friction)
+    }
+
+    /// Rolling friction holds a coin at rest on a slope of less than ρ_c/R, and no other: neither
+    /// on a steeper one, nor one that rolls too fast to be stopped on the way.
+    #[test]
+    fn rolling_friction_holds_a_coin_at_rest_on_a_gentle_slope() {
+        let time = 0.05;
+        let (model, radius, friction) = held_by_rolling_friction();
         let ground = model.ground.expect("a rough ground");
         for (slope, speed, held) in [(0.9, 0.0, true), (1.1, 0.0, false), (0.9, 0.1, false)] {
             let mut toss = touching(&model, &leaning(0.1, [0.0, -speed], speed / radius));
@@ -172,14 +177,7 @@ mod tests {
     /// does not move it, either.
     #[test]
     fn a_coin_that_pivots_on_the_spot_is_held_on_a_gentle_slope() {
-        let friction = 1e-3;
-        let rough = Rough {
-            friction: 0.4,
-            friction_m: [friction, 1e-4],
-            ..Rough::of(0.7, 0.02)
-        };
-        let radius = rough.scene().coin.radius_m();
-        let model = rough.model();
+        let (model, radius, friction) = held_by_rolling_friction();
         let ground = model.ground.expect("a rough ground");
         let mut pivoting = leaning(0.3, [0.0; 2], 0.0);
         pivoting.spin_rad_s = Vector3::z() * 3.0;
