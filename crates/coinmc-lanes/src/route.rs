@@ -1,6 +1,6 @@
 //! Copying lanes of one block to lanes of another.
 
-use crate::wide::{Bits, WIDTH, lanes_of};
+use crate::wide::{Bits, WIDTH};
 
 /// Which lanes of one block are copied to which lanes of another.
 ///
@@ -83,7 +83,7 @@ impl Route {
     #[inline(always)]
     pub(crate) fn pairs(&self) -> impl Iterator<Item = (usize, usize)> {
         let sources = self.sources;
-        lanes_of(self.to).map(move |to| (usize::from(sources[to]), to))
+        crate::wide::lanes_of(self.to).map(move |to| (usize::from(sources[to]), to))
     }
 
     /// The source of each lane of `to`; arbitrary for the others.
@@ -132,7 +132,7 @@ static PLACES: [[u8; WIDTH]; 256] = {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Block, Lanes, Wide, Work};
+    use crate::{Block, Lanes, Wide, Work, lanes_of};
 
     struct Follow(Route, [Block; 2], [Bits; 2]);
 
