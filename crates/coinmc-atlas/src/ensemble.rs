@@ -96,7 +96,7 @@ impl Atlas {
     /// # Errors
     /// [`AtlasError::Outside`].
     pub fn faces(&self, place: &Place) -> Result<Faces, AtlasError> {
-        Ok(self.at(&place.coordinates(&self.header.axes)?))
+        Ok(self.at(&place.inputs(&self.header.axes, self.header.radius_m)?))
     }
 
     fn at(&self, coordinates: &[f64]) -> Faces {

@@ -6,7 +6,7 @@ use crate::{Axis, FileError};
 use serde::{Deserialize, Serialize};
 
 /// Version of the format.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 /// Largest sizes that are read.
 const MOST_UNITS: usize = 1024;
 const MOST_LAYERS: usize = 8;
@@ -27,7 +27,7 @@ pub(crate) struct Header {
     pub(crate) points: u64,
     pub(crate) tosses: u64,
     pub(crate) undecided: u64,
-    /// What the inputs are.
+    /// What the inputs are, but for the last one, the lean.
     pub(crate) axes: Vec<Axis>,
     /// Units of each hidden layer.
     pub(crate) hidden: Vec<usize>,
@@ -95,7 +95,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<(Header, Vec<Network>), FileError> {
     let mut numbers = words.iter().map(|word| f32::from_le_bytes(*word));
     let mut networks = Vec::new();
     for _ in 0..header.networks {
-        let mut network = Network::zero(header.axes.len(), &header.hidden);
+        let mut network = Network::zero(header.axes.len() + 1, &header.hidden);
         network.set(&mut numbers)?;
         networks.push(network);
     }
@@ -118,8 +118,8 @@ mod tests {
         };
         let mut header = Header::new("hand", vec!["abc".to_owned()], 0.01, vec![axis]);
         (header.hidden, header.networks) = (vec![3], 2);
-        let mut networks = vec![Network::zero(1, &[3]); 2];
-        let mut numbers = (0..28_u8).map(f32::from);
+        let mut networks = vec![Network::zero(2, &[3]); 2];
+        let mut numbers = (0..34_u8).map(f32::from);
         for network in &mut networks {
             network.set(&mut numbers).unwrap();
         }
@@ -152,8 +152,8 @@ mod tests {
             read(&write(&header, &networks))
         };
         assert!(matches!(
-            of(&|h| h.atlas_format = 2),
-            Err(FileError::Version(2))
+            of(&|h| h.atlas_format = 1),
+            Err(FileError::Version(1))
         ));
         for change in [
             &(|h: &mut Header| h.networks = usize::MAX) as &dyn Fn(&mut Header),

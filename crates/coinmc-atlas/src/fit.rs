@@ -1,4 +1,4 @@
-//! Makes a launch's part of the atlas of the results of its design.
+//! Makes a launch's part of the atlas of the tosses of its design.
 //!
 //! A part of the design is left out of each network, which shows how wrong a network is where it was not fitted. The
 //! parts are runs of neighbouring points: 2^n of them fill the whole box evenly, which every fourth point of a Sobol'
@@ -10,52 +10,43 @@ use crate::ensemble::spread;
 use crate::file::{ErrorModel, Header};
 use crate::network::{Network, single};
 use crate::train::{Sample, Training, train};
-use crate::{Atlas, Axis, FitError, Place};
-use coinmc::results::{Results, Row};
+use crate::{Atlas, Counts, Design, FitError, Place};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
-use toml::Spanned;
-use toml::de::{DeTable, DeValue};
 
 /// Networks of a part.
 const NETWORKS: usize = 4;
 /// Fewest points that are fitted.
 const FEWEST: usize = 1000;
 
-/// Fits networks to the results of a design, tossed with one seed or several; `None` if `go_on` says so.
+/// Fits networks to a design, tossed with one seed or several; `None` if `go_on` says so.
 ///
 /// # Errors
 /// [`FitError`].
 pub fn fit(
     launch: &str,
-    results: &[Results],
+    designs: &[Design],
     training: &Training,
     threads: usize,
     go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Option<Atlas>, FitError> {
-    let first = results.first().ok_or(FitError::TooFew(0))?;
-    let axes = axes(&first.config)?;
-    let radius_m = first
-        .rows
-        .each()
-        .next()
-        .and_then(|row| row.parameter("radius_m"));
-    let radius_m = radius_m.ok_or(FitError::TooFew(0))?;
-    let plans = results.iter().map(|results| results.plan_hash.clone());
-    let mut header = Header::new(launch, plans.collect(), radius_m, axes);
+    let first = designs.first().ok_or(FitError::TooFew(0))?;
+    let plans = designs.iter().map(|design| design.plan_hash().to_owned());
+    let axes = first.axes().to_vec();
+    let mut header = Header::new(launch, plans.collect(), first.radius_m(), axes);
     let mut parts = vec![Vec::new(); NETWORKS];
-    for results in results {
-        if self::axes(&results.config)? != header.axes {
+    for design in designs {
+        if (design.axes(), design.radius_m()) != (first.axes(), first.radius_m()) {
             return Err(FitError::NotADesign(
-                "its ranges are not those of the first".to_owned(),
+                "its coins and surfaces are not those of the first".to_owned(),
             ));
         }
-        let points = results.rows.len();
-        for (index, row) in results.rows.each().enumerate() {
+        let points = design.points().len();
+        for (index, (place, counts)) in design.points().iter().enumerate() {
             header.points += 1;
-            header.tosses += row.tally.tosses();
-            header.undecided += row.tally.undecided();
-            parts[part_of(index, points)].extend(sample(&row, &header.axes));
+            header.tosses += counts.tosses();
+            header.undecided += counts.undecided;
+            parts[part_of(index, points)].extend(sample(place, counts, &header));
         }
     }
     let samples = parts.iter().map(Vec::len).sum();
@@ -71,57 +62,16 @@ pub fn fit(
     Ok(Some(Atlas::new(header, networks)))
 }
 
-/// The ranges of a design's config, in the order of [`Place::NAMES`].
-fn axes(config: &str) -> Result<Vec<Axis>, FitError> {
-    let wrong = |why: &str| FitError::NotADesign(why.to_owned());
-    let config = DeTable::parse(config).map_err(|_| wrong("it is no TOML"))?;
-    let config = config.get_ref();
-    let at = |table: &str, key: &str| Some(inner(config.get(table)?.get_ref(), key)?.clone());
-    if at("sweep", "mode").as_ref().and_then(DeValue::as_str) != Some("sobol") {
-        return Err(wrong("its mode is another"));
-    }
-    let mut axes = Vec::new();
-    for name in Place::NAMES {
-        let table = if name == "ratio" { "coin" } else { "surface" };
-        let range = at(table, name).and_then(|value| axis(name, &value));
-        axes.push(range.ok_or_else(|| wrong(&format!("`{table}.{name}` is no range")))?);
-    }
-    Ok(axes)
-}
-
-fn inner<'a, 'i>(table: &'a DeValue<'i>, key: &str) -> Option<&'a DeValue<'i>> {
-    match table {
-        DeValue::Table(entries) => entries.get(key).map(Spanned::get_ref),
-        _ => None,
-    }
-}
-
-fn axis(name: &str, range: &DeValue<'_>) -> Option<Axis> {
-    let number = |key: &str| match inner(range, key)? {
-        DeValue::Float(number) => number.as_str().parse().ok(),
-        _ => None,
-    };
-    Some(Axis {
-        name: name.to_owned(),
-        from: number("from")?,
-        to: number("to")?,
-        log: inner(range, "scale").and_then(DeValue::as_str) == Some("log"),
-    })
-}
-
 /// The counts of a point; `None` if no toss showed a face.
-fn sample(row: &Row, axes: &[Axis]) -> Option<Sample> {
-    let place = axes.iter().map(|axis| {
-        let value = row.parameter(&axis.name)?;
-        Some(single(axis.coordinate(value)))
-    });
-    let tally = &row.tally;
-    let shown = tally.heads + tally.tails + tally.side;
-    (shown > 0).then_some(Sample {
-        place: place.collect::<Option<_>>()?,
+fn sample(place: &Place, counts: &Counts, header: &Header) -> Option<Sample> {
+    let inputs = place.coordinates(&header.axes, header.radius_m);
+    let [heads, _, side] = counts.faces;
+    let shown = counts.tosses() - counts.undecided;
+    (shown > 0).then(|| Sample {
+        place: inputs.into_iter().map(single).collect(),
         shown: shown as f32,
-        side: tally.side as f32,
-        heads: tally.heads as f32,
+        side: side as f32,
+        heads: heads as f32,
     })
 }
 
@@ -264,27 +214,5 @@ mod tests {
             (0.5..2.0).contains(&(claimed / off)),
             "claimed {claimed}, true {off}"
         );
-    }
-
-    #[test]
-    fn configs_that_are_no_design_are_refused() {
-        for (config, why) in [
-            ("", "its mode is another"),
-            ("[sweep]\nmode = 'zip'", "its mode is another"),
-            ("[sweep]\nmode = 'sobol'", "`coin.ratio` is no range"),
-            ("[[", "it is no TOML"),
-        ] {
-            let error = axes(config).unwrap_err().to_string();
-            assert!(error.ends_with(why), "{error}");
-        }
-    }
-
-    #[test]
-    fn all_designs_have_the_same_axes() {
-        let ranges = crate::Launch::ALL.map(|launch| {
-            let plan = coinmc::config::parse(launch.name(), launch.design(), &[]).unwrap();
-            axes(&plan.resolved_toml).unwrap()
-        });
-        assert!(ranges.iter().all(|axes| *axes == ranges[0]));
     }
 }

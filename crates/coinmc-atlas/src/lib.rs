@@ -2,7 +2,7 @@
 //!
 //! # How it works
 //! ```text
-//! designs/*.toml ─▶ coinmc run ─▶ results ─▶ fit: networks of tanh, each without a part of the points
+//! designs/*.toml ─▶ coinmc run ─▶ Design ─▶ fit: networks, each without a part of the points
 //!                                             │
 //!                                  networks/*.atlas, compiled into the program
 //!                                             │
@@ -11,9 +11,10 @@
 //!
 //! # Files
 //! `launch` the launches · `axis`, `place` what the probabilities depend on · `network` one network · `ensemble`
-//! several and their error · `document` an answer · `file` their bytes · `fit`, `train` how they are made · `sure` tosses instead.
+//! several and their error · `document` an answer · `file` their bytes · `design` what was tossed · `fit`, `train` how networks are made · `sure` tosses instead.
 
 mod axis;
+mod design;
 mod document;
 mod ensemble;
 mod error;
@@ -26,6 +27,7 @@ mod sure;
 mod train;
 
 pub use axis::Axis;
+pub use design::Design;
 pub use document::Answer;
 pub use ensemble::{Atlas, Faces, Root};
 pub use error::{AtlasError, FileError, FitError};

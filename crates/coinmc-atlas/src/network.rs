@@ -1,4 +1,4 @@
-//! A small neural network: layers of tanh, then ln of the odds of the side, and of heads among the faces.
+//! A small neural network: layers of x/(1 + e⁻ˣ), then ln of the odds of the side, and of heads among the faces.
 
 use crate::FileError;
 
@@ -44,7 +44,7 @@ impl Network {
             values = layer.apply(&values);
             if number < last {
                 for value in &mut values {
-                    *value = libm::tanhf(*value);
+                    *value *= logistic(*value);
                 }
             }
         }
@@ -94,6 +94,12 @@ pub(crate) fn single(x: f64) -> f32 {
     x as f32
 }
 
+/// 1/(1 + e⁻ˣ). A unit of a hidden layer gives x times that: Elfwing et al., "Sigmoid-weighted linear units for neural
+/// network function approximation in reinforcement learning", Neural Networks 107 (2018) 3.
+pub(crate) fn logistic(x: f32) -> f32 {
+    1.0 / (1.0 + libm::expf(-x))
+}
+
 /// The probability with these odds, from their logarithm.
 pub(crate) fn probability(log_odds: f32) -> f64 {
     1.0 / (1.0 + libm::exp(-f64::from(log_odds)))
@@ -110,13 +116,13 @@ mod tests {
         assert_eq!(network.numbers().count(), 3 * 4 + 4 + 4 * 2 + 2);
     }
 
-    /// tanh(2·½) through one hidden unit, by hand.
+    /// 1/(1 + e⁻¹), the value of 2·½, through one hidden unit, by hand.
     #[test]
     fn layers_are_applied_one_after_the_other() {
         let mut network = Network::zero(1, &[1]);
         let mut numbers = [2.0, 0.0, 3.0, 0.0, 0.5, -1.0].into_iter();
         network.set(&mut numbers).unwrap();
-        let hidden = libm::tanh(1.0);
+        let hidden = 1.0 / (1.0 + libm::exp(-1.0));
         let side = 1.0 / (1.0 + libm::exp(-(3.0 * hidden + 0.5)));
         let heads = 1.0 / (1.0 + libm::exp(1.0));
         let [_, tails, found] = network.faces(&[0.5]);

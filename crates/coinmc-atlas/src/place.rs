@@ -138,27 +138,51 @@ impl Place {
         Self::NAMES.into_iter().zip(self.numbers())
     }
 
-    /// Coordinates from -1 to 1 along these axes.
+    /// The inputs of a network.
     ///
     /// # Errors
     /// [`AtlasError::Outside`], with a sentence for each number that an axis does not hold.
-    pub(crate) fn coordinates(&self, axes: &[Axis]) -> Result<Vec<f64>, AtlasError> {
-        let mut outside = Vec::new();
-        let mut coordinates = Vec::new();
-        for (axis, (name, value)) in axes.iter().zip(self.named()) {
-            if !axis.holds(value) {
-                let Axis { from, to, .. } = axis;
-                outside.push(format!(
-                    "the atlas holds {name} from {from} to {to}, not {value}"
-                ));
-            }
-            coordinates.push(axis.coordinate(value));
-        }
+    pub(crate) fn inputs(&self, axes: &[Axis], radius_m: f64) -> Result<Vec<f64>, AtlasError> {
+        let outside = axes.iter().zip(self.named());
+        let outside = outside.filter(|(axis, (_, value))| !axis.holds(*value));
+        let outside = outside.map(|(Axis { from, to, .. }, (name, value))| {
+            format!("the atlas holds {name} from {from} to {to}, not {value}")
+        });
+        let outside: Vec<String> = outside.collect();
         if outside.is_empty() {
-            Ok(coordinates)
+            Ok(self.coordinates(axes, radius_m))
         } else {
             Err(AtlasError::Outside(outside))
         }
+    }
+
+    /// Coordinates from -1 to 1 along these axes, and then that of the lean.
+    pub(crate) fn coordinates(&self, axes: &[Axis], radius_m: f64) -> Vec<f64> {
+        let along = axes.iter().zip(self.numbers());
+        let along = along.map(|(axis, number)| axis.coordinate(number));
+        let lean = |place: &Self| libm::log(place.lean(radius_m));
+        // the lean grows with slope and wavelength, and is less for a thicker coin
+        let [least, most] = [false, true].map(|most| {
+            let end = |i: usize, to: bool| if to { axes[i].to } else { axes[i].from };
+            lean(&Self {
+                ratio: end(0, !most),
+                roughness_slope: end(5, most),
+                roughness_wavelength_m: end(6, most),
+                ..*self
+            })
+        });
+        let lean = 2.0 * (lean(self) - least) / (most - least) - 1.0;
+        along.chain([lean]).collect()
+    }
+
+    /// How far a coin on its side leans on the ground, one standard deviation, over the lean at which it topples,
+    /// H/2R. With the ground's correlation exp(-r²/2ℓ²) the heights under both rims differ by
+    /// sℓ sqrt(2(1 - exp(-H²/2ℓ²))).
+    fn lean(&self, radius_m: f64) -> f64 {
+        let correlation_m = self.roughness_wavelength_m / std::f64::consts::TAU;
+        let apart = self.ratio * radius_m / correlation_m;
+        let contrast = (-2.0 * libm::expm1(-0.5 * apart * apart)).sqrt();
+        self.roughness_slope * contrast / apart / (0.5 * self.ratio)
     }
 }
 
@@ -199,14 +223,48 @@ mod tests {
             log: true,
         });
         let inside = Place::of([0.15; 7]);
-        assert_eq!(inside.coordinates(&axes).unwrap().len(), 7);
+        assert_eq!(inside.inputs(&axes, 0.01).unwrap().len(), 8);
         let outside = Place {
             friction: 0.3,
             roughness_slope: f64::NAN,
             ..inside
         };
-        let message = outside.coordinates(&axes).unwrap_err().to_string();
+        let message = outside.inputs(&axes, 0.01).unwrap_err().to_string();
         assert_eq!(message.lines().count(), 2, "{message}");
         assert!(message.starts_with("the atlas holds friction from 0.1 to 0.2, not 0.3"));
+    }
+    /// On waves much longer than the coin is thick it leans by the slope; on much shorter ones by √2 σ/H.
+    #[test]
+    fn the_lean_is_that_of_the_ground_under_both_rims() {
+        let lean = |wavelength_m: f64| {
+            let place = Place {
+                ratio: 0.8,
+                roughness_slope: 0.02,
+                roughness_wavelength_m: wavelength_m,
+                ..Place::of([1.0; 7])
+            };
+            0.5 * place.ratio * place.lean(0.01)
+        };
+        assert!((lean(1e3) - 0.02).abs() < 1e-9);
+        let short = 2.0_f64.sqrt() * 0.02 * 1e-3 / std::f64::consts::TAU / 0.008;
+        assert!((lean(1e-3) - short).abs() < 1e-12);
+    }
+
+    /// The lean is largest for the thinnest coin on the steepest and longest waves: all coordinates but that of the
+    /// ratio are 1 there, and the other way round.
+    #[test]
+    fn coordinates_reach_from_end_to_end() {
+        let axes = crate::Atlas::of(crate::Launch::Hand).axes().to_vec();
+        let at = |most: bool| {
+            let mut numbers = axes
+                .iter()
+                .map(|axis| if most { axis.to } else { axis.from });
+            let mut place = Place::of(std::array::from_fn(|_| numbers.next().unwrap()));
+            place.ratio = if most { axes[0].from } else { axes[0].to };
+            place.coordinates(&axes, 0.011_625)
+        };
+        let most = [-1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0];
+        assert_eq!(at(true), most);
+        assert_eq!(at(false), most.map(|end| -end));
     }
 }

@@ -31,7 +31,7 @@ pub fn scene(
     place: &Place,
     tosses: u64,
 ) -> Result<Plan, AtlasError> {
-    place.coordinates(atlas.axes())?;
+    place.inputs(atlas.axes(), atlas.radius_m())?;
     let key = |name: &str| match name {
         "ratio" => "coin.ratio".to_owned(),
         other => format!("surface.{other}"),

@@ -3,7 +3,7 @@
 //! Everything is done in one order, in single precision and with elementary functions of our own library, so the
 //! same counts give the same network to the bit on every machine.
 
-use crate::network::{Layer, Network, OUTPUTS, single};
+use crate::network::{Layer, Network, OUTPUTS, logistic, single};
 use coinmc_core::{Domain, Stream, TossUniforms, UniformSource};
 
 /// Places that are looked at between two corrections of the weights.
@@ -25,9 +25,9 @@ pub struct Training {
 impl Default for Training {
     fn default() -> Self {
         Self {
-            hidden: vec![48; 4],
-            epochs: 150,
-            rate: 6e-3,
+            hidden: vec![64; 4],
+            epochs: 160,
+            rate: 4e-3,
         }
     }
 }
@@ -35,7 +35,7 @@ impl Default for Training {
 /// Counts at a place.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Sample {
-    /// Coordinates from -1 to 1.
+    /// Inputs of the network.
     pub(crate) place: Vec<f32>,
     /// Tosses that showed a face, those among them that showed the side, and heads.
     pub(crate) shown: f32,
@@ -114,7 +114,9 @@ type Rows = Vec<[f32; BATCH]>;
 struct Workspace {
     /// Values of the inputs and of each layer.
     values: Vec<Rows>,
-    /// Derivatives of ln of the likelihood by each layer's values before tanh.
+    /// Derivatives of each layer's values by the sums that they are functions of.
+    rates: Vec<Rows>,
+    /// Derivatives of ln of the likelihood by each layer's sums.
     slopes: Vec<Rows>,
     /// Derivatives by the network's numbers.
     gradient: Network,
@@ -129,6 +131,7 @@ impl Workspace {
         values.extend(slopes.iter().cloned());
         Self {
             values,
+            rates: slopes.clone(),
             slopes,
             gradient: network.clone(),
         }
@@ -144,11 +147,14 @@ impl Workspace {
         for (number, layer) in network.layers.iter().enumerate() {
             let (before, after) = self.values.split_at_mut(number + 1);
             let weights = layer.weights.chunks_exact(layer.inputs);
-            for ((row, weights), bias) in after[0].iter_mut().zip(weights).zip(&layer.biases) {
+            let rows = after[0].iter_mut().zip(&mut self.rates[number]);
+            for (((row, rates), weights), bias) in rows.zip(weights).zip(&layer.biases) {
                 weighted(row, *bias, &weights.iter().copied(), &before[number]);
                 if number < last {
-                    for value in row {
-                        *value = libm::tanhf(*value);
+                    for (value, rate) in row.iter_mut().zip(rates) {
+                        let share = logistic(*value);
+                        *rate = share * (1.0 + *value * (1.0 - share));
+                        *value *= share;
                     }
                 }
             }
@@ -181,17 +187,13 @@ impl Workspace {
                 for (input, row) in before[number - 1].iter_mut().enumerate() {
                     let column = layer.weights[input..].iter().step_by(layer.inputs);
                     weighted(row, 0.0, &column.copied(), &after[0]);
-                    for (slope, value) in row.iter_mut().zip(&self.values[number][input]) {
-                        *slope *= 1.0 - value * value;
+                    for (slope, rate) in row.iter_mut().zip(&self.rates[number - 1][input]) {
+                        *slope *= rate;
                     }
                 }
             }
         }
     }
-}
-
-fn logistic(x: f32) -> f32 {
-    1.0 / (1.0 + libm::expf(-x))
 }
 
 /// bias + Σ weight · row.

@@ -1,12 +1,11 @@
-//! The atlas: networks fitted to the results of a design, and how wrong they are at points that were not fitted.
+//! The atlas: networks fitted to the tosses of a design, and how wrong they are at points that were not fitted.
 
 mod points;
 
 use anyhow::Context;
 use clap::Args;
-use coinmc::results::Results;
 use coinmc::run::stored_report;
-use coinmc_atlas::{Atlas as Part, Place, Training, fit};
+use coinmc_atlas::{Atlas as Part, Design, Training, fit};
 use coinmc_bench::{Report, Table, number};
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -18,8 +17,8 @@ const Z95: f64 = 1.96;
 /// The study's arguments.
 #[derive(Debug, Args)]
 pub(crate) struct Atlas {
-    /// Run directories of a design of `crates/coinmc-atlas/designs`, with a seed each
-    #[arg(required = true, value_name = "DIR")]
+    /// Run directories of a design of `crates/coinmc-atlas/designs`, with a seed each, or tables of points
+    #[arg(required = true, value_name = "PATH")]
     designs: Vec<PathBuf>,
 
     /// Its launch
@@ -34,8 +33,8 @@ pub(crate) struct Atlas {
     #[arg(long, value_name = "FILE")]
     points: Option<PathBuf>,
 
-    /// Run directory of the same design with a seed of which nothing was fitted
-    #[arg(long, value_name = "DIR")]
+    /// The same of a seed of which nothing was fitted
+    #[arg(long, value_name = "PATH")]
     fresh: Option<PathBuf>,
 
     /// Times that every point is looked at
@@ -53,13 +52,12 @@ pub(crate) struct Atlas {
 
 impl Atlas {
     pub(crate) fn execute(&self) -> anyhow::Result<Report> {
-        let results: Vec<Results> = self
-            .designs
-            .iter()
-            .map(|dir| results_of(dir))
-            .collect::<Result<_, _>>()?;
+        let mut designs = Vec::new();
+        for path in &self.designs {
+            designs.extend(tossed(path)?);
+        }
         if let Some(path) = &self.points {
-            points::write_points(&results, &mut File::create_new(path)?)?;
+            points::write_points(&designs, &mut File::create_new(path)?)?;
         }
         let title = format!("The atlas for the launch `{}`", self.launch);
         let mut table = Table::new(title, &["what", "value"]);
@@ -73,7 +71,7 @@ impl Atlas {
                 epochs: self.epochs,
                 rate: self.rate,
             };
-            let part = fit(&self.launch, &results, &training, 2, &|| true)?;
+            let part = fit(&self.launch, &designs, &training, 2, &|| true)?;
             let part = part.context("the fit was stopped")?;
             std::fs::write(&self.networks, part.bytes())?;
             row(
@@ -84,8 +82,8 @@ impl Atlas {
         };
         row("points", part.points().to_string());
         row("tosses", part.tosses().to_string());
-        if let Some(dir) = &self.fresh {
-            for (what, value) in checked(&part, &results_of(dir)?)? {
+        if let Some(path) = &self.fresh {
+            for (what, value) in checked(&part, &tossed(path)?)? {
                 row(what, value);
             }
         }
@@ -93,26 +91,25 @@ impl Atlas {
     }
 }
 
-fn results_of(dir: &Path) -> anyhow::Result<Results> {
-    Ok(stored_report(dir, &())?.1.results)
+/// The designs of a run directory or of a table of points.
+fn tossed(path: &Path) -> anyhow::Result<Vec<Design>> {
+    if path.is_dir() {
+        let (_, report) = stored_report(path, &())?;
+        return Ok(vec![Design::of(&report.results)?]);
+    }
+    points::read_points(path).with_context(|| path.display().to_string())
 }
 
 /// P(side) of a part against the counts at fresh points.
-fn checked(part: &Part, fresh: &Results) -> anyhow::Result<Vec<(&'static str, String)>> {
+fn checked(part: &Part, fresh: &[Design]) -> anyhow::Result<Vec<(&'static str, String)>> {
     let (mut squares, mut claimed, mut covered, mut points, mut worst) =
         (0.0, 0.0, 0_u64, 0.0, 0.0_f64);
     let begun = Instant::now();
-    for row in fresh.rows.each() {
-        let numbers = Place::NAMES.map(|name| row.parameter(name));
-        let numbers = numbers.map(|number| number.context("a column of the design is missing"));
-        let mut place = [0.0; Place::NAMES.len()];
-        for (number, value) in place.iter_mut().zip(numbers) {
-            *number = value?;
-        }
-        let faces = part.faces(&Place::of(place))?;
+    for (place, counts) in fresh.iter().flat_map(Design::points) {
+        let faces = part.faces(place)?;
         let (p, error) = (faces.p[2], faces.error[2]);
-        let n = (row.tally.heads + row.tally.tails + row.tally.side) as f64;
-        let share = row.tally.side as f64 / n;
+        let n = counts.faces.iter().sum::<u64>() as f64;
+        let share = counts.faces[2] as f64 / n;
         // the binomial variance of the share at the fitted p; unbiased at the share itself for the squares
         let noise = p * (1.0 - p) / n;
         let off = share - p;
