@@ -57,6 +57,9 @@ pub enum FileError {
     /// Sizes that no network has.
     #[error("networks of these sizes cannot be")]
     Sizes,
+    /// Axes that are not the numbers of a place, in their order.
+    #[error("its axes are not ratio, restitution and so on, as the atlas has them")]
+    Axes,
     /// The file ends too early.
     #[error("the file ends too early")]
     Short,

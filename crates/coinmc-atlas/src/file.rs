@@ -2,7 +2,7 @@
 //! little-endian, network by network and layer by layer (weights row by row, then biases).
 
 use crate::network::Network;
-use crate::{Axis, FileError};
+use crate::{Axis, FileError, Place};
 use serde::{Deserialize, Serialize};
 
 /// Version of the format.
@@ -86,10 +86,13 @@ pub(crate) fn read(bytes: &[u8]) -> Result<(Header, Vec<Network>), FileError> {
     let possible = |units: &usize| (1..=MOST_UNITS).contains(units);
     let sound = header.hidden.len() <= MOST_LAYERS
         && (1..=MOST_NETWORKS).contains(&header.networks)
-        && header.hidden.iter().all(possible)
-        && possible(&header.axes.len());
+        && header.hidden.iter().all(possible);
     if !sound {
         return Err(FileError::Sizes);
+    }
+    let axes = header.axes.iter().map(|axis| axis.name.as_str());
+    if !axes.eq(Place::NAMES) {
+        return Err(FileError::Axes);
     }
     let (words, odd) = rest[1..].as_chunks::<4>();
     let mut numbers = words.iter().map(|word| f32::from_le_bytes(*word));
@@ -110,16 +113,16 @@ mod tests {
     use super::*;
 
     fn file() -> (Header, Vec<Network>) {
-        let axis = Axis {
-            name: "ratio".to_owned(),
+        let axes = Place::NAMES.map(|name| Axis {
+            name: name.to_owned(),
             from: 0.1,
             to: 2.0,
             log: false,
-        };
-        let mut header = Header::new("hand", vec!["abc".to_owned()], 0.01, vec![axis]);
+        });
+        let mut header = Header::new("hand", vec!["abc".to_owned()], 0.01, axes.into());
         (header.hidden, header.networks) = (vec![3], 2);
-        let mut networks = vec![Network::zero(2, &[3]); 2];
-        let mut numbers = (0..34_u8).map(f32::from);
+        let mut networks = vec![Network::zero(8, &[3]); 2];
+        let mut numbers = (0..70_u8).map(f32::from);
         for network in &mut networks {
             network.set(&mut numbers).unwrap();
         }
@@ -160,9 +163,15 @@ mod tests {
             &|h| h.networks = 0,
             &|h| h.hidden = vec![usize::MAX],
             &|h| h.hidden = vec![1; 9],
-            &|h| h.axes.clear(),
         ] {
             assert!(matches!(of(change), Err(FileError::Sizes)));
+        }
+        for change in [
+            &(|h: &mut Header| h.axes.clear()) as &dyn Fn(&mut Header),
+            &|h| h.axes.truncate(5),
+            &|h| h.axes.swap(0, 1),
+        ] {
+            assert!(matches!(of(change), Err(FileError::Axes)));
         }
     }
 }

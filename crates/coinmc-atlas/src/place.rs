@@ -233,6 +233,7 @@ mod tests {
         assert_eq!(message.lines().count(), 2, "{message}");
         assert!(message.starts_with("the atlas holds friction from 0.1 to 0.2, not 0.3"));
     }
+
     /// On waves much longer than the coin is thick it leans by the slope; on much shorter ones by √2 σ/H.
     #[test]
     fn the_lean_is_that_of_the_ground_under_both_rims() {
