@@ -158,21 +158,26 @@ impl Place {
 
     /// Coordinates from -1 to 1 along these axes, and then that of the lean.
     pub(crate) fn coordinates(&self, axes: &[Axis], radius_m: f64) -> Vec<f64> {
+        let [thinnest, thickest] = Self::ends(axes);
+        let lean = Axis {
+            name: "lean".to_owned(),
+            from: thickest.lean(radius_m),
+            to: thinnest.lean(radius_m),
+            log: true,
+        };
         let along = axes.iter().zip(self.numbers());
         let along = along.map(|(axis, number)| axis.coordinate(number));
-        let lean = |place: &Self| libm::log(place.lean(radius_m));
-        // the lean grows with slope and wavelength, and is less for a thicker coin
-        let [least, most] = [false, true].map(|most| {
-            let end = |i: usize, to: bool| if to { axes[i].to } else { axes[i].from };
-            lean(&Self {
-                ratio: end(0, !most),
-                roughness_slope: end(5, most),
-                roughness_wavelength_m: end(6, most),
-                ..*self
-            })
-        });
-        let lean = 2.0 * (lean(self) - least) / (most - least) - 1.0;
-        along.chain([lean]).collect()
+        along
+            .chain([lean.coordinate(self.lean(radius_m))])
+            .collect()
+    }
+
+    /// Where a coin leans most, the thinnest one on the steepest and longest waves, and where it leans least.
+    fn ends(axes: &[Axis]) -> [Self; 2] {
+        let [from, to] = [|axis: &Axis| axis.from, |axis: &Axis| axis.to]
+            .map(|end| Self::of(std::array::from_fn(|i| end(&axes[i]))));
+        let with = |ratio, place| Self { ratio, ..place };
+        [with(from.ratio, to), with(to.ratio, from)]
     }
 
     /// How far a coin on its side leans on the ground, one standard deviation, over the lean at which it topples,
@@ -256,16 +261,9 @@ mod tests {
     #[test]
     fn coordinates_reach_from_end_to_end() {
         let axes = crate::Atlas::of(crate::Launch::Hand).axes().to_vec();
-        let at = |most: bool| {
-            let mut numbers = axes
-                .iter()
-                .map(|axis| if most { axis.to } else { axis.from });
-            let mut place = Place::of(std::array::from_fn(|_| numbers.next().unwrap()));
-            place.ratio = if most { axes[0].from } else { axes[0].to };
-            place.coordinates(&axes, 0.011_625)
-        };
+        let [thinnest, thickest] = Place::ends(&axes).map(|end| end.coordinates(&axes, 0.011_625));
         let most = [-1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0];
-        assert_eq!(at(true), most);
-        assert_eq!(at(false), most.map(|end| -end));
+        assert_eq!(thinnest, most);
+        assert_eq!(thickest, most.map(|end| -end));
     }
 }
