@@ -35,8 +35,8 @@ pub(crate) struct Chances {
     partial: Vec<Coefficients>,
     /// Root mean square error of a probability in the design: of the fit's shape, and of its tosses.
     error: f64,
-    /// That of the shape alone.
-    lack: f64,
+    /// That of the shape alone, in the logit of each face.
+    lack: [f64; 3],
     concentration: f64,
     tosses: u64,
 }
@@ -55,21 +55,29 @@ impl Chances {
             coefficients,
             partial,
             error: 0.0,
-            lack: (lack / 3.0).sqrt(),
+            lack: [0.0; 3],
             concentration: MOST_CONCENTRATED,
             tosses: tossed.faces.iter().flatten().sum(),
         };
         let n = tossed.points.len() as f64;
-        let (mut variance, mut spread) = (0.0, 0.0);
+        let (mut variance, mut spreads, mut slopes) = (0.0, [0.0; 3], [0.0; 3]);
         for point in &tossed.points {
             variance += chances
                 .error_at(point)
                 .map(|error| error * error)
                 .iter()
                 .sum::<f64>();
-            spread += chances.at(point).map(|p| p * (1.0 - p)).iter().sum::<f64>();
+            for (face, p) in chances.at(point).into_iter().enumerate() {
+                let slope = p * (1.0 - p);
+                spreads[face] += slope;
+                slopes[face] += slope * slope;
+            }
         }
-        let variance = (variance / n + lack).max(f64::MIN_POSITIVE);
+        let variance = (variance / n + lack.iter().sum::<f64>()).max(f64::MIN_POSITIVE);
+        let spread: f64 = spreads.iter().sum();
+        for (face, squares) in slopes.into_iter().enumerate() {
+            chances.lack[face] = (lack[face] * n / squares.max(f64::MIN_POSITIVE)).sqrt();
+        }
         chances.error = (variance / 3.0).sqrt();
         chances.concentration = (spread / n / variance - 1.0).clamp(10.0, MOST_CONCENTRATED);
         Some(chances)
@@ -94,10 +102,15 @@ impl Chances {
         [0, 1, 2].map(|face| jackknife(partial.iter().map(|faces| faces[face])))
     }
 
-    /// Standard errors of the probabilities by the tosses and by the fit's shape.
+    /// Standard errors of the probabilities by the tosses and by the fit's shape. The terms that the shape
+    /// lacks are terms of the logits, so it errs by dp = p(1 − p) dlogit; and heads and tails err alike, the
+    /// side by both.
     pub(crate) fn whole_error_at(&self, point: &[f64]) -> [f64; 3] {
-        let error = self.error_at(point);
-        error.map(|error| (error * error + self.lack * self.lack).sqrt())
+        let (error, p) = (self.error_at(point), self.at(point));
+        [0, 1, 2].map(|face| {
+            let lack = self.lack[face] * p[face] * (1.0 - p[face]);
+            (error[face] * error[face] + lack * lack).sqrt()
+        })
     }
 
     /// Root mean square error of a probability over the design.

@@ -19,8 +19,8 @@ pub(super) struct Validated {
     pub(super) coefficients: Coefficients,
     /// Fits without a part each.
     pub(super) partial: Vec<Coefficients>,
-    /// Mean square error of the shape, summed over the faces: what a polynomial of this degree lacks.
-    pub(super) lack: f64,
+    /// Mean square error of the shape, by face: what a polynomial of this degree lacks.
+    pub(super) lack: [f64; 3],
 }
 
 /// Fits every degree, and takes the one that predicts best what was left out.
@@ -39,7 +39,7 @@ pub(super) fn best(tossed: &Tossed) -> Option<Validated> {
     let other = tried
         .get(best + 1)
         .or_else(|| tried.get(best.checked_sub(1)?));
-    let lack = other.map_or(0.0, |other| tried[best].lack(other, tossed));
+    let lack = other.map_or([0.0; 3], |other| tried[best].lack(other, tossed));
     let Fitted {
         basis,
         coefficients,
@@ -64,17 +64,18 @@ struct Fitted {
 }
 
 impl Fitted {
-    /// Mean square difference to a fit of another degree over the design, less what tosses explain of it.
-    fn lack(&self, other: &Self, tossed: &Tossed) -> f64 {
-        let mut sum = 0.0;
+    /// Mean square difference of each face to a fit of another degree over the design, less what tosses explain
+    /// of it.
+    fn lack(&self, other: &Self, tossed: &Tossed) -> [f64; 3] {
+        let mut sums = [0.0; 3];
         for point in &tossed.points {
             let [whole, parts] = self.differences(other, point);
-            for face in 0..3 {
+            for (face, sum) in sums.iter_mut().enumerate() {
                 let noise = jackknife(parts.iter().map(|part| part[face]));
-                sum += whole[0][face] * whole[0][face] - noise * noise;
+                *sum += whole[0][face] * whole[0][face] - noise * noise;
             }
         }
-        (sum / tossed.points.len() as f64).max(0.0)
+        sums.map(|sum| (sum / tossed.points.len() as f64).max(0.0))
     }
 
     /// The difference of the probabilities of the whole fits, and of each pair of partial ones.
