@@ -4,6 +4,7 @@
 //! Each coin has parameters drawn from the prior. What is measured on it is simulated with the errors that
 //! the tables of the config state, counts by real tosses, and its true P(side) is found by many more tosses.
 
+use crate::survey::survey;
 use anyhow::Context;
 use clap::Args;
 use coinmc::config::Override;
@@ -11,7 +12,6 @@ use coinmc_bench::{Report, Table, number};
 use coinmc_calibrate::{Kind, Model, Observations, Posterior, Prediction, Settings};
 use coinmc_core::{Domain, Estimate, Face, IntervalMethod, Stream, UniformSource};
 use coinmc_questions::Workers;
-use rayon::prelude::*;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
@@ -110,10 +110,9 @@ impl Calibrate {
         let design_s = begun.elapsed().as_secs_f64();
         let coins = self.coins(&model, seed)?;
         let begun = Instant::now();
-        let covered: Vec<Vec<bool>> = coins
-            .par_iter()
-            .map(|coin| coin.covered(&model, self.truth))
-            .collect::<anyhow::Result<_>>()?;
+        let covered = survey(&coins, |coin| coin.covered(&model, self.truth))
+            .into_iter()
+            .collect::<anyhow::Result<Vec<Vec<bool>>>>()?;
         let posterior_s = begun.elapsed().as_secs_f64();
         let names = names(&model);
         for (place, name) in names.iter().enumerate() {
@@ -301,17 +300,16 @@ fn contraction(table: &mut Table, model: &Model, kind: Kind, coins: &[Coin]) -> 
         hi - lo
     };
     let before = width(&prior, model);
-    let left: Vec<Vec<f64>> = few
-        .par_iter()
-        .map(|coin| {
-            let model = coin.measured(model).with_kinds(&[kind]);
-            let posterior = Posterior::of(&model)?;
-            let summaries = posterior.summaries.iter();
-            let mut left: Vec<f64> = summaries.map(|summary| summary.contraction).collect();
-            left.push(width(&posterior, &model) / before);
-            Ok(left)
-        })
-        .collect::<anyhow::Result<_>>()?;
+    let left = survey(few, |coin| {
+        let model = coin.measured(model).with_kinds(&[kind]);
+        let posterior = Posterior::of(&model)?;
+        let summaries = posterior.summaries.iter();
+        let mut left: Vec<f64> = summaries.map(|summary| summary.contraction).collect();
+        left.push(width(&posterior, &model) / before);
+        Ok(left)
+    })
+    .into_iter()
+    .collect::<anyhow::Result<Vec<Vec<f64>>>>()?;
     for (place, name) in names(model).iter().enumerate() {
         let column: Vec<f64> = left.iter().map(|left| left[place]).collect();
         let mean = column.iter().sum::<f64>() / column.len() as f64;

@@ -4,11 +4,11 @@
 //! so a finding can be made again. It is blind where the fuzz targets steer by coverage, and makes
 //! up for it by number.
 
+use crate::survey::survey;
 use anyhow::Context;
 use clap::Args;
 use coinmc_bench::{Report, Table, number};
 use coinmc_core::Philox4x64;
-use rayon::prelude::*;
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
@@ -124,13 +124,11 @@ impl LinkFuzz {
 impl Target {
     /// Bytes put in, and what was found.
     fn execute(&self, key: [u64; 2], executions: u64) -> (u64, Vec<Finding>) {
-        let batches: Vec<(u64, Vec<Finding>)> = (0..executions.div_ceil(BATCH))
-            .into_par_iter()
-            .map(|batch| {
-                let numbers = batch * BATCH..((batch + 1) * BATCH).min(executions);
-                self.batch(key, numbers)
-            })
-            .collect();
+        let batches: Vec<u64> = (0..executions.div_ceil(BATCH)).collect();
+        let batches = survey(&batches, |batch| {
+            let numbers = batch * BATCH..((batch + 1) * BATCH).min(executions);
+            self.batch(key, numbers)
+        });
         let bytes = batches.iter().map(|(bytes, _)| bytes).sum();
         let findings = batches.into_iter().flat_map(|(_, found)| found).collect();
         (bytes, findings)

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use std::fmt;
 use std::io::{IsTerminal, stderr};
 use std::ops::Range;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Coulomb friction of the scenes that vary everything else.
@@ -47,24 +48,33 @@ pub(crate) fn survey<'a, T: Sync, R: Send>(
     items: &'a [T],
     each: impl Fn(&'a T) -> R + Sync,
 ) -> Vec<R> {
-    let (done, of) = (AtomicUsize::new(0), items.len());
+    let results: Vec<_> = items.iter().map(|_| Mutex::new(None)).collect();
+    spread(items.len(), &|index| {
+        let result = each(&items[index]);
+        *results[index].lock().expect("no item panicked") = Some(result);
+    });
+    let result = |one: Mutex<Option<R>>| one.into_inner().expect("no item panicked");
+    results
+        .into_iter()
+        .map(|one| result(one).expect("every item has its result"))
+        .collect()
+}
+
+/// Does something for every number below `of`, on all cores, and shows progress on a terminal. One
+/// function for whatever is done: rayon's code, which is large, is compiled once.
+fn spread(of: usize, each: &(dyn Fn(usize) + Sync)) {
+    let done = AtomicUsize::new(0);
     let terminal = stderr().is_terminal();
-    let results = items
-        .par_iter()
-        .with_max_len(1)
-        .map(|item| {
-            let result = each(item);
-            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-            if terminal {
-                eprint!("\r{done} of {of} scenes");
-            }
-            result
-        })
-        .collect();
+    (0..of).into_par_iter().with_max_len(1).for_each(|index| {
+        each(index);
+        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+        if terminal {
+            eprint!("\r{done} of {of} done");
+        }
+    });
     if terminal {
         eprintln!();
     }
-    results
 }
 
 /// Makes the first tosses of every item in parts, on all cores, and merges the findings of the
