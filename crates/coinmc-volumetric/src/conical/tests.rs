@@ -10,16 +10,13 @@ use nalgebra::{Matrix3, Vector3};
 
 const RATIOS_AND_DRAFTS: [(f64, f64); 4] = [(0.2, 3.0), (0.85, 12.0), (0.85, -12.0), (2.0, 15.0)];
 
-fn dynamics(body: Body, mu: f64, rho: f64) -> Dynamics {
+fn dynamics(body: Body, mu: f64, rho: f64, [linear, angular]: [f64; 2]) -> Dynamics {
     let friction = Friction {
         mu,
         contour: rho,
         pivoting: 0.3 * rho,
     };
-    let drag = Drag {
-        linear: 0.0,
-        angular: 0.0,
-    };
+    let drag = Drag { linear, angular };
     Dynamics::new(body, friction, drag, body.ka / body.kt, 1e-3)
 }
 
@@ -69,7 +66,8 @@ fn rates_are_those_of_newton_and_euler() {
     for (trial, rim) in rims().cycle().take(400).enumerate() {
         let mut dice = Dice::new(71, trial as u64);
         let (edge, body) = (Edge::new(&rim), rim.body);
-        let dynamics = dynamics(body, mu, rho);
+        let drag = [0.0; 2].map(|_| dice.between(0.0, 1.0));
+        let dynamics = dynamics(body, mu, rho, drag);
         let state = [0.0; 4].map(|_| dice.between(-0.5, 0.5));
         let now = edge.rates(&dynamics, &state, creep);
         if !(0.0..=1.0).contains(&now.share) {
@@ -90,6 +88,8 @@ fn rates_are_those_of_newton_and_euler() {
         let (torque_a, torque_t) =
             dynamics.friction_torques(edge.sin, edge.cos, state[2], state[3]);
         torque -= u * torque_a + across * torque_t;
+        force -= velocity * drag[0];
+        torque -= inertia * spin * drag[1];
         let expected = force - turning.cross(&velocity);
         let momentum = torque - turning.cross(&(inertia * spin));
         let found = [
@@ -113,7 +113,7 @@ fn a_coin_on_its_edge_rolls_about_the_apex() {
     let (mu, creep) = (0.5, 1e-9);
     for rim in rims() {
         let edge = Edge::new(&rim);
-        let dynamics = dynamics(rim.body, mu, 0.0);
+        let dynamics = dynamics(rim.body, mu, 0.0, [0.0; 2]);
         let omega = 0.2;
         let (s, c) = (edge.sin, edge.cos);
         let speed = -edge.height * omega;
@@ -145,7 +145,7 @@ fn a_coin_on_its_edge_rolls_about_the_apex() {
 fn rolling_about_the_apex_ends_when_its_energy_is_used_up() {
     for rim in rims() {
         let (edge, body) = (Edge::new(&rim), rim.body);
-        let dynamics = dynamics(body, 0.5, 0.01);
+        let dynamics = dynamics(body, 0.5, 0.01, [0.0; 2]);
         let omega = 0.3;
         let (s, c, height) = (edge.sin, edge.cos, edge.height);
         let (motion, spin) = edge.motion(&dynamics, &[0.0, -height * omega, s * omega, c * omega]);
@@ -154,4 +154,31 @@ fn rolling_about_the_apex_ends_when_its_energy_is_used_up() {
         let way = edge.rolling_stop(&dynamics, height * omega).distance();
         assert!((way / (angle * height) - 1.0).abs() < 1e-12);
     }
+}
+
+/// A coin that friction and its spin cannot tip has both rims down, whatever the directions of its motion. The
+/// bound of what they can do is no more than some eight times what a coin does that rolls about the apex.
+#[test]
+fn what_cannot_overturn_a_coin_leaves_both_rims_down() {
+    let mut held = 0;
+    for (trial, rim) in rims().cycle().take(4000).enumerate() {
+        let mut dice = Dice::new(72, trial as u64);
+        let edge = Edge::new(&rim);
+        let dynamics = dynamics(rim.body, dice.between(0.0, 0.3), 0.0, [0.0; 2]);
+        let size = dice.between(0.0, 1.0);
+        let state = [0.0; 4].map(|_| size * dice.between(-1.0, 1.0));
+        if edge.overturning(&dynamics, &state) < 2.0 * edge.shorter_reach() {
+            held += 1;
+            let share = edge.rates(&dynamics, &state, 1e-3).share;
+            assert!(share > 0.0 && share < 1.0, "{share} {state:?}");
+        }
+        let (s, c, omega) = (edge.sin, edge.cos, dice.between(-1.0, 1.0));
+        let rolls = [0.0, -edge.height * omega, s * omega, c * omega];
+        let friction = 2.0 * dynamics.friction.mu * edge.height;
+        let most = edge.overturning(&dynamics, &rolls) - friction;
+        let factor = dynamics.axial_factor;
+        let turns = rim.body.kt * c.abs() * (factor * s + c * c / s) * omega * omega;
+        assert!((2.0 * turns..8.0 * turns).contains(&most), "{most} {turns}");
+    }
+    assert!(held > 500, "{held}");
 }

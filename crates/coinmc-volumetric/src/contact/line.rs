@@ -132,3 +132,122 @@ pub(super) fn place_on_side(
     (motion.vx, motion.vy, motion.vz, motion.z) = (vx, vy, 0.0, dynamics.body.radius);
     motion.set_spin(spin, dynamics.axial_factor);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::Friction;
+    use crate::contact::tests::dynamics;
+    use crate::drag::Drag;
+    use coinmc_testkit::Dice;
+    use nalgebra::Vector3;
+
+    /// Momentum and angular momentum change as the forces at both rims, friction lengths, drag and a tilted table
+    /// ask, in the frame that turns with the coin; and no torque is left that would tilt it. Where the ground slopes,
+    /// friction acts ahead of the lowest points.
+    #[test]
+    fn rates_are_those_of_newton_and_euler() {
+        let mut compared = 0;
+        for trial in 0..2000 {
+            let mut dice = Dice::new(321, trial);
+            let mut up_to = |most: f64| dice.between(0.0, most);
+            let friction = Friction {
+                mu: up_to(0.5),
+                contour: up_to(0.02),
+                pivoting: up_to(0.02),
+            };
+            let drag = Drag {
+                linear: up_to(1.0),
+                angular: up_to(1.0),
+            };
+            let mut dynamics = dynamics(up_to(2.0).max(0.2), friction, drag, true);
+            let mut part = |size: f64| dice.between(-size, size);
+            dynamics.pull = Some([part(0.1), part(0.1)]);
+            let (state, ahead) = ([0.0; 4].map(|_| part(0.5)), [part(0.1), part(0.1)]);
+            let creep = 1e-3;
+            for (ahead, now) in [
+                ([0.0; 2], line_rates(&dynamics, &state, creep)),
+                (
+                    ahead,
+                    line_rates_on::<true>(&dynamics, &state, creep, ahead),
+                ),
+            ] {
+                if !(0.0..=1.0).contains(&now.share) {
+                    continue;
+                }
+                compared += 1;
+                let off = unexplained(&dynamics, &state, creep, ahead, &now);
+                assert!(off.iter().all(|off| off.abs() < 1e-13), "{off:?}");
+            }
+        }
+        assert!(compared > 1000, "{compared}");
+    }
+
+    /// Changes of momentum and angular momentum less the forces and torques.
+    fn unexplained(
+        dynamics: &Dynamics,
+        state: &LineState,
+        creep: f64,
+        ahead: [f64; 2],
+        now: &LineRates,
+    ) -> [f64; 5] {
+        let [vx, vy, wa, wz] = *state;
+        let (body, drag) = (&dynamics.body, &dynamics.drag);
+        let (velocity, spin) = (Vector3::new(vx, vy, 0.0), Vector3::new(wa, 0.0, wz));
+        let momentum = Vector3::new(body.ka * wa, 0.0, body.kt * wz);
+        let [pull_x, pull_y] = dynamics.pull.unwrap_or_default();
+        let mut force = Vector3::new(pull_x, pull_y, 0.0) - velocity * drag.linear;
+        let mut torque = -momentum * drag.angular;
+        for (i, normal) in [now.share, 1.0 - now.share].into_iter().enumerate() {
+            let side = if i == 0 { -body.half } else { body.half };
+            let lowest = Vector3::new(side, 0.0, -body.radius);
+            let touches = lowest + Vector3::y() * ahead[i];
+            let slip = velocity + spin.cross(&touches);
+            let slip = Vector3::new(slip.x, slip.y, 0.0);
+            let size = (slip.norm_squared() + creep * creep).sqrt();
+            let friction = -slip * (dynamics.friction.mu * normal / size);
+            force += friction;
+            torque += touches.cross(&friction) + lowest.cross(&(Vector3::z() * normal));
+        }
+        // rolling and pivoting friction, whose laws are tested elsewhere
+        let (rolling, pivoting) = dynamics.friction_torques(1.0, 0.0, wa, -wz);
+        torque += Vector3::new(-rolling, 0.0, pivoting);
+        let turning = Vector3::z() * wz;
+        let (force, torque) = (
+            force - turning.cross(&velocity),
+            torque - turning.cross(&momentum),
+        );
+        [
+            now.rates[0] - force.x,
+            now.rates[1] - force.y,
+            body.ka * now.rates[2] - torque.x,
+            body.kt * now.rates[3] - torque.z,
+            torque.y,
+        ]
+    }
+
+    /// Contour and pivoting friction take energy from a coin on its side, whichever way it turns.
+    #[test]
+    fn friction_lengths_slow_the_coin_down() {
+        let friction = Friction {
+            mu: 0.3,
+            contour: 0.01,
+            pivoting: 0.01,
+        };
+        let still = Drag {
+            linear: 0.0,
+            angular: 0.0,
+        };
+        let dynamics = dynamics(0.5, friction, still, true);
+        for way in [-1.0, 1.0] {
+            // both points stick, so that friction does no work
+            let rolls = [0.0, -way * dynamics.body.radius, way, 0.0];
+            assert!(way * line_rates(&dynamics, &rolls, 1e-3).rates[2] < 0.0);
+            let spins = [0.0, 0.0, 0.0, way];
+            let [.., slows] = line_rates(&dynamics, &spins, 1e-3).rates;
+            let dry = dynamics.friction.mu * dynamics.body.half + dynamics.friction.pivoting;
+            let off = slows * dynamics.body.kt + way * dry;
+            assert!(off.abs() < 1e-5 * dry, "{off:e}");
+        }
+    }
+}

@@ -153,3 +153,49 @@ pub(super) fn after_impulse(
         after.slip_y,
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::Friction;
+    use crate::contact::tests::{STILL, dynamics};
+    use coinmc_testkit::Dice;
+    use nalgebra::Vector3;
+
+    /// The centre's velocity, the angular momentum about it and the arm of the contact point, in the triad's frame.
+    fn vectors(dynamics: &Dynamics, state: &RimState<f64>) -> [Vector3<f64>; 3] {
+        let [tilt, wy, wa, wt, gx, gy] = *state;
+        let (s, c) = libm::sincos(tilt);
+        let (u, across) = (Vector3::new(s, 0.0, c), Vector3::new(c, 0.0, -s));
+        let body = &dynamics.body;
+        let arm = across * body.radius - u * body.half;
+        let spin = u * wa + across * wt + Vector3::y() * wy;
+        let turning = u * body.ka * wa + (across * wt + Vector3::y() * wy) * body.kt;
+        [Vector3::new(gx, gy, 0.0) - spin.cross(&arm), turning, arm]
+    }
+
+    /// One impulse at the contact point explains the changes of velocity and of angular momentum; the point has
+    /// the slip that was asked for, and stays on the surface.
+    #[test]
+    fn another_slip_comes_from_one_impulse_at_the_contact_point() {
+        let friction = Friction {
+            mu: 0.3,
+            contour: 0.0,
+            pivoting: 0.0,
+        };
+        for trial in 0..500 {
+            let mut dice = Dice::new(320, trial);
+            let dynamics = dynamics(libm::exp(dice.between(-3.0, 1.0)), friction, STILL, true);
+            let mut part = || dice.between(-1.0, 1.0);
+            let state = [1.0 + 0.5 * part(), part(), part(), part(), part(), part()];
+            let asked = [part(), part()];
+            let after = change_slip(&dynamics, &state, asked[0], asked[1]);
+            assert_eq!([after[SLIP_X], after[SLIP_Y]], asked);
+            let [before, turned, arm] = vectors(&dynamics, &state);
+            let [velocity, turning, _] = vectors(&dynamics, &after);
+            let impulse = velocity - before;
+            let off = turning - turned - arm.cross(&impulse);
+            assert!(off.norm() < 1e-13, "{off}");
+        }
+    }
+}

@@ -252,3 +252,69 @@ impl<L: Lane> FrictionMoments<L> {
         )
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_core::Coin;
+    use coinmc_testkit::Dice;
+
+    /// The derivative with respect to σ, with which Newton's method goes, is that of the solution itself,
+    /// by differences over so little that no limit is reached between.
+    #[test]
+    fn the_slope_is_that_of_the_solution() {
+        let mut kinds = [0; 4];
+        for trial in 0..4000 {
+            let mut dice = Dice::new(322, trial);
+            let coin = Coin::cylinder(libm::exp(dice.between(-2.0, 1.0)), 0.01);
+            let body = Body::new(&coin.expect("a valid coin"));
+            let friction = Friction {
+                mu: 0.3,
+                contour: dice.between(0.0, 0.2),
+                pivoting: dice.between(0.0, 0.2),
+            };
+            let (s, c) = libm::sincos(dice.between(0.2, 1.5));
+            let point = ContactPoint {
+                sin: s,
+                cos: c,
+                rx: body.radius * c - body.half * s,
+                rz: -body.half * c - body.radius * s,
+                slip_x: dice.between(-1.0, 1.0),
+                slip_y: dice.between(-1.0, 1.0),
+                approach: -1.0,
+                spin: dice.between(-1.0, 1.0),
+                turn: dice.between(-1.0, 1.0),
+            };
+            let yy = point.matrix(&body).yy;
+            let moments = FrictionMoments::new(&body, &friction, &point, yy);
+            let (at, z, dz) = (
+                dice.between(0.0, 3.0),
+                dice.between(0.1, 2.0),
+                dice.between(-1.0, 1.0),
+            );
+            let solution = |sigma: f64| {
+                let (inverse, rigid) = (1.0 / (sigma + yy), 1.0 / (1.0 + sigma));
+                moments.joint(sigma, inverse, rigid, z + dz * (sigma - at), dz)
+            };
+            let limits = |one: &JointSolution<f64>, z: f64| {
+                [
+                    (one.contour, friction.contour / s),
+                    (one.pivoting, friction.pivoting),
+                ]
+                .map(|(value, limit)| value.abs() >= limit * z * (1.0 - 1e-12))
+            };
+            let small = 1e-5;
+            let [before, now, after] = [-small, 0.0, small].map(|by| solution(at + by));
+            let at_limits = limits(&now, z);
+            if limits(&before, z - small * dz) != at_limits
+                || limits(&after, z + small * dz) != at_limits
+            {
+                continue;
+            }
+            kinds[usize::from(at_limits[0]) + 2 * usize::from(at_limits[1])] += 1;
+            let slope = (after.slip_y - before.slip_y) / (2.0 * small);
+            assert!((now.slope - slope).abs() < 1e-8, "{} {slope}", now.slope);
+        }
+        assert!(kinds.iter().all(|kind| *kind > 50), "{kinds:?}");
+    }
+}

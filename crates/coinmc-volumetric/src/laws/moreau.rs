@@ -286,3 +286,60 @@ impl<L: Lane> Problem<L> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_core::Coin;
+    use coinmc_testkit::Dice;
+
+    /// Newton's step is φ/φ' of φ = μ p_z/|p_t| − 1, by differences: with and without friction lengths.
+    #[test]
+    fn newtons_step_divides_by_the_derivative() {
+        let mut compared = 0;
+        for trial in 0..2000 {
+            let mut dice = Dice::new(323, trial);
+            let coin = Coin::cylinder(libm::exp(dice.between(-2.0, 1.0)), 0.01);
+            let body = Body::new(&coin.expect("a valid coin"));
+            let lengths = if dice.chance() { 0.05 } else { 0.0 };
+            let friction = Friction {
+                mu: dice.between(0.1, 0.5),
+                contour: lengths * dice.between(0.0, 1.0),
+                pivoting: lengths * dice.between(0.0, 1.0),
+            };
+            let (s, c) = libm::sincos(dice.between(0.2, 1.5));
+            let point = ContactPoint {
+                sin: s,
+                cos: c,
+                rx: body.radius * c - body.half * s,
+                rz: -body.half * c - body.radius * s,
+                slip_x: dice.between(-1.0, 1.0),
+                slip_y: dice.between(-1.0, 1.0),
+                approach: -dice.between(0.5, 1.0),
+                spin: dice.between(-1.0, 1.0),
+                turn: dice.between(-1.0, 1.0),
+            };
+            let k = point.matrix(&body);
+            let moments = friction
+                .has_lengths()
+                .then(|| FrictionMoments::new(&body, &friction, &point, k.yy));
+            let problem = Problem::new(&friction, &point, &k, 0.5, moments);
+            let sigma = dice.between(0.5, 3.0);
+            let phi = |sigma: f64| {
+                let cone = problem.cone(sigma);
+                cone.limit / cone.size - 1.0
+            };
+            let slope = |small: f64| (phi(sigma + small) - phi(sigma - small)) / (2.0 * small);
+            let (found, finer) = (slope(1e-5), slope(2e-6));
+            // a limit of the friction lengths is reached between
+            if (found / finer - 1.0).abs() > 1e-6 {
+                continue;
+            }
+            compared += 1;
+            let cone = problem.cone(sigma);
+            let step = cone.step / cone.over;
+            assert!((step * finer / phi(sigma) - 1.0).abs() < 1e-6, "{step}");
+        }
+        assert!(compared > 1900, "{compared}");
+    }
+}
