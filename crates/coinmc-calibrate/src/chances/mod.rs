@@ -60,23 +60,23 @@ impl Chances {
             tosses: tossed.faces.iter().flatten().sum(),
         };
         let n = tossed.points.len() as f64;
-        let (mut variance, mut spreads, mut slopes) = (0.0, [0.0; 3], [0.0; 3]);
+        let (mut variance, mut spread, mut slopes) = (0.0, 0.0, [0.0; 3]);
         for point in &tossed.points {
             variance += chances
                 .error_at(point)
                 .map(|error| error * error)
                 .iter()
                 .sum::<f64>();
-            for (face, p) in chances.at(point).into_iter().enumerate() {
-                let slope = p * (1.0 - p);
-                spreads[face] += slope;
-                slopes[face] += slope * slope;
+            let faces = chances.at(point).map(|p| p * (1.0 - p));
+            spread += faces.iter().sum::<f64>();
+            for (slope, face) in slopes.iter_mut().zip(faces) {
+                *slope += face * face / n;
             }
         }
-        let variance = (variance / n + lack.iter().sum::<f64>()).max(f64::MIN_POSITIVE);
-        let spread: f64 = spreads.iter().sum();
-        for (face, squares) in slopes.into_iter().enumerate() {
-            chances.lack[face] = (lack[face] * n / squares.max(f64::MIN_POSITIVE)).sqrt();
+        let variance = (variance / n + lack.square).max(f64::MIN_POSITIVE);
+        for (face, slope) in slopes.into_iter().enumerate() {
+            let square = lack.square * lack.shares[face];
+            chances.lack[face] = (square / slope.max(f64::MIN_POSITIVE)).sqrt();
         }
         chances.error = (variance / 3.0).sqrt();
         chances.concentration = (spread / n / variance - 1.0).clamp(10.0, MOST_CONCENTRATED);
@@ -168,6 +168,10 @@ mod tests {
     }
 
     fn tossed(points: u64, tosses: u64, seed: u64) -> Tossed {
+        tossed_on(truth, points, tosses, seed)
+    }
+
+    fn tossed_on(truth: fn(&[f64]) -> [f64; 3], points: u64, tosses: u64, seed: u64) -> Tossed {
         let stream = Stream::new(seed, Domain::Parameters, 0);
         let design: Vec<Vec<f64>> = (0..points)
             .map(|k| {
@@ -222,6 +226,36 @@ mod tests {
             claimed.sqrt(),
             off.sqrt()
         );
+    }
+
+    /// A surface on which heads and tails are alike, which no polynomial of few terms fits.
+    fn alike(z: &[f64]) -> [f64; 3] {
+        let heads = libm::exp(libm::sin(2.0 * z[0]) + 0.2 * z[1]);
+        let sum = 2.0 * heads + 1.0;
+        [heads / sum, heads / sum, 1.0 / sum]
+    }
+
+    /// The side errs by what both other faces do, and says so: the error claimed over 20 designs is as large a part of
+    /// the true one for each face. Spread evenly over the faces, that part would be .8 of theirs for the side.
+    #[test]
+    fn each_face_knows_its_own_error() {
+        let (mut off, mut claimed) = ([0.0; 3], [0.0; 3]);
+        for seed in 0..20 {
+            let tossed = tossed_on(alike, 300, 1000, seed);
+            let chances = Chances::fit(&tossed).unwrap();
+            for z in &tossed.points {
+                let (p, q, error) = (chances.at(z), alike(z), chances.whole_error_at(z));
+                for face in 0..3 {
+                    off[face] += (p[face] - q[face]).powi(2);
+                    claimed[face] += error[face] * error[face];
+                }
+            }
+        }
+        let ratios = [0, 1, 2].map(|face: usize| (claimed[face] / off[face]).sqrt());
+        let side = ratios[2] / ratios[0].max(ratios[1]);
+        assert!((0.85..1.2).contains(&side), "{ratios:?}");
+        let fits = |ratio: &f64| (0.6..1.6).contains(ratio);
+        assert!(ratios.iter().all(fits), "{ratios:?}");
     }
 
     /// Dirichlet-multinomial probabilities of all counts of 6 tosses add up to 1.

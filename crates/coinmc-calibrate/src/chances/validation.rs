@@ -19,8 +19,17 @@ pub(super) struct Validated {
     pub(super) coefficients: Coefficients,
     /// Fits without a part each.
     pub(super) partial: Vec<Coefficients>,
-    /// Mean square error of the shape, by face: what a polynomial of this degree lacks.
-    pub(super) lack: [f64; 3],
+    /// What a polynomial of this degree lacks.
+    pub(super) lack: Lack,
+}
+
+/// The error of the shape.
+#[derive(Default)]
+pub(super) struct Lack {
+    /// Mean square, summed over the faces.
+    pub(super) square: f64,
+    /// How much of it each face has.
+    pub(super) shares: [f64; 3],
 }
 
 /// Fits every degree, and takes the one that predicts best what was left out.
@@ -39,7 +48,7 @@ pub(super) fn best(tossed: &Tossed) -> Option<Validated> {
     let other = tried
         .get(best + 1)
         .or_else(|| tried.get(best.checked_sub(1)?));
-    let lack = other.map_or([0.0; 3], |other| tried[best].lack(other, tossed));
+    let lack = other.map_or_else(Lack::default, |other| tried[best].lack(other, tossed));
     let Fitted {
         basis,
         coefficients,
@@ -64,18 +73,25 @@ struct Fitted {
 }
 
 impl Fitted {
-    /// Mean square difference of each face to a fit of another degree over the design, less what tosses explain
-    /// of it.
-    fn lack(&self, other: &Self, tossed: &Tossed) -> [f64; 3] {
-        let mut sums = [0.0; 3];
+    /// Mean square difference to a fit of another degree over the design, less what tosses explain of it.
+    fn lack(&self, other: &Self, tossed: &Tossed) -> Lack {
+        let (mut sum, mut faces) = (0.0, [0.0; 3]);
         for point in &tossed.points {
             let [whole, parts] = self.differences(other, point);
-            for (face, sum) in sums.iter_mut().enumerate() {
+            for (face, of_face) in faces.iter_mut().enumerate() {
                 let noise = jackknife(parts.iter().map(|part| part[face]));
-                *sum += whole[0][face] * whole[0][face] - noise * noise;
+                let square = whole[0][face] * whole[0][face] - noise * noise;
+                sum += square;
+                *of_face += square;
             }
         }
-        sums.map(|sum| (sum / tossed.points.len() as f64).max(0.0))
+        // where tosses explain more than all of a face's, the others share what is left
+        let faces = faces.map(|face| face.max(0.0));
+        let all = faces.iter().sum::<f64>().max(f64::MIN_POSITIVE);
+        Lack {
+            square: (sum / tossed.points.len() as f64).max(0.0),
+            shares: faces.map(|face| face / all),
+        }
     }
 
     /// The difference of the probabilities of the whole fits, and of each pair of partial ones.
