@@ -176,6 +176,60 @@ mod tests {
         }
     }
 
+    /// Far within their limits, both torques are those of the two equations of the module's text but for what two
+    /// sweeps of Gauss and Seidel leave: q and q² of the pivoting torque, q = m_xz²/(m_xx m_zz).
+    #[test]
+    fn two_sweeps_solve_for_both_torques() {
+        let dynamics = thin(0.3, friction(1e6, 1e6));
+        let (kt, ka) = (dynamics.body.kt, dynamics.body.ka);
+        for trial in 0..1000 {
+            let mut dice = Dice::new(324, trial);
+            let (s, c) = libm::sincos(dice.between(0.3, 1.5));
+            let quotients = dynamics.quotients(s, c);
+            let mut part = || dice.between(-1.0, 1.0);
+            let (wy, wa, wt, excess, fy) = (part(), part(), part(), part(), part());
+            let (normal, follows) = (
+                1.5 + part(),
+                if part() > 0.0 {
+                    dynamics.inverse_kyy
+                } else {
+                    0.0
+                },
+            );
+            let load = Load {
+                s,
+                c,
+                inverse: &quotients,
+                wy,
+                wa,
+                wt,
+                excess,
+                normal,
+                fy,
+                follows,
+            };
+            let (radius, half) = (dynamics.body.radius, dynamics.body.half);
+            let (rx, rz) = (
+                radius * s / ka + half * c / kt,
+                radius * c / ka - half * s / kt,
+            );
+            let mxx = s * s / ka + c * c / kt - rx * rx * follows;
+            let mzz = c * c / ka + s * s / kt - rz * rz * follows;
+            let mxz = c * s * (1.0 / ka - 1.0 / kt) - rx * rz * follows;
+            let (wx, wz) = (wa * s + wt * c, wa * c - wt * s);
+            let ex = rx * fy - c * wy * excess + wy * wz + wx * dynamics.holding_rate;
+            let ez = rz * fy + s * wy * excess - wy * wx + wz * dynamics.holding_rate;
+            let det = normal * (mxx * mzz - mxz * mxz);
+            let (along, about) = ((mzz * ex - mxz * ez) / det, (mxx * ez - mxz * ex) / det);
+            let (ta, tt) = dynamics.held_torques(&load);
+            let off = (ta * s + tt * c - along, ta * c - tt * s - about);
+            let q = mxz * mxz / (mxx * mzz);
+            let left = (q * mxz / mxx * about, -(q * q) * about);
+            let error = (off.0 - left.0).abs() + (off.1 - left.1).abs();
+            assert!(error < 1e-11 * (along.abs() + about.abs()), "{error:e}");
+        }
+    }
+
     /// A coin that turns upright on the spot, and rocks so little that contour friction holds,
     /// loses no energy as long as it stands on one rim. (The smoothed sign takes 3e-3 of the
     /// rocking.)

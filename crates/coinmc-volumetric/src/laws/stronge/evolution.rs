@@ -373,3 +373,69 @@ impl Evolution {
         event != Event::EndOfImpact
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_core::Coin;
+
+    /// A slip against which friction and the drive pull along one line stops: at the impulse and with the f of size
+    /// μ that take it to 0. A slip that they drive along that line keeps its direction.
+    #[test]
+    fn a_straight_slip_stops_where_its_speed_is_used_up() {
+        let body = Body::new(&Coin::cylinder(0.7, 0.01).expect("a valid coin"));
+        let friction = Friction {
+            mu: 0.4,
+            contour: 0.0,
+            pivoting: 0.0,
+        };
+        let (s, c) = libm::sincos(1.1);
+        let (speed, mu) = (0.5, friction.mu);
+        for (angle, rate) in [
+            (0.3, -0.6),
+            (2.1, -0.05),
+            (4.0, -2.0),
+            (0.3, 0.6),
+            (5.0, 0.1),
+        ] {
+            let (y, x) = libm::sincos(angle);
+            let point = ContactPoint {
+                sin: s,
+                cos: c,
+                rx: body.radius * c - body.half * s,
+                rz: -body.half * c - body.radius * s,
+                slip_x: speed * x,
+                slip_y: speed * y,
+                approach: -1.0,
+                spin: 0.0,
+                turn: 0.0,
+            };
+            let evolution = Evolution::new(&body, &friction, &point, 0.5);
+            // what drives it makes slip' = rate along the slip
+            let drive = Drive {
+                mu,
+                xx: 2.7,
+                yy: 3.6,
+                bx: (rate + mu * 2.7) * x,
+                by: (rate + mu * 3.6) * y,
+            };
+            match evolution.course(&drive, &evolution.now(), -mu * x, -mu * y) {
+                Course::Stops {
+                    x: fx,
+                    y: fy,
+                    length,
+                } => {
+                    assert!(rate < 0.0);
+                    assert!((libm::hypot(fx, fy) / mu - 1.0).abs() < 1e-12);
+                    let left = [
+                        point.slip_x + (drive.xx * fx + drive.bx) * length,
+                        point.slip_y + (drive.yy * fy + drive.by) * length,
+                    ];
+                    assert!(left.iter().all(|left| left.abs() < 1e-12), "{left:?}");
+                    assert!((length * rate + speed).abs() < 1e-12, "{length}");
+                }
+                course => assert!(rate > 0.0 && matches!(course, Course::Keeps)),
+            }
+        }
+    }
+}

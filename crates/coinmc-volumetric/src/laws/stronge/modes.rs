@@ -207,3 +207,69 @@ fn bisect(mut low: f64, function: impl Fn(f64) -> f64) -> f64 {
     }
     high
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at_rest() -> Rates {
+        Rates {
+            roll: Rate::new(0.0, 0.1),
+            pivot: Rate::new(0.0, 0.1),
+        }
+    }
+
+    /// Where friction within its cone can, it holds a point without slip; else it has the size μ, and opposes the slip
+    /// that starts.
+    #[test]
+    fn a_point_without_slip_sticks_or_starts_against_friction() {
+        let mu = 0.3;
+        for (xz, sticks) in [(0.5, true), (-0.5, true), (2.0, false), (-2.0, false)] {
+            let none = RimRates {
+                roll: 0.0,
+                pivot: 0.0,
+                roll_y: 0.0,
+                pivot_y: 0.0,
+                roll_roll: 1.0,
+                roll_pivot: 0.0,
+                pivot_pivot: 1.0,
+            };
+            let couplings = Couplings {
+                rates: none,
+                xx: 2.5,
+                xz,
+                yy: 3.0,
+                rx: 0.0,
+                rz: 0.0,
+                mu,
+            };
+            for has_lengths in [false, true] {
+                let still = at_rest().still(&couplings, has_lengths);
+                assert_eq!((still.sticks, still.y), (sticks, 0.0));
+                let starts = couplings.xx * still.x + xz;
+                if sticks {
+                    assert!(starts.abs() < 1e-15, "{starts}");
+                } else {
+                    assert!((still.x.abs() - mu).abs() < 1e-12 && starts * still.x < 0.0);
+                }
+            }
+        }
+    }
+
+    /// A rate of 0 is held by friction within its limit, and released in the direction of what exceeds it; a rate
+    /// that runs has friction at its limit until it comes to 0.
+    #[test]
+    fn rates_are_held_within_the_limit() {
+        let mut rate = Rate::new(0.0, 0.1);
+        rate.hold_or_release(-0.05);
+        assert!(rate.zero && (rate.limits().low, rate.limits().high) == (-0.1, 0.1));
+        rate.hold_or_release(-0.2);
+        assert!(!rate.zero && (rate.limits().low, rate.limits().high) == (-0.1, -0.1));
+        rate.hold_or_release(0.2);
+        assert_eq!(rate.sign, -1.0, "a rate that runs keeps its sign");
+        rate.switch(0.3);
+        assert!(rate.zero);
+        rate.switch(0.3);
+        assert!(!rate.zero && rate.sign == 1.0);
+    }
+}
