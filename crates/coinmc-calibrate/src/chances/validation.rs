@@ -29,7 +29,16 @@ pub(super) struct Lack {
     /// Mean square, summed over the faces.
     pub(super) square: f64,
     /// How much of it each face has.
-    pub(super) shares: [f64; 3],
+    shares: [f64; 3],
+}
+
+impl Lack {
+    /// The error of each face: where heads and tails err alike, the side errs by both. None errs less than all do on
+    /// average, as in what a rare face lacks the noise of tosses hides the most.
+    pub(super) fn by_face(&self) -> [f64; 3] {
+        self.shares
+            .map(|share| (self.square * share.max(1.0 / 3.0)).sqrt())
+    }
 }
 
 /// Fits every degree, and takes the one that predicts best what was left out.
