@@ -137,7 +137,7 @@ pub(super) fn place_on_side(
 mod tests {
     use super::*;
     use crate::body::Friction;
-    use crate::contact::tests::dynamics;
+    use crate::contact::tests::{STILL, dynamics};
     use crate::drag::Drag;
     use coinmc_testkit::Dice;
     use nalgebra::Vector3;
@@ -234,11 +234,7 @@ mod tests {
             contour: 0.01,
             pivoting: 0.01,
         };
-        let still = Drag {
-            linear: 0.0,
-            angular: 0.0,
-        };
-        let dynamics = dynamics(0.5, friction, still, true);
+        let dynamics = dynamics(0.5, friction, STILL, true);
         for way in [-1.0, 1.0] {
             // both points stick, so that friction does no work
             let rolls = [0.0, -way * dynamics.body.radius, way, 0.0];

@@ -116,3 +116,27 @@ impl<L: Lane> ContactPoint<L> {
         }
     }
 }
+
+#[cfg(test)]
+impl ContactPoint<f64> {
+    /// The lowest point of a sharp rim at a tilt of this sine and cosine, with its velocity along x, y and z, and these
+    /// angular velocities about u and e_θ.
+    pub(crate) fn at(
+        body: &Body,
+        (sin, cos): (f64, f64),
+        [slip_x, slip_y, approach]: [f64; 3],
+        [spin, turn]: [f64; 2],
+    ) -> Self {
+        Self {
+            sin,
+            cos,
+            rx: body.radius * cos - body.half * sin,
+            rz: -body.half * cos - body.radius * sin,
+            slip_x,
+            slip_y,
+            approach,
+            spin,
+            turn,
+        }
+    }
+}

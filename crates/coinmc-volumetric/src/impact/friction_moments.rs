@@ -273,18 +273,9 @@ mod tests {
                 contour: dice.between(0.0, 0.2),
                 pivoting: dice.between(0.0, 0.2),
             };
-            let (s, c) = libm::sincos(dice.between(0.2, 1.5));
-            let point = ContactPoint {
-                sin: s,
-                cos: c,
-                rx: body.radius * c - body.half * s,
-                rz: -body.half * c - body.radius * s,
-                slip_x: dice.between(-1.0, 1.0),
-                slip_y: dice.between(-1.0, 1.0),
-                approach: -1.0,
-                spin: dice.between(-1.0, 1.0),
-                turn: dice.between(-1.0, 1.0),
-            };
+            let tilt = libm::sincos(dice.between(0.2, 1.5));
+            let mut part = || dice.between(-1.0, 1.0);
+            let point = ContactPoint::at(&body, tilt, [part(), part(), -1.0], [part(), part()]);
             let yy = point.matrix(&body).yy;
             let moments = FrictionMoments::new(&body, &friction, &point, yy);
             let (at, z, dz) = (
@@ -298,7 +289,7 @@ mod tests {
             };
             let limits = |one: &JointSolution<f64>, z: f64| {
                 [
-                    (one.contour, friction.contour / s),
+                    (one.contour, friction.contour / point.sin),
                     (one.pivoting, friction.pivoting),
                 ]
                 .map(|(value, limit)| value.abs() >= limit * z * (1.0 - 1e-12))

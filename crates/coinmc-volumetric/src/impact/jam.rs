@@ -79,21 +79,10 @@ mod tests {
             let body = Body::new(&coin);
             let sin = at(1, 1e-6, 1.0);
             let cos = (1.0 - sin * sin).sqrt();
-            let point = ContactPoint {
-                sin,
-                cos,
-                rx: cos * body.radius - sin * body.half,
-                rz: -cos * body.half - sin * body.radius,
-                slip_x: at(2, -1.0, 1.0),
-                slip_y: if trial % 7 == 0 {
-                    0.0
-                } else {
-                    at(3, -1.0, 1.0)
-                },
-                approach: 0.0,
-                spin: at(4, -1.0, 1.0),
-                turn: at(5, -1.0, 1.0),
-            };
+            let across = |y: f64| if trial % 7 == 0 { 0.0 } else { y };
+            let velocity = [at(2, -1.0, 1.0), across(at(3, -1.0, 1.0)), 0.0];
+            let turning = [at(4, -1.0, 1.0), at(5, -1.0, 1.0)];
+            let point = ContactPoint::at(&body, (sin, cos), velocity, turning);
             let friction = Friction {
                 mu: at(6, 1.0, 10.0),
                 contour: at(7, -0.1, 0.1).max(0.0),

@@ -307,18 +307,10 @@ mod tests {
                 contour: lengths * dice.between(0.0, 1.0),
                 pivoting: lengths * dice.between(0.0, 1.0),
             };
-            let (s, c) = libm::sincos(dice.between(0.2, 1.5));
-            let point = ContactPoint {
-                sin: s,
-                cos: c,
-                rx: body.radius * c - body.half * s,
-                rz: -body.half * c - body.radius * s,
-                slip_x: dice.between(-1.0, 1.0),
-                slip_y: dice.between(-1.0, 1.0),
-                approach: -dice.between(0.5, 1.0),
-                spin: dice.between(-1.0, 1.0),
-                turn: dice.between(-1.0, 1.0),
-            };
+            let tilt = libm::sincos(dice.between(0.2, 1.5));
+            let approach = -dice.between(0.5, 1.0);
+            let mut part = || dice.between(-1.0, 1.0);
+            let point = ContactPoint::at(&body, tilt, [part(), part(), approach], [part(), part()]);
             let k = point.matrix(&body);
             let moments = friction
                 .has_lengths()

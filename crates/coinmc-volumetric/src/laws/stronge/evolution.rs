@@ -389,7 +389,6 @@ mod tests {
             contour: 0.0,
             pivoting: 0.0,
         };
-        let (s, c) = libm::sincos(1.1);
         let (speed, mu) = (0.5, friction.mu);
         for (angle, rate) in [
             (0.3, -0.6),
@@ -399,17 +398,12 @@ mod tests {
             (5.0, 0.1),
         ] {
             let (y, x) = libm::sincos(angle);
-            let point = ContactPoint {
-                sin: s,
-                cos: c,
-                rx: body.radius * c - body.half * s,
-                rz: -body.half * c - body.radius * s,
-                slip_x: speed * x,
-                slip_y: speed * y,
-                approach: -1.0,
-                spin: 0.0,
-                turn: 0.0,
-            };
+            let point = ContactPoint::at(
+                &body,
+                libm::sincos(1.1),
+                [speed * x, speed * y, -1.0],
+                [0.0; 2],
+            );
             let evolution = Evolution::new(&body, &friction, &point, 0.5);
             // what drives it makes slip' = rate along the slip
             let drive = Drive {
