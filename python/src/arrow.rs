@@ -1,16 +1,91 @@
 //! Arrow tables for Python: as NumPy arrays, and as a stream without copying.
 
+use crate::errors;
 use arrow_array::cast::AsArray;
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
 use arrow_array::types::{Float64Type, UInt64Type};
-use arrow_array::{Array, ArrayRef, RecordBatch, RecordBatchIterator};
-use arrow_schema::{DataType, Field};
+use arrow_array::{
+    Array, ArrayRef, BooleanArray, Float32Array, Float64Array, RecordBatch, RecordBatchIterator,
+    StringArray, UInt64Array,
+};
+use arrow_schema::{DataType, Field, Schema};
+use coinmc_table::{Cell, Kind};
 use numpy::IntoPyArray;
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyDict};
+use std::collections::HashMap;
+use std::sync::Arc;
 
 /// Name of stream capsules in the Arrow PyCapsule interface.
 const STREAM: &std::ffi::CStr = c"arrow_array_stream";
+
+/// A table as Arrow has it, with this metadata. `cell` is the cell of a row in the column with this index.
+pub(crate) fn batch<'c, R>(
+    fields: &[coinmc_table::Field],
+    metadata: HashMap<String, String>,
+    rows: &(impl Iterator<Item = R> + Clone),
+    cell: impl Fn(R, usize) -> Cell<'c>,
+) -> PyResult<RecordBatch> {
+    let columns = fields.iter().enumerate();
+    let arrays = columns.map(|(index, field)| {
+        let cells = rows.clone().map(|row| cell(row, index));
+        array(field.kind, cells)
+    });
+    let arrays = arrays.collect();
+    let fields: Vec<Field> = fields.iter().map(field).collect();
+    let schema = Schema::new_with_metadata(fields, metadata);
+    RecordBatch::try_new(Arc::new(schema), arrays).map_err(errors::value)
+}
+
+fn field(field: &coinmc_table::Field) -> Field {
+    let data_type = match field.kind {
+        Kind::Count => DataType::UInt64,
+        Kind::Number => DataType::Float64,
+        Kind::Single => DataType::Float32,
+        Kind::Text => DataType::Utf8,
+        Kind::Flag => DataType::Boolean,
+    };
+    let metadata = field.metadata();
+    let metadata = metadata.map(|(key, text)| (key.to_owned(), text.to_owned()));
+    Field::new(&field.name, data_type, field.optional).with_metadata(metadata.collect())
+}
+
+/// The cells of a column; a cell of another kind is missing.
+fn array<'c>(kind: Kind, cells: impl Iterator<Item = Cell<'c>>) -> ArrayRef {
+    let number = |cell| match cell {
+        Cell::Number(number) => Some(number),
+        _ => None,
+    };
+    match kind {
+        Kind::Count => {
+            let count = |cell| match cell {
+                Cell::Count(count) => Some(count),
+                _ => None,
+            };
+            Arc::new(cells.map(count).collect::<UInt64Array>())
+        }
+        Kind::Number => Arc::new(cells.map(number).collect::<Float64Array>()),
+        Kind::Single => {
+            #[allow(clippy::cast_possible_truncation)] // it is asked for
+            let single = |cell| number(cell).map(|number| number as f32);
+            Arc::new(cells.map(single).collect::<Float32Array>())
+        }
+        Kind::Text => {
+            let text = |cell| match cell {
+                Cell::Text(text) => Some(text),
+                _ => None,
+            };
+            Arc::new(cells.map(text).collect::<StringArray>())
+        }
+        Kind::Flag => {
+            let flag = |cell| match cell {
+                Cell::Flag(flag) => Some(flag),
+                _ => None,
+            };
+            Arc::new(cells.map(flag).collect::<BooleanArray>())
+        }
+    }
+}
 
 /// Name, unit and meaning of every column.
 pub(crate) fn describe(batch: &RecordBatch) -> Vec<(String, String, String)> {

@@ -3,7 +3,7 @@
 use crate::pickled::{Plain, plain};
 use crate::{arrow, errors};
 use arrow_array::RecordBatch;
-use coinmc::results::{FairRatio, Results as Table, fair_values, record_batch};
+use coinmc::results::{Column, FairRatio, Results as Table, columns_of, fair_values, metadata};
 use coinmc::run::{Report, Status};
 use coinmc_core::Face;
 use pyo3::prelude::*;
@@ -33,7 +33,7 @@ type Crossing = (
 impl Results {
     /// The results of a report.
     pub(crate) fn new(report: Report) -> PyResult<Self> {
-        let batch = record_batch(&report.results).map_err(errors::value)?;
+        let batch = record_batch(&report.results)?;
         Ok(Self {
             table: report.results,
             batch,
@@ -65,6 +65,15 @@ impl Results {
             Status::ShortOfTarget { .. } => "short",
         }
     }
+}
+
+/// The table as Arrow has it.
+fn record_batch(table: &Table) -> PyResult<RecordBatch> {
+    let columns = columns_of(table);
+    let fields: Vec<_> = columns.iter().map(Column::field).collect();
+    let metadata = metadata(table).map(|(key, text)| (format!("coinmc.{key}"), text));
+    let cell = |row, column: usize| columns[column].cell(row);
+    arrow::batch(&fields, metadata.into(), &table.rows.iter(), cell)
 }
 
 #[pymethods]

@@ -4,7 +4,7 @@ use crate::{arrow, errors};
 use arrow_array::{ArrayRef, Float64Array, RecordBatch};
 use arrow_schema::{DataType, Field, Schema};
 use coinmc_robot::Directory;
-use coinmc_robot::export::{rows, throws_batch};
+use coinmc_robot::export::{rows, throws_cell, throws_fields};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyDict};
@@ -33,7 +33,7 @@ impl Throws {
             let (experiment, history) = Directory::at(&path).read().map_err(errors::journal)?;
             let rows = rows(&experiment, &history).map_err(errors::journal)?;
             Ok(Self {
-                batch: throws_batch(&rows).map_err(errors::value)?,
+                batch: arrow::batch(&throws_fields(), HashMap::new(), &rows.iter(), throws_cell)?,
                 config: experiment.plan().resolved_toml.clone(),
                 planned: experiment.throws(),
                 announced: history.announced(),

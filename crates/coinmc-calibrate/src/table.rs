@@ -82,16 +82,9 @@ pub fn csv(columns: &[Column]) -> String {
 #[cfg(feature = "parquet")]
 pub(crate) mod parquet {
     use super::Column;
-    use arrow_array::{ArrayRef, Float64Array, RecordBatch};
-    use arrow_schema::Schema;
-    use coinmc::results::{Kind, arrow_field, parquet_error};
-    use parquet::arrow::ArrowWriter;
-    use parquet::basic::Compression;
-    use parquet::file::metadata::KeyValue;
-    use parquet::file::properties::WriterProperties;
+    use coinmc_table::{About, Cell, Field, Kind, ParquetTable};
     use serde_json::Value;
     use std::io::{self, Write};
-    use std::sync::Arc;
 
     /// Writes the table of draws, with the JSON document of the calibration in its metadata. The same
     /// calibration gives the same bytes.
@@ -105,27 +98,18 @@ pub(crate) mod parquet {
     ) -> io::Result<()> {
         let fields = columns
             .iter()
-            .map(|column| arrow_field(column.name, Kind::Number, column.unit, column.doc));
-        let schema = Arc::new(Schema::new(fields.collect::<Vec<_>>()));
-        let entry = |key: &str, value: String| KeyValue::new(format!("coinmc.{key}"), value);
-        let properties = WriterProperties::builder()
-            .set_created_by(format!("coinmc {}", env!("CARGO_PKG_VERSION")))
-            .set_compression(Compression::SNAPPY)
-            .set_key_value_metadata(Some(vec![
-                entry("posterior_format", "1".to_owned()),
-                entry("program_version", env!("CARGO_PKG_VERSION").to_owned()),
-                entry("calibration", document.to_string()),
-            ]))
-            .build();
-        let arrays = columns
-            .iter()
-            .map(|column| Arc::new(Float64Array::from(column.values.clone())) as ArrayRef);
-        let batch = RecordBatch::try_new(Arc::clone(&schema), arrays.collect());
-        let mut writer =
-            ArrowWriter::try_new(out, schema, Some(properties)).map_err(parquet_error)?;
-        writer
-            .write(&batch.map_err(io::Error::other)?)
-            .map_err(parquet_error)?;
-        writer.close().map(drop).map_err(parquet_error)
+            .map(|column| Field::new(column.name, Kind::Number, column.unit, column.doc));
+        let version = env!("CARGO_PKG_VERSION");
+        let about = About::coinmc(version).with_entries([
+            ("posterior_format", "1".to_owned()),
+            ("program_version", version.to_owned()),
+            ("calibration", document.to_string()),
+        ]);
+        let mut table = ParquetTable::new(fields.collect(), about, out)?;
+        let rows = columns.first().map_or(0, |column| column.values.len());
+        table.write_group(&(0..rows), |row, column| {
+            Cell::Number(columns[column].values[row])
+        })?;
+        table.finish()
     }
 }

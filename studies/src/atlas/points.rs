@@ -1,19 +1,13 @@
 //! The points of designs and what was tossed there, as a table.
 
 use anyhow::{Context, ensure};
-use arrow_array::{Array, ArrayRef, Float32Array, RecordBatch, UInt64Array};
-use arrow_schema::{DataType, Field, Schema};
-use coinmc::results::{Kind, arrow_field, parquet_error};
 use coinmc_atlas::{Counts, Design, Place};
-use parquet::arrow::ArrowWriter;
-use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
-use parquet::basic::Compression;
-use parquet::file::metadata::KeyValue;
-use parquet::file::properties::WriterProperties;
+use coinmc_table::{About, Cell, Field, Kind, ParquetTable};
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record;
 use std::fs::File;
 use std::io::{self, Write};
 use std::path::Path;
-use std::sync::Arc;
 
 /// Version of the table.
 const FORMAT: &str = "2";
@@ -48,42 +42,35 @@ const COUNTS: [(&str, &str, Count); 4] = [
 /// # Errors
 /// Those of `out`.
 pub(super) fn write_points(designs: &[Design], out: &mut (dyn Write + Send)) -> io::Result<()> {
-    let mut fields: Vec<Field> = Vec::new();
-    let mut arrays: Vec<ArrayRef> = Vec::new();
-    let mut properties = WriterProperties::builder();
-    let rows = || designs.iter().flat_map(Design::points);
-    for (i, name) in Place::NAMES.into_iter().enumerate() {
-        fields.push(Field::new(name, DataType::Float32, false));
-        let values = rows().map(|(place, _)| single(place.numbers()[i]));
-        arrays.push(Arc::new(values.collect::<Float32Array>()));
-        // no two values are alike
-        properties = properties.set_column_dictionary_enabled(name.into(), false);
-    }
-    for (name, doc, count) in COUNTS {
-        fields.push(arrow_field(name, Kind::Count, "1", doc));
-        let values = rows().map(|(_, counts)| count(counts));
-        arrays.push(Arc::new(values.collect::<UInt64Array>()));
-    }
-    let doc = "number of its config, coinmc.config_N in the metadata";
-    fields.push(arrow_field(DESIGN, Kind::Count, "1", doc));
-    let numbers = designs.iter().zip(1..);
-    let numbers = numbers.flat_map(|(design, number)| design.points().iter().map(move |_| number));
-    arrays.push(Arc::new(numbers.collect::<UInt64Array>()));
-    let entry = |key: &str, value: &str| KeyValue::new(format!("coinmc.{key}"), value.to_owned());
-    let mut entries = vec![entry("atlas_format", FORMAT)];
-    for (design, number) in designs.iter().zip(1..) {
-        entries.push(entry(&config_key(number), design.config()));
-    }
-    let properties = properties
-        .set_created_by(format!("coinmc {}", env!("CARGO_PKG_VERSION")))
-        .set_compression(Compression::SNAPPY)
-        .set_key_value_metadata(Some(entries))
-        .build();
-    let schema = Arc::new(Schema::new(fields));
-    let batch = RecordBatch::try_new(Arc::clone(&schema), arrays).map_err(io::Error::other)?;
-    let mut writer = ArrowWriter::try_new(out, schema, Some(properties)).map_err(parquet_error)?;
-    writer.write(&batch).map_err(parquet_error)?;
-    writer.close().map(drop).map_err(parquet_error)
+    let of_place = Place::NAMES.map(|name| Field::new(name, Kind::Single, "", ""));
+    let of_counts = COUNTS.map(|(name, doc, _)| Field::new(name, Kind::Count, "1", doc));
+    let of_design = "number of its config, coinmc.config_N in the metadata";
+    let of_design = Field::new(DESIGN, Kind::Count, "1", of_design);
+    let fields = of_place.into_iter().chain(of_counts).chain([of_design]);
+
+    let numbered = || designs.iter().zip(1..);
+    let configs = numbered().map(|(design, number)| (config_key(number), design.config()));
+    let about = [("atlas_format".to_owned(), FORMAT)]
+        .into_iter()
+        .chain(configs)
+        .map(|(key, value)| (key, value.to_owned()));
+    let about = About::coinmc(env!("CARGO_PKG_VERSION")).with_entries(about);
+
+    let mut table = ParquetTable::new(fields.collect(), about, out)?;
+    let rows = numbered().flat_map(|(design, number)| {
+        let points = design.points().iter();
+        points.map(move |point| (number, point))
+    });
+    table.write_group(&rows, |(number, (place, counts)), column| {
+        let place = place.numbers();
+        match column.checked_sub(place.len()) {
+            None => Cell::Number(place[column]),
+            Some(count) => COUNTS
+                .get(count)
+                .map_or(Cell::Count(number), |(.., of)| Cell::Count(of(counts))),
+        }
+    })?;
+    table.finish()
 }
 
 /// Reads the designs of such a table.
@@ -91,7 +78,7 @@ pub(super) fn write_points(designs: &[Design], out: &mut (dyn Write + Send)) -> 
 /// # Errors
 /// What is missing, or why it cannot be read.
 pub(super) fn read_points(path: &Path) -> anyhow::Result<Vec<Design>> {
-    let reader = ParquetRecordBatchReaderBuilder::try_new(File::open(path)?)?;
+    let reader = SerializedFileReader::new(File::open(path)?)?;
     let metadata = reader.metadata().file_metadata();
     ensure!(
         metadata.num_rows() <= MOST_ROWS,
@@ -110,15 +97,12 @@ pub(super) fn read_points(path: &Path) -> anyhow::Result<Vec<Design>> {
     let configs = (1..).map_while(|number| entry(&config_key(number)));
     let mut designs: Vec<(String, Vec<(Place, Counts)>)> =
         configs.map(|config| (config, Vec::new())).collect();
-    for batch in reader.build()? {
-        let batch = batch?;
-        let columns = Columns::of(&batch)?;
-        for row in 0..batch.num_rows() {
-            let number = usize::try_from(columns.design.value(row))?;
-            let design = number.checked_sub(1).and_then(|i| designs.get_mut(i));
-            let (_, points) = design.context("a point has no config")?;
-            points.push(columns.point(row));
-        }
+    for row in reader.get_row_iter(None)? {
+        let row = Row(row?);
+        let number = usize::try_from(row.count(DESIGN)?)?;
+        let design = number.checked_sub(1).and_then(|i| designs.get_mut(i));
+        let (_, points) = design.context("a point has no config")?;
+        points.push(row.point()?);
     }
     let designs = designs.into_iter();
     Ok(designs
@@ -126,61 +110,56 @@ pub(super) fn read_points(path: &Path) -> anyhow::Result<Vec<Design>> {
         .collect::<Result<_, _>>()?)
 }
 
-/// The columns of a part of a table.
-struct Columns<'a> {
-    place: [&'a Float32Array; Place::NAMES.len()],
-    counts: [&'a UInt64Array; COUNTS.len()],
-    design: &'a UInt64Array,
-}
+/// A row of a table that is read.
+struct Row(record::Row);
 
-impl<'a> Columns<'a> {
-    fn of(batch: &'a RecordBatch) -> anyhow::Result<Self> {
-        let mut place = Vec::new();
-        for name in Place::NAMES {
-            place.push(column(batch, name)?);
+impl Row {
+    fn point(&self) -> anyhow::Result<(Place, Counts)> {
+        let mut place = [0.0; Place::NAMES.len()];
+        for (number, name) in place.iter_mut().zip(Place::NAMES) {
+            *number = self.single(name)?.into();
         }
-        let mut counts = Vec::new();
-        for (name, ..) in COUNTS {
-            counts.push(column(batch, name)?);
+        let mut counts = [0; COUNTS.len()];
+        for (count, (name, ..)) in counts.iter_mut().zip(COUNTS) {
+            *count = self.count(name)?;
         }
-        Ok(Self {
-            place: place.try_into().expect("one for each name"),
-            counts: counts.try_into().expect("one for each count"),
-            design: column(batch, DESIGN)?,
-        })
-    }
-
-    fn point(&self, row: usize) -> (Place, Counts) {
-        let [heads, tails, side, undecided] = self.counts.map(|column| column.value(row));
+        let [heads, tails, side, undecided] = counts;
         let counts = Counts {
             faces: [heads, tails, side],
             undecided,
         };
-        (
-            Place::of(self.place.map(|column| column.value(row).into())),
-            counts,
-        )
+        Ok((Place::of(place), counts))
+    }
+
+    fn count(&self, name: &str) -> anyhow::Result<u64> {
+        match self.cell(name)? {
+            record::Field::ULong(count) => Ok(*count),
+            _ => Err(unusual(name)),
+        }
+    }
+
+    fn single(&self, name: &str) -> anyhow::Result<f32> {
+        match self.cell(name)? {
+            record::Field::Float(number) => Ok(*number),
+            _ => Err(unusual(name)),
+        }
+    }
+
+    fn cell(&self, name: &str) -> anyhow::Result<&record::Field> {
+        let mut cells = self.0.get_column_iter();
+        let found = cells.find(|(there, _)| *there == name);
+        found
+            .map(|(_, cell)| cell)
+            .with_context(|| format!("no column `{name}`"))
     }
 }
 
-fn column<'a, T: Array + 'static>(batch: &'a RecordBatch, name: &str) -> anyhow::Result<&'a T> {
-    let column = batch.column_by_name(name);
-    let column = column.and_then(|column| column.as_any().downcast_ref::<T>());
-    let column = column.with_context(|| format!("no column `{name}` of the usual type"))?;
-    ensure!(column.null_count() == 0, "`{name}` has gaps");
-    Ok(column)
+fn unusual(name: &str) -> anyhow::Error {
+    anyhow::anyhow!("a cell of `{name}` is missing or of another type than usual")
 }
 
-fn config_key(number: usize) -> String {
+fn config_key(number: u64) -> String {
     format!("config_{number}")
-}
-
-#[allow(
-    clippy::cast_possible_truncation,
-    reason = "networks are fitted to numbers of single precision"
-)]
-fn single(x: f64) -> f32 {
-    x as f32
 }
 
 #[cfg(test)]
@@ -215,6 +194,21 @@ mod tests {
         let path = dir.path().join("points.parquet");
         write_points(&designs(), &mut File::create_new(&path).unwrap()).unwrap();
         assert_eq!(read_points(&path).unwrap(), designs());
+    }
+
+    /// The shipped tables can be made again to the byte: what is read of them is written as it was.
+    #[test]
+    fn shipped_tables_are_written_to_the_byte() {
+        for name in ["hand", "dropped", "rolled"] {
+            let path = format!(
+                "{}/../data/atlas/{name}.parquet",
+                env!("CARGO_MANIFEST_DIR")
+            );
+            let shipped = std::fs::read(&path).unwrap();
+            let mut written = Vec::new();
+            write_points(&read_points(Path::new(&path)).unwrap(), &mut written).unwrap();
+            assert!(written == shipped, "{name}");
+        }
     }
 
     #[test]

@@ -4,4 +4,6 @@ mod results;
 mod throws;
 
 pub use results::results;
-pub use throws::{ThrowRow, rows, throws_batch, write_throws_csv, write_throws_parquet};
+pub use throws::{
+    ThrowRow, rows, throws_cell, throws_fields, write_throws_csv, write_throws_parquet,
+};

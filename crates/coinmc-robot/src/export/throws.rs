@@ -2,15 +2,9 @@
 
 use crate::Experiment;
 use crate::journal::{History, Resolution, Throw};
-use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray, UInt64Array};
-use arrow_schema::{ArrowError, DataType, Field, Schema};
 use coinmc::engines::EngineError;
-use parquet::arrow::ArrowWriter;
-use parquet::basic::Compression;
-use parquet::file::metadata::KeyValue;
-use parquet::file::properties::WriterProperties;
+use coinmc_table::{About, Cell, Field, Kind, ParquetTable};
 use std::io::{self, Write};
-use std::sync::Arc;
 
 /// Version of the table's format.
 const FORMAT: u32 = 1;
@@ -22,6 +16,8 @@ pub struct ThrowRow {
     pub number: u64,
     /// The throw according to the journal.
     pub throw: Throw,
+    /// Why it has no result, in the words of the journal; `None` if it has one.
+    pub void: Option<String>,
     /// The face that the config's engine predicts for the same setting; `None` if undecided.
     pub model_face: Option<&'static str>,
 }
@@ -36,8 +32,13 @@ pub fn rows(experiment: &Experiment, history: &History) -> Result<Vec<ThrowRow>,
     resolved
         .map(|(number, throw)| {
             let face = experiment.model_face(number, throw.setting)?;
+            let void = match throw.resolution {
+                Some(Resolution::Void(reason)) => Some(reason.to_string()),
+                _ => None,
+            };
             Ok(ThrowRow {
                 number: u64::from(number),
+                void,
                 throw: throw.clone(),
                 model_face: face.map(coinmc_core::Face::name),
             })
@@ -56,7 +57,7 @@ struct Column {
 enum Cells {
     Count(fn(&ThrowRow) -> Option<u64>),
     Number(fn(&ThrowRow) -> Option<f64>),
-    Text(fn(&ThrowRow) -> Option<String>),
+    Text(fn(&ThrowRow) -> Option<&str>),
 }
 
 /// The only definition of the table; CSV, Parquet and docs/guide/robot.md follow it.
@@ -91,23 +92,20 @@ const COLUMNS: [Column; 13] = [
         doc: "heads, tails or side; empty for a void throw.",
         cell: Cells::Text(|row| {
             let (reading, _) = row.throw.reading.as_ref()?;
-            Some(reading.face.name().to_owned())
+            Some(reading.face.name())
         }),
     },
     Column {
         name: "void",
         unit: "",
         doc: "Why a throw has no result; empty for a done one.",
-        cell: Cells::Text(|row| match row.throw.resolution {
-            Some(Resolution::Void(reason)) => Some(reason.to_string()),
-            _ => None,
-        }),
+        cell: Cells::Text(|row| row.void.as_deref()),
     },
     Column {
         name: "model_face",
         unit: "",
         doc: "Face that the config's engine gives for the same spin and angle; empty if undecided.",
-        cell: Cells::Text(|row| row.model_face.map(str::to_owned)),
+        cell: Cells::Text(|row| row.model_face),
     },
     Column {
         name: "measured_spin_rev_s",
@@ -151,10 +149,27 @@ const COLUMNS: [Column; 13] = [
         doc: "Name of the photo in the folder photos.",
         cell: Cells::Text(|row| {
             let (reading, _) = row.throw.reading.as_ref()?;
-            Some(reading.image.as_str().to_owned())
+            Some(reading.image.as_str())
         }),
     },
 ];
+
+/// The columns of the table.
+pub fn throws_fields() -> Vec<Field> {
+    COLUMNS.iter().map(field).collect()
+}
+
+/// The cell of a row in the column with this index.
+///
+/// # Panics
+/// If there is no such column.
+pub fn throws_cell(row: &ThrowRow, column: usize) -> Cell<'_> {
+    match COLUMNS[column].cell {
+        Cells::Count(cell) => cell(row).map_or(Cell::Missing, Cell::Count),
+        Cells::Number(cell) => cell(row).map_or(Cell::Missing, Cell::Number),
+        Cells::Text(cell) => cell(row).map_or(Cell::Missing, Cell::Text),
+    }
+}
 
 /// Writes the table as CSV with a header line; missing values are empty cells.
 ///
@@ -170,23 +185,13 @@ pub fn write_throws_csv(rows: &[ThrowRow], mut out: impl Write) -> io::Result<()
                 Cells::Count(cell) => cell(row).map(|count| count.to_string()),
                 Cells::Number(cell) => cell(row).map(|number| number.to_string()),
                 // names of faces, reasons and photos never contain a comma or a quote
-                Cells::Text(cell) => cell(row),
+                Cells::Text(cell) => cell(row).map(str::to_owned),
             })
             .map(Option::unwrap_or_default)
             .collect();
         writeln!(out, "{}", cells.join(","))?;
     }
     Ok(())
-}
-
-/// The table in memory, with units and descriptions in its schema.
-///
-/// # Errors
-/// [`ArrowError`] if the table is too large for Arrow.
-pub fn throws_batch(rows: &[ThrowRow]) -> Result<RecordBatch, ArrowError> {
-    let schema = Schema::new(COLUMNS.iter().map(field).collect::<Vec<_>>());
-    let arrays = COLUMNS.iter().map(|column| array(column, rows)).collect();
-    RecordBatch::try_new(Arc::new(schema), arrays)
 }
 
 /// Writes the table as Parquet, with units, descriptions and the config in its metadata.
@@ -198,41 +203,22 @@ pub fn write_throws_parquet(
     experiment: &Experiment,
     out: &mut (dyn Write + Send),
 ) -> io::Result<()> {
-    let batch = throws_batch(rows).map_err(io::Error::other)?;
-    let entry = |key: &str, value: String| KeyValue::new(format!("coinmc.{key}"), value);
     let plan = experiment.plan();
-    let properties = WriterProperties::builder()
-        .set_created_by(concat!("coinmc ", env!("CARGO_PKG_VERSION")).to_owned())
-        .set_compression(Compression::SNAPPY)
-        .set_key_value_metadata(Some(vec![
-            entry("throws_format", FORMAT.to_string()),
-            entry("plan_hash", plan.hash()),
-            entry("config", plan.resolved_toml.clone()),
-        ]))
-        .build();
-    let mut writer =
-        ArrowWriter::try_new(out, batch.schema(), Some(properties)).map_err(io::Error::other)?;
-    writer.write(&batch).map_err(io::Error::other)?;
-    writer.close().map(drop).map_err(io::Error::other)
+    let about = About::coinmc(env!("CARGO_PKG_VERSION")).with_entries([
+        ("throws_format", FORMAT.to_string()),
+        ("plan_hash", plan.hash()),
+        ("config", plan.resolved_toml.clone()),
+    ]);
+    let mut table = ParquetTable::new(throws_fields(), about, out)?;
+    table.write_group(&rows.iter(), throws_cell)?;
+    table.finish()
 }
 
 fn field(column: &Column) -> Field {
     let kind = match column.cell {
-        Cells::Count(_) => DataType::UInt64,
-        Cells::Number(_) => DataType::Float64,
-        Cells::Text(_) => DataType::Utf8,
+        Cells::Count(_) => Kind::Count,
+        Cells::Number(_) => Kind::Number,
+        Cells::Text(_) => Kind::Text,
     };
-    let metadata = [("unit", column.unit), ("description", column.doc)]
-        .into_iter()
-        .filter(|(_, text)| !text.is_empty())
-        .map(|(key, text)| (key.to_owned(), text.to_owned()));
-    Field::new(column.name, kind, true).with_metadata(metadata.collect())
-}
-
-fn array(column: &Column, rows: &[ThrowRow]) -> ArrayRef {
-    match column.cell {
-        Cells::Count(cell) => Arc::new(rows.iter().map(cell).collect::<UInt64Array>()),
-        Cells::Number(cell) => Arc::new(rows.iter().map(cell).collect::<Float64Array>()),
-        Cells::Text(cell) => Arc::new(rows.iter().map(cell).collect::<StringArray>()),
-    }
+    Field::new(column.name, kind, column.unit, column.doc).with_optional(true)
 }

@@ -1,8 +1,9 @@
 //! The results table as CSV (RFC 4180, but lines end in a single line feed).
 
-use super::schema::{Cell, Column, columns_of};
+use super::schema::{Column, columns_of};
 use super::{Results, Row};
 use coinmc_core::csv_cell;
+use coinmc_table::Cell;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 

@@ -1,7 +1,8 @@
 //! The results as a JSON value, for programs that read standard output.
 
 use super::Results;
-use super::schema::{Cell, FORMAT, columns_of};
+use super::schema::{FORMAT, columns_of};
+use coinmc_table::Cell;
 use serde_json::{Map, Value, json};
 
 impl Results {

@@ -10,12 +10,13 @@ mod schema;
 #[cfg(feature = "parquet")]
 mod tables;
 
+pub use coinmc_table::{Cell, Field, Kind};
 pub use csv::{write_csv, write_csv_row};
 pub(crate) use estimates::integrated;
 pub use fair::{FairRatio, fair_ratios, fair_values};
 #[cfg(feature = "parquet")]
-pub use parquet::{arrow_array, arrow_field, parquet_error, record_batch, write_parquet};
-pub use schema::{Cell, Column, FORMAT, Kind, columns};
+pub use parquet::write_parquet;
+pub use schema::{Column, FORMAT, columns, columns_of, metadata};
 #[cfg(feature = "parquet")]
 pub(crate) use tables::{Table, write_tables};
 

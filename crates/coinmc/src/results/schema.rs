@@ -2,60 +2,10 @@
 
 use super::{Results, Row};
 use coinmc_core::{CounterKind, Estimate, Tally, relative_error, rule_of_thumb_relative_error};
+use coinmc_table::{Cell, Field, Kind};
 
 /// Version of the table.
 pub const FORMAT: u64 = 1;
-
-/// What a column holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Kind {
-    /// A whole number, 0 to 2^64 − 1.
-    Count,
-    /// A 64-bit floating point number.
-    Number,
-    /// Text.
-    Text,
-    /// True or false.
-    Flag,
-}
-
-impl Kind {
-    /// The kind's name in documents.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Count => "u64",
-            Self::Number => "f64",
-            Self::Text => "text",
-            Self::Flag => "bool",
-        }
-    }
-}
-
-/// A cell of a table.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Cell<'a> {
-    /// A count.
-    Count(u64),
-    /// A finite number.
-    Number(f64),
-    /// Text.
-    Text(&'a str),
-    /// True or false.
-    Flag(bool),
-    /// Undefined: no tosses, or none with that face.
-    Missing,
-}
-
-impl Cell<'_> {
-    /// A number; missing if it is not finite.
-    pub fn finite(value: f64) -> Self {
-        if value.is_finite() {
-            Self::Number(value)
-        } else {
-            Self::Missing
-        }
-    }
-}
 
 /// One column of the results table.
 #[derive(Debug, Clone)]
@@ -82,8 +32,13 @@ enum Source {
 }
 
 impl Column {
+    /// The column in a file.
+    pub fn field(&self) -> Field {
+        Field::new(&self.name, self.kind, self.unit, self.doc)
+    }
+
     /// The column's cell in a row.
-    pub(crate) fn cell<'a>(&self, row: &'a Row) -> Cell<'a> {
+    pub fn cell<'a>(&self, row: &'a Row) -> Cell<'a> {
         match self.source {
             Source::Row(cell) => cell(row),
             Source::Counter(index) => Cell::Count(row.tally.to_array()[index]),
@@ -96,6 +51,17 @@ impl Column {
             },
         }
     }
+}
+
+/// What the table says of itself, by key.
+pub fn metadata(results: &Results) -> [(&'static str, String); 5] {
+    [
+        ("format", FORMAT.to_string()),
+        ("program_version", results.program_version.clone()),
+        ("plan_hash", results.plan_hash.clone()),
+        ("axes", results.axes.join(",")),
+        ("config", results.config.clone()),
+    ]
 }
 
 /// What was computed, and the counts of how tosses ended.
@@ -350,7 +316,7 @@ pub fn columns<'a>(parameters: impl IntoIterator<Item = &'a str>) -> Vec<Column>
 }
 
 /// The columns of these results.
-pub(crate) fn columns_of(results: &Results) -> Vec<Column> {
+pub fn columns_of(results: &Results) -> Vec<Column> {
     // all points of a plan have the same parameters
     let first = results.rows.each().next();
     let first = first.as_deref().map_or(&[][..], |row| &row.parameters);

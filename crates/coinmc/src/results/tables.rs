@@ -2,7 +2,7 @@
 
 use super::Results;
 use super::csv::CsvTable;
-use super::parquet::ParquetTable;
+use super::parquet::ResultsParquet;
 use std::io::{self, Write};
 
 /// Which of the tables failed.
@@ -23,7 +23,7 @@ pub(crate) fn write_tables(
 ) -> Result<(), (Table, io::Error)> {
     let of_parquet = |error| (Table::Parquet, error);
     let of_csv = |error| (Table::Csv, error);
-    let mut parquet = ParquetTable::new(results, parquet).map_err(of_parquet)?;
+    let mut parquet = ResultsParquet::new(results, parquet).map_err(of_parquet)?;
     let mut csv = CsvTable::new(results, csv).map_err(of_csv)?;
     for row in results.rows.each() {
         csv.push(&row).map_err(of_csv)?;
