@@ -1,7 +1,7 @@
 //! How thick a fair coin is on this surface: a second design about the posterior, over the ratio H/R.
 
 use crate::CalibrationError;
-use crate::chances::{Chances, Tossed, jackknife};
+use crate::chances::{Chances, Tossed};
 use crate::model::Model;
 use crate::points::{self, Use};
 use crate::posterior::{Posterior, moments, quantiles, widened};
@@ -77,9 +77,8 @@ impl FairRatio {
         let t = root(&side);
         let step = 0.05;
         let slope = (side(t + step) - side(t - step)) / (2.0 * step) / (0.5 * (to - from));
-        let parts = chances.partial_at(&coordinates(&middle, t));
-        let of_tosses = jackknife(parts.iter().map(|faces| faces[Face::Side as usize]));
-        let statistical = of_tosses.max(chances.error()) / slope.abs();
+        let errors = chances.whole_error_at(&coordinates(&middle, t));
+        let statistical = errors[Face::Side as usize] / slope.abs();
         let confidence = model.observed.plan.confidence;
         let [lo, value, hi] = quantiles(&roots, confidence);
         let [low, _, high] = widened([lo, value, hi], statistical, confidence);
