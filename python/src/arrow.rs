@@ -52,38 +52,12 @@ fn field(field: &coinmc_table::Field) -> Field {
 
 /// The cells of a column; a cell of another kind is missing.
 fn array<'c>(kind: Kind, cells: impl Iterator<Item = Cell<'c>>) -> ArrayRef {
-    let number = |cell| match cell {
-        Cell::Number(number) => Some(number),
-        _ => None,
-    };
     match kind {
-        Kind::Count => {
-            let count = |cell| match cell {
-                Cell::Count(count) => Some(count),
-                _ => None,
-            };
-            Arc::new(cells.map(count).collect::<UInt64Array>())
-        }
-        Kind::Number => Arc::new(cells.map(number).collect::<Float64Array>()),
-        Kind::Single => {
-            #[allow(clippy::cast_possible_truncation)] // it is asked for
-            let single = |cell| number(cell).map(|number| number as f32);
-            Arc::new(cells.map(single).collect::<Float32Array>())
-        }
-        Kind::Text => {
-            let text = |cell| match cell {
-                Cell::Text(text) => Some(text),
-                _ => None,
-            };
-            Arc::new(cells.map(text).collect::<StringArray>())
-        }
-        Kind::Flag => {
-            let flag = |cell| match cell {
-                Cell::Flag(flag) => Some(flag),
-                _ => None,
-            };
-            Arc::new(cells.map(flag).collect::<BooleanArray>())
-        }
+        Kind::Count => Arc::new(cells.map(Cell::count).collect::<UInt64Array>()),
+        Kind::Number => Arc::new(cells.map(Cell::number).collect::<Float64Array>()),
+        Kind::Single => Arc::new(cells.map(Cell::single).collect::<Float32Array>()),
+        Kind::Text => Arc::new(cells.map(Cell::text).collect::<StringArray>()),
+        Kind::Flag => Arc::new(cells.map(Cell::flag).collect::<BooleanArray>()),
     }
 }
 

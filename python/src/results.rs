@@ -71,7 +71,7 @@ impl Results {
 fn record_batch(table: &Table) -> PyResult<RecordBatch> {
     let columns = columns_of(table);
     let fields: Vec<_> = columns.iter().map(Column::field).collect();
-    let metadata = metadata(table).map(|(key, text)| (format!("coinmc.{key}"), text));
+    let metadata = metadata(table).map(|(key, text)| (key.to_owned(), text));
     let cell = |row, column: usize| columns[column].cell(row);
     arrow::batch(&fields, metadata.into(), &table.rows.iter(), cell)
 }

@@ -155,3 +155,22 @@ def test_bad_input_says_where():
         coinmc.CalibrationModel({**CONFIG, "tilt": {"angle": 17}})
     with pytest.raises(ValueError, match="from 32 to 65536"):
         coinmc.CalibrationModel(CONFIG, points=2)
+
+
+def test_measurements_sharper_than_the_draws_are_refused():
+    config = {**CONFIG, "tilt": {"angle_deg": 17, "angle_error_deg": 1e-7}}
+    with pytest.raises(ValueError, match="independent draws, and 20 are needed"):
+        coinmc.calibrate(config, points=64, tosses=32, predicted=1024)
+
+
+def test_readings_that_scatter_and_tosses_that_were_lost_are_remarked_on():
+    config = {
+        **CONFIG,
+        "tilt": {"angle_deg": [12, 22, 12, 22]},
+        "counts": {"heads": 19, "tails": 18, "side": 13, "lost": 10},
+    }
+    found = coinmc.calibrate(config, points=64, tosses=32, predicted=1024)
+    remarks = found.document["remarks"]
+    # 100/3 = 5.77 squared, for errors of 1 degree
+    assert any(text.startswith("the readings of tilt 1 scatter 5.8 times") for text in remarks)
+    assert any(text.startswith("10 of the 60 tosses of counts 1 showed no face") for text in remarks)

@@ -54,6 +54,12 @@ pub enum CalibrationError {
     /// The fit of the probabilities failed.
     #[error("the probabilities of {0} cannot be fitted")]
     Fit(String),
+    /// The posterior is too narrow, or lies too far out in the prior, for its draws.
+    #[error(
+        "the measurements leave so little of the prior that the posterior is worth only {0:.0} independent draws, and \
+         {least} are needed: check the errors that are stated, or state a narrower [prior]", least = crate::posterior::LEAST
+    )]
+    Unresolved(f64),
     /// The measurements exclude each other.
     #[error("no surface agrees with all measurements: {0}")]
     Contradiction(String),

@@ -25,6 +25,8 @@ pub struct Counted {
     pub plan: Plan,
     /// Heads, tails, side.
     pub faces: [u64; 3],
+    /// Tosses that showed no face.
+    pub lost: u64,
 }
 
 /// What is known of a coin and a surface.
@@ -170,20 +172,26 @@ impl Observations {
                 self.predicted = plan;
                 return Ok(());
             }
-            Content::Counts(CountsGiven(faces)) => {
+            Content::Counts(CountsGiven { faces, lost }) => {
                 let name = format!("counts {number}");
-                self.counts.push(Counted { name, plan, faces });
+                self.counts.push(Counted {
+                    name,
+                    plan,
+                    faces,
+                    lost,
+                });
                 self.places.push(place);
                 return Ok(());
             }
-            Content::Film(drops) => drops
-                .fitted(&scene, folder)
-                .map_err(|why| place.problem(why, None))?,
-            Content::RollOut(roll) => roll.reduce(&scene),
-            Content::Tilt(tilt) => tilt.reduce(&scene),
-            Content::SpinDown(spin) => spin.reduce(&scene),
-            Content::Whirr(whirr) => whirr.reduce(&scene),
-            Content::Bounces(bounces) => bounces.reduce(&scene),
+            Content::Film(drops) => {
+                let fitted = drops.fitted(&scene, folder);
+                (fitted.map_err(|why| place.problem(why, None))?, 1.0)
+            }
+            Content::RollOut(roll) => (roll.reduce(&scene), roll.excess()),
+            Content::Tilt(tilt) => (tilt.reduce(&scene), tilt.excess()),
+            Content::SpinDown(spin) => (spin.reduce(&scene), spin.excess()),
+            Content::Whirr(whirr) => (whirr.reduce(&scene), whirr.excess()),
+            Content::Bounces(bounces) => (bounces.reduce(&scene), bounces.excess()),
         };
         let kind = kind.expect("a measurement has a kind");
         self.take(kind, number, reduced, (&scene, parameters), &place)?;
@@ -196,7 +204,7 @@ impl Observations {
         &mut self,
         kind: Kind,
         number: usize,
-        reduced: Vec<Reduced>,
+        (reduced, excess): (Vec<Reduced>, f64),
         (scene, parameters): (&Scene, &[Parameter]),
         place: &Place,
     ) -> Result<(), Diagnostics> {
@@ -231,6 +239,7 @@ impl Observations {
                 value,
                 absolute,
                 relative,
+                excess,
             });
         }
         Ok(())

@@ -5,6 +5,9 @@ use crate::model::{Model, reached};
 use crate::{CalibrationError, Parameter, prediction};
 use coinmc_core::{Face, inverse_normal_cdf};
 
+/// Fewer independent draws tell no interval.
+pub(crate) const LEAST: f64 = 20.0;
+
 /// What is known of a parameter after the measurements.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Summary {
@@ -45,9 +48,14 @@ impl Posterior {
     /// The posterior of a model.
     ///
     /// # Errors
-    /// [`CalibrationError::Contradiction`] if no surface agrees with all measurements.
+    /// [`CalibrationError::Contradiction`] if no surface agrees with all measurements,
+    /// [`CalibrationError::Unresolved`] if hardly any of the draws does.
     pub fn of(model: &Model) -> Result<Self, CalibrationError> {
         let weighted = sample(model, &|scores| model.log_likelihood_of(scores))?;
+        let effective = weighted.effective();
+        if effective < LEAST {
+            return Err(CalibrationError::Unresolved(effective));
+        }
         let scores = weighted.resampled(model.settings.draws);
         let draws: Vec<Vec<f64>> = scores.iter().map(|scores| model.values(scores)).collect();
         let confidence = model.observed.plan.confidence;
@@ -70,7 +78,7 @@ impl Posterior {
         Ok(Self {
             summaries: summaries.collect(),
             correlations: correlations(&scores),
-            effective: weighted.effective(),
+            effective,
             log_evidence: weighted.log_evidence,
             draws,
             scores,

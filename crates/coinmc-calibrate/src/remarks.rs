@@ -1,5 +1,6 @@
 //! What the measurements leave open, in words.
 
+use crate::Observations;
 use crate::posterior::Posterior;
 
 /// Correlations beyond which only a combination of two parameters is known.
@@ -9,9 +10,38 @@ const OPEN: f64 = 0.9;
 /// Draws below which intervals are rough.
 const FEW: f64 = 400.0;
 
-/// Remarks on a posterior.
-pub(crate) fn remarks(posterior: &Posterior) -> Vec<String> {
-    let mut remarks = vec![];
+/// Tosses without a face that are no longer few, as a share of all.
+const LOST: f64 = 0.05;
+
+/// Remarks on what was measured.
+fn on_measured(observed: &Observations) -> impl Iterator<Item = String> {
+    let counted = observed.counts.iter().filter_map(|counted| {
+        let all = counted.faces.iter().sum::<u64>() + counted.lost;
+        let share = counted.lost as f64 / all as f64;
+        (share > LOST).then(|| {
+            format!(
+                "{} of the {all} tosses of {} showed no face: if these would have shown other shares of the faces, \
+                 the surface is another one",
+                counted.lost, counted.name
+            )
+        })
+    });
+    let readings = observed
+        .readings
+        .iter()
+        .filter(|reading| reading.excess > 1.0);
+    let readings = readings.map(|reading| {
+        format!(
+            "the readings of {} scatter {:.1} times as much as their errors allow, so these are taken to be as much larger",
+            reading.name, reading.excess
+        )
+    });
+    counted.chain(readings)
+}
+
+/// Remarks on what was measured and on a posterior.
+pub(crate) fn remarks(observed: &Observations, posterior: &Posterior) -> Vec<String> {
+    let mut remarks: Vec<String> = on_measured(observed).collect();
     let summaries = &posterior.summaries;
     for summary in summaries {
         if summary.contraction > OPEN {

@@ -101,9 +101,9 @@ pub(crate) mod parquet {
             .map(|column| Field::new(column.name, Kind::Number, column.unit, column.doc));
         let version = env!("CARGO_PKG_VERSION");
         let about = About::coinmc(version).with_entries([
-            ("posterior_format", "1".to_owned()),
-            ("program_version", version.to_owned()),
-            ("calibration", document.to_string()),
+            ("coinmc.posterior_format", "1".to_owned()),
+            ("coinmc.program_version", version.to_owned()),
+            ("coinmc.calibration", document.to_string()),
         ]);
         let mut table = ParquetTable::new(fields.collect(), about, out)?;
         let rows = columns.first().map_or(0, |column| column.values.len());

@@ -30,8 +30,8 @@ Exit status:
   4    a robot's experiment has halted and needs a person
   130  stopped by Ctrl-C or SIGTERM; finished work is kept
 
-With --format json, standard output holds exactly one JSON document, whatever happens: the result,
-or the problems that prevented it.";
+With --format json, standard output holds exactly one JSON document: the result, or the problems
+that prevented it. Only arguments that are not understood print none.";
 
 /// How likely does a tossed cylinder come to rest on heads, on tails or on its side?
 ///

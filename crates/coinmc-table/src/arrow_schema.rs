@@ -119,3 +119,36 @@ fn key_values<'t>(
     let entries: Vec<Table> = entries.into_iter().map(&mut entry).collect();
     builder.create_vector(&entries)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A schema that pyarrow 26 reads as these fields, of these types, with this metadata:
+    /// `pyarrow.ipc.read_schema(pyarrow.py_buffer(base64.b64decode(text)))`.
+    const READ_BY_PYARROW: &str = concat!(
+        "/////8QCAAAQAAAAAAAKAA4ADAALAAQACgAAABQAAAAAAAABBAAKAAwAAAAIAAQACgAAAAgAAABIAAAAAgAAACQAAAAEAAAAsP3/",
+        "/wgAAAAMAAAAAQAAADIAAAABAAAAYgAAAMz9//8IAAAADAAAAAEAAAAxAAAAAQAAAGEAAAAFAAAAsAEAAAQBAADAAAAAQAAAAAQA",
+        "AABc////EAAAABAAAAAAAAAGDAAAAMT///8AAAAABQAAAGtub3duABIAGAAUABIAEwAIAAAADAAEABIAAAAsAAAAFAAAABQAAAAA",
+        "AAEFEAAAAAQABAAEAAAAAAAAAAQAAABuYW1lAAAAAAEAAAAEAAAAcP7//wgAAAAcAAAAEgAAAFdoYXQgaXQgaXMgY2FsbGVkLgAA",
+        "CwAAAGRlc2NyaXB0aW9uABAAFAAQAAAADwAEAAAACAAQAAAAEAAAABQAAAAAAAADEAAAALr///8AAAEAAAAAAAYAAABzYW1wbGUA",
+        "AAAAEgAaABQAEgATAAgAAAAMAAQAEgAAADgAAAAYAAAAHAAAAAAAAQMYAAAAAAAGAAgABgAGAAAAAAACAAAAAAAIAAAAbGVuZ3Ro",
+        "X20AAAAAAgAAACgAAAAEAAAAPP///wgAAAAMAAAAAQAAAG0AAAAEAAAAdW5pdAAAAABc////CAAAABQAAAAJAAAASG93IGxvbmcu",
+        "AAAACwAAAGRlc2NyaXB0aW9uAAAAEgAaABQAAAATAAgAAAAMAAQAEgAAADQAAAAYAAAAHAAAAAAAAAIYAAAAAAAGAAgABAAGAAAA",
+        "QAAAAAAAAAAFAAAAY291bnQAAAACAAAAMAAAAAQAAADg////CAAAAAwAAAABAAAAMQAAAAQAAAB1bml0AAAAAAgADAAIAAQACAAA",
+        "AAgAAAAUAAAACQAAAEhvdyBtYW55LgAAAAsAAABkZXNjcmlwdGlvbgA=",
+    );
+
+    #[test]
+    fn the_schema_is_the_one_that_arrow_reads() {
+        let fields = [
+            Field::new("count", Kind::Count, "1", "How many."),
+            Field::new("length_m", Kind::Number, "m", "How long."),
+            Field::new("sample", Kind::Single, "", ""),
+            Field::new("name", Kind::Text, "", "What it is called.").with_optional(true),
+            Field::new("known", Kind::Flag, "", ""),
+        ];
+        let about = [("b", "2"), ("a", "1")].map(|(key, text)| (key.to_owned(), text.to_owned()));
+        assert_eq!(encoded(&fields, &about), READ_BY_PYARROW);
+    }
+}

@@ -7,7 +7,7 @@ pub enum Kind {
     Count,
     /// A 64-bit floating point number.
     Number,
-    /// A 32-bit floating point number, for samples: a file holds them without a dictionary of those met before.
+    /// A 32-bit floating point number. Its column in a file has no dictionary, as samples hardly ever repeat.
     Single,
     /// Text.
     Text,
@@ -39,17 +39,56 @@ pub enum Cell<'a> {
     Text(&'a str),
     /// True or false.
     Flag(bool),
-    /// Undefined: no tosses, or none with that face.
+    /// No value.
     Missing,
 }
 
-impl Cell<'_> {
+impl<'a> Cell<'a> {
     /// A number; missing if it is not finite.
     pub fn finite(value: f64) -> Self {
         if value.is_finite() {
             Self::Number(value)
         } else {
             Self::Missing
+        }
+    }
+
+    /// The count, if it is one.
+    pub fn count(self) -> Option<u64> {
+        match self {
+            Self::Count(count) => Some(count),
+            _ => None,
+        }
+    }
+
+    /// The number, if it is one.
+    pub fn number(self) -> Option<f64> {
+        match self {
+            Self::Number(number) => Some(number),
+            _ => None,
+        }
+    }
+
+    /// The number in single precision, if it is one.
+    pub fn single(self) -> Option<f32> {
+        // rounded, as a column of single precision asks for
+        #[allow(clippy::cast_possible_truncation)]
+        self.number().map(|number| number as f32)
+    }
+
+    /// The text, if it is one.
+    pub fn text(self) -> Option<&'a str> {
+        match self {
+            Self::Text(text) => Some(text),
+            _ => None,
+        }
+    }
+
+    /// Whether it is true or false, if it is a flag.
+    pub fn flag(self) -> Option<bool> {
+        match self {
+            Self::Flag(flag) => Some(flag),
+            _ => None,
         }
     }
 }
@@ -61,16 +100,16 @@ pub struct Field {
     pub name: String,
     /// What it holds.
     pub kind: Kind,
-    /// Unit; `1` for pure numbers, empty for text and flags.
+    /// Unit; `1` for pure numbers, empty for text and flags, and where none is told.
     pub unit: String,
-    /// What it means.
+    /// What it means; empty where it is not told.
     pub doc: String,
     /// Whether cells may be missing.
     pub optional: bool,
 }
 
 impl Field {
-    /// A column whose cells may be missing if they are numbers.
+    /// A column; its cells may be missing if it is of [`Kind::Number`] (see [`with_optional`](Self::with_optional)).
     pub fn new(
         name: impl Into<String>,
         kind: Kind,
@@ -86,7 +125,7 @@ impl Field {
         }
     }
 
-    /// The column, and whether its cells may be missing.
+    /// The same column, with cells that may be missing, or must not.
     #[must_use]
     pub fn with_optional(self, optional: bool) -> Self {
         Self { optional, ..self }

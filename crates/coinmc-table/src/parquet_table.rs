@@ -11,7 +11,6 @@ use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::{Type, TypePtr};
-use std::fmt::Display;
 use std::io::{self, Write};
 use std::sync::Arc;
 
@@ -38,21 +37,21 @@ impl About {
         Self::by(format!("coinmc {version}"))
     }
 
-    /// Also says this in the file's metadata, under keys that begin with `coinmc.`.
+    /// Also writes these entries, by key, into the metadata of the file.
     #[must_use]
-    pub fn with_entries<K: Display>(
+    pub fn with_entries<K: Into<String>>(
         mut self,
         entries: impl IntoIterator<Item = (K, String)>,
     ) -> Self {
         let entries = entries.into_iter();
-        let entries = entries.map(|(key, value)| (format!("coinmc.{key}"), value));
-        self.entries.extend(entries);
+        self.entries
+            .extend(entries.map(|(key, value)| (key.into(), value)));
         self
     }
 
-    /// Also says it in Arrow's schema, for those who read no metadata of files.
+    /// Also writes the entries into Arrow's schema, for readers that do not show a file's metadata.
     #[must_use]
-    pub fn in_schema(self) -> Self {
+    pub fn with_entries_in_schema(self) -> Self {
         Self {
             in_schema: true,
             ..self
@@ -61,6 +60,26 @@ impl About {
 }
 
 /// A table that is written to a Parquet file. The same cells give the same bytes.
+///
+/// # Example
+/// ```
+/// use coinmc_table::{About, Cell, Field, Kind, ParquetTable};
+///
+/// let fields = vec![
+///     Field::new("name", Kind::Text, "", "What it is called."),
+///     Field::new("radius_m", Kind::Number, "m", "Radius of the coin."),
+/// ];
+/// let coins = [("euro", Some(0.01163)), ("unknown", None)];
+/// let mut file = Vec::new();
+/// let mut table = ParquetTable::new(fields, About::by("example 1.0"), &mut file)?;
+/// table.write_group(&coins.iter(), |(name, radius), column| match column {
+///     0 => Cell::Text(name),
+///     _ => radius.map_or(Cell::Missing, Cell::Number),
+/// })?;
+/// table.finish()?;
+/// assert_eq!(&file[..4], b"PAR1");
+/// # Ok::<(), std::io::Error>(())
+/// ```
 pub struct ParquetTable<'a> {
     writer: SerializedFileWriter<&'a mut (dyn Write + Send)>,
     fields: Vec<Field>,
@@ -71,6 +90,9 @@ impl<'a> ParquetTable<'a> {
     ///
     /// # Errors
     /// Those of `out`.
+    ///
+    /// # Panics
+    /// If names, meanings and metadata make a schema of 2 GB.
     pub fn new(
         fields: Vec<Field>,
         about: About,
@@ -85,7 +107,7 @@ impl<'a> ParquetTable<'a> {
         let of_arrow = KeyValue::new(ARROW_SCHEMA.to_owned(), of_arrow);
         let entries = about.entries.into_iter();
         let entries = entries.map(|(key, value)| KeyValue::new(key, value));
-        // no two samples are alike
+        // a dictionary saves nothing where values hardly repeat
         let singles = fields.iter().filter(|field| field.kind == Kind::Single);
         let properties = singles
             .fold(WriterProperties::builder(), |properties, field| {
@@ -103,16 +125,20 @@ impl<'a> ParquetTable<'a> {
         })
     }
 
-    /// Writes rows as a group of their own. `cell` is the cell of a row in the column with this index.
+    /// Writes rows as a row group of their own, one column of which is held in memory at a time; nothing if there are
+    /// none. `cell` is the cell of a row in the column with this index.
     ///
     /// # Errors
-    /// Those of the file; [`InvalidInput`](io::ErrorKind::InvalidInput) where a cell is missing, or of another kind
-    /// than its column's, and may not be.
+    /// Those of the file; [`InvalidInput`](io::ErrorKind::InvalidInput) where a cell is missing that must not be, or of
+    /// another kind than its column. After an error the file cannot be finished.
     pub fn write_group<'c, R>(
         &mut self,
         rows: &(impl Iterator<Item = R> + Clone),
         cell: impl Fn(R, usize) -> Cell<'c>,
     ) -> io::Result<()> {
+        if rows.clone().next().is_none() {
+            return Ok(());
+        }
         let mut group = self.writer.next_row_group().map_err(io_error)?;
         for (index, field) in self.fields.iter().enumerate() {
             let column = group.next_column().map_err(io_error)?;
@@ -167,31 +193,15 @@ fn write_cells<'c>(
 ) -> io::Result<()> {
     match field.kind {
         // Parquet's unsigned numbers are signed ones with the same bits
-        Kind::Count => write_values::<Int64Type>(column, field, cells, |cell| match cell {
-            Cell::Count(count) => Some(count.cast_signed()),
-            _ => None,
+        Kind::Count => write_values::<Int64Type>(column, field, cells, |cell| {
+            cell.count().map(u64::cast_signed)
         }),
-        Kind::Number => write_values::<DoubleType>(column, field, cells, number),
-        Kind::Single => {
-            #[allow(clippy::cast_possible_truncation)] // it is asked for
-            let single = |cell| number(cell).map(|number| number as f32);
-            write_values::<FloatType>(column, field, cells, single)
-        }
-        Kind::Text => write_values::<ByteArrayType>(column, field, cells, |cell| match cell {
-            Cell::Text(text) => Some(ByteArray::from(text)),
-            _ => None,
+        Kind::Number => write_values::<DoubleType>(column, field, cells, Cell::number),
+        Kind::Single => write_values::<FloatType>(column, field, cells, Cell::single),
+        Kind::Text => write_values::<ByteArrayType>(column, field, cells, |cell| {
+            cell.text().map(ByteArray::from)
         }),
-        Kind::Flag => write_values::<BoolType>(column, field, cells, |cell| match cell {
-            Cell::Flag(flag) => Some(flag),
-            _ => None,
-        }),
-    }
-}
-
-fn number(cell: Cell<'_>) -> Option<f64> {
-    match cell {
-        Cell::Number(number) => Some(number),
-        _ => None,
+        Kind::Flag => write_values::<BoolType>(column, field, cells, Cell::flag),
     }
 }
 
@@ -204,12 +214,12 @@ fn write_values<'c, T: DataType>(
     let (mut values, mut present) = (Vec::new(), Vec::new());
     for cell in cells {
         let value = value(cell);
+        if value.is_none() && !(cell == Cell::Missing && field.optional) {
+            let told = format!("a cell of `{}` is {cell:?}, not of its kind", field.name);
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, told));
+        }
         present.push(i16::from(value.is_some()));
         values.extend(value);
-    }
-    if !field.optional && values.len() < present.len() {
-        let told = format!("a cell of `{}` is missing or of another kind", field.name);
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, told));
     }
     let levels = field.optional.then_some(&present[..]);
     let typed = column.typed::<T>();
@@ -273,7 +283,7 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read() {
-        let about = About::coinmc("1.2").with_entries([("plan", "p".to_owned())]);
+        let about = About::coinmc("1.2").with_entries([("coinmc.plan", "p".to_owned())]);
         let mut file = Vec::new();
         write(fields(), about, &mut file).unwrap();
         let reader = SerializedFileReader::new(Bytes::from(file)).unwrap();
@@ -305,12 +315,49 @@ mod tests {
     }
 
     #[test]
-    fn a_cell_that_must_not_be_missing_is_refused() {
-        let mut fields = fields();
-        fields[3].optional = false;
-        let error = write(fields, About::coinmc("1"), &mut Vec::new()).unwrap_err();
-        assert_eq!(error.kind(), io::ErrorKind::InvalidInput);
-        assert!(error.to_string().contains("`name`"), "{error}");
+    fn cells_that_do_not_fit_their_column_are_refused() {
+        let one = |field: Field, cell: Cell<'static>| {
+            let mut file = Vec::new();
+            let mut table = ParquetTable::new(vec![field], About::coinmc("1"), &mut file)?;
+            table.write_group(&[()].iter(), |(), _| cell)
+        };
+        let field = |kind, optional| Field::new("it", kind, "1", "").with_optional(optional);
+        for (kind, cell) in [
+            (Kind::Count, Cell::Count(1)),
+            (Kind::Number, Cell::Number(0.5)),
+            (Kind::Single, Cell::Number(0.5)),
+            (Kind::Text, Cell::Text("a")),
+            (Kind::Flag, Cell::Flag(true)),
+        ] {
+            let other = if kind == Kind::Count {
+                Cell::Flag(true)
+            } else {
+                Cell::Count(1)
+            };
+            assert!(one(field(kind, true), Cell::Missing).is_ok());
+            for (optional, cell, fits) in [
+                (false, cell, true),
+                (false, Cell::Missing, false),
+                (false, other, false),
+                (true, other, false),
+            ] {
+                let told = one(field(kind, optional), cell);
+                assert_eq!(told.is_ok(), fits, "{kind:?} {optional} {cell:?}");
+                let refused = told.err().map(|error| error.kind());
+                assert!(fits || refused == Some(io::ErrorKind::InvalidInput));
+            }
+        }
+    }
+
+    #[test]
+    fn a_table_without_rows_has_no_group() {
+        let mut file = Vec::new();
+        let mut table = ParquetTable::new(fields(), About::coinmc("1"), &mut file).unwrap();
+        table.write_group(&ROWS[..0].iter(), cell).unwrap();
+        table.finish().unwrap();
+        let reader = SerializedFileReader::new(Bytes::from(file)).unwrap();
+        assert_eq!(reader.num_row_groups(), 0);
+        assert_eq!(reader.get_row_iter(None).unwrap().count(), 0);
     }
 
     /// A disk that takes so many bytes.

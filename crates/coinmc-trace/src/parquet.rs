@@ -32,11 +32,14 @@ pub fn write_parquet(
 fn about(plan: &Plan, traces: &[Trace]) -> About {
     let tosses: Vec<Value> = traces.iter().map(|trace| trace.to_json(plan)).collect();
     let entries = [
-        ("trace_format", FORMAT.to_string()),
-        ("program_version", env!("CARGO_PKG_VERSION").to_owned()),
-        ("plan_hash", plan.hash()),
-        ("config", plan.resolved_toml.clone()),
-        ("tosses", Value::Array(tosses).to_string()),
+        ("coinmc.trace_format", FORMAT.to_string()),
+        (
+            "coinmc.program_version",
+            env!("CARGO_PKG_VERSION").to_owned(),
+        ),
+        ("coinmc.plan_hash", plan.hash()),
+        ("coinmc.config", plan.resolved_toml.clone()),
+        ("coinmc.tosses", Value::Array(tosses).to_string()),
     ];
     About::coinmc(env!("CARGO_PKG_VERSION")).with_entries(entries)
 }

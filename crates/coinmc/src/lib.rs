@@ -21,7 +21,7 @@
 //! in space, or `coinmc_rapier` in time steps; [`coinmc_core`] holds what they share.
 //!
 //! # Cargo features
-//! * `parquet` (default): tables as Parquet and Arrow. Without it a run directory has no
+//! * `parquet` (default): tables as Parquet. Without it a run directory has no
 //!   `results.parquet`.
 //! * `rapier`: the engine `[engine.rapier]`. Without it such a config is rejected.
 

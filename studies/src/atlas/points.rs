@@ -50,7 +50,7 @@ pub(super) fn write_points(designs: &[Design], out: &mut (dyn Write + Send)) -> 
 
     let numbered = || designs.iter().zip(1..);
     let configs = numbered().map(|(design, number)| (config_key(number), design.config()));
-    let about = [("atlas_format".to_owned(), FORMAT)]
+    let about = [("coinmc.atlas_format".to_owned(), FORMAT)]
         .into_iter()
         .chain(configs)
         .map(|(key, value)| (key, value.to_owned()));
@@ -87,11 +87,11 @@ pub(super) fn read_points(path: &Path) -> anyhow::Result<Vec<Design>> {
     let entries = metadata.key_value_metadata().cloned().unwrap_or_default();
     let entry = |key: &str| {
         let mut entries = entries.iter();
-        let found = entries.find(|entry| entry.key.strip_prefix("coinmc.") == Some(key));
+        let found = entries.find(|entry| entry.key == key);
         found.and_then(|entry| entry.value.clone())
     };
     ensure!(
-        entry("atlas_format").as_deref() == Some(FORMAT),
+        entry("coinmc.atlas_format").as_deref() == Some(FORMAT),
         "it is no table of an atlas"
     );
     let configs = (1..).map_while(|number| entry(&config_key(number)));
@@ -159,7 +159,7 @@ fn unusual(name: &str) -> anyhow::Error {
 }
 
 fn config_key(number: u64) -> String {
-    format!("config_{number}")
+    format!("coinmc.config_{number}")
 }
 
 #[cfg(test)]
@@ -209,6 +209,42 @@ mod tests {
             write_points(&read_points(Path::new(&path)).unwrap(), &mut written).unwrap();
             assert!(written == shipped, "{name}");
         }
+    }
+
+    #[test]
+    fn tables_with_other_columns_are_refused() {
+        let dir = tempfile::tempdir().unwrap();
+        let read = |fields: Vec<Field>, cell: &dyn Fn(usize) -> Cell<'static>| {
+            let path = dir.path().join("other.parquet");
+            let mut file = File::create(&path).unwrap();
+            let entries = [
+                ("coinmc.atlas_format", FORMAT.to_owned()),
+                ("coinmc.config_1", String::new()),
+            ];
+            let about = About::coinmc("1").with_entries(entries);
+            let mut table = ParquetTable::new(fields, about, &mut file).unwrap();
+            table
+                .write_group(&[()].iter(), |(), column| cell(column))
+                .unwrap();
+            table.finish().unwrap();
+            read_points(&path).unwrap_err().to_string()
+        };
+        let count = |name: &str| Field::new(name, Kind::Count, "1", "");
+        let told = read(vec![count("heads")], &|_| Cell::Count(1));
+        assert_eq!(told, "no column `design`");
+        let number = Field::new(DESIGN, Kind::Number, "1", "");
+        let told = read(vec![number], &|_| Cell::Number(1.0));
+        assert_eq!(
+            told,
+            "a cell of `design` is missing or of another type than usual"
+        );
+        let told = read(vec![count(DESIGN), count(Place::NAMES[0])], &|_| {
+            Cell::Count(1)
+        });
+        assert!(
+            told.contains(Place::NAMES[0]) && told.contains("another type"),
+            "{told}"
+        );
     }
 
     #[test]

@@ -19,6 +19,12 @@ pub(crate) struct Bounces {
     height_error_m: f64,
 }
 
+/// A flight whose duration is not known: of its logarithm an error has no meaning then.
+fn too_short(flights_s: &[f64], time_error_s: f64) -> Option<f64> {
+    let error = 2.0_f64.sqrt() * time_error_s;
+    flights_s.iter().copied().find(|flight| *flight <= error)
+}
+
 impl Bounces {
     pub(crate) fn schema() -> TableKind {
         fields(vec![
@@ -55,6 +61,15 @@ impl Bounces {
         if flights_s.iter().any(|flight| *flight <= 0.0) {
             return Err(ReadError::new("the times must rise from impact to impact").at("time_s"));
         }
+        let time_error_s = values.number("time_error_s")?;
+        if let Some(short) = too_short(&flights_s, time_error_s) {
+            let message = format!(
+                "a flight of {short:.3} s is no longer than its times are known (± {time_error_s} s each)"
+            );
+            return Err(ReadError::new(message)
+                .with_help("leave out the impacts from there on, or state a smaller `time_error_s`")
+                .at("time_s"));
+        }
         let drop_m = values.optional("drop_height_m")?;
         let needed = if drop_m.is_some() { 2 } else { 3 };
         if times.len() < needed {
@@ -72,7 +87,7 @@ impl Bounces {
         Ok(Self {
             flights_s,
             drop_m,
-            time_error_s: values.number("time_error_s")?,
+            time_error_s,
             scatter: values.number("scatter")?,
             height_error_m: values.number("height_error_m")?,
         })
@@ -151,6 +166,13 @@ mod tests {
         let coin = Coin::cylinder(0.2, 0.0116).unwrap();
         let scene = Scene::new(coin, Surface::new(0.5, 0.3).unwrap(), 9.81).unwrap();
         bounces.reduce(&scene)[0]
+    }
+
+    #[test]
+    fn flights_shorter_than_the_error_of_their_times_are_not_known() {
+        assert_eq!(too_short(&[0.1, 0.002], 0.05), Some(0.002));
+        assert_eq!(too_short(&[0.1, 0.0029], 0.002), None);
+        assert_eq!(too_short(&[0.1, 0.0028], 0.002), Some(0.0028));
     }
 
     #[test]

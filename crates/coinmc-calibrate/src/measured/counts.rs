@@ -12,7 +12,11 @@ const MOST: u64 = 1_000_000_000_000;
 
 /// Counts of heads, tails and side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct CountsGiven(pub(crate) [u64; 3]);
+pub(crate) struct CountsGiven {
+    pub(crate) faces: [u64; 3],
+    /// Tosses that showed no face.
+    pub(crate) lost: u64,
+}
 
 impl CountsGiven {
     pub(crate) fn schema() -> TableKind {
@@ -65,6 +69,6 @@ impl CountsGiven {
         if heads + tails + side == 0 {
             return Err(ReadError::new("no toss is counted").at("side"));
         }
-        Ok(Self(faces))
+        Ok(Self { faces, lost })
     }
 }

@@ -8,6 +8,7 @@ mod counts;
 mod drops;
 mod readings;
 mod roll_out;
+mod scatter;
 mod spin_down;
 mod tilt;
 mod whirr;
@@ -124,6 +125,8 @@ pub struct Reading {
     pub absolute: f64,
     /// … and as a share of what the law gives; both add up in squares.
     pub relative: f64,
+    /// How many times as large as stated the error is, because the readings scatter so much more than it allows.
+    pub excess: f64,
 }
 
 impl Reading {
@@ -156,4 +159,8 @@ pub(crate) trait Reduce {
     const KIND: Kind;
     /// The numbers that it gives, with the coin and the gravity of its scene.
     fn reduce(&self, scene: &Scene) -> Vec<Reduced>;
+    /// How many times as large as stated the errors are in that, because readings [scatter](scatter) more.
+    fn excess(&self) -> f64 {
+        1.0
+    }
 }

@@ -18,20 +18,26 @@ pub(super) fn error(name: &'static str, doc: &'static str, most: f64, usual: f64
     field(name, doc, Kind::Real(bounds), default(usual))
 }
 
-/// As many readings under this key as under the others, or one for all of them.
-pub(super) fn repeated(
+/// The readings under each of these keys: as many under each, or one for all.
+pub(super) fn together<const N: usize>(
     values: &Values,
-    key: &'static str,
-    wanted: usize,
-) -> Result<Vec<f64>, ReadError> {
-    let given = values.numbers(key)?;
-    match given {
-        [one] => Ok(vec![*one; wanted]),
-        several if several.len() == wanted => Ok(several.to_vec()),
-        several => Err(ReadError::new(format!(
-            "`{key}` has {} readings, but {wanted} are expected: as many as under the other keys, or one",
-            several.len()
-        ))
-        .at(key)),
+    keys: [&'static str; N],
+) -> Result<[Vec<f64>; N], ReadError> {
+    let mut all = [const { vec![] }; N];
+    for (readings, key) in all.iter_mut().zip(keys) {
+        *readings = values.numbers(key)?.to_vec();
     }
+    let wanted = all.iter().map(Vec::len).max().unwrap_or(0);
+    for (readings, key) in all.iter_mut().zip(keys) {
+        if let [one] = readings[..] {
+            *readings = vec![one; wanted];
+        } else if readings.len() < wanted {
+            return Err(ReadError::new(format!(
+                "`{key}` has {} readings, but another key of this table has {wanted}: give as many here, or one",
+                readings.len()
+            ))
+            .at(key));
+        }
+    }
+    Ok(all)
 }

@@ -60,3 +60,32 @@ fn an_engine_in_the_plane_has_no_friction_lengths() {
     let expected = "this engine knows no rolling friction, no pivoting friction";
     assert!(message.contains(expected), "{message}");
 }
+
+/// Where a key says readings, it takes as many as the others, or one for all.
+#[test]
+fn one_reading_stands_for_all() {
+    let plane = "{ restitution = 0.5, friction = 0.3 }";
+    let value = |table: &str| parsed(plane, table).unwrap().readings[0].value;
+    let many = "[[spin_down]]\nfrom_rad_s = [40, 40, 40]\nto_rad_s = [20, 21, 22]\ntime_s = [9.5, 9.5, 9.5]";
+    for one in ["from_rad_s = 40", "time_s = 9.5"] {
+        let key = one.split(' ').next().unwrap();
+        let lines = many
+            .lines()
+            .map(|line| if line.starts_with(key) { one } else { line });
+        let lines: Vec<&str> = lines.collect();
+        assert_eq!(value(&lines.join("\n")), value(many), "{one}");
+    }
+    let there = "[[roll_out]]\nramp_height_m = 0.01\ndistance_m = 3\ndistance_back_m = [3, 3.1]";
+    let both =
+        "[[roll_out]]\nramp_height_m = 0.01\ndistance_m = [3, 3]\ndistance_back_m = [3, 3.1]";
+    assert_eq!(value(there), value(both));
+    let told = parsed(
+        plane,
+        "[[roll_out]]\nramp_height_m = [0.01, 0.02]\ndistance_m = [3, 3, 3]",
+    );
+    let told = told.unwrap_err().to_string();
+    assert!(
+        told.contains("`ramp_height_m` has 2 readings, but another key of this table has 3"),
+        "{told}"
+    );
+}

@@ -16,8 +16,8 @@ pub struct ThrowRow {
     pub number: u64,
     /// The throw according to the journal.
     pub throw: Throw,
-    /// Why it has no result, in the words of the journal; `None` if it has one.
-    pub void: Option<String>,
+    /// Why the throw has no result, in the words of the journal: made once, so that cells can borrow it.
+    void: Option<String>,
     /// The face that the config's engine predicts for the same setting; `None` if undecided.
     pub model_face: Option<&'static str>,
 }
@@ -205,9 +205,9 @@ pub fn write_throws_parquet(
 ) -> io::Result<()> {
     let plan = experiment.plan();
     let about = About::coinmc(env!("CARGO_PKG_VERSION")).with_entries([
-        ("throws_format", FORMAT.to_string()),
-        ("plan_hash", plan.hash()),
-        ("config", plan.resolved_toml.clone()),
+        ("coinmc.throws_format", FORMAT.to_string()),
+        ("coinmc.plan_hash", plan.hash()),
+        ("coinmc.config", plan.resolved_toml.clone()),
     ]);
     let mut table = ParquetTable::new(throws_fields(), about, out)?;
     table.write_group(&rows.iter(), throws_cell)?;

@@ -32,7 +32,7 @@ impl<'a> ResultsParquet<'a> {
         let columns = columns_of(results);
         let about = About::coinmc(&results.program_version)
             .with_entries(metadata(results))
-            .in_schema();
+            .with_entries_in_schema();
         let fields = columns.iter().map(Column::field).collect();
         Ok(Self {
             table: ParquetTable::new(fields, about, out)?,

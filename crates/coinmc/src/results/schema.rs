@@ -32,12 +32,12 @@ enum Source {
 }
 
 impl Column {
-    /// The column in a file.
+    /// Its name, kind, unit and meaning, as a column of a file.
     pub fn field(&self) -> Field {
         Field::new(&self.name, self.kind, self.unit, self.doc)
     }
 
-    /// The column's cell in a row.
+    /// The column's cell in a row; a parameter that the row lacks is missing.
     pub fn cell<'a>(&self, row: &'a Row) -> Cell<'a> {
         match self.source {
             Source::Row(cell) => cell(row),
@@ -53,14 +53,14 @@ impl Column {
     }
 }
 
-/// What the table says of itself, by key.
+/// What the table says of itself, by key: the metadata of its files, and of Arrow's tables.
 pub fn metadata(results: &Results) -> [(&'static str, String); 5] {
     [
-        ("format", FORMAT.to_string()),
-        ("program_version", results.program_version.clone()),
-        ("plan_hash", results.plan_hash.clone()),
-        ("axes", results.axes.join(",")),
-        ("config", results.config.clone()),
+        ("coinmc.format", FORMAT.to_string()),
+        ("coinmc.program_version", results.program_version.clone()),
+        ("coinmc.plan_hash", results.plan_hash.clone()),
+        ("coinmc.axes", results.axes.join(",")),
+        ("coinmc.config", results.config.clone()),
     ]
 }
 
