@@ -45,7 +45,7 @@ impl Calibration {
         let (suggestions, rolls) = information::suggestions(model, &posterior, workers)?;
         Ok(Self {
             suggestions,
-            remarks: remarks::remarks(&model.observed, &posterior),
+            remarks: remarks::remarks(model, &posterior),
             tosses: model.tosses + prediction.tosses + 2 * prediction.pairs + of_fair + rolls,
             posterior,
             prediction,

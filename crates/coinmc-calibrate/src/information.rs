@@ -58,7 +58,13 @@ pub(crate) fn suggestions(
     let mut all: Vec<Suggestion> = possible
         .map(|candidate| of_number(candidate, model, posterior, &side, now))
         .collect();
-    all.extend(TOSSES.map(|tosses| of_tosses(tosses, &faces, now)));
+    let worth = |tosses: u64| model.predicted.worth(tosses);
+    let counted = counted_already(model);
+    let so_far = if counted > 0 { worth(counted) } else { 0.0 };
+    all.extend(TOSSES.map(|tosses| {
+        let gained = worth(counted + tosses) - so_far;
+        of_tosses(tosses, gained, &faces, now)
+    }));
     let rough = known.contains(&Parameter::RoughnessSlope);
     let (rolls, tosses) = if rough {
         Rolls::of(model, posterior, &side, workers)?
@@ -99,9 +105,16 @@ fn of_number(
     }
 }
 
-/// Further tosses measure P(heads) and P(side), with the covariance of multinomial shares.
-fn of_tosses(tosses: u64, faces: &[[f64; 3]], now: f64) -> Suggestion {
-    let n = tosses as f64;
+/// Tosses that are counted in the scene to predict: more of them share the error of its fit.
+fn counted_already(model: &Model) -> u64 {
+    let scene = &model.observed.predicted.resolved_toml;
+    let same = model.observed.counts.iter();
+    let same = same.filter(|counted| counted.plan.resolved_toml == *scene);
+    same.flat_map(|counted| counted.faces).sum()
+}
+
+/// Further tosses, worth `n` with exact probabilities, measure P(heads) and P(side), with the covariance of multinomial shares.
+fn of_tosses(tosses: u64, n: f64, faces: &[[f64; 3]], now: f64) -> Suggestion {
     let column = |face: usize| faces.iter().map(|faces| faces[face]).collect::<Vec<_>>();
     let (heads, side) = (column(0), column(2));
     let ((h, sd_h), (s, sd_s)) = (moments(&heads), moments(&side));

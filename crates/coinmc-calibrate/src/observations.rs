@@ -1,5 +1,7 @@
 //! Reads a config of a calibration: a scene, priors, and tables of measurements.
 
+mod prior_given;
+
 use crate::measured::{
     Bounces, CountsGiven, Drops, Kind, Reading, Reduce, Reduced, RollOut, SpinDown, Tilt, Whirr,
 };
@@ -7,10 +9,9 @@ use crate::prior::Prior;
 use crate::{CalibrationError, Parameter};
 use coinmc::config::{self, Diagnostics, Entry, Override, Place, Section};
 use coinmc::plan::Plan;
-use coinmc_core::schema::{
-    Absent, Bounds, Kind as KeyKind, ReadError, TableKind, Values, Word, field, fields, table,
-};
-use coinmc_core::{Material, Roughness, Scene};
+use coinmc_core::Scene;
+use coinmc_core::schema::fields;
+use prior_given::{PriorGiven, check_ranges, priors};
 use std::path::Path;
 
 /// Tables of the scene that a measurement may have of its own.
@@ -74,17 +75,6 @@ impl Content {
     }
 }
 
-/// What `[prior]` says.
-struct PriorGiven {
-    /// A material of the table, or "any".
-    material: Option<&'static str>,
-    /// Ends of the central 95 %.
-    ranges: Vec<(Parameter, [f64; 2])>,
-}
-
-/// The word for any material.
-const ANY: &str = "any";
-
 impl Observations {
     /// Reads a config file.
     ///
@@ -136,12 +126,22 @@ impl Observations {
         };
         let mut reading_places = vec![];
         let mut seen = vec![];
+        let mut problems: Option<Diagnostics> = None;
         for entry in entries {
             let number = entry.content.kind().map_or(0, |kind| {
                 seen.push(kind);
                 seen.iter().filter(|other| **other == kind).count()
             });
-            observed.add(entry, number, &parameters, folder, &mut reading_places)?;
+            let added = observed.add(entry, number, &parameters, folder, &mut reading_places);
+            if let Err(more) = added {
+                problems = Some(match problems {
+                    Some(found) => found.and(more),
+                    None => more,
+                });
+            }
+        }
+        if let Some(problems) = problems {
+            return Err(problems.into());
         }
         observed.places.extend(reading_places);
         Ok(observed)
@@ -154,7 +154,7 @@ impl Observations {
         parameters: &[Parameter],
         folder: &Path,
         reading_places: &mut Vec<Place>,
-    ) -> Result<(), CalibrationError> {
+    ) -> Result<(), Diagnostics> {
         let Entry {
             content,
             plan,
@@ -284,59 +284,6 @@ fn check(plan: &Plan) -> Result<(), CalibrationError> {
     Ok(())
 }
 
-/// What is said of parameters on which tosses in this scene do not depend is a mistake.
-fn check_ranges(
-    given: &PriorGiven,
-    parameters: &[Parameter],
-    place: &Place,
-) -> Result<(), Diagnostics> {
-    let given = given.ranges.iter().map(|(parameter, _)| *parameter);
-    let unknown: Vec<Parameter> = given.filter(|one| !parameters.contains(one)).collect();
-    if unknown.is_empty() {
-        return Ok(());
-    }
-    let (message, help) = if unknown == [Parameter::RoughnessSlope] {
-        (
-            "the ground of this scene is a plane, which has no slope".to_owned(),
-            "give surface.roughness_slope and surface.roughness_wavelength_m, or a material",
-        )
-    } else {
-        let words: Vec<&str> = unknown.iter().map(|one| one.words()).collect();
-        (
-            format!("this engine knows no {}", words.join(", no ")),
-            "use [engine.volumetric]",
-        )
-    };
-    Err(place.problem(message, Some(help.to_owned())))
-}
-
-fn priors(plan: &Plan, parameters: &[Parameter], given: Option<&PriorGiven>) -> Vec<Prior> {
-    let around = || Prior::around(parameters, &plan.points[0].scene.surface);
-    let of = |of: &dyn Fn(Parameter) -> Prior| parameters.iter().map(|p| of(*p)).collect();
-    let mut priors: Vec<Prior> = match given.and_then(|given| given.material) {
-        Some(ANY) => of(&Prior::of_any),
-        Some(name) => match name.parse::<Material>() {
-            Ok(material) => of(&|parameter| Prior::of_material(parameter, &material)),
-            Err(_) => around(),
-        },
-        None => around(),
-    };
-    for (parameter, [low, high]) in given.map_or(&[][..], |given| &given.ranges) {
-        for prior in priors
-            .iter_mut()
-            .filter(|prior| prior.parameter == *parameter)
-        {
-            *prior = Prior {
-                parameter: *parameter,
-                low: *low,
-                high: *high,
-                source: "[prior] of the config".to_owned(),
-            };
-        }
-    }
-    priors
-}
-
 /// The sections of a config of a calibration.
 fn sections() -> Vec<Section<Content>> {
     let section = |name, doc, kind, own, read| Section {
@@ -359,9 +306,9 @@ fn sections() -> Vec<Section<Content>> {
         once(
             "prior",
             "What is believed before anything is measured.",
-            prior_schema(),
+            prior_given::schema(),
             &[],
-            |v| read_prior(v).map(Content::Prior),
+            |v| prior_given::read(v).map(Content::Prior),
         ),
         once(
             "predict",
@@ -416,62 +363,6 @@ fn sections() -> Vec<Section<Content>> {
             |v| Bounces::read(v).map(Content::Bounces),
         ),
     ]
-}
-
-fn prior_schema() -> TableKind {
-    let materials = Material::ALL.iter();
-    let mut words: Vec<Word> = materials
-        .map(|material| Word {
-            name: material.name,
-            doc: material.doc,
-        })
-        .collect();
-    words.push(Word {
-        name: ANY,
-        doc: "any of them",
-    });
-    let mut all = vec![field(
-        "material",
-        "The material whose numbers, and their uncertainty, are believed.",
-        KeyKind::Word(words),
-        Absent::Omitted,
-    )];
-    for parameter in Parameter::ALL {
-        let bounds = match parameter {
-            Parameter::Restitution => Bounds::open(0.0, 1.0),
-            Parameter::Friction => Bounds::above_zero(100.0),
-            Parameter::RoughnessSlope => Bounds::above_zero(Roughness::MAX_SLOPE),
-            _ => Bounds::above_zero(1.0),
-        };
-        let end = |name, doc| field(name, doc, KeyKind::Real(bounds), Absent::Required);
-        let ends = fields(vec![
-            end("low", "Lower end of the central 95 %."),
-            end("high", "Upper end."),
-        ]);
-        let doc = "Where it is believed to be, with 95 % probability.";
-        all.push(table(parameter.key(), doc, ends, Absent::Omitted));
-    }
-    fields(all)
-}
-
-fn read_prior(values: &Values) -> Result<PriorGiven, ReadError> {
-    let material = match values.get("material") {
-        Some(_) => Some(values.word("material")?),
-        None => None,
-    };
-    let mut ranges = vec![];
-    for parameter in Parameter::ALL {
-        let Some(ends) = values.table(parameter.key())? else {
-            continue;
-        };
-        let range = [ends.number("low")?, ends.number("high")?];
-        if range[0] >= range[1] {
-            let message = "`low` must be below `high`";
-            return Err(ReadError::new(message).at("high").at(parameter.key()));
-        }
-        ranges.push((parameter, range));
-    }
-    Ok(PriorGiven { material, ranges })
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! What the measurements leave open, in words.
 
 use crate::Observations;
+use crate::model::Model;
 use crate::posterior::Posterior;
 
 /// Correlations beyond which only a combination of two parameters is known.
@@ -12,6 +13,9 @@ const FEW: f64 = 400.0;
 
 /// Tosses without a face that are no longer few, as a share of all.
 const LOST: f64 = 0.05;
+
+/// Counted tosses that are worth less than this share of themselves.
+const WORTH: f64 = 0.5;
 
 /// Remarks on what was measured.
 fn on_measured(observed: &Observations) -> impl Iterator<Item = String> {
@@ -39,9 +43,25 @@ fn on_measured(observed: &Observations) -> impl Iterator<Item = String> {
     counted.chain(readings)
 }
 
+/// Remarks on counts that tell less than they could, because the fit of their probabilities is not exact enough.
+fn on_fits(model: &Model) -> impl Iterator<Item = String> {
+    let counts = model.observed.counts.iter().zip(&model.counted);
+    counts.filter_map(|(counted, chances)| {
+        let tosses = counted.faces.iter().sum();
+        let worth = chances.worth(tosses);
+        (worth < WORTH * tosses as f64).then(|| {
+            format!(
+                "the {tosses} tosses of {} tell no more than {worth:.0} would if the fit of their probabilities were exact: \
+                 a design of more points, or of more tosses at each, makes it so",
+                counted.name
+            )
+        })
+    })
+}
+
 /// Remarks on what was measured and on a posterior.
-pub(crate) fn remarks(observed: &Observations, posterior: &Posterior) -> Vec<String> {
-    let mut remarks: Vec<String> = on_measured(observed).collect();
+pub(crate) fn remarks(model: &Model, posterior: &Posterior) -> Vec<String> {
+    let mut remarks: Vec<String> = on_measured(&model.observed).chain(on_fits(model)).collect();
     let summaries = &posterior.summaries;
     for summary in summaries {
         if summary.contraction > OPEN {

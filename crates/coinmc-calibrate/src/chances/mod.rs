@@ -128,7 +128,12 @@ impl Chances {
 
     /// Variance of a share of n tosses about a probability, with the error of the fit.
     pub(crate) fn variance_of_share(&self, p: f64, tosses: u64) -> f64 {
-        p * (1.0 - p) * (1.0 / tosses as f64 + 1.0 / (self.concentration + 1.0))
+        p * (1.0 - p) / self.worth(tosses)
+    }
+
+    /// How many tosses would tell as much if the fit were exact: no more than its concentration and 1.
+    pub(crate) fn worth(&self, tosses: u64) -> f64 {
+        1.0 / (1.0 / tosses as f64 + 1.0 / (self.concentration + 1.0))
     }
 }
 
@@ -236,6 +241,20 @@ mod tests {
             let ratio = side / heads.max(tails);
             assert!((ratio - 2_f64.sqrt()).abs() < 0.05, "{ratio}");
         }
+    }
+
+    /// Few tosses are worth themselves; many no more than the fit is exact to: its variance is that of their shares.
+    #[test]
+    fn tosses_are_worth_no_more_than_the_fit() {
+        let chances = Chances::fit(&tossed(300, 50, 1)).unwrap();
+        assert!((chances.worth(1) - 1.0).abs() < 0.01);
+        let spread: f64 = [0.3, 0.3, 0.4].map(|p| p * (1.0 - p)).iter().sum();
+        let error = (spread / chances.worth(u64::MAX) / 3.0).sqrt();
+        assert!(
+            (error / chances.error() - 1.0).abs() < 0.1,
+            "{error} {}",
+            chances.error()
+        );
     }
 
     /// Dirichlet-multinomial probabilities of all counts of 6 tosses add up to 1.

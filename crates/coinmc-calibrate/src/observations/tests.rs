@@ -1,5 +1,6 @@
 use super::*;
 use crate::tosses::point_with;
+use coinmc_core::Roughness;
 
 fn parsed(surface: &str, more: &str) -> Result<Observations, CalibrationError> {
     let text = format!(
@@ -87,5 +88,40 @@ fn one_reading_stands_for_all() {
     assert!(
         told.contains("`ramp_height_m` has 2 readings, but another key of this table has 3"),
         "{told}"
+    );
+}
+
+/// All problems of all tables at once.
+#[test]
+fn every_table_says_what_is_wrong_with_it() {
+    let plane = "{ restitution = 0.5, friction = 0.3, restitution_exponent = 0.1 }";
+    let bounces = "[[bounces]]\ntime_s = [0.0, 0.2, 0.3]\n";
+    let Err(CalibrationError::Config(found)) = parsed(plane, &bounces.repeat(2)) else {
+        panic!("refused");
+    };
+    assert_eq!(found.problems().len(), 2, "{found}");
+    let told =
+        "[prior]\nrestitution = { low = 0.7, high = 0.3 }\nfriction = { low = 0.2, high = 0.2 }";
+    let told = parsed("{ restitution = 0.5, friction = 0.3 }", told)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        told.contains("`low` must be below `high`, here of restitution, friction"),
+        "{told}"
+    );
+}
+
+#[test]
+fn a_prior_says_whether_the_config_gives_its_number() {
+    let observed = parsed(
+        "{ restitution = 0.5, friction = 0.31, rolling_friction_m = 4e-5 }",
+        "",
+    )
+    .unwrap();
+    let sources: Vec<&str> = observed.priors.iter().map(|prior| &*prior.source).collect();
+    assert_eq!(sources[2], "around the rolling_friction_m of the config");
+    assert_eq!(
+        sources[3],
+        "around the usual pivoting friction: the config gives none"
     );
 }

@@ -74,6 +74,20 @@ impl Diagnostics {
         self
     }
 
+    /// These problems, and then more.
+    #[must_use]
+    pub fn and(mut self, more: Self) -> Self {
+        self.dropped += more.dropped;
+        for problem in more.problems {
+            if self.problems.len() < KEPT {
+                self.problems.push(problem);
+            } else {
+                self.dropped += 1;
+            }
+        }
+        self
+    }
+
     /// The problems, sorted by location: those of the file, then those of overrides. At most 100
     /// are kept.
     pub fn problems(&self) -> &[Problem] {
