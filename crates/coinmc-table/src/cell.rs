@@ -138,3 +138,29 @@ impl Field {
             .filter(|(_, text)| !text.is_empty())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As documents of formats name them.
+    #[test]
+    fn kinds_have_the_names_of_documents() {
+        let kinds = [
+            Kind::Count,
+            Kind::Number,
+            Kind::Single,
+            Kind::Text,
+            Kind::Flag,
+        ];
+        let names = kinds.map(Kind::name);
+        assert_eq!(names, ["u64", "f64", "f32", "text", "bool"]);
+    }
+
+    #[test]
+    fn a_number_that_is_not_finite_is_missing() {
+        assert_eq!(Cell::finite(0.5), Cell::Number(0.5));
+        assert_eq!(Cell::finite(f64::NAN), Cell::Missing);
+        assert_eq!(Cell::finite(f64::INFINITY), Cell::Missing);
+    }
+}

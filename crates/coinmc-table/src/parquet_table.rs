@@ -350,6 +350,23 @@ mod tests {
     }
 
     #[test]
+    fn entries_stand_in_the_schema_where_that_is_asked_for() {
+        let entries = vec![("plan".to_owned(), "p".to_owned())];
+        let schema = |about: About| {
+            let mut file = Vec::new();
+            write(fields(), about.with_entries(entries.clone()), &mut file).unwrap();
+            let reader = SerializedFileReader::new(Bytes::from(file)).unwrap();
+            let metadata = reader.metadata().file_metadata();
+            let mut found = metadata.key_value_metadata().unwrap().iter();
+            let found = found.find(|entry| entry.key == ARROW_SCHEMA).unwrap();
+            found.value.clone().unwrap()
+        };
+        let (alone, both) = (About::by("it"), About::by("it").with_entries_in_schema());
+        assert_eq!(schema(alone), arrow_schema::encoded(&fields(), &[]));
+        assert_eq!(schema(both), arrow_schema::encoded(&fields(), &entries));
+    }
+
+    #[test]
     fn a_table_without_rows_has_no_group() {
         let mut file = Vec::new();
         let mut table = ParquetTable::new(fields(), About::coinmc("1"), &mut file).unwrap();
