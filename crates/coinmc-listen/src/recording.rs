@@ -3,12 +3,15 @@
 use crate::error::RecordingError;
 use crate::wav::Wav;
 use hound::{SampleFormat, WavSpec, WavWriter};
+use std::borrow::Cow;
 use std::fs::{self, File};
 use std::io::{self, BufReader, Cursor, Read};
 use std::path::Path;
 
 /// Most samples of a channel: a minute and a half at 44 100 a second.
 pub const MAX_SAMPLES: u64 = 1 << 22;
+/// Most samples a second that are listened to: above half of that there is hardly anything of a coin, and noise.
+const MOST_HZ: f64 = 96_000.0;
 /// Shortest recording, s.
 const SHORTEST_S: f64 = 0.1;
 /// A recording whose peak is beyond this reaches the full scale: what is near its peak …
@@ -141,6 +144,24 @@ impl Recording {
     /// Length, s.
     pub fn seconds(&self) -> f64 {
         self.samples.len() as f64 / self.rate_hz
+    }
+
+    /// The recording as it is listened to: with 96 000 samples a second at most, each the mean of a whole number of its
+    /// own. From one sample to the next a sound changes the less the more there are, and noise does not: the onset of a
+    /// sound would drown in it. The times of the means are late by less than 4 µs.
+    pub(crate) fn slowed(&self) -> Cow<'_, Self> {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // positive; a NaN is 0
+        let together = (self.rate_hz / MOST_HZ).ceil() as usize;
+        if together < 2 {
+            return Cow::Borrowed(self);
+        }
+        let mean = |part: &[f32]| part.iter().sum::<f32>() / part.len() as f32;
+        Cow::Owned(Self {
+            name: self.name.clone(),
+            rate_hz: self.rate_hz / together as f64,
+            samples: self.samples.chunks(together).map(mean).collect(),
+            ..*self
+        })
     }
 }
 
