@@ -178,7 +178,7 @@ impl Observations {
             }
             Content::Film(drops) => drops
                 .fitted(&scene, folder)
-                .map_err(|why| place.problem(why, None))?,
+                .map_err(|problems| place.problems(problems))?,
             Content::RollOut(roll) => roll.reduce(&scene),
             Content::Tilt(tilt) => tilt.reduce(&scene),
             Content::SpinDown(spin) => spin.reduce(&scene),
