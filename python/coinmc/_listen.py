@@ -108,7 +108,8 @@ def listen(
     Raises
     ------
     ValueError
-        A file is no recording, no coin is heard in it, or the engine knows no friction lengths.
+        A file is no recording or is given twice, no coin is heard in it, or the engine knows no
+        friction lengths.
     """
     if overrides and config is None:
         raise ValueError("overrides replace values of a config: give one")

@@ -185,7 +185,7 @@ impl Observations {
             }
             Content::Film(drops) => {
                 let fitted = drops.fitted(&scene, folder);
-                (fitted.map_err(|why| place.problem(why, None))?, 1.0)
+                (fitted.map_err(|problems| place.problems(problems))?, 1.0)
             }
             Content::RollOut(roll) => (roll.reduce(&scene), roll.excess()),
             Content::Tilt(tilt) => (tilt.reduce(&scene), tilt.excess()),

@@ -31,6 +31,8 @@ pub(crate) struct Envelope {
 
 impl Envelope {
     pub(crate) fn of(recording: &Recording) -> Self {
+        let slowed = recording.slowed();
+        let recording = slowed.as_ref();
         let spectra = Spectra::of(&recording.samples, recording.rate_hz, LEAST_HZ, WINDOW_S);
         let noise = spectra.noise();
         let loudness: Vec<f64> = spectra

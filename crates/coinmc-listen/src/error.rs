@@ -20,7 +20,7 @@ pub enum RecordingError {
     NotWav(&'static str),
     /// Its samples are of a kind that is not read.
     #[error(
-        "this kind of WAV file is not read: whole numbers of 8, 16, 24 or 32 bits, or floats of 32, without compression"
+        "this kind of WAV file is not read: whole numbers of 8, 16, 24 or 32 bits, or floats of 32 or 64, without compression"
     )]
     Unsupported,
     /// It ends early.
@@ -44,12 +44,31 @@ pub enum RecordingError {
         /// The most.
         most: u64,
     },
+    /// Too long, and not said how long.
+    #[error(
+        "the recording has more than the {most} samples in each channel that are read, and its header does not say how \
+         many: cut out the part with the coin"
+    )]
+    Endless {
+        /// The most.
+        most: u64,
+    },
     /// A rate at which a coin cannot be heard well enough.
     #[error("the recording has {0} samples a second, but from 8000 to 384000 are read")]
     Rate(u32),
     /// A float that is no number.
     #[error("sample {0} is not a finite number")]
     NotFinite(u64),
+    /// A float far beyond the full scale.
+    #[error(
+        "sample {place} is {level:.1e}, but the full scale of floats in a WAV file is 1: scale the recording"
+    )]
+    BeyondScale {
+        /// Which sample, from 0.
+        place: u64,
+        /// Its value.
+        level: f64,
+    },
     /// Shorter than any bounce.
     #[error("the recording is only {0:.3} s long: 0.1 s are the least")]
     TooShort(f64),

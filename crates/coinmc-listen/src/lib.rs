@@ -9,7 +9,7 @@
 //! ```
 //!
 //! # Files
-//! `recording` WAV files · `spectrum`, `onsets` when something strikes · `envelope`, `chirp`, `whirr` the pitch of a
+//! `wav`, `recording` WAV files · `spectrum`, `onsets` when something strikes · `envelope`, `chirp`, `whirr` the pitch of a
 //! coin that settles · `struck` tosses of the engine until the coin rests · `heard` bounces, from a recording or a
 //! toss · `regression`, `posterior` the surface from bounces · `settling` rolling friction from a whirr · `files` the
 //! recordings · `listened` all recordings together · `written` JSON, CSV and
@@ -31,6 +31,7 @@ mod settling;
 mod spectrum;
 mod struck;
 mod synthetic;
+mod wav;
 mod whirr;
 mod written;
 

@@ -56,6 +56,8 @@ pub struct Onsets {
 impl Onsets {
     /// Finds them: first the loudest at all frequencies alike, then all others at those of the loudest.
     pub fn of(recording: &Recording) -> Self {
+        let slowed = recording.slowed();
+        let recording = slowed.as_ref();
         let spectra = Spectra::of(&recording.samples, recording.rate_hz, LEAST_HZ, WINDOW_S);
         let noise = spectra.noise();
         let reach = steps(RESOLUTION_S * recording.rate_hz / spectra.hop as f64);
@@ -357,6 +359,49 @@ mod tests {
             let recording = synthetic.of_strikes(&coin(), &bounces, [0.0, 0.28]);
             let heard = Onsets::of(&recording).onsets;
             assert_eq!(heard.len(), times.len(), "{silence_s}: {heard:?}");
+        }
+    }
+
+    /// With more samples a second noise changes as much from one to the next, and a sound less: onsets stay where they
+    /// are, at rates of recorders for bats, too.
+    #[test]
+    fn onsets_are_right_at_any_rate() {
+        let struck = [
+            (0.5, 0.7),
+            (0.595, 0.5),
+            (0.647, 0.4),
+            (0.665, 0.3),
+            (0.676, 0.25),
+        ];
+        let philox = coinmc_core::Philox4x64::new([11, 12]);
+        for rate_hz in [44_100.0, 96_000.0, 176_400.0, 192_000.0, 384_000.0] {
+            let ring = |t: f64| {
+                if t < 0.0 {
+                    return 0.0;
+                }
+                let tones = [5000.0, 9000.0].map(|hz| libm::sin(std::f64::consts::TAU * hz * t));
+                libm::exp(-t / 0.006) * (tones[0] + tones[1]) / 2.0
+            };
+            let sample = |n: u64| {
+                let t = n as f64 / rate_hz;
+                let sound: f64 = struck.iter().map(|(at, loud)| loud * ring(t - at)).sum();
+                let word = philox.block([n, 0, 0, 0])[0];
+                let noise = coinmc_core::inverse_normal_cdf(coinmc_core::unit_interval(word));
+                #[allow(clippy::cast_possible_truncation)]
+                let sample = (sound + 0.001 * noise) as f32;
+                sample
+            };
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+            let samples = (0..(1.2 * rate_hz) as u64).map(sample).collect();
+            let recording = Recording::of_samples("bats", rate_hz, samples);
+            let heard = Onsets::of(&recording).onsets;
+            assert_eq!(heard.len(), struck.len(), "{rate_hz}: {heard:?}");
+            for (onset, (at, _)) in heard.iter().zip(struck) {
+                assert!(
+                    (onset.time_s - at).abs() < 0.0005,
+                    "{rate_hz}: {onset:?} {at}"
+                );
+            }
         }
     }
 

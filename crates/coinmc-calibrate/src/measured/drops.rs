@@ -9,6 +9,7 @@ use coinmc_core::{Scene, Surface};
 use coinmc_film::text::{self, Choice};
 use coinmc_film::{FilmedDrop, Law as FlatLaw, MAX_DROPS, Model, Options, Shared, fit};
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 /// Files of drops.
 #[derive(Debug, Clone, PartialEq)]
@@ -76,18 +77,18 @@ impl Drops {
     /// Reads and fits the drops; files are sought from the folder of the config.
     ///
     /// # Errors
-    /// What is wrong with a file, or why there is no fit.
-    pub(crate) fn fitted(&self, scene: &Scene, folder: &Path) -> Result<Vec<Reduced>, String> {
+    /// What is wrong with each file, or why there is no fit.
+    pub(crate) fn fitted(&self, scene: &Scene, folder: &Path) -> Result<Vec<Reduced>, Vec<String>> {
         let mut drops: Vec<FilmedDrop> = vec![];
         let mut problems: Vec<String> = vec![];
         for file in &self.files {
-            match read(&folder.join(file)) {
+            match read(file, folder) {
                 Ok(drop) => drops.push(drop),
                 Err(problem) => problems.push(problem),
             }
         }
         if !problems.is_empty() {
-            return Err(problems.join("\n"));
+            return Err(problems);
         }
         let model = Model {
             law: self.law,
@@ -104,7 +105,7 @@ impl Drops {
             },
             ..Options::default()
         };
-        let fitted = fit(&model, &drops, &options).map_err(|error| error.to_string())?;
+        let fitted = fit(&model, &drops, &options).map_err(|error| vec![error.to_string()])?;
         let pairs = [
             (coinmc_film::Parameter::Restitution, Parameter::Restitution),
             (coinmc_film::Parameter::Friction, Parameter::Friction),
@@ -122,7 +123,8 @@ impl Drops {
         });
         let determined: Vec<_> = determined.collect();
         if determined.is_empty() {
-            return Err("these drops determine neither restitution nor friction".to_owned());
+            let nothing = "these drops determine neither restitution nor friction";
+            return Err(vec![nothing.to_owned()]);
         }
         Ok(determined)
     }
@@ -130,11 +132,49 @@ impl Drops {
     pub(crate) const KIND: Kind = Kind::Film;
 }
 
-fn read(path: &Path) -> Result<FilmedDrop, String> {
+/// Reads a file from a folder, or says in a line what is wrong with it.
+fn read(file: &Path, folder: &Path) -> Result<FilmedDrop, String> {
+    if file.as_os_str().is_empty() {
+        return Err("`files` has an empty name".to_owned());
+    }
+    let path = folder.join(file);
     let name = path.display().to_string();
-    let bytes = text::bytes_of(path).map_err(|error| format!("{name}: {error}"))?;
+    let bytes = bytes_of(&path).map_err(|error| format!("{name}: {error}"))?;
     match text::read(&name, &bytes, &Choice::default()) {
         Ok(footage) => Ok(footage.drop),
-        Err(problems) => Err(problems.render(false)),
+        Err(problems) => Err(in_a_line(problems.problems())),
+    }
+}
+
+/// The bytes of a file. A config names no pipe, which would wait for somebody to write, and no device, which need not
+/// end.
+fn bytes_of(path: &Path) -> io::Result<Vec<u8>> {
+    let kind = fs::metadata(path)?;
+    if kind.is_file() || kind.is_dir() {
+        text::bytes_of(path)
+    } else {
+        Err(io::Error::other("it is not a plain file"))
+    }
+}
+
+/// The first problem of a file, and how many more there are.
+fn in_a_line(problems: &[text::Problem]) -> String {
+    let Some((first, more)) = problems.split_first() else {
+        return String::new();
+    };
+    let text::Problem {
+        file,
+        line,
+        column,
+        message,
+        ..
+    } = first;
+    let place = match line {
+        0 => file.clone(),
+        _ => format!("{file}:{line}:{column}"),
+    };
+    match more.len() {
+        0 => format!("{place}: {message}"),
+        more => format!("{place}: {message}, and {more} more: see `coinmc film read {file}`"),
     }
 }

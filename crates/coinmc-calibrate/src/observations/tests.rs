@@ -125,3 +125,36 @@ fn a_prior_says_whether_the_config_gives_its_number() {
         "around the usual pivoting friction: the config gives none"
     );
 }
+
+/// Each file of filmed drops has a message of its own, on one line; what is no plain file is not opened.
+#[cfg(unix)]
+#[test]
+fn every_bad_film_is_told() {
+    let text = "coin.ratio = 0.2\ncoin.radius_m = 0.01\nsurface.material = 'wood'\nlaunch.preset = 'hand'\n\
+                engine.volumetric = {}\n[[film]]\nfiles = ['no.txt', '/dev/zero', '', 'src', 'README.md']\n";
+    let folder = env!("CARGO_MANIFEST_DIR").as_ref();
+    let Err(CalibrationError::Config(found)) = Observations::parse("inline", text, &[], folder)
+    else {
+        panic!("films that are none");
+    };
+    let messages: Vec<&str> = found
+        .problems()
+        .iter()
+        .map(|one| one.message.as_str())
+        .collect();
+    assert!(messages[0].contains("no.txt: No such file"), "{messages:?}");
+    assert_eq!(messages[1], "/dev/zero: it is not a plain file");
+    assert_eq!(messages[2], "`files` has an empty name");
+    assert!(messages[3].contains("src: is a directory"), "{messages:?}");
+    assert!(
+        messages[4].contains("README.md: no line names columns"),
+        "{messages:?}"
+    );
+    assert_eq!(messages.len(), 5);
+    assert!(
+        found
+            .problems()
+            .iter()
+            .all(|one| one.line == 6 && !one.message.contains('\n'))
+    );
+}

@@ -58,6 +58,15 @@ impl Place {
         problems.finish(&self.sources)
     }
 
+    /// Several problems here, each quoted with a caret.
+    pub fn problems(&self, messages: impl IntoIterator<Item = String>) -> Diagnostics {
+        let mut problems = Problems::default();
+        for message in messages {
+            problems.add(self.span, message);
+        }
+        problems.finish(&self.sources)
+    }
+
     /// The line, from 1.
     pub fn line(&self) -> usize {
         self.sources.place(self.span).0

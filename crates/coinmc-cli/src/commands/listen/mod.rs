@@ -49,10 +49,11 @@ pub(crate) struct Listen {
 
     /// Surfaces, drawn from the prior, on which drops are simulated
     #[arg(long, value_name = "N", default_value = "20_000", value_parser = super::count)]
+    #[arg(requires = "config")]
     surfaces: u64,
 
     /// Seed of all random numbers
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, requires = "config")]
     seed: u64,
 
     #[command(flatten)]
@@ -127,7 +128,10 @@ impl Listen {
         match self.format {
             RowsFormat::Json => output::print_json(&document(&heard, told)),
             RowsFormat::Csv => output::print(&csv(&heard)),
-            RowsFormat::Table => output::print(&report::text(&heard, told, console.stdout())),
+            RowsFormat::Table => {
+                let style = console.stdout();
+                output::print(&report::text(&heard, told, style, self.quiet))
+            }
         }
         .map_err(|error| Failure::Runtime(anyhow!(error)))?;
         Ok(Outcome::Done)
@@ -140,6 +144,30 @@ impl From<ListenError> for super::question::Unanswered {
             ListenError::Question(error) => error.into(),
             ListenError::Calibration(error) => error.into(),
             error => Self::Failed(Failure::Input(error.into())),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    #[derive(Debug, Parser)]
+    struct Words {
+        #[command(flatten)]
+        listen: super::Listen,
+    }
+
+    /// Without a config nothing is simulated, so that numbers of a simulation say that it is missing.
+    #[test]
+    fn what_is_simulated_needs_a_config() {
+        let parsed =
+            |words: &str| Words::try_parse_from(words.split(' ')).map(|words| words.listen);
+        assert_eq!(parsed("listen a.wav").unwrap().surfaces, 20_000);
+        for asked in ["listen a.wav --surfaces 100", "listen a.wav --seed 3"] {
+            let error = parsed(asked).unwrap_err().to_string();
+            assert!(error.contains("--config"), "{error}");
+            assert!(parsed(&format!("{asked} --config a.toml")).is_ok());
         }
     }
 }

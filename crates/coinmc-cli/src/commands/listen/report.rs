@@ -9,11 +9,19 @@ use coinmc_questions::number::{three_digits, two_digits};
 /// Times that are shown.
 const SHOWN: usize = 12;
 
-/// The whole answer.
-pub(super) fn text(heard: &[Heard], told: Option<(&Told, &Observations)>, style: &Style) -> String {
+/// The whole answer; without remarks if it is to be quiet.
+pub(super) fn text(
+    heard: &[Heard],
+    told: Option<(&Told, &Observations)>,
+    style: &Style,
+    quiet: bool,
+) -> String {
     let mut text: String = heard.iter().map(|one| of_recording(one, style)).collect();
     if let Some((told, observed)) = told {
-        text += &surface(told, observed, style);
+        text += &surface(told, style);
+        if !quiet {
+            text += &remarks(observed, style);
+        }
     }
     text += &format!(
         "\n{}\n",
@@ -86,7 +94,7 @@ fn listed(all: &[String]) -> String {
     }
 }
 
-fn surface(told: &Told, observed: &Observations, style: &Style) -> String {
+fn surface(told: &Told, style: &Style) -> String {
     let mut text = String::from("\n");
     if let Some(drops) = &told.drops {
         text += &by_drops(drops, style);
@@ -103,11 +111,19 @@ fn surface(told: &Told, observed: &Observations, style: &Style) -> String {
         let words = format!("{} {doubt}", style.paint(Colors::Warning, "mind:"));
         text += &wrapped(&words, style.width, 2);
     }
-    for note in observed.notes() {
-        let note = style.paint(Colors::Faint, &format!("note: {note}"));
-        text += &wrapped(&note, style.width, 0);
-    }
     text
+}
+
+/// What was assumed of the scene.
+fn remarks(observed: &Observations, style: &Style) -> String {
+    let note = |note| {
+        wrapped(
+            &style.paint(Colors::Faint, &format!("note: {note}")),
+            style.width,
+            0,
+        )
+    };
+    observed.notes().map(note).collect()
 }
 
 fn by_drops(drops: &FromDrops, style: &Style) -> String {
@@ -145,4 +161,26 @@ fn by_drops(drops: &FromDrops, style: &Style) -> String {
         text += &wrapped(&words, style.width, 2);
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Without remarks warnings stay.
+    #[test]
+    fn quiet_leaves_remarks_out_and_warnings_in() {
+        let config = "coin = { ratio = 0.1, radius_m = 0.0116 }\nlaunch.preset = 'hand'\nengine.volumetric = {}\n\
+                      surface = { restitution = 0.5, friction = 0.3 }\n";
+        let observed = Observations::parse("inline", config, &[], "".as_ref()).unwrap();
+        let told = Told {
+            drops: None,
+            whirrs: None,
+            doubts: vec!["odd".to_owned()],
+        };
+        let said = |quiet| text(&[], Some((&told, &observed)), &Style::plain(80), quiet);
+        assert!(said(false).contains("note: surface.roughness_slope = 0"));
+        assert!(!said(true).contains("note:"));
+        assert!(said(true).contains("mind: odd"));
+    }
 }
