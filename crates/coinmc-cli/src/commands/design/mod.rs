@@ -9,7 +9,8 @@ use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format};
 use anyhow::anyhow;
 use clap::Args;
-use coinmc_questions::{self as questions, Design, DesignError, Designed, PrintedCoin};
+use coinmc_questions::{self as questions, Design, DesignError, Designed};
+use coinmc_questions::{PRINTED_DIAMETER_M, PrintedCoin};
 use coinmc_solid::{Edge, Infill};
 use files::Files;
 use serde_json::Value;
@@ -33,9 +34,9 @@ pub(crate) struct DesignArgs {
     #[command(flatten)]
     scene: SceneArgs,
 
-    /// Diameter
-    #[arg(long, value_name = "LENGTH", default_value = "24mm")]
-    diameter: Length,
+    /// Diameter [default: that of the config; for an everyday scene 24mm]
+    #[arg(long, value_name = "LENGTH")]
+    diameter: Option<Length>,
 
     /// Probability of the side [default: 1/3]
     #[arg(long, value_name = "P", allow_negative_numbers = true)]
@@ -95,13 +96,22 @@ impl DesignArgs {
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
-        let question = self.question();
+        let (scene, template) = self.scene.template()?;
+        let overrides = self.scene.overrides();
+        let told = questions::diameter_told(&template, scene, overrides);
+        let (diameter_m, told) = match self.diameter {
+            // a config with several diameters, or with one that cannot be, is none of its concern
+            Some(Length(asked)) => (asked, told.ok().flatten()),
+            None => {
+                let told = told?;
+                (told.unwrap_or(PRINTED_DIAMETER_M), told)
+            }
+        };
+        let question = self.question(diameter_m);
         // what is wrong with any coin of this kind is said before files are begun
         let coin = &question.coin;
         coin.check().map_err(DesignError::from)?;
         let files = Files::begin(&self.out)?;
-        let (scene, template) = self.scene.template()?;
-        let overrides = self.scene.overrides();
         let designed = ask(console, &self.answer, |workers| {
             questions::design(&template, scene, overrides, &question, workers)
         })?;
@@ -111,7 +121,7 @@ impl DesignArgs {
         let paths = files.write(&designed)?;
         match console.format() {
             Format::Json => output::print_json(&document(&designed, &paths)),
-            Format::Table => output::print(&report::text(&designed, &paths, console.stdout())),
+            Format::Table => output::print(&report::text(&designed, told, &paths, console.stdout())),
         }
         .map_err(|error| Failure::Runtime(anyhow!(error)))?;
         Ok(if designed.root.reached {
@@ -121,7 +131,8 @@ impl DesignArgs {
         })
     }
 
-    fn question(&self) -> Design {
+    /// The question, of a coin of this diameter.
+    fn question(&self, diameter_m: f64) -> Design {
         let edge = match (self.rim, self.chamfer) {
             (Some(Length(radius_m)), _) => Edge::Rounded { radius_m },
             (None, Some(Length(size_m))) => Edge::Chamfered { size_m },
@@ -130,7 +141,7 @@ impl DesignArgs {
         let infill = self.walls.zip(self.infill);
         Design {
             coin: PrintedCoin {
-                diameter_m: self.diameter.0,
+                diameter_m,
                 edge,
                 draft_deg: self.draft,
                 marks: self.marks,

@@ -5,8 +5,13 @@ use crate::terminal::{Colors, Style, compact, grouped, in_ascii};
 use coinmc_questions::{Designed, TEST, THICKNESS_ERRORS_M};
 use std::path::PathBuf;
 
-/// The design as text.
-pub(super) fn text(designed: &Designed, paths: &[PathBuf], style: &Style) -> String {
+/// The design as text. `told` is the diameter that the config gives, m.
+pub(super) fn text(
+    designed: &Designed,
+    told: Option<f64>,
+    paths: &[PathBuf],
+    style: &Style,
+) -> String {
     let Designed {
         root, shape, mass, ..
     } = designed;
@@ -19,6 +24,7 @@ pub(super) fn text(designed: &Designed, paths: &[PathBuf], style: &Style) -> Str
         compact((1e6 * mass.mass_kg).round() / 1e3)
     );
     let mut text = format!("{}\n", style.paint(Colors::Strong, &title));
+    text += &other_diameter(shape.diameter_m(), told);
     if let Some(scene) = designed.scene {
         text += &format!("for the scene {}: {}\n", scene.name, scene.doc);
     }
@@ -48,6 +54,19 @@ pub(super) fn text(designed: &Designed, paths: &[PathBuf], style: &Style) -> Str
     if style.unicode { text } else { in_ascii(&text) }
 }
 
+/// That the config gives another diameter than the coin has.
+fn other_diameter(diameter_m: f64, told: Option<f64>) -> String {
+    match told {
+        Some(told) if (told / diameter_m - 1.0).abs() > 1e-9 => {
+            format!(
+                "(of the diameter asked for, not the config's {:.2} mm)\n",
+                1e3 * told
+            )
+        }
+        _ => String::new(),
+    }
+}
+
 /// Heads and tails of a coin with a conical edge.
 fn faces(designed: &Designed) -> String {
     let Some(faces) = &designed.faces else {
@@ -64,4 +83,16 @@ fn faces(designed: &Designed) -> String {
          any thickness\n",
         compact(designed.shape.draft_deg())
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::other_diameter;
+
+    #[test]
+    fn a_diameter_that_is_not_the_configs_is_told() {
+        assert_eq!(other_diameter(0.024, None), "");
+        assert_eq!(other_diameter(0.01, Some(2.0 * 0.005)), "");
+        assert!(other_diameter(0.024, Some(0.01)).contains("config's 10.00 mm"));
+    }
 }
