@@ -151,6 +151,11 @@ pub enum QuestionError {
     /// No point of a run has tosses.
     #[error("no point has tosses yet: finish the run")]
     NoModel,
+    /// No toss of a run shows a face.
+    #[error(
+        "no toss of any point showed a face (all are undecided or left the table): there is nothing to compare with"
+    )]
+    NoFaces,
     /// There is no such scene.
     #[error("there is no scene `{name}`{}: known are {known}", nearest.map_or(String::new(), |near| format!(" (did you mean `{near}`?)")))]
     NoScene {

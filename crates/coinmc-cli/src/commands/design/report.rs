@@ -1,7 +1,7 @@
 //! What was designed, as text.
 
 use crate::terminal::table::{Column, Table};
-use crate::terminal::{Colors, Style, compact, grouped, in_ascii};
+use crate::terminal::{Colors, Style, compact, grouped, in_ascii, with_interval};
 use coinmc_questions::{Designed, TEST, THICKNESS_ERRORS_M};
 use std::path::PathBuf;
 
@@ -73,10 +73,7 @@ fn faces(designed: &Designed) -> String {
         return String::new();
     };
     let [heads, tails] = designed.shape.face_radii_m().map(|radius| 2e3 * radius);
-    let [p_heads, p_tails] = [faces.heads, faces.tails].map(|face| {
-        let arm = face.half_width();
-        format!("{:.3} ± {arm:.3}", face.p)
-    });
+    let [p_heads, p_tails] = [faces.heads, faces.tails].map(|face| with_interval(&face, 3, "±"));
     format!(
         "conical edge of {}°: heads (towards +z) {heads:.2} mm wide, tails {tails:.2} mm\n\
          P(heads) = {p_heads}, P(tails) = {p_tails}: faces of unequal width are not equally likely at \
