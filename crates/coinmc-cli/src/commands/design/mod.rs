@@ -39,7 +39,7 @@ pub(crate) struct DesignArgs {
     diameter: Option<Length>,
 
     /// Probability of the side [default: 1/3]
-    #[arg(long, value_name = "P", allow_negative_numbers = true)]
+    #[arg(long, value_name = "P")]
     target: Option<f64>,
 
     /// Round the rims with this radius
@@ -53,7 +53,6 @@ pub(crate) struct DesignArgs {
     /// Tilt the side by this angle to the axis: a conical edge. Above 0 heads is the wider face, of the
     /// diameter given; heads and tails then differ, and the side alone gets its probability
     #[arg(long, value_name = "DEGREES", conflicts_with_all = ["rim", "chamfer", "marks", "infill"])]
-    #[arg(allow_negative_numbers = true)]
     draft: Option<f64>,
 
     /// Engrave a ring of three marks on heads and of six on tails, which keep the coin balanced
@@ -74,12 +73,7 @@ pub(crate) struct DesignArgs {
     infill: Option<u8>,
 
     /// Search until the interval of H/R is no wider than ± this
-    #[arg(
-        long,
-        value_name = "W",
-        default_value_t = 0.01,
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "W", default_value_t = 0.01)]
     half_width: f64,
 
     /// Name of the files, without their endings
@@ -121,7 +115,9 @@ impl DesignArgs {
         let paths = files.write(&designed)?;
         match console.format() {
             Format::Json => output::print_json(&document(&designed, &paths)),
-            Format::Table => output::print(&report::text(&designed, told, &paths, console.stdout())),
+            Format::Table => {
+                output::print(&report::text(&designed, told, &paths, console.stdout()))
+            }
         }
         .map_err(|error| Failure::Runtime(anyhow!(error)))?;
         Ok(if designed.root.reached {

@@ -46,12 +46,7 @@ pub(crate) struct SensitivityOf {
     of: Vec<String>,
 
     /// Change of each number, as a share of it
-    #[arg(
-        long,
-        value_name = "S",
-        default_value_t = 0.05,
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "S", default_value_t = 0.05)]
     step: f64,
 
     /// Tosses with either value of each number [default: 20_000; with ranges 4096]
