@@ -113,7 +113,7 @@ def design(
     config: ConfigLike | None = None,
     scene: str | None = None,
     *,
-    diameter_m: float = 0.024,
+    diameter_m: float | None = None,
     target: float = 1.0 / 3.0,
     rim_m: float | None = None,
     chamfer_m: float | None = None,
@@ -136,7 +136,7 @@ def design(
     scene : str, optional
         Without a config: an everyday scene, by default ``"table"``. `coinmc.scenes` lists them.
     diameter_m : float, optional
-        Diameter.
+        Diameter, by default that of the config, and 24 mm for an everyday scene.
     target : float, optional
         Probability of the side.
     rim_m, chamfer_m : float, optional
@@ -183,7 +183,7 @@ def design(
     asked = {
         "source": source,
         "overrides": sets,
-        "diameter_m": float(diameter_m),
+        "diameter_m": None if diameter_m is None else float(diameter_m),
         "target": float(target),
         "rim_m": None if rim_m is None else float(rim_m),
         "chamfer_m": None if chamfer_m is None else float(chamfer_m),

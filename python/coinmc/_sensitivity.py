@@ -3,7 +3,7 @@
 import math
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,9 @@ _MAX_PILOT = 1 << 18
 #: Parameters that affect no probability.
 _WITHOUT_EFFECT = {"coin.mass_kg"}
 
+#: By step: the smaller and the larger value of a parameter, and the configs with them.
+_Pairs: TypeAlias = dict[float, tuple[tuple[float, float], tuple[Config, Config]]]
+
 
 class Sensitivity(ArrowTable):
     """Derivatives of probabilities, one row per parameter. Made by `sensitivity`.
@@ -53,11 +56,11 @@ class Sensitivity(ArrowTable):
     def columns(self) -> dict[str, NDArray[Any]]:
         """Columns by name.
 
-        ``parameter``, its ``value`` and the ``step`` by which it was changed; ``tosses``, the
-        number compared; ``changed``, the fraction of them whose outcome changed; for each face
-        ``d_p_<face>``, the derivative dP(face)/d ln(parameter), with its interval
-        ``d_p_<face>_lo`` and ``d_p_<face>_hi``, and ``gain_<face>``: how many times more tosses
-        independent ones would need for the same error.
+        ``parameter``, its ``value``, the ``step`` by which it was changed and the two values
+        compared, ``from`` and ``to``; ``tosses``, the number compared; ``changed``, the fraction
+        of them whose outcome changed; for each face ``d_p_<face>``, the derivative
+        dP(face)/d ln(parameter), with its interval ``d_p_<face>_lo`` and ``d_p_<face>_hi``, and
+        ``gain_<face>``: how many times more tosses independent ones would need for the same error.
         """
         return self._columns
 
@@ -93,10 +96,11 @@ def sensitivity(
     """Compute how strongly probabilities depend on parameters, by paired differences.
 
     Each parameter is decreased and increased by half a step (by the same factor), and the same
-    tosses, with the same random numbers, are computed with both values. Only the tosses whose face
-    changes contribute to the error of the difference. Where a coin bounces often nearly every toss
-    changes, and pairs are worth little more than independent tosses; where it does not they are
-    worth many times as much. The columns ``changed`` and ``gain_<face>`` say it.
+    tosses, with the same random numbers, are computed with both values; where its range ends too
+    near, as at a restitution of 1, it is changed by a whole step to the other side. Only the tosses
+    whose face changes contribute to the error of the difference. Where a coin bounces often nearly
+    every toss changes, and pairs are worth little more than independent tosses; where it does not
+    they are worth many times as much. The columns ``changed`` and ``gain_<face>`` say it.
 
     Parameters
     ----------
@@ -109,11 +113,11 @@ def sensitivity(
         Tosses with each value; by default the number per point in the config.
     step : float, optional
         Ratio of the two values minus 1; by default it is chosen for each parameter. The bias of the
-        derivative is proportional to the square of the step. Its statistical error falls with the
-        step: as the inverse of the square root where few tosses change, as the inverse where most
-        do. So a twentieth of the tosses, 2^18 at most, is made with steps from 0.025 to 0.4, and
-        that is taken for which variance and squared bias, from the difference of neighbouring
-        steps, are least together.
+        derivative is proportional to the square of the step (to the step where the parameter is
+        changed to one side only). Its statistical error falls with the step: as the inverse of the
+        square root where few tosses change, as the inverse where most do. So a twentieth of the
+        tosses, 2^18 at most, is made with steps from 0.025 to 0.4, and that is taken for which
+        variance and squared bias, from the difference of neighbouring steps, are least together.
     point : int, optional
         Index of the point in the sweep: every swept parameter takes its value there.
     confidence : float, optional
@@ -174,9 +178,15 @@ def sensitivity(
     with reporting(progress, "sensitivity") as report:
         count = _Count(planned, report)
         for name, pairs in ladders.items():
-            chosen = _best_step(pairs, pilot, n, threads, count) if step is None else step
+            order = _order(pairs, values[name])
+            chosen = step
+            if chosen is None:
+                tried_out = {step: configs for step, (_, configs) in pairs.items()}
+                chosen = _best_step(tried_out, order, pilot, n, threads, count)
+            (smaller, larger), configs = pairs[chosen]
             row = {"parameter": name, "value": values[name], "step": chosen}
-            rows.append({**row, **_row(_cross(pairs[chosen], n, threads, count), chosen, z)})
+            row |= {"from": smaller, "to": larger}
+            rows.append({**row, **_row(_cross(configs, n, threads, count), chosen, z)})
     return Sensitivity(rows, confidence, step)
 
 
@@ -194,8 +204,14 @@ class _Count:
             self.report(self.done, self.planned)
 
 
+def _order(pairs: _Pairs, value: float) -> int:
+    """Return the power of the step that the bias goes by: 2 around a value, 1 beside it."""
+    return 1 if any(value in both for both, _ in pairs.values()) else 2
+
+
 def _best_step(
     pairs: Mapping[float, tuple[Config, Config]],
+    order: int,
     pilot: int,
     n: int,
     threads: int | None,
@@ -210,12 +226,13 @@ def _best_step(
         scale = [1.0 / math.log1p(step) for step in steps]
         slope = np.array([a * b for (a, _), b in zip(found, scale, strict=True)])
         variance = np.array([(a * b) ** 2 for (_, a), b in zip(found, scale, strict=True)])
-        # slopes differ by three times the bias of the shorter step; what their noise makes of it
-        # is taken off
+        # twice the step: four times the bias around a value, twice beside it; so slopes differ by
+        # three times the bias of the shorter step, or by it. What their noise makes of it is taken
+        # off
+        growth = 2.0**order
         noise = variance[1:] + variance[:-1]
-        squared_bias = np.maximum(np.diff(slope) ** 2 - noise, 0.0) / 9.0
-        # twice the step: four times the bias
-        last = 16.0 * squared_bias[-1:] if len(squared_bias) else np.zeros(1)
+        squared_bias = np.maximum(np.diff(slope) ** 2 - noise, 0.0) / (growth - 1.0) ** 2
+        last = growth**2 * squared_bias[-1:] if len(squared_bias) else np.zeros(1)
         face_errors = variance * pilot / n + np.append(squared_bias, last)
         errors = np.maximum(errors, face_errors)
     # without any change all are alike: the longest sees most
@@ -320,8 +337,11 @@ def _is_number(item: Any) -> bool:
 
 def _pairs(
     config: Config, name: str, values: Mapping[str, float], steps: Sequence[float]
-) -> dict[float, tuple[Config, Config]]:
-    """Return the configs with the smaller and the larger value, for each step that is allowed."""
+) -> _Pairs:
+    """Return the smaller and the larger value and their configs, for each step that is allowed.
+
+    They are around the parameter's own value, or beside it where its range ends too near.
+    """
     if name not in values:
         known = ", ".join(values)
         if _is_zero(config, name):
@@ -330,15 +350,35 @@ def _pairs(
             f"{name} is not a number of this config that can be varied; choose from {known}"
         )
     base = Config.from_toml(config.resolved)
-    pairs = {}
-    for step in steps:
-        root = math.sqrt(1.0 + step)
-        smaller, larger = values[name] / root, values[name] * root
+    value = values[name]
+    refused = []
+    for ladder in (
+        [_around(value, step) for step in steps],
+        [(value / (1.0 + step), value) for step in steps],
+        [(value, value * (1.0 + step)) for step in steps],
+    ):
         try:
-            pairs[step] = Config(base, {name: smaller}), Config(base, {name: larger})
+            return _allowed(base, name, dict(zip(steps, ladder, strict=True)))
+        except ConfigError as error:
+            refused.append(error)
+    raise refused[0]
+
+
+def _around(value: float, step: float) -> tuple[float, float]:
+    root = math.sqrt(1.0 + step)
+    return value / root, value * root
+
+
+def _allowed(base: Config, name: str, ladder: Mapping[float, tuple[float, float]]) -> _Pairs:
+    """Return the configs with the two values of each step, up to the first that is not allowed."""
+    pairs: _Pairs = {}
+    for step, (smaller, larger) in ladder.items():
+        try:
+            configs = Config(base, {name: smaller}), Config(base, {name: larger})
         except ConfigError:
             if not pairs:
                 raise
             # longer ones are not allowed either
             break
+        pairs[step] = (smaller, larger), configs
     return pairs

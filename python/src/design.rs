@@ -1,9 +1,11 @@
 //! Questions: a fair coin to print.
 
+use crate::errors;
 use crate::plan::parsed;
 use crate::question::{self, Source};
 use coinmc_questions::{
-    Design, DesignError, DesignFile, Designed, PrintedCoin, design as answer, document_of_design,
+    Design, DesignError, DesignFile, Designed, PRINTED_DIAMETER_M, PrintedCoin, design as answer,
+    diameter_told, document_of_design,
 };
 use coinmc_solid::{Edge, Infill};
 use pyo3::prelude::*;
@@ -15,7 +17,8 @@ use std::num::NonZeroUsize;
 pub(crate) struct AskedDesign {
     source: Source,
     overrides: Vec<String>,
-    diameter_m: f64,
+    /// `None`: that of the config, or of prints for an everyday scene.
+    diameter_m: Option<f64>,
     target: f64,
     rim_m: Option<f64>,
     chamfer_m: Option<f64>,
@@ -29,7 +32,8 @@ pub(crate) struct AskedDesign {
 }
 
 impl AskedDesign {
-    fn question(&self) -> Design {
+    /// The question, of a coin of this diameter.
+    fn question(&self, diameter_m: f64) -> Design {
         let edge = match (self.rim_m, self.chamfer_m) {
             (Some(radius_m), _) => Edge::Rounded { radius_m },
             (None, Some(size_m)) => Edge::Chamfered { size_m },
@@ -37,7 +41,7 @@ impl AskedDesign {
         };
         Design {
             coin: PrintedCoin {
-                diameter_m: self.diameter_m,
+                diameter_m,
                 edge,
                 draft_deg: self.draft_deg,
                 marks: self.marks,
@@ -66,7 +70,13 @@ pub(crate) fn design(
 ) -> PyResult<(String, Contents)> {
     let (scene, template) = question::template(&asked.source, &asked.overrides)?;
     let overrides = parsed(&asked.overrides)?;
-    let question = asked.question();
+    let diameter_m = match asked.diameter_m {
+        Some(diameter_m) => diameter_m,
+        None => diameter_told(&template, scene, &overrides)
+            .map_err(|error| errors::question(&error))?
+            .unwrap_or(PRINTED_DIAMETER_M),
+    };
+    let question = asked.question(diameter_m);
     question::answered(py, asked.threads, progress, |workers| {
         let designed = answer(&template, scene, &overrides, &question, workers)?;
         let document = document_of_design(&designed).to_string();

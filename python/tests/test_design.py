@@ -28,6 +28,18 @@ def test_a_design_has_its_files(tmp_path):
     json.dumps(coin.document)
 
 
+def test_the_config_gives_the_diameter():
+    config = {
+        "coin": {"ratio": 1.0, "radius_m": 0.005},
+        "surface": {"material": "wood"},
+        "launch": {"preset": "hand"},
+        "engine": {"volumetric": {}},
+    }
+    assert coinmc.design(config, half_width=0.2).diameter_m == pytest.approx(0.01)
+    wide = coinmc.design(config, half_width=0.2, diameter_m=0.03)
+    assert wide.diameter_m == pytest.approx(0.03)
+
+
 def test_infill_makes_it_lighter():
     full = coinmc.design(**COIN)
     light = coinmc.design(**COIN, walls_m=0.0008, infill=0.2)

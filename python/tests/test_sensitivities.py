@@ -61,6 +61,12 @@ def test_parameters_that_cannot_be_varied_are_reported(scene):
     for arguments in ({"step": 0.0}, {"step": 2.0}, {"confidence": 1.0}, {"tosses": 0}):
         with pytest.raises(ValueError, match=r"step|confidence|at least one"):
             coinmc.sensitivity(scene, ["coin.ratio"], **arguments)
-    # half a step above restitution 1 there is no restitution
-    with pytest.raises(coinmc.ConfigError):
-        coinmc.sensitivity(scene, ["surface.restitution"], overrides={"surface.restitution": 1.0})
+
+
+def test_a_parameter_at_the_end_of_its_range_is_changed_to_one_side():
+    """Half a step above restitution 1 there is no restitution."""
+    at_end = {"surface.restitution": 1.0}
+    table = coinmc.sensitivity(ADHESIVE, list(at_end), step=0.05, tosses=500, overrides=at_end)
+    assert (table["from"].tolist(), table["to"].tolist()) == ([1.0 / 1.05], [1.0])
+    chosen = coinmc.sensitivity(ADHESIVE, list(at_end), tosses=500, overrides=at_end)
+    assert chosen["to"].tolist() == [1.0]

@@ -10,7 +10,8 @@ use crate::commands::{
 use crate::commands::{Calibrate, Film, Listen};
 use crate::exit::{Failure, Outcome};
 use crate::output::{Console, Format};
-use clap::{ColorChoice, CommandFactory, Parser, Subcommand};
+use clap::{Arg, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
+use std::ffi::OsString;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -81,7 +82,26 @@ enum Command {
     Completions(Completions),
 }
 
+/// The same command, whose options take negative numbers as their values: the option then says its own range, where
+/// clap would know no argument `-1`.
+fn with_negative_numbers(command: clap::Command) -> clap::Command {
+    let takes_values = |arg: &Arg| arg.get_action().takes_values() && !arg.is_positional();
+    command
+        .mut_args(|arg| {
+            let takes = takes_values(&arg);
+            arg.allow_negative_numbers(takes)
+        })
+        .mut_subcommands(with_negative_numbers)
+}
+
 impl Arguments {
+    /// Reads the words of a command line.
+    pub(crate) fn read(words: &[OsString]) -> Result<Self, clap::Error> {
+        let mut command = with_negative_numbers(Self::command());
+        let matches = command.try_get_matches_from_mut(words)?;
+        Self::from_arg_matches(&matches).map_err(|error| error.format(&mut command))
+    }
+
     /// Executes the command and reports failures; returns the exit status.
     pub(crate) fn execute(self) -> u8 {
         let format = self.command.format();
@@ -164,6 +184,26 @@ mod tests {
 
     #[test]
     fn the_arguments_are_consistent() {
-        Arguments::command().debug_assert();
+        with_negative_numbers(Arguments::command()).debug_assert();
+    }
+
+    fn refused(words: &str) -> String {
+        let words: Vec<OsString> = words.split(' ').map(Into::into).collect();
+        let error = Arguments::read(&words).expect_err("a problem");
+        error.to_string()
+    }
+
+    #[test]
+    fn a_negative_number_is_a_value_that_its_option_may_refuse() {
+        let time = refused("coinmc run a.toml --max-time -5");
+        assert!(
+            time.contains("'-5' for '--max-time <TIME>': expected a time"),
+            "{time}"
+        );
+        let threads = refused("coinmc fair --threads -1");
+        assert!(threads.contains("-1 is not in 1..=1024"), "{threads}");
+        let words = ["coinmc", "ask", "--ratio", "-1"].map(OsString::from);
+        assert!(Arguments::read(&words).is_ok());
+        assert!(refused("coinmc run -1").contains("unexpected argument '-1'"));
     }
 }

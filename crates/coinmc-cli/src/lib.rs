@@ -16,7 +16,6 @@ mod output;
 mod terminal;
 mod time_limit;
 
-use clap::Parser;
 use std::ffi::OsString;
 
 /// Does what a command line says, the first word of which is the name of the program, and returns
@@ -32,7 +31,7 @@ use std::ffi::OsString;
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let words: Vec<OsString> = arguments.into_iter().collect();
     command_line::remember(&words);
-    match arguments::Arguments::try_parse_from(&words) {
+    match arguments::Arguments::read(&words) {
         Ok(arguments) => arguments.execute(),
         Err(error) => {
             // if standard error is closed, the exit status still reports the failure

@@ -196,8 +196,12 @@ impl std::str::FromStr for Material {
 
     fn from_str(name: &str) -> Result<Self, Self::Err> {
         let mut all = Self::ALL.into_iter();
-        all.find(|material| material.name == name)
-            .ok_or_else(|| crate::schema::unlisted("material", name))
+        all.find(|material| material.name == name).ok_or_else(|| {
+            let known = Self::ALL.map(|material| material.name).join(", ");
+            crate::EngineError::mismatch(format_args!(
+                "there is no `material` called `{name}`: there are {known}"
+            ))
+        })
     }
 }
 

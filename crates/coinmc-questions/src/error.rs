@@ -48,6 +48,16 @@ pub enum QuestionError {
         /// The last end.
         to: f64,
     },
+    /// The config refuses one end of the range.
+    #[error("the range cannot lead {end} {value}: {}", said(problems))]
+    RangeEnd {
+        /// Which end: `from` or `to`.
+        end: &'static str,
+        /// Its value.
+        value: f64,
+        /// The problems of the config there.
+        problems: Diagnostics,
+    },
     /// A parameter without a range.
     #[error("`{key}` has no natural range: say from where to where to search")]
     NoRange {
@@ -151,6 +161,11 @@ pub enum QuestionError {
     /// No point of a run has tosses.
     #[error("no point has tosses yet: finish the run")]
     NoModel,
+    /// No toss of a run shows a face.
+    #[error(
+        "no toss of any point showed a face (all are undecided or left the table): there is nothing to compare with"
+    )]
+    NoFaces,
     /// There is no such scene.
     #[error("there is no scene `{name}`{}: known are {known}", nearest.map_or(String::new(), |near| format!(" (did you mean `{near}`?)")))]
     NoScene {
@@ -161,6 +176,13 @@ pub enum QuestionError {
         /// All names.
         known: String,
     },
+}
+
+/// The messages of problems, without their places.
+fn said(problems: &Diagnostics) -> String {
+    let messages = problems.problems().iter();
+    let messages = messages.map(|problem| problem.message.as_str());
+    messages.collect::<Vec<_>>().join("; ")
 }
 
 impl From<Diagnostics> for QuestionError {

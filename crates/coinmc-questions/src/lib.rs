@@ -50,8 +50,8 @@ pub use compare::{
 };
 pub use converge::{Converged, Convergence, Tightened, converge, document_of_convergence};
 pub use design::{
-    Design, DesignError, DesignFile, Designed, Faces, PrintedCoin, TEST, THICKNESS_ERRORS_M,
-    design, document_of_design,
+    Design, DesignError, DesignFile, Designed, Faces, PRINTED_DIAMETER_M, PrintedCoin, TEST,
+    THICKNESS_ERRORS_M, design, diameter_told, document_of_design,
 };
 pub use document::document;
 pub use error::QuestionError;

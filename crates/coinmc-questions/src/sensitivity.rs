@@ -9,7 +9,8 @@
 //! dP/d ln θ = [P(θ sqrt(1 + s)) − P(θ/sqrt(1 + s))]/ln(1 + s),
 //! ```
 //!
-//! right to the second order of s. The elasticity is d ln P/d ln θ: by how many per cent P grows if θ
+//! right to the second order of s. Where the range of θ ends before that, as that of a restitution of 1, the two
+//! values are θ/(1 + s) and θ, or θ and θ(1 + s), which is right to the first order. The elasticity is d ln P/d ln θ: by how many per cent P grows if θ
 //! does by one.
 //!
 //! Near a root x* of P(x, θ) = target, dx*/d ln θ = −(dP/d ln θ)/(dP/dx).
@@ -40,9 +41,11 @@ pub struct Parameter {
 pub struct Sensitivity {
     /// The parameter.
     pub parameter: Parameter,
+    /// Its two values: around its own, or on one side of it where its range ends.
+    pub values: [f64; 2],
     /// dP/d ln(parameter) of heads, tails and side.
     pub faces: [Interval; 3],
-    /// Share of the tosses that show each face, with the smaller value.
+    /// Share of the tosses that show each face, with the first value.
     pub p: [f64; 3],
     /// Share of the tosses whose face changes.
     pub changed: f64,
@@ -53,6 +56,11 @@ pub struct Sensitivity {
 }
 
 impl Sensitivity {
+    /// Whether the range of the parameter ends so near that it was moved to one side only.
+    pub fn is_one_sided(&self) -> bool {
+        self.values.contains(&self.parameter.value)
+    }
+
     /// dP/d ln(parameter) of a face.
     pub fn of(&self, face: Face) -> Interval {
         self.faces[face as usize]
@@ -162,19 +170,55 @@ pub fn sensitivities(
 ) -> Result<Vec<Sensitivity>, QuestionError> {
     let template = template.resolved()?;
     let chosen = chosen(&template, steps)?;
-    let root = (1.0 + steps.step).sqrt();
-    let mut plans = vec![];
-    for parameter in &chosen {
-        let at = |value: f64| template.plan(&[(&parameter.key, format!("{value:?}"))]);
-        plans.push([at(parameter.value / root)?, at(parameter.value * root)?]);
-    }
-    let pairs: Vec<_> = plans.iter().map(at_first_point).collect();
+    let moved = chosen
+        .into_iter()
+        .map(|parameter| Moved::by(steps.step, parameter, &template));
+    let moved: Vec<Moved> = moved.collect::<Result<_, _>>()?;
+    let pairs: Vec<_> = moved
+        .iter()
+        .map(|moved| at_first_point(&moved.plans))
+        .collect();
     let changes = workers.compare(&pairs, 0..steps.tosses)?;
-    let confidence = plans.first().map_or(0.95, |[plan, _]| plan.confidence);
-    let found = chosen.into_iter().zip(&changes);
+    let found = moved.into_iter().zip(&changes);
     Ok(found
-        .map(|(parameter, changes)| sensitivity(parameter, changes, steps.step, confidence))
+        .map(|(moved, changes)| sensitivity(moved, changes, steps.step))
         .collect())
+}
+
+/// A parameter with its two values, and their plans.
+struct Moved {
+    parameter: Parameter,
+    values: [f64; 2],
+    plans: [Plan; 2],
+}
+
+impl Moved {
+    /// Values whose ratio is 1 + step: around the parameter's own, or beside it where its range ends.
+    fn by(step: f64, parameter: Parameter, template: &Template) -> Result<Self, QuestionError> {
+        let at = |value: f64| template.plan(&[(&parameter.key, format!("{value:?}"))]);
+        let both = |[one, other]: [f64; 2]| Ok::<_, QuestionError>([at(one)?, at(other)?]);
+        let (own, whole) = (parameter.value, 1.0 + step);
+        let around = [own / whole.sqrt(), own * whole.sqrt()];
+        let refused = match both(around) {
+            Ok(plans) => return Ok(Self::new(parameter, around, plans)),
+            Err(QuestionError::Config(refused)) => refused,
+            Err(error) => return Err(error),
+        };
+        for beside in [[own / whole, own], [own, own * whole]] {
+            if let Ok(plans) = both(beside) {
+                return Ok(Self::new(parameter, beside, plans));
+            }
+        }
+        Err(QuestionError::Config(refused))
+    }
+
+    fn new(parameter: Parameter, values: [f64; 2], plans: [Plan; 2]) -> Self {
+        Self {
+            parameter,
+            values,
+            plans,
+        }
+    }
 }
 
 fn at_first_point(plans: &[Plan; 2]) -> [At<'_>; 2] {
@@ -209,14 +253,16 @@ fn chosen(template: &Template, steps: &Steps) -> Result<Vec<Parameter>, Question
     steps.keys.iter().map(pick).collect()
 }
 
-fn sensitivity(parameter: Parameter, changes: &Changes, step: f64, confidence: f64) -> Sensitivity {
+fn sensitivity(moved: Moved, changes: &Changes, step: f64) -> Sensitivity {
+    let confidence = moved.plans[0].confidence;
     let per_log = 1.0 / libm::log1p(step);
     let faces = Face::ALL.map(|face| {
         let (change, error) = changes.difference(face);
         Interval::normal(change, error, confidence).scaled(per_log)
     });
     Sensitivity {
-        parameter,
+        parameter: moved.parameter,
+        values: moved.values,
         faces,
         p: Face::ALL.map(|face| changes.share(face)),
         changed: changes.changed() as f64 / changes.tosses() as f64,

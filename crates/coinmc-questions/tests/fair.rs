@@ -182,6 +182,16 @@ fn questions_without_sense_are_refused() {
     assert!(with(|q| q.half_width = 0.0).starts_with("the half width"));
     assert!(with(|q| q.max_tosses = 10).starts_with("at least 4096 tosses"));
     assert!(with(|q| q.range = Some([2.0, 1.0])).starts_with("the range must lead"));
+    let low = with(|q| q.range = Some([-1.0, 1.0]));
+    assert!(
+        low.starts_with("the range cannot lead from -1: `coin.ratio` must be"),
+        "{low}"
+    );
+    let high = with(|q| q.range = Some([1.0, 1e13]));
+    assert!(
+        high.starts_with("the range cannot lead to 10000000000000: "),
+        "{high}"
+    );
     assert!(with(|q| q.key = "coin.mass_kg".to_owned()).contains("no natural range"));
     assert!(with(|q| q.key = "coin.ratoi".to_owned()).contains("did you mean `ratio`"));
     let sized = Template::new("inline", ROBOT, &[]).with_size(Size::Diameter(-1.0));

@@ -54,6 +54,40 @@ fn the_derivative_is_that_of_the_closed_form() {
     assert!(sum.abs() < 1e-12);
 }
 
+/// A number at the end of its range moves to one side, by the same factor: not past its end, and not by half.
+#[test]
+fn a_number_at_the_end_of_its_range_moves_inwards() {
+    let end = ARC.replace("restitution = 0.0", "restitution = 1.0");
+    let found = ask(&end, &steps(&["surface.restitution"], 512), 2).expect("an answer");
+    assert_eq!(found[0].values, [1.0 / 1.05, 1.0]);
+    assert!(found[0].is_one_sided());
+    let inside = ask(ARC, &steps(&["coin.ratio"], 512), 2).expect("an answer");
+    assert!(!inside[0].is_one_sided());
+    let ratio = inside[0].values[1] / inside[0].values[0];
+    assert!((ratio - 1.05).abs() < 1e-12, "{ratio}");
+}
+
+/// The same tosses as a pair around the middle of the two values makes.
+#[test]
+fn a_one_sided_step_gives_the_derivative_from_that_side() {
+    let bouncing = |restitution: f64| {
+        format!(
+            "seed = 3\ncoin.ratio = 1.0\nsurface = {{ restitution = {restitution}, friction = 0.3 }}\n\
+             launch.preset = 'robot'\nengine.flat = {{}}\nestimate.confidence = 0.999"
+        )
+    };
+    let found = ask(&bouncing(0.99), &steps(&["surface.restitution"], 512), 2).expect("an answer");
+    assert_eq!(found[0].values, [0.99 / 1.05, 0.99]);
+    let below = ask(
+        &bouncing(0.99 / 1.05_f64.sqrt()),
+        &steps(&["surface.restitution"], 512),
+        2,
+    );
+    let below = below.expect("an answer");
+    let [mine, twin] = [&found[0], &below[0]].map(|one| one.of(Face::Side).value);
+    assert!((mine - twin).abs() < 1e-9, "{mine} {twin}");
+}
+
 #[test]
 fn sensitivities_do_not_depend_on_threads() {
     let all = steps(&[], 2048);

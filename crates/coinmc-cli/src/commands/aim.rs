@@ -1,5 +1,6 @@
 //! `coinmc aim`: the launch that forces a face.
 
+use super::new_file;
 use super::question::{AnswerArgs, KeyRange, SceneArgs, ask, range_and_count, write_file};
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format};
@@ -9,7 +10,6 @@ use anyhow::anyhow;
 use clap::Args;
 use coinmc_core::{Estimate, Face};
 use coinmc_questions::{self as questions, Aim, Aimed, Parameter};
-use coinmc_recording::NewFile;
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -94,7 +94,7 @@ impl AimAt {
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let (_, template) = self.scene.template()?;
-        let picture = self.picture.as_deref().map(NewFile::begin).transpose()?;
+        let picture = new_file::begin(self.picture.as_deref(), "svg")?;
         let question = self.question();
         let answer = ask(console, &self.answer, |workers| {
             questions::aim(&template, &question, workers)

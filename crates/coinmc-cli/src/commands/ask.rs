@@ -8,6 +8,7 @@ use crate::terminal::table::{Column, Table};
 use crate::terminal::{Colors, Style, compact, decimals_for, grouped, in_ascii};
 use anyhow::anyhow;
 use clap::Args;
+use coinmc::plan::MAX_TOSSES;
 use coinmc_atlas::{Answer, Atlas, AtlasError, Launch, Place, scene, toss};
 use coinmc_core::{Face, Material};
 use std::str::FromStr;
@@ -52,7 +53,7 @@ pub(crate) struct Ask {
     sure: bool,
 
     /// How many tosses --sure makes
-    #[arg(long, value_name = "N", default_value = "20_000", value_parser = super::count)]
+    #[arg(long, value_name = "N", default_value = "20_000", value_parser = tosses, requires = "sure")]
     tosses: u64,
 
     #[command(flatten)]
@@ -74,17 +75,38 @@ impl FromStr for Number {
     }
 }
 
+/// A number of tosses that a plan may have.
+fn tosses(text: &str) -> Result<u64, String> {
+    let tosses = super::count(text)?;
+    if (1..=MAX_TOSSES).contains(&tosses) {
+        Ok(tosses)
+    } else {
+        Err(format!("expected a whole number from 1 to {MAX_TOSSES}"))
+    }
+}
+
+/// What is wrong with a question, all of it.
+#[derive(Debug, Default)]
+struct Problems(Vec<String>);
+
+impl Problems {
+    /// The value; `None` once the problem is noted.
+    fn unless<T, E: Into<AtlasError>>(&mut self, result: Result<T, E>) -> Option<T> {
+        result
+            .map_err(|error| self.0.push(error.into().to_string()))
+            .ok()
+    }
+}
+
 impl Ask {
     pub(crate) fn format(&self) -> Format {
         self.answer.format
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
-        let launch: Launch = self.launch.parse()?;
-        let atlas = Atlas::of(launch);
-        let mut answer = self.answer(launch, &atlas)?;
+        let (atlas, mut answer) = self.answer()?;
         if self.sure {
-            let plan = scene(&atlas, launch, &answer.place, self.tosses)?;
+            let plan = scene(&atlas, answer.launch, &answer.place, self.tosses)?;
             let counts = ask(console, &self.answer, |workers| {
                 toss(&plan, self.tosses, workers)
             })?;
@@ -101,28 +123,53 @@ impl Ask {
         Ok(Outcome::Done)
     }
 
-    fn answer(&self, launch: Launch, atlas: &Atlas) -> Result<Answer, Failure> {
-        let material: Material = self.material.parse().map_err(AtlasError::from)?;
-        let radius_m = atlas.radius_m();
+    /// The answer without a toss, or everything that is wrong with the question.
+    fn answer(&self) -> Result<(Atlas, Answer), Failure> {
+        let mut problems = Problems::default();
+        let launch = problems.unless(self.launch.parse::<Launch>());
+        let material = problems.unless(self.material.parse::<Material>());
+        let atlas = Atlas::of(launch.unwrap_or(Launch::ALL[0]));
+        // another in its stead, so that what does not depend on it is checked as well
+        let place = self.place(
+            &material.unwrap_or(Material::ALL[0]),
+            atlas.radius_m(),
+            &mut problems,
+        );
+        // its limits are those of the launch
+        let faces = launch.and_then(|_| problems.unless(atlas.faces(&place)));
+        let (Some(launch), Some(material), Some(faces), true) =
+            (launch, material, faces, problems.0.is_empty())
+        else {
+            return Err(Failure::Input(anyhow!(problems.0.join("\n"))));
+        };
+        let answer = Answer {
+            launch,
+            material: material.name,
+            place,
+            faces,
+            fair: atlas.root(&place, 1.0 / 3.0)?,
+            counts: None,
+        };
+        Ok((atlas, answer))
+    }
+
+    /// The place of all numbers that the atlas knows.
+    fn place(&self, material: &Material, radius_m: f64, problems: &mut Problems) -> Place {
         let ratio = match (self.ratio, self.thickness) {
             (Some(ratio), _) => ratio,
             (None, Some(Length(thickness_m))) => thickness_m / radius_m,
             (None, None) => unreachable!("clap requires one of the two"),
         };
-        let numbers: Vec<(String, f64)> = self
-            .numbers
-            .iter()
-            .map(|Number(key, value)| (key.clone(), *value))
-            .collect();
-        let place = Place::with(&material, ratio, radius_m, &numbers)?;
-        Ok(Answer {
-            launch,
-            material: material.name,
-            place,
-            faces: atlas.faces(&place)?,
-            fair: atlas.root(&place, 1.0 / 3.0)?,
-            counts: None,
-        })
+        let mut numbers: Vec<(String, f64)> = vec![];
+        let mut place = Place::on(material, ratio, radius_m);
+        for Number(key, value) in &self.numbers {
+            numbers.push((key.clone(), *value));
+            match problems.unless(Place::with(material, ratio, radius_m, &numbers)) {
+                Some(found) => place = found,
+                None => drop(numbers.pop()),
+            }
+        }
+        place
     }
 }
 
@@ -188,4 +235,64 @@ fn probability(p: f64, lo: f64, hi: f64) -> [String; 2] {
         format!("{p:.decimals$}"),
         format!("[{lo:.decimals$}, {hi:.decimals$}]"),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+
+    #[derive(Debug, Parser)]
+    struct Only {
+        #[command(flatten)]
+        ask: Ask,
+    }
+
+    fn asked(words: &[&str]) -> Result<Ask, String> {
+        let words = ["ask"].iter().chain(words);
+        let only = Only::try_parse_from(words).map_err(|error| error.to_string())?;
+        Ok(only.ask)
+    }
+
+    fn problems(words: &[&str]) -> Vec<String> {
+        let ask = asked(words).expect("words that can be read");
+        let failure = ask.answer().map(|_| ()).expect_err("problems");
+        failure.message().lines().map(str::to_owned).collect()
+    }
+
+    #[test]
+    fn everything_that_is_wrong_is_told_at_once() {
+        let numbers = ["--ratio", "9", "--set", "frction=2", "--set", "friction=7"];
+        let found = problems(&[&numbers[..], &["--material", "marble"]].concat());
+        let begins = [
+            "there is no `material` called `marble`: there are glass, ",
+            "the atlas has no `frction`",
+            "the atlas holds ratio from",
+            "the atlas holds friction from",
+        ];
+        assert_eq!(found.len(), begins.len(), "{found:?}");
+        for (found, begin) in found.iter().zip(begins) {
+            assert!(found.starts_with(begin), "{found}");
+        }
+        let found = problems(&[
+            "--ratio",
+            "0.8",
+            "--launch",
+            "thrown",
+            "--material",
+            "marble",
+        ]);
+        assert!(
+            found[0].contains("launch `thrown`") && found.len() == 2,
+            "{found:?}"
+        );
+    }
+
+    #[test]
+    fn tosses_are_those_of_sure_and_name_their_option() {
+        assert!(asked(&["--ratio", "1", "--tosses", "5"]).is_err());
+        assert!(asked(&["--ratio", "1"]).is_ok());
+        let none = asked(&["--ratio", "1", "--sure", "--tosses", "0"]).expect_err("no toss");
+        assert!(none.contains("'0' for '--tosses <N>'"), "{none}");
+    }
 }

@@ -4,7 +4,7 @@ use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format};
 use crate::terminal::progress::Progress;
 use crate::terminal::table::{Column, Table};
-use crate::terminal::{Colors, Style, compact, grouped, in_ascii};
+use crate::terminal::{Colors, Style, compact, grouped, in_ascii, with_interval};
 use anyhow::anyhow;
 use clap::Args;
 use coinmc::results::Results;
@@ -154,8 +154,13 @@ impl Compare {
     ) -> String {
         let [heads, tails, side] = answer.counts.map(grouped);
         let headline = format!(
-            "{} tosses: {heads} heads, {tails} tails, {side} on the side",
-            grouped(answer.tosses())
+            "{} {}: {heads} heads, {tails} tails, {side} on the side",
+            grouped(answer.tosses()),
+            if answer.tosses() == 1 {
+                "toss"
+            } else {
+                "tosses"
+            }
         );
         let mut text = style.paint(Colors::Strong, &headline) + "\n";
         if voids > 0 {
@@ -235,7 +240,7 @@ fn probability(estimate: &Estimate) -> String {
     if estimate.n == 0 {
         format!("{:.3}", estimate.p)
     } else {
-        format!("{:.3} ± {:.3}", estimate.p, estimate.half_width())
+        with_interval(estimate, 3, "±")
     }
 }
 

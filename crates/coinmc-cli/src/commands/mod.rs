@@ -16,6 +16,7 @@ mod film;
 #[cfg(feature = "film")]
 mod listen;
 mod merge;
+mod new_file;
 mod quantity;
 mod question;
 mod rare;

@@ -31,12 +31,7 @@ pub(crate) struct Rare {
     face: Face,
 
     /// Toss until the interval is no wider than ± this share of the probability
-    #[arg(
-        long,
-        value_name = "E",
-        default_value_t = 0.1,
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "E", default_value_t = 0.1)]
     relative_error: f64,
 
     /// Tosses at which the answer stops short of that

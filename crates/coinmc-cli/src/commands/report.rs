@@ -1,5 +1,6 @@
 //! `coinmc report`: runs as a page that opens anywhere.
 
+use super::new_file::must_end_in;
 use super::question::write_file;
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, FORMAT_VERSION, Format};
@@ -35,7 +36,7 @@ pub(crate) struct ReportOf {
     #[arg(required = true, value_name = "RUN_DIR")]
     runs: Vec<PathBuf>,
 
-    /// The page: a new file
+    /// The page: a new file (.html)
     #[arg(short, long, value_name = "FILE", default_value = "report.html")]
     out: PathBuf,
 
@@ -147,7 +148,7 @@ pub(super) struct Page {
 }
 
 impl Page {
-    /// Whether there is a file that is not to be replaced, as coinmc did not make it.
+    /// Whether the name is that of a page, and of no file that is not to be replaced, as coinmc did not make it.
     pub(super) fn check(path: &Path) -> Result<(), Failure> {
         if path.exists() && !is_page(path) {
             return Err(Failure::Input(anyhow!(
@@ -155,7 +156,7 @@ impl Page {
                 path.display()
             )));
         }
-        Ok(())
+        must_end_in(path, "html")
     }
 
     /// Begins a page. What stands there is replaced only if `replace` and if coinmc made it.
@@ -164,6 +165,7 @@ impl Page {
         if replaces {
             Self::check(path)?;
         }
+        must_end_in(path, "html")?;
         let file = if replaces {
             NewFile::begin(&beside(path))?
         } else {
@@ -244,6 +246,8 @@ mod tests {
         assert_eq!(fs::read_to_string(&path).unwrap(), page());
         fs::write(&path, "my notes").unwrap();
         assert!(Page::begin(&path, true).is_err());
+        assert!(Page::begin(&dir.path().join("a.txt"), false).is_err());
+        assert!(Page::check(&dir.path().join("a.txt")).is_err());
         assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
     }
 }

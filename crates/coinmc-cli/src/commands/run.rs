@@ -278,6 +278,10 @@ fn integrated_line(report: &Report, evaluations: u64) -> String {
     line
 }
 
+/// What is said of a complete part of a run.
+pub(super) const PART_IS_COMPLETE: &str = "coinmc: this part is complete; when all are, merge them with \
+     `coinmc merge PART… --out WHOLE`";
+
 /// What the user can do next, if the run is not complete.
 fn advice(report: &Report, out: &Path) -> Option<String> {
     match report.status {
@@ -290,11 +294,7 @@ fn advice(report: &Report, out: &Path) -> Option<String> {
             out.display(),
             this_command()
         )),
-        Status::Part => Some(
-            "coinmc: this part is complete; when all are, merge them with \
-             `coinmc merge PART… --out WHOLE`"
-                .to_owned(),
-        ),
+        Status::Part => Some(PART_IS_COMPLETE.to_owned()),
         Status::ShortOfTarget { .. } => Some(short_of_target(&report.results.rows)),
     }
 }

@@ -17,8 +17,8 @@ Examples:
 
 /// Show how far runs are
 ///
-/// A line for each run directory: finished, running, stopped or a part, with its points and tosses. Nothing in
-/// them is changed.
+/// A line for each run directory: finished, running, stopped or a complete part, with its points and tosses.
+/// Nothing in them is changed.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Status {
@@ -76,10 +76,11 @@ impl Row {
             report.status,
             Finished::Complete | Finished::ShortOfTarget { .. }
         );
-        let state = match (is_finished, runs) {
-            (true, _) => "finished",
-            (false, true) => "running",
-            (false, false) => "stopped",
+        let state = match (report.status, runs) {
+            (Finished::Complete | Finished::ShortOfTarget { .. }, _) => "finished",
+            (Finished::Part, _) => "part",
+            (Finished::Interrupted, true) => "running",
+            (Finished::Interrupted, false) => "stopped",
         };
         Self {
             run: run.to_owned(),
@@ -106,6 +107,11 @@ impl Row {
             ..
         } = self;
         let points = count(self.points as u64, "point");
+        let state = if *state == "part" {
+            "a complete part"
+        } else {
+            state
+        };
         let mut line = format!("{}: {state}, ", self.run.display());
         if *points_done < self.points {
             line += &format!("{} of ", grouped(*points_done as u64));

@@ -1,5 +1,6 @@
 //! Numbers as people read them.
 
+use coinmc_core::Estimate;
 use coinmc_questions::number::grouped;
 use std::time::Duration;
 
@@ -28,6 +29,16 @@ pub(crate) fn decimals_for(error: f64) -> usize {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     let decimals = leading as usize + 1;
     decimals.clamp(3, 7)
+}
+
+/// `0.250 ± 0.007`, or the interval, `0.000 [0.000, 0.793]`, where that arm would leave 0 to 1.
+pub(crate) fn with_interval(p: &Estimate, decimals: usize, plus_minus: &str) -> String {
+    let arm = p.half_width();
+    if p.p - arm < 0.0 || p.p + arm > 1.0 {
+        let Estimate { p, lo, hi, .. } = p;
+        return format!("{p:.decimals$} [{lo:.decimals$}, {hi:.decimals$}]");
+    }
+    format!("{:.decimals$} {plus_minus} {arm:.decimals$}", p.p)
 }
 
 /// `850 ms`, `12.3 s`, `4 min 05 s`, `3 h 20 min`, `12 d`.
@@ -63,6 +74,17 @@ mod tests {
     fn counts_are_grouped_and_agree_with_their_noun() {
         assert_eq!(count(1, "point"), "1 point");
         assert_eq!(count(0, "point"), "0 points");
+    }
+
+    #[test]
+    fn no_arm_leaves_0_to_1() {
+        let of = |count, n| {
+            let p = Estimate::new(count, 0, n, 0.95, coinmc_core::IntervalMethod::Wilson);
+            with_interval(&p, 3, "±")
+        };
+        assert_eq!(of(0, 1), "0.000 [0.000, 0.793]");
+        assert_eq!(of(1, 1), "1.000 [0.207, 1.000]");
+        assert_eq!(of(50, 100), "0.500 ± 0.096");
     }
 
     #[test]

@@ -65,7 +65,8 @@ impl Comparison<'_> {
 /// tosses of a model without a face (undecided, or off the table) are, too.
 ///
 /// # Errors
-/// [`QuestionError::NoCounts`], [`QuestionError::TooMany`] tosses or models, [`QuestionError::NoModel`].
+/// [`QuestionError::NoCounts`], [`QuestionError::TooMany`] tosses or models, [`QuestionError::NoModel`],
+/// [`QuestionError::NoFaces`].
 ///
 /// # Example
 /// ```
@@ -98,7 +99,12 @@ pub fn compare<'a>(
     }
     let known: Vec<_> = models.iter().filter_map(reference).collect();
     if known.is_empty() {
-        return Err(QuestionError::NoModel);
+        let is_tossed = |model: &Model<'_>| model.row.tally.tosses() > 0;
+        return Err(if models.iter().any(is_tossed) {
+            QuestionError::NoFaces
+        } else {
+            QuestionError::NoModel
+        });
     } else if known.len() > MOST_MODELS {
         return too_many("points", MOST_MODELS as u64, known.len() as u64);
     }

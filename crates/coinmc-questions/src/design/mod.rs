@@ -8,10 +8,12 @@ mod document;
 mod faces;
 mod printed;
 mod sheet;
+mod size;
 
 pub use document::document_of_design;
 pub use faces::Faces;
 pub use printed::PrintedCoin;
+pub use size::{PRINTED_DIAMETER_M, diameter_told};
 
 use crate::assumptions::{self, Effect};
 use crate::scenes::{Assumption, EverydayScene};

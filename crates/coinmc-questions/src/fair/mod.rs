@@ -253,10 +253,26 @@ fn checked(template: &Template, question: &Question) -> Result<[f64; 2], Questio
             return Err(QuestionError::NoRange { key: key.clone() });
         }
     };
-    if from.is_finite() && to.is_finite() && from < to {
-        Ok([from, to])
-    } else {
-        Err(QuestionError::Range { from, to })
+    if !(from.is_finite() && to.is_finite() && from < to) {
+        return Err(QuestionError::Range { from, to });
+    }
+    check_ends(template, key, [from, to])?;
+    Ok([from, to])
+}
+
+/// Refuses an end at which there is no such scene, before any toss. What is wrong at both ends may be the key,
+/// or the config itself, and is told as such.
+fn check_ends(template: &Template, key: &str, ends: [f64; 2]) -> Result<(), QuestionError> {
+    let at = |value: f64| template.plan(&[(key, format!("{value:?}"))]);
+    let refused = |end, value, problems| QuestionError::RangeEnd {
+        end,
+        value,
+        problems,
+    };
+    match ends.map(at) {
+        [Err(QuestionError::Config(problems)), Ok(_)] => Err(refused("from", ends[0], problems)),
+        [Ok(_), Err(QuestionError::Config(problems))] => Err(refused("to", ends[1], problems)),
+        [from, to] => from.and(to).map(|_| ()),
     }
 }
 

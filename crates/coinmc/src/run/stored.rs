@@ -6,7 +6,7 @@ use super::earlier::Earlier;
 use super::finished::Finished;
 use super::manifest::{self, Manifest};
 use super::packed::Packed;
-use super::report::{Report, report, status};
+use super::report::{Report, Status, report, status};
 use super::schedule::{Next, Schedule};
 use super::tallies::{Entry, Tallies};
 use super::{Part, ProgressSink, RunError, unfinished};
@@ -32,13 +32,14 @@ pub fn stored_plan(dir: &Path) -> Result<Plan, RunError> {
 /// tallies.
 ///
 /// # Errors
-/// Those of [`stored_plan`], and [`RunError::Io`]. A directory that holds a part of a run is read
-/// as the whole, [`Interrupted`](super::Status::Interrupted).
+/// Those of [`stored_plan`], and [`RunError::Io`]. The counts of a directory that holds a part of a run are
+/// told as those of the whole, which lacks the other parts; its status is that of the part,
+/// [`Part`](Status::Part) once that is complete.
 pub fn stored_report(dir: &Path, sink: &dyn ProgressSink) -> Result<(Plan, Report), RunError> {
     let plan = Arc::new(stored_plan(dir)?);
     let mut finished = Vec::new();
-    let tallies = Tallies::of(dir, plan.hash());
-    tallies.scan(&plan, &Cut::new(&plan), |entry| {
+    let (tallies, cut) = (Tallies::of(dir, plan.hash()), Cut::new(&plan));
+    tallies.scan(&plan, &cut, |entry| {
         match entry {
             Entry::Finished(chunk, result) => {
                 finished.push((chunk, Packed::from(&*result)));
@@ -57,9 +58,17 @@ pub fn stored_report(dir: &Path, sink: &dyn ProgressSink) -> Result<(Plan, Repor
         .with_beginnings(begun)
         .with_earlier(earlier);
     let mut schedule = Schedule::new(&plan, Part::WHOLE, finished);
+    let part = read_manifest(dir)?.part(dir)?;
+    let mut lacks_its_own = false;
     // missing chunks stay handed out
-    while let Next::Chunk(_) = schedule.next() {}
-    let status = status(Part::WHOLE, &schedule);
+    while let Next::Chunk(job) = schedule.next() {
+        lacks_its_own |= part.owns(cut.number(&job.chunk));
+    }
+    let status = match (part, lacks_its_own) {
+        (Part::WHOLE, _) => status(Part::WHOLE, &schedule),
+        (_, false) => Status::Part,
+        (_, true) => Status::Interrupted,
+    };
     let report = report(&plan, status, schedule);
     Ok((Plan::clone(&plan), report))
 }

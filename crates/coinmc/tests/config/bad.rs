@@ -379,3 +379,23 @@ fn thousands_of_problems_are_truncated() {
     assert_eq!(diagnostics.problems().len(), 100);
     assert!(diagnostics.render(false).ends_with("and 49900 more"));
 }
+
+/// `coinmc calibrate` reads more tables than a run has.
+#[test]
+fn tables_of_measurements_are_told_from_mistyped_ones() {
+    let helps = |table: &str| {
+        let text = format!("{GOOD}\n{table}\nmaterial = 'wood'\n");
+        let diagnostics = config::parse("bad.toml", &text, &[]).unwrap_err();
+        let problems = diagnostics.problems().iter();
+        problems
+            .map(|problem| problem.help.clone().unwrap_or_default())
+            .collect::<Vec<_>>()
+    };
+    for table in ["[prior]", "[[counts]]", "[[film]]", "[predict]"] {
+        let [help] = &helps(table)[..] else {
+            panic!("one problem of {table}")
+        };
+        assert!(help.starts_with("`coinmc calibrate` reads ["), "{help}");
+    }
+    assert!(helps("[priro]")[0].starts_with("allowed: "));
+}

@@ -135,6 +135,8 @@ fn what_parts_there_are_make_a_run_that_was_stopped() {
         let part = Part::new(i, 3).unwrap();
         run_with(&plan, out, part, 2, &Ear::default()).unwrap();
     }
+    let status = |part: &Path| stored_report(part, &Ear::default()).unwrap().1.status;
+    assert_eq!(status(&parts[0]), Status::Part);
     let (whole, direct) = (dir.path().join("whole"), dir.path().join("direct"));
     let (report, missing) = merge_what_is_there(&parts[..2], &whole, &Ear::default()).unwrap();
     assert_eq!(report.status, Status::Interrupted);
@@ -147,6 +149,9 @@ fn what_parts_there_are_make_a_run_that_was_stopped() {
     assert!(contents(&whole).contains_key("results.partial.csv"));
     let (report, missing) = merge_what_is_there(&parts, &whole, &Ear::default()).unwrap();
     assert_eq!((report.status, missing), (Status::Complete, None));
+    assert_eq!(status(&whole), Status::Complete);
+    fs::remove_file(parts[0].join("tallies.txt")).unwrap();
+    assert_eq!(status(&parts[0]), Status::Interrupted);
     run_whole(&plan, &direct);
     assert_same(&whole, &direct);
 }

@@ -29,7 +29,6 @@ Examples:
 pub(crate) struct Analytic {
     /// Probabilities at this ratio H/R; repeat or separate by commas
     #[arg(long, value_name = "H/R", value_delimiter = ',', value_parser = not_negative)]
-    #[arg(allow_negative_numbers = true)]
     ratio: Vec<f64>,
 
     /// The ratio H/R at which P(side) is the target
@@ -38,7 +37,6 @@ pub(crate) struct Analytic {
 
     /// The target P(side) [default: 1/3]
     #[arg(long, value_name = "P", requires = "fair", value_parser = probability)]
-    #[arg(allow_negative_numbers = true)]
     target: Option<f64>,
 
     /// Only this rule; repeat or separate by commas
@@ -48,24 +46,20 @@ pub(crate) struct Analytic {
     /// A coin that starts heads up and precesses with this angle between its normal and its angular
     /// momentum; repeat or separate by commas
     #[arg(long, value_name = "DEGREES", value_delimiter = ',', value_parser = angle)]
-    #[arg(allow_negative_numbers = true)]
     #[arg(conflicts_with = "rule")]
     psi_deg: Vec<f64>,
 
     /// Keller's thin coin: upward speed, m/s
     #[arg(long, value_name = "M/S", requires = "spin", value_parser = not_negative)]
-    #[arg(allow_negative_numbers = true)]
     #[arg(conflicts_with_all = ["ratio", "fair", "rule", "psi_deg"])]
     speed: Option<f64>,
 
     /// Keller's thin coin: spin about a horizontal diameter, rad/s
     #[arg(long, value_name = "RAD/S", requires = "speed", value_parser = finite)]
-    #[arg(allow_negative_numbers = true)]
     spin: Option<f64>,
 
     /// Keller's thin coin: gravity, m/s²
     #[arg(long, value_name = "M/S2", requires = "speed", value_parser = positive)]
-    #[arg(allow_negative_numbers = true)]
     #[arg(default_value_t = Scene::STANDARD_GRAVITY_M_S2)]
     gravity: f64,
 

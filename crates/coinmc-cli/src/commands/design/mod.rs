@@ -9,7 +9,8 @@ use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format};
 use anyhow::anyhow;
 use clap::Args;
-use coinmc_questions::{self as questions, Design, DesignError, Designed, PrintedCoin};
+use coinmc_questions::{self as questions, Design, DesignError, Designed};
+use coinmc_questions::{PRINTED_DIAMETER_M, PrintedCoin};
 use coinmc_solid::{Edge, Infill};
 use files::Files;
 use serde_json::Value;
@@ -33,12 +34,12 @@ pub(crate) struct DesignArgs {
     #[command(flatten)]
     scene: SceneArgs,
 
-    /// Diameter
-    #[arg(long, value_name = "LENGTH", default_value = "24mm")]
-    diameter: Length,
+    /// Diameter [default: that of the config; for an everyday scene 24mm]
+    #[arg(long, value_name = "LENGTH")]
+    diameter: Option<Length>,
 
     /// Probability of the side [default: 1/3]
-    #[arg(long, value_name = "P", allow_negative_numbers = true)]
+    #[arg(long, value_name = "P")]
     target: Option<f64>,
 
     /// Round the rims with this radius
@@ -52,7 +53,6 @@ pub(crate) struct DesignArgs {
     /// Tilt the side by this angle to the axis: a conical edge. Above 0 heads is the wider face, of the
     /// diameter given; heads and tails then differ, and the side alone gets its probability
     #[arg(long, value_name = "DEGREES", conflicts_with_all = ["rim", "chamfer", "marks", "infill"])]
-    #[arg(allow_negative_numbers = true)]
     draft: Option<f64>,
 
     /// Engrave a ring of three marks on heads and of six on tails, which keep the coin balanced
@@ -73,12 +73,7 @@ pub(crate) struct DesignArgs {
     infill: Option<u8>,
 
     /// Search until the interval of H/R is no wider than ± this
-    #[arg(
-        long,
-        value_name = "W",
-        default_value_t = 0.01,
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "W", default_value_t = 0.01)]
     half_width: f64,
 
     /// Name of the files, without their endings
@@ -95,13 +90,22 @@ impl DesignArgs {
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
-        let question = self.question();
+        let (scene, template) = self.scene.template()?;
+        let overrides = self.scene.overrides();
+        let told = questions::diameter_told(&template, scene, overrides);
+        let (diameter_m, told) = match self.diameter {
+            // a config with several diameters, or with one that cannot be, is none of its concern
+            Some(Length(asked)) => (asked, told.ok().flatten()),
+            None => {
+                let told = told?;
+                (told.unwrap_or(PRINTED_DIAMETER_M), told)
+            }
+        };
+        let question = self.question(diameter_m);
         // what is wrong with any coin of this kind is said before files are begun
         let coin = &question.coin;
         coin.check().map_err(DesignError::from)?;
         let files = Files::begin(&self.out)?;
-        let (scene, template) = self.scene.template()?;
-        let overrides = self.scene.overrides();
         let designed = ask(console, &self.answer, |workers| {
             questions::design(&template, scene, overrides, &question, workers)
         })?;
@@ -111,7 +115,9 @@ impl DesignArgs {
         let paths = files.write(&designed)?;
         match console.format() {
             Format::Json => output::print_json(&document(&designed, &paths)),
-            Format::Table => output::print(&report::text(&designed, &paths, console.stdout())),
+            Format::Table => {
+                output::print(&report::text(&designed, told, &paths, console.stdout()))
+            }
         }
         .map_err(|error| Failure::Runtime(anyhow!(error)))?;
         Ok(if designed.root.reached {
@@ -121,7 +127,8 @@ impl DesignArgs {
         })
     }
 
-    fn question(&self) -> Design {
+    /// The question, of a coin of this diameter.
+    fn question(&self, diameter_m: f64) -> Design {
         let edge = match (self.rim, self.chamfer) {
             (Some(Length(radius_m)), _) => Edge::Rounded { radius_m },
             (None, Some(Length(size_m))) => Edge::Chamfered { size_m },
@@ -130,7 +137,7 @@ impl DesignArgs {
         let infill = self.walls.zip(self.infill);
         Design {
             coin: PrintedCoin {
-                diameter_m: self.diameter.0,
+                diameter_m,
                 edge,
                 draft_deg: self.draft,
                 marks: self.marks,

@@ -3,7 +3,7 @@
 mod report;
 
 use super::quantity::{Density, Length, Mass, Volume};
-use super::question::{AnswerArgs, SceneArgs, ask};
+use super::question::{AnswerArgs, SceneArgs, Unanswered, ask};
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format};
 use anyhow::anyhow;
@@ -41,7 +41,7 @@ pub(crate) struct Fair {
     face: Face,
 
     /// Its probability [default: 1/3]
-    #[arg(long, value_name = "P", allow_negative_numbers = true)]
+    #[arg(long, value_name = "P")]
     target: Option<f64>,
 
     /// The parameter that is varied, by its key
@@ -49,25 +49,15 @@ pub(crate) struct Fair {
     vary: String,
 
     /// Least value to search [default for coin.ratio: 0.05]
-    #[arg(long, value_name = "X", requires = "to", allow_negative_numbers = true)]
+    #[arg(long, value_name = "X", requires = "to")]
     from: Option<f64>,
 
     /// Largest value to search [default for coin.ratio: 4]
-    #[arg(
-        long,
-        value_name = "X",
-        requires = "from",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "X", requires = "from")]
     to: Option<f64>,
 
     /// Search until the interval is no wider than ± this
-    #[arg(
-        long,
-        value_name = "W",
-        default_value_t = 0.005,
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "W", default_value_t = 0.005)]
     half_width: f64,
 
     /// Tosses of each answer at which the search stops short of that
@@ -106,6 +96,22 @@ pub(crate) struct Fair {
     answer: AnswerArgs,
 }
 
+/// An error that names the option at fault, where that is an end of the range.
+fn by_option(error: QuestionError) -> Unanswered {
+    let QuestionError::RangeEnd {
+        end,
+        value,
+        problems,
+    } = error
+    else {
+        return error.into();
+    };
+    let messages = problems.problems().iter();
+    let messages: Vec<&str> = messages.map(|problem| problem.message.as_str()).collect();
+    let error = anyhow!("--{end} {value}: {}", messages.join("; "));
+    Unanswered::Failed(Failure::Input(error))
+}
+
 /// The answer, and what it rests on.
 struct Answered {
     scene: Option<EverydayScene>,
@@ -122,7 +128,7 @@ impl Fair {
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let (scene, template) = self.template()?;
         let answered = ask(console, &self.answer, |workers| {
-            self.answer(scene, &template, workers)
+            self.answer(scene, &template, workers).map_err(by_option)
         })?;
         match answered {
             Some(answered) => self.present(&answered, console),

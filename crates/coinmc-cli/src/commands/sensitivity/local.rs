@@ -72,6 +72,10 @@ impl Local {
             percent(self.steps.step)
         );
         text += &format!("{}\n", style.paint(Colors::Faint, &note));
+        let one_sided = self.sensitivities.iter().filter(|one| one.is_one_sided());
+        for note in one_sided.map(at_an_end) {
+            text += &format!("{}\n", style.paint(Colors::Faint, &note));
+        }
         if style.unicode { text } else { in_ascii(&text) }
     }
 
@@ -81,6 +85,8 @@ impl Local {
             json!({
                 "parameter": one.parameter.key,
                 "value": one.parameter.value,
+                "from": one.values[0],
+                "to": one.values[1],
                 "tosses": one.tosses,
                 "changed": one.changed,
                 "d_p_heads": interval(one.of(Face::Heads)),
@@ -112,6 +118,15 @@ fn shown(derivative: Interval) -> [String; 2] {
             signed(derivative.hi, decimals)
         ),
     ]
+}
+
+/// That a parameter was moved to one side only.
+fn at_an_end(one: &Sensitivity) -> String {
+    let [from, to] = one.values.map(compact);
+    let key = &one.parameter.key;
+    format!(
+        "{key}: from {from} to {to}, as its range ends there; right to the first order of the step"
+    )
 }
 
 fn percent(share: f64) -> String {

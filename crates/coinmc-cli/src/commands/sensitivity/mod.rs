@@ -3,6 +3,7 @@
 mod local;
 mod ranking;
 
+use super::new_file;
 use super::question::{AnswerArgs, KeyRange, SceneArgs, ask, write_file};
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format};
@@ -12,7 +13,6 @@ use coinmc_core::Face;
 use coinmc_questions::sensitivity::Steps;
 use coinmc_questions::{self as questions, Question, QuestionError, Rank, Root, Unknown};
 use coinmc_questions::{Template, Workers};
-use coinmc_recording::NewFile;
 use local::Local;
 use std::path::PathBuf;
 
@@ -46,12 +46,7 @@ pub(crate) struct SensitivityOf {
     of: Vec<String>,
 
     /// Change of each number, as a share of it
-    #[arg(
-        long,
-        value_name = "S",
-        default_value_t = 0.05,
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "S", default_value_t = 0.05)]
     step: f64,
 
     /// Tosses with either value of each number [default: 20_000; with ranges 4096]
@@ -118,8 +113,8 @@ impl SensitivityOf {
             let message = "--picture is of a ranking: add --rank or --over";
             return Err(Failure::Input(anyhow!(message)));
         }
-        let begin = |path: &Option<PathBuf>| path.as_deref().map(NewFile::begin).transpose();
-        let (picture, csv) = (begin(&self.picture)?, begin(&self.csv)?);
+        let picture = new_file::begin(self.picture.as_deref(), "svg")?;
+        let csv = new_file::begin(self.csv.as_deref(), "csv")?;
         let answer = ask(console, &self.answer, |workers| {
             self.find(&template, &unknowns, console, workers)
         })?;

@@ -4,7 +4,7 @@ mod made_by;
 mod ro_crate;
 
 use super::report::unreadable;
-use super::run::{show, to_json};
+use super::run::{PART_IS_COMPLETE, show, to_json};
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format, ResultFormat};
 use crate::terminal::count;
@@ -121,7 +121,8 @@ fn printed(document: &Value) -> Result<(), Failure> {
 /// What is missing of a run, if something is.
 fn unfinished(report: &Report) -> Option<String> {
     let word = match report.status {
-        Status::Complete | Status::Part => return None,
+        Status::Complete => return None,
+        Status::Part => return Some(PART_IS_COMPLETE.to_owned()),
         Status::Interrupted => "unfinished",
         Status::ShortOfTarget { .. } => "short of its targets",
     };

@@ -1,5 +1,6 @@
 //! `coinmc trace map`: the face over two quantities of the launch, every pixel a toss to watch.
 
+use super::super::new_file::must_end_in;
 use super::super::question::{KeyRange, range_and_count, write_file};
 use super::plan_of;
 use crate::exit::{Failure, Outcome};
@@ -41,7 +42,7 @@ pub(super) struct MapOf {
     #[arg(long, value_name = "QUANTITY=FROM..TO[:N]", required = true)]
     over: Vec<Over>,
 
-    /// The page: a new file
+    /// The page: a new file (.html)
     #[arg(short, long, value_name = "FILE")]
     out: PathBuf,
 
@@ -93,6 +94,7 @@ impl MapOf {
             )));
         };
         let plan = plan_of(&self.config, &self.overrides)?;
+        must_end_in(&self.out, "html")?;
         let file = NewFile::begin(&self.out)?;
         let progress = Progress::new(*console.stderr(), self.quiet);
         let told = progress.clone();

@@ -2,6 +2,7 @@
 
 mod report;
 
+use super::new_file;
 use super::question::{AnswerArgs, Unanswered, ask, write_file};
 use super::report::Page;
 use crate::command_line::this_command;
@@ -10,7 +11,6 @@ use crate::output::{self, Console, Format};
 use anyhow::anyhow;
 use clap::Args;
 use coinmc_questions::csv_of_rows;
-use coinmc_recording::NewFile;
 use coinmc_validate::{self as validation, Options, Size, ValidateError, Validation};
 use std::path::{Path, PathBuf};
 
@@ -91,7 +91,7 @@ impl Validate {
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
         let page = self.report.as_deref().map(|path| Page::begin(path, false));
         let page = page.transpose()?;
-        let csv = self.csv.as_deref().map(NewFile::begin).transpose()?;
+        let csv = new_file::begin(self.csv.as_deref(), "csv")?;
         let out = self.out();
         let found = ask(console, &self.answer, |workers| {
             let options = Options {

@@ -187,6 +187,20 @@ fn coarse(fair: &[FairRatio], curves: &[Curve], style: &Style) -> String {
     wrapped(&text, style.width, 4)
 }
 
+/// What is said of a curve without a crossing, and of several.
+const SAID: [[&str; 2]; 4] = [
+    ["stays below 1/3", "stay below 1/3"],
+    ["stays above 1/3", "stay above 1/3"],
+    [
+        "is somewhere too near 1/3 to tell",
+        "are somewhere too near 1/3 to tell",
+    ],
+    [
+        "has no toss that showed a face",
+        "have no toss that showed a face",
+    ],
+];
+
 /// What is known of the curves without a crossing: `restitution 0.3 stays below 1/3`, or, of more than a
 /// few, how many.
 fn never(fair: &[FairRatio], curves: &[Curve]) -> String {
@@ -194,41 +208,37 @@ fn never(fair: &[FairRatio], curves: &[Curve]) -> String {
     let others = curves
         .iter()
         .filter(|curve| !crossed.contains(&curve.label));
-    let mut known: [(Vec<&str>, &str); 3] =
-        [(vec![], "below 1/3"), (vec![], "above 1/3"), (vec![], "")];
+    let mut known: [Vec<&str>; SAID.len()] = Default::default();
     for curve in others {
-        let mut marks = curve
-            .marks
-            .iter()
-            .filter(|mark| mark.y.is_finite())
-            .peekable();
-        if marks.peek().is_none() {
-            continue;
+        if let Some(kind) = kind(curve) {
+            known[kind].push(&curve.label);
         }
-        let place = if marks.clone().all(|mark| mark.hi < FAIR) {
-            0
-        } else if marks.all(|mark| mark.lo > FAIR) {
-            1
-        } else {
-            2
-        };
-        known[place].0.push(&curve.label);
     }
-    let phrase = |(labels, place): &(Vec<&str>, &str)| {
-        let n = labels.len();
-        let (name, one) = match labels.as_slice() {
-            [] => return None,
-            [""] => ("the curve".to_owned(), true),
-            few if few.len() <= NAMED => (few.join("; "), n == 1),
-            _ => (format!("{n} curves"), false),
-        };
-        Some(match (place.is_empty(), one) {
-            (false, true) => format!("{name} stays {place}"),
-            (false, false) => format!("{name} stay {place}"),
-            (true, true) => format!("{name} is somewhere too near 1/3 to tell"),
-            (true, false) => format!("{name} are somewhere too near 1/3 to tell"),
-        })
-    };
-    let phrases: Vec<String> = known.iter().filter_map(phrase).collect();
+    let phrases = known.iter().zip(SAID);
+    let phrases = phrases.filter(|(labels, _)| !labels.is_empty());
+    let phrases: Vec<String> = phrases.map(|(labels, said)| phrase(labels, said)).collect();
     phrases.join(", ")
+}
+
+/// Which of [`SAID`] is true of a curve; `None` without points.
+fn kind(curve: &Curve) -> Option<usize> {
+    let marks: Vec<_> = curve.marks.iter().filter(|m| m.y.is_finite()).collect();
+    // without a face a toss may be of either kind: nothing is known of the probability
+    let kinds = [
+        marks.iter().all(|mark| mark.hi < FAIR),
+        marks.iter().all(|mark| mark.lo > FAIR),
+        marks.iter().any(|mark| mark.lo > 0.0 || mark.hi < 1.0),
+        true,
+    ];
+    let kind = kinds.into_iter().position(|is| is);
+    kind.filter(|_| !marks.is_empty())
+}
+
+fn phrase(labels: &[&str], [of_one, of_many]: [&str; 2]) -> String {
+    match labels {
+        [""] => format!("the curve {of_one}"),
+        [one] => format!("{one} {of_one}"),
+        few if few.len() <= NAMED => format!("{} {of_many}", few.join("; ")),
+        many => format!("{} curves {of_many}", many.len()),
+    }
 }

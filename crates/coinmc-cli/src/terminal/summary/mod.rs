@@ -9,7 +9,7 @@ mod totals;
 
 use super::plot::{Level, Plot, Plotted, Reference};
 use super::table::{Column, Table};
-use super::{Colors, Style, compact, count, grouped, wrapped};
+use super::{Colors, Style, compact, count, grouped, with_interval, wrapped};
 use coinmc::engines::no_bounce_rule;
 use coinmc::results::{FairRatio, Results, Row};
 use coinmc_core::{Estimate, Face};
@@ -155,15 +155,7 @@ fn probability(p: &Estimate, row: &Row, decimals: usize, style: &Style) -> Strin
     } else if p.n == 0 {
         "-".to_owned()
     } else {
-        let arm = p.half_width();
-        // an arm that would leave 0 to 1 is not that of the interval
-        if p.p - arm < 0.0 || p.p + arm > 1.0 {
-            return format!(
-                "{:.decimals$} [{:.decimals$}, {:.decimals$}]",
-                p.p, p.lo, p.hi
-            );
-        }
-        format!("{:.decimals$} {} {arm:.decimals$}", p.p, style.plus_minus())
+        with_interval(p, decimals, style.plus_minus())
     }
 }
 
@@ -216,10 +208,10 @@ fn closing(totals: &Totals, csv: &Path, style: &Style) -> String {
         let reasons = reasons.iter().filter(|(count, _)| *count > 0);
         let reasons = reasons.map(|(count, reason)| format!("{} {reason}", grouped(*count)));
         let sentence = format!(
-            "Undecided: {} of {} tosses ({:.1e}): {}",
+            "Undecided: {} of {} tosses ({}): {}",
             grouped(undecided),
             grouped(tosses),
-            undecided as f64 / tosses as f64,
+            share(undecided, tosses),
             reasons.collect::<Vec<_>>().join(", ")
         );
         text += &wrapped(&sentence, style.width, 4);
@@ -227,6 +219,18 @@ fn closing(totals: &Totals, csv: &Path, style: &Style) -> String {
     let sentence = side_endings::sentence(tally);
     text += &sentence.map_or(String::new(), |text| wrapped(&text, style.width, 4));
     text + &format!("Results: {}\n", csv.display())
+}
+
+/// `100 %`, `12.3 %` or, of less than a hundredth, `2.5e-4`.
+fn share(some: u64, all: u64) -> String {
+    let share = some as f64 / all as f64;
+    if share < 0.01 {
+        return format!("{share:.1e}");
+    }
+    let percent = libm::round(1e4 * share) / 100.0;
+    // all are said of all only
+    let most = if some == all { 100.0 } else { 99.99 };
+    format!("{} %", compact(percent.min(most)))
 }
 
 #[cfg(test)]

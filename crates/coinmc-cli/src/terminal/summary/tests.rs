@@ -78,6 +78,33 @@ fn a_curve_that_never_crosses_is_told() {
     );
 }
 
+/// Where no toss shows a face nothing is near 1/3.
+#[test]
+fn a_curve_without_a_face_is_told() {
+    let plan = config::parse("test", &sweep("[0.5, 1.0]", "[0.3, 1.0]"), &[]).expect("a config");
+    let rows = (0..plan.points.len()).map(|i| {
+        let decided = plan.points[i].scene.surface.restitution() < 1.0;
+        let tally = Tally {
+            heads: if decided { 10_000 } else { 0 },
+            impact_limit: if decided { 0 } else { 10_000 },
+            ..Tally::default()
+        };
+        Row::new(&plan, i, tally, StoppedBy::Tosses)
+    });
+    let text = text(&Results::new(&plan, rows.collect()), &Style::plain(200));
+    let sentence =
+        "restitution 0.3 stays below 1/3, restitution 1 has no toss that showed a face\n";
+    assert!(text.contains(sentence), "{text}");
+    assert!(text.contains("(50 %): 20 000 at the limit"), "{text}");
+}
+
+#[test]
+fn a_share_says_all_only_of_all() {
+    let shares =
+        [(1, 1), (99_999, 100_000), (1003, 11_003), (1, 4000)].map(|(some, all)| share(some, all));
+    assert_eq!(shares, ["100 %", "99.99 %", "9.12 %", "2.5e-4"]);
+}
+
 #[test]
 fn a_long_sweep_shows_its_ends_and_names_the_file() {
     let results = results(&sweep("{ from = 0.5, to = 2.5, steps = 101 }", "0.5"), 0.8);
@@ -173,7 +200,7 @@ fn undecided_tosses_are_counted_by_why_not() {
     results.rows[0].tally.impact_limit = 1000;
     let text = text(&results, &Style::plain(100));
     assert!(
-        text.contains("tosses (9.1e-2): 3 forever, 1 000 at the limit of impacts\n"),
+        text.contains("tosses (9.12 %): 3 forever, 1 000 at the limit of impacts\n"),
         "{text}"
     );
 }

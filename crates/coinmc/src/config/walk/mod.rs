@@ -231,7 +231,12 @@ impl Walker<'_> {
         };
         let message = format!("unknown key {}{place}", quoted(&entry.key));
         let near = nearest(&entry.key, fields.iter().map(|field| field.name));
+        let measured = path.is_empty() && OF_CALIBRATE.contains(&entry.key.as_str());
         let help = match (near, home(&entry.key)) {
+            _ if measured => format!(
+                "`coinmc calibrate` reads [{}]: it is no table of a run",
+                entry.key
+            ),
             (Some(near), _) => format!("did you mean `{near}`?"),
             (None, Some(table)) => format!("`{}` belongs in [{table}]", entry.key),
             (None, None) => format!("allowed: {}", names(fields)),
@@ -239,6 +244,19 @@ impl Walker<'_> {
         self.problems.add_with_help(entry.key_span, message, help);
     }
 }
+
+/// Tables beside those of a run, which `coinmc calibrate` reads (the crate coinmc-calibrate has their keys).
+const OF_CALIBRATE: [&str; 9] = [
+    "prior",
+    "predict",
+    "counts",
+    "film",
+    "roll_out",
+    "tilt",
+    "spin_down",
+    "whirr",
+    "bounces",
+];
 
 /// Whether a table is meant as a distribution rather than as a range.
 fn is_distribution(table: &Table, distributions: &[Field]) -> bool {
