@@ -93,13 +93,12 @@ impl DesignArgs {
         let (scene, template) = self.scene.template()?;
         let overrides = self.scene.overrides();
         let told = questions::diameter_told(&template, scene, overrides);
-        let (diameter_m, told) = match self.diameter {
+        let (diameter_m, told) = if let Some(Length(asked)) = self.diameter {
             // a config with several diameters, or with one that cannot be, is none of its concern
-            Some(Length(asked)) => (asked, told.ok().flatten()),
-            None => {
-                let told = told?;
-                (told.unwrap_or(PRINTED_DIAMETER_M), told)
-            }
+            (asked, told.ok().flatten())
+        } else {
+            let told = told?;
+            (told.unwrap_or(PRINTED_DIAMETER_M), told)
         };
         let question = self.question(diameter_m);
         // what is wrong with any coin of this kind is said before files are begun
