@@ -67,7 +67,7 @@ fn a_number_at_the_end_of_its_range_moves_inwards() {
     assert!((ratio - 1.05).abs() < 1e-12, "{ratio}");
 }
 
-/// The same tosses as a pair around the middle of the two values makes.
+/// The same tosses as a pair around the middle of the two values makes. (From 0.98 rounding leads to the same values.)
 #[test]
 fn a_one_sided_step_gives_the_derivative_from_that_side() {
     let bouncing = |restitution: f64| {
@@ -76,16 +76,17 @@ fn a_one_sided_step_gives_the_derivative_from_that_side() {
              launch.preset = 'robot'\nengine.flat = {{}}\nestimate.confidence = 0.999"
         )
     };
-    let found = ask(&bouncing(0.99), &steps(&["surface.restitution"], 512), 2).expect("an answer");
-    assert_eq!(found[0].values, [0.99 / 1.05, 0.99]);
+    let found = ask(&bouncing(0.98), &steps(&["surface.restitution"], 512), 2).expect("an answer");
+    assert_eq!(found[0].values, [0.98 / 1.05, 0.98]);
     let below = ask(
-        &bouncing(0.99 / 1.05_f64.sqrt()),
+        &bouncing(0.98 / 1.05_f64.sqrt()),
         &steps(&["surface.restitution"], 512),
         2,
     );
     let below = below.expect("an answer");
     let [mine, twin] = [&found[0], &below[0]].map(|one| one.of(Face::Side).value);
-    assert!((mine - twin).abs() < 1e-9, "{mine} {twin}");
+    assert_eq!(below[0].values, found[0].values);
+    assert_eq!(mine, twin);
 }
 
 #[test]
