@@ -379,8 +379,7 @@ mod tests {
                 if t < 0.0 {
                     return 0.0;
                 }
-                let tones = [5000.0, 9000.0].map(|hz| libm::sin(std::f64::consts::TAU * hz * t));
-                libm::exp(-t / 0.006) * (tones[0] + tones[1]) / 2.0
+                libm::exp(-t / 0.006) * libm::sin(std::f64::consts::TAU * 4000.0 * t)
             };
             let sample = |n: u64| {
                 let t = n as f64 / rate_hz;
