@@ -21,7 +21,7 @@ pub(super) fn must_end_in(path: &Path, ending: &str) -> Result<(), Failure> {
         return Ok(());
     }
     Err(Failure::Input(anyhow!(
-        "{} does not end in .{ending}, the format that is written: choose another name",
+        "{}: the name must end in .{ending}, the format that is written",
         path.display()
     )))
 }
@@ -35,7 +35,7 @@ mod tests {
         let dir = tempfile::tempdir().expect("a directory");
         for name in ["x.png", "x", "svg", ".svg", "x.svg.gz"] {
             let refused = begin(Some(&dir.path().join(name)), "svg").expect_err(name);
-            assert!(refused.message().contains("does not end in .svg"), "{name}");
+            assert!(refused.message().contains("must end in .svg"), "{name}");
         }
         assert_eq!(dir.path().read_dir().expect("its files").count(), 0);
         assert!(begin(Some(&dir.path().join("x.SVG")), "svg").is_ok());
