@@ -166,6 +166,9 @@ fn length_times_time_left(scene: &Scene, frequency_hz: f64) -> Option<f64> {
     Some(slices.sum::<f64>() * radius * time)
 }
 
+/// A pitch rises well if the error of its rate is no more than this share of it.
+const WELL: f64 = 0.15;
+
 /// Sine of the greatest lean for which the law is meant.
 const MOST_SINE: f64 = 0.8;
 /// Halvings of its range, and slices of the integral.
@@ -205,13 +208,14 @@ impl Reduce for Whirr {
         let Some((value, share)) = fitted else {
             return vec![];
         };
-        // the error of the line is that of the pitches, whatever rate they come from: a pitch that hardly rises tells
-        // that the rate is small, not nothing
+        // another rate would have been measured as well, but a pitch that hardly rises tells that the rate is small,
+        // not nothing: the error of the line is that of its pitches
+        let rises = share <= WELL;
         vec![Reduced {
             law: Law::Times(Parameter::RollingFriction, 1.0),
             value,
-            absolute: share * value,
-            relative: 0.0,
+            absolute: if rises { 0.0 } else { share * value },
+            relative: if rises { share } else { 0.0 },
         }]
     }
 }
