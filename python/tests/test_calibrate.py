@@ -173,4 +173,6 @@ def test_readings_that_scatter_and_tosses_that_were_lost_are_remarked_on():
     remarks = found.document["remarks"]
     # 100/3 = 5.77 squared, for errors of 1 degree
     assert any(text.startswith("the readings of tilt 1 scatter 5.8 times") for text in remarks)
-    assert any(text.startswith("10 of the 60 tosses of counts 1 showed no face") for text in remarks)
+    assert any(
+        text.startswith("10 of the 60 tosses of counts 1 showed no face") for text in remarks
+    )
