@@ -62,31 +62,22 @@ impl RollOut {
     }
 
     pub(crate) fn read(values: &Values) -> Result<Self, ReadError> {
-        let rolls: Vec<Roll> = if values.get("distance_back_m").is_some() {
-            let keys = ["ramp_height_m", "distance_m", "distance_back_m"];
-            let [ramp, there, back] = together(values, keys)?;
-            let ways = there.into_iter().zip(back);
-            let rolls = ramp.into_iter().zip(ways);
-            rolls
-                .map(|(ramp, (there, back))| Roll {
-                    ramp,
-                    there,
-                    back: Some(back),
-                })
-                .collect()
+        let both_ways = values.get("distance_back_m").is_some();
+        // without ways back any other key stands in for theirs
+        let back = if both_ways {
+            "distance_back_m"
         } else {
-            let [ramp, there] = together(values, ["ramp_height_m", "distance_m"])?;
-            let rolls = ramp.into_iter().zip(there);
-            rolls
-                .map(|(ramp, there)| Roll {
-                    ramp,
-                    there,
-                    back: None,
-                })
-                .collect()
+            "distance_m"
         };
+        let [ramp, there, back] = together(values, ["ramp_height_m", "distance_m", back])?;
+        let rolls = ramp.into_iter().zip(there).zip(back);
+        let rolls = rolls.map(|((ramp, there), back)| Roll {
+            ramp,
+            there,
+            back: both_ways.then_some(back),
+        });
         Ok(Self {
-            rolls,
+            rolls: rolls.collect(),
             height_error_m: values.number("height_error_m")?,
             distance_error: values.number("distance_error")?,
             slope_error: libm::tan(values.number("level_error_deg")?.to_radians()),
