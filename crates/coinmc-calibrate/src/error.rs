@@ -1,5 +1,6 @@
 //! Why there is no calibration.
 
+use crate::settings::OutOfRange;
 use coinmc::config::Diagnostics;
 use coinmc_core::{EngineError, SurfaceError};
 use coinmc_questions::QuestionError;
@@ -25,19 +26,10 @@ pub enum CalibrationError {
         "nothing is measured: add tables such as [[counts]], [[tilt]] or [[roll_out]] to the config"
     )]
     NothingMeasured,
-    /// A number of the work is out of range.
-    #[error("{what} must be from {least} to {most}, not {given}")]
-    OutOfRange {
-        /// Of what.
-        what: &'static str,
-        /// The least.
-        least: u64,
-        /// The most.
-        most: u64,
-        /// That asked for.
-        given: u64,
-    },
-    /// Two few tosses showed a face.
+    /// Numbers of the work are out of range.
+    #[error("{}", lines(.0))]
+    OutOfRange(Vec<OutOfRange>),
+    /// Too few tosses showed a face.
     #[error(
         "too few tosses of {0} end with a face to calibrate anything: {1} of {2} are undecided or left the table"
     )]
@@ -69,4 +61,10 @@ impl From<Diagnostics> for CalibrationError {
     fn from(diagnostics: Diagnostics) -> Self {
         Self::Config(diagnostics)
     }
+}
+
+/// One of them a line.
+fn lines(several: &[OutOfRange]) -> String {
+    let lines = several.iter().map(OutOfRange::to_string);
+    lines.collect::<Vec<_>>().join("\n")
 }

@@ -54,7 +54,7 @@ pub use parameter::Parameter;
 pub use posterior::{Posterior, Summary};
 pub use prediction::{Predicted, Prediction};
 pub use prior::Prior;
-pub use settings::Settings;
+pub use settings::{OutOfRange, Settings};
 #[cfg(feature = "parquet")]
 pub use table::parquet::write_parquet;
 pub use table::{columns, csv};

@@ -30,28 +30,92 @@ impl Default for Settings {
     }
 }
 
+/// A number of the work that is out of range.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("`{name}`: {what} must be from {least} to {most}, not {given}")]
+pub struct OutOfRange {
+    /// The name of the setting.
+    pub name: &'static str,
+    /// What it counts.
+    pub what: &'static str,
+    /// The least.
+    pub least: u64,
+    /// The most.
+    pub most: u64,
+    /// That asked for.
+    pub given: u64,
+}
+
 impl Settings {
+    /// All numbers that are out of range, at once.
     pub(crate) fn check(&self) -> Result<(), CalibrationError> {
-        let within = |what, given, least, most| {
-            if (least..=most).contains(&given) {
-                Ok(())
-            } else {
-                Err(CalibrationError::OutOfRange {
-                    what,
-                    least,
-                    most,
-                    given,
-                })
-            }
+        let ranges = [
+            (
+                "points",
+                "the surfaces of the design",
+                self.points,
+                32,
+                1 << 16,
+            ),
+            (
+                "tosses",
+                "the tosses at each surface",
+                self.tosses,
+                2,
+                1 << 20,
+            ),
+            (
+                "draws",
+                "the draws of the posterior",
+                self.draws,
+                100,
+                1_000_000,
+            ),
+            (
+                "predicted",
+                "the tosses of the prediction",
+                self.predicted,
+                1024,
+                1 << 32,
+            ),
+        ];
+        let beyond =
+            |(_, _, given, least, most): &(_, _, u64, u64, u64)| given < least || given > most;
+        let found = ranges.into_iter().filter(beyond);
+        let found: Vec<_> = found
+            .map(|(name, what, given, least, most)| OutOfRange {
+                name,
+                what,
+                least,
+                most,
+                given,
+            })
+            .collect();
+        if found.is_empty() {
+            Ok(())
+        } else {
+            Err(CalibrationError::OutOfRange(found))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_numbers_out_of_range_are_told_at_once() {
+        assert!(Settings::default().check().is_ok());
+        let settings = Settings {
+            points: 31,
+            draws: 1_000_001,
+            ..Settings::default()
         };
-        within("the surfaces of the design", self.points, 32, 1 << 16)?;
-        within("the tosses at each surface", self.tosses, 2, 1 << 20)?;
-        within("the draws of the posterior", self.draws, 100, 1_000_000)?;
-        within(
-            "the tosses of the prediction",
-            self.predicted,
-            1024,
-            1 << 32,
-        )
+        let error = settings.check().expect_err("two numbers out of range");
+        assert_eq!(
+            error.to_string(),
+            "`points`: the surfaces of the design must be from 32 to 65536, not 31\n\
+             `draws`: the draws of the posterior must be from 100 to 1000000, not 1000001"
+        );
     }
 }

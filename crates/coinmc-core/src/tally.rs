@@ -176,13 +176,17 @@ impl Tally {
         ]
     }
 
-    /// Adds another tally's counts; `None` if a counter would overflow (only forged input can).
+    /// Adds another tally's counts; `None` if a counter of tosses would overflow (only forged input can).
+    /// Counters of what may happen several times in a toss stay at 2^64 − 1 instead.
     #[must_use]
     pub fn checked_merge(&self, other: &Self) -> Option<Self> {
         let (a, b) = (self.to_array(), other.to_array());
         let mut sum = [0; COUNT];
-        for (sum, (a, b)) in sum.iter_mut().zip(a.iter().zip(b)) {
-            *sum = a.checked_add(b)?;
+        for ((sum, counter), (a, b)) in sum.iter_mut().zip(&Self::COUNTERS).zip(a.iter().zip(b)) {
+            *sum = match counter.kind {
+                CounterKind::Event | CounterKind::Breakdown => a.saturating_add(b),
+                _ => a.checked_add(b)?,
+            };
         }
         Some(Self::from_array(sum))
     }
@@ -190,7 +194,7 @@ impl Tally {
     /// Adds another tally's counts.
     ///
     /// # Panics
-    /// If a counter would exceed `u64`; no run of real tosses can get there. Counts that come
+    /// If a counter of tosses would exceed `u64`; no run of real tosses can get there. Counts that come
     /// from a file go through [`checked_merge`](Self::checked_merge).
     pub fn merge(&mut self, other: &Self) {
         *self = self.checked_merge(other).expect("fewer than 2^64 tosses");
@@ -214,5 +218,23 @@ impl Tally {
     /// All tosses, those that left the table and undecided ones included.
     pub fn tosses(&self) -> u64 {
         self.heads + self.tails + self.side + self.left + self.undecided()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of forged files: counts of tosses that exceed 64 bits are refused, counts of events stay at the largest.
+    #[test]
+    fn sums_beyond_64_bits_are_refused_for_tosses_and_bounded_for_events() {
+        let tally = |heads, impacts| Tally {
+            heads,
+            impacts,
+            ..Tally::default()
+        };
+        let most = tally(1, u64::MAX - 1);
+        assert_eq!(most.checked_merge(&tally(2, 7)), Some(tally(3, u64::MAX)));
+        assert_eq!(tally(u64::MAX, 0).checked_merge(&most), None);
     }
 }

@@ -99,6 +99,13 @@ impl Values {
         found.map(|(_, value)| value)
     }
 
+    /// The same values without this key.
+    #[must_use]
+    pub fn without(mut self, key: &str) -> Self {
+        self.0.retain(|(name, _)| *name != key);
+        self
+    }
+
     /// The number under a key.
     ///
     /// # Errors

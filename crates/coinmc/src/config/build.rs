@@ -1,6 +1,6 @@
 //! From the checked config to the points of a plan.
 
-use super::at::{At, Fault, get};
+use super::at::{At, Fault};
 use super::checked::{Checked, CheckedValue};
 use super::columns::Columns;
 use super::diagnostics::Problems;
@@ -8,7 +8,7 @@ use super::engines;
 use super::launch;
 use super::notes::Notes;
 use super::sweep::Sweep;
-use super::values::read;
+use super::values::{read, read_on};
 use crate::OnDemand;
 use crate::engines::EngineKind;
 use crate::on_demand::WHOLE;
@@ -113,8 +113,13 @@ impl Builder {
         let mut at = At::new(&self.sweep, self.sound);
         self.sweep.indices(index, &mut at.indices);
         let scene = self.scenes.at(|| scene(root, &at), report);
-        let launches = self.launches.at(|| launches(root, &at), report);
-        let engine = self.engines.at(|| engines::choice(root, &at), report);
+        let one = |fault| vec![fault];
+        let launches = self
+            .launches
+            .at(|| launches(root, &at).map_err(one), report);
+        let engine = self
+            .engines
+            .at(|| engines::choice(root, &at).map_err(one), report);
         let scene = scene?;
         Some(Point {
             parameters: self.columns.parameters(&scene, &self.sweep, &at.indices),
@@ -149,25 +154,36 @@ impl<T: Clone> Part<T> {
 
     fn at(
         &mut self,
-        build: impl FnOnce() -> Result<T, Fault>,
+        build: impl FnOnce() -> Result<T, Vec<Fault>>,
         report: &mut impl FnMut(Fault),
     ) -> Option<T> {
         if self.swept || !self.tried {
             self.tried = true;
-            self.last = build().map_err(report).ok();
+            self.last = build()
+                .map_err(|faults| faults.into_iter().for_each(report))
+                .ok();
         }
         self.last.clone()
     }
 }
 
-fn scene(root: &Checked, at: &At<'_>) -> Result<Scene, Fault> {
-    let coin = read(get(root, "coin")?, at, Coin::read)?;
+/// The scene, or all that is wrong with it.
+fn scene(root: &Checked, at: &At<'_>) -> Result<Scene, Vec<Fault>> {
+    let mut faults = Vec::new();
+    match scene_despite(root, at, &mut faults) {
+        Some(scene) if faults.is_empty() => Ok(scene),
+        _ => Err(faults),
+    }
+}
+
+fn scene_despite(root: &Checked, at: &At<'_>, faults: &mut Vec<Fault>) -> Option<Scene> {
+    let coin = read_on(root.get("coin")?, at, faults, Coin::read)?;
     let surface = match root.get("surface") {
-        Some(checked) => read(checked, at, |surface| Surface::read(surface, &coin))?,
+        Some(checked) => read_on(checked, at, faults, |surface| Surface::read(surface, &coin))?,
         // only closed forms need no surface
         None => Surface::adhesive(),
     };
-    read(get(root, "environment")?, at, |environment| {
+    read_on(root.get("environment")?, at, faults, |environment| {
         Scene::read(coin, surface, environment)
     })
 }

@@ -10,14 +10,48 @@ pub(super) fn read<T>(
     at: &At<'_>,
     reader: impl FnOnce(&Values) -> Result<T, ReadError>,
 ) -> Result<T, Fault> {
-    reader(&values(checked, at)?).map_err(|error| {
-        if error.is_mismatch() && !at.sound {
-            // a rule of the table is violated, which has been reported
-            return Fault::Reported;
+    reader(&values(checked, at)?).map_err(|error| fault(checked, at, &error))
+}
+
+/// The same, with all that is wrong in the table and not just what the reader meets first: a key that
+/// it blames counts as absent from then on. What is described without such keys serves to look for
+/// problems elsewhere.
+pub(super) fn read_on<T>(
+    checked: &Checked,
+    at: &At<'_>,
+    faults: &mut Vec<Fault>,
+    reader: impl Fn(&Values) -> Result<T, ReadError>,
+) -> Option<T> {
+    let mut values = values(checked, at)
+        .map_err(|fault| faults.push(fault))
+        .ok()?;
+    let mut whole = true;
+    loop {
+        let error = match reader(&values) {
+            Ok(read) => return Some(read),
+            Err(error) => error,
+        };
+        if whole || !error.is_mismatch() {
+            faults.push(fault(checked, at, &error));
         }
-        let blamed = find(checked, error.path());
-        Fault::problem(blamed.span, error.to_string(), error.help())
-    })
+        whole = false;
+        let mut path = error.path();
+        let (key, None) = (path.next()?, path.next()) else {
+            return None;
+        };
+        values.get(key)?;
+        values = values.without(key);
+    }
+}
+
+/// What a reader found wrong.
+fn fault(checked: &Checked, at: &At<'_>, error: &ReadError) -> Fault {
+    if error.is_mismatch() && !at.sound {
+        // a rule of the table is violated, which has been reported
+        return Fault::Reported;
+    }
+    let blamed = find(checked, error.path());
+    Fault::problem(blamed.span, error.to_string(), error.help())
 }
 
 /// The value under a path of keys, or the last one on the way that exists.

@@ -93,6 +93,7 @@ impl RunDirectory {
             provenance::FILE,
             Unfinished::FILE,
             Earlier::FILE,
+            Earlier::NEXT,
         ] {
             must_be_file(path, file)?;
         }
@@ -100,7 +101,7 @@ impl RunDirectory {
             Tallies::FILE,
             Tallies::REJECTED,
             Unfinished::FILE,
-            Earlier::FILE,
+            Earlier::NEXT,
         ] {
             replace::remove_leftover(&path.join(file))?;
         }

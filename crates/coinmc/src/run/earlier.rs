@@ -23,11 +23,19 @@ pub(super) struct Earlier {
 
 impl Earlier {
     pub(super) const FILE: &'static str = "earlier.txt";
+    /// The name of the file until the manifest names its plan: a run that extends another may itself be extended,
+    /// and has its own file up to that instant.
+    pub(super) const NEXT: &'static str = "earlier.next.txt";
 
     /// What the file of a run directory holds; nothing if it is not there, or of another plan. What is damaged is
     /// left out: it is tossed again.
     pub(super) fn read(dir: &Path, plan: &Plan, plan_hash: &str) -> Result<Self, RunError> {
-        let path = dir.join(Self::FILE);
+        let next = dir.join(Self::NEXT);
+        let path = if plan_of(&next)?.as_deref() == Some(plan_hash) {
+            next
+        } else {
+            dir.join(Self::FILE)
+        };
         let failed = |error| RunError::io("read", &path, error);
         let Some(file) = open(&path).map_err(failed)? else {
             return Ok(Self::default());
@@ -93,12 +101,12 @@ impl Earlier {
     }
 }
 
-/// The file while it is being written; it has its name only when it is whole.
+/// The file while it is being written; it is [`Earlier::NEXT`] only when it is whole.
 pub(super) struct Writing(Replacement);
 
 impl Writing {
     pub(super) fn begin(dir: &Path, plan_hash: &str) -> Result<Self, RunError> {
-        let file = Replacement::begin(&dir.join(Earlier::FILE))?;
+        let file = Replacement::begin(&dir.join(Earlier::NEXT))?;
         let mut writing = Self(file);
         writing.write(&heading(plan_hash))?;
         Ok(writing)

@@ -1,9 +1,9 @@
 //! Lets a run directory go on with a plan that asks for more than the run it holds.
 //!
 //! The tosses of the earlier run are written under the hash of the new plan to a file of their own. Then the
-//! manifest names the new plan: before that instant the directory is the earlier run, afterwards it is the new
-//! one, of which those tosses are made. [`settle`] clears away what the earlier run had in files of the new one,
-//! and can be repeated.
+//! manifest names the new plan: before that instant the directory is the earlier run, with all its files, afterwards
+//! it is the new one, of which those tosses are made. [`settle`] gives the file its lasting name, clears away what
+//! the earlier run had in files of the new one, and can be repeated.
 
 use super::chunk_result::{ChunkResult, Tossed};
 use super::cut::Cut;
@@ -138,9 +138,18 @@ impl Step {
 /// Clears away what an earlier run has left in files of the run that extends it, and keeps its results under
 /// other names. Returns whether the run extends another.
 pub(super) fn settle(dir: &Path, plan_hash: &str) -> Result<bool, RunError> {
-    let file = dir.join(Earlier::FILE);
-    if earlier::plan_of(&file)?.as_deref() != Some(plan_hash) {
+    let (file, next) = (dir.join(Earlier::FILE), dir.join(Earlier::NEXT));
+    let is_ours = |path: &Path| {
+        let plan = earlier::plan_of(path)?;
+        Ok::<_, RunError>(plan.as_deref() == Some(plan_hash))
+    };
+    if is_ours(&next)? {
+        replace::rename(&next, &file)?;
+    } else {
         // of an extension that was never taken
+        replace::remove(&next)?;
+    }
+    if !is_ours(&file)? {
         replace::remove(&file)?;
         return Ok(false);
     }

@@ -202,16 +202,15 @@ impl Tallies {
             return Ok(());
         }
         let path = self.path.with_file_name(Self::REJECTED);
-        let earlier = if replace::is_file(&path) {
-            std::fs::read(&path).map_err(|error| RunError::io("read", &path, error))?
-        } else {
-            Vec::new()
-        };
+        let earlier = replace::is_file(&path)
+            .then(|| replace::open_file(&path))
+            .transpose()
+            .map_err(|error| RunError::io("read", &path, error))?;
         let mut all = Replacement::begin(&path)?;
         let mut writer = all.writer();
-        let written = writer
-            .write_all(&earlier)
-            .and_then(|()| copy(file, places.iter().cloned(), &mut writer));
+        let written = earlier
+            .map_or(Ok(0), |mut earlier| io::copy(&mut earlier, &mut writer))
+            .and_then(|_| copy(file, places.iter().cloned(), &mut writer));
         drop(writer);
         written.map_err(|error| all.error(error))?;
         all.finish()

@@ -132,7 +132,9 @@ fn is_possible(tally: &Tally, tosses: u64) -> bool {
             return false;
         }
     }
-    endings == Some(tosses)
+    // a toss without a face does not show the one that was up
+    let faces = || tally.heads + tally.tails + tally.side;
+    endings == Some(tosses) && tally.same <= faces()
 }
 
 #[cfg(test)]
@@ -180,6 +182,7 @@ mod tests {
                 overruled: 101,
                 ..tally
             },
+            Tally { same: 96, ..tally },
             Tally {
                 impacts: u64::MAX,
                 ..tally

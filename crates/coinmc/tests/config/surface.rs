@@ -216,3 +216,24 @@ fn a_tilted_table_is_refused_where_it_is_not_modelled() {
         assert!(problems.contains(word), "{keys}: {problems}");
     }
 }
+
+/// Values that only contradict each other, in the coin and on its surface, are all told at once, and no
+/// more than these: each is counted as absent while the others are looked for.
+#[test]
+fn contradictions_of_a_scene_are_told_at_once() {
+    let mut text =
+        on("material = 'wood'\nroughness_wavelength_m = 1e-6\nfriction = 0.05\ntable_tilt_deg = 3");
+    text = text.replace(
+        "[surface]",
+        "rim_radius_m = 1.0\naxial_moment_kg_m2 = 9.0\n[surface]",
+    );
+    let problems = config::parse("bad.toml", &text, &[]).expect_err("refused");
+    let told = problems.problems().iter();
+    let told: Vec<_> = told.map(|problem| problem.message.as_str()).collect();
+    let words = ["rim radius", "axial", "wavelength", "needs friction above"];
+    assert_eq!(told.len(), words.len(), "{problems}");
+    for word in words {
+        let telling = told.iter().filter(|message| message.contains(word));
+        assert_eq!(telling.count(), 1, "{word}: {problems}");
+    }
+}

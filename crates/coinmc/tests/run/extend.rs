@@ -179,6 +179,29 @@ fn an_extended_run_that_is_stopped_has_the_old_result() {
     assert_same(&one, &at_once);
 }
 
+/// A run that itself extends another, not finished, is extended; the disk is full, or the kill comes, where the
+/// manifest would name the new plan. Whichever plan goes on, no toss is lost.
+#[test]
+fn a_change_of_an_unfinished_extension_that_is_cut_short_loses_nothing() {
+    let dir = tempdir().unwrap();
+    let [a, b, c] = ["tosses = 40_000", "tosses = 90_000", "tosses = 100_000"].map(plan);
+    let (run, at_once) = (dir.path().join("run"), dir.path().join("at_once"));
+    run_whole(&c, &at_once);
+    run_whole(&a, &run);
+    run_with(&b, &run, Part::WHOLE, 2, &Ear::that_cancels_at(0)).unwrap();
+    let manifest = fs::read(run.join("manifest.json")).unwrap();
+    fs::create_dir(run.join("manifest.json.tmp")).unwrap();
+    run_with(&c, &run, Part::WHOLE, 2, &Ear::default()).unwrap_err();
+    fs::remove_dir(run.join("manifest.json.tmp")).unwrap();
+    assert_eq!(fs::read(run.join("manifest.json")).unwrap(), manifest);
+    let (_, stored) = stored_report(&run, &Ear::default()).unwrap();
+    let tosses = |row: &coinmc::results::Row| row.tally.tosses();
+    assert!(stored.results.rows.iter().map(tosses).all(|n| n >= 40_000));
+    let (_, reused) = go_on(&c, &run);
+    assert!(reused >= 240_000, "{reused}");
+    assert_same(&run, &at_once);
+}
+
 /// A kill between any two steps of the change.
 #[test]
 fn a_change_that_is_cut_short_loses_nothing() {
@@ -206,12 +229,13 @@ fn a_change_that_is_cut_short_loses_nothing() {
         "results.parquet",
     ];
     copy(&old, &files, &begun);
-    copy(&new, &["earlier.txt"], &begun);
+    fs::copy(new.join("earlier.txt"), begun.join("earlier.next.txt")).unwrap();
     let (report, reused) = go_on(&less, &begun);
     assert_eq!((report.tosses, reused), (240_000, 240_000));
-    assert!(!begun.join("earlier.txt").exists());
+    assert!(!begun.join("earlier.next.txt").exists());
     // after it
-    copy(&new, &["earlier.txt", "manifest.json"], &begun);
+    copy(&new, &["manifest.json"], &begun);
+    fs::copy(new.join("earlier.txt"), begun.join("earlier.next.txt")).unwrap();
     let (_, reused) = go_on(&more, &begun);
     assert_eq!(reused, 240_000);
     assert_same(&begun, &at_once);

@@ -11,7 +11,7 @@ const MAX_NAME: usize = 128;
 
 /// A build of the program on a kind of processor. No host, user or date is in it: two equal machines are the
 /// same maker.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Maker {
     /// The build as `coinmc --version` names it: version, commit and its date.

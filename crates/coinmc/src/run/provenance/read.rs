@@ -28,6 +28,7 @@ impl Records {
         };
         let (mut file, mut line) = (BufReader::new(file), Vec::new());
         let (mut records, mut known) = (Self::default(), HashMap::new());
+        let mut places = HashMap::new();
         while next_line(&mut file, &mut line).map_err(failed)? {
             let found = record::read(&line).map_err(|format| RunError::NewerFormat {
                 path: path.clone(),
@@ -36,8 +37,8 @@ impl Records {
             })?;
             match found {
                 Some(Line::Maker(Introduction { id, maker, .. })) => {
-                    let index = records.index_of(maker);
-                    known.insert(id, index);
+                    let next = u32::try_from(places.len()).expect("a file has fewer lines");
+                    known.insert(id, *places.entry(maker).or_insert(next));
                 }
                 Some(Line::Chunks(Made { made_by, chunks })) => {
                     if let Some(&maker) = known.get(&made_by) {
@@ -48,17 +49,11 @@ impl Records {
                 None => {}
             }
         }
+        let mut makers: Vec<_> = places.into_iter().collect();
+        makers.sort_unstable_by_key(|(_, place)| *place);
+        records.makers = makers.into_iter().map(|(maker, _)| maker).collect();
         records.keep_the_last_of_each();
         Ok(records)
-    }
-
-    fn index_of(&mut self, maker: Maker) -> u32 {
-        let known = self.makers.iter().position(|known| *known == maker);
-        let index = known.unwrap_or_else(|| {
-            self.makers.push(maker);
-            self.makers.len() - 1
-        });
-        u32::try_from(index).expect("a file has fewer lines")
     }
 
     /// A chunk that was made again, as its tally was lost, was made by the last that made it.
