@@ -59,6 +59,8 @@ impl RawChannel {
 #[derive(Debug, Default)]
 pub(crate) struct Chunk {
     records: Vec<u8>,
+    /// Bytes of schemas and channels among them.
+    definitions: usize,
     /// By channel: log time and offset of every message.
     index: BTreeMap<u16, Vec<(u64, u64)>>,
     schemas: BTreeSet<u16>,
@@ -83,9 +85,10 @@ impl Chunk {
         self.records.is_empty()
     }
 
-    /// Number of uncompressed bytes so far.
-    pub(crate) fn len(&self) -> usize {
-        self.records.len()
+    /// Whether it has `least` uncompressed bytes, and as many of messages as of definitions: since every chunk
+    /// repeats these, a file would else be mostly schemas, and a small one could be recovered to a huge one.
+    pub(crate) fn is_full(&self, least: usize) -> bool {
+        self.records.len() >= least.max(2 * self.definitions)
     }
 
     /// Whether this chunk defines the channel.
@@ -95,12 +98,14 @@ impl Chunk {
 
     /// Defines a channel in this chunk, so that it can be read even if all others are lost.
     pub(crate) fn define(&mut self, id: u16, channel: &RawChannel, schema: Option<&RawSchema>) {
+        let before = self.records.len();
         if let Some(schema) = schema
             && self.schemas.insert(channel.schema)
         {
             schema.put(channel.schema, &mut self.records);
         }
         channel.put(id, &mut self.records);
+        self.definitions += self.records.len() - before;
         self.index.insert(id, Vec::new());
     }
 
@@ -169,6 +174,7 @@ impl Chunk {
         self.records.clear();
         self.index.clear();
         self.schemas.clear();
+        self.definitions = 0;
         (self.start, self.end) = (0, 0);
         layout
     }

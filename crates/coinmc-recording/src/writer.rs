@@ -196,7 +196,7 @@ impl<S: Sink> Writer<S> {
         self.chunk.push(message);
         self.messages[usize::from(id)] += 1;
         self.summary.message(message.log_time);
-        if self.chunk.len() >= CHUNK {
+        if self.chunk.is_full(CHUNK) {
             self.end_chunk()?;
         }
         Ok(())
@@ -223,7 +223,7 @@ impl<S: Sink> Writer<S> {
         map: &BTreeMap<String, String>,
     ) -> Result<(), Error> {
         check_length("metadata", name.len() + map_length(map))?;
-        self.end_chunk()?;
+        self.check_unbroken()?;
         let offset = self.position;
         record(&mut self.scratch, op::METADATA, |bytes| {
             bytes.put_str(name);
@@ -241,7 +241,7 @@ impl<S: Sink> Writer<S> {
     pub(crate) fn attachment(&mut self, attachment: &Attachment<'_>) -> Result<(), Error> {
         let length = attachment.name.len() + attachment.media_type.len() + attachment.data.len();
         check_length("an attachment", length)?;
-        self.end_chunk()?;
+        self.check_unbroken()?;
         let offset = self.position;
         record(&mut self.scratch, op::ATTACHMENT, |bytes| {
             let from = bytes.len();

@@ -12,7 +12,7 @@ use std::collections::HashMap;
 
 /// Greatest total length of schemas and channels that are kept, bytes: far more than a recording
 /// needs, and a malicious file cannot fill the memory.
-const MAX_DEFINITIONS: usize = 128 << 20;
+const MAX_DEFINITIONS: usize = 32 << 20;
 
 /// The new file, and the ids there of the old file's schemas and channels.
 pub(super) struct Copy<S> {

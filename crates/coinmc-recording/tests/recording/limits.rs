@@ -62,6 +62,36 @@ fn lz4_frame() -> Vec<u8> {
     recording.bytes[start..start + 200].to_vec()
 }
 
+/// Messages of one byte with a schema of 2 MB, and metadata after each: the recovered file repeats the schema in
+/// every chunk, but is no more than twice as long, and a schema at its end.
+#[test]
+fn a_recovered_file_is_not_much_longer_than_the_damaged_one() {
+    let text = |text: &[u8]| [&u32::try_from(text.len()).unwrap().to_le_bytes(), text].concat();
+    let schema = vec![b' '; 2_000_000];
+    let schema = [
+        &1_u16.to_le_bytes()[..],
+        &text(b"s"),
+        &text(b""),
+        &text(&schema),
+    ]
+    .concat();
+    let channel = [&[1, 0, 1, 0][..], &text(b"c"), &text(b""), &text(b"")].concat();
+    let message = [&[1, 0][..], &[0; 20], b"m"].concat();
+    let metadata = [text(b"n"), text(b"")].concat();
+    let mut bytes = b"\x89MCAP0\r\n".to_vec();
+    for (kind, content) in [(3, schema), (4, channel)] {
+        bytes.extend(record(kind, content.len() as u64, &content));
+    }
+    for _ in 0..100 {
+        for (kind, content) in [(5, &message), (12, &metadata)] {
+            bytes.extend(record(kind, content.len() as u64, content));
+        }
+    }
+    let (recovered, file) = salvaged(&bytes).unwrap();
+    assert_eq!((recovered.messages, recovered.metadata), (100, 100));
+    assert!(file.len() < 3 * bytes.len(), "{}", file.len());
+}
+
 #[test]
 fn existing_files_are_not_overwritten() {
     let dir = tempfile::tempdir().unwrap();
