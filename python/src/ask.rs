@@ -1,6 +1,7 @@
 //! Answers of the atlas over arrays.
 
 use crate::errors;
+use crate::supervise::wait_for;
 use coinmc_atlas::{Atlas, AtlasError, Launch, Place};
 use coinmc_core::Material;
 use numpy::{PyArray2, PyReadonlyArray2, ToPyArray, ndarray::Array2};
@@ -18,26 +19,29 @@ pub(crate) struct AskedAtlas<'py> {
 
 impl AskedAtlas<'_> {
     /// A row of numbers for each coin and surface.
-    fn answers<const N: usize>(
-        &self,
-        answer: impl Fn(&Atlas, &Place) -> Result<[f64; N], AtlasError>,
-    ) -> Result<Array2<f64>, AtlasError> {
-        let launch: Launch = self.launch.parse()?;
-        let material: Material = self.material.parse()?;
-        let atlas = Atlas::of(launch);
-        let mut found = Vec::new();
-        let rows = self.rows.as_array();
-        for row in rows.rows() {
-            let numbers: Vec<(String, f64)> = self
-                .keys
-                .iter()
-                .zip(row.iter().skip(1))
-                .map(|(key, value)| (key.clone(), *value))
-                .collect();
-            let place = Place::with(&material, row[0], atlas.radius_m(), &numbers)?;
-            found.extend(answer(&atlas, &place)?);
-        }
-        Ok(Array2::from_shape_vec((rows.nrows(), N), found).expect("N numbers a row"))
+    fn answers<'py, const N: usize>(
+        self,
+        py: Python<'py>,
+        answer: impl Fn(&Atlas, &Place) -> Result<[f64; N], AtlasError> + Send + 'static,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let launch: Launch = self.launch.parse().map_err(errors::value)?;
+        let material: Material = self.material.parse().map_err(errors::value)?;
+        let (rows, keys) = (self.rows.as_array().to_owned(), self.keys);
+        let found = wait_for(py, move || {
+            let atlas = Atlas::of(launch);
+            let mut found = Vec::new();
+            for row in rows.rows() {
+                let given = keys.iter().zip(row.iter().skip(1));
+                let numbers: Vec<(String, f64)> =
+                    given.map(|(key, value)| (key.clone(), *value)).collect();
+                let place = Place::with(&material, row[0], atlas.radius_m(), &numbers)?;
+                found.extend(answer(&atlas, &place)?);
+            }
+            Ok::<_, AtlasError>(
+                Array2::from_shape_vec((rows.nrows(), N), found).expect("N numbers a row"),
+            )
+        })?;
+        Ok(found.map_err(errors::value)?.to_pyarray(py))
     }
 }
 
@@ -47,12 +51,11 @@ pub(crate) fn ask<'py>(
     py: Python<'py>,
     asked: AskedAtlas<'py>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let found = asked.answers(|atlas, place| {
+    asked.answers(py, |atlas, place| {
         let faces = atlas.faces(place)?;
         let [[a, b, c], [d, e, f]] = [faces.p, faces.error];
         Ok([a, b, c, d, e, f])
-    });
-    Ok(found.map_err(errors::value)?.to_pyarray(py))
+    })
 }
 
 /// The ratio at which the side has a probability on each surface, and its standard error; NaN if there is none.
@@ -62,9 +65,8 @@ pub(crate) fn ask_root<'py>(
     asked: AskedAtlas<'py>,
     target: f64,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let found = asked.answers(|atlas, place| {
+    asked.answers(py, move |atlas, place| {
         let root = atlas.root(place, target)?;
         Ok(root.map_or([f64::NAN; 2], |root| [root.ratio, root.error]))
-    });
-    Ok(found.map_err(errors::value)?.to_pyarray(py))
+    })
 }

@@ -1,6 +1,7 @@
 //! Questions: do counts of real tosses agree with a model?
 
 use crate::results::Results;
+use crate::supervise::wait_for;
 use coinmc_questions::{Model, compare as compare_counts, document_of_comparison};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -14,15 +15,15 @@ pub(crate) fn compare(
     results: Vec<(String, Py<Results>)>,
     confidence: f64,
 ) -> PyResult<String> {
-    let runs: Vec<_> = results
-        .iter()
-        .map(|(name, results)| (name, results.get().table()))
-        .collect();
-    let models: Vec<_> = runs
-        .iter()
-        .flat_map(|(run, table)| table.rows.iter().map(move |row| Model { run, row }))
-        .collect();
-    let answer = py.detach(|| compare_counts(counts, &models, confidence));
-    let answer = answer.map_err(|error| PyValueError::new_err(error.to_string()))?;
-    Ok(document_of_comparison(&answer).to_string())
+    let document = wait_for(py, move || {
+        let runs = results
+            .iter()
+            .map(|(name, results)| (name, results.get().table()));
+        let models: Vec<_> = runs
+            .flat_map(|(run, table)| table.rows.iter().map(move |row| Model { run, row }))
+            .collect();
+        let answer = compare_counts(counts, &models, confidence);
+        answer.map(|answer| document_of_comparison(&answer).to_string())
+    })?;
+    document.map_err(|error| PyValueError::new_err(error.to_string()))
 }

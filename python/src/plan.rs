@@ -1,6 +1,7 @@
 //! Configs and their plans.
 
 use crate::errors;
+use crate::supervise::wait_for;
 use coinmc::config::{self, Override};
 use coinmc::plan::{Plan as Planned, Point, Stop, Targets};
 use coinmc_core::Face;
@@ -23,15 +24,17 @@ type Solid = ([(f64, f64); 2], f64, [f64; 3]);
 impl Plan {
     /// Reads a file.
     #[staticmethod]
-    fn load(path: PathBuf, overrides: Vec<String>) -> PyResult<Self> {
-        let plan = config::load(&path, &parsed(&overrides)?);
+    fn load(py: Python<'_>, path: PathBuf, overrides: Vec<String>) -> PyResult<Self> {
+        let overrides = parsed(&overrides)?;
+        let plan = wait_for(py, move || config::load(&path, &overrides))?;
         plan.map(Self::from).map_err(|found| errors::config(&found))
     }
 
     /// Reads a text; `name` is its name in messages.
     #[staticmethod]
-    fn parse(name: &str, text: &str, overrides: Vec<String>) -> PyResult<Self> {
-        let plan = config::parse(name, text, &parsed(&overrides)?);
+    fn parse(py: Python<'_>, name: String, text: String, overrides: Vec<String>) -> PyResult<Self> {
+        let overrides = parsed(&overrides)?;
+        let plan = wait_for(py, move || config::parse(&name, &text, &overrides))?;
         plan.map(Self::from).map_err(|found| errors::config(&found))
     }
 

@@ -41,8 +41,8 @@ impl Session {
     }
 
     /// At most so many chunks that can be computed now, and whether the run is complete.
-    fn take(&self, most: usize) -> PyResult<(Vec<Place>, bool)> {
-        self.with(|run| {
+    fn take(&self, py: Python<'_>, most: usize) -> PyResult<(Vec<Place>, bool)> {
+        self.with(py, |run| {
             let mut chunks = Vec::new();
             while chunks.len() < most {
                 match run.next() {
@@ -59,18 +59,16 @@ impl Session {
 
     /// Stores and counts results: texts, and notes of who made them, which may be empty.
     fn accept(&self, py: Python<'_>, results: Vec<(Vec<u8>, Vec<u8>)>) -> PyResult<()> {
-        py.detach(|| {
-            self.with(|run| {
-                let deliveries = results.iter().map(|(text, note)| Delivery { text, note });
-                let accepted = run.accept(deliveries);
-                accepted.map_err(|error| errors::run(&error))
-            })
+        self.with(py, |run| {
+            let deliveries = results.iter().map(|(text, note)| Delivery { text, note });
+            let accepted = run.accept(deliveries);
+            accepted.map_err(|error| errors::run(&error))
         })
     }
 
     /// Tosses done and planned.
-    fn progress(&self) -> PyResult<(u64, u64)> {
-        self.with(|run| {
+    fn progress(&self, py: Python<'_>) -> PyResult<(u64, u64)> {
+        self.with(py, |run| {
             let progress = run.progress();
             Ok((progress.tosses_done, progress.tosses_planned))
         })
@@ -78,7 +76,7 @@ impl Session {
 
     /// Ends the run, or interrupts it, and releases its directory: the results and the warnings.
     fn conclude(&self, py: Python<'_>) -> PyResult<(Results, Vec<String>)> {
-        let run = self.lock().take().ok_or_else(ended)?;
+        let run = py.detach(|| self.lock().take()).ok_or_else(ended)?;
         let report = py.detach(|| run.conclude(&self.warnings));
         let report = report.map_err(|error| errors::run(&error))?;
         Ok((Results::new(report)?, self.warnings.take_warnings()))
@@ -90,8 +88,13 @@ impl Session {
         self.run.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn with<T>(&self, act: impl FnOnce(&mut Steered) -> PyResult<T>) -> PyResult<T> {
-        act(self.lock().as_mut().ok_or_else(ended)?)
+    /// Other threads of Python run meanwhile: another one may wait for the disk while it holds the run.
+    fn with<T: Send>(
+        &self,
+        py: Python<'_>,
+        act: impl FnOnce(&mut Steered) -> PyResult<T> + Send,
+    ) -> PyResult<T> {
+        py.detach(|| act(self.lock().as_mut().ok_or_else(ended)?))
     }
 }
 

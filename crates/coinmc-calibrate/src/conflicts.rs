@@ -5,6 +5,7 @@ use crate::model::{Model, reached};
 use crate::points::{self, Use};
 use crate::posterior;
 use crate::{CalibrationError, Parameter};
+use coinmc::config::Diagnostics;
 use coinmc_questions::number::compact;
 
 /// Below this probability of something so extreme, a measurement is refused …
@@ -49,7 +50,7 @@ fn rounded(p: f64) -> f64 {
 /// Points with their weights.
 type Points<'a> = (&'a [Vec<f64>], &'a [f64]);
 
-/// Refuses a measurement that contradicts its prior.
+/// Refuses measurements that contradict their prior.
 ///
 /// # Errors
 /// [`CalibrationError::Config`], with a caret at each such measurement.
@@ -59,6 +60,7 @@ pub(crate) fn refuse(model: &Model) -> Result<Vec<Conflict>, CalibrationError> {
     let weights = vec![1.0 / POINTS as f64; prior.len()];
     let terms = model.observed.places.len();
     let mut conflicts = vec![];
+    let mut problems: Option<Diagnostics> = None;
     for term in 0..terms {
         let p_value = p_value(model, term, (&prior, &weights));
         if p_value < REFUSED {
@@ -74,11 +76,16 @@ pub(crate) fn refuse(model: &Model) -> Result<Vec<Conflict>, CalibrationError> {
             );
             let help = "check the reading, its unit and its error, or widen the prior in [prior]";
             let place = &model.observed.places[term];
-            return Err(place.problem(message, Some(help.to_owned())).into());
+            let problem = place.problem(message, Some(help.to_owned()));
+            problems = Some(match problems {
+                Some(found) => found.and(problem),
+                None => problem,
+            });
+            continue;
         }
         conflicts.extend(conflict(model, term, p_value, false));
     }
-    Ok(conflicts)
+    problems.map_or(Ok(conflicts), |problems| Err(problems.into()))
 }
 
 /// Measurements that all others together hardly allow: each is left out once.
@@ -187,4 +194,38 @@ fn expected(model: &Model, term: usize, prior: &[Vec<f64>]) -> String {
 /// The standard normal distribution function.
 fn normal_cdf(z: f64) -> f64 {
     0.5 * libm::erfc(-z / 2.0_f64.sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Observations, Settings};
+    use coinmc_questions::Workers;
+    use std::sync::atomic::AtomicBool;
+
+    /// Measurements that each contradict the prior are all refused at once, and those that agree are not.
+    #[test]
+    fn all_measurements_that_contradict_the_prior_are_told() {
+        let text = "coin.ratio = 0.2\nsurface = { restitution = 0.5, friction = 0.3 }\n\
+                    launch.preset = 'robot'\nengine.flat = {}\n\
+                    [[tilt]]\nangle_deg = 80\n[[tilt]]\nangle_deg = 17\n\
+                    [[bounces]]\ndrop_height_m = 0.1\ntime_s = [0, 0.28]\n";
+        let observed = Observations::parse("inline", text, &[], "".as_ref()).unwrap();
+        let settings = Settings {
+            points: 64,
+            tosses: 32,
+            ..Settings::default()
+        };
+        let workers = Workers {
+            threads: None,
+            cancel: &AtomicBool::new(false),
+            made: &|_| (),
+        };
+        let model = Model::new(observed, settings, &workers).unwrap();
+        let message = refuse(&model).unwrap_err().to_string();
+        for (name, told) in [("tilt 1", true), ("tilt 2", false), ("bounces 1", true)] {
+            let refused = message.contains(&format!("{name} contradicts"));
+            assert_eq!(refused, told, "{name}: {message}");
+        }
+    }
 }

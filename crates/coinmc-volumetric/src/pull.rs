@@ -13,6 +13,7 @@
 //! Only tosses with an observer know their place. So a tilted table follows every toss with one.
 
 use crate::drag::Drag;
+use crate::flight::velocity_left;
 use crate::motion::Motion;
 use crate::place::Place;
 use crate::series::{decay, sin_cos};
@@ -64,9 +65,8 @@ impl Pull {
         t: f64,
     ) -> ([f64; 2], Motion<f64>) {
         let pull = self.in_frame(place, 0.0);
-        let x = drag.linear * t;
-        let (p, q) = decay(x);
-        let gained = t * p / (1.0 - x * p);
+        let (p, q) = decay(drag.linear * t);
+        let gained = t * p / velocity_left(drag.linear, t);
         let after = Motion {
             vx: motion.vx + pull[0] * gained,
             vy: motion.vy + pull[1] * gained,
@@ -157,6 +157,27 @@ mod tests {
             {
                 assert!((way[i] - p[i] * far).abs() < 1e-12);
                 assert!((arrives * left - (v * left + p[i] * lasting)).abs() < 1e-12);
+            }
+        }
+    }
+
+    /// However long a flight in drag is, a coin arrives with a velocity: in the end the one at which drag balances
+    /// the pull, p/k.
+    #[test]
+    fn a_long_flight_ends_at_the_speed_at_which_drag_balances_the_pull() {
+        let (_, pull, place, _) = somewhere(&mut Dice::new(633, 0));
+        let (linear, angular) = (2.0, 0.3);
+        let drag = Drag { linear, angular };
+        let motion = Motion {
+            vx: 1.0,
+            ..Motion::still()
+        };
+        let p = pull.in_frame(&place, 0.0);
+        for t in [16.0, 20.0, 30.0, 100.0, 1e6] {
+            let (_, after) = pull.in_flight(&place, &drag, &motion, t);
+            let left = velocity_left(linear, t);
+            for (arrives, p) in [(after.vx * left, p[0]), (after.vy * left, p[1])] {
+                assert!((arrives - p / linear).abs() < 1e-13, "{t}: {arrives} {p}");
             }
         }
     }

@@ -8,6 +8,9 @@ use coinmc_core::schema::{
 };
 use nalgebra::{DMatrix, DVector};
 
+/// Most impacts of one coin: every error shared by two flights is counted.
+const MOST_TIMES: usize = 200;
+
 /// Times of impacts.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Bounces {
@@ -57,6 +60,13 @@ impl Bounces {
 
     pub(crate) fn read(values: &Values) -> Result<Self, ReadError> {
         let times = values.numbers("time_s")?;
+        if times.len() > MOST_TIMES {
+            let message = format!(
+                "at most {MOST_TIMES} impacts are allowed, found {}",
+                times.len()
+            );
+            return Err(ReadError::new(message).at("time_s"));
+        }
         let flights_s: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
         if flights_s.iter().any(|flight| *flight <= 0.0) {
             return Err(ReadError::new("the times must rise from impact to impact").at("time_s"));

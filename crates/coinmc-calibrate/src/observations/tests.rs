@@ -158,3 +158,34 @@ fn every_bad_film_is_told() {
             .all(|one| one.line == 6 && !one.message.contains('\n'))
     );
 }
+
+/// Lists are read up to a length, beyond which a few kilobytes would cost gigabytes.
+#[test]
+fn the_length_of_a_list_of_readings_is_bounded() {
+    let list = |count: u32| {
+        let times: Vec<String> = (0..count).map(|i| format!("{}.0", 3 * i)).collect();
+        times.join(", ")
+    };
+    let wood = "{ material = 'wood' }";
+    let bounces = |count| parsed(wood, &format!("[[bounces]]\ntime_s = [{}]", list(count)));
+    assert_eq!(bounces(200).unwrap().readings.len(), 1);
+    let message = bounces(201).unwrap_err().to_string();
+    assert!(
+        message.contains("at most 200 impacts are allowed"),
+        "{message}"
+    );
+    let tilts = format!("[[tilt]]\nangle_deg = [{}]", vec!["17"; 10_001].join(", "));
+    let message = parsed(wood, &tilts).unwrap_err().to_string();
+    assert!(message.contains("10000 at most are allowed"), "{message}");
+}
+
+/// A table with a sweep of its own is refused, and those after it are not even built: each could have a million points.
+#[test]
+fn a_table_with_a_sweep_of_its_own_is_refused_before_those_after_it() {
+    let table =
+        "[[tilt]]\nangle_deg = 17\ncoin.ratio = { from = 0.1, to = 1.0, steps = 1000000 }\n";
+    let error = parsed("{ material = 'wood' }", &table.repeat(900));
+    let message = error.unwrap_err().to_string();
+    let told = message.matches("one scene, but sweeps ratio").count();
+    assert_eq!(told, 1, "{message}");
+}

@@ -1,6 +1,7 @@
 //! Impacts of a coin with a conical edge, and what follows them.
 
 use super::Conical;
+use super::on_edge::FromRim;
 use crate::contact::Usage;
 use crate::impact::ImpactLaw;
 use crate::impact_phase::{MAX_RIM_CHANGES, after_bounce, approaches};
@@ -48,7 +49,7 @@ impl<L: ImpactLaw> Conical<L> {
         let model = self.model(toss);
         if self.barely_rocks(toss) || toss.rim_changes > MAX_RIM_CHANGES {
             toss.rim_changes = 0;
-            self.lie_on_edge(toss, usage, observer)
+            self.lie_on_edge(toss, usage, FromRim::Rocking, observer)
         } else if model.stands_on_face(toss) {
             toss.rim_changes = 0;
             model.tip_over_or_decide(toss)

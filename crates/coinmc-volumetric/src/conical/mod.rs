@@ -33,6 +33,10 @@ use crate::toss::Toss;
 use crate::transition::Transition;
 use coinmc_core::{Ended, EventKind, Launch, LowerRim, Observer, Scene};
 use edge::Edge;
+use on_edge::FromRim;
+
+/// Contact of one rim that lasts no longer than this, in sqrt(D/g), is none.
+const INSTANT: f64 = 1e-9;
 
 /// A coin with a conical edge, or with its centre of mass off the middle.
 #[derive(Debug, Clone)]
@@ -121,11 +125,17 @@ impl<L: ImpactLaw> Conical<L> {
     ) -> Transition {
         let model = self.model(toss);
         model.note_contact(toss);
+        let before = usage.time;
         let mut solver = model.contact_solver(*usage);
         let (motion, spin, mut adapter) = toss.observed(&model.units, observer);
         let exit = solver.follow(motion, spin, &mut adapter);
         *usage = solver.usage;
         match exit {
+            // The end or the beginning of a slip has turned the coin back. The impact that would follow could
+            // lead here again, without end, and each time take energy.
+            Exit::OtherRim if usage.time - before < INSTANT => {
+                self.lie_on_edge(toss, usage, FromRim::AtOnce, observer)
+            }
             Exit::OtherRim => {
                 self.touch_with_edge(toss);
                 toss.turn_over();

@@ -15,6 +15,16 @@ const FIRST_STEP: f64 = 0.01;
 /// Largest turn of the axis within a piece of the way to rest that an observer is shown, rad.
 const LARGEST_TURN: f64 = 0.2;
 
+/// How a coin comes to lie on its edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum FromRim {
+    /// It rocks no longer.
+    Rocking,
+    /// It had tipped onto one rim, and the other one touches without any time between: it tips again only after
+    /// a step on its edge.
+    AtOnce,
+}
+
 /// How contact on the edge ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum EdgeExit {
@@ -31,6 +41,7 @@ impl<L> Conical<L> {
         &self,
         toss: &mut Toss,
         usage: &mut Usage,
+        from: FromRim,
         observer: &mut O,
     ) -> Transition {
         let model = self.model(toss);
@@ -39,7 +50,7 @@ impl<L> Conical<L> {
         let mut path = self.path(toss, *usage);
         let (motion, spin, mut adapter) = toss.observed(&model.units, observer);
         let mut state = Edge::state(motion, spin);
-        let exit = path.follow(&mut state, &mut adapter);
+        let exit = path.follow(&mut state, from, &mut adapter);
         *usage = path.solver.usage;
         path.edge.place(&model.dynamics, &state, motion, spin);
         match exit {
@@ -84,8 +95,10 @@ impl Path<'_> {
     fn follow<O: Observer>(
         &mut self,
         state: &mut EdgeState,
+        from: FromRim,
         adapter: &mut ObserverAdapter<'_, O>,
     ) -> EdgeExit {
+        let mut may_tip = from != FromRim::AtOnce;
         let (dynamics, creep) = (self.solver.rules.dynamics, self.solver.rules.stick_speed);
         let edge = self.edge;
         let mut length = FIRST_STEP;
@@ -95,12 +108,17 @@ impl Path<'_> {
         }
         loop {
             let now = edge.rates(dynamics, state, creep);
-            if let Some(exit) = self.exit(state, &now) {
+            let tips = |exit: &EdgeExit| {
+                matches!(exit, EdgeExit::TipsOntoThisRim | EdgeExit::TipsOntoOtherRim)
+            };
+            let exit = self.exit(state, &now);
+            if let Some(exit) = exit.filter(|exit| may_tip || !tips(exit)) {
                 if exit == EdgeExit::RollsToRest {
                     self.roll_to_rest(state, adapter);
                 }
                 return exit;
             }
+            may_tip = true;
             let ceiling = self.kinetic(state);
             loop {
                 self.solver.usage.steps += 1;

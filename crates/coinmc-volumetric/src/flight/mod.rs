@@ -10,7 +10,7 @@ mod search;
 pub(crate) use bounds::{Bounds, Extent};
 pub(crate) use departure::Departure;
 pub(crate) use gap::Gap;
-pub(crate) use orbit::{Orbit, OrbitState};
+pub(crate) use orbit::{Orbit, OrbitState, velocity_left};
 pub(crate) use profile::OneRim;
 pub(crate) use search::{MAX_EVALUATIONS, Search, first_contact, least_time};
 

@@ -216,7 +216,7 @@ impl<L: Lane> Orbit<L> {
         let mut slow = L::splat(1.0);
         let mut turn = L::splat(1.0);
         if self.drag.acts() {
-            slow = remains(self.drag.linear, self.since_start(t));
+            slow = velocity_left(self.drag.linear, self.since_start(t));
             turn = self.spin_left(t);
         }
         after.set_tilt(sin * scale, uz.abs() * scale);
@@ -269,6 +269,14 @@ impl<L: Lane> Orbit<L> {
         let (p, _) = decay(L::splat(self.drag.linear) * t);
         (m.vx * t * p, m.vy * t * p)
     }
+}
+
+/// The share of a horizontal velocity that linear drag leaves: e^(−kt), and never less than rounding would
+/// leave of it. So what a tilted table adds on the way can be told as a velocity at the start.
+#[inline(always)]
+pub(crate) fn velocity_left<L: Lane>(k: f64, t: L) -> L {
+    const LEAST: f64 = 1e-16;
+    remains(k, t).max(L::splat(LEAST))
 }
 
 /// e^(−kt).

@@ -203,7 +203,7 @@ impl Problems {
                     marked,
                 };
                 Problem {
-                    source: name.clone(),
+                    source: name.to_string(),
                     line,
                     column,
                     message,

@@ -74,7 +74,8 @@ impl Place {
 }
 
 /// Reads a config with these sections. Its `[stop]` may be absent, and all its entries are in the order
-/// of the file.
+/// of the file. An entry with tables of its own is about one scene; if the config itself sweeps, such entries
+/// are left out.
 ///
 /// # Errors
 /// Every problem found, of the scene and of all sections.
@@ -147,15 +148,27 @@ fn read<T>(
     let root = with_sections(sections);
     let plan = of_tree(sources, &root, &tree, end, problems)?;
     let mut entries = vec![];
+    let mut swept = !plan.axes.is_empty();
     for (content, own, span) in contents {
         let plan = if own.is_empty() {
             Some(plan.clone())
+        } else if swept {
+            None
         } else {
             let mut tree = tree.clone();
             for (key, node) in own {
                 tree.set(&[(key, span)], node);
             }
-            of_tree(sources, &root, &tree, end, problems)
+            let plan = of_tree(sources, &root, &tree, end, problems);
+            plan.filter(|plan| {
+                swept = !plan.axes.is_empty();
+                if swept {
+                    let axes = plan.axes.join(", ");
+                    let message = format!("this table is about one scene, but sweeps {axes}");
+                    problems.push(span, message, None);
+                }
+                !swept
+            })
         };
         if let (Some(content), Some(plan)) = (content, plan) {
             let sources = sources.clone();

@@ -1,6 +1,7 @@
 //! The texts that make up a config, and locations in them.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 /// A range of one source, in bytes. Ordered by location: the file first, then the overrides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -13,8 +14,8 @@ pub(super) struct Span {
 /// One text with its name in messages.
 #[derive(Debug, Clone)]
 pub(super) struct Source {
-    pub(super) name: String,
-    pub(super) text: String,
+    pub(super) name: Arc<str>,
+    pub(super) text: Arc<str>,
 }
 
 /// The config file and, after it, every override.
@@ -25,8 +26,8 @@ impl Sources {
     /// Adds a text and returns its number.
     pub(super) fn add(&mut self, name: &str, text: &str) -> usize {
         self.0.push(Source {
-            name: name.to_owned(),
-            text: text.to_owned(),
+            name: name.into(),
+            text: text.into(),
         });
         self.0.len() - 1
     }

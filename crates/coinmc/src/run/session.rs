@@ -12,7 +12,7 @@ use super::schedule::{Job, Next, Schedule};
 use super::tallies::Tallies;
 use super::{Chunk, Part, Progress, ProgressSink, Report, RunError};
 use crate::plan::Plan;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -158,19 +158,19 @@ impl Session {
     ) -> Result<(), RunError> {
         let deliveries = deliveries.into_iter().map(|delivery| self.read(delivery));
         let all: Vec<Accepted> = deliveries.collect::<Result<_, _>>()?;
-        let (mut new, mut awaited) = (Vec::new(), self.awaited.clone());
+        let (mut new, mut seen) = (Vec::new(), HashSet::new());
         for accepted in all {
-            let key = (accepted.chunk.point, accepted.chunk.tosses.start);
-            if awaited.get(&key) == Some(&accepted.chunk.tosses.end) {
-                awaited.remove(&key);
+            let Chunk { point, tosses } = &accepted.chunk;
+            let key = (*point, tosses.start);
+            if self.awaited.get(&key) == Some(&tosses.end) && seen.insert(key) {
                 new.push(accepted);
             }
         }
         if let Some(directory) = &self.directory {
             store(directory, &new)?;
         }
-        self.awaited = awaited;
         for Accepted { chunk, result, .. } in &new {
+            self.awaited.remove(&(chunk.point, chunk.tosses.start));
             self.schedule.complete(chunk, result);
         }
         Ok(())

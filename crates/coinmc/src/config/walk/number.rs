@@ -8,6 +8,9 @@ use crate::config::schema::{self, Bounds};
 use crate::config::source::Span;
 use crate::config::tree::{Node, Table, Value};
 
+/// Most measured numbers under one key.
+const MOST_READINGS: usize = 10_000;
+
 impl Walker<'_> {
     /// A number that may be swept.
     pub(super) fn quantity(&mut self, bounds: Bounds, node: &Node, path: &str) -> Checked {
@@ -35,6 +38,13 @@ impl Walker<'_> {
             Value::Integer(_) | Value::Float(_) => std::slice::from_ref(node),
             _ => return self.wrong_type(node, path, "a number or a list of numbers"),
         };
+        if items.len() > MOST_READINGS {
+            let found = items.len();
+            let message =
+                format!("`{path}` holds {found} numbers, {MOST_READINGS} at most are allowed");
+            self.problems.add(node.span, message);
+            return Checked::invalid(node.span);
+        }
         let values = items.iter().map(|item| self.real(bounds, item, path));
         // every wrong number is reported, not only the first
         match values.collect::<Vec<_>>().into_iter().collect() {
