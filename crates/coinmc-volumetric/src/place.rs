@@ -14,6 +14,8 @@ pub(crate) struct Place {
     heading: [f64; 2],
     /// Horizontal position of the coin's centre.
     position: [f64; 2],
+    /// How high above the surface of the first landing the one is from which the coin's height counts.
+    datum: f64,
     pub(crate) time: f64,
 }
 
@@ -23,6 +25,7 @@ impl Place {
         Self {
             heading,
             position: [0.0; 2],
+            datum: 0.0,
             time: 0.0,
         }
     }
@@ -32,6 +35,7 @@ impl Place {
         Self {
             heading,
             position,
+            datum: 0.0,
             time: 0.0,
         }
     }
@@ -79,6 +83,11 @@ impl Place {
         self.position[1] += dx * y + dy * x;
     }
 
+    /// Counts heights from a surface that is lower by `by`: what is shown of the coin goes on from where it is.
+    pub(crate) fn lower_datum(&mut self, by: f64) {
+        self.datum -= by;
+    }
+
     /// Follows a coin in contact for a time `h` within one integrator step. The frame turns at the
     /// rate of the azimuth, φ' = −ω_θ/s. Simpson's rule on the motions that `at` returns: fourth
     /// order.
@@ -116,7 +125,8 @@ impl Place {
         let [px, py] = self.position;
         State {
             time_s: self.time * units.time_s,
-            position_m: Vector3::new(px, py, m.z) * units.length_m + Vector3::z() * units.rim_m,
+            position_m: Vector3::new(px, py, m.z + self.datum) * units.length_m
+                + Vector3::z() * units.rim_m,
             velocity_m_s: lab(m.vx, m.vy, m.vz) * units.speed_m_s(),
             axis: UnitVector3::new_unchecked(axis),
             spin_rad_s: spin / units.time_s,

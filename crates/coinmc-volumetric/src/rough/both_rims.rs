@@ -17,7 +17,7 @@ use crate::contact::{
 use crate::impact::ImpactLaw;
 use crate::motion::{Motion, Spin};
 use crate::transition::Transition;
-use coinmc_core::Observer;
+use coinmc_core::{EventKind, Observer};
 
 impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
     /// Puts both rims down. What is lost of the energy is that of rocking which the ground
@@ -38,6 +38,7 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         let tracks = [self.tracks.own, self.tracks.other];
         let slopes = tracks.map(|track| track.slopes(self.ground));
         let ahead = self.both_ahead(&state, slopes);
+        self.notify_motion_of_both(&state);
         while !self.tracks.at_node() {
             let before = (self.toss.motion, self.toss.spin);
             let Some((next, time)) = self.step_of_line(&state, ahead, &mut wanted) else {
@@ -59,6 +60,16 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
             self.show(before, time);
         }
         self.pass_node_on_both(&state, slopes, ahead)
+    }
+
+    /// Shows how a coin on both rims moves. Straight rolling is shown as sticking.
+    fn notify_motion_of_both(&mut self, state: &LineState) {
+        let kind = if self.model.contact_rules().rolls_straight(state) {
+            EventKind::Sticking
+        } else {
+            EventKind::Sliding
+        };
+        self.model.notify(self.toss, kind, self.observer);
     }
 
     /// How far ahead of their lowest points both rims touch ground of these slopes; that of a coin that rolls

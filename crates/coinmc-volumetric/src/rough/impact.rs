@@ -57,6 +57,10 @@ impl<I: ImpactLaw, O: Observer> Walk<'_, I, O> {
         self.usage.steps += 1;
         model.notify(self.toss, EventKind::Touching, self.observer);
         let stays = self.bounce_off(slopes);
+        if !stays {
+            // before it is shown how the coin leaves the ground
+            self.give_back_lead();
+        }
         model.notify(self.toss, EventKind::Impact, self.observer);
         if stays {
             Next::Goes(Touch::Rim)

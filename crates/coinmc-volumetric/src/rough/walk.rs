@@ -126,6 +126,7 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
         let under = Tracks::begin(self.ground, self.body(), motion, spin, &self.place).own;
         self.tracks.own.height += under.height;
         self.toss.motion.z += under.height;
+        self.toss.place.lower_datum(under.height);
         self.budget += under.height;
     }
 
@@ -146,6 +147,7 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
         let other_first = other - own > above && comes_down;
         if other_first {
             self.toss.motion.z -= above;
+            self.toss.place.lower_datum(-above);
             self.budget -= above;
             self.switch_rim();
         }
@@ -381,7 +383,10 @@ impl<'a, I: ImpactLaw, O: Observer> Walk<'a, I, O> {
         }
         let motion = &mut self.toss.motion;
         let rest = motion.rest_height(&self.model.dynamics.body);
-        motion.z = (motion.z - self.tracks.own.height).max(rest);
+        let height = (motion.z - self.tracks.own.height).max(rest);
+        let lowered = motion.z - height;
+        motion.z = height;
+        self.toss.place.lower_datum(-lowered);
     }
 }
 

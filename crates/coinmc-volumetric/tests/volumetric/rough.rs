@@ -1,6 +1,6 @@
 //! Tosses on rough ground.
 
-use crate::common::Tosser;
+use crate::common::{Tosser, flights};
 use coinmc_core::{Coin, Engine, Face, Launch, Preset, Roughness, Scene, Surface};
 use coinmc_oracle::Start;
 use coinmc_testkit::{Dice, conformance, hand_at, preset_launch, stream};
@@ -227,4 +227,40 @@ fn the_way_between_nodes_is_short_enough() {
     assert!((0.1..0.9).contains(&fine), "{fine}");
     let error = (2.0 * 0.25 / 150.0_f64).sqrt();
     assert!((coarse - fine).abs() <= 4.0 * error, "{coarse} {fine}");
+}
+
+/// What is shown of a coin is one motion, although it lands on other ground after each high flight: in flight its
+/// centre goes along a parabola, and no event moves it. On steep waves its height changes by centimetres. (A rim that comes
+/// down is put onto its track, which between nodes is a straight line: by some 1e-7; and rocking over less than .05 σ counts as none.)
+#[test]
+fn a_coin_is_shown_in_one_continuous_motion() {
+    for (slope, wavelength_m) in [(0.1, 0.3), (0.05, 3e-3)] {
+        let scene = scene(0.6, slope, wavelength_m);
+        let engine = Tosser::new(&scene);
+        let sigma = slope * wavelength_m / std::f64::consts::TAU;
+        let rocking = 1e-5 + 0.05 * sigma / scene.coin.rim_distance_m();
+        let mut flown = 0;
+        for toss in 0..40 {
+            let launch = preset_launch(Preset::Clean, &scene, 317, toss);
+            let (_, moments) = engine.record(&scene, &launch);
+            for (from, to) in flights(&moments) {
+                let (time, start) = (to.time - from.time, from.motion);
+                let height = start.position.z + (start.velocity.z - 0.5 * time) * time;
+                let off = to.motion.position.z - height;
+                assert!(off.abs() < 1e-5, "toss {toss} at {}: {off:e}", from.time);
+                flown += 1;
+            }
+            for pair in moments.windows(2) {
+                if pair[1].time == pair[0].time {
+                    let step = pair[1].motion.position - pair[0].motion.position;
+                    assert!(
+                        step.norm() < rocking,
+                        "toss {toss} at {}: {step}",
+                        pair[0].time
+                    );
+                }
+            }
+        }
+        assert!(flown > 200, "{flown}");
+    }
 }
