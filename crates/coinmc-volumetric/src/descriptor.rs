@@ -47,6 +47,15 @@ pub const ENGINE: EngineDescriptor = EngineDescriptor {
                    engine.volumetric.max_steps and stay undecided; surface.table_radius_m lets them leave",
         },
         Remark {
+            applies: |scene| {
+                let ground = scene.surface.roughness();
+                let length = ground.map_or(f64::INFINITY, |ground| ground.correlation_length_m());
+                scene.coin.rim_radius_m() > length
+            },
+            text: "coin.rim_radius_m is more than roughness_wavelength_m / 2π: the law of rough ground takes rims to be \
+                   sharper than the waves, and lets a round one into hollows that it would bridge",
+        },
+        Remark {
             applies: rolls_for_ever,
             text: "surface.rolling_friction_m = 0: nothing stops a coin that rolls on its rim; tosses \
                    that roll from face to side and back stay undecided, never_settles or up to \

@@ -53,3 +53,18 @@ fn a_coin_may_roll_down_an_endless_rough_slope() {
     assert!(!says(&with(2.0, 0.0, None)));
     assert!(!says(&with(2.0, 0.05, Some(0.5))));
 }
+
+#[test]
+fn a_rim_may_be_rounder_than_the_waves() {
+    let says = |scene: &Scene| remarks("rims to be sharper than the waves", scene);
+    let with = |rim_m: f64, slope: f64| {
+        let mut scene = scene(1.0, 0.5, 0.3);
+        scene.coin = scene.coin.with_rim_radius(rim_m).expect("a good radius");
+        let ground = Roughness::new(slope, 3e-3).expect("a usual ground");
+        scene.surface = scene.surface.with_roughness(Some(ground));
+        scene
+    };
+    assert!(says(&with(0.5e-3, 0.05)));
+    assert!(!says(&with(0.45e-3, 0.05)));
+    assert!(!says(&with(0.5e-3, 0.0)));
+}
