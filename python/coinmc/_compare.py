@@ -33,6 +33,7 @@ class Comparison:
     columns : dict of str to ndarray
         One entry a point: ``run``, ``point``, ``p_heads``, ``p_tails`` and ``p_side`` of the model,
         ``p_value``, the probability of counts no more probable than these if the point is right;
+        ``p_value_at_best``, the same with the faces of its undecided tosses that agree best;
         ``evidence``, log10 of the Bayes factor against a coin of which nothing is known; ``share``,
         the probability of the point if one of them is right; ``tosses_to_tell``, after how many
         tosses a test at 5 % would reject it in 80 % of experiments if the first point is right (for
@@ -58,7 +59,7 @@ class Comparison:
         }
         for face in _FACES:
             self.columns[f"p_{face}"] = np.array([row["model"][face]["p"] for row in rows])
-        for name in ("p_value", "evidence", "share", "tosses_to_tell"):
+        for name in ("p_value", "p_value_at_best", "evidence", "share", "tosses_to_tell"):
             # null is NaN
             self.columns[name] = np.array([row[name] for row in rows], dtype=float)
 

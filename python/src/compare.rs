@@ -24,5 +24,5 @@ pub(crate) fn compare(
         .collect();
     let answer = py.detach(|| compare_counts(counts, &models, confidence));
     let answer = answer.map_err(|error| PyValueError::new_err(error.to_string()))?;
-    Ok(document_of_comparison(&answer).to_string())
+    Ok(document_of_comparison(&answer, None).to_string())
 }
