@@ -13,6 +13,7 @@ use crate::workers::At;
 use crate::{QuestionError, Template, Workers};
 use coinmc::plan::Plan;
 use coinmc::run::{Count, count};
+use coinmc_core::Estimate;
 
 /// One curve: a point of the config's other parameters.
 struct Along<'a> {
@@ -54,7 +55,7 @@ pub(super) fn answer(
         let (scan, findings) = if known {
             along.known(axis)?
         } else {
-            along.tossed(axis, first.confidence)?
+            along.tossed(axis, &first)?
         };
         tosses += along.made;
         curves.push(Curve {
@@ -92,7 +93,7 @@ impl Along<'_> {
     fn tossed(
         &mut self,
         axis: Axis,
-        confidence: f64,
+        first: &Plan,
     ) -> Result<(Vec<Scanned>, Vec<Finding>), QuestionError> {
         let Question {
             target,
@@ -103,14 +104,19 @@ impl Along<'_> {
         let goal = Goal {
             target,
             half_width,
-            z: normal_quantile(confidence),
+            z: normal_quantile(first.confidence),
             tosses: max_tosses,
         };
         let solved = solve(self, axis, &goal)?;
-        let scanned = solved.scanned.iter().map(|scanned| Scanned {
-            value: axis.value(scanned.u),
-            p: scanned.seen.share(),
-            tosses: scanned.seen.tosses,
+        let scanned = solved.scanned.iter().map(|scanned| {
+            let Estimate { p, lo, hi, n, .. } = scanned.seen.estimate(first);
+            Scanned {
+                value: axis.value(scanned.u),
+                p,
+                lo,
+                hi,
+                tosses: n,
+            }
         });
         let mut findings = vec![];
         for (finding, refined) in solved.findings {
@@ -198,6 +204,8 @@ impl Along<'_> {
         let scanned = found.scanned.iter().map(|(u, at)| Scanned {
             value: axis.value(*u),
             p: at.p,
+            lo: at.lo,
+            hi: at.hi,
             tosses: 0,
         });
         let root = |root: &known::KnownRoot| {
