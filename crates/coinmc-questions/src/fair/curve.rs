@@ -159,17 +159,13 @@ impl Along<'_> {
             coin,
         };
         if self.question.numerical_tosses > 0 && !root.is_on_plateau() {
-            root.numerical = self.numerical(&root, goal.z)?;
+            root.numerical = self.numerical(&root)?;
         }
         Ok(root)
     }
 
     /// How far finer numerical settings would move the root.
-    fn numerical(
-        &mut self,
-        root: &Root,
-        z: f64,
-    ) -> Result<Option<numerical::Numerical>, QuestionError> {
+    fn numerical(&mut self, root: &Root) -> Result<Option<numerical::Numerical>, QuestionError> {
         let usual = self.plan(root.value)?;
         let finer = numerical::finer_settings(&usual);
         if finer.is_empty() {
@@ -188,11 +184,9 @@ impl Along<'_> {
             point: self.point,
         });
         let changes = self.workers.compare(&[pair], 0..tosses)?;
-        let change = changes[0].difference(self.question.face);
+        let change = changes[0].interval(self.question.face, usual.confidence);
         self.made += 2 * tosses;
-        Ok(Some(numerical::Numerical::new(
-            change, tosses, root.slope, z,
-        )))
+        Ok(Some(numerical::Numerical::new(change, tosses, root.slope)))
     }
 
     fn known(&mut self, axis: Axis) -> Result<(Vec<Scanned>, Vec<Finding>), QuestionError> {
