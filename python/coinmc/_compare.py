@@ -104,7 +104,7 @@ def compare(
     Raises
     ------
     ValueError
-        If there are no tosses or more than a million, or no model has tosses.
+        If there are no tosses or more than a million, no model has tosses, or one is given twice.
 
     Examples
     --------
@@ -126,9 +126,14 @@ def compare(
         raise ValueError(f"three counts are needed: heads, tails and side, not {len(counts)}")
     three = [natural(count, face) for count, face in zip(counts, _FACES, strict=True)]
     results = []
+    given: set[str | int] = set()
     for place, model in enumerate(models):
         result = model if isinstance(model, Result) else open_run(model)
         name = str(result.path) if result.path else f"result {place}"
+        same = os.path.realpath(result.path) if result.path else id(result)
+        if same in given:
+            raise ValueError(f"{name} is given before, and would count twice")
+        given.add(same)
         results.append((name, result._table))
     document = _lib.compare(three, results, _between_0_and_1(confidence))
     return Comparison(json.loads(document))
