@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from coinmc import _lib
+from coinmc._progress import shown_digits
 
 __all__ = ["Asked", "ask"]
 
@@ -67,8 +68,9 @@ class Asked:
             return f"<coinmc.Asked {self._shape}>"
         faces = ("heads", "tails", "side")
         words = (
-            f"P({face}) = {p:.3f} ± {1.96 * error:.3f}"
+            f"P({face}) = {p:.{digits}f} ± {1.96 * error:.{digits}f}"
             for face, p, error in zip(faces, self.p, self.error, strict=True)
+            for digits in [shown_digits(1.96 * float(error))]
         )
         return f"<coinmc.Asked {', '.join(words)}>"
 

@@ -33,6 +33,7 @@ class Comparison:
     columns : dict of str to ndarray
         One entry a point: ``run``, ``point``, ``p_heads``, ``p_tails`` and ``p_side`` of the model,
         ``p_value``, the probability of counts no more probable than these if the point is right;
+        ``p_value_at_best``, the same with the faces of its undecided tosses that agree best;
         ``evidence``, log10 of the Bayes factor against a coin of which nothing is known; ``share``,
         the probability of the point if one of them is right; ``tosses_to_tell``, after how many
         tosses a test at 5 % would reject it in 80 % of experiments if the first point is right (for
@@ -58,7 +59,7 @@ class Comparison:
         }
         for face in _FACES:
             self.columns[f"p_{face}"] = np.array([row["model"][face]["p"] for row in rows])
-        for name in ("p_value", "evidence", "share", "tosses_to_tell"):
+        for name in ("p_value", "p_value_at_best", "evidence", "share", "tosses_to_tell"):
             # null is NaN
             self.columns[name] = np.array([row[name] for row in rows], dtype=float)
 
@@ -103,7 +104,7 @@ def compare(
     Raises
     ------
     ValueError
-        If there are no tosses or more than a million, or no model has tosses.
+        If there are no tosses or more than a million, no model has tosses, or one is given twice.
 
     Examples
     --------
@@ -125,9 +126,14 @@ def compare(
         raise ValueError(f"three counts are needed: heads, tails and side, not {len(counts)}")
     three = [natural(count, face) for count, face in zip(counts, _FACES, strict=True)]
     results = []
+    given: set[str | int] = set()
     for place, model in enumerate(models):
         result = model if isinstance(model, Result) else open_run(model)
         name = str(result.path) if result.path else f"result {place}"
+        same = os.path.realpath(result.path) if result.path else id(result)
+        if same in given:
+            raise ValueError(f"{name} is given before, and would count twice")
+        given.add(same)
         results.append((name, result._table))
     document = _lib.compare(three, results, _between_0_and_1(confidence))
     return Comparison(json.loads(document))

@@ -75,7 +75,8 @@ class Fair:
     near : list of tuple of float
         Stretches on which the probability cannot be told from the target, without a crossing seen.
     scan : dict of str to ndarray
-        The coarse scan of the whole range: ``value``, ``p`` and ``tosses`` (of all curves).
+        The coarse scan of the whole range: ``value``, ``p`` with its interval ``lo`` and ``hi``, and
+        ``tosses`` (of all curves).
     assumptions : list of dict
         For everyday scenes: what each assumes (``parameter``, ``name``, ``value``, ``source``),
         from where to where it may be (``low``, ``high``), and about where the first root would
@@ -95,7 +96,7 @@ class Fair:
         ]
         scan = [point for curve in curves for point in curve["scan"]]
         self.scan: dict[str, NDArray[Any]] = {
-            name: np.array([p[name] for p in scan]) for name in ("value", "p", "tosses")
+            name: np.array([p[name] for p in scan]) for name in ("value", "p", "lo", "hi", "tosses")
         }
         self.assumptions: list[dict[str, Any]] = document["assumptions"]
 
@@ -114,8 +115,14 @@ class Fair:
         for root in self.roots:
             lines.append(f"  {_at(root)}{self._name()} = {_interval(root)}")
         if not self.roots:
-            lines.append(f"  none: P from {self.scan['p'].min():.4f} to {self.scan['p'].max():.4f}")
+            ends = (self.scan["p"].argmin(), self.scan["p"].argmax())
+            least, most = (self._scanned(int(index)) for index in ends)
+            lines.append(f"  none: P from {least} to {most}")
         return "\n".join(lines)
+
+    def _scanned(self, index: int) -> str:
+        p, lo, hi = (self.scan[name][index] for name in ("p", "lo", "hi"))
+        return f"{p:.4f} [{lo:.4f}, {hi:.4f}]"
 
     def _repr_html_(self) -> str:
         heads = ["", self._name(), "interval", "dP/d", "tosses", "coin"]

@@ -18,7 +18,7 @@ __all__ = ["Ranking", "rank"]
 
 #: Numbers with an interval, each in three columns.
 _INTERVALS = ("p_from", "p_to", "first", "total")
-_NUMBERS = ("value", "from", "to")
+_NUMBERS = ("value", "from", "to", "undecided_from", "undecided_to")
 
 
 class Ranking:
@@ -31,7 +31,8 @@ class Ranking:
         ``value`` in the scene and its range ``from`` and ``to``; the probability of the face at
         both ends, ``p_from`` and ``p_to``; the indices of Sobol', ``first`` and ``total`` (NaN if
         the probability does not move measurably). All of these four have an interval, such as
-        ``total_lo`` and ``total_hi``.
+        ``total_lo`` and ``total_hi``, which allows for any face of the undecided tosses,
+        ``undecided_from`` and ``undecided_to`` of them at the ends.
     mean, standard_deviation : float
         Of the face's probability over all ranges.
     document : dict
@@ -91,8 +92,11 @@ class Ranking:
 
     def _rows(self) -> list[list[str]]:
         def shown(name: str, row: int) -> str:
-            half_width = 0.5 * (self[f"{name}_hi"][row] - self[f"{name}_lo"][row])
-            return f"{self[name][row]:.3f} ± {half_width:.3f}"
+            value, lo, hi = (self[f"{name}{end}"][row] for end in ("", "_lo", "_hi"))
+            if self["undecided_from"].any() or self["undecided_to"].any():
+                # they widen it to one side
+                return f"{value:.3f} [{lo:.3f}, {hi:.3f}]"
+            return f"{value:.3f} ± {0.5 * (hi - lo):.3f}"
 
         return [
             [

@@ -23,7 +23,7 @@ pub(crate) fn compare(
             .flat_map(|(run, table)| table.rows.iter().map(move |row| Model { run, row }))
             .collect();
         let answer = compare_counts(counts, &models, confidence);
-        answer.map(|answer| document_of_comparison(&answer).to_string())
+        answer.map(|answer| document_of_comparison(&answer, None).to_string())
     })?;
     document.map_err(|error| PyValueError::new_err(error.to_string()))
 }

@@ -13,12 +13,19 @@ RULE = {"coin": {"ratio": [0.5, 1.5, 3.0]}, "engine": {"analytic": {"rule": "cro
 def test_results_in_memory_and_in_directories(tmp_path, examples):
     overrides = {"stop.tosses": 2000, "coin.ratio": [0.8, 1.2]}
     run = coinmc.run(examples / "first.toml", tmp_path / "run", overrides=overrides)
-    answer = coinmc.compare({"heads": 480, "tails": 440, "side": 80}, tmp_path / "run", run)
+    other = coinmc.estimate(examples / "first.toml", overrides={**overrides, "seed": 7})
+    counts = {"heads": 480, "tails": 440, "side": 80}
+    answer = coinmc.compare(counts, tmp_path / "run", other)
     assert len(answer.parameters) == 4
     assert answer.columns["share"].sum() == pytest.approx(1.0)
     assert (np.diff(answer.columns["evidence"]) <= 0).all()
-    # the same run twice says the same twice
-    assert answer.columns["p_value"][0] == answer.columns["p_value"][1]
+    # of tosses that are decided there is one p-value
+    assert (answer.columns["p_value"] == answer.columns["p_value_at_best"]).all()
+    # the same run twice would halve its share
+    with pytest.raises(ValueError, match="given before"):
+        coinmc.compare(counts, tmp_path / "run", run)
+    with pytest.raises(ValueError, match="given before"):
+        coinmc.compare(counts, other, other)
     assert answer.seen["side"].lo < 0.08 < answer.seen["side"].hi
     assert "480 heads" in repr(answer)
     assert "p_value" in answer._repr_html_()

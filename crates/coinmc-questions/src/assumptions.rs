@@ -4,10 +4,9 @@
 //! value, with the same random numbers. The change ΔP of the face's probability moves the root: with
 //! the log odds η of the probability, linear in the parameter near the root, by −Δη/η'.
 
-use crate::interval::normal_quantile;
 use crate::scenes::Assumption;
 use crate::workers::At;
-use crate::{Fair, QuestionError, Root, Template, Workers};
+use crate::{Fair, Interval, QuestionError, Root, Template, Workers};
 
 /// How far an assumption moves a root.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,7 +22,7 @@ pub struct Effect {
 pub struct Moved {
     /// About where it is.
     pub value: f64,
-    /// Half width of the interval of its shift, statistical only.
+    /// Half width of the interval of its shift: that of chance, and of what undecided tosses would have shown.
     pub half_width: f64,
 }
 
@@ -81,10 +80,10 @@ pub fn effects(
     };
     let others: Vec<_> = plans.iter().map(|plan| At { plan, point: 0 }).collect();
     let changes = workers.compare_with(usual, &others, 0..tosses)?;
-    let z = normal_quantile(fair.confidence);
     let moved: Vec<Moved> = changes
         .iter()
-        .map(|changes| moved(root, question.target, changes.difference(question.face), z))
+        .map(|changes| changes.interval(question.face, fair.confidence))
+        .map(|change| moved(root, question.target, change))
         .collect();
     let mut effects: Vec<Effect> = assumptions
         .into_iter()
@@ -98,8 +97,8 @@ pub fn effects(
     Ok(effects)
 }
 
-/// Where a root is once the face's probability has changed by so much, with this standard error.
-fn moved(root: &Root, target: f64, (change, error): (f64, f64), z: f64) -> Moved {
+/// Where a root is once the face's probability has changed by so much.
+fn moved(root: &Root, target: f64, change: Interval) -> Moved {
     /// Probabilities this near to 0 and 1 have no log odds that a few tosses could tell.
     const LEAST: f64 = 1e-3;
     let odds = |p: f64| {
@@ -108,9 +107,10 @@ fn moved(root: &Root, target: f64, (change, error): (f64, f64), z: f64) -> Moved
     };
     // dP/dx = P(1 − P) dη/dx
     let slope = root.slope / (target * (1.0 - target));
-    let shift = -(odds(target + change) - odds(target)) / slope;
+    let shift = -(odds(target + change.value) - odds(target)) / slope;
+    let arm = (change.hi - change.value).max(change.value - change.lo);
     Moved {
         value: root.value + shift,
-        half_width: z * error / root.slope.abs(),
+        half_width: arm / root.slope.abs(),
     }
 }

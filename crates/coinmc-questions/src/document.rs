@@ -41,10 +41,15 @@ fn curve(curve: &Curve) -> Value {
         Finding::Near { from, to } => Some(json!({ "from": from, "to": to })),
         Finding::Root(_) => None,
     });
-    let scan = curve
-        .scan
-        .iter()
-        .map(|scanned| json!({ "value": scanned.value, "p": scanned.p, "tosses": scanned.tosses }));
+    let scan = curve.scan.iter().map(|scanned| {
+        json!({
+            "value": scanned.value,
+            "p": scanned.p,
+            "lo": scanned.lo,
+            "hi": scanned.hi,
+            "tosses": scanned.tosses,
+        })
+    });
     json!({
         "at": at,
         "roots": curve.roots().map(root).collect::<Vec<_>>(),

@@ -47,6 +47,8 @@ pub struct Sensitivity {
     pub faces: [Interval; 3],
     /// Share of the tosses that show each face, with the first value.
     pub p: [f64; 3],
+    /// Undecided tosses with either value. The intervals hold whatever they would have shown.
+    pub undecided: [u64; 2],
     /// Share of the tosses whose face changes.
     pub changed: f64,
     /// Tosses with either value.
@@ -66,9 +68,17 @@ impl Sensitivity {
         self.faces[face as usize]
     }
 
-    /// d ln P/d ln(parameter) of a face; infinite or NaN if it was not seen.
+    /// d ln P/d ln(parameter) of a face; infinite or NaN if it was not seen. Undecided tosses may have shown it,
+    /// so its interval allows for a P that is as much higher.
     pub fn elasticity(&self, face: Face) -> Interval {
-        self.of(face).scaled(1.0 / self.p[face as usize])
+        let least = self.p[face as usize];
+        let most = least + self.undecided[0] as f64 / self.tosses as f64;
+        let Interval { value, lo, hi } = self.of(face);
+        Interval {
+            value: value / least,
+            lo: lo / if lo < 0.0 { least } else { most },
+            hi: hi / if hi > 0.0 { least } else { most },
+        }
     }
 
     /// dx*/d ln(parameter) of a root x* of the face's probability. The interval holds the error of the
@@ -77,13 +87,25 @@ impl Sensitivity {
         let derivative = self.of(face);
         let z = normal_quantile(self.confidence);
         let value = -derivative.value / root.slope;
-        let arm = derivative.half_width() / root.slope.abs();
         let of_slope = z * root.slope_error / root.slope * value;
-        let arm = (arm * arm + of_slope * of_slope).sqrt();
+        let arm = |of_derivative: f64| {
+            let arm = of_derivative / root.slope;
+            (arm * arm + of_slope * of_slope).sqrt()
+        };
+        let (below, above) = (
+            derivative.value - derivative.lo,
+            derivative.hi - derivative.value,
+        );
+        let falls = root.slope > 0.0;
+        let [lower, upper] = if falls {
+            [above, below]
+        } else {
+            [below, above]
+        };
         Interval {
             value,
-            lo: value - arm,
-            hi: value + arm,
+            lo: value - arm(lower),
+            hi: value + arm(upper),
         }
     }
 }
@@ -256,15 +278,13 @@ fn chosen(template: &Template, steps: &Steps) -> Result<Vec<Parameter>, Question
 fn sensitivity(moved: Moved, changes: &Changes, step: f64) -> Sensitivity {
     let confidence = moved.plans[0].confidence;
     let per_log = 1.0 / libm::log1p(step);
-    let faces = Face::ALL.map(|face| {
-        let (change, error) = changes.difference(face);
-        Interval::normal(change, error, confidence).scaled(per_log)
-    });
+    let faces = Face::ALL.map(|face| changes.interval(face, confidence).scaled(per_log));
     Sensitivity {
         parameter: moved.parameter,
         values: moved.values,
         faces,
         p: Face::ALL.map(|face| changes.share(face)),
+        undecided: changes.undecided(),
         changed: changes.changed() as f64 / changes.tosses() as f64,
         tosses: changes.tosses(),
         confidence,

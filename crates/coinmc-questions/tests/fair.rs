@@ -270,3 +270,43 @@ fn a_small_last_round_spoils_nothing() {
         assert!(!root.is_on_plateau());
     }
 }
+
+/// With nine impacts at most a third of the tosses near the root is undecided, which may hide a numerical error and
+/// the effect of an assumption.
+#[test]
+fn undecided_tosses_widen_what_moves_a_root() {
+    let text = ROBOT.replace("engine.flat = {}", "engine.flat.max_impacts = 9");
+    let question = Question {
+        half_width: 3.0,
+        ..coarse()
+    };
+    let answer = ask(&text, &question, 2).expect("an answer");
+    let root = only_root(&answer);
+    let share = root.undecided as f64 / root.tosses as f64;
+    assert!(share > 0.1, "{root:?}");
+    let farthest = 0.7 * share / root.slope.abs();
+    let numerical = root.numerical.expect("finer settings");
+    assert!(
+        numerical.lo < -farthest && numerical.hi > farthest,
+        "{numerical:?} {farthest}"
+    );
+    let cancel = AtomicBool::new(false);
+    let workers = Workers {
+        threads: None,
+        cancel: &cancel,
+        made: &|_| (),
+    };
+    let friction = Assumption {
+        key: "surface.friction",
+        name: "friction",
+        value: 0.3,
+        low: 0.29,
+        high: 0.31,
+        source: "",
+    };
+    let template = Template::new("inline", text, &[]);
+    let found = effects(&template, &answer, root, [friction], 512, &workers).expect("effects");
+    for moved in found[0].roots {
+        assert!(moved.half_width > farthest, "{moved:?} {farthest}");
+    }
+}

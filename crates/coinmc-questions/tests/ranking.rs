@@ -203,3 +203,41 @@ fn questions_without_sense_are_refused() {
     let negative = refused(&|q| q.unknowns[0].from = -1.0);
     assert!(negative.contains("surface.friction"), "{negative}");
 }
+
+/// With nine impacts at most the friction decides how many tosses are undecided, not seen to move P: no index is told.
+#[test]
+fn undecided_tosses_leave_open_whether_the_probability_moves() {
+    let text = "coin.ratio = 1.0\nsurface = { restitution = 0.5, friction = 0.3 }\nlaunch.preset = 'robot'\n\
+                engine.flat.max_impacts = 9";
+    let question = Rank {
+        face: Face::Side,
+        unknowns: vec![unknown(FRICTION, 0.1, 0.5)],
+        samples: 64,
+        tosses: 512,
+    };
+    let cancel = AtomicBool::new(false);
+    let workers = Workers {
+        threads: None,
+        cancel: &cancel,
+        made: &|_| (),
+    };
+    let found = rank(&Template::new("inline", text, &[]), &question, &workers).expect("an answer");
+    let places = 3 * 64 * 32;
+    let open = found.undecided as f64 / f64::from(places);
+    assert!(
+        open > 0.1 && found.mean.hi > found.mean.value + 0.8 * open,
+        "{found:?}"
+    );
+    assert!(
+        found.deviation.lo == 0.0 && found.deviation.hi > 0.4 * open,
+        "{found:?}"
+    );
+    let number = &found.numbers[0];
+    assert!(number.first.is_none() && number.total.is_none());
+    for (end, undecided) in number.ends.iter().zip(number.undecided) {
+        assert!(end.hi > end.value + undecided as f64 / 512.0, "{number:?}");
+        assert!(end.lo > end.value - 0.1, "{number:?}");
+    }
+    let document = document_of_ranking(&found);
+    assert_eq!(document["rows"][0]["undecided_from"], number.undecided[0]);
+}

@@ -207,3 +207,48 @@ fn questions_without_sense_are_refused() {
     );
     assert!(refused(&closed, question()).contains("closed form"));
 }
+
+/// With nine impacts at most so many tosses are undecided that they limit the answer, not the number of tosses; the
+/// gain is that of the tosses that are decided.
+#[test]
+fn undecided_tosses_that_limit_the_answer_are_told() {
+    let scene = |impacts: u32| {
+        let text = format!(
+            "coin.ratio = 0.5\nsurface = {{ restitution = 0.5, friction = 0.3 }}\nlaunch.preset = 'robot'\n\
+             engine.flat.max_impacts = {impacts}"
+        );
+        Template::new("inline", text, &[])
+    };
+    let question = HowRare {
+        relative_error: 0.3,
+        max_tosses: 20_000,
+        ..question()
+    };
+    let open = ask(&scene(9), &question, 2).expect("an answer");
+    assert!(!open.reached && open.is_limited_by_undecided(), "{open:?}");
+    assert!(open.p.hi > 10.0 * open.without_undecided.hi, "{open:?}");
+    assert_eq!(open.p.lo, open.without_undecided.lo);
+    assert!(
+        (0.2..5.0).contains(&open.gain().tosses),
+        "{:?}",
+        open.gain()
+    );
+    let document = document_of_rare(&open);
+    assert_eq!(document["limited_by_undecided"], true);
+    let usual = ask(&scene(100_000), &question, 2).expect("an answer");
+    assert!(
+        usual.reached && !usual.is_limited_by_undecided(),
+        "{usual:?}"
+    );
+    assert_eq!(usual.p, usual.without_undecided);
+    let few = HowRare {
+        relative_error: 0.02,
+        max_tosses: 5000,
+        ..question
+    };
+    let short = ask(&scene(100_000), &few, 2).expect("an answer");
+    assert!(
+        !short.reached && !short.is_limited_by_undecided(),
+        "{short:?}"
+    );
+}

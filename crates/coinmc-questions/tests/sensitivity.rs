@@ -2,7 +2,7 @@
 
 use coinmc_core::Face;
 use coinmc_questions::sensitivity::{Sensitivity, Steps, parameters, sensitivities};
-use coinmc_questions::{Question, QuestionError, Template, Workers, fair};
+use coinmc_questions::{Interval, Question, QuestionError, Root, Template, Workers, fair};
 use std::f64::consts::PI;
 use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
@@ -189,4 +189,84 @@ fn questions_without_sense_are_refused() {
     assert!(refused(ARC, &steps(&["coin.ratoi"], 1000)).contains("choose from coin."));
     let swept = ARC.replace("ratio = 1.0", "ratio = [1.0, 2.0]");
     assert!(refused(&swept, &ratio).ends_with("but sweeps ratio"));
+}
+
+/// Of tosses with nine impacts at most a part is undecided: no derivative is known better than their share allows.
+#[test]
+fn undecided_tosses_widen_every_interval() {
+    let scene = "coin.ratio = 1.0\nsurface = { restitution = 0.5, friction = 0.3 }\nlaunch.preset = 'robot'\n\
+                 engine.flat.max_impacts = 9";
+    let found = ask(scene, &steps(&["surface.friction"], 1000), 2).expect("an answer");
+    let one = &found[0];
+    let per_log = 1.0 / libm::log1p(0.05);
+    let [first, second] = one.undecided.map(|undecided| undecided as f64 / 1000.0);
+    assert!(first > 0.1 && second > 0.1, "{:?}", one.undecided);
+    for face in Face::ALL {
+        let Interval { value, lo, hi } = one.of(face);
+        assert!(lo < value - 0.5 * first * per_log, "{lo} {value}");
+        assert!(hi > value + 0.5 * second * per_log, "{hi} {value}");
+    }
+    // a face that undecided tosses may have shown has a smaller elasticity for its derivative
+    let side = one.of(Face::Side);
+    let elasticity = one.elasticity(Face::Side);
+    let p = one.p[Face::Side as usize];
+    assert!(
+        (elasticity.lo - side.lo / p).abs() < 1e-9 && (elasticity.hi - side.hi / p).abs() < 1e-9
+    );
+    let rising = Sensitivity {
+        faces: [Interval {
+            value: 0.4,
+            lo: 0.2,
+            hi: 0.6,
+        }; 3],
+        ..one.clone()
+    };
+    assert!((rising.elasticity(Face::Side).lo - 0.2 / (p + first)).abs() < 1e-12);
+}
+
+/// The end of a derivative that is farther away gives the farther end of the shift, on the other side.
+#[test]
+fn a_shift_is_as_lopsided_as_its_derivative() {
+    let cancel = AtomicBool::new(false);
+    let workers = Workers {
+        threads: None,
+        cancel: &cancel,
+        made: &|_| (),
+    };
+    let question = Question {
+        half_width: 0.05,
+        numerical_tosses: 0,
+        ..Question::default()
+    };
+    let answer = fair(&Template::new("inline", ARC, &[]), &question, &workers).expect("an answer");
+    let root = Root {
+        slope: 0.5,
+        slope_error: 0.0,
+        ..answer.curves[0].roots().next().expect("a root").clone()
+    };
+    let found = ask(ARC, &steps(&["surface.friction"], 512), 1).expect("an answer");
+    let one = Sensitivity {
+        faces: [Interval {
+            value: 0.1,
+            lo: 0.0,
+            hi: 0.4,
+        }; 3],
+        ..found[0].clone()
+    };
+    let rising = one.shift(Face::Side, &root);
+    assert!(
+        (rising.lo + 0.8).abs() < 1e-12 && rising.hi.abs() < 1e-12,
+        "{rising:?}"
+    );
+    let falling = one.shift(
+        Face::Side,
+        &Root {
+            slope: -0.5,
+            ..root
+        },
+    );
+    assert!(
+        (falling.hi - 0.8).abs() < 1e-12 && falling.lo.abs() < 1e-12,
+        "{falling:?}"
+    );
 }

@@ -4,8 +4,9 @@ use super::new_file;
 use super::question::{AnswerArgs, KeyRange, SceneArgs, ask, range_and_count, write_file};
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format};
+use crate::terminal::in_ascii;
 use crate::terminal::table::{Column, Table};
-use crate::terminal::{Colors, Style, compact, decimals_for, grouped, in_ascii};
+use crate::terminal::{Colors, Style, compact, decimals_for, decimals_that_show, grouped};
 use anyhow::anyhow;
 use clap::Args;
 use coinmc_core::{Estimate, Face};
@@ -139,7 +140,8 @@ fn text(answer: &Aimed, style: &Style) -> String {
     let mut row = |name: String, values: &[f64], estimate: &Estimate| {
         let mut cells = vec![name];
         cells.extend(values.iter().map(|value| compact(*value)));
-        let decimals = decimals_for(estimate.half_width()).min(4);
+        let arm = estimate.half_width();
+        let decimals = decimals_that_show(arm, decimals_for(arm).min(4));
         cells.push(format!("{:.decimals$}", estimate.p));
         cells.push(format!(
             "[{:.decimals$}, {:.decimals$}]",

@@ -4,8 +4,9 @@ use super::quantity::Length;
 use super::question::{AnswerArgs, ask};
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format};
+use crate::terminal::in_ascii;
 use crate::terminal::table::{Column, Table};
-use crate::terminal::{Colors, Style, compact, decimals_for, grouped, in_ascii};
+use crate::terminal::{Colors, Style, compact, decimals_for, decimals_that_show, grouped};
 use anyhow::anyhow;
 use clap::Args;
 use coinmc::plan::MAX_TOSSES;
@@ -206,10 +207,13 @@ fn text(answer: &Answer, atlas: &Atlas, style: &Style) -> String {
     }
     text += &table.render(style).text;
     text += &match answer.fair.zip(answer.fair_half_width()) {
-        Some((root, half_width)) => format!(
-            "There the side comes up in a third of the tosses at H/R = {:.2} ± {half_width:.2}\n",
-            root.ratio,
-        ),
+        Some((root, half_width)) => {
+            let decimals = decimals_that_show(half_width, 2);
+            format!(
+                "There the side comes up in a third of the tosses at H/R = {:.decimals$} ± {half_width:.decimals$}\n",
+                root.ratio,
+            )
+        }
         None => "At no H/R of the atlas does the side come up in a third of the tosses there\n"
             .to_owned(),
     };
@@ -230,7 +234,8 @@ fn text(answer: &Answer, atlas: &Atlas, style: &Style) -> String {
 }
 
 fn probability(p: f64, lo: f64, hi: f64) -> [String; 2] {
-    let decimals = decimals_for(0.5 * (hi - lo)).min(4);
+    let arm = 0.5 * (hi - lo);
+    let decimals = decimals_that_show(arm, decimals_for(arm).min(4));
     [
         format!("{p:.decimals$}"),
         format!("[{lo:.decimals$}, {hi:.decimals$}]"),
@@ -286,6 +291,13 @@ mod tests {
             found[0].contains("launch `thrown`") && found.len() == 2,
             "{found:?}"
         );
+    }
+
+    #[test]
+    fn no_interval_reads_as_wide_as_nothing() {
+        assert_eq!(probability(0.25, 0.24, 0.26), ["0.250", "[0.240, 0.260]"]);
+        let sure = probability(0.999_998, 0.999_994, 1.0);
+        assert_eq!(sure, ["0.999998", "[0.999994, 1.000000]"]);
     }
 
     #[test]

@@ -1,12 +1,14 @@
 //! `coinmc compare`: counts of real tosses against a model.
 
+use super::show::unfinished;
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format};
 use crate::terminal::progress::Progress;
 use crate::terminal::table::{Column, Table};
-use crate::terminal::{Colors, Style, compact, grouped, in_ascii, with_interval};
+use crate::terminal::{Colors, Style, compact, count, grouped, in_ascii, with_interval};
 use anyhow::anyhow;
 use clap::Args;
+use coinmc::plan::Plan;
 use coinmc::results::Results;
 use coinmc::run::stored_report;
 use coinmc_core::{Estimate, Face};
@@ -34,7 +36,8 @@ const LEAST_P: f64 = 1e-12;
 /// Compare counts of real tosses with the points of runs
 ///
 /// Tests each point by an exact test, weighs the points against each other, and tells how many tosses would
-/// tell them apart. Tosses of a point that left the table or are undecided are left out.
+/// tell them apart. Tosses of a point that left the table or are undecided are left out; a point is contradicted
+/// only if it is whatever its undecided tosses would have shown.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Compare {
@@ -99,12 +102,7 @@ impl Compare {
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
-        let progress = Progress::new(*console.stderr(), true);
-        let mut runs: Vec<(String, Results)> = vec![];
-        for dir in &self.runs {
-            let (_, report) = stored_report(dir, &progress)?;
-            runs.push((dir.display().to_string(), report.results));
-        }
+        let runs = self.stored(&Progress::new(*console.stderr(), true))?;
         let models: Vec<Model<'_>> = runs
             .iter()
             .flat_map(|(run, results)| results.rows.iter().map(move |row| Model { run, row }))
@@ -112,19 +110,41 @@ impl Compare {
         let (counts, voids) = self.counted()?;
         let answer = questions::compare(counts, &models, self.confidence)?;
         match console.format() {
-            Format::Json => output::print_json(&questions::document_of_comparison(&answer)),
+            Format::Json => output::print_json(&questions::document_of_comparison(&answer, voids)),
             Format::Table => output::print(&self.text(&answer, &runs, voids, console.stdout())),
         }
         .map_err(|error| Failure::Runtime(anyhow!(error)))?;
         Ok(Outcome::Done)
     }
 
-    /// The counts, and a robot's void throws.
+    /// The runs by their names. What is missing of one is told.
+    fn stored(&self, progress: &Progress) -> Result<Vec<(String, Results)>, Failure> {
+        let mut plans: Vec<(String, Plan)> = vec![];
+        let mut runs = vec![];
+        for dir in &self.runs {
+            let (plan, report) = stored_report(dir, progress)?;
+            let name = dir.display().to_string();
+            if let Some((first, _)) = plans.iter().find(|(_, other)| other.hash() == plan.hash()) {
+                return Err(Failure::Input(anyhow!(
+                    "{first} and {name} are of the same run, which would count twice: name it once, and join its \
+                     parts with `coinmc merge`"
+                )));
+            }
+            if let Some(remark) = unfinished(&report) {
+                output::note(&of_run(&name, &remark));
+            }
+            plans.push((name.clone(), plan));
+            runs.push((name, report.results));
+        }
+        Ok(runs)
+    }
+
+    /// The counts, and the void throws of a robot.
     #[cfg(feature = "robot")]
-    fn counted(&self) -> Result<([u64; 3], u64), Failure> {
+    fn counted(&self) -> Result<([u64; 3], Option<u64>), Failure> {
         use coinmc_robot::journal::Resolution;
         let Some(directory) = &self.journal else {
-            return Ok((self.counts.expect("clap requires one of the two"), 0));
+            return Ok((self.counts.expect("clap requires one of the two"), None));
         };
         let (_, history) = super::robot::read(directory)?;
         let (mut counts, mut voids) = ([0; 3], 0);
@@ -136,20 +156,20 @@ impl Compare {
                 (_, None) => {}
             }
         }
-        Ok((counts, voids))
+        Ok((counts, Some(voids)))
     }
 
     #[cfg(not(feature = "robot"))]
     #[allow(clippy::unnecessary_wraps, reason = "a journal may be unreadable")]
-    fn counted(&self) -> Result<([u64; 3], u64), Failure> {
-        Ok((self.counts.expect("clap requires it"), 0))
+    fn counted(&self) -> Result<([u64; 3], Option<u64>), Failure> {
+        Ok((self.counts.expect("clap requires it"), None))
     }
 
     fn text(
         &self,
         answer: &Comparison<'_>,
         runs: &[(String, Results)],
-        voids: u64,
+        voids: Option<u64>,
         style: &Style,
     ) -> String {
         let [heads, tails, side] = answer.counts.map(grouped);
@@ -163,7 +183,7 @@ impl Compare {
             }
         );
         let mut text = style.paint(Colors::Strong, &headline) + "\n";
-        if voids > 0 {
+        if let Some(voids) = voids.filter(|voids| *voids > 0) {
             text += &format!(
                 "{} void throws are left out: they can hide a bias as large as their share\n",
                 grouped(voids)
@@ -179,9 +199,17 @@ impl Compare {
         if hidden > 0 {
             text += &format!("{} less likely points: --all\n", grouped(hidden as u64));
         }
+        text += &left_out(answer);
         text += &verdict(answer);
         if style.unicode { text } else { in_ascii(&text) }
     }
+}
+
+/// A remark of the program with the run that it is about.
+fn of_run(name: &str, remark: &str) -> String {
+    const PROGRAM: &str = "coinmc: ";
+    let words = remark.strip_prefix(PROGRAM).unwrap_or(remark);
+    format!("{PROGRAM}{name}: {words}")
 }
 
 fn table(
@@ -201,6 +229,10 @@ fn table(
     columns.extend(axes.iter().map(|axis| Column::right(*axis)));
     columns.extend(["P(heads)", "P(tails)"].map(|title| Column::right(title).droppable(1)));
     columns.push(Column::right("P(side)"));
+    let any_without_face = has_any_without_face(answer);
+    if any_without_face {
+        columns.push(Column::right("no face"));
+    }
     columns.push(Column::right("p-value"));
     columns.push(Column::right("evidence"));
     columns.push(Column::right("share").droppable(3));
@@ -210,15 +242,19 @@ fn table(
     let mut counted = vec!["counted".to_owned()];
     counted.extend(blank(axes.len()));
     counted.extend(answer.seen.iter().map(probability));
-    counted.extend(blank(4));
+    counted.extend(blank(4 + usize::from(any_without_face)));
     table.push(counted);
     for compared in &answer.models[..shown] {
-        table.push(cells(compared, &axes, runs.len() > 1));
+        table.push(cells(compared, &axes, runs.len() > 1, any_without_face));
     }
     table.render(style).text
 }
 
-fn cells(compared: &Compared<'_>, axes: &[&str], named: bool) -> Vec<String> {
+fn has_any_without_face(answer: &Comparison<'_>) -> bool {
+    answer.models.iter().any(|model| model.without_face() > 0)
+}
+
+fn cells(compared: &Compared<'_>, axes: &[&str], named: bool, without_face: bool) -> Vec<String> {
     let row = compared.model.row;
     let name = if named {
         compared.model.run.to_owned()
@@ -229,7 +265,15 @@ fn cells(compared: &Compared<'_>, axes: &[&str], named: bool) -> Vec<String> {
     let mut cells = vec![name];
     cells.extend(axes.iter().map(parameter));
     cells.extend(Face::ALL.map(|face| probability(row.estimate(face))));
-    cells.push(p_value(compared.p_value));
+    if without_face {
+        let all = compared.model.row.tally.tosses();
+        cells.push(format!(
+            "{} of {}",
+            grouped(compared.without_face()),
+            grouped(all)
+        ));
+    }
+    cells.push(p_values(compared));
     cells.push(format!("{:+.1}", compared.evidence));
     cells.push(format!("{:.3}", compared.share));
     cells.push(compared.tosses_to_tell.map_or("-".to_owned(), grouped));
@@ -244,6 +288,15 @@ fn probability(estimate: &Estimate) -> String {
     }
 }
 
+/// The p-value, and that with the most favourable faces of undecided tosses.
+fn p_values(compared: &Compared<'_>) -> String {
+    let own = p_value(compared.p_value);
+    if compared.p_value_at_best > compared.p_value {
+        return format!("{own} to {}", p_value(compared.p_value_at_best));
+    }
+    own
+}
+
 fn p_value(p: f64) -> String {
     if p < LEAST_P {
         format!("< {LEAST_P:e}")
@@ -254,22 +307,37 @@ fn p_value(p: f64) -> String {
     }
 }
 
+/// Points and tosses that are left out.
+fn left_out(answer: &Comparison<'_>) -> String {
+    let mut text = String::new();
+    if answer.left_out > 0 {
+        let points = count(answer.left_out as u64, "point");
+        text += &format!("{points} without a toss that shows a face: left out\n");
+    }
+    if has_any_without_face(answer) {
+        text += "Tosses without a face are undecided or off the table, and left out: the second p-value is with the \
+                 faces of\nthe undecided ones that agree best with the counts\n";
+    }
+    text
+}
+
 /// What it comes to, in words.
 fn verdict(answer: &Comparison<'_>) -> String {
     let models = &answer.models;
     let alpha = TEST.false_alarm;
     // as many false alarms as with one test, however many points there are (Bonferroni)
-    let rejected = models
-        .iter()
-        .filter(|model| model.p_value < alpha / models.len() as f64)
-        .count();
+    let level = alpha / models.len() as f64;
+    let rejected = models.iter().filter(|model| model.is_rejected(level));
+    let open = models.iter().filter(|model| model.is_open(level));
+    let (rejected, open) = (rejected.count(), open.count());
     let among = if models.len() > 1 {
         format!(", shared out over {} points", models.len())
     } else {
         String::new()
     };
     let percent = compact(100.0 * alpha);
-    match (rejected, models.len()) {
+    let mut text = match (rejected, models.len()) {
+        (0, 1) if open == 1 => String::new(),
         (0, 1) => format!("The counts do not contradict it (test at {percent} %)\n"),
         (1, 1) => format!("The counts contradict it (test at {percent} %)\n"),
         (rejected, all) => format!(
@@ -277,5 +345,78 @@ fn verdict(answer: &Comparison<'_>) -> String {
             grouped(rejected as u64),
             grouped(all as u64)
         ),
+    };
+    if open > 0 {
+        let whose = if models.len() == 1 {
+            "it".to_owned()
+        } else {
+            count(open as u64, "other point")
+        };
+        text += &format!(
+            "Whether they contradict {whose} depends on what undecided tosses would have shown\n"
+        );
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc::{config, plan::StoppedBy, results::Row};
+    use coinmc_core::Tally;
+
+    fn told(counts: [u64; 3]) -> (String, String) {
+        let text = "coin.ratio = 1.0\nsurface = { restitution = 0.5, friction = 0.3 }\n\
+                    launch.preset = 'robot'\nengine.flat = {}\nstop.tosses = 2000";
+        let plan = config::parse("inline", text, &[]).expect("a plan");
+        let tally = Tally {
+            heads: 630,
+            tails: 640,
+            side: 50,
+            impact_limit: 680,
+            ..Tally::default()
+        };
+        let rows =
+            [tally, Tally::default()].map(|tally| Row::new(&plan, 0, tally, StoppedBy::Tosses));
+        let models = rows.each_ref().map(|row| Model { run: "run", row });
+        let answer = questions::compare(counts, &models, 0.95).expect("an answer");
+        let cells = cells(&answer.models[0], &[], false, true);
+        (cells.join("; "), left_out(&answer) + &verdict(&answer))
+    }
+
+    #[test]
+    fn undecided_tosses_of_a_model_are_told_and_decide() {
+        let (cells, words) = told([10, 10, 10]);
+        assert!(
+            cells.contains("; 680 of 2 000; ") && cells.contains(" to 1.000; "),
+            "{cells}"
+        );
+        assert!(
+            words.contains("1 point without a toss that shows a face: left out\n"),
+            "{words}"
+        );
+        assert!(
+            words.contains("\nWhether they contradict it depends on"),
+            "{words}"
+        );
+        assert!(!words.contains("The counts contradict"), "{words}");
+        let (_, words) = told([0, 0, 30]);
+        assert!(
+            words.ends_with("The counts contradict it (test at 5 %)\n"),
+            "{words}"
+        );
+        let (_, words) = told([15, 15, 1]);
+        assert!(
+            words.ends_with("The counts do not contradict it (test at 5 %)\n"),
+            "{words}"
+        );
+    }
+
+    #[test]
+    fn a_remark_names_its_run() {
+        assert_eq!(
+            of_run("r1", "coinmc: this run is unfinished"),
+            "coinmc: r1: this run is unfinished"
+        );
     }
 }

@@ -4,6 +4,7 @@ use super::question::{AnswerArgs, ask};
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format, RowsFormat};
 use crate::terminal::table::{Column, Table};
+use crate::terminal::with_interval;
 use crate::terminal::{Colors, Style, compact, count, decimals_for, grouped, in_ascii, signed};
 use anyhow::anyhow;
 use clap::Args;
@@ -114,7 +115,7 @@ fn cells(point: &Converged) -> Vec<String> {
         .iter()
         .map(|(_, value)| compact(*value))
         .collect();
-    cells.push(format!("{:.4}", point.p[Face::Side as usize]));
+    cells.push(with_interval(&point.p[Face::Side as usize], 4, "±"));
     cells.extend(point.shifts.map(shown));
     cells.push(grouped(point.changed));
     cells.push(grouped(point.tosses));
@@ -171,7 +172,8 @@ fn words(found: &Convergence) -> String {
     if undecided != [0, 0] {
         let [usual, tight] = undecided.map(grouped);
         text += &format!(
-            "Tosses without a face, which no shift counts: {usual}, with tight settings {tight}\n"
+            "Undecided: {usual} tosses, with tight settings {tight}; every interval holds whatever they would \
+             have shown\n"
         );
     }
     if biased.is_empty() {

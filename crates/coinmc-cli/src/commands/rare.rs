@@ -81,7 +81,14 @@ fn text(answer: &Rareness, show: bool, style: &Style) -> String {
     let p = &answer.p;
     let percent = compact(100.0 * answer.confidence);
     let face = answer.question.face.name();
-    let headline = if p.value > 0.0 {
+    let limited = answer.is_limited_by_undecided();
+    let headline = if limited {
+        format!(
+            "P({face}) = {:.3e} to {:.3e}, depending on undecided tosses",
+            p.value,
+            p.value + answer.p.hi - answer.without_undecided.hi
+        )
+    } else if p.value > 0.0 {
         let error = 100.0 * p.half_width() / p.value;
         format!("P({face}) = {:.3e} ± {error:.1} %", p.value)
     } else {
@@ -97,7 +104,7 @@ fn text(answer: &Rareness, show: bool, style: &Style) -> String {
         grouped(answer.pilot_tosses),
     );
     let gain = answer.gain();
-    if gain.tosses.is_finite() {
+    if gain.tosses.is_finite() && !limited {
         let brute_force = gain.tosses * (answer.tosses + answer.pilot_tosses) as f64;
         text += &format!(
             "Brute force would take {} tosses, {:.1} times as many, and {:.1} times the work\n",
@@ -124,8 +131,19 @@ fn problems(answer: &Rareness) -> String {
             grouped(answer.undecided)
         );
     }
-    if !answer.reached {
-        let error = compact(100.0 * answer.question.relative_error);
+    let error = compact(100.0 * answer.question.relative_error);
+    if answer.is_limited_by_undecided() {
+        let of_chance = 100.0 * answer.without_undecided.half_width() / answer.p.value;
+        let of_chance = if of_chance.is_finite() {
+            format!(": without them it would be ± {of_chance:.1} %")
+        } else {
+            String::new()
+        };
+        text += &format!(
+            "Short of the ± {error} % asked for because of them{of_chance}. More tosses do not help, only fewer \
+             undecided ones\n"
+        );
+    } else if !answer.reached {
         text += &format!("Short of the ± {error} % asked for: all tosses are spent\n");
     }
     text
@@ -161,4 +179,60 @@ fn rounded(tosses: f64) -> u64 {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     let rounded = rounded as u64;
     rounded
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc_questions::Interval;
+
+    fn answer(hi: f64, undecided: u64) -> Rareness {
+        let decided = Interval {
+            value: 0.01,
+            lo: 0.009,
+            hi: 0.011,
+        };
+        Rareness {
+            question: HowRare {
+                face: Face::Side,
+                relative_error: 0.3,
+                max_tosses: 20_000,
+            },
+            p: Interval { hi, ..decided },
+            without_undecided: decided,
+            reached: undecided == 0,
+            confidence: 0.95,
+            launches: 20_000,
+            tosses: 20_000,
+            shown: 200,
+            undecided,
+            pilot_tosses: 1000,
+            work: 1000,
+            work_of_a_toss: 1.0,
+            strata: vec![],
+            engine: "flat",
+            law: "moreau",
+        }
+    }
+
+    #[test]
+    fn what_limits_an_answer_is_told() {
+        let style = Style::plain(100);
+        let open = text(&answer(0.211, 4000), false, &style);
+        assert!(
+            open.starts_with("P(side) = 1.000e-2 to 2.100e-1, depending on undecided tosses"),
+            "{open}"
+        );
+        assert!(
+            open.contains("because of them: without them it would be ± 10.0 %"),
+            "{open}"
+        );
+        assert!(!open.contains("Brute force"), "{open}");
+        let usual = text(&answer(0.011, 0), false, &style);
+        assert!(
+            usual.starts_with("P(side) = 1.000e-2 ± 10.0 %") && usual.contains("Brute force"),
+            "{usual}"
+        );
+        assert!(!usual.contains("Short of"), "{usual}");
+    }
 }

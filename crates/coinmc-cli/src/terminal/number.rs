@@ -31,9 +31,24 @@ pub(crate) fn decimals_for(error: f64) -> usize {
     decimals.clamp(3, 7)
 }
 
-/// `0.250 ± 0.007`, or the interval, `0.000 [0.000, 0.793]`, where that arm would leave 0 to 1.
+/// So many decimals, or as many more as an error above 0 needs for a digit other than 0; fifteen at most.
+pub(crate) fn decimals_that_show(error: f64, decimals: usize) -> usize {
+    const MOST: usize = 15;
+    let shows = |decimals: &usize| {
+        let text = format!("{error:.decimals$}");
+        text.contains(|c: char| c.is_ascii_digit() && c != '0')
+    };
+    if !(error > 0.0 && error.is_finite()) {
+        return decimals;
+    }
+    (decimals..MOST).find(shows).unwrap_or(MOST)
+}
+
+/// `0.250 ± 0.007`, or the interval, `0.000 [0.000, 0.793]`, where that arm would leave 0 to 1; with more decimals where
+/// the arm would read 0.
 pub(crate) fn with_interval(p: &Estimate, decimals: usize, plus_minus: &str) -> String {
     let arm = p.half_width();
+    let decimals = decimals_that_show(arm, decimals);
     if p.p - arm < 0.0 || p.p + arm > 1.0 {
         let Estimate { p, lo, hi, .. } = p;
         return format!("{p:.decimals$} [{lo:.decimals$}, {hi:.decimals$}]");
@@ -85,6 +100,22 @@ mod tests {
         assert_eq!(of(0, 1), "0.000 [0.000, 0.793]");
         assert_eq!(of(1, 1), "1.000 [0.207, 1.000]");
         assert_eq!(of(50, 100), "0.500 ± 0.096");
+    }
+
+    #[test]
+    fn no_error_reads_zero() {
+        assert_eq!(decimals_that_show(0.000_4, 3), 4);
+        assert_eq!(decimals_that_show(0.000_6, 3), 3);
+        assert_eq!(decimals_that_show(3e-9, 4), 9);
+        assert_eq!(decimals_that_show(0.0, 4), 4);
+        assert_eq!(decimals_that_show(1e-30, 4), 15);
+        let of = |count| {
+            let n = 100_000_000;
+            let p = Estimate::new(count, 0, n, 0.95, coinmc_core::IntervalMethod::Wilson);
+            with_interval(&p, 3, "±")
+        };
+        assert_eq!(of(1_000_000), "0.01000 ± 0.00002");
+        assert_eq!(of(100_000_000), "1.00000000 [0.99999996, 1.00000000]");
     }
 
     #[test]

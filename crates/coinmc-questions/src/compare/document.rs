@@ -5,8 +5,9 @@ use crate::document::FORMAT_VERSION;
 use coinmc_core::{Estimate, Face};
 use serde_json::{Map, Value, json};
 
-/// A [`Comparison`] as a JSON document. docs/reference/formats.md describes its fields.
-pub fn document_of_comparison(comparison: &Comparison<'_>) -> Value {
+/// A [`Comparison`] as a JSON document, with the number of a robot's void throws, if its journal was counted.
+/// docs/reference/formats.md describes its fields.
+pub fn document_of_comparison(comparison: &Comparison<'_>, voids: Option<u64>) -> Value {
     let [heads, tails, side] = comparison.counts;
     json!({
         "format_version": FORMAT_VERSION,
@@ -14,8 +15,10 @@ pub fn document_of_comparison(comparison: &Comparison<'_>) -> Value {
         "heads": heads,
         "tails": tails,
         "side": side,
+        "voids": voids,
         "confidence": comparison.seen[0].confidence,
         "seen": faces(|face| &comparison.seen[face as usize]),
+        "left_out": comparison.left_out,
         "rows": comparison.models.iter().map(row).collect::<Vec<_>>(),
     })
 }
@@ -45,8 +48,11 @@ fn row(compared: &Compared<'_>) -> Value {
         "engine": row.engine,
         "law": row.law,
         "tosses": row.tally.tosses(),
+        "undecided": row.tally.undecided(),
+        "left": row.tally.left,
         "model": faces(|face| row.estimate(face)),
         "p_value": compared.p_value,
+        "p_value_at_best": compared.p_value_at_best,
         "evidence": compared.evidence,
         "share": compared.share,
         "tosses_to_tell": compared.tosses_to_tell,

@@ -4,19 +4,27 @@
 //! probability n! Π p_j^k_j/k_j!. A model that was itself tossed, with the counts m, is a second sample: given
 //! the sums c = k + m, the counts have the hypergeometric probability Π C(c_j, k_j)/C(Σc, n), whatever
 //! the common probabilities are (Freeman & Halton, Biometrika 38 (1951) 141). Either way ln w(k) = Σ g_j(k_j) +
-//! const with concave g_j. The p-value is the probability of all counts that are no more probable than those
+//! const with concave g_j, which are sums of their steps,
+//!
+//! ```text
+//! g_j(k + 1) − g_j(k) = ln(n s/(k + 1)),    s = p_j, or of two samples (c_j − k)/Σc:
+//! ```
+//!
+//! no logarithm of a factorial, which would lose the digits that tell counts apart where a model has 1e9 tosses. (n
+//! and Σc add the same to the weight of all counts.) The p-value is the probability of all counts that are no more probable than those
 //! seen.
 //!
 //! As the g_j are concave, w has one peak over the number of heads for each number on the side, and one over the
 //! number on the side. So the sum goes out from the peak until what is left is negligible: its cost grows with n,
 //! not with n².
 
-use libm::{exp, lgamma, log};
+use libm::{exp, log};
 
 /// Counts whose probability is this many natural logarithms below that of the most probable ones are left out: all
 /// of them together have less than n² e⁻⁶⁰.
 const NEGLIGIBLE: f64 = 60.0;
-/// Logarithms of probabilities that differ by less count as equal; rounding is below it up to n = 1e6.
+/// Logarithms of probabilities that differ by less count as equal; rounding is below it up to n = 1e6, whatever the
+/// tosses of the model.
 const TIE: f64 = 1e-7;
 
 /// What counts are compared with.
@@ -88,14 +96,12 @@ impl Weights {
         let face = |j: usize| match reference {
             Reference::Known(p) => {
                 let most = if p[j] > 0.0 { n } else { 0 };
-                let ln_p = log(p[j].max(f64::MIN_POSITIVE));
-                let g = |k: u64| k as f64 * ln_p - ln_factorial(k);
-                (0..=most).map(g).collect()
+                sums(most, n, |_| p[j])
             }
             Reference::Counted(model) => {
                 let both = model[j] + seen[j];
-                let g = |k: u64| -ln_factorial(k) - ln_factorial(both - k);
-                (0..=both.min(n)).map(g).collect::<Vec<f64>>()
+                let all = model.iter().sum::<u64>() + n;
+                sums(both.min(n), n, |k| (both - k) as f64 / all as f64)
             }
         };
         Self {
@@ -167,13 +173,29 @@ fn index(count: u64) -> usize {
     usize::try_from(count).expect("counts are bounded")
 }
 
-fn ln_factorial(n: u64) -> f64 {
-    lgamma(n as f64 + 1.0)
+/// g at 0 to `most`, the sums of ln(n share(k)/(k + 1)), with the rounding of each sum carried over to the next
+/// (Kahan, Communications of the ACM 8 (1965) 40).
+fn sums(most: u64, n: u64, share: impl Fn(u64) -> f64) -> Vec<f64> {
+    let (mut sum, mut lost) = (0.0, 0.0);
+    let mut g = vec![sum];
+    g.extend((0..most).map(|k| {
+        let step = log(n as f64 * share(k) / (k + 1) as f64) - lost;
+        let next = sum + step;
+        lost = (next - sum) - step;
+        sum = next;
+        sum
+    }));
+    g
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use libm::lgamma;
+
+    fn ln_factorial(n: u64) -> f64 {
+        lgamma(n as f64 + 1.0)
+    }
 
     /// By hand: of 4 tosses with the probabilities 1/2, 1/4, 1/4, all 15 counts.
     #[test]
@@ -216,6 +238,51 @@ mod tests {
         for (seen, model, expected) in TABLES {
             let found = p_value(&Reference::Counted(model), seen);
             assert!((found / expected - 1.0).abs() < 1e-9, "{seen:?} {found}");
+        }
+    }
+
+    /// The same in whole numbers, of models with 1e9 to 1e15 tosses.
+    #[test]
+    fn large_models_are_compared_as_in_whole_numbers() {
+        let third = 333_333_333_333_333;
+        for (seen, model, expected) in [
+            (
+                [26, 24, 10],
+                [400_000_000, 400_000_000, 200_000_000],
+                0.814_015_764_047_236_4,
+            ),
+            (
+                [30, 22, 8],
+                [450, 400, 150].map(|share| share * 1_000_000_000_000),
+                0.773_756_601_192_716_2,
+            ),
+            (
+                [1, 1, 40],
+                [300, 400, 200].map(|share| share * 1_000_000_000_000),
+                3.928_849_220_967_547e-24,
+            ),
+            // other counts are as probable as these
+            ([25, 20, 15], [third; 3], 0.309_972_427_578_941_3),
+        ] {
+            let found = p_value(&Reference::Counted(model), seen);
+            assert!((found / expected - 1.0).abs() < 1e-9, "{seen:?} {found}");
+        }
+    }
+
+    /// A million tosses against 1e15; by Stirling's series with 60 digits.
+    #[test]
+    fn weights_of_many_tosses_differ_as_with_sixty_digits() {
+        let seen = [450_500, 399_800, 149_700];
+        let model = [450, 400, 150].map(|share| share * 1_000_000_000_000);
+        let weights = Weights::new(&Reference::Counted(model), seen);
+        let of = |counts: [u64; 3]| weights.of(counts).expect("possible counts");
+        for (counts, expected) in [
+            ([450_000, 400_000, 150_000], 0.627_187_673_565_575_6),
+            ([460_000, 395_000, 145_000], -225.313_687_785_785_7),
+            ([451_000, 399_600, 149_400], -1.883_376_832_809_871_5),
+        ] {
+            let found = of(counts) - of(seen);
+            assert!((found - expected).abs() < 0.01 * TIE, "{counts:?} {found}");
         }
     }
 

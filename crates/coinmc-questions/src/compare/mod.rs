@@ -1,15 +1,19 @@
 //! Counts of real tosses against the points of a run.
 
 mod document;
+mod evidence;
 mod exact;
+mod split;
 
 pub use document::document_of_comparison;
 
 use crate::{QuestionError, TEST, tosses_for_power};
 use coinmc::results::Row;
 use coinmc_core::{Estimate, Face, IntervalMethod};
+use evidence::{ln_evidence, ln_uniform};
 use exact::{Reference, p_value};
-use libm::{exp, lgamma, log};
+use libm::exp;
+use split::most_favourable;
 
 /// Most tosses that are compared.
 pub const MOST_COUNTED: u64 = 1_000_000;
@@ -34,6 +38,8 @@ pub struct Comparison<'a> {
     pub seen: [Estimate; 3],
     /// Each model, the most likely first.
     pub models: Vec<Compared<'a>>,
+    /// Points that are left out: without a closed form, and without tosses that showed a face.
+    pub left_out: usize,
 }
 
 /// One model beside the counts.
@@ -44,6 +50,8 @@ pub struct Compared<'a> {
     /// Its probability, if it is right, of counts that are no more probable than those seen, by an exact test that
     /// knows its own error.
     pub p_value: f64,
+    /// The same if its undecided tosses had shown the faces with which it agrees best with the counts.
+    pub p_value_at_best: f64,
     /// Logarithm to the base 10 of the Bayes factor for it, against a coin of which every triple of probabilities
     /// is equally likely.
     pub evidence: f64,
@@ -54,6 +62,24 @@ pub struct Compared<'a> {
     pub tosses_to_tell: Option<u64>,
 }
 
+impl Compared<'_> {
+    /// Tosses of the model without a face, which no number but the last p-value counts: undecided, or off the table.
+    pub fn without_face(&self) -> u64 {
+        let tally = &self.model.row.tally;
+        tally.undecided() + tally.left
+    }
+
+    /// Whether a test at this level rejects it, whatever its undecided tosses would have shown.
+    pub fn is_rejected(&self, level: f64) -> bool {
+        self.p_value_at_best < level
+    }
+
+    /// Whether that test rejects it, but does not with some faces of its undecided tosses.
+    pub fn is_open(&self, level: f64) -> bool {
+        self.p_value < level && !self.is_rejected(level)
+    }
+}
+
 impl Comparison<'_> {
     /// All tosses.
     pub fn tosses(&self) -> u64 {
@@ -61,8 +87,9 @@ impl Comparison<'_> {
     }
 }
 
-/// Compares counts of heads, tails and side with models. Points without tosses or a closed form are left out;
-/// tosses of a model without a face (undecided, or off the table) are, too.
+/// Compares counts of heads, tails and side with models. Points without tosses or a closed form are left out and
+/// counted; tosses of a model without a face (undecided, or off the table) are left out, too, but for a second p-value
+/// that knows how they may have ended.
 ///
 /// # Errors
 /// [`QuestionError::NoCounts`], [`QuestionError::TooMany`] tosses or models, [`QuestionError::NoModel`],
@@ -108,13 +135,10 @@ pub fn compare<'a>(
     } else if known.len() > MOST_MODELS {
         return too_many("points", MOST_MODELS as u64, known.len() as u64);
     }
-    let compared = known.into_iter().map(|(model, reference)| Compared {
-        model,
-        p_value: p_value(&reference, counts),
-        evidence: (ln_evidence(&reference, counts) - ln_uniform(counts)) / std::f64::consts::LN_10,
-        share: 0.0,
-        tosses_to_tell: None,
-    });
+    let left_out = models.len() - known.len();
+    let compared = known
+        .into_iter()
+        .map(|(model, reference)| compared(model, &reference, counts));
     let mut models: Vec<Compared<'a>> = compared.collect();
     models.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
     share_out(&mut models);
@@ -129,7 +153,29 @@ pub fn compare<'a>(
         counts,
         seen,
         models,
+        left_out,
     })
+}
+
+/// A model beside the counts, without what the others say of it.
+fn compared<'a>(model: Model<'a>, reference: &Reference, counts: [u64; 3]) -> Compared<'a> {
+    let p = p_value(reference, counts);
+    let undecided = model.row.tally.undecided();
+    let at_best = match reference {
+        Reference::Counted(own) if undecided > 0 => {
+            let shared = most_favourable(*own, undecided, counts);
+            p.max(p_value(&Reference::Counted(shared), counts))
+        }
+        _ => p,
+    };
+    Compared {
+        model,
+        p_value: p,
+        p_value_at_best: at_best,
+        evidence: (ln_evidence(reference, counts) - ln_uniform(counts)) / std::f64::consts::LN_10,
+        share: 0.0,
+        tosses_to_tell: None,
+    }
 }
 
 /// What a point says; `None` if it says nothing yet.
@@ -146,36 +192,6 @@ fn reference<'a>(model: &Model<'a>) -> Option<(Model<'a>, Reference)> {
             .then_some(Reference::Known(p))
     };
     reference.map(|reference| (model.clone(), reference))
-}
-
-/// Natural logarithm of the probability of the counts in one order. A model that was tossed has the probabilities of
-/// Jeffreys' posterior, Dirichlet(m + 1/2).
-fn ln_evidence(reference: &Reference, counts: [u64; 3]) -> f64 {
-    match reference {
-        Reference::Known(p) => {
-            let terms = p.iter().zip(counts);
-            terms
-                .filter(|(_, count)| *count > 0)
-                .map(|(p, count)| count as f64 * log(*p))
-                .sum()
-        }
-        Reference::Counted(model) => ln_dirichlet(counts, model.map(|count| count as f64 + 0.5)),
-    }
-}
-
-fn ln_uniform(counts: [u64; 3]) -> f64 {
-    ln_dirichlet(counts, [1.0; 3])
-}
-
-/// ∫ Π p^k Dir(p; a) dp = Γ(A)/Γ(n + A) Π Γ(k + a)/Γ(a).
-fn ln_dirichlet(counts: [u64; 3], a: [f64; 3]) -> f64 {
-    let whole: f64 = a.iter().sum();
-    let n = counts.iter().sum::<u64>() as f64;
-    let faces = counts.into_iter().zip(a);
-    lgamma(whole) - lgamma(n + whole)
-        + faces
-            .map(|(count, a)| lgamma(count as f64 + a) - lgamma(a))
-            .sum::<f64>()
 }
 
 /// Fills in each model's probability, the first being the most likely.
@@ -213,4 +229,71 @@ fn of_model(row: &Row) -> [f64; 3] {
 fn tosses_to_tell(model: [f64; 3], right: [f64; 3]) -> Option<u64> {
     let told = model.iter().all(|p| *p > 0.0 && *p < 1.0);
     (told && model != right).then(|| tosses_for_power(model, right, TEST))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coinmc::plan::StoppedBy;
+    use coinmc::{config, plan::Plan};
+    use coinmc_core::Tally;
+
+    fn plan() -> Plan {
+        let text = "coin.ratio = 1.0\nsurface = { restitution = 0.5, friction = 0.3 }\n\
+                    launch.preset = 'robot'\nengine.flat = {}\nstop.tosses = 2000";
+        config::parse("inline", text, &[]).expect("a plan")
+    }
+
+    fn tally([heads, tails, side]: [u64; 3], impact_limit: u64) -> Tally {
+        Tally {
+            heads,
+            tails,
+            side,
+            impact_limit,
+            ..Tally::default()
+        }
+    }
+
+    /// 680 of 2,000 tosses are undecided: as many sides as heads are possible, but not 30 sides of 30.
+    #[test]
+    fn only_what_no_face_of_undecided_tosses_agrees_with_is_a_contradiction() {
+        let plan = plan();
+        let row = Row::new(&plan, 0, tally([630, 640, 50], 680), StoppedBy::Tosses);
+        let models = [Model {
+            run: "run",
+            row: &row,
+        }];
+        let found = compare([10, 10, 10], &models, 0.95).expect("an answer");
+        let model = &found.models[0];
+        assert!(
+            model.p_value < 1e-3 && model.p_value_at_best > 0.5,
+            "{model:?}"
+        );
+        assert!(model.is_open(0.05) && !model.is_rejected(0.05));
+        assert_eq!(model.without_face(), 680);
+        let document = document_of_comparison(&found, Some(3));
+        assert_eq!(document["voids"], 3);
+        assert_eq!(document["rows"][0]["undecided"], 680);
+        assert_eq!(
+            document["rows"][0]["p_value_at_best"],
+            model.p_value_at_best
+        );
+        let contradicted = compare([0, 0, 30], &models, 0.95).expect("an answer");
+        let model = &contradicted.models[0];
+        assert!(model.is_rejected(0.05) && !model.is_open(0.05), "{model:?}");
+        let agreed = compare([15, 15, 1], &models, 0.95).expect("an answer");
+        assert!(!agreed.models[0].is_open(0.05) && !agreed.models[0].is_rejected(0.05));
+    }
+
+    #[test]
+    fn decided_tosses_have_one_p_value_and_points_without_any_are_counted() {
+        let plan = plan();
+        let row = |tally| Row::new(&plan, 0, tally, StoppedBy::Tosses);
+        let rows = [row(tally([600, 600, 100], 0)), row(Tally::default())];
+        let models = rows.each_ref().map(|row| Model { run: "run", row });
+        let found = compare([10, 10, 10], &models, 0.95).expect("an answer");
+        assert_eq!((found.models.len(), found.left_out), (1, 1));
+        assert_eq!(found.models[0].p_value, found.models[0].p_value_at_best);
+        assert_eq!(document_of_comparison(&found, None)["left_out"], 1);
+    }
 }

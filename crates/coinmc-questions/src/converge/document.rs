@@ -31,7 +31,10 @@ fn row(point: &Converged) -> Value {
     }
     for face in Face::ALL {
         let index = face as usize;
-        row.insert(format!("p_{}", face.name()), json!(point.p[index]));
+        let p = &point.p[index];
+        for (end, value) in [("", p.p), ("_lo", p.lo), ("_hi", p.hi)] {
+            row.insert(format!("p_{}{end}", face.name()), json!(value));
+        }
         row.insert(
             format!("shift_{}", face.name()),
             interval(point.shifts[index]),

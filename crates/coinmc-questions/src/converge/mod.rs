@@ -10,10 +10,10 @@ mod paired;
 pub use document::document_of_convergence;
 
 use crate::interval::normal_quantile;
-use crate::workers::{At, Changes, UNDECIDED};
+use crate::workers::{At, Changes};
 use crate::{Interval, QuestionError, Template, Workers};
 use coinmc::plan::Plan;
-use coinmc_core::{Face, Finer};
+use coinmc_core::{Estimate, Face, Finer};
 use std::sync::Arc;
 
 /// Least number of tosses of a point: with fewer the intervals mean nothing.
@@ -41,15 +41,16 @@ pub struct Converged {
     pub point: usize,
     /// The swept parameters.
     pub parameters: Vec<(Arc<str>, f64)>,
-    /// Share of the tosses that show each face with the settings of the config.
-    pub p: [f64; 3],
-    /// P with tight settings minus P with those of the config, of heads, tails and side.
+    /// The probabilities of heads, tails and side with the settings of the config.
+    pub p: [Estimate; 3],
+    /// P with tight settings minus P with those of the config, of heads, tails and side. The interval holds whatever
+    /// the undecided tosses would have shown.
     pub shifts: [Interval; 3],
     /// Whether the shift of each face is not 0, at the confidence of all intervals together.
     pub is_biased: [bool; 3],
     /// Tosses whose end changes.
     pub changed: u64,
-    /// Tosses without a face, with the settings of the config and with tight ones.
+    /// Undecided tosses, with the settings of the config and with tight ones.
     pub undecided: [u64; 2],
     /// Tosses with either settings.
     pub tosses: u64,
@@ -172,8 +173,14 @@ fn tightened(plan: &Plan) -> Vec<Tightened> {
 
 fn converged(plan: &Plan, point: usize, changes: &Changes, intervals: usize) -> Converged {
     let shift = |face, confidence| {
-        let (gained, lost) = changes.of(face);
-        paired::difference(gained, lost, changes.tosses(), normal_quantile(confidence))
+        let z = normal_quantile(confidence);
+        let of = |(gained, lost)| paired::difference(gained, lost, changes.tosses(), z);
+        let [least, most] = changes.extremes_of(face).map(of);
+        Interval {
+            lo: least.lo,
+            hi: most.hi,
+            ..of(changes.of(face))
+        }
     };
     // among many intervals some miss by chance
     let of_all = 1.0 - (1.0 - plan.confidence) / intervals as f64;
@@ -186,11 +193,11 @@ fn converged(plan: &Plan, point: usize, changes: &Changes, intervals: usize) -> 
     Converged {
         point,
         parameters: parameters.iter().filter(swept).cloned().collect(),
-        p: Face::ALL.map(|face| changes.share(face)),
+        p: Face::ALL.map(|face| changes.seen(face).estimate(plan)),
         shifts: Face::ALL.map(|face| shift(face, plan.confidence)),
         is_biased: Face::ALL.map(is_biased),
         changed: changes.changed(),
-        undecided: changes.ended(UNDECIDED),
+        undecided: changes.undecided(),
         tosses: changes.tosses(),
     }
 }
@@ -228,6 +235,22 @@ mod tests {
         let fine = found("engine.flat = {}", 4096);
         assert_eq!(fine.biased().count(), 0, "{fine:?}");
         assert!(fine.at_most() < 3e-3 && fine.points.len() == 2);
+    }
+
+    /// With nine impacts at most some tosses are undecided with either settings: no bound below their share.
+    #[test]
+    fn undecided_tosses_may_hide_a_shift() {
+        let found = found("engine.flat.max_impacts = 9", 512);
+        for point in &found.points {
+            let open = point.undecided[0] as f64 / point.tosses as f64;
+            assert!(open > 0.02, "{point:?}");
+            for (shift, p) in point.shifts.iter().zip(&point.p) {
+                assert!(shift.lo < -open && shift.hi > open, "{shift:?} {open}");
+                assert!(p.hi > p.p + open, "{p:?}");
+            }
+            assert!(found.at_most() > open);
+        }
+        assert_eq!(found.biased().count(), 0);
     }
 
     #[test]

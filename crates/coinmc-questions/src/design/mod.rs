@@ -141,6 +141,7 @@ pub fn design(
         None => template,
     };
     let template = template.with_coins_made(move |made| coin.numbers(made));
+    refuse_sweep(&template)?;
     let fair = fair(
         &template,
         &Question {
@@ -171,6 +172,16 @@ pub fn design(
         effects,
         shape,
     })
+}
+
+/// Refuses a config that sweeps anything but the ratio, which is sought: there is one coin to print.
+fn refuse_sweep(template: &Template) -> Result<(), QuestionError> {
+    let plan = template.plan(&[("coin.ratio", "1.0".to_owned())])?;
+    if plan.axes.is_empty() {
+        Ok(())
+    } else {
+        Err(QuestionError::Swept(plan.axes.join(", ")))
+    }
 }
 
 /// The only root of a single curve.
@@ -254,5 +265,46 @@ impl Designed {
         let heads = self.faces.map_or(0.5, |faces| faces.share_of_heads());
         let faces = |side: f64| [heads * (1.0 - side), (1.0 - heads) * (1.0 - side), side];
         tosses_for_power(faces(side), faces(side + change), TEST)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::AtomicBool;
+
+    /// Before a toss is made, and by the reason that it is.
+    #[test]
+    fn a_config_that_sweeps_another_number_is_refused_as_such() {
+        let coin = PrintedCoin {
+            diameter_m: 0.024,
+            edge: coinmc_solid::Edge::Sharp,
+            draft_deg: None,
+            marks: false,
+            density_kg_m3: 1240.0,
+            infill: None,
+        };
+        let question = Design {
+            coin,
+            target: 1.0 / 3.0,
+            half_width: 0.5,
+        };
+        let refused = |numbers: &str| {
+            let text = format!("{numbers}\nlaunch.preset = 'robot'\nengine.flat = {{}}");
+            let made = |_| panic!("a toss was made");
+            let cancel = AtomicBool::new(false);
+            let workers = Workers {
+                threads: None,
+                cancel: &cancel,
+                made: &made,
+            };
+            let template = Template::new("inline", text, &[]);
+            let designed = design(&template, None, &[], &question, &workers);
+            designed.map(|_| ()).expect_err("refused").to_string()
+        };
+        assert_eq!(
+            refused("surface = { restitution = 0.5, friction = [0.2, 0.3] }"),
+            "the config must be a single point, but sweeps friction"
+        );
     }
 }

@@ -13,6 +13,7 @@ use crate::workers::At;
 use crate::{QuestionError, Template, Workers};
 use coinmc::plan::Plan;
 use coinmc::run::{Count, count};
+use coinmc_core::Estimate;
 
 /// One curve: a point of the config's other parameters.
 struct Along<'a> {
@@ -54,7 +55,7 @@ pub(super) fn answer(
         let (scan, findings) = if known {
             along.known(axis)?
         } else {
-            along.tossed(axis, first.confidence)?
+            along.tossed(axis, &first)?
         };
         tosses += along.made;
         curves.push(Curve {
@@ -92,7 +93,7 @@ impl Along<'_> {
     fn tossed(
         &mut self,
         axis: Axis,
-        confidence: f64,
+        first: &Plan,
     ) -> Result<(Vec<Scanned>, Vec<Finding>), QuestionError> {
         let Question {
             target,
@@ -103,14 +104,19 @@ impl Along<'_> {
         let goal = Goal {
             target,
             half_width,
-            z: normal_quantile(confidence),
+            z: normal_quantile(first.confidence),
             tosses: max_tosses,
         };
         let solved = solve(self, axis, &goal)?;
-        let scanned = solved.scanned.iter().map(|scanned| Scanned {
-            value: axis.value(scanned.u),
-            p: scanned.seen.share(),
-            tosses: scanned.seen.tosses,
+        let scanned = solved.scanned.iter().map(|scanned| {
+            let Estimate { p, lo, hi, n, .. } = scanned.seen.estimate(first);
+            Scanned {
+                value: axis.value(scanned.u),
+                p,
+                lo,
+                hi,
+                tosses: n,
+            }
         });
         let mut findings = vec![];
         for (finding, refined) in solved.findings {
@@ -153,17 +159,13 @@ impl Along<'_> {
             coin,
         };
         if self.question.numerical_tosses > 0 && !root.is_on_plateau() {
-            root.numerical = self.numerical(&root, goal.z)?;
+            root.numerical = self.numerical(&root)?;
         }
         Ok(root)
     }
 
     /// How far finer numerical settings would move the root.
-    fn numerical(
-        &mut self,
-        root: &Root,
-        z: f64,
-    ) -> Result<Option<numerical::Numerical>, QuestionError> {
+    fn numerical(&mut self, root: &Root) -> Result<Option<numerical::Numerical>, QuestionError> {
         let usual = self.plan(root.value)?;
         let finer = numerical::finer_settings(&usual);
         if finer.is_empty() {
@@ -182,11 +184,9 @@ impl Along<'_> {
             point: self.point,
         });
         let changes = self.workers.compare(&[pair], 0..tosses)?;
-        let change = changes[0].difference(self.question.face);
+        let change = changes[0].interval(self.question.face, usual.confidence);
         self.made += 2 * tosses;
-        Ok(Some(numerical::Numerical::new(
-            change, tosses, root.slope, z,
-        )))
+        Ok(Some(numerical::Numerical::new(change, tosses, root.slope)))
     }
 
     fn known(&mut self, axis: Axis) -> Result<(Vec<Scanned>, Vec<Finding>), QuestionError> {
@@ -198,6 +198,8 @@ impl Along<'_> {
         let scanned = found.scanned.iter().map(|(u, at)| Scanned {
             value: axis.value(*u),
             p: at.p,
+            lo: at.lo,
+            hi: at.hi,
             tosses: 0,
         });
         let root = |root: &known::KnownRoot| {

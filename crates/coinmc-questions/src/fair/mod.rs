@@ -115,6 +115,10 @@ pub struct Scanned {
     pub value: f64,
     /// Share of the tosses that showed the face, or its probability.
     pub p: f64,
+    /// Lower end of the interval of the probability.
+    pub lo: f64,
+    /// Upper end.
+    pub hi: f64,
     /// Tosses; 0 where none are needed.
     pub tosses: u64,
 }
@@ -192,6 +196,8 @@ impl Curve {
         let none = Scanned {
             value: f64::NAN,
             p: f64::NAN,
+            lo: f64::NAN,
+            hi: f64::NAN,
             tosses: 0,
         };
         [

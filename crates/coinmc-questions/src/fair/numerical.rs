@@ -1,5 +1,6 @@
 //! How far the engine's numerical error moves a root, by tossing again with finer settings.
 
+use crate::Interval;
 use coinmc::plan::Plan;
 use coinmc_core::Finer;
 
@@ -17,14 +18,15 @@ pub struct Numerical {
 }
 
 impl Numerical {
-    /// From the change of the face's probability with finer settings, its standard error, and the slope
-    /// dP/d(parameter): a probability higher by Δ moves the root by −Δ/slope.
-    pub(super) fn new((change, error): (f64, f64), tosses: u64, slope: f64, z: f64) -> Self {
-        let (shift, arm) = (-change / slope, z * error / slope.abs());
+    /// From the change of the face's probability with finer settings, and the slope dP/d(parameter): a
+    /// probability higher by Δ moves the root by −Δ/slope.
+    pub(super) fn new(change: Interval, tosses: u64, slope: f64) -> Self {
+        let moved = |change: f64| -change / slope;
+        let [one, other] = [change.lo, change.hi].map(moved);
         Self {
-            shift,
-            lo: shift - arm,
-            hi: shift + arm,
+            shift: moved(change.value),
+            lo: one.min(other),
+            hi: one.max(other),
             tosses,
         }
     }
@@ -50,9 +52,18 @@ mod tests {
 
     #[test]
     fn a_probability_that_rises_moves_a_rising_root_down() {
-        let found = Numerical::new((0.003, 0.001), 10_000, 0.5, 2.0);
+        let change = Interval {
+            value: 0.003,
+            lo: 0.001,
+            hi: 0.007,
+        };
+        let found = Numerical::new(change, 10_000, 0.5);
         assert!((found.shift + 0.006).abs() < 1e-12);
-        assert!((found.lo + 0.010).abs() < 1e-12 && (found.hi + 0.002).abs() < 1e-12);
-        assert!(Numerical::new((0.003, 0.001), 10_000, -0.5, 2.0).shift > 0.0);
+        assert!((found.lo + 0.014).abs() < 1e-12 && (found.hi + 0.002).abs() < 1e-12);
+        let falling = Numerical::new(change, 10_000, -0.5);
+        assert_eq!(
+            (falling.shift, falling.lo, falling.hi),
+            (-found.shift, -found.hi, -found.lo)
+        );
     }
 }

@@ -37,6 +37,8 @@ fn row(ranked: &Ranked) -> Value {
         "to": ranked.unknown.to,
         "p_from": interval(at_from),
         "p_to": interval(at_to),
+        "undecided_from": ranked.undecided[0],
+        "undecided_to": ranked.undecided[1],
         "first": ranked.first.as_ref().map(interval),
         "total": ranked.total.as_ref().map(interval),
     })

@@ -16,6 +16,12 @@
 //! No P is known: each is the share of a few tosses, different ones at each place, so that their chance is
 //! in no covariance; what it adds to the variance is taken off (see `indices`).
 //!
+//! Undecided tosses could have shown the face or not, so what is known is the probability X of a toss that showed
+//! it and that V, between 0 and the share U of undecided tosses, is missing: P = X + V. Standard deviations
+//! are lengths, and conditional means are projections, so those of P and X differ by at most w = sd(V), and
+//! w² ≤ E max(c, U − c)² for any c; half the mean of U is taken. All intervals are as much wider (see `samples`), and
+//! P moves only if it does whatever V is.
+//!
 //! The same numbers one at a time, from end to end of their ranges with the others as the config has them,
 //! are the bars of a tornado: by paired tosses.
 
@@ -153,6 +159,8 @@ pub struct Ranked {
     pub value: f64,
     /// The face's probability at both ends of the range, the others as in the config.
     pub ends: [Interval; 2],
+    /// Undecided tosses at either end. The intervals hold whatever they would have shown.
+    pub undecided: [u64; 2],
     /// The first-order index S_k; `None` if the probability does not move measurably.
     pub first: Option<Interval>,
     /// The total index T_k.
@@ -201,7 +209,8 @@ pub fn rank(
     let ranked = |(k, (unknown, value)): (usize, (&Unknown, f64))| Ranked {
         unknown: unknown.clone(),
         value,
-        ends: [at_ends[2 * k], at_ends[2 * k + 1]],
+        ends: [at_ends[2 * k].p, at_ends[2 * k + 1].p],
+        undecided: [at_ends[2 * k].undecided, at_ends[2 * k + 1].undecided],
         first: moves.then(|| samples.first(k, own.confidence)),
         total: moves.then(|| samples.total(k, own.confidence)),
     };
@@ -291,13 +300,19 @@ fn ends(template: &Template, unknowns: &[Unknown]) -> Result<Vec<Plan>, Question
         .collect()
 }
 
+/// One end of a range.
+struct End {
+    p: Interval,
+    undecided: u64,
+}
+
 /// The face's probability with the config's own numbers, and at the ends of all ranges.
 fn tornado(
     question: &Rank,
     own: &Plan,
     ends: &[Plan],
     workers: &Workers<'_>,
-) -> Result<(Estimate, Vec<Interval>), QuestionError> {
+) -> Result<(Estimate, Vec<End>), QuestionError> {
     let at = |plan| At { plan, point: 0 };
     let ends: Vec<_> = ends.iter().map(at).collect();
     let changes = workers.compare_with(at(own), &ends, 0..question.tosses)?;
@@ -305,11 +320,14 @@ fn tornado(
     let ends = changes.iter().map(|changes| {
         let (change, error) = changes.difference(question.face);
         let Interval { value, lo, hi } = Interval::normal(p.p + change, error, own.confidence);
-        Interval {
+        let [_, undecided] = changes.undecided();
+        let any_face = undecided as f64 / changes.tosses() as f64;
+        let p = Interval {
             value,
             lo: lo.max(0.0),
-            hi: hi.min(1.0),
-        }
+            hi: (hi + any_face).min(1.0),
+        };
+        End { p, undecided }
     });
     Ok((p, ends.collect()))
 }

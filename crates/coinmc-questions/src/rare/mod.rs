@@ -88,6 +88,8 @@ pub struct Rareness {
     pub question: HowRare,
     /// The probability of the face and its interval. Tosses without a face count at the upper end.
     pub p: Interval,
+    /// Its interval if no undecided toss showed the face: what more tosses make shorter.
+    pub without_undecided: Interval,
     /// Whether the interval is as short as asked for.
     pub reached: bool,
     /// Confidence of the interval.
@@ -132,11 +134,19 @@ pub struct Stratum {
 }
 
 impl Rareness {
-    /// What brute force takes for the same half width, by what was done, the pilot included: how many times
-    /// fewer tosses, and less work, it took. NaN if the face was not seen.
+    /// Whether undecided tosses are why the interval is not as short as asked for: without them it would be, or
+    /// most of its length is theirs. Then more tosses do not help.
+    pub fn is_limited_by_undecided(&self) -> bool {
+        let without = &self.without_undecided;
+        let short = is_short(without, self.question.relative_error);
+        !self.reached && (short || self.p.hi - without.hi > without.half_width())
+    }
+
+    /// What brute force takes for the same half width, but for undecided tosses, which it has as well, by what was
+    /// done, the pilot included: how many times fewer tosses, and less work, it took. NaN if the face was not seen.
     pub fn gain(&self) -> Gain {
         let z = crate::interval::normal_quantile(self.confidence);
-        let arm = self.p.half_width() / z;
+        let arm = self.without_undecided.half_width() / z;
         let brute_force = self.p.value * (1.0 - self.p.value) / (arm * arm);
         let brute_force = if self.shown > 0 {
             brute_force
@@ -148,6 +158,11 @@ impl Rareness {
             work: brute_force * self.work_of_a_toss / self.work as f64,
         }
     }
+}
+
+/// Whether the interval of a face that was seen is no wider than ± this share of its probability.
+fn is_short(p: &Interval, relative_error: f64) -> bool {
+    p.value > 0.0 && p.half_width() <= relative_error * p.value
 }
 
 /// Answers a [`HowRare`]. The answer does not depend on the number of threads.
@@ -316,7 +331,15 @@ impl<'a> Work<'a> {
 
     fn answer(&self, sample: &Tossed, chances: &[f64]) -> Rareness {
         let launches = sample.launches.iter().sum();
-        let p = interval::interval(&sample.counts, chances, launches, self.plan.confidence);
+        let interval = |counts: &[interval::Counted]| {
+            interval::interval(counts, chances, launches, self.plan.confidence)
+        };
+        let p = interval(&sample.counts);
+        let decided = |counted: &interval::Counted| interval::Counted {
+            undecided: 0,
+            ..*counted
+        };
+        let decided: Vec<_> = sample.counts.iter().map(decided).collect();
         let point = &self.plan.points[0];
         let stratum = |index: usize| {
             let [from, to] = self.strata.range(index);
@@ -335,7 +358,8 @@ impl<'a> Work<'a> {
         Rareness {
             question: *self.question,
             p,
-            reached: p.value > 0.0 && p.half_width() <= self.question.relative_error * p.value,
+            without_undecided: interval(&decided),
+            reached: is_short(&p, self.question.relative_error),
             confidence: self.plan.confidence,
             launches,
             tosses: sample.tosses(),

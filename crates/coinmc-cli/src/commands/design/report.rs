@@ -1,8 +1,9 @@
 //! What was designed, as text.
 
 use crate::terminal::table::{Column, Table};
-use crate::terminal::{Colors, Style, compact, grouped, in_ascii, with_interval};
-use coinmc_questions::{Designed, TEST, THICKNESS_ERRORS_M};
+use crate::terminal::with_interval;
+use crate::terminal::{Colors, Style, compact, decimals_that_show, grouped, in_ascii};
+use coinmc_questions::{Designed, Root, TEST, THICKNESS_ERRORS_M};
 use std::path::PathBuf;
 
 /// The design as text. `told` is the diameter that the config gives, m.
@@ -17,10 +18,12 @@ pub(super) fn text(
     } = designed;
     let (diameter, thickness) = (1e3 * shape.diameter_m(), 1e3 * shape.thickness_m());
     let error = 1e3 * root.half_width() * root.coin.radius_m();
+    let arm = root.half_width();
+    let (of_length, of_ratio) = (decimals_that_show(error, 2), decimals_that_show(arm, 3));
     let title = format!(
-        "{diameter:.2} mm in diameter, {thickness:.2} ± {error:.2} mm thick (H/R = {:.3} ± {:.3}), {} g",
+        "{diameter:.2} mm in diameter, {thickness:.of_length$} ± {error:.of_length$} mm thick \
+         (H/R = {:.of_ratio$} ± {arm:.of_ratio$}), {} g",
         root.value,
-        root.half_width(),
         compact((1e6 * mass.mass_kg).round() / 1e3)
     );
     let mut text = format!("{}\n", style.paint(Colors::Strong, &title));
@@ -28,6 +31,7 @@ pub(super) fn text(
     if let Some(scene) = designed.scene {
         text += &format!("for the scene {}: {}\n", scene.name, scene.doc);
     }
+    text += &shortcomings(root, designed.fair.question.half_width);
     text += &faces(designed);
     let mut tolerance = Table::new(vec![
         Column::right("thickness off by"),
@@ -67,6 +71,25 @@ fn other_diameter(diameter_m: f64, told: Option<f64>) -> String {
     }
 }
 
+/// That the ratio is not known as well as asked for, and that tosses are undecided.
+fn shortcomings(root: &Root, half_width: f64) -> String {
+    let mut text = String::new();
+    if !root.reached {
+        text += &format!(
+            "short of the half width asked for, H/R ± {}: the thickness may be further off\n",
+            compact(half_width)
+        );
+    }
+    if root.undecided > 0 {
+        text += &format!(
+            "undecided: {} of {} tosses; the interval allows for any face of these tosses\n",
+            grouped(root.undecided),
+            grouped(root.tosses)
+        );
+    }
+    text
+}
+
 /// Heads and tails of a coin with a conical edge.
 fn faces(designed: &Designed) -> String {
     let Some(faces) = &designed.faces else {
@@ -84,7 +107,41 @@ fn faces(designed: &Designed) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::other_diameter;
+    use super::{other_diameter, shortcomings};
+    use coinmc_core::Coin;
+    use coinmc_questions::Root;
+
+    #[test]
+    fn why_the_thickness_is_not_known_as_asked_is_told() {
+        let root = Root {
+            value: 1.0,
+            lo: Some(0.7),
+            hi: Some(1.3),
+            slope: 0.3,
+            slope_error: 0.01,
+            reached: true,
+            tosses: 8000,
+            undecided: 0,
+            rounds: vec![],
+            numerical: None,
+            coin: Coin::cylinder(1.0, 0.01).expect("a coin"),
+        };
+        assert_eq!(shortcomings(&root, 0.1), "");
+        let short = Root {
+            reached: false,
+            undecided: 2500,
+            ..root
+        };
+        let text = shortcomings(&short, 0.1);
+        assert!(
+            text.starts_with("short of the half width asked for, H/R ± 0.1"),
+            "{text}"
+        );
+        assert!(
+            text.contains("\nundecided: 2 500 of 8 000 tosses"),
+            "{text}"
+        );
+    }
 
     #[test]
     fn a_diameter_that_is_not_the_configs_is_told() {

@@ -2,10 +2,11 @@
 
 use super::Answered;
 use crate::terminal::table::{Column, Table};
-use crate::terminal::{Colors, Style, compact, decimals_for, grouped, in_ascii, signed, wrapped};
+use crate::terminal::{Colors, Style, compact, decimals_for, decimals_that_show, grouped};
+use crate::terminal::{in_ascii, signed, wrapped};
 use coinmc_core::Coin;
 use coinmc_questions::assumptions::Effect;
-use coinmc_questions::{Curve, Fair, Finding, Root};
+use coinmc_questions::{Curve, Fair, Finding, Root, Scanned};
 
 /// The whole answer.
 pub(super) fn text(answered: &Answered, show: bool, style: &Style) -> String {
@@ -91,13 +92,39 @@ fn nowhere(answer: &Fair, curve: &Curve) -> String {
     } else {
         "above"
     };
+    let at = |scanned: Scanned| {
+        let p = scanned_p(&scanned);
+        format!(
+            "{p} at {}{}",
+            compact(to_four(scanned.value)),
+            by_tosses(scanned.tosses)
+        )
+    };
     format!(
-        "    none: P stays {side} the target, between {} at {} and {} at {}\n",
-        compact(to_four(least.p)),
-        compact(to_four(least.value)),
-        compact(to_four(most.p)),
-        compact(to_four(most.value))
+        "    none: P stays {side} the target, between {} and {}\n",
+        at(least),
+        at(most)
     )
+}
+
+/// The probability at a value of the scan, with its interval if it has one.
+fn scanned_p(scanned: &Scanned) -> String {
+    let Scanned { p, lo, hi, .. } = *scanned;
+    let arm = 0.5 * (hi - lo);
+    if arm > 0.0 {
+        let decimals = decimals_that_show(arm, 4);
+        format!("{p:.decimals$} [{lo:.decimals$}, {hi:.decimals$}]")
+    } else {
+        format!("{p:.4}")
+    }
+}
+
+fn by_tosses(tosses: u64) -> String {
+    if tosses > 0 {
+        format!(" ({} tosses)", grouped(tosses))
+    } else {
+        String::new()
+    }
 }
 
 /// To four decimals.
@@ -109,7 +136,11 @@ fn of_root(answer: &Fair, root: &Root, style: &Style) -> String {
     let key = name(&answer.question.key);
     let arm = root.half_width();
     // a closed form has no error
-    let decimals = if arm > 0.0 { decimals_for(arm) } else { 5 };
+    let decimals = if arm > 0.0 {
+        decimals_that_show(arm, decimals_for(arm))
+    } else {
+        5
+    };
     let number = |x: f64| format!("{x:.decimals$}");
     let end = |end: Option<f64>| end.map_or_else(|| "open".to_owned(), number);
     let mut text = format!("    {key} = {}", number(root.value));
@@ -123,10 +154,13 @@ fn of_root(answer: &Fair, root: &Root, style: &Style) -> String {
         format!("{} tosses", grouped(root.tosses))
     };
     text = style.paint(Colors::Strong, &text);
+    let interval = if arm == 0.0 {
+        "exact".to_owned()
+    } else {
+        format!("{percent} %: [{}, {}]", end(root.lo), end(root.hi))
+    };
     text += &format!(
-        "    {percent} %: [{}, {}], {tosses}{}\n",
-        end(root.lo),
-        end(root.hi),
+        "    {interval}, {tosses}{}\n",
         if root.reached {
             ""
         } else {
@@ -135,11 +169,12 @@ fn of_root(answer: &Fair, root: &Root, style: &Style) -> String {
     );
     text += &slope(key, root);
     if let Some(numerical) = root.numerical {
+        let decimals = decimals_that_show(0.5 * (numerical.hi - numerical.lo), 3);
         text += &format!(
             "    finer numerical settings move it by {} [{}, {}], {} pairs of tosses\n",
-            signed(numerical.shift, 3),
-            signed(numerical.lo, 3),
-            signed(numerical.hi, 3),
+            signed(numerical.shift, decimals),
+            signed(numerical.lo, decimals),
+            signed(numerical.hi, decimals),
             grouped(numerical.tosses)
         );
     }
@@ -157,9 +192,10 @@ fn slope(key: &str, root: &Root) -> String {
     if root.is_on_plateau() {
         return format!("    a plateau: P hardly depends on {key} here\n");
     }
-    let decimals = decimals_for(root.slope_error).min(4);
-    let error = if root.slope_error > 0.0 {
-        format!(" ± {:.decimals$}", 1.96 * root.slope_error)
+    let error = 1.96 * root.slope_error;
+    let decimals = decimals_that_show(error, decimals_for(root.slope_error).min(4));
+    let error = if error > 0.0 {
+        format!(" ± {error:.decimals$}")
     } else {
         String::new()
     };
@@ -170,11 +206,12 @@ fn slope(key: &str, root: &Root) -> String {
 fn size(coin: &Coin, arm: Option<f64>) -> String {
     let (diameter, thickness) = (2e3 * coin.radius_m(), 1e3 * coin.height_m());
     let error = arm.map(|arm| 1e3 * arm * coin.radius_m());
-    let error = match error {
-        Some(error) if error > 0.0 && error < thickness => format!(" ± {error:.2}"),
-        _ => String::new(),
-    };
-    format!("    a coin {diameter:.2} mm in diameter is then {thickness:.2}{error} mm thick\n")
+    let error = error.filter(|error| *error > 0.0 && *error < thickness);
+    let decimals = decimals_that_show(error.unwrap_or(0.0), 2);
+    let error = error.map_or(String::new(), |error| format!(" ± {error:.decimals$}"));
+    format!(
+        "    a coin {diameter:.2} mm in diameter is then {thickness:.decimals$}{error} mm thick\n"
+    )
 }
 
 /// How the search went.
@@ -183,13 +220,13 @@ fn history(answer: &Fair, curve: &Curve, style: &Style) -> String {
     let face = answer.question.face.name();
     let mut scan = Table::new(vec![
         Column::right(key),
-        Column::right(format!("P({face})")),
+        Column::left(format!("P({face})")),
         Column::right("tosses"),
     ]);
     for scanned in &curve.scan {
         scan.push(vec![
             compact(to_four(scanned.value)),
-            format!("{:.4}", scanned.p),
+            scanned_p(scanned),
             grouped(scanned.tosses),
         ]);
     }
@@ -235,7 +272,7 @@ fn assumptions(effects: &[Effect], style: &Style) -> String {
             compact(assumption.value),
             format!("{} to {}", three(assumption.low), three(assumption.high)),
             format!("{:.2} to {:.2}", low.value, high.value),
-            format!("± {:.2}", low.half_width.max(high.half_width)),
+            error_shown(low.half_width.max(high.half_width)),
             assumption.source.to_owned(),
         ]);
     }
@@ -246,8 +283,57 @@ fn assumptions(effects: &[Effect], style: &Style) -> String {
     format!("{title}\n{}", table.render(style).text)
 }
 
+/// `± 0.02`, with more digits where that would read 0.
+fn error_shown(error: f64) -> String {
+    let decimals = decimals_that_show(error, 2);
+    format!("± {error:.decimals$}")
+}
+
 /// To three digits.
 fn three(x: f64) -> String {
     let rounded: f64 = format!("{x:.2e}").parse().unwrap_or(x);
     compact(rounded)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_thickness_that_is_known_well_has_digits_for_its_error() {
+        let coin = Coin::cylinder(0.918_345, 0.012).expect("a coin");
+        let shown = |arm| size(&coin, Some(arm));
+        assert!(
+            shown(0.003).contains("11.02 ± 0.04 mm thick"),
+            "{}",
+            shown(0.003)
+        );
+        assert!(
+            shown(3e-6).contains("11.02014 ± 0.00004 mm"),
+            "{}",
+            shown(3e-6)
+        );
+        assert!(shown(0.0).contains("then 11.02 mm"), "{}", shown(0.0));
+        assert_eq!(error_shown(0.004), "± 0.004");
+    }
+
+    #[test]
+    fn a_value_of_the_scan_has_its_interval_and_tosses() {
+        let scanned = Scanned {
+            value: 0.25,
+            p: 0.002,
+            lo: 0.0003,
+            hi: 0.0141,
+            tosses: 512,
+        };
+        assert_eq!(scanned_p(&scanned), "0.0020 [0.0003, 0.0141]");
+        assert_eq!(by_tosses(512), " (512 tosses)");
+        let known = Scanned {
+            lo: 0.002,
+            hi: 0.002,
+            tosses: 0,
+            ..scanned
+        };
+        assert_eq!(scanned_p(&known) + &by_tosses(0), "0.0020");
+    }
 }

@@ -3,7 +3,8 @@
 use super::Fair;
 use crate::output::FORMAT_VERSION;
 use crate::terminal::table::{Column, Table};
-use crate::terminal::{Colors, Style, compact, decimals_for, grouped, in_ascii, signed};
+use crate::terminal::{Colors, Style, compact, decimals_for, decimals_that_show, grouped};
+use crate::terminal::{in_ascii, signed};
 use coinmc_core::Face;
 use coinmc_questions::sensitivity::{Sensitivity, Steps, sensitivities};
 use coinmc_questions::{Interval, QuestionError, Workers};
@@ -51,6 +52,10 @@ impl Local {
             columns.push(Column::right("elasticity"));
         }
         columns.push(Column::right("changed").droppable(1));
+        let any_undecided = self.sensitivities.iter().any(|one| most_undecided(one) > 0);
+        if any_undecided {
+            columns.push(Column::right("undecided"));
+        }
         let mut table = Table::new(columns);
         for one in &self.sensitivities {
             let derivative = one.of(self.face);
@@ -61,11 +66,18 @@ impl Local {
                 None => cells.push(signed(one.elasticity(self.face).value, 2)),
             }
             cells.push(format!("{:.1} %", 100.0 * one.changed));
+            if any_undecided {
+                cells.push(grouped(most_undecided(one)));
+            }
             table.push(cells);
         }
         let mut text = String::new();
         text += &self.fair.heading(self.face);
         text += &table.render(style).text;
+        if any_undecided {
+            text += "Undecided: tosses of one value, the more of the two; every interval holds whatever they \
+                     would have shown\n";
+        }
         let tosses = grouped(self.steps.tosses);
         let note = format!(
             "{tosses} tosses with either value, {} apart",
@@ -89,6 +101,8 @@ impl Local {
                 "to": one.values[1],
                 "tosses": one.tosses,
                 "changed": one.changed,
+                "undecided_from": one.undecided[0],
+                "undecided_to": one.undecided[1],
                 "d_p_heads": interval(one.of(Face::Heads)),
                 "d_p_tails": interval(one.of(Face::Tails)),
                 "d_p_side": interval(one.of(Face::Side)),
@@ -107,9 +121,15 @@ impl Local {
     }
 }
 
+/// Undecided tosses with the value that has more of them.
+fn most_undecided(one: &Sensitivity) -> u64 {
+    one.undecided[0].max(one.undecided[1])
+}
+
 /// A derivative and its interval as cells.
 fn shown(derivative: Interval) -> [String; 2] {
-    let decimals = decimals_for(0.5 * (derivative.hi - derivative.lo)).min(4);
+    let arm = derivative.half_width();
+    let decimals = decimals_that_show(arm, decimals_for(arm).min(4));
     [
         signed(derivative.value, decimals),
         format!(

@@ -7,6 +7,7 @@ use super::new_file;
 use super::question::{AnswerArgs, KeyRange, SceneArgs, ask, write_file};
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format};
+use crate::terminal::decimals_that_show;
 use anyhow::anyhow;
 use clap::Args;
 use coinmc_core::Face;
@@ -202,11 +203,14 @@ impl Fair {
     fn heading(&self, face: Face) -> String {
         let face = face.name();
         match &self.root {
-            Some(root) => format!(
-                "At the fair ratio, H/R = {:.3} ± {:.3}, P({face}) = 1/3:\n",
-                root.value,
-                root.half_width()
-            ),
+            Some(root) => {
+                let arm = root.half_width();
+                let decimals = decimals_that_show(arm, 3);
+                format!(
+                    "At the fair ratio, H/R = {:.decimals$} ± {arm:.decimals$}, P({face}) = 1/3:\n",
+                    root.value
+                )
+            }
             None if self.sought => format!("No coin of this scene has P({face}) = 1/3.\n"),
             None => String::new(),
         }

@@ -1,7 +1,8 @@
 //! Which unknown matters most, as text.
 
 use crate::terminal::table::{Column, Table};
-use crate::terminal::{Colors, Style, compact, count, decimals_for, grouped, in_ascii};
+use crate::terminal::{Colors, Style, compact, count, decimals_for, decimals_that_show};
+use crate::terminal::{grouped, in_ascii};
 use coinmc_questions::{Interval, Ranked, Ranking};
 
 pub(super) fn text(ranking: &Ranking, style: &Style) -> String {
@@ -15,8 +16,9 @@ pub(super) fn text(ranking: &Ranking, style: &Style) -> String {
         Column::left("alone").droppable(1),
         Column::left("in all"),
     ]);
+    let undecided = any_undecided(ranking);
     for ranked in &ranking.numbers {
-        table.push(cells(ranked));
+        table.push(cells(ranked, undecided));
     }
     let decimals = decimals_for(ranking.p.half_width());
     let mut text = format!(
@@ -25,13 +27,20 @@ pub(super) fn text(ranking: &Ranking, style: &Style) -> String {
         ranking.p.p,
         ranking.p.lo,
         ranking.p.hi,
-        shown(&ranking.mean),
-        shown(&ranking.deviation),
+        shown(&ranking.mean, undecided),
+        shown(&ranking.deviation, undecided),
     );
     text += &table.render(style).text;
-    if ranking.deviation.lo == 0.0 {
-        text += "The tosses do not show that P moves at all: it has no variance to divide.\n";
-    }
+    text += match (ranking.deviation.lo == 0.0, undecided) {
+        (true, false) => {
+            "The tosses do not show that P moves at all: it has no variance to divide.\n"
+        }
+        (true, true) => {
+            "Whether P moves depends on what the undecided tosses would have shown: no ranking.\n"
+        }
+        (false, true) => "Every interval holds whatever the undecided tosses would have shown.\n",
+        (false, false) => "",
+    };
     let percent = compact(100.0 * ranking.confidence);
     let mut note = format!(
         "{}, {} tosses at each end, {} tosses in all (engine {}, {}); ± {percent} %",
@@ -42,15 +51,25 @@ pub(super) fn text(ranking: &Ranking, style: &Style) -> String {
         ranking.law
     );
     if ranking.undecided > 0 {
-        note += &format!("; {} without a face", grouped(ranking.undecided));
+        note += &format!("; {} of the samples' undecided", grouped(ranking.undecided));
     }
     text += &format!("{}\n", style.paint(Colors::Faint, &note));
     if style.unicode { text } else { in_ascii(&text) }
 }
 
-fn cells(ranked: &Ranked) -> Vec<String> {
+/// Whether any toss of the samples or of the ends is undecided.
+fn any_undecided(ranking: &Ranking) -> bool {
+    let ends = ranking.numbers.iter().flat_map(|ranked| ranked.undecided);
+    ranking.undecided + ends.sum::<u64>() > 0
+}
+
+fn cells(ranked: &Ranked, undecided: bool) -> Vec<String> {
     let unknown = &ranked.unknown;
     let index = |index: &Option<Interval>| match index {
+        Some(index) if undecided => {
+            let [value, lo, hi] = [index.value, index.lo, index.hi].map(clean);
+            format!("{value:.2} [{lo:.2}, {hi:.2}]")
+        }
         Some(index) => format!("{:.2} ± {:.2}", clean(index.value), index.half_width()),
         None => "-".to_owned(),
     };
@@ -58,8 +77,8 @@ fn cells(ranked: &Ranked) -> Vec<String> {
         unknown.key.clone(),
         compact(unknown.from),
         compact(unknown.to),
-        shown(&ranked.ends[0]),
-        shown(&ranked.ends[1]),
+        shown(&ranked.ends[0], undecided),
+        shown(&ranked.ends[1], undecided),
         index(&ranked.first),
         index(&ranked.total),
     ]
@@ -70,6 +89,13 @@ fn clean(x: f64) -> f64 {
     libm::round(100.0 * x) / 100.0 + 0.0
 }
 
-fn shown(interval: &Interval) -> String {
-    format!("{:.3} ± {:.3}", interval.value, interval.half_width())
+/// A number and its interval, which undecided tosses widen to one side.
+fn shown(interval: &Interval, undecided: bool) -> String {
+    if undecided {
+        let Interval { value, lo, hi } = interval;
+        return format!("{value:.3} [{lo:.3}, {hi:.3}]");
+    }
+    let arm = interval.half_width();
+    let decimals = decimals_that_show(arm, 3);
+    format!("{:.decimals$} ± {arm:.decimals$}", interval.value)
 }

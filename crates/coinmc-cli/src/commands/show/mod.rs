@@ -119,7 +119,7 @@ fn printed(document: &Value) -> Result<(), Failure> {
 }
 
 /// What is missing of a run, if something is.
-fn unfinished(report: &Report) -> Option<String> {
+pub(super) fn unfinished(report: &Report) -> Option<String> {
     let word = match report.status {
         Status::Complete => return None,
         Status::Part => return Some(PART_IS_COMPLETE.to_owned()),
