@@ -264,7 +264,7 @@ fn cells(compared: &Compared<'_>, axes: &[&str], named: bool, without_face: bool
     let parameter = |name: &&str| row.parameter(name).map_or("-".to_owned(), compact);
     let mut cells = vec![name];
     cells.extend(axes.iter().map(parameter));
-    cells.extend(Face::ALL.map(|face| probability(row.estimate(face))));
+    cells.extend(Face::ALL.map(|face| probability(&compared.estimate(face))));
     if without_face {
         let all = compared.model.row.tally.tosses();
         cells.push(format!(

@@ -17,13 +17,13 @@ pub fn document_of_comparison(comparison: &Comparison<'_>, voids: Option<u64>) -
         "side": side,
         "voids": voids,
         "confidence": comparison.seen[0].confidence,
-        "seen": faces(|face| &comparison.seen[face as usize]),
+        "seen": faces(|face| comparison.seen[face as usize]),
         "left_out": comparison.left_out,
         "rows": comparison.models.iter().map(row).collect::<Vec<_>>(),
     })
 }
 
-fn faces<'a>(estimate: impl Fn(Face) -> &'a Estimate) -> Value {
+fn faces(estimate: impl Fn(Face) -> Estimate) -> Value {
     let of = |face: Face| {
         let Estimate { p, lo, hi, .. } = estimate(face);
         (
@@ -50,7 +50,7 @@ fn row(compared: &Compared<'_>) -> Value {
         "tosses": row.tally.tosses(),
         "undecided": row.tally.undecided(),
         "left": row.tally.left,
-        "model": faces(|face| row.estimate(face)),
+        "model": faces(|face| compared.estimate(face)),
         "p_value": compared.p_value,
         "p_value_at_best": compared.p_value_at_best,
         "evidence": compared.evidence,

@@ -69,6 +69,26 @@ impl Compared<'_> {
         tally.undecided() + tally.left
     }
 
+    /// The probability of a face, among the tosses that did not leave the table, as the counts have it: the
+    /// estimate for all tosses over the share of those. (Its interval is a little wide: it has the scatter of the larger
+    /// number of tosses, which is more relative to p the smaller p is.)
+    pub fn estimate(&self, face: Face) -> Estimate {
+        let row = self.model.row;
+        let whole = *row.estimate(face);
+        if row.tally.left == 0 {
+            return whole;
+        }
+        let (all, left) = (row.tally.tosses(), row.tally.left);
+        let share = (all - left) as f64 / all as f64;
+        Estimate {
+            p: whole.p / share,
+            lo: whole.lo / share,
+            hi: (whole.hi / share).min(1.0),
+            n: all - left,
+            ..whole
+        }
+    }
+
     /// Whether a test at this level rejects it, whatever its undecided tosses would have shown.
     pub fn is_rejected(&self, level: f64) -> bool {
         self.p_value_at_best < level
@@ -283,6 +303,38 @@ mod tests {
         assert!(model.is_rejected(0.05) && !model.is_open(0.05), "{model:?}");
         let agreed = compare([15, 15, 1], &models, 0.95).expect("an answer");
         assert!(!agreed.models[0].is_open(0.05) && !agreed.models[0].is_rejected(0.05));
+    }
+
+    /// Half of the tosses have left the table: of the others as many show heads as in the counts.
+    #[test]
+    fn probabilities_are_of_the_tosses_that_stay_on_the_table() {
+        let plan = plan();
+        let left = Tally {
+            left: 1_000,
+            ..tally([480, 470, 50], 0)
+        };
+        let row = Row::new(&plan, 0, left, StoppedBy::Tosses);
+        let models = [Model {
+            run: "run",
+            row: &row,
+        }];
+        let found = compare([48, 47, 5], &models, 0.95).expect("an answer");
+        for (face, share) in Face::ALL.into_iter().zip([0.48, 0.47, 0.05]) {
+            let Estimate { p, lo, hi, n, .. } = found.models[0].estimate(face);
+            assert!((p - share).abs() < 1e-12 && lo < p && p < hi && n == 1_000);
+            // no narrower than the interval of 1,000 tosses, and not by half wider
+            let own = Estimate::new(
+                (share * 1e3) as u64,
+                0,
+                1_000,
+                0.95,
+                coinmc_core::IntervalMethod::Wilson,
+            );
+            let wider = (hi - lo) / (own.hi - own.lo);
+            assert!((0.99..1.5).contains(&wider), "{wider}");
+            let told = &document_of_comparison(&found, None)["rows"][0]["model"][face.name()]["p"];
+            assert_eq!(told.as_f64(), Some(p));
+        }
     }
 
     #[test]
