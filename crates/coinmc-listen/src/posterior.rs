@@ -10,7 +10,7 @@ use crate::heard::{Bounces, FEATURE_NAMES, FEATURES};
 use crate::regression::{Regression, quadratic};
 use crate::struck::Tosser;
 use coinmc::plan::Point;
-use coinmc_calibrate::{CalibrationError, Observations, Parameter, Prior, point_with};
+use coinmc_calibrate::{CalibrationError, Observations, OutOfRange, Parameter, Prior, point_with};
 use coinmc_core::{Domain, Stream, inverse_normal_cdf, unit_interval};
 use coinmc_quadrature::Sobol;
 use coinmc_questions::{QuestionError, Workers};
@@ -91,13 +91,14 @@ impl FromDrops {
         workers: &Workers<'_>,
     ) -> Result<Self, ListenError> {
         if !(500..=10_000_000).contains(&effort.surfaces) {
-            return Err(CalibrationError::OutOfRange {
+            let surfaces = OutOfRange {
+                name: "surfaces",
                 what: "the number of surfaces",
                 least: 500,
                 most: 10_000_000,
                 given: effort.surfaces,
-            }
-            .into());
+            };
+            return Err(CalibrationError::OutOfRange(vec![surfaces]).into());
         }
         if !observed.parameters().contains(&Parameter::RollingFriction) {
             return Err(ListenError::NotSpatial);
