@@ -1,6 +1,6 @@
 //! `coinmc film synthesise`: a simulated film, in Tracker's text format.
 
-use super::files::{Direction, check_new, write_new};
+use super::files::{self, Direction, begin_new};
 use super::law::LawName;
 use super::scene::SceneArguments;
 use crate::exit::{Failure, Outcome};
@@ -88,8 +88,8 @@ impl Synthesise {
     }
 
     pub(super) fn execute(&self, _: &Console) -> Result<Outcome, Failure> {
-        check_new([&self.file])?;
         self.check()?;
+        let files = begin_new([&self.file])?;
         let (model, shared) = self.scene.model(self.law)?;
         let mut start = [0.0; 6];
         start.copy_from_slice(&self.start);
@@ -117,7 +117,9 @@ impl Synthesise {
             ..Dialect::default()
         };
         let bytes = write(&drop, "coin", self.angle_of.into(), &dialect, Some(5));
-        write_new(&self.file, &bytes)?;
+        for file in files {
+            files::write(file, &bytes)?;
+        }
         let printed = match self.format {
             Format::Json => output::print_json(&json!({
                 "format_version": FORMAT_VERSION,
