@@ -192,7 +192,7 @@ fn invalid_merges_are_rejected() {
         Err(RunError::MergeIntoPart { .. })
     ));
     let nothing = dir.path().join("nothing");
-    let with_nothing = [parts.clone(), vec![nothing]].concat();
+    let with_nothing = [parts.clone(), vec![nothing.clone()]].concat();
     assert!(matches!(
         merge(&with_nothing, &out, &()),
         Err(RunError::NoRun { .. })
@@ -201,7 +201,16 @@ fn invalid_merges_are_rejected() {
     let other = dir.path().join("other");
     run_whole(&plan("tosses = 100"), &other);
     let error = merge(&[parts.clone(), vec![other.clone()]].concat(), &out, &()).unwrap_err();
-    assert!(matches!(error, RunError::OtherPlan { .. }), "{error}");
+    let changes = "(stop.tosses 100 -> 40000)";
+    assert!(error.to_string().contains(changes), "{error}");
+    let several = [vec![nothing], parts.clone(), vec![other.clone()]].concat();
+    let error = merge(&several, &out, &()).unwrap_err();
+    let told = error.to_string();
+    assert!(matches!(error, RunError::Several(_)), "{told}");
+    assert!(
+        told.contains("no such directory") && told.contains(changes),
+        "{told}"
+    );
     let error = merge(&parts, &other, &()).unwrap_err();
     assert!(matches!(error, RunError::OtherPlan { .. }), "{error}");
 
