@@ -17,6 +17,7 @@ mod film;
 mod listen;
 mod merge;
 mod new_file;
+mod page;
 mod quantity;
 mod question;
 mod rare;

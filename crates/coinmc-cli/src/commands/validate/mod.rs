@@ -3,8 +3,8 @@
 mod report;
 
 use super::new_file;
+use super::page::{Page, Replaceable};
 use super::question::{AnswerArgs, Unanswered, ask, write_file};
-use super::report::Page;
 use crate::command_line::this_command;
 use crate::exit::{Failure, Outcome};
 use crate::output::{self, Console, Format};
@@ -75,7 +75,9 @@ impl From<ValidateError> for Unanswered {
             ValidateError::Stopped => Self::Stopped,
             ValidateError::Run(error) => Self::Failed(error.into()),
             ValidateError::Question(error) => error.into(),
-            ValidateError::Unknown { .. } => Self::Failed(Failure::Input(error.into())),
+            ValidateError::Unknown { .. } | ValidateError::OtherDirectory { .. } => {
+                Self::Failed(Failure::Input(error.into()))
+            }
             ValidateError::Config(_) | ValidateError::Key(_) => {
                 Self::Failed(Failure::Runtime(error.into()))
             }
@@ -89,7 +91,8 @@ impl Validate {
     }
 
     pub(crate) fn execute(&self, console: &Console) -> Result<Outcome, Failure> {
-        let page = self.report.as_deref().map(|path| Page::begin(path, false));
+        let page = self.report.as_deref();
+        let page = page.map(|path| Page::begin(path, Replaceable::Nothing));
         let page = page.transpose()?;
         let csv = new_file::begin(self.csv.as_deref(), "csv")?;
         let out = self.out();

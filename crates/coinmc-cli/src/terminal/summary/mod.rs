@@ -34,11 +34,11 @@ fn is_whole(rows: usize, style: &Style) -> bool {
     style.whole && rows <= TOO_LONG
 }
 
-/// The whole summary of the results in the file `csv`.
+/// The whole summary of the results, which are in the file `csv` if there is one.
 pub(crate) fn summary(
     results: &Results,
     fair: &[FairRatio],
-    csv: &Path,
+    csv: Option<&Path>,
     plotted: &Plotted,
     style: &Style,
 ) -> String {
@@ -67,7 +67,7 @@ pub(crate) fn markdown(results: &Results, style: &Style) -> String {
 }
 
 /// One row per point.
-fn table(results: &Results, totals: &Totals, csv: &Path, style: &Style) -> String {
+fn table(results: &Results, totals: &Totals, csv: Option<&Path>, style: &Style) -> String {
     let rows = &results.rows;
     let hidden = if rows.len() > LONG && !is_whole(rows.len(), style) {
         rows.len() - 2 * END
@@ -77,11 +77,8 @@ fn table(results: &Results, totals: &Totals, csv: &Path, style: &Style) -> Strin
     let rendered = points(results, totals, style, hidden).render(style);
     let mut text = rendered.text;
     if hidden > 0 {
-        text += &format!(
-            "All {} points: {}\n",
-            grouped(rows.len() as u64),
-            csv.display()
-        );
+        let place = csv.map_or("--format csv".to_owned(), |csv| csv.display().to_string());
+        text += &format!("All {} points: {place}\n", grouped(rows.len() as u64));
     }
     if !rendered.left_out.is_empty() {
         let note = format!("Too narrow to show: {}", rendered.left_out.join(", "));
@@ -193,8 +190,8 @@ fn plot(results: &Results, face: Face, along: &str, style: &Style) -> Option<Str
     .render(style)
 }
 
-/// Undecided tosses, how tosses on the side came there, and the path of the results.
-fn closing(totals: &Totals, csv: &Path, style: &Style) -> String {
+/// Undecided tosses, how tosses on the side came there, and the path of the results, if they have one.
+fn closing(totals: &Totals, csv: Option<&Path>, style: &Style) -> String {
     let tally = &totals.tally;
     let (tosses, undecided) = (tally.tosses(), tally.undecided());
     let mut text = String::new();
@@ -202,7 +199,7 @@ fn closing(totals: &Totals, csv: &Path, style: &Style) -> String {
         let reasons = [
             (tally.time_limit, "at the limit of time"),
             (tally.never_settles, "forever"),
-            (tally.impact_limit, "at the limit of impacts"),
+            (tally.impact_limit, "at the limit of impacts or of steps"),
             (tally.failed, "failed"),
         ];
         let reasons = reasons.iter().filter(|(count, _)| *count > 0);
@@ -218,7 +215,7 @@ fn closing(totals: &Totals, csv: &Path, style: &Style) -> String {
     }
     let sentence = side_endings::sentence(tally);
     text += &sentence.map_or(String::new(), |text| wrapped(&text, style.width, 4));
-    text + &format!("Results: {}\n", csv.display())
+    text + &csv.map_or(String::new(), |csv| format!("Results: {}\n", csv.display()))
 }
 
 /// `100 %`, `12.3 %` or, of less than a hundredth, `2.5e-4`.
