@@ -105,7 +105,7 @@ pub(super) fn what_is_missing(
     let (mut chunks, mut total, mut owners) = (Vec::<Chunk>::new(), 0, BTreeSet::new());
     while let Next::Chunk(Job { chunk, .. }) = schedule.next() {
         total += 1;
-        owners.insert(cut.number(&chunk) % u64::from(of));
+        owners.insert(cut.turn(&chunk) % u64::from(of));
         let has_room = chunks.len() <= NAMED;
         match chunks.last_mut() {
             Some(last) if last.point == chunk.point && last.tosses.end == chunk.tosses.start => {

@@ -75,7 +75,7 @@ pub fn stored_report(dir: &Path, sink: &dyn ProgressSink) -> Result<(Plan, Repor
     let mut lacks_its_own = false;
     // missing chunks stay handed out
     while let Next::Chunk(job) = schedule.next() {
-        lacks_its_own |= part.owns(cut.number(&job.chunk));
+        lacks_its_own |= part.owns(cut.turn(&job.chunk));
     }
     let status = match (part, lacks_its_own) {
         (Part::WHOLE, _) => status(Part::WHOLE, &schedule),
