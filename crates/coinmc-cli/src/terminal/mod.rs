@@ -14,6 +14,6 @@ mod wrap;
 pub(crate) use ascii::in_ascii;
 pub(crate) use coinmc_questions::number::{compact, grouped};
 pub(crate) use harmless::harmless;
-pub(crate) use number::{count, decimals_for, duration, signed, with_interval};
+pub(crate) use number::{count, decimals_for, duration, signed, tosses, with_interval};
 pub(crate) use style::{Colors, Style};
 pub(crate) use wrap::wrapped;

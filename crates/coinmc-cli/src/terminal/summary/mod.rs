@@ -9,7 +9,7 @@ mod totals;
 
 use super::plot::{Level, Plot, Plotted, Reference};
 use super::table::{Column, Table};
-use super::{Colors, Style, compact, count, grouped, with_interval, wrapped};
+use super::{Style, compact, count, grouped, with_interval, wrapped};
 use coinmc::engines::no_bounce_rule;
 use coinmc::results::{FairRatio, Results, Row};
 use coinmc_core::{Estimate, Face};
@@ -74,16 +74,10 @@ fn table(results: &Results, totals: &Totals, csv: Option<&Path>, style: &Style) 
     } else {
         0
     };
-    let rendered = points(results, totals, style, hidden).render(style);
-    let mut text = rendered.text;
+    let mut text = points(results, totals, style, hidden).render(style).text;
     if hidden > 0 {
         let place = csv.map_or("--format csv".to_owned(), |csv| csv.display().to_string());
         text += &format!("All {} points: {place}\n", grouped(rows.len() as u64));
-    }
-    if !rendered.left_out.is_empty() {
-        let note = format!("Too narrow to show: {}", rendered.left_out.join(", "));
-        let note = wrapped(&note, style.width, 4);
-        text += &format!("{}\n", style.paint(Colors::Faint, note.trim_end()));
     }
     text
 }
@@ -193,7 +187,7 @@ fn plot(results: &Results, face: Face, along: &str, style: &Style) -> Option<Str
 /// Undecided tosses, how tosses on the side came there, and the path of the results, if they have one.
 fn closing(totals: &Totals, csv: Option<&Path>, style: &Style) -> String {
     let tally = &totals.tally;
-    let (tosses, undecided) = (tally.tosses(), tally.undecided());
+    let (made, undecided) = (tally.tosses(), tally.undecided());
     let mut text = String::new();
     if undecided > 0 {
         let reasons = [
@@ -205,10 +199,10 @@ fn closing(totals: &Totals, csv: Option<&Path>, style: &Style) -> String {
         let reasons = reasons.iter().filter(|(count, _)| *count > 0);
         let reasons = reasons.map(|(count, reason)| format!("{} {reason}", grouped(*count)));
         let sentence = format!(
-            "Undecided: {} of {} tosses ({}): {}",
+            "Undecided: {} of {} ({}): {}",
             grouped(undecided),
-            grouped(tosses),
-            share(undecided, tosses),
+            super::tosses(made),
+            share(undecided, made),
             reasons.collect::<Vec<_>>().join(", ")
         );
         text += &wrapped(&sentence, style.width, 4);
