@@ -16,6 +16,7 @@ mod film;
 #[cfg(feature = "film")]
 mod listen;
 mod merge;
+mod names;
 mod new_file;
 mod page;
 mod quantity;

@@ -9,7 +9,7 @@ use crate::output::{self, Console, FORMAT_VERSION, Format, ResultFormat};
 use crate::terminal::plot::Plotted;
 use crate::terminal::progress::{Progress, with_prefix};
 use crate::terminal::summary::{FAIR, markdown, summary};
-use crate::terminal::{compact, count, duration, grouped};
+use crate::terminal::{compact, count, duration, grouped, tosses};
 use crate::time_limit::{self, TimeLimit};
 use anyhow::Context;
 use clap::Args;
@@ -34,7 +34,7 @@ Examples:
   coinmc run toss.toml --format json > toss.json
   coinmc run toss.toml --report                     and make a page of it, see `coinmc report`
 
-The same command again goes on where the last one stopped, and reports a finished run at once.
+The same command again goes on where the last one stopped, and reports a finished run at once. \
 More tosses, a tighter target or more values at the end of the first list go on from there, too.";
 
 /// Toss what a config describes and report probabilities with intervals
@@ -251,11 +251,7 @@ fn closing_line(report: &Report, progress: &Progress) -> String {
     if made == 0 && earlier > 0 && report.status != Status::Interrupted {
         return format!("coinmc: already finished, nothing to toss: {points}");
     }
-    let mut line = format!(
-        "coinmc: {points}, {} tosses in {}",
-        grouped(made),
-        duration(time)
-    );
+    let mut line = format!("coinmc: {points}, {} in {}", tosses(made), duration(time));
     if made > 0 {
         line += &format!(" ({}/s)", with_prefix(made as f64 / time.as_secs_f64()));
     }

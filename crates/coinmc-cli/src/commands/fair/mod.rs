@@ -22,7 +22,7 @@ Examples:
   coinmc fair toss.toml --vary surface.restitution  which bounce makes this coin fair?
   coinmc fair toss.toml --face heads --target 0.45
 
-Scenes: table, wood, glass, steel, felt, tray, billiards, floor, carpet. What each assumes is printed with
+Scenes: table, wood, glass, steel, felt, tray, billiards, floor, carpet. What each assumes is printed with \
 the answer.";
 
 /// Find how thick a fair coin is, with the error of the answer
@@ -37,7 +37,8 @@ pub(crate) struct Fair {
     scene: SceneArgs,
 
     /// The face
-    #[arg(long, value_name = "FACE", value_parser = super::face, default_value = "side")]
+    #[arg(long, value_name = "FACE", value_parser = super::names::face(), default_value = "side")]
+    #[arg(hide_possible_values = true)]
     face: Face,
 
     /// Its probability [default: 1/3]

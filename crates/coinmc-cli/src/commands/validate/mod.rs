@@ -20,8 +20,8 @@ Examples:
   coinmc validate --only mass,kerrich --show        some of it, with the numbers of each verdict
   coinmc validate --full --report claims.html       with many more tosses; the same command again goes on
 
-Verdicts: holds, holds only where …, rejected, not validated. A claim is tested at 1 %. A data set is
-predicted by one prior over tables, hands and coins, in which nothing is fitted; its p-value holds the
+Verdicts: holds, holds only where …, rejected, not validated. A claim is tested at 1 %. A data set is \
+predicted by one prior over tables, hands and coins, in which nothing is fitted; its p-value holds the \
 spread of the prior, the error of our own tosses and that of the counts.
 
 The exit status is 0 whatever the verdicts are: they are the result. 1, 2 and 130 as always.";
@@ -37,7 +37,8 @@ const OUT: &str = "runs/validate-full";
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Validate {
     /// Only these claims and data sets, by name, separated by commas
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = super::names::claims())]
+    #[arg(hide_possible_values = true)]
     only: Vec<String>,
 
     /// Many more tosses, half an hour of one core; may be stopped and goes on
