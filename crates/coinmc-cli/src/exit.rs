@@ -229,7 +229,7 @@ impl Failure {
                 output::note(&diagnostics.render(console.stderr().color));
                 let problems = diagnostics.problems().len();
                 output::note(&format!(
-                    "\n{problems} problem{} found, nothing was fitted",
+                    "\n{problems} problem{} found, nothing was done",
                     if problems == 1 { "" } else { "s" }
                 ));
             }

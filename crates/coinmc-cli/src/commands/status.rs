@@ -136,7 +136,7 @@ impl Row {
             let share = 100.0 * *tosses as f64 / *tosses_planned as f64;
             line += &format!(" of {} tosses ({share:.0} %)", grouped(*tosses_planned));
         } else {
-            line += " tosses";
+            line += if *tosses == 1 { " toss" } else { " tosses" };
         }
         if *tosses > 0 && *points_done > 0 {
             line += &format!(", widest interval ± {:.2e}", self.half_width);

@@ -37,7 +37,7 @@ pub(super) struct Fit {
 
     /// Parameters to fit, if a law has them, separated by commas
     #[arg(long = "fit", value_enum, value_name = "NAME", value_delimiter = ',')]
-    #[arg(default_values_t = [Name::Restitution, Name::Friction, Name::Eta], help_heading = "Fit")]
+    #[arg(default_value = "restitution,friction,eta", help_heading = "Fit")]
     free: Vec<Name>,
 
     /// Number of bounces to fit: frames count up to the next bounce after these

@@ -17,6 +17,10 @@ use std::path::PathBuf;
 /// For trying `read` and `fit`, and for planning an experiment: how well would such a film
 /// determine the parameters? The arguments are the true values.
 #[derive(Debug, Args)]
+#[command(mut_arg("restitution", |arg| arg.help("Restitution [default: 0.5]")))]
+#[command(mut_arg("friction", |arg| arg.help("Friction [default: 0.3]")))]
+#[command(mut_arg("floor_m", |arg| arg.help("Height of the surface in the film, m")))]
+#[command(mut_arg("eta", |arg| arg.help("η of Gaek & Sukhov's law, N s [default: 0.001]")))]
 pub(super) struct Synthesise {
     /// The new file
     #[arg(value_name = "FILE")]
