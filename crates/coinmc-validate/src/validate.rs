@@ -143,8 +143,10 @@ fn check_directory(dir: &Path) -> Result<(), ValidateError> {
     let Ok(entries) = fs::read_dir(dir) else {
         return Ok(());
     };
-    let mut names = entries.flatten().map(|entry| entry.file_name());
-    let foreign = names.find(|name| !PLACES.iter().any(|place| name == place));
+    let names = entries.flatten().map(|entry| entry.file_name());
+    let foreign = names
+        .filter(|name| !PLACES.iter().any(|place| name == place))
+        .min();
     match foreign {
         None => Ok(()),
         Some(name) => Err(ValidateError::OtherDirectory {

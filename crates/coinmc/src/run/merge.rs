@@ -67,7 +67,8 @@ fn merge_all(
     if let Some(missing) = missing.clone().filter(|_| !partly) {
         return Err(RunError::Missing(missing));
     }
-    let directory = RunDirectory::open_with(out, &plan, manifest, sink)?;
+    let directory = RunDirectory::open_with(out, &plan, manifest, sink);
+    let directory = directory.map_err(|error| with_changes(error, &plan, out))?;
     store(&plan, found, &directory, inputs, out, sink)?;
     let report = conclude(&plan, Part::WHOLE, schedule, &directory, sink)?;
     Ok((report, missing))

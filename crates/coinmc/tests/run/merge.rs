@@ -212,9 +212,21 @@ fn invalid_merges_are_rejected() {
         "{told}"
     );
     let error = merge(&parts, &other, &()).unwrap_err();
-    assert!(matches!(error, RunError::OtherPlan { .. }), "{error}");
+    assert!(error.to_string().contains(changes), "{error}");
 
-    fs::write(parts[0].join("config.toml"), "seed = ").unwrap();
+    let config = parts[0].join("config.toml");
+    let text = fs::read_to_string(&config).unwrap();
+    fs::write(
+        &config,
+        format!(
+            "# the seed is another\n{}",
+            text.replace("seed = 7", "seed = 8")
+        ),
+    )
+    .unwrap();
+    let error = merge(&parts, &out, &()).unwrap_err().to_string();
+    assert!(error.contains("is not the config that was run"), "{error}");
+    fs::write(&config, "seed = ").unwrap();
     assert!(matches!(
         merge(&parts, &out, &()),
         Err(RunError::BadConfig { .. })

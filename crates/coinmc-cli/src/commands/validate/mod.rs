@@ -18,7 +18,7 @@ const EXAMPLES: &str = "\
 Examples:
   coinmc validate                                   everything, in less than a minute on two cores
   coinmc validate --only mass,kerrich --show        some of it, with the numbers of each verdict
-  coinmc validate --full --report claims.html       with many more tosses; the same command again goes on
+  coinmc validate --full --report claims.html       many more tosses; the same command goes on
 
 Verdicts: holds, holds only where …, rejected, not validated. A claim is tested at 1 %. A data set is \
 predicted by one prior over tables, hands and coins, in which nothing is fitted; its p-value holds the \
