@@ -69,7 +69,7 @@ fn missing_chunks_are_named_and_nothing_is_written() {
     let parts = run_parts(dir.path(), 3);
     let out = dir.path().join("merged");
     let error = merge(&parts[..2], &out, &()).unwrap_err();
-    // three chunks a point: the third of each is missing
+    // every third of the full chunks, two a point, and of the short ones, one a point
     let RunError::Missing(missing) = &error else {
         panic!("{error}")
     };
@@ -77,12 +77,12 @@ fn missing_chunks_are_named_and_nothing_is_written() {
     assert_eq!(
         missing.chunks[1],
         Chunk {
-            point: 1,
-            tosses: 32_768..40_000
+            point: 2,
+            tosses: 16_384..40_000
         }
     );
     assert!(
-        error.to_string().contains("point 1, tosses 32768..40000"),
+        error.to_string().contains("point 2, tosses 16384..40000"),
         "{error}"
     );
     assert!(!out.exists());
