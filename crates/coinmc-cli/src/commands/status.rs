@@ -40,6 +40,8 @@ struct Row {
     tosses: u64,
     tosses_planned: u64,
     half_width: f64,
+    /// Of the widest interval of the points that are complete; `None` if none is.
+    widest: Option<f64>,
 }
 
 impl Status {
@@ -97,7 +99,11 @@ impl Row {
             (Finished::Interrupted, true) => "running",
             (Finished::Interrupted, false) => "stopped",
         };
+        let told = rows.each();
+        let told = told.filter(|row| is_finished || row.stopped_by.is_reached());
+        let widest = told.map(|row| row.half_width()).reduce(f64::max);
         Self {
+            widest,
             run: run.to_owned(),
             state,
             points: rows.len(),
@@ -138,8 +144,8 @@ impl Row {
         } else {
             line += if *tosses == 1 { " toss" } else { " tosses" };
         }
-        if *tosses > 0 && *points_done > 0 {
-            line += &format!(", widest interval ± {:.2e}", self.half_width);
+        if let Some(widest) = self.widest.filter(|_| *tosses > 0) {
+            line += &format!(", widest interval ± {widest:.2e}");
         }
         line + "\n"
     }
@@ -165,7 +171,7 @@ mod tests {
 
     /// A run directory with part 1 of so many.
     fn toss(out: &Path, parts: u32) {
-        let config = "coin.ratio = 1\nsurface = { restitution = 0.5, friction = 0 }\n\
+        let config = "coin.ratio = [1, 2]\nsurface = { restitution = 0.5, friction = 0 }\n\
             launch.preset = 'robot'\nengine.flat = {}\nstop.tosses = 20000";
         let plan = coinmc::config::parse("test", config, &[]).expect("a config");
         let cancel = AtomicBool::new(false);
@@ -198,7 +204,7 @@ mod tests {
         assert!(
             rows[0]
                 .line()
-                .contains("first: finished, 1 point, 20 000 tosses, widest")
+                .contains("first: finished, 2 points, 40 000 tosses, widest")
         );
         let told = several(failures.into_iter()).message();
         assert!(told.contains("nothing is not a run directory"), "{told}");
@@ -206,12 +212,17 @@ mod tests {
     }
 
     #[test]
-    fn no_interval_is_told_where_no_point_is_complete() {
+    fn intervals_are_told_of_complete_points_alone() {
         let dir = tempfile::tempdir().expect("a directory");
-        toss(dir.path(), 2);
-        let (rows, _) = rows(&[dir.path().to_owned()]);
+        // the full chunk of one point and the short one of the other, or all of one
+        let runs = [3, 2].map(|parts| dir.path().join(parts.to_string()));
+        toss(&runs[0], 3);
+        toss(&runs[1], 2);
+        let (rows, _) = rows(&runs);
         let line = rows[0].line();
-        assert!(line.contains("a complete part, 0 of 1 point"), "{line}");
+        assert!(line.contains("a complete part, 0 of 2 points"), "{line}");
         assert!(!line.contains("interval"), "{line}");
+        assert!(rows[1].line().contains("1 of 2 points"));
+        assert!(rows[1].widest.is_some_and(|widest| widest < 0.01));
     }
 }

@@ -77,7 +77,7 @@ impl fmt::Display for Missing {
         let named = self.chunks.iter().take(NAMED);
         let named: Vec<String> = named.map(Chunk::to_string).collect();
         write!(f, "{are} in none of the parts: {}", named.join("; "))?;
-        if self.total > named.len() as u64 {
+        if self.chunks.len() > NAMED {
             write!(f, "; …")?;
         }
         match &self.parts[..] {

@@ -124,6 +124,8 @@ fn neighbouring_missing_chunks_are_named_together() {
             tosses: 0..40_000
         })
     );
+    // all are named
+    assert!(!error.to_string().contains('…'), "{error}");
 }
 
 /// Two of three parts make a run that was stopped; with the third it is the whole.
